@@ -1,0 +1,28 @@
+# The compile options that every target of tact shares.
+#
+# -ffp-contract=off: GCC would fuse a*b+c where the machine can, and the bits of an answer would depend on the machine.
+# -fno-math-errno, -fno-trapping-math: let loops with sqrt and comparisons use SIMD; they change no result.
+
+function(tact_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES
+    CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wpedantic -Wshadow)
+  if(TACT_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(TACT_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${TACT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=${TACT_SANITIZE})
+  endif()
+endfunction()
+
+# A layer of the engine: its objects end in the library tact. Includes are written from the project's root.
+function(tact_layer target)
+  add_library(${target} OBJECT ${ARGN})
+  tact_options(${target})
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+  if(BUILD_SHARED_LIBS)
+    target_compile_definitions(${target} PRIVATE TACT_SHARED)
+  endif()
+endfunction()

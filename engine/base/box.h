@@ -1,0 +1,41 @@
+// An axis-aligned box of doubles, closed: boxes that touch overlap.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/base/vec3.h"
+
+namespace tact::base {
+
+struct Box {
+  // A box without points: it overlaps nothing and extending it by a point gives that point.
+  Vec3 lower{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+             std::numeric_limits<double>::infinity()};
+  Vec3 upper{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+             -std::numeric_limits<double>::infinity()};
+
+  bool empty() const { return !(lower.x <= upper.x); }
+  friend bool operator==(const Box&, const Box&) = default;
+};
+
+inline bool overlaps(const Box& a, const Box& b) {
+  return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y &&
+         a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
+}
+
+inline Box merged(const Box& a, const Box& b) {
+  return {{std::min(a.lower.x, b.lower.x), std::min(a.lower.y, b.lower.y), std::min(a.lower.z, b.lower.z)},
+          {std::max(a.upper.x, b.upper.x), std::max(a.upper.y, b.upper.y), std::max(a.upper.z, b.upper.z)}};
+}
+
+inline Box intersection(const Box& a, const Box& b) {
+  return {{std::max(a.lower.x, b.lower.x), std::max(a.lower.y, b.lower.y), std::max(a.lower.z, b.lower.z)},
+          {std::min(a.upper.x, b.upper.x), std::min(a.upper.y, b.upper.y), std::min(a.upper.z, b.upper.z)}};
+}
+
+inline Box extended(const Box& box, Vec3 p) { return merged(box, {p, p}); }
+
+inline bool contains(const Box& box, Vec3 p) { return overlaps(box, {p, p}); }
+
+}  // namespace tact::base

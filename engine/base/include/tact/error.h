@@ -1,0 +1,43 @@
+// What tact throws when it is given bad data. The world is then exactly as it was before the call.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#if defined(TACT_SHARED)
+#define TACT_API __attribute__((visibility("default")))
+#else
+#define TACT_API
+#endif
+
+namespace tact {
+
+enum class ErrorCode {
+  non_finite_position,    // a coordinate is NaN or infinite
+  position_out_of_range,  // a coordinate is larger than kLargestCoordinate in size
+  facet_out_of_range,     // a facet names a vertex that the body does not have
+  wrong_size,             // the number of positions differs from the body's number of vertices
+  too_large,              // more vertices, facets or bodies than 32-bit indices can number
+  stale_body,             // the id is of a body that was removed, or was never given out
+  foreign_body,           // the id was given out by another world
+  fixed_body,             // positions were set on a body whose motion is fixed
+  bad_settings,           // a setting has no meaning; the message says which
+  wrong_order,            // a call that is not allowed now, such as one from inside another call of the same world
+  out_of_memory,          // an allocation failed, ours or Embree's
+  backend_failure,        // Embree reported an error; the message holds its code
+};
+
+// The name of `code` as it stands in the enumeration, such as "stale_body".
+TACT_API const char* error_code_name(ErrorCode code);
+
+// The exception of every public function. `what()` names the body, vertex, facet or setting.
+class TACT_API Error : public std::runtime_error {
+ public:
+  Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  ErrorCode code() const noexcept { return code_; }
+
+ private:
+  ErrorCode code_;
+};
+
+}  // namespace tact

@@ -1,0 +1,16 @@
+// Two facets that meet.
+#pragma once
+
+#include <compare>
+
+namespace tact {
+
+// Facet `a` of the first body and facet `b` of the second share at least one point. Facets count from 0 in the order
+// in which the body was added.
+struct FacetPair {
+  int a = -1;
+  int b = -1;
+  friend constexpr auto operator<=>(const FacetPair&, const FacetPair&) = default;
+};
+
+}  // namespace tact

@@ -1,0 +1,46 @@
+// A body: a triangle mesh with an identity.
+#pragma once
+
+#include <Eigen/Core>
+#include <compare>
+#include <cstdint>
+#include <string>
+
+namespace tact {
+
+// Names a body of one world. An id is never given out twice: the id of a removed body stays stale for ever.
+struct BodyId {
+  std::uint32_t index = 0;       // bodies of a report are ordered by it
+  std::uint32_t generation = 0;  // 0: no body
+  std::uint32_t world = 0;
+  friend constexpr auto operator<=>(const BodyId&, const BodyId&) = default;
+};
+
+enum class Surface {
+  closed,  // a solid's surface, facets counter-clockwise seen from outside
+  sheet,   // cloth: no inside, both sides count
+};
+
+enum class Motion {
+  moving,
+  fixed,  // its positions never change; two fixed bodies are never tested against each other
+};
+
+// The largest size of a coordinate, 2^300 metres. Anything smaller, subnormal numbers included, is decided exactly.
+inline constexpr double kLargestCoordinate = 0x1p300;
+
+// How to add a body. Only positions and facets are needed.
+struct BodyDefinition {
+  // 3 x V, metres. A row-major matrix, or one of another type than double, is copied by Eigen on the way in.
+  Eigen::Ref<const Eigen::Matrix3Xd> positions;
+  // 3 x F, indices of vertices. Any triangle soup is accepted: repeated vertices, facets without area, no facet at all.
+  // A vertex that no facet uses does not count.
+  Eigen::Ref<const Eigen::Matrix3Xi> facets;
+  Surface surface = Surface::closed;
+  Motion motion = Motion::moving;
+  std::string name = {};             // for messages; empty: "body <index>"
+  std::uint32_t layer = 1;           // the layers this body is on, a bit each
+  std::uint32_t mask = 0xffffffffu;  // the layers it is tested against; a pair needs both masks to agree
+};
+
+}  // namespace tact

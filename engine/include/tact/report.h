@@ -1,0 +1,108 @@
+// What a step found. A report and everything in it is valid until the world's next detect(), set_settings() or destruction,
+// and may be read by many threads at once.
+#pragma once
+
+#include <tact/body.h>
+#include <tact/error.h>
+#include <tact/facet_pair.h>
+#include <tact/statistics.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tact {
+
+// How a contact direction was found.
+enum class DirectionSource {
+  carried,   // from the direction of the last step
+  fresh,     // from the direction that separated the hulls when they were last apart
+  smallest,  // as the smallest separation of the hulls
+};
+
+// The disk around an impact zone, in the plane through `center` across the contact direction.
+struct ZoneDisk {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // metres
+  double radius = -1.0;                              // metres; negative: not asked for, or the zone has no point
+};
+
+// A connected set of facet pairs: two pairs are neighbours if they share a facet, or their facets share vertices on both
+// bodies.
+struct Patch {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();      // mean of the points where the facets cross, metres
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit, from a to b
+  double depth = 0.0;                                   // overlap along `direction` of the facets in the patch, metres
+  std::vector<int> facet_pairs;                         // indices into Contact::facet_pairs(), sorted
+};
+
+// Two bodies whose convex hulls overlap or touch.
+struct Contact {
+  BodyId a;  // a.index < b.index
+  BodyId b;
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit, from a to b: move b by depth * direction to part the hulls
+  double depth = 0.0;                                   // overlap of the hulls along `direction`, metres, not negative
+  DirectionSource source = DirectionSource::fresh;
+  int iterations = 0;          // shifted calls of GJK that it took
+  bool limit_reached = false;  // GJK or the direction stopped at a limit: the direction is the best found
+  double plane_a = 0.0;        // contact plane of a: direction · x = plane_a, the farthest that a's hull reaches
+  double plane_b = 0.0;        // contact plane of b: direction · x = plane_b, the nearest that b's hull reaches
+  ZoneDisk zone_a;             // around the part of a between the planes
+  ZoneDisk zone_b;             // around the part of b between the planes
+  std::int64_t kept_facets_a = 0;  // facets left after the criteria
+  std::int64_t kept_facets_b = 0;
+
+  // The facets that meet, sorted; empty at Accuracy::hulls.
+  std::span<const FacetPair> facet_pairs() const { return facet_pairs_; }
+  // Does any facet of a meet one of b?
+  bool touching() const { return !facet_pairs_.empty(); }
+  // Filled if Outputs::patches is set; ordered by their first facet pair.
+  std::span<const Patch> patches() const { return patches_; }
+
+ private:
+  friend class Step;
+  std::span<const FacetPair> facet_pairs_;
+  std::span<const Patch> patches_;
+};
+
+// Two bodies whose boxes overlap.
+struct CandidatePair {
+  BodyId a;  // a.index < b.index
+  BodyId b;
+  bool hulls_overlap = false;
+  friend bool operator==(const CandidatePair&, const CandidatePair&) = default;
+};
+
+// Two bodies whose facets began to meet, or ceased to, in this step.
+struct ContactEvent {
+  BodyId a;
+  BodyId b;
+  friend bool operator==(const ContactEvent&, const ContactEvent&) = default;
+};
+
+class TACT_API Report {
+ public:
+  // Pairs whose hulls overlap, sorted by (a, b).
+  std::span<const Contact> contacts() const { return contacts_; }
+  // Pairs whose boxes overlap, sorted by (a, b).
+  std::span<const CandidatePair> candidate_pairs() const { return candidate_pairs_; }
+  // Pairs that touch now and did not in the last step, sorted by (a, b).
+  std::span<const ContactEvent> began() const { return began_; }
+  // Pairs that touched in the last step and do not now, or of which a body was removed, sorted by (a, b).
+  std::span<const ContactEvent> ended() const { return ended_; }
+  const StepStats& stats() const { return stats_; }
+
+  // A number made from every bit of the candidate pairs and the contacts (bodies by index, facet pairs included; patches,
+  // times and counts not): equal answers have equal hashes, for any number of threads.
+  std::uint64_t hash() const;
+
+ private:
+  friend class Step;
+  std::vector<Contact> contacts_;
+  std::vector<CandidatePair> candidate_pairs_;
+  std::vector<ContactEvent> began_;
+  std::vector<ContactEvent> ended_;
+  StepStats stats_;
+};
+
+}  // namespace tact

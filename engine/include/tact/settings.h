@@ -1,0 +1,34 @@
+// What a world promises and how much of the machine it uses.
+#pragma once
+
+namespace tact {
+
+// What a report promises of its pairs.
+enum class Accuracy {
+  hulls,  // do the convex hulls overlap, in which direction, how deep; no facets
+  paper,  // the paper's three criteria, then confirmation; may miss facet pairs on folds, spikes and clamped bodies
+  exact,  // every facet pair that meets and no other
+};
+
+// Where the contact direction of a pair comes from.
+enum class DirectionPolicy {
+  carried,   // from the pair's direction of the last step, so that a body is pushed back the way it came in
+  smallest,  // the direction of the smallest separation of the hulls, anew in every step
+};
+
+// Outputs beyond direction, depth and facet pairs. What is not asked for is not computed.
+struct Outputs {
+  bool zones = false;    // Contact::zone_a, zone_b: the smallest disks around the impact zones
+  bool patches = false;  // Contact::patches(): connected sets of facet pairs, each with a point, direction and depth
+};
+
+struct Settings {
+  int threads = 0;                                       // 0: as many as OpenMP would use
+  Accuracy accuracy = Accuracy::exact;
+  DirectionPolicy direction = DirectionPolicy::carried;
+  double gjk_tolerance = 1e-12;                          // relative gap at which GJK stops, 1e-15 to 0.1
+  int iteration_limit = 100;                             // shifted calls of GJK a pair and step, at least 1
+  Outputs outputs;
+};
+
+}  // namespace tact

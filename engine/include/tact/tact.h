@@ -1,0 +1,10 @@
+// The whole public interface of tact. Start at World.
+#pragma once
+
+#include <tact/body.h>
+#include <tact/error.h>
+#include <tact/report.h>
+#include <tact/settings.h>
+#include <tact/statistics.h>
+#include <tact/version.h>
+#include <tact/world.h>

@@ -1,0 +1,83 @@
+// Bodies and the step over them.
+#pragma once
+
+#include <tact/body.h>
+#include <tact/error.h>
+#include <tact/report.h>
+#include <tact/settings.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tact {
+
+// New positions of one body, for World::set_positions of many.
+struct PositionsUpdate {
+  BodyId body;
+  Eigen::Ref<const Eigen::Matrix3Xd> positions;  // 3 x V, metres
+};
+
+// A set of bodies and the contacts among them.
+//
+//   tact::World world;
+//   const tact::BodyId a = world.add_body({.positions = positions, .facets = facets});
+//   ...
+//   world.set_positions(a, new_positions);
+//   for (const tact::Contact& contact : world.detect().contacts()) ...
+//
+// Every function throws Error for data that it cannot take, and has then changed nothing. A world is used by one thread at
+// a time; different worlds may be used by different threads. The answers do not depend on the number of threads, nor on
+// the floating-point mode of the caller.
+class TACT_API World {
+ public:
+  // Errors: bad_settings.
+  explicit World(const Settings& settings = {});
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  const Settings& settings() const;
+  // Takes effect with the next step, which then looks at every pair anew; directions are carried on.
+  // Errors: bad_settings.
+  void set_settings(const Settings& settings);
+
+  // Copies the mesh and groups its facets into clusters: the only costly call of a body's life.
+  // Errors: non_finite_position, position_out_of_range, facet_out_of_range, too_large.
+  BodyId add_body(const BodyDefinition& definition);
+  // Errors: stale_body, foreign_body.
+  void remove_body(BodyId body);
+
+  // Copies the new positions of a body, 3 x V in metres, V as when it was added. A body whose coordinates are all equal to
+  // the old ones has not moved.
+  // Errors: stale_body, foreign_body, fixed_body, wrong_size, non_finite_position, position_out_of_range.
+  void set_positions(BodyId body, const Eigen::Ref<const Eigen::Matrix3Xd>& positions);
+  // The same for many bodies, in parallel; all or none. A body must not be named twice (wrong_order).
+  void set_positions(std::span<const PositionsUpdate> updates);
+
+  // One step: finds the contacts of the positions as they are now. Never throws for what positions can hold.
+  // Errors: out_of_memory, backend_failure; the next call starts afresh.
+  const Report& detect();
+
+  // Does `body` name a body of this world? Never throws.
+  bool contains(BodyId body) const noexcept;
+  std::size_t body_count() const noexcept;
+  // The bodies in the order of their index.
+  std::vector<BodyId> bodies() const;
+
+  // Errors of these: stale_body, foreign_body.
+  const std::string& name(BodyId body) const;
+  Surface surface(BodyId body) const;
+  Motion motion(BodyId body) const;
+  std::size_t vertex_count(BodyId body) const;
+  std::size_t facet_count(BodyId body) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace tact

@@ -1,0 +1,113 @@
+// A triangle mesh as the narrow phase sees it: facets grouped into clusters of up to 64 neighbours, vertices stored cluster
+// by cluster, a box a cluster. Every spatial query starts from the boxes and opens only the clusters that matter.
+//
+// Vertices are renumbered: a vertex belongs to the first cluster that uses it (its *owner*), and the vertices of a cluster
+// stand next to each other. Clusters borrow the other vertices that they use from earlier clusters, so that refreshing in
+// order reads each vertex of the caller once. A vertex that no facet uses is left out. "vertex" below means the new number,
+// "source vertex" the caller's; likewise "facet" and "source facet".
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/base/box.h"
+#include "engine/base/vec3.h"
+
+namespace tact::narrowphase {
+
+using base::Box;
+using base::Vec3;
+
+inline constexpr int kClusterSize = 64;
+
+// Corners of a facet as vertices, and as points.
+using Corners = std::array<int, 3>;
+using Triangle = std::array<Vec3, 3>;
+
+// Boxes in separate arrays, one entry a cluster (or a facet), for loops that compare many at once.
+struct BoxArrays {
+  std::vector<double> lower[3];
+  std::vector<double> upper[3];
+
+  void resize(std::size_t count);
+  void set(std::size_t i, const Box& box);
+  Box operator[](std::size_t i) const {
+    return {{lower[0][i], lower[1][i], lower[2][i]}, {upper[0][i], upper[1][i], upper[2][i]}};
+  }
+};
+
+// The first coordinate that cannot be taken, if any.
+struct PositionProblem {
+  enum Kind { none, non_finite, out_of_range } kind = none;
+  int source_vertex = -1;
+  int axis = -1;
+};
+
+// Looks at 3 x count coordinates, column by column: are all finite and at most `largest` in size?
+PositionProblem find_position_problem(const double* positions, std::size_t count, double largest);
+
+class ClusteredMesh {
+ public:
+  // positions: 3 x V coordinates in metres, checked by the caller; facets: 3 x F source vertices, each 0 <= i < V.
+  ClusteredMesh(std::span<const double> positions, std::span<const int> facets);
+
+  // Reads the new positions, 3 x V, and refreshes the boxes of what changed; says whether any coordinate of a used vertex
+  // changed.
+  bool set_positions(const double* positions);
+
+  int source_vertex_count() const { return source_vertex_count_; }
+  int vertex_count() const { return static_cast<int>(source_vertex_.size()); }
+  int facet_count() const { return static_cast<int>(source_facet_.size()); }
+  int cluster_count() const { return (facet_count() + kClusterSize - 1) / kClusterSize; }
+
+  int source_vertex(int vertex) const { return source_vertex_[static_cast<std::size_t>(vertex)]; }
+  int source_facet(int facet) const { return source_facet_[static_cast<std::size_t>(facet)]; }
+
+  // The facets of a cluster are facet_begin(c) <= f < facet_end(c); the vertices that it owns
+  // vertex_begin(c) <= v < vertex_end(c); those that it borrows from earlier clusters are borrowed(c).
+  int facet_begin(int cluster) const { return cluster * kClusterSize; }
+  int facet_end(int cluster) const { return std::min((cluster + 1) * kClusterSize, facet_count()); }
+  int vertex_begin(int cluster) const { return vertex_begin_[static_cast<std::size_t>(cluster)]; }
+  int vertex_end(int cluster) const { return vertex_begin_[static_cast<std::size_t>(cluster) + 1]; }
+  std::span<const int> borrowed(int cluster) const;
+
+  Corners corners(int facet) const {
+    const auto f = static_cast<std::size_t>(facet);
+    return {corner_[0][f], corner_[1][f], corner_[2][f]};
+  }
+  Vec3 position(int vertex) const {
+    const auto v = static_cast<std::size_t>(vertex);
+    return {coordinate_[0][v], coordinate_[1][v], coordinate_[2][v]};
+  }
+  Triangle triangle(int facet) const;
+
+  // The arrays behind corners() and position(), for loops over many: an entry a facet, an entry a vertex.
+  const int* corner_array(int corner) const { return corner_[corner].data(); }
+  const double* coordinate_array(int axis) const { return coordinate_[axis].data(); }
+
+  // The box of all facets; empty if there is none. The boxes of the clusters, borrowed vertices included.
+  const Box& box() const { return box_; }
+  const BoxArrays& cluster_boxes() const { return cluster_boxes_; }
+
+  // Throws std::logic_error that says what is broken: every source facet stands in one cluster, every used source vertex
+  // has one owner, boxes are the boxes of their vertices. For tests.
+  void validate() const;
+
+ private:
+  void refresh_boxes();
+
+  int source_vertex_count_ = 0;
+  std::vector<int> source_vertex_;  // of each vertex
+  std::vector<int> source_facet_;   // of each facet
+  std::vector<int> corner_[3];      // of each facet
+  std::vector<int> vertex_begin_;   // of each cluster, and one more
+  std::vector<int> borrowed_;
+  std::vector<int> borrowed_begin_;    // of each cluster, and one more
+  std::vector<double> coordinate_[3];  // of each vertex
+  BoxArrays cluster_boxes_;
+  Box box_;
+};
+
+}  // namespace tact::narrowphase

@@ -1,0 +1,35 @@
+// The part of a mesh between the contact planes, projected along the contact direction (paper §3, §4.4).
+#pragma once
+
+#include <vector>
+
+#include "narrowphase/clustered_mesh.h"
+#include "narrowphase/smallest_enclosing_disk.h"
+
+namespace tact::narrowphase {
+
+// The space between the contact planes: lower <= n · (x - origin) <= upper, in metres.
+struct Slab {
+  Vec3 n;       // unit, from A to B
+  Vec3 u;       // unit; (u, v, n) is a right-handed orthonormal frame
+  Vec3 v;
+  Vec3 origin;
+  double lower = 0.0;  // l_B(n) as computed by support queries about `origin`
+  double upper = 0.0;  // h_A(n)
+  double error = 0.0;  // bounds the rounding of n · (x - origin), u · and v · for every vertex x of either mesh, metres
+};
+
+// A slab whose u and v follow from n by a fixed rule.
+Slab make_slab(Vec3 n, Vec3 origin, double lower, double upper, double error);
+
+// A disk in the plane of u and v about the slab's origin, metres.
+struct ImpactZone {
+  Disk disk;          // the smallest around the projection of every point of the mesh in the slab
+  double error = 0.0; // the true zone lies within disk.radius + error of disk.center
+};
+
+// Facets are clipped to the slab, crossing edges included, so the disk holds the whole part of the mesh in the slab and
+// not only its vertices. Clusters outside the slab are not opened. `scratch` is reused between calls.
+ImpactZone impact_zone(const ClusteredMesh& mesh, const Slab& slab, std::vector<Point2>& scratch);
+
+}  // namespace tact::narrowphase
