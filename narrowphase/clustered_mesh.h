@@ -14,6 +14,7 @@
 
 #include "engine/base/box.h"
 #include "engine/base/vec3.h"
+#include "narrowphase/kernels/kernels.h"
 
 namespace tact::narrowphase {
 
@@ -26,13 +27,17 @@ inline constexpr int kClusterSize = 64;
 using Corners = std::array<int, 3>;
 using Triangle = std::array<Vec3, 3>;
 
+// The most elements that a SIMD loop reads past the end of an array: arrays are longer by so many.
+inline constexpr int kPadding = 8;
+
 // Boxes in separate arrays, one entry a cluster (or a facet), for loops that compare many at once.
 struct BoxArrays {
   std::vector<double> lower[3];
   std::vector<double> upper[3];
 
-  void resize(std::size_t count);
+  void resize(std::size_t count);  // and kPadding empty boxes behind
   void set(std::size_t i, const Box& box);
+  BoxPointers pointers() const;
   Box operator[](std::size_t i) const {
     return {{lower[0][i], lower[1][i], lower[2][i]}, {upper[0][i], upper[1][i], upper[2][i]}};
   }
@@ -53,25 +58,25 @@ class ClusteredMesh {
   // positions: 3 x V coordinates in metres, checked by the caller; facets: 3 x F source vertices, each 0 <= i < V.
   ClusteredMesh(std::span<const double> positions, std::span<const int> facets);
 
-  // Reads the new positions, 3 x V, and refreshes the boxes of what changed; says whether any coordinate of a used vertex
-  // changed.
-  bool set_positions(const double* positions);
+  // Reads the new positions, 3 x V, and refreshes all boxes, in one pass; says whether any coordinate of a used vertex
+  // changed. Large meshes are cut into ranges of clusters for up to `threads` threads.
+  bool set_positions(const double* positions, int threads);
 
   int source_vertex_count() const { return source_vertex_count_; }
   int vertex_count() const { return static_cast<int>(source_vertex_.size()); }
   int facet_count() const { return static_cast<int>(source_facet_.size()); }
+  int cluster_of_vertex(int vertex) const;
   int cluster_count() const { return (facet_count() + kClusterSize - 1) / kClusterSize; }
 
   int source_vertex(int vertex) const { return source_vertex_[static_cast<std::size_t>(vertex)]; }
   int source_facet(int facet) const { return source_facet_[static_cast<std::size_t>(facet)]; }
 
-  // The facets of a cluster are facet_begin(c) <= f < facet_end(c); the vertices that it owns
-  // vertex_begin(c) <= v < vertex_end(c); those that it borrows from earlier clusters are borrowed(c).
+  // The facets of a cluster are facet_begin(c) <= f < facet_end(c), the vertices that it owns
+  // vertex_begin(c) <= v < vertex_end(c).
   int facet_begin(int cluster) const { return cluster * kClusterSize; }
   int facet_end(int cluster) const { return std::min((cluster + 1) * kClusterSize, facet_count()); }
   int vertex_begin(int cluster) const { return vertex_begin_[static_cast<std::size_t>(cluster)]; }
   int vertex_end(int cluster) const { return vertex_begin_[static_cast<std::size_t>(cluster) + 1]; }
-  std::span<const int> borrowed(int cluster) const;
 
   Corners corners(int facet) const {
     const auto f = static_cast<std::size_t>(facet);
@@ -86,6 +91,7 @@ class ClusteredMesh {
   // The arrays behind corners() and position(), for loops over many: an entry a facet, an entry a vertex.
   const int* corner_array(int corner) const { return corner_[corner].data(); }
   const double* coordinate_array(int axis) const { return coordinate_[axis].data(); }
+  PointArrays points() const { return {coordinate_[0].data(), coordinate_[1].data(), coordinate_[2].data()}; }
 
   // The box of all facets; empty if there is none. The boxes of the clusters, borrowed vertices included.
   const Box& box() const { return box_; }
@@ -96,14 +102,16 @@ class ClusteredMesh {
   void validate() const;
 
  private:
-  void refresh_boxes();
+  void group_facets(std::span<const double> positions, std::span<const int> facets);
+  void number_vertices(std::span<const int> facets);
+  bool refresh_range(const double* positions, int cluster_begin, int cluster_end);
 
   int source_vertex_count_ = 0;
   std::vector<int> source_vertex_;  // of each vertex
   std::vector<int> source_facet_;   // of each facet
   std::vector<int> corner_[3];      // of each facet
   std::vector<int> vertex_begin_;   // of each cluster, and one more
-  std::vector<int> borrowed_;
+  std::vector<int> borrowed_source_;   // source vertices that a cluster uses and does not own
   std::vector<int> borrowed_begin_;    // of each cluster, and one more
   std::vector<double> coordinate_[3];  // of each vertex
   BoxArrays cluster_boxes_;

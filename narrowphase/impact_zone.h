@@ -10,8 +10,8 @@ namespace tact::narrowphase {
 
 // The space between the contact planes: lower <= n · (x - origin) <= upper, in metres.
 struct Slab {
-  Vec3 n;       // unit, from A to B
-  Vec3 u;       // unit; (u, v, n) is a right-handed orthonormal frame
+  Vec3 n;  // unit, from A to B
+  Vec3 u;  // unit; (u, v, n) is a right-handed orthonormal frame
   Vec3 v;
   Vec3 origin;
   double lower = 0.0;  // l_B(n) as computed by support queries about `origin`
@@ -24,12 +24,18 @@ Slab make_slab(Vec3 n, Vec3 origin, double lower, double upper, double error);
 
 // A disk in the plane of u and v about the slab's origin, metres.
 struct ImpactZone {
-  Disk disk;          // the smallest around the projection of every point of the mesh in the slab
-  double error = 0.0; // the true zone lies within disk.radius + error of disk.center
+  Disk disk;  // holds the projection of every point of the mesh in the slab, but for rounding; no disk if there is none
+  double error = 0.0;  // bounds that rounding: the true zone lies within disk.radius + error of disk.center
 };
 
-// Facets are clipped to the slab, crossing edges included, so the disk holds the whole part of the mesh in the slab and
-// not only its vertices. Clusters outside the slab are not opened. `scratch` is reused between calls.
+// The *true zone* is the set of (u · (x - origin), v · (x - origin)), in real arithmetic, of all points x of the mesh's
+// facets with lower - error <= n · (x - origin) <= upper + error. It lies within disk.radius + error of disk.center; if
+// there is no disk it is empty. The disk is the smallest around the projection of the mesh between planes that are
+// wider by twice the slab's error.
+//
+// Facets are clipped, crossing edges included: a facet may cross the slab with all its corners outside. Clusters
+// outside the slab are not opened; the work is linear in the facets of the rest. The answer depends on the facets
+// alone, not on their order nor on their clusters. `scratch` is reused between calls.
 ImpactZone impact_zone(const ClusteredMesh& mesh, const Slab& slab, std::vector<Point2>& scratch);
 
 }  // namespace tact::narrowphase

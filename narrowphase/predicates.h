@@ -1,7 +1,11 @@
-// Exact signs of determinants of doubles: a floating-point filter, and integers where it cannot tell. There is no epsilon.
-// Any finite coordinates up to 2^300 in size are decided exactly, subnormal ones included.
+// Exact signs of determinants of doubles: a floating-point filter, and integers where it cannot tell. There is no
+// epsilon.
+//
+// Coordinates must be finite. Up to 2^300 in size, subnormal ones included, the answer is exact in any rounding mode
+// and with subnormal numbers flushed to zero or not; larger ones are exact in the default mode.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "engine/base/vec3.h"
@@ -23,9 +27,16 @@ struct PredicateCounts {
 
 // The sign of (a - d) · ((b - d) × (c - d)): +1 if d lies below the plane through a, b, c, where they appear
 // counter-clockwise from above; -1 above; 0 in one plane.
-int orient3d(Vec3 a, Vec3 b, Vec3 c, Vec3 d, PredicateCounts& counts);
+int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, PredicateCounts& counts);
+
+// orient3d(a, b, c, d[i]) for each i; the normal of the plane is computed once.
+std::array<int, 3> orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<Vec3, 3>& d,
+                            PredicateCounts& counts);
 
 // The sign of (a - c) × (b - c): +1 if a, b, c turn counter-clockwise, -1 clockwise, 0 on one line.
-int orient2d(Point2 a, Point2 b, Point2 c, PredicateCounts& counts);
+int orient2d(const Point2& a, const Point2& b, const Point2& c, PredicateCounts& counts);
+
+// -1 if a comes before b in the order by x, then y, then z; +1 after; 0 if they are one point.
+int compare_lexicographically(const Vec3& a, const Vec3& b);
 
 }  // namespace tact::narrowphase

@@ -1,0 +1,210 @@
+#include "narrowphase/clustered_mesh.h"
+
+#include <cassert>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include "engine/base/parallel.h"
+
+namespace tact::narrowphase {
+
+namespace {
+
+constexpr int kLaneGroup = 8;           // facets inside a cluster are ordered in groups of so many neighbours
+constexpr int kClustersPerRange = 256;  // what a thread refreshes at a time
+constexpr int kFirstUse = -1;
+
+Vec3 source_position(std::span<const double> positions, int vertex) {
+  const double* p = positions.data() + 3 * static_cast<std::size_t>(vertex);
+  return {p[0], p[1], p[2]};
+}
+
+// Orders facets so that neighbours in space are neighbours in the order: halves at the median of the longest axis, cut at
+// multiples of `unit` so that clusters come out full. Ties break by facet number.
+class MedianOrder {
+ public:
+  MedianOrder(const std::vector<Vec3>& centers, std::vector<int>& order) : centers_(centers), order_(order) {}
+
+  void sort(std::size_t begin, std::size_t end) {
+    const std::size_t count = end - begin;
+    if (count <= kLaneGroup) return;
+    const std::size_t unit = count > kClusterSize ? kClusterSize : kLaneGroup;
+    const std::size_t units = (count + unit - 1) / unit;
+    const std::size_t middle = begin + (units + 1) / 2 * unit;
+    if (middle >= end) return;
+    const int axis = longest_axis(begin, end);
+    const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(begin), at(middle), at(end), [&](int a, int b) {
+      const double x = centers_[static_cast<std::size_t>(a)][axis], y = centers_[static_cast<std::size_t>(b)][axis];
+      return x < y || (x == y && a < b);
+    });
+    sort(begin, middle);
+    sort(middle, end);
+  }
+
+ private:
+  int longest_axis(std::size_t begin, std::size_t end) const {
+    Box box;
+    for (std::size_t i = begin; i < end; ++i) box = extended(box, centers_[static_cast<std::size_t>(order_[i])]);
+    const Vec3 size = box.upper - box.lower;
+    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  }
+
+  const std::vector<Vec3>& centers_;
+  std::vector<int>& order_;
+};
+
+[[noreturn]] void broken(const std::string& what) { throw std::logic_error("ClusteredMesh: " + what); }
+
+}  // namespace
+
+void BoxArrays::resize(std::size_t count) {
+  const Box empty;
+  for (int axis = 0; axis < 3; ++axis) {
+    lower[axis].assign(count + kPadding, empty.lower[axis]);
+    upper[axis].assign(count + kPadding, empty.upper[axis]);
+  }
+}
+
+void BoxArrays::set(std::size_t i, const Box& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    lower[axis][i] = box.lower[axis];
+    upper[axis][i] = box.upper[axis];
+  }
+}
+
+BoxPointers BoxArrays::pointers() const {
+  return {{lower[0].data(), lower[1].data(), lower[2].data()}, {upper[0].data(), upper[1].data(), upper[2].data()}};
+}
+
+PositionProblem find_position_problem(const double* positions, std::size_t count, double largest) {
+  const std::int64_t at = kernels().find_large(positions, 3 * static_cast<std::int64_t>(count), largest);
+  if (at < 0) return {};
+  const auto kind = std::isfinite(positions[at]) ? PositionProblem::out_of_range : PositionProblem::non_finite;
+  return {kind, static_cast<int>(at / 3), static_cast<int>(at % 3)};
+}
+
+ClusteredMesh::ClusteredMesh(std::span<const double> positions, std::span<const int> facets)
+    : source_vertex_count_(static_cast<int>(positions.size() / 3)) {
+  group_facets(positions, facets);
+  number_vertices(facets);
+  for (auto& coordinate : coordinate_) coordinate.assign(source_vertex_.size() + kPadding, 0.0);
+  cluster_boxes_.resize(static_cast<std::size_t>(cluster_count()));
+  set_positions(positions.data(), 1);
+}
+
+void ClusteredMesh::group_facets(std::span<const double> positions, std::span<const int> facets) {
+  const std::size_t count = facets.size() / 3;
+  std::vector<Vec3> centers(count);
+  for (std::size_t f = 0; f < count; ++f) {
+    centers[f] = source_position(positions, facets[3 * f]) + source_position(positions, facets[3 * f + 1]) +
+                 source_position(positions, facets[3 * f + 2]);
+  }
+  source_facet_.resize(count);
+  std::iota(source_facet_.begin(), source_facet_.end(), 0);
+  MedianOrder(centers, source_facet_).sort(0, count);
+}
+
+void ClusteredMesh::number_vertices(std::span<const int> facets) {
+  const auto facet_total = static_cast<std::size_t>(facet_count());
+  std::vector<int> number(static_cast<std::size_t>(source_vertex_count_), kFirstUse);
+  std::vector<int> last_user(static_cast<std::size_t>(source_vertex_count_), kFirstUse);
+  for (auto& corner : corner_) corner.assign(facet_total + kPadding, 0);
+  for (int c = 0; c < cluster_count(); ++c) {
+    vertex_begin_.push_back(vertex_count());
+    borrowed_begin_.push_back(static_cast<int>(borrowed_source_.size()));
+    for (int f = facet_begin(c); f < facet_end(c); ++f) {
+      for (int k = 0; k < 3; ++k) {
+        const int source = facets[3 * static_cast<std::size_t>(source_facet(f)) + static_cast<std::size_t>(k)];
+        const auto s = static_cast<std::size_t>(source);
+        if (number[s] == kFirstUse) {
+          number[s] = vertex_count();
+          source_vertex_.push_back(source);
+        } else if (number[s] < vertex_begin_.back() && last_user[s] != c) {
+          borrowed_source_.push_back(source);
+        }
+        last_user[s] = c;
+        corner_[k][static_cast<std::size_t>(f)] = number[s];
+      }
+    }
+  }
+  vertex_begin_.push_back(vertex_count());
+  borrowed_begin_.push_back(static_cast<int>(borrowed_source_.size()));
+}
+
+bool ClusteredMesh::set_positions(const double* positions, int threads) {
+  const int ranges = (cluster_count() + kClustersPerRange - 1) / kClustersPerRange;
+  bool changed = false;
+  if (ranges <= 1 || threads <= 1) {
+    changed = refresh_range(positions, 0, cluster_count());
+  } else {
+    std::vector<char> range_changed(static_cast<std::size_t>(ranges), 0);
+    base::parallel_for(range_changed.size(), 1, threads, [&](std::size_t i) {
+      const int begin = static_cast<int>(i) * kClustersPerRange;
+      range_changed[i] = refresh_range(positions, begin, std::min(begin + kClustersPerRange, cluster_count()));
+    });
+    for (const char one : range_changed) changed = changed || one != 0;
+  }
+  box_ = Box{};
+  for (int c = 0; c < cluster_count(); ++c) box_ = merged(box_, cluster_boxes_[static_cast<std::size_t>(c)]);
+  return changed;
+}
+
+bool ClusteredMesh::refresh_range(const double* positions, int cluster_begin, int cluster_end) {
+  bool changed = false;
+  for (int cluster = cluster_begin; cluster < cluster_end; ++cluster) {
+    const auto c = static_cast<std::size_t>(cluster);
+    const int first = vertex_begin(cluster);
+    const int borrowed = borrowed_begin_[c];
+    const RefreshInput input{.source = positions,
+                             .source_count = source_vertex_count_,
+                             .owned = source_vertex_.data() + first,
+                             .owned_count = vertex_end(cluster) - first,
+                             .borrowed = borrowed_source_.data() + borrowed,
+                             .borrowed_count = borrowed_begin_[c + 1] - borrowed,
+                             .x = coordinate_[0].data() + first,
+                             .y = coordinate_[1].data() + first,
+                             .z = coordinate_[2].data() + first};
+    BoxBounds box;
+    changed = kernels().refresh_cluster(input, &box) || changed;
+    cluster_boxes_.set(c, {{box.lower[0], box.lower[1], box.lower[2]}, {box.upper[0], box.upper[1], box.upper[2]}});
+  }
+  return changed;
+}
+
+int ClusteredMesh::cluster_of_vertex(int vertex) const {
+  const auto after = std::upper_bound(vertex_begin_.begin(), vertex_begin_.end(), vertex);
+  return static_cast<int>(after - vertex_begin_.begin()) - 1;
+}
+
+Triangle ClusteredMesh::triangle(int facet) const {
+  const Corners c = corners(facet);
+  return {position(c[0]), position(c[1]), position(c[2])};
+}
+
+void ClusteredMesh::validate() const {
+  std::vector<char> seen(static_cast<std::size_t>(facet_count()), 0);
+  for (const int f : source_facet_) {
+    if (f < 0 || f >= facet_count() || seen[static_cast<std::size_t>(f)]++) broken("source facet " + std::to_string(f));
+  }
+  std::vector<char> owned(static_cast<std::size_t>(source_vertex_count_), 0);
+  for (const int s : source_vertex_) {
+    if (owned[static_cast<std::size_t>(s)]++) broken("source vertex " + std::to_string(s) + " has two owners");
+  }
+  Box whole;
+  for (int c = 0; c < cluster_count(); ++c) {
+    Box box;
+    for (int f = facet_begin(c); f < facet_end(c); ++f) {
+      for (const int v : corners(f)) {
+        if (v >= vertex_end(c)) broken("cluster " + std::to_string(c) + " uses a vertex of a later one");
+        box = extended(box, position(v));
+      }
+    }
+    if (!(box == cluster_boxes_[static_cast<std::size_t>(c)])) broken("box of cluster " + std::to_string(c));
+    whole = merged(whole, box);
+  }
+  if (!(whole == box_)) broken("box of the mesh");
+}
+
+}  // namespace tact::narrowphase

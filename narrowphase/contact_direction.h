@@ -1,0 +1,34 @@
+// The contact direction of two overlapping hulls (paper §4.1): a local minimum of the height w of M, found from a start.
+#pragma once
+
+#include "narrowphase/gjk.h"
+
+namespace tact::narrowphase {
+
+struct DirectionSettings {
+  GjkSettings gjk;
+  int iteration_limit = 100;  // shifted calls of GJK
+};
+
+struct ContactDirection {
+  Vec3 n;                      // unit, from A to B
+  double height = 0.0;         // w(n), scaled; negative beyond height_error(): n separates the hulls
+  int iterations = 0;          // shifted calls of GJK
+  int support_queries = 0;     // of these calls, and of the search for faces
+  GjkSimplex face;             // vertices of the face of M that holds the foot: the start of the next step
+  bool limit_reached = false;  // n is the best found
+};
+
+// Starts from the unit direction `start`, and goes on until the foot of the origin lies in the face of M that the
+// direction supports. Each iteration shifts A back along n by a little more than the hulls overlap, takes the closest
+// points by GJK and turns n to them; w never increases. A foot on an edge or a corner of M repeats without being a minimum:
+// from an edge n is turned to the adjacent face with the smaller w, from a corner to the lowest of the faces that four
+// fixed tangents lead to. n is the normal of the face, computed from its vertices, and does not depend on the path.
+//
+// `face` is the last step's: if its vertices still span a face that holds the foot, that is the answer, without an
+// iteration. Where M is flat the height is zero and n its normal on the side of `start`; where M is a segment or a point, n
+// is the direction across it nearest to `start`.
+ContactDirection contact_direction(const MinkowskiDifference& m, Vec3 start, const GjkSimplex& face,
+                                   const DirectionSettings& settings);
+
+}  // namespace tact::narrowphase

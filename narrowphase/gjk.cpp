@@ -1,0 +1,122 @@
+#include "narrowphase/gjk.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "narrowphase/simplex.h"
+
+namespace tact::narrowphase {
+
+namespace {
+
+constexpr double kRoundingGap = 16.0 * 0x1p-52;
+
+class Search {
+ public:
+  Search(const MinkowskiDifference& m, Vec3 point) : m_(m), point_(point) {}
+
+  void start(const GjkSimplex& simplex) {
+    for (int i = 0; i < simplex.count; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if (!holds(simplex.a[k], simplex.b[k])) append(m_.vertex(simplex.a[k], simplex.b[k]));
+    }
+    if (points_.count == 0) append(m_.support({1.0, 0.0, 0.0}));
+    reduce();
+  }
+
+  GjkResult run(const GjkSettings& settings) {
+    const double rounding = kRoundingGap * m_.size();
+    while (!inside_ && result_.support_queries < settings.query_limit) {
+      result_.distance = norm(closest_.point);
+      if (result_.distance <= rounding) break;
+      const Vec3 toward = (-1.0 / result_.distance) * closest_.point;
+      const MinkowskiVertex next = m_.support(toward);
+      ++result_.support_queries;
+      result_.lower_bound = std::max(result_.lower_bound, -dot(toward, next.point - point_));
+      closed_ = result_.distance - result_.lower_bound <= settings.tolerance * result_.distance + rounding;
+      if (closed_ || holds(next.a, next.b)) break;
+      const GjkSimplex before = simplex_;
+      const SimplexPoints points_before = points_;
+      const SimplexClosest closest_before = closest_;
+      append(next);
+      reduce();
+      if (!inside_ && !(norm_squared(closest_.point) < norm_squared(closest_before.point))) {
+        simplex_ = before;
+        points_ = points_before;
+        closest_ = closest_before;
+        break;  // no progress that doubles can show
+      }
+    }
+    return finish();
+  }
+
+ private:
+  bool holds(int a, int b) const {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(simplex_.count); ++i) {
+      if (simplex_.a[i] == a && simplex_.b[i] == b) return true;
+    }
+    return false;
+  }
+
+  void append(const MinkowskiVertex& v) {
+    const auto i = static_cast<std::size_t>(simplex_.count++);
+    simplex_.a[i] = v.a;
+    simplex_.b[i] = v.b;
+    points_.point[i] = v.point - point_;
+    points_.count = simplex_.count;
+  }
+
+  // Keeps the vertices that carry the nearest point.
+  void reduce() {
+    closest_ = simplex_closest(points_);
+    inside_ = closest_.carrier_count == 4;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(closest_.carrier_count); ++i) {
+      const auto from = static_cast<std::size_t>(closest_.carrier[i]);
+      simplex_.a[i] = simplex_.a[from];
+      simplex_.b[i] = simplex_.b[from];
+      points_.point[i] = points_.point[from];
+    }
+    simplex_.count = points_.count = closest_.carrier_count;
+  }
+
+  GjkResult finish() {
+    result_.simplex = simplex_;
+    result_.offset = closest_.point;
+    result_.distance = norm(closest_.point);
+    const double error = m_.height_error();
+    if (inside_) {
+      result_.status = GjkStatus::overlapping;
+    } else if (result_.lower_bound > error) {
+      result_.status = GjkStatus::apart;
+    } else if (result_.distance <= 2.0 * (error + kRoundingGap * m_.size())) {
+      result_.status = GjkStatus::touching;
+    }
+    if (result_.status == GjkStatus::apart && !closed_ &&
+        result_.distance - result_.lower_bound > kStalledGap * (result_.distance + m_.size())) {
+      result_.status = GjkStatus::limit_reached;
+    }
+    return result_;
+  }
+
+  // Where no double makes progress, the bounds are this close, relative to the size, unless something is wrong.
+  static constexpr double kStalledGap = 1e-10;
+
+  const MinkowskiDifference& m_;
+  Vec3 point_;
+  GjkSimplex simplex_;
+  SimplexPoints points_;
+  SimplexClosest closest_;
+  bool inside_ = false;
+  bool closed_ = false;
+  GjkResult result_;
+};
+
+}  // namespace
+
+GjkResult gjk(const MinkowskiDifference& m, Vec3 point, const GjkSimplex& start, const GjkSettings& settings) {
+  Search search(m, point);
+  search.start(start);
+  return search.run(settings);
+}
+
+}  // namespace tact::narrowphase

@@ -1,0 +1,42 @@
+// The distance of a point from M, by Gilbert, Johnson and Keerthi: "A fast procedure for computing the distance between
+// complex objects in three-dimensional space", 1988. With the point at the origin it is the distance of the hulls.
+#pragma once
+
+#include <array>
+
+#include "narrowphase/minkowski_difference.h"
+
+namespace tact::narrowphase {
+
+enum class GjkStatus {
+  apart,          // certainly: the lower bound of the distance exceeds all rounding
+  touching,       // the distance is zero but for rounding
+  overlapping,    // the point lies inside a tetrahedron of vertices of M
+  limit_reached,  // the bounds did not close: the result is the best found
+};
+
+// Pairs of vertices that span the part of M nearest to the point: the start of the next search.
+struct GjkSimplex {
+  std::array<int, 4> a{};
+  std::array<int, 4> b{};
+  int count = 0;
+};
+
+struct GjkResult {
+  GjkStatus status = GjkStatus::limit_reached;
+  Vec3 offset;                // from the point to the nearest point of M, scaled
+  double distance = 0.0;      // |offset|: an upper bound, but for rounding
+  double lower_bound = 0.0;   // M is at least this far, but for rounding
+  GjkSimplex simplex;         // the vertices of M around the nearest point
+  int support_queries = 0;
+};
+
+struct GjkSettings {
+  double tolerance = 1e-12;  // stops where distance - lower_bound <= tolerance * distance + 16 roundoffs of M's size
+  int query_limit = 1000;    // reached by no input known; a guard, not a tool
+};
+
+// The distance of `point` (scaled) from M. `start` may hold vertices from an earlier search, or nothing.
+GjkResult gjk(const MinkowskiDifference& m, Vec3 point, const GjkSimplex& start, const GjkSettings& settings);
+
+}  // namespace tact::narrowphase

@@ -1,0 +1,49 @@
+#include <cstdlib>
+#include <cstring>
+#include <initializer_list>
+
+#include "narrowphase/kernels/kernels.h"
+
+namespace tact::narrowphase {
+
+extern const Kernels kScalarKernels;
+#if defined(__x86_64__)
+extern const Kernels kAvx2Kernels;
+extern const Kernels kAvx512Kernels;
+#endif
+
+const Kernels* scalar_kernels() { return &kScalarKernels; }
+
+#if defined(__x86_64__)
+const Kernels* avx2_kernels() {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") ? &kAvx2Kernels : nullptr;
+}
+const Kernels* avx512_kernels() {
+  const bool has = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                   __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
+  return has ? &kAvx512Kernels : nullptr;
+}
+#else
+const Kernels* avx2_kernels() { return nullptr; }
+const Kernels* avx512_kernels() { return nullptr; }
+#endif
+
+namespace {
+
+const Kernels& choose() {
+  const Kernels* best = avx512_kernels() ? avx512_kernels() : avx2_kernels() ? avx2_kernels() : scalar_kernels();
+  const char* wanted = std::getenv("TACT_INSTRUCTION_SET");
+  for (const Kernels* one : {scalar_kernels(), avx2_kernels(), avx512_kernels()}) {
+    if (wanted && one && std::strcmp(wanted, one->name) == 0) return *one;
+  }
+  return *best;
+}
+
+}  // namespace
+
+const Kernels& kernels() {
+  static const Kernels& chosen = choose();  // the same for the whole process; no answer depends on it
+  return chosen;
+}
+
+}  // namespace tact::narrowphase

@@ -1,0 +1,99 @@
+// The few loops in which the time goes, compiled once for each instruction set from kernels.inl and chosen when the program
+// starts. Every instruction set gives the same bits: the same operations in the same order on every element, no fused
+// multiply-add. Plain pointers only: nothing inline may leak from files that are compiled for a newer machine.
+#pragma once
+
+#include <cstdint>
+
+namespace tact::narrowphase {
+
+// Three arrays of coordinates.
+struct PointArrays {
+  const double* x;
+  const double* y;
+  const double* z;
+};
+
+// A direction n and a point o: the height of x is ((n.x (x - o.x) + n.y (y - o.y)) + n.z (z - o.z)).
+struct HeightAxis {
+  double nx, ny, nz;
+  double ox, oy, oz;
+};
+
+// Lower and upper bounds of boxes in separate arrays.
+struct BoxPointers {
+  const double* lower[3];
+  const double* upper[3];
+};
+
+// One box.
+struct BoxBounds {
+  double lower[3];
+  double upper[3];
+};
+
+// A facet prepared for the plane-side filter of many others against it.
+struct FilterFacet {
+  BoxBounds box;
+  double corner[3][3];     // corner, axis
+  double normal[3];        // (c1 - c0) × (c2 - c0), as computed
+  double normal_bound[3];  // the same with absolute values of both products of each component: bounds its rounding
+};
+
+// Up to 64 facets in separate arrays: boxes, and coordinates of corners.
+struct FacetBlock {
+  static constexpr int kCapacity = 64;
+  double lower[3][kCapacity];
+  double upper[3][kCapacity];
+  double corner[3][3][kCapacity];  // corner, axis, facet
+};
+
+// Vertices of a cluster to be refreshed. Coordinates of source vertex s are source[3 s], source[3 s + 1], source[3 s + 2].
+struct RefreshInput {
+  const double* source;
+  std::int32_t source_count;          // vertices in `source`
+  const std::int32_t* owned;          // source vertices, copied to x, y, z in this order
+  std::int32_t owned_count;
+  const std::int32_t* borrowed;       // source vertices that only widen the box
+  std::int32_t borrowed_count;
+  double* x;
+  double* y;
+  double* z;
+};
+
+struct Kernels {
+  const char* name;
+
+  // The index in `source` (3 x count coordinates) of the first coordinate whose size is not <= largest, or -1.
+  std::int64_t (*find_large)(const double* source, std::int64_t count, double largest);
+
+  // Copies the owned vertices and sets `box` to the box of all; says whether any owned coordinate changed.
+  bool (*refresh_cluster)(const RefreshInput& input, BoxBounds* box);
+
+  // Writes the indices i < count of points whose height is >= threshold, ascending; returns how many.
+  int (*select_heights)(PointArrays points, int count, const HeightAxis& axis, double threshold, std::int32_t* indices);
+
+  // The largest height of the points, and the first index that has it. count >= 1.
+  double (*max_height)(PointArrays points, int count, const HeightAxis& axis, std::int32_t* index);
+
+  // Writes the indices i < count of boxes that overlap `box` (closed), ascending; returns how many.
+  int (*select_overlapping)(const BoxPointers& boxes, int count, const BoxBounds& box, std::int32_t* indices);
+
+  // Fills `block` with `count` facets: corners[k] + first .. are the vertices of corner k.
+  void (*fill_facet_block)(PointArrays points, const std::int32_t* const corners[3], int count, FacetBlock* block);
+
+  // Writes the indices i < count of facets in `block` that may meet `facet`: boxes overlap, and the corners of neither are
+  // certainly all on one side of the other's plane. Adds the number of overlapping boxes to `box_pairs`.
+  int (*select_meeting)(const FacetBlock& block, int count, const FilterFacet& facet, std::int32_t* indices,
+                        std::int64_t* box_pairs);
+};
+
+// The best for this machine, or the one that the environment variable TACT_INSTRUCTION_SET names: scalar, avx2, avx512.
+const Kernels& kernels();
+
+// For tests: each instruction set, or null where the machine or the build does not have it.
+const Kernels* scalar_kernels();
+const Kernels* avx2_kernels();
+const Kernels* avx512_kernels();
+
+}  // namespace tact::narrowphase

@@ -1,0 +1,39 @@
+// Four elements at a time. Compiled for AVX2, BMI and BMI2.
+#include <immintrin.h>
+
+#include "narrowphase/kernels/kernels.h"
+
+#define TACT_KERNELS kAvx2Kernels
+#define TACT_KERNELS_NAME "avx2"
+#define TACT_KERNELS_AVX2_REFRESH
+
+namespace tact::narrowphase {
+namespace {
+
+constexpr int kWidth = 4;
+using Pack = __m256d;
+using Mask = unsigned;  // a bit a lane
+
+inline Pack load(const double* p) { return _mm256_loadu_pd(p); }
+inline void store(double* p, Pack a) { _mm256_storeu_pd(p, a); }
+inline Pack spread(double a) { return _mm256_set1_pd(a); }
+inline Pack gather(const double* p, const std::int32_t* i) { return _mm256_set_pd(p[i[3]], p[i[2]], p[i[1]], p[i[0]]); }
+inline Pack add(Pack a, Pack b) { return _mm256_add_pd(a, b); }
+inline Pack sub(Pack a, Pack b) { return _mm256_sub_pd(a, b); }
+inline Pack mul(Pack a, Pack b) { return _mm256_mul_pd(a, b); }
+inline Pack min(Pack a, Pack b) { return _mm256_min_pd(a, b); }
+inline Pack max(Pack a, Pack b) { return _mm256_max_pd(a, b); }
+inline Pack abs(Pack a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a); }
+inline Mask bits(Pack a) { return static_cast<Mask>(_mm256_movemask_pd(a)); }
+inline Mask less_equal(Pack a, Pack b) { return bits(_mm256_cmp_pd(a, b, _CMP_LE_OQ)); }
+inline Mask less(Pack a, Pack b) { return bits(_mm256_cmp_pd(a, b, _CMP_LT_OQ)); }
+inline Mask not_equal(Pack a, Pack b) { return bits(_mm256_cmp_pd(a, b, _CMP_NEQ_UQ)); }
+inline double largest_lane(Pack a) {
+  const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1));
+  return _mm_cvtsd_f64(_mm_max_sd(two, _mm_unpackhi_pd(two, two)));
+}
+
+}  // namespace
+}  // namespace tact::narrowphase
+
+#include "narrowphase/kernels/kernels.inl"

@@ -1,0 +1,37 @@
+// Eight elements at a time. Compiled for AVX-512 F, DQ, VL, BW and BMI2.
+#include <immintrin.h>
+
+#include "narrowphase/kernels/kernels.h"
+
+#define TACT_KERNELS kAvx512Kernels
+#define TACT_KERNELS_NAME "avx512"
+#define TACT_KERNELS_AVX2_REFRESH
+
+namespace tact::narrowphase {
+namespace {
+
+constexpr int kWidth = 8;
+using Pack = __m512d;
+using Mask = unsigned;  // a bit a lane
+
+inline Pack load(const double* p) { return _mm512_loadu_pd(p); }
+inline void store(double* p, Pack a) { _mm512_storeu_pd(p, a); }
+inline Pack spread(double a) { return _mm512_set1_pd(a); }
+inline Pack gather(const double* p, const std::int32_t* i) {
+  return _mm512_set_pd(p[i[7]], p[i[6]], p[i[5]], p[i[4]], p[i[3]], p[i[2]], p[i[1]], p[i[0]]);
+}
+inline Pack add(Pack a, Pack b) { return _mm512_add_pd(a, b); }
+inline Pack sub(Pack a, Pack b) { return _mm512_sub_pd(a, b); }
+inline Pack mul(Pack a, Pack b) { return _mm512_mul_pd(a, b); }
+inline Pack min(Pack a, Pack b) { return _mm512_min_pd(a, b); }
+inline Pack max(Pack a, Pack b) { return _mm512_max_pd(a, b); }
+inline Pack abs(Pack a) { return _mm512_abs_pd(a); }
+inline Mask less_equal(Pack a, Pack b) { return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ); }
+inline Mask less(Pack a, Pack b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
+inline Mask not_equal(Pack a, Pack b) { return _mm512_cmp_pd_mask(a, b, _CMP_NEQ_UQ); }
+inline double largest_lane(Pack a) { return _mm512_reduce_max_pd(a); }
+
+}  // namespace
+}  // namespace tact::narrowphase
+
+#include "narrowphase/kernels/kernels.inl"

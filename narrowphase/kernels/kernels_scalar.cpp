@@ -1,0 +1,32 @@
+// One element at a time: the twin that the others are held against.
+#include "narrowphase/kernels/kernels.h"
+
+#define TACT_KERNELS kScalarKernels
+#define TACT_KERNELS_NAME "scalar"
+
+namespace tact::narrowphase {
+namespace {
+
+constexpr int kWidth = 1;
+using Pack = double;
+using Mask = unsigned;  // a bit a lane
+
+inline Pack load(const double* p) { return *p; }
+inline void store(double* p, Pack a) { *p = a; }
+inline Pack spread(double a) { return a; }
+inline Pack gather(const double* p, const std::int32_t* index) { return p[*index]; }
+inline Pack add(Pack a, Pack b) { return a + b; }
+inline Pack sub(Pack a, Pack b) { return a - b; }
+inline Pack mul(Pack a, Pack b) { return a * b; }
+inline Pack min(Pack a, Pack b) { return a < b ? a : b; }
+inline Pack max(Pack a, Pack b) { return a > b ? a : b; }
+inline Pack abs(Pack a) { return __builtin_fabs(a); }
+inline Mask less_equal(Pack a, Pack b) { return a <= b ? 1u : 0u; }
+inline Mask less(Pack a, Pack b) { return a < b ? 1u : 0u; }
+inline Mask not_equal(Pack a, Pack b) { return a != b ? 1u : 0u; }
+inline double largest_lane(Pack a) { return a; }
+
+}  // namespace
+}  // namespace tact::narrowphase
+
+#include "narrowphase/kernels/kernels.inl"

@@ -1,0 +1,44 @@
+#include "narrowphase/minkowski_difference.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tact::narrowphase {
+
+namespace {
+
+constexpr double kUnitRoundoff = 0x1p-53;
+// A height n · (x - o) is off by at most 4 roundoffs of |x - o|, n being of unit length but for rounding. Two vertices are
+// chosen, each at most two such errors below the true extreme, and n · (a - b), |a - b| <= 2 size, is off by 4 of 2 size.
+constexpr double kHeightRoundings = (2.0 * 2.0 * 4.0 + 2.0 * 4.0) * 1.05;
+
+double farthest(const Box& box, Vec3 origin, int axis) {
+  return std::max(std::abs(box.lower[axis] - origin[axis]), std::abs(box.upper[axis] - origin[axis]));
+}
+
+}  // namespace
+
+MinkowskiDifference::MinkowskiDifference(const ClusteredMesh& a, const ClusteredMesh& b) : a_(&a), b_(&b) {
+  const Box common = intersection(a.box(), b.box());
+  origin_ = 0.5 * common.lower + 0.5 * common.upper;
+  Vec3 reach;
+  for (int axis = 0; axis < 3; ++axis) reach[axis] = std::max(farthest(a.box(), origin_, axis), farthest(b.box(), origin_, axis));
+  const double largest = std::max({reach.x, reach.y, reach.z});
+  if (largest > 0.0) scale_ = std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000));
+  size_ = norm(scale_ * reach);
+  height_error_ = kHeightRoundings * kUnitRoundoff * size_;
+}
+
+MinkowskiVertex MinkowskiDifference::vertex(int a, int b) const {
+  return {scale_ * (a_->position(a) - b_->position(b)), a, b};
+}
+
+MinkowskiVertex MinkowskiDifference::support(Vec3 direction) const {
+  const int a = narrowphase::support(*a_, direction, origin_, cluster_a_).vertex;
+  const int b = narrowphase::support(*b_, -direction, origin_, cluster_b_).vertex;
+  cluster_a_ = a_->cluster_of_vertex(a);
+  cluster_b_ = b_->cluster_of_vertex(b);
+  return vertex(a, b);
+}
+
+}  // namespace tact::narrowphase

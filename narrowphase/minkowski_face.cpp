@@ -1,0 +1,138 @@
+#include "narrowphase/minkowski_face.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "narrowphase/frame.h"
+
+namespace tact::narrowphase {
+
+namespace {
+
+constexpr int kTurnLimit = 1000;
+
+double cross2(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }
+Point2 minus(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
+bool before(Point2 a, Point2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
+
+// The corners of the convex hull of `points`, counter-clockwise from the lowest x (Andrew, 1979).
+std::vector<Point2> convex_hull(std::vector<Point2> points) {
+  std::sort(points.begin(), points.end(), before);
+  points.erase(std::unique(points.begin(), points.end(), [](Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; }),
+               points.end());
+  if (points.size() < 3) return points;
+  std::vector<Point2> hull;
+  const auto extend = [&](Point2 p, std::size_t least) {
+    while (hull.size() > least && cross2(minus(hull.back(), hull[hull.size() - 2]), minus(p, hull.back())) <= 0.0) hull.pop_back();
+    hull.push_back(p);
+  };
+  for (const Point2 p : points) extend(p, 1);
+  const std::size_t lower = hull.size();
+  for (std::size_t i = points.size() - 1; i-- > 0;) extend(points[i], lower);
+  hull.pop_back();
+  return hull;
+}
+
+Point2 corner_at(const std::vector<Point2>& polygon, std::size_t i) { return polygon[i % polygon.size()]; }
+
+// The sum of two convex polygons: their sides in the order of their angles. Both start at the lowest x.
+std::vector<Point2> minkowski_sum(const std::vector<Point2>& p, const std::vector<Point2>& q) {
+  std::vector<Point2> sum;
+  std::size_t i = 0, j = 0;
+  const std::size_t sides_p = p.size() > 1 ? p.size() : 0, sides_q = q.size() > 1 ? q.size() : 0;
+  while (i < sides_p || j < sides_q) {
+    sum.push_back({corner_at(p, i).x + corner_at(q, j).x, corner_at(p, i).y + corner_at(q, j).y});
+    if (i == sides_p) {
+      ++j;
+    } else if (j == sides_q) {
+      ++i;
+    } else {
+      const Point2 e = minus(corner_at(p, i + 1), corner_at(p, i)), f = minus(corner_at(q, j + 1), corner_at(q, j));
+      const bool upper_e = before(e, {0.0, 0.0}), upper_f = before(f, {0.0, 0.0});  // the second half of the turn
+      const double turn = upper_e != upper_f ? (upper_f ? 1.0 : -1.0) : cross2(e, f);
+      if (turn >= 0.0) ++i;
+      if (turn <= 0.0) ++j;
+    }
+  }
+  if (sum.empty()) sum.push_back({p[0].x + q[0].x, p[0].y + q[0].y});
+  return convex_hull(sum);  // drops corners that rounding made straight or inward
+}
+
+std::vector<int> vertices_at_least(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double height) {
+  const HeightAxis axis{n.x, n.y, n.z, origin.x, origin.y, origin.z};
+  const BoxArrays& boxes = mesh.cluster_boxes();
+  const double* bound[3];
+  for (int k = 0; k < 3; ++k) bound[k] = (n[k] >= 0.0 ? boxes.upper[k] : boxes.lower[k]).data();
+  std::vector<std::int32_t> clusters(static_cast<std::size_t>(mesh.cluster_count()));
+  const int open = kernels().select_heights({bound[0], bound[1], bound[2]}, mesh.cluster_count(), axis, height, clusters.data());
+  std::vector<int> found;
+  std::vector<std::int32_t> inside;
+  for (int i = 0; i < open; ++i) {
+    const int begin = mesh.vertex_begin(clusters[static_cast<std::size_t>(i)]);
+    const int count = mesh.vertex_end(clusters[static_cast<std::size_t>(i)]) - begin;
+    inside.resize(static_cast<std::size_t>(count));
+    const PointArrays p = mesh.points();
+    const int kept = kernels().select_heights({p.x + begin, p.y + begin, p.z + begin}, count, axis, height, inside.data());
+    for (int k = 0; k < kept; ++k) found.push_back(begin + inside[static_cast<std::size_t>(k)]);
+  }
+  return found;
+}
+
+}  // namespace
+
+FaceFeatures supporting_features(const MinkowskiDifference& m, Vec3 n, double tolerance) {
+  const double metres = tolerance / m.scale();
+  const double top = support(m.a(), n, m.origin()).height, bottom = support(m.b(), -n, m.origin()).height;
+  return {vertices_at_least(m.a(), n, m.origin(), top - metres), vertices_at_least(m.b(), -n, m.origin(), bottom - metres)};
+}
+
+FacePolygon face_polygon(const MinkowskiDifference& m, const FaceFeatures& features, Vec3 n) {
+  const Frame frame = frame_across(n);
+  FacePolygon polygon{frame.u, frame.v, {}};
+  // Positions are taken relative to one vertex of each body, so that only differences are rounded.
+  const MinkowskiVertex corner = m.vertex(features.a[0], features.b[0]);
+  const Vec3 a0 = m.a().position(features.a[0]), b0 = m.b().position(features.b[0]);
+  const auto flat = [&](Vec3 d) { return Point2{dot(frame.u, d), dot(frame.v, d)}; };
+  std::vector<Point2> p, q;
+  for (const int a : features.a) p.push_back(flat(m.scale() * (m.a().position(a) - a0)));
+  for (const int b : features.b) q.push_back(flat(m.scale() * (b0 - m.b().position(b))));
+  polygon.corner = minkowski_sum(convex_hull(std::move(p)), convex_hull(std::move(q)));
+  const Point2 base = flat(corner.point);
+  for (Point2& c : polygon.corner) c = {c.x + base.x, c.y + base.y};
+  return polygon;
+}
+
+FootPlace place_of_foot(const FacePolygon& polygon) {
+  const std::vector<Point2>& c = polygon.corner;
+  if (c.size() == 1) return {-std::hypot(c[0].x, c[0].y), 0};
+  FootPlace place{std::numeric_limits<double>::infinity(), 0};
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    const Point2 from = c[i], side = minus(corner_at(c, i + 1), from);
+    const double distance = cross2(side, {-from.x, -from.y}) / std::hypot(side.x, side.y);
+    if (distance < place.margin) place = {distance, static_cast<int>(i)};
+  }
+  if (c.size() == 2) {  // the foot may lie in the line of an edge, but beyond its ends
+    const Point2 side = minus(c[1], c[0]);
+    const double length = std::hypot(side.x, side.y);
+    const double along = -(c[0].x * side.x + c[0].y * side.y) / length;
+    place.margin = std::min({place.margin, along, length - along, 0.0});
+  }
+  return place;
+}
+
+Vec3 turned_to_next_face(const MinkowskiDifference& m, Vec3 n, Vec3 p, Vec3 t, double tolerance) {
+  Vec3 turned = t;
+  for (int i = 0; i < kTurnLimit; ++i) {
+    const Vec3 d = m.support(turned).point - p;
+    if (dot(turned, d) <= tolerance) break;
+    const double along = dot(t, d), below = std::max(0.0, -dot(n, d));
+    if (along <= tolerance) break;
+    const Vec3 next = normalized(along * n + below * t);
+    if (next == turned) break;
+    turned = next;
+  }
+  return turned;
+}
+
+}  // namespace tact::narrowphase

@@ -1,0 +1,46 @@
+// The face of M that a direction supports, seen along the direction: does it hold the foot of the origin, and which faces
+// lie next to it?
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "narrowphase/minkowski_difference.h"
+#include "narrowphase/predicates.h"
+
+namespace tact::narrowphase {
+
+// Vertices of A and of B. What they span is the set of all a - b.
+struct FaceFeatures {
+  std::vector<int> a;
+  std::vector<int> b;
+};
+
+// A convex polygon across a direction n: the face, projected on u and v, (u, v, n) orthonormal. The foot of the origin on
+// the supporting plane is at (0, 0). Scaled.
+struct FacePolygon {
+  Vec3 u, v;
+  std::vector<Point2> corner;  // counter-clockwise seen against n; 1: a vertex of M, 2: an edge
+};
+
+// Where the foot lies.
+struct FootPlace {
+  double margin = 0.0;  // distance of the foot from the border of the polygon, scaled; negative: outside
+  int side = 0;         // the side (corner `side` to the next) whose line the foot is nearest to, or most outside of
+};
+
+// All vertices of A and of B within `tolerance` (scaled) of their supporting planes across n.
+FaceFeatures supporting_features(const MinkowskiDifference& m, Vec3 n, double tolerance);
+
+// The polygon that `features` span, seen along n.
+FacePolygon face_polygon(const MinkowskiDifference& m, const FaceFeatures& features, Vec3 n);
+
+// An edge or a vertex has a margin of zero at best.
+FootPlace place_of_foot(const FacePolygon& polygon);
+
+// Turns n about the axis through `p`, a point of M in the supporting plane of n, towards `t` (unit, across n and the axis)
+// until the plane meets another vertex of M: the normal of that supporting plane. M must not reach beyond the plane of n
+// by more than `tolerance`. Nothing is found within a right angle: t itself.
+Vec3 turned_to_next_face(const MinkowskiDifference& m, Vec3 n, Vec3 p, Vec3 t, double tolerance);
+
+}  // namespace tact::narrowphase

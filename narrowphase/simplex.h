@@ -1,0 +1,29 @@
+// The point of a small simplex nearest to the origin.
+#pragma once
+
+#include <array>
+
+#include "engine/base/vec3.h"
+
+namespace tact::narrowphase {
+
+using base::Vec3;
+
+// Up to four points.
+struct SimplexPoints {
+  std::array<Vec3, 4> point;
+  int count = 0;
+};
+
+// The nearest point, on the smallest face that holds it.
+struct SimplexClosest {
+  Vec3 point;
+  std::array<int, 4> carrier{};  // indices of the points that span the face, ascending
+  int carrier_count = 0;         // 4: the origin lies inside the tetrahedron
+};
+
+// The point of the simplex nearest to the origin. Points may coincide or lie in a line or plane: every face is tried, those
+// without extent are passed over, and the nearest wins (of equals the one with fewer points). count >= 1.
+SimplexClosest simplex_closest(const SimplexPoints& simplex);
+
+}  // namespace tact::narrowphase
