@@ -138,12 +138,19 @@ bool all_same(const double (&x)[N]) {
   return same;
 }
 
+bool same_point(const Vec3& a, const Vec3& b) {
+  return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
+}
+
 int exact_orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double x[4] = {a.x, b.x, c.x, d.x};
   const double y[4] = {a.y, b.y, c.y, d.y};
   const double z[4] = {a.z, b.z, c.z, d.z};
-  // Faces that lie flat in an axis plane are common, and need no arithmetic.
+  // Faces that lie flat in an axis plane and bodies that share vertices are common, and need no arithmetic.
   if (all_same(x) || all_same(y) || all_same(z)) return 0;
+  if (same_point(a, d) || same_point(b, d) || same_point(c, d) || same_point(a, b) || same_point(b, c) ||
+      same_point(c, a))
+    return 0;
   std::int64_t ix[4];
   std::int64_t iy[4];
   std::int64_t iz[4];
