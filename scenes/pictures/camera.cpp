@@ -2,9 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace tact::scenes {
@@ -21,45 +19,37 @@ Eigen::Vector3d view_direction(UpAxis up, const View& view) {
   return up == UpAxis::y ? y_up : Eigen::Vector3d(y_up.x(), -y_up.z(), y_up.y());
 }
 
-std::array<Eigen::Vector3d, 8> corners(const base::Box& box) {
-  const base::Box shown = box.empty() ? base::Box{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}} : box;
-  Eigen::Vector3d lower(shown.lower.x, shown.lower.y, shown.lower.z);
-  Eigen::Vector3d upper(shown.upper.x, shown.upper.y, shown.upper.z);
-  // The camera must keep a distance from a single point too.
-  const double extent = (upper - lower).maxCoeff();
-  if (extent <= 1e-9 * std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff()) || extent == 0.0) {
-    const double room = std::max(1e-6 * lower.cwiseAbs().maxCoeff(), 1e-3);
-    lower.array() -= room;
-    upper.array() += room;
-  }
-  std::array<Eigen::Vector3d, 8> result;
-  for (std::size_t i = 0; i < 8; ++i) {
-    result[i] = {i & 1 ? upper.x() : lower.x(), i & 2 ? upper.y() : lower.y(), i & 4 ? upper.z() : lower.z()};
-  }
-  return result;
+// The corners of the box around `points`, given room if it has none: the camera must keep a distance from a single
+// point.
+Eigen::Matrix3Xd with_room(const Eigen::Matrix3Xd& points) {
+  const Eigen::Vector3d lower = points.rowwise().minCoeff();
+  const Eigen::Vector3d upper = points.rowwise().maxCoeff();
+  const double farthest = points.cwiseAbs().maxCoeff();
+  if ((upper - lower).maxCoeff() > 1e-9 * farthest) return points;
+  const double room = std::max(1e-6 * farthest, 1e-3);
+  Eigen::Matrix3Xd ends(3, 2);
+  ends << (lower.array() - room).matrix(), (upper.array() + room).matrix();
+  return ends;
 }
 
-// How far back and aside a camera must stand to see every corner between two planes through it: seen along one axis of
-// the picture, corner i lies inside if |across_i - shift| <= tangent * (along_i - place).
+// How far back and aside a camera must stand to see every point between two planes through it: seen along one axis of
+// the picture, point i lies inside if |across_i - shift| <= tangent * (along_i - place).
 struct Fit {
   double place = 0.0;
   double shift = 0.0;
 };
 
-Fit fit(const std::array<Eigen::Vector3d, 8>& points, const Eigen::Vector3d& along, const Eigen::Vector3d& across,
-        double tangent) {
-  double high = -std::numeric_limits<double>::infinity();
-  double low = high;
-  for (const Eigen::Vector3d& point : points) {
-    high = std::max(high, across.dot(point) - tangent * along.dot(point));
-    low = std::max(low, -across.dot(point) - tangent * along.dot(point));
-  }
+Fit fit(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& along, const Eigen::Vector3d& across, double tangent) {
+  const double high = ((across - tangent * along).transpose() * points).maxCoeff();
+  const double low = ((-across - tangent * along).transpose() * points).maxCoeff();
   return {.place = -(high + low) / (2.0 * tangent), .shift = (high - low) / 2.0};
 }
 
 }  // namespace
 
-Camera framing(const base::Box& box, UpAxis up, int width, int height, const View& view) {
+Camera framing(const Eigen::Matrix3Xd& shown, UpAxis up, int width, int height, const View& view) {
+  if (shown.cols() == 0) return framing(base::Box{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, up, width, height, view);
+  const Eigen::Matrix3Xd points = with_room(shown);
   Camera camera;
   camera.forward = -view_direction(up, view);
   camera.right = camera.forward.cross(up_vector(up)).normalized();
@@ -68,12 +58,22 @@ Camera framing(const base::Box& box, UpAxis up, int width, int height, const Vie
   camera.tangent_x = std::tan(radians(view.angle_of_view) / 2.0) * width / diagonal;
   camera.tangent_y = std::tan(radians(view.angle_of_view) / 2.0) * height / diagonal;
 
-  const std::array<Eigen::Vector3d, 8> points = corners(box);
   const Fit x = fit(points, camera.forward, camera.right, (1.0 - view.margin) * camera.tangent_x);
   const Fit y = fit(points, camera.forward, camera.down, (1.0 - view.margin) * camera.tangent_y);
   camera.position = std::min(x.place, y.place) * camera.forward + x.shift * camera.right + y.shift * camera.down;
-  camera.focus = camera.forward.dot(0.5 * (points.front() + points.back()) - camera.position);
+  const Eigen::RowVectorXd depths = camera.forward.transpose() * (points.colwise() - camera.position);
+  camera.focus = 0.5 * (depths.minCoeff() + depths.maxCoeff());
   return camera;
+}
+
+Camera framing(const base::Box& box, UpAxis up, int width, int height, const View& view) {
+  if (box.empty()) return framing(Eigen::Matrix3Xd(3, 0), up, width, height, view);
+  Eigen::Matrix3Xd corners(3, 8);
+  for (int i = 0; i < 8; ++i) {
+    corners.col(i) << (i & 1 ? box.upper.x : box.lower.x), (i & 2 ? box.upper.y : box.lower.y),
+        (i & 4 ? box.upper.z : box.lower.z);
+  }
+  return framing(corners, up, width, height, view);
 }
 
 PicturePoint project(const Camera& camera, const Eigen::Vector3d& point, int width, int height) {

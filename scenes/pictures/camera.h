@@ -25,12 +25,13 @@ struct View {
   double azimuth = 32.0;        // degrees around the up axis; 0: from the front (+z if y is up, -y if z is up)
   double elevation = 22.0;      // degrees above the horizon, -89 to 89
   double angle_of_view = 30.0;  // degrees along the diagonal of the picture, 1 to 120
-  double margin = 0.08;         // share of the picture's half that stays free at each side, 0 to 0.9
+  double margin = 0.1;          // share of the picture's half that stays free at each side, 0 to 0.9
 };
 
-// The camera that looks along `view`, as near as the corners of `box` stay inside a picture of this size with the
-// margin. One camera for the union of the boxes of all frames keeps a film still. An empty box counts as the unit box
-// around the origin, one without extent is given some.
+// The camera that looks along `view`, as near as all `points` (3 x N, metres) stay inside a picture of this size with
+// the margin. Without points it shows the unit box around the origin; points without extent are given some room.
+Camera framing(const Eigen::Matrix3Xd& points, UpAxis up, int width, int height, const View& view = {});
+// The same for the corners of a box. One camera for the union of the boxes of all frames keeps a film still.
 Camera framing(const base::Box& box, UpAxis up, int width, int height, const View& view = {});
 
 // A point in pixels from the picture's top left corner; its depth is the distance along `forward`, metres.

@@ -13,14 +13,14 @@ namespace tact::scenes {
 namespace {
 
 constexpr double kCrease = 50.0;           // degrees
-constexpr double kArrowThickness = 0.011;  // of the shaft, in units of the drawn scene
-constexpr double kRingThickness = 0.006;   // likewise, of a disk's rim
+constexpr double kArrowThickness = 0.016;  // of the shaft, in units of the drawn scene
+constexpr double kRingThickness = 0.008;   // likewise, of a disk's rim
 // Share of a mark in what is seen, in the open and behind a body.
 constexpr float kFacetOpacity = 0.92f;
 constexpr float kFacetHiddenOpacity = 0.4f;
-constexpr float kSymbolHiddenOpacity = 0.6f;
+constexpr float kSymbolHiddenOpacity = 0.7f;
 constexpr float kDiskOpacity = 0.28f;
-constexpr float kDiskHiddenOpacity = 0.14f;
+constexpr float kDiskHiddenOpacity = 0.2f;
 
 // From the scene's coordinates to those of the drawn scene.
 class Placement {

@@ -11,9 +11,9 @@ namespace {
 
 constexpr float kSunRadius = 0.07f;  // tangent of half the angle under which the sun is seen
 constexpr float kReach = 0.8f;       // how far blockers darken the sky, in units of the drawn scene
-const Light kZenith{0.78f, 0.88f, 1.0f};
-const Light kHorizon{0.62f, 0.66f, 0.72f};
-const Light kFloor{0.46f, 0.45f, 0.43f};
+const Light kZenith{0.56f, 0.63f, 0.72f};
+const Light kHorizon{0.44f, 0.47f, 0.51f};
+const Light kFloor{0.36f, 0.35f, 0.33f};
 
 }  // namespace
 
@@ -24,16 +24,29 @@ Lights::Lights(const DrawnScene& scene)
                .normalized()),
       across_sun_(tangents(sun_)) {}
 
-Light Lights::sky(const LitPoint& point, const BundlePoints& points, const Light& bounce) const {
+Light Lights::open_sky() const { return kHorizon + 2.0f / 3.0f * (kZenith - kHorizon); }
+
+bool Lights::near_sky(const Eigen::Vector3f& place) const {
+  const float reach = scene_.radius + kReach;
+  return (place - scene_.middle).squaredNorm() <= reach * reach;
+}
+
+bool Lights::near_sun(const Eigen::Vector3f& place) const {
+  const Eigen::Vector3f from_middle = place - scene_.middle;
+  const float along = from_middle.dot(sun_);
+  const float reach = scene_.radius + kSunRadius * std::max(0.0f, scene_.radius - along);
+  return along <= scene_.radius && from_middle.squaredNorm() - along * along <= reach * reach;
+}
+
+Light Lights::sky(const LitPoint& point, const DiskPoints& points, const Light& bounce) const {
   RayBundle bundle{.origin = point.place, .directions = {}, .farthest = kReach};
   const auto [first, second] = tangents(point.normal);
   for (std::size_t i = 0; i < kBundle; ++i) {
-    const Eigen::Vector2f across = disk_point(points[i]);
+    const Eigen::Vector2f& across = points[i];
     const float along = std::sqrt(std::max(0.0f, 1.0f - across.squaredNorm()));
     bundle.directions[i] = across.x() * first + across.y() * second + along * point.normal;
   }
-  const bool near = (point.place - scene_.middle).squaredNorm() <= (scene_.radius + kReach) * (scene_.radius + kReach);
-  const unsigned blocked = near ? scene_.blockers.hits(bundle) : 0u;
+  const unsigned blocked = near_sky(point.place) ? scene_.blockers.hits(bundle) : 0u;
 
   Light sum = Light::Zero();
   for (std::size_t i = 0; i < kBundle; ++i) {
@@ -51,14 +64,11 @@ Light Lights::sky(const LitPoint& point, const BundlePoints& points, const Light
   return sum / static_cast<float>(kBundle);
 }
 
-float Lights::sun_seen(const LitPoint& point, const BundlePoints& points) const {
-  const Eigen::Vector3f from_middle = point.place - scene_.middle;
-  const float along = from_middle.dot(sun_);
-  const float reach = scene_.radius + kSunRadius * std::max(0.0f, scene_.radius - along);
-  if (along > scene_.radius || from_middle.squaredNorm() - along * along > reach * reach) return 1.0f;
+float Lights::sun_seen(const LitPoint& point, const DiskPoints& points) const {
+  if (!near_sun(point.place)) return 1.0f;
   RayBundle bundle{.origin = point.place, .directions = {}, .farthest = std::numeric_limits<float>::infinity()};
   for (std::size_t i = 0; i < kBundle; ++i) {
-    const Eigen::Vector2f across = kSunRadius * disk_point(points[i]);
+    const Eigen::Vector2f across = kSunRadius * points[i];
     bundle.directions[i] = (sun_ + across.x() * across_sun_.first + across.y() * across_sun_.second).normalized();
   }
   return 1.0f - static_cast<float>(std::popcount(scene_.blockers.hits(bundle))) / static_cast<float>(kBundle);

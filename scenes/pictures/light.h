@@ -2,15 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
 
 #include "scenes/pictures/drawn_scene.h"
 #include "scenes/pictures/sampling.h"
 
 namespace tact::scenes {
-
-// The points of the unit square that one sample uses, for the sky and for the sun.
-using BundlePoints = std::array<SquarePoint, kBundle>;
 
 // A point that is lit, in the units of the drawn scene.
 struct LitPoint {
@@ -26,14 +22,21 @@ class Lights {
 
   // The direction to the sun, unit.
   const Eigen::Vector3f& sun() const { return sun_; }
-  // Light from the sky that a white surface throws back; where rays are blocked it gets a little of `bounce`.
-  Light sky(const LitPoint& point, const BundlePoints& points, const Light& bounce) const;
+  const Light& sun_light() const { return sun_light_; }
+  // Light from the sky on a level surface with nothing in the way.
+  Light open_sky() const;
+  // May an opaque body keep light away from the point? If not, all of the sky above it and of the sun are seen.
+  bool near_sky(const Eigen::Vector3f& place) const;
+  bool near_sun(const Eigen::Vector3f& place) const;
+  // Light from the sky and from the floor; where rays are blocked it is `bounce` instead.
+  Light sky(const LitPoint& point, const DiskPoints& points, const Light& bounce) const;
   // The share of the sun that is seen, 0 to 1.
-  float sun_seen(const LitPoint& point, const BundlePoints& points) const;
+  float sun_seen(const LitPoint& point, const DiskPoints& points) const;
 
  private:
   const DrawnScene& scene_;
   Eigen::Vector3f sun_;
+  Light sun_light_{1.42f, 1.34f, 1.2f};
   Tangents across_sun_;
 };
 

@@ -58,7 +58,9 @@ inline Eigen::Vector3d up_vector(UpAxis up) {
   return up == UpAxis::y ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
 }
 
-// The box of all vertices that a facet uses; empty if there is none. Marks do not count.
+// The positions of the corners of all facets, 3 x N, a vertex once for each facet that uses it. Marks do not count.
+Eigen::Matrix3Xd used_positions(const PictureScene& scene);
+// The box around them; empty if there is none.
 base::Box bounding_box(const PictureScene& scene);
 
 }  // namespace tact::scenes

@@ -20,16 +20,27 @@ namespace {
 constexpr float kAbove = 2e-4f;   // how far above a surface its rays start, in units of the drawn scene
 constexpr int kSeeThrough = 8;    // see-through surfaces one behind the other; the next counts as opaque
 constexpr std::size_t kRows = 4;  // rows of pixels that a thread takes at a time
-const Light kSunLight{2.05f, 1.93f, 1.72f};
 const Color kInk{38, 44, 54};
 
 // Places of the samples in a pixel.
-constexpr SquarePoint kOneSample[] = {{0.5f, 0.5f}};
-constexpr SquarePoint kFourSamples[] = {{0.375f, 0.125f}, {0.875f, 0.375f}, {0.625f, 0.875f}, {0.125f, 0.625f}};
+struct PixelPoint {
+  float x = 0.0f;
+  float y = 0.0f;
+};
+constexpr PixelPoint kOneSample[] = {{0.5f, 0.5f}};
+constexpr PixelPoint kFourSamples[] = {{0.375f, 0.125f}, {0.875f, 0.375f}, {0.625f, 0.875f}, {0.125f, 0.625f}};
 
 float smoothstep(float from, float to, float value) {
   const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
   return t * t * (3.0f - 2.0f * t);
+}
+
+// Bright light approaches white without reaching it, so that lit surfaces keep their form. It works on samples, not on
+// pixels: a bright sample must not outshine the others at the rim of a body.
+Light shoulder(const Light& light) {
+  constexpr float kStart = 0.62f;
+  constexpr float kRoom = 1.0f - kStart;
+  return light.unaryExpr([](float v) { return v <= kStart ? v : 1.0f - kRoom * std::exp((kStart - v) / kRoom); });
 }
 
 // Where a ray meets a mesh, and how the surface is turned there.
@@ -42,8 +53,8 @@ struct Surface {
 };
 
 struct Sample {
-  BundlePoints sky;
-  BundlePoints sun;
+  std::uint32_t index = 0;  // in its pixel
+  PixelTurn turn;
   Light backdrop;
 };
 
@@ -54,7 +65,8 @@ class Painter {
         lights_(scene),
         width_(settings.width),
         height_(settings.height),
-        samples_(settings.quality == Quality::draft ? std::span<const SquarePoint>(kOneSample) : kFourSamples) {}
+        samples_(settings.quality == Quality::draft ? std::span<const PixelPoint>(kOneSample) : kFourSamples),
+        pattern_(static_cast<std::uint32_t>(samples_.size())) {}
 
   Color pixel(int x, int y) const;
 
@@ -72,29 +84,22 @@ class Painter {
   Light backdrop_bottom_ = linear({240, 241, 240});
   int width_;
   int height_;
-  std::span<const SquarePoint> samples_;
+  std::span<const PixelPoint> samples_;
+  DiskPattern pattern_;
 };
 
 Color Painter::pixel(int x, int y) const {
-  const SquarePoint shift = pixel_shift(x, y);
-  const auto count = static_cast<std::uint32_t>(samples_.size());
+  const PixelTurn turn = pixel_turn(x, y);
   Light sum = Light::Zero();
-  for (std::uint32_t s = 0; s < count; ++s) {
-    const float px = static_cast<float>(x) + samples_[s].u;
-    const float py = static_cast<float>(y) + samples_[s].v;
-    const float across = 2.0f * px / static_cast<float>(width_) - 1.0f;
-    const float down = 2.0f * py / static_cast<float>(height_) - 1.0f;
-    Sample sample;
-    for (std::uint32_t i = 0; i < kBundle; ++i) {
-      const SquarePoint point = hammersley(i * count + s, kBundle * count);
-      sample.sky[i] = shifted(point, shift);
-      sample.sun[i] = shifted(point, {shift.v, shift.u});
-    }
+  for (std::uint32_t i = 0; i < samples_.size(); ++i) {
+    const float across = 2.0f * (static_cast<float>(x) + samples_[i].x) / static_cast<float>(width_) - 1.0f;
+    const float down = 2.0f * (static_cast<float>(y) + samples_[i].y) / static_cast<float>(height_) - 1.0f;
+    Sample sample{.index = i, .turn = turn, .backdrop = {}};
     sample.backdrop = backdrop_top_ + smoothstep(-1.1f, 0.7f, down) * (backdrop_bottom_ - backdrop_top_);
     const Eigen::Vector3f direction = (scene_.forward + across * scene_.right + down * scene_.down).normalized();
-    sum += trace({.origin = scene_.eye, .direction = direction}, sample);
+    sum += shoulder(trace({.origin = scene_.eye, .direction = direction}, sample));
   }
-  return displayed(sum / static_cast<float>(count));
+  return displayed(sum / static_cast<float>(samples_.size()));
 }
 
 // Front to back through what is see-through, then the marks over it.
@@ -176,14 +181,14 @@ float Painter::edge_seen(const DrawnMesh& mesh, const RayHit& hit) const {
 Light Painter::shaded(const DrawnMesh& mesh, const Surface& met, const Ray& ray, const Sample& sample) const {
   const Light reflectance = (met.inner ? 0.72f : 1.0f) * (1.0f - 0.3f * met.edge) * mesh.reflectance;
   const LitPoint point{met.place, met.normal};
-  Light light = lights_.sky(point, sample.sky, 0.16f * mesh.reflectance);
+  Light light = lights_.sky(point, pattern_.points(sample.index, sample.turn), 0.12f * mesh.reflectance);
   Light shine = Light::Zero();
   const float towards_sun = met.normal.dot(lights_.sun());
   if (towards_sun > 0.0f) {
-    const float seen = lights_.sun_seen(point, sample.sun);
-    light += towards_sun * seen * kSunLight;
+    const float seen = lights_.sun_seen(point, pattern_.points(sample.index, sample.turn));
+    light += towards_sun * seen * lights_.sun_light();
     const Eigen::Vector3f half = (lights_.sun() - ray.direction).normalized();
-    shine = 0.05f * seen * std::pow(std::max(0.0f, half.dot(met.normal)), 28.0f) * kSunLight;
+    shine = 0.05f * seen * std::pow(std::max(0.0f, half.dot(met.normal)), 28.0f) * lights_.sun_light();
   }
   return reflectance.cwiseProduct(light) + shine;
 }
@@ -191,12 +196,15 @@ Light Painter::shaded(const DrawnMesh& mesh, const Surface& met, const Ray& ray,
 // The floor is the backdrop itself, darkened where bodies keep light away: it has no end and no horizon.
 Light Painter::floor(const Eigen::Vector3f& place, const Sample& sample) const {
   const LitPoint point{place + kAbove * scene_.up, scene_.up};
-  const Light full{0.73f, 0.79f, 0.88f};  // what sky() gives where nothing is in the way
-  const float towards_sun = scene_.up.dot(lights_.sun());
-  const Light open = full + towards_sun * kSunLight;
-  const Light light =
-      lights_.sky(point, sample.sky, 0.1f * full) + towards_sun * lights_.sun_seen(point, sample.sun) * kSunLight;
-  return sample.backdrop.cwiseProduct(light.cwiseQuotient(open));
+  const bool near_sky = lights_.near_sky(place);
+  const bool near_sun = lights_.near_sun(place);
+  if (!near_sky && !near_sun) return sample.backdrop;
+  const DiskPoints points = pattern_.points(sample.index, sample.turn);
+  const Light open = lights_.open_sky();
+  const Light sun = scene_.up.dot(lights_.sun()) * lights_.sun_light();
+  const Light sky = near_sky ? lights_.sky(point, points, 0.1f * open) : open;
+  const float seen = near_sun ? lights_.sun_seen(point, points) : 1.0f;
+  return sample.backdrop.cwiseProduct((sky + seen * sun).cwiseQuotient(open + sun));
 }
 
 // Marks are lit from the viewer, so that they read the same everywhere.
@@ -235,7 +243,7 @@ Picture Renderer::render(const PictureScene& scene, const Camera& camera) {
 }
 
 Picture Renderer::render(const PictureScene& scene) {
-  return render(scene, framing(bounding_box(scene), scene.up, settings_.width, settings_.height));
+  return render(scene, framing(used_positions(scene), scene.up, settings_.width, settings_.height));
 }
 
 }  // namespace tact::scenes
