@@ -1,0 +1,138 @@
+#include "scenes/check_command.h"
+
+#include <fmt/format.h>
+#include <tact/world.h>
+
+#include <CLI/Validators.hpp>
+#include <algorithm>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "engine/base/parallel.h"
+#include "scenes/body_files.h"
+#include "scenes/common_options.h"
+#include "scenes/output_file.h"
+#include "scenes/progress_line.h"
+#include "scenes/report_json.h"
+#include "scenes/report_table.h"
+#include "scenes/usage_error.h"
+
+namespace tact::scenes {
+namespace {
+
+constexpr const char* kExamples = R"(A folder is one moving body: its mesh files in the order of their names, a file a
+frame; all folders must hold the same number of frames. A single file stands still.
+A body's name is its file's or folder's name; a repeated one gets #2 and so on.
+
+Examples:
+  tact check spot.ply fish.obj
+  tact check sphere.obj cloth_frames/ --sheet cloth_frames --json contacts.json
+  tact check part.stl part.stl --sheet part.stl#2 --accuracy hulls
+  tact check a.off b.off c.off --json - | python3 -m json.tool)";
+
+void mark_sheets(const std::vector<std::string>& sheets, std::vector<BodyFrames>& bodies) {
+  for (const std::string& sheet : sheets) {
+    const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const BodyFrames& b) { return b.name == sheet; });
+    if (found != bodies.end()) {
+      found->surface = Surface::sheet;
+      continue;
+    }
+    std::string names;
+    for (const BodyFrames& body : bodies) names += (names.empty() ? "" : ", ") + body.name;
+    throw UsageError(fmt::format("--sheet {}: no body has this name; the bodies are: {}", sheet, names));
+  }
+}
+
+// The engine's message names the body; the file tells which frame it is.
+[[noreturn]] void rethrow_for_file(const std::filesystem::path& file, const Error& error) {
+  throw FileError(fmt::format("{}: {}", file.string(), error.what()));
+}
+
+// Bodies that stand still are moving ones that do not move: two of them must still be tested.
+std::vector<BodyId> add_bodies(const std::vector<BodyFrames>& bodies, World& world) {
+  std::vector<BodyId> ids;
+  for (const BodyFrames& body : bodies) {
+    try {
+      ids.push_back(world.add_body(
+          {.positions = body.positions.front(), .facets = body.facets, .surface = body.surface, .name = body.name}));
+    } catch (const Error& error) {
+      rethrow_for_file(body.files.front(), error);
+    }
+  }
+  return ids;
+}
+
+void set_frame(const std::vector<BodyFrames>& bodies, const std::vector<BodyId>& ids, int frame, World& world) {
+  std::vector<PositionsUpdate> updates;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].moves) updates.push_back({ids[i], bodies[i].positions[static_cast<std::size_t>(frame)]});
+  }
+  world.set_positions(updates);
+}
+
+int frames_to_step(const CheckOptions& options, const std::vector<BodyFrames>& bodies) {
+  const int held = frame_count(bodies);
+  return held > 0 ? held : std::max(options.frames, 1);
+}
+
+}  // namespace
+
+void check(const CheckOptions& options, std::ostream& out) {
+  const int most_frames = options.frames > 0 ? options.frames : std::numeric_limits<int>::max();
+  std::vector<BodyFrames> bodies = read_bodies(options.meshes, most_frames);
+  mark_sheets(options.sheets, bodies);
+  const int threads = options.threads > 0 ? options.threads : base::default_threads();
+  World world({.threads = threads, .accuracy = options.accuracy});
+  const std::vector<BodyId> ids = add_bodies(bodies, world);
+
+  std::optional<OutputFile> json_file;
+  std::optional<JsonReport> json;
+  if (!options.json.empty()) {
+    json_file.emplace(options.json, out);
+    json.emplace(json_file->stream(), world);
+  }
+  std::optional<TableReport> table;
+  if (options.json != "-") table.emplace(out, world);
+
+  const int frames = frames_to_step(options, bodies);
+  ProgressLine progress(frames);
+  for (int frame = 0; frame < frames; ++frame) {
+    if (frame > 0) set_frame(bodies, ids, frame, world);
+    const Report& report = world.detect();
+    if (json) json->add_frame(frame, report);
+    if (table) table->add_frame(frame, report);
+    progress.show(frame + 1);
+  }
+  progress.clear();
+  if (json) {
+    json->finish();
+    json_file->finish();
+  }
+  if (table) table->finish();
+}
+
+void add_check_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("check", "Find where the bodies of mesh files touch");
+  const auto options = std::make_shared<CheckOptions>();
+  const auto meshes = std::make_shared<std::vector<std::string>>();
+  command->footer(kExamples);
+  command->add_option("MESH", *meshes, "Mesh files (.obj, .off, .ply, .stl) and folders of them")->required();
+  command->add_option("--sheet", options->sheets, "This body is a sheet: cloth, without an inside; may be repeated")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  add_accuracy_option(*command, options->accuracy);
+  add_threads_option(*command, options->threads);
+  command
+      ->add_option("--frames", options->frames, "Step through the first N frames only; without folders, step N times")
+      ->type_name("N")
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()));
+  add_json_option(*command, options->json);
+  command->callback([options, meshes] {
+    options->meshes.assign(meshes->begin(), meshes->end());
+    check(*options, std::cout);
+  });
+}
+
+}  // namespace tact::scenes

@@ -1,0 +1,32 @@
+// `tact check`: which of the bodies given as mesh files touch, frame by frame.
+#pragma once
+
+#include <tact/settings.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace tact::scenes {
+
+struct CheckOptions {
+  std::vector<std::filesystem::path> meshes;  // files that stand still and folders that move
+  std::vector<std::string> sheets;            // names of the bodies that are sheets, the others being closed
+  Accuracy accuracy = Accuracy::exact;
+  int threads = 0;   // 0: as many as OpenMP would use
+  int frames = 0;    // of folders the first so many; without a folder the number of steps; 0: all, or one
+  std::string json;  // the file to write, "-" for standard output; empty: none
+};
+
+// Reads all files first, so that nothing is written if one is bad; then steps one world through the frames. Without
+// "-" for JSON, tables go to `out`. Errors: FileError, UsageError (a sheet that is no body), Error.
+void check(const CheckOptions& options, std::ostream& out);
+
+// Adds the subcommand `check` to `program`; to parse it is to run it.
+void add_check_command(CLI::App& program);
+
+}  // namespace tact::scenes

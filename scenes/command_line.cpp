@@ -1,0 +1,62 @@
+#include "scenes/command_line.h"
+
+#include <fmt/format.h>
+#include <tact/error.h>
+#include <tact/version.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <new>
+#include <string>
+
+#include "scenes/check_command.h"
+#include "scenes/file_error.h"
+#include "scenes/usage_error.h"
+
+namespace tact::scenes {
+namespace {
+
+constexpr int kBadInput = 1;
+constexpr int kWrongUsage = 2;
+
+// Names of files may hold ends of lines; a message is one line.
+int fail(int status, std::string message) {
+  std::replace_if(
+      message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+  fmt::print(stderr, "tact: {}\n", message);
+  return status;
+}
+
+int fail_usage(const std::string& message) { return fail(kWrongUsage, message + " (see tact --help)"); }
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  CLI::App program("Finds where many deformable bodies touch.", "tact");
+  program.set_version_flag("--version", "tact " TACT_VERSION, "Print the version and exit");
+  program.require_subcommand(1);
+  program.footer(
+      "Exit status: 0 done; 1 the input is bad; 2 wrong usage.\n`tact COMMAND --help` tells about a command.");
+  add_check_command(program);
+  try {
+    program.parse(argc, argv);
+    return 0;
+  } catch (const CLI::Success& success) {  // --help or --version
+    return program.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return fail_usage(error.what());
+  } catch (const UsageError& error) {
+    return fail_usage(error.what());
+  } catch (const FileError& error) {
+    return fail(kBadInput, error.what());
+  } catch (const Error& error) {
+    return error.code() == ErrorCode::bad_settings ? fail_usage(error.what()) : fail(kBadInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kBadInput, "out of memory");
+  }
+}
+
+}  // namespace tact::scenes

@@ -1,0 +1,31 @@
+#include "scenes/source.h"
+
+#include <fmt/format.h>
+
+namespace tact::scenes {
+
+void Source::set_item(std::string_view kind, std::int64_t index) {
+  item_kind_ = kind;
+  item_index_ = index;
+}
+
+void Source::fail(const std::string& message) const {
+  const std::string item = item_kind_.empty() ? std::string() : fmt::format("{} {}: ", item_kind_, item_index_);
+  throw FileError(fmt::format("{}{}: {}{}", file_, place(), item, message));
+}
+
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string result = "'";
+  for (const char c : text.substr(0, kLongest)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte > 0x7e) {
+      result += fmt::format("\\x{:02x}", byte);
+    } else {
+      result += c;
+    }
+  }
+  return result + (text.size() > kLongest ? "...'" : "'");
+}
+
+}  // namespace tact::scenes
