@@ -28,7 +28,7 @@ struct Settings {
   DirectionPolicy direction = DirectionPolicy::carried;
   double gjk_tolerance = 1e-12;                          // relative gap at which GJK stops, 1e-15 to 0.1
   int iteration_limit = 100;                             // shifted calls of GJK a pair and step, at least 1
-  Outputs outputs;
+  Outputs outputs = {};
 };
 
 }  // namespace tact
