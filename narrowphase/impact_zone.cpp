@@ -155,7 +155,8 @@ ImpactZone impact_zone(const ClusteredMesh& mesh, const Slab& slab, std::vector<
       take_crossings(mesh, cluster, projection, planes, scratch);
   }
   if (scratch.empty()) return {};
-  const double error = 1.5 * (slab.error + 16.0 * kUnitRoundoff * reach(mesh.box(), slab.origin));
+  constexpr double kUnderflow = 16.0 * std::numeric_limits<double>::denorm_min();  // of coordinates below 1e-290
+  const double error = 1.5 * (slab.error + 16.0 * kUnitRoundoff * reach(mesh.box(), slab.origin)) + kUnderflow;
   return {smallest_enclosing_disk(scratch), error};
 }
 
