@@ -67,6 +67,13 @@ void BoxArrays::resize(std::size_t count) {
   }
 }
 
+void BoxArrays::truncate(std::size_t count) {
+  for (int axis = 0; axis < 3; ++axis) {
+    lower[axis].resize(count + kPadding);
+    upper[axis].resize(count + kPadding);
+  }
+}
+
 void BoxArrays::set(std::size_t i, const Box& box) {
   for (int axis = 0; axis < 3; ++axis) {
     lower[axis][i] = box.lower[axis];
@@ -104,6 +111,8 @@ void ClusteredMesh::group_facets(std::span<const double> positions, std::span<co
   source_facet_.resize(count);
   std::iota(source_facet_.begin(), source_facet_.end(), 0);
   MedianOrder(centers, source_facet_).sort(0, count);
+  facet_of_source_.resize(count);
+  for (int f = 0; f < facet_count(); ++f) facet_of_source_[static_cast<std::size_t>(source_facet(f))] = f;
 }
 
 void ClusteredMesh::number_vertices(std::span<const int> facets) {

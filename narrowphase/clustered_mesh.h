@@ -36,6 +36,7 @@ struct BoxArrays {
   std::vector<double> upper[3];
 
   void resize(std::size_t count);  // and kPadding empty boxes behind
+  void truncate(std::size_t count);
   void set(std::size_t i, const Box& box);
   BoxPointers pointers() const;
   Box operator[](std::size_t i) const {
@@ -65,6 +66,7 @@ class ClusteredMesh {
   int source_vertex_count() const { return source_vertex_count_; }
   int vertex_count() const { return static_cast<int>(source_vertex_.size()); }
   int facet_count() const { return static_cast<int>(source_facet_.size()); }
+  int facet_of_source(int source_facet) const { return facet_of_source_[static_cast<std::size_t>(source_facet)]; }
   int cluster_of_vertex(int vertex) const;
   int cluster_count() const { return (facet_count() + kClusterSize - 1) / kClusterSize; }
 
@@ -109,6 +111,7 @@ class ClusteredMesh {
   int source_vertex_count_ = 0;
   std::vector<int> source_vertex_;  // of each vertex
   std::vector<int> source_facet_;   // of each facet
+  std::vector<int> facet_of_source_;
   std::vector<int> corner_[3];      // of each facet
   std::vector<int> vertex_begin_;   // of each cluster, and one more
   std::vector<int> borrowed_source_;   // source vertices that a cluster uses and does not own

@@ -10,6 +10,7 @@ namespace {
 constexpr double kUnitRoundoff = 0x1p-53;
 // A height n · (x - o) is off by at most 4 roundoffs of |x - o|, n being of unit length but for rounding. Two vertices are
 // chosen, each at most two such errors below the true extreme, and n · (a - b), |a - b| <= 2 size, is off by 4 of 2 size.
+constexpr double kVertexRoundings = 4.0 * 1.05;
 constexpr double kHeightRoundings = (2.0 * 2.0 * 4.0 + 2.0 * 4.0) * 1.05;
 
 double farthest(const Box& box, Vec3 origin, int axis) {
@@ -26,6 +27,7 @@ MinkowskiDifference::MinkowskiDifference(const ClusteredMesh& a, const Clustered
   const double largest = std::max({reach.x, reach.y, reach.z});
   if (largest > 0.0) scale_ = std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000));
   size_ = norm(scale_ * reach);
+  vertex_height_error_ = kVertexRoundings * kUnitRoundoff * norm(reach);
   height_error_ = kHeightRoundings * kUnitRoundoff * size_;
 }
 

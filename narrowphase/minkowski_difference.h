@@ -34,6 +34,8 @@ class MinkowskiDifference {
   // Bounds the error of w(n) = n · support(n).point for unit n, as against the true height of M (scaled): the rounding of
   // two dot products that choose the vertices and of the one that measures.
   double height_error() const { return height_error_; }
+  // Bounds the error of n · (x - origin()) as computed, for unit n and any vertex x of A or B. Metres.
+  double vertex_height_error() const { return vertex_height_error_; }
   // The point that heights are measured from, near both bodies, so that coordinates far from zero do no harm.
   Vec3 origin() const { return origin_; }
 
@@ -47,6 +49,7 @@ class MinkowskiDifference {
   double scale_ = 1.0;
   double size_ = 0.0;
   double height_error_ = 0.0;
+  double vertex_height_error_ = 0.0;
   mutable int cluster_a_ = 0;  // where the last support was found: a hint only, never part of an answer
   mutable int cluster_b_ = 0;
 };

@@ -48,6 +48,21 @@ struct FacetBlock {
   double corner[3][3][kCapacity];  // corner, axis, facet
 };
 
+// What facets are judged by.
+struct CullPlanes {
+  HeightAxis axis;
+  double lowest;     // a facet whose highest corner is lower is not reaching
+  BoxBounds box;     // nor is one whose box misses this
+  bool facing_away;  // look at normals as well
+};
+
+// A bit a facet.
+struct CullBits {
+  std::uint64_t all;
+  std::uint64_t reaching;
+  std::uint64_t facing_away;  // n · normal <= 0, normal not zero
+};
+
 // Vertices of a cluster to be refreshed. Coordinates of source vertex s are source[3 s], source[3 s + 1], source[3 s + 2].
 struct RefreshInput {
   const double* source;
@@ -81,6 +96,9 @@ struct Kernels {
 
   // Fills `block` with `count` facets: corners[k] + first .. are the vertices of corner k.
   void (*fill_facet_block)(PointArrays points, const std::int32_t* const corners[3], int count, FacetBlock* block);
+
+  // Judges the `count` facets of `block`.
+  CullBits (*cull_facets)(const FacetBlock& block, int count, const CullPlanes& planes);
 
   // Writes the indices i < count of facets in `block` that may meet `facet`: boxes overlap, and the corners of neither are
   // certainly all on one side of the other's plane. Adds the number of overlapping boxes to `box_pairs`.

@@ -155,6 +155,32 @@ inline SideFilter plane_of(const VectorPack& c0, const VectorPack& c1, const Vec
           {add(abs(xy), abs(xz)), add(abs(yz), abs(yx)), add(abs(zx), abs(zy))}};
 }
 
+CullBits cull_facets(const FacetBlock& block, int count, const CullPlanes& planes) {
+  const BoxPack box(planes.box);
+  const HeightPack height(planes.axis);
+  const Pack lowest = spread(planes.lowest), zero = spread(0.0);
+  const double* const lower[3] = {block.lower[0], block.lower[1], block.lower[2]};
+  const double* const upper[3] = {block.upper[0], block.upper[1], block.upper[2]};
+  CullBits bits{count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1, 0, 0};
+  for (int i = 0; i < count; i += kWidth) {
+    unsigned reaching = box.overlap(lower, upper, i);
+    Pack top = height({block.corner[0][0], block.corner[0][1], block.corner[0][2]}, i);
+    for (int k = 1; k < 3; ++k) top = max(top, height({block.corner[k][0], block.corner[k][1], block.corner[k][2]}, i));
+    reaching &= less_equal(lowest, top);
+    bits.reaching |= static_cast<std::uint64_t>(reaching) << i;
+    if (!planes.facing_away) continue;
+    VectorPack c[3];
+    for (int k = 0; k < 3; ++k) c[k] = {load(block.corner[k][0] + i), load(block.corner[k][1] + i), load(block.corner[k][2] + i)};
+    const VectorPack n = plane_of(c[0], c[1], c[2]).normal;
+    const Pack along = add(add(mul(height.nx, n.x), mul(height.ny, n.y)), mul(height.nz, n.z));
+    const unsigned area = not_equal(n.x, zero) | not_equal(n.y, zero) | not_equal(n.z, zero);
+    bits.facing_away |= static_cast<std::uint64_t>(less_equal(along, zero) & area) << i;
+  }
+  bits.reaching &= bits.all;
+  bits.facing_away &= bits.all;
+  return bits;
+}
+
 int select_meeting(const FacetBlock& block, int count, const FilterFacet& facet, std::int32_t* indices,
                    std::int64_t* box_pairs) {
   const BoxPack box(facet.box);
@@ -275,6 +301,6 @@ bool refresh_cluster(const RefreshInput& in, BoxBounds* box) {
 
 extern const Kernels TACT_KERNELS;
 const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, find_large, refresh_cluster, select_heights, max_height,
-                              select_overlapping, fill_facet_block, select_meeting};
+                              select_overlapping, fill_facet_block, cull_facets, select_meeting};
 
 }  // namespace tact::narrowphase

@@ -27,13 +27,12 @@ struct ZoneDisk {
   double radius = -1.0;                              // metres; negative: not asked for, or the zone has no point
 };
 
-// A connected set of facet pairs: two pairs are neighbours if they share a facet, or their facets share vertices on both
-// bodies.
+// A connected set of facet pairs: two that share a facet are neighbours.
 struct Patch {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();      // mean of the points where the facets cross, metres
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit, from a to b
-  double depth = 0.0;                                   // overlap along `direction` of the facets in the patch, metres
-  std::vector<int> facet_pairs;                         // indices into Contact::facet_pairs(), sorted
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();      // mean of the centres of its facet pairs' common boxes, metres
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit, from a to b: the mean normal of its facets
+  double depth = 0.0;              // moving b by depth * direction parts every facet pair of the patch, metres
+  std::vector<int> facet_pairs;    // indices into Contact::facet_pairs(), ascending
 };
 
 // Two bodies whose convex hulls overlap or touch.

@@ -1,0 +1,76 @@
+// The bodies of a world: slots that are used again, ids that are not, and what changed since the last step.
+#pragma once
+
+#include <tact/body.h>
+#include <tact/world.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "broadphase/sweep_and_prune.h"
+#include "narrowphase/clustered_mesh.h"
+
+namespace tact {
+
+struct Body {
+  BodyId id;
+  std::string name;
+  Surface surface = Surface::closed;
+  Motion motion = Motion::moving;
+  std::size_t facet_count = 0;
+  narrowphase::ClusteredMesh mesh;
+};
+
+class Bodies {
+ public:
+  explicit Bodies(std::uint32_t world) : world_(world) {}
+
+  BodyId add(const BodyDefinition& definition);
+  void remove(BodyId id);
+  void set_positions(std::span<const PositionsUpdate> updates, int threads);
+  void set_positions(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions, int threads);
+
+  bool contains(BodyId id) const noexcept;
+  // Errors: stale_body, foreign_body.
+  const Body& at(BodyId id) const;
+  const Body& in_slot(std::uint32_t slot) const { return *slots_[slot].body; }
+  std::size_t count() const noexcept { return count_; }
+  std::vector<BodyId> ids() const;
+
+  // What the broad phase sees, an entry a slot; the box of an empty slot is empty.
+  std::span<const base::Box> boxes() const { return boxes_; }
+  std::span<const broadphase::Filter> filters() const { return filters_; }
+  // Slots whose body was added, removed or moved since end_step().
+  std::span<const std::uint32_t> changed() const { return changed_; }
+  bool moved(std::uint32_t slot) const { return slots_[slot].changed; }
+  bool used(std::uint32_t slot) const { return slots_[slot].body != nullptr; }
+
+  // The step has seen the changes: nothing has moved.
+  void end_step();
+  // Everything has moved: after a step that failed half-way.
+  void mark_all_changed();
+
+ private:
+  struct Slot {
+    std::unique_ptr<Body> body;
+    std::uint32_t generation = 0;
+    bool changed = false;
+  };
+
+  Body& writable(BodyId id) { return const_cast<Body&>(at(id)); }
+  Body& checked_update(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions);
+  void mark_changed(std::uint32_t slot);
+
+  std::uint32_t world_;
+  std::vector<Slot> slots_;
+  std::vector<std::uint32_t> free_;
+  std::vector<base::Box> boxes_;
+  std::vector<broadphase::Filter> filters_;
+  std::vector<std::uint32_t> changed_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace tact

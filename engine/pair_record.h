@@ -1,0 +1,47 @@
+// What a pair of bodies keeps from step to step, for as long as it is a candidate.
+#pragma once
+
+#include <tact/report.h>
+
+#include <optional>
+#include <vector>
+
+#include "narrowphase/gjk.h"
+
+namespace tact {
+
+// What the last step says about the direction: where the next one starts.
+struct PairHistory {
+  enum class Kind { none, separated, overlapping } kind = Kind::none;
+  base::Vec3 direction;            // unit, from a to b: separates the hulls, or is their contact direction
+  narrowphase::GjkSimplex hulls;   // where GJK on the hulls ended
+  narrowphase::GjkSimplex face;    // the face of the Minkowski difference that held the foot
+};
+
+// What happened in the last step that looked at the pair.
+struct PairCounts {
+  std::int64_t gjk_iterations = 0;
+  std::int64_t facets_facing_away = 0;
+  std::int64_t facets_outside_zone = 0;
+  std::int64_t cluster_pairs = 0;
+  std::int64_t facet_box_pairs = 0;
+  std::int64_t triangle_tests = 0;
+  std::int64_t exact_predicates = 0;
+  bool still_separated = false;
+  bool used_trees = false;
+  bool limit_reached = false;
+  double hulls_ms = 0.0, direction_ms = 0.0, cull_ms = 0.0, confirm_ms = 0.0;
+};
+
+struct PairRecord {
+  BodyId a, b;
+  PairHistory history;
+  bool hulls_overlap = false;
+  Contact contact;                     // if hulls_overlap
+  std::vector<FacetPair> facet_pairs;  // sorted
+  std::vector<Patch> patches;
+  PairCounts counts;
+  bool touched = false;  // in the step before this one
+};
+
+}  // namespace tact

@@ -1,0 +1,227 @@
+#include "engine/pair_work.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/parallel.h"
+#include "engine/base/timer.h"
+#include "narrowphase/contact_direction.h"
+#include "narrowphase/expanding_polytope.h"
+
+namespace tact {
+
+namespace {
+
+using base::Timer;
+using base::Vec3;
+using namespace narrowphase;
+
+constexpr std::size_t kPairsPerRange = 1024;  // cluster pairs
+constexpr std::size_t kLargePair = 4 * kPairsPerRange;
+
+Eigen::Vector3d to_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
+
+void set_apart(PairRecord& record, Vec3 direction) {
+  record.hulls_overlap = false;
+  record.history.kind = PairHistory::Kind::separated;
+  record.history.direction = direction;
+  record.history.face = {};
+}
+
+// Stage 3. A direction that parted the hulls in the last step, or in which they touched, is asked first: one support query
+// a body. Leaves the direction that parts the hulls in the history; returns whether they overlap, or nearly do.
+bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, const GjkSettings& settings) {
+  PairHistory& history = record.history;
+  if (history.kind != PairHistory::Kind::none) {
+    ++record.counts.gjk_iterations;
+    if (dot(history.direction, m.support(history.direction).point) < -m.height_error()) {
+      record.counts.still_separated = history.kind == PairHistory::Kind::separated;
+      set_apart(record, history.direction);
+      return false;
+    }
+  }
+  const GjkResult hulls = gjk(m, {}, history.hulls, settings);
+  history.hulls = hulls.simplex;
+  record.counts.gjk_iterations += hulls.support_queries;
+  record.counts.limit_reached = hulls.status == GjkStatus::limit_reached;
+  if (hulls.status != GjkStatus::apart) return true;
+  set_apart(record, normalized(-hulls.offset));
+  return false;
+}
+
+struct Direction {
+  ContactDirection found;
+  DirectionSource source = DirectionSource::smallest;
+};
+
+// Stage 4. A pair that is new and already overlapping starts from its smallest separation.
+Direction find_direction(PairRecord& record, const MinkowskiDifference& m, const Settings& settings) {
+  const DirectionSettings direction_settings{{settings.gjk_tolerance}, settings.iteration_limit};
+  const PairHistory& history = record.history;
+  const bool fresh_start = history.kind == PairHistory::Kind::none;
+  if (!fresh_start && settings.direction == DirectionPolicy::carried) {
+    const bool carried = history.kind == PairHistory::Kind::overlapping;
+    return {contact_direction(m, history.direction, history.face, direction_settings),
+            carried ? DirectionSource::carried : DirectionSource::fresh};
+  }
+  const Vec3 preferred = fresh_start ? Vec3{0.0, 0.0, 1.0} : history.direction;
+  const SmallestSeparation smallest = smallest_separation(m, preferred);
+  Direction direction{contact_direction(m, smallest.direction, {}, direction_settings), DirectionSource::smallest};
+  direction.found.limit_reached = direction.found.limit_reached || smallest.limit_reached;
+  return direction;
+}
+
+Slab slab_of(const MinkowskiDifference& m, Vec3 n) {
+  const double upper = support(m.a(), n, m.origin()).height, lower = -support(m.b(), -n, m.origin()).height;
+  return make_slab(n, m.origin(), lower, upper, m.vertex_height_error());
+}
+
+ZoneDisk zone_disk(const Slab& slab, const ImpactZone& zone, double height) {
+  if (zone.disk.radius < 0.0) return {};
+  return {to_eigen(slab.origin + zone.disk.center.x * slab.u + zone.disk.center.y * slab.v + height * slab.n), zone.disk.radius};
+}
+
+void fill_contact(PairRecord& record, const MinkowskiDifference& m, const Direction& direction, const Slab& slab) {
+  Contact& contact = record.contact;
+  contact = Contact{};
+  contact.a = record.a;
+  contact.b = record.b;
+  contact.direction = to_eigen(slab.n);
+  contact.depth = std::max(0.0, direction.found.height / m.scale());
+  contact.source = direction.source;
+  contact.iterations = direction.found.iterations;
+  contact.limit_reached = record.counts.limit_reached || direction.found.limit_reached;
+  const double base = dot(slab.n, slab.origin);
+  contact.plane_a = base + slab.upper;
+  contact.plane_b = base + slab.lower;
+}
+
+// Stage 5.
+void cull(PairRecord& record, const Body& a, const Body& b, const Slab& slab, const Settings& settings, EmbreeDevice& device,
+          PairWork& work) {
+  const bool paper = settings.accuracy == Accuracy::paper;
+  ImpactZone zone_a, zone_b;
+  const bool zones = paper || settings.outputs.zones;
+  if (zones) {
+    zone_a = impact_zone(a.mesh, slab, work.zone_points);
+    zone_b = impact_zone(b.mesh, slab, work.zone_points);
+    record.contact.zone_a = zone_disk(slab, zone_a, slab.lower);
+    record.contact.zone_b = zone_disk(slab, zone_b, slab.upper);
+  }
+  work.input = {.a = &a.mesh,
+                .b = &b.mesh,
+                .criteria_a = criteria_for_a(slab, zones ? &zone_b : nullptr, paper && a.surface == Surface::closed),
+                .criteria_b = criteria_for_b(slab, zones ? &zone_a : nullptr, paper && b.surface == Surface::closed),
+                .kept_a = &work.kept_a,
+                .kept_b = &work.kept_b};
+  cull_clusters(a.mesh, work.input.criteria_a, b.mesh.box(), work.kept_a);
+  cull_clusters(b.mesh, work.input.criteria_b, work.kept_a.bounds, work.kept_b);
+  cull_again(work.kept_b.bounds, work.kept_a);
+  record.counts.used_trees = find_cluster_pairs(work.kept_a, work.kept_b, ClusterPairSource::automatic, device, work.cluster_pairs);
+  record.counts.cluster_pairs = static_cast<std::int64_t>(work.cluster_pairs.size());
+}
+
+void add(CullCounts& sum, const CullCounts& one) {
+  sum.facing_away += one.facing_away;
+  sum.outside_slab += one.outside_slab;
+  sum.outside_zone += one.outside_zone;
+  sum.kept += one.kept;
+}
+
+void finish(PairWork& work, const ConfirmCounts& counts) {
+  PairRecord& record = *work.record;
+  std::sort(record.facet_pairs.begin(), record.facet_pairs.end());
+  record.contact.kept_facets_a = work.cull_a.kept;
+  record.contact.kept_facets_b = work.cull_b.kept;
+  record.counts.facets_facing_away = work.cull_a.facing_away + work.cull_b.facing_away;
+  record.counts.facets_outside_zone = work.cull_a.outside_zone + work.cull_b.outside_zone;
+  record.counts.facet_box_pairs = counts.facet_box_pairs;
+  record.counts.triangle_tests = counts.triangle_tests;
+  record.counts.exact_predicates = counts.predicates.exact;
+}
+
+}  // namespace
+
+bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, const Settings& settings,
+                             EmbreeDevice& device, PairWork& work) {
+  Timer timer;
+  record.counts = {};
+  record.facet_pairs.clear();
+  record.patches.clear();
+  const MinkowskiDifference m(a.mesh, b.mesh);
+  const bool overlap = hulls_overlap(record, m, {settings.gjk_tolerance});
+  record.counts.hulls_ms = timer.lap();
+  if (!overlap) return false;
+
+  const Direction direction = find_direction(record, m, settings);
+  record.counts.gjk_iterations += direction.found.support_queries;
+  if (direction.found.height < -m.height_error()) {  // GJK could not tell, the direction can
+    set_apart(record, direction.found.n);
+    record.counts.direction_ms = timer.lap();
+    return false;
+  }
+  record.hulls_overlap = true;
+  record.history.kind = PairHistory::Kind::overlapping;
+  record.history.direction = direction.found.n;
+  record.history.face = direction.found.face;
+  const Slab slab = slab_of(m, direction.found.n);
+  fill_contact(record, m, direction, slab);
+  record.counts.direction_ms = timer.lap();
+  if (settings.accuracy == Accuracy::hulls) return false;
+
+  work.record = &record;
+  cull(record, a, b, slab, settings, device, work);
+  record.counts.cull_ms = timer.lap();
+  return !work.cluster_pairs.empty();
+}
+
+void confirm(PairWork& work) {
+  Timer timer;
+  ConfirmCounts counts;
+  work.search.run(work.input, work.cluster_pairs, 0, work.cluster_pairs.size(), work.record->facet_pairs, counts);
+  work.cull_a = work.cull_b = {};
+  for (const OpenedCluster& one : work.search.opened_a()) add(work.cull_a, one.counts);
+  for (const OpenedCluster& one : work.search.opened_b()) add(work.cull_b, one.counts);
+  finish(work, counts);
+  work.record->counts.confirm_ms = timer.lap();
+}
+
+bool is_large(const PairWork& work) { return work.cluster_pairs.size() > kLargePair; }
+
+void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int threads) {
+  Timer timer;
+  struct Range {
+    std::vector<FacetPair> found;
+    ConfirmCounts counts;
+    std::vector<OpenedCluster> opened_a, opened_b;
+  };
+  std::vector<Range> ranges((work.cluster_pairs.size() + kPairsPerRange - 1) / kPairsPerRange);
+  base::parallel_for(ranges.size(), 1, threads, [&](std::size_t i, int thread) {
+    Range& range = ranges[i];
+    FacetPairSearch& search = thread_work[static_cast<std::size_t>(thread)].search;
+    const std::size_t begin = i * kPairsPerRange, end = std::min(begin + kPairsPerRange, work.cluster_pairs.size());
+    search.run(work.input, work.cluster_pairs, begin, end, range.found, range.counts);
+    range.opened_a = search.opened_a();
+    range.opened_b = search.opened_b();
+  });
+  // A cluster that several ranges opened counts once.
+  std::vector<char> seen_a(static_cast<std::size_t>(work.kept_a.count()), 0), seen_b(static_cast<std::size_t>(work.kept_b.count()), 0);
+  ConfirmCounts counts;
+  work.cull_a = work.cull_b = {};
+  for (const Range& range : ranges) {
+    work.record->facet_pairs.insert(work.record->facet_pairs.end(), range.found.begin(), range.found.end());
+    counts.facet_box_pairs += range.counts.facet_box_pairs;
+    counts.triangle_tests += range.counts.triangle_tests;
+    counts.predicates.exact += range.counts.predicates.exact;
+    for (const OpenedCluster& one : range.opened_a) {
+      if (!seen_a[static_cast<std::size_t>(one.index)]++) add(work.cull_a, one.counts);
+    }
+    for (const OpenedCluster& one : range.opened_b) {
+      if (!seen_b[static_cast<std::size_t>(one.index)]++) add(work.cull_b, one.counts);
+    }
+  }
+  finish(work, counts);
+  work.record->counts.confirm_ms = timer.lap();
+}
+
+}  // namespace tact

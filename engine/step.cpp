@@ -1,0 +1,221 @@
+#include "engine/step.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "engine/base/parallel.h"
+#include "engine/base/timer.h"
+#include "engine/patches.h"
+
+namespace tact {
+
+namespace {
+
+using base::Timer;
+
+ContactEvent event_of(const PairRecord& record) { return {record.a, record.b}; }
+
+bool before(const ContactEvent& x, const ContactEvent& y) { return x.a < y.a || (x.a == y.a && x.b < y.b); }
+
+bool touches(const PairRecord& record) { return record.hulls_overlap && !record.facet_pairs.empty(); }
+
+}  // namespace
+
+const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh_ms) {
+  Timer total, timer;
+  if (bodies.changed().empty() && !all_) {
+    keep_report();
+    report_.stats_.refresh_ms = refresh_ms;
+    report_.stats_.total_ms = refresh_ms + total.lap();
+    return report_;
+  }
+  report_.stats_ = {};
+  StepStats& stats = report_.stats_;
+  stats.refresh_ms = refresh_ms;
+  stats.bodies = static_cast<std::int64_t>(bodies.count());
+
+  sweep_.update(bodies.boxes(), bodies.filters(), bodies.changed(), settings.threads);
+  match_records(bodies);
+  stats.sweep_ms = timer.lap();
+  narrow_phase(bodies, settings);
+  stats.narrow_phase_ms = timer.lap();
+  make_report(bodies, settings);
+  stats.report_ms = timer.lap();
+  bodies.end_step();
+  all_ = false;
+  stats.total_ms = refresh_ms + total.lap();
+  return report_;
+}
+
+void Step::forget() {
+  sweep_ = {};
+  records_.clear();
+  previous_.clear();
+  moved_.clear();
+  free_.clear();
+  pool_.clear();
+  large_.clear();
+  report_ = {};
+  all_ = true;
+}
+
+// Nothing moved: the last answer stands, its events and its work do not.
+void Step::keep_report() {
+  const StepStats last = report_.stats_;
+  report_.stats_ = {};
+  report_.stats_.bodies = last.bodies;
+  report_.stats_.candidate_pairs = last.candidate_pairs;
+  report_.stats_.kept_pairs = last.candidate_pairs;
+  report_.stats_.contacts = last.contacts;
+  report_.stats_.facet_pairs = last.facet_pairs;
+  report_.stats_.touching_contacts = last.touching_contacts;
+  report_.began_.clear();
+  report_.ended_.clear();
+}
+
+// Both lists of pairs are sorted: a pair that stays keeps its record, unless a body of it was replaced by another.
+void Step::match_records(const Bodies& bodies) {
+  gone_.clear();
+  std::swap(previous_, records_);
+  records_.clear();
+  moved_.clear();
+  auto old = previous_.begin();
+  for (const broadphase::IndexPair& pair : sweep_.pairs()) {
+    const auto slots = [](const PairRecord* r) { return broadphase::IndexPair{r->a.index, r->b.index}; };
+    while (old != previous_.end() && slots(*old) < pair) retire(**old++);
+    const BodyId a = bodies.in_slot(pair.a).id, b = bodies.in_slot(pair.b).id;
+    const bool found = old != previous_.end() && slots(*old) == pair;
+    if (found && ((*old)->a != a || (*old)->b != b)) retire(**old);
+    const bool same = found && (*old)->a == a && (*old)->b == b;
+    PairRecord& record = same ? **old : new_record(a, b);
+    if (found) ++old;
+    record.touched = touches(record);
+    records_.push_back(&record);
+    if (all_ || bodies.moved(pair.a) || bodies.moved(pair.b)) moved_.push_back(&record);
+  }
+  while (old != previous_.end()) retire(**old++);
+  previous_.clear();
+}
+
+PairRecord& Step::new_record(BodyId a, BodyId b) {
+  if (free_.empty()) {
+    free_.reserve(pool_.size() + 1);  // so that retire() cannot fail
+    pool_.push_back(std::make_unique<PairRecord>());
+    free_.push_back(pool_.back().get());
+  }
+  PairRecord& record = *free_.back();
+  free_.pop_back();
+  record.a = a;
+  record.b = b;
+  record.history = {};
+  record.hulls_overlap = false;
+  record.facet_pairs.clear();
+  record.patches.clear();
+  return record;
+}
+
+void Step::retire(PairRecord& record) {
+  if (touches(record)) gone_.push_back(event_of(record));
+  free_.push_back(&record);
+}
+
+// Stages 3 to 6, all pairs in parallel, each into its own record; then the large ones, each on all threads.
+void Step::narrow_phase(const Bodies& bodies, const Settings& settings) {
+  thread_work_.resize(static_cast<std::size_t>(settings.threads));
+  large_.clear();
+  std::mutex mutex;
+  base::parallel_for(moved_.size(), 4, settings.threads, [&](std::size_t i, int thread) {
+    PairWork& work = thread_work_[static_cast<std::size_t>(thread)];
+    PairRecord& record = *moved_[i];
+    const Body &a = bodies.in_slot(record.a.index), &b = bodies.in_slot(record.b.index);
+    if (!find_direction_and_cull(record, a, b, settings, device_, work)) return;
+    if (settings.threads == 1 || !is_large(work)) {
+      confirm(work);
+      return;
+    }
+    auto large = std::make_unique<PairWork>(std::move(work));
+    large->input.kept_a = &large->kept_a;
+    large->input.kept_b = &large->kept_b;
+    work = {};
+    const std::lock_guard lock(mutex);
+    large_.push_back(std::move(large));
+  });
+  for (const auto& work : large_) confirm_in_ranges(*work, thread_work_, settings.threads);
+  if (settings.outputs.patches && settings.accuracy != Accuracy::hulls) {
+    base::parallel_for(moved_.size(), 4, settings.threads, [&](std::size_t i) {
+      PairRecord& record = *moved_[i];
+      if (!touches(record)) return;
+      record.patches = find_patches(bodies.in_slot(record.a.index), bodies.in_slot(record.b.index), record);
+    });
+  }
+}
+
+void Step::make_report(const Bodies& bodies, const Settings& settings) {
+  StepStats& stats = report_.stats_;
+  report_.contacts_.clear();
+  report_.candidate_pairs_.clear();
+  stats.moved_bodies = static_cast<std::int64_t>(
+      std::count_if(bodies.changed().begin(), bodies.changed().end(), [&](std::uint32_t slot) { return bodies.used(slot); }));
+  stats.candidate_pairs = static_cast<std::int64_t>(records_.size());
+  stats.kept_pairs = static_cast<std::int64_t>(records_.size() - moved_.size());
+  for (const PairRecord* record : moved_) add_work(*record, settings, bodies);
+  for (PairRecord* record : records_) {
+    report_.candidate_pairs_.push_back({record->a, record->b, record->hulls_overlap});
+    if (!record->hulls_overlap) continue;
+    Contact& contact = report_.contacts_.emplace_back(record->contact);
+    contact.facet_pairs_ = record->facet_pairs;
+    contact.patches_ = record->patches;
+    stats.facet_pairs += static_cast<std::int64_t>(record->facet_pairs.size());
+    stats.touching_contacts += contact.touching() ? 1 : 0;
+  }
+  stats.contacts = static_cast<std::int64_t>(report_.contacts_.size());
+  add_events();
+}
+
+// Adds what the pair cost in this step.
+void Step::add_work(const PairRecord& record, const Settings& settings, const Bodies& bodies) {
+  StepStats& stats = report_.stats_;
+  const PairCounts& counts = record.counts;
+  stats.gjk_iterations += counts.gjk_iterations;
+  stats.hulls_ms += counts.hulls_ms;
+  stats.direction_ms += counts.direction_ms;
+  stats.cull_ms += counts.cull_ms;
+  stats.confirm_ms += counts.confirm_ms;
+  if (!record.hulls_overlap) {
+    stats.limits_reached += counts.limit_reached ? 1 : 0;
+    (counts.still_separated ? stats.still_separated_pairs : stats.separated_pairs) += 1;
+    return;
+  }
+  const Contact& contact = record.contact;
+  stats.limits_reached += contact.limit_reached ? 1 : 0;
+  stats.direction_iterations += contact.iterations;
+  stats.carried_directions += contact.source == DirectionSource::carried ? 1 : 0;
+  stats.fresh_directions += contact.source == DirectionSource::fresh ? 1 : 0;
+  stats.smallest_directions += contact.source == DirectionSource::smallest ? 1 : 0;
+  if (settings.accuracy == Accuracy::hulls) return;
+  const std::size_t facets = bodies.in_slot(record.a.index).facet_count + bodies.in_slot(record.b.index).facet_count;
+  const std::int64_t kept = contact.kept_facets_a + contact.kept_facets_b;
+  stats.facets += static_cast<std::int64_t>(facets);
+  stats.kept_facets += kept;
+  stats.facets_facing_away += counts.facets_facing_away;
+  stats.facets_outside_zone += counts.facets_outside_zone;
+  // Whole clusters fall to criterion 2.
+  stats.facets_outside_slab += static_cast<std::int64_t>(facets) - kept - counts.facets_facing_away - counts.facets_outside_zone;
+  stats.cluster_pairs += counts.cluster_pairs;
+  stats.tree_pairs += counts.used_trees ? 1 : 0;
+  stats.facet_box_pairs += counts.facet_box_pairs;
+  stats.triangle_tests += counts.triangle_tests;
+  stats.exact_predicates += counts.exact_predicates;
+}
+
+void Step::add_events() {
+  report_.began_.clear();
+  report_.ended_ = gone_;
+  for (const PairRecord* record : records_) {
+    if (touches(*record) && !record->touched) report_.began_.push_back(event_of(*record));
+    if (!touches(*record) && record->touched) report_.ended_.push_back(event_of(*record));
+  }
+  std::sort(report_.ended_.begin(), report_.ended_.end(), before);
+}
+
+}  // namespace tact

@@ -1,0 +1,51 @@
+// The step: stages 2 to 7 over all bodies (stage 1 is Bodies::set_positions).
+#pragma once
+
+#include <tact/report.h>
+#include <tact/settings.h>
+
+#include <memory>
+#include <vector>
+
+#include "broadphase/sweep_and_prune.h"
+#include "engine/bodies.h"
+#include "engine/pair_record.h"
+#include "engine/pair_work.h"
+
+namespace tact {
+
+class Step {
+ public:
+  // Looks at every pair with a body that changed, and keeps the result of all others. `refresh_ms` is what stage 1 took.
+  const Report& run(Bodies& bodies, const Settings& settings, double refresh_ms);
+
+  // The next step looks at every pair; directions are carried on.
+  void look_at_all() { all_ = true; }
+  // The next step starts from nothing: after a step that failed half-way.
+  void forget();
+
+ private:
+  void match_records(const Bodies& bodies);
+  void narrow_phase(const Bodies& bodies, const Settings& settings);
+  void make_report(const Bodies& bodies, const Settings& settings);
+  void add_work(const PairRecord& record, const Settings& settings, const Bodies& bodies);
+  void add_events();
+  void keep_report();
+  PairRecord& new_record(BodyId a, BodyId b);
+  void retire(PairRecord& record);
+
+  broadphase::SweepAndPrune sweep_;
+  std::vector<std::unique_ptr<PairRecord>> pool_;
+  std::vector<PairRecord*> free_;
+  std::vector<PairRecord*> records_;   // of the candidate pairs, sorted by (a, b)
+  std::vector<PairRecord*> previous_;  // those of the last step, while matching
+  std::vector<PairRecord*> moved_;     // those that this step looks at
+  std::vector<PairWork> thread_work_;
+  std::vector<std::unique_ptr<PairWork>> large_;
+  std::vector<ContactEvent> gone_;  // pairs that touched and are no candidates any more
+  narrowphase::EmbreeDevice device_;
+  Report report_;
+  bool all_ = true;
+};
+
+}  // namespace tact

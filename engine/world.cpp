@@ -1,0 +1,105 @@
+#include <tact/world.h>
+
+#include <atomic>
+#include <new>
+#include <utility>
+
+#include "engine/base/parallel.h"
+#include "engine/base/timer.h"
+#include "engine/bodies.h"
+#include "engine/step.h"
+
+namespace tact {
+
+namespace {
+
+// Tells the ids of one world from those of another. No answer depends on it.
+std::uint32_t next_world() {
+  static std::atomic<std::uint32_t> count{0};
+  return ++count;
+}
+
+[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::bad_settings, what); }
+
+Settings checked(Settings settings) {
+  if (settings.threads < 0 || settings.threads > 1024) refuse("threads is " + std::to_string(settings.threads) + ", not 0 to 1024");
+  if (!(settings.gjk_tolerance >= 1e-15 && settings.gjk_tolerance <= 0.1)) {
+    refuse("gjk_tolerance is " + std::to_string(settings.gjk_tolerance) + ", not 1e-15 to 0.1");
+  }
+  if (settings.iteration_limit < 1) refuse("iteration_limit is " + std::to_string(settings.iteration_limit) + ", not at least 1");
+  const int accuracy = static_cast<int>(settings.accuracy), direction = static_cast<int>(settings.direction);
+  if (accuracy < 0 || accuracy > static_cast<int>(Accuracy::exact)) refuse("accuracy is " + std::to_string(accuracy) + ", which is none of its names");
+  if (direction < 0 || direction > static_cast<int>(DirectionPolicy::smallest)) refuse("direction is " + std::to_string(direction) + ", which is none of its names");
+  if (settings.threads == 0) settings.threads = base::default_threads();
+  return settings;
+}
+
+}  // namespace
+
+struct World::Implementation {
+  explicit Implementation(const Settings& given) : settings(checked(given)) {}
+
+  Settings settings;
+  Bodies bodies{next_world()};
+  Step step;
+  double refresh_ms = 0.0;  // since the last step
+};
+
+World::World(const Settings& settings) : implementation_(std::make_unique<Implementation>(settings)) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+const Settings& World::settings() const { return implementation_->settings; }
+
+void World::set_settings(const Settings& settings) {
+  implementation_->settings = checked(settings);
+  implementation_->step.look_at_all();
+}
+
+BodyId World::add_body(const BodyDefinition& definition) {
+  const base::FloatingPointMode mode;
+  return implementation_->bodies.add(definition);
+}
+
+void World::remove_body(BodyId body) { implementation_->bodies.remove(body); }
+
+void World::set_positions(BodyId body, const Eigen::Ref<const Eigen::Matrix3Xd>& positions) {
+  base::Timer timer;
+  implementation_->bodies.set_positions(body, positions, implementation_->settings.threads);
+  implementation_->refresh_ms += timer.lap();
+}
+
+void World::set_positions(std::span<const PositionsUpdate> updates) {
+  base::Timer timer;
+  implementation_->bodies.set_positions(updates, implementation_->settings.threads);
+  implementation_->refresh_ms += timer.lap();
+}
+
+const Report& World::detect() {
+  Implementation& i = *implementation_;
+  const double refresh_ms = std::exchange(i.refresh_ms, 0.0);
+  const base::FloatingPointMode mode;
+  try {
+    return i.step.run(i.bodies, i.settings, refresh_ms);
+  } catch (...) {
+    i.step.forget();
+    i.bodies.mark_all_changed();
+    try {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw Error(ErrorCode::out_of_memory, "detect ran out of memory; the next call starts afresh");
+    }
+  }
+}
+
+bool World::contains(BodyId body) const noexcept { return implementation_->bodies.contains(body); }
+std::size_t World::body_count() const noexcept { return implementation_->bodies.count(); }
+std::vector<BodyId> World::bodies() const { return implementation_->bodies.ids(); }
+const std::string& World::name(BodyId body) const { return implementation_->bodies.at(body).name; }
+Surface World::surface(BodyId body) const { return implementation_->bodies.at(body).surface; }
+Motion World::motion(BodyId body) const { return implementation_->bodies.at(body).motion; }
+std::size_t World::vertex_count(BodyId body) const { return static_cast<std::size_t>(implementation_->bodies.at(body).mesh.source_vertex_count()); }
+std::size_t World::facet_count(BodyId body) const { return implementation_->bodies.at(body).facet_count; }
+
+}  // namespace tact

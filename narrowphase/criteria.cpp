@@ -1,0 +1,136 @@
+#include "narrowphase/criteria.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace tact::narrowphase {
+
+namespace {
+
+BoxBounds bounds_of(const Box& box) {
+  return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
+}
+
+Criteria make_criteria(const Slab& slab, Vec3 outward, double plane, const ImpactZone* other_zone, bool facing_away) {
+  Criteria criteria{.outward = outward,
+                    .origin = slab.origin,
+                    .lowest = plane - 2.0 * slab.error,
+                    .facing_away = facing_away,
+                    .zone = other_zone != nullptr,
+                    .u = slab.u,
+                    .v = slab.v,
+                    .other_zone = {}};
+  if (other_zone != nullptr) {
+    criteria.other_zone = other_zone->disk;
+    if (criteria.other_zone.radius >= 0.0) criteria.other_zone.radius += other_zone->error + 2.0 * slab.error;
+  }
+  return criteria;
+}
+
+double squared(double x) { return x * x; }
+
+double distance_squared(Point2 p, Point2 a, Point2 b) {
+  const double ex = b.x - a.x, ey = b.y - a.y, length = ex * ex + ey * ey;
+  const double t = length > 0.0 ? std::clamp(((p.x - a.x) * ex + (p.y - a.y) * ey) / length, 0.0, 1.0) : 0.0;
+  return squared(a.x + t * ex - p.x) + squared(a.y + t * ey - p.y);
+}
+
+double turn(Point2 a, Point2 b, Point2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+
+// Does the disk reach the triangle? Its rounding is below 1e-14 of the size of what is compared; the disk is widened by
+// more than that.
+bool meets(const Disk& disk, Point2 a, Point2 b, Point2 c) {
+  if (disk.radius < 0.0) return false;
+  const double reach = std::max({std::abs(a.x - disk.center.x), std::abs(a.y - disk.center.y), std::abs(b.x - disk.center.x),
+                                 std::abs(b.y - disk.center.y), std::abs(c.x - disk.center.x), std::abs(c.y - disk.center.y)});
+  const double radius = disk.radius + 1e-14 * (disk.radius + reach);
+  const Point2 p = disk.center;
+  const double ab = turn(a, b, p), bc = turn(b, c, p), ca = turn(c, a, p);
+  if ((ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0)) return true;
+  return std::min({distance_squared(p, a, b), distance_squared(p, b, c), distance_squared(p, c, a)}) <= squared(radius);
+}
+
+std::uint64_t inside_zone(const FacetBlock& block, std::uint64_t candidates, const Criteria& criteria) {
+  std::uint64_t inside = 0;
+  for (std::uint64_t left = candidates; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    Point2 corner[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 d = Vec3{block.corner[k][0][i], block.corner[k][1][i], block.corner[k][2][i]} - criteria.origin;
+      corner[k] = {dot(criteria.u, d), dot(criteria.v, d)};
+    }
+    if (meets(criteria.other_zone, corner[0], corner[1], corner[2])) inside |= std::uint64_t{1} << i;
+  }
+  return inside;
+}
+
+}  // namespace
+
+Criteria criteria_for_a(const Slab& slab, const ImpactZone* zone_b, bool facing_away) {
+  return make_criteria(slab, slab.n, slab.lower, zone_b, facing_away);
+}
+
+Criteria criteria_for_b(const Slab& slab, const ImpactZone* zone_a, bool facing_away) {
+  return make_criteria(slab, -slab.n, -slab.upper, zone_a, facing_away);
+}
+
+void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Box& other, KeptClusters& kept) {
+  const auto count = static_cast<std::size_t>(mesh.cluster_count());
+  kept.cluster.resize(count);
+  const int met = kernels().select_overlapping(mesh.cluster_boxes().pointers(), mesh.cluster_count(), bounds_of(other), kept.cluster.data());
+  const Vec3 n = criteria.outward;
+  int found = 0;
+  kept.bounds = Box{};
+  kept.facets = 0;
+  for (int i = 0; i < met; ++i) {
+    const std::int32_t cluster = kept.cluster[static_cast<std::size_t>(i)];
+    const Box box = mesh.cluster_boxes()[static_cast<std::size_t>(cluster)];
+    const Vec3 top{n.x >= 0.0 ? box.upper.x : box.lower.x, n.y >= 0.0 ? box.upper.y : box.lower.y, n.z >= 0.0 ? box.upper.z : box.lower.z};
+    if (dot(n, top - criteria.origin) < criteria.lowest) continue;
+    kept.cluster[static_cast<std::size_t>(found++)] = cluster;
+    kept.bounds = merged(kept.bounds, intersection(box, other));
+    kept.facets += mesh.facet_end(cluster) - mesh.facet_begin(cluster);
+  }
+  kept.cluster.resize(static_cast<std::size_t>(found));
+  kept.boxes.resize(kept.cluster.size());
+  for (std::size_t i = 0; i < kept.cluster.size(); ++i) {
+    kept.boxes.set(i, mesh.cluster_boxes()[static_cast<std::size_t>(kept.cluster[i])]);
+  }
+}
+
+void cull_again(const Box& other, KeptClusters& kept) {
+  std::size_t found = 0;
+  Box bounds;
+  for (std::size_t i = 0; i < kept.cluster.size(); ++i) {
+    const Box box = kept.boxes[i];
+    if (!overlaps(box, other)) continue;
+    bounds = merged(bounds, intersection(box, other));
+    kept.cluster[found] = kept.cluster[i];
+    kept.boxes.set(found++, box);
+  }
+  kept.bounds = bounds;
+  kept.cluster.resize(found);
+  kept.boxes.truncate(found);
+}
+
+std::uint64_t cull_facets(const ClusteredMesh& mesh, int cluster, const Criteria& criteria, const Box& other,
+                          FacetBlock& block, CullCounts& counts) {
+  const int first = mesh.facet_begin(cluster), count = mesh.facet_end(cluster) - first;
+  const std::int32_t* const corners[3] = {mesh.corner_array(0) + first, mesh.corner_array(1) + first, mesh.corner_array(2) + first};
+  kernels().fill_facet_block(mesh.points(), corners, count, &block);
+  const CullPlanes planes{.axis = {criteria.outward.x, criteria.outward.y, criteria.outward.z, criteria.origin.x, criteria.origin.y, criteria.origin.z},
+                          .lowest = criteria.lowest,
+                          .box = bounds_of(other),
+                          .facing_away = criteria.facing_away};
+  const CullBits bits = kernels().cull_facets(block, count, planes);
+  const std::uint64_t facing = ~bits.facing_away, left = facing & bits.reaching;
+  const std::uint64_t kept = criteria.zone ? inside_zone(block, left & bits.all, criteria) : left & bits.all;
+  counts.facing_away += std::popcount(bits.facing_away & bits.all);
+  counts.outside_slab += std::popcount(facing & ~bits.reaching & bits.all);
+  counts.outside_zone += std::popcount(left & bits.all & ~kept);
+  counts.kept += std::popcount(kept);
+  return kept;
+}
+
+}  // namespace tact::narrowphase
