@@ -207,8 +207,8 @@ int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, Predica
   return exact_orient3d(a, b, c, d);
 }
 
-std::array<int, 3> orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<Vec3, 3>& d,
-                            PredicateCounts& counts) {
+std::array<int, 3> sides_of_plane(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<Vec3, 3>& points,
+                                  PredicateCounts& counts) {
   // The determinant is also (c - d) · ((a - c) × (b - c)), with the same count of rounding errors.
   const Vec3 p = a - c;
   const Vec3 q = b - c;
@@ -219,12 +219,12 @@ std::array<int, 3> orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const s
                   std::abs(pq[2]) + std::abs(qp[2])};
   std::array<int, 3> signs;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 r = c - d[i];
+    const Vec3 r = c - points[i];
     const double permanent = dot(Vec3{std::abs(r.x), std::abs(r.y), std::abs(r.z)}, size);
     signs[i] = filtered_sign(dot(r, normal), permanent, kRelative3);
     if (signs[i] != kUnknown) continue;
     ++counts.exact;
-    signs[i] = exact_orient3d(a, b, c, d[i]);
+    signs[i] = exact_orient3d(a, b, c, points[i]);
   }
   return signs;
 }

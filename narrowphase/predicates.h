@@ -29,9 +29,9 @@ struct PredicateCounts {
 // counter-clockwise from above; -1 above; 0 in one plane.
 int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, PredicateCounts& counts);
 
-// orient3d(a, b, c, d[i]) for each i; the normal of the plane is computed once.
-std::array<int, 3> orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<Vec3, 3>& d,
-                            PredicateCounts& counts);
+// orient3d(a, b, c, points[i]) for each i; the normal of the plane is computed once.
+std::array<int, 3> sides_of_plane(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<Vec3, 3>& points,
+                                  PredicateCounts& counts);
 
 // The sign of (a - c) × (b - c): +1 if a, b, c turn counter-clockwise, -1 clockwise, 0 on one line.
 int orient2d(const Point2& a, const Point2& b, const Point2& c, PredicateCounts& counts);

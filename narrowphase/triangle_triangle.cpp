@@ -163,10 +163,10 @@ bool intervals_meet(const Triangle& a, const Signs& a_sides, const Triangle& b, 
 }  // namespace
 
 bool triangle_triangle_meet(const Triangle& a, const Triangle& b, PredicateCounts& counts) {
-  const Signs a_sides = orient3d(b[0], b[1], b[2], a, counts);
+  const Signs a_sides = sides_of_plane(b[0], b[1], b[2], a, counts);
   if (strictly_on_one_side(a_sides)) return false;
   if (all_zero(a_sides)) return flat_meet(a, b, counts);
-  const Signs b_sides = orient3d(a[0], a[1], a[2], b, counts);
+  const Signs b_sides = sides_of_plane(a[0], a[1], a[2], b, counts);
   if (strictly_on_one_side(b_sides)) return false;
   // b has an area and a is not in its plane, so a has none.
   if (all_zero(b_sides)) return segment_triangle_meet(ends_of(a), b, counts);

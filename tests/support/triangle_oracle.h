@@ -1,0 +1,21 @@
+// The truth about triangles and orientations, from CGAL.
+#pragma once
+
+#include "narrowphase/predicates.h"
+#include "narrowphase/triangle_triangle.h"
+
+namespace tact::tests {
+
+using narrowphase::Point2;
+using narrowphase::Triangle;
+using narrowphase::Vec3;
+
+// The signs of narrowphase::orient3d and orient2d, from rational numbers.
+int rational_orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+int rational_orient2d(const Point2& a, const Point2& b, const Point2& c);
+
+// Do the triangles share a point? CGAL's exact predicates decide; CGAL wants triangles with an area, so one without is
+// given to it as the segment or the point that it is, with rational coordinates.
+bool cgal_meet(const Triangle& a, const Triangle& b);
+
+}  // namespace tact::tests

@@ -1,0 +1,272 @@
+#include "tests/support/triangle_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+namespace tact::tests {
+namespace {
+
+using base::Vec3;
+
+// SplitMix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014): the same numbers
+// everywhere, which the distributions of the standard library do not promise.
+class Random {
+ public:
+  Random(std::uint64_t seed, std::uint64_t index) : state_(seed) {
+    state_ = next() ^ (index * 0x9e3779b97f4a7c15u);
+    next();
+  }
+
+  std::uint64_t next() {
+    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+
+  // An integer, both bounds included.
+  int integer(int lower, int upper) {
+    return lower + static_cast<int>(next() % static_cast<std::uint64_t>(upper - lower + 1));
+  }
+  bool one_in(int n) { return integer(1, n) == 1; }
+  // In [-1, 1), every bit of the significand in use.
+  double real() { return static_cast<double>(static_cast<std::int64_t>(next()) >> 10) * 0x1p-53; }
+  Vec3 point() { return {real(), real(), real()}; }
+  // Integers from -8 to 8.
+  Vec3 lattice_point() { return {lattice(), lattice(), lattice()}; }
+  Triangle triangle() { return {point(), point(), point()}; }
+  Triangle lattice_triangle() { return {lattice_point(), lattice_point(), lattice_point()}; }
+
+ private:
+  double lattice() { return integer(-8, 8); }
+
+  std::uint64_t state_;
+};
+
+using Pair = std::pair<Triangle, Triangle>;
+
+Pair crossing(Random& random) {
+  const Triangle a = random.triangle();
+  const double s = 0.5 + 0.6 * random.real();
+  const double t = 0.5 + 0.6 * random.real();
+  const Vec3 through = a[0] + s * (a[1] - a[0]) + (t * (1.0 - s)) * (a[2] - a[0]);
+  const Vec3 along = random.point();
+  return {a, {through + along, through - random.real() * along, random.point()}};
+}
+
+Pair coplanar(Random& random) {
+  const Vec3 origin = random.lattice_point();
+  const Vec3 u = random.lattice_point();
+  const Vec3 v = random.lattice_point();
+  const int reach = random.integer(1, 6);
+  const auto corner = [&] { return origin + random.integer(-reach, reach) * u + random.integer(-reach, reach) * v; };
+  return {{corner(), corner(), corner()}, {corner(), corner(), corner()}};
+}
+
+Pair axis_plane(Random& random) {
+  Pair pair{random.triangle(), random.triangle()};
+  const double level = random.real();
+  for (Triangle* t : {&pair.first, &pair.second}) {
+    for (Vec3& p : *t) p.z = level;
+  }
+  return pair;
+}
+
+Pair sharing(Random& random, std::size_t corners) {
+  const bool lattice = random.one_in(2);
+  Pair pair =
+      lattice ? Pair{random.lattice_triangle(), random.lattice_triangle()} : Pair{random.triangle(), random.triangle()};
+  std::copy_n(pair.first.begin(), corners, pair.second.begin());
+  return pair;
+}
+
+Pair touching(Random& random) {
+  Triangle a = random.lattice_triangle();
+  for (Vec3& p : a) p = 4.0 * p;
+  const int i = random.integer(0, 4);
+  const int j = random.integer(0, 4 - i);
+  const Vec3 on = 0.25 * (i * a[0] + j * a[1] + (4 - i - j) * a[2]);
+  return {a, {on, on + random.lattice_point(), on + random.lattice_point()}};
+}
+
+Pair edge_edge(Random& random) {
+  const Vec3 at = random.lattice_point();
+  const Vec3 u = random.lattice_point();
+  const Vec3 v = random.lattice_point();
+  return {{at - random.integer(0, 3) * u, at + random.integer(0, 3) * u, random.lattice_point()},
+          {at - random.integer(0, 3) * v, at + random.integer(0, 3) * v, random.lattice_point()}};
+}
+
+// A triangle with corner 2 at a distance of 1e-4 to 1e-12 from the edge 01: near its middle, or near corner 0.
+Triangle thin(Random& random, const Vec3& through, bool needle) {
+  const Vec3 along = random.point();
+  const Vec3 start = through - 0.5 * along;
+  const double width = std::pow(10.0, -random.integer(4, 12));
+  return {start, start + along, start + (needle ? 0.0 : 0.5 * random.real() + 0.5) * along + width * random.point()};
+}
+
+Pair thin_pair(Random& random, bool needle) {
+  const Vec3 through = random.point();
+  const Triangle a = thin(random, through, needle);
+  if (random.one_in(2)) return {a, thin(random, through, needle)};
+  const Vec3 p = random.point();
+  const Vec3 q = random.point();
+  return {a, {through + p, through - 0.7 * p + 0.3 * q, through - 0.4 * q}};
+}
+
+Pair few_values(Random& random, int values, double unit) {
+  Pair pair;
+  for (Triangle* t : {&pair.first, &pair.second}) {
+    for (Vec3& p : *t) {
+      for (int axis = 0; axis < 3; ++axis) p[axis] = unit * random.integer(0, values - 1);
+    }
+  }
+  return pair;
+}
+
+Pair collinear(Random& random) {
+  const Vec3 origin = random.lattice_point();
+  const Vec3 along = random.lattice_point();
+  const int reach = random.integer(0, 4);
+  const auto on_line = [&] { return origin + random.integer(-reach, reach) * along; };
+  const Triangle a{on_line(), on_line(), on_line()};
+  switch (random.integer(0, 3)) {
+    case 0: return {a, {on_line(), on_line(), on_line()}};
+    case 1: return {a, {on_line(), on_line(), random.lattice_point()}};
+    case 2: {
+      const Vec3 from = on_line();
+      const Vec3 step = random.lattice_point();
+      return {a, {from - random.integer(0, 2) * step, from + random.integer(0, 2) * step, from}};
+    }
+    default: {
+      const Vec3 u = random.lattice_point();
+      const Vec3 v = random.lattice_point();
+      const Vec3 in = on_line();
+      return {a, {in + 2.0 * u - v, in + 2.0 * v - u, in - u - v}};
+    }
+  }
+}
+
+Pair of_kind(PairKind kind, Random& random) {
+  switch (kind) {
+    case PairKind::random: break;
+    case PairKind::crossing: return crossing(random);
+    case PairKind::coplanar: return coplanar(random);
+    case PairKind::axis_plane: return axis_plane(random);
+    case PairKind::shared_vertex: return sharing(random, 1);
+    case PairKind::shared_edge: return sharing(random, 2);
+    case PairKind::identical: return sharing(random, 3);
+    case PairKind::touching: return touching(random);
+    case PairKind::edge_edge: return edge_edge(random);
+    case PairKind::sliver: return thin_pair(random, false);
+    case PairKind::needle: return thin_pair(random, true);
+    case PairKind::grid: return few_values(random, 3, 1.0);
+    case PairKind::tenths: return few_values(random, 10, 0.1);
+    case PairKind::collinear: return collinear(random);
+  }
+  return {random.triangle(), random.triangle()};
+}
+
+const char* name(PairKind kind) {
+  static constexpr const char* kNames[kPairKinds] = {
+      "random",   "crossing",  "coplanar", "axis_plane", "shared_vertex", "shared_edge", "identical",
+      "touching", "edge_edge", "sliver",   "needle",     "grid",          "tenths",      "collinear"};
+  return kNames[static_cast<int>(kind)];
+}
+
+template <class Function>
+void for_each_point(TrianglePair& pair, const Function& function) {
+  for (Triangle* t : {&pair.a, &pair.b}) {
+    for (Vec3& p : *t) function(p);
+  }
+}
+
+void move_and_scale(TrianglePair& pair, Random& random) {
+  if (random.one_in(6)) {
+    const double size = std::pow(10.0, random.integer(0, 8));
+    const Vec3 by{std::trunc(size * random.real()), std::trunc(size * random.real()), size};
+    for_each_point(pair, [&](Vec3& p) { p = p + by; });
+  }
+  // The largest coordinate of any kind is below 2^7, and below 2^28 with an offset: 2^270 keeps it below 2^300.
+  constexpr int kExponents[] = {-1060, -1000, -700, -290, -100, -30, 30, 100, 270};
+  const bool by_axis = random.one_in(8);
+  if (!by_axis && !random.one_in(3)) return;
+  int exponent[3];
+  for (int& e : exponent) e = kExponents[random.integer(0, 8)];
+  for_each_point(pair, [&](Vec3& p) {
+    for (int axis = 0; axis < 3; ++axis) p[axis] = std::ldexp(p[axis], exponent[by_axis ? axis : 0]);
+  });
+}
+
+double moved_by_ulps(double x, int ulps) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return ulps == 0 ? x : std::nextafter(x, ulps > 0 ? kInfinity : -kInfinity);
+}
+
+void disturb(TrianglePair& pair, Random& random) {
+  const int how = random.integer(0, 2);
+  if (how == 1) {
+    Triangle& t = random.one_in(2) ? pair.a : pair.b;
+    double& x = t[static_cast<std::size_t>(random.integer(0, 2))][random.integer(0, 2)];
+    x = moved_by_ulps(x, random.one_in(2) ? 1 : -1);
+  }
+  if (how == 2) {
+    for_each_point(pair, [&](Vec3& p) {
+      for (int axis = 0; axis < 3; ++axis) p[axis] = moved_by_ulps(p[axis], random.integer(-1, 1));
+    });
+  }
+}
+
+void shuffle(TrianglePair& pair, Random& random) {
+  const int first = random.integer(0, 2);
+  const int second = (first + random.integer(1, 2)) % 3;
+  const int third = 3 - first - second;
+  for_each_point(pair, [&](Vec3& p) { p = {p[first], p[second], p[third]}; });
+  pair = all_orders(pair)[static_cast<std::size_t>(random.integer(0, 71))];
+}
+
+}  // namespace
+
+TrianglePair hard_triangle_pair(std::uint64_t seed, std::uint64_t index) {
+  Random random(seed, index);
+  const auto kind = static_cast<PairKind>(index % kPairKinds);
+  const Pair shape = of_kind(kind, random);
+  TrianglePair pair{shape.first, shape.second, kind};
+  move_and_scale(pair, random);
+  disturb(pair, random);
+  shuffle(pair, random);
+  return pair;
+}
+
+std::array<TrianglePair, 72> all_orders(const TrianglePair& pair) {
+  constexpr std::size_t kOrders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+  std::array<TrianglePair, 72> result;
+  std::size_t next = 0;
+  for (const auto& i : kOrders) {
+    for (const auto& j : kOrders) {
+      const Triangle a{pair.a[i[0]], pair.a[i[1]], pair.a[i[2]]};
+      const Triangle b{pair.b[j[0]], pair.b[j[1]], pair.b[j[2]]};
+      result[next++] = {a, b, pair.kind};
+      result[next++] = {b, a, pair.kind};
+    }
+  }
+  return result;
+}
+
+std::string to_string(const TrianglePair& pair) {
+  std::string text = name(pair.kind);
+  for (const Triangle* t : {&pair.a, &pair.b}) {
+    text += "\n  ";
+    for (const Vec3& p : *t) {
+      char buffer[128];
+      std::snprintf(buffer, sizeof buffer, "{%a, %a, %a} ", p.x, p.y, p.z);
+      text += buffer;
+    }
+  }
+  return text;
+}
+
+}  // namespace tact::tests
