@@ -1,38 +1,55 @@
 #include "broadphase/sweep_and_prune.h"
 
-#include <algorithm>
-#include <numeric>
+#include <cassert>
+#include <utility>
 
 namespace tact::broadphase {
-namespace {
-
-bool tested(const Filter& a, const Filter& b) {
-  return (a.layer & b.mask) != 0 && (b.layer & a.mask) != 0 && !(a.fixed && b.fixed);
-}
-
-}  // namespace
 
 std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std::span<const Filter> filters,
-                                                 std::span<const std::uint32_t> changed, int /*threads*/) {
-  if (changed.empty() && boxes.size() == size_) return pairs_;
-  size_ = boxes.size();
-  pairs_.clear();
-  order_.clear();
-  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-    if (!boxes[i].empty()) order_.push_back(i);
+                                                 std::span<const std::uint32_t> changed, int threads) {
+  assert(boxes.size() == filters.size());
+  if (changed.empty() && boxes.size() == box_count_) return pairs_;
+  box_count_ = boxes.size();
+  const std::size_t changed_count = mark(filters, changed);
+  tree_.update(boxes, changed, is_changed_, threads);
+  const auto parts = join_.run(tree_, special_count_ == 0 ? std::span<const Filter>{} : filters, threads);
+  const auto fresh = sorter_.sort(parts, boxes.size(), threads);
+  if (changed_count == boxes.size()) {
+    pairs_.assign(fresh.begin(), fresh.end());
+  } else {
+    merge(fresh, boxes.size());
   }
-  std::sort(order_.begin(), order_.end(),
-            [&](std::uint32_t i, std::uint32_t j) { return boxes[i].lower.x < boxes[j].lower.x; });
-  for (std::size_t i = 0; i < order_.size(); ++i) {
-    const std::uint32_t a = order_[i];
-    for (std::size_t j = i + 1; j < order_.size() && boxes[order_[j]].lower.x <= boxes[a].upper.x; ++j) {
-      const std::uint32_t b = order_[j];
-      if (overlaps(boxes[a], boxes[b]) && tested(filters[a], filters[b]))
-        pairs_.push_back({std::min(a, b), std::max(a, b)});
-    }
-  }
-  std::sort(pairs_.begin(), pairs_.end());
+  for (const std::uint32_t index : changed) is_changed_[index] = 0;
   return pairs_;
+}
+
+// Takes over the filters of the changed boxes and marks them; returns how many there are, each counted once.
+std::size_t SweepAndPrune::mark(std::span<const Filter> filters, std::span<const std::uint32_t> changed) {
+  for (std::size_t index = filters.size(); index < is_special_.size(); ++index) special_count_ -= is_special_[index];
+  is_changed_.resize(filters.size(), 0);
+  is_special_.resize(filters.size(), 0);
+  std::size_t count = 0;
+  for (const std::uint32_t index : changed) {
+    count += is_changed_[index] == 0;
+    is_changed_[index] = 1;
+    const std::uint8_t special = filters[index] != Filter{};
+    special_count_ += special;
+    special_count_ -= std::exchange(is_special_[index], special);
+  }
+  return count;
+}
+
+// Replaces the pairs in which a box changed or is gone by the fresh ones.
+void SweepAndPrune::merge(std::span<const IndexPair> fresh, std::size_t box_count) {
+  merged_.clear();
+  auto next = fresh.begin();
+  for (const IndexPair pair : pairs_) {
+    if (pair.b >= box_count || is_changed_[pair.a] != 0 || is_changed_[pair.b] != 0) continue;
+    for (; next != fresh.end() && *next < pair; ++next) merged_.push_back(*next);
+    merged_.push_back(pair);
+  }
+  merged_.insert(merged_.end(), next, fresh.end());
+  std::swap(pairs_, merged_);
 }
 
 }  // namespace tact::broadphase

@@ -1,31 +1,18 @@
 // Which boxes overlap: sweep and prune, carried from step to step.
 #pragma once
 
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "broadphase/block_join.h"
+#include "broadphase/block_tree.h"
+#include "broadphase/index_pair.h"
+#include "broadphase/pair_sort.h"
 #include "engine/base/box.h"
 
 namespace tact::broadphase {
-
-using base::Box;
-
-// What decides, besides boxes, whether two bodies are tested.
-struct Filter {
-  std::uint32_t layer = 1;  // a pair is tested if each mask holds a bit of the other's layer,
-  std::uint32_t mask = 0xffffffffu;
-  bool fixed = false;  // and not both are fixed
-};
-
-// Indices of two boxes, a < b.
-struct IndexPair {
-  std::uint32_t a = 0;
-  std::uint32_t b = 0;
-  friend constexpr auto operator<=>(const IndexPair&, const IndexPair&) = default;
-};
 
 class SweepAndPrune {
  public:
@@ -38,10 +25,22 @@ class SweepAndPrune {
 
   std::span<const IndexPair> pairs() const { return pairs_; }
 
+  // Whether what is kept between calls agrees with `boxes`, those of the last call. For tests.
+  bool validate(std::span<const Box> boxes) const { return tree_.validate(boxes); }
+
  private:
-  std::size_t size_ = 0;
-  std::vector<std::uint32_t> order_;
+  std::size_t mark(std::span<const Filter> filters, std::span<const std::uint32_t> changed);
+  void merge(std::span<const IndexPair> fresh, std::size_t box_count);
+
+  BlockTree tree_;
+  BlockJoin join_;
+  PairSorter sorter_;
+  std::vector<std::uint8_t> is_changed_;  // by box
+  std::vector<std::uint8_t> is_special_;  // by box: its filter is not the default one
+  std::size_t special_count_ = 0;
+  std::size_t box_count_ = 0;
   std::vector<IndexPair> pairs_;
+  std::vector<IndexPair> merged_;
 };
 
 }  // namespace tact::broadphase

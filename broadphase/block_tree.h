@@ -1,0 +1,76 @@
+// A hierarchy of boxes that is kept from step to step. Level 0 holds the boxes in spatial order, sixteen to a block;
+// lane l of block j on level k + 1 is the box of block 16 j + l on level k; the top level is one block. There are no
+// pointers: the order is the tree.
+//
+// A box that moves a little changes its lane and the bounds above it. One that leaves the region of its block is taken
+// out and put at the end, in a batch that is ordered by itself; batches of similar size are merged, and a merge with
+// the first one is a fresh start (the logarithmic method of Bentley and Saxe, 1980). So no block grows with history.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "broadphase/block.h"
+#include "broadphase/spatial_order.h"
+
+namespace tact::broadphase {
+
+class BlockTree {
+ public:
+  // Takes over all boxes whose index is in `changed` or is new. `is_changed` has a byte for each box, nonzero for
+  // those. Boxes of indices past the end of `boxes` are taken out.
+  void update(std::span<const Box> boxes, std::span<const std::uint32_t> changed,
+              std::span<const std::uint8_t> is_changed, int threads);
+
+  std::size_t level_count() const { return levels_.size(); }
+  std::size_t block_count(std::size_t level) const { return levels_[level].blocks.size(); }
+  const Block& block(std::size_t level, std::size_t index) const { return levels_[level].blocks[index]; }
+  // A bit for each lane that holds or is above a box that the last update changed.
+  std::uint32_t active(std::size_t level, std::size_t index) const { return levels_[level].active[index]; }
+  // The index of the box in each lane of a block of level 0; kNone where there is none.
+  const std::uint32_t* members(std::size_t block) const { return &members_[block * kLanes]; }
+
+  // Whether each box that is not empty stands in exactly one lane, unaltered, and all bounds are those of what is
+  // below.
+  bool validate(std::span<const Box> boxes) const;
+
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+ private:
+  struct Level {
+    std::vector<Block> blocks;
+    std::vector<std::uint16_t> active;
+  };
+
+  struct Batch {
+    std::size_t first_block = 0;
+    std::size_t boxes = 0;
+  };
+
+  void resize(std::size_t count);
+  void mark(std::span<const Box> boxes, std::span<const std::uint32_t> changed);
+  void refresh_leaves(std::span<const Box> boxes, int threads);
+  void refresh_leaf(std::span<const Box> boxes, std::size_t index);
+  void collect_leavers(std::span<const Box> boxes);
+  bool place_arrivals(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, int threads);
+  void absorb_last_batch(std::span<const Box> boxes);
+  void append_batch(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, int threads);
+  void resize_leaves(std::size_t count);
+  void fill_leaf(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, std::size_t index,
+                 std::span<const OrderItem> items);
+  void refresh_upper_levels(bool reordered, int threads);
+  void refresh_parent(std::size_t level, std::size_t index, bool reordered);
+  bool validate_level(std::size_t level) const;
+
+  std::vector<Level> levels_;
+  std::vector<std::uint32_t> members_;  // by lane of level 0; kNone where there is no box
+  std::vector<Box> regions_;            // by block of level 0: what its boxes may not leave
+  std::vector<std::uint16_t> leavers_;  // by block of level 0: lanes whose box has just left
+  std::vector<std::uint32_t> lane_of_;  // by box; kNone if it is empty
+  std::vector<Batch> batches_;
+  std::vector<OrderItem> arriving_;  // boxes that have no lane yet
+};
+
+}  // namespace tact::broadphase

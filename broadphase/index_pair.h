@@ -1,0 +1,28 @@
+// What the broad phase gives, and what decides besides boxes.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+
+namespace tact::broadphase {
+
+// What decides, besides boxes, whether two bodies are tested.
+struct Filter {
+  std::uint32_t layer = 1;  // a pair is tested if each mask holds a bit of the other's layer,
+  std::uint32_t mask = 0xffffffffu;
+  bool fixed = false;  // and not both are fixed
+  friend bool operator==(const Filter&, const Filter&) = default;
+};
+
+inline bool tested(const Filter& a, const Filter& b) {
+  return (a.layer & b.mask) != 0 && (b.layer & a.mask) != 0 && !(a.fixed && b.fixed);
+}
+
+// Indices of two boxes, a < b.
+struct IndexPair {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+  friend constexpr auto operator<=>(const IndexPair&, const IndexPair&) = default;
+};
+
+}  // namespace tact::broadphase

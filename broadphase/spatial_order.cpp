@@ -1,0 +1,180 @@
+#include "broadphase/spatial_order.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "engine/base/parallel.h"
+
+namespace tact::broadphase {
+namespace {
+
+constexpr std::size_t kSample = 128;        // items looked at to choose an axis in a large range
+constexpr std::size_t kLargeRange = 4096;   // from this size on, sampling costs nothing against the cut
+constexpr std::size_t kPivotSample = 63;    // keys from which a pivot is chosen
+constexpr std::size_t kSelectRange = 1024;  // up to this size, plain selection is as fast
+constexpr double kLargestCoordinate = 0x1p1000;
+
+using Extent = std::array<double, 3>;  // mean size of the boxes, axis by axis
+
+struct Range {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  Extent extent{};
+};
+
+// The i-th of a fixed sequence of positions below `count` that shows no pattern (SplitMix64).
+std::size_t scattered(std::size_t i, std::size_t count) {
+  std::uint64_t z = (i + 1) * 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return static_cast<std::size_t>((z ^ (z >> 31)) % count);
+}
+
+// Two halvings of the range of centres between its 1/8 and 7/8 quantiles would be spoilt by one box far away, were they
+// made from the extremes.
+double sampled_spread(std::span<const OrderItem> items, int axis) {
+  std::array<double, kSample> keys;
+  for (std::size_t i = 0; i < kSample; ++i) keys[i] = items[scattered(i, items.size())].center[axis];
+  std::nth_element(keys.begin(), keys.begin() + kSample / 8, keys.end());
+  std::nth_element(keys.begin() + kSample / 8, keys.end() - kSample / 8, keys.end());
+  return keys[kSample - kSample / 8] - keys[kSample / 8];
+}
+
+double full_spread(std::span<const OrderItem> items, int axis) {
+  double lower = items[0].center[axis];
+  double upper = lower;
+  for (const OrderItem& item : items) {
+    lower = item.center[axis] < lower ? item.center[axis] : lower;
+    upper = upper < item.center[axis] ? item.center[axis] : upper;
+  }
+  return upper - lower;
+}
+
+Extent sampled_extent(std::span<const OrderItem> items, std::span<const Box> boxes) {
+  Extent extent{};
+  const std::size_t count = std::min(kSample, items.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Box& box = boxes[items[count == items.size() ? i : scattered(i, items.size())].index];
+    for (int axis = 0; axis < 3; ++axis) {
+      extent[axis] += std::min(box.upper[axis] - box.lower[axis], kLargestCoordinate) / static_cast<double>(count);
+    }
+  }
+  return extent;
+}
+
+int cut_axis(std::span<const OrderItem> items, const Extent& extent) {
+  int best = 0;
+  double best_ratio = -1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double spread = items.size() >= kLargeRange ? sampled_spread(items, axis) : full_spread(items, axis);
+    // The smallest normal number keeps 0 / 0 away: points have no size.
+    const double ratio = spread / (extent[axis] + std::numeric_limits<double>::min());
+    if (ratio > best_ratio) {
+      best_ratio = ratio;
+      best = axis;
+    }
+  }
+  return best;
+}
+
+// Moves the items whose key is below `pivot` to the front; returns how many. Without branches: keys are random.
+std::size_t partition(std::span<OrderItem> items, int axis, double pivot) {
+  std::size_t below = 0;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const bool is_below = items[i].center[axis] < pivot;
+    std::swap(items[i], items[below]);
+    below += is_below;
+  }
+  return below;
+}
+
+// Reorders so that no key among the first `rank` items is above any among the others.
+void select(std::span<OrderItem> items, std::size_t rank, int axis) {
+  while (items.size() > kSelectRange) {
+    std::array<double, kPivotSample> keys;
+    for (std::size_t i = 0; i < kPivotSample; ++i) keys[i] = items[scattered(i, items.size())].center[axis];
+    const std::size_t sample_rank = rank * (kPivotSample - 1) / items.size();
+    std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(sample_rank), keys.end());
+    const std::size_t below = partition(items, axis, keys[sample_rank]);
+    if (below == rank) return;
+    if (below == 0) break;  // many equal keys
+    if (rank < below) {
+      items = items.first(below);
+    } else {
+      items = items.subspan(below);
+      rank -= below;
+    }
+  }
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(rank), items.end(),
+                   [axis](const OrderItem& a, const OrderItem& b) { return a.center[axis] < b.center[axis]; });
+}
+
+// About half of `count` items, in whole runs of the largest 16^k * kLanes that is below `count`.
+std::size_t front_size(std::size_t count) {
+  std::size_t run = kLanes;
+  while (run * kLanes < count) run *= kLanes;
+  const std::size_t runs = (count + run - 1) / run;
+  return runs / 2 * run;
+}
+
+// Cuts a range in two; the front one ends at the returned position.
+std::size_t cut(std::span<OrderItem> items, std::span<const Box> boxes, Range& range) {
+  const std::size_t count = range.end - range.begin;
+  const auto part = items.subspan(range.begin, count);
+  if (count >= kLargeRange) range.extent = sampled_extent(part, boxes);
+  const std::size_t front = front_size(count);
+  select(part, front, cut_axis(part, range.extent));
+  return range.begin + front;
+}
+
+void order_range(std::span<OrderItem> items, std::span<const Box> boxes, Range range) {
+  if (range.end - range.begin <= kLanes) return;
+  const std::size_t middle = cut(items, boxes, range);
+  order_range(items, boxes, {range.begin, middle, range.extent});
+  order_range(items, boxes, {middle, range.end, range.extent});
+}
+
+}  // namespace
+
+OrderItem order_item(const Box& box, std::uint32_t index) {
+  OrderItem item;
+  for (int axis = 0; axis < 3; ++axis) {
+    // Infinite bounds would make a NaN.
+    const double center = std::clamp(box.lower[axis], -kLargestCoordinate, kLargestCoordinate) +
+                          std::clamp(box.upper[axis], -kLargestCoordinate, kLargestCoordinate);
+    item.center[axis] = center;
+  }
+  item.index = index;
+  return item;
+}
+
+void order_spatially(std::span<OrderItem> items, std::span<const Box> boxes, int threads) {
+  if (items.size() <= kLanes) return;
+  const Range all{0, items.size(), sampled_extent(items, boxes)};
+  if (threads <= 1 || items.size() < 2 * kLargeRange) {
+    order_range(items, boxes, all);
+    return;
+  }
+  // Every round cuts all ranges in two, side by side.
+  std::vector<Range> ranges{all};
+  while (ranges.size() < 8 * static_cast<std::size_t>(threads) && items.size() / ranges.size() >= kLargeRange) {
+    std::vector<Range> halves(2 * ranges.size());
+    base::parallel_for(ranges.size(), 1, threads, [&](std::size_t i) {
+      Range& range = ranges[i];
+      if (range.end - range.begin <= kLanes) {
+        halves[2 * i] = range;
+        halves[2 * i + 1] = {range.end, range.end, range.extent};
+        return;
+      }
+      const std::size_t middle = cut(items, boxes, range);
+      halves[2 * i] = {range.begin, middle, range.extent};
+      halves[2 * i + 1] = {middle, range.end, range.extent};
+    });
+    ranges = std::move(halves);
+  }
+  base::parallel_for(ranges.size(), 1, threads, [&](std::size_t i) { order_range(items, boxes, ranges[i]); });
+}
+
+}  // namespace tact::broadphase
