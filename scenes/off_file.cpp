@@ -29,28 +29,32 @@ void check_keyword(const TextReader& text, std::string_view keyword) {
   text.fail_expected("OFF, or the numbers of vertices and polygons", keyword);
 }
 
-std::int64_t check_count(const TextReader& text, std::int64_t count, std::string_view what) {
-  if (count < 0 || count > std::numeric_limits<int>::max())
-    text.fail(fmt::format("{} is {}, not 0 to 2147483647", what, count));
-  return count;
+std::int64_t parse_count(const TextReader& text, std::string_view number, std::string_view what) {
+  const auto count = parse_integer(number);
+  if (!count) text.fail_expected(what, number);
+  if (*count < 0 || *count > std::numeric_limits<int>::max()) {
+    text.fail(fmt::format("{} is {}, not 0 to 2147483647", what, *count));
+  }
+  return *count;
 }
 
 // The first line may be missing, and some known collections leave out the space after OFF.
 OffCounts read_head(TextReader& text) {
   constexpr std::string_view kVertices = "the number of vertices";
   constexpr std::string_view kPolygons = "the number of polygons";
-  OffCounts counts;
   if (!text.seek_token()) text.fail_expected("OFF", std::nullopt);
   const std::string_view first = *text.token();
-  if (const auto count = parse_integer(first.starts_with("OFF") ? first.substr(3) : first)) {
-    counts.vertices = check_count(text, *count, kVertices);
-  } else {
+  std::string_view number = first.starts_with("OFF") ? first.substr(3) : first;
+  if (!parse_integer(number)) {
     if (!first.ends_with("OFF")) text.fail_expected("OFF, or the number of vertices", first);
     check_keyword(text, first);
     text.seek_token();
-    counts.vertices = check_count(text, text.integer(kVertices), kVertices);
+    number = text.expect_token(kVertices);
+    if (number == "BINARY") text.fail("binary OFF is not read");
   }
-  counts.polygons = check_count(text, text.integer(kPolygons), kPolygons);
+  OffCounts counts;
+  counts.vertices = parse_count(text, number, kVertices);
+  counts.polygons = parse_count(text, text.expect_token(kPolygons), kPolygons);
   text.skip_numbers();  // the number of edges
   return counts;
 }

@@ -113,7 +113,6 @@ class TextStl {
       expect("solid");
       text_.skip_line();
       while (same_word(next_word("facet or endsolid"), "facet")) read_facet();
-      text_.clear_item();
       if (!same_word(word_, "endsolid")) text_.fail_expected("facet or endsolid", word_);
       text_.skip_line();
     }
@@ -140,7 +139,7 @@ class TextStl {
     expect("endloop");
     expect("endfacet");
     builder_.add_polygon(corners_);
-    text_.set_item("facet", builder_.facet_count());
+    text_.clear_item();
   }
 
   std::string_view next_word(std::string_view what) {

@@ -1,0 +1,158 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/scenes/mesh_bytes.h"
+
+namespace tact::scenes {
+namespace {
+
+using test::bytes_of;
+using test::Corners;
+using test::Point;
+
+std::string refusal(std::string_view bytes) { return test::refusal(MeshFormat::ply, bytes); }
+
+const std::string kPly = "ply\nformat ascii 1.0\n";
+const std::string kXyz = "property double x\nproperty double y\nproperty double z\n";
+const std::string kList = "property list uchar int vertex_indices\n";
+const std::string kHead = kPly + "element vertex 4\n" + kXyz + "element face 1\n" + kList + "end_header\n";
+const std::string kVertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";  // lines 10 to 13 after kHead
+
+TEST(PlyFile, ReadsText) {
+  const MeshFile mesh = parse_ply(kHead + "0.1 1e-310 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n\n", "m");
+  EXPECT_EQ(test::positions_of(mesh), (std::vector<Point>{{0.1, 1e-310, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(PlyFile, ReadsNumbersOfATextToTheNearestDoubleWhateverTheirType) {
+  const MeshFile mesh = parse_ply(
+      kPly + "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0.1 0.2 0.3\n", "m");
+  EXPECT_EQ(test::positions_of(mesh), (std::vector<Point>{{0.1, 0.2, 0.3}}));
+}
+
+TEST(PlyFile, SkipsOtherElementsAndProperties) {
+  const MeshFile mesh = parse_ply(
+      "ply\r\nformat ascii 1.0\r\ncomment property junk\r\nobj_info more\r\nelement camera 2\r\nproperty list uchar "
+      "float v\r\n"
+      "property int n\r\nelement vertex 3\r\nproperty uchar red\r\nproperty double z\r\nproperty list int int tags\r\n"
+      "property double y\r\nproperty double x\r\nelement empty 4000000000\r\nelement face 1\r\nproperty float "
+      "quality\r\n"
+      "property list uint8 uint32 vertex_index\r\nproperty list uchar float texcoord\r\nend_header\r\n"
+      "2 0.5 0.5 7\r\n0 8\r\n1 3 2 9 9 2 1\r\n1 6 0 5 4\r\n1 9 1 7 8 7\r\n0.5 3 0 1 2 2 0 0\r\n",
+      "m");
+  EXPECT_EQ(test::positions_of(mesh), (std::vector<Point>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
+  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}}));
+}
+
+// Four vertices and a quad with properties of every type around them.
+std::string binary_ply(std::endian order, const std::string& line_end) {
+  std::string header =
+      "ply\nformat " + std::string(order == std::endian::little ? "binary_little_endian" : "binary_big_endian") +
+      " 1.0\nelement vertex 4\nproperty char a\nproperty double x\nproperty ushort b\nproperty float y\n"
+      "property short z\nproperty list int double c\nelement face 1\nproperty list ushort uint vertex_indices\n"
+      "property uchar d\nend_header\n";
+  for (std::size_t at = 0; (at = header.find('\n', at)) != std::string::npos; at += line_end.size())
+    header.replace(at, 1, line_end);
+  std::string body;
+  for (int i = 0; i < 4; ++i) {
+    body += bytes_of(std::int8_t{10}, order) + bytes_of(0.1 * i, order) + bytes_of(std::uint16_t{13}, order);
+    body += bytes_of(0.5f * static_cast<float>(i), order) + bytes_of(static_cast<std::int16_t>(-i), order);
+    body += bytes_of(std::int32_t{i}, order);
+    for (int k = 0; k < i; ++k) body += bytes_of(1e300, order);
+  }
+  body += bytes_of(std::uint16_t{4}, order);
+  for (std::uint32_t i = 0; i < 4; ++i) body += bytes_of(i, order);
+  return header + body + bytes_of(std::uint8_t{255}, order);
+}
+
+TEST(PlyFile, ReadsBothByteOrdersAfterEveryLineEnd) {
+  for (const std::endian order : {std::endian::little, std::endian::big}) {
+    for (const char* line_end : {"\n", "\r\n", "\r"}) {
+      const MeshFile mesh = parse_ply(binary_ply(order, line_end), "m");
+      EXPECT_EQ(test::positions_of(mesh),
+                (std::vector<Point>{{0, 0, 0}, {0.1, 0.5, -1}, {0.2, 1, -2}, {0.1 * 3, 1.5, -3}}));
+      EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {0, 2, 3}}));
+    }
+  }
+}
+
+TEST(PlyFile, EveryShorterBinaryFileIsRefused) {
+  const std::string whole = binary_ply(std::endian::little, "\n");
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const std::string message = refusal(std::string_view(whole).substr(0, size));
+    EXPECT_TRUE(message.starts_with("m:")) << size << ": " << message;
+  }
+}
+
+std::string binary_points(const std::string& count, const std::string& body) {
+  return "ply\nformat binary_big_endian 1.0\nelement vertex " + count + "\n" + kXyz + "end_header\n" + body;
+}
+
+TEST(PlyFile, RefusesBinaryNamingTheByte) {
+  const auto number = [](double value) { return bytes_of(value, std::endian::big); };
+  const std::string two =
+      number(1) + number(2) + number(3) + number(4) + number(std::numeric_limits<double>::quiet_NaN());
+  const std::string header = binary_points("2", "");
+  EXPECT_EQ(refusal(binary_points("2", two + number(6))),
+            "m: byte " + std::to_string(header.size() + 40) + ": vertex 1: y is nan, not a finite number");
+  EXPECT_EQ(refusal(binary_points("2", two)), "m: byte " + std::to_string(header.size() + 40) +
+                                                  ": vertex 1: the file ends too early, after " +
+                                                  std::to_string(header.size() + 40) + " bytes");
+  EXPECT_EQ(refusal(binary_points("0", "xy")),
+            "m: byte " + std::to_string(header.size()) + ": 2 more bytes than the header promises");
+}
+
+TEST(PlyFile, PromisesTakeNoMemory) {
+  EXPECT_EQ(refusal(binary_points("4294967296", "")),
+            "m:7: promises 4294967296 vertices, more than 32-bit indices can number");
+  EXPECT_NE(refusal(binary_points("2147483647", bytes_of(1.0))).find("vertex 0: the file ends too early"),
+            std::string::npos);
+  const std::string list = "ply\nformat binary_little_endian 1.0\nelement vertex 0\n" + kXyz +
+                           "element face 4294967295\nproperty list uint int vertex_indices\nend_header\n";
+  EXPECT_NE(refusal(list + bytes_of(std::uint32_t{0xffffffff})).find("facet 0: the file ends too early"),
+            std::string::npos);
+}
+
+TEST(PlyFile, RefusesTextNamingTheLine) {
+  EXPECT_EQ(refusal(kHead + "0 0 0\n1 0\n"), "m:12: vertex 1: expected a number for z, found the end of the file");
+  EXPECT_EQ(refusal(kHead + "0 0 0\n1 0 0 5\n"), "m:11: vertex 1: expected the end of the line, found '5'");
+  EXPECT_EQ(refusal(kHead + "0 0 0\n1 nan 0\n"), "m:11: vertex 1: y is nan, not a finite number");
+  EXPECT_EQ(refusal(kHead + kVertices + "3 0 1 4\n"),
+            "m:14: facet 0: names vertex 4, counted from 0, but the file has 4 vertices");
+  EXPECT_EQ(refusal(kHead + kVertices + "2 0 1\n"), "m:14: facet 0: has 2 of the 3 corners that a polygon needs");
+  EXPECT_EQ(refusal(kHead + kVertices + "-1\n"), "m:14: facet 0: the list vertex_indices has -1 values");
+  EXPECT_EQ(refusal(kHead + kVertices + "3 0 1 1.5\n"),
+            "m:14: facet 0: expected an integer for vertex_indices, found '1.5'");
+  EXPECT_EQ(refusal(kHead + kVertices + "3 0 1 2\n9\n"), "m:15: expected the end of the file, found '9'");
+}
+
+TEST(PlyFile, RefusesHeadersNamingTheLine) {
+  EXPECT_EQ(refusal("plyx\n"), "m:1: expected ply, found 'plyx'");
+  EXPECT_EQ(refusal("ply\nformat ascii 2.0\n"), "m:2: expected the version 1.0, found '2.0'");
+  EXPECT_EQ(refusal("ply\nformat utf8 1.0\n"),
+            "m:2: expected ascii, binary_little_endian or binary_big_endian, found 'utf8'");
+  EXPECT_EQ(refusal(kPly + "element vertex -1\n"), "m:3: the number of elements is -1");
+  EXPECT_EQ(refusal(kPly + "element vertex many\n"), "m:3: expected the number of elements, found 'many'");
+  EXPECT_EQ(refusal(kPly + "element vertex 1\nelement vertex 1\n"), "m:4: a second element 'vertex'");
+  EXPECT_EQ(refusal(kPly + "element vertex 1\nproperty int x\nproperty int x\n"), "m:5: a second property 'x'");
+  EXPECT_EQ(refusal(kPly + "property int x\n"), "m:3: a property before the first element");
+  EXPECT_EQ(refusal(kPly + "element vertex 1\nproperty half x\n"),
+            "m:4: expected a type such as float or uchar, found 'half'");
+  EXPECT_EQ(refusal(kPly + "element vertex 1\nproperty list float int x\n"),
+            "m:4: the length of a list must be an integer");
+  EXPECT_EQ(refusal(kPly + "vertices 8\n"), "m:3: expected a line of the header, or end_header, found 'vertices'");
+  EXPECT_EQ(refusal(kPly + "element vertex 1\n"), "m:4: the file ends before end_header");
+  EXPECT_EQ(refusal(kPly + "end_header\n"), "m:3: the header has no element vertex");
+  EXPECT_EQ(refusal("ply\nend_header\n"), "m:2: the header has no line 'format'");
+  EXPECT_EQ(refusal(kPly + "element vertex 1\nproperty float x\nproperty float y\nend_header\n"),
+            "m:6: the element vertex has no number z");
+  EXPECT_EQ(refusal(kPly + "element vertex 0\n" + kXyz + "element face 1\nproperty int n\nend_header\n"),
+            "m:9: the element face has 0 lists vertex_indices or vertex_index, one is needed");
+  EXPECT_EQ(refusal(kPly + "element vertex 0\n" + kXyz + "element tristrips 1\n" + kList + "end_header\n"),
+            "m:9: triangle strips are not read");
+}
+
+}  // namespace
+}  // namespace tact::scenes

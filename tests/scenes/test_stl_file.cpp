@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/scenes/mesh_bytes.h"
+
+namespace tact::scenes {
+namespace {
+
+using test::bytes_of;
+using test::Corners;
+using test::Point;
+using FloatFacet = std::array<float, 9>;
+
+std::string refusal(std::string_view bytes) { return test::refusal(MeshFormat::stl, bytes); }
+
+std::string binary_stl(const std::vector<FloatFacet>& facets, std::string head = "a part") {
+  head.resize(80, ' ');
+  std::string bytes = head + bytes_of(static_cast<std::uint32_t>(facets.size()));
+  for (const FloatFacet& facet : facets) {
+    for (int i = 0; i < 3; ++i)
+      bytes += bytes_of(std::numeric_limits<float>::quiet_NaN());  // a normal that nobody needs
+    for (const float value : facet) bytes += bytes_of(value);
+    bytes += bytes_of(std::uint16_t{0x1234});
+  }
+  return bytes;
+}
+
+const FloatFacet kFirst = {0, 0, 0, 0.1f, 0, 0, 0, 1e-40f, 0};
+const FloatFacet kSecond = {0.1f, 0, 0, 0, 0, 0, 0, 0, -1};
+
+std::string text_facet(const std::string& a, const std::string& b, const std::string& c) {
+  return "facet normal nan nan nan\n outer loop\n  vertex " + a + "\n  vertex " + b + "\n  vertex " + c +
+         "\n endloop\nendfacet\n";
+}
+
+TEST(StlFile, ReadsBinaryAndMergesEqualCorners) {
+  const MeshFile mesh = parse_stl(binary_stl({kFirst, kSecond}), "m");
+  EXPECT_EQ(test::positions_of(mesh),
+            (std::vector<Point>{{0, 0, 0}, {double{0.1f}, 0, 0}, {0, double{1e-40f}, 0}, {0, 0, -1}}));
+  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {1, 0, 3}}));
+}
+
+TEST(StlFile, ReadsTextAndMergesEqualCorners) {
+  const MeshFile mesh = parse_stl("solid the name\n" + text_facet("0 0 0", "0.1 0 0", "0 1e-310 0") +
+                                      text_facet("0.1 0 0", "0 0 0", "0 0 -1") + "endsolid the name\n",
+                                  "m");
+  EXPECT_EQ(test::positions_of(mesh), (std::vector<Point>{{0, 0, 0}, {0.1, 0, 0}, {0, 1e-310, 0}, {0, 0, -1}}));
+  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {1, 0, 3}}));
+}
+
+TEST(StlFile, VerticesWithOtherBitsAreOthers) {
+  const MeshFile mesh =
+      parse_stl("solid\n" + text_facet("0 0 0", "-0 0 0", "0 0 0.1") +
+                    text_facet("0 0 0.10000000000000000555", "0 0 0.10000000000000002", "0 0 0") + "endsolid",
+                "m");
+  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {2, 3, 0}}));
+}
+
+TEST(StlFile, ReadsTextOfAnyLayoutAndManySolids) {
+  const std::string one =
+      "SOLID A\rFacet Normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0\rvertex 0 1 0 endloop endfacet\rEndSolid A\r";
+  EXPECT_EQ(test::facets_of(parse_stl(one + one, "m")), (std::vector<Corners>{{0, 1, 2}, {0, 1, 2}}));
+  EXPECT_EQ(parse_stl("solid nothing\nendsolid nothing\n", "m").facets.cols(), 0);
+}
+
+TEST(StlFile, BinaryMayBeginLikeText) {
+  const MeshFile mesh = parse_stl(binary_stl({kFirst}, "solid but binary\nfacet"), "m");
+  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}}));
+}
+
+TEST(StlFile, RefusesBinaryNamingTheByte) {
+  FloatFacet bad = kSecond;
+  bad[5] = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(refusal(binary_stl({kFirst, bad})), "m: byte 166: facet 1: z is inf, not a finite number");
+  const std::string whole = binary_stl({kFirst, kSecond});
+  EXPECT_EQ(refusal(whole.substr(0, 183)), "m: byte 80: promises 2 facets, which take 184 bytes, but the file has 183");
+  EXPECT_EQ(refusal(whole + "x"), "m: byte 80: promises 2 facets, which take 184 bytes, but the file has 185");
+  EXPECT_EQ(refusal(std::string(80, ' ') + "\xff\xff\xff\xff"),
+            "m: byte 80: promises 4294967295 facets, which take 214748364834 bytes, but the file has 84");
+  EXPECT_EQ(refusal("junk"), "m: byte 4: neither text that begins with solid nor the 84 bytes that begin binary STL");
+}
+
+TEST(StlFile, EveryShorterBinaryFileIsRefused) {
+  const std::string whole = binary_stl({kFirst, kSecond}, "solid");
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    EXPECT_NE(refusal(std::string_view(whole).substr(0, size)), "accepted") << size;
+  }
+}
+
+TEST(StlFile, RefusesTextNamingTheLine) {
+  const std::string good = "solid s\n" + text_facet("0 0 0", "1 0 0", "0 1 0");  // 8 lines
+  EXPECT_EQ(refusal(good), "m:9: expected facet or endsolid, found the end of the file");
+  EXPECT_EQ(refusal(good + "endsolid\njunk\n"), "m:10: expected solid, found 'junk'");
+  EXPECT_EQ(refusal(good + "face\n"), "m:9: expected facet or endsolid, found 'face'");
+  EXPECT_EQ(refusal(good + text_facet("0 0 0", "1 x 0", "0 1 0")), "m:12: facet 1: expected a number for y, found 'x'");
+  EXPECT_EQ(refusal(good + text_facet("0 0 0", "1 0 0", "0 nan 0")), "m:13: facet 1: y is nan, not a finite number");
+  EXPECT_EQ(refusal(good + text_facet("0 0 0", "1 0 0", "0 1 0\n  vertex 1 1 1")),
+            "m:14: facet 1: expected endloop, found 'vertex'");
+  EXPECT_EQ(refusal(good + "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n"),
+            "m:13: facet 1: expected vertex, found 'endloop'");
+}
+
+}  // namespace
+}  // namespace tact::scenes
