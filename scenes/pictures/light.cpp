@@ -10,7 +10,7 @@ namespace tact::scenes {
 namespace {
 
 constexpr float kSunRadius = 0.07f;  // tangent of half the angle under which the sun is seen
-constexpr float kReach = 0.8f;       // how far blockers darken the sky, in units of the drawn scene
+constexpr float kReach = 0.5f;       // how far blockers darken the sky, in units of the drawn scene
 const Light kZenith{0.56f, 0.63f, 0.72f};
 const Light kHorizon{0.44f, 0.47f, 0.51f};
 const Light kFloor{0.36f, 0.35f, 0.33f};

@@ -4,15 +4,10 @@
 #include <Eigen/Core>
 
 #include "scenes/pictures/drawn_scene.h"
+#include "scenes/pictures/light_buffer.h"
 #include "scenes/pictures/sampling.h"
 
 namespace tact::scenes {
-
-// A point that is lit, in the units of the drawn scene.
-struct LitPoint {
-  Eigen::Vector3f place;   // a little above the surface
-  Eigen::Vector3f normal;  // unit, towards the viewer's side
-};
 
 // A sun at the viewer's upper left, a sky that is brighter above, and the light that a white floor throws back.
 class Lights {

@@ -10,8 +10,8 @@
 namespace tact::scenes {
 
 enum class Quality {
-  draft,  // one sample a pixel
-  fine,   // four samples a pixel, each with eight rays to the sky and eight to the sun
+  draft,  // one sample a pixel: rough rims
+  fine,   // four samples a pixel
 };
 
 struct RenderSettings {

@@ -6,69 +6,41 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <vector>
 
 #include "scenes/pictures/ray_scene.h"
 
 namespace tact::scenes {
 
-// Points of the unit disk, even by area, for one of the bundles of a pixel.
+// Pixels use kTile * kTile different sets of directions, so that any kTile * kTile neighbours hold each set once: their
+// mean is free of grain. Source: A. Keller and W. Heidrich, Interleaved Sampling, 2001.
+inline constexpr int kTile = 5;
+
+// Points of the unit disk, even by area.
 using DiskPoints = std::array<Eigen::Vector2f, kBundle>;
 
-// How the points of a pixel differ from those of others: a turn around the centre and a shift along the radius.
-struct PixelTurn {
-  float cosine = 1.0f;
-  float sine = 0.0f;
-  float shift = 0.0f;
-};
-
-// Neighbouring pixels differ as much as they can, so that the eye blurs the grain. Source: J. Jimenez, Next Generation
-// Post Processing in Call of Duty, 2014 (interleaved gradient noise).
-inline PixelTurn pixel_turn(int x, int y) {
-  const auto noise = [](float px, float py) {
-    const float inner = 0.06711056f * px + 0.00583715f * py;
-    const float outer = 52.9829189f * (inner - std::floor(inner));
-    return outer - std::floor(outer);
-  };
-  const auto px = static_cast<float>(x);
-  const auto py = static_cast<float>(y);
-  const float angle = 2.0f * std::numbers::pi_v<float> * noise(px, py);
-  return {.cosine = std::cos(angle), .sine = std::sin(angle), .shift = noise(px + 47.0f, py + 17.0f)};
-}
-
-// Hammersley's points on the disk, dealt out to the bundles of a pixel so that each bundle covers the disk and all
-// together cover it evenly.
 class DiskPattern {
  public:
-  explicit DiskPattern(std::uint32_t bundles) : points_(std::size_t{bundles} * kBundle) {
-    for (std::uint32_t i = 0; i < points_.size(); ++i) {
-      std::uint32_t reversed = 0;
-      for (int bit = 0; bit < 32; ++bit) reversed |= (i >> bit & 1u) << (31 - bit);
-      const float angle = 2.0f * std::numbers::pi_v<float> * (static_cast<float>(reversed >> 8) * 0x1p-24f);
-      const float area = (static_cast<float>(i) + 0.5f) / static_cast<float>(points_.size());
-      points_[i % bundles * kBundle + i / bundles] = {.area = area, .cosine = std::cos(angle), .sine = std::sin(angle)};
+  DiskPattern() {
+    constexpr std::uint32_t kSets = kTile * kTile;
+    for (std::uint32_t set = 0; set < kSets; ++set) {
+      // Hammersley's points; the sets fall into each other's gaps, and neighbours are far from each other.
+      const float around = (static_cast<float>(set * 7 % kSets) + 0.5f) / kSets;
+      const float outward = (static_cast<float>(set * 11 % kSets) + 0.5f) / kSets;
+      for (std::uint32_t i = 0; i < kBundle; ++i) {
+        const std::uint32_t reversed = (i & 1u) << 2 | (i & 2u) | (i & 4u) >> 2;
+        const float angle = 2.0f * std::numbers::pi_v<float> * (static_cast<float>(reversed) + around) / kBundle;
+        const float radius = std::sqrt((static_cast<float>(i) + outward) / kBundle);
+        sets_[set][i] = {radius * std::cos(angle), radius * std::sin(angle)};
+      }
     }
   }
 
-  DiskPoints points(std::uint32_t bundle, const PixelTurn& turn) const {
-    DiskPoints result;
-    for (std::size_t i = 0; i < kBundle; ++i) {
-      const Point& point = points_[bundle * kBundle + i];
-      const float area = point.area + turn.shift;
-      const float radius = std::sqrt(area - std::floor(area));
-      result[i] = {radius * (turn.cosine * point.cosine - turn.sine * point.sine),
-                   radius * (turn.sine * point.cosine + turn.cosine * point.sine)};
-    }
-    return result;
+  const DiskPoints& of_pixel(int x, int y) const {
+    return sets_[static_cast<std::size_t>(y % kTile * kTile + x % kTile)];
   }
 
  private:
-  struct Point {
-    float area = 0.0f;  // of the smaller disk whose rim it lies on
-    float cosine = 1.0f;
-    float sine = 0.0f;
-  };
-  std::vector<Point> points_;  // kBundle a bundle
+  std::array<DiskPoints, std::size_t{kTile} * kTile> sets_;
 };
 
 // Two unit vectors that stand on `normal` and on each other. Source: Duff et al., Building an Orthonormal Basis,
