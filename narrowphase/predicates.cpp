@@ -20,9 +20,8 @@ namespace {
 // 8u leaves room for that and for rounding the bound. A product of two in orient2d collects three errors: 4u.
 //
 // kAbsolute covers underflow. If inputs or results below 2^-1022 are flushed to zero, a difference is wrong by up to
-// 3 * 2^-1022 beyond its rounding; with coordinates up to 2^300 a minor is below 2^604 and nine such errors and those
-// of the products together stay below 2^-410. What overflows becomes infinite or no number, in the bound too, and no
-// comparison below is true.
+// 3 * 2^-1022 beyond its rounding. With coordinates up to 2^300 a minor is below 2^604, so nine such errors, and those
+// of the products, together stay below 2^-410.
 constexpr double kRelative3 = 0x1p-49;
 constexpr double kRelative2 = 0x1p-50;
 constexpr double kAbsolute = 0x1p-400;

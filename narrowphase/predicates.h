@@ -1,8 +1,8 @@
 // Exact signs of determinants of doubles: a floating-point filter, and integers where it cannot tell. There is no
 // epsilon.
 //
-// Coordinates must be finite. Up to 2^300 in size, subnormal ones included, the answer is exact in any rounding mode
-// and with subnormal numbers flushed to zero or not; larger ones are exact in the default mode.
+// Coordinates must be finite and at most 2^300 in size; subnormal ones are welcome. Then every sign is exact, in any
+// rounding mode and with subnormal numbers flushed to zero or not.
 #pragma once
 
 #include <array>

@@ -205,8 +205,8 @@ bool segment_segment_meet(const Segment& a, const Segment& b, PredicateCounts& c
   if (orient3d(a[0], a[1], b[0], b[1], counts) != 0) return false;
   auto projection = find_projection(a[0], a[1], b[0], counts);
   if (!projection) projection = find_projection(a[0], a[1], b[1], counts);
+  // a may be a point, which has no line.
   if (!projection) projection = find_projection(b[0], b[1], a[0], counts);
-  if (!projection) projection = find_projection(b[0], b[1], a[1], counts);
   if (!projection) return collinear_meet(a, b);
   const auto s = projected(a, projection->axis);
   const auto t = projected(b, projection->axis);
