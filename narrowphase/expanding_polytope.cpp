@@ -1,23 +1,221 @@
 #include "narrowphase/expanding_polytope.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
 #include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "narrowphase/convex_polytope.h"
+#include "narrowphase/frame.h"
+#include "narrowphase/wide_vec3.h"
 
 namespace tact::narrowphase {
+namespace {
 
-// Provisional: the best of 26 fixed directions, to be replaced by the expanding polytope.
-SmallestSeparation smallest_separation(const MinkowskiDifference& m, Vec3 preferred) {
-  SmallestSeparation best{preferred, std::numeric_limits<double>::infinity(), 0.0, false};
-  for (int x = -1; x <= 1; ++x) {
-    for (int y = -1; y <= 1; ++y) {
-      for (int z = -1; z <= 1; ++z) {
-        if (x == 0 && y == 0 && z == 0) continue;
-        const Vec3 n = normalized(Vec3{double(x), double(y), double(z)});
-        const double w = dot(n, m.support(n).point);
-        if (w < best.height) best = {n, w, 0.0, false};
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Support queries that any pair may take, and more for each vertex of the bodies.
+constexpr std::size_t kLimit = 2000;
+constexpr std::size_t kLimitPerVertex = 4;
+// The bounds have met when they are this near, relative to the size of M, or within twice the error of a height.
+constexpr double kTolerance = 1e-14;
+// A triangle thinner than this has no normal in wide arithmetic. The face across its longest side is as near to the
+// origin.
+constexpr double kSmallestSine = 0x1p-92;
+
+bool collinear(Vec3 p, Vec3 q, Vec3 r) {
+  PredicateCounts counts;
+  return orient2d({p.x, p.y}, {q.x, q.y}, {r.x, r.y}, counts) == 0 &&
+         orient2d({p.y, p.z}, {q.y, q.z}, {r.y, r.z}, counts) == 0 &&
+         orient2d({p.z, p.x}, {q.z, q.x}, {r.z, r.x}, counts) == 0;
+}
+
+// The unit vector along e × f, if that can be told.
+std::optional<Vec3> normal_across(const WideVec3& e, const WideVec3& f) {
+  const Vec3 n = wide_cross(e, f);
+  if (!(norm(n) > kSmallestSine * norm(e.head) * norm(f.head))) return std::nullopt;
+  return unit_vector(n);
+}
+
+// A face of the polytope that may be the nearest.
+struct OpenFace {
+  double distance;  // of its plane from the origin
+  int face;
+  Vec3 normal;
+  friend bool operator>(const OpenFace& p, const OpenFace& q) {
+    return p.distance != q.distance ? p.distance > q.distance : p.face > q.face;
+  }
+};
+
+// A direction whose height was asked for.
+struct Queried {
+  double height;
+  Vec3 direction;
+};
+
+class Search {
+ public:
+  Search(const MinkowskiDifference& m, Vec3 preferred)
+      : m_(m),
+        preferred_(preferred == Vec3{} ? Vec3{0.0, 0.0, 1.0} : unit_vector(preferred)),
+        tolerance_(std::max(2.0 * m.height_error(), kTolerance * m.size())) {}
+
+  SmallestSeparation run() {
+    query(preferred_);
+    if (const auto tetrahedron = first_tetrahedron()) expand(*tetrahedron);
+    Queried best = choose();
+    if (dot(best.direction, preferred_) < 0.0) {
+      query(-best.direction);
+      best = choose();
+    }
+    return {best.direction, best.height, std::min(lower_bound_ - m_.height_error(), best.height),
+            static_cast<int>(queried_.size()), limit_reached_};
+  }
+
+ private:
+  // Asks for the vertex of M that is farthest along the unit vector n; its height bounds the minimum from above.
+  MinkowskiVertex query(Vec3 n) {
+    const MinkowskiVertex vertex = m_.support(n);
+    queried_.push_back({dot(n, vertex.point), n});
+    height_ = std::min(height_, queried_.back().height);
+    return vertex;
+  }
+
+  void query_seed(Vec3 n) {
+    seeds_.push_back(query(n));
+    seeds_.push_back(query(-n));
+  }
+
+  // The seed with the largest measure above zero.
+  template <class Measure>
+  std::optional<Vec3> best_seed(const Measure& measure) const {
+    std::optional<Vec3> best;
+    double largest = 0.0;
+    for (const MinkowskiVertex& seed : seeds_) {
+      const double value = measure(seed.point);
+      if (value > largest) {
+        largest = value;
+        best = seed.point;
       }
     }
+    return best;
   }
-  return best;
+
+  // Four vertices of M that do not lie in one plane. Nothing if M is flat, straight or a point, as far as support
+  // queries across it tell; the directions across it have then been asked for, so that the result is complete.
+  std::optional<std::array<Vec3, 4>> first_tetrahedron() {
+    for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) query_seed(axis);
+    const Vec3 p = seeds_[0].point;
+    const auto q = best_seed([&](Vec3 x) { return norm_squared(x - p); });
+    if (!q) return std::nullopt;
+    const auto r = seed_off_line(p, *q);
+    if (!r) return std::nullopt;
+    const auto normal = normal_across(wide_difference(*q, p), wide_difference(*r, p));
+    if (!normal) return std::nullopt;
+    query_seed(*normal);
+    const auto s = best_seed([&](Vec3 x) {
+      PredicateCounts counts;
+      if (orient3d(p, *q, *r, x, counts) == 0) return 0.0;
+      return std::max(std::abs(dot(*normal, x - p)), std::numeric_limits<double>::min());
+    });
+    if (!s) return std::nullopt;
+    return std::array<Vec3, 4>{p, *q, *r, *s};
+  }
+
+  // The seed that is farthest from the line through p and q, if one is off it.
+  std::optional<Vec3> seed_off_line(Vec3 p, Vec3 q) {
+    const Vec3 along = unit_vector(q - p);
+    const Frame across = frame_across(along);
+    query_seed(across.u);
+    query_seed(across.v);
+    const auto distance = [&](Vec3 x) {
+      return collinear(p, q, x) ? 0.0 : norm(wide_cross(wide_difference(x, p), {along, {}}));
+    };
+    const auto r = best_seed(distance);
+    const Vec3 preferred_across = preferred_ - dot(preferred_, along) * along;
+    const bool is_straight = !r || distance(*r) <= m_.height_error();  // but for rounding
+    if (is_straight && norm(preferred_across) > 0.0) query(unit_vector(preferred_across));
+    return r;
+  }
+
+  // Expands the polytope over its nearest face until that face is one of M, or as good.
+  void expand(const std::array<Vec3, 4>& tetrahedron) {
+    ConvexPolytope polytope(tetrahedron);
+    for (const MinkowskiVertex& seed : seeds_) {
+      const int below = polytope.face_below(seed.point);
+      if (below >= 0) polytope.expand(below, seed.point);
+    }
+    add_open_faces(polytope, 0);
+    const std::size_t limit = kLimit + kLimitPerVertex * (static_cast<std::size_t>(m_.a().vertex_count()) +
+                                                          static_cast<std::size_t>(m_.b().vertex_count()));
+    double closed = kInfinity;  // the nearest plane of the faces that cannot be expanded
+    lower_bound_ = -kInfinity;
+    while (!open_.empty()) {
+      std::pop_heap(open_.begin(), open_.end(), std::greater<>());
+      const OpenFace nearest = open_.back();
+      open_.pop_back();
+      if (polytope.faces()[static_cast<std::size_t>(nearest.face)].removed) continue;
+      lower_bound_ = std::min(nearest.distance, closed);
+      if (height_ - nearest.distance <= tolerance_ || queried_.size() >= limit) break;
+      const MinkowskiVertex vertex = query(nearest.normal);
+      if (height_ - nearest.distance <= tolerance_) break;
+      // By rounding, the vertex may lie higher than the face and yet not beyond it: such a face stays as it is.
+      if (polytope.is_beyond(nearest.face, vertex.point)) {
+        add_open_faces(polytope, polytope.expand(nearest.face, vertex.point));
+      } else {
+        closed = std::min(closed, nearest.distance);
+      }
+    }
+    if (open_.empty()) lower_bound_ = std::min(height_, closed);
+    limit_reached_ = height_ - lower_bound_ > tolerance_;
+  }
+
+  // A face whose plane is as far as the best height is never the nearest, nor does it have to be expanded.
+  void add_open_faces(const ConvexPolytope& polytope, int first) {
+    for (int f = first; f < static_cast<int>(polytope.faces().size()); ++f) {
+      if (polytope.faces()[static_cast<std::size_t>(f)].removed) continue;
+      const Vec3 p = polytope.corner(f, 0);
+      const auto normal =
+          normal_across(wide_difference(polytope.corner(f, 1), p), wide_difference(polytope.corner(f, 2), p));
+      if (!normal) continue;
+      const double distance = dot(*normal, p);
+      if (!(distance < height_)) continue;
+      open_.push_back({distance, f, *normal});
+      std::push_heap(open_.begin(), open_.end(), std::greater<>());
+    }
+  }
+
+  // Of the directions that are lowest but for rounding, the one nearest to the preferred.
+  Queried choose() const {
+    Queried chosen{kInfinity, {}};
+    double nearness = -kInfinity;
+    for (const Queried& candidate : queried_) {
+      const double cosine = dot(candidate.direction, preferred_);
+      if (candidate.height > height_ + m_.height_error() || !(cosine > nearness)) continue;
+      nearness = cosine;
+      chosen = candidate;
+    }
+    return chosen;
+  }
+
+  const MinkowskiDifference& m_;
+  Vec3 preferred_;
+  double tolerance_;
+  std::vector<MinkowskiVertex> seeds_;
+  std::vector<OpenFace> open_;    // a heap, the nearest on top
+  std::vector<Queried> queried_;  // in the order of the queries
+  double height_ = kInfinity;     // the least of them
+  double lower_bound_ = 0.0;
+  bool limit_reached_ = false;
+};
+
+}  // namespace
+
+SmallestSeparation smallest_separation(const MinkowskiDifference& m, Vec3 preferred) {
+  return Search(m, preferred).run();
 }
 
 }  // namespace tact::narrowphase

@@ -7,14 +7,26 @@
 namespace tact::narrowphase {
 
 struct SmallestSeparation {
-  Vec3 direction;              // unit, from A to B
-  double height = 0.0;         // w(direction), scaled; never below the true minimum by more than rounding
-  double lower_bound = 0.0;    // scaled; the true minimum of w over all directions is at least this
+  Vec3 direction;       // unit, from A to B
+  double height = 0.0;  // w(direction), scaled; above the true minimum by at most rounding, unless limit_reached
+  double lower_bound =
+      0.0;                  // scaled; the true minimum of w over all directions is at least this, if M holds the origin
+  int support_queries = 0;  // vertices of M that were asked for
   bool limit_reached = false;  // the bounds did not close: the direction is the best found
 };
 
-// The direction with the least w(n) over all unit n. M must hold the origin, or nearly; it may be flat, a segment or a
-// point (height 0: a normal of it). `preferred` breaks ties between a direction and its opposite when M is flat.
+// The direction with the least w(n) over all unit n. M must hold the origin, or nearly: it may lie on the border, or
+// outside by rounding; w is then negative and measures by how much. If M does not hold the origin at all, some
+// direction with w < 0 comes back.
+//
+// Of directions that are equally low but for rounding, the one nearest to `preferred` (any vector, zero included) comes
+// back, as far as the search came across them. M may be flat or nearly: the direction is its normal, on the side of
+// `preferred`. Where M is a segment, it is the direction across it that is nearest to `preferred`; where it is a point,
+// `preferred`.
+//
+// Each support query gives an upper bound of the minimum, w of its direction, and the nearest face of the polytope a
+// lower one; it ends when they meet but for rounding. Bodies that are round and concentric have no nearest face until
+// all of M is known: the number of queries grows with its faces, up to a limit that grows with the bodies' vertices.
 SmallestSeparation smallest_separation(const MinkowskiDifference& m, Vec3 preferred);
 
 }  // namespace tact::narrowphase
