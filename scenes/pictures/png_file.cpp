@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <png.h>
 
-#include <stdexcept>
+#include <string>
 #include <system_error>
+
+#include "scenes/file_error.h"
 
 namespace tact::scenes {
 namespace {
@@ -28,7 +30,7 @@ void write_png(const std::filesystem::path& file, const Picture& picture) {
   if (png_image_write_to_file(&image, file.c_str(), 0, picture.pixels.data(), 0, nullptr) != 0) return;
   std::error_code ignored;  // the first error is the one to report
   std::filesystem::remove(file, ignored);
-  throw std::runtime_error(fmt::format("{}: cannot write the picture: {}", file.string(), image.message));
+  throw FileError(fmt::format("{}: cannot write the picture: {}", file.string(), image.message));
 }
 
 Picture read_png(const std::filesystem::path& file) {
@@ -43,7 +45,7 @@ Picture read_png(const std::filesystem::path& file) {
   }
   const std::string message = image.message;
   png_image_free(&image);
-  throw std::runtime_error(fmt::format("{}: cannot read the picture: {}", file.string(), message));
+  throw FileError(fmt::format("{}: cannot read the picture: {}", file.string(), message));
 }
 
 }  // namespace tact::scenes

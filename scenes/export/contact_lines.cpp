@@ -1,0 +1,42 @@
+#include "scenes/export/contact_lines.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace tact::scenes {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json contact_json(const World& world, const Contact& contact) {
+  Json pairs = Json::array();
+  for (const FacetPair& pair : contact.facet_pairs()) pairs.push_back(Json::array({pair.a, pair.b}));
+  const Eigen::Vector3d& n = contact.direction;
+  return {{"a", contact.a.index},
+          {"b", contact.b.index},
+          {"names", Json::array({world.name(contact.a), world.name(contact.b)})},
+          {"direction", Json::array({n.x(), n.y(), n.z()})},
+          {"depth", contact.depth},
+          {"source", direction_source_name(contact.source)},
+          {"facet_pairs", std::move(pairs)}};
+}
+
+}  // namespace
+
+const char* direction_source_name(DirectionSource source) {
+  switch (source) {
+    case DirectionSource::carried: return "carried";
+    case DirectionSource::fresh: return "fresh";
+    case DirectionSource::smallest: return "smallest";
+  }
+  return "unknown";
+}
+
+void write_contact_line(std::ostream& out, int frame, double time, const World& world, const Report& report) {
+  Json contacts = Json::array();
+  for (const Contact& contact : report.contacts()) contacts.push_back(contact_json(world, contact));
+  const Json line = {{"frame", frame}, {"time", time}, {"contacts", std::move(contacts)}};
+  out << line.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+}  // namespace tact::scenes

@@ -1,0 +1,51 @@
+// A run as one animated glTF 2.0 file (.glb) for Blender and viewers on the web.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scenes/pictures/picture_scene.h"
+
+namespace tact::scenes {
+
+// Collects frames and writes them together. A body that moves has a morph target a frame after the first, which the
+// animation switches on in turn; one that never moves is stored once. Positions become floats, 12 bytes a vertex that
+// moves and frame, kept in memory until the file is written; the weights of n frames take 4 n² bytes once. glTF is y up
+// and in metres: scenes that are z up are turned by their root node. Viewers make the normals.
+class GltfAnimation {
+ public:
+  explicit GltfAnimation(UpAxis up) : up_(up) {}
+
+  // `time` in seconds, later than that of the frame before. Every frame holds the bodies of the first, with their
+  // numbers of vertices; names, facets and colours are those of the first.
+  // Errors: std::runtime_error if the time or the bodies do not fit the frames before.
+  void add_frame(std::span<const PictureBody> bodies, double time);
+
+  int frames() const { return static_cast<int>(times_.size()); }
+
+  // Errors: FileError if there is no frame, if the file would pass the format's limit of 4 GiB, or if it cannot be
+  // written.
+  void write(const std::filesystem::path& file) const;
+
+ private:
+  struct Body {
+    std::string name;
+    Color color;
+    double opacity = 1.0;
+    Eigen::Matrix3Xi facets;
+    std::vector<Eigen::Matrix3Xf> positions;  // a frame each; only the first if the body has not moved so far
+  };
+  class Writer;
+
+  UpAxis up_;
+  std::vector<float> times_;
+  std::vector<Body> bodies_;
+};
+
+// The smallest step from frame to frame with which `frames` frames of `vertices` moving vertices stay below `bytes`.
+int gltf_stride(std::int64_t vertices, int frames, std::int64_t bytes = 256'000'000);
+
+}  // namespace tact::scenes

@@ -1,0 +1,22 @@
+// Shows a report in a picture.
+#pragma once
+
+#include <tact/report.h>
+
+#include "scenes/pictures/picture_scene.h"
+
+namespace tact::scenes {
+
+struct ContactMarks {
+  bool facets = true;            // the facets that meet
+  bool directions = true;        // an arrow a touching contact, from a to b
+  bool zones = false;            // the disks around the impact zones; the world must have been asked for them
+  double shortest_arrow = 0.12;  // an arrow is as long as the contact is deep, but not shorter than this share of the
+                                 // diagonal of the smaller body's box
+};
+
+// Adds the marks of `report` to `scene`, whose body i is the body of index i in the report. Contacts of bodies that the
+// scene does not hold are left out.
+void mark_contacts(PictureScene& scene, const Report& report, const ContactMarks& marks = {});
+
+}  // namespace tact::scenes
