@@ -6,69 +6,68 @@
 #include <limits>
 #include <utility>
 
+#include "tests/support/random.h"
+
 namespace tact::tests {
 namespace {
 
 using base::Vec3;
 
-// SplitMix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014): the same numbers
-// everywhere, which the distributions of the standard library do not promise.
-class Random {
- public:
-  Random(std::uint64_t seed, std::uint64_t index) : state_(seed) {
-    state_ = next() ^ (index * 0x9e3779b97f4a7c15u);
-    next();
-  }
+// Both bounds included.
+int integer(Random& random, int lower, int upper) { return lower + random.below(upper - lower + 1); }
+bool one_in(Random& random, int n) { return random.below(n) == 0; }
 
-  std::uint64_t next() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+// Between -1 and 1, every bit of the significand in use.
+double real(Random& random) {
+  const double size = random.uniform(0.5, 1.0);
+  return size * random.uniform(-1.0, 1.0);
+}
 
-  // An integer, both bounds included.
-  int integer(int lower, int upper) {
-    return lower + static_cast<int>(next() % static_cast<std::uint64_t>(upper - lower + 1));
-  }
-  bool one_in(int n) { return integer(1, n) == 1; }
-  // In [-1, 1), every bit of the significand in use.
-  double real() { return static_cast<double>(static_cast<std::int64_t>(next()) >> 10) * 0x1p-53; }
-  Vec3 point() { return {real(), real(), real()}; }
-  // Integers from -8 to 8.
-  Vec3 lattice_point() { return {lattice(), lattice(), lattice()}; }
-  Triangle triangle() { return {point(), point(), point()}; }
-  Triangle lattice_triangle() { return {lattice_point(), lattice_point(), lattice_point()}; }
+Vec3 point(Random& random) {
+  const double x = real(random);
+  const double y = real(random);
+  return {x, y, real(random)};
+}
 
- private:
-  double lattice() { return integer(-8, 8); }
+// Integers from -8 to 8.
+Vec3 lattice_point(Random& random) {
+  const double x = integer(random, -8, 8);
+  const double y = integer(random, -8, 8);
+  return {x, y, static_cast<double>(integer(random, -8, 8))};
+}
 
-  std::uint64_t state_;
-};
+Triangle triangle(Random& random) { return {point(random), point(random), point(random)}; }
+Triangle lattice_triangle(Random& random) {
+  return {lattice_point(random), lattice_point(random), lattice_point(random)};
+}
 
 using Pair = std::pair<Triangle, Triangle>;
 
 Pair crossing(Random& random) {
-  const Triangle a = random.triangle();
-  const double s = 0.5 + 0.6 * random.real();
-  const double t = 0.5 + 0.6 * random.real();
+  const Triangle a = triangle(random);
+  const double s = 0.5 + 0.6 * real(random);
+  const double t = 0.5 + 0.6 * real(random);
   const Vec3 through = a[0] + s * (a[1] - a[0]) + (t * (1.0 - s)) * (a[2] - a[0]);
-  const Vec3 along = random.point();
-  return {a, {through + along, through - random.real() * along, random.point()}};
+  const Vec3 along = point(random);
+  return {a, {through + along, through - real(random) * along, point(random)}};
 }
 
 Pair coplanar(Random& random) {
-  const Vec3 origin = random.lattice_point();
-  const Vec3 u = random.lattice_point();
-  const Vec3 v = random.lattice_point();
-  const int reach = random.integer(1, 6);
-  const auto corner = [&] { return origin + random.integer(-reach, reach) * u + random.integer(-reach, reach) * v; };
+  const Vec3 origin = lattice_point(random);
+  const Vec3 u = lattice_point(random);
+  const Vec3 v = lattice_point(random);
+  const int reach = integer(random, 1, 6);
+  const auto corner = [&] {
+    const int i = integer(random, -reach, reach);
+    const int j = integer(random, -reach, reach);
+    return origin + i * u + j * v;
+  };
   return {{corner(), corner(), corner()}, {corner(), corner(), corner()}};
 }
 
 Pair axis_plane(Random& random) {
-  Pair pair{random.triangle(), random.triangle()};
-  const double level = random.real();
+  Pair pair{triangle(random), triangle(random)};
+  const double level = real(random);
   for (Triangle* t : {&pair.first, &pair.second}) {
     for (Vec3& p : *t) p.z = level;
   }
@@ -76,44 +75,45 @@ Pair axis_plane(Random& random) {
 }
 
 Pair sharing(Random& random, std::size_t corners) {
-  const bool lattice = random.one_in(2);
+  const bool lattice = one_in(random, 2);
   Pair pair =
-      lattice ? Pair{random.lattice_triangle(), random.lattice_triangle()} : Pair{random.triangle(), random.triangle()};
+      lattice ? Pair{lattice_triangle(random), lattice_triangle(random)} : Pair{triangle(random), triangle(random)};
   std::copy_n(pair.first.begin(), corners, pair.second.begin());
   return pair;
 }
 
 Pair touching(Random& random) {
-  Triangle a = random.lattice_triangle();
+  Triangle a = lattice_triangle(random);
   for (Vec3& p : a) p = 4.0 * p;
-  const int i = random.integer(0, 4);
-  const int j = random.integer(0, 4 - i);
+  const int i = integer(random, 0, 4);
+  const int j = integer(random, 0, 4 - i);
   const Vec3 on = 0.25 * (i * a[0] + j * a[1] + (4 - i - j) * a[2]);
-  return {a, {on, on + random.lattice_point(), on + random.lattice_point()}};
+  return {a, {on, on + lattice_point(random), on + lattice_point(random)}};
 }
 
 Pair edge_edge(Random& random) {
-  const Vec3 at = random.lattice_point();
-  const Vec3 u = random.lattice_point();
-  const Vec3 v = random.lattice_point();
-  return {{at - random.integer(0, 3) * u, at + random.integer(0, 3) * u, random.lattice_point()},
-          {at - random.integer(0, 3) * v, at + random.integer(0, 3) * v, random.lattice_point()}};
+  const Vec3 at = lattice_point(random);
+  const Vec3 u = lattice_point(random);
+  const Vec3 v = lattice_point(random);
+  return {{at - integer(random, 0, 3) * u, at + integer(random, 0, 3) * u, lattice_point(random)},
+          {at - integer(random, 0, 3) * v, at + integer(random, 0, 3) * v, lattice_point(random)}};
 }
 
 // A triangle with corner 2 at a distance of 1e-4 to 1e-12 from the edge 01: near its middle, or near corner 0.
 Triangle thin(Random& random, const Vec3& through, bool needle) {
-  const Vec3 along = random.point();
+  const Vec3 along = point(random);
   const Vec3 start = through - 0.5 * along;
-  const double width = std::pow(10.0, -random.integer(4, 12));
-  return {start, start + along, start + (needle ? 0.0 : 0.5 * random.real() + 0.5) * along + width * random.point()};
+  const double width = std::pow(10.0, -integer(random, 4, 12));
+  const double at = needle ? 0.0 : random.uniform();
+  return {start, start + along, start + at * along + width * point(random)};
 }
 
 Pair thin_pair(Random& random, bool needle) {
-  const Vec3 through = random.point();
+  const Vec3 through = point(random);
   const Triangle a = thin(random, through, needle);
-  if (random.one_in(2)) return {a, thin(random, through, needle)};
-  const Vec3 p = random.point();
-  const Vec3 q = random.point();
+  if (one_in(random, 2)) return {a, thin(random, through, needle)};
+  const Vec3 p = point(random);
+  const Vec3 q = point(random);
   return {a, {through + p, through - 0.7 * p + 0.3 * q, through - 0.4 * q}};
 }
 
@@ -121,29 +121,29 @@ Pair few_values(Random& random, int values, double unit) {
   Pair pair;
   for (Triangle* t : {&pair.first, &pair.second}) {
     for (Vec3& p : *t) {
-      for (int axis = 0; axis < 3; ++axis) p[axis] = unit * random.integer(0, values - 1);
+      for (int axis = 0; axis < 3; ++axis) p[axis] = unit * integer(random, 0, values - 1);
     }
   }
   return pair;
 }
 
 Pair collinear(Random& random) {
-  const Vec3 origin = random.lattice_point();
-  const Vec3 along = random.lattice_point();
-  const int reach = random.integer(0, 4);
-  const auto on_line = [&] { return origin + random.integer(-reach, reach) * along; };
+  const Vec3 origin = lattice_point(random);
+  const Vec3 along = lattice_point(random);
+  const int reach = integer(random, 0, 4);
+  const auto on_line = [&] { return origin + integer(random, -reach, reach) * along; };
   const Triangle a{on_line(), on_line(), on_line()};
-  switch (random.integer(0, 3)) {
+  switch (integer(random, 0, 3)) {
     case 0: return {a, {on_line(), on_line(), on_line()}};
-    case 1: return {a, {on_line(), on_line(), random.lattice_point()}};
+    case 1: return {a, {on_line(), on_line(), lattice_point(random)}};
     case 2: {
       const Vec3 from = on_line();
-      const Vec3 step = random.lattice_point();
-      return {a, {from - random.integer(0, 2) * step, from + random.integer(0, 2) * step, from}};
+      const Vec3 step = lattice_point(random);
+      return {a, {from - integer(random, 0, 2) * step, from + integer(random, 0, 2) * step, from}};
     }
     default: {
-      const Vec3 u = random.lattice_point();
-      const Vec3 v = random.lattice_point();
+      const Vec3 u = lattice_point(random);
+      const Vec3 v = lattice_point(random);
       const Vec3 in = on_line();
       return {a, {in + 2.0 * u - v, in + 2.0 * v - u, in - u - v}};
     }
@@ -167,7 +167,7 @@ Pair of_kind(PairKind kind, Random& random) {
     case PairKind::tenths: return few_values(random, 10, 0.1);
     case PairKind::collinear: return collinear(random);
   }
-  return {random.triangle(), random.triangle()};
+  return {triangle(random), triangle(random)};
 }
 
 const char* name(PairKind kind) {
@@ -185,17 +185,17 @@ void for_each_point(TrianglePair& pair, const Function& function) {
 }
 
 void move_and_scale(TrianglePair& pair, Random& random) {
-  if (random.one_in(6)) {
-    const double size = std::pow(10.0, random.integer(0, 8));
-    const Vec3 by{std::trunc(size * random.real()), std::trunc(size * random.real()), size};
+  if (one_in(random, 6)) {
+    const double size = std::pow(10.0, integer(random, 0, 8));
+    const Vec3 by{std::trunc(size * real(random)), std::trunc(size * real(random)), size};
     for_each_point(pair, [&](Vec3& p) { p = p + by; });
   }
   // The largest coordinate of any kind is below 2^7, and below 2^28 with an offset: 2^270 keeps it below 2^300.
   constexpr int kExponents[] = {-1060, -1000, -700, -290, -100, -30, 30, 100, 270};
-  const bool by_axis = random.one_in(8);
-  if (!by_axis && !random.one_in(3)) return;
+  const bool by_axis = one_in(random, 8);
+  if (!by_axis && !one_in(random, 3)) return;
   int exponent[3];
-  for (int& e : exponent) e = kExponents[random.integer(0, 8)];
+  for (int& e : exponent) e = kExponents[integer(random, 0, 8)];
   for_each_point(pair, [&](Vec3& p) {
     for (int axis = 0; axis < 3; ++axis) p[axis] = std::ldexp(p[axis], exponent[by_axis ? axis : 0]);
   });
@@ -207,31 +207,32 @@ double moved_by_ulps(double x, int ulps) {
 }
 
 void disturb(TrianglePair& pair, Random& random) {
-  const int how = random.integer(0, 2);
+  const int how = integer(random, 0, 2);
   if (how == 1) {
-    Triangle& t = random.one_in(2) ? pair.a : pair.b;
-    double& x = t[static_cast<std::size_t>(random.integer(0, 2))][random.integer(0, 2)];
-    x = moved_by_ulps(x, random.one_in(2) ? 1 : -1);
+    Triangle& t = one_in(random, 2) ? pair.a : pair.b;
+    Vec3& p = t[static_cast<std::size_t>(integer(random, 0, 2))];
+    const int axis = integer(random, 0, 2);
+    p[axis] = moved_by_ulps(p[axis], one_in(random, 2) ? 1 : -1);
   }
   if (how == 2) {
     for_each_point(pair, [&](Vec3& p) {
-      for (int axis = 0; axis < 3; ++axis) p[axis] = moved_by_ulps(p[axis], random.integer(-1, 1));
+      for (int axis = 0; axis < 3; ++axis) p[axis] = moved_by_ulps(p[axis], integer(random, -1, 1));
     });
   }
 }
 
 void shuffle(TrianglePair& pair, Random& random) {
-  const int first = random.integer(0, 2);
-  const int second = (first + random.integer(1, 2)) % 3;
+  const int first = integer(random, 0, 2);
+  const int second = (first + integer(random, 1, 2)) % 3;
   const int third = 3 - first - second;
   for_each_point(pair, [&](Vec3& p) { p = {p[first], p[second], p[third]}; });
-  pair = all_orders(pair)[static_cast<std::size_t>(random.integer(0, 71))];
+  pair = all_orders(pair)[static_cast<std::size_t>(integer(random, 0, 71))];
 }
 
 }  // namespace
 
 TrianglePair hard_triangle_pair(std::uint64_t seed, std::uint64_t index) {
-  Random random(seed, index);
+  Random random(Random(seed).bits() ^ (index * 0x9e3779b97f4a7c15u));
   const auto kind = static_cast<PairKind>(index % kPairKinds);
   const Pair shape = of_kind(kind, random);
   TrianglePair pair{shape.first, shape.second, kind};
