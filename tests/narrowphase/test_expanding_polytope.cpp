@@ -412,6 +412,13 @@ TEST(ExpandingPolytope, OfEqualDirectionsThePreferredComes) {
   EXPECT_EQ(solve(pair, {1, 0.1, -0.2}).separation.direction, (Vec3{1, 0, 0}));
   const Pair cubes{box({1, 1, 1}), box({1, 1, 1})};
   EXPECT_EQ(solve(cubes, {0.2, -1, 0.1}).separation.direction, (Vec3{0, -1, 0}));
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    Random random(seed);
+    Pair turned{box({1, 2, 3}), box({1, 2, 3})};
+    const Vec3 axis = random.direction(), preferred = random.direction();
+    for (Points* points : {&turned.a, &turned.b}) rotate(*points, axis, 1.0);
+    EXPECT_GT(dot(solve(turned, preferred).separation.direction, preferred), 0.0) << "seed " << seed;
+  }
 }
 
 // coal#48, parry#253: two flat triangles, crossing or in one plane.
