@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <limits>
+
+#include "engine/base/floating_point_mode.h"
+
+namespace {
+
+using tact::base::FloatingPointMode;
+
+// Reads from memory each time, so that the compiler cannot compute the sum itself.
+double sum_of(const volatile double& a, const volatile double& b) { return a + b; }
+double half_of(const volatile double& a) { return a * 0.5; }
+
+const volatile double kOne = 1.0;
+const volatile double kTiny = std::numeric_limits<double>::min() / 4;
+const volatile double kSmallestNormal = std::numeric_limits<double>::min();
+
+TEST(FloatingPointMode, RoundsToNearestAndGivesTheCallersModeBack) {
+  for (const int callers : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    ASSERT_EQ(std::fesetround(callers), 0);
+    double inside = 0.0;
+    {
+      const FloatingPointMode mode;
+      inside = sum_of(kOne, kTiny);
+    }
+    const double outside = sum_of(kOne, kTiny);
+    const int after = std::fegetround();
+    std::fesetround(FE_TONEAREST);
+    EXPECT_EQ(inside, 1.0);
+    EXPECT_EQ(outside > 1.0, callers == FE_UPWARD);
+    EXPECT_EQ(after, callers);
+  }
+}
+
+TEST(FloatingPointMode, GivesTheModeBackWhenAnExceptionPasses) {
+  ASSERT_EQ(std::fesetround(FE_UPWARD), 0);
+  try {
+    const FloatingPointMode mode;
+    throw 1;
+  } catch (int) {
+  }
+  const double after = sum_of(kOne, kTiny);
+  std::fesetround(FE_TONEAREST);
+  EXPECT_GT(after, 1.0);
+}
+
+#if defined(__SSE2__)
+// Embree advises its users to set both bits in every thread.
+TEST(FloatingPointMode, KeepsSubnormalNumbersWhereTheCallerFlushesThem) {
+  const unsigned before = _mm_getcsr();
+  constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
+  _mm_setcsr(before | kFlushToZero | kDenormalsAreZero);
+  double result = 0.0, operand = 0.0;
+  {
+    const FloatingPointMode mode;
+    result = half_of(kSmallestNormal);
+    operand = sum_of(kTiny, kTiny);
+  }
+  const double flushed_result = half_of(kSmallestNormal), flushed_operand = sum_of(kTiny, kTiny);
+  const unsigned after = _mm_getcsr();
+  _mm_setcsr(before);
+  EXPECT_EQ(result, std::numeric_limits<double>::min() / 2);
+  EXPECT_EQ(operand, std::numeric_limits<double>::min() / 2);
+  EXPECT_EQ(flushed_result, 0.0);
+  EXPECT_EQ(flushed_operand, 0.0);
+  EXPECT_EQ(after & (kFlushToZero | kDenormalsAreZero), kFlushToZero | kDenormalsAreZero);
+}
+#endif
+
+}  // namespace
