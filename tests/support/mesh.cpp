@@ -114,6 +114,11 @@ Mesh rotated(Mesh mesh, const Rotation& rotation) {
   });
 }
 
+Mesh snapped(Mesh mesh, double step) {
+  const auto nearest = [&](double x) { return std::floor(x / step + 0.5) * step; };
+  return mapped(std::move(mesh), [&](Vec3 p) { return Vec3{nearest(p.x), nearest(p.y), nearest(p.z)}; });
+}
+
 Mesh turned_inside_out(Mesh mesh) {
   mesh.facets.row(1).swap(mesh.facets.row(2));
   return mesh;

@@ -53,6 +53,8 @@ Mesh translated(Mesh mesh, Vec3 by);
 Mesh scaled(Mesh mesh, double factor, Vec3 center = {});
 Mesh stretched(Mesh mesh, Vec3 factors);
 Mesh rotated(Mesh mesh, const Rotation& rotation);
+// Every coordinate rounded to a multiple of `step`, a power of two: a shift by a larger power of two is then exact.
+Mesh snapped(Mesh mesh, double step);
 // Every facet with its corners in the opposite order.
 Mesh turned_inside_out(Mesh mesh);
 

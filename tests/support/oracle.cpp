@@ -10,6 +10,8 @@
 #include <utility>
 #include <variant>
 
+#include "tests/support/triangle_oracle.h"
+
 namespace tact::tests {
 namespace {
 
@@ -89,11 +91,14 @@ std::vector<FacetPair> facet_pairs_by_oracle(const Mesh& a, const Mesh& b) {
 }
 
 std::vector<FacetPair> facet_pairs_by_brute_force(const Mesh& a, const Mesh& b) {
-  const std::vector<Shape> shapes_a = shapes_of(a), shapes_b = shapes_of(b);
+  const auto triangle = [](const Mesh& mesh, int f) {
+    return narrowphase::Triangle{mesh.position(mesh.facets(0, f)), mesh.position(mesh.facets(1, f)),
+                                 mesh.position(mesh.facets(2, f))};
+  };
   std::vector<FacetPair> pairs;
   for (int f = 0; f < a.facet_count(); ++f) {
     for (int g = 0; g < b.facet_count(); ++g) {
-      if (meet(shapes_a[static_cast<std::size_t>(f)], shapes_b[static_cast<std::size_t>(g)])) pairs.push_back({f, g});
+      if (cgal_meet(triangle(a, f), triangle(b, g))) pairs.push_back({f, g});
     }
   }
   return pairs;

@@ -1,0 +1,379 @@
+// Bodies come, move and go; every wrong call is refused by name and changes nothing.
+#include <gtest/gtest.h>
+#include <tact/tact.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/detection.h"
+#include "tests/support/generators.h"
+
+namespace tact::tests {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+BodyDefinition definition(const Mesh& mesh, std::string name = {}) {
+  return {.positions = mesh.positions, .facets = mesh.facets, .name = std::move(name)};
+}
+
+// A world with two spheres that meet and a fixed box that both rest on.
+class WorldOfThree : public ::testing::Test {
+ protected:
+  WorldOfThree() {
+    left_ = world_.add_body(definition(left_mesh_, "left"));
+    right_ = world_.add_body(definition(right_mesh_, "right"));
+    BodyDefinition floor = definition(floor_mesh_, "floor");
+    floor.motion = Motion::fixed;
+    floor_ = world_.add_body(floor);
+  }
+
+  // The hash of a new look at every pair, so that a body whose copy was spoiled would show. The look before it settles
+  // how the directions are found.
+  std::uint64_t hash() {
+    world_.detect();
+    world_.set_settings(world_.settings());
+    return world_.detect().hash();
+  }
+
+  Mesh left_mesh_ = icosphere(2);
+  Mesh right_mesh_ = translated(icosphere(2), {1.5, 0.1, 0.2});
+  Mesh floor_mesh_ = box({-3.0, -3.0, -2.0}, {3.0, 3.0, -0.7});
+  World world_;
+  BodyId left_;
+  BodyId right_;
+  BodyId floor_;
+};
+
+TEST_F(WorldOfThree, KnowsItsBodies) {
+  EXPECT_EQ(world_.body_count(), 3u);
+  EXPECT_EQ(world_.bodies(), (std::vector<BodyId>{left_, right_, floor_}));
+  EXPECT_EQ(world_.name(left_), "left");
+  EXPECT_EQ(world_.motion(floor_), Motion::fixed);
+  EXPECT_EQ(world_.motion(left_), Motion::moving);
+  EXPECT_EQ(world_.surface(left_), Surface::closed);
+  EXPECT_EQ(world_.vertex_count(left_), 162u);
+  EXPECT_EQ(world_.facet_count(left_), 320u);
+  EXPECT_TRUE(world_.contains(left_));
+  EXPECT_FALSE(world_.contains(BodyId{}));
+}
+
+TEST_F(WorldOfThree, ReportsContactsInOrder) {
+  const Report& report = world_.detect();
+  ASSERT_EQ(report.contacts().size(), 3u);
+  const std::array<std::array<BodyId, 2>, 3> expected = {{{left_, right_}, {left_, floor_}, {right_, floor_}}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(report.contacts()[i].a, expected[i][0]);
+    EXPECT_EQ(report.contacts()[i].b, expected[i][1]);
+    EXPECT_EQ(report.candidate_pairs()[i].a, expected[i][0]);
+    EXPECT_TRUE(report.candidate_pairs()[i].hulls_overlap);
+  }
+  EXPECT_EQ(report.stats().bodies, 3);
+  EXPECT_EQ(report.stats().moved_bodies, 3);
+  EXPECT_EQ(report.stats().contacts, 3);
+}
+
+TEST_F(WorldOfThree, ForgetsRemovedBody) {
+  world_.detect();
+  world_.remove_body(right_);
+  EXPECT_EQ(world_.body_count(), 2u);
+  EXPECT_FALSE(world_.contains(right_));
+  const Report& report = world_.detect();
+  ASSERT_EQ(report.contacts().size(), 1u);
+  EXPECT_EQ(report.contacts()[0].a, left_);
+  EXPECT_EQ(report.contacts()[0].b, floor_);
+}
+
+TEST_F(WorldOfThree, RefusesStaleIdInEveryCall) {
+  world_.remove_body(right_);
+  const BodyId next = world_.add_body(definition(right_mesh_, "next"));
+  EXPECT_NE(next, right_);
+  const std::uint64_t before = hash();
+  const std::array updates = {PositionsUpdate{left_, left_mesh_.positions},
+                              PositionsUpdate{right_, right_mesh_.positions}};
+  for (const BodyId stale : {right_, BodyId{}, BodyId{99, 1, left_.world}, BodyId{left_.index, 7, left_.world}}) {
+    EXPECT_FALSE(world_.contains(stale));
+    EXPECT_TRUE(throws_error([&] { world_.remove_body(stale); }, ErrorCode::stale_body));
+    EXPECT_TRUE(throws_error([&] { world_.set_positions(stale, right_mesh_.positions); }, ErrorCode::stale_body));
+    EXPECT_TRUE(throws_error([&] { world_.name(stale); }, ErrorCode::stale_body));
+    EXPECT_TRUE(throws_error([&] { world_.surface(stale); }, ErrorCode::stale_body));
+    EXPECT_TRUE(throws_error([&] { world_.motion(stale); }, ErrorCode::stale_body));
+    EXPECT_TRUE(throws_error([&] { world_.vertex_count(stale); }, ErrorCode::stale_body));
+    EXPECT_TRUE(throws_error([&] { world_.facet_count(stale); }, ErrorCode::stale_body));
+  }
+  EXPECT_TRUE(throws_error([&] { world_.set_positions(updates); }, ErrorCode::stale_body));
+  EXPECT_EQ(hash(), before);
+}
+
+TEST_F(WorldOfThree, RefusesForeignId) {
+  World other;
+  const BodyId foreign = other.add_body(definition(left_mesh_));
+  EXPECT_FALSE(world_.contains(foreign));
+  EXPECT_TRUE(throws_error([&] { world_.remove_body(foreign); }, ErrorCode::foreign_body));
+  EXPECT_TRUE(throws_error([&] { world_.set_positions(foreign, left_mesh_.positions); }, ErrorCode::foreign_body));
+  EXPECT_TRUE(throws_error([&] { world_.name(foreign); }, ErrorCode::foreign_body));
+  EXPECT_EQ(world_.body_count(), 3u);
+}
+
+TEST_F(WorldOfThree, KeepsIdsWhenMoved) {
+  World moved = std::move(world_);
+  EXPECT_TRUE(moved.contains(left_));
+  EXPECT_EQ(moved.detect().contacts().size(), 3u);
+}
+
+TEST_F(WorldOfThree, RefusesBadPositionsAndNamesThem) {
+  const std::uint64_t before = hash();
+  const struct {
+    double value;
+    ErrorCode code;
+  } cases[] = {{kNan, ErrorCode::non_finite_position},
+               {kInfinity, ErrorCode::non_finite_position},
+               {-kInfinity, ErrorCode::non_finite_position},
+               {0x1.0000000000001p300, ErrorCode::position_out_of_range},
+               {-1e300, ErrorCode::position_out_of_range}};
+  for (const auto& [value, code] : cases) {
+    Eigen::Matrix3Xd bad = left_mesh_.positions;
+    bad(1, 77) = value;
+    EXPECT_TRUE(throws_error([&] { world_.set_positions(left_, bad); }, code, {"left", "77"})) << value;
+    EXPECT_TRUE(throws_error([&] { world_.add_body({.positions = bad, .facets = left_mesh_.facets, .name = "new"}); },
+                             code, {"new", "77"}))
+        << value;
+  }
+  EXPECT_EQ(world_.body_count(), 3u);
+  EXPECT_EQ(hash(), before);
+}
+
+TEST_F(WorldOfThree, TakesTheLargestCoordinate) {
+  Mesh far = left_mesh_;
+  far.positions(0, 3) = kLargestCoordinate;
+  EXPECT_NO_THROW(world_.set_positions(left_, far.positions));
+  EXPECT_TRUE(same_meeting_bodies(meeting_bodies_by_oracle(std::array{far, right_mesh_, floor_mesh_}),
+                                  meeting_bodies(world_.detect(), world_.bodies())));
+}
+
+TEST_F(WorldOfThree, RefusesWrongNumberOfPositions) {
+  const std::uint64_t before = hash();
+  for (const Eigen::Index count : {0, 161, 163}) {
+    const Eigen::Matrix3Xd positions = Eigen::Matrix3Xd::Zero(3, count);
+    EXPECT_TRUE(throws_error([&] { world_.set_positions(left_, positions); }, ErrorCode::wrong_size, {"left", "162"}));
+  }
+  EXPECT_EQ(hash(), before);
+}
+
+TEST_F(WorldOfThree, RefusesFacetsOutOfRangeAndNamesThem) {
+  for (const int index : {-1, 162, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
+    Mesh bad = left_mesh_;
+    bad.facets(2, 41) = index;
+    EXPECT_TRUE(throws_error([&] { world_.add_body(definition(bad, "bad")); }, ErrorCode::facet_out_of_range,
+                             {"bad", "41", std::to_string(index).c_str()}));
+  }
+  EXPECT_EQ(world_.body_count(), 3u);
+}
+
+TEST_F(WorldOfThree, RefusesToMoveFixedBody) {
+  const std::uint64_t before = hash();
+  const Eigen::Matrix3Xd lower = floor_mesh_.positions.array() - 1.0;
+  EXPECT_TRUE(throws_error([&] { world_.set_positions(floor_, lower); }, ErrorCode::fixed_body, {"floor"}));
+  EXPECT_EQ(hash(), before);
+}
+
+TEST_F(WorldOfThree, MovesAllBodiesOfABatchOrNone) {
+  const std::uint64_t before = hash();
+  const Eigen::Matrix3Xd up = left_mesh_.positions.array() + 0.25;
+  Eigen::Matrix3Xd bad = right_mesh_.positions;
+  bad(2, 5) = kNan;
+  const std::array broken = {PositionsUpdate{left_, up}, PositionsUpdate{right_, bad}};
+  EXPECT_TRUE(throws_error([&] { world_.set_positions(broken); }, ErrorCode::non_finite_position, {"right", "5"}));
+  const std::array twice = {PositionsUpdate{left_, up}, PositionsUpdate{left_, up}};
+  EXPECT_TRUE(throws_error([&] { world_.set_positions(twice); }, ErrorCode::wrong_order, {"left"}));
+  const std::array fixed = {PositionsUpdate{left_, up}, PositionsUpdate{floor_, floor_mesh_.positions}};
+  EXPECT_TRUE(throws_error([&] { world_.set_positions(fixed); }, ErrorCode::fixed_body, {"floor"}));
+  EXPECT_EQ(hash(), before);
+  const std::array good = {PositionsUpdate{right_, right_mesh_.positions}, PositionsUpdate{left_, up}};
+  world_.set_positions(good);
+  const std::uint64_t after = hash();
+  EXPECT_NE(after, before);
+  world_.set_positions(left_, left_mesh_.positions);
+  world_.set_positions(left_, up);
+  EXPECT_TRUE(
+      same_meeting_bodies(meeting_bodies_by_oracle(std::array{Mesh{up, left_mesh_.facets}, right_mesh_, floor_mesh_}),
+                          meeting_bodies(world_.detect(), world_.bodies())));
+}
+
+// Of several wrong bodies in a batch the first is named, however many threads look at them.
+TEST_F(WorldOfThree, NamesTheFirstWrongBodyOfABatch) {
+  std::vector<BodyId> ids;
+  std::vector<PositionsUpdate> updates;
+  Eigen::Matrix3Xd bad = left_mesh_.positions;
+  bad(0, 0) = kNan;
+  for (int i = 0; i < 200; ++i)
+    ids.push_back(world_.add_body(definition(left_mesh_, "number " + std::to_string(i) + ".")));
+  for (int i = 0; i < 200; ++i) {
+    const bool wrong = i >= 37 && i % 3 == 0;  // the first is 39
+    updates.push_back({ids[static_cast<std::size_t>(i)], wrong ? bad : left_mesh_.positions});
+  }
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    EXPECT_TRUE(throws_error([&] { world_.set_positions(updates); }, ErrorCode::non_finite_position, {"number 39."}));
+  }
+}
+
+TEST_F(WorldOfThree, HasNotMovedWhenPositionsAreEqual) {
+  world_.detect();
+  world_.set_positions(left_, left_mesh_.positions);
+  const StepStats still = world_.detect().stats();
+  EXPECT_EQ(still.moved_bodies, 0);
+  EXPECT_EQ(still.kept_pairs, still.candidate_pairs);
+  Eigen::Matrix3Xd up = left_mesh_.positions;
+  up(0, 0) += 1e-12;
+  world_.set_positions(left_, up);
+  const StepStats moved = world_.detect().stats();
+  EXPECT_EQ(moved.moved_bodies, 1);
+  EXPECT_EQ(moved.kept_pairs, 1);
+}
+
+TEST_F(WorldOfThree, TellsWhenFacetsBeginAndCeaseToMeet) {
+  const Report& report = world_.detect();
+  EXPECT_EQ(report.began().size(), 3u);
+  EXPECT_TRUE(report.ended().empty());
+  world_.set_positions(left_, translated(left_mesh_, {-0.6, 0.0, 0.4}).positions);
+  const Report& second = world_.detect();
+  EXPECT_TRUE(second.began().empty());
+  EXPECT_EQ(std::vector(second.ended().begin(), second.ended().end()),
+            (std::vector<ContactEvent>{{left_, right_}, {left_, floor_}}));
+  world_.remove_body(right_);
+  const Report& third = world_.detect();
+  EXPECT_EQ(std::vector(third.ended().begin(), third.ended().end()), (std::vector<ContactEvent>{{right_, floor_}}));
+  EXPECT_TRUE(world_.detect().ended().empty());
+}
+
+TEST(WorldSettings, AreRefusedWhenTheyHaveNoMeaning) {
+  World world({.threads = 1, .gjk_tolerance = 1e-9});
+  const Settings bad[] = {{.threads = -1},
+                          {.gjk_tolerance = 0.0},
+                          {.gjk_tolerance = -1e-12},
+                          {.gjk_tolerance = kNan},
+                          {.gjk_tolerance = 1.0},
+                          {.iteration_limit = 0},
+                          {.accuracy = static_cast<Accuracy>(17)},
+                          {.direction = static_cast<DirectionPolicy>(-3)}};
+  for (const Settings& settings : bad) {
+    EXPECT_TRUE(throws_error([&] { world.set_settings(settings); }, ErrorCode::bad_settings));
+    EXPECT_TRUE(throws_error([&] { World another(settings); }, ErrorCode::bad_settings));
+    EXPECT_EQ(world.settings().gjk_tolerance, 1e-9);
+    EXPECT_EQ(world.settings().threads, 1);
+  }
+}
+
+TEST(World, IsEmptyAtFirst) {
+  World world;
+  EXPECT_EQ(world.body_count(), 0u);
+  const Report& report = world.detect();
+  EXPECT_TRUE(report.contacts().empty());
+  EXPECT_TRUE(report.candidate_pairs().empty());
+  EXPECT_EQ(report.stats().bodies, 0);
+}
+
+// With a slot used again, an old id must not reach the new body, and pairs must not inherit a history.
+TEST(World, GivesNoIdTwice) {
+  World world;
+  const Mesh mesh = icosphere(0);
+  std::vector<BodyId> seen;
+  for (int i = 0; i < 100; ++i) {
+    const BodyId id = world.add_body(definition(mesh));
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), id), 0);
+    seen.push_back(id);
+    world.remove_body(id);
+  }
+  for (const BodyId id : seen) EXPECT_FALSE(world.contains(id));
+}
+
+TEST(World, NamesBodiesByIndexIfNotNamed) {
+  World world;
+  const Mesh mesh = icosphere(0);
+  const BodyId first = world.add_body(definition(mesh));
+  const BodyId second = world.add_body(definition(mesh));
+  EXPECT_EQ(world.name(first), "body " + std::to_string(first.index));
+  EXPECT_EQ(world.name(second), "body " + std::to_string(second.index));
+}
+
+TEST(World, TakesBodiesWithoutFacetsOrVertices) {
+  World world;
+  const Mesh sphere = icosphere(1);
+  const BodyId empty = world.add_body(definition(Mesh{}));
+  const BodyId points = world.add_body({.positions = sphere.positions, .facets = Eigen::Matrix3Xi(3, 0)});
+  world.add_body(definition(sphere));
+  EXPECT_TRUE(world.detect().candidate_pairs().empty());
+  world.set_positions(points, 2.0 * sphere.positions);
+  world.set_positions(empty, Eigen::Matrix3Xd(3, 0));
+  EXPECT_TRUE(world.detect().candidate_pairs().empty());
+}
+
+struct LayerCase {
+  std::uint32_t layer_a, mask_a, layer_b, mask_b;
+  bool tested;
+};
+
+TEST(World, TestsAPairIfEachMaskHoldsTheOthersLayer) {
+  const LayerCase cases[] = {{1, ~0u, 1, ~0u, true}, {1, 2, 2, 1, true},
+                             {1, 2, 2, 2, false},    {1, 1, 2, 1, false},
+                             {3, 4, 6, 1, true},     {0, ~0u, 1, ~0u, false},
+                             {1, 0, 1, ~0u, false},  {0x80000000u, 0x80000000u, 0x80000000u, 0x80000000u, true}};
+  const Mesh mesh = icosphere(0);
+  for (const LayerCase& c : cases) {
+    World world;
+    BodyDefinition a = definition(mesh), b = definition(mesh);
+    a.layer = c.layer_a, a.mask = c.mask_a, b.layer = c.layer_b, b.mask = c.mask_b;
+    world.add_body(a);
+    world.add_body(b);
+    EXPECT_EQ(world.detect().candidate_pairs().size(), c.tested ? 1u : 0u)
+        << c.layer_a << " " << c.mask_a << " " << c.layer_b << " " << c.mask_b;
+  }
+}
+
+TEST(World, NeverTestsTwoFixedBodies) {
+  World world;
+  const Mesh mesh = icosphere(0);
+  BodyDefinition fixed = definition(mesh);
+  fixed.motion = Motion::fixed;
+  world.add_body(fixed);
+  world.add_body(fixed);
+  EXPECT_TRUE(world.detect().candidate_pairs().empty());
+  world.add_body(definition(mesh));
+  EXPECT_EQ(world.detect().candidate_pairs().size(), 2u);
+}
+
+// A row-major matrix is copied by Eigen, and a block of a larger one is read as it is.
+TEST(World, TakesRowMajorMatricesAndBlocks) {
+  World world;
+  const Mesh mesh = icosphere(1), other = translated(mesh, {1.2, 0.0, 0.0});
+  const Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> rows = mesh.positions;
+  Eigen::MatrixXd wide(3, 2 * other.vertex_count());
+  wide.rightCols(other.vertex_count()) = other.positions;
+  const BodyId a = world.add_body({.positions = rows, .facets = mesh.facets});
+  const BodyId b = world.add_body({.positions = wide.rightCols(other.vertex_count()), .facets = mesh.facets});
+  const std::array ids = {a, b};
+  EXPECT_TRUE(
+      same_meeting_bodies(meeting_bodies_by_oracle(std::array{mesh, other}), meeting_bodies(world.detect(), ids)));
+}
+
+// A matrix that is part of a taller one has gaps between its columns.
+TEST(World, TakesPositionsWithGapsBetweenColumns) {
+  World world;
+  const Mesh mesh = icosphere(1), other = translated(mesh, {1.2, 0.0, 0.0});
+  Eigen::MatrixXd tall = Eigen::MatrixXd::Constant(5, mesh.vertex_count(), kNan);
+  tall.topRows(3) = mesh.positions;
+  Eigen::MatrixXi tall_facets = Eigen::MatrixXi::Constant(4, mesh.facet_count(), -7);
+  tall_facets.bottomRows(3) = mesh.facets;
+  const BodyId a = world.add_body({.positions = tall.topRows(3), .facets = tall_facets.bottomRows(3)});
+  const std::array ids = {a, world.add_body(definition(other))};
+  EXPECT_TRUE(
+      same_meeting_bodies(meeting_bodies_by_oracle(std::array{mesh, other}), meeting_bodies(world.detect(), ids)));
+}
+
+}  // namespace
+}  // namespace tact::tests

@@ -1,0 +1,187 @@
+#include "tests/support/body_pairs.h"
+
+#include <iterator>
+#include <utility>
+
+#include "tests/support/generators.h"
+
+namespace tact::tests {
+namespace {
+
+// `mesh` turned at random about its centroid, which is moved to a random place in a ball about the origin.
+Mesh placed(Mesh mesh, double reach, Random& random) {
+  mesh = rotated(translated(mesh, -centroid(mesh)), random.rotation());
+  return translated(std::move(mesh), reach * random.in_ball());
+}
+
+std::vector<Mesh> pair_in(double reach, Mesh a, Mesh b, std::uint64_t seed) {
+  Random random(seed ^ 0x5eedu);
+  Mesh first = placed(std::move(a), 0.0, random);
+  return {std::move(first), placed(std::move(b), reach, random)};
+}
+
+std::vector<Mesh> blobs(std::uint64_t seed) {
+  return pair_in(1.6, blob(2, 1.0, 0.3, seed), blob(3, 0.8, 0.3, seed + 1000), seed);
+}
+
+std::vector<Mesh> organ_and_tool(std::uint64_t seed) { return pair_in(0.6, organ(seed), tool(), seed); }
+
+std::vector<Mesh> tori(std::uint64_t seed) {
+  return pair_in(1.5, torus(16, 8, 1.0, 0.3), torus(32, 8, 1.1, 0.2), seed);
+}
+
+std::vector<Mesh> sphere_in_cloth(std::uint64_t seed) {
+  return pair_in(0.8, wrinkled_sheet(20, 3.0, 0.8, seed), icosphere(2, 0.6), seed);
+}
+
+std::vector<Mesh> cloths(std::uint64_t seed) {
+  return pair_in(0.3, wrinkled_sheet(16, 2.0, 0.4, seed), wrinkled_sheet(20, 2.0, 0.4, seed + 1000), seed);
+}
+
+// Sheets in one plane, a power of two apart in steps: every pair of facets is coplanar.
+std::vector<Mesh> coplanar_sheets(std::uint64_t seed) {
+  Random random(seed);
+  const double dx = random.below(9) * 0.125, dy = random.below(9) * 0.125;
+  return {sheet(8, 8, 2.0, 2.0), translated(sheet(16, 4, 2.0, 2.0), {dx, dy, 0.0})};
+}
+
+std::vector<Mesh> hulls(std::uint64_t seed) {
+  return pair_in(1.2, random_hull(20, seed), random_hull(12, seed + 1000), seed);
+}
+
+// Boxes of whole numbers whose faces, edges and corners often touch exactly.
+std::vector<Mesh> lattice_boxes(std::uint64_t seed) {
+  Random random(seed);
+  const auto random_box = [&] {
+    Vec3 lower, upper;
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = random.below(4);
+      upper[axis] = lower[axis] + 1 + random.below(3);
+    }
+    return gridded_box(lower, upper, 1 + random.below(3));
+  };
+  Mesh first = random_box();
+  return {std::move(first), random_box()};
+}
+
+std::vector<Mesh> crossed_bars(std::uint64_t seed) {
+  return pair_in(0.4, centered_box({2.0, 0.1, 0.1}), centered_box({0.1, 2.0, 0.1}), seed);
+}
+
+std::vector<Mesh> spikes(std::uint64_t seed) {
+  Random random(seed);
+  return {blob(2, 1.0, 0.3, seed), translated(spike(2.0 * random.direction(), 1e-3), 0.5 * random.direction())};
+}
+
+std::vector<Mesh> soups(std::uint64_t seed) { return {soup(200, 1.0, seed), soup(150, 1.0, seed + 1000)}; }
+
+std::vector<Mesh> lattice_soups(std::uint64_t seed) {
+  return {lattice_soup(120, 3, seed), lattice_soup(100, 3, seed + 1000)};
+}
+
+// Needles in space hardly ever meet each other: some go through a soup, and some lie in one plane, or nearly.
+std::vector<Mesh> needle_heaps(std::uint64_t seed) {
+  const Mesh heap = needles(100, seed % 2 == 0 ? 1e-12 : 1e-9, seed), other = needles(40, 1e-12, seed + 1000);
+  switch (seed % 3) {
+    case 0: return {heap, soup(80, 1.0, seed)};
+    case 1: return {stretched(heap, {1.0, 1.0, 0.0}), stretched(other, {1.0, 1.0, 0.0})};
+    default: return {stretched(heap, {1.0, 1.0, 1e-14}), stretched(other, {1.0, 1.0, 1e-14})};
+  }
+}
+
+std::vector<Mesh> crumpled_spheres(std::uint64_t seed) {
+  return {crumpled(icosphere(1), seed), crumpled(icosphere(1), seed + 1000)};
+}
+
+// The same body twice in one place, one of them with other facets or inside out.
+std::vector<Mesh> twins(std::uint64_t seed) {
+  const Mesh mesh = blob(1, 1.0, 0.3, seed);
+  Random random(seed);
+  const Mesh other = permuted(mesh, random.permutation(mesh.vertex_count()), random.permutation(mesh.facet_count()));
+  return {mesh, random.chance(0.5) ? turned_inside_out(other) : other};
+}
+
+// A vertex of one lies on a facet of the other, give or take the last bit.
+std::vector<Mesh> grazing_boxes(std::uint64_t seed) {
+  Random random(seed);
+  const Rotation turn = random.rotation();
+  const Mesh a = rotated(centered_box({1.0, 0.7, 0.4}), turn);
+  const Mesh b = rotated(translated(centered_box({0.5, 0.6, 0.8}), {1.5, 0.1 * random.below(5), 0.0}), turn);
+  return {a, b};
+}
+
+// Facets and straight or point-like bodies of one facet each.
+std::vector<Mesh> single_facets(std::uint64_t seed) {
+  return {lattice_soup(1, 2, seed), lattice_soup(1, 2, seed + 1000)};
+}
+
+std::vector<Mesh> nested(std::uint64_t seed) { return {blob(2, 1.0, 0.2, seed), scaled(blob(2, 1.0, 0.2, seed), 0.9)}; }
+
+constexpr BodyPairKind kKinds[] = {
+    {"blobs", blobs, true},
+    {"organ_and_tool", organ_and_tool, true},
+    {"tori", tori, true},
+    {"sphere_in_cloth", sphere_in_cloth, true},
+    {"cloths", cloths, true},
+    {"coplanar_sheets", coplanar_sheets, true},
+    {"hulls", hulls, true},
+    {"lattice_boxes", lattice_boxes, true},
+    {"crossed_bars", crossed_bars, true},
+    {"spikes", spikes, true},
+    {"soups", soups, false},
+    {"lattice_soups", lattice_soups, false},
+    {"needle_heaps", needle_heaps, false},
+    {"crumpled_spheres", crumpled_spheres, false},
+    {"twins", twins, true},
+    {"grazing_boxes", grazing_boxes, true},
+    {"single_facets", single_facets, false},
+    {"nested", nested, true},
+};
+
+}  // namespace
+
+std::span<const BodyPairKind> body_pair_kinds() { return kKinds; }
+
+std::vector<Mesh> crowd_of_blobs(int count, std::uint64_t seed) {
+  Random random(seed);
+  double half_edge = 1.0;  // the cube grows with the number of bodies
+  while (half_edge * half_edge * half_edge < count) half_edge *= 1.0625;
+  std::vector<Mesh> bodies;
+  for (int i = 0; i < count; ++i) {
+    const double radius = random.uniform(0.5, 1.2);
+    const Vec3 at = random.in_cube(half_edge);
+    bodies.push_back(translated(blob(1, radius, 0.3, seed + static_cast<std::uint64_t>(i)), at));
+  }
+  return bodies;
+}
+
+std::vector<Mesh> mixed_crowd(int count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Mesh> bodies = {Mesh{}};
+  for (int i = 1; i < count; ++i) {
+    const BodyPairKind& kind = kKinds[random.below(static_cast<int>(std::size(kKinds)))];
+    std::vector<Mesh> pair = kind.make(seed + static_cast<std::uint64_t>(i));
+    Mesh& mesh = pair[static_cast<std::size_t>(random.below(2))];
+    bodies.push_back(translated(std::move(mesh), random.in_cube(3.0)));
+  }
+  return bodies;
+}
+
+std::vector<Mesh> brick_wall(int bricks_a_course, int courses) {
+  std::vector<Mesh> bricks;
+  for (int course = 0; course < courses; ++course) {
+    for (int i = 0; i < bricks_a_course; ++i) {
+      const double x = 4.0 * i + (course % 2 == 0 ? 0.0 : 2.0);
+      bricks.push_back(box({x, 0.0, 1.0 * course}, {x + 4.0, 2.0, 1.0 * course + 1.0}));
+    }
+  }
+  return bricks;
+}
+
+std::vector<Mesh> nested_spheres(int count) {
+  std::vector<Mesh> spheres;
+  for (int i = 1; i <= count; ++i) spheres.push_back(icosphere(1, i));
+  return spheres;
+}
+
+}  // namespace tact::tests
