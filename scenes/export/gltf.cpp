@@ -32,7 +32,7 @@ constexpr int kArrayBuffer = 34962;
 constexpr int kElementArrayBuffer = 34963;
 
 // The three kinds of data, each a view of the file's one buffer. All items are made of four bytes, so all is aligned.
-enum class View : std::size_t { indices, positions, animation };
+enum class Section : std::size_t { indices, positions, animation };
 
 std::int64_t stored_bytes(std::int64_t vertices, std::int64_t frames) {
   return 12 * vertices * frames + 4 * frames * frames;
@@ -123,9 +123,9 @@ class GltfAnimation::Writer {
  private:
   // Appends `count` items to a view and returns the number of their accessor. The view's own number is filled in when
   // it is known which views have any bytes.
-  int add_accessor(View view, const void* data, std::size_t bytes, Json accessor) {
-    std::string& target = views_[static_cast<std::size_t>(view)];
-    accessor["bufferView"] = static_cast<std::size_t>(view);
+  int add_accessor(Section section, const void* data, std::size_t bytes, Json accessor) {
+    std::string& target = views_[static_cast<std::size_t>(section)];
+    accessor["bufferView"] = static_cast<std::size_t>(section);
     accessor["byteOffset"] = target.size();
     target.append(static_cast<const char*>(data), bytes);
     root_["accessors"].push_back(std::move(accessor));
@@ -135,7 +135,8 @@ class GltfAnimation::Writer {
   int add_positions(const Eigen::Matrix3Xf& positions) {
     const Eigen::Vector3f lower = positions.rowwise().minCoeff();
     const Eigen::Vector3f upper = positions.rowwise().maxCoeff();
-    return add_accessor(View::positions, positions.data(), sizeof(float) * static_cast<std::size_t>(positions.size()),
+    return add_accessor(Section::positions, positions.data(),
+                        sizeof(float) * static_cast<std::size_t>(positions.size()),
                         {{"componentType", kFloat},
                          {"count", positions.cols()},
                          {"type", "VEC3"},
@@ -145,7 +146,7 @@ class GltfAnimation::Writer {
 
   int add_scalars(const std::vector<float>& values) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    return add_accessor(View::animation, values.data(), sizeof(float) * values.size(),
+    return add_accessor(Section::animation, values.data(), sizeof(float) * values.size(),
                         {{"componentType", kFloat},
                          {"count", values.size()},
                          {"type", "SCALAR"},
@@ -160,7 +161,7 @@ class GltfAnimation::Writer {
     if (body.facets.cols() == 0) return;  // a mesh without facets is not allowed
     const Eigen::Matrix<std::uint32_t, 3, Eigen::Dynamic> facets = body.facets.cast<std::uint32_t>();
     const int indices =
-        add_accessor(View::indices, facets.data(), sizeof(std::uint32_t) * static_cast<std::size_t>(facets.size()),
+        add_accessor(Section::indices, facets.data(), sizeof(std::uint32_t) * static_cast<std::size_t>(facets.size()),
                      {{"componentType", kUnsignedInt}, {"count", facets.size()}, {"type", "SCALAR"}});
     Json primitive = {{"attributes", {{"POSITION", add_positions(body.positions[0])}}},
                       {"indices", indices},
@@ -209,9 +210,9 @@ class GltfAnimation::Writer {
       if (views_[view].empty()) continue;
       numbers[view] = static_cast<int>(root_["bufferViews"].size());
       Json json = {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", views_[view].size()}};
-      if (view == static_cast<std::size_t>(View::indices)) json["target"] = kElementArrayBuffer;
-      if (view == static_cast<std::size_t>(View::positions)) json["byteStride"] = 3 * sizeof(float);
-      if (view == static_cast<std::size_t>(View::positions)) json["target"] = kArrayBuffer;
+      if (view == static_cast<std::size_t>(Section::indices)) json["target"] = kElementArrayBuffer;
+      if (view == static_cast<std::size_t>(Section::positions)) json["byteStride"] = 3 * sizeof(float);
+      if (view == static_cast<std::size_t>(Section::positions)) json["target"] = kArrayBuffer;
       root_["bufferViews"].push_back(std::move(json));
       offset += views_[view].size();
     }
