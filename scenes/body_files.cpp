@@ -25,7 +25,7 @@ Listing list_files(const fs::path& path) {
   while (!error && entries != fs::directory_iterator()) {
     const fs::path& file = entries->path();
     const bool hidden = file.filename().string().starts_with('.');
-    if (!hidden && mesh_format(file) && !fs::is_directory(file)) listing.files.push_back(file);
+    if (!hidden && mesh_format(file) && !entries->is_directory(error)) listing.files.push_back(file);
     entries.increment(error);
   }
   if (error) throw FileError(fmt::format("{}: cannot be listed: {}", path.string(), error.message()));

@@ -118,7 +118,9 @@ void add_check_command(CLI::App& program) {
   const auto options = std::make_shared<CheckOptions>();
   const auto meshes = std::make_shared<std::vector<std::string>>();
   command->footer(kExamples);
-  command->add_option("MESH", *meshes, "Mesh files (.obj, .off, .ply, .stl) and folders of them")->required();
+  command->add_option("MESH", *meshes, "Mesh files (.obj, .off, .ply, .stl) and folders of them")
+      ->type_name("")
+      ->required();
   command->add_option("--sheet", options->sheets, "This body is a sheet: cloth, without an inside; may be repeated")
       ->type_name("NAME")
       ->allow_extra_args(false);
@@ -127,7 +129,7 @@ void add_check_command(CLI::App& program) {
   command
       ->add_option("--frames", options->frames, "Step through the first N frames only; without folders, step N times")
       ->type_name("N")
-      ->check(CLI::Range(1, std::numeric_limits<int>::max()));
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()).description(""));
   add_json_option(*command, options->json);
   command->callback([options, meshes] {
     options->meshes.assign(meshes->begin(), meshes->end());

@@ -9,6 +9,7 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <new>
 #include <string>
 
@@ -37,13 +38,12 @@ int fail_usage(const std::string& message) { return fail(kWrongUsage, message + 
 int run_command_line(int argc, const char* const* argv) {
   CLI::App program("Finds where many deformable bodies touch.", "tact");
   program.set_version_flag("--version", "tact " TACT_VERSION, "Print the version and exit");
-  program.require_subcommand(1);
   program.footer(
       "Exit status: 0 done; 1 the input is bad; 2 wrong usage.\n`tact COMMAND --help` tells about a command.");
   add_check_command(program);
   try {
     program.parse(argc, argv);
-    return 0;
+    return program.get_subcommands().empty() ? fail_usage("no command") : 0;
   } catch (const CLI::Success& success) {  // --help or --version
     return program.exit(success);
   } catch (const CLI::ParseError& error) {
@@ -56,6 +56,8 @@ int run_command_line(int argc, const char* const* argv) {
     return error.code() == ErrorCode::bad_settings ? fail_usage(error.what()) : fail(kBadInput, error.what());
   } catch (const std::bad_alloc&) {
     return fail(kBadInput, "out of memory");
+  } catch (const std::exception& error) {  // such as a file system that fails
+    return fail(kBadInput, error.what());
   }
 }
 

@@ -11,14 +11,14 @@ void add_accuracy_option(CLI::App& command, Accuracy& accuracy) {
   const auto parse = [&accuracy, names](const std::string& text) { accuracy = names.at(text); };
   command.add_option_function<std::string>("--accuracy", parse, "What is promised of each pair; exact if not given")
       ->type_name("hulls|paper|exact")
-      ->check(CLI::IsMember({"hulls", "paper", "exact"}));
+      ->check(CLI::IsMember({"hulls", "paper", "exact"}).description(""));
 }
 
 void add_threads_option(CLI::App& command, int& threads) {
   constexpr int kMost = 1024;
   command.add_option("--threads", threads, "How many threads to use; 0, if not given: one a core")
       ->type_name("N")
-      ->check(CLI::Range(0, kMost));
+      ->check(CLI::Range(0, kMost).description(""));
 }
 
 void add_json_option(CLI::App& command, std::string& file) {

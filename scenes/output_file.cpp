@@ -19,9 +19,8 @@ OutputFile::OutputFile(const std::string& path, std::ostream& standard_output)
 }
 
 void OutputFile::finish() {
-  errno = 0;
   out_->flush();
-  if (!*out_) throw FileError(fmt::format("{}: cannot be written: {}", name_, std::strerror(errno)));
+  if (!*out_) throw FileError(name_ + ": cannot be written to its end");
 }
 
 }  // namespace tact::scenes

@@ -57,10 +57,11 @@ std::string TableReport::body_text(std::uint32_t index) const {
 
 void TableReport::add_frame(int frame, const Report& report) {
   const StepStats& stats = report.stats();
-  fmt::print(out_, "\nframe {}: {}, {} with overlapping hulls", frame, counted(stats.candidate_pairs, "candidate pair"),
-             stats.contacts);
-  if (has_facets_)
+  fmt::print(out_, "{}frame {}: {}", frames_ == 0 ? "\n" : "", frame, counted(stats.candidate_pairs, "candidate pair"));
+  if (stats.candidate_pairs > 0) fmt::print(out_, ", {} with overlapping hulls", stats.contacts);
+  if (stats.contacts > 0 && has_facets_) {
     fmt::print(out_, ", {} touching, {}", stats.touching_contacts, counted(stats.facet_pairs, "facet pair"));
+  }
   fmt::print(out_, "; {:.3f} ms\n", stats.total_ms);
   auto contact = report.contacts().begin();
   int lines = 0;

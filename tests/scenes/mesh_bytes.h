@@ -10,7 +10,7 @@
 
 #include "scenes/mesh_file.h"
 
-namespace tact::test {
+namespace tact::tests {
 
 using Corners = std::array<int, 3>;
 using Point = std::array<double, 3>;
@@ -45,4 +45,4 @@ std::string bytes_of(Number value, std::endian order = std::endian::little) {
   return {raw.begin(), raw.end()};
 }
 
-}  // namespace tact::test
+}  // namespace tact::tests

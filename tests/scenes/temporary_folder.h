@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace tact::test {
+namespace tact::tests {
 
 class TemporaryFolder {
  public:
@@ -35,4 +35,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace tact::test
+}  // namespace tact::tests

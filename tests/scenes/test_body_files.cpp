@@ -26,7 +26,7 @@ std::string refusal_of_bodies(const std::vector<std::filesystem::path>& paths) {
 }
 
 TEST(BodyFiles, AFileStandsStill) {
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   const auto bodies = read_bodies({folder.write("a.obj", kTriangle)});
   ASSERT_EQ(bodies.size(), 1u);
   EXPECT_FALSE(bodies[0].moves);
@@ -35,7 +35,7 @@ TEST(BodyFiles, AFileStandsStill) {
 }
 
 TEST(BodyFiles, AFolderMovesInTheOrderOfItsNames) {
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   folder.write("seq/f_10.obj", triangle_at(3));
   folder.write("seq/f_02.obj", triangle_at(2));
   folder.write("seq/f_01.off", "OFF\n3 1 0\n1 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
@@ -51,7 +51,7 @@ TEST(BodyFiles, AFolderMovesInTheOrderOfItsNames) {
 }
 
 TEST(BodyFiles, ReadsNoMoreFramesThanAsked) {
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   folder.write("seq/1.obj", kTriangle);
   folder.write("seq/2.obj", kTriangle);
   folder.write("seq/3.obj", "broken beyond the frames that are asked for");
@@ -59,7 +59,7 @@ TEST(BodyFiles, ReadsNoMoreFramesThanAsked) {
 }
 
 TEST(BodyFiles, NamesAreOfFilesAndFoldersAndRepeatWithANumber) {
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   const auto a = folder.write("a.obj", kTriangle);
   const auto other = folder.write("b/a.obj", kTriangle);
   const auto b = folder.path() / "b";
@@ -71,7 +71,7 @@ TEST(BodyFiles, NamesAreOfFilesAndFoldersAndRepeatWithANumber) {
 }
 
 TEST(BodyFiles, RefusesFoldersThatAreNoBody) {
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   const std::string here = folder.path().string();
   folder.write("empty/readme.txt", "x");
   EXPECT_EQ(refusal_of_bodies({here + "/empty"}),
@@ -85,7 +85,7 @@ TEST(BodyFiles, RefusesFoldersThatAreNoBody) {
 }
 
 TEST(BodyFiles, RefusesFramesOfOtherTopology) {
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   const std::string first = folder.write("seq/1.obj", kTriangle).string();
   const std::string second = (folder.path() / "seq/2.obj").string();
   const std::string rest = ", but the first frame, " + first + ", has ";

@@ -68,7 +68,7 @@ std::string refusal_of_file(const std::filesystem::path& file) {
 }
 
 TEST(MeshFile, RefusesWhatIsNoMeshFile) {
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   const std::string here = folder.path().string();
   EXPECT_EQ(refusal_of_file(here + "/none.obj"), here + "/none.obj: no such file or folder");
   EXPECT_EQ(refusal_of_file(here), here + ": not a file");

@@ -5,10 +5,10 @@
 namespace tact::scenes {
 namespace {
 
-using test::Corners;
-using test::Point;
+using tests::Corners;
+using tests::Point;
 
-std::string refusal(std::string_view bytes) { return test::refusal(MeshFormat::obj, bytes); }
+std::string refusal(std::string_view bytes) { return tests::refusal(MeshFormat::obj, bytes); }
 
 const std::string kThree = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
@@ -17,14 +17,14 @@ TEST(ObjFile, ReadsVerticesAndFacets) {
       "# a comment\nmtllib x.mtl\no thing\nv 0.1 1e-310 -0\nv 1 0 0 1.0\nv 0 1 0 0.5 0.5 0.5\n"
       "vt 0 0\nvn 0 0 1\ng part#1\nusemtl m\ns off\nl 1 2\np 1\nf 1 2 3 # last\n",
       "m");
-  EXPECT_EQ(test::positions_of(mesh), (std::vector<Point>{{0.1, 1e-310, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(tests::positions_of(mesh), (std::vector<Point>{{0.1, 1e-310, 0}, {1, 0, 0}, {0, 1, 0}}));
   EXPECT_TRUE(std::signbit(mesh.positions(2, 0)));
-  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}}));
+  EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}}));
 }
 
 TEST(ObjFile, SplitsPolygonsIntoFansInTheOrderOfTheFile) {
   const MeshFile mesh = parse_obj(kThree + "v 1 1 0\nv 2 2 0\nf 2 3 4 5 1\nf 1 2 3\n", "m");
-  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{1, 2, 3}, {1, 3, 4}, {1, 4, 0}, {0, 1, 2}}));
+  EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{1, 2, 3}, {1, 3, 4}, {1, 4, 0}, {0, 1, 2}}));
 }
 
 TEST(ObjFile, TakesEveryFormOfACorner) {
@@ -32,17 +32,17 @@ TEST(ObjFile, TakesEveryFormOfACorner) {
   for (const char* facet :
        {"f 1 2 3", "f 1/1 2/2 3/3", "f 1/1/1 2/2/2 3/3/3", "f 1//1 2//2 3//3", "f 1/ 2/ 3/", "f -3 -2 -1",
         "f -3/-3 -2//-1 -1/-1/-1", "f 1 2 \\\n3", "f 1 2\\\r\n 3", "fo 1 2 3", "f\t1\t2\t3  "}) {
-    EXPECT_EQ(test::facets_of(parse_obj(kThree + facet, "m")), one) << facet;
+    EXPECT_EQ(tests::facets_of(parse_obj(kThree + facet, "m")), one) << facet;
   }
 }
 
 TEST(ObjFile, NegativeIndicesCountFromTheVerticesAbove) {
   const MeshFile mesh = parse_obj(kThree + "f -3 -2 -1\nv 5 5 5\nf -3 -2 -1\n", "m");
-  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {1, 2, 3}}));
+  EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {1, 2, 3}}));
 }
 
 TEST(ObjFile, FacetsMayComeBeforeTheirVertices) {
-  EXPECT_EQ(test::facets_of(parse_obj("f 1 2 3\n" + kThree, "m")), (std::vector<Corners>{{0, 1, 2}}));
+  EXPECT_EQ(tests::facets_of(parse_obj("f 1 2 3\n" + kThree, "m")), (std::vector<Corners>{{0, 1, 2}}));
   EXPECT_EQ(refusal("v 0 0 0\nf 1 2 3\nf 1 2 4\nv 1 1 1\nv 2 2 2\n"),
             "m:3: facet 1: names vertex 4, counted from 1, but the file has 3 vertices");
 }
@@ -50,7 +50,7 @@ TEST(ObjFile, FacetsMayComeBeforeTheirVertices) {
 TEST(ObjFile, ReadsEveryKindOfLineEnd) {
   for (const char* end : {"\n", "\r\n", "\r"}) {
     const std::string e = end;
-    EXPECT_EQ(test::facets_of(parse_obj("v 0 0 0" + e + "v 1 0 0" + e + "v 0 1 0" + e + "f 1 2 3" + e, "m")),
+    EXPECT_EQ(tests::facets_of(parse_obj("v 0 0 0" + e + "v 1 0 0" + e + "v 0 1 0" + e + "f 1 2 3" + e, "m")),
               (std::vector<Corners>{{0, 1, 2}}));
   }
 }

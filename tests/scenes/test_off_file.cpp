@@ -5,31 +5,31 @@
 namespace tact::scenes {
 namespace {
 
-using test::Corners;
-using test::Point;
+using tests::Corners;
+using tests::Point;
 
-std::string refusal(std::string_view bytes) { return test::refusal(MeshFormat::off, bytes); }
+std::string refusal(std::string_view bytes) { return tests::refusal(MeshFormat::off, bytes); }
 
 const std::string kVertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
 TEST(OffFile, ReadsVerticesAndFans) {
   const MeshFile mesh = parse_off("OFF\n# a comment\n\n4 2 0 # counts\n" + kVertices + "4 0 1 2 3\n3 2 1 0\n", "m");
-  EXPECT_EQ(test::positions_of(mesh), (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
-  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {0, 2, 3}, {2, 1, 0}}));
+  EXPECT_EQ(tests::positions_of(mesh), (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {0, 2, 3}, {2, 1, 0}}));
 }
 
 TEST(OffFile, ReadsEveryHeader) {
   const std::vector<Corners> one{{0, 1, 2}};
   for (const char* head :
        {"OFF\n4 1 0\n", "OFF 4 1 0\n", "OFF4 1 0\n", "4 1 0\n", "4 1\n", "COFF\n4 1 0\n", "STCNOFF\n4 1 0\n"}) {
-    EXPECT_EQ(test::facets_of(parse_off(head + kVertices + "3 0 1 2\n", "m")), one) << head;
+    EXPECT_EQ(tests::facets_of(parse_off(head + kVertices + "3 0 1 2\n", "m")), one) << head;
   }
 }
 
 TEST(OffFile, SkipsNormalsAndColours) {
   const MeshFile mesh = parse_off("NOFF\n3 1 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 nan 0 1\n3 0 1 2 255 0 0\n", "m");
-  EXPECT_EQ(test::positions_of(mesh), (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
-  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}}));
+  EXPECT_EQ(tests::positions_of(mesh), (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}}));
 }
 
 TEST(OffFile, ANothingIsAMesh) { EXPECT_EQ(parse_off("OFF\n0 0 0\n", "m").facets.cols(), 0); }

@@ -8,11 +8,11 @@
 namespace tact::scenes {
 namespace {
 
-using test::bytes_of;
-using test::Corners;
-using test::Point;
+using tests::bytes_of;
+using tests::Corners;
+using tests::Point;
 
-std::string refusal(std::string_view bytes) { return test::refusal(MeshFormat::ply, bytes); }
+std::string refusal(std::string_view bytes) { return tests::refusal(MeshFormat::ply, bytes); }
 
 const std::string kPly = "ply\nformat ascii 1.0\n";
 const std::string kXyz = "property double x\nproperty double y\nproperty double z\n";
@@ -22,14 +22,14 @@ const std::string kVertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";  // lines 10 to 13
 
 TEST(PlyFile, ReadsText) {
   const MeshFile mesh = parse_ply(kHead + "0.1 1e-310 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n\n", "m");
-  EXPECT_EQ(test::positions_of(mesh), (std::vector<Point>{{0.1, 1e-310, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
-  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(tests::positions_of(mesh), (std::vector<Point>{{0.1, 1e-310, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {0, 2, 3}}));
 }
 
 TEST(PlyFile, ReadsNumbersOfATextToTheNearestDoubleWhateverTheirType) {
   const MeshFile mesh = parse_ply(
       kPly + "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0.1 0.2 0.3\n", "m");
-  EXPECT_EQ(test::positions_of(mesh), (std::vector<Point>{{0.1, 0.2, 0.3}}));
+  EXPECT_EQ(tests::positions_of(mesh), (std::vector<Point>{{0.1, 0.2, 0.3}}));
 }
 
 TEST(PlyFile, SkipsOtherElementsAndProperties) {
@@ -42,8 +42,8 @@ TEST(PlyFile, SkipsOtherElementsAndProperties) {
       "property list uint8 uint32 vertex_index\r\nproperty list uchar float texcoord\r\nend_header\r\n"
       "2 0.5 0.5 7\r\n0 8\r\n1 3 2 9 9 2 1\r\n1 6 0 5 4\r\n1 9 1 7 8 7\r\n0.5 3 0 1 2 2 0 0\r\n",
       "m");
-  EXPECT_EQ(test::positions_of(mesh), (std::vector<Point>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
-  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}}));
+  EXPECT_EQ(tests::positions_of(mesh), (std::vector<Point>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
+  EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}}));
 }
 
 // Four vertices and a quad with properties of every type around them.
@@ -71,9 +71,9 @@ TEST(PlyFile, ReadsBothByteOrdersAfterEveryLineEnd) {
   for (const std::endian order : {std::endian::little, std::endian::big}) {
     for (const char* line_end : {"\n", "\r\n", "\r"}) {
       const MeshFile mesh = parse_ply(binary_ply(order, line_end), "m");
-      EXPECT_EQ(test::positions_of(mesh),
+      EXPECT_EQ(tests::positions_of(mesh),
                 (std::vector<Point>{{0, 0, 0}, {0.1, 0.5, -1}, {0.2, 1, -2}, {0.1 * 3, 1.5, -3}}));
-      EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {0, 2, 3}}));
+      EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {0, 2, 3}}));
     }
   }
 }

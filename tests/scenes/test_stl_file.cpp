@@ -7,12 +7,12 @@
 namespace tact::scenes {
 namespace {
 
-using test::bytes_of;
-using test::Corners;
-using test::Point;
+using tests::bytes_of;
+using tests::Corners;
+using tests::Point;
 using FloatFacet = std::array<float, 9>;
 
-std::string refusal(std::string_view bytes) { return test::refusal(MeshFormat::stl, bytes); }
+std::string refusal(std::string_view bytes) { return tests::refusal(MeshFormat::stl, bytes); }
 
 std::string binary_stl(const std::vector<FloatFacet>& facets, std::string head = "a part") {
   head.resize(80, ' ');
@@ -36,17 +36,17 @@ std::string text_facet(const std::string& a, const std::string& b, const std::st
 
 TEST(StlFile, ReadsBinaryAndMergesEqualCorners) {
   const MeshFile mesh = parse_stl(binary_stl({kFirst, kSecond}), "m");
-  EXPECT_EQ(test::positions_of(mesh),
+  EXPECT_EQ(tests::positions_of(mesh),
             (std::vector<Point>{{0, 0, 0}, {double{0.1f}, 0, 0}, {0, double{1e-40f}, 0}, {0, 0, -1}}));
-  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {1, 0, 3}}));
+  EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {1, 0, 3}}));
 }
 
 TEST(StlFile, ReadsTextAndMergesEqualCorners) {
   const MeshFile mesh = parse_stl("solid the name\n" + text_facet("0 0 0", "0.1 0 0", "0 1e-310 0") +
                                       text_facet("0.1 0 0", "0 0 0", "0 0 -1") + "endsolid the name\n",
                                   "m");
-  EXPECT_EQ(test::positions_of(mesh), (std::vector<Point>{{0, 0, 0}, {0.1, 0, 0}, {0, 1e-310, 0}, {0, 0, -1}}));
-  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {1, 0, 3}}));
+  EXPECT_EQ(tests::positions_of(mesh), (std::vector<Point>{{0, 0, 0}, {0.1, 0, 0}, {0, 1e-310, 0}, {0, 0, -1}}));
+  EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {1, 0, 3}}));
 }
 
 TEST(StlFile, VerticesWithOtherBitsAreOthers) {
@@ -54,19 +54,19 @@ TEST(StlFile, VerticesWithOtherBitsAreOthers) {
       parse_stl("solid\n" + text_facet("0 0 0", "-0 0 0", "0 0 0.1") +
                     text_facet("0 0 0.10000000000000000555", "0 0 0.10000000000000002", "0 0 0") + "endsolid",
                 "m");
-  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {2, 3, 0}}));
+  EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {2, 3, 0}}));
 }
 
 TEST(StlFile, ReadsTextOfAnyLayoutAndManySolids) {
   const std::string one =
       "SOLID A\rFacet Normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0\rvertex 0 1 0 endloop endfacet\rEndSolid A\r";
-  EXPECT_EQ(test::facets_of(parse_stl(one + one, "m")), (std::vector<Corners>{{0, 1, 2}, {0, 1, 2}}));
+  EXPECT_EQ(tests::facets_of(parse_stl(one + one, "m")), (std::vector<Corners>{{0, 1, 2}, {0, 1, 2}}));
   EXPECT_EQ(parse_stl("solid nothing\nendsolid nothing\n", "m").facets.cols(), 0);
 }
 
 TEST(StlFile, BinaryMayBeginLikeText) {
   const MeshFile mesh = parse_stl(binary_stl({kFirst}, "solid but binary\nfacet"), "m");
-  EXPECT_EQ(test::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}}));
+  EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}}));
 }
 
 TEST(StlFile, RefusesBinaryNamingTheByte) {

@@ -1,0 +1,161 @@
+#include <gtest/gtest.h>
+#include <tact/version.h>
+#include <tact/world.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "scenes/body_files.h"
+#include "scenes/check_command.h"
+#include "scenes/report_json.h"
+#include "scenes/usage_error.h"
+#include "tests/scenes/temporary_folder.h"
+
+namespace tact::scenes {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A tetrahedron with its right angle at (x, y, z), facets outward.
+std::string tetrahedron_at(double x, double y, double z) {
+  std::ostringstream out;
+  out.precision(17);
+  for (int corner = 0; corner < 4; ++corner) {
+    out << "v " << x + (corner == 1 ? 1 : 0) << " " << y + (corner == 2 ? 1 : 0) << " " << z + (corner == 3 ? 1 : 0)
+        << "\n";
+  }
+  out << "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  return out.str();
+}
+
+Json check_json(CheckOptions options) {
+  options.json = "-";
+  std::ostringstream out;
+  check(options, out);
+  return Json::parse(out.str());
+}
+
+std::vector<std::string> keys_of(const Json& json) {
+  std::vector<std::string> keys;
+  for (const auto& item : json.items()) keys.push_back(item.key());
+  return keys;
+}
+
+class CheckCommand : public ::testing::Test {
+ protected:
+  tests::TemporaryFolder folder_;
+  // a and b cross, the boxes of a and c overlap and their hulls do not, d is far from all.
+  const std::filesystem::path a_ = folder_.write("a.obj", tetrahedron_at(0, 0, 0));
+  const std::filesystem::path b_ = folder_.write("b.obj", tetrahedron_at(0.1, 0.15, 0.2));
+  const std::filesystem::path c_ = folder_.write("c.obj", tetrahedron_at(0.7, 0.7, 0.7));
+  const std::filesystem::path d_ = folder_.write("d.obj", tetrahedron_at(9, 9, 9));
+};
+
+TEST_F(CheckCommand, JsonHasTheDocumentedShape) {
+  const Json json = check_json({.meshes = {a_, b_, c_, d_}, .threads = 2});
+  EXPECT_EQ(keys_of(json), (std::vector<std::string>{"tact", "accuracy", "threads", "bodies", "frames"}));
+  EXPECT_EQ(json["tact"], TACT_VERSION);
+  EXPECT_EQ(json["accuracy"], "exact");
+  EXPECT_EQ(json["threads"], 2);
+  EXPECT_EQ(json["bodies"].size(), 4u);
+  EXPECT_EQ(json["bodies"][1].dump(), R"({"name":"b.obj","vertices":4,"facets":4,"surface":"closed"})");
+  ASSERT_EQ(json["frames"].size(), 1u);
+  const Json& frame = json["frames"][0];
+  EXPECT_EQ(keys_of(frame), (std::vector<std::string>{"frame", "hash", "pairs", "stats", "times_ms"}));
+  EXPECT_EQ(frame["hash"].get<std::string>().find_first_not_of("0123456789abcdef"), std::string::npos);
+  EXPECT_EQ(frame["hash"].get<std::string>().size(), 16u);
+  EXPECT_EQ(frame["stats"]["candidate_pairs"], 3);
+  EXPECT_TRUE(frame["times_ms"].contains("total"));
+}
+
+TEST_F(CheckCommand, PairsAreTheCandidatesAndOverlappingOnesTellMore) {
+  const Json pairs = check_json({.meshes = {a_, b_, c_, d_}})["frames"][0]["pairs"];
+  ASSERT_EQ(pairs.size(), 3u);
+  EXPECT_EQ(keys_of(pairs[0]), (std::vector<std::string>{"a", "b", "hulls_overlap", "direction", "depth", "iterations",
+                                                         "kept_facets", "facet_pairs"}));
+  EXPECT_EQ(pairs[0]["a"], 0);
+  EXPECT_EQ(pairs[0]["b"], 1);
+  EXPECT_EQ(pairs[0]["hulls_overlap"], true);
+  EXPECT_EQ(pairs[1].dump(), R"({"a":0,"b":2,"hulls_overlap":false,"facet_pairs":[]})");
+  EXPECT_EQ(pairs[2]["a"], 1);
+  EXPECT_EQ(pairs[2]["b"], 2);
+}
+
+TEST_F(CheckCommand, NumbersReadBackToTheSameDoubles) {
+  const auto bodies = read_bodies({a_, b_});
+  World world;
+  for (const BodyFrames& body : bodies) world.add_body({.positions = body.positions[0], .facets = body.facets});
+  const Report& report = world.detect();
+  ASSERT_EQ(report.contacts().size(), 1u);
+  const Contact& contact = report.contacts()[0];
+  const Json frame = check_json({.meshes = {a_, b_}})["frames"][0];
+  const Json& pair = frame["pairs"][0];
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(pair["direction"][static_cast<std::size_t>(axis)].get<double>(), contact.direction[axis]);
+  }
+  EXPECT_EQ(pair["depth"].get<double>(), contact.depth);
+  EXPECT_EQ(frame["hash"], hash_text(report));
+  Json facet_pairs = Json::array();
+  for (const FacetPair& p : contact.facet_pairs()) facet_pairs.push_back(Json::array({p.a, p.b}));
+  EXPECT_EQ(pair["facet_pairs"], facet_pairs);
+  EXPECT_FALSE(facet_pairs.empty());
+}
+
+TEST_F(CheckCommand, HullsHaveNoFacets) {
+  const Json json = check_json({.meshes = {a_, b_, c_}, .accuracy = Accuracy::hulls});
+  EXPECT_EQ(json["accuracy"], "hulls");
+  ASSERT_EQ(json["frames"][0]["pairs"].size(), 3u);
+  for (const Json& pair : json["frames"][0]["pairs"]) EXPECT_TRUE(pair["facet_pairs"].is_null());
+}
+
+TEST_F(CheckCommand, SheetsAreNamed) {
+  const Json bodies = check_json({.meshes = {a_, a_, b_}, .sheets = {"a.obj#2", "b.obj"}})["bodies"];
+  EXPECT_EQ(bodies[0]["surface"], "closed");
+  EXPECT_EQ(bodies[1]["name"], "a.obj#2");
+  EXPECT_EQ(bodies[1]["surface"], "sheet");
+  EXPECT_EQ(bodies[2]["surface"], "sheet");
+  EXPECT_THROW(check_json({.meshes = {a_}, .sheets = {"a"}}), UsageError);
+}
+
+TEST_F(CheckCommand, FoldersMoveThroughOneWorld) {
+  for (int i = 0; i < 4; ++i) {
+    folder_.write("seq/" + std::to_string(i) + ".obj", tetrahedron_at(2 - 0.5 * i, 0.1, 0.1));
+  }
+  const Json frames = check_json({.meshes = {a_, folder_.path() / "seq"}})["frames"];
+  ASSERT_EQ(frames.size(), 4u);
+  EXPECT_EQ(frames[0]["pairs"].size(), 0u);
+  EXPECT_EQ(frames[2]["stats"]["fresh_directions"].get<int>() + frames[2]["stats"]["smallest_directions"].get<int>(), 0)
+      << "the hulls are apart, x + y + z being at most 1 in one and at least 1.2 in the other";
+  EXPECT_EQ(frames[3]["stats"]["contacts"], 1);
+  EXPECT_EQ(frames[3]["stats"]["moved_bodies"], 1);
+  EXPECT_EQ(check_json({.meshes = {a_, folder_.path() / "seq"}, .frames = 3})["frames"].size(), 3u);
+}
+
+TEST_F(CheckCommand, FilesStandStillForAsManyFramesAsAsked) {
+  const Json frames = check_json({.meshes = {a_, b_}, .frames = 3})["frames"];
+  ASSERT_EQ(frames.size(), 3u);
+  EXPECT_EQ(frames[2]["frame"], 2);
+  EXPECT_EQ(frames[2]["stats"]["moved_bodies"], 0);
+  EXPECT_EQ(frames[2]["hash"], frames[0]["hash"]);
+}
+
+TEST_F(CheckCommand, TheTableTellsTheSame) {
+  std::ostringstream out;
+  check({.meshes = {a_, b_, c_}, .frames = 2}, out);
+  const Json frame = check_json({.meshes = {a_, b_, c_}})["frames"][0];
+  const std::string count = frame["stats"]["facet_pairs"].dump();
+  EXPECT_NE(out.str().find("3 candidate pairs"), std::string::npos) << out.str();
+  EXPECT_NE(out.str().find(count + " facet pairs"), std::string::npos) << out.str();
+  EXPECT_NE(out.str().find("hulls apart in all 2 candidate frames"), std::string::npos) << out.str();
+}
+
+TEST_F(CheckCommand, JsonTakesNamesThatAreNotUtf8) {
+  const auto odd = folder_.write("odd\xff.obj", tetrahedron_at(0, 0, 0));
+  EXPECT_EQ(check_json({.meshes = {odd}})["bodies"][0]["name"], "odd\xef\xbf\xbd.obj");
+  std::ostringstream out;
+  check({.meshes = {odd}}, out);
+  EXPECT_NE(out.str().find("odd"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tact::scenes

@@ -1,0 +1,124 @@
+// The program itself: exit status, standard output and standard error.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <tact/version.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/scenes/temporary_folder.h"
+
+namespace tact::scenes {
+namespace {
+
+struct Outcome {
+  int status = -1;
+  std::string out;
+  std::string error;
+};
+
+std::string contents(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+class CommandLine : public ::testing::Test {
+ protected:
+  // Runs the program in the folder of the test; `arguments` are for the shell.
+  Outcome run(const std::string& arguments) const {
+    const std::string line =
+        "cd '" + folder_.path().string() + "' && '" TACT_PROGRAM "' " + arguments + " >.out 2>.err";
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder_.path() / ".out"),
+            contents(folder_.path() / ".err")};
+  }
+
+  void expect_refusal(const std::string& arguments, int status, const std::string& message) const {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, status) << arguments;
+    EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+    EXPECT_TRUE(outcome.error.starts_with("tact: ")) << outcome.error;
+    EXPECT_NE(outcome.error.find(message), std::string::npos) << outcome.error;
+  }
+
+  void SetUp() override {
+    folder_.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder_.write("b.off", "OFF\n3 1 0\n0.2 0.2 -1\n0.2 0.2 1\n0.3 0.2 1\n3 0 1 2\n");
+  }
+
+  tests::TemporaryFolder folder_;
+};
+
+TEST_F(CommandLine, ChecksAndReturnsZero) {
+  const Outcome outcome = run("check a.obj b.off");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.error, "");
+  EXPECT_NE(outcome.out.find("1 facet pair"), std::string::npos) << outcome.out;
+}
+
+TEST_F(CommandLine, JsonOnStandardOutputIsAlone) {
+  const Outcome outcome =
+      run("check a.obj b.off --sheet b.off --sheet a.obj --accuracy exact --threads 1 --frames 2 --json -");
+  EXPECT_EQ(outcome.status, 0);
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["threads"], 1);
+  EXPECT_EQ(json["frames"].size(), 2u);
+  EXPECT_EQ(json["frames"][1]["pairs"][0]["facet_pairs"].dump(), "[[0,0]]");
+  EXPECT_EQ(json["bodies"][1]["surface"], "sheet");
+}
+
+TEST_F(CommandLine, JsonGoesToAFileBesideTheTable) {
+  const Outcome outcome = run("check --json out.json a.obj b.off");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.out.find("frame 0"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(contents(folder_.path() / "out.json"))["frames"].size(), 1u);
+}
+
+TEST_F(CommandLine, BadInputReturnsOne) {
+  folder_.write("bad.obj", "v 0 0 0\nv 1 x 0\n");
+  folder_.write("bad.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 4294967295\nproperty float x\n");
+  folder_.write("odd\nname.stl", "junk");
+  folder_.write("none/readme", "x");
+  expect_refusal("check none.obj a.obj", 1, "none.obj: no such file or folder");
+  expect_refusal("check a.obj bad.obj", 1, "bad.obj:2: vertex 1: expected a number for y, found 'x'");
+  expect_refusal("check a.obj bad.obj --json -", 1, "bad.obj:2: ");
+  expect_refusal("check bad.ply", 1, "bad.ply:5: the file ends before end_header");
+  expect_refusal("check 'odd\nname.stl'", 1, "odd name.stl: byte 4: ");
+  expect_refusal("check none", 1, "none: the folder holds no mesh file");
+  expect_refusal("check a.obj --json none/there/x.json", 1, "none/there/x.json: cannot be written: ");
+  const Outcome full = run("check a.obj --json /dev/full");
+  EXPECT_EQ(full.status, 1);
+  EXPECT_EQ(full.error, "tact: /dev/full: cannot be written to its end\n");
+}
+
+TEST_F(CommandLine, WrongUsageReturnsTwo) {
+  expect_refusal("", 2, "no command");
+  expect_refusal("bogus", 2, "bogus");
+  expect_refusal("check", 2, "MESH");
+  expect_refusal("check a.obj --bogus", 2, "--bogus");
+  expect_refusal("check a.obj --sheet cloth", 2, "--sheet cloth: no body has this name; the bodies are: a.obj");
+  expect_refusal("check a.obj b.off --accuracy perfect", 2, "--accuracy");
+  expect_refusal("check a.obj b.off --threads -1", 2, "--threads");
+  expect_refusal("check a.obj b.off --threads many", 2, "--threads");
+  expect_refusal("check a.obj b.off --frames 0", 2, "--frames");
+  expect_refusal("check a.obj --json", 2, "--json");
+}
+
+TEST_F(CommandLine, HelpAndVersionReturnZero) {
+  EXPECT_EQ(run("--version").out, "tact " TACT_VERSION "\n");
+  for (const char* arguments : {"--help", "check --help"}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 0) << arguments;
+    EXPECT_NE(outcome.out.find("check"), std::string::npos) << arguments;
+    EXPECT_EQ(outcome.error, "") << arguments;
+  }
+}
+
+}  // namespace
+}  // namespace tact::scenes
