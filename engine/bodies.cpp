@@ -12,6 +12,7 @@ namespace {
 using narrowphase::PositionProblem;
 
 constexpr Eigen::Index kLargestCount = std::numeric_limits<int>::max() / 4;
+constexpr std::size_t kUpdatesPerBlock = 16;
 constexpr char kAxisName[] = {'x', 'y', 'z'};
 
 std::string quoted(const std::string& name) { return "body '" + name + "'"; }
@@ -26,9 +27,8 @@ void check_positions(const double* positions, std::size_t count, const std::stri
                   std::to_string(value) + (infinite ? ", which is not finite" : ", which is larger than 2^300 in size"));
 }
 
-void check_facets(const Eigen::Ref<const Eigen::Matrix3Xi>& facets, Eigen::Index vertices, const std::string& name) {
-  const int* corner = facets.data();
-  for (Eigen::Index i = 0; i < 3 * facets.cols(); ++i) {
+void check_facets(std::span<const int> corner, Eigen::Index vertices, const std::string& name) {
+  for (std::size_t i = 0; i < corner.size(); ++i) {
     if (corner[i] >= 0 && corner[i] < vertices) continue;
     throw Error(ErrorCode::facet_out_of_range, quoted(name) + ": facet " + std::to_string(i / 3) + " names vertex " +
                                                    std::to_string(corner[i]) + ", but there are " + std::to_string(vertices) +
@@ -41,8 +41,18 @@ void make_room(std::vector<T>& vector, std::size_t count) {
   if (vector.capacity() < count) vector.reserve(2 * count);
 }
 
-std::span<const double> values(const Eigen::Ref<const Eigen::Matrix3Xd>& m) {
-  return {m.data(), static_cast<std::size_t>(m.size())};
+// The columns of a matrix, one after the other. A Ref may have gaps between columns (the top rows of a taller matrix):
+// they are then copied to `copy`.
+template <class Matrix>
+std::span<const typename Matrix::Scalar> columns(const Eigen::Ref<const Matrix>& m, std::vector<typename Matrix::Scalar>& copy) {
+  const auto size = static_cast<std::size_t>(m.size());
+  if (m.outerStride() == 3 || m.cols() <= 1) return {m.data(), size};
+  copy.clear();
+  copy.reserve(size);
+  for (Eigen::Index column = 0; column < m.cols(); ++column) {
+    for (Eigen::Index row = 0; row < 3; ++row) copy.push_back(m(row, column));
+  }
+  return copy;
 }
 
 }  // namespace
@@ -54,15 +64,18 @@ BodyId Bodies::add(const BodyDefinition& definition) {
       definition.facets.cols() > kLargestCount) {
     throw Error(ErrorCode::too_large, quoted(name) + ": more vertices, facets or bodies than 32-bit indices can number");
   }
-  check_positions(definition.positions.data(), static_cast<std::size_t>(definition.positions.cols()), name);
-  check_facets(definition.facets, definition.positions.cols(), name);
-  const std::span<const int> facets(definition.facets.data(), static_cast<std::size_t>(definition.facets.size()));
+  std::vector<double> position_copy;
+  std::vector<int> facet_copy;
+  const std::span<const double> positions = columns(definition.positions, position_copy);
+  const std::span<const int> facets = columns(definition.facets, facet_copy);
+  check_positions(positions.data(), positions.size() / 3, name);
+  check_facets(facets, definition.positions.cols(), name);
   auto body = std::make_unique<Body>(Body{.id = {},
                                           .name = name,
                                           .surface = definition.surface,
                                           .motion = definition.motion,
                                           .facet_count = static_cast<std::size_t>(definition.facets.cols()),
-                                          .mesh = {values(definition.positions), facets}});
+                                          .mesh = {positions, facets}});
   // From here on nothing can fail half-way: what may allocate comes first.
   make_room(changed_, slots_.size() + 1);
   make_room(free_, slots_.size() + 1);
@@ -92,42 +105,48 @@ void Bodies::remove(BodyId id) {
   --count_;
 }
 
-Body& Bodies::checked_update(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions) {
+void Bodies::prepare(Update& update, BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions) {
   Body& body = writable(id);
   if (body.motion == Motion::fixed) throw Error(ErrorCode::fixed_body, quoted(body.name) + " is fixed: its positions cannot be set");
   if (positions.cols() != body.mesh.source_vertex_count()) {
     throw Error(ErrorCode::wrong_size, quoted(body.name) + " has " + std::to_string(body.mesh.source_vertex_count()) +
                                            " vertices, but " + std::to_string(positions.cols()) + " positions were given");
   }
-  check_positions(positions.data(), static_cast<std::size_t>(positions.cols()), body.name);
-  return body;
+  const std::span<const double> values = columns(positions, update.copy);
+  check_positions(values.data(), values.size() / 3, body.name);
+  update.body = &body;
+  update.positions = values.data();
+}
+
+void Bodies::apply(Update& update, int threads) { update.moved = update.body->mesh.set_positions(update.positions, threads); }
+
+void Bodies::note(const Update& update) {
+  if (!update.moved) return;
+  boxes_[update.body->id.index] = update.body->mesh.box();
+  mark_changed(update.body->id.index);
 }
 
 void Bodies::set_positions(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions, int threads) {
-  Body& body = checked_update(id, positions);
   const base::FloatingPointMode mode;
-  if (!body.mesh.set_positions(positions.data(), threads)) return;
-  boxes_[id.index] = body.mesh.box();
-  mark_changed(id.index);
+  if (updates_.empty()) updates_.resize(1);
+  prepare(updates_[0], id, positions);
+  apply(updates_[0], threads);
+  note(updates_[0]);
 }
 
 void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads) {
-  std::vector<Body*> bodies(updates.size());
-  base::parallel_for(updates.size(), 16, threads, [&](std::size_t i) {
-    bodies[i] = &checked_update(updates[i].body, updates[i].positions);
-  });
-  std::vector<Body*> sorted = bodies;
-  std::sort(sorted.begin(), sorted.end(), [](const Body* a, const Body* b) { return a->id < b->id; });
-  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twice != sorted.end()) throw Error(ErrorCode::wrong_order, quoted((*twice)->name) + " is named twice in one batch");
-  std::vector<char> moved(updates.size(), 0);
-  base::parallel_for(updates.size(), 16, threads, [&](std::size_t i) {
-    moved[i] = bodies[i]->mesh.set_positions(updates[i].positions.data(), 1);
-  });
-  for (std::size_t i = 0; i < updates.size(); ++i) {
-    if (!moved[i]) continue;
-    boxes_[bodies[i]->id.index] = bodies[i]->mesh.box();
-    mark_changed(bodies[i]->id.index);
+  const std::size_t count = updates.size();
+  if (updates_.size() < count) updates_.resize(count);
+  base::parallel_for(count, kUpdatesPerBlock, threads, [&](std::size_t i) { prepare(updates_[i], updates[i].body, updates[i].positions); });
+  check_named_once(updates);
+  base::parallel_for(count, kUpdatesPerBlock, threads, [&](std::size_t i) { apply(updates_[i], 1); });
+  for (std::size_t i = 0; i < count; ++i) note(updates_[i]);
+}
+
+void Bodies::check_named_once(std::span<const PositionsUpdate> updates) {
+  named_.assign(slots_.size(), 0);
+  for (const PositionsUpdate& update : updates) {
+    if (named_[update.body.index]++) throw Error(ErrorCode::wrong_order, quoted(at(update.body).name) + " is named twice in one batch");
   }
 }
 

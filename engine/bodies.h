@@ -61,7 +61,18 @@ class Bodies {
   };
 
   Body& writable(BodyId id) { return const_cast<Body&>(at(id)); }
-  Body& checked_update(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions);
+
+  // New positions of a body: checked, then applied, then noted. Only the first can fail.
+  struct Update {
+    Body* body = nullptr;
+    const double* positions = nullptr;
+    std::vector<double> copy;
+    bool moved = false;
+  };
+  void prepare(Update& update, BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions);
+  void apply(Update& update, int threads);
+  void note(const Update& update);
+  void check_named_once(std::span<const PositionsUpdate> updates);
   void mark_changed(std::uint32_t slot);
 
   std::uint32_t world_;
@@ -71,6 +82,8 @@ class Bodies {
   std::vector<broadphase::Filter> filters_;
   std::vector<std::uint32_t> changed_;
   std::size_t count_ = 0;
+  std::vector<Update> updates_;  // scratch
+  std::vector<char> named_;      // scratch, an entry a slot
 };
 
 }  // namespace tact

@@ -182,11 +182,6 @@ bool ClusteredMesh::refresh_range(const double* positions, int cluster_begin, in
   return changed;
 }
 
-int ClusteredMesh::cluster_of_vertex(int vertex) const {
-  const auto after = std::upper_bound(vertex_begin_.begin(), vertex_begin_.end(), vertex);
-  return static_cast<int>(after - vertex_begin_.begin()) - 1;
-}
-
 Triangle ClusteredMesh::triangle(int facet) const {
   const Corners c = corners(facet);
   return {position(c[0]), position(c[1]), position(c[2])};

@@ -67,8 +67,10 @@ class ClusteredMesh {
   int vertex_count() const { return static_cast<int>(source_vertex_.size()); }
   int facet_count() const { return static_cast<int>(source_facet_.size()); }
   int facet_of_source(int source_facet) const { return facet_of_source_[static_cast<std::size_t>(source_facet)]; }
-  int cluster_of_vertex(int vertex) const;
   int cluster_count() const { return (facet_count() + kClusterSize - 1) / kClusterSize; }
+
+  // How many vertices of the caller set_positions reads, those that several clusters share more than once.
+  int vertex_reads() const { return vertex_count() + static_cast<int>(borrowed_source_.size()); }
 
   int source_vertex(int vertex) const { return source_vertex_[static_cast<std::size_t>(vertex)]; }
   int source_facet(int facet) const { return source_facet_[static_cast<std::size_t>(facet)]; }

@@ -22,6 +22,8 @@ Triangle triangle_in(const FacetBlock& block, std::size_t i) {
   return t;
 }
 
+}  // namespace
+
 FilterFacet filter_facet(const FacetBlock& block, std::size_t i) {
   FilterFacet facet;
   for (int axis = 0; axis < 3; ++axis) {
@@ -38,8 +40,6 @@ FilterFacet filter_facet(const FacetBlock& block, std::size_t i) {
   }
   return facet;
 }
-
-}  // namespace
 
 bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPairSource source, EmbreeDevice& device,
                         std::vector<ClusterPair>& pairs) {
@@ -102,22 +102,24 @@ void FacetPairSearch::test_clusters(const ConfirmInput& input, const ClusterPair
                                     const OpenCluster& b, std::vector<FacetPair>& found, ConfirmCounts& counts) {
   const int first_a = input.a->facet_begin(input.kept_a->cluster[static_cast<std::size_t>(pair.a)]);
   const int first_b = input.b->facet_begin(input.kept_b->cluster[static_cast<std::size_t>(pair.b)]);
-  const BoxPointers boxes_a{{a.block.lower[0], a.block.lower[1], a.block.lower[2]}, {a.block.upper[0], a.block.upper[1], a.block.upper[2]}};
-  std::int32_t near_b[kClusterSize], candidates[kClusterSize];
-  const int near = kernels().select_overlapping(boxes_a, std::bit_width(a.kept), bounds_of(input.kept_b->boxes[static_cast<std::size_t>(pair.b)]), near_b);
-  for (int k = 0; k < near; ++k) {
-    const auto i = static_cast<std::size_t>(near_b[k]);
-    if ((a.kept >> i & 1) == 0) continue;
-    const int count = kernels().select_meeting(b.block, std::bit_width(b.kept), filter_facet(a.block, i), candidates, &counts.facet_box_pairs);
-    if (count == 0) continue;
-    const Triangle triangle = triangle_in(a.block, i);
-    for (int c = 0; c < count; ++c) {
-      const auto j = static_cast<std::size_t>(candidates[c]);
-      if ((b.kept >> j & 1) == 0) continue;
+  const Box box_a = input.kept_a->boxes[static_cast<std::size_t>(pair.a)], box_b = input.kept_b->boxes[static_cast<std::size_t>(pair.b)];
+  const std::uint64_t near_b = b.kept & kernels().overlap_bits(b.block, std::bit_width(b.kept), bounds_of(box_a));
+  if (near_b == 0) return;
+  const std::uint64_t near_a = a.kept & kernels().overlap_bits(a.block, std::bit_width(a.kept), bounds_of(box_b));
+  const auto add = [&](std::size_t i, std::size_t j) {
+    found.push_back({input.a->source_facet(first_a + static_cast<int>(i)), input.b->source_facet(first_b + static_cast<int>(j))});
+  };
+  for (std::uint64_t left_a = near_a; left_a != 0; left_a &= left_a - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left_a));
+    const FacetMatches matches = kernels().match_facets(b.block, near_b, filter_facet(a.block, i));
+    counts.facet_box_pairs += matches.box_pairs;
+    for (std::uint64_t left = matches.meeting; left != 0; left &= left - 1) {
+      add(i, static_cast<std::size_t>(std::countr_zero(left)));
+    }
+    for (std::uint64_t left = matches.undecided; left != 0; left &= left - 1) {
+      const auto j = static_cast<std::size_t>(std::countr_zero(left));
       ++counts.triangle_tests;
-      if (triangle_triangle_meet(triangle, triangle_in(b.block, j), counts.predicates)) {
-        found.push_back({input.a->source_facet(first_a + static_cast<int>(i)), input.b->source_facet(first_b + static_cast<int>(j))});
-      }
+      if (triangle_triangle_meet(triangle_in(a.block, i), triangle_in(b.block, j), counts.predicates)) add(i, j);
     }
   }
 }

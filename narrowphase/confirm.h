@@ -40,6 +40,9 @@ struct OpenedCluster {
   CullCounts counts;
 };
 
+// Facet `i` of a block, prepared for Kernels::match_facets.
+FilterFacet filter_facet(const FacetBlock& block, std::size_t i);
+
 // Where cluster pairs come from.
 enum class ClusterPairSource { automatic, loop, forest };
 

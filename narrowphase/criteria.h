@@ -21,13 +21,13 @@ namespace tact::narrowphase {
 
 // How the facets of one body are judged against the other.
 struct Criteria {
-  Vec3 outward;                // n for A, -n for B
-  Vec3 origin;                 // heights are measured from here
+  Vec3 outward = {};           // n for A, -n for B
+  Vec3 origin = {};            // heights are measured from here
   double lowest = 0.0;         // a facet whose highest corner is lower cannot touch; all margins included, metres
   bool facing_away = false;    // criterion 1 applies
   bool zone = false;           // criterion 3 applies
-  Vec3 u, v;                   // axes of the zone's plane
-  Disk other_zone;             // of the other body, all margins included
+  Vec3 u = {}, v = {};         // axes of the zone's plane
+  Disk other_zone = {};        // of the other body, all margins included
 };
 
 // Facets dropped, by the first criterion that drops them, and kept.

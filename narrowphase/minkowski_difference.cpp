@@ -36,11 +36,11 @@ MinkowskiVertex MinkowskiDifference::vertex(int a, int b) const {
 }
 
 MinkowskiVertex MinkowskiDifference::support(Vec3 direction) const {
-  const int a = narrowphase::support(*a_, direction, origin_, cluster_a_).vertex;
-  const int b = narrowphase::support(*b_, -direction, origin_, cluster_b_).vertex;
-  cluster_a_ = a_->cluster_of_vertex(a);
-  cluster_b_ = b_->cluster_of_vertex(b);
-  return vertex(a, b);
+  const Support a = narrowphase::support(*a_, direction, origin_, cluster_a_);
+  const Support b = narrowphase::support(*b_, -direction, origin_, cluster_b_);
+  cluster_a_ = a.cluster;
+  cluster_b_ = b.cluster;
+  return vertex(a.vertex, b.vertex);
 }
 
 }  // namespace tact::narrowphase

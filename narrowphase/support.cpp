@@ -16,38 +16,36 @@ class Search {
   Search(const ClusteredMesh& mesh, Vec3 n, Vec3 origin)
       : mesh_(mesh), axis_{n.x, n.y, n.z, origin.x, origin.y, origin.z} {}
 
-  // Looks at vertices begin <= v < end.
-  void open(int begin, int end) {
-    if (begin == end) return;
+  // Looks at the vertices that a cluster owns.
+  void open(int cluster) {
+    const int begin = mesh_.vertex_begin(cluster), count = mesh_.vertex_end(cluster) - begin;
+    if (count == 0) return;
     std::int32_t index = 0;
     const PointArrays points = from(mesh_.points(), begin);
-    const double height = kernels().max_height(points, end - begin, axis_, &index);
-    if (height > best_.height) {
-      best_ = {begin + index, height};
-      lower_tie(points, begin, end - begin, index + 1);
-    } else if (height == best_.height) {
-      lower_tie(points, begin, end - begin, index);
-    }
+    const double height = kernels().max_height(points, count, axis_, &index);
+    if (height > best_.height) best_ = {begin + index, cluster, height};
+    if (height == best_.height) lower_tie(points, cluster, index);
   }
-
-  void open_cluster(int cluster) { open(mesh_.vertex_begin(cluster), mesh_.vertex_end(cluster)); }
 
   const Support& best() const { return best_; }
   const HeightAxis& axis() const { return axis_; }
 
  private:
-  // Of the vertices from `first` on that are as high as the best, the one with the lowest source vertex.
-  void lower_tie(PointArrays points, int begin, int count, int first) {
+  // Of the cluster's vertices from `first` on that are as high as the best, the one with the lowest source vertex.
+  void lower_tie(PointArrays points, int cluster, int first) {
+    const int begin = mesh_.vertex_begin(cluster), count = mesh_.vertex_end(cluster) - begin;
     for (int i = first; i < count; ++i) {
       const double h = (axis_.nx * (points.x[i] - axis_.ox) + axis_.ny * (points.y[i] - axis_.oy)) +
                        axis_.nz * (points.z[i] - axis_.oz);
-      if (h == best_.height && mesh_.source_vertex(begin + i) < mesh_.source_vertex(best_.vertex)) best_.vertex = begin + i;
+      if (h == best_.height && mesh_.source_vertex(begin + i) < mesh_.source_vertex(best_.vertex)) {
+        best_ = {begin + i, cluster, h};
+      }
     }
   }
 
   const ClusteredMesh& mesh_;
   HeightAxis axis_;
-  Support best_{-1, -std::numeric_limits<double>::infinity()};
+  Support best_{-1, 0, -std::numeric_limits<double>::infinity()};
 };
 
 // The corners of the cluster boxes that lie farthest along n.
@@ -61,17 +59,14 @@ PointArrays far_corners(const BoxArrays& boxes, Vec3 n) {
 Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int first_cluster) {
   assert(mesh.facet_count() > 0);
   Search search(mesh, n, origin);
-  search.open_cluster(first_cluster);
+  search.open(first_cluster);
   const PointArrays bounds = far_corners(mesh.cluster_boxes(), n);
-  std::int32_t chosen[kBlock];
+  double bound[kBlock + kPadding];
   for (int begin = 0; begin < mesh.cluster_count(); begin += kBlock) {
-    const PointArrays block = from(bounds, begin);
     const int count = std::min(kBlock, mesh.cluster_count() - begin);
-    const int found = kernels().select_heights(block, count, search.axis(), search.best().height, chosen);
-    for (int i = 0; i < found; ++i) {
-      std::int32_t ignored = 0;
-      const double bound = kernels().max_height(from(block, chosen[i]), 1, search.axis(), &ignored);
-      if (begin + chosen[i] != first_cluster && bound >= search.best().height) search.open_cluster(begin + chosen[i]);
+    kernels().heights(from(bounds, begin), count, search.axis(), bound);
+    for (int i = 0; i < count; ++i) {
+      if (bound[i] >= search.best().height && begin + i != first_cluster) search.open(begin + i);
     }
   }
   return search.best();
@@ -79,7 +74,7 @@ Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int first_cluste
 
 Support support_by_full_scan(const ClusteredMesh& mesh, Vec3 n, Vec3 origin) {
   Search search(mesh, n, origin);
-  search.open(0, mesh.vertex_count());
+  for (int cluster = 0; cluster < mesh.cluster_count(); ++cluster) search.open(cluster);
   return search.best();
 }
 

@@ -8,6 +8,7 @@ namespace tact::narrowphase {
 // A farthest vertex.
 struct Support {
   int vertex = -1;      // of equal ones, the one with the lowest source vertex
+  int cluster = 0;      // that owns it
   double height = 0.0;  // n · (position - origin) as computed: ((n.x * dx + n.y * dy) + n.z * dz)
 };
 

@@ -32,7 +32,7 @@ struct BoxBounds {
   double upper[3];
 };
 
-// A facet prepared for the plane-side filter of many others against it.
+// A facet prepared to be held against many others.
 struct FilterFacet {
   BoxBounds box;
   double corner[3][3];     // corner, axis
@@ -63,6 +63,13 @@ struct CullBits {
   std::uint64_t facing_away;  // n · normal <= 0, normal not zero
 };
 
+// What became of a facet and those of a block. A bit a facet of the block.
+struct FacetMatches {
+  std::uint64_t meeting;    // certainly
+  std::uint64_t undecided;  // for exact predicates
+  std::int64_t box_pairs;   // facets whose box overlaps the facet's
+};
+
 // Vertices of a cluster to be refreshed. Coordinates of source vertex s are source[3 s], source[3 s + 1], source[3 s + 2].
 struct RefreshInput {
   const double* source;
@@ -85,6 +92,9 @@ struct Kernels {
   // Copies the owned vertices and sets `box` to the box of all; says whether any owned coordinate changed.
   bool (*refresh_cluster)(const RefreshInput& input, BoxBounds* box);
 
+  // Writes the height of each point; `out` has room for kPadding more than `count`.
+  void (*heights)(PointArrays points, int count, const HeightAxis& axis, double* out);
+
   // Writes the indices i < count of points whose height is >= threshold, ascending; returns how many.
   int (*select_heights)(PointArrays points, int count, const HeightAxis& axis, double threshold, std::int32_t* indices);
 
@@ -100,10 +110,11 @@ struct Kernels {
   // Judges the `count` facets of `block`.
   CullBits (*cull_facets)(const FacetBlock& block, int count, const CullPlanes& planes);
 
-  // Writes the indices i < count of facets in `block` that may meet `facet`: boxes overlap, and the corners of neither are
-  // certainly all on one side of the other's plane. Adds the number of overlapping boxes to `box_pairs`.
-  int (*select_meeting)(const FacetBlock& block, int count, const FilterFacet& facet, std::int32_t* indices,
-                        std::int64_t* box_pairs);
+  // A bit for each of the `count` facets of `block` whose box overlaps `box`.
+  std::uint64_t (*overlap_bits)(const FacetBlock& block, int count, const BoxBounds& box);
+
+  // Holds `facet` against those of `block` that have a bit in `candidates`. What doubles cannot tell is left undecided.
+  FacetMatches (*match_facets)(const FacetBlock& block, std::uint64_t candidates, const FilterFacet& facet);
 };
 
 // The best for this machine, or the one that the environment variable TACT_INSTRUCTION_SET names: scalar, avx2, avx512.

@@ -33,10 +33,10 @@ std::int64_t find_large(const double* source, std::int64_t count, double largest
   const Pack limit = spread(largest);
   std::int64_t i = 0;
   for (; i + 4 * kWidth <= count; i += 4 * kWidth) {
-    const Mask good = less_equal(abs(load(source + i)), limit) & less_equal(abs(load(source + i + kWidth)), limit) &
-                      less_equal(abs(load(source + i + 2 * kWidth)), limit) &
-                      less_equal(abs(load(source + i + 3 * kWidth)), limit);
-    if (good != kAllLanes) break;
+    const Mask good = both(both(less_equal(abs(load(source + i)), limit), less_equal(abs(load(source + i + kWidth)), limit)),
+                           both(less_equal(abs(load(source + i + 2 * kWidth)), limit),
+                                less_equal(abs(load(source + i + 3 * kWidth)), limit)));
+    if (bits(good) != kAllLanes) break;
   }
   for (; i < count; ++i) {
     if (!(__builtin_fabs(source[i]) <= largest)) return i;
@@ -44,12 +44,17 @@ std::int64_t find_large(const double* source, std::int64_t count, double largest
   return -1;
 }
 
+void heights(PointArrays points, int count, const HeightAxis& axis, double* out) {
+  const HeightPack height(axis);
+  for (int i = 0; i < count; i += kWidth) store(out + i, height(points, i));
+}
+
 int select_heights(PointArrays points, int count, const HeightAxis& axis, double threshold, std::int32_t* indices) {
   const HeightPack height(axis);
   const Pack least = spread(threshold);
   int found = 0;
   for (int i = 0; i < count; i += kWidth) {
-    found = append(less_equal(least, height(points, i)) & lanes_left(count - i), i, indices, found);
+    found = append(bits(less_equal(least, height(points, i))) & lanes_left(count - i), i, indices, found);
   }
   return found;
 }
@@ -66,7 +71,7 @@ double max_height(PointArrays points, int count, const HeightAxis& axis, std::in
   }
   const Pack wanted = spread(largest);
   for (int k = 0; k < count; k += kWidth) {
-    const unsigned equal = less_equal(wanted, height(points, k)) & lanes_left(count - k);
+    const unsigned equal = bits(less_equal(wanted, height(points, k))) & lanes_left(count - k);
     if (equal != 0) {
       *index = k + __builtin_ctz(equal);
       break;
@@ -84,9 +89,11 @@ struct BoxPack {
     }
   }
   unsigned overlap(const double* const* low, const double* const* high, int i) const {
-    return less_equal(load(low[0] + i), upper[0]) & less_equal(lower[0], load(high[0] + i)) &
-           less_equal(load(low[1] + i), upper[1]) & less_equal(lower[1], load(high[1] + i)) &
-           less_equal(load(low[2] + i), upper[2]) & less_equal(lower[2], load(high[2] + i));
+    Mask all = both(less_equal(load(low[0] + i), upper[0]), less_equal(lower[0], load(high[0] + i)));
+    for (int axis = 1; axis < 3; ++axis) {
+      all = both(all, both(less_equal(load(low[axis] + i), upper[axis]), less_equal(lower[axis], load(high[axis] + i))));
+    }
+    return bits(all);
   }
 };
 
@@ -123,27 +130,45 @@ struct VectorPack {
 inline VectorPack sub(const VectorPack& a, const VectorPack& b) { return {sub(a.x, b.x), sub(a.y, b.y), sub(a.z, b.z)}; }
 inline VectorPack spread(const double* p) { return {spread(p[0]), spread(p[1]), spread(p[2])}; }
 
-// The lanes in which three points are certainly all on one side of a plane. The height of p over the plane through c with
-// normal (c1 - c) × (c2 - c) is a 3 x 3 determinant of differences; evaluated as here, its rounding is at most
-// (7 + 56 eps) eps times the same sum of absolute products, eps = 2^-53 (Shewchuk, "Adaptive precision floating-point
-// arithmetic", 1997, §4.4), so 1e-15 times it. Where products vanish below the smallest double, each of the nine loses at most 2^-1075,
-// times a difference; differences of coordinates <= 2^300 make that less than the added 1e-200.
+// A determinant as computed, and a bound of its rounding.
+struct Determinant {
+  Pack value, error;
+  Mask positive() const { return less(error, value); }
+  Mask negative() const { return less(value, sub(spread(0.0), error)); }
+};
+
+// A 3 x 3 determinant of differences, x · n with n = e × f, rounds by at most (7 + 56 eps) eps times the same sum of absolute
+// products, eps = 2^-53 (Shewchuk, "Adaptive precision floating-point arithmetic", 1997, §4.4), so by less than 1e-15 times
+// it. Where products vanish below the smallest double, each of the nine loses at most 2^-1075 times a difference;
+// differences of coordinates <= 2^300 make that less than the added 1e-200.
+inline Determinant determinant(const VectorPack& x, const VectorPack& n, const VectorPack& n_bound) {
+  const Pack value = add(add(mul(n.x, x.x), mul(n.y, x.y)), mul(n.z, x.z));
+  const Pack size = add(add(mul(n_bound.x, abs(x.x)), mul(n_bound.y, abs(x.y))), mul(n_bound.z, abs(x.z)));
+  return {value, add(mul(size, spread(1e-15)), spread(1e-200))};
+}
+
+// On which side of a plane the corners of a triangle certainly lie.
+struct Sides {
+  Mask above[3];
+  Mask certain;   // all three
+  unsigned apart; // bits: all three on one side
+};
+
 struct SideFilter {
   VectorPack origin, normal, bound;
 
-  unsigned one_side(const VectorPack& p0, const VectorPack& p1, const VectorPack& p2) const {
-    const Pack tiny = spread(1e-200), factor = spread(1e-15), zero = spread(0.0);
-    const VectorPack points[3] = {p0, p1, p2};
-    unsigned above = kAllLanes, below = kAllLanes;
-    for (const VectorPack& p : points) {
-      const VectorPack d = sub(p, origin);
-      const Pack height = add(add(mul(normal.x, d.x), mul(normal.y, d.y)), mul(normal.z, d.z));
-      const Pack size = add(add(mul(bound.x, abs(d.x)), mul(bound.y, abs(d.y))), mul(bound.z, abs(d.z)));
-      const Pack error = add(mul(size, factor), tiny);
-      above &= less(error, height);
-      below &= less(height, sub(zero, error));
+  Sides sides(const VectorPack* corner) const {
+    Sides s;
+    Mask below[3];
+    for (int k = 0; k < 3; ++k) {
+      const Determinant height = determinant(sub(corner[k], origin), normal, bound);
+      s.above[k] = height.positive();
+      below[k] = height.negative();
     }
-    return above | below;
+    const Mask all_above = both(both(s.above[0], s.above[1]), s.above[2]), all_below = both(both(below[0], below[1]), below[2]);
+    s.apart = bits(either(all_above, all_below));
+    s.certain = both(both(either(s.above[0], below[0]), either(s.above[1], below[1])), either(s.above[2], below[2]));
+    return s;
   }
 };
 
@@ -161,48 +186,106 @@ CullBits cull_facets(const FacetBlock& block, int count, const CullPlanes& plane
   const Pack lowest = spread(planes.lowest), zero = spread(0.0);
   const double* const lower[3] = {block.lower[0], block.lower[1], block.lower[2]};
   const double* const upper[3] = {block.upper[0], block.upper[1], block.upper[2]};
-  CullBits bits{count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1, 0, 0};
+  CullBits result{count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1, 0, 0};
   for (int i = 0; i < count; i += kWidth) {
     unsigned reaching = box.overlap(lower, upper, i);
     Pack top = height({block.corner[0][0], block.corner[0][1], block.corner[0][2]}, i);
     for (int k = 1; k < 3; ++k) top = max(top, height({block.corner[k][0], block.corner[k][1], block.corner[k][2]}, i));
-    reaching &= less_equal(lowest, top);
-    bits.reaching |= static_cast<std::uint64_t>(reaching) << i;
+    reaching &= bits(less_equal(lowest, top));
+    result.reaching |= static_cast<std::uint64_t>(reaching) << i;
     if (!planes.facing_away) continue;
     VectorPack c[3];
     for (int k = 0; k < 3; ++k) c[k] = {load(block.corner[k][0] + i), load(block.corner[k][1] + i), load(block.corner[k][2] + i)};
     const VectorPack n = plane_of(c[0], c[1], c[2]).normal;
     const Pack along = add(add(mul(height.nx, n.x), mul(height.ny, n.y)), mul(height.nz, n.z));
-    const unsigned area = not_equal(n.x, zero) | not_equal(n.y, zero) | not_equal(n.z, zero);
-    bits.facing_away |= static_cast<std::uint64_t>(less_equal(along, zero) & area) << i;
+    const Mask area = either(either(not_equal(n.x, zero), not_equal(n.y, zero)), not_equal(n.z, zero));
+    result.facing_away |= static_cast<std::uint64_t>(bits(both(less_equal(along, zero), area))) << i;
   }
-  bits.reaching &= bits.all;
-  bits.facing_away &= bits.all;
-  return bits;
+  result.reaching &= result.all;
+  result.facing_away &= result.all;
+  return result;
 }
 
-int select_meeting(const FacetBlock& block, int count, const FilterFacet& facet, std::int32_t* indices,
-                   std::int64_t* box_pairs) {
+inline VectorPack select(Mask mask, const VectorPack& yes, const VectorPack& no) {
+  return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
+}
+
+// A triangle with its corners turned so that the first is alone on its side of the other's plane.
+struct LoneCorner {
+  VectorPack lone, next, last;
+  Mask above;
+};
+
+inline LoneCorner lone_corner(const VectorPack* c, const Sides& s) {
+  const Mask first = both(differ(s.above[0], s.above[1]), differ(s.above[0], s.above[2]));
+  const Mask second = both(differ(s.above[1], s.above[0]), differ(s.above[1], s.above[2]));
+  return {select(first, c[0], select(second, c[1], c[2])), select(first, c[1], select(second, c[2], c[0])),
+          select(first, c[2], select(second, c[0], c[1])),
+          either(both(first, s.above[0]), either(both(second, s.above[1]), both(both(differ(s.above[2], s.above[0]), differ(s.above[2], s.above[1])), s.above[2])))};
+}
+
+// (a - d) · ((b - d) × (c - d)).
+inline Determinant orient3d(const VectorPack& a, const VectorPack& b, const VectorPack& c, const VectorPack& d) {
+  const SideFilter plane = plane_of(d, b, c);
+  return determinant(sub(a, d), plane.normal, plane.bound);
+}
+
+struct Meeting {
+  unsigned yes, no;  // bits of lanes that are certain
+};
+
+// Both triangles cross the other's plane, no corner being near it: their intervals on the common line overlap if and only
+// if two orientations of an edge of each have the right signs (Guigue and Devillers, 2003). As in triangle_triangle.cpp,
+// where above is a negative orientation.
+inline Meeting intervals_meet(const LoneCorner& a, const LoneCorner& b) {
+  const VectorPack b1 = select(a.above, b.next, b.last), b2 = select(a.above, b.last, b.next);
+  const VectorPack a1 = select(b.above, a.next, a.last), a2 = select(b.above, a.last, a.next);
+  const Determinant p = orient3d(a.lone, a1, b.lone, b1), q = orient3d(a.lone, a2, b.lone, b2);
+  return {bits(both(p.positive(), q.negative())), bits(either(p.negative(), q.positive()))};
+}
+
+FacetMatches match_facets(const FacetBlock& block, std::uint64_t candidates, const FilterFacet& facet) {
   const BoxPack box(facet.box);
   const double* const lower[3] = {block.lower[0], block.lower[1], block.lower[2]};
   const double* const upper[3] = {block.upper[0], block.upper[1], block.upper[2]};
   const VectorPack corner[3] = {spread(facet.corner[0]), spread(facet.corner[1]), spread(facet.corner[2])};
   const SideFilter own{corner[0], spread(facet.normal), spread(facet.normal_bound)};
-  int found = 0;
-  for (int i = 0; i < count; i += kWidth) {
-    unsigned mask = box.overlap(lower, upper, i) & lanes_left(count - i);
+  FacetMatches matches{0, 0, 0};
+  while (candidates != 0) {
+    const int i = __builtin_ctzll(candidates) / kWidth * kWidth;
+    unsigned mask = static_cast<unsigned>(candidates >> i) & kAllLanes;
+    candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
+    mask &= box.overlap(lower, upper, i);
     if (mask == 0) continue;
-    *box_pairs += __builtin_popcount(mask);
+    matches.box_pairs += __builtin_popcount(mask);
     VectorPack other[3];
     for (int k = 0; k < 3; ++k) {
       other[k] = {load(block.corner[k][0] + i), load(block.corner[k][1] + i), load(block.corner[k][2] + i)};
     }
-    mask &= ~own.one_side(other[0], other[1], other[2]);
+    const Sides theirs = own.sides(other);
+    mask &= ~theirs.apart;
     if (mask == 0) continue;
-    mask &= ~plane_of(other[0], other[1], other[2]).one_side(corner[0], corner[1], corner[2]);
-    found = append(mask, i, indices, found);
+    const Sides ours = plane_of(other[0], other[1], other[2]).sides(corner);
+    mask &= ~ours.apart;
+    if (mask == 0) continue;
+    const unsigned certain = bits(both(theirs.certain, ours.certain)) & mask;
+    Meeting meeting{0, 0};
+    if (certain != 0) meeting = intervals_meet(lone_corner(corner, ours), lone_corner(other, theirs));
+    matches.meeting |= static_cast<std::uint64_t>(meeting.yes & certain) << i;
+    matches.undecided |= static_cast<std::uint64_t>(mask & ~((meeting.yes | meeting.no) & certain)) << i;
   }
-  return found;
+  return matches;
+}
+
+std::uint64_t overlap_bits(const FacetBlock& block, int count, const BoxBounds& box) {
+  const BoxPack pack(box);
+  const double* const lower[3] = {block.lower[0], block.lower[1], block.lower[2]};
+  const double* const upper[3] = {block.upper[0], block.upper[1], block.upper[2]};
+  std::uint64_t result = 0;
+  for (int i = 0; i < count; i += kWidth) {
+    result |= static_cast<std::uint64_t>(pack.overlap(lower, upper, i) & lanes_left(count - i)) << i;
+  }
+  return result;
 }
 
 #if defined(TACT_KERNELS_AVX2_REFRESH)
@@ -300,7 +383,7 @@ bool refresh_cluster(const RefreshInput& in, BoxBounds* box) {
 }  // namespace
 
 extern const Kernels TACT_KERNELS;
-const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, find_large, refresh_cluster, select_heights, max_height,
-                              select_overlapping, fill_facet_block, cull_facets, select_meeting};
+const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, find_large, refresh_cluster, heights, select_heights, max_height,
+                              select_overlapping, fill_facet_block, cull_facets, overlap_bits, match_facets};
 
 }  // namespace tact::narrowphase

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kWidth = 4;
 using Pack = __m256d;
-using Mask = unsigned;  // a bit a lane
+using Mask = __m256d;
 
 inline Pack load(const double* p) { return _mm256_loadu_pd(p); }
 inline void store(double* p, Pack a) { _mm256_storeu_pd(p, a); }
@@ -24,10 +24,14 @@ inline Pack mul(Pack a, Pack b) { return _mm256_mul_pd(a, b); }
 inline Pack min(Pack a, Pack b) { return _mm256_min_pd(a, b); }
 inline Pack max(Pack a, Pack b) { return _mm256_max_pd(a, b); }
 inline Pack abs(Pack a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a); }
-inline Mask bits(Pack a) { return static_cast<Mask>(_mm256_movemask_pd(a)); }
-inline Mask less_equal(Pack a, Pack b) { return bits(_mm256_cmp_pd(a, b, _CMP_LE_OQ)); }
-inline Mask less(Pack a, Pack b) { return bits(_mm256_cmp_pd(a, b, _CMP_LT_OQ)); }
-inline Mask not_equal(Pack a, Pack b) { return bits(_mm256_cmp_pd(a, b, _CMP_NEQ_UQ)); }
+inline Mask less_equal(Pack a, Pack b) { return _mm256_cmp_pd(a, b, _CMP_LE_OQ); }
+inline Mask less(Pack a, Pack b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
+inline Mask not_equal(Pack a, Pack b) { return _mm256_cmp_pd(a, b, _CMP_NEQ_UQ); }
+inline Mask both(Mask a, Mask b) { return _mm256_and_pd(a, b); }
+inline Mask either(Mask a, Mask b) { return _mm256_or_pd(a, b); }
+inline Mask differ(Mask a, Mask b) { return _mm256_xor_pd(a, b); }
+inline unsigned bits(Mask a) { return static_cast<unsigned>(_mm256_movemask_pd(a)); }
+inline Pack select(Mask mask, Pack yes, Pack no) { return _mm256_blendv_pd(no, yes, mask); }
 inline double largest_lane(Pack a) {
   const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1));
   return _mm_cvtsd_f64(_mm_max_sd(two, _mm_unpackhi_pd(two, two)));

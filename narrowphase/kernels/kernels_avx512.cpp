@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kWidth = 8;
 using Pack = __m512d;
-using Mask = unsigned;  // a bit a lane
+using Mask = __mmask8;
 
 inline Pack load(const double* p) { return _mm512_loadu_pd(p); }
 inline void store(double* p, Pack a) { _mm512_storeu_pd(p, a); }
@@ -29,6 +29,11 @@ inline Pack abs(Pack a) { return _mm512_abs_pd(a); }
 inline Mask less_equal(Pack a, Pack b) { return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ); }
 inline Mask less(Pack a, Pack b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
 inline Mask not_equal(Pack a, Pack b) { return _mm512_cmp_pd_mask(a, b, _CMP_NEQ_UQ); }
+inline Mask both(Mask a, Mask b) { return a & b; }
+inline Mask either(Mask a, Mask b) { return a | b; }
+inline Mask differ(Mask a, Mask b) { return a ^ b; }
+inline unsigned bits(Mask a) { return a; }
+inline Pack select(Mask mask, Pack yes, Pack no) { return _mm512_mask_blend_pd(mask, no, yes); }
 inline double largest_lane(Pack a) { return _mm512_reduce_max_pd(a); }
 
 }  // namespace

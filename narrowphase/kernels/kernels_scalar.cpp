@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kWidth = 1;
 using Pack = double;
-using Mask = unsigned;  // a bit a lane
+using Mask = bool;
 
 inline Pack load(const double* p) { return *p; }
 inline void store(double* p, Pack a) { *p = a; }
@@ -21,9 +21,14 @@ inline Pack mul(Pack a, Pack b) { return a * b; }
 inline Pack min(Pack a, Pack b) { return a < b ? a : b; }
 inline Pack max(Pack a, Pack b) { return a > b ? a : b; }
 inline Pack abs(Pack a) { return __builtin_fabs(a); }
-inline Mask less_equal(Pack a, Pack b) { return a <= b ? 1u : 0u; }
-inline Mask less(Pack a, Pack b) { return a < b ? 1u : 0u; }
-inline Mask not_equal(Pack a, Pack b) { return a != b ? 1u : 0u; }
+inline Mask less_equal(Pack a, Pack b) { return a <= b; }
+inline Mask less(Pack a, Pack b) { return a < b; }
+inline Mask not_equal(Pack a, Pack b) { return a != b; }
+inline Mask both(Mask a, Mask b) { return a && b; }
+inline Mask either(Mask a, Mask b) { return a || b; }
+inline Mask differ(Mask a, Mask b) { return a != b; }
+inline unsigned bits(Mask a) { return a ? 1u : 0u; }
+inline Pack select(Mask mask, Pack yes, Pack no) { return mask ? yes : no; }
 inline double largest_lane(Pack a) { return a; }
 
 }  // namespace

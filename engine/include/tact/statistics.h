@@ -28,7 +28,7 @@ namespace tact {
   X(cluster_pairs, "pairs of clusters whose boxes overlap")                                    \
   X(tree_pairs, "contacts whose cluster pairs were found by trees rather than a plain loop")   \
   X(facet_box_pairs, "pairs of facets whose boxes overlap")                                    \
-  X(triangle_tests, "pairs of facets that plane sides did not separate")                       \
+  X(triangle_tests, "pairs of facets that doubles could not decide")                       \
   X(exact_predicates, "orientation predicates that needed integers")                           \
   X(facet_pairs, "pairs of facets that meet")                                                  \
   X(touching_contacts, "contacts with at least one facet pair")

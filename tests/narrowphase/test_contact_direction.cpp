@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "narrowphase/contact_direction.h"
+#include "tests/support/clustered.h"
+#include "tests/support/generators.h"
+#include "tests/support/minkowski_oracle.h"
+#include "tests/support/random.h"
+
+namespace tact::narrowphase {
+namespace {
+
+using tests::Mesh;
+using tests::Random;
+
+struct Found {
+  Vec3 n;
+  double depth;  // metres
+  int iterations;
+};
+
+Found direction(const ClusteredMesh& a, const ClusteredMesh& b, Vec3 start, const GjkSimplex& face = {}) {
+  const MinkowskiDifference m(a, b);
+  const ContactDirection d = contact_direction(m, normalized(start), face, {});
+  EXPECT_FALSE(d.limit_reached);
+  EXPECT_NEAR(norm(d.n), 1.0, 1e-15);
+  return {d.n, d.height / m.scale(), d.iterations};
+}
+
+void expect_near(Vec3 found, Vec3 expected, double tolerance) { EXPECT_LE(norm(found - expected), tolerance); }
+
+ClusteredMesh box(Vec3 lower, Vec3 upper) { return tests::clustered(tests::box(lower, upper)); }
+
+TEST(ContactDirection, LeavesTheDiagonalOfACube) {  // fcl#545: the corner and the edge of [-1, 1]³ repeat too
+  const ClusteredMesh cube = box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  for (const Vec3 start : {Vec3{1, 1, 1}, Vec3{1, 1, 0}, Vec3{-1, 1, -1}, Vec3{0, -1, 1}}) {
+    const Found found = direction(cube, cube, start);
+    EXPECT_NEAR(found.depth, 1.0, 1e-15);
+    EXPECT_NEAR(std::abs(found.n.x) + std::abs(found.n.y) + std::abs(found.n.z), 1.0, 1e-15);
+    EXPECT_GT(dot(found.n, start), 0.0);
+  }
+}
+
+TEST(ContactDirection, StackedBoxesHaveDepthZero) {
+  const Found found = direction(box({0, 0, 0}, {1, 1, 1}), box({0, 0, 1}, {1, 1, 2}), {0.1, 0.2, 1.0});
+  EXPECT_EQ(found.depth, 0.0);
+  expect_near(found.n, {0, 0, 1}, 1e-15);
+}
+
+TEST(ContactDirection, CrossedBarsTouchEdgeToEdge) {
+  // Two bars with a square section stood on an edge, across each other: the face of the difference is edge-edge.
+  const Mesh bar = tests::rotated(tests::centered_box({2.0, 0.25, 0.25}), tests::rotation(std::cos(std::numbers::pi / 8), std::sin(std::numbers::pi / 8), 0, 0));
+  const Mesh across = tests::rotated(bar, tests::rotation(1, 0, 0, 1));
+  const double reach = 0.25 * std::numbers::sqrt2;
+  const Found found = direction(tests::clustered(bar), tests::clustered(tests::translated(across, {0, 0, 2 * reach - 0.01})), {0.05, 0.02, 1});
+  EXPECT_NEAR(found.depth, 0.01, 1e-15);
+  expect_near(found.n, {0, 0, 1}, 1e-14);
+}
+
+TEST(ContactDirection, FlatStraightAndPointLikeDifferences) {
+  const ClusteredMesh sheet = tests::clustered(tests::sheet(4, 4, 2.0, 2.0));
+  for (const double sign : {1.0, -1.0}) {
+    const Found flat = direction(sheet, sheet, {0.3, 0.1, sign});
+    EXPECT_EQ(flat.depth, 0.0);
+    expect_near(flat.n, {0, 0, sign}, 1e-15);
+  }
+  const std::vector<Vec3> ends{{-1, 0, 0}, {1, 0, 0}}, point{{0, 0, 0}};
+  const Found straight = direction(tests::mesh_through(ends), tests::mesh_through(ends), {0.5, 0.3, 0.4});
+  EXPECT_EQ(straight.depth, 0.0);
+  expect_near(straight.n, {0, 0.6, 0.8}, 1e-15);
+  const Found single = direction(tests::mesh_through(point), tests::mesh_through(point), {0, 0.6, 0.8});
+  EXPECT_EQ(single.depth, 0.0);
+  expect_near(single.n, {0, 0.6, 0.8}, 1e-15);
+}
+
+std::vector<Vec3> cloud(Random& random, int kind, Vec3 center) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < (kind == 1 ? 8 : kind == 2 ? 100 : 10); ++i) {
+    Vec3 p = kind == 2 ? random.direction() : random.in_ball();
+    if (kind == 1) p = {i & 1 ? 0.5 : -0.5, i & 2 ? 0.6 : -0.6, i & 4 ? 0.7 : -0.7};
+    if (kind == 3) p.z = 0.0;
+    if (kind == 4) p = {p.x, 1e-6 * p.y, 1e-6 * p.z};
+    points.push_back(p + center);
+  }
+  return points;
+}
+
+TEST(ContactDirection, IsALocalMinimumAndNeverHigherThanItsStart) {
+  Random random(11);
+  int overlapping = 0;
+  for (int i = 0; i < 500; ++i) {
+    const std::vector<Vec3> a = cloud(random, i % 5, {}), b = cloud(random, i / 5 % 5, random.uniform(0.0, 1.0) * random.direction());
+    const ClusteredMesh mesh_a = tests::mesh_through(a), mesh_b = tests::mesh_through(b);
+    const MinkowskiDifference m(mesh_a, mesh_b);
+    if (gjk(m, {}, {}, {}).status == GjkStatus::apart) continue;
+    ++overlapping;
+    const Vec3 start = random.direction();
+    const Found found = direction(mesh_a, mesh_b, start);
+    const double size = m.size() / m.scale();
+    EXPECT_NEAR(found.depth, static_cast<double>(tests::minkowski_height(a, b, found.n)), 1e-14 * size) << "case " << i;
+    EXPECT_TRUE(tests::is_local_minimum(a, b, found.n, 1e-13 * size)) << "case " << i;
+    EXPECT_LE(found.depth, static_cast<double>(tests::minkowski_height(a, b, start)) + 1e-14 * size) << "case " << i;
+  }
+  EXPECT_GT(overlapping, 150);
+}
+
+TEST(ContactDirection, CoherentMotionTakesOneIterationOrNone) {
+  Random random(3);
+  const Mesh ball = tests::blob(3, 1.0, 0.2, 4);
+  const ClusteredMesh a = tests::clustered(ball);
+  Vec3 n{1, 0, 0};
+  GjkSimplex face;
+  int iterations = 0;
+  constexpr int kSteps = 300;
+  for (int step = 0; step < kSteps; ++step) {
+    const double t = step / static_cast<double>(kSteps);
+    const Mesh moved = tests::rotated(tests::blob(3, 1.0, 0.2, 5), tests::rotation(1, 0.2 * t, 0.5 * t, 0.7 * t));
+    const ClusteredMesh b = tests::clustered(tests::translated(moved, {1.6 - 0.2 * t, 0.3 * t, 0.1}));
+    const MinkowskiDifference m(a, b);
+    const ContactDirection d = contact_direction(m, n, face, {});
+    iterations += d.iterations;
+    n = d.n;
+    face = d.face;
+  }
+  EXPECT_LE(iterations, 1.2 * kSteps);
+}
+
+}  // namespace
+}  // namespace tact::narrowphase

@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include "narrowphase/gjk.h"
+#include "tests/support/clustered.h"
+#include "tests/support/generators.h"
+#include "tests/support/minkowski_oracle.h"
+#include "tests/support/random.h"
+
+namespace tact::narrowphase {
+namespace {
+
+using tests::mesh_through;
+using tests::Mesh;
+using tests::Random;
+
+// The distance of the hulls in metres, 0 where they overlap.
+double distance(const ClusteredMesh& a, const ClusteredMesh& b, GjkStatus expected) {
+  const MinkowskiDifference m(a, b);
+  const GjkResult result = gjk(m, {}, {}, {});
+  EXPECT_EQ(result.status, expected);
+  return expected == GjkStatus::apart ? result.distance / m.scale() : 0.0;
+}
+
+ClusteredMesh points(std::vector<Vec3> p) { return mesh_through(p); }
+ClusteredMesh box(Vec3 lower, Vec3 upper) { return tests::clustered(tests::box(lower, upper)); }
+
+TEST(Gjk, PointsSegmentsAndFlatHulls) {
+  EXPECT_NEAR(distance(points({{0, 0, 0}}), points({{3, 4, 0}}), GjkStatus::apart), 5.0, 1e-14);
+  EXPECT_NEAR(distance(points({{0, 0, 0}, {2, 0, 0}}), points({{1, 1, 1}, {1, 1, -1}}), GjkStatus::apart), 1.0, 1e-14);
+  EXPECT_NEAR(distance(points({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}), points({{0.5, 0.5, 1e-9}}), GjkStatus::apart), 1e-9, 1e-14);
+  distance(points({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}), points({{0.5, 0.5, 0}}), GjkStatus::touching);
+  distance(points({{1, 1, 1}}), points({{1, 1, 1}}), GjkStatus::touching);
+  distance(points({{0, 0, 0}, {1, 0, 0}}), points({{0.5, 0, 0}, {2, 0, 0}}), GjkStatus::touching);
+}
+
+TEST(Gjk, CubesThatTouchOverlapAndPart) {
+  const ClusteredMesh cube = box({0, 0, 0}, {1, 1, 1});
+  distance(cube, box({1, 0, 0}, {2, 1, 1}), GjkStatus::touching);
+  distance(cube, cube, GjkStatus::overlapping);
+  EXPECT_NEAR(distance(cube, box({1 + 1e-9, 0.2, 0}, {2, 1, 1}), GjkStatus::apart), 1e-9, 1e-15);
+}
+
+TEST(Gjk, FindsCubesFarFromZero) {  // openGJK#52: 0.0033 at 9e4, where the answer is 0
+  const double far = 9e4;
+  distance(box({far, far, far}, {far + 1, far + 1, far + 1}), box({far + 0.99, far, far}, {far + 2, far + 1, far + 1}),
+           GjkStatus::overlapping);
+}
+
+TEST(Gjk, BoundsCloseOnRandomHullsAtEveryScale) {
+  Random random(5);
+  for (int i = 0; i < 600; ++i) {
+    const double scale = std::ldexp(1.0, (i % 13 - 6) * 5), aspect = i % 7 == 0 ? 1e-9 : 1.0;
+    const Vec3 offset = (i % 5 == 0 ? 1e8 : 0.0) * scale * random.direction(), apart = random.uniform(0.5, 3.0) * random.direction();
+    std::vector<Vec3> a, b;
+    for (int k = 0; k < 12; ++k) {
+      Vec3 p = random.in_ball(), q = random.in_ball() + apart;
+      p.z *= aspect;
+      a.push_back(offset + scale * p);
+      b.push_back(offset + scale * q);
+    }
+    const ClusteredMesh mesh_a = mesh_through(a), mesh_b = mesh_through(b);
+    const MinkowskiDifference m(mesh_a, mesh_b);
+    const GjkResult result = gjk(m, {}, {}, {});
+    ASSERT_NE(result.status, GjkStatus::limit_reached) << "case " << i;
+    if (result.status != GjkStatus::apart) {
+      EXPECT_GE(static_cast<double>(tests::smallest_height(a, b, 0.0).height) * m.scale(), -4.0 * m.height_error()) << "case " << i;
+      continue;
+    }
+    // The direction between the closest points separates the hulls by the distance.
+    const double w = static_cast<double>(tests::minkowski_height(a, b, -result.offset));
+    EXPECT_NEAR(-w * m.scale(), result.distance, 1e-11 * result.distance + 4.0 * m.height_error()) << "case " << i;
+  }
+}
+
+TEST(Gjk, AWarmStartGivesTheSameAnswerWithFewerQueries) {
+  const Mesh ball = tests::icosphere(4), other = tests::translated(tests::icosphere(4), {2.5, 0.3, 0.1});
+  const ClusteredMesh a = tests::clustered(ball), b = tests::clustered(other);
+  const MinkowskiDifference m(a, b);
+  const GjkResult cold = gjk(m, {}, {}, {}), warm = gjk(m, {}, cold.simplex, {});
+  EXPECT_EQ(cold.status, GjkStatus::apart);
+  EXPECT_NEAR(warm.distance, cold.distance, 1e-14);
+  EXPECT_LT(warm.support_queries, cold.support_queries);
+  EXPECT_LE(warm.support_queries, 2);
+}
+
+}  // namespace
+}  // namespace tact::narrowphase

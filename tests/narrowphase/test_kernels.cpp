@@ -1,0 +1,153 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <vector>
+
+#include "narrowphase/clustered_mesh.h"
+#include "narrowphase/confirm.h"
+#include "narrowphase/kernels/kernels.h"
+#include "narrowphase/triangle_triangle.h"
+#include "tests/support/clustered.h"
+#include "tests/support/generators.h"
+
+namespace tact::narrowphase {
+namespace {
+
+using tests::clustered;
+using tests::Mesh;
+
+std::vector<const Kernels*> available() {
+  std::vector<const Kernels*> all;
+  for (const Kernels* one : {scalar_kernels(), avx2_kernels(), avx512_kernels()}) {
+    if (one != nullptr) all.push_back(one);
+  }
+  return all;
+}
+
+FacetBlock block_of(const Kernels& kernels, const ClusteredMesh& mesh, int cluster) {
+  FacetBlock block{};
+  const int first = mesh.facet_begin(cluster);
+  const std::int32_t* const corners[3] = {mesh.corner_array(0) + first, mesh.corner_array(1) + first, mesh.corner_array(2) + first};
+  kernels.fill_facet_block(mesh.points(), corners, mesh.facet_end(cluster) - first, &block);
+  return block;
+}
+
+std::uint64_t all_bits(int count) { return count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1; }
+
+// Seeded pairs of bodies: smooth ones, soups, and lattices where everything is coplanar or touches.
+std::pair<Mesh, Mesh> bodies(int seed) {
+  const auto s = static_cast<std::uint64_t>(seed);
+  if (seed % 3 == 0) return {tests::lattice_soup(100, 2, s), tests::lattice_soup(100, 2, s + 7)};
+  if (seed % 3 == 1) return {tests::soup(100, 1.0, s), tests::soup(100, 1.0, s + 7)};
+  return {tests::blob(1, 0.5, 0.3, s), tests::translated(tests::blob(1, 0.5, 0.3, s + 9), {0.3, 0.2, 0.1})};
+}
+
+TEST(Kernels, MatchesAreRightOrUndecided) {
+  for (int seed = 0; seed < 12; ++seed) {
+    const auto [mesh_a, mesh_b] = bodies(seed);
+    const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+    for (const Kernels* kernels : available()) {
+      const FacetBlock block = block_of(*kernels, b, 0), block_a = block_of(*kernels, a, 0);
+      const int count = b.facet_end(0);
+      for (int f = 0; f < a.facet_end(0); ++f) {
+        const FacetMatches m = kernels->match_facets(block, all_bits(count), filter_facet(block_a, static_cast<std::size_t>(f)));
+        EXPECT_EQ(m.meeting & m.undecided, 0u);
+        for (int g = 0; g < count; ++g) {
+          PredicateCounts counts;
+          const bool meet = triangle_triangle_meet(a.triangle(f), b.triangle(g), counts);
+          if ((m.undecided >> g & 1) != 0) continue;
+          EXPECT_EQ((m.meeting >> g & 1) != 0, meet) << kernels->name << " seed " << seed << " facets " << f << " " << g;
+        }
+      }
+    }
+  }
+}
+
+TEST(Kernels, MostPairsOfSmoothBodiesAreDecided) {
+  const auto [mesh_a, mesh_b] = bodies(2);
+  const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+  for (const Kernels* kernels : available()) {
+    const FacetBlock block = block_of(*kernels, b, 0), block_a = block_of(*kernels, a, 0);
+    int undecided = 0;
+    for (int f = 0; f < a.facet_end(0); ++f) {
+      undecided += std::popcount(kernels->match_facets(block, all_bits(b.facet_end(0)), filter_facet(block_a, static_cast<std::size_t>(f))).undecided);
+    }
+    EXPECT_EQ(undecided, 0) << kernels->name;
+  }
+}
+
+TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
+  for (int seed = 0; seed < 12; ++seed) {
+    const auto [mesh_a, mesh_b] = bodies(seed);
+    const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+    const HeightAxis axis{0.48, -0.6, 0.64, 0.01, 0.02, -0.03};
+    const CullPlanes planes{.axis = axis, .lowest = 0.1, .box = {{-0.4, -0.3, -0.5}, {0.5, 0.4, 0.6}}, .facing_away = true};
+    const FacetBlock expected = block_of(*scalar_kernels(), b, 0), own = block_of(*scalar_kernels(), a, 0);
+    const CullBits bits = scalar_kernels()->cull_facets(expected, b.facet_end(0), planes);
+    std::int32_t at = 0;
+    const double highest = scalar_kernels()->max_height(b.points(), b.vertex_count(), axis, &at);
+    for (const Kernels* kernels : available()) {
+      const FacetBlock block = block_of(*kernels, b, 0);
+      for (int axis_index = 0; axis_index < 3; ++axis_index) {
+        for (int f = 0; f < b.facet_end(0); ++f) {
+          EXPECT_EQ(block.lower[axis_index][f], expected.lower[axis_index][f]);
+          EXPECT_EQ(block.upper[axis_index][f], expected.upper[axis_index][f]);
+        }
+      }
+      const CullBits other = kernels->cull_facets(block, b.facet_end(0), planes);
+      EXPECT_EQ(other.reaching, bits.reaching) << kernels->name;
+      EXPECT_EQ(other.facing_away, bits.facing_away) << kernels->name;
+      std::int32_t index = 0;
+      EXPECT_EQ(kernels->max_height(b.points(), b.vertex_count(), axis, &index), highest);
+      EXPECT_EQ(index, at);
+      for (int f = 0; f < a.facet_end(0); ++f) {
+        const FilterFacet facet = filter_facet(own, static_cast<std::size_t>(f));
+        const FacetMatches x = scalar_kernels()->match_facets(expected, all_bits(b.facet_end(0)), facet);
+        const FacetMatches y = kernels->match_facets(block, all_bits(b.facet_end(0)), facet);
+        EXPECT_EQ(x.meeting, y.meeting) << kernels->name;
+        EXPECT_EQ(x.undecided, y.undecided) << kernels->name;
+        EXPECT_EQ(x.box_pairs, y.box_pairs) << kernels->name;
+      }
+    }
+  }
+}
+
+TEST(Kernels, FindsTheFirstCoordinateThatIsTooLargeOrNoNumber) {
+  for (const Kernels* kernels : available()) {
+    for (const double bad : {2.0, -2.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+      for (std::size_t at = 0; at < 99; ++at) {
+        std::vector<double> values(99, -0.5);
+        EXPECT_EQ(kernels->find_large(values.data(), 99, 1.0), -1);
+        values[at] = bad;
+        if (at + 1 < 99) values[98] = bad;
+        EXPECT_EQ(kernels->find_large(values.data(), 99, 1.0), static_cast<std::int64_t>(at)) << kernels->name;
+      }
+    }
+  }
+}
+
+TEST(Kernels, RefreshCopiesWidensAndNoticesChanges) {
+  const Mesh mesh = tests::blob(1, 1.0, 0.3, 5);
+  std::vector<std::int32_t> owned, borrowed;
+  for (int v = 0; v < mesh.vertex_count(); ++v) (v % 3 == 1 ? borrowed : owned).push_back(v);
+  for (const Kernels* kernels : available()) {
+    std::vector<double> x(owned.size()), y(owned.size()), z(owned.size());
+    const RefreshInput input{mesh.positions.data(), mesh.vertex_count(), owned.data(), static_cast<std::int32_t>(owned.size()),
+                             borrowed.data(), static_cast<std::int32_t>(borrowed.size()), x.data(), y.data(), z.data()};
+    BoxBounds box;
+    EXPECT_TRUE(kernels->refresh_cluster(input, &box));
+    EXPECT_FALSE(kernels->refresh_cluster(input, &box)) << kernels->name;
+    for (std::size_t i = 0; i < owned.size(); ++i) {
+      EXPECT_EQ((Vec3{x[i], y[i], z[i]}), mesh.position(owned[i])) << kernels->name;
+      x[i] += 1.0;
+      EXPECT_TRUE(kernels->refresh_cluster(input, &box)) << kernels->name << " vertex " << i;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(box.lower[axis], mesh.positions.row(axis).minCoeff());
+      EXPECT_EQ(box.upper[axis], mesh.positions.row(axis).maxCoeff());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tact::narrowphase

@@ -1,0 +1,14 @@
+// A test mesh as the narrow phase takes it.
+#pragma once
+
+#include "narrowphase/clustered_mesh.h"
+#include "tests/support/mesh.h"
+
+namespace tact::tests {
+
+inline narrowphase::ClusteredMesh clustered(const Mesh& mesh) {
+  return {{mesh.positions.data(), static_cast<std::size_t>(mesh.positions.size())},
+          {mesh.facets.data(), static_cast<std::size_t>(mesh.facets.size())}};
+}
+
+}  // namespace tact::tests
