@@ -1,0 +1,48 @@
+// Prints the hash of each step's report: bodies of uneven boxes that pass through each other. Their positions are sums
+// of small multiples of 1/1024, the same doubles however this file is compiled.
+#include <tact/tact.h>
+
+#include <cinttypes>
+#include <cstdio>
+#include <vector>
+
+namespace {
+
+constexpr int kBodies = 40;
+
+int scrambled(int i) { return static_cast<int>(static_cast<unsigned>(i) * 2654435761u >> 22); }  // 0 to 1023
+
+Eigen::Matrix3Xd box_at_step(int body, int step) {
+  Eigen::Matrix3Xd positions(3, 8);
+  for (int vertex = 0; vertex < 8; ++vertex) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int key = 24 * body + 3 * vertex + axis;
+      const int corner = vertex >> axis & 1 ? 1024 : -1024;
+      const int place = 4 * scrambled(3 * body + axis + 5000);
+      const int motion = step * (scrambled(3 * body + axis + 9000) - 512) / 4;
+      positions(axis, vertex) = (corner + place + motion + scrambled(key) / 2) / 1024.0;
+    }
+  }
+  return positions;
+}
+
+}  // namespace
+
+int main() {
+  Eigen::Matrix3Xi facets(3, 12);
+  facets << 0, 0, 4, 4, 0, 0, 2, 2, 0, 0, 1, 1,  //
+      2, 3, 5, 7, 1, 5, 6, 7, 4, 6, 3, 7,        //
+      3, 1, 7, 6, 5, 4, 7, 3, 6, 2, 7, 5;
+  tact::World world({.threads = 2, .outputs = {.zones = true, .patches = true}});
+  std::vector<tact::BodyId> bodies;
+  for (int body = 0; body < kBodies; ++body) {
+    bodies.push_back(world.add_body({.positions = box_at_step(body, 0), .facets = facets}));
+  }
+  for (int step = 1; step <= 10; ++step) {
+    for (int body = 0; body < kBodies; ++body) world.set_positions(bodies[body], box_at_step(body, step));
+    const tact::Report& report = world.detect();
+    std::printf("step %d: %016" PRIx64 ", %zu contacts, %" PRId64 " facet pairs\n", step, report.hash(),
+                report.contacts().size(), report.stats().facet_pairs);
+    if (report.stats().facet_pairs == 0) return 1;
+  }
+}
