@@ -13,78 +13,86 @@ constexpr std::size_t kParts = 64;     // the work is dealt out in this many par
                                        // so that each keeps its memory from step to step
 constexpr std::size_t kWalkLevel = 1;  // from this level down, a pair of blocks is walked to its end at once
 
+struct ChildNames {
+  explicit ChildNames(std::uint32_t block) {
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) names[lane] = block * kLanes + lane;
+  }
+  std::uint32_t names[kLanes];
+};
+
+// Appends pairs of children of `blocks`, on `level` > 0, that may hold overlapping boxes of which one is active.
+std::size_t child_pairs(const BlockTree& tree, const Kernels& kernels, std::size_t level, IndexPair blocks,
+                        IndexPair* out) {
+  const ChildNames names_a(blocks.a);
+  const ChildNames names_b(blocks.b);
+  const std::uint32_t active_a = tree.active(level, blocks.a);
+  const std::uint32_t active_b = tree.active(level, blocks.b);
+  std::size_t count = 0;
+  if (blocks.a == blocks.b) {
+    for (std::uint32_t active = active_a; active != 0; active &= active - 1) {
+      const std::uint32_t child = names_a.names[std::countr_zero(active)];
+      out[count++] = {child, child};
+    }
+  }
+  const BlockSide side_a{&tree.block(level, blocks.a), names_a.names, active_a};
+  const BlockSide side_b{&tree.block(level, blocks.b), names_b.names, active_b};
+  return count + kernels.find_overlaps(side_a, side_b, out + count).count;
+}
+
+constexpr std::size_t kChildRoom = kLanes + kOverlapRoom;
+
 }  // namespace
 
-std::span<const std::vector<IndexPair>> BlockJoin::run(const BlockTree& tree, std::span<const Filter> filters,
-                                                       int threads) {
+std::span<const PairList> BlockJoin::run(const BlockTree& tree, std::span<const Box> boxes,
+                                         std::span<const Filter> filters, int threads) {
   parts_.resize(kParts);
-  for (auto& part : parts_) part.clear();
+  for (PairList& part : parts_) part.clear();
   std::size_t level = tree.level_count() - 1;
   if (tree.block_count(level) == 0) return {};
-  work_.assign(1, {0, 0});
-  for (; level > kWalkLevel; --level) expand(tree, level);
+  work_.clear();
+  *work_.room(1) = {0, 0};
+  work_.extend(1);
+  for (; level > kWalkLevel; --level) {
+    next_.clear();
+    for (const IndexPair blocks : work_.pairs()) {
+      next_.extend(child_pairs(tree, *kernels_, level, blocks, next_.room(kChildRoom)));
+    }
+    std::swap(work_, next_);
+  }
+  const std::span<const IndexPair> work = work_.pairs();
   base::parallel_for(kParts, 1, threads, [&](std::size_t part) {
-    const std::size_t begin = work_.size() * part / kParts;
-    const std::size_t end = work_.size() * (part + 1) / kParts;
-    for (std::size_t i = begin; i < end; ++i) join(tree, level, work_[i], filters, parts_[part]);
+    const std::size_t begin = work.size() * part / kParts;
+    const std::size_t end = work.size() * (part + 1) / kParts;
+    for (std::size_t i = begin; i < end; ++i) walk(tree, boxes, filters, level, work[i], parts_[part]);
   });
   return parts_;
 }
 
-// Calls visit(lane of a, lane of b) for each pair of lanes that overlap and of which one is active; in a block against
-// itself, for each such pair once.
-template <class Visit>
-void BlockJoin::visit_lanes(const BlockTree& tree, std::size_t level, BlockPair pair, const Visit& visit) const {
-  std::uint16_t columns[kLanes];
-  const std::uint32_t active_a = tree.active(level, pair.a);
-  const std::uint32_t active_b = tree.active(level, pair.b);
-  std::uint32_t rows = kernel_(tree.block(level, pair.a), tree.block(level, pair.b), columns);
-  for (; rows != 0; rows &= rows - 1) {
-    const auto row = static_cast<std::uint32_t>(std::countr_zero(rows));
-    std::uint32_t lanes = columns[row];
-    if (!(active_a >> row & 1u)) lanes &= active_b;
-    if (pair.a == pair.b) lanes &= ~((2u << row) - 1);
-    for (; lanes != 0; lanes &= lanes - 1) visit(row, static_cast<std::uint32_t>(std::countr_zero(lanes)));
-  }
-}
-
-// Replaces the pairs in work_, of blocks on `level`, by those on the level below.
-void BlockJoin::expand(const BlockTree& tree, std::size_t level) {
-  next_.clear();
-  for (const BlockPair pair : work_) {
-    if (pair.a == pair.b) {
-      for (std::uint32_t active = tree.active(level, pair.a); active != 0; active &= active - 1) {
-        const std::uint32_t child = pair.a * kLanes + static_cast<std::uint32_t>(std::countr_zero(active));
-        next_.push_back({child, child});
-      }
-    }
-    visit_lanes(tree, level, pair, [&](std::uint32_t row, std::uint32_t column) {
-      next_.push_back({pair.a * kLanes + row, pair.b * kLanes + column});
-    });
-  }
-  std::swap(work_, next_);
-}
-
-void BlockJoin::join(const BlockTree& tree, std::size_t level, BlockPair pair, std::span<const Filter> filters,
-                     std::vector<IndexPair>& out) const {
+void BlockJoin::walk(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,
+                     std::size_t level, IndexPair blocks, PairList& out) const {
   if (level == 0) {
-    const std::uint32_t* members_a = tree.members(pair.a);
-    const std::uint32_t* members_b = tree.members(pair.b);
-    visit_lanes(tree, level, pair, [&](std::uint32_t row, std::uint32_t column) {
-      const auto [a, b] = std::minmax(members_a[row], members_b[column]);
-      if (filters.empty() || tested(filters[a], filters[b])) out.push_back({a, b});
-    });
+    visit(tree, boxes, filters, blocks, out);
     return;
   }
-  if (pair.a == pair.b) {
-    for (std::uint32_t active = tree.active(level, pair.a); active != 0; active &= active - 1) {
-      const std::uint32_t child = pair.a * kLanes + static_cast<std::uint32_t>(std::countr_zero(active));
-      join(tree, level - 1, {child, child}, filters, out);
-    }
+  IndexPair children[kChildRoom];
+  const std::size_t count = child_pairs(tree, *kernels_, level, blocks, children);
+  for (std::size_t i = 0; i < count; ++i) walk(tree, boxes, filters, level - 1, children[i], out);
+}
+
+void BlockJoin::visit(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,
+                      IndexPair blocks, PairList& out) const {
+  const BlockSide side_a{&tree.block(0, blocks.a), tree.members(blocks.a), tree.active(0, blocks.a)};
+  const BlockSide side_b{&tree.block(0, blocks.b), tree.members(blocks.b), tree.active(0, blocks.b)};
+  IndexPair* const found = out.room(kOverlapRoom);
+  const Overlaps overlaps = kernels_->find_overlaps(side_a, side_b, found);
+  IndexPair* end = found + overlaps.count;
+  if (!overlaps.certain && !(tree.exact(blocks.a) && tree.exact(blocks.b))) {
+    end = std::remove_if(found, end, [&](IndexPair pair) { return !base::overlaps(boxes[pair.a], boxes[pair.b]); });
   }
-  visit_lanes(tree, level, pair, [&](std::uint32_t row, std::uint32_t column) {
-    join(tree, level - 1, {pair.a * kLanes + row, pair.b * kLanes + column}, filters, out);
-  });
+  if (!filters.empty()) {
+    end = std::remove_if(found, end, [&](IndexPair pair) { return !tested(filters[pair.a], filters[pair.b]); });
+  }
+  out.extend(static_cast<std::size_t>(end - found));
 }
 
 }  // namespace tact::broadphase

@@ -9,34 +9,30 @@
 #include "broadphase/block_tree.h"
 #include "broadphase/index_pair.h"
 #include "broadphase/kernels/kernels.h"
+#include "broadphase/pair_list.h"
 
 namespace tact::broadphase {
 
 class BlockJoin {
  public:
-  explicit BlockJoin(OverlapKernel kernel = best_overlap_kernel()) : kernel_(kernel) {}
+  explicit BlockJoin(const Kernels& kernels = best_kernels()) : kernels_(&kernels) {}
 
-  // Every pair of boxes in `tree` that overlap, of which the tree's last update changed at least one, and whose filters
-  // agree; once each, with a < b, in parts whose order and number mean nothing. `filters` may be empty: then all agree.
-  // The answer is valid until the next call.
-  std::span<const std::vector<IndexPair>> run(const BlockTree& tree, std::span<const Filter> filters, int threads);
+  // Every pair of `boxes`, those of `tree`, that overlap, of which the tree's last update changed at least one, and
+  // whose filters agree; once each, with a < b, in parts whose order and number mean nothing. `filters` may be empty:
+  // then all agree. The answer is valid until the next call.
+  std::span<const PairList> run(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,
+                                int threads);
 
  private:
-  struct BlockPair {
-    std::uint32_t a;
-    std::uint32_t b;
-  };
+  void visit(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters, IndexPair blocks,
+             PairList& out) const;
+  void walk(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters, std::size_t level,
+            IndexPair blocks, PairList& out) const;
 
-  template <class Visit>
-  void visit_lanes(const BlockTree& tree, std::size_t level, BlockPair pair, const Visit& visit) const;
-  void expand(const BlockTree& tree, std::size_t level);
-  void join(const BlockTree& tree, std::size_t level, BlockPair pair, std::span<const Filter> filters,
-            std::vector<IndexPair>& out) const;
-
-  OverlapKernel kernel_;
-  std::vector<BlockPair> work_;  // pairs of blocks on one level that may hold overlapping boxes
-  std::vector<BlockPair> next_;
-  std::vector<std::vector<IndexPair>> parts_;
+  const Kernels* kernels_;
+  PairList work_;  // pairs of blocks on one level that may hold overlapping boxes
+  PairList next_;
+  std::vector<PairList> parts_;
 };
 
 }  // namespace tact::broadphase

@@ -1,8 +1,11 @@
 #include "broadphase/block_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
+#include <cmath>
+#include <limits>
 
 #include "engine/base/parallel.h"
 
@@ -12,7 +15,7 @@ namespace {
 constexpr std::uint32_t kArriving = BlockTree::kNone - 1;
 constexpr std::size_t kBlockGrain = 64;    // blocks that a thread takes at a time
 constexpr std::size_t kPrefetch = 2;       // blocks ahead: their boxes are scattered over memory
-constexpr double kRegionMargin = 1.0 / 8;  // a block may grow by this part of its largest side, in each direction
+constexpr float kRegionMargin = 1.0f / 8;  // a block may grow by this part of its largest side, in each direction
 constexpr std::size_t kMergeRatio = 2;     // a batch is merged with arrivals of more than 1 / kMergeRatio of its size
 constexpr std::size_t kSparse = 4;         // the order is made anew when fewer than 1 / kSparse of the lanes hold a box
 
@@ -20,16 +23,70 @@ bool occupied(const Box& box) {
   return box.lower.x <= box.upper.x && box.lower.y <= box.upper.y && box.lower.z <= box.upper.z;
 }
 
-bool encloses(const Box& outer, const Box& inner) {
-  return outer.lower.x <= inner.lower.x && inner.upper.x <= outer.upper.x && outer.lower.y <= inner.lower.y &&
-         inner.upper.y <= outer.upper.y && outer.lower.z <= inner.lower.z && inner.upper.z <= outer.upper.z;
+constexpr FloatBox kEmpty{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+constexpr FloatBox kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+
+void set_lane(Block& block, std::uint32_t lane, const FloatBox& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    block.lower[axis][lane] = box.lower[axis];
+    block.upper[axis][lane] = box.upper[axis];
+  }
 }
 
-Box widened(const Box& box) {
-  const base::Vec3 size = box.upper - box.lower;
-  const double margin = kRegionMargin * std::max({size.x, size.y, size.z});
-  const base::Vec3 margins{margin, margin, margin};
-  return {box.lower - margins, box.upper + margins};
+FloatBox lane_box(const Block& block, std::uint32_t lane) {
+  return {{block.lower[0][lane], block.lower[1][lane], block.lower[2][lane]},
+          {block.upper[0][lane], block.upper[1][lane], block.upper[2][lane]}};
+}
+
+bool equal(const FloatBox& a, const FloatBox& b) {
+  return std::equal(a.lower, a.lower + 3, b.lower) && std::equal(a.upper, a.upper + 3, b.upper);
+}
+
+void refresh_bounds(Block& block) {
+  block.bounds = kEmpty;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      block.bounds.lower[axis] = std::min(block.bounds.lower[axis], block.lower[axis][lane]);
+      block.bounds.upper[axis] = std::max(block.bounds.upper[axis], block.upper[axis][lane]);
+    }
+  }
+}
+
+void clear_lanes(Block& block) {
+  for (std::uint32_t lane = 0; lane < kLanes; ++lane) set_lane(block, lane, kEmpty);
+  block.bounds = kEmpty;
+  block.exact_lanes = kAllLanes;
+}
+
+FloatBox widened(FloatBox box) {
+  float largest = 0.0f;
+  for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, box.upper[axis] - box.lower[axis]);
+  const float margin = kRegionMargin * largest;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lower[axis] -= margin;
+    box.upper[axis] += margin;
+  }
+  return box;
+}
+
+// An origin in the midst of the boxes, and on so coarse a grid that round coordinates stay round.
+Frame central_frame(std::span<const OrderItem> items) {
+  Frame frame;
+  if (items.empty()) return frame;
+  std::array<double, 64> keys;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = items[i * items.size() / keys.size()].center[axis];
+    std::sort(keys.begin(), keys.end());
+    const double grid = std::exp2(std::ceil(std::log2(keys[48] - keys[16] + std::numeric_limits<double>::min())));
+    const double origin = std::round(0.5 * keys[32] / grid) * grid;
+    frame.origin[axis] = std::isfinite(origin) ? origin : 0.0;
+  }
+  return frame;
+}
+
+const double* doubles_of(std::span<const Box> boxes) {
+  static_assert(sizeof(Box) == 6 * sizeof(double));
+  return &boxes.data()->lower.x;
 }
 
 std::size_t blocks_for(std::size_t lanes) { return (lanes + kLanes - 1) / kLanes; }
@@ -93,15 +150,16 @@ void BlockTree::refresh_leaf(std::span<const Box> boxes, std::size_t index) {
       if (ahead < boxes.size()) __builtin_prefetch(&boxes[ahead]);
     }
   }
-  std::uint32_t leavers = 0;
+  // Lanes of boxes past the end are active without a box to read.
+  std::uint32_t gone = 0;
   for_each_lane(levels_[0].active[index], [&](std::uint32_t lane) {
-    const std::uint32_t member = block_members[lane];
-    const bool stays = member < boxes.size() && occupied(boxes[member]) && encloses(regions_[index], boxes[member]);
-    set_lane(block, lane, stays ? boxes[member] : Box{});
-    leavers |= static_cast<std::uint32_t>(!stays) << lane;
+    gone |= static_cast<std::uint32_t>(block_members[lane] >= boxes.size()) << lane;
   });
-  leavers_[index] = static_cast<std::uint16_t>(leavers);
-  refresh_bounds(block);
+  for_each_lane(gone, [&](std::uint32_t lane) { set_lane(block, lane, kEmpty); });
+  block.exact_lanes |= gone;
+  const std::uint32_t left = kernels_->refresh_lanes(block, doubles_of(boxes), block_members,
+                                                     levels_[0].active[index] & ~gone, frame_, regions_[index]);
+  leavers_[index] = static_cast<std::uint16_t>(gone | left);
 }
 
 void BlockTree::collect_leavers(std::span<const Box> boxes) {
@@ -143,6 +201,7 @@ void BlockTree::absorb_last_batch(std::span<const Box> boxes) {
 }
 
 void BlockTree::append_batch(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, int threads) {
+  if (batches_.empty()) frame_ = central_frame(arriving_);
   order_spatially(arriving_, boxes, threads);
   // Whole parents: the order is compact in runs of 16 blocks, counted from the front.
   const std::size_t first_block = blocks_for(levels_[0].blocks.size()) * kLanes;
@@ -171,18 +230,19 @@ void BlockTree::resize_leaves(std::size_t count) {
 
 void BlockTree::fill_leaf(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, std::size_t index,
                           std::span<const OrderItem> items) {
-  Block& block = levels_[0].blocks[index];
+  std::uint32_t* block_members = &members_[index * kLanes];
   std::uint32_t active = 0;
   for (std::uint32_t lane = 0; lane < items.size(); ++lane) {
     const std::uint32_t member = items[lane].index;
-    set_lane(block, lane, boxes[member]);
-    members_[index * kLanes + lane] = member;
+    block_members[lane] = member;
     lane_of_[member] = static_cast<std::uint32_t>(index * kLanes + lane);
     active |= static_cast<std::uint32_t>(is_changed[member] != 0) << lane;
   }
   levels_[0].active[index] = static_cast<std::uint16_t>(active);
-  refresh_bounds(block);
-  regions_[index] = widened(bounds_box(block));
+  Block& block = levels_[0].blocks[index];
+  const std::uint32_t lanes = kAllLanes >> (kLanes - items.size());
+  kernels_->refresh_lanes(block, doubles_of(boxes), block_members, lanes, frame_, kEverywhere);
+  regions_[index] = widened(block.bounds);
 }
 
 void BlockTree::refresh_upper_levels(bool reordered, int threads) {
@@ -209,17 +269,28 @@ void BlockTree::refresh_parent(std::size_t level, std::size_t index, bool reorde
   for (std::uint32_t lane = 0; lane < children; ++lane) {
     if (below.active[first + lane] == 0 && !reordered) continue;
     active |= static_cast<std::uint32_t>(below.active[first + lane] != 0) << lane;
-    set_lane(block, lane, bounds_box(below.blocks[first + lane]));
+    set_lane(block, lane, below.blocks[first + lane].bounds);
   }
   if (reordered) {
-    for (auto lane = static_cast<std::uint32_t>(children); lane < kLanes; ++lane) set_lane(block, lane, Box{});
+    for (auto lane = static_cast<std::uint32_t>(children); lane < kLanes; ++lane) set_lane(block, lane, kEmpty);
   }
   levels_[level].active[index] = static_cast<std::uint16_t>(active);
   if (active != 0 || reordered) refresh_bounds(block);
 }
 
 bool BlockTree::validate(std::span<const Box> boxes) const {
-  if (boxes.size() != lane_of_.size()) return false;
+  if (boxes.size() != lane_of_.size() || !validate_leaf_lanes(boxes)) return false;
+  std::size_t counted = 0;
+  for (const Batch& batch : batches_) counted += batch.boxes;
+  const auto free_lanes = static_cast<std::size_t>(std::count(members_.begin(), members_.end(), kNone));
+  if (counted + free_lanes != members_.size()) return false;
+  for (std::size_t level = 0; level < levels_.size(); ++level) {
+    if (!validate_level(level)) return false;
+  }
+  return levels_.empty() || levels_.back().blocks.size() <= 1;
+}
+
+bool BlockTree::validate_leaf_lanes(std::span<const Box> boxes) const {
   std::size_t placed = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const std::uint32_t lane = lane_of_[i];
@@ -227,35 +298,37 @@ bool BlockTree::validate(std::span<const Box> boxes) const {
     if (lane == kNone) continue;
     ++placed;
     if (lane >= members_.size() || members_[lane] != i) return false;
-    if (lane_box(levels_[0].blocks[lane / kLanes], lane % kLanes) != boxes[i]) return false;
-    if (!encloses(regions_[lane / kLanes], boxes[i])) return false;
+    const Block& block = levels_[0].blocks[lane / kLanes];
+    const FloatBox box = lane_box(block, lane % kLanes);
+    bool exact = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double origin = frame_.origin[axis];
+      if (box.lower[axis] != to_float(boxes[i].lower[axis], origin)) return false;
+      if (box.upper[axis] != to_float(boxes[i].upper[axis], origin)) return false;
+      exact = exact && is_exact(box.lower[axis], boxes[i].lower[axis], origin) &&
+              is_exact(box.upper[axis], boxes[i].upper[axis], origin);
+    }
+    if (exact != ((block.exact_lanes >> lane % kLanes & 1u) != 0)) return false;
   }
-  std::size_t counted = 0;
-  for (const Batch& batch : batches_) counted += batch.boxes;
-  const auto free_lanes = static_cast<std::size_t>(std::count(members_.begin(), members_.end(), kNone));
-  if (placed != counted || placed + free_lanes != members_.size()) return false;
-  for (std::size_t level = 0; level < levels_.size(); ++level) {
-    if (!validate_level(level)) return false;
-  }
-  return levels_.empty() || levels_.back().blocks.size() <= 1;
+  return placed + static_cast<std::size_t>(std::count(members_.begin(), members_.end(), kNone)) == members_.size();
 }
 
 bool BlockTree::validate_level(std::size_t level) const {
   const std::vector<Block>& blocks = levels_[level].blocks;
   for (std::size_t index = 0; index < blocks.size(); ++index) {
-    Box bounds;
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const Box box = lane_box(blocks[index], lane);
-      bounds = base::merged(bounds, box);
+      const FloatBox box = lane_box(blocks[index], lane);
       const std::size_t below = index * kLanes + lane;
       if (level == 0) {
-        if (members_[below] == kNone && box != Box{}) return false;
+        if (members_[below] == kNone && !equal(box, kEmpty)) return false;
       } else {
         const std::vector<Block>& lower = levels_[level - 1].blocks;
-        if (box != (below < lower.size() ? bounds_box(lower[below]) : Box{})) return false;
+        if (!equal(box, below < lower.size() ? lower[below].bounds : kEmpty)) return false;
       }
     }
-    if (bounds != bounds_box(blocks[index])) return false;
+    Block fresh = blocks[index];
+    refresh_bounds(fresh);
+    if (!equal(fresh.bounds, blocks[index].bounds)) return false;
   }
   return true;
 }

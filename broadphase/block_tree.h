@@ -13,12 +13,15 @@
 #include <vector>
 
 #include "broadphase/block.h"
+#include "broadphase/kernels/kernels.h"
 #include "broadphase/spatial_order.h"
 
 namespace tact::broadphase {
 
 class BlockTree {
  public:
+  explicit BlockTree(const Kernels& kernels = best_kernels()) : kernels_(&kernels) {}
+
   // Takes over all boxes whose index is in `changed` or is new. `is_changed` has a byte for each box, nonzero for
   // those. Boxes of indices past the end of `boxes` are taken out.
   void update(std::span<const Box> boxes, std::span<const std::uint32_t> changed,
@@ -29,6 +32,8 @@ class BlockTree {
   const Block& block(std::size_t level, std::size_t index) const { return levels_[level].blocks[index]; }
   // A bit for each lane that holds or is above a box that the last update changed.
   std::uint32_t active(std::size_t level, std::size_t index) const { return levels_[level].active[index]; }
+  // Whether boxes of a block on level 0 overlap if their floats do.
+  bool exact(std::size_t index) const { return levels_[0].blocks[index].exact_lanes == kAllLanes; }
   // The index of the box in each lane of a block of level 0; kNone where there is none.
   const std::uint32_t* members(std::size_t block) const { return &members_[block * kLanes]; }
 
@@ -62,11 +67,14 @@ class BlockTree {
                  std::span<const OrderItem> items);
   void refresh_upper_levels(bool reordered, int threads);
   void refresh_parent(std::size_t level, std::size_t index, bool reordered);
+  bool validate_leaf_lanes(std::span<const Box> boxes) const;
   bool validate_level(std::size_t level) const;
 
+  const Kernels* kernels_;
+  Frame frame_;
   std::vector<Level> levels_;
   std::vector<std::uint32_t> members_;  // by lane of level 0; kNone where there is no box
-  std::vector<Box> regions_;            // by block of level 0: what its boxes may not leave
+  std::vector<FloatBox> regions_;       // by block of level 0: what its boxes may not leave
   std::vector<std::uint16_t> leavers_;  // by block of level 0: lanes whose box has just left
   std::vector<std::uint32_t> lane_of_;  // by box; kNone if it is empty
   std::vector<Batch> batches_;

@@ -15,18 +15,17 @@ constexpr std::size_t kSlice = 1u << 15;  // pairs for which a slice of its own 
 
 }  // namespace
 
-std::span<const IndexPair> PairSorter::sort(std::span<const std::vector<IndexPair>> parts, std::size_t index_count,
-                                            int threads) {
+std::span<const IndexPair> PairSorter::sort(std::span<const PairList> parts, std::size_t index_count, int threads) {
   std::size_t count = 0;
-  for (const auto& part : parts) count += part.size();
+  for (const PairList& part : parts) count += part.pairs().size();
   if (from_.size() < count) {
     from_.resize(count + count / 4);
     to_.resize(from_.size());
   }
   std::size_t end = 0;
-  for (const auto& part : parts) {
-    std::copy(part.begin(), part.end(), from_.begin() + static_cast<std::ptrdiff_t>(end));
-    end += part.size();
+  for (const PairList& part : parts) {
+    std::copy(part.pairs().begin(), part.pairs().end(), from_.begin() + static_cast<std::ptrdiff_t>(end));
+    end += part.pairs().size();
   }
   if (count > 1) {
     const int bits = std::max(1, static_cast<int>(std::bit_width(index_count - 1)));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "broadphase/index_pair.h"
+#include "broadphase/pair_list.h"
 
 namespace tact::broadphase {
 
@@ -13,7 +14,7 @@ class PairSorter {
  public:
   // The pairs of all `parts`, sorted. Indices are below `index_count`. The answer is valid until the next call. A radix
   // sort from the lowest digit up, stable, so that it needs no comparison.
-  std::span<const IndexPair> sort(std::span<const std::vector<IndexPair>> parts, std::size_t index_count, int threads);
+  std::span<const IndexPair> sort(std::span<const PairList> parts, std::size_t index_count, int threads);
 
  private:
   struct Digit {

@@ -12,7 +12,7 @@ std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std
   box_count_ = boxes.size();
   const std::size_t changed_count = mark(filters, changed);
   tree_.update(boxes, changed, is_changed_, threads);
-  const auto parts = join_.run(tree_, special_count_ == 0 ? std::span<const Filter>{} : filters, threads);
+  const auto parts = join_.run(tree_, boxes, special_count_ == 0 ? std::span<const Filter>{} : filters, threads);
   const auto fresh = sorter_.sort(parts, boxes.size(), threads);
   if (changed_count == boxes.size()) {
     pairs_.assign(fresh.begin(), fresh.end());

@@ -2,27 +2,31 @@
 
 namespace tact::broadphase {
 
-#if defined(__x86_64__)
-extern const OverlapKernel kAvx2OverlapKernel;
-extern const OverlapKernel kAvx512OverlapKernel;
+extern const Kernels kBaselineKernels;
+const Kernels* baseline_kernels() { return &kBaselineKernels; }
 
-OverlapKernel avx2_overlap_kernel() {
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") ? kAvx2OverlapKernel : nullptr;
+#if defined(__x86_64__)
+extern const Kernels kAvx2Kernels;
+extern const Kernels kAvx512Kernels;
+
+const Kernels* avx2_kernels() {
+  const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi");
+  return has ? &kAvx2Kernels : nullptr;
 }
-OverlapKernel avx512_overlap_kernel() {
-  const bool has =
-      __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("bmi");
-  return has ? kAvx512OverlapKernel : nullptr;
+const Kernels* avx512_kernels() {
+  const bool has = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                   __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("bmi");
+  return has ? &kAvx512Kernels : nullptr;
 }
 #else
-OverlapKernel avx2_overlap_kernel() { return nullptr; }
-OverlapKernel avx512_overlap_kernel() { return nullptr; }
+const Kernels* avx2_kernels() { return nullptr; }
+const Kernels* avx512_kernels() { return nullptr; }
 #endif
 
-OverlapKernel best_overlap_kernel() {
-  if (const OverlapKernel kernel = avx512_overlap_kernel()) return kernel;
-  if (const OverlapKernel kernel = avx2_overlap_kernel()) return kernel;
-  return scalar_overlap_kernel();
+const Kernels& best_kernels() {
+  if (const Kernels* kernels = avx512_kernels()) return *kernels;
+  if (const Kernels* kernels = avx2_kernels()) return *kernels;
+  return *baseline_kernels();
 }
 
 }  // namespace tact::broadphase

@@ -1,23 +1,50 @@
-// The one loop in which the time goes, compiled for each instruction set and chosen when the program runs. Comparisons
-// of doubles are exact, so every instruction set gives the same answer.
+// The two loops in which the time goes, compiled for each instruction set and chosen when the program runs. No
+// instruction set gives another answer: they compare, subtract and convert, and round nowhere but where all round
+// alike.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "broadphase/block.h"
+#include "broadphase/index_pair.h"
 
 namespace tact::broadphase {
 
-// Compares the boxes of `a` with those of `b`, closed. Bit i of the answer says that lane i of `a` overlaps some lane
-// of `b`; columns[i] then holds a bit for each such lane, and is not written otherwise. `columns` has room for kLanes.
-using OverlapKernel = std::uint32_t (*)(const Block& a, const Block& b, std::uint16_t* columns);
+// One side of a comparison: a block, what stands in each of its lanes (no two alike), and a bit for each active lane.
+struct BlockSide {
+  const Block* block;
+  const std::uint32_t* names;
+  std::uint32_t active;
+};
+
+struct Overlaps {
+  std::size_t count;
+  bool certain;  // no float of the one box was equal to one of the other's where it counts
+};
+
+struct Kernels {
+  const char* name;
+
+  // Writes the names (smaller first) of each pair of overlapping boxes, one of `a`, one of `b`, of which at least one
+  // is active; in any order. A block against itself gives each pair once. `pairs` must have room for kOverlapRoom; what
+  // lies behind those written may be overwritten.
+  Overlaps (*find_overlaps)(const BlockSide& a, const BlockSide& b, IndexPair* pairs);
+
+  // Sets the boxes of `lanes`, each of which has a member, and the bounds. `boxes` is an array of six doubles a box,
+  // lower then upper. A box that is empty or not within `region` is left out; returns a bit for each of these.
+  std::uint32_t (*refresh_lanes)(Block& block, const double* boxes, const std::uint32_t* members, std::uint32_t lanes,
+                                 const Frame& frame, const FloatBox& region);
+};
+
+inline constexpr std::size_t kOverlapRoom = kLanes * (kLanes + 1);
 
 // Each instruction set; null where the machine or the build does not have it.
-OverlapKernel scalar_overlap_kernel();
-OverlapKernel avx2_overlap_kernel();
-OverlapKernel avx512_overlap_kernel();
+const Kernels* baseline_kernels();
+const Kernels* avx2_kernels();
+const Kernels* avx512_kernels();
 
 // The best for this machine.
-OverlapKernel best_overlap_kernel();
+const Kernels& best_kernels();
 
 }  // namespace tact::broadphase

@@ -1,0 +1,14 @@
+#include "broadphase/kernels/kernels.h"
+#include "broadphase/kernels/vectors.h"
+
+namespace tact::broadphase {
+namespace {
+
+#include "broadphase/kernels/kernels.inl"
+
+}  // namespace
+
+extern const Kernels kAvx2Kernels;
+const Kernels kAvx2Kernels{"avx2", find_overlaps, refresh_lanes};
+
+}  // namespace tact::broadphase

@@ -1,0 +1,14 @@
+#include "broadphase/kernels/kernels.h"
+#include "broadphase/kernels/vectors.h"
+
+namespace tact::broadphase {
+namespace {
+
+#include "broadphase/kernels/kernels.inl"
+
+}  // namespace
+
+extern const Kernels kBaselineKernels;
+const Kernels kBaselineKernels{"baseline", find_overlaps, refresh_lanes};
+
+}  // namespace tact::broadphase

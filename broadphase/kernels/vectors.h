@@ -1,0 +1,78 @@
+// Vectors of the width that a file is compiled for, in the vector types of GCC and Clang. Wider ones they would take
+// apart into single numbers, and so they do with plain loops of sixteen. Everything is static: each file has its own
+// copy.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace tact::broadphase {
+
+#if defined(__AVX512F__)
+inline constexpr std::uint32_t kFloats = 16;
+#elif defined(__AVX2__)
+inline constexpr std::uint32_t kFloats = 8;
+#else
+inline constexpr std::uint32_t kFloats = 4;
+#endif
+inline constexpr std::uint32_t kDoubles = kFloats / 2;
+
+using Floats = float __attribute__((vector_size(kFloats * sizeof(float))));
+using FloatMask = std::int32_t __attribute__((vector_size(kFloats * sizeof(float))));
+using Doubles = double __attribute__((vector_size(kDoubles * sizeof(double))));
+using DoubleMask = std::int64_t __attribute__((vector_size(kDoubles * sizeof(double))));
+using HalfFloats = float __attribute__((vector_size(kDoubles * sizeof(float))));
+
+template <class Vector, class Number>
+static inline Vector load(const Number* numbers) {
+  Vector vector;
+  std::memcpy(&vector, numbers, sizeof vector);
+  return vector;
+}
+
+template <class Vector, class Number>
+static inline void store(Number* numbers, Vector vector) {
+  std::memcpy(numbers, &vector, sizeof vector);
+}
+
+// A bit for each element; elements are 0 or -1, as comparisons make them.
+static inline std::uint32_t bits_of(FloatMask mask) {
+#if defined(__AVX512DQ__)
+  return _mm512_movepi32_mask(reinterpret_cast<__m512i>(mask));
+#elif defined(__AVX2__)
+  return static_cast<std::uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
+#elif defined(__SSE2__)
+  return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
+#else
+  std::uint32_t bits = 0;
+  for (std::uint32_t i = 0; i < kFloats; ++i) bits |= (mask[i] != 0 ? 1u : 0u) << i;
+  return bits;
+#endif
+}
+
+static inline std::uint32_t bits_of(DoubleMask mask) {
+#if defined(__AVX512DQ__)
+  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask));
+#elif defined(__AVX2__)
+  return static_cast<std::uint32_t>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask)));
+#elif defined(__SSE2__)
+  return static_cast<std::uint32_t>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
+#else
+  std::uint32_t bits = 0;
+  for (std::uint32_t i = 0; i < kDoubles; ++i) bits |= (mask[i] != 0 ? 1u : 0u) << i;
+  return bits;
+#endif
+}
+
+// -1 in each element whose bit is set.
+static inline FloatMask mask_of(std::uint32_t bits) {
+  FloatMask own;
+  for (std::uint32_t i = 0; i < kFloats; ++i) own[i] = 1 << i;
+  return (own & static_cast<std::int32_t>(bits)) != 0;
+}
+
+}  // namespace tact::broadphase
