@@ -19,17 +19,24 @@ Eigen::Vector3d view_direction(UpAxis up, const View& view) {
   return up == UpAxis::y ? y_up : Eigen::Vector3d(y_up.x(), -y_up.z(), y_up.y());
 }
 
-// The corners of the box around `points`, given room if it has none: the camera must keep a distance from a single
-// point.
+Eigen::Matrix3Xd corners(const base::Box& box) {
+  Eigen::Matrix3Xd points(3, 8);
+  for (int i = 0; i < 8; ++i) {
+    points.col(i) << (i & 1 ? box.upper.x : box.lower.x), (i & 2 ? box.upper.y : box.lower.y),
+        (i & 4 ? box.upper.z : box.lower.z);
+  }
+  return points;
+}
+
+// The points, or a small cube around them if they are all in one place: the camera must keep a distance from it.
 Eigen::Matrix3Xd with_room(const Eigen::Matrix3Xd& points) {
   const Eigen::Vector3d lower = points.rowwise().minCoeff();
   const Eigen::Vector3d upper = points.rowwise().maxCoeff();
   const double farthest = points.cwiseAbs().maxCoeff();
   if ((upper - lower).maxCoeff() > 1e-9 * farthest) return points;
   const double room = std::max(1e-6 * farthest, 1e-3);
-  Eigen::Matrix3Xd ends(3, 2);
-  ends << (lower.array() - room).matrix(), (upper.array() + room).matrix();
-  return ends;
+  return corners(
+      {{lower.x() - room, lower.y() - room, lower.z() - room}, {upper.x() + room, upper.y() + room, upper.z() + room}});
 }
 
 // How far back and aside a camera must stand to see every point between two planes through it: seen along one axis of
@@ -68,12 +75,7 @@ Camera framing(const Eigen::Matrix3Xd& shown, UpAxis up, int width, int height, 
 
 Camera framing(const base::Box& box, UpAxis up, int width, int height, const View& view) {
   if (box.empty()) return framing(Eigen::Matrix3Xd(3, 0), up, width, height, view);
-  Eigen::Matrix3Xd corners(3, 8);
-  for (int i = 0; i < 8; ++i) {
-    corners.col(i) << (i & 1 ? box.upper.x : box.lower.x), (i & 2 ? box.upper.y : box.lower.y),
-        (i & 4 ? box.upper.z : box.lower.z);
-  }
-  return framing(corners, up, width, height, view);
+  return framing(corners(box), up, width, height, view);
 }
 
 PicturePoint project(const Camera& camera, const Eigen::Vector3d& point, int width, int height) {

@@ -79,8 +79,8 @@ TEST(Camera, NothingAndSinglePointsAreFramed) {
   const Eigen::Vector3d point(1e6, -2e6, 3.0);
   const Camera camera = framing(Eigen::Matrix3Xd(point), UpAxis::y, 100, 100);
   const PicturePoint middle = project(camera, point, 100, 100);
-  EXPECT_NEAR(middle.x, 50.0, 1.0);
-  EXPECT_NEAR(middle.y, 50.0, 1.0);
+  EXPECT_NEAR(middle.x, 50.0, 10.0);
+  EXPECT_NEAR(middle.y, 50.0, 10.0);
   EXPECT_GT(middle.depth, 0.0);
   const Camera none = framing(base::Box{}, UpAxis::y, 100, 100);
   EXPECT_NEAR(project(none, Eigen::Vector3d::Zero(), 100, 100).x, 50.0, 10.0);

@@ -78,7 +78,7 @@ TEST(Renderer, ArrowsAndDisksAreSeenThroughBodies) {
   const Picture plain = Renderer(kSmall).render(scene);
   scene.arrows.push_back({.start = {0.2, 0.5, 0.5}, .direction = Eigen::Vector3d::UnitX(), .length = 0.5});
   const Picture arrow = Renderer(kSmall).render(scene);
-  EXPECT_GT(differing_pixels(plain, arrow), 50);
+  EXPECT_GT(differing_pixels(plain, arrow), 30);
   scene.arrows.clear();
   scene.disks.push_back({.center = {0.5, 0.5, 0.5}, .normal = Eigen::Vector3d::UnitX(), .radius = 0.3});
   EXPECT_GT(differing_pixels(plain, Renderer(kSmall).render(scene)), 50);
