@@ -1,0 +1,47 @@
+#!/bin/bash
+# Installs the Debian packages that are missing, nothing else.   usage: scripts/setup.sh GROUP...
+# The groups are those of the list below, the one place where packages are named. With all of them in place it needs neither
+# rights nor network.
+set -euo pipefail
+
+packages_of() {
+  case $1 in
+    program) echo g++ cmake ninja-build libeigen3-dev libembree-dev \
+                  libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev libfreetype-dev fonts-dejavu-core ffmpeg ;;
+    tests) echo libgtest-dev libcgal-dev librapidcheck-dev binutils ;;
+    bench) echo libbenchmark-dev libfcl-dev libccd-dev libbullet-dev libcgal-dev gnuplot-nox ;;
+    sanitizers) echo clang libomp-dev llvm ;;
+    *) echo "setup.sh: no group is called $1; there are program, tests, bench and sanitizers" >&2; exit 2 ;;
+  esac
+}
+
+wanted=()
+for group in "$@"; do
+  packages=$(packages_of "$group")
+  read -ra names <<< "$packages"
+  wanted+=("${names[@]}")
+done
+
+if ! command -v apt-get > /dev/null; then
+  echo "setup.sh: this is not Debian; what is needed is called there: ${wanted[*]}" >&2
+  exit 0
+fi
+installed=" $(dpkg-query -W -f '${Package}:${db:Status-Status} ' 2> /dev/null) "
+missing=()
+for name in "${wanted[@]}"; do
+  [[ $installed == *" $name:installed "* ]] || missing+=("$name")
+done
+(( ${#missing[@]} == 0 )) && exit 0
+
+as_root=()
+if (( EUID != 0 )); then
+  if ! command -v sudo > /dev/null; then
+    echo "setup.sh: run it as root or install sudo; missing are: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+echo "installing ${missing[*]}"
+"${as_root[@]}" apt-get update -qq < /dev/null
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" \
+  < /dev/null > /dev/null
