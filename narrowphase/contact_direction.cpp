@@ -42,14 +42,9 @@ class Search {
 
   ContactDirection run(Vec3 start, const GjkSimplex& face) {
     turn_to(normalized(start));
-    if (const auto kept = face_normal(m_, face, start); kept && dot(*kept, start) > 0.0 && supports(*kept, face)) {
-      const ContactDirection before = best_;
-      turn_to(*kept);
-      best_.face = face;
-      if (foot_in(face) || foot_in_supported_face()) return best_;
-      if (before.height < best_.height) turn_to(before.n);
+    if (!stay_on(face)) {
+      while (!done()) iterate();
     }
-    while (!done()) iterate();
     return best_;
   }
 
@@ -72,75 +67,89 @@ class Search {
     return m_.support(n);
   }
 
+  // Does the last step's face still hold the foot?
+  bool stay_on(const GjkSimplex& face) {
+    const Vec3 start = best_.n;
+    const double height = best_.height;
+    const std::optional<Vec3> n = face_normal(m_, face, start);
+    if (!n || !(dot(*n, start) > 0.0)) return false;
+    turn_to(*n);
+    if (supported_by(face)) {
+      best_.face = face;
+      settle(face);
+    }
+    if (!finished_ && height < best_.height) turn_to(start);
+    return finished_;
+  }
+
   // One shifted call of GJK, then the face that it ended on.
   void iterate() {
     ++best_.iterations;
     const Vec3 n = best_.n;
     const double height = best_.height;
     const Vec3 shifted = (height + kShift * std::max(height, m_.size())) * n;
-    GjkSimplex seed;
-    seed.a[0] = top_.a;
-    seed.b[0] = top_.b;
-    seed.count = 1;
+    const GjkSimplex seed{{top_.a}, {top_.b}, 1};
     const GjkResult nearest = gjk(m_, shifted, best_.face.count > 0 ? best_.face : seed, settings_.gjk);
     best_.support_queries += nearest.support_queries;
     best_.limit_reached = nearest.status == GjkStatus::limit_reached;
     best_.face = nearest.simplex;
     if (nearest.distance > 0.0) turn_to((-1.0 / nearest.distance) * nearest.offset);
-    if (const auto normal = face_normal(m_, nearest.simplex, best_.n); normal && supports(*normal, nearest.simplex)) {
+    if (const auto normal = face_normal(m_, nearest.simplex, best_.n)) {
+      const Vec3 between = best_.n;
       turn_to(*normal);
+      if (!supported_by(nearest.simplex)) turn_to(between);
     }
-    if (best_.height > height) {  // by rounding alone: w never increases
-      turn_to(n);
-    }
-    if (nearest.simplex.count == 3 && foot_in(nearest.simplex)) {
-      finished_ = true;
-    } else if (foot_in_supported_face() || !(best_.height < height - tolerance_)) {
-      leave_or_finish();
-    }
+    if (best_.height > height) turn_to(n);  // by rounding alone: w never increases
+    settle(nearest.simplex);
+    if (!finished_ && !(best_.height < height - tolerance_)) leave_or_finish();
   }
 
-  // Does no vertex of M lie beyond the face?
-  bool supports(Vec3 n, const GjkSimplex& face) {
-    const double plane = dot(n, m_.vertex(face.a[0], face.b[0]).point);
-    return dot(n, support(n).point) <= plane + tolerance_;
+  // Does no vertex of M lie beyond the face, whose normal is n?
+  bool supported_by(const GjkSimplex& face) const {
+    return best_.height <= dot(best_.n, m_.vertex(face.a[0], face.b[0]).point) + tolerance_;
   }
 
-  bool foot_in(const GjkSimplex& face) {
-    FaceFeatures features;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(face.count); ++i) {
-      features.a.push_back(face.a[i]);
-      features.b.push_back(face.b[i]);
+  // How near to the border of a face its foot is left alone. Nearer, a small turn over the border may lead to a lower face:
+  // at a distance of r w(n) from the border, w is lower again beyond a turn of 2 r radians.
+  double shallow() const { return std::max(tolerance_, kShallow * best_.height); }
+
+  // Finishes if the foot lies well inside the face that n supports, of which `part` is known.
+  void settle(const GjkSimplex& part) {
+    if (part.count == 3) {
+      FaceFeatures features;
+      features.a.assign(part.a.begin(), part.a.begin() + 3);
+      features.b.assign(part.b.begin(), part.b.begin() + 3);
+      polygon_ = face_polygon(m_, features, best_.n);
+      finished_ = polygon_.corner.size() > 2 && margin_of_foot(polygon_) > shallow();
+      if (finished_) return;
     }
-    const FacePolygon polygon = face_polygon(m_, features, best_.n);
-    return polygon.corner.size() > 2 && place_of_foot(polygon).margin > tolerance_;
+    look_at_face();
+    if (margin_of_foot(polygon_) >= -tolerance_) leave_or_finish();
   }
 
-  bool foot_in_supported_face() {
-    polygon_ = face_polygon(m_, supporting_features(m_, best_.n, tolerance_), best_.n);
-    place_ = place_of_foot(polygon_);
-    return polygon_.corner.size() > 2 ? place_.margin > tolerance_ : place_.margin > -tolerance_;
-  }
+  void look_at_face() { polygon_ = face_polygon(m_, supporting_features(m_, best_.n, tolerance_), best_.n); }
 
-  // The direction repeats. In the inside of a face it is a minimum; so is any direction with w = 0. Otherwise the foot
-  // lies on an edge or a corner: turn to an adjacent face if that is lower.
+  // The direction repeats, or the foot lies in a face. Goes over the border of the face where the foot is near it and the
+  // other side is lower, and on from there; finishes where it is not. A foot on an edge or a corner is on the border of
+  // faces. Where w = 0 every direction is a minimum.
   void leave_or_finish() {
+    for (int i = 0; i < kWalkLimit; ++i) {
+      const std::optional<Vec3> lower = best_.height > tolerance_ ? lowest_adjacent() : std::nullopt;
+      finished_ = !lower;
+      if (finished_) return;
+      best_.face = {};
+      turn_to(*lower);
+      look_at_face();
+      if (margin_of_foot(polygon_) < -tolerance_) return;
+    }
     finished_ = true;
-    if (best_.height <= tolerance_) return;
-    if (polygon_.corner.size() > 2 && place_.margin > tolerance_) return;
-    const std::optional<Vec3> lower = lowest_adjacent();
-    if (!lower) return;
-    best_.face = {};
-    turn_to(*lower);
-    finished_ = false;
-    if (foot_in_supported_face() && polygon_.corner.size() > 2) finished_ = true;
   }
 
   std::optional<Vec3> lowest_adjacent() {
     std::optional<Vec3> lowest;
     double height = best_.height - tolerance_;
-    for (const Vec3 t : tangents()) {
-      const Vec3 turned = turned_to_next_face(m_, best_.n, top_.point, t, tolerance_);
+    for (const Turn& turn : turns()) {
+      const Vec3 turned = turned_to_next_face(m_, best_.n, turn.axis_point, turn.towards, tolerance_);
       const double w = dot(turned, support(turned).point);
       if (w < height) {
         height = w;
@@ -150,17 +159,29 @@ class Search {
     return lowest;
   }
 
-  // Across the side of the face that the foot is on; both ways from an edge; four ways from a corner.
-  std::vector<Vec3> tangents() const {
-    const auto in_space = [&](double x, double y) { return normalized(x * polygon_.u + y * polygon_.v); };
+  struct Turn {
+    Vec3 axis_point;  // a point of M in the supporting plane, on the axis
+    Vec3 towards;     // unit, across n and the axis
+  };
+
+  // Across the sides of the face that the foot is near to or beyond; both ways from an edge; four ways from a corner.
+  std::vector<Turn> turns() const {
     const std::vector<Point2>& c = polygon_.corner;
-    if (c.size() == 1) return {polygon_.u, -polygon_.u, polygon_.v, -polygon_.v};
-    const auto i = static_cast<std::size_t>(place_.side);
-    const Point2 from = c[i], to = c[(i + 1) % c.size()];
-    const Vec3 outward = in_space(to.y - from.y, from.x - to.x);
-    if (c.size() == 2) return {outward, -outward};
-    return {outward};
+    const Vec3 u = polygon_.u, v = polygon_.v;
+    const auto in_space = [&](Point2 p) { return p.x * u + p.y * v + best_.height * best_.n; };
+    if (c.size() == 1) return {{in_space(c[0]), u}, {in_space(c[0]), -u}, {in_space(c[0]), v}, {in_space(c[0]), -v}};
+    std::vector<Turn> result;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      if (c.size() > 2 && distance_from_side(polygon_, i) > shallow()) continue;
+      const Point2 from = c[i], to = c[(i + 1) % c.size()];
+      result.push_back({in_space(from), normalized((to.y - from.y) * u + (from.x - to.x) * v)});
+    }
+    return result;
   }
+
+  // 0.006: no turn by up to 0.01 leads lower, see shallow().
+  static constexpr double kShallow = 0.006;
+  static constexpr int kWalkLimit = 1000;
 
   const MinkowskiDifference& m_;
   const DirectionSettings& settings_;
@@ -168,7 +189,6 @@ class Search {
   ContactDirection best_;
   MinkowskiVertex top_;
   FacePolygon polygon_;
-  FootPlace place_;
   bool finished_ = false;
 };
 

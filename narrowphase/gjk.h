@@ -10,7 +10,7 @@ namespace tact::narrowphase {
 
 enum class GjkStatus {
   apart,          // certainly: the lower bound of the distance exceeds all rounding
-  touching,       // the distance is zero but for rounding
+  touching,       // but for rounding, the point lies on a vertex, an edge or a triangle of vertices of M: it touches M, or is inside
   overlapping,    // the point lies inside a tetrahedron of vertices of M
   limit_reached,  // the bounds did not close: the result is the best found
 };

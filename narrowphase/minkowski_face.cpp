@@ -103,22 +103,22 @@ FacePolygon face_polygon(const MinkowskiDifference& m, const FaceFeatures& featu
   return polygon;
 }
 
-FootPlace place_of_foot(const FacePolygon& polygon) {
+double distance_from_side(const FacePolygon& polygon, std::size_t side) {
+  const Point2 from = polygon.corner[side], along = minus(corner_at(polygon.corner, side + 1), from);
+  return cross2(along, {-from.x, -from.y}) / std::hypot(along.x, along.y);
+}
+
+double margin_of_foot(const FacePolygon& polygon) {
   const std::vector<Point2>& c = polygon.corner;
-  if (c.size() == 1) return {-std::hypot(c[0].x, c[0].y), 0};
-  FootPlace place{std::numeric_limits<double>::infinity(), 0};
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    const Point2 from = c[i], side = minus(corner_at(c, i + 1), from);
-    const double distance = cross2(side, {-from.x, -from.y}) / std::hypot(side.x, side.y);
-    if (distance < place.margin) place = {distance, static_cast<int>(i)};
-  }
+  if (c.size() == 1) return -std::hypot(c[0].x, c[0].y);
+  double margin = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < c.size(); ++i) margin = std::min(margin, distance_from_side(polygon, i));
   if (c.size() == 2) {  // the foot may lie in the line of an edge, but beyond its ends
     const Point2 side = minus(c[1], c[0]);
-    const double length = std::hypot(side.x, side.y);
-    const double along = -(c[0].x * side.x + c[0].y * side.y) / length;
-    place.margin = std::min({place.margin, along, length - along, 0.0});
+    const double length = std::hypot(side.x, side.y), along = -(c[0].x * side.x + c[0].y * side.y) / length;
+    margin = std::min({margin, along, length - along});
   }
-  return place;
+  return margin;
 }
 
 Vec3 turned_to_next_face(const MinkowskiDifference& m, Vec3 n, Vec3 p, Vec3 t, double tolerance) {

@@ -23,20 +23,18 @@ struct FacePolygon {
   std::vector<Point2> corner;  // counter-clockwise seen against n; 1: a vertex of M, 2: an edge
 };
 
-// Where the foot lies.
-struct FootPlace {
-  double margin = 0.0;  // distance of the foot from the border of the polygon, scaled; negative: outside
-  int side = 0;         // the side (corner `side` to the next) whose line the foot is nearest to, or most outside of
-};
+// The signed distance of the foot from the line of the side from corner `side` to the next, positive inside. An edge has two
+// sides, on one line. There must be at least two corners.
+double distance_from_side(const FacePolygon& polygon, std::size_t side);
+
+// The distance of the foot from the border; negative outside. At most zero for an edge or a corner.
+double margin_of_foot(const FacePolygon& polygon);
 
 // All vertices of A and of B within `tolerance` (scaled) of their supporting planes across n.
 FaceFeatures supporting_features(const MinkowskiDifference& m, Vec3 n, double tolerance);
 
 // The polygon that `features` span, seen along n.
 FacePolygon face_polygon(const MinkowskiDifference& m, const FaceFeatures& features, Vec3 n);
-
-// An edge or a vertex has a margin of zero at best.
-FootPlace place_of_foot(const FacePolygon& polygon);
 
 // Turns n about the axis through `p`, a point of M in the supporting plane of n, towards `t` (unit, across n and the axis)
 // until the plane meets another vertex of M: the normal of that supporting plane. M must not reach beyond the plane of n
