@@ -63,8 +63,7 @@ PlyElement read_element(TextReader& text, const PlyHeader& header) {
   return element;
 }
 
-PlyProperty read_property(TextReader& text, const PlyHeader& header) {
-  if (header.elements.empty()) text.fail("a property before the first element");
+PlyProperty read_property(TextReader& text, const PlyElement& element) {
   PlyProperty property;
   std::string_view type = text.expect_token("a type, or list");
   if (type == "list") {
@@ -74,7 +73,7 @@ PlyProperty read_property(TextReader& text, const PlyHeader& header) {
   }
   property.type = type_of(text, type);
   property.name = text.expect_token("the name of a property");
-  for (const PlyProperty& other : header.elements.back().properties) {
+  for (const PlyProperty& other : element.properties) {
     if (other.name == property.name) text.fail("a second property " + quoted(property.name));
   }
   return property;
@@ -168,7 +167,9 @@ PlyHeader read_ply_header(TextReader& text, std::string_view bytes) {
     } else if (keyword == "element") {
       header.elements.push_back(read_element(text, header));
     } else if (keyword == "property") {
-      header.elements.back().properties.push_back(read_property(text, header));
+      if (header.elements.empty()) text.fail("a property before the first element");
+      PlyElement& element = header.elements.back();
+      element.properties.push_back(read_property(text, element));
     } else if (keyword == "end_header") {
       text.expect_line_end();
       check_header(text, header, has_encoding);

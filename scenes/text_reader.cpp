@@ -28,7 +28,7 @@ bool is_below_one(std::string_view number) {
   }
   const auto point = static_cast<std::int64_t>(std::min(digits.find('.'), digits.size()));
   const auto first = static_cast<std::int64_t>(digits.find_first_of("123456789"));
-  return exponent + point - first < 0;
+  return exponent < first - point;  // a sum with the exponent could overflow
 }
 
 }  // namespace

@@ -13,10 +13,10 @@ cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_
 ninja -C "$build" fuzz_obj fuzz_off fuzz_ply fuzz_stl
 
 for format in obj off ply stl; do
-  echo "== $format, $seconds s"
   mkdir -p "$build/corpus/$format"
   "$build/tests/fuzz/fuzz_$format" -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=1024 \
-    -malloc_limit_mb=256 -print_final_stats=1 -verbosity=0 -dict="$root/tests/fuzz/dictionary.txt" \
-    -artifact_prefix="$build/$format-" "$build/corpus/$format" "$root/tests/fuzz/corpus/$format"
+    -malloc_limit_mb=256 -print_final_stats=1 -dict="$root/tests/fuzz/dictionary.txt" \
+    -artifact_prefix="$build/$format-" "$build/corpus/$format" "$root/tests/fuzz/corpus/$format" \
+    >"$build/$format.log" 2>&1 || { tail -40 "$build/$format.log"; echo "a finding in $format: $build/$format.log"; exit 1; }
+  echo "$format: no finding in $seconds s, $(awk '/number_of_executed_units/ {print $2}' "$build/$format.log") inputs"
 done
-echo "no finding"
