@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "narrowphase/minkowski_face.h"
+#include "narrowphase/wide_vec3.h"
 
 namespace tact::narrowphase {
 
@@ -15,24 +16,19 @@ namespace {
 constexpr double kShift = 1e-3;
 // How far a vertex may lie below the supporting plane and still belong to its face, in roundings of a height.
 constexpr double kFaceTolerance = 4.0;
-// A face is trusted to have a normal if its vertices span at least this sine.
-constexpr double kSmallestSine = 1e-7;
 
-// The normal of the face of M that a simplex spans, on the side of `toward`; nothing if it spans none, or one too thin.
-// Sides are taken from the bodies, not from points of M, so that only differences of vertices are rounded.
+// The normal of the face of M that a simplex spans, on the side of `toward`; nothing if it spans none. Sides are taken from
+// the bodies, not from points of M, and twice as wide as doubles: a thin face has a normal as good as any.
 std::optional<Vec3> face_normal(const MinkowskiDifference& m, const GjkSimplex& s, Vec3 toward) {
   if (s.count < 3) return std::nullopt;
   const auto side = [&](std::size_t i, std::size_t j) {
-    return m.scale() * ((m.a().position(s.a[j]) - m.a().position(s.a[i])) - (m.b().position(s.b[j]) - m.b().position(s.b[i])));
+    const auto point = [&](const ClusteredMesh& mesh, int vertex) { return m.scale() * mesh.position(vertex); };
+    return wide_difference(point(m.a(), s.a[j]), point(m.a(), s.a[i])) - wide_difference(point(m.b(), s.b[j]), point(m.b(), s.b[i]));
   };
-  const Vec3 e = side(0, 1), f = side(0, 2), g = side(1, 2);
-  // The two shortest sides give the normal with the least rounding.
-  const double ee = norm_squared(e), ff = norm_squared(f), gg = norm_squared(g);
-  const bool drop_e = ee >= ff && ee >= gg, drop_f = !drop_e && ff >= gg;
-  const Vec3 p = drop_e ? f : e, q = drop_f || drop_e ? g : f;
-  const Vec3 n = cross(p, q);
-  if (!(norm(n) > kSmallestSine * norm(p) * norm(q))) return std::nullopt;
-  return normalized(dot(n, toward) < 0.0 ? -n : n);
+  const Vec3 n = wide_cross(side(0, 1), side(0, 2));
+  if (n == Vec3{}) return std::nullopt;
+  const Vec3 unit = unit_vector(n);
+  return dot(unit, toward) < 0.0 ? -unit : unit;
 }
 
 class Search {
