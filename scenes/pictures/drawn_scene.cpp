@@ -19,8 +19,8 @@ constexpr double kRingThickness = 0.008;   // likewise, of a disk's rim
 constexpr float kFacetOpacity = 0.92f;
 constexpr float kFacetHiddenOpacity = 0.4f;
 constexpr float kSymbolHiddenOpacity = 0.7f;
-constexpr float kDiskOpacity = 0.28f;
-constexpr float kDiskHiddenOpacity = 0.2f;
+constexpr float kDiskOpacity = 0.2f;
+constexpr float kDiskHiddenOpacity = 0.12f;
 
 // From the scene's coordinates to those of the drawn scene.
 class Placement {

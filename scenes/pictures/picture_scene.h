@@ -58,9 +58,10 @@ inline Eigen::Vector3d up_vector(UpAxis up) {
   return up == UpAxis::y ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
 }
 
-// The positions of the corners of all facets, 3 x N, a vertex once for each facet that uses it. Marks do not count.
-Eigen::Matrix3Xd used_positions(const PictureScene& scene);
-// The box around them; empty if there is none.
+// The corners of all facets, the ends of all arrows and points of the rims of all disks, 3 x N: what a picture of this
+// scene alone should hold.
+Eigen::Matrix3Xd shown_points(const PictureScene& scene);
+// The box around the corners of all facets, without the marks; empty if there are none.
 base::Box bounding_box(const PictureScene& scene);
 
 }  // namespace tact::scenes

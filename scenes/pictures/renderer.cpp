@@ -43,7 +43,7 @@ Picture Renderer::render(const PictureScene& scene, const Camera& camera) {
 }
 
 Picture Renderer::render(const PictureScene& scene) {
-  return render(scene, framing(used_positions(scene), scene.up, settings_.width, settings_.height));
+  return render(scene, framing(shown_points(scene), scene.up, settings_.width, settings_.height));
 }
 
 }  // namespace tact::scenes

@@ -33,7 +33,7 @@ class Renderer {
   // Facets must name vertices of their body and positions be finite. A mark that a body hides shines through it.
   // Errors: tact::Error, out_of_memory or backend_failure.
   Picture render(const PictureScene& scene, const Camera& camera);
-  // The same from framing() of the scene's own vertices.
+  // The same from framing() of what this scene shows, marks included.
   Picture render(const PictureScene& scene);
 
  private:

@@ -75,16 +75,26 @@ TEST(Renderer, MeetingFacetsAreMarkedAndShineThrough) {
 
 TEST(Renderer, ArrowsAndDisksAreSeenThroughBodies) {
   PictureScene scene = two_cubes();
-  const Picture plain = Renderer(kSmall).render(scene);
+  const Camera camera = framing(bounding_box(scene), scene.up, kSmall.width, kSmall.height);
+  const Picture plain = Renderer(kSmall).render(scene, camera);
   scene.arrows.push_back({.start = {0.2, 0.5, 0.5}, .direction = Eigen::Vector3d::UnitX(), .length = 0.5});
-  const Picture arrow = Renderer(kSmall).render(scene);
+  const Picture arrow = Renderer(kSmall).render(scene, camera);
   EXPECT_GT(differing_pixels(plain, arrow), 30);
   scene.arrows.clear();
   scene.disks.push_back({.center = {0.5, 0.5, 0.5}, .normal = Eigen::Vector3d::UnitX(), .radius = 0.3});
-  EXPECT_GT(differing_pixels(plain, Renderer(kSmall).render(scene)), 50);
+  EXPECT_GT(differing_pixels(plain, Renderer(kSmall).render(scene, camera)), 50);
   scene.disks[0].radius = 0.0;
   scene.arrows.push_back({.start = {0.2, 0.5, 0.5}, .direction = Eigen::Vector3d::UnitX(), .length = 0.0});
-  EXPECT_EQ(differing_pixels(plain, Renderer(kSmall).render(scene)), 0);
+  EXPECT_EQ(differing_pixels(plain, Renderer(kSmall).render(scene, camera)), 0);
+}
+
+TEST(Renderer, APictureOfOneSceneHoldsItsMarks) {
+  PictureScene scene = two_cubes();
+  scene.disks.push_back({.center = {0.5, 0.5, 0.5}, .normal = Eigen::Vector3d::UnitX(), .radius = 5.0});
+  const Camera camera = framing(shown_points(scene), scene.up, kSmall.width, kSmall.height);
+  const PicturePoint top = project(camera, {0.5, 5.5, 0.5}, kSmall.width, kSmall.height);
+  EXPECT_GT(top.y, 0.0);
+  EXPECT_LT(top.y, 20.0);
 }
 
 TEST(Renderer, BodiesCastShadowsOnTheGround) {
