@@ -1,0 +1,7 @@
+#include "bench/commands.h"
+
+namespace tact::bench {
+
+std::vector<Command> commands() { return {}; }
+
+}  // namespace tact::bench
