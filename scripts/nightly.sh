@@ -1,0 +1,11 @@
+#!/bin/bash
+# What is too long for every change: the tests with assertions on and under the sanitizers, and the fuzzing of the mesh
+# readers.   usage: scripts/nightly.sh [SECONDS of fuzzing a format, 600 if not given]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/setup.sh program tests sanitizers
+for preset in debug asan tsan; do
+  scripts/build.sh "$preset"
+  ctest --preset "$preset" -j 2
+done
+scripts/fuzz.sh "${1:-600}"
