@@ -1,0 +1,82 @@
+// A body of the simulation: vertices with mass, and what holds them together.
+#pragma once
+
+#include <tact/body.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/dynamics/mesh.h"
+#include "scenes/dynamics/shape.h"
+#include "scenes/dynamics/springs.h"
+#include "scenes/dynamics/topology.h"
+
+namespace tact::scenes {
+
+// A sheet that bends and hardly stretches.
+struct ClothMaterial {
+  double density = 0.25;              // kilograms a square metre
+  double stretch_stiffness = 2000.0;  // of each edge, newtons a metre
+  double bend_stiffness = 0.5;        // of each pair of facets that share an edge, newtons a metre
+  double friction = 0.4;
+  double drag = 0.4;  // share of the velocity lost in a second
+};
+
+// A closed body that can be squashed and springs back.
+struct SoftMaterial {
+  double density = 150.0;            // kilograms a cubic metre
+  double surface_stiffness = 400.0;  // of each edge, newtons a metre
+  double bulk_modulus = 40000.0;     // pascals
+  double shape_frequency = 7.0;      // hertz, see ShapeKeeper
+  double shape_stretch = 0.4;        // see ShapeKeeper
+  double friction = 0.5;
+  double drag = 0.1;           // share of the velocity lost in a second
+  double inner_damping = 4.0;  // share of the velocity against the body's own rigid motion lost in a second
+  double skin = 0.0;           // metres, see Body::skin
+};
+
+// A body that is as stiff as its script says: it moves as it is told, or not at all.
+struct RigidMaterial {
+  double friction = 0.5;
+  double skin = 0.0;  // metres, see Body::skin
+};
+
+struct Body {
+  std::string name;
+  Eigen::Matrix3Xi facets{3, 0};
+  Topology topology;
+  Surface surface = Surface::closed;
+  Motion motion = Motion::moving;
+
+  std::vector<Vec3> positions;         // metres
+  std::vector<Vec3> velocities;        // metres a second
+  std::vector<double> inverse_masses;  // 1 / kilograms; 0: no force moves this vertex
+
+  Springs springs;
+  std::optional<VolumeKeeper> volume;
+  std::optional<ShapeKeeper> shape;
+  double friction = 0.0;       // of a contact: the geometric mean of both bodies'
+  double drag = 0.0;           // 1 / seconds
+  double inner_damping = 0.0;  // 1 / seconds
+  double weight = 1.0;         // gravity times this
+  // The surface that tact sees lies this far outside the body, metres; closed bodies only. Contacts are then known
+  // before the surfaces themselves meet.
+  double skin = 0.0;
+  double size = 0.0;     // length of the diagonal of its box at rest, metres
+  bool dynamic = false;  // do forces move it? Otherwise its inverse masses are all 0
+};
+
+// Every facet that shares an edge with another gets a spring across it. The sheet's shape is that at rest.
+Body make_cloth(std::string name, const Mesh& mesh, const ClothMaterial& material);
+// A closed body whose shape is that at rest. Its facets must enclose a positive volume.
+Body make_soft(std::string name, const Mesh& mesh, const SoftMaterial& material);
+// A body that only a script moves, or, if it is fixed, nobody.
+Body make_rigid(std::string name, const Mesh& mesh, const RigidMaterial& material, Motion motion);
+
+// The sum of ½ m v² over all vertices, joules.
+double kinetic_energy(const Body& body);
+// The positions moved out by the body's skin, along the mean normal of each vertex.
+void move_out(const Body& body, std::vector<Vec3>& positions);
+
+}  // namespace tact::scenes

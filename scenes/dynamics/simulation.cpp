@@ -1,0 +1,177 @@
+#include "scenes/dynamics/simulation.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/parallel.h"
+#include "engine/base/timer.h"
+#include "scenes/dynamics/damping.h"
+
+namespace tact::scenes {
+namespace {
+
+constexpr std::size_t kLargeBody = 8192;  // vertices from which a body is worth all threads
+constexpr std::size_t kGrain = 2048;      // vertices
+
+// The springs, volume and shape of a body, once each.
+void hold_together(Body& body, double h, int threads) {
+  body.springs.solve(body.positions, body.inverse_masses, h, threads);
+  if (body.volume) body.volume->solve(body.positions, body.facets, body.inverse_masses, h);
+  if (body.shape) body.shape->solve(body.positions, body.inverse_masses, h);
+}
+
+}  // namespace
+
+Simulation::Simulation(std::vector<Body> bodies, Script script, const DynamicsSettings& dynamics,
+                       const Settings& settings)
+    : dynamics_(dynamics),
+      script_(std::move(script)),
+      threads_(settings.threads > 0 ? settings.threads : base::default_threads()),
+      bodies_(std::move(bodies)),
+      world_(settings),
+      before_(bodies_.size()),
+      surfaces_(bodies_.size()),
+      finders_(static_cast<std::size_t>(threads_)) {
+  if (script_) script_(0.0, bodies_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Body& body = bodies_[i];
+    before_[i] = body.positions;
+    if (body.skin > 0.0) move_out(body, surfaces_[i]);
+    ids_.push_back(world_.add_body({.positions = as_matrix(body.skin > 0.0 ? surfaces_[i] : body.positions),
+                                    .facets = body.facets,
+                                    .surface = body.surface,
+                                    .motion = body.motion,
+                                    .name = body.name}));
+    if (body.motion == Motion::fixed) continue;
+    (body.positions.size() < kLargeBody ? small_ : large_).push_back(i);
+  }
+}
+
+template <class Work>
+void Simulation::for_each_body(const Work& work) {
+  base::parallel_for(small_.size(), 4, threads_, [&](std::size_t i) { work(small_[i], 1); });
+  for (const std::size_t i : large_) work(i, threads_);
+}
+
+void Simulation::step() {
+  base::Timer timer;
+  move();
+  times_.move_ms = timer.lap();
+  show_surfaces();
+  times_.surfaces_ms = timer.lap();
+  detect();
+  times_.engine_ms = timer.lap();
+  find_contacts();
+  times_.contacts_ms = timer.lap();
+  settle();
+  times_.settle_ms = timer.lap();
+  measure();
+}
+
+void Simulation::move() {
+  const double h = dynamics_.time_step / dynamics_.substeps;
+  for (int substep = 1; substep <= dynamics_.substeps; ++substep) {
+    for_each_body([&](std::size_t i, int threads) { begin_substep(i, h, threads); });
+    if (script_) script_(state_.time + substep * h, bodies_);
+    solver_.solve(bodies_, before_, threads_);
+    for_each_body([&](std::size_t i, int threads) { end_substep(i, h, threads); });
+  }
+  for_each_body([&](std::size_t i, int /*threads*/) {
+    if (bodies_[i].inner_damping > 0.0) damp_inner_motion(bodies_[i], dynamics_.time_step);
+  });
+  state_.time += dynamics_.time_step;
+}
+
+void Simulation::begin_substep(std::size_t i, double h, int threads) {
+  Body& body = bodies_[i];
+  std::vector<Vec3>& before = before_[i];
+  const Vec3 fall{0.0, 0.0, -dynamics_.gravity * body.weight * h};
+  const double keep = 1.0 / (1.0 + body.drag * h);
+  base::parallel_for(body.positions.size(), kGrain, threads, [&](std::size_t v) {
+    before[v] = body.positions[v];
+    if (!(body.inverse_masses[v] > 0.0)) return;
+    body.positions[v] = body.positions[v] + (h * keep) * (body.velocities[v] + fall);
+  });
+  hold_together(body, h, threads);
+}
+
+void Simulation::end_substep(std::size_t i, double h, int threads) {
+  Body& body = bodies_[i];
+  const std::vector<Vec3>& before = before_[i];
+  base::parallel_for(body.positions.size(), kGrain, threads,
+                     [&](std::size_t v) { body.velocities[v] = (1.0 / h) * (body.positions[v] - before[v]); });
+}
+
+void Simulation::show_surfaces() {
+  for_each_body([&](std::size_t i, int /*threads*/) {
+    if (bodies_[i].skin > 0.0) move_out(bodies_[i], surfaces_[i]);
+  });
+}
+
+void Simulation::detect() {
+  std::vector<PositionsUpdate> updates;
+  updates.reserve(small_.size() + large_.size());
+  for (const std::vector<std::size_t>* group : {&small_, &large_}) {
+    for (const std::size_t i : *group) {
+      updates.push_back({ids_[i], as_matrix(bodies_[i].skin > 0.0 ? surfaces_[i] : bodies_[i].positions)});
+    }
+  }
+  world_.set_positions(updates);
+  report_ = &world_.detect();
+}
+
+void Simulation::find_contacts() {
+  const auto contacts = report_->contacts();
+  contacts_.resize(contacts.size());
+  const auto seen = [&](std::uint32_t i) {
+    return SeenBody{bodies_[i], bodies_[i].skin > 0.0 ? surfaces_[i] : bodies_[i].positions};
+  };
+  base::parallel_for(contacts.size(), 4, threads_, [&](std::size_t i, int thread) {
+    const Contact& contact = contacts[i];
+    BodyContact& points = contacts_[i];
+    points.a = static_cast<int>(contact.a.index);
+    points.b = static_cast<int>(contact.b.index);
+    points.a_in_b.clear();
+    points.b_in_a.clear();
+    if (!contact.touching()) return;
+    PenetrationFinder& finder = finders_[static_cast<std::size_t>(thread)];
+    finder.find(contact, true, seen(contact.a.index), seen(contact.b.index), points.a_in_b);
+    finder.find(contact, false, seen(contact.b.index), seen(contact.a.index), points.b_in_a);
+  });
+}
+
+// The way out is shared with the springs, so that a body is moved rather than torn; neither changes a velocity, for a
+// push out of a deep contact would throw the body.
+void Simulation::settle() {
+  constexpr double kShare = 0.7;  // of the way out in a sweep: more overshoots where many contacts share a body
+  const double h = dynamics_.time_step / dynamics_.substeps;
+  solver_.start(contacts_, bodies_, dynamics_.slop);
+  for (int sweep = 0; sweep < dynamics_.settle_sweeps; ++sweep) {
+    solver_.push_out(bodies_, kShare, threads_);
+    for_each_body([&](std::size_t i, int threads) { hold_together(bodies_[i], h, threads); });
+  }
+  solver_.push_out(bodies_, kShare, threads_);
+  solver_.hold(bodies_);
+}
+
+void Simulation::measure() {
+  state_.kinetic_energy = 0.0;
+  for (const Body& body : bodies_) {
+    if (body.dynamic) state_.kinetic_energy += kinetic_energy(body);
+  }
+  state_.contact_points = 0;
+  state_.deepest = 0.0;
+  for (const BodyContact& contact : contacts_) {
+    const Body& a = bodies_[static_cast<std::size_t>(contact.a)];
+    const Body& b = bodies_[static_cast<std::size_t>(contact.b)];
+    const double size = std::min(a.size, b.size);
+    for (const std::vector<ContactPoint>* points : {&contact.a_in_b, &contact.b_in_a}) {
+      state_.contact_points += static_cast<std::int64_t>(points->size());
+      for (const ContactPoint& point : *points) {
+        state_.deepest = std::max(state_.deepest, (point.depth - a.skin - b.skin) / size);
+      }
+    }
+  }
+}
+
+}  // namespace tact::scenes

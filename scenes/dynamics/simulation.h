@@ -1,0 +1,97 @@
+// A small dynamics that lives on what tact reports: set positions, detect, respond.
+#pragma once
+
+#include <tact/tact.h>
+
+#include <functional>
+#include <vector>
+
+#include "scenes/dynamics/body.h"
+#include "scenes/dynamics/contact_solver.h"
+#include "scenes/dynamics/penetration.h"
+
+namespace tact::scenes {
+
+struct DynamicsSettings {
+  double gravity = 9.81;           // metres a second², towards -z
+  double time_step = 1.0 / 120.0;  // seconds from one detection to the next
+  int substeps = 4;                // of the motion, between two detections
+  int settle_sweeps = 2;           // pushes out of each other after a detection
+  double slop = 0.0005;            // metres that bodies at rest stay in each other, so that their contact lasts
+};
+
+// Moves the bodies that are not dynamic: sets their positions as they are at `time`, seconds. It may change the weight
+// of the others.
+using Script = std::function<void(double time, std::vector<Body>& bodies)>;
+
+// What a step of the simulation took, wall time in milliseconds.
+struct DynamicsTimes {
+  double move_ms = 0.0;      // substeps
+  double surfaces_ms = 0.0;  // moving surfaces out by their skin
+  double engine_ms = 0.0;    // setting positions and detecting: tact
+  double contacts_ms = 0.0;  // from facet pairs to contact points
+  double settle_ms = 0.0;    // pushing out
+  double total_ms() const { return move_ms + surfaces_ms + engine_ms + contacts_ms + settle_ms; }
+};
+
+// How a step of the simulation went.
+struct DynamicsState {
+  double time = 0.0;            // seconds simulated
+  double kinetic_energy = 0.0;  // joules
+  std::int64_t contact_points = 0;
+  // How far a point was inside another body when it was found, skins taken off, over the size of the smaller body.
+  double deepest = 0.0;
+};
+
+// Bodies, the world of tact that finds their contacts, and the step. The same bits for any number of threads.
+//
+// Bodies are soft and cloth by XPBD with small substeps (M. Macklin et al., Small Steps in Physics Simulation, SCA
+// 2019). A step moves them, with the contact points of the last detection as the only obstacles; detects; finds the new
+// contact points from the report; and pushes the bodies out of each other, which changes no velocity. There is no
+// contact of a body with itself.
+class Simulation {
+ public:
+  // The bodies keep their order: body i has index i in every report. Errors: those of World and World::add_body.
+  Simulation(std::vector<Body> bodies, Script script, const DynamicsSettings& dynamics, const Settings& settings);
+
+  void step();
+
+  const std::vector<Body>& bodies() const { return bodies_; }
+  const World& world() const { return world_; }
+  // Of the last step; null before the first.
+  const Report* report() const { return report_; }
+  const DynamicsState& state() const { return state_; }
+  const DynamicsTimes& times() const { return times_; }
+  const DynamicsSettings& dynamics() const { return dynamics_; }
+
+ private:
+  void move();
+  void begin_substep(std::size_t body, double h, int threads);
+  void end_substep(std::size_t body, double h, int threads);
+  void show_surfaces();
+  void detect();
+  void find_contacts();
+  void settle();
+  void measure();
+  // Calls work(i, threads) for every body: small ones in parallel, large ones one by one on all threads.
+  template <class Work>
+  void for_each_body(const Work& work);
+
+  DynamicsSettings dynamics_;
+  Script script_;
+  int threads_;
+  std::vector<Body> bodies_;
+  World world_;
+  std::vector<BodyId> ids_;
+  std::vector<std::size_t> small_, large_;   // bodies that can move
+  std::vector<std::vector<Vec3>> before_;    // positions at the start of the substep, by body
+  std::vector<std::vector<Vec3>> surfaces_;  // positions moved out by the skin, by body; empty without skin
+  std::vector<PenetrationFinder> finders_;   // one a thread
+  std::vector<BodyContact> contacts_;
+  ContactSolver solver_;
+  const Report* report_ = nullptr;
+  DynamicsState state_;
+  DynamicsTimes times_;
+};
+
+}  // namespace tact::scenes

@@ -1,0 +1,90 @@
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "scenes/library/catalog.h"
+#include "scenes/library/shapes.h"
+
+namespace tact::scenes {
+namespace {
+
+struct Pile {
+  std::uint64_t seed = 1;
+  double body_size = 0.3;  // about the diameter of a body, metres
+  double spacing = 1.3;    // of the bodies before they fall, in body sizes
+  double wall = 0.4;       // thickness of the bin, metres
+  double bin_edges = 0.3;  // length of the edges of the bin's facets, metres
+  SoftMaterial soft{.skin = 0.003};
+  RigidMaterial bin{.friction = 0.5, .skin = 0.003};
+  DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 4, .settle_sweeps = 2, .slop = 0.0015};
+};
+
+// Shapes of radius about 1. All are spheres pulled into form, so that facets stay of one size.
+Vec3 ball(Vec3 p) { return p; }
+Vec3 rounded_cube(Vec3 p) {
+  const auto fourth = [](double x) { return (x * x) * (x * x); };
+  return (0.9 / std::sqrt(std::sqrt(fourth(p.x) + fourth(p.y) + fourth(p.z)))) * p;
+}
+Vec3 star(Vec3 p) {
+  const double flat = p.x * p.x + p.y * p.y;
+  const double wave = 0.35 * flat * std::cos(5.0 * std::atan2(p.y, p.x));
+  return {1.1 * (0.9 + wave) * p.x, 1.1 * (0.9 + wave) * p.y, 0.55 * p.z};
+}
+Vec3 bone(Vec3 p) {
+  const double thick = 0.45 + 0.5 * p.z * p.z;
+  return {thick * p.x, thick * p.y, 1.25 * p.z};
+}
+Vec3 bean(Vec3 p) { return {0.6 * p.x + 0.6 * (p.z * p.z - 0.4), 0.55 * p.y, 1.15 * p.z}; }
+Vec3 bowl(Vec3 p) {
+  const double flat = p.x * p.x + p.y * p.y;
+  return {p.x, p.y, p.z > 0.0 ? 0.9 * flat - 0.25 * p.z - 0.55 : 0.75 * p.z + 0.35 * flat};
+}
+
+Mesh shape(std::size_t kind) {
+  constexpr std::array kShapes = {ball, star, rounded_cube, bone, bean, bowl};
+  kind %= kShapes.size() + 1;
+  return kind < kShapes.size() ? shaped_sphere(2, kShapes[kind]) : torus(20, 8, 0.72, 0.33);
+}
+
+void add_bin(const Pile& p, double half, double height, Scene& scene) {
+  const double out = half + p.wall;
+  const auto add = [&](const char* name, Vec3 lower, Vec3 upper, const Look& look) {
+    scene.add(make_rigid(name, box(lower, upper, p.bin_edges), p.bin, Motion::fixed), look);
+  };
+  const Look hidden{.visible = false};
+  add("floor", {-out, -out, -p.wall}, {out, out, 0.0}, hidden);
+  add("left wall", {-out, -out, 0.0}, {-half, out, height}, hidden);
+  add("right wall", {half, -out, 0.0}, {out, out, height}, hidden);
+  add("front wall", {-half, -out, 0.0}, {half, -half, height}, hidden);
+  add("back wall", {-half, half, 0.0}, {half, out, height}, hidden);
+}
+
+}  // namespace
+
+Scene make_pile(int size) {
+  const Pile p;
+  Random random(p.seed);
+  const int side = std::max(1, static_cast<int>(std::ceil(std::cbrt(0.8 * size))));
+  const int layers = (size + side * side - 1) / (side * side);
+  const double step = p.spacing * p.body_size;
+  const double half = 0.5 * step * side;
+  Scene scene;
+  scene.dynamics = p.dynamics;
+  scene.view = {.azimuth = 25.0, .elevation = 28.0};
+  scene.ground = 0.0;
+  add_bin(p, half, step * layers + p.body_size, scene);
+  for (int i = 0; i < size; ++i) {
+    const Vec3 cell{static_cast<double>(i % side), static_cast<double>(i / side % side),
+                    static_cast<double>(i / (side * side))};
+    const double loose = 0.5 * (p.spacing - 1.05) * p.body_size;
+    const Vec3 jitter{random.between(-loose, loose), random.between(-loose, loose), random.between(-loose, loose)};
+    const Vec3 center = step * (cell + Vec3{0.5, 0.5, 0.6}) - Vec3{half, half, 0.0} + jitter;
+    const std::size_t kind = random.bits() % 7;
+    const Mesh mesh = moved(turned(scaled(shape(kind), 0.5 * p.body_size), random), center);
+    scene.add(make_soft("body " + std::to_string(i), mesh, p.soft));
+  }
+  return scene;
+}
+
+}  // namespace tact::scenes
