@@ -70,15 +70,16 @@ FloatBox widened(FloatBox box) {
 }
 
 // An origin in the midst of the boxes, and on so coarse a grid that round coordinates stay round.
-Frame central_frame(std::span<const OrderItem> items) {
+Frame central_frame(std::span<const Box> boxes, std::span<const std::uint32_t> indices) {
   Frame frame;
-  if (items.empty()) return frame;
+  if (indices.empty()) return frame;
   std::array<double, 64> keys;
   for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = items[i * items.size() / keys.size()].center[axis];
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      keys[i] = boxes[indices[i * indices.size() / keys.size()]].lower[axis];
     std::sort(keys.begin(), keys.end());
     const double grid = std::exp2(std::ceil(std::log2(keys[48] - keys[16] + std::numeric_limits<double>::min())));
-    const double origin = std::round(0.5 * keys[32] / grid) * grid;
+    const double origin = std::round(keys[32] / grid) * grid;
     frame.origin[axis] = std::isfinite(origin) ? origin : 0.0;
   }
   return frame;
@@ -106,7 +107,11 @@ void BlockTree::update(std::span<const Box> boxes, std::span<const std::uint32_t
   resize(boxes.size());
   mark(boxes, changed);
   refresh_leaves(boxes, threads);
-  collect_leavers(boxes);
+  if (most_left()) {
+    start_afresh(boxes);
+  } else {
+    collect_leavers(boxes);
+  }
   const bool reordered = place_arrivals(boxes, is_changed, threads);
   refresh_upper_levels(reordered, threads);
 }
@@ -130,7 +135,7 @@ void BlockTree::mark(std::span<const Box> boxes, std::span<const std::uint32_t> 
       active[lane / kLanes] |= static_cast<std::uint16_t>(1u << lane % kLanes);
     } else if (lane == kNone && occupied(boxes[index])) {
       lane_of_[index] = kArriving;
-      arriving_.push_back(order_item(boxes[index], index));
+      arriving_.push_back(index);
     }
   }
 }
@@ -162,6 +167,26 @@ void BlockTree::refresh_leaf(std::span<const Box> boxes, std::size_t index) {
   leavers_[index] = static_cast<std::uint16_t>(gone | left);
 }
 
+// Whether placing the leavers would come to a new order of all boxes.
+bool BlockTree::most_left() const {
+  std::size_t leavers = 0;
+  std::size_t count = 0;
+  for (const std::uint16_t lanes : leavers_) leavers += static_cast<std::size_t>(std::popcount(lanes));
+  for (const Batch& batch : batches_) count += batch.boxes;
+  return count < (1 + kMergeRatio) * leavers;
+}
+
+// Takes all boxes out, in the order of their indices: reading them so is much faster than block by block.
+void BlockTree::start_afresh(std::span<const Box> boxes) {
+  batches_.clear();
+  resize_leaves(0);
+  arriving_.clear();
+  lane_of_.assign(boxes.size(), kNone);
+  for (std::uint32_t index = 0; index < boxes.size(); ++index) {
+    if (occupied(boxes[index])) arriving_.push_back(index);
+  }
+}
+
 void BlockTree::collect_leavers(std::span<const Box> boxes) {
   std::size_t batch = 0;
   for (std::size_t index = 0; index < leavers_.size(); ++index) {
@@ -169,9 +194,8 @@ void BlockTree::collect_leavers(std::span<const Box> boxes) {
     while (batch + 1 < batches_.size() && batches_[batch + 1].first_block <= index) ++batch;
     for_each_lane(leavers_[index], [&](std::uint32_t lane) {
       std::uint32_t& member = members_[index * kLanes + lane];
-      const bool stays = member < boxes.size() && occupied(boxes[member]);
-      lane_of_[member] = stays ? kArriving : kNone;
-      if (stays) arriving_.push_back(order_item(boxes[member], member));
+      lane_of_[member] = kNone;
+      if (member < boxes.size() && occupied(boxes[member])) arriving_.push_back(member);
       member = kNone;
       --batches_[batch].boxes;
     });
@@ -180,40 +204,43 @@ void BlockTree::collect_leavers(std::span<const Box> boxes) {
   lane_of_.resize(boxes.size());
 }
 
+// Places the boxes that have no lane; says whether there was anything to do.
 bool BlockTree::place_arrivals(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, int threads) {
   std::size_t count = arriving_.size();
   for (const Batch& batch : batches_) count += batch.boxes;
   const bool sparse = count * kSparse < members_.size();
   if (arriving_.empty() && !sparse) return false;
-  while (!batches_.empty() && (sparse || batches_.back().boxes < kMergeRatio * arriving_.size()))
-    absorb_last_batch(boxes);
+  while (!batches_.empty() && (sparse || batches_.back().boxes < kMergeRatio * arriving_.size())) absorb_last_batch();
+  if (batches_.empty()) frame_ = central_frame(boxes, arriving_);
   append_batch(boxes, is_changed, threads);
   return true;
 }
 
-void BlockTree::absorb_last_batch(std::span<const Box> boxes) {
+void BlockTree::absorb_last_batch() {
   const std::size_t first_block = batches_.back().first_block;
   for (std::size_t lane = first_block * kLanes; lane < members_.size(); ++lane) {
-    if (members_[lane] != kNone) arriving_.push_back(order_item(boxes[members_[lane]], members_[lane]));
+    if (members_[lane] != kNone) arriving_.push_back(members_[lane]);
   }
   batches_.pop_back();
   resize_leaves(first_block);
 }
 
 void BlockTree::append_batch(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, int threads) {
-  if (batches_.empty()) frame_ = central_frame(arriving_);
-  order_spatially(arriving_, boxes, threads);
+  items_.resize(arriving_.size());
+  base::parallel_for(items_.size(), kBlockGrain * kLanes, threads,
+                     [&](std::size_t i) { items_[i] = order_item(boxes[arriving_[i]], arriving_[i], frame_); });
+  order_spatially(items_, boxes, threads);
   // Whole parents: the order is compact in runs of 16 blocks, counted from the front.
   const std::size_t first_block = blocks_for(levels_[0].blocks.size()) * kLanes;
-  const std::size_t block_count = blocks_for(arriving_.size());
+  const std::size_t block_count = blocks_for(items_.size());
   resize_leaves(first_block + block_count);
   base::parallel_for(block_count, kBlockGrain, threads, [&](std::size_t i) {
     const std::size_t first = i * kLanes;
-    const std::span<const OrderItem> items = arriving_;
+    const std::span<const OrderItem> items = items_;
     fill_leaf(boxes, is_changed, first_block + i,
               items.subspan(first, std::min<std::size_t>(kLanes, items.size() - first)));
   });
-  batches_.push_back({first_block, arriving_.size()});
+  batches_.push_back({first_block, items_.size()});
   arriving_.clear();
 }
 

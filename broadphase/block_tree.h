@@ -58,9 +58,11 @@ class BlockTree {
   void mark(std::span<const Box> boxes, std::span<const std::uint32_t> changed);
   void refresh_leaves(std::span<const Box> boxes, int threads);
   void refresh_leaf(std::span<const Box> boxes, std::size_t index);
+  bool most_left() const;
+  void start_afresh(std::span<const Box> boxes);
   void collect_leavers(std::span<const Box> boxes);
   bool place_arrivals(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, int threads);
-  void absorb_last_batch(std::span<const Box> boxes);
+  void absorb_last_batch();
   void append_batch(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, int threads);
   void resize_leaves(std::size_t count);
   void fill_leaf(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, std::size_t index,
@@ -78,7 +80,8 @@ class BlockTree {
   std::vector<std::uint16_t> leavers_;  // by block of level 0: lanes whose box has just left
   std::vector<std::uint32_t> lane_of_;  // by box; kNone if it is empty
   std::vector<Batch> batches_;
-  std::vector<OrderItem> arriving_;  // boxes that have no lane yet
+  std::vector<std::uint32_t> arriving_;  // boxes that have no lane yet
+  std::vector<OrderItem> items_;         // of the batch that is being ordered
 };
 
 }  // namespace tact::broadphase

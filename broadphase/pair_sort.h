@@ -17,16 +17,12 @@ class PairSorter {
   std::span<const IndexPair> sort(std::span<const PairList> parts, std::size_t index_count, int threads);
 
  private:
-  struct Digit {
-    std::uint32_t IndexPair::*field;
-    int shift;
-    int bits;
-  };
-  void pass(std::size_t count, Digit digit, int threads);
+  void pass(std::size_t count, int shift, int bits, int threads);
 
-  std::vector<IndexPair> from_;
-  std::vector<IndexPair> to_;
-  std::vector<std::size_t> positions_;  // by digit value and slice
+  std::vector<std::uint64_t> from_;  // keys: a in the upper bits, b in the lower ones
+  std::vector<std::uint64_t> to_;
+  std::vector<std::size_t> positions_;  // by slice and digit
+  std::vector<IndexPair> pairs_;
 };
 
 }  // namespace tact::broadphase

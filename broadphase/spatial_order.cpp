@@ -10,11 +10,11 @@
 namespace tact::broadphase {
 namespace {
 
-constexpr std::size_t kSample = 128;        // items looked at to choose an axis in a large range
-constexpr std::size_t kLargeRange = 4096;   // from this size on, sampling costs nothing against the cut
-constexpr std::size_t kPivotSample = 63;    // keys from which a pivot is chosen
-constexpr std::size_t kSelectRange = 1024;  // up to this size, plain selection is as fast
-constexpr double kLargestCoordinate = 0x1p1000;
+constexpr std::size_t kSample = 128;       // items looked at to choose an axis in a large range
+constexpr std::size_t kLargeRange = 4096;  // from this size on, sampling costs nothing against the cut
+constexpr std::size_t kPivotSample = 31;   // keys from which a pivot is chosen
+constexpr std::size_t kSelectRange = 48;   // up to this size, plain selection is as fast
+constexpr double kLargestExtent = 0x1p1000;
 
 using Extent = std::array<double, 3>;  // mean size of the boxes, axis by axis
 
@@ -32,19 +32,18 @@ std::size_t scattered(std::size_t i, std::size_t count) {
   return static_cast<std::size_t>((z ^ (z >> 31)) % count);
 }
 
-// Two halvings of the range of centres between its 1/8 and 7/8 quantiles would be spoilt by one box far away, were they
-// made from the extremes.
-double sampled_spread(std::span<const OrderItem> items, int axis) {
-  std::array<double, kSample> keys;
+// Between quantiles: one box far away must not decide on which axis the others are cut.
+float sampled_spread(std::span<const OrderItem> items, int axis) {
+  std::array<float, kSample> keys;
   for (std::size_t i = 0; i < kSample; ++i) keys[i] = items[scattered(i, items.size())].center[axis];
   std::nth_element(keys.begin(), keys.begin() + kSample / 8, keys.end());
   std::nth_element(keys.begin() + kSample / 8, keys.end() - kSample / 8, keys.end());
   return keys[kSample - kSample / 8] - keys[kSample / 8];
 }
 
-double full_spread(std::span<const OrderItem> items, int axis) {
-  double lower = items[0].center[axis];
-  double upper = lower;
+float full_spread(std::span<const OrderItem> items, int axis) {
+  float lower = items[0].center[axis];
+  float upper = lower;
   for (const OrderItem& item : items) {
     lower = item.center[axis] < lower ? item.center[axis] : lower;
     upper = upper < item.center[axis] ? item.center[axis] : upper;
@@ -58,7 +57,7 @@ Extent sampled_extent(std::span<const OrderItem> items, std::span<const Box> box
   for (std::size_t i = 0; i < count; ++i) {
     const Box& box = boxes[items[count == items.size() ? i : scattered(i, items.size())].index];
     for (int axis = 0; axis < 3; ++axis) {
-      extent[axis] += std::min(box.upper[axis] - box.lower[axis], kLargestCoordinate) / static_cast<double>(count);
+      extent[axis] += std::min(box.upper[axis] - box.lower[axis], kLargestExtent) / static_cast<double>(count);
     }
   }
   return extent;
@@ -80,12 +79,13 @@ int cut_axis(std::span<const OrderItem> items, const Extent& extent) {
 }
 
 // Moves the items whose key is below `pivot` to the front; returns how many. Without branches: keys are random.
-std::size_t partition(std::span<OrderItem> items, int axis, double pivot) {
+std::size_t partition(std::span<OrderItem> items, int axis, float pivot) {
   std::size_t below = 0;
   for (std::size_t i = 0; i < items.size(); ++i) {
-    const bool is_below = items[i].center[axis] < pivot;
-    std::swap(items[i], items[below]);
-    below += is_below;
+    const OrderItem item = items[i];
+    items[i] = items[below];
+    items[below] = item;
+    below += item.center[axis] < pivot;
   }
   return below;
 }
@@ -93,10 +93,12 @@ std::size_t partition(std::span<OrderItem> items, int axis, double pivot) {
 // Reorders so that no key among the first `rank` items is above any among the others.
 void select(std::span<OrderItem> items, std::size_t rank, int axis) {
   while (items.size() > kSelectRange) {
-    std::array<double, kPivotSample> keys;
-    for (std::size_t i = 0; i < kPivotSample; ++i) keys[i] = items[scattered(i, items.size())].center[axis];
-    const std::size_t sample_rank = rank * (kPivotSample - 1) / items.size();
-    std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(sample_rank), keys.end());
+    std::array<float, kPivotSample> keys;
+    const std::size_t sample = items.size() < 1024 ? kPivotSample / 4 : kPivotSample;
+    for (std::size_t i = 0; i < sample; ++i) keys[i] = items[scattered(i, items.size())].center[axis];
+    const auto end = keys.begin() + static_cast<std::ptrdiff_t>(sample);
+    const std::size_t sample_rank = rank * sample / items.size();
+    std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(sample_rank), end);
     const std::size_t below = partition(items, axis, keys[sample_rank]);
     if (below == rank) return;
     if (below == 0) break;  // many equal keys
@@ -138,13 +140,11 @@ void order_range(std::span<OrderItem> items, std::span<const Box> boxes, Range r
 
 }  // namespace
 
-OrderItem order_item(const Box& box, std::uint32_t index) {
+OrderItem order_item(const Box& box, std::uint32_t index, const Frame& frame) {
   OrderItem item;
   for (int axis = 0; axis < 3; ++axis) {
-    // Infinite bounds would make a NaN.
-    const double center = std::clamp(box.lower[axis], -kLargestCoordinate, kLargestCoordinate) +
-                          std::clamp(box.upper[axis], -kLargestCoordinate, kLargestCoordinate);
-    item.center[axis] = center;
+    item.center[axis] =
+        0.5f * to_float(box.lower[axis], frame.origin[axis]) + 0.5f * to_float(box.upper[axis], frame.origin[axis]);
   }
   item.index = index;
   return item;

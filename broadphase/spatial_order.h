@@ -11,12 +11,11 @@
 namespace tact::broadphase {
 
 struct OrderItem {
-  double center[3];  // twice the centre of the box; finite
+  float center[3];
   std::uint32_t index;
 };
 
-// The item of a box that is not empty.
-OrderItem order_item(const Box& box, std::uint32_t index);
+OrderItem order_item(const Box& box, std::uint32_t index, const Frame& frame);
 
 // Reorders `items` so that each run of 16^k * kLanes items, counted from the front, is compact, for every k. `boxes`
 // are indexed by the items. Cost n log n for every distribution: cuts are made by rank, never by coordinate. A cut runs
