@@ -1,0 +1,304 @@
+// Cases of other projects on hulls, direction and depth, with the numbers that they were reported with.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "tests/support/contact_checks.h"
+#include "tests/support/detection.h"
+#include "tests/support/generators.h"
+#include "tests/support/minkowski_oracle.h"
+
+namespace tact::tests {
+namespace {
+
+// A rigid motion, rotation first.
+struct Pose {
+  Rotation rotation;
+  Vec3 translation;
+};
+
+Mesh posed_box(Vec3 edges, const Pose& pose) {
+  return translated(rotated(centered_box(0.5 * edges), pose.rotation), pose.translation);
+}
+
+Mesh cube(double edge, Vec3 center) { return translated(centered_box({edge / 2, edge / 2, edge / 2}), center); }
+
+// All three are seldom given: what is said of the pair must hold, and agree with the smallest separation by brute
+// force.
+void expect_right(const Mesh& a, const Mesh& b) {
+  const double smallest = static_cast<double>(smallest_height(used_points(a), used_points(b), 0.0).height);
+  const std::optional<Contact> contact = contact_of(a, b);
+  const double size = extent(a) + extent(b);
+  if (std::abs(smallest) > 1e-14 * size) {
+    EXPECT_EQ(contact.has_value(), smallest > 0.0) << smallest;
+  }
+  if (contact) {
+    EXPECT_TRUE(is_sound(*contact, a, b));
+    EXPECT_NEAR(contact->depth, std::max(smallest, 0.0), 1e-13 * size);
+  }
+  EXPECT_TRUE(engine_agrees_with_oracle(a, b));
+}
+
+// libccd#25: two cubes of edge 2 at z = 0 and 1.9; GJK said depth 0 and a direction of NaN.
+TEST(KnownAnswers, StackedCubes) {
+  const std::optional<Contact> contact = contact_of(cube(2.0, {}), cube(2.0, {0.0, 0.0, 1.9}));
+  ASSERT_TRUE(contact);
+  EXPECT_NEAR(contact->depth, 0.1, 1e-15);
+  EXPECT_EQ(contact->direction, Eigen::Vector3d::UnitZ());
+  EXPECT_NEAR(0.5 * (contact->plane_a + contact->plane_b), 0.95, 1e-15);
+}
+
+// libccd boxbox.c: a unit cube and a box of 0.5 x 1 x 1.5.
+TEST(KnownAnswers, CubeInBox) {
+  const Mesh box = centered_box({0.25, 0.5, 0.75});
+  const std::optional<Contact> side = contact_of(cube(1.0, {-0.5, 0.5, 0.2}), box);
+  ASSERT_TRUE(side);
+  EXPECT_LT((side->depth * side->direction - Eigen::Vector3d(0.25, 0.0, 0.0)).norm(), 1e-15);
+  const std::optional<Contact> top = contact_of(cube(1.0, {-0.3, 0.5, 1.0}), box);
+  ASSERT_TRUE(top);
+  EXPECT_LT((top->depth * top->direction - Eigen::Vector3d(0.0, 0.0, -0.25)).norm(), 1e-15);
+}
+
+// libccd mpr_boxbox.c: a box of 1 x 2 x 1 sweeps past one of 2 x 1 x 2; apart before step 35 and after step 65.
+TEST(KnownAnswers, SweepingBoxes) {
+  const Mesh still = centered_box({1.0, 0.5, 1.0}), moving = centered_box({0.5, 1.0, 0.5});
+  World world;
+  const std::vector<BodyId> ids = add_bodies(world, std::array{moving, still});
+  for (int i = 0; i <= 100; ++i) {
+    world.set_positions(ids[0], translated(moving, {i / 10.0 - 5.0, 0.0, 0.0}).positions);
+    EXPECT_EQ(world.detect().contacts().size(), i >= 35 && i <= 65 ? 1u : 0u) << i;
+  }
+}
+
+// FCL: a unit cube and a box of 0.6 x 0.8 x 1 turned so that an edge points at it, at x = -1 and -0.9; signed distances
+// 0 and -0.1, in several frames of the world.
+TEST(KnownAnswers, EdgeOfTurnedBoxAgainstFace) {
+  const Rotation turn{{{0.6, -0.8, 0.0}, {0.8, 0.6, 0.0}, {0.0, 0.0, 1.0}}};
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Random random(seed);
+    const Rotation frame = seed == 0 ? Rotation{} : random.rotation();
+    const Vec3 shift = static_cast<double>(seed) * random.in_ball();
+    for (const double y : {0.0, 0.1, -0.1, -0.05}) {
+      for (const double depth : {0.0, 0.1}) {
+        const Mesh a = cube(1.0, {0.0, 0.0, 0.5}), b = posed_box({0.6, 0.8, 1.0}, {turn, {depth - 1.0, y, 0.5}});
+        const std::optional<Contact> contact =
+            contact_of(translated(rotated(a, frame), shift), translated(rotated(b, frame), shift));
+        if (depth == 0.0 && !contact) continue;  // rounding parts them
+        ASSERT_TRUE(contact) << "frame " << seed << ", y " << y;
+        EXPECT_NEAR(contact->depth, depth, 4e-15) << "frame " << seed << ", y " << y;
+        if (depth == 0.0) continue;
+        const Vec3 n{-frame.row[0].x, -frame.row[1].x, -frame.row[2].x};
+        EXPECT_LT(norm(from_eigen(contact->direction) - n), 1e-14) << "frame " << seed << ", y " << y;
+      }
+    }
+  }
+}
+
+// FCL fcl#388, #395, #415, #398, #428, #445, drake#21673: poses from the field that ended in an exception.
+TEST(KnownAnswers, BoxesFromTheField) {
+  expect_right(posed_box({0.03, 0.12, 0.1},
+                         {{{{-3.0627937852578681533e-08, -0.99999999999999888978, -2.8893865161583314238e-08},
+                            {0.9999999999999980016, -3.0627939739957803544e-08, 6.4729926918527511769e-08},
+                            {-6.4729927722963847085e-08, -2.8893863029448751323e-08, 0.99999999999999711342}}},
+                          {0.63499979627350811029, -0.48500002215636439651, 1.0778146458339641356}}),
+               posed_box({0.025, 0.35, 1.845}, {{{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}, {0.8, -0.4575, 1.0225}}));
+  expect_right(
+      posed_box({0.46, 0.48, 0.01}, {{}, {-0.72099999999999997424, -0.77200000000000001954, 0.81000000000000005329}}),
+      posed_box({0.049521, 0.146, 0.0725},
+                {{{{0.10758262492983036718, -0.6624881850015212903, -0.74130653817877356637},
+                   {0.22682184885125472595, -0.709614040775253474, 0.6670830248314786326},
+                   {-0.96797615037608542021, -0.23991106241273435495, 0.07392465377049164954}}},
+                 {-0.42677133002999478872, -0.76596851247746788882, 0.80746731400091054098}}));
+  expect_right(
+      posed_box({0.49, 0.05, 0.21},
+                {{{{4.8966386501092529215e-12, -1, 0}, {1, 4.8966386501092529215e-12, 0}, {0, 0, 1}}},
+                 {-0.43999999999999994671, -0.61499999999858001587, 0.35499999999999998224}}),
+      posed_box({0.035, 0.12, 0.03}, {{{{0.83512153565236335595, -0.55006546945762568868, -9.4542360608233572896e-16},
+                                        {0.55006546945762568868, 0.83512153565236313391, 1.1787444236552387666e-15},
+                                        {1.2902271444330665572e-16, -1.4878153530113264589e-15, 1}}},
+                                      {-0.40653441507331000704, -0.69166166923735727945, 0.43057093858718892276}}));
+  expect_right(posed_box({0.614, 3, 0.37}, {{}, {-0.675, 0, 0.9115}}),
+               posed_box({0.494, 0.552, 0.01}, {{}, {-0.692, 0, 0.935}}));
+  expect_right(
+      posed_box({0.2, 0.33, 0.1}, {{}, {-0.071000000000000035305, -0.77200000000000001954, 0.79999999999999993339}}),
+      posed_box({0.452, 0.27, 0.6}, {{}, {0.12099999999999999645, -0.78769605692727695523, 0.53422044196125151316}}));
+  expect_right(posed_box({0.05, 0.55, 0.3}, {{{{0.00079632671073326442932, -0.99999968293183538748, 0},
+                                               {0.99999968293183538748, 0.00079632671073326442932, 0},
+                                               {0, 0, 1}}},
+                                             {0.75000000000000055511, -2.4083553715553102684e-15, 0.15}}),
+               posed_box({0.25, 0.2, 0.15}, {{{{6.1232339957367660359e-17, 0, 1},
+                                               {-1, 6.1232339957367660359e-17, 6.1232339957367660359e-17},
+                                               {-6.1232339957367660359e-17, -1, 3.7493994566546440196e-33}}},
+                                             {0.75, 0, 0.15}}));
+}
+
+// FCL fcl#445: these two boxes touch, edge against edge, at a distance of 0 to 1e-12.
+TEST(KnownAnswers, BoxesFromTheFieldThatTouch) {
+  const Mesh a = posed_box({0.3165, 0.2276, 0.1768},
+                           {{{{0.44540578475530234748, 0.89532881496493399442, -8.8937407685678638971e-09},
+                              {-0.89532881496493377238, 0.44540578475530190339, -2.8948680226084145336e-08},
+                              {-2.1957263975186326105e-08, 2.0856732016652919226e-08, 0.99999999999999955591}}},
+                            {1.2652949075960071568, 1.4551012423210101243, 0.49480006232932938204}});
+  const Mesh b = posed_box({0.4943, 0.3546, 0.0752},
+                           {{{{0.44171122913485860728, 0.8971572827861190591, -1.622764514865468214e-09},
+                              {-0.8971572827861190591, 0.44171122913485860728, -5.1621053952306079594e-09},
+                              {-3.9144271413829990148e-09, 3.7360349218094348098e-09, 1}}},
+                            {1.1304016226141906376, 1.8410802645284281009, 0.44400006232932492933}});
+  expect_right(a, b);
+  const std::optional<Contact> contact = contact_of(a, b);
+  EXPECT_LT(contact ? contact->depth : 0.0, 1e-9);
+}
+
+// FCL fcl#493, #495: equal cubes stacked in a tilted frame, apart or overlapping by a few units in the last place.
+TEST(KnownAnswers, TiltedCubesThatKiss) {
+  const Rotation tilt{{{0.94096063217417758029, 0.29296840037289501035, 0.16959541586174811667},
+                       {-0.23569836841299879326, 0.92661523595848427348, -0.29296840037289506586},
+                       {-0.2429801799032638987, 0.23569836841299884878, 0.94096063217417758029}}};
+  for (const double edge : {0.01, 0.25, 0.5, 10.0, 1000.0}) {
+    const Mesh a = posed_box({edge, edge, edge}, {tilt, {0.0, 0.0, 5.0 * edge}});
+    for (const double distance : {-1e-15, -2.5e-16, -1e-16, 0.0, 1e-16, 2.5e-16, 1e-15}) {
+      const double offset = edge + distance * std::max(1.0, edge);
+      const Vec3 to_b{tilt.row[0].y * offset, tilt.row[1].y * offset, tilt.row[2].y * offset};
+      expect_right(a, posed_box({edge, edge, edge}, {tilt, Vec3{0.0, 0.0, 5.0 * edge} + to_b}));
+    }
+  }
+}
+
+// A ball that reaches exactly `radius` from its centre in the direction of `tip`, and less elsewhere.
+Mesh ball_with_tip(Vec3 center, double radius, Vec3 tip) {
+  Mesh ball = icosphere(1, 0.999 * radius);
+  int nearest = 0;
+  for (int v = 1; v < ball.vertex_count(); ++v) {
+    if (dot(ball.position(v), tip) > dot(ball.position(nearest), tip)) nearest = v;
+  }
+  ball.set_position(nearest, radius * normalized(tip));
+  return translated(ball, center);
+}
+
+// Jolt EPATests: a ball against the face, the edge and the corner of a box; just short of it, just in it, and deep.
+TEST(KnownAnswers, BallAgainstFaceEdgeAndCorner) {
+  const Mesh face = box({-2.0, -3.0, -4.0}, {2.0, 3.0, 4.0});
+  EXPECT_FALSE(contact_of(face, ball_with_tip({4.0, 0.0, 0.0}, 1.99, {-1.0, 0.0, 0.0})));
+  const std::optional<Contact> hit = contact_of(face, ball_with_tip({4.0, 0.0, 0.0}, 2.01, {-1.0, 0.0, 0.0}));
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->depth, 0.01, 1e-14);
+  EXPECT_LT((hit->direction - Eigen::Vector3d::UnitX()).norm(), 1e-14);
+  const std::optional<Contact> deep = contact_of(face, ball_with_tip({3.0, 0.0, 0.0}, 2.0, {-1.0, 0.0, 0.0}));
+  ASSERT_TRUE(deep);
+  EXPECT_NEAR(deep->depth, 1.0, 1e-14);
+
+  const Mesh edge = box({1.0, 1.0, -2.0}, {2.0, 2.0, 2.0});
+  EXPECT_FALSE(contact_of(edge, ball_with_tip({4.0, 4.0, 0.0}, std::sqrt(8.0) - 0.01, {-1.0, -1.0, 0.0})));
+  EXPECT_TRUE(contact_of(edge, ball_with_tip({4.0, 4.0, 0.0}, std::sqrt(8.0) + 0.01, {-1.0, -1.0, 0.0})));
+  const Mesh corner = box({1.0, 1.0, 1.0}, {2.0, 2.0, 2.0});
+  EXPECT_FALSE(contact_of(corner, ball_with_tip({4.0, 4.0, 4.0}, std::sqrt(12.0) - 0.01, {-1.0, -1.0, -1.0})));
+  EXPECT_TRUE(contact_of(corner, ball_with_tip({4.0, 4.0, 4.0}, std::sqrt(12.0) + 0.01, {-1.0, -1.0, -1.0})));
+}
+
+// Jolt GJKTests: two balls of radius 1 whose centres are 2 apart touch; here in one vertex, exactly.
+TEST(KnownAnswers, BallsThatTouch) {
+  const Mesh a = ball_with_tip({}, 1.0, {1.0, 0.0, 0.0}), b = ball_with_tip({2.0, 0.0, 0.0}, 1.0, {-1.0, 0.0, 0.0});
+  EXPECT_FALSE(facet_pairs_by_engine(a, b).empty());
+  EXPECT_TRUE(engine_agrees_with_oracle(a, b));
+  EXPECT_FALSE(contact_of(a, translated(b, {8.0, 10.0, 10.0})));
+  EXPECT_TRUE(facet_pairs_by_engine(a, translated(b, {1e-15, 0.0, 0.0})).empty());
+}
+
+// A fan of facets around the first of the points.
+Mesh polygon(const std::vector<Vec3>& points) {
+  MeshBuilder builder;
+  for (const Vec3& p : points) builder.vertex(p);
+  for (int i = 2; i < static_cast<int>(points.size()); ++i) builder.facet(0, i - 1, i);
+  return builder.mesh();
+}
+
+// openGJK#3: two polygons in one plane that overlap; the distance came out as 0.508965.
+TEST(KnownAnswers, PolygonsInOnePlane) {
+  const Mesh a = polygon({{0.795121, -0.727851, 0.0},
+                          {-0.178424, -0.989183, 0.0},
+                          {-0.412644, -0.770664, 0.0},
+                          {0.566564, 0.548772, 0.0}});
+  const Mesh b = polygon({{-0.211223, -0.511346, 0.0}, {-0.347973, 0.45872, 0.0}, {0.277308, 0.969689, 0.0}});
+  const std::optional<Contact> contact = contact_of(a, b);
+  ASSERT_TRUE(contact);
+  EXPECT_EQ(contact->depth, 0.0);
+  EXPECT_NEAR(std::abs(contact->direction.z()), 1.0, 4e-16);
+  EXPECT_TRUE(engine_agrees_with_oracle(a, b));
+  EXPECT_FALSE(facet_pairs_by_engine(a, b).empty());
+}
+
+// openGJK#52: two boxes that overlap 9e4 from the origin, in floats; the distance came out as 0.0032915156.
+TEST(KnownAnswers, BoxesFarFromOrigin) {
+  const auto box_of = [](std::array<float, 4> x, std::array<float, 4> y) {
+    Mesh mesh = centered_box({1.0, 1.0, 1.0});
+    const std::array<int, 4> around = {0, 1, 3, 2};  // counter-clockwise in the box's lower face
+    for (std::size_t i = 0; i < 4; ++i) {
+      mesh.set_position(around[i], {x[i], y[i], 0.0});
+      mesh.set_position(around[i] + 4, {x[i], y[i], 300.0});
+    }
+    return mesh;
+  };
+  const Mesh a = box_of({90945.08f, 91077.46f, 91454.92f, 91322.54f}, {54122.54f, 53745.082f, 53877.46f, 54254.918f});
+  const Mesh b = box_of({90919.64f, 91162.62f, 91480.36f, 91237.38f}, {54037.383f, 53719.637f, 53962.617f, 54280.363f});
+  ASSERT_TRUE(contact_of(a, b));
+  EXPECT_GT(contact_of(a, b)->depth, 100.0);
+  expect_right(a, b);
+}
+
+// openGJK#54: a polytope of 24 vertices near a regular one, against a point of its inside, its faces and its outside.
+TEST(KnownAnswers, PointsAroundRegularPolytope) {
+  constexpr double kLong = 0.414213562373, kShort = 0.171572875254;
+  MeshBuilder builder;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int signs = 0; signs < 8; ++signs) {
+      Vec3 p{kLong, kLong, kLong};
+      p[axis] = kShort;
+      builder.vertex({(signs & 1) != 0 ? -p.x : p.x, (signs & 2) != 0 ? -p.y : p.y, (signs & 4) != 0 ? -p.z : p.z});
+    }
+  }
+  for (int i = 0; i < 24; ++i) builder.facet(i, (i + 1) % 24, (i + 2) % 24);
+  const Mesh polytope = builder.mesh();
+  Random random(54);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 p = 0.7 * random.in_ball();
+    MeshBuilder point;
+    point.triangle(p, p, p);
+    expect_right(polytope, point.mesh());
+  }
+}
+
+// parry#76: a facet without area is a segment, 0.17147861 from the point that lies in its box.
+TEST(KnownAnswers, FacetWithoutAreaIsASegment) {
+  MeshBuilder facet, point;
+  facet.triangle({2.27699995, -7.9000001, 16.3180008}, {-0.569999993, -8.10000038, 16.6070004},
+                 {-0.569999993, -8.10000038, 16.6070004});
+  const Vec3 p{1.10000002, -7.9000001, 16.5879993};
+  point.triangle(p, p, p);
+  World world;
+  add_bodies(world, std::array{facet.mesh(), point.mesh()});
+  const Report& report = world.detect();
+  EXPECT_EQ(report.candidate_pairs().size(), 1u);
+  EXPECT_TRUE(report.contacts().empty());
+}
+
+// Box2D test_distance.c: a plank 3.2 mm thick and a point one slop (5 mm) off its end are apart.
+TEST(KnownAnswers, PointOffTheEndOfAThinPlank) {
+  const Mesh plank = rotated(centered_box({0.5, 0.0016, 0.0016}), rotation(1.0, 0.1, 0.2, 0.3));
+  for (const double off : {0.005, 1e-6, 1e-12, -1e-12, -1e-6}) {
+    MeshBuilder point;
+    point.triangle({0.5 + off, 0.001, 0.0005}, {0.5 + off, 0.001, 0.0005}, {0.5 + off, 0.001, 0.0005});
+    const Mesh placed = rotated(point.mesh(), rotation(1.0, 0.1, 0.2, 0.3));
+    EXPECT_EQ(contact_of(plank, placed).has_value(), off < 0.0) << off;
+  }
+}
+
+// parry#253: two triangles; the expanding polytope ended in a panic.
+TEST(KnownAnswers, TwoTriangles) {
+  const Mesh a = polygon({{-13.174434, 1.0, 8.736801}, {3.5251038, 1.0, 12.1}, {3.2048466, 1.0, 12.218325}});
+  const Mesh b = polygon({{-1.63, 0.0, 11.19}, {-2.349647, 0.0, 11.037681}, {-2.349647, 1.0, 11.037681}});
+  expect_right(a, b);
+}
+
+}  // namespace
+}  // namespace tact::tests
