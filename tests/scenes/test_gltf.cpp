@@ -86,6 +86,8 @@ TEST(Gltf, BufferViewsCoverTheBufferInOrder) {
   for (const json& view : glb.root["bufferViews"]) {
     EXPECT_EQ(view["byteOffset"], offset);
     EXPECT_EQ(offset % 4, 0u);
+    // Several accessors share the view of the positions: it must name its stride.
+    EXPECT_EQ(view.value("byteStride", 0), view.value("target", 0) == 34962 ? 12 : 0);
     offset += view["byteLength"].get<std::size_t>();
   }
   EXPECT_EQ(glb.root["buffers"][0]["byteLength"], offset);
