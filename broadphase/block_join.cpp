@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -47,6 +48,7 @@ std::span<const PairList> BlockJoin::run(const BlockTree& tree, std::span<const 
                                          std::span<const Filter> filters, int threads) {
   parts_.resize(kParts);
   for (PairList& part : parts_) part.clear();
+  visits_.assign(kParts, 0);
   std::size_t level = tree.level_count() - 1;
   if (tree.block_count(level) == 0) return {};
   work_.clear();
@@ -63,20 +65,27 @@ std::span<const PairList> BlockJoin::run(const BlockTree& tree, std::span<const 
   base::parallel_for(kParts, 1, threads, [&](std::size_t part) {
     const std::size_t begin = work.size() * part / kParts;
     const std::size_t end = work.size() * (part + 1) / kParts;
-    for (std::size_t i = begin; i < end; ++i) walk(tree, boxes, filters, level, work[i], parts_[part]);
+    std::size_t visits = 0;
+    for (std::size_t i = begin; i < end; ++i) visits += walk(tree, boxes, filters, level, work[i], parts_[part]);
+    visits_[part] = visits;
   });
   return parts_;
 }
 
-void BlockJoin::walk(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,
-                     std::size_t level, IndexPair blocks, PairList& out) const {
+std::size_t BlockJoin::visits() const { return std::accumulate(visits_.begin(), visits_.end(), std::size_t{0}); }
+
+// Appends the pairs below a pair of blocks; returns how many pairs of blocks on level 0 were compared.
+std::size_t BlockJoin::walk(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,
+                            std::size_t level, IndexPair blocks, PairList& out) const {
   if (level == 0) {
     visit(tree, boxes, filters, blocks, out);
-    return;
+    return 1;
   }
   IndexPair children[kChildRoom];
   const std::size_t count = child_pairs(tree, *kernels_, level, blocks, children);
-  for (std::size_t i = 0; i < count; ++i) walk(tree, boxes, filters, level - 1, children[i], out);
+  std::size_t visits = 0;
+  for (std::size_t i = 0; i < count; ++i) visits += walk(tree, boxes, filters, level - 1, children[i], out);
+  return visits;
 }
 
 void BlockJoin::visit(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,

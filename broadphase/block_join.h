@@ -23,16 +23,20 @@ class BlockJoin {
   std::span<const PairList> run(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,
                                 int threads);
 
+  // How many pairs of blocks on level 0 the last run compared.
+  std::size_t visits() const;
+
  private:
   void visit(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters, IndexPair blocks,
              PairList& out) const;
-  void walk(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters, std::size_t level,
-            IndexPair blocks, PairList& out) const;
+  std::size_t walk(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,
+                   std::size_t level, IndexPair blocks, PairList& out) const;
 
   const Kernels* kernels_;
   PairList work_;  // pairs of blocks on one level that may hold overlapping boxes
   PairList next_;
   std::vector<PairList> parts_;
+  std::vector<std::size_t> visits_;  // by part
 };
 
 }  // namespace tact::broadphase

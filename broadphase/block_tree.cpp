@@ -14,10 +14,12 @@ namespace {
 
 constexpr std::uint32_t kArriving = BlockTree::kNone - 1;
 constexpr std::size_t kBlockGrain = 64;    // blocks that a thread takes at a time
-constexpr std::size_t kPrefetch = 2;       // blocks ahead: their boxes are scattered over memory
+constexpr std::size_t kPrefetch = 4;       // blocks ahead
 constexpr float kRegionMargin = 1.0f / 8;  // a block may grow by this part of its largest side, in each direction
 constexpr std::size_t kMergeRatio = 2;     // a batch is merged with arrivals of more than 1 / kMergeRatio of its size
-constexpr std::size_t kSparse = 4;         // the order is made anew when fewer than 1 / kSparse of the lanes hold a box
+constexpr double kOrderCost = 40.0;        // what ordering costs for each block, in comparisons of two blocks: measured
+constexpr std::size_t kFewChanged = 4;  // with fewer than 1 / kFewChanged of the boxes changed, the cost tells nothing
+constexpr std::size_t kSparse = 4;      // the order is made anew when fewer than 1 / kSparse of the lanes hold a box
 
 bool occupied(const Box& box) {
   return box.lower.x <= box.upper.x && box.lower.y <= box.upper.y && box.lower.z <= box.upper.z;
@@ -107,7 +109,7 @@ void BlockTree::update(std::span<const Box> boxes, std::span<const std::uint32_t
   resize(boxes.size());
   mark(boxes, changed);
   refresh_leaves(boxes, threads);
-  if (most_left()) {
+  if (worn_out() || most_left()) {
     start_afresh(boxes);
   } else {
     collect_leavers(boxes);
@@ -146,15 +148,19 @@ void BlockTree::refresh_leaves(std::span<const Box> boxes, int threads) {
   });
 }
 
+// The boxes of a block are scattered over memory.
+void BlockTree::prefetch_boxes(std::span<const Box> boxes, std::size_t index) const {
+  if (index >= levels_[0].blocks.size()) return;
+  for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+    const std::uint32_t member = members_[index * kLanes + lane];
+    if (member < boxes.size()) __builtin_prefetch(&boxes[member]);
+  }
+}
+
 void BlockTree::refresh_leaf(std::span<const Box> boxes, std::size_t index) {
   Block& block = levels_[0].blocks[index];
   const std::uint32_t* block_members = members(index);
-  if ((index + kPrefetch + 1) * kLanes <= members_.size()) {
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t ahead = block_members[kPrefetch * kLanes + lane];
-      if (ahead < boxes.size()) __builtin_prefetch(&boxes[ahead]);
-    }
-  }
+  prefetch_boxes(boxes, index + kPrefetch);
   // Lanes of boxes past the end are active without a box to read.
   std::uint32_t gone = 0;
   for_each_lane(levels_[0].active[index], [&](std::uint32_t lane) {
@@ -166,6 +172,16 @@ void BlockTree::refresh_leaf(std::span<const Box> boxes, std::size_t index) {
                                                      levels_[0].active[index] & ~gone, frame_, regions_[index]);
   leavers_[index] = static_cast<std::uint16_t>(gone | left);
 }
+
+void BlockTree::note_cost(std::size_t block_pairs, std::size_t changed_count) {
+  if (kFewChanged * changed_count < lane_of_.size()) return;
+  const auto changed = static_cast<double>(changed_count);
+  const auto cost = static_cast<double>(block_pairs);
+  if (cost_when_new_ == 0.0) cost_when_new_ = cost / changed;
+  excess_ += std::max(0.0, cost - cost_when_new_ * changed);
+}
+
+bool BlockTree::worn_out() const { return excess_ > kOrderCost * static_cast<double>(levels_[0].blocks.size()); }
 
 // Whether placing the leavers would come to a new order of all boxes.
 bool BlockTree::most_left() const {
@@ -211,7 +227,10 @@ bool BlockTree::place_arrivals(std::span<const Box> boxes, std::span<const std::
   const bool sparse = count * kSparse < members_.size();
   if (arriving_.empty() && !sparse) return false;
   while (!batches_.empty() && (sparse || batches_.back().boxes < kMergeRatio * arriving_.size())) absorb_last_batch();
-  if (batches_.empty()) frame_ = central_frame(boxes, arriving_);
+  if (batches_.empty()) {
+    frame_ = central_frame(boxes, arriving_);
+    excess_ = cost_when_new_ = 0.0;
+  }
   append_batch(boxes, is_changed, threads);
   return true;
 }
@@ -237,9 +256,9 @@ void BlockTree::append_batch(std::span<const Box> boxes, std::span<const std::ui
   base::parallel_for(block_count, kBlockGrain, threads, [&](std::size_t i) {
     const std::size_t first = i * kLanes;
     const std::span<const OrderItem> items = items_;
-    fill_leaf(boxes, is_changed, first_block + i,
-              items.subspan(first, std::min<std::size_t>(kLanes, items.size() - first)));
+    set_members(is_changed, first_block + i, items.subspan(first, std::min<std::size_t>(kLanes, items.size() - first)));
   });
+  base::parallel_for(block_count, kBlockGrain, threads, [&](std::size_t i) { fill_leaf(boxes, first_block + i); });
   batches_.push_back({first_block, items_.size()});
   arriving_.clear();
 }
@@ -255,20 +274,26 @@ void BlockTree::resize_leaves(std::size_t count) {
   leavers_.resize(count, 0);
 }
 
-void BlockTree::fill_leaf(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, std::size_t index,
-                          std::span<const OrderItem> items) {
-  std::uint32_t* block_members = &members_[index * kLanes];
+void BlockTree::set_members(std::span<const std::uint8_t> is_changed, std::size_t index,
+                            std::span<const OrderItem> items) {
   std::uint32_t active = 0;
   for (std::uint32_t lane = 0; lane < items.size(); ++lane) {
     const std::uint32_t member = items[lane].index;
-    block_members[lane] = member;
+    members_[index * kLanes + lane] = member;
     lane_of_[member] = static_cast<std::uint32_t>(index * kLanes + lane);
     active |= static_cast<std::uint32_t>(is_changed[member] != 0) << lane;
   }
   levels_[0].active[index] = static_cast<std::uint16_t>(active);
+}
+
+void BlockTree::fill_leaf(std::span<const Box> boxes, std::size_t index) {
+  prefetch_boxes(boxes, index + kPrefetch);
+  std::uint32_t lanes = 0;
+  for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+    lanes |= static_cast<std::uint32_t>(members(index)[lane] != kNone) << lane;
+  }
   Block& block = levels_[0].blocks[index];
-  const std::uint32_t lanes = kAllLanes >> (kLanes - items.size());
-  kernels_->refresh_lanes(block, doubles_of(boxes), block_members, lanes, frame_, kEverywhere);
+  kernels_->refresh_lanes(block, doubles_of(boxes), members(index), lanes, frame_, kEverywhere);
   regions_[index] = widened(block.bounds);
 }
 

@@ -27,6 +27,11 @@ class BlockTree {
   void update(std::span<const Box> boxes, std::span<const std::uint32_t> changed,
               std::span<const std::uint8_t> is_changed, int threads);
 
+  // Tells what it cost to find the pairs of the last update, in pairs of blocks. Once the excess over the first such
+  // cost since the order was made adds up to that of making it, it is made anew: at worst twice the cost of knowing the
+  // future.
+  void note_cost(std::size_t block_pairs, std::size_t changed_count);
+
   std::size_t level_count() const { return levels_.size(); }
   std::size_t block_count(std::size_t level) const { return levels_[level].blocks.size(); }
   const Block& block(std::size_t level, std::size_t index) const { return levels_[level].blocks[index]; }
@@ -57,7 +62,9 @@ class BlockTree {
   void resize(std::size_t count);
   void mark(std::span<const Box> boxes, std::span<const std::uint32_t> changed);
   void refresh_leaves(std::span<const Box> boxes, int threads);
+  void prefetch_boxes(std::span<const Box> boxes, std::size_t index) const;
   void refresh_leaf(std::span<const Box> boxes, std::size_t index);
+  bool worn_out() const;
   bool most_left() const;
   void start_afresh(std::span<const Box> boxes);
   void collect_leavers(std::span<const Box> boxes);
@@ -65,8 +72,8 @@ class BlockTree {
   void absorb_last_batch();
   void append_batch(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, int threads);
   void resize_leaves(std::size_t count);
-  void fill_leaf(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, std::size_t index,
-                 std::span<const OrderItem> items);
+  void set_members(std::span<const std::uint8_t> is_changed, std::size_t index, std::span<const OrderItem> items);
+  void fill_leaf(std::span<const Box> boxes, std::size_t index);
   void refresh_upper_levels(bool reordered, int threads);
   void refresh_parent(std::size_t level, std::size_t index, bool reordered);
   bool validate_leaf_lanes(std::span<const Box> boxes) const;
@@ -74,6 +81,8 @@ class BlockTree {
 
   const Kernels* kernels_;
   Frame frame_;
+  double cost_when_new_ = 0.0;  // pairs of blocks for each changed box, at the first update after the order was made
+  double excess_ = 0.0;         // pairs of blocks above that, since then
   std::vector<Level> levels_;
   std::vector<std::uint32_t> members_;  // by lane of level 0; kNone where there is no box
   std::vector<FloatBox> regions_;       // by block of level 0: what its boxes may not leave

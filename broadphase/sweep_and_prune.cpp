@@ -3,16 +3,20 @@
 #include <cassert>
 #include <utility>
 
+#include "engine/base/floating_point_mode.h"
+
 namespace tact::broadphase {
 
 std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std::span<const Filter> filters,
                                                  std::span<const std::uint32_t> changed, int threads) {
   assert(boxes.size() == filters.size());
   if (changed.empty() && boxes.size() == box_count_) return pairs_;
+  const base::FloatingPointMode mode;
   box_count_ = boxes.size();
   const std::size_t changed_count = mark(filters, changed);
   tree_.update(boxes, changed, is_changed_, threads);
   const auto parts = join_.run(tree_, boxes, special_count_ == 0 ? std::span<const Filter>{} : filters, threads);
+  tree_.note_cost(join_.visits(), changed_count);
   const auto fresh = sorter_.sort(parts, boxes.size(), threads);
   if (changed_count == boxes.size()) {
     pairs_.assign(fresh.begin(), fresh.end());
