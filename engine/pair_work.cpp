@@ -71,9 +71,11 @@ Direction find_direction(PairRecord& record, const MinkowskiDifference& m, const
   return direction;
 }
 
-Slab slab_of(const MinkowskiDifference& m, Vec3 n) {
-  const double upper = support(m.a(), n, m.origin()).height, lower = -support(m.b(), -n, m.origin()).height;
-  return make_slab(n, m.origin(), lower, upper, m.vertex_height_error());
+// The planes go through the vertices that the last support query of the direction found.
+Slab slab_of(const MinkowskiDifference& m, const ContactDirection& found) {
+  const double upper = dot(found.n, m.a().position(found.top_a) - m.origin());
+  const double lower = dot(found.n, m.b().position(found.top_b) - m.origin());
+  return make_slab(found.n, m.origin(), lower, upper, m.vertex_height_error());
 }
 
 ZoneDisk zone_disk(const Slab& slab, const ImpactZone& zone, double height) {
@@ -164,7 +166,7 @@ bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, c
   record.history.kind = PairHistory::Kind::overlapping;
   record.history.direction = direction.found.n;
   record.history.face = direction.found.face;
-  const Slab slab = slab_of(m, direction.found.n);
+  const Slab slab = slab_of(m, direction.found);
   fill_contact(record, m, direction, slab);
   record.counts.direction_ms = timer.lap();
   if (settings.accuracy == Accuracy::hulls) return false;

@@ -38,7 +38,9 @@ std::uint64_t Report::hash() const {
     for (const double value : {contact.depth, contact.plane_a, contact.plane_b, contact.zone_a.radius, contact.zone_b.radius}) hash.add(value);
     hash.add(contact.zone_a.center);
     hash.add(contact.zone_b.center);
+    hash.add(static_cast<std::uint64_t>(contact.source));
     hash.add(static_cast<std::uint64_t>(contact.iterations));
+    hash.add(static_cast<std::uint64_t>(contact.limit_reached));
     hash.add(static_cast<std::uint64_t>(contact.kept_facets_a));
     hash.add(static_cast<std::uint64_t>(contact.kept_facets_b));
     for (const FacetPair pair : contact.facet_pairs()) {

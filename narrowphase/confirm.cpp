@@ -102,16 +102,16 @@ void FacetPairSearch::test_clusters(const ConfirmInput& input, const ClusterPair
                                     const OpenCluster& b, std::vector<FacetPair>& found, ConfirmCounts& counts) {
   const int first_a = input.a->facet_begin(input.kept_a->cluster[static_cast<std::size_t>(pair.a)]);
   const int first_b = input.b->facet_begin(input.kept_b->cluster[static_cast<std::size_t>(pair.b)]);
-  const Box box_a = input.kept_a->boxes[static_cast<std::size_t>(pair.a)], box_b = input.kept_b->boxes[static_cast<std::size_t>(pair.b)];
-  const std::uint64_t near_b = b.kept & kernels().overlap_bits(b.block, std::bit_width(b.kept), bounds_of(box_a));
-  if (near_b == 0) return;
-  const std::uint64_t near_a = a.kept & kernels().overlap_bits(a.block, std::bit_width(a.kept), bounds_of(box_b));
+  const Box box_a = input.kept_a->boxes[static_cast<std::size_t>(pair.a)];
+  const NearFacets near_b = kernels().near_facets(b.block, b.kept, bounds_of(box_a));
+  if (near_b.facets == 0) return;
+  const NearFacets near_a = kernels().near_facets(a.block, a.kept, near_b.box);
   const auto add = [&](std::size_t i, std::size_t j) {
     found.push_back({input.a->source_facet(first_a + static_cast<int>(i)), input.b->source_facet(first_b + static_cast<int>(j))});
   };
-  for (std::uint64_t left_a = near_a; left_a != 0; left_a &= left_a - 1) {
+  for (std::uint64_t left_a = near_a.facets; left_a != 0; left_a &= left_a - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left_a));
-    const FacetMatches matches = kernels().match_facets(b.block, near_b, filter_facet(a.block, i));
+    const FacetMatches matches = kernels().match_facets(b.block, near_b.facets, filter_facet(a.block, i));
     counts.facet_box_pairs += matches.box_pairs;
     for (std::uint64_t left = matches.meeting; left != 0; left &= left - 1) {
       add(i, static_cast<std::size_t>(std::countr_zero(left)));

@@ -56,6 +56,8 @@ class Search {
     best_.n = n;
     top_ = support(n);
     best_.height = dot(n, top_.point);
+    best_.top_a = top_.a;
+    best_.top_b = top_.b;
   }
 
   MinkowskiVertex support(Vec3 n) {

@@ -13,6 +13,8 @@ struct DirectionSettings {
 struct ContactDirection {
   Vec3 n;                      // unit, from A to B
   double height = 0.0;         // w(n), scaled; negative beyond height_error(): n separates the hulls
+  int top_a = -1;              // the vertex of A farthest along n, and that of B farthest against it
+  int top_b = -1;
   int iterations = 0;          // shifted calls of GJK
   int support_queries = 0;     // of these calls, and of the search for faces
   GjkSimplex face;             // vertices of the face of M that holds the foot: the start of the next step

@@ -34,17 +34,12 @@ class Search {
       ++result_.support_queries;
       result_.lower_bound = std::max(result_.lower_bound, -dot(toward, next.point - point_));
       closed_ = result_.distance - result_.lower_bound <= settings.tolerance * result_.distance + rounding;
-      if (closed_ || holds(next.a, next.b)) break;
-      const GjkSimplex before = simplex_;
-      const SimplexPoints points_before = points_;
-      const SimplexClosest closest_before = closest_;
-      append(next);
-      reduce();
-      if (!inside_ && !(norm_squared(closest_.point) < norm_squared(closest_before.point))) {
-        simplex_ = before;
-        points_ = points_before;
-        closest_ = closest_before;
-        break;  // no progress that doubles can show
+      if (closed_) break;
+      // Where no progress shows, the simplex is thin and doubles have lost the nearest point: go on with more digits.
+      if (holds(next.a, next.b) || !advance(next)) {
+        if (wide_) break;
+        wide_ = true;
+        reduce();
       }
     }
     return finish();
@@ -66,9 +61,23 @@ class Search {
     points_.count = simplex_.count;
   }
 
+  // Adds a vertex if that brings the nearest point nearer.
+  bool advance(const MinkowskiVertex& next) {
+    const GjkSimplex simplex = simplex_;
+    const SimplexPoints points = points_;
+    const SimplexClosest closest = closest_;
+    append(next);
+    reduce();
+    if (inside_ || norm_squared(closest_.point) < norm_squared(closest.point)) return true;
+    simplex_ = simplex;
+    points_ = points;
+    closest_ = closest;
+    return false;
+  }
+
   // Keeps the vertices that carry the nearest point.
   void reduce() {
-    closest_ = simplex_closest(points_);
+    closest_ = wide_ ? simplex_closest_wide(points_) : simplex_closest(points_);
     inside_ = closest_.carrier_count == 4;
     for (std::size_t i = 0; i < static_cast<std::size_t>(closest_.carrier_count); ++i) {
       const auto from = static_cast<std::size_t>(closest_.carrier[i]);
@@ -108,6 +117,7 @@ class Search {
   SimplexClosest closest_;
   bool inside_ = false;
   bool closed_ = false;
+  bool wide_ = false;
   GjkResult result_;
 };
 

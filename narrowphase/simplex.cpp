@@ -6,29 +6,86 @@ namespace tact::narrowphase {
 
 namespace {
 
-// Below this sine between its edges a triangle is left to its edges: its normal would be noise.
-constexpr double kSmallestSine = 1e-13;
+#if defined(__SIZEOF_FLOAT128__)
+__extension__ typedef __float128 Quad;
+#else
+typedef long double Quad;
+#endif
 
+template <class Scalar>
+struct Vector {
+  Scalar x, y, z;
+};
+
+template <class Scalar>
+Vector<Scalar> operator-(const Vector<Scalar>& a, const Vector<Scalar>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+template <class Scalar>
+Scalar dot(const Vector<Scalar>& a, const Vector<Scalar>& b) {
+  return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+
+template <class Scalar>
+Vector<Scalar> cross(const Vector<Scalar>& a, const Vector<Scalar>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+// a + s e.
+template <class Scalar>
+Vector<Scalar> along(const Vector<Scalar>& a, Scalar s, const Vector<Scalar>& e) {
+  return {a.x + s * e.x, a.y + s * e.y, a.z + s * e.z};
+}
+
+// `Roundoff` is a bound of the relative error of an operation.
+template <class Scalar>
 class Search {
  public:
-  explicit Search(const SimplexPoints& simplex) : y_(simplex.point) {}
+  Search(const SimplexPoints& simplex, double roundoff) : count_(simplex.count), roundoff_(roundoff) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) y_[i] = {simplex.point[i].x, simplex.point[i].y, simplex.point[i].z};
+  }
 
-  void vertex(int i) { offer(y(i), {i, 0, 0, 0}, 1); }
+  SimplexClosest run() {
+    if (count_ == 4 && inside_tetrahedron()) return {{}, {0, 1, 2, 3}, 4};
+    for (int i = 0; i < count_; ++i) offer(y(i), {i, 0, 0, 0}, 1);
+    for (int i = 0; i < count_; ++i) {
+      for (int j = i + 1; j < count_; ++j) edge(i, j);
+    }
+    for (int i = 0; i < count_; ++i) {
+      for (int j = i + 1; j < count_; ++j) {
+        for (int k = j + 1; k < count_; ++k) triangle(i, j, k);
+      }
+    }
+    return best_;
+  }
+
+ private:
+  using Point = Vector<Scalar>;
+
+  const Point& y(int i) const { return y_[static_cast<std::size_t>(i)]; }
 
   void edge(int i, int j) {
-    const Vec3 e = y(j) - y(i);
-    const double length = norm_squared(e), t = -dot(y(i), e);
-    if (t > 0.0 && t < length) offer(y(i) + (t / length) * e, {i, j, 0, 0}, 2);
+    const Point e = y(j) - y(i);
+    const Scalar length = dot(e, e), t = -dot(y(i), e);
+    if (t > 0 && t < length) offer(along(y(i), t / length, e), {i, j, 0, 0}, 2);
   }
 
   // The foot of the origin in the triangle's plane has the weights s, t of the second and third corner; it is inside if
-  // neither they nor the first's are negative.
+  // neither they nor the first's are negative. A triangle whose normal is noise is left to its edges.
   void triangle(int i, int j, int k) {
-    const Vec3 e = y(j) - y(i), f = y(k) - y(i), n = cross(e, f), o = -y(i);
-    const double area = norm_squared(n);
-    if (!(area > kSmallestSine * kSmallestSine * norm_squared(e) * norm_squared(f))) return;
-    const double s = dot(cross(o, f), n), t = dot(cross(e, o), n);
-    if (s > 0.0 && t > 0.0 && s + t < area) offer(y(i) + (s / area) * e + (t / area) * f, {i, j, k, 0}, 3);
+    const Point e = y(j) - y(i), f = y(k) - y(i), n = cross(e, f), zero{0, 0, 0}, o = zero - y(i);
+    const Scalar area = dot(n, n), sine = 1e3 * roundoff_;
+    if (!(area > sine * sine * dot(e, e) * dot(f, f))) return;
+    const Scalar s = dot(cross(o, f), n), t = dot(cross(e, o), n);
+    if (s > 0 && t > 0 && s + t < area) offer(along(along(y(i), s / area, e), t / area, f), {i, j, k, 0}, 3);
+  }
+
+  void offer(const Point& point, std::array<int, 4> carrier, int count) {
+    const Scalar distance = dot(point, point);
+    if (best_.carrier_count != 0 && !(distance < distance_)) return;
+    distance_ = distance;
+    best_ = {{static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z)}, carrier, count};
   }
 
   // Is the origin strictly inside, on the same side of every face as the fourth corner?
@@ -36,45 +93,30 @@ class Search {
     return same_side(0, 1, 2, 3) && same_side(0, 1, 3, 2) && same_side(0, 2, 3, 1) && same_side(1, 2, 3, 0);
   }
 
-  const SimplexClosest& best() const { return best_; }
-
- private:
-  const Vec3& y(int i) const { return y_[static_cast<std::size_t>(i)]; }
-
-  void offer(Vec3 point, std::array<int, 4> carrier, int count) {
-    const double distance = norm_squared(point);
-    if (best_.carrier_count != 0 && !(distance < distance_)) return;
-    distance_ = distance;
-    best_ = {point, carrier, count};
-  }
-
   bool same_side(int i, int j, int k, int opposite) const {
-    const Vec3 n = cross(y(j) - y(i), y(k) - y(i));
-    const double origin = -dot(n, y(i)), corner = dot(n, y(opposite) - y(i));
-    const double error = 1e-15 * norm(n) * (norm(y(i)) + norm(y(opposite)));
+    const Point n = cross(y(j) - y(i), y(k) - y(i));
+    const Scalar origin = -dot(n, y(i)), corner = dot(n, y(opposite) - y(i));
+    const Scalar error = 10 * roundoff_ * size(n) * (size(y(i)) + size(y(opposite)));
     return (origin > error && corner > error) || (origin < -error && corner < -error);
   }
 
-  const std::array<Vec3, 4>& y_;
+  // |x| + |y| + |z|, not below the length.
+  static Scalar size(const Point& p) {
+    const auto absolute = [](Scalar a) { return a < 0 ? -a : a; };
+    return absolute(p.x) + absolute(p.y) + absolute(p.z);
+  }
+
+  std::array<Point, 4> y_;
+  int count_;
+  double roundoff_;
   SimplexClosest best_;
-  double distance_ = 0.0;
+  Scalar distance_ = 0;
 };
 
 }  // namespace
 
-SimplexClosest simplex_closest(const SimplexPoints& simplex) {
-  Search search(simplex);
-  if (simplex.count == 4 && search.inside_tetrahedron()) return {{}, {0, 1, 2, 3}, 4};
-  for (int i = 0; i < simplex.count; ++i) search.vertex(i);
-  for (int i = 0; i < simplex.count; ++i) {
-    for (int j = i + 1; j < simplex.count; ++j) search.edge(i, j);
-  }
-  for (int i = 0; i < simplex.count; ++i) {
-    for (int j = i + 1; j < simplex.count; ++j) {
-      for (int k = j + 1; k < simplex.count; ++k) search.triangle(i, j, k);
-    }
-  }
-  return search.best();
-}
+SimplexClosest simplex_closest(const SimplexPoints& simplex) { return Search<double>(simplex, 0x1p-53).run(); }
+
+SimplexClosest simplex_closest_wide(const SimplexPoints& simplex) { return Search<Quad>(simplex, 0x1p-110).run(); }
 
 }  // namespace tact::narrowphase

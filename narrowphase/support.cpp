@@ -20,26 +20,30 @@ class Search {
   void open(int cluster) {
     const int begin = mesh_.vertex_begin(cluster), count = mesh_.vertex_end(cluster) - begin;
     if (count == 0) return;
-    std::int32_t index = 0;
     const PointArrays points = from(mesh_.points(), begin);
-    const double height = kernels().max_height(points, count, axis_, &index);
-    if (height > best_.height) best_ = {begin + index, cluster, height};
-    if (height == best_.height) lower_tie(points, cluster, index);
+    const HighestPoint top = kernels().highest_point(points, count, axis_);
+    if (top.height < best_.height) return;
+    const Support found{begin + top.index, cluster, top.height};
+    if (top.height > best_.height || precedes(found)) best_ = found;
+    if (top.several) lower_tie(points, cluster, top.index + 1);
   }
 
   const Support& best() const { return best_; }
   const HeightAxis& axis() const { return axis_; }
 
  private:
+  bool precedes(const Support& other) const {
+    return best_.vertex < 0 || mesh_.source_vertex(other.vertex) < mesh_.source_vertex(best_.vertex);
+  }
+
   // Of the cluster's vertices from `first` on that are as high as the best, the one with the lowest source vertex.
   void lower_tie(PointArrays points, int cluster, int first) {
     const int begin = mesh_.vertex_begin(cluster), count = mesh_.vertex_end(cluster) - begin;
     for (int i = first; i < count; ++i) {
       const double h = (axis_.nx * (points.x[i] - axis_.ox) + axis_.ny * (points.y[i] - axis_.oy)) +
                        axis_.nz * (points.z[i] - axis_.oz);
-      if (h == best_.height && mesh_.source_vertex(begin + i) < mesh_.source_vertex(best_.vertex)) {
-        best_ = {begin + i, cluster, h};
-      }
+      const Support found{begin + i, cluster, h};
+      if (h == best_.height && precedes(found)) best_ = found;
     }
   }
 
@@ -59,9 +63,11 @@ PointArrays far_corners(const BoxArrays& boxes, Vec3 n) {
 Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int first_cluster) {
   assert(mesh.facet_count() > 0);
   Search search(mesh, n, origin);
-  search.open(first_cluster);
   const PointArrays bounds = far_corners(mesh.cluster_boxes(), n);
   double bound[kBlock + kPadding];
+  // The box that reaches farthest is the best first guess, but asking for it costs a pass over all boxes.
+  if (mesh.cluster_count() <= kBlock) first_cluster = kernels().highest_point(bounds, mesh.cluster_count(), search.axis()).index;
+  search.open(first_cluster);
   for (int begin = 0; begin < mesh.cluster_count(); begin += kBlock) {
     const int count = std::min(kBlock, mesh.cluster_count() - begin);
     kernels().heights(from(bounds, begin), count, search.axis(), bound);

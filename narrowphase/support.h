@@ -14,8 +14,8 @@ struct Support {
 
 // The vertex of `mesh` with the largest n · (position - origin). The mesh must have a facet. Bit for bit the answer of
 // support_by_full_scan: rounding is monotone, so the bound from a box, computed in the same order of operations, is never
-// below the height of a vertex in it. `first_cluster` is opened first: any cluster is right, the one of the last answer is
-// fast.
+// below the height of a vertex in it. Where there are many clusters, `first_cluster` is opened
+// first: any is right, the one of the last answer is fast.
 Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int first_cluster = 0);
 Support support_by_full_scan(const ClusteredMesh& mesh, Vec3 n, Vec3 origin);
 

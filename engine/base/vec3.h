@@ -27,6 +27,9 @@ inline Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a
 inline double norm_squared(Vec3 a) { return dot(a, a); }
 inline double norm(Vec3 a) { return std::sqrt(norm_squared(a)); }
 // a / |a|; a must not be zero, and |a|² must neither overflow nor vanish.
-inline Vec3 normalized(Vec3 a) { return (1.0 / norm(a)) * a; }
+inline Vec3 normalized(Vec3 a) {
+  const double length = norm(a);
+  return {a.x / length, a.y / length, a.z / length};
+}
 
 }  // namespace tact::base

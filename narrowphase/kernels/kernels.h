@@ -20,6 +20,12 @@ struct HeightAxis {
   double ox, oy, oz;
 };
 
+struct HighestPoint {
+  double height;
+  std::int32_t index;  // of several that are as high, the first
+  bool several;
+};
+
 // Lower and upper bounds of boxes in separate arrays.
 struct BoxPointers {
   const double* lower[3];
@@ -63,6 +69,12 @@ struct CullBits {
   std::uint64_t facing_away;  // n · normal <= 0, normal not zero
 };
 
+// Some facets of a block, a bit each, and the box of all of them; without any, the box means nothing.
+struct NearFacets {
+  std::uint64_t facets;
+  BoxBounds box;
+};
+
 // What became of a facet and those of a block. A bit a facet of the block.
 struct FacetMatches {
   std::uint64_t meeting;    // certainly
@@ -98,8 +110,8 @@ struct Kernels {
   // Writes the indices i < count of points whose height is >= threshold, ascending; returns how many.
   int (*select_heights)(PointArrays points, int count, const HeightAxis& axis, double threshold, std::int32_t* indices);
 
-  // The largest height of the points, and the first index that has it. count >= 1.
-  double (*max_height)(PointArrays points, int count, const HeightAxis& axis, std::int32_t* index);
+  // The highest point. count >= 1.
+  HighestPoint (*highest_point)(PointArrays points, int count, const HeightAxis& axis);
 
   // Writes the indices i < count of boxes that overlap `box` (closed), ascending; returns how many.
   int (*select_overlapping)(const BoxPointers& boxes, int count, const BoxBounds& box, std::int32_t* indices);
@@ -110,8 +122,8 @@ struct Kernels {
   // Judges the `count` facets of `block`.
   CullBits (*cull_facets)(const FacetBlock& block, int count, const CullPlanes& planes);
 
-  // A bit for each of the `count` facets of `block` whose box overlaps `box`.
-  std::uint64_t (*overlap_bits)(const FacetBlock& block, int count, const BoxBounds& box);
+  // The facets of `block` that have a bit in `candidates` and whose box overlaps `box`.
+  NearFacets (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box);
 
   // Holds `facet` against those of `block` that have a bit in `candidates`. What doubles cannot tell is left undecided.
   FacetMatches (*match_facets)(const FacetBlock& block, std::uint64_t candidates, const FilterFacet& facet);

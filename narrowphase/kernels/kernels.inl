@@ -16,6 +16,8 @@ inline int append(unsigned mask, int first, std::int32_t* indices, int found) {
   return found;
 }
 
+constexpr double kLaneIndex[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+
 struct HeightPack {
   Pack nx, ny, nz, ox, oy, oz;
   explicit HeightPack(const HeightAxis& axis)
@@ -59,25 +61,30 @@ int select_heights(PointArrays points, int count, const HeightAxis& axis, double
   return found;
 }
 
-double max_height(PointArrays points, int count, const HeightAxis& axis, std::int32_t* index) {
+// One pass: a lane keeps its highest point, the first of equals, and whether there are equals.
+HighestPoint highest_point(PointArrays points, int count, const HeightAxis& axis) {
   const HeightPack height(axis);
-  int i = 0;
-  Pack best = spread(-__builtin_inf());
-  for (; i + kWidth <= count; i += kWidth) best = max(best, height(points, i));
-  double largest = largest_lane(best);
-  for (int k = i; k < count; ++k) {
-    const double h = (axis.nx * (points.x[k] - axis.ox) + axis.ny * (points.y[k] - axis.oy)) + axis.nz * (points.z[k] - axis.oz);
-    if (h > largest) largest = h;
+  const Pack end = spread(count), step = spread(kWidth);
+  Pack index = load(kLaneIndex), best = spread(-__builtin_inf()), best_index = index;
+  Mask tied = less(end, end);
+  for (int i = 0; i < count; i += kWidth, index = add(index, step)) {
+    const Pack h = select(less(index, end), height(points, i), spread(-__builtin_inf()));
+    const Mask higher = less(best, h);
+    tied = either(both(tied, less_equal(h, best)), both(less_equal(h, best), less_equal(best, h)));
+    best = select(higher, h, best);
+    best_index = select(higher, index, best_index);
   }
-  const Pack wanted = spread(largest);
-  for (int k = 0; k < count; k += kWidth) {
-    const unsigned equal = bits(less_equal(wanted, height(points, k))) & lanes_left(count - k);
-    if (equal != 0) {
-      *index = k + __builtin_ctz(equal);
-      break;
-    }
+  const double top = largest_lane(best);
+  unsigned lanes = bits(less_equal(spread(top), best));
+  const bool several = (lanes & (lanes - 1)) != 0 || (lanes & bits(tied)) != 0;
+  double first[kWidth];
+  store(first, best_index);
+  double lowest = first[__builtin_ctz(lanes)];
+  while ((lanes &= lanes - 1) != 0) {
+    const double other = first[__builtin_ctz(lanes)];
+    if (other < lowest) lowest = other;
   }
-  return largest;
+  return {top, static_cast<std::int32_t>(lowest), several};
 }
 
 struct BoxPack {
@@ -244,46 +251,75 @@ inline Meeting intervals_meet(const LoneCorner& a, const LoneCorner& b) {
   return {bits(both(p.positive(), q.negative())), bits(either(p.negative(), q.positive()))};
 }
 
+// The lanes of the facets from `i` on that have a bit in `mask`, by plane sides and intervals.
+inline Meeting match_lanes(const FacetBlock& block, int i, unsigned mask, const VectorPack* corner, const SideFilter& own) {
+  VectorPack other[3];
+  for (int k = 0; k < 3; ++k) {
+    other[k] = {load(block.corner[k][0] + i), load(block.corner[k][1] + i), load(block.corner[k][2] + i)};
+  }
+  const Sides theirs = own.sides(other);
+  unsigned left = mask & ~theirs.apart;
+  if (left == 0) return {0, mask};
+  const Sides ours = plane_of(other[0], other[1], other[2]).sides(corner);
+  left &= ~ours.apart;
+  const unsigned certain = bits(both(theirs.certain, ours.certain)) & left;
+  if (certain == 0) return {0, mask & ~left};
+  const Meeting meeting = intervals_meet(lone_corner(corner, ours), lone_corner(other, theirs));
+  return {meeting.yes & certain, (mask & ~left) | (meeting.no & certain)};
+}
+
 FacetMatches match_facets(const FacetBlock& block, std::uint64_t candidates, const FilterFacet& facet) {
   const BoxPack box(facet.box);
   const double* const lower[3] = {block.lower[0], block.lower[1], block.lower[2]};
   const double* const upper[3] = {block.upper[0], block.upper[1], block.upper[2]};
-  const VectorPack corner[3] = {spread(facet.corner[0]), spread(facet.corner[1]), spread(facet.corner[2])};
-  const SideFilter own{corner[0], spread(facet.normal), spread(facet.normal_bound)};
-  FacetMatches matches{0, 0, 0};
+  std::uint64_t overlapping = 0;
   while (candidates != 0) {
     const int i = __builtin_ctzll(candidates) / kWidth * kWidth;
-    unsigned mask = static_cast<unsigned>(candidates >> i) & kAllLanes;
+    const unsigned mask = static_cast<unsigned>(candidates >> i) & kAllLanes;
     candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
-    mask &= box.overlap(lower, upper, i);
-    if (mask == 0) continue;
-    matches.box_pairs += __builtin_popcount(mask);
-    VectorPack other[3];
-    for (int k = 0; k < 3; ++k) {
-      other[k] = {load(block.corner[k][0] + i), load(block.corner[k][1] + i), load(block.corner[k][2] + i)};
-    }
-    const Sides theirs = own.sides(other);
-    mask &= ~theirs.apart;
-    if (mask == 0) continue;
-    const Sides ours = plane_of(other[0], other[1], other[2]).sides(corner);
-    mask &= ~ours.apart;
-    if (mask == 0) continue;
-    const unsigned certain = bits(both(theirs.certain, ours.certain)) & mask;
-    Meeting meeting{0, 0};
-    if (certain != 0) meeting = intervals_meet(lone_corner(corner, ours), lone_corner(other, theirs));
-    matches.meeting |= static_cast<std::uint64_t>(meeting.yes & certain) << i;
-    matches.undecided |= static_cast<std::uint64_t>(mask & ~((meeting.yes | meeting.no) & certain)) << i;
+    overlapping |= static_cast<std::uint64_t>(mask & box.overlap(lower, upper, i)) << i;
+  }
+  FacetMatches matches{0, 0, __builtin_popcountll(overlapping)};
+  if (overlapping == 0) return matches;
+  const VectorPack corner[3] = {spread(facet.corner[0]), spread(facet.corner[1]), spread(facet.corner[2])};
+  const SideFilter own{corner[0], spread(facet.normal), spread(facet.normal_bound)};
+  while (overlapping != 0) {
+    const int i = __builtin_ctzll(overlapping) / kWidth * kWidth;
+    const unsigned mask = static_cast<unsigned>(overlapping >> i) & kAllLanes;
+    overlapping &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
+    const Meeting meeting = match_lanes(block, i, mask, corner, own);
+    matches.meeting |= static_cast<std::uint64_t>(meeting.yes) << i;
+    matches.undecided |= static_cast<std::uint64_t>(mask & ~(meeting.yes | meeting.no)) << i;
   }
   return matches;
 }
 
-std::uint64_t overlap_bits(const FacetBlock& block, int count, const BoxBounds& box) {
+NearFacets near_facets(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box) {
   const BoxPack pack(box);
   const double* const lower[3] = {block.lower[0], block.lower[1], block.lower[2]};
   const double* const upper[3] = {block.upper[0], block.upper[1], block.upper[2]};
-  std::uint64_t result = 0;
-  for (int i = 0; i < count; i += kWidth) {
-    result |= static_cast<std::uint64_t>(pack.overlap(lower, upper, i) & lanes_left(count - i)) << i;
+  Pack low[3], high[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis] = spread(__builtin_inf());
+    high[axis] = spread(-__builtin_inf());
+  }
+  std::uint64_t near = 0;
+  while (candidates != 0) {
+    const int i = __builtin_ctzll(candidates) / kWidth * kWidth;
+    const unsigned mask = static_cast<unsigned>(candidates >> i) & kAllLanes & pack.overlap(lower, upper, i);
+    candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
+    if (mask == 0) continue;
+    near |= static_cast<std::uint64_t>(mask) << i;
+    const Mask lanes = mask_of(mask);
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = select(lanes, min(low[axis], load(lower[axis] + i)), low[axis]);
+      high[axis] = select(lanes, max(high[axis], load(upper[axis] + i)), high[axis]);
+    }
+  }
+  NearFacets result{near, box};
+  for (int axis = 0; near != 0 && axis < 3; ++axis) {
+    result.box.lower[axis] = -largest_lane(sub(spread(0.0), low[axis]));
+    result.box.upper[axis] = largest_lane(high[axis]);
   }
   return result;
 }
@@ -383,7 +419,7 @@ bool refresh_cluster(const RefreshInput& in, BoxBounds* box) {
 }  // namespace
 
 extern const Kernels TACT_KERNELS;
-const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, find_large, refresh_cluster, heights, select_heights, max_height,
-                              select_overlapping, fill_facet_block, cull_facets, overlap_bits, match_facets};
+const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, find_large, refresh_cluster, heights, select_heights, highest_point,
+                              select_overlapping, fill_facet_block, cull_facets, near_facets, match_facets};
 
 }  // namespace tact::narrowphase

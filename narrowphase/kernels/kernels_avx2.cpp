@@ -30,6 +30,10 @@ inline Mask not_equal(Pack a, Pack b) { return _mm256_cmp_pd(a, b, _CMP_NEQ_UQ);
 inline Mask both(Mask a, Mask b) { return _mm256_and_pd(a, b); }
 inline Mask either(Mask a, Mask b) { return _mm256_or_pd(a, b); }
 inline Mask differ(Mask a, Mask b) { return _mm256_xor_pd(a, b); }
+inline Mask mask_of(unsigned lanes) {
+  const __m256i bit = _mm256_set_epi64x(8, 4, 2, 1);
+  return _mm256_castsi256_pd(_mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(lanes), bit), bit));
+}
 inline unsigned bits(Mask a) { return static_cast<unsigned>(_mm256_movemask_pd(a)); }
 inline Pack select(Mask mask, Pack yes, Pack no) { return _mm256_blendv_pd(no, yes, mask); }
 inline double largest_lane(Pack a) {

@@ -27,6 +27,7 @@ inline Mask not_equal(Pack a, Pack b) { return a != b; }
 inline Mask both(Mask a, Mask b) { return a && b; }
 inline Mask either(Mask a, Mask b) { return a || b; }
 inline Mask differ(Mask a, Mask b) { return a != b; }
+inline Mask mask_of(unsigned bits) { return bits != 0; }
 inline unsigned bits(Mask a) { return a ? 1u : 0u; }
 inline Pack select(Mask mask, Pack yes, Pack no) { return mask ? yes : no; }
 inline double largest_lane(Pack a) { return a; }

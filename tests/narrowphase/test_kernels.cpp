@@ -84,8 +84,8 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
     const CullPlanes planes{.axis = axis, .lowest = 0.1, .box = {{-0.4, -0.3, -0.5}, {0.5, 0.4, 0.6}}, .facing_away = true};
     const FacetBlock expected = block_of(*scalar_kernels(), b, 0), own = block_of(*scalar_kernels(), a, 0);
     const CullBits bits = scalar_kernels()->cull_facets(expected, b.facet_end(0), planes);
-    std::int32_t at = 0;
-    const double highest = scalar_kernels()->max_height(b.points(), b.vertex_count(), axis, &at);
+    const HighestPoint highest = scalar_kernels()->highest_point(b.points(), b.vertex_count(), axis);
+    const NearFacets near = scalar_kernels()->near_facets(expected, all_bits(b.facet_end(0)), planes.box);
     for (const Kernels* kernels : available()) {
       const FacetBlock block = block_of(*kernels, b, 0);
       for (int axis_index = 0; axis_index < 3; ++axis_index) {
@@ -97,9 +97,16 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
       const CullBits other = kernels->cull_facets(block, b.facet_end(0), planes);
       EXPECT_EQ(other.reaching, bits.reaching) << kernels->name;
       EXPECT_EQ(other.facing_away, bits.facing_away) << kernels->name;
-      std::int32_t index = 0;
-      EXPECT_EQ(kernels->max_height(b.points(), b.vertex_count(), axis, &index), highest);
-      EXPECT_EQ(index, at);
+      const HighestPoint top = kernels->highest_point(b.points(), b.vertex_count(), axis);
+      EXPECT_EQ(top.height, highest.height) << kernels->name;
+      EXPECT_EQ(top.index, highest.index) << kernels->name;
+      EXPECT_EQ(top.several, highest.several) << kernels->name;
+      const NearFacets others = kernels->near_facets(block, all_bits(b.facet_end(0)), planes.box);
+      EXPECT_EQ(others.facets, near.facets) << kernels->name;
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(others.box.lower[k], near.box.lower[k]) << kernels->name;
+        EXPECT_EQ(others.box.upper[k], near.box.upper[k]) << kernels->name;
+      }
       for (int f = 0; f < a.facet_end(0); ++f) {
         const FilterFacet facet = filter_facet(own, static_cast<std::size_t>(f));
         const FacetMatches x = scalar_kernels()->match_facets(expected, all_bits(b.facet_end(0)), facet);
