@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "scenes/mesh_file.h"
@@ -45,11 +46,23 @@ std::string base_name(const fs::path& path) {
   return clean.has_filename() ? clean.filename().string() : path.string();
 }
 
-std::string unique_name(const std::string& name, std::set<std::string>& taken) {
-  std::string result = name;
-  for (int n = 2; !taken.insert(result).second; ++n) result = fmt::format("{}#{}", name, n);
-  return result;
-}
+// Gives out names, each once.
+class Names {
+ public:
+  std::string unique(const std::string& name) {
+    int& number = numbers_[name];
+    std::string result;
+    do {
+      ++number;
+      result = number == 1 ? name : fmt::format("{}#{}", name, number);
+    } while (!taken_.insert(result).second);
+    return result;
+  }
+
+ private:
+  std::set<std::string> taken_;
+  std::map<std::string, int> numbers_;  // the last one tried for a name
+};
 
 void check_frame_counts(const std::vector<fs::path>& paths, const std::vector<Listing>& listings) {
   const auto first = std::find_if(listings.begin(), listings.end(), [](const Listing& l) { return l.is_folder; });
@@ -103,10 +116,10 @@ std::vector<BodyFrames> read_bodies(const std::vector<fs::path>& paths, int most
   std::vector<Listing> listings;
   for (const fs::path& path : paths) listings.push_back(list_files(path));
   check_frame_counts(paths, listings);
-  std::set<std::string> taken;
+  Names names;
   std::vector<BodyFrames> bodies;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    bodies.push_back(read_frames(unique_name(base_name(paths[i]), taken), listings[i], most_frames));
+    bodies.push_back(read_frames(names.unique(base_name(paths[i])), listings[i], most_frames));
   }
   return bodies;
 }

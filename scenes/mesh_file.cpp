@@ -11,13 +11,16 @@
 namespace tact::scenes {
 namespace {
 
-std::string read_bytes(const std::filesystem::path& path) {
+void check_is_file(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found)
     throw FileError(path.string() + ": no such file or folder");
   if (error) throw FileError(fmt::format("{}: {}", path.string(), error.message()));
   if (!std::filesystem::is_regular_file(status)) throw FileError(path.string() + ": not a file");
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) throw FileError(fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno)));
@@ -44,10 +47,10 @@ std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
 }
 
 MeshFile read_mesh_file(const std::filesystem::path& path) {
-  const std::string bytes = read_bytes(path);
+  check_is_file(path);
   const auto format = mesh_format(path);
   if (!format) throw FileError(path.string() + ": not a mesh file: its name does not end in .obj, .off, .ply or .stl");
-  return parse_mesh(*format, bytes, path.string());
+  return parse_mesh(*format, read_bytes(path), path.string());
 }
 
 MeshFile parse_mesh(MeshFormat format, std::string_view bytes, const std::string& file) {

@@ -43,9 +43,9 @@ class ObjReader {
  private:
   void read_vertex() {
     text_.set_item("vertex", builder_.vertex_count());
-    const double x = text_.number("a number for x");
-    const double y = text_.number("a number for y");
-    const double z = text_.number("a number for z");
+    const double x = text_.number("a number", "x");
+    const double y = text_.number("a number", "y");
+    const double z = text_.number("a number", "z");
     builder_.add_vertex({x, y, z});
     text_.skip_numbers();  // a weight, or a colour
     text_.clear_item();

@@ -63,9 +63,9 @@ void read_vertices(TextReader& text, MeshBuilder& builder, const OffCounts& coun
   for (std::int64_t i = 0; i < counts.vertices; ++i) {
     text.set_item("vertex", i);
     text.seek_token();
-    const double x = text.number("a number for x");
-    const double y = text.number("a number for y");
-    const double z = text.number("a number for z");
+    const double x = text.number("a number", "x");
+    const double y = text.number("a number", "y");
+    const double z = text.number("a number", "z");
     builder.add_vertex({x, y, z});
     text.skip_numbers();  // a normal, a colour, texture coordinates
   }

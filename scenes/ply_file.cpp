@@ -23,16 +23,16 @@ class TextValues {
   // An element may go on over several lines, but never shares its last with the next.
   double real(const PlyProperty& property) {
     text_.seek_token();
-    return text_.number("a number for " + property.name);
+    return text_.number("a number", property.name);
   }
   std::int64_t integer(PlyType /*type*/, const PlyProperty& property) {
     text_.seek_token();
-    return text_.integer("an integer for " + property.name);
+    return text_.integer("an integer", property.name);
   }
   void skip(PlyType /*type*/, std::int64_t count, const PlyProperty& property) {
     for (std::int64_t i = 0; i < count; ++i) {
       text_.seek_token();
-      text_.expect_token("a value for " + property.name);
+      text_.expect_token("a value", property.name);
     }
   }
   void end_element() { text_.expect_line_end(); }
@@ -87,7 +87,7 @@ class BinaryValues {
 template <class Values>
 std::int64_t read_list_size(Values& values, const PlyProperty& property) {
   const std::int64_t size = values.integer(*property.size_type, property);
-  if (size < 0) values.source().fail(fmt::format("the list {} has {} values", property.name, size));
+  if (size < 0) values.source().fail(fmt::format("the list {} has {} values", printable(property.name), size));
   return size;
 }
 

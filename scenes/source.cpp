@@ -10,13 +10,14 @@ void Source::set_item(std::string_view kind, std::int64_t index) {
 }
 
 void Source::fail(const std::string& message) const {
-  const std::string item = item_kind_.empty() ? std::string() : fmt::format("{} {}: ", item_kind_, item_index_);
+  const std::string item =
+      item_kind_.empty() ? std::string() : fmt::format("{} {}: ", printable(item_kind_), item_index_);
   throw FileError(fmt::format("{}{}: {}{}", file_, place(), item, message));
 }
 
-std::string quoted(std::string_view text) {
+std::string printable(std::string_view text) {
   constexpr std::size_t kLongest = 40;
-  std::string result = "'";
+  std::string result;
   for (const char c : text.substr(0, kLongest)) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte > 0x7e) {
@@ -25,7 +26,9 @@ std::string quoted(std::string_view text) {
       result += c;
     }
   }
-  return result + (text.size() > kLongest ? "...'" : "'");
+  return result + (text.size() > kLongest ? "..." : "");
 }
+
+std::string quoted(std::string_view text) { return "'" + printable(text) + "'"; }
 
 }  // namespace tact::scenes

@@ -36,7 +36,9 @@ class Source {
   std::int64_t item_index_ = 0;
 };
 
-// `text` in quotes, made safe to print: what is not printable ASCII stands as \xNN, and a long text is cut.
+// `text` made safe to print: what is not printable ASCII stands as \xNN, and a long text is cut.
+std::string printable(std::string_view text);
+// The same in quotes.
 std::string quoted(std::string_view text);
 
 }  // namespace tact::scenes

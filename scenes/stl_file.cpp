@@ -132,7 +132,7 @@ class TextStl {
       std::array<double, 3> position;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         text_.seek_token();
-        position[axis] = text_.number(axis == 0 ? "a number for x" : axis == 1 ? "a number for y" : "a number for z");
+        position[axis] = text_.number("a number", std::string_view("xyz").substr(axis, 1));
       }
       corner = merger_.vertex(position);
     }

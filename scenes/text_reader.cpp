@@ -120,31 +120,33 @@ void TextReader::expect_line_end() {
   if (const auto text = token()) fail_expected("the end of the line", text);
 }
 
-std::string_view TextReader::expect_token(std::string_view what) {
+std::string_view TextReader::expect_token(std::string_view what, std::string_view subject) {
   const auto text = token();
-  if (!text) fail_expected(what, text);
+  if (!text) fail_expected(what, text, subject);
   return *text;
 }
 
-double TextReader::number(std::string_view what) {
-  const std::string_view text = expect_token(what);
+double TextReader::number(std::string_view what, std::string_view subject) {
+  const std::string_view text = expect_token(what, subject);
   const auto value = parse_number(text);
-  if (!value) fail_expected(what, text);
+  if (!value) fail_expected(what, text, subject);
   return *value;
 }
 
-std::int64_t TextReader::integer(std::string_view what) {
-  const std::string_view text = expect_token(what);
+std::int64_t TextReader::integer(std::string_view what, std::string_view subject) {
+  const std::string_view text = expect_token(what, subject);
   const auto value = parse_integer(text);
-  if (!value) fail_expected(what, text);
+  if (!value) fail_expected(what, text, subject);
   return *value;
 }
 
-void TextReader::fail_expected(std::string_view what, std::optional<std::string_view> found) const {
+void TextReader::fail_expected(std::string_view what, std::optional<std::string_view> found,
+                               std::string_view subject) const {
+  const std::string purpose = subject.empty() ? std::string() : " for " + printable(subject);
   const std::string text = found                      ? quoted(*found)
                            : offset_ >= bytes_.size() ? "the end of the file"
                                                       : "the end of the line";
-  fail(fmt::format("expected {}, found {}", what, text));
+  fail(fmt::format("expected {}{}, found {}", what, purpose, text));
 }
 
 void TextReader::fail_at_line(std::int64_t line, const std::string& message) {

@@ -37,13 +37,14 @@ class TextReader final : public Source {
   // Fails if the line holds another token.
   void expect_line_end();
 
-  // The next token of this line as a number or an integer; fails otherwise, naming `what` was expected.
-  double number(std::string_view what);
-  std::int64_t integer(std::string_view what);
-  // The next token of this line, or the failure that `what` was expected.
-  std::string_view expect_token(std::string_view what);
-  // Fails with "expected <what>, found <the token, or the end of the line or file>".
-  [[noreturn]] void fail_expected(std::string_view what, std::optional<std::string_view> found) const;
+  // The next token of this line as a number or an integer; fails otherwise, having expected `what` for `subject`.
+  double number(std::string_view what, std::string_view subject = {});
+  std::int64_t integer(std::string_view what, std::string_view subject = {});
+  // The next token of this line, or the failure that `what` was expected for `subject`.
+  std::string_view expect_token(std::string_view what, std::string_view subject = {});
+  // Fails with "expected <what> for <subject>, found <the token, or the end of the line or file>".
+  [[noreturn]] void fail_expected(std::string_view what, std::optional<std::string_view> found,
+                                  std::string_view subject = {}) const;
   // As fail(), for a line read before.
   [[noreturn]] void fail_at_line(std::int64_t line, const std::string& message);
 

@@ -128,6 +128,14 @@ TEST(PlyFile, RefusesTextNamingTheLine) {
   EXPECT_EQ(refusal(kHead + kVertices + "3 0 1 2\n9\n"), "m:15: expected the end of the file, found '9'");
 }
 
+TEST(PlyFile, MessagesStayShortAndPrintable) {
+  const std::string name = "\x90" + std::string(1000, 'n');
+  const std::string message =
+      refusal(kPly + "element vertex 0\n" + kXyz + "element " + name + " 1\nproperty int " + name + "\nend_header\n");
+  const std::string cut = "\\x90" + std::string(39, 'n') + "...";
+  EXPECT_EQ(message, "m:10: " + cut + " 0: expected a value for " + cut + ", found the end of the file");
+}
+
 TEST(PlyFile, RefusesHeadersNamingTheLine) {
   EXPECT_EQ(refusal("plyx\n"), "m:1: expected ply, found 'plyx'");
   EXPECT_EQ(refusal("ply\nformat ascii 2.0\n"), "m:2: expected the version 1.0, found '2.0'");
