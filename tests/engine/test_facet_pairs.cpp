@@ -154,6 +154,21 @@ TEST(FacetPairs, OfLargeBodiesEqualOracle) {
   EXPECT_TRUE(engine_agrees_with_oracle(cloth, a));
 }
 
+// A pair that is shared out among threads, and one whose clusters are so many that trees find their pairs.
+TEST(FacetPairs, OfVeryLargeBodiesEqualOracle) {
+  const std::array soups = {soup(12000, 1.0, 1), soup(10000, 1.0, 2)};
+  const std::array sheets = {wrinkled_sheet(190, 2.0, 0.02, 3), wrinkled_sheet(190, 2.0, 0.02, 4)};
+  for (const int threads : {1, 2}) {
+    World world({.threads = threads}), other({.threads = threads});
+    const std::vector<BodyId> ids = add_bodies(world, soups), other_ids = add_bodies(other, sheets);
+    const Report &report = world.detect(), &other_report = other.detect();
+    EXPECT_TRUE(same_meeting_bodies(meeting_bodies_by_oracle(soups), meeting_bodies(report, ids)));
+    EXPECT_TRUE(same_meeting_bodies(meeting_bodies_by_oracle(sheets), meeting_bodies(other_report, other_ids)));
+    EXPECT_GT(report.stats().cluster_pairs, 4096);  // or the test would not show what it is for
+    EXPECT_EQ(other_report.stats().tree_pairs, 1);
+  }
+}
+
 // Boxes, caches and separating directions are carried from step to step: none may go stale.
 TEST(FacetPairs, OfMovingBodiesEqualOracleInEveryStep) {
   std::vector<Mesh> bodies = crowd_of_blobs(40, 7);

@@ -70,7 +70,8 @@ std::vector<Mesh> crossed_bars(std::uint64_t seed) {
 
 std::vector<Mesh> spikes(std::uint64_t seed) {
   Random random(seed);
-  return {blob(2, 1.0, 0.3, seed), translated(spike(2.0 * random.direction(), 1e-3), 0.5 * random.direction())};
+  const Mesh sting = spike(2.0 * random.direction(), 1e-3);
+  return {blob(2, 1.0, 0.3, seed), translated(sting, 0.5 * random.direction())};
 }
 
 std::vector<Mesh> soups(std::uint64_t seed) { return {soup(200, 1.0, seed), soup(150, 1.0, seed + 1000)}; }
@@ -97,7 +98,8 @@ std::vector<Mesh> crumpled_spheres(std::uint64_t seed) {
 std::vector<Mesh> twins(std::uint64_t seed) {
   const Mesh mesh = blob(1, 1.0, 0.3, seed);
   Random random(seed);
-  const Mesh other = permuted(mesh, random.permutation(mesh.vertex_count()), random.permutation(mesh.facet_count()));
+  const std::vector<int> vertices = random.permutation(mesh.vertex_count());
+  const Mesh other = permuted(mesh, vertices, random.permutation(mesh.facet_count()));
   return {mesh, random.chance(0.5) ? turned_inside_out(other) : other};
 }
 

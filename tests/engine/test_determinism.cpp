@@ -1,0 +1,96 @@
+// The same bits for any number of threads, in every run, in every build.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "tests/support/body_pairs.h"
+#include "tests/support/detection.h"
+#include "tests/support/generators.h"
+#include "tests/support/hash_scenes.h"
+
+namespace tact::tests {
+namespace {
+
+class HashOfScene : public ::testing::TestWithParam<HashScene> {};
+
+TEST_P(HashOfScene, IsTheSameForAnyNumberOfThreads) {
+  const std::uint64_t expected = GetParam().play(1);
+  for (const int threads : {2, 3, 8}) EXPECT_EQ(GetParam().play(threads), expected) << threads << " threads";
+}
+
+TEST_P(HashOfScene, IsTheSameInEveryRun) {
+  const std::uint64_t expected = GetParam().play(0);
+  for (int run = 0; run < 3; ++run) EXPECT_EQ(GetParam().play(0), expected);
+}
+
+// The constant holds for Debug and Release, GCC and clang, with and without SIMD kernels.
+TEST_P(HashOfScene, IsTheOneThatIsExpected) { EXPECT_EQ(GetParam().play(2), GetParam().expected); }
+
+INSTANTIATE_TEST_SUITE_P(Scenes, HashOfScene, ::testing::ValuesIn(hash_scenes().begin(), hash_scenes().end()),
+                         [](const auto& instance) { return instance.param.name; });
+
+// A pair's answer does not depend on which other pairs there are, nor on which was asked first.
+TEST(Determinism, PairsAnswerAsIfTheyWereAlone) {
+  const std::vector<Mesh> bodies = crowd_of_blobs(20, 5);
+  World world;
+  const std::vector<BodyId> ids = add_bodies(world, bodies);
+  for (const Contact& contact : world.detect().contacts()) {
+    World alone;
+    add_bodies(alone, std::array{bodies[contact.a.index], bodies[contact.b.index]});
+    const auto contacts = alone.detect().contacts();
+    ASSERT_EQ(contacts.size(), 1u);
+    EXPECT_EQ(contacts[0].direction, contact.direction);
+    EXPECT_EQ(contacts[0].depth, contact.depth);
+    EXPECT_EQ(contacts[0].plane_a, contact.plane_a);
+    EXPECT_EQ(contacts[0].kept_facets_a, contact.kept_facets_a);
+    EXPECT_TRUE(same_facet_pairs(contacts[0].facet_pairs(), contact.facet_pairs()));
+  }
+}
+
+// Nor on the order of vertices and facets, and so on how facets were grouped into clusters.
+TEST(Determinism, DirectionAndDepthDoNotDependOnTheNumberingOfVertices) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const std::array bodies = {random_hull(24, seed),
+                               translated(random_hull(20, seed + 50), 0.4 * Random(seed).in_ball())};
+    Random random(seed);
+    std::array<Mesh, 2> renumbered;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::vector<int> vertices = random.permutation(bodies[i].vertex_count());
+      renumbered[i] = permuted(bodies[i], vertices, random.permutation(bodies[i].facet_count()));
+    }
+    World one, other;
+    add_bodies(one, bodies);
+    add_bodies(other, renumbered);
+    const auto expected = one.detect().contacts(), found = other.detect().contacts();
+    ASSERT_EQ(expected.size(), found.size());
+    if (expected.empty()) continue;
+    EXPECT_LT((expected[0].direction - found[0].direction).norm(), 1e-13) << "seed " << seed;
+    EXPECT_NEAR(expected[0].depth, found[0].depth, 1e-14) << "seed " << seed;
+    EXPECT_EQ(expected[0].facet_pairs().size(), found[0].facet_pairs().size()) << "seed " << seed;
+  }
+}
+
+TEST(Determinism, HashTellsAnswersApart) {
+  const Mesh a = icosphere(1);
+  std::vector<std::uint64_t> hashes;
+  for (const double x : {0.5, 0.75, 1.0, 5.0}) {
+    World world;
+    add_bodies(world, std::array{a, translated(a, {x, 0.0, 0.0})});
+    hashes.push_back(world.detect().hash());
+  }
+  std::sort(hashes.begin(), hashes.end());
+  EXPECT_EQ(std::adjacent_find(hashes.begin(), hashes.end()), hashes.end());
+}
+
+// Before the first step, and in a step in which nothing moved.
+TEST(Determinism, HashStaysWhileNothingMoves) {
+  World world;
+  add_bodies(world, crowd_of_blobs(10, 1));
+  const std::uint64_t expected = world.detect().hash();
+  EXPECT_EQ(world.detect().hash(), expected);
+  EXPECT_EQ(world.detect().hash(), expected);
+}
+
+}  // namespace
+}  // namespace tact::tests

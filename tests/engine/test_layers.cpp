@@ -1,0 +1,162 @@
+// Who may include whom: scenes, bench, tests -> engine -> narrowphase, broadphase -> engine/base. Never back. Read from
+// the #include lines of every source file.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace tact::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The folders with sources, and those that each may include besides itself. The longest that fits a file is the file's.
+const std::map<std::string, std::set<std::string>> kMayInclude = {
+    {"engine/base", {}},
+    {"broadphase", {"engine/base"}},
+    {"narrowphase", {"engine/base"}},
+    {"engine", {"engine/base", "broadphase", "narrowphase"}},
+    {"scenes", {"engine/base", "broadphase", "narrowphase", "engine"}},
+    {"bench", {"engine/base", "broadphase", "narrowphase", "engine", "scenes", "tests"}},
+    {"tests", {"engine/base", "broadphase", "narrowphase", "engine", "scenes", "bench"}},
+};
+
+const std::set<std::string> kHeadersOfBase = {"tact/error.h", "tact/facet_pair.h"};
+
+std::string layer_of(const std::string& path) {
+  if (path.starts_with("tact/")) return kHeadersOfBase.contains(path) ? "engine/base" : "engine";
+  if (path.starts_with("engine/base/")) return "engine/base";
+  const std::string top = path.substr(0, path.find('/'));
+  return kMayInclude.contains(top) && top != path ? top : "";
+}
+
+struct Include {
+  std::string file;    // from the project's root
+  std::string header;  // as it is written, without brackets or quotes
+  bool quoted = false;
+};
+
+std::vector<std::string> source_files() {
+  std::vector<std::string> files;
+  for (const char* folder : {"engine", "broadphase", "narrowphase", "scenes", "bench", "tests"}) {
+    const fs::path root = fs::path(TACT_SOURCE_DIR) / folder;
+    if (!fs::is_directory(root)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(root)) {
+      const std::string ending = entry.path().extension().string();
+      if (ending != ".h" && ending != ".cpp" && ending != ".inl") continue;
+      files.push_back(fs::relative(entry.path(), TACT_SOURCE_DIR).generic_string());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<std::string> lines_of(const std::string& file) {
+  std::ifstream stream(fs::path(TACT_SOURCE_DIR) / file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<Include> all_includes() {
+  static const std::regex pattern(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"].*)");
+  std::vector<Include> includes;
+  for (const std::string& file : source_files()) {
+    for (const std::string& line : lines_of(file)) {
+      std::smatch match;
+      if (std::regex_match(line, match, pattern)) includes.push_back({file, match[2], match[1] == "\""});
+    }
+  }
+  return includes;
+}
+
+bool in_engine(const std::string& file) {
+  const std::string layer = layer_of(file);
+  return layer == "engine" || layer == "engine/base" || layer == "broadphase" || layer == "narrowphase";
+}
+
+bool is_public(const std::string& file) { return file.find("include/tact/") != std::string::npos; }
+
+TEST(Layers, IncludeOnlyWhatLiesBelow) {
+  const std::vector<Include> includes = all_includes();
+  ASSERT_GT(includes.size(), 300u);
+  for (const Include& include : includes) {
+    const std::string from = layer_of(include.file), to = layer_of(include.header);
+    if (to.empty() || to == from) continue;
+    EXPECT_TRUE(kMayInclude.at(from).contains(to)) << include.file << " includes " << include.header;
+  }
+}
+
+// Includes are written from the root, so that a line tells its layer.
+TEST(Layers, IncludesAreWrittenFromTheRoot) {
+  for (const Include& include : all_includes()) {
+    if (!include.quoted) continue;
+    EXPECT_FALSE(layer_of(include.header).empty()) << include.file << " includes \"" << include.header << "\"";
+    EXPECT_TRUE(fs::exists(fs::path(TACT_SOURCE_DIR) / include.header))
+        << include.file << " includes " << include.header;
+  }
+}
+
+TEST(Layers, PublicHeadersIncludeOnlyEigenTheStandardLibraryAndEachOther) {
+  const std::regex allowed("tact/[a-z_]+\\.h|Eigen/Core|[a-z_]+");
+  int headers = 0;
+  for (const Include& include : all_includes()) {
+    if (!is_public(include.file)) continue;
+    ++headers;
+    EXPECT_TRUE(!include.quoted && std::regex_match(include.header, allowed))
+        << include.file << " includes " << include.header;
+  }
+  EXPECT_GT(headers, 10);
+}
+
+TEST(Layers, OpenMpStandsInOneHeader) {
+  const std::regex pragma(R"(^\s*#\s*pragma\s+omp\b.*|.*_Pragma\s*\(\s*"omp.*|^\s*#\s*include\s*<omp\.h>.*)");
+  std::set<std::string> with_openmp;
+  for (const std::string& file : source_files()) {
+    if (!in_engine(file)) continue;
+    for (const std::string& line : lines_of(file)) {
+      if (std::regex_match(line, pragma)) with_openmp.insert(file);
+    }
+  }
+  EXPECT_EQ(with_openmp, std::set<std::string>{"engine/base/parallel.h"});
+}
+
+TEST(Layers, EmbreeIsKnownToTheNarrowPhaseAlone) {
+  int found = 0;
+  for (const Include& include : all_includes()) {
+    if (!in_engine(include.file) || !include.header.starts_with("embree")) continue;
+    ++found;
+    EXPECT_EQ(layer_of(include.file), "narrowphase") << include.file << " includes " << include.header;
+    EXPECT_TRUE(include.file.ends_with(".cpp")) << include.file << " spreads Embree to whoever includes it";
+  }
+  EXPECT_GT(found, 0);
+}
+
+// Its inline functions are shared with the user's program, which may be compiled for another machine.
+TEST(Layers, EigenEndsAtThePublicInterface) {
+  for (const Include& include : all_includes()) {
+    if (!include.header.starts_with("Eigen/") || !in_engine(include.file)) continue;
+    EXPECT_EQ(layer_of(include.file), "engine") << include.file << " includes " << include.header;
+  }
+}
+
+// What the engine links is Eigen, Embree and OpenMP: no other library's header is included.
+TEST(Layers, EngineIncludesNoOtherLibrary) {
+  const std::regex standard("[a-z_0-9]+");
+  const std::set<std::string> others = {"Eigen/Core",       "omp.h",           "immintrin.h", "xmmintrin.h",
+                                        "embree3/rtcore.h", "embree4/rtcore.h"};
+  for (const Include& include : all_includes()) {
+    if (!in_engine(include.file) || include.quoted || include.header.starts_with("tact/")) continue;
+    EXPECT_TRUE(std::regex_match(include.header, standard) || others.contains(include.header))
+        << include.file << " includes " << include.header;
+  }
+}
+
+}  // namespace
+}  // namespace tact::tests

@@ -1,0 +1,171 @@
+// Worlds among other threads, and callers with a floating-point mode of their own.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cfenv>
+#include <thread>
+#include <vector>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+#include "engine/base/parallel.h"
+#include "tests/support/body_pairs.h"
+#include "tests/support/detection.h"
+#include "tests/support/generators.h"
+
+namespace tact::tests {
+namespace {
+
+// The hashes of a few steps of a crowd, everything done in the calling thread's mode.
+std::vector<std::uint64_t> hashes_of_crowd(std::uint64_t seed, int threads) {
+  World world({.threads = threads, .outputs = {.zones = true, .patches = true}});
+  std::vector<Mesh> bodies = crowd_of_blobs(24, seed);
+  bodies.push_back(wrinkled_sheet(12, 4.0, 0.5, seed));
+  const std::vector<BodyId> ids = add_bodies(world, bodies);
+  std::vector<std::uint64_t> hashes;
+  for (int step = 0; step < 5; ++step) {
+    hashes.push_back(world.detect().hash());
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      bodies[i] = translated(bodies[i], {0.03125, 0.0625, -0.03125 * static_cast<double>(i % 3)});
+      world.set_positions(ids[i], bodies[i].positions);
+    }
+  }
+  return hashes;
+}
+
+TEST(Threads, WorldsInThreadsOfTheirOwnDoNotDisturbEachOther) {
+  std::vector<std::vector<std::uint64_t>> expected, found(4);
+  for (std::uint64_t seed = 0; seed < 4; ++seed) expected.push_back(hashes_of_crowd(seed, 2));
+  std::vector<std::thread> threads;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    threads.emplace_back([&, seed] { found[seed] = hashes_of_crowd(seed, 2); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(found, expected);
+}
+
+TEST(Threads, WorldCanBeUsedInsideTheCallersParallelRegion) {
+  std::vector<std::vector<std::uint64_t>> found(4);
+  base::parallel_for(found.size(), 1, 2, [&](std::size_t i) { found[i] = hashes_of_crowd(i, 2); });
+  for (std::uint64_t seed = 0; seed < 4; ++seed) EXPECT_EQ(found[seed], hashes_of_crowd(seed, 1)) << seed;
+}
+
+TEST(Threads, WorldCanPassFromThreadToThread) {
+  const std::vector<Mesh> bodies = crowd_of_blobs(12, 1);
+  World world;
+  const std::vector<BodyId> ids = add_bodies(world, bodies);
+  std::uint64_t here = 0, there = 0;
+  std::thread([&] {
+    world.detect();
+    world.set_settings(world.settings());
+    there = world.detect().hash();
+  }).join();
+  world.set_settings(world.settings());
+  here = world.detect().hash();
+  EXPECT_EQ(here, there);
+}
+
+TEST(Threads, ReportIsReadByManyThreads) {
+  const std::vector<Mesh> bodies = crowd_of_blobs(40, 1);
+  World world;
+  const std::vector<BodyId> ids = add_bodies(world, bodies);
+  const Report& report = world.detect();
+  const std::uint64_t expected = report.hash();
+  std::array<std::uint64_t, 8> hashes{};
+  std::array<std::size_t, 8> pairs{};
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < 8; ++i) {
+    threads.emplace_back([&, i] {
+      hashes[i] = report.hash();
+      for (const Contact& contact : report.contacts()) pairs[i] += contact.facet_pairs().size();
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, expected);
+  for (const std::size_t count : pairs) EXPECT_EQ(count, pairs[0]);
+}
+
+// Sets a rounding mode for as long as it lives.
+class Rounding {
+ public:
+  explicit Rounding(int mode) : saved_(std::fegetround()) { std::fesetround(mode); }
+  ~Rounding() { std::fesetround(saved_); }
+  Rounding(const Rounding&) = delete;
+  Rounding& operator=(const Rounding&) = delete;
+
+ private:
+  int saved_;
+};
+
+// Meshes are made beforehand: only the engine computes in the caller's mode.
+struct PreparedSteps {
+  explicit PreparedSteps(double scale) {
+    std::vector<Mesh> moving = crowd_of_blobs(16, 3);
+    moving.push_back(wrinkled_sheet(12, 3.0, 0.5, 3));
+    for (Mesh& body : moving) body = scaled(body, scale);
+    for (int step = 0; step < 4; ++step) {
+      steps.push_back(moving);
+      for (Mesh& body : moving) body = translated(body, {0.0625 * scale, 0.03125 * scale, 0.0});
+    }
+  }
+
+  std::vector<std::uint64_t> hashes(int threads) const {
+    World world({.threads = threads, .outputs = {.zones = true, .patches = true}});
+    const std::vector<BodyId> ids = add_bodies(world, steps[0]);
+    std::vector<std::uint64_t> result;
+    for (const std::vector<Mesh>& bodies : steps) {
+      for (std::size_t i = 0; i < bodies.size(); ++i) world.set_positions(ids[i], bodies[i].positions);
+      result.push_back(world.detect().hash());
+    }
+    return result;
+  }
+
+  std::vector<std::vector<Mesh>> steps;
+};
+
+TEST(Threads, RoundingModeOfTheCallerChangesNothing) {
+  const PreparedSteps steps(1.0);
+  const std::vector<std::uint64_t> expected = steps.hashes(2);
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    for (const int threads : {1, 2}) {
+      const Rounding rounding(mode);
+      EXPECT_EQ(steps.hashes(threads), expected) << "mode " << mode << ", " << threads << " threads";
+      EXPECT_EQ(std::fegetround(), mode) << "the caller's mode was not given back";
+    }
+  }
+}
+
+#if defined(__SSE2__)
+// Flush-to-zero and denormals-are-zero, as Embree advises; the positions are subnormal, so that it would show.
+TEST(Threads, FlushToZeroOfTheCallerChangesNothing) {
+  for (const double scale : {1.0, 0x1p-1060}) {
+    const PreparedSteps steps(scale);
+    const std::vector<std::uint64_t> expected = steps.hashes(2);
+    const unsigned before = _mm_getcsr();
+    for (const int threads : {1, 2}) {
+      _mm_setcsr(before | 0x8040u);
+      const std::vector<std::uint64_t> found = steps.hashes(threads);
+      const unsigned after = _mm_getcsr();
+      _mm_setcsr(before);
+      EXPECT_EQ(found, expected) << "scale " << scale << ", " << threads << " threads";
+      EXPECT_EQ(after & 0xffc0u, (before | 0x8040u) & 0xffc0u) << "the caller's mode was not given back";
+    }
+  }
+}
+
+// A caller that has unmasked floating-point exceptions must not be stopped by one of ours.
+TEST(Threads, TrapsOfTheCallerAreNotSprung) {
+  const PreparedSteps steps(1.0);
+  const std::vector<std::uint64_t> expected = steps.hashes(1);
+  const unsigned before = _mm_getcsr();
+  _mm_setcsr((before & ~0x3fu) & ~(_MM_MASK_INVALID | _MM_MASK_DIV_ZERO | _MM_MASK_OVERFLOW));
+  const std::vector<std::uint64_t> found = steps.hashes(2);
+  _mm_setcsr(before);
+  EXPECT_EQ(found, expected);
+}
+#endif
+
+}  // namespace
+}  // namespace tact::tests
