@@ -8,6 +8,7 @@
 #include "engine/pair_record.h"
 #include "narrowphase/confirm.h"
 #include "narrowphase/minkowski_difference.h"
+#include "narrowphase/minkowski_face.h"
 
 namespace tact {
 
@@ -18,6 +19,8 @@ struct PairWork {
   narrowphase::KeptClusters kept_a, kept_b;
   std::vector<narrowphase::ClusterPair> cluster_pairs;
   std::vector<narrowphase::Point2> zone_points;
+  std::vector<std::int32_t> boxes_found;
+  narrowphase::FaceFinder faces;
   narrowphase::CullCounts cull_a, cull_b;
   narrowphase::FacetPairSearch search;
 };

@@ -42,14 +42,13 @@ FilterFacet filter_facet(const FacetBlock& block, std::size_t i) {
 }
 
 bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPairSource source, EmbreeDevice& device,
-                        std::vector<ClusterPair>& pairs) {
+                        std::vector<ClusterPair>& pairs, std::vector<std::int32_t>& found) {
   pairs.clear();
   const std::int64_t all = static_cast<std::int64_t>(a.count()) * b.count();
   const bool forest = source == ClusterPairSource::forest || (source == ClusterPairSource::automatic && all > kLargestLoop);
   if (all == 0) return false;
   ClusterForest trees;
   if (forest) trees.build(device, b.boxes, b.count());
-  std::vector<std::int32_t> found;
   for (std::int32_t i = 0; i < a.count(); ++i) {
     const Box box = a.boxes[static_cast<std::size_t>(i)];
     if (forest) {

@@ -33,8 +33,8 @@ std::optional<Vec3> face_normal(const MinkowskiDifference& m, const GjkSimplex& 
 
 class Search {
  public:
-  Search(const MinkowskiDifference& m, const DirectionSettings& settings)
-      : m_(m), settings_(settings), tolerance_(kFaceTolerance * m.height_error()) {}
+  Search(const MinkowskiDifference& m, const DirectionSettings& settings, FaceFinder& faces)
+      : m_(m), settings_(settings), faces_(faces), tolerance_(kFaceTolerance * m.height_error()) {}
 
   ContactDirection run(Vec3 start, const GjkSimplex& face) {
     turn_to(normalized(start));
@@ -114,18 +114,17 @@ class Search {
   // Finishes if the foot lies well inside the face that n supports, of which `part` is known.
   void settle(const GjkSimplex& part) {
     if (part.count == 3) {
-      FaceFeatures features;
-      features.a.assign(part.a.begin(), part.a.begin() + 3);
-      features.b.assign(part.b.begin(), part.b.begin() + 3);
-      polygon_ = face_polygon(m_, features, best_.n);
-      finished_ = polygon_.corner.size() > 2 && margin_of_foot(polygon_) > shallow();
+      const FacePolygon& polygon = faces_.spanned(m_, part, best_.n);
+      finished_ = polygon.corner.size() > 2 && margin_of_foot(polygon) > shallow();
       if (finished_) return;
     }
-    look_at_face();
-    if (margin_of_foot(polygon_) >= -tolerance_) leave_or_finish();
+    if (margin_of_face() >= -tolerance_) leave_or_finish();
   }
 
-  void look_at_face() { polygon_ = face_polygon(m_, supporting_features(m_, best_.n, tolerance_), best_.n); }
+  double margin_of_face() {
+    polygon_ = &faces_.supported(m_, best_.n, tolerance_);
+    return margin_of_foot(*polygon_);
+  }
 
   // The direction repeats, or the foot lies in a face. Goes over the border of the face where the foot is near it and the
   // other side is lower, and on from there; finishes where it is not. A foot on an edge or a corner is on the border of
@@ -137,44 +136,40 @@ class Search {
       if (finished_) return;
       best_.face = {};
       turn_to(*lower);
-      look_at_face();
-      if (margin_of_foot(polygon_) < -tolerance_) return;
+      if (margin_of_face() < -tolerance_) return;
     }
     finished_ = true;
   }
 
+  // The lowest of the faces across the sides that the foot is near to or beyond; both ways from an edge; four ways from a
+  // corner. Nothing if none is lower.
   std::optional<Vec3> lowest_adjacent() {
-    std::optional<Vec3> lowest;
-    double height = best_.height - tolerance_;
-    for (const Turn& turn : turns()) {
-      const Vec3 turned = turned_to_next_face(m_, best_.n, turn.axis_point, turn.towards, tolerance_);
-      const double w = dot(turned, support(turned).point);
-      if (w < height) {
-        height = w;
-        lowest = turned;
-      }
+    const std::vector<Point2>& c = polygon_->corner;
+    const Vec3 u = polygon_->u, v = polygon_->v;
+    const auto in_space = [&](Point2 p) { return p.x * u + p.y * v + best_.height * best_.n; };
+    Lowest lowest{best_.height - tolerance_, std::nullopt};
+    if (c.size() == 1) {
+      for (const Vec3 t : {u, -u, v, -v}) try_turn(in_space(c[0]), t, lowest);
+      return lowest.n;
     }
-    return lowest;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      if (c.size() > 2 && distance_from_side(*polygon_, i) > shallow()) continue;
+      const Point2 from = c[i], to = c[(i + 1) % c.size()];
+      try_turn(in_space(from), normalized((to.y - from.y) * u + (from.x - to.x) * v), lowest);
+    }
+    return lowest.n;
   }
 
-  struct Turn {
-    Vec3 axis_point;  // a point of M in the supporting plane, on the axis
-    Vec3 towards;     // unit, across n and the axis
+  struct Lowest {
+    double height;
+    std::optional<Vec3> n;
   };
 
-  // Across the sides of the face that the foot is near to or beyond; both ways from an edge; four ways from a corner.
-  std::vector<Turn> turns() const {
-    const std::vector<Point2>& c = polygon_.corner;
-    const Vec3 u = polygon_.u, v = polygon_.v;
-    const auto in_space = [&](Point2 p) { return p.x * u + p.y * v + best_.height * best_.n; };
-    if (c.size() == 1) return {{in_space(c[0]), u}, {in_space(c[0]), -u}, {in_space(c[0]), v}, {in_space(c[0]), -v}};
-    std::vector<Turn> result;
-    for (std::size_t i = 0; i < c.size(); ++i) {
-      if (c.size() > 2 && distance_from_side(polygon_, i) > shallow()) continue;
-      const Point2 from = c[i], to = c[(i + 1) % c.size()];
-      result.push_back({in_space(from), normalized((to.y - from.y) * u + (from.x - to.x) * v)});
-    }
-    return result;
+  // Turns about the axis through a point of M in the supporting plane.
+  void try_turn(Vec3 axis_point, Vec3 towards, Lowest& lowest) {
+    const Vec3 turned = turned_to_next_face(m_, best_.n, axis_point, towards, tolerance_);
+    const double w = dot(turned, support(turned).point);
+    if (w < lowest.height) lowest = {w, turned};
   }
 
   // 0.006: no turn by up to 0.01 leads lower, see shallow().
@@ -183,18 +178,19 @@ class Search {
 
   const MinkowskiDifference& m_;
   const DirectionSettings& settings_;
+  FaceFinder& faces_;
   double tolerance_;
   ContactDirection best_;
   MinkowskiVertex top_;
-  FacePolygon polygon_;
+  const FacePolygon* polygon_ = nullptr;  // of the face that n supports, once looked at
   bool finished_ = false;
 };
 
 }  // namespace
 
 ContactDirection contact_direction(const MinkowskiDifference& m, Vec3 start, const GjkSimplex& face,
-                                   const DirectionSettings& settings) {
-  return Search(m, settings).run(start, face);
+                                   const DirectionSettings& settings, FaceFinder& faces) {
+  return Search(m, settings, faces).run(start, face);
 }
 
 }  // namespace tact::narrowphase

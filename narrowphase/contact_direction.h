@@ -2,6 +2,7 @@
 #pragma once
 
 #include "narrowphase/gjk.h"
+#include "narrowphase/minkowski_face.h"
 
 namespace tact::narrowphase {
 
@@ -29,8 +30,8 @@ struct ContactDirection {
 //
 // `face` is the last step's: if its vertices still span a face that holds the foot, that is the answer, without an
 // iteration. Where M is flat the height is zero and n its normal on the side of `start`; where M is a segment or a point, n
-// is the direction across it nearest to `start`.
+// is the direction across it nearest to `start`. `faces` lends its memory.
 ContactDirection contact_direction(const MinkowskiDifference& m, Vec3 start, const GjkSimplex& face,
-                                   const DirectionSettings& settings);
+                                   const DirectionSettings& settings, FaceFinder& faces);
 
 }  // namespace tact::narrowphase

@@ -16,29 +16,28 @@ double cross2(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }
 Point2 minus(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
 bool before(Point2 a, Point2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
-// The corners of the convex hull of `points`, counter-clockwise from the lowest x (Andrew, 1979).
-std::vector<Point2> convex_hull(std::vector<Point2> points) {
+// The corners of the convex hull of `points`, counter-clockwise from the lowest x (Andrew, 1979). Sorts `points`.
+void convex_hull(std::vector<Point2>& points, std::vector<Point2>& hull) {
   std::sort(points.begin(), points.end(), before);
   points.erase(std::unique(points.begin(), points.end(), [](Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; }),
                points.end());
-  if (points.size() < 3) return points;
-  std::vector<Point2> hull;
+  hull.clear();
   const auto extend = [&](Point2 p, std::size_t least) {
     while (hull.size() > least && cross2(minus(hull.back(), hull[hull.size() - 2]), minus(p, hull.back())) <= 0.0) hull.pop_back();
     hull.push_back(p);
   };
   for (const Point2 p : points) extend(p, 1);
+  if (points.size() < 3) return;
   const std::size_t lower = hull.size();
   for (std::size_t i = points.size() - 1; i-- > 0;) extend(points[i], lower);
   hull.pop_back();
-  return hull;
 }
 
 Point2 corner_at(const std::vector<Point2>& polygon, std::size_t i) { return polygon[i % polygon.size()]; }
 
 // The sum of two convex polygons: their sides in the order of their angles. Both start at the lowest x.
-std::vector<Point2> minkowski_sum(const std::vector<Point2>& p, const std::vector<Point2>& q) {
-  std::vector<Point2> sum;
+void minkowski_sum(const std::vector<Point2>& p, const std::vector<Point2>& q, std::vector<Point2>& sum) {
+  sum.clear();
   std::size_t i = 0, j = 0;
   const std::size_t sides_p = p.size() > 1 ? p.size() : 0, sides_q = q.size() > 1 ? q.size() : 0;
   while (i < sides_p || j < sides_q) {
@@ -56,51 +55,58 @@ std::vector<Point2> minkowski_sum(const std::vector<Point2>& p, const std::vecto
     }
   }
   if (sum.empty()) sum.push_back({p[0].x + q[0].x, p[0].y + q[0].y});
-  return convex_hull(sum);  // drops corners that rounding made straight or inward
-}
-
-std::vector<int> vertices_at_least(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double height) {
-  const HeightAxis axis{n.x, n.y, n.z, origin.x, origin.y, origin.z};
-  const BoxArrays& boxes = mesh.cluster_boxes();
-  const double* bound[3];
-  for (int k = 0; k < 3; ++k) bound[k] = (n[k] >= 0.0 ? boxes.upper[k] : boxes.lower[k]).data();
-  std::vector<std::int32_t> clusters(static_cast<std::size_t>(mesh.cluster_count()));
-  const int open = kernels().select_heights({bound[0], bound[1], bound[2]}, mesh.cluster_count(), axis, height, clusters.data());
-  std::vector<int> found;
-  std::vector<std::int32_t> inside;
-  for (int i = 0; i < open; ++i) {
-    const int begin = mesh.vertex_begin(clusters[static_cast<std::size_t>(i)]);
-    const int count = mesh.vertex_end(clusters[static_cast<std::size_t>(i)]) - begin;
-    inside.resize(static_cast<std::size_t>(count));
-    const PointArrays p = mesh.points();
-    const int kept = kernels().select_heights({p.x + begin, p.y + begin, p.z + begin}, count, axis, height, inside.data());
-    for (int k = 0; k < kept; ++k) found.push_back(begin + inside[static_cast<std::size_t>(k)]);
-  }
-  return found;
 }
 
 }  // namespace
 
-FaceFeatures supporting_features(const MinkowskiDifference& m, Vec3 n, double tolerance) {
-  const double metres = tolerance / m.scale();
-  const double top = support(m.a(), n, m.origin()).height, bottom = support(m.b(), -n, m.origin()).height;
-  return {vertices_at_least(m.a(), n, m.origin(), top - metres), vertices_at_least(m.b(), -n, m.origin(), bottom - metres)};
+const FacePolygon& FaceFinder::spanned(const MinkowskiDifference& m, const GjkSimplex& simplex, Vec3 n) {
+  a_.assign(simplex.a.begin(), simplex.a.begin() + simplex.count);
+  b_.assign(simplex.b.begin(), simplex.b.begin() + simplex.count);
+  project(m, n);
+  return polygon_;
 }
 
-FacePolygon face_polygon(const MinkowskiDifference& m, const FaceFeatures& features, Vec3 n) {
+const FacePolygon& FaceFinder::supported(const MinkowskiDifference& m, Vec3 n, double tolerance) {
+  collect(m.a(), n, m.origin(), tolerance / m.scale(), a_);
+  collect(m.b(), -n, m.origin(), tolerance / m.scale(), b_);
+  project(m, n);
+  return polygon_;
+}
+
+// The vertices of `mesh` within `tolerance` (metres) of the farthest along n.
+void FaceFinder::collect(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double tolerance, std::vector<int>& found) {
+  const HeightAxis axis{n.x, n.y, n.z, origin.x, origin.y, origin.z};
+  const double height = support(mesh, n, origin).height - tolerance;
+  clusters_.resize(static_cast<std::size_t>(mesh.cluster_count()));
+  clusters_.resize(static_cast<std::size_t>(
+      kernels().select_heights(far_corners(mesh.cluster_boxes(), n), mesh.cluster_count(), axis, height, clusters_.data())));
+  found.clear();
+  for (const std::int32_t cluster : clusters_) {
+    const int begin = mesh.vertex_begin(cluster), count = mesh.vertex_end(cluster) - begin;
+    inside_.resize(static_cast<std::size_t>(count));
+    const PointArrays p = mesh.points();
+    const int kept = kernels().select_heights({p.x + begin, p.y + begin, p.z + begin}, count, axis, height, inside_.data());
+    for (int k = 0; k < kept; ++k) found.push_back(begin + inside_[static_cast<std::size_t>(k)]);
+  }
+}
+
+// Positions are taken relative to one vertex of each body, so that only differences are rounded.
+void FaceFinder::project(const MinkowskiDifference& m, Vec3 n) {
   const Frame frame = frame_across(n);
-  FacePolygon polygon{frame.u, frame.v, {}};
-  // Positions are taken relative to one vertex of each body, so that only differences are rounded.
-  const MinkowskiVertex corner = m.vertex(features.a[0], features.b[0]);
-  const Vec3 a0 = m.a().position(features.a[0]), b0 = m.b().position(features.b[0]);
   const auto flat = [&](Vec3 d) { return Point2{dot(frame.u, d), dot(frame.v, d)}; };
-  std::vector<Point2> p, q;
-  for (const int a : features.a) p.push_back(flat(m.scale() * (m.a().position(a) - a0)));
-  for (const int b : features.b) q.push_back(flat(m.scale() * (b0 - m.b().position(b))));
-  polygon.corner = minkowski_sum(convex_hull(std::move(p)), convex_hull(std::move(q)));
-  const Point2 base = flat(corner.point);
-  for (Point2& c : polygon.corner) c = {c.x + base.x, c.y + base.y};
-  return polygon;
+  const Vec3 a0 = m.a().position(a_[0]), b0 = m.b().position(b_[0]);
+  points_a_.clear();
+  points_b_.clear();
+  for (const int a : a_) points_a_.push_back(flat(m.scale() * (m.a().position(a) - a0)));
+  for (const int b : b_) points_b_.push_back(flat(m.scale() * (b0 - m.b().position(b))));
+  convex_hull(points_a_, hull_a_);
+  convex_hull(points_b_, hull_b_);
+  minkowski_sum(hull_a_, hull_b_, sum_);
+  polygon_.u = frame.u;
+  polygon_.v = frame.v;
+  convex_hull(sum_, polygon_.corner);  // drops corners that rounding made straight or inward
+  const Point2 base = flat(m.vertex(a_[0], b_[0]).point);
+  for (Point2& c : polygon_.corner) c = {c.x + base.x, c.y + base.y};
 }
 
 double distance_from_side(const FacePolygon& polygon, std::size_t side) {

@@ -2,19 +2,13 @@
 // lie next to it?
 #pragma once
 
-#include <optional>
 #include <vector>
 
+#include "narrowphase/gjk.h"
 #include "narrowphase/minkowski_difference.h"
 #include "narrowphase/predicates.h"
 
 namespace tact::narrowphase {
-
-// Vertices of A and of B. What they span is the set of all a - b.
-struct FaceFeatures {
-  std::vector<int> a;
-  std::vector<int> b;
-};
 
 // A convex polygon across a direction n: the face, projected on u and v, (u, v, n) orthonormal. The foot of the origin on
 // the supporting plane is at (0, 0). Scaled.
@@ -30,11 +24,23 @@ double distance_from_side(const FacePolygon& polygon, std::size_t side);
 // The distance of the foot from the border; negative outside. At most zero for an edge or a corner.
 double margin_of_foot(const FacePolygon& polygon);
 
-// All vertices of A and of B within `tolerance` (scaled) of their supporting planes across n.
-FaceFeatures supporting_features(const MinkowskiDifference& m, Vec3 n, double tolerance);
+// Finds the polygons of faces; its memory is reused. A polygon is valid until the next call.
+class FaceFinder {
+ public:
+  // What the vertices of A and of B in `simplex` span: all a - b. At least one of each.
+  const FacePolygon& spanned(const MinkowskiDifference& m, const GjkSimplex& simplex, Vec3 n);
+  // What all vertices of A and of B within `tolerance` (scaled) of their supporting planes across n span.
+  const FacePolygon& supported(const MinkowskiDifference& m, Vec3 n, double tolerance);
 
-// The polygon that `features` span, seen along n.
-FacePolygon face_polygon(const MinkowskiDifference& m, const FaceFeatures& features, Vec3 n);
+ private:
+  void collect(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double tolerance, std::vector<int>& found);
+  void project(const MinkowskiDifference& m, Vec3 n);
+
+  FacePolygon polygon_;
+  std::vector<int> a_, b_;
+  std::vector<Point2> points_a_, points_b_, hull_a_, hull_b_, sum_;
+  std::vector<std::int32_t> clusters_, inside_;
+};
 
 // Turns n about the axis through `p`, a point of M in the supporting plane of n, towards `t` (unit, across n and the axis)
 // until the plane meets another vertex of M: the normal of that supporting plane. M must not reach beyond the plane of n

@@ -52,13 +52,12 @@ class Search {
   Support best_{-1, 0, -std::numeric_limits<double>::infinity()};
 };
 
-// The corners of the cluster boxes that lie farthest along n.
+}  // namespace
+
 PointArrays far_corners(const BoxArrays& boxes, Vec3 n) {
   return {(n.x >= 0.0 ? boxes.upper[0] : boxes.lower[0]).data(), (n.y >= 0.0 ? boxes.upper[1] : boxes.lower[1]).data(),
           (n.z >= 0.0 ? boxes.upper[2] : boxes.lower[2]).data()};
 }
-
-}  // namespace
 
 Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int first_cluster) {
   assert(mesh.facet_count() > 0);

@@ -12,6 +12,9 @@ struct Support {
   double height = 0.0;  // n · (position - origin) as computed: ((n.x * dx + n.y * dy) + n.z * dz)
 };
 
+// The corner of each box that lies farthest along n.
+PointArrays far_corners(const BoxArrays& boxes, Vec3 n);
+
 // The vertex of `mesh` with the largest n · (position - origin). The mesh must have a facet. Bit for bit the answer of
 // support_by_full_scan: rounding is monotone, so the bound from a box, computed in the same order of operations, is never
 // below the height of a vertex in it. Where there are many clusters, `first_cluster` is opened

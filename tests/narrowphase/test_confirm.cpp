@@ -29,27 +29,29 @@ std::vector<std::pair<int, int>> as_pairs(const std::vector<ClusterPair>& pairs)
 }
 
 TEST(ClusterPairs, LoopAndForestAgree) {
+  std::vector<std::int32_t> scratch;
   EmbreeDevice device;
   for (const double offset : {0.0, 1e9}) {
     const Mesh sheet = tests::translated(tests::wrinkled_sheet(200, 2.0, 0.3, 1), {offset, 0, 0});
     const ClusteredMesh a = tests::clustered(sheet), b = tests::clustered(tests::translated(tests::icosphere(5, 0.8), {offset, 0, 0.1}));
     const KeptClusters kept_a = all_clusters(a), kept_b = all_clusters(b);
     std::vector<ClusterPair> loop, forest;
-    EXPECT_FALSE(find_cluster_pairs(kept_a, kept_b, ClusterPairSource::loop, device, loop));
-    EXPECT_TRUE(find_cluster_pairs(kept_a, kept_b, ClusterPairSource::forest, device, forest));
+    EXPECT_FALSE(find_cluster_pairs(kept_a, kept_b, ClusterPairSource::loop, device, loop, scratch));
+    EXPECT_TRUE(find_cluster_pairs(kept_a, kept_b, ClusterPairSource::forest, device, forest, scratch));
     EXPECT_GT(loop.size(), 100u);
     EXPECT_EQ(as_pairs(loop), as_pairs(forest));
   }
 }
 
 TEST(ClusterPairs, EmbreeIsNotStartedByALoop) {
+  std::vector<std::int32_t> scratch;
   EmbreeDevice device;
   const ClusteredMesh a = tests::clustered(tests::icosphere(3));
   const KeptClusters kept = all_clusters(a);
   std::vector<ClusterPair> pairs;
-  find_cluster_pairs(kept, kept, ClusterPairSource::automatic, device, pairs);
+  find_cluster_pairs(kept, kept, ClusterPairSource::automatic, device, pairs, scratch);
   EXPECT_FALSE(device.started());
-  find_cluster_pairs(kept, kept, ClusterPairSource::forest, device, pairs);
+  find_cluster_pairs(kept, kept, ClusterPairSource::forest, device, pairs, scratch);
   EXPECT_TRUE(device.started());
 }
 
@@ -58,8 +60,8 @@ std::vector<FacetPair> through_criteria(const ClusteredMesh& a, const ClusteredM
   const MinkowskiDifference m(a, b);
   const double upper = support(a, n, m.origin()).height, lower = -support(b, -n, m.origin()).height;
   const Slab slab = make_slab(n, m.origin(), lower, upper, m.vertex_height_error());
-  std::vector<Point2> scratch;
-  const ImpactZone zone_a = impact_zone(a, slab, scratch), zone_b = impact_zone(b, slab, scratch);
+  std::vector<Point2> points;
+  const ImpactZone zone_a = impact_zone(a, slab, points), zone_b = impact_zone(b, slab, points);
   ConfirmInput input{.a = &a, .b = &b, .criteria_a = criteria_for_a(slab, zones ? &zone_b : nullptr, false),
                      .criteria_b = criteria_for_b(slab, zones ? &zone_a : nullptr, false)};
   KeptClusters kept_a, kept_b;
@@ -70,7 +72,8 @@ std::vector<FacetPair> through_criteria(const ClusteredMesh& a, const ClusteredM
   input.kept_b = &kept_b;
   EmbreeDevice device;
   std::vector<ClusterPair> pairs;
-  find_cluster_pairs(kept_a, kept_b, ClusterPairSource::automatic, device, pairs);
+  std::vector<std::int32_t> scratch;
+  find_cluster_pairs(kept_a, kept_b, ClusterPairSource::automatic, device, pairs, scratch);
   std::vector<FacetPair> found;
   ConfirmCounts counts;
   FacetPairSearch().run(input, pairs, 0, pairs.size(), found, counts);

@@ -22,7 +22,8 @@ struct Found {
 
 Found direction(const ClusteredMesh& a, const ClusteredMesh& b, Vec3 start, const GjkSimplex& face = {}) {
   const MinkowskiDifference m(a, b);
-  const ContactDirection d = contact_direction(m, normalized(start), face, {});
+  FaceFinder faces;
+  const ContactDirection d = contact_direction(m, normalized(start), face, {}, faces);
   EXPECT_FALSE(d.limit_reached);
   EXPECT_NEAR(norm(d.n), 1.0, 1e-15);
   return {d.n, d.height / m.scale(), d.iterations};
@@ -111,6 +112,7 @@ TEST(ContactDirection, CoherentMotionTakesOneIterationOrNone) {
   const ClusteredMesh a = tests::clustered(ball);
   Vec3 n{1, 0, 0};
   GjkSimplex face;
+  FaceFinder faces;
   int iterations = 0;
   constexpr int kSteps = 300;
   for (int step = 0; step < kSteps; ++step) {
@@ -118,7 +120,7 @@ TEST(ContactDirection, CoherentMotionTakesOneIterationOrNone) {
     const Mesh moved = tests::rotated(tests::blob(3, 1.0, 0.2, 5), tests::rotation(1, 0.2 * t, 0.5 * t, 0.7 * t));
     const ClusteredMesh b = tests::clustered(tests::translated(moved, {1.6 - 0.2 * t, 0.3 * t, 0.1}));
     const MinkowskiDifference m(a, b);
-    const ContactDirection d = contact_direction(m, n, face, {});
+    const ContactDirection d = contact_direction(m, n, face, {}, faces);
     iterations += d.iterations;
     n = d.n;
     face = d.face;
