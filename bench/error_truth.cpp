@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -118,22 +119,25 @@ TrueHeight::TrueHeight(const TruthMesh& a, const TruthMesh& b) {
   size_ = static_cast<double>((upper - lower).maxCoeff());
 }
 
-long double TrueHeight::height(const Wide3& n) const {
-  return ((n.transpose() * a_).maxCoeff() - (n.transpose() * b_).minCoeff()) / n.norm();
+long double TrueHeight::height(const Wide3& n, const Eigen::Vector3d& shift) const {
+  const long double low = (n.transpose() * b_).minCoeff() + n.dot(shift.cast<long double>());
+  return ((n.transpose() * a_).maxCoeff() - low) / n.norm();
 }
 
-long double TrueHeight::operator()(const Eigen::Vector3d& n) const { return height(n.cast<long double>()); }
+long double TrueHeight::operator()(const Eigen::Vector3d& n, const Eigen::Vector3d& shift) const {
+  return height(n.cast<long double>(), shift);
+}
 
-bool TrueHeight::is_local_minimum(const Eigen::Vector3d& n, double tolerance) const {
+bool TrueHeight::is_local_minimum(const Eigen::Vector3d& n, double tolerance, const Eigen::Vector3d& shift) const {
   constexpr int kTurns = 16;
   const Wide3 center = n.cast<long double>().normalized();
   const Wide3 u = center.unitOrthogonal(), v = center.cross(u);
-  const long double allowed = height(center) - static_cast<long double>(tolerance);
+  const long double allowed = height(center, shift) - static_cast<long double>(tolerance);
   long double radius = 1e-2L;
   for (int decade = 2; decade <= 7; ++decade, radius *= 0.1L) {
     for (int turn = 0; turn < kTurns; ++turn) {
       const long double angle = 2.0L * std::numbers::pi_v<long double> * turn / kTurns;
-      if (height(center + radius * (std::cos(angle) * u + std::sin(angle) * v)) < allowed) return false;
+      if (height(center + radius * (std::cos(angle) * u + std::sin(angle) * v), shift) < allowed) return false;
     }
   }
   return true;
@@ -171,14 +175,16 @@ namespace {
 
 // An edge of a hull: its ends, and the normals of the facets beside it.
 struct HullEdge {
-  Wide3 from, to, left, right;
+  Wide3 from, to;
+  Eigen::Vector3d left, right;
 };
 
 struct Hull {
-  std::vector<Wide3> normals, points;  // of each facet: unit and outward, a corner
+  std::vector<Wide3> normals;  // of each facet, unit and outward
   std::vector<HullEdge> edges;
 };
 
+// The convex hull of the mesh, or of its mirror image in the origin.
 Hull hull_of(const TruthMesh& mesh, long double sign) {
   const TruthMesh shape = convex_hull(mesh);
   Hull hull;
@@ -187,63 +193,67 @@ Hull hull_of(const TruthMesh& mesh, long double sign) {
   for (Eigen::Index f = 0; f < shape.facets.cols(); ++f) {
     const Eigen::Vector3i corner = shape.facets.col(f);
     const Wide3 p = point(corner[0]);
-    hull.points.push_back(p);
     hull.normals.push_back(sign * (point(corner[1]) - p).cross(point(corner[2]) - p).normalized());
     for (int k = 0; k < 3; ++k) facet_of[{corner[k], corner[(k + 1) % 3]}] = hull.normals.size() - 1;
   }
   for (const auto& [ends, facet] : facet_of) {
     if (ends.first > ends.second) continue;
-    const std::size_t other = facet_of.at({ends.second, ends.first});
-    hull.edges.push_back({point(ends.first), point(ends.second), hull.normals[facet], hull.normals[other]});
+    const Wide3 left = hull.normals[facet], right = hull.normals[facet_of.at({ends.second, ends.first})];
+    hull.edges.push_back({point(ends.first), point(ends.second), left.cast<double>(), right.cast<double>()});
   }
   return hull;
 }
 
-// Can an edge of A and one of -B span a face of the difference, that is, do their arcs of normals cross on the sphere?
-// Says yes when in doubt: a candidate too many only costs time.
+// Can two edges span a face of the sum of their hulls, that is, do their arcs of normals cross on the sphere? Says yes
+// when in doubt: a candidate too many only costs time.
 bool arcs_may_cross(const HullEdge& a, const HullEdge& b) {
-  constexpr long double kDoubt = 1e-12L;
-  const Wide3 across_a = a.left.cross(a.right), across_b = b.left.cross(b.right);
-  const auto apart = [](long double s, long double t) {
-    return (s > kDoubt && t > kDoubt) || (s < -kDoubt && t < -kDoubt);
-  };
-  return !apart(across_a.dot(b.left), across_a.dot(b.right)) && !apart(across_b.dot(a.left), across_b.dot(a.right)) &&
-         (a.left + a.right).dot(b.left + b.right) > -kDoubt;
+  constexpr double kDoubt = 1e-12;
+  const auto apart = [](double s, double t) { return (s > kDoubt && t > kDoubt) || (s < -kDoubt && t < -kDoubt); };
+  const Eigen::Vector3d across_a = a.left.cross(a.right);
+  if (apart(across_a.dot(b.left), across_a.dot(b.right))) return false;
+  const Eigen::Vector3d across_b = b.left.cross(b.right);
+  if (apart(across_b.dot(a.left), across_b.dot(a.right))) return false;
+  return (a.left + a.right).dot(b.left + b.right) > -kDoubt;
 }
 
 }  // namespace
 
-SmallestHeight true_smallest_height(const TruthMesh& a, const TruthMesh& b, double tie) {
+MinkowskiFaces::MinkowskiFaces(const TruthMesh& a, const TruthMesh& b) {
   const TrueHeight w(a, b);
-  std::vector<std::pair<long double, Wide3>> candidates;  // a bound of w from below, a normal
   const Hull hull_a = hull_of(a, 1.0L), hull_b = hull_of(b, -1.0L);
-  for (const Hull* hull : {&hull_a, &hull_b}) {
-    for (const Wide3& n : hull->normals) candidates.push_back({w(n.cast<double>()), n});
-  }
+  const auto add = [&](const Wide3& n) { faces_.push_back({n.cast<double>(), w(n.cast<double>())}); };
+  for (const Wide3& n : hull_a.normals) add(n);
+  for (const Wide3& n : hull_b.normals) add(n);
   for (const HullEdge& e : hull_a.edges) {
     for (const HullEdge& f : hull_b.edges) {
       if (!arcs_may_cross(e, f)) continue;
       Wide3 n = (e.to - e.from).cross(f.to - f.from);
-      if (n.norm() == 0.0L) continue;
+      if (n.norm() <= 1e-15L * (e.to - e.from).norm() * (f.to - f.from).norm()) continue;
       n.normalize();
-      if (n.dot(e.left + e.right + f.left + f.right) < 0.0L) n = -n;
-      candidates.push_back({n.dot(e.from + f.from), n});
+      if (n.dot((e.left + e.right + f.left + f.right).cast<long double>()) < 0.0L) n = -n;
+      // The edges span a face only if the supporting plane goes through them.
+      if (w(n.cast<double>()) <= n.dot(e.from + f.from) + 1e-12L * static_cast<long double>(w.size())) add(n);
     }
   }
-  std::sort(candidates.begin(), candidates.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
-  SmallestHeight smallest{std::numeric_limits<double>::infinity(), {}};
-  std::vector<std::pair<long double, Eigen::Vector3d>> tried;
-  for (const auto& [bound, n] : candidates) {
-    if (bound > static_cast<long double>(smallest.height) + static_cast<long double>(tie)) break;
-    const Eigen::Vector3d direction = n.cast<double>();
-    tried.push_back({w(direction), direction});
-    smallest.height = std::min(smallest.height, static_cast<double>(tried.back().first));
-  }
-  for (const auto& [height, n] : tried) {
-    if (height <= static_cast<long double>(smallest.height) + static_cast<long double>(tie))
-      smallest.directions.push_back(n);
+}
+
+MinkowskiFaces::Smallest MinkowskiFaces::smallest(const Eigen::Vector3d& shift, double tie) const {
+  const auto height = [&](const Face& f) {
+    return f.height - (f.normal.cast<long double>()).dot(shift.cast<long double>());
+  };
+  long double least = std::numeric_limits<long double>::infinity();
+  for (const Face& f : faces_) least = std::min(least, height(f));
+  Smallest smallest{static_cast<double>(least), {}};
+  for (const Face& f : faces_) {
+    if (height(f) <= least + static_cast<long double>(tie)) smallest.directions.push_back(f.normal);
   }
   return smallest;
+}
+
+MinkowskiFaces::Nearest MinkowskiFaces::nearest(const Eigen::Vector3d& n, const Eigen::Vector3d& shift) const {
+  const auto face = std::ranges::min_element(faces_, {}, [&](const Face& f) { return (f.normal - n).squaredNorm(); });
+  const long double height = face->height - face->normal.cast<long double>().dot(shift.cast<long double>());
+  return {face->normal, static_cast<double>(height)};
 }
 
 }  // namespace tact::bench

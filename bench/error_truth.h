@@ -32,28 +32,50 @@ class TrueHeight {
  public:
   TrueHeight(const TruthMesh& a, const TruthMesh& b);
 
-  // w(n / |n|), metres. n need not be of unit length and must not be zero.
-  long double operator()(const Eigen::Vector3d& n) const;
+  // w(n / |n|), metres, with the second body shifted by `shift`. n need not be of unit length and must not be zero.
+  long double operator()(const Eigen::Vector3d& n, const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
   // The largest edge of the box around both, metres; 0 if all vertices are one point.
   double size() const { return size_; }
   // Do 16 turns of n by each of 1e-2, 1e-3, … 1e-7 radians lower w by no more than `tolerance`?
-  bool is_local_minimum(const Eigen::Vector3d& n, double tolerance) const;
+  bool is_local_minimum(const Eigen::Vector3d& n, double tolerance,
+                        const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
 
  private:
   using Points = Eigen::Matrix<long double, 3, Eigen::Dynamic>;
-  long double height(const Eigen::Matrix<long double, 3, 1>& n) const;
+  long double height(const Eigen::Matrix<long double, 3, 1>& n, const Eigen::Vector3d& shift) const;
 
   Points a_, b_;  // less the first vertex of a
   double size_ = 0.0;
 };
 
-// The smallest w over all directions, and every face normal of the Minkowski difference whose w is that but for `tie`.
-struct SmallestHeight {
-  double height = 0.0;  // metres
-  std::vector<Eigen::Vector3d> directions;
+// The faces of the Minkowski difference of two solid hulls, found among all facets of both and all pairs of edges whose
+// arcs of normals cross. They stay the faces, with the same normals, while the second body is only shifted.
+class MinkowskiFaces {
+ public:
+  MinkowskiFaces(const TruthMesh& a, const TruthMesh& b);
+
+  // The smallest w over all directions, with the second body shifted by `shift`, and the normals whose w is that but
+  // for `tie`: where the difference holds the origin. If it does not, some w < 0.
+  struct Smallest {
+    double height = 0.0;  // metres
+    std::vector<Eigen::Vector3d> directions;
+  };
+  Smallest smallest(const Eigen::Vector3d& shift, double tie) const;
+
+  // The normal nearest to the unit vector `n`, and its w.
+  struct Nearest {
+    Eigen::Vector3d direction;
+    double height = 0.0;  // metres
+  };
+  Nearest nearest(const Eigen::Vector3d& n, const Eigen::Vector3d& shift) const;
+
+ private:
+  struct Face {
+    Eigen::Vector3d normal;
+    long double height = 0.0L;  // w without a shift
+  };
+  std::vector<Face> faces_;
 };
-// For solid hulls that overlap. Every facet of a hull, and every pair of edges whose arcs of normals cross, is tried.
-SmallestHeight true_smallest_height(const TruthMesh& a, const TruthMesh& b, double tie);
 
 // The vertices and facets of the convex hull of a mesh that is not flat.
 TruthMesh convex_hull(const TruthMesh& mesh);

@@ -1,0 +1,99 @@
+#include "bench/error_measure.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/timer.h"
+
+namespace tact::bench {
+namespace {
+
+// Of size: hulls that overlap, or are apart, by less are not asked about, and normals whose heights differ by less are
+// equally good.
+constexpr double kUndecided = 1e-9;
+constexpr double kTie = 1e-9;
+constexpr double kMinimumTolerance = 1e-12;
+
+double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+void HullErrors::judge(const HullAnswer& answer, Minimum minimum, const MinkowskiFaces& faces, const TrueHeight& w,
+                       const Eigen::Vector3d& shift, ErrorResult& result) {
+  const double size = w.size();
+  const MinkowskiFaces::Smallest smallest = faces.smallest(shift, kTie * size);
+  if (std::abs(smallest.height) < kUndecided * size) return;
+  ++result.questions;
+  if (answer.failed) {
+    ++result.failed;
+  } else if (answer.overlap != (smallest.height > 0.0)) {
+    ++(answer.overlap ? result.wrong : result.missed);
+  } else if (answer.overlap) {
+    const Eigen::Vector3d n = answer.direction.normalized();
+    MinkowskiFaces::Nearest truth{smallest.directions.front(), smallest.height};
+    if (minimum == Minimum::local) {
+      truth = faces.nearest(n, shift);
+      if (!w.is_local_minimum(n, kMinimumTolerance * size, shift)) ++result.failed;
+    } else {
+      truth.direction =
+          *std::ranges::min_element(smallest.directions, {}, [&](const auto& m) { return (m - n).norm(); });
+    }
+    depth_.push_back(std::abs(answer.depth - truth.height) / size);
+    direction_.push_back(angle_between(n, truth.direction));
+  }
+}
+
+void HullErrors::summarize(ErrorResult& result) const {
+  if (depth_.empty()) return;
+  result.depth_error = *std::ranges::max_element(depth_);
+  result.direction_error = *std::ranges::max_element(direction_);
+  result.median_depth_error = median(depth_);
+  result.median_direction_error = median(direction_);
+}
+
+double median_step_time(const std::function<void(int)>& step, int frames, double seconds) {
+  std::vector<double> times;
+  double spent = 0.0;
+  for (int i = 0; spent < 1e3 * seconds || i < 4 * frames; ++i) {
+    const int place = i % (2 * frames - 2);
+    const int frame = place < frames ? place : 2 * frames - 2 - place;
+    base::Timer timer;
+    step(frame);
+    times.push_back(timer.lap());
+    spent += times.back();
+  }
+  return 1e3 * median(times);
+}
+
+ErrorResult judge(const HullRow& row, const HullMethodKind& kind) {
+  ErrorResult result{.row = row.name, .library = kind.library, .setting = kind.setting, .minimum = kind.minimum};
+  HullErrors errors;
+  const std::unique_ptr<HullMethod> method = kind.make(row);
+  for (int frame = 0; frame < row.frames; ++frame) {
+    method->step(frame);
+    for (std::size_t i = 0; i < row.pairs.size(); ++i) {
+      const HullPair& pair = row.pairs[i];
+      const Eigen::Vector3d& shift = pair.path[static_cast<std::size_t>(frame)];
+      errors.judge(method->answer(i), kind.minimum, pair.faces, pair.height, shift, result);
+    }
+  }
+  errors.summarize(result);
+  return result;
+}
+
+double measure(const HullRow& row, const HullMethodKind& kind, double seconds) {
+  const std::unique_ptr<HullMethod> method = kind.make(row);
+  const double time = median_step_time([&](int frame) { method->step(frame); }, row.frames, seconds);
+  return time / static_cast<double>(row.pairs.size());
+}
+
+}  // namespace tact::bench

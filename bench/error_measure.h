@@ -1,0 +1,52 @@
+// Errors of a method against the truth, and its time.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/error_methods.h"
+
+namespace tact::bench {
+
+// A method on a row. Lengths are in units of the pair's size, the largest edge of the box around both.
+struct ErrorResult {
+  std::string row;
+  std::string library;
+  std::string setting;
+  Minimum minimum = Minimum::smallest;
+  double microseconds = 0.0;  // a pair and step, median over the steps
+  int questions = 0;          // pairs and steps that were judged
+  int missed = 0;             // overlapping hulls called apart; or facet pairs that were not found
+  int wrong = 0;              // hulls apart called overlapping; or facet pairs found that do not meet
+  int failed = 0;  // no answer: threw, not a number, a limit reached, or a direction that is no minimum at all
+  // Against the nearest minimum of w that the method promises: the smallest one, or a local one. Largest and median.
+  // Nothing for methods without a depth.
+  std::optional<double> depth_error = {}, median_depth_error = {};
+  std::optional<double> direction_error = {}, median_direction_error = {};  // radians
+};
+
+// Collects errors of depth and direction, and writes the largest and the median of each into a result.
+class HullErrors {
+ public:
+  // `answer` against the smallest or the nearest minimum of w, where the second body is shifted by `shift`. Counts it
+  // in `result` as a question, unless the hulls touch or nearly do.
+  void judge(const HullAnswer& answer, Minimum minimum, const MinkowskiFaces& faces, const TrueHeight& w,
+             const Eigen::Vector3d& shift, ErrorResult& result);
+  void summarize(ErrorResult& result) const;
+
+ private:
+  std::vector<double> depth_, direction_;
+};
+
+// The median time of a step in microseconds: `step(frame)` is called for the frames there and back again for about
+// `seconds`, at least twice.
+double median_step_time(const std::function<void(int)>& step, int frames, double seconds);
+
+// All answers of a method for all frames of a row, given one after the other.
+ErrorResult judge(const HullRow& row, const HullMethodKind& kind);
+// The median time of a pair in microseconds.
+double measure(const HullRow& row, const HullMethodKind& kind, double seconds);
+
+}  // namespace tact::bench
