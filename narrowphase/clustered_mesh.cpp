@@ -55,6 +55,8 @@ class MedianOrder {
   std::vector<int>& order_;
 };
 
+Box box_of(const BoxBounds& b) { return {{b.lower[0], b.lower[1], b.lower[2]}, {b.upper[0], b.upper[1], b.upper[2]}}; }
+
 [[noreturn]] void broken(const std::string& what) { throw std::logic_error("ClusteredMesh: " + what); }
 
 }  // namespace
@@ -155,8 +157,7 @@ bool ClusteredMesh::set_positions(const double* positions, int threads) {
     });
     for (const char one : range_changed) changed = changed || one != 0;
   }
-  box_ = Box{};
-  for (int c = 0; c < cluster_count(); ++c) box_ = merged(box_, cluster_boxes_[static_cast<std::size_t>(c)]);
+  box_ = box_of(kernels().bounds(cluster_boxes_.pointers(), cluster_count()));
   return changed;
 }
 
@@ -167,7 +168,6 @@ bool ClusteredMesh::refresh_range(const double* positions, int cluster_begin, in
     const int first = vertex_begin(cluster);
     const int borrowed = borrowed_begin_[c];
     const RefreshInput input{.source = positions,
-                             .source_count = source_vertex_count_,
                              .owned = source_vertex_.data() + first,
                              .owned_count = vertex_end(cluster) - first,
                              .borrowed = borrowed_source_.data() + borrowed,
@@ -177,7 +177,7 @@ bool ClusteredMesh::refresh_range(const double* positions, int cluster_begin, in
                              .z = coordinate_[2].data() + first};
     BoxBounds box;
     changed = kernels().refresh_cluster(input, &box) || changed;
-    cluster_boxes_.set(c, {{box.lower[0], box.lower[1], box.lower[2]}, {box.upper[0], box.upper[1], box.upper[2]}});
+    cluster_boxes_.set(c, box_of(box));
   }
   return changed;
 }

@@ -85,7 +85,6 @@ struct FacetMatches {
 // Vertices of a cluster to be refreshed. Coordinates of source vertex s are source[3 s], source[3 s + 1], source[3 s + 2].
 struct RefreshInput {
   const double* source;
-  std::int32_t source_count;          // vertices in `source`
   const std::int32_t* owned;          // source vertices, copied to x, y, z in this order
   std::int32_t owned_count;
   const std::int32_t* borrowed;       // source vertices that only widen the box
@@ -103,6 +102,9 @@ struct Kernels {
 
   // Copies the owned vertices and sets `box` to the box of all; says whether any owned coordinate changed.
   bool (*refresh_cluster)(const RefreshInput& input, BoxBounds* box);
+
+  // The box of `count` boxes, of which those in the padding are empty.
+  BoxBounds (*bounds)(const BoxPointers& boxes, int count);
 
   // Writes the height of each point; `out` has room for kPadding more than `count`.
   void (*heights)(PointArrays points, int count, const HeightAxis& axis, double* out);

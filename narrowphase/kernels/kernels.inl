@@ -61,6 +61,20 @@ int select_heights(PointArrays points, int count, const HeightAxis& axis, double
   return found;
 }
 
+BoxBounds bounds(const BoxPointers& boxes, int count) {
+  BoxBounds result;
+  for (int axis = 0; axis < 3; ++axis) {
+    Pack low = spread(__builtin_inf()), high = spread(__builtin_inf());
+    for (int i = 0; i < count; i += kWidth) {
+      low = min(low, load(boxes.lower[axis] + i));
+      high = min(high, sub(spread(0.0), load(boxes.upper[axis] + i)));
+    }
+    result.lower[axis] = -largest_lane(sub(spread(0.0), low)) + 0.0;
+    result.upper[axis] = largest_lane(sub(spread(0.0), high)) + 0.0;
+  }
+  return result;
+}
+
 // One pass: a lane keeps its highest point, the first of equals, and whether there are equals.
 HighestPoint highest_point(PointArrays points, int count, const HeightAxis& axis) {
   const HeightPack height(axis);
@@ -326,49 +340,61 @@ NearFacets near_facets(const FacetBlock& block, std::uint64_t candidates, const 
 
 #if defined(TACT_KERNELS_AVX2_REFRESH)
 
-// A vertex in the low three lanes. The load takes 8 bytes more than the vertex, but for the last of the array.
-inline __m256d load_vertex(const RefreshInput& in, std::int32_t s) {
-  const double* p = in.source + 3 * static_cast<std::int64_t>(s);
-  return s + 1 < in.source_count ? _mm256_loadu_pd(p) : _mm256_set_pd(0.0, p[2], p[1], p[0]);
+// A vertex in the low three lanes, zero in the fourth.
+inline __m256d load_vertex(const double* source, std::int32_t s) {
+  const __m256i three = _mm256_set_epi64x(0, -1, -1, -1);
+  return _mm256_maskload_pd(source + 3 * static_cast<std::int64_t>(s), three);
 }
 
-inline unsigned replace(double* p, __m256d value) {
+// Stores `value`; the lanes that were different.
+inline __m256d replace(double* p, __m256d value) {
   const __m256d differs = _mm256_cmp_pd(_mm256_loadu_pd(p), value, _CMP_NEQ_UQ);
   _mm256_storeu_pd(p, value);
-  return static_cast<unsigned>(_mm256_movemask_pd(differs));
+  return differs;
 }
 
-bool refresh_cluster(const RefreshInput& in, BoxBounds* box) {
+struct Bounds {
   __m256d lower = _mm256_set1_pd(__builtin_inf()), upper = _mm256_set1_pd(-__builtin_inf());
-  unsigned changed = 0;
+  void widen(__m256d v) {
+    lower = _mm256_min_pd(lower, v);
+    upper = _mm256_max_pd(upper, v);
+  }
+};
+
+bool refresh_cluster(const RefreshInput& in, BoxBounds* box) {
+  Bounds even, odd;  // two, so that one need not wait for the other
+  __m256d differs = _mm256_setzero_pd();
   int i = 0;
   for (; i + 4 <= in.owned_count; i += 4) {
-    const __m256d a = load_vertex(in, in.owned[i]), b = load_vertex(in, in.owned[i + 1]);
-    const __m256d c = load_vertex(in, in.owned[i + 2]), d = load_vertex(in, in.owned[i + 3]);
-    lower = _mm256_min_pd(lower, _mm256_min_pd(_mm256_min_pd(a, b), _mm256_min_pd(c, d)));
-    upper = _mm256_max_pd(upper, _mm256_max_pd(_mm256_max_pd(a, b), _mm256_max_pd(c, d)));
+    const __m256d a = load_vertex(in.source, in.owned[i]), b = load_vertex(in.source, in.owned[i + 1]);
+    const __m256d c = load_vertex(in.source, in.owned[i + 2]), d = load_vertex(in.source, in.owned[i + 3]);
+    even.widen(a);
+    odd.widen(b);
+    even.widen(c);
+    odd.widen(d);
     const __m256d xz02 = _mm256_unpacklo_pd(a, b), y02 = _mm256_unpackhi_pd(a, b);
     const __m256d xz13 = _mm256_unpacklo_pd(c, d), y13 = _mm256_unpackhi_pd(c, d);
-    changed |= replace(in.x + i, _mm256_permute2f128_pd(xz02, xz13, 0x20));
-    changed |= replace(in.y + i, _mm256_permute2f128_pd(y02, y13, 0x20));
-    changed |= replace(in.z + i, _mm256_permute2f128_pd(xz02, xz13, 0x31));
+    const __m256d x = replace(in.x + i, _mm256_permute2f128_pd(xz02, xz13, 0x20));
+    const __m256d y = replace(in.y + i, _mm256_permute2f128_pd(y02, y13, 0x20));
+    const __m256d z = replace(in.z + i, _mm256_permute2f128_pd(xz02, xz13, 0x31));
+    differs = _mm256_or_pd(_mm256_or_pd(differs, x), _mm256_or_pd(y, z));
   }
+  bool changed = _mm256_movemask_pd(differs) != 0;
   for (; i < in.owned_count; ++i) {
     const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i]);
-    changed |= static_cast<unsigned>(in.x[i] != p[0]) | static_cast<unsigned>(in.y[i] != p[1]) |
-               static_cast<unsigned>(in.z[i] != p[2]);
+    changed = changed || in.x[i] != p[0] || in.y[i] != p[1] || in.z[i] != p[2];
     in.x[i] = p[0];
     in.y[i] = p[1];
     in.z[i] = p[2];
-    const __m256d v = load_vertex(in, in.owned[i]);
-    lower = _mm256_min_pd(lower, v);
-    upper = _mm256_max_pd(upper, v);
+    even.widen(load_vertex(in.source, in.owned[i]));
   }
-  for (int k = 0; k < in.borrowed_count; ++k) {
-    const __m256d v = load_vertex(in, in.borrowed[k]);
-    lower = _mm256_min_pd(lower, v);
-    upper = _mm256_max_pd(upper, v);
+  int k = 0;
+  for (; k + 2 <= in.borrowed_count; k += 2) {
+    even.widen(load_vertex(in.source, in.borrowed[k]));
+    odd.widen(load_vertex(in.source, in.borrowed[k + 1]));
   }
+  if (k < in.borrowed_count) even.widen(load_vertex(in.source, in.borrowed[k]));
+  const __m256d lower = _mm256_min_pd(even.lower, odd.lower), upper = _mm256_max_pd(even.upper, odd.upper);
   // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
   double low[4], high[4];
   _mm256_storeu_pd(low, _mm256_add_pd(lower, _mm256_setzero_pd()));
@@ -377,7 +403,7 @@ bool refresh_cluster(const RefreshInput& in, BoxBounds* box) {
     box->lower[axis] = low[axis];
     box->upper[axis] = high[axis];
   }
-  return changed != 0;
+  return changed;
 }
 
 #else
@@ -419,7 +445,7 @@ bool refresh_cluster(const RefreshInput& in, BoxBounds* box) {
 }  // namespace
 
 extern const Kernels TACT_KERNELS;
-const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, find_large, refresh_cluster, heights, select_heights, highest_point,
+const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, find_large, refresh_cluster, bounds, heights, select_heights, highest_point,
                               select_overlapping, fill_facet_block, cull_facets, near_facets, match_facets};
 
 }  // namespace tact::narrowphase

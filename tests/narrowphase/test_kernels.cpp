@@ -139,7 +139,7 @@ TEST(Kernels, RefreshCopiesWidensAndNoticesChanges) {
   for (int v = 0; v < mesh.vertex_count(); ++v) (v % 3 == 1 ? borrowed : owned).push_back(v);
   for (const Kernels* kernels : available()) {
     std::vector<double> x(owned.size()), y(owned.size()), z(owned.size());
-    const RefreshInput input{mesh.positions.data(), mesh.vertex_count(), owned.data(), static_cast<std::int32_t>(owned.size()),
+    const RefreshInput input{mesh.positions.data(), owned.data(), static_cast<std::int32_t>(owned.size()),
                              borrowed.data(), static_cast<std::int32_t>(borrowed.size()), x.data(), y.data(), z.data()};
     BoxBounds box;
     EXPECT_TRUE(kernels->refresh_cluster(input, &box));
