@@ -16,9 +16,12 @@ constexpr std::uint32_t kArriving = BlockTree::kNone - 1;
 constexpr std::size_t kBlockGrain = 64;    // blocks that a thread takes at a time
 constexpr std::size_t kPrefetch = 4;       // blocks ahead
 constexpr float kRegionMargin = 1.0f / 8;  // a block may grow by this part of its largest side, in each direction
+constexpr float kLoneRegionMargin = 4.0f;  // the same for a block of one box
 constexpr std::size_t kMergeRatio = 2;     // a batch is merged with arrivals of more than 1 / kMergeRatio of its size
 constexpr double kOrderCost = 40.0;        // what ordering costs for each block, in comparisons of two blocks: measured
 constexpr std::size_t kFewChanged = 4;  // with fewer than 1 / kFewChanged of the boxes changed, the cost tells nothing
+constexpr std::size_t kThin = 12;       // a batch of fewer than 1 / kThin of the boxes has a block for each box, since
+                                        // sixteen of them would span many blocks of the others; break-even at 12
 constexpr std::size_t kSparse = 4;      // the order is made anew when fewer than 1 / kSparse of the lanes hold a box
 
 bool occupied(const Box& box) {
@@ -60,10 +63,11 @@ void clear_lanes(Block& block) {
   block.exact_lanes = kAllLanes;
 }
 
-FloatBox widened(FloatBox box) {
+// `margin` is a part of the largest side.
+FloatBox widened(FloatBox box, float margin) {
   float largest = 0.0f;
   for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, box.upper[axis] - box.lower[axis]);
-  const float margin = kRegionMargin * largest;
+  margin *= largest;
   for (int axis = 0; axis < 3; ++axis) {
     box.lower[axis] -= margin;
     box.upper[axis] += margin;
@@ -104,7 +108,6 @@ void for_each_lane(std::uint32_t lanes, const Work& work) {
 
 void BlockTree::update(std::span<const Box> boxes, std::span<const std::uint32_t> changed,
                        std::span<const std::uint8_t> is_changed, int threads) {
-  if (levels_.empty()) levels_.resize(1);
   for (Level& level : levels_) std::fill(level.active.begin(), level.active.end(), std::uint16_t{0});
   resize(boxes.size());
   mark(boxes, changed);
@@ -222,9 +225,13 @@ void BlockTree::collect_leavers(std::span<const Box> boxes) {
 
 // Places the boxes that have no lane; says whether there was anything to do.
 bool BlockTree::place_arrivals(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, int threads) {
-  std::size_t count = arriving_.size();
-  for (const Batch& batch : batches_) count += batch.boxes;
-  const bool sparse = count * kSparse < members_.size();
+  std::size_t count = 0;
+  std::size_t room = 0;
+  for (const Batch& batch : batches_) {
+    count += batch.boxes;
+    room += batch.boxes_when_new;
+  }
+  const bool sparse = count * kSparse < room;
   if (arriving_.empty() && !sparse) return false;
   while (!batches_.empty() && (sparse || batches_.back().boxes < kMergeRatio * arriving_.size())) absorb_last_batch();
   if (batches_.empty()) {
@@ -249,17 +256,20 @@ void BlockTree::append_batch(std::span<const Box> boxes, std::span<const std::ui
   base::parallel_for(items_.size(), kBlockGrain * kLanes, threads,
                      [&](std::size_t i) { items_[i] = order_item(boxes[arriving_[i]], arriving_[i], frame_); });
   order_spatially(items_, boxes, threads);
+  std::size_t others = 0;
+  for (const Batch& batch : batches_) others += batch.boxes;
+  const std::size_t per_block = items_.size() * kThin < others ? 1 : kLanes;
   // Whole parents: the order is compact in runs of 16 blocks, counted from the front.
   const std::size_t first_block = blocks_for(levels_[0].blocks.size()) * kLanes;
-  const std::size_t block_count = blocks_for(items_.size());
+  const std::size_t block_count = (items_.size() + per_block - 1) / per_block;
   resize_leaves(first_block + block_count);
   base::parallel_for(block_count, kBlockGrain, threads, [&](std::size_t i) {
-    const std::size_t first = i * kLanes;
+    const std::size_t first = i * per_block;
     const std::span<const OrderItem> items = items_;
-    set_members(is_changed, first_block + i, items.subspan(first, std::min<std::size_t>(kLanes, items.size() - first)));
+    set_members(is_changed, first_block + i, items.subspan(first, std::min(per_block, items.size() - first)));
   });
   base::parallel_for(block_count, kBlockGrain, threads, [&](std::size_t i) { fill_leaf(boxes, first_block + i); });
-  batches_.push_back({first_block, items_.size()});
+  batches_.push_back({first_block, items_.size(), items_.size()});
   arriving_.clear();
 }
 
@@ -294,7 +304,8 @@ void BlockTree::fill_leaf(std::span<const Box> boxes, std::size_t index) {
   }
   Block& block = levels_[0].blocks[index];
   kernels_->refresh_lanes(block, doubles_of(boxes), members(index), lanes, frame_, kEverywhere);
-  regions_[index] = widened(block.bounds);
+  // The bounds of a single box are always tight.
+  regions_[index] = widened(block.bounds, std::has_single_bit(lanes) ? kLoneRegionMargin : kRegionMargin);
 }
 
 void BlockTree::refresh_upper_levels(bool reordered, int threads) {
@@ -303,13 +314,13 @@ void BlockTree::refresh_upper_levels(bool reordered, int threads) {
   while (count > 1) {
     ++level;
     count = blocks_for(count);
-    if (level == levels_.size()) levels_.emplace_back();
+    if (level == levels_.size()) levels_.emplace_back();  // kept when the tree shrinks, for its memory
     levels_[level].blocks.resize(count);
     levels_[level].active.resize(count, 0);
     base::parallel_for(count, kBlockGrain, threads,
                        [&](std::size_t index) { refresh_parent(level, index, reordered); });
   }
-  levels_.resize(level + 1);
+  level_count_ = level + 1;
 }
 
 void BlockTree::refresh_parent(std::size_t level, std::size_t index, bool reordered) {
@@ -336,10 +347,10 @@ bool BlockTree::validate(std::span<const Box> boxes) const {
   for (const Batch& batch : batches_) counted += batch.boxes;
   const auto free_lanes = static_cast<std::size_t>(std::count(members_.begin(), members_.end(), kNone));
   if (counted + free_lanes != members_.size()) return false;
-  for (std::size_t level = 0; level < levels_.size(); ++level) {
+  for (std::size_t level = 0; level < level_count_; ++level) {
     if (!validate_level(level)) return false;
   }
-  return levels_.empty() || levels_.back().blocks.size() <= 1;
+  return levels_[level_count_ - 1].blocks.size() <= 1;
 }
 
 bool BlockTree::validate_leaf_lanes(std::span<const Box> boxes) const {

@@ -32,7 +32,7 @@ class BlockTree {
   // future.
   void note_cost(std::size_t block_pairs, std::size_t changed_count);
 
-  std::size_t level_count() const { return levels_.size(); }
+  std::size_t level_count() const { return level_count_; }
   std::size_t block_count(std::size_t level) const { return levels_[level].blocks.size(); }
   const Block& block(std::size_t level, std::size_t index) const { return levels_[level].blocks[index]; }
   // A bit for each lane that holds or is above a box that the last update changed.
@@ -57,6 +57,7 @@ class BlockTree {
   struct Batch {
     std::size_t first_block = 0;
     std::size_t boxes = 0;
+    std::size_t boxes_when_new = 0;
   };
 
   void resize(std::size_t count);
@@ -83,7 +84,8 @@ class BlockTree {
   Frame frame_;
   double cost_when_new_ = 0.0;  // pairs of blocks for each changed box, at the first update after the order was made
   double excess_ = 0.0;         // pairs of blocks above that, since then
-  std::vector<Level> levels_;
+  std::vector<Level> levels_ = std::vector<Level>(1);
+  std::size_t level_count_ = 1;
   std::vector<std::uint32_t> members_;  // by lane of level 0; kNone where there is no box
   std::vector<FloatBox> regions_;       // by block of level 0: what its boxes may not leave
   std::vector<std::uint16_t> leavers_;  // by block of level 0: lanes whose box has just left

@@ -15,6 +15,7 @@ constexpr std::size_t kLargeRange = 4096;  // from this size on, sampling costs 
 constexpr std::size_t kPivotSample = 31;   // keys from which a pivot is chosen
 constexpr std::size_t kSelectRange = 48;   // up to this size, plain selection is as fast
 constexpr double kLargestExtent = 0x1p1000;
+constexpr std::size_t kParallelRanges = 64;  // the work is split in up to this many parts
 
 using Extent = std::array<double, 3>;  // mean size of the boxes, axis by axis
 
@@ -158,23 +159,20 @@ void order_spatially(std::span<OrderItem> items, std::span<const Box> boxes, int
     return;
   }
   // Every round cuts all ranges in two, side by side.
-  std::vector<Range> ranges{all};
-  while (ranges.size() < 8 * static_cast<std::size_t>(threads) && items.size() / ranges.size() >= kLargeRange) {
-    std::vector<Range> halves(2 * ranges.size());
-    base::parallel_for(ranges.size(), 1, threads, [&](std::size_t i) {
-      Range& range = ranges[i];
-      if (range.end - range.begin <= kLanes) {
-        halves[2 * i] = range;
-        halves[2 * i + 1] = {range.end, range.end, range.extent};
-        return;
-      }
-      const std::size_t middle = cut(items, boxes, range);
-      halves[2 * i] = {range.begin, middle, range.extent};
-      halves[2 * i + 1] = {middle, range.end, range.extent};
+  std::array<Range, kParallelRanges> ranges;
+  ranges[0] = all;
+  std::size_t count = 1;
+  while (2 * count <= kParallelRanges && items.size() / count >= kLargeRange) {
+    const std::array<Range, kParallelRanges> whole = ranges;
+    base::parallel_for(count, 1, threads, [&](std::size_t i) {
+      Range range = whole[i];
+      const std::size_t middle = range.end - range.begin > kLanes ? cut(items, boxes, range) : range.end;
+      ranges[2 * i] = {range.begin, middle, range.extent};
+      ranges[2 * i + 1] = {middle, range.end, range.extent};
     });
-    ranges = std::move(halves);
+    count *= 2;
   }
-  base::parallel_for(ranges.size(), 1, threads, [&](std::size_t i) { order_range(items, boxes, ranges[i]); });
+  base::parallel_for(count, 1, threads, [&](std::size_t i) { order_range(items, boxes, ranges[i]); });
 }
 
 }  // namespace tact::broadphase

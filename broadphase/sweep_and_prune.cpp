@@ -1,11 +1,17 @@
 #include "broadphase/sweep_and_prune.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
 #include "engine/base/floating_point_mode.h"
 
 namespace tact::broadphase {
+namespace {
+
+constexpr std::size_t kThreadShare = 2048;  // changed boxes for which one more thread is worth waking
+
+}  // namespace
 
 std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std::span<const Filter> filters,
                                                  std::span<const std::uint32_t> changed, int threads) {
@@ -14,6 +20,8 @@ std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std
   const base::FloatingPointMode mode;
   box_count_ = boxes.size();
   const std::size_t changed_count = mark(filters, changed);
+  threads = static_cast<int>(
+      std::min<std::size_t>(static_cast<std::size_t>(std::max(threads, 1)), 1 + changed_count / kThreadShare));
   tree_.update(boxes, changed, is_changed_, threads);
   const auto parts = join_.run(tree_, boxes, special_count_ == 0 ? std::span<const Filter>{} : filters, threads);
   tree_.note_cost(join_.visits(), changed_count);

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numeric>
 
-namespace tact::support {
+namespace tact::tests {
 namespace {
 
 using base::Box;
 using base::Vec3;
 
-// A cube of edge 1 meets 8 / kVolume * n others on average, half a pair each: about 0.97 pairs a box.
+// A cube of edge 1 meets 8 / kVolumePerBox others on average: about one pair a box.
 constexpr double kVolumePerBox = 4.0;
 constexpr double kStep = 0.02;  // largest motion in a step, as a part of the size
 constexpr int kLayers = 10;     // of which one slides
@@ -33,16 +33,13 @@ constexpr std::array kNames{
     Named{BoxWorkloadKind::lattice, "lattice"},
 };
 
-double uniform(std::mt19937& random, double lower, double upper) {
-  return lower + (upper - lower) * (static_cast<double>(random()) / 0x1p32);
-}
-
 Vec3 domain_for(BoxWorkloadKind kind, double count) {
   const double volume = kVolumePerBox * count;
   switch (kind) {
     case BoxWorkloadKind::tall_pile: return {2.0, 2.0, volume / 9.0};
     case BoxWorkloadKind::thin_layer: return {std::sqrt(volume), std::sqrt(volume), 0.5};
-    case BoxWorkloadKind::size_spread: return Vec3{1.0, 1.0, 1.0} * (0.26 * std::cbrt(volume));
+    case BoxWorkloadKind::size_spread:
+      return Vec3{1.0, 1.0, 1.0} * (2.17 * std::cbrt(volume));  // about one pair a box here too
     default: return Vec3{1.0, 1.0, 1.0} * std::cbrt(volume);
   }
 }
@@ -63,7 +60,7 @@ std::string name_of(BoxWorkloadKind kind) {
   return named->name;
 }
 
-BoxWorkload::BoxWorkload(BoxWorkloadKind kind, std::size_t count, std::uint32_t seed)
+BoxWorkload::BoxWorkload(BoxWorkloadKind kind, std::size_t count, std::uint64_t seed)
     : kind_(kind),
       random_(seed),
       domain_(domain_for(kind, static_cast<double>(count))),
@@ -71,7 +68,7 @@ BoxWorkload::BoxWorkload(BoxWorkloadKind kind, std::size_t count, std::uint32_t 
       velocities_(count),
       filters_(count),
       changed_(count) {
-  std::iota(changed_.begin(), changed_.end(), 0u);
+  mark_all();
   if (kind == BoxWorkloadKind::lattice) {
     place_lattice();
     return;
@@ -83,6 +80,11 @@ BoxWorkload::BoxWorkload(BoxWorkloadKind kind, std::size_t count, std::uint32_t 
   }
 }
 
+void BoxWorkload::mark_all() {
+  changed_.resize(boxes_.size());
+  std::iota(changed_.begin(), changed_.end(), 0u);
+}
+
 void BoxWorkload::step() {
   ++steps_;
   switch (kind_) {
@@ -92,7 +94,7 @@ void BoxWorkload::step() {
     case BoxWorkloadKind::few_moving:
       changed_.clear();
       for (std::size_t i = 0; i < std::min<std::size_t>(10, boxes_.size()); ++i) {
-        changed_.push_back(static_cast<std::uint32_t>(random_() % boxes_.size()));
+        changed_.push_back(static_cast<std::uint32_t>(random_.bits() % boxes_.size()));
         place(changed_.back());
       }
       break;
@@ -103,17 +105,17 @@ void BoxWorkload::step() {
 }
 
 Vec3 BoxWorkload::random_point() {
-  const double x = uniform(random_, 0.0, domain_.x);
-  const double y = uniform(random_, 0.0, domain_.y);
-  return {x, y, uniform(random_, 0.0, domain_.z)};
+  const double x = random_.uniform(0.0, domain_.x);
+  const double y = random_.uniform(0.0, domain_.y);
+  return {x, y, random_.uniform(0.0, domain_.z)};
 }
 
 Vec3 BoxWorkload::random_size(std::size_t index) {
   Vec3 size{1.0, 1.0, 1.0};
   if (kind_ == BoxWorkloadKind::size_spread) {
-    for (int axis = 0; axis < 3; ++axis) size[axis] = std::pow(1000.0, uniform(random_, -1.0, 0.0)) * 8.0;
+    size = (8.0 * std::pow(1000.0, random_.uniform(-1.0, 0.0))) * size;
   }
-  if (kind_ == BoxWorkloadKind::rods && index % 100 == 0) size[static_cast<int>(random_() % 3)] = 60.0;
+  if (kind_ == BoxWorkloadKind::rods && index % 100 == 0) size[random_.below(3)] = 20.0;
   return size;
 }
 
@@ -122,7 +124,7 @@ void BoxWorkload::place(std::size_t index) {
   const Vec3 lower = random_point() - 0.5 * size;
   boxes_[index] = {lower, lower + size};
   for (int axis = 0; axis < 3; ++axis)
-    velocities_[index][axis] = uniform(random_, -kStep, kStep) * std::min(size[axis], 1.0);
+    velocities_[index][axis] = random_.uniform(-kStep, kStep) * std::min(size[axis], 1.0);
 }
 
 // Bounces at the borders of the domain.
@@ -173,4 +175,4 @@ void BoxWorkload::exchange() {
   }
 }
 
-}  // namespace tact::support
+}  // namespace tact::tests

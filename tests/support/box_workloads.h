@@ -2,16 +2,17 @@
 // kind, the number of boxes and a seed. Boxes have a size of about 1, and the density does not depend on their number.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <random>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "broadphase/index_pair.h"
 #include "engine/base/box.h"
+#include "tests/support/random.h"
 
-namespace tact::support {
+namespace tact::tests {
 
 enum class BoxWorkloadKind {
   small_motion,  // cubes scattered in a cube, about one pair a box; each moves by up to 2 % of its size a step
@@ -21,8 +22,8 @@ enum class BoxWorkloadKind {
   tall_pile,     // a column three boxes wide: all overlap along x and y; motion as in small_motion
   thin_layer,    // a layer one box high: all overlap along z; motion as in small_motion
   one_huge,      // small_motion, and one box around all
-  size_spread,   // edges spread evenly in their logarithm from 1 : 1000, each axis by itself; motion in proportion
-  rods,          // small_motion with every hundredth box a rod of 1 x 1 x 60, along any axis
+  size_spread,   // cubes whose edges spread over 1 : 1000, evenly in their logarithm; motion in proportion
+  rods,          // small_motion with every hundredth box a rod of 1 x 1 x 20, along any axis
   lattice,       // bricks on a grid that touch in exactly equal coordinates; one layer in ten slides by a brick a step
 };
 
@@ -31,10 +32,13 @@ std::string name_of(BoxWorkloadKind kind);
 
 class BoxWorkload {
  public:
-  BoxWorkload(BoxWorkloadKind kind, std::size_t count, std::uint32_t seed);
+  BoxWorkload(BoxWorkloadKind kind, std::size_t count, std::uint64_t seed);
 
   // Moves the boxes. changed() then lists those that differ; before the first step it lists all.
   void step();
+
+  // Lists all boxes as changed.
+  void mark_all();
 
   std::span<const base::Box> boxes() const { return boxes_; }
   std::span<const broadphase::Filter> filters() const { return filters_; }
@@ -50,7 +54,7 @@ class BoxWorkload {
   void exchange();
 
   BoxWorkloadKind kind_;
-  std::mt19937 random_;
+  Random random_;
   base::Vec3 domain_;  // places lie between 0 and this
   std::vector<base::Box> boxes_;
   std::vector<base::Vec3> velocities_;
@@ -59,4 +63,4 @@ class BoxWorkload {
   int steps_ = 0;
 };
 
-}  // namespace tact::support
+}  // namespace tact::tests

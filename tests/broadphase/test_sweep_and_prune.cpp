@@ -1,0 +1,284 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <ostream>
+#include <vector>
+
+#include "broadphase/sweep_and_prune.h"
+#include "tests/support/box_pairs.h"
+#include "tests/support/box_workloads.h"
+#include "tests/support/random.h"
+
+namespace tact::broadphase {
+
+void PrintTo(const IndexPair& pair, std::ostream* out) { *out << '(' << pair.a << ',' << pair.b << ')'; }
+
+namespace {
+
+using base::Vec3;
+using tests::BoxWorkload;
+using tests::Random;
+
+using Pairs = std::vector<IndexPair>;
+
+Pairs copy(std::span<const IndexPair> pairs) { return {pairs.begin(), pairs.end()}; }
+
+std::vector<std::uint32_t> all_indices(std::size_t count) {
+  std::vector<std::uint32_t> indices(count);
+  std::iota(indices.begin(), indices.end(), 0u);
+  return indices;
+}
+
+// The pairs of boxes that have never been seen before, with default filters.
+Pairs fresh_pairs(const std::vector<Box>& boxes) {
+  SweepAndPrune sweep;
+  return copy(sweep.update(boxes, std::vector<Filter>(boxes.size()), all_indices(boxes.size()), 1));
+}
+
+Pairs expected_pairs(const std::vector<Box>& boxes) {
+  return tests::all_overlapping_pairs(boxes, std::vector<Filter>(boxes.size()));
+}
+
+Box cube(Vec3 lower, double edge) { return {lower, lower + Vec3{edge, edge, edge}}; }
+
+TEST(SweepAndPrune, NoBoxesHaveNoPairs) {
+  SweepAndPrune sweep;
+  EXPECT_TRUE(sweep.pairs().empty());
+  EXPECT_TRUE(sweep.update({}, {}, {}, 1).empty());
+  EXPECT_TRUE(fresh_pairs({cube({0, 0, 0}, 1)}).empty());
+}
+
+TEST(SweepAndPrune, FaceEdgeAndCornerContactCounts) {
+  for (const Vec3 offset :
+       {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{1, 1, 0}, Vec3{1, 1, 1}, Vec3{-1, 1, -1}}) {
+    EXPECT_EQ(fresh_pairs({cube({0, 0, 0}, 1), cube(offset, 1)}), (Pairs{{0, 1}}));
+    EXPECT_TRUE(fresh_pairs({cube({0, 0, 0}, 1), cube(std::nextafter(1.0, 2.0) * offset, 1)}).empty());
+  }
+}
+
+// A float cannot tell these apart; a double can.
+TEST(SweepAndPrune, GapsAndContactsOfOneUnitInTheLastPlaceAreTold) {
+  for (const double x : {1.0, 1.0 / 3.0, 1e6 / 7.0, 1e15 / 3.0, 1e-300}) {
+    const Box left{{-x, 0, 0}, {x, 1, 1}};
+    const Box filler{{-4 * x, 5, 5}, {5 * x, 6, 6}};
+    EXPECT_EQ(fresh_pairs({left, {{x, 0, 0}, {3 * x, 1, 1}}, filler}), (Pairs{{0, 1}})) << x;
+    EXPECT_TRUE(fresh_pairs({left, {{std::nextafter(x, 1e16), 0, 0}, {3 * x, 1, 1}}, filler}).empty()) << x;
+    EXPECT_EQ(fresh_pairs({left, {{std::nextafter(x, 0), 0, 0}, {3 * x, 1, 1}}, filler}), (Pairs{{0, 1}})) << x;
+  }
+}
+
+TEST(SweepAndPrune, EmptyBoxesOverlapNothing) {
+  const Box halfway{{1, 0, 0}, {0, 1, 1}};  // lower > upper on one axis alone
+  EXPECT_EQ(fresh_pairs({Box{}, cube({0, 0, 0}, 1), Box{}, cube({0.5, 0, 0}, 1), halfway, Box{}}), (Pairs{{1, 3}}));
+}
+
+TEST(SweepAndPrune, EqualBoxesAllOverlap) {
+  for (const double edge : {0.0, 1.0 / 3.0}) {
+    const std::vector<Box> boxes(100, cube({0.1, -7.3, 1e5 / 3}, edge));
+    EXPECT_EQ(fresh_pairs(boxes), expected_pairs(boxes));
+  }
+}
+
+TEST(SweepAndPrune, ExtremeCoordinates) {
+  const double huge = 0x1p300;
+  const double tiny = 0x1p-1074;
+  std::vector<Box> boxes{
+      {{-huge, -huge, -huge}, {huge, huge, huge}},
+      {{huge, huge, huge}, {huge, huge, huge}},
+      {{-huge, 0, 0}, {-huge / 2, tiny, tiny}},
+      {{-tiny, -tiny, -tiny}, {tiny, tiny, tiny}},
+      {{2 * tiny, 0, 0}, {3 * tiny, 0, 0}},
+      {{tiny, tiny, tiny}, {2 * tiny, 2 * tiny, 2 * tiny}},
+      {{0, 0, 0}, {0, 0, 0}},
+      {{-0.0, -0.0, -0.0}, {-0.0, -0.0, -0.0}},
+      {{huge / 2, 0, 0}, {huge, 1, 1}},
+      {{1, 1, 1}, {2, 2, 2}},
+  };
+  EXPECT_EQ(fresh_pairs(boxes), expected_pairs(boxes));
+  Random random(5);
+  for (int i = 0; i < 300; ++i) {
+    const double scale = std::ldexp(1.0, random.below(1374) - 1074);
+    boxes.push_back(cube(scale * random.in_cube(1.0), scale * random.uniform()));
+  }
+  EXPECT_EQ(fresh_pairs(boxes), expected_pairs(boxes));
+}
+
+TEST(SweepAndPrune, FarFromTheOrigin) {
+  for (const double offset : {1e6, 1e9, -1e12}) {
+    Random random(6);
+    std::vector<Box> boxes;
+    for (int i = 0; i < 500; ++i) boxes.push_back(cube(random.in_cube(5.0) + Vec3{offset, -offset, 0.5 * offset}, 1.0));
+    for (int i = 0; i < 500; ++i) boxes.push_back(cube(random.in_cube(5.0), 1.0));
+    EXPECT_EQ(fresh_pairs(boxes), expected_pairs(boxes)) << offset;
+  }
+}
+
+TEST(SweepAndPrune, FiltersDecide) {
+  const std::vector<Box> boxes(6, cube({0, 0, 0}, 1));
+  const std::vector<Filter> filters{{.layer = 1, .mask = 2},
+                                    {.layer = 2, .mask = 1},
+                                    {.layer = 2, .mask = 2},
+                                    {.layer = 3, .mask = 3, .fixed = true},
+                                    {.layer = 3, .mask = 3, .fixed = true},
+                                    {.layer = 4, .mask = 0}};
+  SweepAndPrune sweep;
+  EXPECT_EQ(copy(sweep.update(boxes, filters, all_indices(6), 1)),
+            (Pairs{{0, 1}, {0, 3}, {0, 4}, {1, 3}, {1, 4}, {2, 3}, {2, 4}}));
+}
+
+// Every workload, at sizes around those of a block and of a block of blocks, on several numbers of threads.
+TEST(SweepAndPrune, EveryWorkloadEqualsBruteForceOverSteps) {
+  for (const tests::BoxWorkloadKind kind : tests::all_box_workloads()) {
+    for (const std::size_t count : {1, 2, 15, 17, 256, 257, 1000}) {
+      BoxWorkload workload(kind, count, 100 + count);
+      SweepAndPrune one;
+      SweepAndPrune two;
+      for (int step = 0; step < 12; ++step) {
+        if (step > 0) workload.step();
+        const Pairs expected = tests::all_overlapping_pairs(workload.boxes(), workload.filters());
+        const auto where = [&] {
+          return name_of(kind) + ", " + std::to_string(count) + " boxes, step " + std::to_string(step);
+        };
+        ASSERT_EQ(copy(one.update(workload.boxes(), workload.filters(), workload.changed(), 1)), expected) << where();
+        ASSERT_EQ(copy(two.update(workload.boxes(), workload.filters(), workload.changed(), 2)), expected) << where();
+        ASSERT_TRUE(one.validate(workload.boxes())) << where();
+      }
+    }
+  }
+}
+
+TEST(SweepAndPrune, ThreadsDoNotMatter) {
+  for (const tests::BoxWorkloadKind kind : tests::all_box_workloads()) {
+    BoxWorkload workload(kind, 10000, 3);
+    SweepAndPrune one;
+    SweepAndPrune two;
+    SweepAndPrune eight;
+    for (int step = 0; step < 3; ++step) {
+      if (step > 0) workload.step();
+      const Pairs pairs = copy(one.update(workload.boxes(), workload.filters(), workload.changed(), 1));
+      ASSERT_EQ(copy(two.update(workload.boxes(), workload.filters(), workload.changed(), 2)), pairs) << name_of(kind);
+      ASSERT_EQ(copy(eight.update(workload.boxes(), workload.filters(), workload.changed(), 8)), pairs)
+          << name_of(kind);
+    }
+  }
+}
+
+// What a world may do between two calls, at random.
+class RandomHistory {
+ public:
+  explicit RandomHistory(std::uint64_t seed) : random_(seed), size_(random_.chance(0.5) ? 1.0 : 0.25) {}
+
+  void step() {
+    changed_.clear();
+    const double busy = random_.uniform() * random_.uniform();
+    if (random_.chance(0.3)) resize(static_cast<std::size_t>(random_.below(400)));
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+      if (random_.chance(busy)) change(i);
+    }
+    if (random_.chance(0.2) && !boxes.empty())
+      changed_.push_back(static_cast<std::uint32_t>(random_.below(static_cast<int>(boxes.size()))));
+    if (random_.chance(0.2) && !changed_.empty()) changed_.push_back(changed_.front());  // listed twice
+  }
+
+  const std::vector<std::uint32_t>& changed() const { return changed_; }
+  std::vector<Box> boxes;
+  std::vector<Filter> filters;
+
+ private:
+  void resize(std::size_t count) {
+    const auto old_count = static_cast<std::uint32_t>(boxes.size());
+    boxes.resize(count);
+    filters.resize(count);
+    for (std::uint32_t i = old_count; i < count; ++i) {
+      boxes[i] = random_box();
+      changed_.push_back(i);
+    }
+  }
+
+  void change(std::uint32_t i) {
+    changed_.push_back(i);
+    switch (random_.below(5)) {
+      case 0: boxes[i] = Box{}; break;
+      case 1: boxes[i] = random_box(); break;
+      case 2: filters[i] = {1u << random_.below(3), random_.chance(0.5) ? 0xffffffffu : 5u, random_.chance(0.2)}; break;
+      default:
+        if (boxes[i].empty()) break;
+        const Vec3 motion = random_.in_cube(0.05);
+        boxes[i] = {boxes[i].lower + motion, boxes[i].upper + motion};
+    }
+  }
+
+  // Now and then on a lattice, so that faces touch.
+  Box random_box() {
+    const Vec3 place = random_.in_cube(4.0);
+    if (random_.chance(0.3)) return cube({std::round(place.x), std::round(place.y), std::round(place.z)}, 1.0);
+    return cube(place, size_ * (random_.chance(0.02) ? 8.0 : 1.0) * random_.uniform());
+  }
+
+  Random random_;
+  double size_;
+  std::vector<std::uint32_t> changed_;
+};
+
+TEST(SweepAndPrune, RandomHistoriesEqualBruteForce) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    RandomHistory history(seed);
+    SweepAndPrune sweep;
+    for (int step = 0; step < 40; ++step) {
+      history.step();
+      const int threads = seed % 4 == 0 ? 2 : 1;
+      const Pairs pairs = copy(sweep.update(history.boxes, history.filters, history.changed(), threads));
+      ASSERT_EQ(pairs, tests::all_overlapping_pairs(history.boxes, history.filters))
+          << "seed " << seed << ", step " << step;
+      ASSERT_EQ(copy(sweep.pairs()), pairs);
+      ASSERT_TRUE(sweep.validate(history.boxes)) << "seed " << seed << ", step " << step;
+    }
+  }
+}
+
+TEST(SweepAndPrune, ManyBoxesEqualThoseFoundAfresh) {
+  for (const tests::BoxWorkloadKind kind : tests::all_box_workloads()) {
+    BoxWorkload workload(kind, 10000, 8);
+    SweepAndPrune carried;
+    for (int step = 0; step < 60; ++step) {
+      if (step > 0) workload.step();
+      carried.update(workload.boxes(), workload.filters(), workload.changed(), 1);
+      if (step % 20 != 19) continue;
+      SweepAndPrune fresh;
+      const auto expected = fresh.update(workload.boxes(), workload.filters(), all_indices(10000), 1);
+      ASSERT_TRUE(std::ranges::equal(carried.pairs(), expected)) << name_of(kind) << ", step " << step;
+    }
+  }
+}
+
+// Known from other libraries: an update with nothing moved reorders the pairs, or costs as much as any other.
+TEST(SweepAndPrune, NothingChangedReturnsTheSamePairsAtOnce) {
+  BoxWorkload workload(tests::BoxWorkloadKind::small_motion, 100000, 4);
+  SweepAndPrune sweep;
+  const auto pairs = sweep.update(workload.boxes(), workload.filters(), workload.changed(), 1);
+  const Pairs before = copy(pairs);
+  const auto start = std::chrono::steady_clock::now();
+  constexpr int kCalls = 100000;
+  for (int i = 0; i < kCalls; ++i)
+    ASSERT_EQ(sweep.update(workload.boxes(), workload.filters(), {}, 2).data(), pairs.data());
+  const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
+  EXPECT_EQ(copy(sweep.pairs()), before);
+  EXPECT_LT(time.count() / kCalls, 1.0);
+}
+
+TEST(SweepAndPrune, BoxesPastTheEndLeave) {
+  const std::vector<Box> boxes(5, cube({0, 0, 0}, 1));
+  const std::vector<Filter> filters(5, Filter{.layer = 2, .mask = 2});
+  SweepAndPrune sweep;
+  sweep.update(boxes, filters, all_indices(5), 1);
+  EXPECT_EQ(copy(sweep.update(std::span(boxes).first(3), std::span(filters).first(3), {}, 1)),
+            (Pairs{{0, 1}, {0, 2}, {1, 2}}));
+  EXPECT_TRUE(sweep.validate(std::span(boxes).first(3)));
+  EXPECT_TRUE(sweep.update({}, {}, {}, 1).empty());
+  EXPECT_EQ(sweep.update(boxes, filters, all_indices(5), 1).size(), 10u);
+}
+
+}  // namespace
+}  // namespace tact::broadphase
