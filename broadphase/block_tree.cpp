@@ -109,16 +109,28 @@ void for_each_lane(std::uint32_t lanes, const Work& work) {
 void BlockTree::update(std::span<const Box> boxes, std::span<const std::uint32_t> changed,
                        std::span<const std::uint8_t> is_changed, int threads) {
   for (Level& level : levels_) std::fill(level.active.begin(), level.active.end(), std::uint16_t{0});
+  if (worn_out() || !keep_order(boxes, changed, threads)) start_afresh(boxes);
+  const std::size_t first_new = place_arrivals(boxes, is_changed, threads);
+  refresh_upper_levels(first_new, threads);
+}
+
+// Refreshes the blocks and takes out the boxes that left them; stops and says no if those are so many that placing them
+// would come to a new order of all boxes. A sixteenth of the blocks tells that early.
+bool BlockTree::keep_order(std::span<const Box> boxes, std::span<const std::uint32_t> changed, int threads) {
   resize(boxes.size());
   mark(boxes, changed);
-  refresh_leaves(boxes, threads);
-  if (worn_out() || most_left()) {
-    start_afresh(boxes);
-  } else {
-    collect_leavers(boxes);
-  }
-  const bool reordered = place_arrivals(boxes, is_changed, threads);
-  refresh_upper_levels(reordered, threads);
+  const std::size_t count = levels_[0].blocks.size();
+  const auto refresh = [&](std::size_t index) {
+    if (levels_[0].active[index] != 0) refresh_leaf(boxes, index);
+  };
+  base::parallel_for(blocks_for(count), kBlockGrain, threads, [&](std::size_t group) { refresh(group * kLanes); });
+  if (most_left(kLanes)) return false;
+  base::parallel_for(count, kBlockGrain, threads, [&](std::size_t index) {
+    if (index % kLanes != 0) refresh(index);
+  });
+  if (most_left(1)) return false;
+  collect_leavers(boxes);
+  return true;
 }
 
 // Takes out the boxes past the end.
@@ -143,12 +155,6 @@ void BlockTree::mark(std::span<const Box> boxes, std::span<const std::uint32_t> 
       arriving_.push_back(index);
     }
   }
-}
-
-void BlockTree::refresh_leaves(std::span<const Box> boxes, int threads) {
-  base::parallel_for(levels_[0].blocks.size(), kBlockGrain, threads, [&](std::size_t index) {
-    if (levels_[0].active[index] != 0) refresh_leaf(boxes, index);
-  });
 }
 
 // The boxes of a block are scattered over memory.
@@ -186,13 +192,15 @@ void BlockTree::note_cost(std::size_t block_pairs, std::size_t changed_count) {
 
 bool BlockTree::worn_out() const { return excess_ > kOrderCost * static_cast<double>(levels_[0].blocks.size()); }
 
-// Whether placing the leavers would come to a new order of all boxes.
-bool BlockTree::most_left() const {
+// Whether most boxes have left, if `weight` times the known leavers have.
+bool BlockTree::most_left(std::size_t weight) const {
   std::size_t leavers = 0;
   std::size_t count = 0;
-  for (const std::uint16_t lanes : leavers_) leavers += static_cast<std::size_t>(std::popcount(lanes));
+  for (const std::uint16_t lanes : leavers_) {
+    if (lanes != 0) leavers += static_cast<std::size_t>(std::popcount(lanes));
+  }
   for (const Batch& batch : batches_) count += batch.boxes;
-  return count < (1 + kMergeRatio) * leavers;
+  return count < (1 + kMergeRatio) * weight * leavers;
 }
 
 // Takes all boxes out, in the order of their indices: reading them so is much faster than block by block.
@@ -223,8 +231,9 @@ void BlockTree::collect_leavers(std::span<const Box> boxes) {
   lane_of_.resize(boxes.size());
 }
 
-// Places the boxes that have no lane; says whether there was anything to do.
-bool BlockTree::place_arrivals(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, int threads) {
+// Places the boxes that have no lane; returns the first block that is new.
+std::size_t BlockTree::place_arrivals(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed,
+                                      int threads) {
   std::size_t count = 0;
   std::size_t room = 0;
   for (const Batch& batch : batches_) {
@@ -232,14 +241,15 @@ bool BlockTree::place_arrivals(std::span<const Box> boxes, std::span<const std::
     room += batch.boxes_when_new;
   }
   const bool sparse = count * kSparse < room;
-  if (arriving_.empty() && !sparse) return false;
+  if (arriving_.empty() && !sparse) return levels_[0].blocks.size();
   while (!batches_.empty() && (sparse || batches_.back().boxes < kMergeRatio * arriving_.size())) absorb_last_batch();
   if (batches_.empty()) {
     frame_ = central_frame(boxes, arriving_);
     excess_ = cost_when_new_ = 0.0;
   }
+  const std::size_t first_new = levels_[0].blocks.size();
   append_batch(boxes, is_changed, threads);
-  return true;
+  return first_new;
 }
 
 void BlockTree::absorb_last_batch() {
@@ -308,37 +318,41 @@ void BlockTree::fill_leaf(std::span<const Box> boxes, std::size_t index) {
   regions_[index] = widened(block.bounds, std::has_single_bit(lanes) ? kLoneRegionMargin : kRegionMargin);
 }
 
-void BlockTree::refresh_upper_levels(bool reordered, int threads) {
+// Blocks of level 0 from `first_new` on are new, or gone.
+void BlockTree::refresh_upper_levels(std::size_t first_new, int threads) {
   std::size_t count = levels_[0].blocks.size();
   std::size_t level = 0;
   while (count > 1) {
     ++level;
     count = blocks_for(count);
     if (level == levels_.size()) levels_.emplace_back();  // kept when the tree shrinks, for its memory
-    levels_[level].blocks.resize(count);
-    levels_[level].active.resize(count, 0);
+    Level& parents = levels_[level];
+    const std::size_t old_count = level < level_count_ ? parents.blocks.size() : 0;
+    first_new = std::min(first_new / kLanes, old_count);
+    parents.blocks.resize(count);
+    parents.active.resize(count, 0);
     base::parallel_for(count, kBlockGrain, threads,
-                       [&](std::size_t index) { refresh_parent(level, index, reordered); });
+                       [&](std::size_t index) { refresh_parent(level, index, index >= first_new); });
   }
   level_count_ = level + 1;
 }
 
-void BlockTree::refresh_parent(std::size_t level, std::size_t index, bool reordered) {
+void BlockTree::refresh_parent(std::size_t level, std::size_t index, bool is_new) {
   const Level& below = levels_[level - 1];
   Block& block = levels_[level].blocks[index];
   const std::size_t first = index * kLanes;
   const std::size_t children = std::min<std::size_t>(kLanes, below.blocks.size() - first);
   std::uint32_t active = 0;
   for (std::uint32_t lane = 0; lane < children; ++lane) {
-    if (below.active[first + lane] == 0 && !reordered) continue;
+    if (below.active[first + lane] == 0 && !is_new) continue;
     active |= static_cast<std::uint32_t>(below.active[first + lane] != 0) << lane;
     set_lane(block, lane, below.blocks[first + lane].bounds);
   }
-  if (reordered) {
+  if (is_new) {
     for (auto lane = static_cast<std::uint32_t>(children); lane < kLanes; ++lane) set_lane(block, lane, kEmpty);
   }
   levels_[level].active[index] = static_cast<std::uint16_t>(active);
-  if (active != 0 || reordered) refresh_bounds(block);
+  if (active != 0 || is_new) refresh_bounds(block);
 }
 
 bool BlockTree::validate(std::span<const Box> boxes) const {

@@ -62,21 +62,21 @@ class BlockTree {
 
   void resize(std::size_t count);
   void mark(std::span<const Box> boxes, std::span<const std::uint32_t> changed);
-  void refresh_leaves(std::span<const Box> boxes, int threads);
   void prefetch_boxes(std::span<const Box> boxes, std::size_t index) const;
   void refresh_leaf(std::span<const Box> boxes, std::size_t index);
   bool worn_out() const;
-  bool most_left() const;
+  bool keep_order(std::span<const Box> boxes, std::span<const std::uint32_t> changed, int threads);
+  bool most_left(std::size_t weight) const;
   void start_afresh(std::span<const Box> boxes);
   void collect_leavers(std::span<const Box> boxes);
-  bool place_arrivals(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, int threads);
+  std::size_t place_arrivals(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, int threads);
   void absorb_last_batch();
   void append_batch(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, int threads);
   void resize_leaves(std::size_t count);
   void set_members(std::span<const std::uint8_t> is_changed, std::size_t index, std::span<const OrderItem> items);
   void fill_leaf(std::span<const Box> boxes, std::size_t index);
-  void refresh_upper_levels(bool reordered, int threads);
-  void refresh_parent(std::size_t level, std::size_t index, bool reordered);
+  void refresh_upper_levels(std::size_t first_new, int threads);
+  void refresh_parent(std::size_t level, std::size_t index, bool is_new);
   bool validate_leaf_lanes(std::span<const Box> boxes) const;
   bool validate_level(std::size_t level) const;
 
