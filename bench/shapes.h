@@ -1,0 +1,31 @@
+// Meshes that the benchmarks' workloads are made of. Only +, -, *, / and the square root are used, so that a workload
+// has the same bits on every platform. Closed ones have facets counter-clockwise seen from outside.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace tact::bench {
+
+// Positions 3 x V in metres, facets 3 x F.
+struct Shape {
+  Eigen::Matrix3Xd positions{3, 0};
+  Eigen::Matrix3Xi facets{3, 0};
+};
+
+// The unit sphere as an icosahedron with every facet cut into frequency²: 20 * frequency² facets of nearly equal size,
+// stored facet of the icosahedron by facet, row by row.
+Shape geodesic_sphere(int frequency);
+
+// A square sheet in z = 0 about the origin, `cells` x `cells` squares of two facets each, stored row by row.
+Shape square_sheet(int cells, double size);
+
+// A rod of radius 1 from z = 0, its blunt tip, to z = 1, with 2 * around * (bands - 1) facets.
+Shape rod(int around, int bands);
+
+// An axis-aligned box: 8 vertices, 12 facets.
+Shape brick(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper);
+
+// A smooth wave of period 1 through 0 at 0, between -1 and 1; two parabolas that meet with equal slope.
+double wave(double phase);
+
+}  // namespace tact::bench

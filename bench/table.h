@@ -1,0 +1,40 @@
+// A table of results: printed in columns, kept as a CSV file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tact::bench {
+
+class Table {
+ public:
+  explicit Table(std::vector<std::string> header) : header_(std::move(header)) {}
+
+  // One cell a column.
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+
+  // Columns as wide as they need to be, the first to the left, the others to the right; a blank line follows.
+  void print() const;
+  // Cells with commas or quotes are quoted. Errors: std::runtime_error, naming the file.
+  void write_csv(const std::filesystem::path& file) const;
+
+ private:
+  std::vector<std::string> header_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+// A time or a factor with three significant digits.
+std::string three_digits(double value);
+
+// A line that says where the figures come from: processor, number of them, threads, compiler.
+std::string machine_line(int threads);
+
+// The number of threads that 0 stands for, or `asked`.
+int thread_count(int asked);
+
+// Runs gnuplot on `script`, once with output to out/name.png and once to out/name.svg, in the folder `out`.
+// Errors: std::runtime_error if gnuplot is missing or fails.
+void plot(const std::filesystem::path& out, const std::string& name, const std::string& script);
+
+}  // namespace tact::bench

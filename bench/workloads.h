@@ -1,0 +1,71 @@
+// Bodies whose positions are known for every frame: what tact and its rivals are measured on. Each workload is made
+// from a few numbers and a seed, has the same bits on every platform, and repeats without a jump: frame 0 follows the
+// last.
+#pragma once
+
+#include <tact/body.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tact::bench {
+
+struct WorkloadBody {
+  Eigen::Matrix3Xi facets{3, 0};
+  Surface surface = Surface::closed;
+  std::vector<Eigen::Matrix3Xd> frames;  // 3 x V metres, one a frame; a single one: the body is fixed
+
+  bool fixed() const { return frames.size() == 1; }
+  const Eigen::Matrix3Xd& positions(int frame) const { return frames[fixed() ? 0 : static_cast<std::size_t>(frame)]; }
+};
+
+struct Workload {
+  int frames = 0;
+  std::vector<WorkloadBody> bodies;
+
+  std::size_t facet_count() const;
+};
+
+// A sheet of `cells` x `cells` squares, 4 m wide, that falls on a fixed sphere of radius 1 m, drapes over it and is
+// lifted off again. Its wrinkles cross the sphere in patches.
+Workload cloth(int cells, int frames);
+
+// `count` blobs of 20 * frequency² facets and radius about 1 m, packed on a loose cubic grid so that each overlaps its
+// neighbours, six inside the pile, shallowly; dents wander over them and they jostle.
+Workload pile(int count, int frequency, int frames);
+
+// A bent organ of 500 facets that breathes, and a rod of 100 that moves in and out of it.
+Workload organ_and_tool(int frames);
+
+// `count` blobs of 80 facets at random places, so thinly that few touch.
+Workload scattered(int count, int frames);
+
+// Two blobs of 20 * frequency² facets each in shallow overlap.
+Workload large_pair(int frequency, int frames);
+
+enum class Pose {
+  aligned,  // all face coordinates are whole numbers of 1/64 m and equal where bricks touch
+  rotated,  // the same turned by a rotation, another in every frame: what touches hangs on the last bit
+};
+
+// A wall of `courses` layers of `side` x `side` bricks in running bond, every brick resting exactly on others. It moves
+// as a whole.
+Workload brick_wall(int side, int courses, Pose pose, int frames);
+
+// A row of the table: a workload and what has to be reached on it.
+struct NamedWorkload {
+  std::string name;
+  std::string description;
+  double required_factor = 1.0;  // how many times faster than the fastest rival tact must be
+  std::function<Workload()> make;
+};
+
+enum class Size { full, small };
+
+// The rows, in order; small ones are of the same kinds and made and solved in milliseconds.
+std::vector<NamedWorkload> rival_workloads(Size size);
+
+}  // namespace tact::bench
