@@ -23,6 +23,7 @@ bool touches(const PairRecord& record) { return record.hulls_overlap && !record.
 
 const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh_ms) {
   Timer total, timer;
+  if (forgotten_) start_afresh();
   if (bodies.changed().empty() && !all_) {
     keep_report();
     report_.stats_.refresh_ms = refresh_ms;
@@ -47,7 +48,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   return report_;
 }
 
-void Step::forget() {
+void Step::start_afresh() {
   sweep_ = {};
   records_.clear();
   previous_.clear();
@@ -55,8 +56,10 @@ void Step::forget() {
   free_.clear();
   pool_.clear();
   large_.clear();
+  thread_work_.clear();
   report_ = {};
   all_ = true;
+  forgotten_ = false;
 }
 
 // Nothing moved: the last answer stands, its events and its work do not.

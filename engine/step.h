@@ -21,10 +21,11 @@ class Step {
 
   // The next step looks at every pair; directions are carried on.
   void look_at_all() { all_ = true; }
-  // The next step starts from nothing: after a step that failed half-way.
-  void forget();
+  // The next step starts from nothing: after a step that failed half-way. Allocates nothing.
+  void forget() noexcept { forgotten_ = true; }
 
  private:
+  void start_afresh();
   void match_records(const Bodies& bodies);
   void narrow_phase(const Bodies& bodies, const Settings& settings);
   void make_report(const Bodies& bodies, const Settings& settings);
@@ -46,6 +47,7 @@ class Step {
   narrowphase::EmbreeDevice device_;
   Report report_;
   bool all_ = true;
+  bool forgotten_ = false;
 };
 
 }  // namespace tact

@@ -34,6 +34,16 @@ Settings checked(Settings settings) {
   return settings;
 }
 
+// Calls `work`; a failed allocation becomes the error that the interface names.
+template <class Work>
+decltype(auto) with_memory(const char* what, const Work& work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::out_of_memory, what);
+  }
+}
+
 }  // namespace
 
 struct World::Implementation {
@@ -59,20 +69,22 @@ void World::set_settings(const Settings& settings) {
 
 BodyId World::add_body(const BodyDefinition& definition) {
   const base::FloatingPointMode mode;
-  return implementation_->bodies.add(definition);
+  return with_memory("adding a body ran out of memory", [&] { return implementation_->bodies.add(definition); });
 }
 
 void World::remove_body(BodyId body) { implementation_->bodies.remove(body); }
 
 void World::set_positions(BodyId body, const Eigen::Ref<const Eigen::Matrix3Xd>& positions) {
   base::Timer timer;
-  implementation_->bodies.set_positions(body, positions, implementation_->settings.threads);
+  with_memory("setting positions ran out of memory",
+              [&] { implementation_->bodies.set_positions(body, positions, implementation_->settings.threads); });
   implementation_->refresh_ms += timer.lap();
 }
 
 void World::set_positions(std::span<const PositionsUpdate> updates) {
   base::Timer timer;
-  implementation_->bodies.set_positions(updates, implementation_->settings.threads);
+  with_memory("setting positions ran out of memory",
+              [&] { implementation_->bodies.set_positions(updates, implementation_->settings.threads); });
   implementation_->refresh_ms += timer.lap();
 }
 
@@ -80,17 +92,15 @@ const Report& World::detect() {
   Implementation& i = *implementation_;
   const double refresh_ms = std::exchange(i.refresh_ms, 0.0);
   const base::FloatingPointMode mode;
-  try {
-    return i.step.run(i.bodies, i.settings, refresh_ms);
-  } catch (...) {
-    i.step.forget();
-    i.bodies.mark_all_changed();
+  return with_memory("detect ran out of memory; the next call starts afresh", [&]() -> const Report& {
     try {
+      return i.step.run(i.bodies, i.settings, refresh_ms);
+    } catch (...) {
+      i.step.forget();
+      i.bodies.mark_all_changed();
       throw;
-    } catch (const std::bad_alloc&) {
-      throw Error(ErrorCode::out_of_memory, "detect ran out of memory; the next call starts afresh");
     }
-  }
+  });
 }
 
 bool World::contains(BodyId body) const noexcept { return implementation_->bodies.contains(body); }

@@ -83,8 +83,9 @@ void BoxArrays::set(std::size_t i, const Box& box) {
   }
 }
 
-BoxPointers BoxArrays::pointers() const {
-  return {{lower[0].data(), lower[1].data(), lower[2].data()}, {upper[0].data(), upper[1].data(), upper[2].data()}};
+BoxPointers BoxArrays::pointers(int first) const {
+  return {{lower[0].data() + first, lower[1].data() + first, lower[2].data() + first},
+          {upper[0].data() + first, upper[1].data() + first, upper[2].data() + first}};
 }
 
 PositionProblem find_position_problem(const double* positions, std::size_t count, double largest) {
@@ -100,6 +101,7 @@ ClusteredMesh::ClusteredMesh(std::span<const double> positions, std::span<const 
   number_vertices(facets);
   for (auto& coordinate : coordinate_) coordinate.assign(source_vertex_.size() + kPadding, 0.0);
   cluster_boxes_.resize(static_cast<std::size_t>(cluster_count()));
+  group_boxes_.resize(static_cast<std::size_t>(group_count()));
   set_positions(positions.data(), 1);
 }
 
@@ -157,7 +159,11 @@ bool ClusteredMesh::set_positions(const double* positions, int threads) {
     });
     for (const char one : range_changed) changed = changed || one != 0;
   }
-  box_ = box_of(kernels().bounds(cluster_boxes_.pointers(), cluster_count()));
+  for (int g = 0; g < group_count(); ++g) {
+    const int begin = cluster_begin(g), count = cluster_end(g) - begin;
+    group_boxes_.set(static_cast<std::size_t>(g), box_of(kernels().bounds(cluster_boxes_.pointers(begin), count)));
+  }
+  box_ = box_of(kernels().bounds(group_boxes_.pointers(), group_count()));
   return changed;
 }
 
@@ -209,6 +215,11 @@ void ClusteredMesh::validate() const {
     whole = merged(whole, box);
   }
   if (!(whole == box_)) broken("box of the mesh");
+  for (int g = 0; g < group_count(); ++g) {
+    Box box;
+    for (int c = cluster_begin(g); c < cluster_end(g); ++c) box = merged(box, cluster_boxes_[static_cast<std::size_t>(c)]);
+    if (!(box == group_boxes_[static_cast<std::size_t>(g)])) broken("box of group " + std::to_string(g));
+  }
 }
 
 }  // namespace tact::narrowphase

@@ -21,7 +21,8 @@ namespace tact::narrowphase {
 using base::Box;
 using base::Vec3;
 
-inline constexpr int kClusterSize = 64;
+inline constexpr int kClusterSize = 64;  // facets in a cluster, at most
+inline constexpr int kGroupSize = 32;    // clusters in a group, at most: neighbours, with a box of their own
 
 // Corners of a facet as vertices, and as points.
 using Corners = std::array<int, 3>;
@@ -38,7 +39,7 @@ struct BoxArrays {
   void resize(std::size_t count);  // and kPadding empty boxes behind
   void truncate(std::size_t count);
   void set(std::size_t i, const Box& box);
-  BoxPointers pointers() const;
+  BoxPointers pointers(int first = 0) const;
   Box operator[](std::size_t i) const {
     return {{lower[0][i], lower[1][i], lower[2][i]}, {upper[0][i], upper[1][i], upper[2][i]}};
   }
@@ -68,12 +69,17 @@ class ClusteredMesh {
   int facet_count() const { return static_cast<int>(source_facet_.size()); }
   int facet_of_source(int source_facet) const { return facet_of_source_[static_cast<std::size_t>(source_facet)]; }
   int cluster_count() const { return (facet_count() + kClusterSize - 1) / kClusterSize; }
+  int group_count() const { return (cluster_count() + kGroupSize - 1) / kGroupSize; }
 
   // How many vertices of the caller set_positions reads, those that several clusters share more than once.
   int vertex_reads() const { return vertex_count() + static_cast<int>(borrowed_source_.size()); }
 
   int source_vertex(int vertex) const { return source_vertex_[static_cast<std::size_t>(vertex)]; }
   int source_facet(int facet) const { return source_facet_[static_cast<std::size_t>(facet)]; }
+
+  // The clusters of a group are cluster_begin(g) <= c < cluster_end(g).
+  int cluster_begin(int group) const { return group * kGroupSize; }
+  int cluster_end(int group) const { return std::min((group + 1) * kGroupSize, cluster_count()); }
 
   // The facets of a cluster are facet_begin(c) <= f < facet_end(c), the vertices that it owns
   // vertex_begin(c) <= v < vertex_end(c).
@@ -97,9 +103,10 @@ class ClusteredMesh {
   const double* coordinate_array(int axis) const { return coordinate_[axis].data(); }
   PointArrays points() const { return {coordinate_[0].data(), coordinate_[1].data(), coordinate_[2].data()}; }
 
-  // The box of all facets; empty if there is none. The boxes of the clusters, borrowed vertices included.
+  // The box of all facets; empty if there is none. The boxes of the clusters, borrowed vertices included, and of the groups.
   const Box& box() const { return box_; }
   const BoxArrays& cluster_boxes() const { return cluster_boxes_; }
+  const BoxArrays& group_boxes() const { return group_boxes_; }
 
   // Throws std::logic_error that says what is broken: every source facet stands in one cluster, every used source vertex
   // has one owner, boxes are the boxes of their vertices. For tests.
@@ -120,6 +127,7 @@ class ClusteredMesh {
   std::vector<int> borrowed_begin_;    // of each cluster, and one more
   std::vector<double> coordinate_[3];  // of each vertex
   BoxArrays cluster_boxes_;
+  BoxArrays group_boxes_;
   Box box_;
 };
 

@@ -36,11 +36,7 @@ MinkowskiVertex MinkowskiDifference::vertex(int a, int b) const {
 }
 
 MinkowskiVertex MinkowskiDifference::support(Vec3 direction) const {
-  const Support a = narrowphase::support(*a_, direction, origin_, cluster_a_);
-  const Support b = narrowphase::support(*b_, -direction, origin_, cluster_b_);
-  cluster_a_ = a.cluster;
-  cluster_b_ = b.cluster;
-  return vertex(a.vertex, b.vertex);
+  return vertex(narrowphase::support(*a_, direction, origin_).vertex, narrowphase::support(*b_, -direction, origin_).vertex);
 }
 
 }  // namespace tact::narrowphase

@@ -50,8 +50,6 @@ class MinkowskiDifference {
   double size_ = 0.0;
   double height_error_ = 0.0;
   double vertex_height_error_ = 0.0;
-  mutable int cluster_a_ = 0;  // where the last support was found: a hint only, never part of an answer
-  mutable int cluster_b_ = 0;
 };
 
 }  // namespace tact::narrowphase

@@ -77,9 +77,7 @@ const FacePolygon& FaceFinder::supported(const MinkowskiDifference& m, Vec3 n, d
 void FaceFinder::collect(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double tolerance, std::vector<int>& found) {
   const HeightAxis axis{n.x, n.y, n.z, origin.x, origin.y, origin.z};
   const double height = support(mesh, n, origin).height - tolerance;
-  clusters_.resize(static_cast<std::size_t>(mesh.cluster_count()));
-  clusters_.resize(static_cast<std::size_t>(
-      kernels().select_heights(far_corners(mesh.cluster_boxes(), n), mesh.cluster_count(), axis, height, clusters_.data())));
+  select_clusters(mesh, axis, height, clusters_);
   found.clear();
   for (const std::int32_t cluster : clusters_) {
     const int begin = mesh.vertex_begin(cluster), count = mesh.vertex_end(cluster) - begin;

@@ -1,4 +1,5 @@
-// The vertex of a mesh that is farthest in a direction: cluster boxes first, then only the clusters that can hold it.
+// The vertex of a mesh that is farthest in a direction: boxes of groups first, then of clusters, then only the clusters
+// that can hold it.
 #pragma once
 
 #include "narrowphase/clustered_mesh.h"
@@ -8,7 +9,6 @@ namespace tact::narrowphase {
 // A farthest vertex.
 struct Support {
   int vertex = -1;      // of equal ones, the one with the lowest source vertex
-  int cluster = 0;      // that owns it
   double height = 0.0;  // n · (position - origin) as computed: ((n.x * dx + n.y * dy) + n.z * dz)
 };
 
@@ -17,9 +17,11 @@ PointArrays far_corners(const BoxArrays& boxes, Vec3 n);
 
 // The vertex of `mesh` with the largest n · (position - origin). The mesh must have a facet. Bit for bit the answer of
 // support_by_full_scan: rounding is monotone, so the bound from a box, computed in the same order of operations, is never
-// below the height of a vertex in it. Where there are many clusters, `first_cluster` is opened
-// first: any is right, the one of the last answer is fast.
-Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int first_cluster = 0);
+// below the height of a vertex in it.
+Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin);
 Support support_by_full_scan(const ClusteredMesh& mesh, Vec3 n, Vec3 origin);
+
+// The clusters whose box reaches up to `height`, ascending. Replaces the contents of `found`.
+void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double height, std::vector<std::int32_t>& found);
 
 }  // namespace tact::narrowphase

@@ -103,7 +103,7 @@ struct Kernels {
   // Copies the owned vertices and sets `box` to the box of all; says whether any owned coordinate changed.
   bool (*refresh_cluster)(const RefreshInput& input, BoxBounds* box);
 
-  // The box of `count` boxes, of which those in the padding are empty.
+  // The box of `count` boxes.
   BoxBounds (*bounds)(const BoxPointers& boxes, int count);
 
   // Writes the height of each point; `out` has room for kPadding more than `count`.

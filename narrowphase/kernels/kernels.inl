@@ -62,15 +62,18 @@ int select_heights(PointArrays points, int count, const HeightAxis& axis, double
 }
 
 BoxBounds bounds(const BoxPointers& boxes, int count) {
+  const Pack infinite = spread(__builtin_inf()), zero = spread(0.0);
   BoxBounds result;
   for (int axis = 0; axis < 3; ++axis) {
-    Pack low = spread(__builtin_inf()), high = spread(__builtin_inf());
+    Pack low = infinite, high = infinite;  // of the opposite of the upper bounds
     for (int i = 0; i < count; i += kWidth) {
-      low = min(low, load(boxes.lower[axis] + i));
-      high = min(high, sub(spread(0.0), load(boxes.upper[axis] + i)));
+      const Mask lanes = mask_of(lanes_left(count - i));
+      low = min(low, select(lanes, load(boxes.lower[axis] + i), infinite));
+      high = min(high, select(lanes, sub(zero, load(boxes.upper[axis] + i)), infinite));
     }
-    result.lower[axis] = -largest_lane(sub(spread(0.0), low)) + 0.0;
-    result.upper[axis] = largest_lane(sub(spread(0.0), high)) + 0.0;
+    // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
+    result.lower[axis] = -largest_lane(sub(zero, low)) + 0.0;
+    result.upper[axis] = largest_lane(sub(zero, high)) + 0.0;
   }
   return result;
 }

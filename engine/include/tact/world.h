@@ -46,14 +46,14 @@ class TACT_API World {
   void set_settings(const Settings& settings);
 
   // Copies the mesh and groups its facets into clusters: the only costly call of a body's life.
-  // Errors: non_finite_position, position_out_of_range, facet_out_of_range, too_large.
+  // Errors: non_finite_position, position_out_of_range, facet_out_of_range, too_large, out_of_memory.
   BodyId add_body(const BodyDefinition& definition);
   // Errors: stale_body, foreign_body.
   void remove_body(BodyId body);
 
   // Copies the new positions of a body, 3 x V in metres, V as when it was added. A body whose coordinates are all equal to
   // the old ones has not moved.
-  // Errors: stale_body, foreign_body, fixed_body, wrong_size, non_finite_position, position_out_of_range.
+  // Errors: stale_body, foreign_body, fixed_body, wrong_size, non_finite_position, position_out_of_range, out_of_memory.
   void set_positions(BodyId body, const Eigen::Ref<const Eigen::Matrix3Xd>& positions);
   // The same for many bodies, in parallel; all or none. A body must not be named twice (wrong_order).
   void set_positions(std::span<const PositionsUpdate> updates);
