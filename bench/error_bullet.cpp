@@ -13,7 +13,6 @@
 namespace tact::bench {
 namespace {
 
-// Debian builds Bullet in single precision.
 btVector3 to_bullet(const Eigen::Vector3d& p) {
   return {static_cast<btScalar>(p.x()), static_cast<btScalar>(p.y()), static_cast<btScalar>(p.z())};
 }
