@@ -56,6 +56,10 @@ bool cgal_meet(const Triangle& a, const Triangle& b) {
     return CGAL::do_intersect(Filtered::Triangle_3(filtered(a[0]), filtered(a[1]), filtered(a[2])),
                               Filtered::Triangle_3(filtered(b[0]), filtered(b[1]), filtered(b[2])));
   }
+  return rational_meet(a, b);
+}
+
+bool rational_meet(const Triangle& a, const Triangle& b) {
   return std::visit([](const auto& p, const auto& q) { return CGAL::do_intersect(p, q); }, figure(a), figure(b));
 }
 

@@ -17,5 +17,7 @@ int rational_orient2d(const Point2& a, const Point2& b, const Point2& c);
 // Do the triangles share a point? CGAL's exact predicates decide; CGAL wants triangles with an area, so one without is
 // given to it as the segment or the point that it is, with rational coordinates.
 bool cgal_meet(const Triangle& a, const Triangle& b);
+// The same with rational coordinates throughout: slower, and independent of CGAL's floating-point filters.
+bool rational_meet(const Triangle& a, const Triangle& b);
 
 }  // namespace tact::tests
