@@ -94,7 +94,7 @@ void BoxWorkload::step() {
     case BoxWorkloadKind::few_moving:
       changed_.clear();
       for (std::size_t i = 0; i < std::min<std::size_t>(10, boxes_.size()); ++i) {
-        changed_.push_back(static_cast<std::uint32_t>(random_.bits() % boxes_.size()));
+        changed_.push_back(static_cast<std::uint32_t>(random_() % boxes_.size()));
         place(changed_.back());
       }
       break;
@@ -104,18 +104,23 @@ void BoxWorkload::step() {
   }
 }
 
+// Not the standard library's distribution: that differs between platforms.
+double BoxWorkload::uniform(double lower, double upper) {
+  return lower + (upper - lower) * (static_cast<double>(random_() >> 11) * 0x1p-53);
+}
+
 Vec3 BoxWorkload::random_point() {
-  const double x = random_.uniform(0.0, domain_.x);
-  const double y = random_.uniform(0.0, domain_.y);
-  return {x, y, random_.uniform(0.0, domain_.z)};
+  const double x = uniform(0.0, domain_.x);
+  const double y = uniform(0.0, domain_.y);
+  return {x, y, uniform(0.0, domain_.z)};
 }
 
 Vec3 BoxWorkload::random_size(std::size_t index) {
   Vec3 size{1.0, 1.0, 1.0};
   if (kind_ == BoxWorkloadKind::size_spread) {
-    size = (8.0 * std::pow(1000.0, random_.uniform(-1.0, 0.0))) * size;
+    size = (8.0 * std::pow(1000.0, uniform(-1.0, 0.0))) * size;
   }
-  if (kind_ == BoxWorkloadKind::rods && index % 100 == 0) size[random_.below(3)] = 20.0;
+  if (kind_ == BoxWorkloadKind::rods && index % 100 == 0) size[static_cast<int>(random_() % 3)] = 20.0;
   return size;
 }
 
@@ -123,8 +128,7 @@ void BoxWorkload::place(std::size_t index) {
   const Vec3 size = random_size(index);
   const Vec3 lower = random_point() - 0.5 * size;
   boxes_[index] = {lower, lower + size};
-  for (int axis = 0; axis < 3; ++axis)
-    velocities_[index][axis] = random_.uniform(-kStep, kStep) * std::min(size[axis], 1.0);
+  for (int axis = 0; axis < 3; ++axis) velocities_[index][axis] = uniform(-kStep, kStep) * std::min(size[axis], 1.0);
 }
 
 // Bounces at the borders of the domain.

@@ -4,13 +4,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <random>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "broadphase/index_pair.h"
 #include "engine/base/box.h"
-#include "tests/support/random.h"
 
 namespace tact::tests {
 
@@ -45,6 +45,7 @@ class BoxWorkload {
   std::span<const std::uint32_t> changed() const { return changed_; }
 
  private:
+  double uniform(double lower, double upper);
   base::Vec3 random_point();
   base::Vec3 random_size(std::size_t index);
   void place(std::size_t index);
@@ -54,7 +55,7 @@ class BoxWorkload {
   void exchange();
 
   BoxWorkloadKind kind_;
-  Random random_;
+  std::mt19937_64 random_;
   base::Vec3 domain_;  // places lie between 0 and this
   std::vector<base::Box> boxes_;
   std::vector<base::Vec3> velocities_;
