@@ -15,6 +15,7 @@
 #include "scenes/common_options.h"
 #include "scenes/output_file.h"
 #include "scenes/progress_line.h"
+#include "scenes/recording.h"
 #include "scenes/report_json.h"
 #include "scenes/report_table.h"
 #include "scenes/usage_error.h"
@@ -51,7 +52,7 @@ void mark_sheets(const std::vector<std::string>& sheets, std::vector<BodyFrames>
 }
 
 // Bodies that stand still are moving ones that do not move: two of them must still be tested.
-std::vector<BodyId> add_bodies(const std::vector<BodyFrames>& bodies, World& world) {
+std::vector<BodyId> add_bodies(const std::vector<BodyFrames>& bodies, RecordedWorld& world) {
   std::vector<BodyId> ids;
   for (const BodyFrames& body : bodies) {
     try {
@@ -64,7 +65,7 @@ std::vector<BodyId> add_bodies(const std::vector<BodyFrames>& bodies, World& wor
   return ids;
 }
 
-void set_frame(const std::vector<BodyFrames>& bodies, const std::vector<BodyId>& ids, int frame, World& world) {
+void set_frame(const std::vector<BodyFrames>& bodies, const std::vector<BodyId>& ids, int frame, RecordedWorld& world) {
   std::vector<PositionsUpdate> updates;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (bodies[i].moves) updates.push_back({ids[i], bodies[i].positions[static_cast<std::size_t>(frame)]});
@@ -84,17 +85,19 @@ void check(const CheckOptions& options, std::ostream& out) {
   std::vector<BodyFrames> bodies = read_bodies(options.meshes, most_frames);
   mark_sheets(options.sheets, bodies);
   const int threads = options.threads > 0 ? options.threads : base::default_threads();
-  World world({.threads = threads, .accuracy = options.accuracy});
+  std::optional<OutputFile> recording;
+  if (!options.record.empty()) recording.emplace(options.record, out);
+  RecordedWorld world({.threads = threads, .accuracy = options.accuracy}, recording ? &recording->stream() : nullptr);
   const std::vector<BodyId> ids = add_bodies(bodies, world);
 
   std::optional<OutputFile> json_file;
   std::optional<JsonReport> json;
   if (!options.json.empty()) {
     json_file.emplace(options.json, out);
-    json.emplace(json_file->stream(), world);
+    json.emplace(json_file->stream(), world.world());
   }
   std::optional<TableReport> table;
-  if (options.json != "-") table.emplace(out, world);
+  if (options.json != "-") table.emplace(out, world.world());
 
   const int frames = frames_to_step(options, bodies);
   ProgressLine progress(frames);
@@ -111,6 +114,7 @@ void check(const CheckOptions& options, std::ostream& out) {
     json_file->finish();
   }
   if (table) table->finish();
+  if (recording) recording->finish();
 }
 
 void add_check_command(CLI::App& program) {
@@ -131,6 +135,7 @@ void add_check_command(CLI::App& program) {
       ->type_name("N")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()).description(""));
   add_json_option(*command, options->json);
+  add_record_option(*command, options->record);
   command->callback([options, meshes] {
     options->meshes.assign(meshes->begin(), meshes->end());
     check(*options, std::cout);

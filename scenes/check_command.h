@@ -17,9 +17,10 @@ struct CheckOptions {
   std::vector<std::filesystem::path> meshes = {};  // files that stand still and folders that move
   std::vector<std::string> sheets = {};            // names of the bodies that are sheets, the others being closed
   Accuracy accuracy = Accuracy::exact;
-  int threads = 0;        // 0: as many as OpenMP would use
-  int frames = 0;         // of folders the first so many; without a folder the number of steps; 0: all, or one
-  std::string json = {};  // the file to write, "-" for standard output; empty: none
+  int threads = 0;          // 0: as many as OpenMP would use
+  int frames = 0;           // of folders the first so many; without a folder the number of steps; 0: all, or one
+  std::string json = {};    // the file to write, "-" for standard output; empty: none
+  std::string record = {};  // the file to record what enters the engine; empty: none
 };
 
 // Reads all files first, so that nothing is written if one is bad; then steps one world through the frames. Without

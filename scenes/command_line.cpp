@@ -15,6 +15,7 @@
 
 #include "scenes/check_command.h"
 #include "scenes/file_error.h"
+#include "scenes/replay_command.h"
 #include "scenes/run_command.h"
 #include "scenes/scenes_command.h"
 #include "scenes/usage_error.h"
@@ -44,6 +45,7 @@ int run_command_line(int argc, const char* const* argv) {
       "Exit status: 0 done; 1 the input is bad; 2 wrong usage.\n`tact COMMAND --help` tells about a command.");
   add_check_command(program);
   add_run_command(program);
+  add_replay_command(program);
   add_scenes_command(program);
   try {
     program.parse(argc, argv);

@@ -28,4 +28,13 @@ void add_json_option(CLI::App& command, std::string& file) {
       ->type_name("FILE|-");
 }
 
+void add_record_option(CLI::App& command, std::string& file) {
+  const auto check = [](const std::string& name) {
+    return name == "-" ? std::string("a recording goes to a file, not to standard output") : std::string();
+  };
+  command.add_option("--record", file, "Write all that enters the engine to this file, for `tact replay`")
+      ->type_name("FILE")
+      ->check(check);
+}
+
 }  // namespace tact::scenes

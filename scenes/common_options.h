@@ -16,5 +16,7 @@ void add_accuracy_option(CLI::App& command, Accuracy& accuracy);
 void add_threads_option(CLI::App& command, int& threads);
 // --json FILE, "-" being standard output
 void add_json_option(CLI::App& command, std::string& file);
+// --record FILE
+void add_record_option(CLI::App& command, std::string& file);
 
 }  // namespace tact::scenes

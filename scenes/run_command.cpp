@@ -93,8 +93,10 @@ void run(const RunOptions& options, std::ostream& out) {
   const SceneEntry& entry = entry_of(options);
   Scene scene = entry.make(options.size > 0 ? options.size : entry.default_size);
   const int threads = options.threads > 0 ? options.threads : base::default_threads();
+  std::optional<OutputFile> recording;
+  if (!options.record.empty()) recording.emplace(options.record, out);
   Simulation simulation(std::move(scene.bodies), scene.script, scene.dynamics,
-                        {.threads = threads, .accuracy = options.accuracy});
+                        {.threads = threads, .accuracy = options.accuracy}, recording ? &recording->stream() : nullptr);
   Outputs outputs(options, scene, simulation.world(), threads, out);
 
   RunTotals totals;
@@ -108,6 +110,7 @@ void run(const RunOptions& options, std::ostream& out) {
   }
   progress.clear();
   outputs.finish();
+  if (recording) recording->finish();
   if (options.json == "-") return;
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   fmt::print(out, "{}{}\n", options.scene, totals.steps() < options.frames ? ", interrupted" : "");
@@ -133,6 +136,7 @@ void add_run_command(CLI::App& program) {
       ->check(CLI::Range(1, kMost));
   command->add_option("--out", *folder, "Write pictures to this folder; tact-SCENE if not given")->type_name("FOLDER");
   add_json_option(*command, options->json);
+  add_record_option(*command, options->record);
   command->add_flag("--no-pictures", *no_pictures, "Write no pictures");
   command->callback([options, folder, no_pictures] {
     options->out = *folder;

@@ -4,11 +4,13 @@
 #include <tact/tact.h>
 
 #include <functional>
+#include <ostream>
 #include <vector>
 
 #include "scenes/dynamics/body.h"
 #include "scenes/dynamics/contact_solver.h"
 #include "scenes/dynamics/penetration.h"
+#include "scenes/recording.h"
 
 namespace tact::scenes {
 
@@ -51,13 +53,15 @@ struct DynamicsState {
 // contact of a body with itself.
 class Simulation {
  public:
-  // The bodies keep their order: body i has index i in every report. Errors: those of World and World::add_body.
-  Simulation(std::vector<Body> bodies, Script script, const DynamicsSettings& dynamics, const Settings& settings);
+  // The bodies keep their order: body i has index i in every report. To `recording`, if not null, goes what enters the
+  // engine; writing it is in none of the times. Errors: those of World and World::add_body.
+  Simulation(std::vector<Body> bodies, Script script, const DynamicsSettings& dynamics, const Settings& settings,
+             std::ostream* recording = nullptr);
 
   void step();
 
   const std::vector<Body>& bodies() const { return bodies_; }
-  const World& world() const { return world_; }
+  const World& world() const { return world_.world(); }
   // Of the last step; null before the first.
   const Report* report() const { return report_; }
   const DynamicsState& state() const { return state_; }
@@ -81,7 +85,7 @@ class Simulation {
   Script script_;
   int threads_;
   std::vector<Body> bodies_;
-  World world_;
+  RecordedWorld world_;
   std::vector<BodyId> ids_;
   std::vector<std::size_t> small_, large_;   // bodies that can move
   std::vector<std::vector<Vec3>> before_;    // positions at the start of the substep, by body
