@@ -55,18 +55,18 @@ struct Direction {
 };
 
 // Stage 4. A pair that is new and already overlapping starts from its smallest separation.
-Direction find_direction(PairRecord& record, const MinkowskiDifference& m, const Settings& settings, FaceFinder& faces) {
+Direction find_direction(const PairRecord& record, const MinkowskiDifference& m, const Settings& settings, PairWork& work) {
   const DirectionSettings direction_settings{{settings.gjk_tolerance}, settings.iteration_limit};
   const PairHistory& history = record.history;
   const bool fresh_start = history.kind == PairHistory::Kind::none;
   if (!fresh_start && settings.direction == DirectionPolicy::carried) {
     const bool carried = history.kind == PairHistory::Kind::overlapping;
-    return {contact_direction(m, history.direction, history.face, direction_settings, faces),
+    return {contact_direction(m, history.direction, history.face, direction_settings, work.faces),
             carried ? DirectionSource::carried : DirectionSource::fresh};
   }
   const Vec3 preferred = fresh_start ? Vec3{0.0, 0.0, 1.0} : history.direction;
-  const SmallestSeparation smallest = smallest_separation(m, preferred);
-  Direction direction{contact_direction(m, smallest.direction, {}, direction_settings, faces), DirectionSource::smallest};
+  const SmallestSeparation smallest = smallest_separation(m, preferred, work.polytope);
+  Direction direction{contact_direction(m, smallest.direction, {}, direction_settings, work.faces), DirectionSource::smallest};
   direction.found.limit_reached = direction.found.limit_reached || smallest.limit_reached;
   return direction;
 }
@@ -156,7 +156,7 @@ bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, c
   record.counts.hulls_ms = timer.lap();
   if (!overlap) return false;
 
-  const Direction direction = find_direction(record, m, settings, work.faces);
+  const Direction direction = find_direction(record, m, settings, work);
   record.counts.gjk_iterations += direction.found.support_queries;
   if (direction.found.height < -m.height_error()) {  // GJK could not tell, the direction can
     set_apart(record, direction.found.n);

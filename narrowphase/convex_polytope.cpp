@@ -16,7 +16,8 @@ std::size_t side_from(const ConvexPolytope::Face& face, int from) {
 
 }  // namespace
 
-ConvexPolytope::ConvexPolytope(const std::array<Vec3, 4>& points) : points_(points.begin(), points.end()) {
+void ConvexPolytope::restart(const std::array<Vec3, 4>& points) {
+  points_.assign(points.begin(), points.end());
   if (orient3d(points_[0], points_[1], points_[2], points_[3], counts_) < 0) std::swap(points_[1], points_[2]);
   faces_ = {{{0, 1, 2}, {1, 2, 3}}, {{0, 3, 1}, {3, 2, 0}}, {{1, 3, 2}, {1, 3, 0}}, {{2, 3, 0}, {2, 1, 0}}};
 }

@@ -22,7 +22,11 @@ class ConvexPolytope {
   };
 
   // The tetrahedron of four points that do not lie in one plane, in any order.
-  explicit ConvexPolytope(const std::array<Vec3, 4>& points);
+  explicit ConvexPolytope(const std::array<Vec3, 4>& points) { restart(points); }
+  // Nothing, until restart().
+  ConvexPolytope() = default;
+  // Begins again with a tetrahedron, and keeps the memory.
+  void restart(const std::array<Vec3, 4>& points);
 
   // Faces keep their numbers; those that a point has covered are marked as removed.
   const std::vector<Face>& faces() const { return faces_; }

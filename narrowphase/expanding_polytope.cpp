@@ -40,28 +40,23 @@ std::optional<Vec3> normal_across(const WideVec3& e, const WideVec3& f) {
   return unit_vector(n);
 }
 
-// A face of the polytope that may be the nearest.
-struct OpenFace {
-  double distance;  // of its plane from the origin
-  int face;
-  Vec3 normal;
-  friend bool operator>(const OpenFace& p, const OpenFace& q) {
-    return p.distance != q.distance ? p.distance > q.distance : p.face > q.face;
-  }
-};
-
-// A direction whose height was asked for.
-struct Queried {
-  double height;
-  Vec3 direction;
-};
+using OpenFace = PolytopeMemory::OpenFace;
+using Queried = PolytopeMemory::Queried;
 
 class Search {
  public:
-  Search(const MinkowskiDifference& m, Vec3 preferred)
+  Search(const MinkowskiDifference& m, Vec3 preferred, PolytopeMemory& memory)
       : m_(m),
         preferred_(preferred == Vec3{} ? Vec3{0.0, 0.0, 1.0} : unit_vector(preferred)),
-        tolerance_(std::max(2.0 * m.height_error(), kTolerance * m.size())) {}
+        tolerance_(std::max(2.0 * m.height_error(), kTolerance * m.size())),
+        seeds_(memory.seeds),
+        open_(memory.open),
+        queried_(memory.queried),
+        polytope_(memory.polytope) {
+    seeds_.clear();
+    open_.clear();
+    queried_.clear();
+  }
 
   SmallestSeparation run() {
     query(preferred_);
@@ -143,12 +138,12 @@ class Search {
 
   // Expands the polytope over its nearest face until that face is one of M, or as good.
   void expand(const std::array<Vec3, 4>& tetrahedron) {
-    ConvexPolytope polytope(tetrahedron);
+    polytope_.restart(tetrahedron);
     for (const MinkowskiVertex& seed : seeds_) {
-      const int below = polytope.face_below(seed.point);
-      if (below >= 0) polytope.expand(below, seed.point);
+      const int below = polytope_.face_below(seed.point);
+      if (below >= 0) polytope_.expand(below, seed.point);
     }
-    add_open_faces(polytope, 0);
+    add_open_faces(0);
     const std::size_t limit = kLimit + kLimitPerVertex * (static_cast<std::size_t>(m_.a().vertex_count()) +
                                                           static_cast<std::size_t>(m_.b().vertex_count()));
     double closed = kInfinity;  // the nearest plane of the faces that cannot be expanded
@@ -157,14 +152,14 @@ class Search {
       std::pop_heap(open_.begin(), open_.end(), std::greater<>());
       const OpenFace nearest = open_.back();
       open_.pop_back();
-      if (polytope.faces()[static_cast<std::size_t>(nearest.face)].removed) continue;
+      if (polytope_.faces()[static_cast<std::size_t>(nearest.face)].removed) continue;
       lower_bound_ = std::min(nearest.distance, closed);
       if (height_ - nearest.distance <= tolerance_ || queried_.size() >= limit) break;
       const MinkowskiVertex vertex = query(nearest.normal);
       if (height_ - nearest.distance <= tolerance_) break;
       // By rounding, the vertex may lie higher than the face and yet not beyond it: such a face stays as it is.
-      if (polytope.is_beyond(nearest.face, vertex.point)) {
-        add_open_faces(polytope, polytope.expand(nearest.face, vertex.point));
+      if (polytope_.is_beyond(nearest.face, vertex.point)) {
+        add_open_faces(polytope_.expand(nearest.face, vertex.point));
       } else {
         closed = std::min(closed, nearest.distance);
       }
@@ -174,12 +169,12 @@ class Search {
   }
 
   // A face whose plane is as far as the best height is never the nearest, nor does it have to be expanded.
-  void add_open_faces(const ConvexPolytope& polytope, int first) {
-    for (int f = first; f < static_cast<int>(polytope.faces().size()); ++f) {
-      if (polytope.faces()[static_cast<std::size_t>(f)].removed) continue;
-      const Vec3 p = polytope.corner(f, 0);
+  void add_open_faces(int first) {
+    for (int f = first; f < static_cast<int>(polytope_.faces().size()); ++f) {
+      if (polytope_.faces()[static_cast<std::size_t>(f)].removed) continue;
+      const Vec3 p = polytope_.corner(f, 0);
       const auto normal =
-          normal_across(wide_difference(polytope.corner(f, 1), p), wide_difference(polytope.corner(f, 2), p));
+          normal_across(wide_difference(polytope_.corner(f, 1), p), wide_difference(polytope_.corner(f, 2), p));
       if (!normal) continue;
       const double distance = dot(*normal, p);
       if (!(distance < height_)) continue;
@@ -204,9 +199,10 @@ class Search {
   const MinkowskiDifference& m_;
   Vec3 preferred_;
   double tolerance_;
-  std::vector<MinkowskiVertex> seeds_;
-  std::vector<OpenFace> open_;    // a heap, the nearest on top
-  std::vector<Queried> queried_;  // in the order of the queries
+  std::vector<MinkowskiVertex>& seeds_;
+  std::vector<OpenFace>& open_;    // a heap, the nearest on top
+  std::vector<Queried>& queried_;  // in the order of the queries
+  ConvexPolytope& polytope_;
   double height_ = kInfinity;     // the least of them
   double lower_bound_ = 0.0;
   bool limit_reached_ = false;
@@ -214,8 +210,8 @@ class Search {
 
 }  // namespace
 
-SmallestSeparation smallest_separation(const MinkowskiDifference& m, Vec3 preferred) {
-  return Search(m, preferred).run();
+SmallestSeparation smallest_separation(const MinkowskiDifference& m, Vec3 preferred, PolytopeMemory& memory) {
+  return Search(m, preferred, memory).run();
 }
 
 }  // namespace tact::narrowphase

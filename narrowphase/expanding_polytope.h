@@ -2,9 +2,36 @@
 // (van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game Objects", GDC 2001).
 #pragma once
 
+#include <vector>
+
+#include "narrowphase/convex_polytope.h"
 #include "narrowphase/minkowski_difference.h"
 
 namespace tact::narrowphase {
+
+// What a search uses; lent to the next one, which then allocates little or nothing.
+struct PolytopeMemory {
+  // A face of the polytope that may be the nearest.
+  struct OpenFace {
+    double distance;  // of its plane from the origin
+    int face;
+    Vec3 normal;
+    friend bool operator>(const OpenFace& p, const OpenFace& q) {
+      return p.distance != q.distance ? p.distance > q.distance : p.face > q.face;
+    }
+  };
+
+  // A direction whose height was asked for.
+  struct Queried {
+    double height;
+    Vec3 direction;
+  };
+
+  std::vector<MinkowskiVertex> seeds;
+  std::vector<OpenFace> open;
+  std::vector<Queried> queried;
+  ConvexPolytope polytope;
+};
 
 struct SmallestSeparation {
   Vec3 direction;       // unit, from A to B
@@ -27,6 +54,6 @@ struct SmallestSeparation {
 // Each support query gives an upper bound of the minimum, w of its direction, and the nearest face of the polytope a
 // lower one; it ends when they meet but for rounding. Bodies that are round and concentric have no nearest face until
 // all of M is known: the number of queries grows with its faces, up to a limit that grows with the bodies' vertices.
-SmallestSeparation smallest_separation(const MinkowskiDifference& m, Vec3 preferred);
+SmallestSeparation smallest_separation(const MinkowskiDifference& m, Vec3 preferred, PolytopeMemory& memory);
 
 }  // namespace tact::narrowphase
