@@ -1,6 +1,8 @@
 #include "bench/commands.h"
 
+#include "bench/broadphase.h"
 #include "bench/error.h"
+#include "bench/predicates.h"
 #include "bench/rivals.h"
 #include "bench/stability.h"
 
@@ -9,7 +11,9 @@ namespace tact::bench {
 std::vector<Command> commands() {
   return {
       {"rivals", "the same frames through tact, Embree, CGAL, FCL and Bullet", run_rivals},
+      {"broadphase", "boxes alone, in every kind of motion, through tact, Embree and CGAL", run_broadphase},
       {"error", "run time against error, of every setting and of other libraries", run_error},
+      {"predicates", "what a triangle test costs, and how often the exact path runs", run_predicates},
       {"stability", "hostile input of every kind: failures, which must be none", run_stability},
   };
 }
