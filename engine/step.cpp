@@ -13,6 +13,8 @@ namespace {
 
 using base::Timer;
 
+constexpr std::size_t kLargestRoom = 512;  // facet pairs, 4 kB
+
 ContactEvent event_of(const PairRecord& record) { return {record.a, record.b}; }
 
 bool before(const ContactEvent& x, const ContactEvent& y) { return x.a < y.a || (x.a == y.a && x.b < y.b); }
@@ -113,12 +115,15 @@ PairRecord& Step::new_record(BodyId a, BodyId b) {
   record.history = {};
   record.hulls_overlap = false;
   record.facet_pairs.clear();
+  record.facet_pairs.reserve(room_);
   record.patches.clear();
   return record;
 }
 
 void Step::retire(PairRecord& record) {
   if (touches(record)) gone_.push_back(event_of(record));
+  // Records are given out again in any order: each has room for what the largest held.
+  room_ = std::min(std::max(room_, record.facet_pairs.capacity()), kLargestRoom);
   free_.push_back(&record);
 }
 

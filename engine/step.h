@@ -38,6 +38,7 @@ class Step {
   broadphase::SweepAndPrune sweep_;
   std::vector<std::unique_ptr<PairRecord>> pool_;
   std::vector<PairRecord*> free_;
+  std::size_t room_ = 0;  // facet pairs that a record has room for when it is given out
   std::vector<PairRecord*> records_;   // of the candidate pairs, sorted by (a, b)
   std::vector<PairRecord*> previous_;  // those of the last step, while matching
   std::vector<PairRecord*> moved_;     // those that this step looks at
