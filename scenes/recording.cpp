@@ -124,6 +124,7 @@ const Report& RecordedWorld::detect() {
   record([&](std::ostream& out) {
     put(out, RecordKind::hash);
     put(out, report.hash());
+    out.flush();
   });
   return report;
 }

@@ -179,7 +179,8 @@ void RecordingPlayer::make(const Call& call) {
 }
 
 void RecordingPlayer::fail_record(const std::string& message) const {
-  throw FileError(fmt::format("{}: byte {}: {}", file_, record_, message));
+  const std::string step = world_ ? fmt::format("step {}: ", steps_) : std::string();
+  throw FileError(fmt::format("{}: byte {}: {}{}", file_, record_, step, message));
 }
 
 }  // namespace tact::scenes

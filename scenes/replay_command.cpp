@@ -24,7 +24,9 @@ constexpr const char* kExamples =
     "  tact run pile --frames 100 --no-pictures --record pile.tactrec\n"
     "  tact replay pile.tactrec --threads 1";
 
-std::string steps_text(int count) { return fmt::format("{} step{}", count, count == 1 ? "" : "s"); }
+std::string counted(int count, const char* thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
 
 }  // namespace
 
@@ -46,10 +48,10 @@ void replay(const ReplayOptions& options, std::ostream& out) {
     if (!first) first = step;
     fmt::print(out, "step {}: {:016x} in the recording, {:016x} now\n", step->number, step->recorded, step->now);
   }
-  fmt::print(out, "{} on {} thread{} in {:.2f} s{}: {}\n", steps_text(steps), player.world().settings().threads,
-             player.world().settings().threads == 1 ? "" : "s", 1e-3 * timer.lap(),
+  fmt::print(out, "{} on {} in {:.2f} s{}: {}\n", counted(steps, "step"),
+             counted(player.world().settings().threads, "thread"), 1e-3 * timer.lap(),
              interrupt.requested() ? ", interrupted" : "",
-             different == 0 ? "all hashes are the same" : fmt::format("{} differ", steps_text(different)));
+             different == 0 ? "all hashes are the same" : fmt::format("{} of {} hashes differ", different, steps));
   if (first) {
     throw FileError(fmt::format("{}: byte {}: step {} is the first whose hash differs; tact {} recorded it", name,
                                 first->byte, first->number, printable(player.recorded_by())));

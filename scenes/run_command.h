@@ -17,10 +17,10 @@ struct RunOptions {
   int frames = 300;   // steps of the simulation
   int size = 0;       // 0: the scene's own
   Accuracy accuracy = Accuracy::exact;
-  int threads = 0;            // 0: as many as OpenMP would use
-  std::filesystem::path out;  // the folder for pictures; empty: tact-<scene> in the working folder
-  std::string json;           // the file to write, "-" for standard output; empty: none
-  std::string record = {};    // the file to record what enters the engine; empty: none
+  int threads = 0;                 // 0: as many as OpenMP would use
+  std::filesystem::path out = {};  // the folder for pictures; empty: tact-<scene> in the working folder
+  std::string json = {};           // the file to write, "-" for standard output; empty: none
+  std::string record = {};         // the file to record what enters the engine; empty: none
   bool pictures = true;
 };
 
