@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <ostream>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct BodyPairKind {
   // Is each body flat or solid, of sensible shape? Others are noise.
   bool tame;
 };
+
+inline void PrintTo(const BodyPairKind& kind, std::ostream* out) { *out << kind.name; }
 
 std::span<const BodyPairKind> body_pair_kinds();
 

@@ -63,13 +63,13 @@ std::uint64_t large(int threads) {
 }
 
 constexpr HashScene kScenes[] = {
-    {"crowd", crowd, 0},
-    {"everything", everything, 0},
-    {"surgery", surgery, 0},
-    {"as_in_the_paper", as_in_the_paper, 0},
-    {"hulls_alone", hulls_alone, 0},
-    {"wall", wall, 0},
-    {"large", large, 0},
+    {"crowd", crowd, 0x9bf8c976df72c8d9},
+    {"everything", everything, 0xf5be8baa17839fcc},
+    {"surgery", surgery, 0xc244f326e396cf31},
+    {"as_in_the_paper", as_in_the_paper, 0x81c47075238e8bac},
+    {"hulls_alone", hulls_alone, 0x309b138c1b9063be},
+    {"wall", wall, 0x2ec628f2ef8fbc7c},
+    {"large", large, 0xf3c8037536666809},
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <ostream>
 #include <span>
 
 namespace tact::tests {
@@ -14,6 +15,8 @@ struct HashScene {
   // or the number of iterations or kept facets, changes it: hash_program prints the new ones.
   std::uint64_t expected;
 };
+
+inline void PrintTo(const HashScene& scene, std::ostream* out) { *out << scene.name; }
 
 std::span<const HashScene> hash_scenes();
 

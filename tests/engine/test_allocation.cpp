@@ -1,0 +1,215 @@
+// Memory: what happens when there is none, and how much a step takes once it is warm. operator new is replaced for the
+// whole test program: it counts, and fails where it is told to.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <functional>
+#include <new>
+#include <vector>
+
+#include "tests/engine/allocation_hook.h"
+#include "tests/support/body_pairs.h"
+#include "tests/support/detection.h"
+#include "tests/support/generators.h"
+
+namespace tact::tests {
+namespace {
+
+enum class Outcome { finished, failed_unnoticed, threw };
+
+// Calls `call` with the allocation numbered `number` (from 0) failing, and all after it if `for_good`. What is thrown
+// must be for want of memory.
+Outcome call_short_of_memory(long number, bool for_good, const std::function<void()>& call) {
+  fail_allocation(number, for_good);
+  try {
+    call();
+    return stop_failing() ? Outcome::failed_unnoticed : Outcome::finished;
+  } catch (const std::bad_alloc&) {
+    stop_failing();
+  } catch (const Error& error) {
+    stop_failing();
+    EXPECT_EQ(error.code(), ErrorCode::out_of_memory) << error.what();
+  }
+  return Outcome::threw;
+}
+
+// A world and what it should hold.
+struct Scene {
+  World world{{.threads = 2, .outputs = {.zones = true, .patches = true}}};
+  std::vector<Mesh> bodies;
+  std::vector<BodyId> ids;
+  BodyId added;
+};
+
+// A call of the world, which is all that runs short of memory, and what it means.
+struct Operation {
+  std::function<void(Scene&)> call;
+  std::function<void(Scene&)> note;
+};
+
+Operation add(const Mesh& mesh) {
+  return {[mesh](Scene& scene) {
+            scene.added = scene.world.add_body({.positions = mesh.positions, .facets = mesh.facets});
+          },
+          [mesh](Scene& scene) {
+            scene.bodies.push_back(mesh);
+            scene.ids.push_back(scene.added);
+          }};
+}
+
+Operation move(std::size_t i, const Mesh& to) {
+  return {[i, to](Scene& scene) { scene.world.set_positions(scene.ids[i], to.positions); },
+          [i, to](Scene& scene) { scene.bodies[i] = to; }};
+}
+
+Operation move_first_two(const Mesh& to, const Mesh& other_to) {
+  return {[to, other_to](Scene& scene) {
+            const std::array updates = {PositionsUpdate{scene.ids[0], to.positions},
+                                        PositionsUpdate{scene.ids[1], other_to.positions}};
+            scene.world.set_positions(updates);
+          },
+          [to, other_to](Scene& scene) {
+            scene.bodies[0] = to;
+            scene.bodies[1] = other_to;
+          }};
+}
+
+Operation remove(std::size_t i) {
+  return {[i](Scene& scene) { scene.world.remove_body(scene.ids[i]); },
+          [i](Scene& scene) {
+            scene.bodies.erase(scene.bodies.begin() + static_cast<std::ptrdiff_t>(i));
+            scene.ids.erase(scene.ids.begin() + static_cast<std::ptrdiff_t>(i));
+          }};
+}
+
+Operation detect() {
+  return {[](Scene& scene) { scene.world.detect(); }, [](Scene&) {}};
+}
+
+std::vector<Operation> small_life() {
+  const Mesh a = icosphere(1), b = translated(blob(1, 0.9, 0.3, 1), {1.2, 0.1, 0.0});
+  const Mesh cloth = wrinkled_sheet(8, 3.0, 0.3, 1);
+  return {add(a),
+          add(b),
+          detect(),
+          add(cloth),
+          move(0, translated(a, {0.1, 0.0, 0.0})),
+          detect(),
+          move_first_two(translated(a, {0.2, 0.0, 0.0}), translated(b, {-0.1, 0.0, 0.0})),
+          detect(),
+          remove(1),
+          add(translated(a, {0.5, 0.5, 0.5})),
+          detect()};
+}
+
+::testing::AssertionResult is_as_noted(Scene& scene) {
+  if (scene.world.body_count() != scene.bodies.size()) return ::testing::AssertionFailure() << "number of bodies";
+  return same_meeting_bodies(meeting_bodies_by_oracle(scene.bodies), meeting_bodies(scene.world.detect(), scene.ids));
+}
+
+void fail_every_allocation_of(std::size_t tested, bool for_good) {
+  const std::vector<Operation> operations = small_life();
+  for (long number = 0;; ++number) {
+    ASSERT_LT(number, 100000);
+    Scene scene;
+    for (std::size_t i = 0; i < tested; ++i) {
+      operations[i].call(scene);
+      operations[i].note(scene);
+    }
+    const Outcome outcome = call_short_of_memory(number, for_good, [&] { operations[tested].call(scene); });
+    if (outcome == Outcome::threw) {
+      ASSERT_TRUE(is_as_noted(scene)) << "operation " << tested << ", allocation " << number;
+      operations[tested].call(scene);
+    }
+    operations[tested].note(scene);
+    ASSERT_TRUE(is_as_noted(scene)) << "operation " << tested << ", allocation " << number;
+    if (outcome == Outcome::finished) return;
+  }
+}
+
+class FailingAllocation : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(FailingAllocation, LeavesAUsableWorld) { fail_every_allocation_of(GetParam(), false); }
+
+TEST_P(FailingAllocation, LeavesAUsableWorldWhenAllThatFollowFailToo) { fail_every_allocation_of(GetParam(), true); }
+
+INSTANTIATE_TEST_SUITE_P(Operations, FailingAllocation, ::testing::Range<std::size_t>(0, 11));
+
+TEST(Allocation, OfAWorldThatFailsLeavesNothing) {
+  for (long number = 0; number < 1000; ++number) {
+    const Outcome outcome = call_short_of_memory(number, false, [] { World world; });
+    if (outcome == Outcome::finished) return;
+  }
+  FAIL() << "a world takes more than 1000 allocations";
+}
+
+// Frames that go there and back, again and again: after the first rounds everything has its size.
+struct Round {
+  explicit Round(Settings settings) : world(settings) {
+    std::vector<Mesh> bodies = crowd_of_blobs(16, 1);
+    bodies.push_back(wrinkled_sheet(16, 4.0, 0.5, 1));
+    ids = add_bodies(world, bodies);
+    for (const int frame : {0, 1, 2, 3, 4, 5, 4, 3, 2, 1}) {
+      frames.emplace_back();
+      for (std::size_t i = 0; i < bodies.size(); ++i) {
+        frames.back().push_back(translated(bodies[i], {0.02 * frame, 0.01 * static_cast<double>(i % 5) * frame, 0.0}));
+      }
+    }
+  }
+  long allocations_in_a_round() {
+    const long before = allocation_count();
+    for (const std::vector<Mesh>& frame : frames) {
+      for (std::size_t i = 0; i < ids.size(); ++i) world.set_positions(ids[i], frame[i].positions);
+      world.detect();
+    }
+    return allocation_count() - before;
+  }
+
+  World world;
+  std::vector<BodyId> ids;
+  std::vector<std::vector<Mesh>> frames;
+};
+
+TEST(Allocation, SteadyStepsTakeNone) {
+  for (const Accuracy accuracy : {Accuracy::hulls, Accuracy::paper, Accuracy::exact}) {
+    for (const DirectionPolicy policy : {DirectionPolicy::carried, DirectionPolicy::smallest}) {
+      for (const int threads : {1, 2}) {
+        Round round({.threads = threads, .accuracy = accuracy, .direction = policy, .outputs = {.zones = true}});
+        for (int warm_up = 0; warm_up < 4; ++warm_up) round.allocations_in_a_round();
+        EXPECT_EQ(round.allocations_in_a_round(), 0)
+            << threads << " threads, level " << static_cast<int>(accuracy) << ", policy " << static_cast<int>(policy);
+      }
+    }
+  }
+}
+
+TEST(Allocation, SteadyBatchesTakeNone) {
+  Round round({.threads = 1});
+  std::vector<std::vector<PositionsUpdate>> batches;
+  for (const std::vector<Mesh>& frame : round.frames) {
+    batches.emplace_back();
+    for (std::size_t i = 0; i < frame.size(); ++i) batches.back().push_back({round.ids[i], frame[i].positions});
+  }
+  long last = 0;
+  for (int repeat = 0; repeat < 6; ++repeat) {
+    const long before = allocation_count();
+    for (const std::vector<PositionsUpdate>& batch : batches) {
+      round.world.set_positions(batch);
+      round.world.detect();
+    }
+    last = allocation_count() - before;
+  }
+  EXPECT_EQ(last, 0);
+}
+
+TEST(Allocation, StepsAtRestTakeNone) {
+  World world({.outputs = {.zones = true, .patches = true}});
+  add_bodies(world, crowd_of_blobs(20, 1));
+  world.detect();
+  const long before = allocation_count();
+  for (int step = 0; step < 10; ++step) world.detect();
+  EXPECT_EQ(allocation_count() - before, 0);
+}
+
+}  // namespace
+}  // namespace tact::tests
