@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/base/box.h"
@@ -41,6 +42,57 @@ void add_bending_springs(const Mesh& mesh, const Topology& topology, double stif
     const int a = opposite_corner(mesh.facets, edge.facet, edge);
     const int b = opposite_corner(mesh.facets, edge.other_facet, edge);
     if (a != b) springs.push_back({a, b, distance(mesh, a, b), 1.0 / stiffness});
+  }
+}
+
+// How far the line from `p` along `direction` runs until it leaves through the facet; infinity if it does not.
+double way_out(const Mesh& mesh, Eigen::Index facet, Vec3 p, Vec3 direction) {
+  const auto corner = [&](int k) { return mesh.positions[static_cast<std::size_t>(mesh.facets(k, facet))] - p; };
+  const Vec3 a = corner(0), b = corner(1), c = corner(2);
+  const double u = dot(direction, cross(b, c));
+  const double v = dot(direction, cross(c, a));
+  const double w = dot(direction, cross(a, b));
+  const double sum = u + v + w;
+  if (!(u >= 0.0 && v >= 0.0 && w >= 0.0 && sum > 0.0)) return std::numeric_limits<double>::infinity();
+  return (u * dot(a, direction) + v * dot(b, direction) + w * dot(c, direction)) / sum;
+}
+
+// The corner, nearest to where the line inwards from `vertex` leaves the body, of the facet where it does; -1 if it is
+// inside out there.
+int opposite_vertex(const Mesh& mesh, int vertex, Vec3 inwards) {
+  const Vec3 p = mesh.positions[static_cast<std::size_t>(vertex)];
+  double shortest = std::numeric_limits<double>::infinity();
+  Eigen::Index hit = -1;
+  for (Eigen::Index f = 0; f < mesh.facets.cols(); ++f) {
+    if ((mesh.facets.col(f).array() == vertex).any()) continue;
+    const double way = way_out(mesh, f, p, inwards);
+    if (way > 0.0 && way < shortest) shortest = way, hit = f;
+  }
+  if (hit < 0) return -1;
+  const Vec3 end = p + shortest * inwards;
+  const auto distance = [&](int k) {
+    return norm(mesh.positions[static_cast<std::size_t>(mesh.facets(k, hit))] - end);
+  };
+  int nearest = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (distance(k) < distance(nearest)) nearest = k;
+  }
+  return mesh.facets(nearest, hit);
+}
+
+void add_struts(const Mesh& mesh, double stiffness, std::vector<Spring>& springs) {
+  std::vector<Vec3> normals(mesh.positions.size());
+  for (Eigen::Index f = 0; f < mesh.facets.cols(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      Vec3& sum = normals[static_cast<std::size_t>(mesh.facets(k, f))];
+      sum = sum + area_normal(mesh.positions, mesh.facets, f);
+    }
+  }
+  for (int vertex = 0; vertex < static_cast<int>(mesh.positions.size()); ++vertex) {
+    const Vec3 normal = normals[static_cast<std::size_t>(vertex)];
+    if (!(norm(normal) > 0.0)) continue;
+    const int other = opposite_vertex(mesh, vertex, -normalized(normal));
+    if (other >= 0) springs.push_back({vertex, other, distance(mesh, vertex, other), 1.0 / stiffness});
   }
 }
 
@@ -84,8 +136,10 @@ Body make_soft(std::string name, const Mesh& mesh, const SoftMaterial& material)
   body.dynamic = true;
   const double mass = material.density * enclosed_volume(mesh.positions, mesh.facets);
   std::fill(body.inverse_masses.begin(), body.inverse_masses.end(), static_cast<double>(mesh.positions.size()) / mass);
-  body.springs =
-      Springs(edge_springs(mesh, body.topology, material.surface_stiffness), static_cast<int>(mesh.positions.size()));
+  std::vector<Spring> springs = edge_springs(mesh, body.topology, material.surface_stiffness);
+  add_bending_springs(mesh, body.topology, material.bend_stiffness, springs);
+  add_struts(mesh, material.inner_stiffness, springs);
+  body.springs = Springs(springs, static_cast<int>(mesh.positions.size()));
   body.volume.emplace(mesh, material.bulk_modulus);
   body.shape.emplace(mesh.positions, material.shape_frequency, material.shape_stretch);
   body.friction = material.friction;

@@ -26,13 +26,15 @@ struct ClothMaterial {
 // A closed body that can be squashed and springs back.
 struct SoftMaterial {
   double density = 150.0;            // kilograms a cubic metre
-  double surface_stiffness = 400.0;  // of each edge, newtons a metre
-  double bulk_modulus = 40000.0;     // pascals
-  double shape_frequency = 7.0;      // hertz, see ShapeKeeper
+  double surface_stiffness = 800.0;  // of each edge, newtons a metre
+  double bend_stiffness = 300.0;     // of each pair of facets that share an edge, newtons a metre
+  double inner_stiffness = 800.0;    // of the strut from each vertex to the other side, newtons a metre
+  double bulk_modulus = 60000.0;     // pascals
+  double shape_frequency = 8.0;      // hertz, see ShapeKeeper
   double shape_stretch = 0.4;        // see ShapeKeeper
   double friction = 0.5;
   double drag = 0.1;           // share of the velocity lost in a second
-  double inner_damping = 4.0;  // share of the velocity against the body's own rigid motion lost in a second
+  double inner_damping = 6.0;  // share of the velocity against the body's own rigid motion lost in a second
   double skin = 0.0;           // metres, see Body::skin
 };
 
@@ -69,7 +71,8 @@ struct Body {
 
 // Every facet that shares an edge with another gets a spring across it. The sheet's shape is that at rest.
 Body make_cloth(std::string name, const Mesh& mesh, const ClothMaterial& material);
-// A closed body whose shape is that at rest. Its facets must enclose a positive volume.
+// A closed body whose shape is that at rest. Its facets must enclose a positive volume. Springs along and across its
+// edges stand for the surface, struts through it for what is inside, which keep thin parts thick.
 Body make_soft(std::string name, const Mesh& mesh, const SoftMaterial& material);
 // A body that only a script moves, or, if it is fixed, nobody.
 Body make_rigid(std::string name, const Mesh& mesh, const RigidMaterial& material, Motion motion);

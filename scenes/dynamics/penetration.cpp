@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tact::scenes {
 namespace {
@@ -29,6 +30,45 @@ const Edge& edge_at(const SeenBody& body, int edge) {
   return body.body.topology.edges()[static_cast<std::size_t>(edge)];
 }
 
+double line_distance_squared(Vec3 point, Vec3 on_line, Vec3 direction) {
+  return norm_squared(cross(point - on_line, direction));
+}
+
+// The vertex near `vertex` that is nearest to the line: each step goes to the best neighbour.
+int walk_to_line(const SeenBody& body, int vertex, Vec3 on_line, Vec3 direction) {
+  double nearest = line_distance_squared(position(body, vertex), on_line, direction);
+  for (int from = -1; from != vertex;) {
+    from = vertex;
+    for (const Neighbor& neighbor : body.body.topology.neighbors(from)) {
+      const double distance = line_distance_squared(position(body, neighbor.vertex), on_line, direction);
+      if (distance < nearest) nearest = distance, vertex = neighbor.vertex;
+    }
+  }
+  return vertex;
+}
+
+struct LineHit {
+  double distance = 0.0;
+  std::array<double, 3> weights{};
+};
+
+// Where the line leaves the body through the facet, ahead of its start.
+std::optional<LineHit> way_out(const SeenBody& body, int facet, Vec3 on_line, Vec3 direction) {
+  const Vec3 a = position(body, body.body.facets(0, facet)) - on_line;
+  const Vec3 b = position(body, body.body.facets(1, facet)) - on_line;
+  const Vec3 c = position(body, body.body.facets(2, facet)) - on_line;
+  const double u = dot(direction, cross(b, c));
+  const double v = dot(direction, cross(c, a));
+  const double w = dot(direction, cross(a, b));
+  const bool leaves = u >= 0.0 && v >= 0.0 && w >= 0.0;
+  if (!leaves && !(body.body.surface == Surface::sheet && u <= 0.0 && v <= 0.0 && w <= 0.0)) return std::nullopt;
+  const double sum = u + v + w;
+  if (sum == 0.0) return std::nullopt;
+  const double distance = (u * dot(a, direction) + v * dot(b, direction) + w * dot(c, direction)) / sum;
+  if (!(distance > 0.0)) return std::nullopt;
+  return LineHit{distance, {u / sum, v / sum, w / sum}};
+}
+
 }  // namespace
 
 void PenetrationFinder::find(const Contact& contact, bool x_is_a, const SeenBody& x, const SeenBody& y,
@@ -39,14 +79,17 @@ void PenetrationFinder::find(const Contact& contact, bool x_is_a, const SeenBody
   found_.clear();
   find_crossings(contact, x_is_a, x, y);
   if (y.body.surface == Surface::closed) {
-    enter_closed(x, y, contact.depth, points);
+    enter_closed(x, y, points);
   } else {
     turn_sheet_normals(contact, x_is_a, x);
     enter_sheet(x);
   }
-  start_inside(x, contact.depth);
-  if (y.body.surface == Surface::closed) spread_inside(x, contact.depth);
-  add_vertices(y, points);
+  start_inside(x, y);
+  if (y.body.surface == Surface::closed) spread_inside(x, y);
+  for (const Inside& inside : found_) {
+    if (inside.place.depth > 0.0) points.push_back(contact_point(y, inside.vertex, inside.normal, inside.place));
+  }
+  for (ContactPoint& point : points) point.depth = std::min(point.depth, contact.depth);
   for (const int vertex : visited_) state_[static_cast<std::size_t>(vertex)] = kUnknown;
 }
 
@@ -111,9 +154,31 @@ std::pair<int, int> PenetrationFinder::crossings_of(int edge) const {
   return {static_cast<int>(range.first - crossings_.begin()), static_cast<int>(range.second - crossings_.begin())};
 }
 
+// Where the line from `p` along `normal` leaves y, near a place that is known; nothing if it does not leave there.
+std::optional<PenetrationFinder::Place> PenetrationFinder::locate(const SeenBody& y, Vec3 p, Vec3 normal,
+                                                                  const Place& near) {
+  int start = y.body.facets(0, near.facet);
+  for (int k = 1; k < 3; ++k) {
+    const int other = y.body.facets(k, near.facet);
+    if (line_distance_squared(position(y, other), p, normal) < line_distance_squared(position(y, start), p, normal)) {
+      start = other;
+    }
+  }
+  const int vertex = walk_to_line(y, start, p, normal);
+  for (const Neighbor& neighbor : y.body.topology.neighbors(vertex)) {
+    const Edge& edge = edge_at(y, neighbor.edge);
+    for (const int facet : {edge.facet, edge.other_facet}) {
+      if (facet < 0) continue;
+      if (const auto hit = way_out(y, facet, p, normal)) {
+        return Place{facet, hit->weights, std::min(hit->distance, near.depth)};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 // An end of an edge is inside if the edge leaves y at the crossing that is nearest to it.
-void PenetrationFinder::enter_closed(const SeenBody& x, const SeenBody& y, double deepest,
-                                     std::vector<ContactPoint>& points) {
+void PenetrationFinder::enter_closed(const SeenBody& x, const SeenBody& y, std::vector<ContactPoint>& points) {
   for (std::size_t first = 0; first < crossings_.size();) {
     const Edge& edge = edge_at(x, crossings_[first].edge);
     std::size_t last = first;
@@ -124,21 +189,27 @@ void PenetrationFinder::enter_closed(const SeenBody& x, const SeenBody& y, doubl
     if (from_inside) entries_.push_back({edge.from, static_cast<int>(first)});
     if (to_inside) entries_.push_back({edge.to, static_cast<int>(last)});
     if (!from_inside && !to_inside && first != last) {
-      const Crossing& enter = crossings_[first];
-      const Crossing& leave = crossings_[last];
-      const double t = 0.5 * (enter.t + leave.t);
-      const Vec3 middle = 0.5 * enter.point + 0.5 * leave.point;
-      const Vec3 out = enter.normal + leave.normal;
-      const double depth = 0.5 * (dot(enter.point - middle, enter.normal) + dot(leave.point - middle, leave.normal));
-      if (norm(out) > 0.0 && depth > 0.0) {
-        ContactPoint point = point_of({0, std::min(depth, deepest), normalized(out), static_cast<int>(first)}, y);
-        point.x_vertices = {edge.from, edge.to};
-        point.x_weights = {1.0 - t, t};
-        points.push_back(point);
-      }
+      add_edge_middle(x, y, crossings_[first], crossings_[last], points);
     }
     first = last + 1;
   }
+}
+
+void PenetrationFinder::add_edge_middle(const SeenBody& x, const SeenBody& y, const Crossing& enter,
+                                        const Crossing& leave, std::vector<ContactPoint>& points) {
+  const Vec3 out = enter.normal + leave.normal;
+  const double length = norm(out);
+  if (!(length > 0.0)) return;
+  const Vec3 normal = (1.0 / length) * out;
+  const Vec3 middle = 0.5 * enter.point + 0.5 * leave.point;
+  const Place near{enter.facet, enter.weights, norm(enter.point - middle)};
+  const Place place = locate(y, middle, normal, near).value_or(near);
+  const double t = 0.5 * (enter.t + leave.t);
+  const Edge& edge = edge_at(x, enter.edge);
+  ContactPoint point = contact_point(y, edge.from, normal, place);
+  point.x_vertices[1] = edge.to;
+  point.x_weights = {1.0 - t, t};
+  points.push_back(point);
 }
 
 void PenetrationFinder::enter_sheet(const SeenBody& x) {
@@ -152,7 +223,7 @@ void PenetrationFinder::enter_sheet(const SeenBody& x) {
 }
 
 // The first ring: vertices at edges that cross.
-void PenetrationFinder::start_inside(const SeenBody& x, double deepest) {
+void PenetrationFinder::start_inside(const SeenBody& x, const SeenBody& y) {
   std::sort(entries_.begin(), entries_.end(), [](const Entry& i, const Entry& j) {
     return i.vertex != j.vertex ? i.vertex < j.vertex : i.crossing < j.crossing;
   });
@@ -160,29 +231,33 @@ void PenetrationFinder::start_inside(const SeenBody& x, double deepest) {
   for (std::size_t i = 0; i < entries_.size();) {
     const int vertex = entries_[i].vertex;
     const Vec3 p = position(x, vertex);
-    Inside inside{.vertex = vertex};
-    double sum = 0.0, nearest = 0.0;
+    Vec3 normal;
+    Place near{.depth = std::numeric_limits<double>::infinity()};
     for (; i < entries_.size() && entries_[i].vertex == vertex; ++i) {
       const Crossing& crossing = crossings_[static_cast<std::size_t>(entries_[i].crossing)];
-      const double weight = weight_at(p, crossing.point);
-      sum += weight;
-      inside.depth += weight * dot(crossing.point - p, crossing.normal);
-      inside.normal = inside.normal + weight * crossing.normal;
-      if (weight > nearest) nearest = weight, inside.anchor = entries_[i].crossing;
+      normal = normal + weight_at(p, crossing.point) * crossing.normal;
+      const double distance = norm(crossing.point - p);
+      if (distance < near.depth) near = {crossing.facet, crossing.weights, distance};
     }
-    const double length = norm(inside.normal);
-    if (!(length > 0.0) || inside.anchor < 0) continue;
-    inside.normal = (1.0 / length) * inside.normal;
-    inside.depth = std::min(inside.depth / sum, deepest);
-    state_[static_cast<std::size_t>(vertex)] = static_cast<int>(found_.size());
-    visited_.push_back(vertex);
-    ring_.push_back(vertex);
-    found_.push_back(inside);
+    const double length = norm(normal);
+    if (!(length > 0.0)) continue;
+    normal = (1.0 / length) * normal;
+    const Place plane{near.facet, near.weights, std::min(near.depth, dot(point_at(y, near) - p, normal))};
+    add_inside({vertex, normal, locate(y, p, normal, near).value_or(plane)});
   }
 }
 
+void PenetrationFinder::add_inside(const Inside& inside) {
+  const bool in = inside.place.depth > 0.0;
+  state_[static_cast<std::size_t>(inside.vertex)] = in ? static_cast<int>(found_.size()) : kOutside;
+  visited_.push_back(inside.vertex);
+  if (!in) return;
+  ring_.push_back(inside.vertex);
+  found_.push_back(inside);
+}
+
 // Ring by ring inwards. A ring takes only from those before it, so that its order does not matter.
-void PenetrationFinder::spread_inside(const SeenBody& x, double deepest) {
+void PenetrationFinder::spread_inside(const SeenBody& x, const SeenBody& y) {
   while (!ring_.empty()) {
     next_ring_.clear();
     for (const int vertex : ring_) {
@@ -196,57 +271,44 @@ void PenetrationFinder::spread_inside(const SeenBody& x, double deepest) {
     next_ring_.erase(std::unique(next_ring_.begin(), next_ring_.end()), next_ring_.end());
     const int known = static_cast<int>(found_.size());
     ring_.clear();
-    for (const int vertex : next_ring_) {
-      Inside inside = from_neighbors(x, vertex, known);
-      const bool in = inside.depth > 0.0;
-      state_[static_cast<std::size_t>(vertex)] = in ? static_cast<int>(found_.size()) : kOutside;
-      visited_.push_back(vertex);
-      if (!in) continue;
-      inside.depth = std::min(inside.depth, deepest);
-      ring_.push_back(vertex);
-      found_.push_back(inside);
-    }
+    for (const int vertex : next_ring_) add_inside(from_neighbors(x, y, vertex, known));
   }
 }
 
-PenetrationFinder::Inside PenetrationFinder::from_neighbors(const SeenBody& x, int vertex, int known) const {
+PenetrationFinder::Inside PenetrationFinder::from_neighbors(const SeenBody& x, const SeenBody& y, int vertex,
+                                                            int known) const {
   const Vec3 p = position(x, vertex);
-  Inside inside{.vertex = vertex};
-  double sum = 0.0, nearest = 0.0;
+  Vec3 normal;
+  Place near{.depth = std::numeric_limits<double>::infinity()};
   for (const Neighbor& neighbor : x.body.topology.neighbors(vertex)) {
     const int place = state_[static_cast<std::size_t>(neighbor.vertex)];
     if (place < 0 || place >= known) continue;
     const Inside& other = found_[static_cast<std::size_t>(place)];
-    const Vec3 q = position(x, neighbor.vertex);
-    const double weight = weight_at(p, q);
-    sum += weight;
-    inside.depth += weight * (dot(q - p, other.normal) + other.depth);
-    inside.normal = inside.normal + weight * other.normal;
-    if (weight > nearest) nearest = weight, inside.anchor = other.anchor;
+    normal = normal + weight_at(p, position(x, neighbor.vertex)) * other.normal;
+    const double way = other.place.depth + norm(position(x, neighbor.vertex) - p);
+    if (way < near.depth) near = {other.place.facet, other.place.weights, way};
   }
-  const double length = norm(inside.normal);
-  if (!(sum > 0.0) || !(length > 0.0)) return {.vertex = vertex};
-  inside.depth /= sum;
-  inside.normal = (1.0 / length) * inside.normal;
-  return inside;
+  const double length = norm(normal);
+  if (!(length > 0.0)) return {.vertex = vertex};
+  normal = (1.0 / length) * normal;
+  return {vertex, normal, locate(y, p, normal, near).value_or(Place{})};
 }
 
-void PenetrationFinder::add_vertices(const SeenBody& y, std::vector<ContactPoint>& points) const {
-  for (const Inside& inside : found_) {
-    if (inside.depth > 0.0) points.push_back(point_of(inside, y));
-  }
-}
-
-ContactPoint PenetrationFinder::point_of(const Inside& inside, const SeenBody& y) const {
-  const Crossing& anchor = crossings_[static_cast<std::size_t>(inside.anchor)];
+ContactPoint PenetrationFinder::contact_point(const SeenBody& y, int vertex, Vec3 normal, const Place& place) {
   ContactPoint point;
-  point.x_vertices = {inside.vertex, inside.vertex};
+  point.x_vertices = {vertex, vertex};
   point.x_weights = {1.0, 0.0};
-  for (int k = 0; k < 3; ++k) point.y_vertices[static_cast<std::size_t>(k)] = y.body.facets(k, anchor.facet);
-  point.y_weights = anchor.weights;
-  point.normal = inside.normal;
-  point.depth = inside.depth;
+  for (int k = 0; k < 3; ++k) point.y_vertices[static_cast<std::size_t>(k)] = y.body.facets(k, place.facet);
+  point.y_weights = place.weights;
+  point.normal = normal;
+  point.depth = place.depth;
   return point;
+}
+
+Vec3 PenetrationFinder::point_at(const SeenBody& y, const Place& place) {
+  return place.weights[0] * position(y, y.body.facets(0, place.facet)) +
+         place.weights[1] * position(y, y.body.facets(1, place.facet)) +
+         place.weights[2] * position(y, y.body.facets(2, place.facet));
 }
 
 }  // namespace tact::scenes

@@ -4,6 +4,7 @@
 #include <tact/report.h>
 
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -33,13 +34,14 @@ class PenetrationFinder {
  public:
   // The points of x, which is `contact.a` if x_is_a and `contact.b` otherwise, inside y, the other one.
   //
-  // Edges of x that cross facets of y are found from the facet pairs. Their ends that lie inside get the depth and the
-  // normal of the crossings, and hand both on inwards from neighbour to neighbour, up to where the depth ends. An edge
-  // with both ends outside gives its middle inside. No point is deeper in y than the hulls in each other, so the depth
-  // of the contact bounds all of them. Of a sheet y, the wrong side is the one that the closed body's own normal points
-  // to or, between two sheets, the one that the contact direction tells; only ends of crossing edges are looked at.
-  // Source: B. Heidelberger et al., Consistent Penetration Depth Estimation for Deformable Collision Response, VMV
-  // 2004.
+  // Edges of x that cross facets of y are found from the facet pairs. Their ends that lie inside get the mean normal of
+  // the crossings, and hand it on inwards from neighbour to neighbour; each vertex is as deep as y's surface is far
+  // along its normal, and no deeper than a crossing is away; where that line does not leave y, the inside ends.
+  // An edge with both ends outside gives its middle inside. No point is deeper in y than the hulls in each other, so
+  // the depth of the contact bounds all of them. Of a sheet y, the wrong side is the one that the closed body's own
+  // normal points to or, between two sheets, the one that the contact direction tells; only ends of crossing edges are
+  // looked at. After B. Heidelberger et al., Consistent Penetration Depth Estimation for Deformable Collision Response,
+  // VMV 2004, whose depths, handed on like the normals, are too large under a curved surface.
   void find(const Contact& contact, bool x_is_a, const SeenBody& x, const SeenBody& y,
             std::vector<ContactPoint>& points);
 
@@ -56,24 +58,33 @@ class PenetrationFinder {
     int vertex = 0;  // of x, inside y
     int crossing = 0;
   };
+  // A place on the surface of y.
+  struct Place {
+    int facet = -1;
+    std::array<double, 3> weights{};
+    double depth = 0.0;  // how far away, metres; of a place to start from, how far at most
+  };
   struct Inside {
     int vertex = 0;  // of x
-    double depth = 0.0;
     Vec3 normal = {};
-    int anchor = -1;  // crossing
+    Place place = {};
   };
 
   void find_crossings(const Contact& contact, bool x_is_a, const SeenBody& x, const SeenBody& y);
   void add_crossing(int edge, int facet, const SeenBody& x, const SeenBody& y);
   void turn_sheet_normals(const Contact& contact, bool x_is_a, const SeenBody& x);
   std::pair<int, int> crossings_of(int edge) const;
-  void enter_closed(const SeenBody& x, const SeenBody& y, double deepest, std::vector<ContactPoint>& points);
+  void enter_closed(const SeenBody& x, const SeenBody& y, std::vector<ContactPoint>& points);
+  void add_edge_middle(const SeenBody& x, const SeenBody& y, const Crossing& enter, const Crossing& leave,
+                       std::vector<ContactPoint>& points);
   void enter_sheet(const SeenBody& x);
-  void start_inside(const SeenBody& x, double deepest);
-  void spread_inside(const SeenBody& x, double deepest);
-  Inside from_neighbors(const SeenBody& x, int vertex, int known) const;
-  void add_vertices(const SeenBody& y, std::vector<ContactPoint>& points) const;
-  ContactPoint point_of(const Inside& inside, const SeenBody& y) const;
+  void start_inside(const SeenBody& x, const SeenBody& y);
+  void spread_inside(const SeenBody& x, const SeenBody& y);
+  void add_inside(const Inside& inside);
+  Inside from_neighbors(const SeenBody& x, const SeenBody& y, int vertex, int known) const;
+  static std::optional<Place> locate(const SeenBody& y, Vec3 p, Vec3 normal, const Place& near);
+  static Vec3 point_at(const SeenBody& y, const Place& place);
+  static ContactPoint contact_point(const SeenBody& y, int vertex, Vec3 normal, const Place& place);
 
   std::vector<Crossing> crossings_;  // sorted by (edge, t)
   std::vector<Entry> entries_;       // sorted by (vertex, crossing)

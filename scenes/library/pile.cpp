@@ -36,9 +36,10 @@ Vec3 bone(Vec3 p) {
   return {thick * p.x, thick * p.y, 1.25 * p.z};
 }
 Vec3 bean(Vec3 p) { return {0.6 * p.x + 0.6 * (p.z * p.z - 0.4), 0.55 * p.y, 1.15 * p.z}; }
+// The upper half of the sphere becomes the inside.
 Vec3 bowl(Vec3 p) {
-  const double flat = p.x * p.x + p.y * p.y;
-  return {p.x, p.y, p.z > 0.0 ? 0.9 * flat - 0.25 * p.z - 0.55 : 0.75 * p.z + 0.35 * flat};
+  const double inner = 1.0 - 0.35 * std::min(1.0, 2.5 * std::max(p.z, 0.0));
+  return {inner * p.x, inner * p.y, p.z > 0.0 ? -0.62 * p.z : 0.95 * p.z};
 }
 
 Mesh shape(std::size_t kind) {
