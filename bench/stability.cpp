@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/os.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "bench/stability_check.h"
@@ -11,14 +12,18 @@
 namespace tact::bench {
 namespace {
 
-constexpr std::uint64_t kCases = 200;
-constexpr std::uint64_t kQuickCases = 12;
+constexpr std::uint64_t kCases = 1000;
+constexpr std::uint64_t kQuickCases = 24;
 
 struct Row {
   std::uint64_t cases = 0;
   StabilityFailures failures;
   std::uint64_t first_seed = 0;
 };
+
+std::uint64_t cases_of(const StabilityKind& kind, const BenchOptions& options) {
+  return std::max<std::uint64_t>(1, (options.quick ? kQuickCases : kCases) / static_cast<std::uint64_t>(kind.rarity));
+}
 
 Row run_kind(const StabilityKind& kind, std::uint64_t cases) {
   Row row{.cases = cases, .failures = {}};
@@ -51,7 +56,7 @@ int run_stability(const BenchOptions& options) {
   Row total;
   base::Timer all, timer;
   for (const StabilityKind& kind : stability_kinds()) {
-    const Row row = run_kind(kind, options.quick ? kQuickCases : kCases);
+    const Row row = run_kind(kind, cases_of(kind, options));
     print(kind.name, row, timer.lap() / 1e3);
     const StabilityFailures& f = row.failures;
     csv += fmt::format("\"{}\",{},{},{},{},{},{},{},{}\n", kind.name, row.cases, f.facet_sets, f.hulls, f.depths,

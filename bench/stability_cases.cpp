@@ -330,6 +330,62 @@ StabilityCase below_float_numbers(std::uint64_t seed) {
   return c;
 }
 
+// Octahedra and random facets at whole numbers: corners on faces, edges and corners, exactly, at any direction.
+StabilityCase whole_numbers(std::uint64_t seed) {
+  StabilityRandom random(seed);
+  const auto lattice_point = [&](int reach) {
+    return Vector3d(random.below(2 * reach + 1) - reach, random.below(2 * reach + 1) - reach,
+                    random.below(2 * reach + 1) - reach);
+  };
+  const auto body = [&]() -> StabilityBody {
+    if (random.below(2)) {
+      TruthMesh soup;
+      for (int f = 0; f < 12; ++f)
+        soup = joined(soup, triangle_shape(lattice_point(2), lattice_point(2), lattice_point(2)));
+      return {soup, Surface::sheet};
+    }
+    TruthMesh octahedron;
+    octahedron.positions.resize(3, 6);
+    octahedron.positions << 2, -2, 0, 0, 0, 0, 0, 0, 2, -2, 0, 0, 0, 0, 0, 0, 2, -2;
+    octahedron.facets.resize(3, 8);
+    octahedron.facets << 0, 2, 1, 3, 2, 1, 3, 0, 2, 1, 3, 0, 0, 2, 1, 3, 4, 4, 4, 4, 5, 5, 5, 5;
+    return {moved(octahedron, lattice_point(2))};
+  };
+  const StabilityBody a = body();
+  return {{a, body()}};
+}
+
+// Several of these at once.
+StabilityCase several_at_once(std::uint64_t seed) {
+  StabilityRandom random(seed);
+  StabilityCase c = random.below(2) ? ordinary(random) : slender_bodies(seed);
+  if (random.below(2)) c.bodies[1].mesh = joined(c.bodies[1].mesh, inside_out(c.bodies[1].mesh));
+  if (random.below(2)) c.bodies[0].mesh = joined(c.bodies[0].mesh, stretched(c.bodies[0].mesh, {1.0, 0.0, 1.0}));
+  if (random.below(2)) {
+    const double factor = std::pow(10.0, -random.below(9));
+    c.bodies[0].mesh.positions *= factor;
+  }
+  if (random.below(2)) {
+    const Vector3d by = std::pow(10.0, random.below(9)) * random.direction();
+    for (StabilityBody& body : c.bodies) body.mesh = moved(body.mesh, by);
+  }
+  if (random.below(2)) scale(c, std::pow(10.0, random.below(19) - 9));
+  return c;
+}
+
+// Rough spheres of 20480 facets, one in the other: so many pairs of clusters that a pair is shared among threads. Every
+// fourth is of 81920 facets: so many clusters that trees find their pairs.
+StabilityCase large_rough_bodies(std::uint64_t seed) {
+  StabilityRandom random(seed);
+  const auto rough = [&](double radius) {
+    TruthMesh mesh = ball_shape(seed % 4 == 0 ? 6 : 5);
+    for (auto p : mesh.positions.colwise()) p *= radius + random.uniform(-0.2, 0.2);
+    return mesh;
+  };
+  const TruthMesh inner = rough(0.95);
+  return {{{rough(1.0)}, {inner}}};
+}
+
 StabilityCase out_of_range(std::uint64_t seed) {
   StabilityRandom random(seed);
   StabilityCase c = ordinary(random);
@@ -365,6 +421,9 @@ constexpr StabilityKind kKinds[] = {
     {"crumpled to noise", crumpled_to_noise},
     {"beyond float boxes", beyond_float_boxes},
     {"below float numbers", below_float_numbers},
+    {"whole numbers", whole_numbers},
+    {"several at once", several_at_once},
+    {"large rough bodies", large_rough_bodies, 100},
     {"out of range, refused", out_of_range},
 };
 

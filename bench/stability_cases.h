@@ -31,6 +31,7 @@ struct StabilityCase {
 struct StabilityKind {
   const char* name;
   StabilityCase (*make)(std::uint64_t seed);
+  int rarity = 1;  // so many times fewer cases are enough: each is large
 };
 
 std::span<const StabilityKind> stability_kinds();
