@@ -42,7 +42,7 @@ Answer solve(const Pair& pair, Vec3 preferred = {0, 0, 1}) {
   const ClusteredMesh a = mesh_through(pair.a);
   const ClusteredMesh b = mesh_through(pair.b);
   const MinkowskiDifference m(a, b);
-  PolytopeMemory memory;
+  tact::narrowphase::PolytopeMemory memory;
   const SmallestSeparation s = smallest_separation(m, preferred, memory);
   return {s, s.height / m.scale(), s.lower_bound / m.scale(), m.size() / m.scale()};
 }
