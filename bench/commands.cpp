@@ -2,8 +2,11 @@
 
 #include "bench/broadphase.h"
 #include "bench/error.h"
+#include "bench/idle.h"
 #include "bench/predicates.h"
+#include "bench/refresh.h"
 #include "bench/rivals.h"
+#include "bench/scaling.h"
 #include "bench/stability.h"
 
 namespace tact::bench {
@@ -11,6 +14,9 @@ namespace tact::bench {
 std::vector<Command> commands() {
   return {
       {"rivals", "the same frames through tact, Embree, CGAL, FCL and Bullet", run_rivals},
+      {"refresh", "vertices a second of taking in new positions, against a plain sum", run_refresh},
+      {"scaling", "one and more threads, growth with bodies and facets, the slowest of many steps", run_scaling},
+      {"idle", "steps in which nothing moved, or few of many", run_idle},
       {"broadphase", "boxes alone, in every kind of motion, through tact, Embree and CGAL", run_broadphase},
       {"error", "run time against error, of every setting and of other libraries", run_error},
       {"predicates", "what a triangle test costs, and how often the exact path runs", run_predicates},

@@ -52,6 +52,12 @@ inline bool facets_meet(const MeshView& a, int facet_a, const MeshView& b, int f
                             Kernel::Triangle_3(point(t[0]), point(t[1]), point(t[2])));
 }
 
+// Threads that pay off: waking them costs more than the whole frame of a small workload.
+inline int useful_threads(const Workload& workload, int threads) {
+  constexpr std::size_t kSmall = 5000;  // facets
+  return workload.facet_count() < kSmall ? 1 : threads;
+}
+
 // Lists that keep their memory from step to step.
 class MeetingLists {
  public:

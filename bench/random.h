@@ -2,8 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace tact::bench {
 
@@ -14,6 +18,15 @@ class Random {
   // low <= the number < high.
   double uniform(double low, double high) {
     return low + (high - low) * (static_cast<double>(bits_() >> 11) * 0x1p-53);
+  }
+
+  // 0 .. count - 1 in a random order.
+  std::vector<int> permutation(int count) {
+    std::vector<int> order(static_cast<std::size_t>(count));
+    std::iota(order.begin(), order.end(), 0);
+    for (std::size_t k = order.size(); k > 1; --k)
+      std::swap(order[k - 1], order[static_cast<std::size_t>(bits_() % k)]);
+    return order;
   }
 
   // Uniform on the unit sphere.

@@ -9,8 +9,8 @@ std::vector<RivalKind> all_rivals() {
       {"CGAL, boxes", make_cgal_boxes},
       {"CGAL, clipped boxes", make_cgal_clipped},
       {"FCL, AABB", make_fcl_aabb},
-      {"FCL, OBBRSS", make_fcl_obbrss},
       {"Bullet, GImpact", make_bullet_gimpact},
+      {"FCL, OBBRSS", make_fcl_obbrss, false},  // its boxes are not rounded outward: a few pairs are lost
       {"FCL, own triangle test", make_fcl_own_test, false},
   };
 }

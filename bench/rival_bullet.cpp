@@ -53,14 +53,15 @@ struct Body {
 
 class Bullet : public Rival {
  public:
-  Bullet(const Workload& workload, int threads) : workload_(workload), threads_(threads), lists_(threads) {
+  Bullet(const Workload& workload, int threads)
+      : workload_(workload), threads_(useful_threads(workload, threads)), lists_(threads_) {
     for (const WorkloadBody& body : workload.bodies) {
       bodies_.push_back(std::make_unique<Body>(body));
       const btAABB box = bodies_.back()->boxes.getGlobalBox();
       void* number = reinterpret_cast<void*>(bodies_.size() - 1);
       bodies_.back()->proxy = broadphase_.createProxy(box.m_min, box.m_max, 0, number, 1, 1, nullptr);
     }
-    for (int k = 0; k < threads; ++k) candidates_.push_back(std::make_unique<btPairSet>());
+    for (int k = 0; k < threads_; ++k) candidates_.push_back(std::make_unique<btPairSet>());
   }
 
   ~Bullet() override {

@@ -63,11 +63,11 @@ class Cgal : public Rival {
  public:
   Cgal(const Workload& workload, int threads, Clipping clipping)
       : workload_(workload),
-        threads_(threads),
+        threads_(useful_threads(workload, threads)),
         clipping_(clipping),
         body_boxes_(workload.bodies.size()),
-        lists_(threads),
-        scratch_(static_cast<std::size_t>(threads)) {
+        lists_(threads_),
+        scratch_(static_cast<std::size_t>(threads_)) {
     for (std::size_t k = 0; k < body_boxes_.size(); ++k) body_boxes_[k] = body_box(view_of(workload.bodies[k], 0));
   }
 

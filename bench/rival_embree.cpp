@@ -185,8 +185,8 @@ class SceneABody : public Rival {
  public:
   SceneABody(const Workload& workload, int threads)
       : workload_(workload),
-        threads_(threads),
-        device_(threads),
+        threads_(useful_threads(workload, threads)),
+        device_(threads_),
         views_(first_views(workload)),
         answers_(views_),
         sweep_(device_, views_.size()) {
@@ -250,8 +250,8 @@ class OneScene : public Rival {
  public:
   OneScene(const Workload& workload, int threads)
       : workload_(workload),
-        threads_(threads),
-        device_(threads),
+        threads_(useful_threads(workload, threads)),
+        device_(threads_),
         views_(first_views(workload)),
         answers_(views_),
         scene_(device_) {

@@ -46,7 +46,8 @@ enum class LeafTest { exact, own };
 template <class Volume, class Node, LeafTest kTest>
 class Fcl : public Rival {
  public:
-  Fcl(const Workload& workload, int threads) : workload_(workload), threads_(threads), lists_(threads) {
+  Fcl(const Workload& workload, int threads)
+      : workload_(workload), threads_(useful_threads(workload, threads)), lists_(threads_) {
     for (const WorkloadBody& body : workload.bodies) {
       models_.push_back(std::make_shared<Model>());
       build(*models_.back(), body);

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "bench/random.h"
+
 namespace tact::bench {
 namespace {
 
@@ -179,6 +181,23 @@ Shape brick(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
       2, 3, 5, 7, 1, 5, 6, 7, 4, 6, 3, 7,              //
       3, 1, 7, 6, 5, 4, 7, 3, 6, 2, 7, 5;
   return shape;
+}
+
+Shape shuffled(const Shape& shape, std::uint64_t seed) {
+  Random random(seed);
+  const std::vector<int> place = random.permutation(static_cast<int>(shape.positions.cols()));
+  const std::vector<int> facet_place = random.permutation(static_cast<int>(shape.facets.cols()));
+  Shape result = shape;
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    result.positions.col(place[v]) = shape.positions.col(static_cast<Eigen::Index>(v));
+  }
+  for (std::size_t f = 0; f < facet_place.size(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int vertex = shape.facets(k, static_cast<Eigen::Index>(f));
+      result.facets(k, facet_place[f]) = place[static_cast<std::size_t>(vertex)];
+    }
+  }
+  return result;
 }
 
 double wave(double phase) {

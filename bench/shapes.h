@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
 namespace tact::bench {
 
@@ -24,6 +25,9 @@ Shape rod(int around, int bands);
 
 // An axis-aligned box: 8 vertices, 12 facets.
 Shape brick(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper);
+
+// The same shape with its vertices and its facets stored in a random order.
+Shape shuffled(const Shape& shape, std::uint64_t seed);
 
 // A smooth wave of period 1 through 0 at 0, between -1 and 1; two parabolas that meet with equal slope.
 double wave(double phase);

@@ -87,6 +87,19 @@ struct Blob {
   BlobMotion motion;
 };
 
+// The first `count` places of a grid of `columns` x `rows` x any number.
+std::vector<Blob> packed_blobs(int count, int columns, int rows) {
+  constexpr double kSpacing = 1.94, kJitter = 0.02, kDent = 0.06, kSway = 0.02;  // metres, radius 1
+  Random random(12);
+  std::vector<Blob> all;
+  for (int k = 0; k < count; ++k) {
+    Vector3d center = kSpacing * Vector3d(k % columns, k / columns % rows, k / (columns * rows));
+    for (int axis = 0; axis < 3; ++axis) center[axis] += random.uniform(-kJitter, kJitter);
+    all.push_back({center, random_motion(random, kDent, kSway)});
+  }
+  return all;
+}
+
 Workload blobs(const std::vector<Blob>& blobs, int frequency, double radius, int frames) {
   const Shape sphere = geodesic_sphere(frequency);
   Workload workload{frames, {}};
@@ -171,16 +184,13 @@ Workload cloth(int cells, int frames) {
 }
 
 Workload pile(int count, int frequency, int frames) {
-  constexpr double kSpacing = 1.94, kJitter = 0.02, kDent = 0.06, kSway = 0.02;  // metres, radius 1
   const int side = cube_side(count);
-  Random random(12);
-  std::vector<Blob> all;
-  for (int k = 0; k < count; ++k) {
-    Vector3d center = kSpacing * Vector3d(k % side, k / side % side, k / (side * side));
-    for (int axis = 0; axis < 3; ++axis) center[axis] += random.uniform(-kJitter, kJitter);
-    all.push_back({center, random_motion(random, kDent, kSway)});
-  }
-  return blobs(all, frequency, round_radius(frequency), frames);
+  return blobs(packed_blobs(count, side, side), frequency, round_radius(frequency), frames);
+}
+
+Workload pile_column(int height, int frequency, int frames) {
+  constexpr int kSide = 8;
+  return blobs(packed_blobs(kSide * kSide * height, kSide, kSide), frequency, round_radius(frequency), frames);
 }
 
 Workload scattered(int count, int frames) {

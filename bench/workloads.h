@@ -37,6 +37,9 @@ Workload cloth(int cells, int frames);
 // neighbours, six inside the pile, shallowly; dents wander over them and they jostle.
 Workload pile(int count, int frequency, int frames);
 
+// The same in a column of 8 x 8 x height blobs: its neighbours per blob hardly depend on the height.
+Workload pile_column(int height, int frequency, int frames);
+
 // A bent organ of 500 facets that breathes, and a rod of 100 that moves in and out of it.
 Workload organ_and_tool(int frames);
 

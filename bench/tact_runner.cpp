@@ -1,0 +1,61 @@
+#include "bench/tact_runner.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "bench/rival.h"
+
+namespace tact::bench {
+namespace {
+
+class Tact : public Rival {
+ public:
+  Tact(const Workload& workload, int threads) : runner_(workload, threads) {}
+
+  void step(int frame) override { report_ = &runner_.step(frame); }
+
+  std::vector<FacetMeeting> meetings() const override {
+    std::vector<FacetMeeting> all;
+    for (const Contact& contact : report_->contacts()) {
+      for (const FacetPair& pair : contact.facet_pairs()) {
+        all.push_back({static_cast<int>(contact.a.index), static_cast<int>(contact.b.index), pair.a, pair.b});
+      }
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+ private:
+  TactRunner runner_;
+  const Report* report_ = nullptr;
+};
+
+}  // namespace
+
+TactRunner::TactRunner(const Workload& workload, int threads) : workload_(workload), world_({.threads = threads}) {
+  for (const WorkloadBody& body : workload.bodies) {
+    ids_.push_back(world_.add_body({.positions = body.positions(0),
+                                    .facets = body.facets,
+                                    .surface = body.surface,
+                                    .motion = body.fixed() ? Motion::fixed : Motion::moving}));
+  }
+  updates_.reserve(ids_.size());
+}
+
+const Report& TactRunner::step(int frame) { return step_few(frame, std::numeric_limits<std::size_t>::max()); }
+
+const Report& TactRunner::step_few(int frame, std::size_t count) {
+  updates_.clear();
+  for (std::size_t k = 0; k < ids_.size() && updates_.size() < count; ++k) {
+    const WorkloadBody& body = workload_.bodies[k];
+    if (!body.fixed()) updates_.push_back({ids_[k], body.positions(frame)});
+  }
+  world_.set_positions(updates_);
+  return world_.detect();
+}
+
+std::unique_ptr<Rival> make_tact(const Workload& workload, int threads) {
+  return std::make_unique<Tact>(workload, threads);
+}
+
+}  // namespace tact::bench

@@ -1,0 +1,34 @@
+// A workload played through tact.
+#pragma once
+
+#include <tact/world.h>
+
+#include <vector>
+
+#include "bench/workloads.h"
+
+namespace tact::bench {
+
+class TactRunner {
+ public:
+  // The workload outlives it. All bodies are added at frame 0.
+  TactRunner(const Workload& workload, int threads);
+
+  // Sets the positions of all bodies that are not fixed, then detects.
+  const Report& step(int frame);
+  // The same for the `count` first bodies that are not fixed; the others keep their positions.
+  const Report& step_few(int frame, std::size_t count);
+  // Detects without setting anything.
+  const Report& step_idle() { return world_.detect(); }
+
+  // The bodies' numbers in the workload are those of the report.
+  const std::vector<BodyId>& ids() const { return ids_; }
+
+ private:
+  const Workload& workload_;
+  World world_;
+  std::vector<BodyId> ids_;
+  std::vector<PositionsUpdate> updates_;
+};
+
+}  // namespace tact::bench
