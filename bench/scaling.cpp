@@ -54,7 +54,7 @@ void strong_scaling(const BenchOptions& options) {
     const Workload workload = named.make();
     double one = 0.0;
     for (const int count : counts) {
-      const double ms = median(step_times(workload, count, options.quick ? workload.frames : 2 * workload.frames));
+      const double ms = median(step_times(workload, count, (options.quick ? 1 : 4) * workload.frames));
       if (count == 1) one = ms;
       table.add({named.name, fmt::to_string(count), three_digits(ms), fmt::format("{:.2f}", one / ms)});
     }
