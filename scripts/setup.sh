@@ -9,7 +9,7 @@ packages_of() {
     program) echo g++ cmake ninja-build libeigen3-dev libembree-dev \
                   libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev libfreetype-dev fonts-dejavu-core webp ;;
     tests) echo libgtest-dev libcgal-dev ;;
-    bench) echo libcgal-dev libfcl-dev libccd-dev libbullet-dev pkg-config ;;
+    bench) echo libcgal-dev libtbb-dev libfcl-dev libccd-dev libbullet-dev pkg-config gnuplot-nox ;;
     sanitizers) echo clang libclang-rt-14-dev libomp-dev llvm ;;
     *) echo "setup.sh: no group is called $1; there are program, tests, bench and sanitizers" >&2; exit 2 ;;
   esac
@@ -29,7 +29,7 @@ fi
 installed=" $(dpkg-query -W -f '${Package}:${db:Status-Status} ' 2> /dev/null) "
 missing=()
 for name in "${wanted[@]}"; do
-  [[ $installed == *" $name:installed "* ]] || missing+=("$name")
+  [[ $installed == *" $name:installed "* || " ${missing[*]} " == *" $name "* ]] || missing+=("$name")
 done
 (( ${#missing[@]} == 0 )) && exit 0
 
