@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kParts = 64;     // the work is dealt out in this many parts, whatever the number of threads,
                                        // so that each keeps its memory from step to step
-constexpr std::size_t kWalkLevel = 1;  // from this level down, a pair of blocks is walked to its end at once
+constexpr std::size_t kWalkLevel = 1;  // a pair of blocks on this level is walked to its end at once
 
 struct ChildNames {
   explicit ChildNames(std::uint32_t block) {
@@ -35,9 +35,11 @@ std::size_t child_pairs(const BlockTree& tree, const Kernels& kernels, std::size
       out[count++] = {child, child};
     }
   }
-  const BlockSide side_a{&tree.block(level, blocks.a), names_a.names, active_a};
-  const BlockSide side_b{&tree.block(level, blocks.b), names_b.names, active_b};
-  return count + kernels.find_overlaps(side_a, side_b, out + count).count;
+  const BlockSide side_a{tree.blocks(level) + blocks.a, names_a.names, active_a};
+  const BlockSide side_b{tree.blocks(level) + blocks.b, names_b.names, active_b};
+  std::uint16_t rows;
+  kernels.find_rows(tree.blocks(level), &blocks, 1, &rows);
+  return count + kernels.find_overlaps(side_a, side_b, rows, out + count).count;
 }
 
 constexpr std::size_t kChildRoom = kLanes + kOverlapRoom;
@@ -77,23 +79,23 @@ std::size_t BlockJoin::visits() const { return std::accumulate(visits_.begin(), 
 // Appends the pairs below a pair of blocks; returns how many pairs of blocks on level 0 were compared.
 std::size_t BlockJoin::walk(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,
                             std::size_t level, IndexPair blocks, PairList& out) const {
-  if (level == 0) {
-    visit(tree, boxes, filters, blocks, out);
-    return 1;
+  IndexPair children[kChildRoom] = {blocks};
+  std::size_t count = 1;
+  if (level > 0) count = child_pairs(tree, *kernels_, level, blocks, children);
+  std::uint16_t rows[kChildRoom];
+  kernels_->find_rows(tree.blocks(0), children, count, rows);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (rows[i] != 0) visit(tree, boxes, filters, children[i], rows[i], out);
   }
-  IndexPair children[kChildRoom];
-  const std::size_t count = child_pairs(tree, *kernels_, level, blocks, children);
-  std::size_t visits = 0;
-  for (std::size_t i = 0; i < count; ++i) visits += walk(tree, boxes, filters, level - 1, children[i], out);
-  return visits;
+  return count;
 }
 
 void BlockJoin::visit(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,
-                      IndexPair blocks, PairList& out) const {
-  const BlockSide side_a{&tree.block(0, blocks.a), tree.members(blocks.a), tree.active(0, blocks.a)};
-  const BlockSide side_b{&tree.block(0, blocks.b), tree.members(blocks.b), tree.active(0, blocks.b)};
+                      IndexPair blocks, std::uint32_t rows, PairList& out) const {
+  const BlockSide side_a{tree.blocks(0) + blocks.a, tree.members(blocks.a), tree.active(0, blocks.a)};
+  const BlockSide side_b{tree.blocks(0) + blocks.b, tree.members(blocks.b), tree.active(0, blocks.b)};
   IndexPair* const found = out.room(kOverlapRoom);
-  const Overlaps overlaps = kernels_->find_overlaps(side_a, side_b, found);
+  const Overlaps overlaps = kernels_->find_overlaps(side_a, side_b, rows, found);
   IndexPair* end = found + overlaps.count;
   if (!overlaps.certain && !(tree.exact(blocks.a) && tree.exact(blocks.b))) {
     end = std::remove_if(found, end, [&](IndexPair pair) { return !base::overlaps(boxes[pair.a], boxes[pair.b]); });

@@ -27,10 +27,10 @@ class BlockJoin {
   std::size_t visits() const;
 
  private:
-  void visit(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters, IndexPair blocks,
-             PairList& out) const;
   std::size_t walk(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,
                    std::size_t level, IndexPair blocks, PairList& out) const;
+  void visit(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters, IndexPair blocks,
+             std::uint32_t rows, PairList& out) const;
 
   const Kernels* kernels_;
   PairList work_;  // pairs of blocks on one level that may hold overlapping boxes

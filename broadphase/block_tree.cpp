@@ -93,7 +93,7 @@ Frame central_frame(std::span<const Box> boxes, std::span<const std::uint32_t> i
 
 const double* doubles_of(std::span<const Box> boxes) {
   static_assert(sizeof(Box) == 6 * sizeof(double));
-  return &boxes.data()->lower.x;
+  return reinterpret_cast<const double*>(boxes.data());  // which may be null
 }
 
 std::size_t blocks_for(std::size_t lanes) { return (lanes + kLanes - 1) / kLanes; }

@@ -34,7 +34,7 @@ class BlockTree {
 
   std::size_t level_count() const { return level_count_; }
   std::size_t block_count(std::size_t level) const { return levels_[level].blocks.size(); }
-  const Block& block(std::size_t level, std::size_t index) const { return levels_[level].blocks[index]; }
+  const Block* blocks(std::size_t level) const { return levels_[level].blocks.data(); }
   // A bit for each lane that holds or is above a box that the last update changed.
   std::uint32_t active(std::size_t level, std::size_t index) const { return levels_[level].active[index]; }
   // Whether boxes of a block on level 0 overlap if their floats do.

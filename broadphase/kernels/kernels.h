@@ -26,10 +26,14 @@ struct Overlaps {
 struct Kernels {
   const char* name;
 
+  // For each of `count` pairs of different blocks, or of a block with itself, the lanes of the first that overlap the
+  // second as a whole. To know them in advance keeps the loops over lanes from waiting for comparisons.
+  void (*find_rows)(const Block* blocks, const IndexPair* pairs, std::size_t count, std::uint16_t* rows);
+
   // Writes the names (smaller first) of each pair of overlapping boxes, one of `a`, one of `b`, of which at least one
-  // is active; in any order. A block against itself gives each pair once. `pairs` must have room for kOverlapRoom; what
-  // lies behind those written may be overwritten.
-  Overlaps (*find_overlaps)(const BlockSide& a, const BlockSide& b, IndexPair* pairs);
+  // is active; in any order; `rows` are those of find_rows(). A block against itself gives each pair once. `pairs` must
+  // have room for kOverlapRoom; what lies behind those written may be overwritten.
+  Overlaps (*find_overlaps)(const BlockSide& a, const BlockSide& b, std::uint32_t rows, IndexPair* pairs);
 
   // Sets the boxes of `lanes`, each of which has a member, and the bounds. `boxes` is an array of six doubles a box,
   // lower then upper. A box that is empty or not within `region` is left out; returns a bit for each of these.

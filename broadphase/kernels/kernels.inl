@@ -25,11 +25,15 @@ LaneOverlap overlapping_lanes(const Block& block, const float* lower, const floa
   return found;
 }
 
-Overlaps find_overlaps(const BlockSide& a, const BlockSide& b, IndexPair* pairs) {
+void find_rows(const Block* blocks, const IndexPair* pairs, std::size_t count, std::uint16_t* rows) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const FloatBox& bounds = blocks[pairs[i].b].bounds;
+    rows[i] = static_cast<std::uint16_t>(overlapping_lanes<1>(blocks[pairs[i].a], bounds.lower, bounds.upper).closed);
+  }
+}
+
+Overlaps find_overlaps(const BlockSide& a, const BlockSide& b, std::uint32_t rows, IndexPair* pairs) {
   const bool same = a.block == b.block;
-  // Most boxes of two neighbouring blocks lie clear of the other block as a whole.
-  std::uint32_t rows = kAllLanes;
-  if (!same) rows = overlapping_lanes<1>(*a.block, b.block->bounds.lower, b.block->bounds.upper).closed;
   // First all comparisons, then all pairs: one loop of unknown length less for the branch prediction.
   std::uint8_t row_of[kLanes + 1];
   std::uint16_t lanes_of[kLanes + 1];

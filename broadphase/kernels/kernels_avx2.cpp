@@ -9,6 +9,6 @@ namespace {
 }  // namespace
 
 extern const Kernels kAvx2Kernels;
-const Kernels kAvx2Kernels{"avx2", find_overlaps, refresh_lanes};
+const Kernels kAvx2Kernels{"avx2", find_rows, find_overlaps, refresh_lanes};
 
 }  // namespace tact::broadphase

@@ -9,6 +9,6 @@ namespace {
 }  // namespace
 
 extern const Kernels kAvx512Kernels;
-const Kernels kAvx512Kernels{"avx512", find_overlaps, refresh_lanes};
+const Kernels kAvx512Kernels{"avx512", find_rows, find_overlaps, refresh_lanes};
 
 }  // namespace tact::broadphase
