@@ -4,9 +4,11 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh program
 scripts/build.sh demo
-for scene in cloth-over-sphere pile; do
+play() {
   echo
-  build/release/scenes/tact run "$scene" --frames 120 --out "out/$scene"
-done
+  build/release/scenes/tact run "$@" --frames 120 --out "out/$1"
+}
+play cloth-over-sphere
+play pile --size 30
 echo
 echo "pictures: out/cloth-over-sphere and out/pile"
