@@ -1,5 +1,6 @@
 #include "tests/support/body_pairs.h"
 
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -140,9 +141,61 @@ constexpr BodyPairKind kKinds[] = {
     {"nested", nested, true},
 };
 
+// A multiple of 2^-20 in each coordinate: sums of a few, and quarters, are exact.
+Vec3 on_grid(Vec3 p) {
+  const auto nearest = [](double x) { return std::floor(x * 0x1p20 + 0.5) * 0x1p-20; };
+  return {nearest(p.x), nearest(p.y), nearest(p.z)};
+}
+
+// A tetrahedron with a corner at `tip` that lies on the side of `normal` otherwise.
+Mesh tetrahedron_on(Vec3 tip, Vec3 normal, double size, Random& random) {
+  MeshBuilder builder;
+  builder.vertex(tip);
+  while (builder.vertex_count() < 4) {
+    const Vec3 offset = on_grid(size * random.direction());
+    if (dot(offset, normal) > 0.1 * size * norm(normal)) builder.vertex(tip + offset);
+  }
+  builder.facet(0, 1, 2);
+  builder.facet(0, 2, 3);
+  builder.facet(0, 3, 1);
+  builder.facet(1, 3, 2);
+  return builder.mesh();
+}
+
+// Two parallel facets close to each other, and a tip that goes through the first and ends on the second.
+std::vector<Mesh> tip_in_pit(Random& random) {
+  const Vec3 p = on_grid(random.in_ball()), q = on_grid(random.in_ball()), r = on_grid(random.in_ball());
+  const Vec3 normal = cross(q - p, r - p);
+  const Vec3 down = on_grid((-0.02 / norm(normal)) * normal);
+  MeshBuilder pit;
+  pit.triangle(p, q, r);
+  pit.triangle(p + down, q + down, r + down);
+  return {pit.mesh(), tetrahedron_on((0.25 * p + 0.25 * q + 0.5 * r) + down, normal, 0.3, random)};
+}
+
 }  // namespace
 
 std::span<const BodyPairKind> body_pair_kinds() { return kKinds; }
+
+std::vector<Mesh> kissing_bodies(std::uint64_t seed) {
+  Random random(seed);
+  const Vec3 far = on_grid(random.in_cube(100.0));
+  std::vector<Mesh> bodies;
+  if (random.chance(0.4)) {
+    bodies = tip_in_pit(random);
+  } else {
+    const Mesh hull = snapped(random_hull(12, seed), 0x1p-20);
+    const int f = random.below(hull.facet_count());
+    const Vec3 p = hull.position(hull.facets(0, f)), q = hull.position(hull.facets(1, f));
+    const Vec3 r = hull.position(hull.facets(2, f));
+    // A corner, the middle of an edge, or a point of the facet.
+    const Vec3 places[] = {p, 0.5 * p + 0.5 * q, 0.25 * p + 0.25 * q + 0.5 * r};
+    bodies = {hull, tetrahedron_on(places[random.below(3)], cross(q - p, r - p), 0.5, random)};
+  }
+  for (Mesh& body : bodies) body = translated(std::move(body), far);
+  if (random.chance(0.5)) std::swap(bodies[0], bodies[1]);
+  return bodies;
+}
 
 std::vector<Mesh> crowd_of_blobs(int count, std::uint64_t seed) {
   Random random(seed);

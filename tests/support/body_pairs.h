@@ -23,6 +23,11 @@ inline void PrintTo(const BodyPairKind& kind, std::ostream* out) { *out << kind.
 
 std::span<const BodyPairKind> body_pair_kinds();
 
+// Two small bodies that touch and no more, exactly, in no special position: a corner of one lies on a facet of the
+// other, on an edge or on a corner; or it lies at the bottom of a pit, on a facet across the contact direction. Where
+// a dot product decides what is apart, its rounding decides here.
+std::vector<Mesh> kissing_bodies(std::uint64_t seed);
+
 // `count` blobs of 80 facets in a box so tight that most meet several others.
 std::vector<Mesh> crowd_of_blobs(int count, std::uint64_t seed);
 // Solids, sheets, needles, soups, single facets and a body without facets, in one place.

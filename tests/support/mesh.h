@@ -33,6 +33,7 @@ class MeshBuilder {
   void quad(int i, int j, int k, int l);
   // A facet with three vertices of its own.
   void triangle(Vec3 p, Vec3 q, Vec3 r);
+  int vertex_count() const { return static_cast<int>(vertices_.size()); }
   Mesh mesh() const;
 
  private:
