@@ -21,18 +21,20 @@ void check_positions(const double* positions, std::size_t count, const std::stri
   const PositionProblem problem = narrowphase::find_position_problem(positions, count, kLargestCoordinate);
   if (problem.kind == PositionProblem::none) return;
   const bool infinite = problem.kind == PositionProblem::non_finite;
-  const double value = positions[3 * static_cast<std::size_t>(problem.source_vertex) + static_cast<std::size_t>(problem.axis)];
+  const double value =
+      positions[3 * static_cast<std::size_t>(problem.source_vertex) + static_cast<std::size_t>(problem.axis)];
   throw Error(infinite ? ErrorCode::non_finite_position : ErrorCode::position_out_of_range,
-              quoted(name) + ": vertex " + std::to_string(problem.source_vertex) + " has " + kAxisName[problem.axis] + " = " +
-                  std::to_string(value) + (infinite ? ", which is not finite" : ", which is larger than 2^300 in size"));
+              quoted(name) + ": vertex " + std::to_string(problem.source_vertex) + " has " + kAxisName[problem.axis] +
+                  " = " + std::to_string(value) +
+                  (infinite ? ", which is not finite" : ", which is larger than 2^300 in size"));
 }
 
 void check_facets(std::span<const int> corner, Eigen::Index vertices, const std::string& name) {
   for (std::size_t i = 0; i < corner.size(); ++i) {
     if (corner[i] >= 0 && corner[i] < vertices) continue;
     throw Error(ErrorCode::facet_out_of_range, quoted(name) + ": facet " + std::to_string(i / 3) + " names vertex " +
-                                                   std::to_string(corner[i]) + ", but there are " + std::to_string(vertices) +
-                                                   " vertices");
+                                                   std::to_string(corner[i]) + ", but there are " +
+                                                   std::to_string(vertices) + " vertices");
   }
 }
 
@@ -44,7 +46,8 @@ void make_room(std::vector<T>& vector, std::size_t count) {
 // The columns of a matrix, one after the other. A Ref may have gaps between columns (the top rows of a taller matrix):
 // they are then copied to `copy`.
 template <class Matrix>
-std::span<const typename Matrix::Scalar> columns(const Eigen::Ref<const Matrix>& m, std::vector<typename Matrix::Scalar>& copy) {
+std::span<const typename Matrix::Scalar> columns(const Eigen::Ref<const Matrix>& m,
+                                                 std::vector<typename Matrix::Scalar>& copy) {
   const auto size = static_cast<std::size_t>(m.size());
   if (m.outerStride() == 3 || m.cols() <= 1) return {m.data(), size};
   copy.clear();
@@ -62,7 +65,8 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   const std::string name = definition.name.empty() ? "body " + std::to_string(slot) : definition.name;
   if (slots_.size() >= std::numeric_limits<std::uint32_t>::max() || definition.positions.cols() > kLargestCount ||
       definition.facets.cols() > kLargestCount) {
-    throw Error(ErrorCode::too_large, quoted(name) + ": more vertices, facets or bodies than 32-bit indices can number");
+    throw Error(ErrorCode::too_large,
+                quoted(name) + ": more vertices, facets or bodies than 32-bit indices can number");
   }
   std::vector<double> position_copy;
   std::vector<int> facet_copy;
@@ -107,10 +111,12 @@ void Bodies::remove(BodyId id) {
 
 void Bodies::prepare(Update& update, BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions) {
   Body& body = writable(id);
-  if (body.motion == Motion::fixed) throw Error(ErrorCode::fixed_body, quoted(body.name) + " is fixed: its positions cannot be set");
+  if (body.motion == Motion::fixed)
+    throw Error(ErrorCode::fixed_body, quoted(body.name) + " is fixed: its positions cannot be set");
   if (positions.cols() != body.mesh.source_vertex_count()) {
     throw Error(ErrorCode::wrong_size, quoted(body.name) + " has " + std::to_string(body.mesh.source_vertex_count()) +
-                                           " vertices, but " + std::to_string(positions.cols()) + " positions were given");
+                                           " vertices, but " + std::to_string(positions.cols()) +
+                                           " positions were given");
   }
   const std::span<const double> values = columns(positions, update.copy);
   check_positions(values.data(), values.size() / 3, body.name);
@@ -118,7 +124,9 @@ void Bodies::prepare(Update& update, BodyId id, const Eigen::Ref<const Eigen::Ma
   update.positions = values.data();
 }
 
-void Bodies::apply(Update& update, int threads) { update.moved = update.body->mesh.set_positions(update.positions, threads); }
+void Bodies::apply(Update& update, int threads) {
+  update.moved = update.body->mesh.set_positions(update.positions, threads);
+}
 
 void Bodies::note(const Update& update) {
   if (!update.moved) return;
@@ -137,7 +145,8 @@ void Bodies::set_positions(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& 
 void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads) {
   const std::size_t count = updates.size();
   if (updates_.size() < count) updates_.resize(count);
-  base::parallel_for(count, kUpdatesPerBlock, threads, [&](std::size_t i) { prepare(updates_[i], updates[i].body, updates[i].positions); });
+  base::parallel_for(count, kUpdatesPerBlock, threads,
+                     [&](std::size_t i) { prepare(updates_[i], updates[i].body, updates[i].positions); });
   check_named_once(updates);
   base::parallel_for(count, kUpdatesPerBlock, threads, [&](std::size_t i) { apply(updates_[i], 1); });
   for (std::size_t i = 0; i < count; ++i) note(updates_[i]);
@@ -146,7 +155,8 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
 void Bodies::check_named_once(std::span<const PositionsUpdate> updates) {
   named_.assign(slots_.size(), 0);
   for (const PositionsUpdate& update : updates) {
-    if (named_[update.body.index]++) throw Error(ErrorCode::wrong_order, quoted(at(update.body).name) + " is named twice in one batch");
+    if (named_[update.body.index]++)
+      throw Error(ErrorCode::wrong_order, quoted(at(update.body).name) + " is named twice in one batch");
   }
 }
 
@@ -156,7 +166,9 @@ bool Bodies::contains(BodyId id) const noexcept {
 }
 
 const Body& Bodies::at(BodyId id) const {
-  const auto text = [&] { return "id (" + std::to_string(id.index) + ", generation " + std::to_string(id.generation) + ")"; };
+  const auto text = [&] {
+    return "id (" + std::to_string(id.index) + ", generation " + std::to_string(id.generation) + ")";
+  };
   if (id.generation == 0) throw Error(ErrorCode::stale_body, text() + " names no body");
   if (id.world != world_) throw Error(ErrorCode::foreign_body, text() + " was given out by another world");
   if (!contains(id)) throw Error(ErrorCode::stale_body, text() + " names a body that was removed");

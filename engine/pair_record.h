@@ -13,9 +13,9 @@ namespace tact {
 // What the last step says about the direction: where the next one starts.
 struct PairHistory {
   enum class Kind { none, separated, overlapping } kind = Kind::none;
-  base::Vec3 direction;            // unit, from a to b: separates the hulls, or is their contact direction
-  narrowphase::GjkSimplex hulls;   // where GJK on the hulls ended
-  narrowphase::GjkSimplex face;    // the face of the Minkowski difference that held the foot
+  base::Vec3 direction;           // unit, from a to b: separates the hulls, or is their contact direction
+  narrowphase::GjkSimplex hulls;  // where GJK on the hulls ended
+  narrowphase::GjkSimplex face;   // the face of the Minkowski difference that held the foot
 };
 
 // What happened in the last step that looked at the pair.

@@ -28,8 +28,8 @@ void set_apart(PairRecord& record, Vec3 direction) {
   record.history.face = {};
 }
 
-// Stage 3. A direction that parted the hulls in the last step, or in which they touched, is asked first: one support query
-// a body. Leaves the direction that parts the hulls in the history; returns whether they overlap, or nearly do.
+// Stage 3. A direction that parted the hulls in the last step, or in which they touched, is asked first: one support
+// query a body. Leaves the direction that parts the hulls in the history; returns whether they overlap, or nearly do.
 bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, const GjkSettings& settings) {
   PairHistory& history = record.history;
   if (history.kind != PairHistory::Kind::none) {
@@ -55,7 +55,8 @@ struct Direction {
 };
 
 // Stage 4. A pair that is new and already overlapping starts from its smallest separation.
-Direction find_direction(const PairRecord& record, const MinkowskiDifference& m, const Settings& settings, PairWork& work) {
+Direction find_direction(const PairRecord& record, const MinkowskiDifference& m, const Settings& settings,
+                         PairWork& work) {
   const DirectionSettings direction_settings{{settings.gjk_tolerance}, settings.iteration_limit};
   const PairHistory& history = record.history;
   const bool fresh_start = history.kind == PairHistory::Kind::none;
@@ -66,7 +67,8 @@ Direction find_direction(const PairRecord& record, const MinkowskiDifference& m,
   }
   const Vec3 preferred = fresh_start ? Vec3{0.0, 0.0, 1.0} : history.direction;
   const SmallestSeparation smallest = smallest_separation(m, preferred, work.polytope);
-  Direction direction{contact_direction(m, smallest.direction, {}, direction_settings, work.faces), DirectionSource::smallest};
+  Direction direction{contact_direction(m, smallest.direction, {}, direction_settings, work.faces),
+                      DirectionSource::smallest};
   direction.found.limit_reached = direction.found.limit_reached || smallest.limit_reached;
   return direction;
 }
@@ -80,7 +82,8 @@ Slab slab_of(const MinkowskiDifference& m, const ContactDirection& found) {
 
 ZoneDisk zone_disk(const Slab& slab, const ImpactZone& zone, double height) {
   if (zone.disk.radius < 0.0) return {};
-  return {to_eigen(slab.origin + zone.disk.center.x * slab.u + zone.disk.center.y * slab.v + height * slab.n), zone.disk.radius};
+  return {to_eigen(slab.origin + zone.disk.center.x * slab.u + zone.disk.center.y * slab.v + height * slab.n),
+          zone.disk.radius};
 }
 
 void fill_contact(PairRecord& record, const MinkowskiDifference& m, const Direction& direction, const Slab& slab) {
@@ -99,8 +102,8 @@ void fill_contact(PairRecord& record, const MinkowskiDifference& m, const Direct
 }
 
 // Stage 5.
-void cull(PairRecord& record, const Body& a, const Body& b, const Slab& slab, const Settings& settings, EmbreeDevice& device,
-          PairWork& work) {
+void cull(PairRecord& record, const Body& a, const Body& b, const Slab& slab, const Settings& settings,
+          EmbreeDevice& device, PairWork& work) {
   const bool paper = settings.accuracy == Accuracy::paper;
   ImpactZone zone_a, zone_b;
   const bool zones = paper || settings.outputs.zones;
@@ -119,8 +122,8 @@ void cull(PairRecord& record, const Body& a, const Body& b, const Slab& slab, co
   cull_clusters(a.mesh, work.input.criteria_a, b.mesh.box(), work.kept_a);
   cull_clusters(b.mesh, work.input.criteria_b, work.kept_a.bounds, work.kept_b);
   cull_again(work.kept_b.bounds, work.kept_a);
-  record.counts.used_trees = find_cluster_pairs(work.kept_a, work.kept_b, ClusterPairSource::automatic, device, work.cluster_pairs,
-                                                work.boxes_found);
+  record.counts.used_trees = find_cluster_pairs(work.kept_a, work.kept_b, ClusterPairSource::automatic, device,
+                                                work.cluster_pairs, work.boxes_found);
   record.counts.cluster_pairs = static_cast<std::int64_t>(work.cluster_pairs.size());
 }
 
@@ -208,7 +211,8 @@ void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int t
     range.opened_b = search.opened_b();
   });
   // A cluster that several ranges opened counts once.
-  std::vector<char> seen_a(static_cast<std::size_t>(work.kept_a.count()), 0), seen_b(static_cast<std::size_t>(work.kept_b.count()), 0);
+  std::vector<char> seen_a(static_cast<std::size_t>(work.kept_a.count()), 0),
+      seen_b(static_cast<std::size_t>(work.kept_b.count()), 0);
   ConfirmCounts counts;
   work.cull_a = work.cull_b = {};
   for (const Range& range : ranges) {

@@ -27,8 +27,8 @@ struct PairWork {
   narrowphase::FacetPairSearch search;
 };
 
-// Stages 3 to 5: do the hulls overlap, in which direction and how deep, which clusters are left, and which pairs of them
-// meet. Returns true if there are cluster pairs to confirm.
+// Stages 3 to 5: do the hulls overlap, in which direction and how deep, which clusters are left, and which pairs of
+// them meet. Returns true if there are cluster pairs to confirm.
 bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, const Settings& settings,
                              narrowphase::EmbreeDevice& device, PairWork& work);
 

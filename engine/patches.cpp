@@ -33,7 +33,9 @@ class Sets {
 Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Eigen::Vector3d to_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
 
-Triangle triangle_of(const Body& body, int source_facet) { return body.mesh.triangle(body.mesh.facet_of_source(source_facet)); }
+Triangle triangle_of(const Body& body, int source_facet) {
+  return body.mesh.triangle(body.mesh.facet_of_source(source_facet));
+}
 
 Box box_of(const Triangle& t) { return extended(extended(Box{t[0], t[0]}, t[1]), t[2]); }
 

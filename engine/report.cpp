@@ -6,7 +6,8 @@ namespace tact {
 
 namespace {
 
-// A hash of 64-bit words: multiply and rotate, with the finisher of SplitMix64 (Steele, Lea, Flood, 2014) on every word.
+// A hash of 64-bit words: multiply and rotate, with the finisher of SplitMix64 (Steele, Lea, Flood, 2014) on every
+// word.
 class Hash {
  public:
   void add(std::uint64_t word) {
@@ -35,7 +36,9 @@ std::uint64_t Report::hash() const {
   for (const Contact& contact : contacts_) {
     hash.add(std::uint64_t{contact.a.index} << 32 | contact.b.index);
     hash.add(contact.direction);
-    for (const double value : {contact.depth, contact.plane_a, contact.plane_b, contact.zone_a.radius, contact.zone_b.radius}) hash.add(value);
+    for (const double value :
+         {contact.depth, contact.plane_a, contact.plane_b, contact.zone_a.radius, contact.zone_b.radius})
+      hash.add(value);
     hash.add(contact.zone_a.center);
     hash.add(contact.zone_b.center);
     hash.add(static_cast<std::uint64_t>(contact.source));
@@ -44,7 +47,8 @@ std::uint64_t Report::hash() const {
     hash.add(static_cast<std::uint64_t>(contact.kept_facets_a));
     hash.add(static_cast<std::uint64_t>(contact.kept_facets_b));
     for (const FacetPair pair : contact.facet_pairs()) {
-      hash.add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(pair.a)) << 32 | static_cast<std::uint32_t>(pair.b));
+      hash.add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(pair.a)) << 32 |
+               static_cast<std::uint32_t>(pair.b));
     }
   }
   return hash.value();

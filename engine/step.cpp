@@ -162,8 +162,8 @@ void Step::make_report(const Bodies& bodies, const Settings& settings) {
   StepStats& stats = report_.stats_;
   report_.contacts_.clear();
   report_.candidate_pairs_.clear();
-  stats.moved_bodies = static_cast<std::int64_t>(
-      std::count_if(bodies.changed().begin(), bodies.changed().end(), [&](std::uint32_t slot) { return bodies.used(slot); }));
+  stats.moved_bodies = static_cast<std::int64_t>(std::count_if(bodies.changed().begin(), bodies.changed().end(),
+                                                               [&](std::uint32_t slot) { return bodies.used(slot); }));
   stats.candidate_pairs = static_cast<std::int64_t>(records_.size());
   stats.kept_pairs = static_cast<std::int64_t>(records_.size() - moved_.size());
   for (const PairRecord* record : moved_) add_work(*record, settings, bodies);
@@ -208,7 +208,8 @@ void Step::add_work(const PairRecord& record, const Settings& settings, const Bo
   stats.facets_facing_away += counts.facets_facing_away;
   stats.facets_outside_zone += counts.facets_outside_zone;
   // Whole clusters fall to criterion 2.
-  stats.facets_outside_slab += static_cast<std::int64_t>(facets) - kept - counts.facets_facing_away - counts.facets_outside_zone;
+  stats.facets_outside_slab +=
+      static_cast<std::int64_t>(facets) - kept - counts.facets_facing_away - counts.facets_outside_zone;
   stats.cluster_pairs += counts.cluster_pairs;
   stats.tree_pairs += counts.used_trees ? 1 : 0;
   stats.facet_box_pairs += counts.facet_box_pairs;

@@ -16,7 +16,8 @@ namespace tact {
 
 class Step {
  public:
-  // Looks at every pair with a body that changed, and keeps the result of all others. `refresh_ms` is what stage 1 took.
+  // Looks at every pair with a body that changed, and keeps the result of all others. `refresh_ms` is what stage 1
+  // took.
   const Report& run(Bodies& bodies, const Settings& settings, double refresh_ms);
 
   // The next step looks at every pair; directions are carried on.
@@ -38,7 +39,7 @@ class Step {
   broadphase::SweepAndPrune sweep_;
   std::vector<std::unique_ptr<PairRecord>> pool_;
   std::vector<PairRecord*> free_;
-  std::size_t room_ = 0;  // facet pairs that a record has room for when it is given out
+  std::size_t room_ = 0;               // facet pairs that a record has room for when it is given out
   std::vector<PairRecord*> records_;   // of the candidate pairs, sorted by (a, b)
   std::vector<PairRecord*> previous_;  // those of the last step, while matching
   std::vector<PairRecord*> moved_;     // those that this step looks at

@@ -22,14 +22,18 @@ std::uint32_t next_world() {
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::bad_settings, what); }
 
 Settings checked(Settings settings) {
-  if (settings.threads < 0 || settings.threads > 1024) refuse("threads is " + std::to_string(settings.threads) + ", not 0 to 1024");
+  if (settings.threads < 0 || settings.threads > 1024)
+    refuse("threads is " + std::to_string(settings.threads) + ", not 0 to 1024");
   if (!(settings.gjk_tolerance >= 1e-15 && settings.gjk_tolerance <= 0.1)) {
     refuse("gjk_tolerance is " + std::to_string(settings.gjk_tolerance) + ", not 1e-15 to 0.1");
   }
-  if (settings.iteration_limit < 1) refuse("iteration_limit is " + std::to_string(settings.iteration_limit) + ", not at least 1");
+  if (settings.iteration_limit < 1)
+    refuse("iteration_limit is " + std::to_string(settings.iteration_limit) + ", not at least 1");
   const int accuracy = static_cast<int>(settings.accuracy), direction = static_cast<int>(settings.direction);
-  if (accuracy < 0 || accuracy > static_cast<int>(Accuracy::exact)) refuse("accuracy is " + std::to_string(accuracy) + ", which is none of its names");
-  if (direction < 0 || direction > static_cast<int>(DirectionPolicy::smallest)) refuse("direction is " + std::to_string(direction) + ", which is none of its names");
+  if (accuracy < 0 || accuracy > static_cast<int>(Accuracy::exact))
+    refuse("accuracy is " + std::to_string(accuracy) + ", which is none of its names");
+  if (direction < 0 || direction > static_cast<int>(DirectionPolicy::smallest))
+    refuse("direction is " + std::to_string(direction) + ", which is none of its names");
   if (settings.threads == 0) settings.threads = base::default_threads();
   return settings;
 }
@@ -109,7 +113,9 @@ std::vector<BodyId> World::bodies() const { return implementation_->bodies.ids()
 const std::string& World::name(BodyId body) const { return implementation_->bodies.at(body).name; }
 Surface World::surface(BodyId body) const { return implementation_->bodies.at(body).surface; }
 Motion World::motion(BodyId body) const { return implementation_->bodies.at(body).motion; }
-std::size_t World::vertex_count(BodyId body) const { return static_cast<std::size_t>(implementation_->bodies.at(body).mesh.source_vertex_count()); }
+std::size_t World::vertex_count(BodyId body) const {
+  return static_cast<std::size_t>(implementation_->bodies.at(body).mesh.source_vertex_count());
+}
 std::size_t World::facet_count(BodyId body) const { return implementation_->bodies.at(body).facet_count; }
 
 }  // namespace tact

@@ -14,8 +14,8 @@ namespace tact::narrowphase {
 
 namespace {
 
-// Embree builds a tree of fewer boxes than this in the calling thread; above, it would wake threads of its own. Clusters
-// are in spatial order, so a run of them is compact and a forest of such trees is nearly as good as one tree.
+// Embree builds a tree of fewer boxes than this in the calling thread; above, it would wake threads of its own.
+// Clusters are in spatial order, so a run of them is compact and a forest of such trees is nearly as good as one tree.
 constexpr int kBoxesPerTree = 512;
 
 [[noreturn]] void fail(RTCError code) {
@@ -30,7 +30,9 @@ void check(RTCDevice device) {
 
 // Numbers in Embree's void pointers: never null, so that a node of zero is told from a failure.
 void* pointer_of(std::int32_t child) { return reinterpret_cast<void*>(static_cast<std::intptr_t>(child) * 2 + 1); }
-std::int32_t child_of(void* pointer) { return static_cast<std::int32_t>((reinterpret_cast<std::intptr_t>(pointer) - 1) / 2); }
+std::int32_t child_of(void* pointer) {
+  return static_cast<std::int32_t>((reinterpret_cast<std::intptr_t>(pointer) - 1) / 2);
+}
 
 }  // namespace
 
@@ -92,8 +94,10 @@ void ClusterForest::build(EmbreeDevice& device, const BoxArrays& boxes, int coun
       const Box box = boxes[static_cast<std::size_t>(i)];
       const Vec3 low = scale * (box.lower - origin), high = scale * (box.upper - origin);
       RTCBuildPrimitive p{};
-      p.lower_x = static_cast<float>(low.x), p.lower_y = static_cast<float>(low.y), p.lower_z = static_cast<float>(low.z);
-      p.upper_x = static_cast<float>(high.x), p.upper_y = static_cast<float>(high.y), p.upper_z = static_cast<float>(high.z);
+      p.lower_x = static_cast<float>(low.x), p.lower_y = static_cast<float>(low.y),
+      p.lower_z = static_cast<float>(low.z);
+      p.upper_x = static_cast<float>(high.x), p.upper_y = static_cast<float>(high.y),
+      p.upper_z = static_cast<float>(high.z);
       p.primID = static_cast<unsigned>(i);
       primitives.push_back(p);
     }

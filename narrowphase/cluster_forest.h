@@ -1,8 +1,8 @@
 // Trees over many boxes, built by Embree, for the pairs of bodies whose clusters are too many for a plain loop.
 //
 // Embree proposes the topology only; the boxes in the nodes are ours, in doubles, so a query misses nothing and reports
-// nothing else, however far from zero the bodies are. Its rtcCollide is not used: boxes there are floats, its threads are
-// not ours, and every call allocates.
+// nothing else, however far from zero the bodies are. Its rtcCollide is not used: boxes there are floats, its threads
+// are not ours, and every call allocates.
 #pragma once
 
 #include <cstdint>

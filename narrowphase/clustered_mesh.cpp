@@ -20,8 +20,8 @@ Vec3 source_position(std::span<const double> positions, int vertex) {
   return {p[0], p[1], p[2]};
 }
 
-// Orders facets so that neighbours in space are neighbours in the order: halves at the median of the longest axis, cut at
-// multiples of `unit` so that clusters come out full. Ties break by facet number.
+// Orders facets so that neighbours in space are neighbours in the order: halves at the median of the longest axis, cut
+// at multiples of `unit` so that clusters come out full. Ties break by facet number.
 class MedianOrder {
  public:
   MedianOrder(const std::vector<Vec3>& centers, std::vector<int>& order) : centers_(centers), order_(order) {}
@@ -217,7 +217,8 @@ void ClusteredMesh::validate() const {
   if (!(whole == box_)) broken("box of the mesh");
   for (int g = 0; g < group_count(); ++g) {
     Box box;
-    for (int c = cluster_begin(g); c < cluster_end(g); ++c) box = merged(box, cluster_boxes_[static_cast<std::size_t>(c)]);
+    for (int c = cluster_begin(g); c < cluster_end(g); ++c)
+      box = merged(box, cluster_boxes_[static_cast<std::size_t>(c)]);
     if (!(box == group_boxes_[static_cast<std::size_t>(g)])) broken("box of group " + std::to_string(g));
   }
 }

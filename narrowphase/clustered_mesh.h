@@ -1,10 +1,11 @@
-// A triangle mesh as the narrow phase sees it: facets grouped into clusters of up to 64 neighbours, vertices stored cluster
-// by cluster, a box a cluster. Every spatial query starts from the boxes and opens only the clusters that matter.
+// A triangle mesh as the narrow phase sees it: facets grouped into clusters of up to 64 neighbours, vertices stored
+// cluster by cluster, a box a cluster. Every spatial query starts from the boxes and opens only the clusters that
+// matter.
 //
-// Vertices are renumbered: a vertex belongs to the first cluster that uses it (its *owner*), and the vertices of a cluster
-// stand next to each other. Clusters borrow the other vertices that they use from earlier clusters, so that refreshing in
-// order reads each vertex of the caller once. A vertex that no facet uses is left out. "vertex" below means the new number,
-// "source vertex" the caller's; likewise "facet" and "source facet".
+// Vertices are renumbered: a vertex belongs to the first cluster that uses it (its *owner*), and the vertices of a
+// cluster stand next to each other. Clusters borrow the other vertices that they use from earlier clusters, so that
+// refreshing in order reads each vertex of the caller once. A vertex that no facet uses is left out. "vertex" below
+// means the new number, "source vertex" the caller's; likewise "facet" and "source facet".
 #pragma once
 
 #include <array>
@@ -103,13 +104,14 @@ class ClusteredMesh {
   const double* coordinate_array(int axis) const { return coordinate_[axis].data(); }
   PointArrays points() const { return {coordinate_[0].data(), coordinate_[1].data(), coordinate_[2].data()}; }
 
-  // The box of all facets; empty if there is none. The boxes of the clusters, borrowed vertices included, and of the groups.
+  // The box of all facets; empty if there is none. The boxes of the clusters, borrowed vertices included, and of the
+  // groups.
   const Box& box() const { return box_; }
   const BoxArrays& cluster_boxes() const { return cluster_boxes_; }
   const BoxArrays& group_boxes() const { return group_boxes_; }
 
-  // Throws std::logic_error that says what is broken: every source facet stands in one cluster, every used source vertex
-  // has one owner, boxes are the boxes of their vertices. For tests.
+  // Throws std::logic_error that says what is broken: every source facet stands in one cluster, every used source
+  // vertex has one owner, boxes are the boxes of their vertices. For tests.
   void validate() const;
 
  private:
@@ -121,8 +123,8 @@ class ClusteredMesh {
   std::vector<int> source_vertex_;  // of each vertex
   std::vector<int> source_facet_;   // of each facet
   std::vector<int> facet_of_source_;
-  std::vector<int> corner_[3];      // of each facet
-  std::vector<int> vertex_begin_;   // of each cluster, and one more
+  std::vector<int> corner_[3];         // of each facet
+  std::vector<int> vertex_begin_;      // of each cluster, and one more
   std::vector<int> borrowed_source_;   // source vertices that a cluster uses and does not own
   std::vector<int> borrowed_begin_;    // of each cluster, and one more
   std::vector<double> coordinate_[3];  // of each vertex

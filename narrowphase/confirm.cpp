@@ -45,7 +45,8 @@ bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPai
                         std::vector<ClusterPair>& pairs, std::vector<std::int32_t>& found) {
   pairs.clear();
   const std::int64_t all = static_cast<std::int64_t>(a.count()) * b.count();
-  const bool forest = source == ClusterPairSource::forest || (source == ClusterPairSource::automatic && all > kLargestLoop);
+  const bool forest =
+      source == ClusterPairSource::forest || (source == ClusterPairSource::automatic && all > kLargestLoop);
   if (all == 0) return false;
   ClusterForest trees;
   if (forest) trees.build(device, b.boxes, b.count());
@@ -57,7 +58,8 @@ bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPai
       std::sort(found.begin(), found.end());
     } else {
       found.resize(static_cast<std::size_t>(b.count()));
-      found.resize(static_cast<std::size_t>(kernels().select_overlapping(b.boxes.pointers(), b.count(), bounds_of(box), found.data())));
+      found.resize(static_cast<std::size_t>(
+          kernels().select_overlapping(b.boxes.pointers(), b.count(), bounds_of(box), found.data())));
     }
     for (const std::int32_t k : found) pairs.push_back({i, k});
   }
@@ -76,7 +78,8 @@ void FacetPairSearch::run(const ConfirmInput& input, const std::vector<ClusterPa
       open_a = pair.a;
       const std::int32_t cluster = input.kept_a->cluster[static_cast<std::size_t>(pair.a)];
       opened_a_.push_back({pair.a, {}});
-      a_.kept = cull_facets(*input.a, cluster, input.criteria_a, input.kept_b->bounds, a_.block, opened_a_.back().counts);
+      a_.kept =
+          cull_facets(*input.a, cluster, input.criteria_a, input.kept_b->bounds, a_.block, opened_a_.back().counts);
     }
     if (a_.kept == 0) continue;
     const OpenCluster& b = open_b(input, pair.b);
@@ -106,7 +109,8 @@ void FacetPairSearch::test_clusters(const ConfirmInput& input, const ClusterPair
   if (near_b.facets == 0) return;
   const NearFacets near_a = kernels().near_facets(a.block, a.kept, near_b.box);
   const auto add = [&](std::size_t i, std::size_t j) {
-    found.push_back({input.a->source_facet(first_a + static_cast<int>(i)), input.b->source_facet(first_b + static_cast<int>(j))});
+    found.push_back(
+        {input.a->source_facet(first_a + static_cast<int>(i)), input.b->source_facet(first_b + static_cast<int>(j))});
   };
   for (std::uint64_t left_a = near_a.facets; left_a != 0; left_a &= left_a - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left_a));

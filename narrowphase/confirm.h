@@ -46,8 +46,8 @@ FilterFacet filter_facet(const FacetBlock& block, std::size_t i);
 // Where cluster pairs come from.
 enum class ClusterPairSource { automatic, loop, forest };
 
-// The pairs of kept clusters whose boxes overlap, sorted: by a loop over boxes where they are few, by Embree's trees where
-// they are many. Says whether trees were used. `pairs` is replaced, `scratch` lends its memory.
+// The pairs of kept clusters whose boxes overlap, sorted: by a loop over boxes where they are few, by Embree's trees
+// where they are many. Says whether trees were used. `pairs` is replaced, `scratch` lends its memory.
 bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPairSource source, EmbreeDevice& device,
                         std::vector<ClusterPair>& pairs, std::vector<std::int32_t>& scratch);
 

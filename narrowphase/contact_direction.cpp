@@ -17,13 +17,14 @@ constexpr double kShift = 1e-3;
 // How far a vertex may lie below the supporting plane and still belong to its face, in roundings of a height.
 constexpr double kFaceTolerance = 4.0;
 
-// The normal of the face of M that a simplex spans, on the side of `toward`; nothing if it spans none. Sides are taken from
-// the bodies, not from points of M, and twice as wide as doubles: a thin face has a normal as good as any.
+// The normal of the face of M that a simplex spans, on the side of `toward`; nothing if it spans none. Sides are taken
+// from the bodies, not from points of M, and twice as wide as doubles: a thin face has a normal as good as any.
 std::optional<Vec3> face_normal(const MinkowskiDifference& m, const GjkSimplex& s, Vec3 toward) {
   if (s.count < 3) return std::nullopt;
   const auto side = [&](std::size_t i, std::size_t j) {
     const auto point = [&](const ClusteredMesh& mesh, int vertex) { return m.scale() * mesh.position(vertex); };
-    return wide_difference(point(m.a(), s.a[j]), point(m.a(), s.a[i])) - wide_difference(point(m.b(), s.b[j]), point(m.b(), s.b[i]));
+    return wide_difference(point(m.a(), s.a[j]), point(m.a(), s.a[i])) -
+           wide_difference(point(m.b(), s.b[j]), point(m.b(), s.b[i]));
   };
   const Vec3 n = wide_cross(side(0, 1), side(0, 2));
   if (n == Vec3{}) return std::nullopt;
@@ -107,8 +108,8 @@ class Search {
     return best_.height <= dot(best_.n, m_.vertex(face.a[0], face.b[0]).point) + tolerance_;
   }
 
-  // How near to the border of a face its foot is left alone. Nearer, a small turn over the border may lead to a lower face:
-  // at a distance of r w(n) from the border, w is lower again beyond a turn of 2 r radians.
+  // How near to the border of a face its foot is left alone. Nearer, a small turn over the border may lead to a lower
+  // face: at a distance of r w(n) from the border, w is lower again beyond a turn of 2 r radians.
   double shallow() const { return std::max(tolerance_, kShallow * best_.height); }
 
   // Finishes if the foot lies well inside the face that n supports, of which `part` is known.
@@ -126,9 +127,9 @@ class Search {
     return margin_of_foot(*polygon_);
   }
 
-  // The direction repeats, or the foot lies in a face. Goes over the border of the face where the foot is near it and the
-  // other side is lower, and on from there; finishes where it is not. A foot on an edge or a corner is on the border of
-  // faces. Where w = 0 every direction is a minimum.
+  // The direction repeats, or the foot lies in a face. Goes over the border of the face where the foot is near it and
+  // the other side is lower, and on from there; finishes where it is not. A foot on an edge or a corner is on the
+  // border of faces. Where w = 0 every direction is a minimum.
   void leave_or_finish() {
     for (int i = 0; i < kWalkLimit; ++i) {
       const std::optional<Vec3> lower = best_.height > tolerance_ ? lowest_adjacent() : std::nullopt;
@@ -141,8 +142,8 @@ class Search {
     finished_ = true;
   }
 
-  // The lowest of the faces across the sides that the foot is near to or beyond; both ways from an edge; four ways from a
-  // corner. Nothing if none is lower.
+  // The lowest of the faces across the sides that the foot is near to or beyond; both ways from an edge; four ways from
+  // a corner. Nothing if none is lower.
   std::optional<Vec3> lowest_adjacent() {
     const std::vector<Point2>& c = polygon_->corner;
     const Vec3 u = polygon_->u, v = polygon_->v;

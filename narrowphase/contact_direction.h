@@ -1,4 +1,5 @@
-// The contact direction of two overlapping hulls (paper §4.1): a local minimum of the height w of M, found from a start.
+// The contact direction of two overlapping hulls (paper §4.1): a local minimum of the height w of M, found from a
+// start.
 #pragma once
 
 #include "narrowphase/gjk.h"
@@ -12,9 +13,9 @@ struct DirectionSettings {
 };
 
 struct ContactDirection {
-  Vec3 n;                      // unit, from A to B
-  double height = 0.0;         // w(n), scaled; negative beyond height_error(): n separates the hulls
-  int top_a = -1;              // the vertex of A farthest along n, and that of B farthest against it
+  Vec3 n;               // unit, from A to B
+  double height = 0.0;  // w(n), scaled; negative beyond height_error(): n separates the hulls
+  int top_a = -1;       // the vertex of A farthest along n, and that of B farthest against it
   int top_b = -1;
   int iterations = 0;          // shifted calls of GJK
   int support_queries = 0;     // of these calls, and of the search for faces
@@ -24,13 +25,14 @@ struct ContactDirection {
 
 // Starts from the unit direction `start`, and goes on until the foot of the origin lies in the face of M that the
 // direction supports. Each iteration shifts A back along n by a little more than the hulls overlap, takes the closest
-// points by GJK and turns n to them; w never increases. A foot on an edge or a corner of M repeats without being a minimum:
-// from an edge n is turned to the adjacent face with the smaller w, from a corner to the lowest of the faces that four
-// fixed tangents lead to. n is the normal of the face, computed from its vertices, and does not depend on the path.
+// points by GJK and turns n to them; w never increases. A foot on an edge or a corner of M repeats without being a
+// minimum: from an edge n is turned to the adjacent face with the smaller w, from a corner to the lowest of the faces
+// that four fixed tangents lead to. n is the normal of the face, computed from its vertices, and does not depend on the
+// path.
 //
 // `face` is the last step's: if its vertices still span a face that holds the foot, that is the answer, without an
-// iteration. Where M is flat the height is zero and n its normal on the side of `start`; where M is a segment or a point, n
-// is the direction across it nearest to `start`. `faces` lends its memory.
+// iteration. Where M is flat the height is zero and n its normal on the side of `start`; where M is a segment or a
+// point, n is the direction across it nearest to `start`. `faces` lends its memory.
 ContactDirection contact_direction(const MinkowskiDifference& m, Vec3 start, const GjkSimplex& face,
                                    const DirectionSettings& settings, FaceFinder& faces);
 

@@ -42,8 +42,9 @@ double turn(Point2 a, Point2 b, Point2 c) { return (b.x - a.x) * (c.y - a.y) - (
 // more than that.
 bool meets(const Disk& disk, Point2 a, Point2 b, Point2 c) {
   if (disk.radius < 0.0) return false;
-  const double reach = std::max({std::abs(a.x - disk.center.x), std::abs(a.y - disk.center.y), std::abs(b.x - disk.center.x),
-                                 std::abs(b.y - disk.center.y), std::abs(c.x - disk.center.x), std::abs(c.y - disk.center.y)});
+  const double reach =
+      std::max({std::abs(a.x - disk.center.x), std::abs(a.y - disk.center.y), std::abs(b.x - disk.center.x),
+                std::abs(b.y - disk.center.y), std::abs(c.x - disk.center.x), std::abs(c.y - disk.center.y)});
   const double radius = disk.radius + 1e-14 * (disk.radius + reach);
   const Point2 p = disk.center;
   const double ab = turn(a, b, p), bc = turn(b, c, p), ca = turn(c, a, p);
@@ -78,7 +79,8 @@ Criteria criteria_for_b(const Slab& slab, const ImpactZone* zone_a, bool facing_
 void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Box& other, KeptClusters& kept) {
   const auto count = static_cast<std::size_t>(mesh.cluster_count());
   kept.cluster.resize(count);
-  const int met = kernels().select_overlapping(mesh.cluster_boxes().pointers(), mesh.cluster_count(), bounds_of(other), kept.cluster.data());
+  const int met = kernels().select_overlapping(mesh.cluster_boxes().pointers(), mesh.cluster_count(), bounds_of(other),
+                                               kept.cluster.data());
   const Vec3 n = criteria.outward;
   int found = 0;
   kept.bounds = Box{};
@@ -86,7 +88,8 @@ void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Bo
   for (int i = 0; i < met; ++i) {
     const std::int32_t cluster = kept.cluster[static_cast<std::size_t>(i)];
     const Box box = mesh.cluster_boxes()[static_cast<std::size_t>(cluster)];
-    const Vec3 top{n.x >= 0.0 ? box.upper.x : box.lower.x, n.y >= 0.0 ? box.upper.y : box.lower.y, n.z >= 0.0 ? box.upper.z : box.lower.z};
+    const Vec3 top{n.x >= 0.0 ? box.upper.x : box.lower.x, n.y >= 0.0 ? box.upper.y : box.lower.y,
+                   n.z >= 0.0 ? box.upper.z : box.lower.z};
     if (dot(n, top - criteria.origin) < criteria.lowest) continue;
     kept.cluster[static_cast<std::size_t>(found++)] = cluster;
     kept.bounds = merged(kept.bounds, intersection(box, other));
@@ -117,9 +120,11 @@ void cull_again(const Box& other, KeptClusters& kept) {
 std::uint64_t cull_facets(const ClusteredMesh& mesh, int cluster, const Criteria& criteria, const Box& other,
                           FacetBlock& block, CullCounts& counts) {
   const int first = mesh.facet_begin(cluster), count = mesh.facet_end(cluster) - first;
-  const std::int32_t* const corners[3] = {mesh.corner_array(0) + first, mesh.corner_array(1) + first, mesh.corner_array(2) + first};
+  const std::int32_t* const corners[3] = {mesh.corner_array(0) + first, mesh.corner_array(1) + first,
+                                          mesh.corner_array(2) + first};
   kernels().fill_facet_block(mesh.points(), corners, count, &block);
-  const CullPlanes planes{.axis = {criteria.outward.x, criteria.outward.y, criteria.outward.z, criteria.origin.x, criteria.origin.y, criteria.origin.z},
+  const CullPlanes planes{.axis = {criteria.outward.x, criteria.outward.y, criteria.outward.z, criteria.origin.x,
+                                   criteria.origin.y, criteria.origin.z},
                           .lowest = criteria.lowest,
                           .box = bounds_of(other),
                           .facing_away = criteria.facing_away};

@@ -1,15 +1,16 @@
 // Which facets of two overlapping bodies can touch (paper §3): clusters first, then facets.
 //
 // A facet F of A, n the contact direction (B the same with -n):
-//   1 facing away     n · normal(F) <= 0: dropped. Loses contacts on spikes and folds: Accuracy::paper only, and never on
+//   1 facing away     n · normal(F) <= 0: dropped. Loses contacts on spikes and folds: Accuracy::paper only, and never
+//   on
 //                     a sheet or a facet without area.
 //   2 outside slab    F lies before the plane of B. Also: F's box misses the box of what is left of B.
 //   3 outside zone    the projection of F misses the disk around B's impact zone. Where a zone was computed.
 //
-// Criteria 2 and 3 lose no contact in real arithmetic, and none here: a height computed as n · (x - origin) is off by at
-// most e = Slab::error from the true one, and so is a plane, the extreme of such heights. A facet is dropped if its highest
-// corner lies more than 2 e below the plane: then it lies below in truth. Boxes are compared as they are. For the disk see
-// impact_zone.h; the facet's projection is off by at most sqrt(2) e more.
+// Criteria 2 and 3 lose no contact in real arithmetic, and none here: a height computed as n · (x - origin) is off by
+// at most e = Slab::error from the true one, and so is a plane, the extreme of such heights. A facet is dropped if its
+// highest corner lies more than 2 e below the plane: then it lies below in truth. Boxes are compared as they are. For
+// the disk see impact_zone.h; the facet's projection is off by at most sqrt(2) e more.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +22,13 @@ namespace tact::narrowphase {
 
 // How the facets of one body are judged against the other.
 struct Criteria {
-  Vec3 outward = {};           // n for A, -n for B
-  Vec3 origin = {};            // heights are measured from here
-  double lowest = 0.0;         // a facet whose highest corner is lower cannot touch; all margins included, metres
-  bool facing_away = false;    // criterion 1 applies
-  bool zone = false;           // criterion 3 applies
-  Vec3 u = {}, v = {};         // axes of the zone's plane
-  Disk other_zone = {};        // of the other body, all margins included
+  Vec3 outward = {};         // n for A, -n for B
+  Vec3 origin = {};          // heights are measured from here
+  double lowest = 0.0;       // a facet whose highest corner is lower cannot touch; all margins included, metres
+  bool facing_away = false;  // criterion 1 applies
+  bool zone = false;         // criterion 3 applies
+  Vec3 u = {}, v = {};       // axes of the zone's plane
+  Disk other_zone = {};      // of the other body, all margins included
 };
 
 // Facets dropped, by the first criterion that drops them, and kept.
@@ -52,7 +53,8 @@ struct KeptClusters {
 Criteria criteria_for_a(const Slab& slab, const ImpactZone* zone_b, bool facing_away);
 Criteria criteria_for_b(const Slab& slab, const ImpactZone* zone_a, bool facing_away);
 
-// The clusters of `mesh` that reach up to the other's plane and whose box meets `other`. Replaces the contents of `kept`.
+// The clusters of `mesh` that reach up to the other's plane and whose box meets `other`. Replaces the contents of
+// `kept`.
 void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Box& other, KeptClusters& kept);
 // Drops from `kept` the clusters whose box misses `other`.
 void cull_again(const Box& other, KeptClusters& kept);

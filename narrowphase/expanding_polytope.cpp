@@ -203,7 +203,7 @@ class Search {
   std::vector<OpenFace>& open_;    // a heap, the nearest on top
   std::vector<Queried>& queried_;  // in the order of the queries
   ConvexPolytope& polytope_;
-  double height_ = kInfinity;     // the least of them
+  double height_ = kInfinity;  // the least of them
   double lower_bound_ = 0.0;
   bool limit_reached_ = false;
 };

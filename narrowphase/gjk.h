@@ -9,8 +9,9 @@
 namespace tact::narrowphase {
 
 enum class GjkStatus {
-  apart,          // certainly: the lower bound of the distance exceeds all rounding
-  touching,       // but for rounding, the point lies on a vertex, an edge or a triangle of vertices of M: it touches M, or is inside
+  apart,     // certainly: the lower bound of the distance exceeds all rounding
+  touching,  // but for rounding, the point lies on a vertex, an edge or a triangle of vertices of M: it touches M, or
+             // is inside
   overlapping,    // the point lies inside a tetrahedron of vertices of M
   limit_reached,  // the bounds did not close: the result is the best found
 };
@@ -24,10 +25,10 @@ struct GjkSimplex {
 
 struct GjkResult {
   GjkStatus status = GjkStatus::limit_reached;
-  Vec3 offset;                // from the point to the nearest point of M, scaled
-  double distance = 0.0;      // |offset|: an upper bound, but for rounding
-  double lower_bound = 0.0;   // M is at least this far, but for rounding
-  GjkSimplex simplex;         // the vertices of M around the nearest point
+  Vec3 offset;               // from the point to the nearest point of M, scaled
+  double distance = 0.0;     // |offset|: an upper bound, but for rounding
+  double lower_bound = 0.0;  // M is at least this far, but for rounding
+  GjkSimplex simplex;        // the vertices of M around the nearest point
   int support_queries = 0;
 };
 

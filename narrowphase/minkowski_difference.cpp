@@ -8,8 +8,9 @@ namespace tact::narrowphase {
 namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
-// A height n · (x - o) is off by at most 4 roundoffs of |x - o|, n being of unit length but for rounding. Two vertices are
-// chosen, each at most two such errors below the true extreme, and n · (a - b), |a - b| <= 2 size, is off by 4 of 2 size.
+// A height n · (x - o) is off by at most 4 roundoffs of |x - o|, n being of unit length but for rounding. Two vertices
+// are chosen, each at most two such errors below the true extreme, and n · (a - b), |a - b| <= 2 size, is off by 4 of 2
+// size.
 constexpr double kVertexRoundings = 4.0 * 1.05;
 constexpr double kHeightRoundings = (2.0 * 2.0 * 4.0 + 2.0 * 4.0) * 1.05;
 
@@ -23,7 +24,8 @@ MinkowskiDifference::MinkowskiDifference(const ClusteredMesh& a, const Clustered
   const Box common = intersection(a.box(), b.box());
   origin_ = 0.5 * common.lower + 0.5 * common.upper;
   Vec3 reach;
-  for (int axis = 0; axis < 3; ++axis) reach[axis] = std::max(farthest(a.box(), origin_, axis), farthest(b.box(), origin_, axis));
+  for (int axis = 0; axis < 3; ++axis)
+    reach[axis] = std::max(farthest(a.box(), origin_, axis), farthest(b.box(), origin_, axis));
   const double largest = std::max({reach.x, reach.y, reach.z});
   if (largest > 0.0) scale_ = std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000));
   size_ = norm(scale_ * reach);
@@ -36,7 +38,8 @@ MinkowskiVertex MinkowskiDifference::vertex(int a, int b) const {
 }
 
 MinkowskiVertex MinkowskiDifference::support(Vec3 direction) const {
-  return vertex(narrowphase::support(*a_, direction, origin_).vertex, narrowphase::support(*b_, -direction, origin_).vertex);
+  return vertex(narrowphase::support(*a_, direction, origin_).vertex,
+                narrowphase::support(*b_, -direction, origin_).vertex);
 }
 
 }  // namespace tact::narrowphase

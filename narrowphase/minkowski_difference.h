@@ -1,8 +1,8 @@
 // M = C_A ⊖ C_B, the set of all a - b, seen through its support function. The hulls overlap if and only if M holds the
 // origin; their overlap along n is M's height w(n) (paper §4.1).
 //
-// Points of M are scaled by a power of two so that the pair has a size of about 1: nothing overflows or vanishes whatever
-// the unit of length, and the rounding of a - b is the only one between the input and a point of M.
+// Points of M are scaled by a power of two so that the pair has a size of about 1: nothing overflows or vanishes
+// whatever the unit of length, and the rounding of a - b is the only one between the input and a point of M.
 #pragma once
 
 #include "narrowphase/clustered_mesh.h"
@@ -29,10 +29,11 @@ class MinkowskiDifference {
 
   // Scaled length = scale() * metres.
   double scale() const { return scale_; }
-  // An upper bound of the size (scaled) of any vertex of M less any other, and of the boxes of A and of B about origin().
+  // An upper bound of the size (scaled) of any vertex of M less any other, and of the boxes of A and of B about
+  // origin().
   double size() const { return size_; }
-  // Bounds the error of w(n) = n · support(n).point for unit n, as against the true height of M (scaled): the rounding of
-  // two dot products that choose the vertices and of the one that measures.
+  // Bounds the error of w(n) = n · support(n).point for unit n, as against the true height of M (scaled): the rounding
+  // of two dot products that choose the vertices and of the one that measures.
   double height_error() const { return height_error_; }
   // Bounds the error of n · (x - origin()) as computed, for unit n and any vertex x of A or B. Metres.
   double vertex_height_error() const { return vertex_height_error_; }

@@ -23,7 +23,8 @@ void convex_hull(std::vector<Point2>& points, std::vector<Point2>& hull) {
                points.end());
   hull.clear();
   const auto extend = [&](Point2 p, std::size_t least) {
-    while (hull.size() > least && cross2(minus(hull.back(), hull[hull.size() - 2]), minus(p, hull.back())) <= 0.0) hull.pop_back();
+    while (hull.size() > least && cross2(minus(hull.back(), hull[hull.size() - 2]), minus(p, hull.back())) <= 0.0)
+      hull.pop_back();
     hull.push_back(p);
   };
   for (const Point2 p : points) extend(p, 1);
@@ -83,7 +84,8 @@ void FaceFinder::collect(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double 
     const int begin = mesh.vertex_begin(cluster), count = mesh.vertex_end(cluster) - begin;
     inside_.resize(static_cast<std::size_t>(count));
     const PointArrays p = mesh.points();
-    const int kept = kernels().select_heights({p.x + begin, p.y + begin, p.z + begin}, count, axis, height, inside_.data());
+    const int kept =
+        kernels().select_heights({p.x + begin, p.y + begin, p.z + begin}, count, axis, height, inside_.data());
     for (int k = 0; k < kept; ++k) found.push_back(begin + inside_[static_cast<std::size_t>(k)]);
   }
 }

@@ -1,5 +1,5 @@
-// The face of M that a direction supports, seen along the direction: does it hold the foot of the origin, and which faces
-// lie next to it?
+// The face of M that a direction supports, seen along the direction: does it hold the foot of the origin, and which
+// faces lie next to it?
 #pragma once
 
 #include <vector>
@@ -10,15 +10,15 @@
 
 namespace tact::narrowphase {
 
-// A convex polygon across a direction n: the face, projected on u and v, (u, v, n) orthonormal. The foot of the origin on
-// the supporting plane is at (0, 0). Scaled.
+// A convex polygon across a direction n: the face, projected on u and v, (u, v, n) orthonormal. The foot of the origin
+// on the supporting plane is at (0, 0). Scaled.
 struct FacePolygon {
   Vec3 u, v;
   std::vector<Point2> corner;  // counter-clockwise seen against n; 1: a vertex of M, 2: an edge
 };
 
-// The signed distance of the foot from the line of the side from corner `side` to the next, positive inside. An edge has two
-// sides, on one line. There must be at least two corners.
+// The signed distance of the foot from the line of the side from corner `side` to the next, positive inside. An edge
+// has two sides, on one line. There must be at least two corners.
 double distance_from_side(const FacePolygon& polygon, std::size_t side);
 
 // The distance of the foot from the border; negative outside. At most zero for an edge or a corner.
@@ -42,9 +42,9 @@ class FaceFinder {
   std::vector<std::int32_t> clusters_, inside_;
 };
 
-// Turns n about the axis through `p`, a point of M in the supporting plane of n, towards `t` (unit, across n and the axis)
-// until the plane meets another vertex of M: the normal of that supporting plane. M must not reach beyond the plane of n
-// by more than `tolerance`. Nothing is found within a right angle: t itself.
+// Turns n about the axis through `p`, a point of M in the supporting plane of n, towards `t` (unit, across n and the
+// axis) until the plane meets another vertex of M: the normal of that supporting plane. M must not reach beyond the
+// plane of n by more than `tolerance`. Nothing is found within a right angle: t itself.
 Vec3 turned_to_next_face(const MinkowskiDifference& m, Vec3 n, Vec3 p, Vec3 t, double tolerance);
 
 }  // namespace tact::narrowphase

@@ -43,7 +43,8 @@ template <class Scalar>
 class Search {
  public:
   Search(const SimplexPoints& simplex, double roundoff) : count_(simplex.count), roundoff_(roundoff) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) y_[i] = {simplex.point[i].x, simplex.point[i].y, simplex.point[i].z};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i)
+      y_[i] = {simplex.point[i].x, simplex.point[i].y, simplex.point[i].z};
   }
 
   SimplexClosest run() {
@@ -85,7 +86,8 @@ class Search {
     const Scalar distance = dot(point, point);
     if (best_.carrier_count != 0 && !(distance < distance_)) return;
     distance_ = distance;
-    best_ = {{static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z)}, carrier, count};
+    best_ = {
+        {static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z)}, carrier, count};
   }
 
   // Is the origin strictly inside, on the same side of every face as the fourth corner?

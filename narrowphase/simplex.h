@@ -22,11 +22,12 @@ struct SimplexClosest {
   int carrier_count = 0;         // 4: the origin lies inside the tetrahedron
 };
 
-// The point of the simplex nearest to the origin. Points may coincide or lie in a line or plane: every face is tried, those
-// without extent are passed over, and the nearest wins (of equals the one with fewer points). count >= 1.
+// The point of the simplex nearest to the origin. Points may coincide or lie in a line or plane: every face is tried,
+// those without extent are passed over, and the nearest wins (of equals the one with fewer points). count >= 1.
 SimplexClosest simplex_closest(const SimplexPoints& simplex);
 
-// The same with numbers of twice the digits, some fifty times slower: for simplices so thin that doubles lose the point.
+// The same with numbers of twice the digits, some fifty times slower: for simplices so thin that doubles lose the
+// point.
 SimplexClosest simplex_closest_wide(const SimplexPoints& simplex);
 
 }  // namespace tact::narrowphase

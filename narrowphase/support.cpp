@@ -94,7 +94,8 @@ Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin) {
   return search.best();
 }
 
-void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double height, std::vector<std::int32_t>& found) {
+void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double height,
+                     std::vector<std::int32_t>& found) {
   const Vec3 n{axis.nx, axis.ny, axis.nz};
   const PointArrays groups = far_corners(mesh.group_boxes(), n), clusters = far_corners(mesh.cluster_boxes(), n);
   found.clear();

@@ -16,12 +16,13 @@ struct Support {
 PointArrays far_corners(const BoxArrays& boxes, Vec3 n);
 
 // The vertex of `mesh` with the largest n · (position - origin). The mesh must have a facet. Bit for bit the answer of
-// support_by_full_scan: rounding is monotone, so the bound from a box, computed in the same order of operations, is never
-// below the height of a vertex in it.
+// support_by_full_scan: rounding is monotone, so the bound from a box, computed in the same order of operations, is
+// never below the height of a vertex in it.
 Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin);
 Support support_by_full_scan(const ClusteredMesh& mesh, Vec3 n, Vec3 origin);
 
 // The clusters whose box reaches up to `height`, ascending. Replaces the contents of `found`.
-void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double height, std::vector<std::int32_t>& found);
+void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double height,
+                     std::vector<std::int32_t>& found);
 
 }  // namespace tact::narrowphase

@@ -1,6 +1,6 @@
-// The floating-point mode in which every answer is computed: round to nearest, subnormal numbers kept, no traps. A caller,
-// or a library that shares its threads, may have set another (Embree advises flush-to-zero); every thread that computes
-// holds one of these and leaves the caller's mode as it was.
+// The floating-point mode in which every answer is computed: round to nearest, subnormal numbers kept, no traps. A
+// caller, or a library that shares its threads, may have set another (Embree advises flush-to-zero); every thread that
+// computes holds one of these and leaves the caller's mode as it was.
 #pragma once
 
 #if defined(__SSE2__)
@@ -26,7 +26,10 @@ class FloatingPointMode {
 #else
 class FloatingPointMode {
  public:
-  FloatingPointMode() { std::fegetenv(&saved_); std::fesetenv(FE_DFL_ENV); }
+  FloatingPointMode() {
+    std::fegetenv(&saved_);
+    std::fesetenv(FE_DFL_ENV);
+  }
   ~FloatingPointMode() { std::fesetenv(&saved_); }
   FloatingPointMode(const FloatingPointMode&) = delete;
   FloatingPointMode& operator=(const FloatingPointMode&) = delete;

@@ -1,10 +1,11 @@
-// The one place with OpenMP in it. An item writes only to a slot of its own, so nothing depends on the number of threads;
-// an exception is caught in its item and the one of the lowest index is thrown again after the loop.
+// The one place with OpenMP in it. An item writes only to a slot of its own, so nothing depends on the number of
+// threads; an exception is caught in its item and the one of the lowest index is thrown again after the loop.
 #pragma once
+
+#include <omp.h>
 
 #include <cstddef>
 #include <exception>
-#include <omp.h>
 #include <type_traits>
 
 #include "engine/base/floating_point_mode.h"
@@ -23,8 +24,8 @@ void call_work(const Work& work, std::size_t item, int thread) {
   }
 }
 
-// Calls work(i), or work(i, thread) with 0 <= thread < threads, for every 0 <= i < count, `grain` neighbouring items at a
-// time, on up to `threads` threads. With one thread, or no more than `grain` items, it runs in the calling thread.
+// Calls work(i), or work(i, thread) with 0 <= thread < threads, for every 0 <= i < count, `grain` neighbouring items at
+// a time, on up to `threads` threads. With one thread, or no more than `grain` items, it runs in the calling thread.
 template <class Work>
 void parallel_for(std::size_t count, std::size_t grain, int threads, const Work& work) {
   if (threads <= 1 || count <= grain) {

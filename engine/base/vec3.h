@@ -1,5 +1,5 @@
-// Three doubles. The engine computes with this and not with Eigen's vectors, for the same bits everywhere: Eigen's inline
-// functions are shared with the user's program, which may be compiled with FMA or with other alignments.
+// Three doubles. The engine computes with this and not with Eigen's vectors, for the same bits everywhere: Eigen's
+// inline functions are shared with the user's program, which may be compiled with FMA or with other alignments.
 #pragma once
 
 #include <cmath>

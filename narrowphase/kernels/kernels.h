@@ -1,6 +1,6 @@
-// The few loops in which the time goes, compiled once for each instruction set from kernels.inl and chosen when the program
-// starts. Every instruction set gives the same bits: the same operations in the same order on every element, no fused
-// multiply-add. Plain pointers only: nothing inline may leak from files that are compiled for a newer machine.
+// The few loops in which the time goes, compiled once for each instruction set from kernels.inl and chosen when the
+// program starts. Every instruction set gives the same bits: the same operations in the same order on every element, no
+// fused multiply-add. Plain pointers only: nothing inline may leak from files that are compiled for a newer machine.
 #pragma once
 
 #include <cstdint>
@@ -82,12 +82,13 @@ struct FacetMatches {
   std::int64_t box_pairs;   // facets whose box overlaps the facet's
 };
 
-// Vertices of a cluster to be refreshed. Coordinates of source vertex s are source[3 s], source[3 s + 1], source[3 s + 2].
+// Vertices of a cluster to be refreshed. Coordinates of source vertex s are source[3 s], source[3 s + 1], source[3 s +
+// 2].
 struct RefreshInput {
   const double* source;
-  const std::int32_t* owned;          // source vertices, copied to x, y, z in this order
+  const std::int32_t* owned;  // source vertices, copied to x, y, z in this order
   std::int32_t owned_count;
-  const std::int32_t* borrowed;       // source vertices that only widen the box
+  const std::int32_t* borrowed;  // source vertices that only widen the box
   std::int32_t borrowed_count;
   double* x;
   double* y;

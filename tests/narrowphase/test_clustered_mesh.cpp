@@ -13,8 +13,13 @@ using tests::clustered;
 using tests::Mesh;
 
 std::vector<Mesh> many() {
-  return {tests::box({0, 0, 0}, {1, 2, 3}), tests::blob(3, 1.0, 0.3, 1), tests::wrinkled_sheet(40, 2.0, 0.2, 2),
-          tests::lattice_soup(500, 2, 3),   tests::wrinkled_sheet(60, 2.0, 0.2, 2), tests::needles(100, 1e9, 4), tests::sheet(1, 1, 1.0, 1.0)};
+  return {tests::box({0, 0, 0}, {1, 2, 3}),
+          tests::blob(3, 1.0, 0.3, 1),
+          tests::wrinkled_sheet(40, 2.0, 0.2, 2),
+          tests::lattice_soup(500, 2, 3),
+          tests::wrinkled_sheet(60, 2.0, 0.2, 2),
+          tests::needles(100, 1e9, 4),
+          tests::sheet(1, 1, 1.0, 1.0)};
 }
 
 TEST(ClusteredMesh, IsValidForAnyMesh) {

@@ -33,7 +33,8 @@ TEST(ClusterPairs, LoopAndForestAgree) {
   EmbreeDevice device;
   for (const double offset : {0.0, 1e9}) {
     const Mesh sheet = tests::translated(tests::wrinkled_sheet(200, 2.0, 0.3, 1), {offset, 0, 0});
-    const ClusteredMesh a = tests::clustered(sheet), b = tests::clustered(tests::translated(tests::icosphere(5, 0.8), {offset, 0, 0.1}));
+    const ClusteredMesh a = tests::clustered(sheet),
+                        b = tests::clustered(tests::translated(tests::icosphere(5, 0.8), {offset, 0, 0.1}));
     const KeptClusters kept_a = all_clusters(a), kept_b = all_clusters(b);
     std::vector<ClusterPair> loop, forest;
     EXPECT_FALSE(find_cluster_pairs(kept_a, kept_b, ClusterPairSource::loop, device, loop, scratch));
@@ -62,7 +63,9 @@ std::vector<FacetPair> through_criteria(const ClusteredMesh& a, const ClusteredM
   const Slab slab = make_slab(n, m.origin(), lower, upper, m.vertex_height_error());
   std::vector<Point2> points;
   const ImpactZone zone_a = impact_zone(a, slab, points), zone_b = impact_zone(b, slab, points);
-  ConfirmInput input{.a = &a, .b = &b, .criteria_a = criteria_for_a(slab, zones ? &zone_b : nullptr, false),
+  ConfirmInput input{.a = &a,
+                     .b = &b,
+                     .criteria_a = criteria_for_a(slab, zones ? &zone_b : nullptr, false),
                      .criteria_b = criteria_for_b(slab, zones ? &zone_a : nullptr, false)};
   KeptClusters kept_a, kept_b;
   cull_clusters(a, input.criteria_a, b.box(), kept_a);
@@ -86,7 +89,8 @@ std::vector<FacetPair> brute_force(const ClusteredMesh& a, const ClusteredMesh& 
   PredicateCounts counts;
   for (int f = 0; f < a.facet_count(); ++f) {
     for (int g = 0; g < b.facet_count(); ++g) {
-      if (triangle_triangle_meet(a.triangle(f), b.triangle(g), counts)) found.push_back({a.source_facet(f), b.source_facet(g)});
+      if (triangle_triangle_meet(a.triangle(f), b.triangle(g), counts))
+        found.push_back({a.source_facet(f), b.source_facet(g)});
     }
   }
   std::sort(found.begin(), found.end());
@@ -98,7 +102,8 @@ TEST(Criteria, LoseNoPairInAnyDirection) {
   for (int i = 0; i < 60; ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
     const Mesh mesh_a = i % 2 ? tests::blob(2, 1.0, 0.4, seed) : tests::lattice_soup(150, 2, seed);
-    const Mesh mesh_b = i % 3 ? tests::translated(tests::blob(2, 0.5, 0.4, seed + 50), random.in_ball()) : tests::soup(150, 1.0, seed);
+    const Mesh mesh_b =
+        i % 3 ? tests::translated(tests::blob(2, 0.5, 0.4, seed + 50), random.in_ball()) : tests::soup(150, 1.0, seed);
     const ClusteredMesh a = tests::clustered(mesh_a), b = tests::clustered(mesh_b);
     const std::vector<FacetPair> expected = brute_force(a, b);
     const Vec3 n = i % 4 ? random.direction() : Vec3{0, 0, 1};

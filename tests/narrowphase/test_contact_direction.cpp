@@ -51,10 +51,13 @@ TEST(ContactDirection, StackedBoxesHaveDepthZero) {
 
 TEST(ContactDirection, CrossedBarsTouchEdgeToEdge) {
   // Two bars with a square section stood on an edge, across each other: the face of the difference is edge-edge.
-  const Mesh bar = tests::rotated(tests::centered_box({2.0, 0.25, 0.25}), tests::rotation(std::cos(std::numbers::pi / 8), std::sin(std::numbers::pi / 8), 0, 0));
+  const Mesh bar =
+      tests::rotated(tests::centered_box({2.0, 0.25, 0.25}),
+                     tests::rotation(std::cos(std::numbers::pi / 8), std::sin(std::numbers::pi / 8), 0, 0));
   const Mesh across = tests::rotated(bar, tests::rotation(1, 0, 0, 1));
   const double reach = 0.25 * std::numbers::sqrt2;
-  const Found found = direction(tests::clustered(bar), tests::clustered(tests::translated(across, {0, 0, 2 * reach - 0.01})), {0.05, 0.02, 1});
+  const Found found = direction(tests::clustered(bar),
+                                tests::clustered(tests::translated(across, {0, 0, 2 * reach - 0.01})), {0.05, 0.02, 1});
   EXPECT_NEAR(found.depth, 0.01, 1e-15);
   expect_near(found.n, {0, 0, 1}, 1e-14);
 }
@@ -91,7 +94,8 @@ TEST(ContactDirection, IsALocalMinimumAndNeverHigherThanItsStart) {
   Random random(11);
   int overlapping = 0;
   for (int i = 0; i < 500; ++i) {
-    const std::vector<Vec3> a = cloud(random, i % 5, {}), b = cloud(random, i / 5 % 5, random.uniform(0.0, 1.0) * random.direction());
+    const std::vector<Vec3> a = cloud(random, i % 5, {}),
+                            b = cloud(random, i / 5 % 5, random.uniform(0.0, 1.0) * random.direction());
     const ClusteredMesh mesh_a = tests::mesh_through(a), mesh_b = tests::mesh_through(b);
     const MinkowskiDifference m(mesh_a, mesh_b);
     if (gjk(m, {}, {}, {}).status == GjkStatus::apart) continue;

@@ -9,8 +9,8 @@
 namespace tact::narrowphase {
 namespace {
 
-using tests::mesh_through;
 using tests::Mesh;
+using tests::mesh_through;
 using tests::Random;
 
 // The distance of the hulls in metres, 0 where they overlap.
@@ -27,7 +27,8 @@ ClusteredMesh box(Vec3 lower, Vec3 upper) { return tests::clustered(tests::box(l
 TEST(Gjk, PointsSegmentsAndFlatHulls) {
   EXPECT_NEAR(distance(points({{0, 0, 0}}), points({{3, 4, 0}}), GjkStatus::apart), 5.0, 1e-14);
   EXPECT_NEAR(distance(points({{0, 0, 0}, {2, 0, 0}}), points({{1, 1, 1}, {1, 1, -1}}), GjkStatus::apart), 1.0, 1e-14);
-  EXPECT_NEAR(distance(points({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}), points({{0.5, 0.5, 1e-9}}), GjkStatus::apart), 1e-9, 1e-14);
+  EXPECT_NEAR(distance(points({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}), points({{0.5, 0.5, 1e-9}}), GjkStatus::apart), 1e-9,
+              1e-14);
   distance(points({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}), points({{0.5, 0.5, 0}}), GjkStatus::touching);
   distance(points({{1, 1, 1}}), points({{1, 1, 1}}), GjkStatus::touching);
   distance(points({{0, 0, 0}, {1, 0, 0}}), points({{0.5, 0, 0}, {2, 0, 0}}), GjkStatus::touching);
@@ -43,15 +44,16 @@ TEST(Gjk, CubesThatTouchOverlapAndPart) {
 
 TEST(Gjk, FindsCubesFarFromZero) {  // openGJK#52: 0.0033 at 9e4, where the answer is 0
   const double far = 9e4;
-  distance(box({far, far, far}, {far + 1, far + 1, far + 1}), box({far + 0.97, far + 0.1, far + 0.15}, {far + 2, far + 1, far + 1}),
-           GjkStatus::overlapping);
+  distance(box({far, far, far}, {far + 1, far + 1, far + 1}),
+           box({far + 0.97, far + 0.1, far + 0.15}, {far + 2, far + 1, far + 1}), GjkStatus::overlapping);
 }
 
 TEST(Gjk, BoundsCloseOnRandomHullsAtEveryScale) {
   Random random(5);
   for (int i = 0; i < 600; ++i) {
     const double scale = std::ldexp(1.0, (i % 13 - 6) * 5), aspect = i % 7 == 0 ? 1e-9 : 1.0;
-    const Vec3 offset = (i % 5 == 0 ? 1e8 : 0.0) * scale * random.direction(), apart = random.uniform(0.5, 3.0) * random.direction();
+    const Vec3 offset = (i % 5 == 0 ? 1e8 : 0.0) * scale * random.direction(),
+               apart = random.uniform(0.5, 3.0) * random.direction();
     std::vector<Vec3> a, b;
     for (int k = 0; k < 12; ++k) {
       Vec3 p = random.in_ball(), q = random.in_ball() + apart;
@@ -64,11 +66,12 @@ TEST(Gjk, BoundsCloseOnRandomHullsAtEveryScale) {
     const GjkResult result = gjk(m, {}, {}, {});
     ASSERT_NE(result.status, GjkStatus::limit_reached) << "case " << i;
     if (result.status != GjkStatus::apart) {
-      EXPECT_GE(static_cast<double>(tests::smallest_height(a, b, 0.0).height) * m.scale(), -4.0 * m.height_error()) << "case " << i;
+      EXPECT_GE(static_cast<double>(tests::smallest_height(a, b, 0.0).height) * m.scale(), -4.0 * m.height_error())
+          << "case " << i;
       continue;
     }
-    // The direction between the closest points separates the hulls by the distance. Differences are exact, and spare the
-    // oracle the offset.
+    // The direction between the closest points separates the hulls by the distance. Differences are exact, and spare
+    // the oracle the offset.
     const Vec3 base = a[0];
     for (std::vector<Vec3>* points : {&a, &b}) {
       for (Vec3& p : *points) p = p - base;

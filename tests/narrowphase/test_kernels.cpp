@@ -27,7 +27,8 @@ std::vector<const Kernels*> available() {
 FacetBlock block_of(const Kernels& kernels, const ClusteredMesh& mesh, int cluster) {
   FacetBlock block{};
   const int first = mesh.facet_begin(cluster);
-  const std::int32_t* const corners[3] = {mesh.corner_array(0) + first, mesh.corner_array(1) + first, mesh.corner_array(2) + first};
+  const std::int32_t* const corners[3] = {mesh.corner_array(0) + first, mesh.corner_array(1) + first,
+                                          mesh.corner_array(2) + first};
   kernels.fill_facet_block(mesh.points(), corners, mesh.facet_end(cluster) - first, &block);
   return block;
 }
@@ -50,13 +51,15 @@ TEST(Kernels, MatchesAreRightOrUndecided) {
       const FacetBlock block = block_of(*kernels, b, 0), block_a = block_of(*kernels, a, 0);
       const int count = b.facet_end(0);
       for (int f = 0; f < a.facet_end(0); ++f) {
-        const FacetMatches m = kernels->match_facets(block, all_bits(count), filter_facet(block_a, static_cast<std::size_t>(f)));
+        const FacetMatches m =
+            kernels->match_facets(block, all_bits(count), filter_facet(block_a, static_cast<std::size_t>(f)));
         EXPECT_EQ(m.meeting & m.undecided, 0u);
         for (int g = 0; g < count; ++g) {
           PredicateCounts counts;
           const bool meet = triangle_triangle_meet(a.triangle(f), b.triangle(g), counts);
           if ((m.undecided >> g & 1) != 0) continue;
-          EXPECT_EQ((m.meeting >> g & 1) != 0, meet) << kernels->name << " seed " << seed << " facets " << f << " " << g;
+          EXPECT_EQ((m.meeting >> g & 1) != 0, meet)
+              << kernels->name << " seed " << seed << " facets " << f << " " << g;
         }
       }
     }
@@ -70,7 +73,9 @@ TEST(Kernels, MostPairsOfSmoothBodiesAreDecided) {
     const FacetBlock block = block_of(*kernels, b, 0), block_a = block_of(*kernels, a, 0);
     int undecided = 0;
     for (int f = 0; f < a.facet_end(0); ++f) {
-      undecided += std::popcount(kernels->match_facets(block, all_bits(b.facet_end(0)), filter_facet(block_a, static_cast<std::size_t>(f))).undecided);
+      undecided += std::popcount(
+          kernels->match_facets(block, all_bits(b.facet_end(0)), filter_facet(block_a, static_cast<std::size_t>(f)))
+              .undecided);
     }
     EXPECT_EQ(undecided, 0) << kernels->name;
   }
@@ -81,7 +86,8 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
     const auto [mesh_a, mesh_b] = bodies(seed);
     const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
     const HeightAxis axis{0.48, -0.6, 0.64, 0.01, 0.02, -0.03};
-    const CullPlanes planes{.axis = axis, .lowest = 0.1, .box = {{-0.4, -0.3, -0.5}, {0.5, 0.4, 0.6}}, .facing_away = true};
+    const CullPlanes planes{
+        .axis = axis, .lowest = 0.1, .box = {{-0.4, -0.3, -0.5}, {0.5, 0.4, 0.6}}, .facing_away = true};
     const FacetBlock expected = block_of(*scalar_kernels(), b, 0), own = block_of(*scalar_kernels(), a, 0);
     const CullBits bits = scalar_kernels()->cull_facets(expected, b.facet_end(0), planes);
     const HighestPoint highest = scalar_kernels()->highest_point(b.points(), b.vertex_count(), axis);
@@ -121,7 +127,8 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
 
 TEST(Kernels, FindsTheFirstCoordinateThatIsTooLargeOrNoNumber) {
   for (const Kernels* kernels : available()) {
-    for (const double bad : {2.0, -2.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    for (const double bad :
+         {2.0, -2.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
       for (std::size_t at = 0; at < 99; ++at) {
         std::vector<double> values(99, -0.5);
         EXPECT_EQ(kernels->find_large(values.data(), 99, 1.0), -1);
@@ -139,8 +146,14 @@ TEST(Kernels, RefreshCopiesWidensAndNoticesChanges) {
   for (int v = 0; v < mesh.vertex_count(); ++v) (v % 3 == 1 ? borrowed : owned).push_back(v);
   for (const Kernels* kernels : available()) {
     std::vector<double> x(owned.size()), y(owned.size()), z(owned.size());
-    const RefreshInput input{mesh.positions.data(), owned.data(), static_cast<std::int32_t>(owned.size()),
-                             borrowed.data(), static_cast<std::int32_t>(borrowed.size()), x.data(), y.data(), z.data()};
+    const RefreshInput input{mesh.positions.data(),
+                             owned.data(),
+                             static_cast<std::int32_t>(owned.size()),
+                             borrowed.data(),
+                             static_cast<std::int32_t>(borrowed.size()),
+                             x.data(),
+                             y.data(),
+                             z.data()};
     BoxBounds box;
     EXPECT_TRUE(kernels->refresh_cluster(input, &box));
     EXPECT_FALSE(kernels->refresh_cluster(input, &box)) << kernels->name;

@@ -1,5 +1,5 @@
-// What a step found. A report and everything in it is valid until the world's next detect(), set_settings() or destruction,
-// and may be read by many threads at once.
+// What a step found. A report and everything in it is valid until the world's next detect(), set_settings() or
+// destruction, and may be read by many threads at once.
 #pragma once
 
 #include <tact/body.h>
@@ -31,23 +31,24 @@ struct ZoneDisk {
 struct Patch {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();      // mean of the centres of its facet pairs' common boxes, metres
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit, from a to b: the mean normal of its facets
-  double depth = 0.0;              // moving b by depth * direction parts every facet pair of the patch, metres
-  std::vector<int> facet_pairs;    // indices into Contact::facet_pairs(), ascending
+  double depth = 0.0;            // moving b by depth * direction parts every facet pair of the patch, metres
+  std::vector<int> facet_pairs;  // indices into Contact::facet_pairs(), ascending
 };
 
 // Two bodies whose convex hulls overlap or touch.
 struct Contact {
   BodyId a;  // a.index < b.index
   BodyId b;
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit, from a to b: move b by depth * direction to part the hulls
-  double depth = 0.0;                                   // overlap of the hulls along `direction`, metres, not negative
+  Eigen::Vector3d direction =
+      Eigen::Vector3d::Zero();  // unit, from a to b: move b by depth * direction to part the hulls
+  double depth = 0.0;           // overlap of the hulls along `direction`, metres, not negative
   DirectionSource source = DirectionSource::fresh;
-  int iterations = 0;          // shifted calls of GJK that it took
-  bool limit_reached = false;  // GJK or the direction stopped at a limit: the direction is the best found
-  double plane_a = 0.0;        // contact plane of a: direction · x = plane_a, the farthest that a's hull reaches
-  double plane_b = 0.0;        // contact plane of b: direction · x = plane_b, the nearest that b's hull reaches
-  ZoneDisk zone_a;             // around the part of a between the planes
-  ZoneDisk zone_b;             // around the part of b between the planes
+  int iterations = 0;              // shifted calls of GJK that it took
+  bool limit_reached = false;      // GJK or the direction stopped at a limit: the direction is the best found
+  double plane_a = 0.0;            // contact plane of a: direction · x = plane_a, the farthest that a's hull reaches
+  double plane_b = 0.0;            // contact plane of b: direction · x = plane_b, the nearest that b's hull reaches
+  ZoneDisk zone_a;                 // around the part of a between the planes
+  ZoneDisk zone_b;                 // around the part of b between the planes
   std::int64_t kept_facets_a = 0;  // facets left after the criteria
   std::int64_t kept_facets_b = 0;
 
@@ -91,8 +92,8 @@ class TACT_API Report {
   std::span<const ContactEvent> ended() const { return ended_; }
   const StepStats& stats() const { return stats_; }
 
-  // A number made from every bit of the candidate pairs and the contacts (bodies by index, facet pairs included; patches,
-  // times and counts not): equal answers have equal hashes, for any number of threads.
+  // A number made from every bit of the candidate pairs and the contacts (bodies by index, facet pairs included;
+  // patches, times and counts not): equal answers have equal hashes, for any number of threads.
   std::uint64_t hash() const;
 
  private:

@@ -23,11 +23,11 @@ struct Outputs {
 };
 
 struct Settings {
-  int threads = 0;                                       // 0: as many as OpenMP would use
+  int threads = 0;  // 0: as many as OpenMP would use
   Accuracy accuracy = Accuracy::exact;
   DirectionPolicy direction = DirectionPolicy::carried;
-  double gjk_tolerance = 1e-12;                          // relative gap at which GJK stops, 1e-15 to 0.1
-  int iteration_limit = 100;                             // shifted calls of GJK a pair and step, at least 1
+  double gjk_tolerance = 1e-12;  // relative gap at which GJK stops, 1e-15 to 0.1
+  int iteration_limit = 100;     // shifted calls of GJK a pair and step, at least 1
   Outputs outputs = {};
 };
 

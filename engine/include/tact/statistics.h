@@ -28,21 +28,22 @@ namespace tact {
   X(cluster_pairs, "pairs of clusters whose boxes overlap")                                    \
   X(tree_pairs, "contacts whose cluster pairs were found by trees rather than a plain loop")   \
   X(facet_box_pairs, "pairs of facets whose boxes overlap")                                    \
-  X(triangle_tests, "pairs of facets that doubles could not decide")                       \
+  X(triangle_tests, "pairs of facets that doubles could not decide")                           \
   X(exact_predicates, "orientation predicates that needed integers")                           \
   X(facet_pairs, "pairs of facets that meet")                                                  \
   X(touching_contacts, "contacts with at least one facet pair")
 
-// Every time of a step, in milliseconds. The stages 3 to 6 run pair by pair on all threads: theirs are sums over threads.
-#define TACT_STEP_TIMES(X)                                                          \
-  X(refresh_ms, "stage 1: setting positions since the last step")                   \
-  X(sweep_ms, "stage 2: candidate pairs")                                           \
-  X(hulls_ms, "stage 3: do the hulls overlap, summed over threads")                 \
-  X(direction_ms, "stage 4: contact direction and depth, summed over threads")      \
-  X(cull_ms, "stage 5: zones and criteria, summed over threads")                    \
-  X(confirm_ms, "stage 6: facet pairs, summed over threads")                        \
-  X(narrow_phase_ms, "stages 3 to 6 together, wall time")                           \
-  X(report_ms, "stage 7: the report")                                               \
+// Every time of a step, in milliseconds. The stages 3 to 6 run pair by pair on all threads: theirs are sums over
+// threads.
+#define TACT_STEP_TIMES(X)                                                     \
+  X(refresh_ms, "stage 1: setting positions since the last step")              \
+  X(sweep_ms, "stage 2: candidate pairs")                                      \
+  X(hulls_ms, "stage 3: do the hulls overlap, summed over threads")            \
+  X(direction_ms, "stage 4: contact direction and depth, summed over threads") \
+  X(cull_ms, "stage 5: zones and criteria, summed over threads")               \
+  X(confirm_ms, "stage 6: facet pairs, summed over threads")                   \
+  X(narrow_phase_ms, "stages 3 to 6 together, wall time")                      \
+  X(report_ms, "stage 7: the report")                                          \
   X(total_ms, "the whole step, refresh included")
 
 struct StepStats {

@@ -29,9 +29,9 @@ struct PositionsUpdate {
 //   world.set_positions(a, new_positions);
 //   for (const tact::Contact& contact : world.detect().contacts()) ...
 //
-// Every function throws Error for data that it cannot take, and has then changed nothing. A world is used by one thread at
-// a time; different worlds may be used by different threads. The answers do not depend on the number of threads, nor on
-// the floating-point mode of the caller.
+// Every function throws Error for data that it cannot take, and has then changed nothing. A world is used by one thread
+// at a time; different worlds may be used by different threads. The answers do not depend on the number of threads, nor
+// on the floating-point mode of the caller.
 class TACT_API World {
  public:
   // Errors: bad_settings.
@@ -51,9 +51,9 @@ class TACT_API World {
   // Errors: stale_body, foreign_body.
   void remove_body(BodyId body);
 
-  // Copies the new positions of a body, 3 x V in metres, V as when it was added. A body whose coordinates are all equal to
-  // the old ones has not moved.
-  // Errors: stale_body, foreign_body, fixed_body, wrong_size, non_finite_position, position_out_of_range, out_of_memory.
+  // Copies the new positions of a body, 3 x V in metres, V as when it was added. A body whose coordinates are all equal
+  // to the old ones has not moved. Errors: stale_body, foreign_body, fixed_body, wrong_size, non_finite_position,
+  // position_out_of_range, out_of_memory.
   void set_positions(BodyId body, const Eigen::Ref<const Eigen::Matrix3Xd>& positions);
   // The same for many bodies, in parallel; all or none. A body must not be named twice (wrong_order).
   void set_positions(std::span<const PositionsUpdate> updates);
