@@ -24,20 +24,26 @@ Triangle triangle_in(const FacetBlock& block, std::size_t i) {
 
 }  // namespace
 
-FilterFacet filter_facet(const FacetBlock& block, std::size_t i) {
-  FilterFacet facet;
+FacetPlane facet_plane(const FacetBlock& block, std::size_t i, const BoxBounds& others) {
+  FacetPlane facet;
+  double side[2][3];
   for (int axis = 0; axis < 3; ++axis) {
     facet.box.lower[axis] = block.lower[axis][i];
     facet.box.upper[axis] = block.upper[axis][i];
-    for (int k = 0; k < 3; ++k) facet.corner[k][axis] = block.corner[k][axis][i];
+    facet.corner[axis] = block.corner[0][axis][i];
+    side[0][axis] = block.corner[1][axis][i] - facet.corner[axis];
+    side[1][axis] = block.corner[2][axis][i] - facet.corner[axis];
   }
-  const auto side = [&](int k, int axis) { return facet.corner[k][axis] - facet.corner[0][axis]; };
+  double size = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const int y = (axis + 1) % 3, z = (axis + 2) % 3;
-    const double p = side(1, y) * side(2, z), q = side(1, z) * side(2, y);
+    const double p = side[0][y] * side[1][z], q = side[0][z] * side[1][y];
+    const double reach =
+        std::max(std::abs(others.lower[axis] - facet.corner[axis]), std::abs(others.upper[axis] - facet.corner[axis]));
     facet.normal[axis] = p - q;
-    facet.normal_bound[axis] = std::abs(p) + std::abs(q);
+    size += (std::abs(p) + std::abs(q)) * reach;
   }
+  facet.error = size * kRelativeRounding + kAbsoluteRounding;
   return facet;
 }
 
@@ -71,20 +77,25 @@ void FacetPairSearch::run(const ConfirmInput& input, const std::vector<ClusterPa
   opened_a_.clear();
   opened_b_.clear();
   slot_.assign(static_cast<std::size_t>(input.kept_b->count()), -1);
-  std::int32_t open_a = -1;
+  std::int32_t opened = -1;
   for (std::size_t i = begin; i < end; ++i) {
     const ClusterPair& pair = pairs[i];
-    if (pair.a != open_a) {
-      open_a = pair.a;
-      const std::int32_t cluster = input.kept_a->cluster[static_cast<std::size_t>(pair.a)];
-      opened_a_.push_back({pair.a, {}});
-      a_.kept =
-          cull_facets(*input.a, cluster, input.criteria_a, input.kept_b->bounds, a_.block, opened_a_.back().counts);
-    }
-    if (a_.kept == 0) continue;
+    if (pair.a == opened && a_.kept == 0) continue;
     const OpenCluster& b = open_b(input, pair.b);
-    if (b.kept != 0) test_clusters(input, pair, a_, b, found, counts);
+    const Box box_a = input.kept_a->boxes[static_cast<std::size_t>(pair.a)];
+    const NearFacets near_b = kernels().near_facets(b.block, b.kept, bounds_of(box_a));
+    if (near_b.facets == 0) continue;
+    if (pair.a != opened) open_a(input, pair.a);
+    opened = pair.a;
+    test_clusters(input, b, near_b, found, counts);
   }
+}
+
+void FacetPairSearch::open_a(const ConfirmInput& input, std::int32_t index) {
+  opened_a_.push_back({index, {}});
+  const std::int32_t cluster = input.kept_a->cluster[static_cast<std::size_t>(index)];
+  a_.first_facet = input.a->facet_begin(cluster);
+  a_.kept = cull_facets(*input.a, cluster, input.criteria_a, input.kept_b->bounds, a_.block, opened_a_.back().counts);
 }
 
 const FacetPairSearch::OpenCluster& FacetPairSearch::open_b(const ConfirmInput& input, std::int32_t index) {
@@ -95,36 +106,53 @@ const FacetPairSearch::OpenCluster& FacetPairSearch::open_b(const ConfirmInput& 
     if (opened_b_.size() > b_.size()) b_.push_back(std::make_unique<OpenCluster>());
     OpenCluster& b = *b_[static_cast<std::size_t>(slot)];
     const std::int32_t cluster = input.kept_b->cluster[static_cast<std::size_t>(index)];
+    b.first_facet = input.b->facet_begin(cluster);
     b.kept = cull_facets(*input.b, cluster, input.criteria_b, input.kept_a->bounds, b.block, opened_b_.back().counts);
   }
   return *b_[static_cast<std::size_t>(slot)];
 }
 
-void FacetPairSearch::test_clusters(const ConfirmInput& input, const ClusterPair& pair, const OpenCluster& a,
-                                    const OpenCluster& b, std::vector<FacetPair>& found, ConfirmCounts& counts) {
-  const int first_a = input.a->facet_begin(input.kept_a->cluster[static_cast<std::size_t>(pair.a)]);
-  const int first_b = input.b->facet_begin(input.kept_b->cluster[static_cast<std::size_t>(pair.b)]);
-  const Box box_a = input.kept_a->boxes[static_cast<std::size_t>(pair.a)];
-  const NearFacets near_b = kernels().near_facets(b.block, b.kept, bounds_of(box_a));
-  if (near_b.facets == 0) return;
-  const NearFacets near_a = kernels().near_facets(a.block, a.kept, near_b.box);
-  const auto add = [&](std::size_t i, std::size_t j) {
-    found.push_back(
-        {input.a->source_facet(first_a + static_cast<int>(i)), input.b->source_facet(first_b + static_cast<int>(j))});
-  };
-  for (std::uint64_t left_a = near_a.facets; left_a != 0; left_a &= left_a - 1) {
-    const auto i = static_cast<std::size_t>(std::countr_zero(left_a));
-    const FacetMatches matches = kernels().match_facets(b.block, near_b.facets, filter_facet(a.block, i));
-    counts.facet_box_pairs += matches.box_pairs;
-    for (std::uint64_t left = matches.meeting; left != 0; left &= left - 1) {
-      add(i, static_cast<std::size_t>(std::countr_zero(left)));
-    }
-    for (std::uint64_t left = matches.undecided; left != 0; left &= left - 1) {
-      const auto j = static_cast<std::size_t>(std::countr_zero(left));
-      ++counts.triangle_tests;
-      if (triangle_triangle_meet(triangle_in(a.block, i), triangle_in(b.block, j), counts.predicates)) add(i, j);
+// Each facet of the cluster with fewer of them near the other is held against all of the other's at once; the pairs
+// that this leaves are decided many at a time.
+void FacetPairSearch::test_clusters(const ConfirmInput& input, const OpenCluster& b, const NearFacets& near_b,
+                                    std::vector<FacetPair>& found, ConfirmCounts& counts) {
+  const NearFacets near_a = kernels().near_facets(a_.block, a_.kept, near_b.box);
+  const bool a_has_fewer = std::popcount(near_a.facets) <= std::popcount(near_b.facets);
+  const NearFacets &few = a_has_fewer ? near_a : near_b, &many = a_has_fewer ? near_b : near_a;
+  const FacetBlock &few_block = a_has_fewer ? a_.block : b.block, &many_block = a_has_fewer ? b.block : a_.block;
+  std::int32_t *few_pairs = a_has_fewer ? pairs_.a : pairs_.b, *many_pairs = a_has_fewer ? pairs_.b : pairs_.a;
+  for (std::uint64_t left = few.facets; left != 0; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    const FacetPlane plane = facet_plane(few_block, static_cast<std::size_t>(i), many.box);
+    const CrossingFacets crossing = kernels().crossing_facets(many_block, many.facets, plane);
+    counts.facet_box_pairs += crossing.box_pairs;
+    for (std::uint64_t bits = crossing.facets; bits != 0; bits &= bits - 1) {
+      if (pairs_.count == FacetPairList::kCapacity) decide_pairs(input, b, found, counts);
+      few_pairs[pairs_.count] = i;
+      many_pairs[pairs_.count++] = std::countr_zero(bits);
     }
   }
+  decide_pairs(input, b, found, counts);
+}
+
+// Decides the pairs in the list and empties it.
+void FacetPairSearch::decide_pairs(const ConfirmInput& input, const OpenCluster& b, std::vector<FacetPair>& found,
+                                   ConfirmCounts& counts) {
+  const PairMatches matches = kernels().match_pairs(a_.block, b.block, pairs_);
+  std::uint64_t meeting = matches.meeting;
+  for (std::uint64_t left = matches.undecided; left != 0; left &= left - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(left));
+    ++counts.triangle_tests;
+    const Triangle p = triangle_in(a_.block, static_cast<std::size_t>(pairs_.a[k]));
+    const Triangle q = triangle_in(b.block, static_cast<std::size_t>(pairs_.b[k]));
+    if (triangle_triangle_meet(p, q, counts.predicates)) meeting |= std::uint64_t{1} << k;
+  }
+  for (std::uint64_t left = meeting; left != 0; left &= left - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(left));
+    found.push_back(
+        {input.a->source_facet(a_.first_facet + pairs_.a[k]), input.b->source_facet(b.first_facet + pairs_.b[k])});
+  }
+  pairs_.count = 0;
 }
 
 }  // namespace tact::narrowphase

@@ -40,8 +40,8 @@ struct OpenedCluster {
   CullCounts counts;
 };
 
-// Facet `i` of a block, prepared for Kernels::match_facets.
-FilterFacet filter_facet(const FacetBlock& block, std::size_t i);
+// Facet `i` of a block, prepared for Kernels::crossing_facets on facets that lie in the box `others`.
+FacetPlane facet_plane(const FacetBlock& block, std::size_t i, const BoxBounds& others);
 
 // Where cluster pairs come from.
 enum class ClusterPairSource { automatic, loop, forest };
@@ -65,13 +65,18 @@ class FacetPairSearch {
  private:
   struct OpenCluster {
     FacetBlock block;
+    int first_facet = 0;
     std::uint64_t kept = 0;
   };
+  void open_a(const ConfirmInput& input, std::int32_t index);
   const OpenCluster& open_b(const ConfirmInput& input, std::int32_t index);
-  void test_clusters(const ConfirmInput& input, const ClusterPair& pair, const OpenCluster& a, const OpenCluster& b,
+  void test_clusters(const ConfirmInput& input, const OpenCluster& b, const NearFacets& near_b,
                      std::vector<FacetPair>& found, ConfirmCounts& counts);
+  void decide_pairs(const ConfirmInput& input, const OpenCluster& b, std::vector<FacetPair>& found,
+                    ConfirmCounts& counts);
 
   OpenCluster a_;
+  FacetPairList pairs_;                          // of a_ and a cluster of B, to be decided together
   std::vector<std::unique_ptr<OpenCluster>> b_;  // those of this run stand as in opened_b_
   std::vector<std::int32_t> slot_;               // of each kept cluster of B in b_, or -1
   std::vector<OpenedCluster> opened_a_, opened_b_;

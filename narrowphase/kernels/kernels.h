@@ -38,12 +38,17 @@ struct BoxBounds {
   double upper[3];
 };
 
+// The rounding of a determinant of differences of coordinates up to 2^300: at most this times the sum of its products'
+// sizes, and this besides. See facets.inl.
+inline constexpr double kRelativeRounding = 1e-15;
+inline constexpr double kAbsoluteRounding = 1e-200;
+
 // A facet prepared to be held against many others.
-struct FilterFacet {
+struct FacetPlane {
   BoxBounds box;
-  double corner[3][3];     // corner, axis
-  double normal[3];        // (c1 - c0) × (c2 - c0), as computed
-  double normal_bound[3];  // the same with absolute values of both products of each component: bounds its rounding
+  double corner[3];  // a point of the plane
+  double normal[3];  // (c1 - c0) × (c2 - c0), as computed
+  double error;      // of the height over the plane, times the length of the normal, of any point that it is asked for
 };
 
 // Up to 64 facets in separate arrays: boxes, and coordinates of corners.
@@ -75,11 +80,25 @@ struct NearFacets {
   BoxBounds box;
 };
 
-// What became of a facet and those of a block. A bit a facet of the block.
-struct FacetMatches {
+// Facets of a block, a bit each, whose box overlaps a facet's and that its plane does not certainly leave on one side;
+// and how many boxes overlap.
+struct CrossingFacets {
+  std::uint64_t facets;
+  std::int64_t box_pairs;
+};
+
+// Pairs of facets of two blocks. Beyond `count` there are indices that may be read.
+struct FacetPairList {
+  static constexpr int kCapacity = 64;
+  std::int32_t a[kCapacity] = {};
+  std::int32_t b[kCapacity] = {};
+  int count = 0;
+};
+
+// What became of a list of pairs, a bit each.
+struct PairMatches {
   std::uint64_t meeting;    // certainly
   std::uint64_t undecided;  // for exact predicates
-  std::int64_t box_pairs;   // facets whose box overlaps the facet's
 };
 
 // Vertices of a cluster to be refreshed. Coordinates of source vertex s are source[3 s], source[3 s + 1], source[3 s +
@@ -125,11 +144,15 @@ struct Kernels {
   // Judges the `count` facets of `block`.
   CullBits (*cull_facets)(const FacetBlock& block, int count, const CullPlanes& planes);
 
-  // The facets of `block` that have a bit in `candidates` and whose box overlaps `box`.
+  // The facets of `block` that have a bit in `candidates`, whose box overlaps `box`, and whose plane does not certainly
+  // leave it on one side.
   NearFacets (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box);
 
-  // Holds `facet` against those of `block` that have a bit in `candidates`. What doubles cannot tell is left undecided.
-  FacetMatches (*match_facets)(const FacetBlock& block, std::uint64_t candidates, const FilterFacet& facet);
+  // The facets of `block` that have a bit in `candidates` and that `facet` may meet.
+  CrossingFacets (*crossing_facets)(const FacetBlock& block, std::uint64_t candidates, const FacetPlane& facet);
+
+  // Decides pairs of a facet of `a` and one of `b`. What doubles cannot tell is left undecided.
+  PairMatches (*match_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs);
 };
 
 // The best for this machine, or the one that the environment variable TACT_INSTRUCTION_SET names: scalar, avx2, avx512.

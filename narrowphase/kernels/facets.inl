@@ -1,0 +1,262 @@
+// The loops over facets, included by kernels.inl.
+
+void fill_facet_block(PointArrays points, const std::int32_t* const corners[3], int count, FacetBlock* block) {
+  const double* const coordinate[3] = {points.x, points.y, points.z};
+  for (int i = 0; i < count; i += kWidth) {
+    // The arrays of corners are padded to a whole number of packs, with vertices that exist.
+    for (int axis = 0; axis < 3; ++axis) {
+      const Pack p0 = gather(coordinate[axis], corners[0] + i);
+      const Pack p1 = gather(coordinate[axis], corners[1] + i);
+      const Pack p2 = gather(coordinate[axis], corners[2] + i);
+      store(block->corner[0][axis] + i, p0);
+      store(block->corner[1][axis] + i, p1);
+      store(block->corner[2][axis] + i, p2);
+      store(block->lower[axis] + i, min(min(p0, p1), p2));
+      store(block->upper[axis] + i, max(max(p0, p1), p2));
+    }
+  }
+}
+
+struct VectorPack {
+  Pack x, y, z;
+};
+
+inline VectorPack sub(const VectorPack& a, const VectorPack& b) { return {sub(a.x, b.x), sub(a.y, b.y), sub(a.z, b.z)}; }
+inline VectorPack spread(const double* p) { return {spread(p[0]), spread(p[1]), spread(p[2])}; }
+
+// A determinant as computed, and a bound of its rounding.
+struct Determinant {
+  Pack value, error;
+  Mask positive() const { return less(error, value); }
+  Mask negative() const { return less(value, sub(spread(0.0), error)); }
+};
+
+// A 3 x 3 determinant of differences, x · n with n = e × f, rounds by at most (7 + 56 eps) eps times the same sum of absolute
+// products, eps = 2^-53 (Shewchuk, "Adaptive precision floating-point arithmetic", 1997, §4.4), so by less than 1e-15 times
+// it. Where products vanish below the smallest double, each of the nine loses at most 2^-1075 times a difference;
+// differences of coordinates <= 2^300 make that less than the added 1e-200.
+inline Pack rounding_of(Pack size) { return add(mul(size, spread(kRelativeRounding)), spread(kAbsoluteRounding)); }
+
+inline Determinant determinant(const VectorPack& x, const VectorPack& n, const VectorPack& n_bound) {
+  const Pack value = add(add(mul(n.x, x.x), mul(n.y, x.y)), mul(n.z, x.z));
+  const Pack size = add(add(mul(n_bound.x, abs(x.x)), mul(n_bound.y, abs(x.y))), mul(n_bound.z, abs(x.z)));
+  return {value, rounding_of(size)};
+}
+
+// On which side of a plane the corners of a triangle certainly lie.
+struct Sides {
+  Mask above[3];
+  Mask certain;   // all three
+  unsigned apart; // bits: all three on one side
+};
+
+struct SideFilter {
+  VectorPack origin, normal, bound;
+
+  Sides sides(const VectorPack* corner) const {
+    Sides s;
+    Mask below[3];
+    for (int k = 0; k < 3; ++k) {
+      const Determinant height = determinant(sub(corner[k], origin), normal, bound);
+      s.above[k] = height.positive();
+      below[k] = height.negative();
+    }
+    const Mask all_above = both(both(s.above[0], s.above[1]), s.above[2]), all_below = both(both(below[0], below[1]), below[2]);
+    s.apart = bits(either(all_above, all_below));
+    s.certain = both(both(either(s.above[0], below[0]), either(s.above[1], below[1])), either(s.above[2], below[2]));
+    return s;
+  }
+};
+
+inline SideFilter plane_of(const VectorPack& c0, const VectorPack& c1, const VectorPack& c2) {
+  const VectorPack e = sub(c1, c0), f = sub(c2, c0);
+  const Pack xy = mul(e.y, f.z), xz = mul(e.z, f.y), yz = mul(e.z, f.x), yx = mul(e.x, f.z), zx = mul(e.x, f.y), zy = mul(e.y, f.x);
+  return {c0,
+          {sub(xy, xz), sub(yz, yx), sub(zx, zy)},
+          {add(abs(xy), abs(xz)), add(abs(yz), abs(yx)), add(abs(zx), abs(zy))}};
+}
+
+CullBits cull_facets(const FacetBlock& block, int count, const CullPlanes& planes) {
+  const BoxPack box(planes.box);
+  const HeightPack height(planes.axis);
+  const Pack lowest = spread(planes.lowest), zero = spread(0.0);
+  const double* const lower[3] = {block.lower[0], block.lower[1], block.lower[2]};
+  const double* const upper[3] = {block.upper[0], block.upper[1], block.upper[2]};
+  CullBits result{count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1, 0, 0};
+  for (int i = 0; i < count; i += kWidth) {
+    unsigned reaching = box.overlap(lower, upper, i);
+    Pack top = height({block.corner[0][0], block.corner[0][1], block.corner[0][2]}, i);
+    for (int k = 1; k < 3; ++k) top = max(top, height({block.corner[k][0], block.corner[k][1], block.corner[k][2]}, i));
+    reaching &= bits(less_equal(lowest, top));
+    result.reaching |= static_cast<std::uint64_t>(reaching) << i;
+    if (!planes.facing_away) continue;
+    VectorPack c[3];
+    for (int k = 0; k < 3; ++k) c[k] = {load(block.corner[k][0] + i), load(block.corner[k][1] + i), load(block.corner[k][2] + i)};
+    const VectorPack n = plane_of(c[0], c[1], c[2]).normal;
+    const Pack along = add(add(mul(height.nx, n.x), mul(height.ny, n.y)), mul(height.nz, n.z));
+    const Mask area = either(either(not_equal(n.x, zero), not_equal(n.y, zero)), not_equal(n.z, zero));
+    result.facing_away |= static_cast<std::uint64_t>(bits(both(less_equal(along, zero), area))) << i;
+  }
+  result.reaching &= result.all;
+  result.facing_away &= result.all;
+  return result;
+}
+
+inline void load_corners(const FacetBlock& block, int i, VectorPack* corner) {
+  for (int k = 0; k < 3; ++k) {
+    corner[k] = {load(block.corner[k][0] + i), load(block.corner[k][1] + i), load(block.corner[k][2] + i)};
+  }
+}
+
+// The lanes whose plane certainly leaves the whole box on one side. Where x runs over the box, the determinant is lowest
+// and highest at corners of it, and as computed no higher and no lower than at any corner, since rounding keeps order.
+inline unsigned planes_apart(const VectorPack* corner, const BoxPack& box) {
+  const SideFilter plane = plane_of(corner[0], corner[1], corner[2]);
+  const Pack n[3] = {plane.normal.x, plane.normal.y, plane.normal.z};
+  const Pack bound[3] = {plane.bound.x, plane.bound.y, plane.bound.z};
+  const Pack origin[3] = {plane.origin.x, plane.origin.y, plane.origin.z};
+  Pack lowest[3], highest[3], size[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const Pack to_lower = sub(box.lower[axis], origin[axis]), to_upper = sub(box.upper[axis], origin[axis]);
+    const Pack p = mul(n[axis], to_lower), q = mul(n[axis], to_upper);
+    lowest[axis] = min(p, q);
+    highest[axis] = max(p, q);
+    size[axis] = mul(bound[axis], max(abs(to_lower), abs(to_upper)));
+  }
+  const Pack error = rounding_of(add(add(size[0], size[1]), size[2]));
+  const Mask above = less(error, add(add(lowest[0], lowest[1]), lowest[2]));
+  const Mask below = less(add(add(highest[0], highest[1]), highest[2]), sub(spread(0.0), error));
+  return bits(either(above, below));
+}
+
+NearFacets near_facets(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box) {
+  const BoxPack pack(box);
+  const double* const lower[3] = {block.lower[0], block.lower[1], block.lower[2]};
+  const double* const upper[3] = {block.upper[0], block.upper[1], block.upper[2]};
+  Pack low[3], high[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis] = spread(__builtin_inf());
+    high[axis] = spread(-__builtin_inf());
+  }
+  std::uint64_t near = 0;
+  while (candidates != 0) {
+    const int i = __builtin_ctzll(candidates) / kWidth * kWidth;
+    unsigned mask = static_cast<unsigned>(candidates >> i) & kAllLanes & pack.overlap(lower, upper, i);
+    candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
+    if (mask == 0) continue;
+    VectorPack corner[3];
+    load_corners(block, i, corner);
+    mask &= ~planes_apart(corner, pack);
+    if (mask == 0) continue;
+    near |= static_cast<std::uint64_t>(mask) << i;
+    const Mask lanes = mask_of(mask);
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = select(lanes, min(low[axis], load(lower[axis] + i)), low[axis]);
+      high[axis] = select(lanes, max(high[axis], load(upper[axis] + i)), high[axis]);
+    }
+  }
+  NearFacets result{near, box};
+  for (int axis = 0; near != 0 && axis < 3; ++axis) {
+    result.box.lower[axis] = -largest_lane(sub(spread(0.0), low[axis]));
+    result.box.upper[axis] = largest_lane(high[axis]);
+  }
+  return result;
+}
+
+CrossingFacets crossing_facets(const FacetBlock& block, std::uint64_t candidates, const FacetPlane& facet) {
+  const BoxPack box(facet.box);
+  const HeightPack height({facet.normal[0], facet.normal[1], facet.normal[2], facet.corner[0], facet.corner[1],
+                           facet.corner[2]});
+  const Pack error = spread(facet.error), below = spread(-facet.error);
+  const double* const lower[3] = {block.lower[0], block.lower[1], block.lower[2]};
+  const double* const upper[3] = {block.upper[0], block.upper[1], block.upper[2]};
+  CrossingFacets result{0, 0};
+  while (candidates != 0) {
+    const int i = __builtin_ctzll(candidates) / kWidth * kWidth;
+    const unsigned mask = static_cast<unsigned>(candidates >> i) & kAllLanes & box.overlap(lower, upper, i);
+    candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
+    if (mask == 0) continue;
+    result.box_pairs += __builtin_popcount(mask);
+    Pack lowest = height({block.corner[0][0], block.corner[0][1], block.corner[0][2]}, i), highest = lowest;
+    for (int k = 1; k < 3; ++k) {
+      const Pack h = height({block.corner[k][0], block.corner[k][1], block.corner[k][2]}, i);
+      lowest = min(lowest, h);
+      highest = max(highest, h);
+    }
+    const unsigned apart = bits(either(less(error, lowest), less(highest, below)));
+    result.facets |= static_cast<std::uint64_t>(mask & ~apart) << i;
+  }
+  return result;
+}
+
+inline VectorPack select(Mask mask, const VectorPack& yes, const VectorPack& no) {
+  return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
+}
+
+// A triangle with its corners turned so that the first is alone on its side of the other's plane.
+struct LoneCorner {
+  VectorPack lone, next, last;
+  Mask above;
+};
+
+inline LoneCorner lone_corner(const VectorPack* c, const Sides& s) {
+  const Mask first = both(differ(s.above[0], s.above[1]), differ(s.above[0], s.above[2]));
+  const Mask second = both(differ(s.above[1], s.above[0]), differ(s.above[1], s.above[2]));
+  return {select(first, c[0], select(second, c[1], c[2])), select(first, c[1], select(second, c[2], c[0])),
+          select(first, c[2], select(second, c[0], c[1])),
+          either(both(first, s.above[0]), either(both(second, s.above[1]), both(both(differ(s.above[2], s.above[0]), differ(s.above[2], s.above[1])), s.above[2])))};
+}
+
+// (a - d) · ((b - d) × (c - d)).
+inline Determinant orient3d(const VectorPack& a, const VectorPack& b, const VectorPack& c, const VectorPack& d) {
+  const SideFilter plane = plane_of(d, b, c);
+  return determinant(sub(a, d), plane.normal, plane.bound);
+}
+
+struct Meeting {
+  unsigned yes, no;  // bits of lanes that are certain
+};
+
+// Both triangles cross the other's plane, no corner being near it: their intervals on the common line overlap if and only
+// if two orientations of an edge of each have the right signs (Guigue and Devillers, 2003). As in triangle_triangle.cpp,
+// where above is a negative orientation.
+inline Meeting intervals_meet(const LoneCorner& a, const LoneCorner& b) {
+  const VectorPack b1 = select(a.above, b.next, b.last), b2 = select(a.above, b.last, b.next);
+  const VectorPack a1 = select(b.above, a.next, a.last), a2 = select(b.above, a.last, a.next);
+  const Determinant p = orient3d(a.lone, a1, b.lone, b1), q = orient3d(a.lone, a2, b.lone, b2);
+  return {bits(both(p.positive(), q.negative())), bits(either(p.negative(), q.positive()))};
+}
+
+inline void gather_corners(const FacetBlock& block, const std::int32_t* facet, VectorPack* corner) {
+  for (int k = 0; k < 3; ++k) {
+    corner[k] = {gather(block.corner[k][0], facet), gather(block.corner[k][1], facet),
+                 gather(block.corner[k][2], facet)};
+  }
+}
+
+// By the sides of the planes, then by the intervals on their common line.
+inline Meeting match_lanes(const VectorPack* a, const VectorPack* b, unsigned mask) {
+  const Sides sides_b = plane_of(a[0], a[1], a[2]).sides(b);
+  unsigned left = mask & ~sides_b.apart;
+  if (left == 0) return {0, mask};
+  const Sides sides_a = plane_of(b[0], b[1], b[2]).sides(a);
+  left &= ~sides_a.apart;
+  const unsigned certain = bits(both(sides_a.certain, sides_b.certain)) & left;
+  if (certain == 0) return {0, mask & ~left};
+  const Meeting meeting = intervals_meet(lone_corner(a, sides_a), lone_corner(b, sides_b));
+  return {meeting.yes & certain, (mask & ~left) | (meeting.no & certain)};
+}
+
+PairMatches match_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs) {
+  PairMatches matches{0, 0};
+  for (int i = 0; i < pairs.count; i += kWidth) {
+    VectorPack corner_a[3], corner_b[3];
+    gather_corners(a, pairs.a + i, corner_a);
+    gather_corners(b, pairs.b + i, corner_b);
+    const unsigned mask = lanes_left(pairs.count - i);
+    const Meeting meeting = match_lanes(corner_a, corner_b, mask);
+    matches.meeting |= static_cast<std::uint64_t>(meeting.yes) << i;
+    matches.undecided |= static_cast<std::uint64_t>(mask & ~(meeting.yes | meeting.no)) << i;
+  }
+  return matches;
+}
