@@ -23,8 +23,14 @@ constexpr int kBoxesPerTree = 512;
   throw Error(ErrorCode::backend_failure, "Embree reported error " + std::to_string(static_cast<int>(code)));
 }
 
+// Throws what the calling thread's last calls of Embree left behind, and leaves nothing for the next.
 void check(RTCDevice device) {
-  const RTCError code = rtcGetDeviceError(device);
+  RTCError code = rtcGetDeviceError(device);
+  // A thread's first question allocates. Where that fails the answer is "unknown", and the reason is kept for the second.
+  if (code == RTC_ERROR_UNKNOWN) {
+    const RTCError reason = rtcGetDeviceError(device);
+    if (reason != RTC_ERROR_NONE) code = reason;
+  }
   if (code != RTC_ERROR_NONE) fail(code);
 }
 
@@ -102,7 +108,10 @@ void ClusterForest::build(EmbreeDevice& device, const BoxArrays& boxes, int coun
       primitives.push_back(p);
     }
     RTCBVH bvh = rtcNewBVH(embree);
-    if (bvh == nullptr) check(embree);
+    if (bvh == nullptr) {
+      check(embree);
+      throw Error(ErrorCode::backend_failure, "Embree made no tree");
+    }
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     arguments.maxBranchingFactor = 2;
@@ -119,7 +128,7 @@ void ClusterForest::build(EmbreeDevice& device, const BoxArrays& boxes, int coun
     arguments.userPtr = &builder;
     void* root = rtcBuildBVH(&arguments);
     rtcReleaseBVH(bvh);
-    if (root == nullptr) check(embree);
+    check(embree);
     if (root == nullptr) throw Error(ErrorCode::backend_failure, "Embree built no tree");
     roots_.push_back(child_of(root));
   }

@@ -1,4 +1,4 @@
-#include "tests/engine/allocation_hook.h"
+#include "tests/support/allocation_hook.h"
 
 #include <atomic>
 #include <cstdlib>
