@@ -3,10 +3,12 @@
 
 #include <tact/report.h>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "narrowphase/gjk.h"
+#include "narrowphase/star_surface.h"
 
 namespace tact {
 
@@ -16,6 +18,7 @@ struct PairHistory {
   base::Vec3 direction;           // unit, from a to b: separates the hulls, or is their contact direction
   narrowphase::GjkSimplex hulls;  // where GJK on the hulls ended
   narrowphase::GjkSimplex face;   // the face of the Minkowski difference that held the foot
+  bool has_surface = false;       // PairRecord::surface is of the last step
 };
 
 // What happened in the last step that looked at the pair.
@@ -40,6 +43,8 @@ struct PairRecord {
   Contact contact;                     // if hulls_overlap
   std::vector<FacetPair> facet_pairs;  // sorted
   std::vector<Patch> patches;
+  std::unique_ptr<narrowphase::SurfaceShape>
+      surface;  // where the search for the smallest separation ended, once there was one
   PairCounts counts;
   bool touched = false;  // in the step before this one
 };

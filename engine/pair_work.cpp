@@ -6,7 +6,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/timer.h"
 #include "narrowphase/contact_direction.h"
-#include "narrowphase/expanding_polytope.h"
+#include "narrowphase/smallest_separation.h"
 
 namespace tact {
 
@@ -26,12 +26,15 @@ void set_apart(PairRecord& record, Vec3 direction) {
   record.history.kind = PairHistory::Kind::separated;
   record.history.direction = direction;
   record.history.face = {};
+  record.history.has_surface = false;
 }
 
-// Stage 3. A direction that parted the hulls in the last step, or in which they touched, is asked first: one support
-// query a body. Leaves the direction that parts the hulls in the history; returns whether they overlap, or nearly do.
+// Stage 3. The vertices that showed the hulls to overlap in the last step are asked first, without a support query;
+// then a direction that parted the hulls, or in which they touched: one support query a body. Leaves the direction that
+// parts the hulls in the history; returns whether they overlap, or nearly do.
 bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, const GjkSettings& settings) {
   PairHistory& history = record.history;
+  if (history.kind == PairHistory::Kind::overlapping && holds_origin(m, history.hulls)) return true;
   if (history.kind != PairHistory::Kind::none) {
     ++record.counts.gjk_iterations;
     if (dot(history.direction, m.support(history.direction).point) < -m.height_error()) {
@@ -54,9 +57,17 @@ struct Direction {
   DirectionSource source = DirectionSource::smallest;
 };
 
+// The surface that the search for the smallest separation starts from and leaves, if every step searches.
+SurfaceShape* surface_of(PairRecord& record, const Settings& settings) {
+  if (settings.direction != DirectionPolicy::smallest) return nullptr;
+  if (record.surface == nullptr) record.surface = std::make_unique<SurfaceShape>();
+  if (!record.history.has_surface) record.surface->face_count = 0;
+  record.history.has_surface = true;
+  return record.surface.get();
+}
+
 // Stage 4. A pair that is new and already overlapping starts from its smallest separation.
-Direction find_direction(const PairRecord& record, const MinkowskiDifference& m, const Settings& settings,
-                         PairWork& work) {
+Direction find_direction(PairRecord& record, const MinkowskiDifference& m, const Settings& settings, PairWork& work) {
   const DirectionSettings direction_settings{{settings.gjk_tolerance}, settings.iteration_limit};
   const PairHistory& history = record.history;
   const bool fresh_start = history.kind == PairHistory::Kind::none;
@@ -65,9 +76,12 @@ Direction find_direction(const PairRecord& record, const MinkowskiDifference& m,
     return {contact_direction(m, history.direction, history.face, direction_settings, work.faces),
             carried ? DirectionSource::carried : DirectionSource::fresh};
   }
-  const Vec3 preferred = fresh_start ? Vec3{0.0, 0.0, 1.0} : history.direction;
-  const SmallestSeparation smallest = smallest_separation(m, preferred, work.polytope);
-  Direction direction{contact_direction(m, smallest.direction, {}, direction_settings, work.faces),
+  const SmallestStart start{.preferred = fresh_start ? Vec3{0.0, 0.0, 1.0} : history.direction,
+                            .hulls = history.hulls,
+                            .shape = surface_of(record, settings)};
+  const SmallestSeparation smallest = smallest_separation(m, start, work.smallest);
+  record.counts.gjk_iterations += smallest.support_queries;
+  Direction direction{contact_direction(m, smallest.direction, smallest.face, direction_settings, work.faces),
                       DirectionSource::smallest};
   direction.found.limit_reached = direction.found.limit_reached || smallest.limit_reached;
   return direction;

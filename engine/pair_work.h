@@ -7,9 +7,9 @@
 #include "engine/bodies.h"
 #include "engine/pair_record.h"
 #include "narrowphase/confirm.h"
-#include "narrowphase/expanding_polytope.h"
 #include "narrowphase/minkowski_difference.h"
 #include "narrowphase/minkowski_face.h"
+#include "narrowphase/smallest_separation.h"
 
 namespace tact {
 
@@ -22,7 +22,7 @@ struct PairWork {
   std::vector<narrowphase::Point2> zone_points;
   std::vector<std::int32_t> boxes_found;
   narrowphase::FaceFinder faces;
-  narrowphase::PolytopeMemory polytope;
+  narrowphase::SmallestMemory smallest;
   narrowphase::CullCounts cull_a, cull_b;
   narrowphase::FacetPairSearch search;
 };

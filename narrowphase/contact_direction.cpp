@@ -38,8 +38,8 @@ class Search {
       : m_(m), settings_(settings), faces_(faces), tolerance_(kFaceTolerance * m.height_error()) {}
 
   ContactDirection run(Vec3 start, const GjkSimplex& face) {
-    turn_to(normalized(start));
-    if (!stay_on(face)) {
+    start = normalized(start);
+    if (!stay_on(face, start)) {
       while (!done()) iterate();
     }
     return best_;
@@ -66,19 +66,28 @@ class Search {
     return m_.support(n);
   }
 
-  // Does the last step's face still hold the foot?
-  bool stay_on(const GjkSimplex& face) {
-    const Vec3 start = best_.n;
-    const double height = best_.height;
+  // Does the last step's face still hold the foot? If not, goes on from the lower of `start` and what was tried.
+  bool stay_on(const GjkSimplex& face, Vec3 start) {
     const std::optional<Vec3> n = face_normal(m_, face, start);
-    if (!n || !(dot(*n, start) > 0.0)) return false;
+    if (!n || !(dot(*n, start) > 0.0)) {
+      turn_to(start);
+      return false;
+    }
     turn_to(*n);
     if (supported_by(face)) {
       best_.face = face;
       settle(face);
+      if (finished_) return true;
     }
-    if (!finished_ && height < best_.height) turn_to(start);
-    return finished_;
+    const ContactDirection tried = best_;
+    const MinkowskiVertex top = top_;
+    turn_to(start);
+    if (best_.height < tried.height) return false;
+    const int queries = best_.support_queries;
+    best_ = tried;
+    best_.support_queries = queries;
+    top_ = top;
+    return false;
   }
 
   // One shifted call of GJK, then the face that it ended on.
@@ -115,11 +124,27 @@ class Search {
   // Finishes if the foot lies well inside the face that n supports, of which `part` is known.
   void settle(const GjkSimplex& part) {
     if (part.count == 3) {
+      finished_ = holds_foot(part);
+      if (finished_) return;
       const FacePolygon& polygon = faces_.spanned(m_, part, best_.n);
       finished_ = polygon.corner.size() > 2 && margin_of_foot(polygon) > shallow();
       if (finished_) return;
     }
     if (margin_of_face() >= -tolerance_) leave_or_finish();
+  }
+
+  // Does the foot lie well inside the triangle of three vertices of the face? The face may be larger.
+  bool holds_foot(const GjkSimplex& part) const {
+    Vec3 p[3];
+    for (std::size_t i = 0; i < 3; ++i) p[i] = m_.vertex(part.a[i], part.b[i]).point;
+    const double side = dot(cross(p[1] - p[0], p[2] - p[0]), best_.n) < 0.0 ? -1.0 : 1.0;
+    const double least = shallow() * shallow();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 from = p[i], along = p[(i + 1) % 3] - from;
+      const double inside = side * dot(cross(from, along), best_.n);
+      if (!(inside > 0.0 && inside * inside > least * norm_squared(along))) return false;
+    }
+    return true;
   }
 
   double margin_of_face() {

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Support queries that any pair may take, and more for each vertex of the bodies.
-constexpr std::size_t kLimit = 2000;
-constexpr std::size_t kLimitPerVertex = 4;
+constexpr int kLimit = 2000;
+constexpr int kLimitPerVertex = 4;
 // The bounds have met when they are this near, relative to the size of M, or within twice the error of a height.
 constexpr double kTolerance = 1e-14;
 // A triangle thinner than this has no normal in wide arithmetic. The face across its longest side is as near to the
@@ -40,22 +40,23 @@ std::optional<Vec3> normal_across(const WideVec3& e, const WideVec3& f) {
   return unit_vector(n);
 }
 
-using OpenFace = PolytopeMemory::OpenFace;
-using Queried = PolytopeMemory::Queried;
+using Queried = QueriedDirections::Queried;
 
 class Search {
  public:
   Search(const MinkowskiDifference& m, Vec3 preferred, PolytopeMemory& memory)
       : m_(m),
-        preferred_(preferred == Vec3{} ? Vec3{0.0, 0.0, 1.0} : unit_vector(preferred)),
-        tolerance_(std::max(2.0 * m.height_error(), kTolerance * m.size())),
+        preferred_(preferred_direction(preferred)),
+        tolerance_(height_tolerance(m)),
         seeds_(memory.seeds),
         open_(memory.open),
+        normals_(memory.normals),
         queried_(memory.queried),
         polytope_(memory.polytope) {
     seeds_.clear();
     open_.clear();
-    queried_.clear();
+    normals_.clear();
+    queried_.restart();
   }
 
   SmallestSeparation run() {
@@ -66,18 +67,18 @@ class Search {
       query(-best.direction);
       best = choose();
     }
-    return {best.direction, best.height, std::min(lower_bound_ - m_.height_error(), best.height),
-            static_cast<int>(queried_.size()), limit_reached_};
+    return {.direction = best.direction,
+            .height = best.height,
+            .lower_bound = std::min(lower_bound_ - m_.height_error(), best.height),
+            .face = {},
+            .support_queries = queried_.count(),
+            .limit_reached = limit_reached_};
   }
 
  private:
-  // Asks for the vertex of M that is farthest along the unit vector n; its height bounds the minimum from above.
-  MinkowskiVertex query(Vec3 n) {
-    const MinkowskiVertex vertex = m_.support(n);
-    queried_.push_back({dot(n, vertex.point), n});
-    height_ = std::min(height_, queried_.back().height);
-    return vertex;
-  }
+  MinkowskiVertex query(Vec3 n) { return queried_.query(m_, n); }
+  double height() const { return queried_.least(); }
+  Queried choose() const { return queried_.choose(preferred_, m_.height_error()); }
 
   void query_seed(Vec3 n) {
     seeds_.push_back(query(n));
@@ -144,8 +145,7 @@ class Search {
       if (below >= 0) polytope_.expand(below, seed.point);
     }
     add_open_faces(0);
-    const std::size_t limit = kLimit + kLimitPerVertex * (static_cast<std::size_t>(m_.a().vertex_count()) +
-                                                          static_cast<std::size_t>(m_.b().vertex_count()));
+    const int limit = query_limit(m_);
     double closed = kInfinity;  // the nearest plane of the faces that cannot be expanded
     lower_bound_ = -kInfinity;
     while (!open_.empty()) {
@@ -154,9 +154,9 @@ class Search {
       open_.pop_back();
       if (polytope_.faces()[static_cast<std::size_t>(nearest.face)].removed) continue;
       lower_bound_ = std::min(nearest.distance, closed);
-      if (height_ - nearest.distance <= tolerance_ || queried_.size() >= limit) break;
-      const MinkowskiVertex vertex = query(nearest.normal);
-      if (height_ - nearest.distance <= tolerance_) break;
+      if (height() - nearest.distance <= tolerance_ || queried_.count() >= limit) break;
+      const MinkowskiVertex vertex = query(normals_[static_cast<std::size_t>(nearest.face)]);
+      if (height() - nearest.distance <= tolerance_) break;
       // By rounding, the vertex may lie higher than the face and yet not beyond it: such a face stays as it is.
       if (polytope_.is_beyond(nearest.face, vertex.point)) {
         add_open_faces(polytope_.expand(nearest.face, vertex.point));
@@ -164,12 +164,13 @@ class Search {
         closed = std::min(closed, nearest.distance);
       }
     }
-    if (open_.empty()) lower_bound_ = std::min(height_, closed);
-    limit_reached_ = height_ - lower_bound_ > tolerance_;
+    if (open_.empty()) lower_bound_ = std::min(height(), closed);
+    limit_reached_ = height() - lower_bound_ > tolerance_;
   }
 
   // A face whose plane is as far as the best height is never the nearest, nor does it have to be expanded.
   void add_open_faces(int first) {
+    normals_.resize(polytope_.faces().size());
     for (int f = first; f < static_cast<int>(polytope_.faces().size()); ++f) {
       if (polytope_.faces()[static_cast<std::size_t>(f)].removed) continue;
       const Vec3 p = polytope_.corner(f, 0);
@@ -177,41 +178,39 @@ class Search {
           normal_across(wide_difference(polytope_.corner(f, 1), p), wide_difference(polytope_.corner(f, 2), p));
       if (!normal) continue;
       const double distance = dot(*normal, p);
-      if (!(distance < height_)) continue;
-      open_.push_back({distance, f, *normal});
+      if (!(distance < height())) continue;
+      normals_[static_cast<std::size_t>(f)] = *normal;
+      open_.push_back({distance, f});
       std::push_heap(open_.begin(), open_.end(), std::greater<>());
     }
-  }
-
-  // Of the directions that are lowest but for rounding, the one nearest to the preferred.
-  Queried choose() const {
-    Queried chosen{kInfinity, {}};
-    double nearness = -kInfinity;
-    for (const Queried& candidate : queried_) {
-      const double cosine = dot(candidate.direction, preferred_);
-      if (candidate.height > height_ + m_.height_error() || !(cosine > nearness)) continue;
-      nearness = cosine;
-      chosen = candidate;
-    }
-    return chosen;
   }
 
   const MinkowskiDifference& m_;
   Vec3 preferred_;
   double tolerance_;
   std::vector<MinkowskiVertex>& seeds_;
-  std::vector<OpenFace>& open_;    // a heap, the nearest on top
-  std::vector<Queried>& queried_;  // in the order of the queries
+  std::vector<OpenFace>& open_;  // a heap, the nearest on top
+  std::vector<Vec3>& normals_;   // of the faces that are or were open
+  QueriedDirections& queried_;
   ConvexPolytope& polytope_;
-  double height_ = kInfinity;  // the least of them
   double lower_bound_ = 0.0;
   bool limit_reached_ = false;
 };
 
 }  // namespace
 
-SmallestSeparation smallest_separation(const MinkowskiDifference& m, Vec3 preferred, PolytopeMemory& memory) {
+SmallestSeparation expanding_polytope(const MinkowskiDifference& m, Vec3 preferred, PolytopeMemory& memory) {
   return Search(m, preferred, memory).run();
+}
+
+Vec3 preferred_direction(Vec3 preferred) { return preferred == Vec3{} ? Vec3{0.0, 0.0, 1.0} : unit_vector(preferred); }
+
+double height_tolerance(const MinkowskiDifference& m) {
+  return std::max(2.0 * m.height_error(), kTolerance * m.size());
+}
+
+int query_limit(const MinkowskiDifference& m) {
+  return kLimit + kLimitPerVertex * (m.a().vertex_count() + m.b().vertex_count());
 }
 
 }  // namespace tact::narrowphase

@@ -1,35 +1,32 @@
-// The smallest separation of two overlapping hulls: the face of M nearest to the origin, by an expanding polytope
-// (van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game Objects", GDC 2001).
+// The smallest separation of two overlapping hulls, exactly, whatever M is: the face of M nearest to the origin, by an
+// expanding polytope (van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game Objects", GDC
+// 2001).
 #pragma once
 
 #include <vector>
 
 #include "narrowphase/convex_polytope.h"
+#include "narrowphase/gjk.h"
 #include "narrowphase/minkowski_difference.h"
+#include "narrowphase/queried_directions.h"
 
 namespace tact::narrowphase {
 
+// A face that may be the nearest to the origin.
+struct OpenFace {
+  double distance;  // of its plane, or less
+  int face;
+  friend bool operator>(const OpenFace& p, const OpenFace& q) {
+    return p.distance != q.distance ? p.distance > q.distance : p.face > q.face;
+  }
+};
+
 // What a search uses; lent to the next one, which then allocates little or nothing.
 struct PolytopeMemory {
-  // A face of the polytope that may be the nearest.
-  struct OpenFace {
-    double distance;  // of its plane from the origin
-    int face;
-    Vec3 normal;
-    friend bool operator>(const OpenFace& p, const OpenFace& q) {
-      return p.distance != q.distance ? p.distance > q.distance : p.face > q.face;
-    }
-  };
-
-  // A direction whose height was asked for.
-  struct Queried {
-    double height;
-    Vec3 direction;
-  };
-
   std::vector<MinkowskiVertex> seeds;
   std::vector<OpenFace> open;
-  std::vector<Queried> queried;
+  std::vector<Vec3> normals;  // of all faces
+  QueriedDirections queried;
   ConvexPolytope polytope;
 };
 
@@ -38,6 +35,7 @@ struct SmallestSeparation {
   double height = 0.0;  // w(direction), scaled; above the true minimum by at most rounding, unless limit_reached
   double lower_bound =
       0.0;                  // scaled; the true minimum of w over all directions is at least this, if M holds the origin
+  GjkSimplex face = {};     // three vertices of M that probably span the face across the direction, or nothing
   int support_queries = 0;  // vertices of M that were asked for
   bool limit_reached = false;  // the bounds did not close: the direction is the best found
 };
@@ -54,6 +52,12 @@ struct SmallestSeparation {
 // Each support query gives an upper bound of the minimum, w of its direction, and the nearest face of the polytope a
 // lower one; it ends when they meet but for rounding. Bodies that are round and concentric have no nearest face until
 // all of M is known: the number of queries grows with its faces, up to a limit that grows with the bodies' vertices.
-SmallestSeparation smallest_separation(const MinkowskiDifference& m, Vec3 preferred, PolytopeMemory& memory);
+SmallestSeparation expanding_polytope(const MinkowskiDifference& m, Vec3 preferred, PolytopeMemory& memory);
+
+// For any search like this one: `preferred` as a unit vector; how near the bounds of the smallest height come, scaled;
+// and how many support queries it may take.
+Vec3 preferred_direction(Vec3 preferred);
+double height_tolerance(const MinkowskiDifference& m);
+int query_limit(const MinkowskiDifference& m);
 
 }  // namespace tact::narrowphase

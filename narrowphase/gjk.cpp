@@ -123,6 +123,13 @@ class Search {
 
 }  // namespace
 
+bool holds_origin(const MinkowskiDifference& m, const GjkSimplex& simplex) {
+  if (simplex.count < 4) return false;
+  SimplexPoints points{.point = {}, .count = 4};
+  for (std::size_t i = 0; i < 4; ++i) points.point[i] = m.vertex(simplex.a[i], simplex.b[i]).point;
+  return tetrahedron_holds_origin(points);
+}
+
 GjkResult gjk(const MinkowskiDifference& m, Vec3 point, const GjkSimplex& start, const GjkSettings& settings) {
   Search search(m, point);
   search.start(start);

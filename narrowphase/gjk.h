@@ -37,6 +37,9 @@ struct GjkSettings {
   int query_limit = 1000;    // reached by no input known; a guard, not a tool
 };
 
+// Do four vertices of M hold the origin strictly inside, for certain? Then the hulls overlap. False for fewer vertices.
+bool holds_origin(const MinkowskiDifference& m, const GjkSimplex& simplex);
+
 // The distance of `point` (scaled) from M. `start` may hold vertices from an earlier search, or nothing.
 GjkResult gjk(const MinkowskiDifference& m, Vec3 point, const GjkSimplex& start, const GjkSettings& settings);
 

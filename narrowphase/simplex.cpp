@@ -47,6 +47,11 @@ class Search {
       y_[i] = {simplex.point[i].x, simplex.point[i].y, simplex.point[i].z};
   }
 
+  // Is the origin strictly inside, on the same side of every face as the fourth corner?
+  bool inside_tetrahedron() const {
+    return same_side(0, 1, 2, 3) && same_side(0, 1, 3, 2) && same_side(0, 2, 3, 1) && same_side(1, 2, 3, 0);
+  }
+
   SimplexClosest run() {
     if (count_ == 4 && inside_tetrahedron()) return {{}, {0, 1, 2, 3}, 4};
     for (int i = 0; i < count_; ++i) offer(y(i), {i, 0, 0, 0}, 1);
@@ -90,11 +95,6 @@ class Search {
         {static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z)}, carrier, count};
   }
 
-  // Is the origin strictly inside, on the same side of every face as the fourth corner?
-  bool inside_tetrahedron() const {
-    return same_side(0, 1, 2, 3) && same_side(0, 1, 3, 2) && same_side(0, 2, 3, 1) && same_side(1, 2, 3, 0);
-  }
-
   bool same_side(int i, int j, int k, int opposite) const {
     const Point n = cross(y(j) - y(i), y(k) - y(i));
     const Scalar origin = -dot(n, y(i)), corner = dot(n, y(opposite) - y(i));
@@ -118,6 +118,10 @@ class Search {
 }  // namespace
 
 SimplexClosest simplex_closest(const SimplexPoints& simplex) { return Search<double>(simplex, 0x1p-53).run(); }
+
+bool tetrahedron_holds_origin(const SimplexPoints& simplex) {
+  return Search<double>(simplex, 0x1p-53).inside_tetrahedron();
+}
 
 SimplexClosest simplex_closest_wide(const SimplexPoints& simplex) { return Search<Quad>(simplex, 0x1p-110).run(); }
 

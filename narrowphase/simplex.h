@@ -26,6 +26,9 @@ struct SimplexClosest {
 // those without extent are passed over, and the nearest wins (of equals the one with fewer points). count >= 1.
 SimplexClosest simplex_closest(const SimplexPoints& simplex);
 
+// Does the origin lie strictly inside the tetrahedron of four points, for certain? False where rounding could decide.
+bool tetrahedron_holds_origin(const SimplexPoints& simplex);
+
 // The same with numbers of twice the digits, some fifty times slower: for simplices so thin that doubles lose the
 // point.
 SimplexClosest simplex_closest_wide(const SimplexPoints& simplex);

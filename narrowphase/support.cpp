@@ -78,6 +78,10 @@ PointArrays far_corners(const BoxArrays& boxes, Vec3 n) {
 Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin) {
   assert(mesh.facet_count() > 0);
   Search search(mesh, n, origin);
+  if (mesh.cluster_count() == 1) {
+    search.open(0);
+    return search.best();
+  }
   const PointArrays groups = far_corners(mesh.group_boxes(), n), clusters = far_corners(mesh.cluster_boxes(), n);
   // The box that reaches farthest is the best first guess.
   const int first_group = kernels().highest_point(groups, mesh.group_count(), search.axis()).index;
