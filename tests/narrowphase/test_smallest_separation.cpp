@@ -6,16 +6,20 @@
 #include <random>
 #include <vector>
 
-#include "narrowphase/expanding_polytope.h"
+#include "narrowphase/smallest_separation.h"
 #include "tests/support/minkowski_oracle.h"
 
 namespace {
 
 using tact::base::Vec3;
 using tact::narrowphase::ClusteredMesh;
+using tact::narrowphase::expanding_polytope;
+using tact::narrowphase::gjk;
 using tact::narrowphase::MinkowskiDifference;
 using tact::narrowphase::smallest_separation;
+using tact::narrowphase::SmallestMemory;
 using tact::narrowphase::SmallestSeparation;
+using tact::narrowphase::SurfaceShape;
 using tact::tests::is_local_minimum;
 using tact::tests::mesh_through;
 using tact::tests::minkowski_height;
@@ -38,27 +42,44 @@ struct Answer {
   double size = 0.0;
 };
 
-Answer solve(const Pair& pair, Vec3 preferred = {0, 0, 1}) {
+// The ways to an answer: by the exact polytope alone; in doubles first, from GJK's simplex; and from a last search.
+enum class Way { exact, fresh, continued };
+constexpr Way kWays[] = {Way::exact, Way::fresh, Way::continued};
+
+// `last`: where the bodies were in the last search, if that is the way.
+Answer solve(const Pair& pair, Vec3 preferred = {0, 0, 1}, Way way = Way::fresh, const Pair* last = nullptr) {
+  SmallestMemory memory;
+  SurfaceShape shape;
+  const auto search = [&](const MinkowskiDifference& m) {
+    if (way == Way::exact) return expanding_polytope(m, preferred, memory.polytope);
+    return smallest_separation(m, {preferred, gjk(m, {}, {}, {}).simplex, &shape}, memory);
+  };
+  if (way == Way::continued) {
+    const ClusteredMesh a = mesh_through((last ? *last : pair).a), b = mesh_through((last ? *last : pair).b);
+    search(MinkowskiDifference(a, b));
+  }
   const ClusteredMesh a = mesh_through(pair.a);
   const ClusteredMesh b = mesh_through(pair.b);
   const MinkowskiDifference m(a, b);
-  tact::narrowphase::PolytopeMemory memory;
-  const SmallestSeparation s = smallest_separation(m, preferred, memory);
+  const SmallestSeparation s = search(m);
   return {s, s.height / m.scale(), s.lower_bound / m.scale(), m.size() / m.scale()};
 }
 
 // Height, direction and bounds against the oracle, to `relative` of the size.
-void expect_smallest(const Pair& pair, double relative = 1e-13) {
-  const Answer answer = solve(pair);
-  const double tolerance = relative * answer.size;
-  const Vec3 n = answer.separation.direction;
-  EXPECT_FALSE(answer.separation.limit_reached);
-  EXPECT_NEAR(norm(n), 1.0, 1e-15);
+void expect_smallest(const Pair& pair, double relative = 1e-13, const Pair* last = nullptr) {
   const double truth = static_cast<double>(smallest_height(pair.a, pair.b, 0.0).height);
-  EXPECT_NEAR(answer.height, truth, tolerance);
-  EXPECT_NEAR(static_cast<double>(minkowski_height(pair.a, pair.b, n)), truth, tolerance);
-  EXPECT_LE(answer.lower_bound, truth + 1e-15 * answer.size);
-  EXPECT_GE(answer.lower_bound, truth - tolerance);
+  for (const Way way : kWays) {
+    const Answer answer = solve(pair, {0, 0, 1}, way, last);
+    SCOPED_TRACE(testing::Message() << "way " << static_cast<int>(way));
+    const double tolerance = relative * answer.size;
+    const Vec3 n = answer.separation.direction;
+    EXPECT_FALSE(answer.separation.limit_reached);
+    EXPECT_NEAR(norm(n), 1.0, 1e-15);
+    EXPECT_NEAR(answer.height, truth, tolerance);
+    EXPECT_NEAR(static_cast<double>(minkowski_height(pair.a, pair.b, n)), truth, tolerance);
+    EXPECT_LE(answer.lower_bound, truth + 1e-15 * answer.size);
+    EXPECT_GE(answer.lower_bound, truth - tolerance);
+  }
 }
 
 class Random {
@@ -132,7 +153,7 @@ void expect_smallest_for_seeds(unsigned count, const Make& make) {
 
 }  // namespace
 
-TEST(ExpandingPolytope, RandomPolytopes) {
+TEST(SmallestSeparation, RandomPolytopes) {
   expect_smallest_for_seeds(2500, [](Random& random) {
     Pair pair{random.cloud(random.integer(4, 8)), random.cloud(random.integer(4, 8))};
     make_overlap(pair, random);
@@ -140,7 +161,7 @@ TEST(ExpandingPolytope, RandomPolytopes) {
   });
 }
 
-TEST(ExpandingPolytope, LargerHulls) {
+TEST(SmallestSeparation, LargerHulls) {
   expect_smallest_for_seeds(100, [](Random& random) {
     Pair pair{random.cloud(random.integer(9, 24)), random.cloud(random.integer(9, 24))};
     make_overlap(pair, random);
@@ -148,7 +169,7 @@ TEST(ExpandingPolytope, LargerHulls) {
   });
 }
 
-TEST(ExpandingPolytope, BoxesInRandomPoses) {
+TEST(SmallestSeparation, BoxesInRandomPoses) {
   expect_smallest_for_seeds(1000, [](Random& random) {
     Pair pair{box({1, 0.7, 0.4}), box({0.2, 0.5, 1.5})};
     rotate(pair.a, random.direction(), random.uniform(0, 3));
@@ -159,7 +180,7 @@ TEST(ExpandingPolytope, BoxesInRandomPoses) {
 }
 
 // Faces of M that many vertices share, in one plane exactly or but for rounding.
-TEST(ExpandingPolytope, AlignedBoxes) {
+TEST(SmallestSeparation, AlignedBoxes) {
   expect_smallest_for_seeds(1500, [](Random& random) {
     const auto eighth = [&] { return random.integer(1, 8) / 8.0; };
     Pair pair{box({eighth(), eighth(), eighth()}), box({eighth(), eighth(), eighth()})};
@@ -173,7 +194,7 @@ TEST(ExpandingPolytope, AlignedBoxes) {
   });
 }
 
-TEST(ExpandingPolytope, AlignedGridsOfPoints) {
+TEST(SmallestSeparation, AlignedGridsOfPoints) {
   expect_smallest_for_seeds(60, [](Random& random) {
     Points grid;
     for (int i = 0; i < 27; ++i) grid.push_back(Vec3{i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 - 1.0});
@@ -184,7 +205,7 @@ TEST(ExpandingPolytope, AlignedGridsOfPoints) {
   });
 }
 
-TEST(ExpandingPolytope, CrossedBars) {
+TEST(SmallestSeparation, CrossedBars) {
   expect_smallest_for_seeds(1000, [](Random& random) {
     Pair pair{box({2, 0.1, 0.1}), box({2, 0.1, 0.1})};
     rotate(pair.a, {1, 0, 0}, std::numbers::pi / 4 * random.integer(0, 1));
@@ -195,7 +216,7 @@ TEST(ExpandingPolytope, CrossedBars) {
   });
 }
 
-TEST(ExpandingPolytope, FlatSheets) {
+TEST(SmallestSeparation, FlatSheets) {
   expect_smallest_for_seeds(1000, [](Random& random) {
     Pair pair{random.cloud(random.integer(3, 6)), random.cloud(random.integer(3, 6))};
     for (Vec3& p : pair.a) p.z = 0.0;
@@ -214,7 +235,7 @@ TEST(ExpandingPolytope, FlatSheets) {
   });
 }
 
-TEST(ExpandingPolytope, Needles) {
+TEST(SmallestSeparation, Needles) {
   expect_smallest_for_seeds(1500, [](Random& random) {
     const double width = std::pow(10.0, random.uniform(-9, -1));
     Pair pair{random.cloud(random.integer(4, 8)), random.cloud(random.integer(4, 8))};
@@ -227,7 +248,7 @@ TEST(ExpandingPolytope, Needles) {
   });
 }
 
-TEST(ExpandingPolytope, OriginOnTheBorder) {
+TEST(SmallestSeparation, OriginOnTheBorder) {
   expect_smallest_for_seeds(1500, [](Random& random) {
     Pair pair{random.cloud(random.integer(4, 8)), random.cloud(random.integer(4, 8))};
     if (random.integer(0, 1) == 1) pair.b = box({0.5, 0.25, 1.0});
@@ -237,7 +258,7 @@ TEST(ExpandingPolytope, OriginOnTheBorder) {
   });
 }
 
-TEST(ExpandingPolytope, EdgeOrCornerOfMOnTheOrigin) {
+TEST(SmallestSeparation, EdgeOrCornerOfMOnTheOrigin) {
   expect_smallest_for_seeds(1000, [](Random& random) {
     Pair pair{random.cloud(random.integer(4, 8)), random.cloud(random.integer(4, 8))};
     if (random.integer(0, 1) == 1) pair = {box({1, 1, 1}), box({0.5, 0.25, 1.0})};
@@ -252,7 +273,7 @@ TEST(ExpandingPolytope, EdgeOrCornerOfMOnTheOrigin) {
   });
 }
 
-TEST(ExpandingPolytope, DirectionIsALocalMinimum) {
+TEST(SmallestSeparation, DirectionIsALocalMinimum) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     Random random(seed);
     Pair pair{random.cloud(random.integer(4, 20)), random.cloud(random.integer(4, 20))};
@@ -261,7 +282,7 @@ TEST(ExpandingPolytope, DirectionIsALocalMinimum) {
   }
 }
 
-TEST(ExpandingPolytope, ScalesWithPowersOfTwo) {
+TEST(SmallestSeparation, ScalesWithPowersOfTwo) {
   Random random(1);
   Pair pair{random.cloud(8), random.cloud(8)};
   make_overlap(pair, random);
@@ -277,7 +298,7 @@ TEST(ExpandingPolytope, ScalesWithPowersOfTwo) {
   }
 }
 
-TEST(ExpandingPolytope, FlatDifferenceTakesThePreferredSide) {
+TEST(SmallestSeparation, FlatDifferenceTakesThePreferredSide) {
   const Pair pair{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0.1, 0.1, 0}, {1, 1, 0}, {-1, 0.3, 0}}};
   EXPECT_EQ(solve(pair, {0.1, 0.2, 1}).separation.direction, (Vec3{0, 0, 1}));
   EXPECT_EQ(solve(pair, {0.1, 0.2, -1}).separation.direction, (Vec3{0, 0, -1}));
@@ -297,7 +318,7 @@ TEST(ExpandingPolytope, FlatDifferenceTakesThePreferredSide) {
   }
 }
 
-TEST(ExpandingPolytope, SegmentAndPointDifferences) {
+TEST(SmallestSeparation, SegmentAndPointDifferences) {
   const Pair segments{{{-1, 0, 0}, {2, 0, 0}}, {{0, 0, 0}, {5, 0, 0}}};
   const Answer across = solve(segments, {0.5, 3, 4});
   EXPECT_LT(norm(across.separation.direction - Vec3{0, 0.6, 0.8}), 1e-15);
@@ -313,7 +334,7 @@ TEST(ExpandingPolytope, SegmentAndPointDifferences) {
 }
 
 // Turned, the segments are straight but for rounding.
-TEST(ExpandingPolytope, SegmentDifferenceTakesTheNearestDirectionAcross) {
+TEST(SmallestSeparation, SegmentDifferenceTakesTheNearestDirectionAcross) {
   for (unsigned seed = 0; seed < 300; ++seed) {
     Random random(seed);
     const Vec3 along = random.direction();
@@ -324,10 +345,47 @@ TEST(ExpandingPolytope, SegmentDifferenceTakesTheNearestDirectionAcross) {
   }
 }
 
+// The last search's surface, where the bodies have moved, turned and stretched since.
+TEST(SmallestSeparation, ContinuesFromTheLastSearch) {
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Random random(seed);
+    Pair last{random.cloud(random.integer(4, 20)), random.cloud(random.integer(4, 20))};
+    if (random.integer(0, 2) == 0) last = {box({1, 0.7, 0.4}), box({0.2, 0.5, 1.5})};
+    make_overlap(last, random);
+    Pair pair = last;
+    const double step = std::pow(10.0, random.uniform(-6, 0));
+    rotate(pair.b, random.direction(), step * random.integer(0, 1));
+    for (Vec3& p : pair.a) p = p + random.integer(0, 1) * 0.1 * step * random.point();
+    translate(pair.b, 0.3 * step * random.point());
+    if (static_cast<double>(smallest_height(pair.a, pair.b, 0.0).height) < 0.0) continue;
+    expect_smallest(pair, 1e-13, &last);
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+// On small motions the last surface is worth its memory: one or two queries a step.
+TEST(SmallestSeparation, TakesFewQueriesOnCoherentMotion) {
+  Random random(1);
+  Pair pair{random.cloud(60), random.cloud(60)};
+  SmallestMemory memory;
+  SurfaceShape shape;
+  int queries = 0;
+  for (int step = 0; step < 50; ++step) {
+    rotate(pair.b, {0, 0.6, 0.8}, 0.002);
+    translate(pair.b, {0.01, 0.005, 0.0});
+    const ClusteredMesh a = mesh_through(pair.a), b = mesh_through(pair.b);
+    const MinkowskiDifference m(a, b);
+    const SmallestSeparation found = smallest_separation(m, {{}, gjk(m, {}, {}, {}).simplex, &shape}, memory);
+    if (step > 0) queries += found.support_queries;
+  }
+  EXPECT_LE(queries, 10 * 49);
+}
+
 // Known failures of other libraries, with the numbers that users reported.
 
 // libccd#25: two cubes of side 2, centers 1.9 apart. GJK there says depth 0, direction nan.
-TEST(ExpandingPolytope, StackedCubes) {
+TEST(SmallestSeparation, StackedCubes) {
   const Answer answer = solve({box({1, 1, 1}), box({1, 1, 1}, {0, 0, 1.9})});
   EXPECT_NEAR(answer.height, 0.1, 1e-15);
   EXPECT_EQ(answer.separation.direction, (Vec3{0, 0, 1}));
@@ -335,7 +393,7 @@ TEST(ExpandingPolytope, StackedCubes) {
 
 // libccd boxbox: a unit cube against a box of 0.5 x 1 x 1.5 at the origin; what parts them is (0.25, 0, 0), then
 // (0, 0, -0.25), read as the shift of the box.
-TEST(ExpandingPolytope, CubeAgainstBox) {
+TEST(SmallestSeparation, CubeAgainstBox) {
   const Points still = box({0.25, 0.5, 0.75});
   const Answer side = solve({box({0.5, 0.5, 0.5}, {-0.5, 0.5, 0.2}), still});
   EXPECT_NEAR(side.height, 0.25, 1e-15);
@@ -347,7 +405,7 @@ TEST(ExpandingPolytope, CubeAgainstBox) {
 
 // fcl#545: a cube in the corner of another, at (0.4, 0.4, 0.4): the diagonal, sqrt(3) times the depth, comes back
 // there.
-TEST(ExpandingPolytope, CornerCube) {
+TEST(SmallestSeparation, CornerCube) {
   const Answer answer = solve({box({0.5, 0.5, 0.5}), box({0.5, 0.5, 0.5}, {0.4, 0.4, 0.4})}, {1, 1, 1});
   EXPECT_NEAR(answer.height, 0.6, 1e-15);
   const Vec3 n = answer.separation.direction;
@@ -356,7 +414,7 @@ TEST(ExpandingPolytope, CornerCube) {
 
 // FCL's signed distance test: a unit cube at height 0.5 and a box of 0.6 x 0.8 x 1 turned in the plane, whose edge
 // touches the cube's side or is 0.1 inside, in several world frames.
-TEST(ExpandingPolytope, TurnedBoxAgainstCube) {
+TEST(SmallestSeparation, TurnedBoxAgainstCube) {
   for (unsigned frame = 0; frame < 6; ++frame) {
     for (const double y : {0.0, 0.1, -0.1, 0.05, -0.05}) {
       for (const double x : {-1.0, -0.9}) {
@@ -378,7 +436,7 @@ TEST(ExpandingPolytope, TurnedBoxAgainstCube) {
 }
 
 // fcl#503: boxes that touch are reported 0.33 to 1.84 deep. The depth is never more than the overlap along any axis.
-TEST(ExpandingPolytope, DepthIsAtMostTheOverlapAlongAnyAxis) {
+TEST(SmallestSeparation, DepthIsAtMostTheOverlapAlongAnyAxis) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     Random random(seed);
     Pair pair{box({1, 0.5, 0.25}), box({0.3, 2, 0.7})};
@@ -392,7 +450,7 @@ TEST(ExpandingPolytope, DepthIsAtMostTheOverlapAlongAnyAxis) {
 }
 
 // fcl#493, #398: "origin is outside of the polytope" is thrown for boxes that merely touch.
-TEST(ExpandingPolytope, OriginOutsideByRoundingIsNoError) {
+TEST(SmallestSeparation, OriginOutsideByRoundingIsNoError) {
   for (unsigned seed = 0; seed < 500; ++seed) {
     Random random(seed);
     Pair pair{box({0.307, 1.5, 0.0185}), box({0.25, 0.25, 0.25})};
@@ -407,7 +465,7 @@ TEST(ExpandingPolytope, OriginOutsideByRoundingIsNoError) {
 }
 
 // Two squares in one plane that share a side only: the plane's normal and the side's are equally low.
-TEST(ExpandingPolytope, OfEqualDirectionsThePreferredComes) {
+TEST(SmallestSeparation, OfEqualDirectionsThePreferredComes) {
   const Pair pair{{{-1, -1, 0}, {0, -1, 0}, {0, 1, 0}, {-1, 1, 0}}, {{0, -1, 0}, {1, -1, 0}, {1, 1, 0}, {0, 1, 0}}};
   EXPECT_EQ(solve(pair, {0.2, 0.1, -1}).separation.direction, (Vec3{0, 0, -1}));
   EXPECT_EQ(solve(pair, {1, 0.1, -0.2}).separation.direction, (Vec3{1, 0, 0}));
@@ -423,12 +481,12 @@ TEST(ExpandingPolytope, OfEqualDirectionsThePreferredComes) {
 }
 
 // coal#48, parry#253: two flat triangles, crossing or in one plane.
-TEST(ExpandingPolytope, TwoTriangles) {
+TEST(SmallestSeparation, TwoTriangles) {
   expect_smallest({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0.2, 0.2, -1}, {0.3, 0.2, 1}, {0.2, 0.4, 1}}});
   expect_smallest({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}});
 }
 
-TEST(ExpandingPolytope, RoundBodiesCloseTheirBoundsInReasonableTime) {
+TEST(SmallestSeparation, RoundBodiesCloseTheirBoundsInReasonableTime) {
   Points sphere;
   for (int i = 0; i < 500; ++i) {  // a spiral
     const double z = 1.0 - (2.0 * i + 1.0) / 500.0, turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
