@@ -8,6 +8,7 @@
 #include "tests/support/body_pairs.h"
 #include "tests/support/detection.h"
 #include "tests/support/generators.h"
+#include "tests/support/messy_soups.h"
 
 namespace tact::tests {
 namespace {
@@ -149,6 +150,36 @@ TEST(FacetPairs, OfKissingBodiesEqualOracle) {
     const std::vector<MeetingBodies> found = meeting_bodies(world.detect(), ids);
     ASSERT_EQ(found.size(), 1u) << "seed " << seed;
     ASSERT_TRUE(same_facet_pairs(expected, found[0].facet_pairs)) << "seed " << seed;
+  }
+}
+
+// Soups as broken files hold them, at some 10⁴ m; here whole, then each facet a body of its own.
+TEST(FacetPairs, OfMessySoupsEqualOracle) {
+  std::size_t meeting = 0;
+  for (std::uint64_t seed = 1; seed <= 80; ++seed) {
+    const std::vector<Mesh> bodies = messy_soups(seed % 10 == 0 ? 800 : 60, seed);
+    const std::vector<FacetPair> expected = facet_pairs_by_oracle(bodies[0], bodies[1]);
+    meeting += expected.size();
+    ASSERT_TRUE(same_facet_pairs(expected, facet_pairs_by_engine(bodies[0], bodies[1]))) << "seed " << seed;
+    ASSERT_TRUE(same_facet_pairs(
+        expected, facet_pairs_by_engine(bodies[0], bodies[1], {.gjk_tolerance = 0.1, .iteration_limit = 1})))
+        << "seed " << seed << ", limits reached";
+  }
+  EXPECT_GT(meeting, 20000u);
+}
+
+TEST(FacetPairs, OfFacetsOfMessySoupsEqualOracle) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    std::vector<Mesh> facets;
+    for (const Mesh& soup : messy_soups(80, seed)) {
+      for (int f = 0; f < soup.facet_count(); ++f) {
+        MeshBuilder builder;
+        builder.triangle(soup.position(soup.facets(0, f)), soup.position(soup.facets(1, f)),
+                         soup.position(soup.facets(2, f)));
+        facets.push_back(builder.mesh());
+      }
+    }
+    ASSERT_TRUE(engine_agrees_with_oracle(facets)) << "seed " << seed;
   }
 }
 
