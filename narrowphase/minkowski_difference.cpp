@@ -33,10 +33,6 @@ MinkowskiDifference::MinkowskiDifference(const ClusteredMesh& a, const Clustered
   height_error_ = kHeightRoundings * kUnitRoundoff * size_;
 }
 
-MinkowskiVertex MinkowskiDifference::vertex(int a, int b) const {
-  return {scale_ * (a_->position(a) - b_->position(b)), a, b};
-}
-
 MinkowskiVertex MinkowskiDifference::support(Vec3 direction) const {
   return vertex(narrowphase::support(*a_, direction, origin_).vertex,
                 narrowphase::support(*b_, -direction, origin_).vertex);

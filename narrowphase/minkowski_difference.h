@@ -25,7 +25,7 @@ class MinkowskiDifference {
   // The vertex of M farthest along `direction`, which need not be of unit length.
   MinkowskiVertex support(Vec3 direction) const;
   // The point of M that vertices `a` and `b` make.
-  MinkowskiVertex vertex(int a, int b) const;
+  MinkowskiVertex vertex(int a, int b) const { return {scale_ * (a_->position(a) - b_->position(b)), a, b}; }
 
   // Scaled length = scale() * metres.
   double scale() const { return scale_; }

@@ -50,10 +50,12 @@ class Search {
   bool continues() {
     if (start_.shape == nullptr || start_.shape->face_count == 0) return false;
     fresh_face_count_ = start_.shape->fresh_face_count;
-    return surface_.start(m_, *start_.shape);
+    continued_ = surface_.start(m_, *start_.shape);
+    return continued_;
   }
 
   bool begins() {
+    continued_ = false;
     fresh_face_count_ = 0;
     queried_.query(m_, preferred_);
     const GjkSimplex& s = start_.hulls;
@@ -90,24 +92,36 @@ class Search {
   // Expands the surface over its nearest face until that is a face of M, or as good.
   bool expand() {
     open_.clear();
-    last_face_ = -1;
+    if (!ask(nearest_of_all())) return false;
     open_faces(0);
     while (!open_.empty()) {
       const int nearest = take_nearest();
       if (nearest < 0) continue;
-      const StarSurface::Face& face = surface_.faces()[static_cast<std::size_t>(nearest)];
-      lower_bound_ = face.distance;
-      last_face_ = nearest;
+      lower_bound_ = surface_.faces()[static_cast<std::size_t>(nearest)].distance;
       if (closed()) return true;
-      if (queried_.count() >= limit_) return false;
-      const MinkowskiVertex vertex = queried_.query(m_, face.normal);
+      if (nearest != asked_ && !ask(nearest)) return false;
       if (closed()) return true;
-      const int first = surface_.expand(nearest, vertex);
+      const int first = surface_.expand(nearest, top_);
       if (first < 0) return false;
       open_faces(first);
     }
     lower_bound_ = queried_.least();
     return true;
+  }
+
+  // Asks for the vertex of M that is farthest across a face. False if that makes too many.
+  bool ask(int face) {
+    if (queried_.count() >= limit_) return false;
+    surface_.sharpen(face);
+    asked_ = face;
+    top_ = queried_.query(m_, surface_.faces()[static_cast<std::size_t>(face)].normal);
+    return true;
+  }
+
+  int nearest_of_all() const {
+    const auto least = [](const StarSurface::Face& f, const StarSurface::Face& g) { return f.distance < g.distance; };
+    const auto nearest = std::min_element(surface_.faces().begin(), surface_.faces().end(), least);
+    return static_cast<int>(nearest - surface_.faces().begin());
   }
 
   // All of the equally low faces are on the surface, as a ball of that radius about the origin is inside. Asks those
@@ -123,7 +137,7 @@ class Search {
       queried_.query(m_, n);
       const QueriedDirections::Queried best = choose();
       if (best.direction != n) continue;
-      last_face_ = f;
+      asked_ = f;
       return best;
     }
   }
@@ -177,11 +191,11 @@ class Search {
   // The vertices of the last face, if that lies across the direction: most likely a face of M.
   GjkSimplex face_across(Vec3 direction) const {
     GjkSimplex simplex;
-    if (last_face_ < 0 || dot(surface_.faces()[static_cast<std::size_t>(last_face_)].normal, direction) < kAcross)
+    if (asked_ < 0 || dot(surface_.faces()[static_cast<std::size_t>(asked_)].normal, direction) < kAcross)
       return simplex;
     for (int k = 0; k < 3; ++k) {
-      simplex.a[static_cast<std::size_t>(k)] = surface_.corner(last_face_, k).a;
-      simplex.b[static_cast<std::size_t>(k)] = surface_.corner(last_face_, k).b;
+      simplex.a[static_cast<std::size_t>(k)] = surface_.corner(asked_, k).a;
+      simplex.b[static_cast<std::size_t>(k)] = surface_.corner(asked_, k).b;
     }
     simplex.count = 3;
     return simplex;
@@ -189,6 +203,7 @@ class Search {
 
   void save() {
     if (start_.shape == nullptr) return;
+    if (continued_ && surface_.face_count() == static_cast<int>(surface_.faces().size())) return;  // as it was
     surface_.save(*start_.shape);
     if (fresh_face_count_ == 0) fresh_face_count_ = start_.shape->face_count;
     start_.shape->fresh_face_count = fresh_face_count_;
@@ -207,7 +222,9 @@ class Search {
   std::vector<OpenFace>& open_;  // a heap, the nearest on top; removed faces stay in it
   QueriedDirections& queried_;
   double lower_bound_ = 0.0;
-  int last_face_ = -1;
+  int asked_ = -1;       // the last face whose farthest vertex was asked for
+  MinkowskiVertex top_;  // that vertex
+  bool continued_ = false;
   int fresh_face_count_ = 0;
 };
 

@@ -74,18 +74,18 @@ bool StarSurface::set_plane(int face) {
   const Vec3 side = vertices_[at(f.corner[1])].point - p;
   const Vec3 other = vertices_[at(f.corner[2])].point - p;
   const Vec3 n = cross(side, other);
-  const double length = norm(n);
-  f.normal = (1.0 / length) * n;
+  const double per_length = 1.0 / norm(n);
+  f.normal = per_length * n;
   f.distance = dot(f.normal, p);
   f.error = kUnitRoundoff * sum_of_sizes(p) *
-            (kDistanceRoundings + kNormalRoundings * sum_of_sizes(side) * sum_of_sizes(other) / length);
+            (kDistanceRoundings + kNormalRoundings * per_length * (sum_of_sizes(side) * sum_of_sizes(other)));
   f.sharp = false;
   return looks_away(face) || (sharpen(face) && looks_away(face));
 }
 
 bool StarSurface::looks_away(int face) const {
   const Face& f = faces_[at(face)];
-  return f.distance > f.error;  // false if the length was zero
+  return f.distance > f.error;  // false for what is not a number: there was no normal
 }
 
 bool StarSurface::sharpen(int face) {
