@@ -100,7 +100,7 @@ void check(const CheckOptions& options, std::ostream& out) {
   if (options.json != "-") table.emplace(out, world.world());
 
   const int frames = frames_to_step(options, bodies);
-  ProgressLine progress(frames);
+  ProgressLine progress("frame", frames, ProgressLine::Beside::output);
   for (int frame = 0; frame < frames; ++frame) {
     if (frame > 0) set_frame(bodies, ids, frame, world);
     const Report& report = world.detect();

@@ -13,11 +13,10 @@
 #include "scenes/common_options.h"
 #include "scenes/interrupt.h"
 #include "scenes/library/catalog.h"
+#include "scenes/lost_pairs.h"
 #include "scenes/output_file.h"
 #include "scenes/progress_line.h"
-#include "scenes/report_json.h"
 #include "scenes/run_totals.h"
-#include "scenes/scene_pictures.h"
 #include "scenes/usage_error.h"
 
 namespace tact::scenes {
@@ -40,56 +39,18 @@ const SceneEntry& entry_of(const RunOptions& options) {
   return *entry;
 }
 
-std::filesystem::path folder_of(const RunOptions& options) {
-  return options.out.empty() ? std::filesystem::path("tact-" + options.scene) : options.out;
+// Two reports in one stream would be none.
+void check_outputs(const OutputOptions& options) {
+  if (options.json == "-" && options.contacts == "-") {
+    throw UsageError("--json and --contacts: only one of them can go to standard output");
+  }
 }
-
-// Pictures play at half the speed of the scene at 30 a second.
-int steps_a_picture(const DynamicsSettings& dynamics) {
-  constexpr double kPicturesASecond = 60.0;  // of the scene
-  return std::max(1, static_cast<int>(1.0 / (kPicturesASecond * dynamics.time_step) + 0.5));
-}
-
-// Everything that a run writes while it goes on.
-class Outputs {
- public:
-  Outputs(const RunOptions& options, const Scene& scene, const World& world, int threads, std::ostream& out)
-      : steps_a_picture_(steps_a_picture(scene.dynamics)) {
-    if (options.pictures) pictures_.emplace(options.scene, scene, folder_of(options), threads);
-    if (options.json.empty()) return;
-    json_file_.emplace(options.json, out);
-    json_.emplace(json_file_->stream(), world);
-  }
-
-  void add_step(int step, const Simulation& simulation) {
-    if (json_) json_->add_frame(step, *simulation.report());
-    if (pictures_ && step % steps_a_picture_ == 0) pictures_->take(simulation);
-  }
-
-  void finish() {
-    if (json_) json_->finish();
-    if (json_file_) json_file_->finish();
-    if (pictures_) sheet_ = pictures_->write_sheet();
-  }
-
-  void print(std::ostream& out) const {
-    if (!sheet_) return;
-    fmt::print(out, "\n{} pictures in {}, a sheet of them in {}\n", pictures_->count(), pictures_->folder().string(),
-               sheet_->string());
-  }
-
- private:
-  int steps_a_picture_;
-  std::optional<ScenePictures> pictures_;
-  std::optional<OutputFile> json_file_;
-  std::optional<JsonReport> json_;
-  std::optional<std::filesystem::path> sheet_;
-};
 
 }  // namespace
 
 void run(const RunOptions& options, std::ostream& out) {
   const auto start = std::chrono::steady_clock::now();
+  check_outputs(options.outputs);
   const SceneEntry& entry = entry_of(options);
   Scene scene = entry.make(options.size > 0 ? options.size : entry.default_size);
   const int threads = options.threads > 0 ? options.threads : base::default_threads();
@@ -97,50 +58,67 @@ void run(const RunOptions& options, std::ostream& out) {
   if (!options.record.empty()) recording.emplace(options.record, out);
   Simulation simulation(std::move(scene.bodies), scene.script, scene.dynamics,
                         {.threads = threads, .accuracy = options.accuracy}, recording ? &recording->stream() : nullptr);
-  Outputs outputs(options, scene, simulation.world(), threads, out);
+  RunOutputs outputs(options.outputs, options.scene, scene, simulation.world(), threads, out);
+
+  // What the paper's criteria lose is measured; the other levels promise all pairs or none.
+  std::optional<LostPairs> lost;
+  if (options.accuracy == Accuracy::paper) lost.emplace(simulation, threads);
 
   RunTotals totals;
-  ProgressLine progress(options.frames);
+  ProgressLine progress("step", options.frames, ProgressLine::Beside::nothing);
   const Interrupt interrupt;
   for (int step = 0; step < options.frames && !interrupt.requested(); ++step) {
     simulation.step();
     totals.add_step(simulation);
+    if (lost) lost->add_step(simulation);
     outputs.add_step(step, simulation);
-    progress.show(step + 1);
+    progress.show(step + 1, fmt::format("{} contacts", simulation.report()->stats().touching_contacts));
   }
   progress.clear();
   outputs.finish();
   if (recording) recording->finish();
-  if (options.json == "-") return;
+  if (options.outputs.json == "-" || options.outputs.contacts == "-") return;
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   fmt::print(out, "{}{}\n", options.scene, totals.steps() < options.frames ? ", interrupted" : "");
   totals.print(out, simulation, wall.count(), scene.paper);
+  if (lost) lost->print(out);
+  fmt::print(out, "\n");
   outputs.print(out);
 }
 
 void add_run_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("run", "Simulate a scene, step by step, with pictures");
   const auto options = std::make_shared<RunOptions>();
-  const auto folder = std::make_shared<std::string>();
   const auto no_pictures = std::make_shared<bool>(false);
   constexpr int kMost = std::numeric_limits<int>::max();
+  OutputOptions& outputs = options->outputs;
   command->footer(kExamples);
   command->add_option("SCENE", options->scene, "A scene that `tact scenes` lists")->required();
   command->add_option("--frames", options->frames, "How many steps; 300 if not given")
       ->type_name("N")
-      ->check(CLI::Range(1, kMost));
+      ->check(CLI::Range(1, kMost).description(""));
   add_threads_option(*command, options->threads);
   add_accuracy_option(*command, options->accuracy);
   command->add_option("--size", options->size, "How large the scene is; `tact scenes` tells what it counts")
       ->type_name("N")
-      ->check(CLI::Range(1, kMost));
-  command->add_option("--out", *folder, "Write pictures to this folder; tact-SCENE if not given")->type_name("FOLDER");
-  add_json_option(*command, options->json);
+      ->check(CLI::Range(1, kMost).description(""));
+  command->add_option("--out", outputs.out, "Write pictures and their film to this folder; tact-SCENE if not given")
+      ->type_name("FOLDER");
+  command->add_flag("--no-pictures", *no_pictures, "Write no pictures and no film");
+  command
+      ->add_option("--every", outputs.every, "Steps from one picture to the next; if not given, as many as 1/60 s has")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMost).description(""));
+  add_json_option(*command, outputs.json);
+  command->add_option("--contacts", outputs.contacts, "Write the contacts as JSON, a line a step; - is standard output")
+      ->type_name("FILE|-");
+  command->add_option("--gltf", outputs.gltf, "Write the bodies, at every picture, as an animated glTF file")
+      ->type_name("FILE.glb");
+  command->add_option("--vtk", outputs.vtk, "Write the bodies, at every picture, to this folder for ParaView")
+      ->type_name("FOLDER");
   add_record_option(*command, options->record);
-  command->add_flag("--no-pictures", *no_pictures, "Write no pictures");
-  command->callback([options, folder, no_pictures] {
-    options->out = *folder;
-    options->pictures = !*no_pictures;
+  command->callback([options, no_pictures] {
+    options->outputs.pictures = !*no_pictures;
     run(*options, std::cout);
   });
 }

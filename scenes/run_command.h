@@ -6,9 +6,10 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <filesystem>
 #include <ostream>
 #include <string>
+
+#include "scenes/run_outputs.h"
 
 namespace tact::scenes {
 
@@ -17,11 +18,9 @@ struct RunOptions {
   int frames = 300;   // steps of the simulation
   int size = 0;       // 0: the scene's own
   Accuracy accuracy = Accuracy::exact;
-  int threads = 0;                 // 0: as many as OpenMP would use
-  std::filesystem::path out = {};  // the folder for pictures; empty: tact-<scene> in the working folder
-  std::string json = {};           // the file to write, "-" for standard output; empty: none
-  std::string record = {};         // the file to record what enters the engine; empty: none
-  bool pictures = true;
+  int threads = 0;          // 0: as many as OpenMP would use
+  std::string record = {};  // the file to record what enters the engine; empty: none
+  OutputOptions outputs = {};
 };
 
 // Runs the scene and prints what the run adds up to to `out`, or to nobody if JSON goes there. SIGINT ends it with what

@@ -41,11 +41,14 @@ std::vector<PictureBody> picture_bodies(const Simulation& simulation, const std:
 ScenePictures::ScenePictures(std::string title, const Scene& scene, std::filesystem::path folder, int threads)
     : title_(std::move(title)),
       looks_(scene.looks),
+      marks_(scene.marks),
       ground_(scene.ground),
       folder_(std::move(folder)),
       renderer_({.threads = threads}),
       view_(scene.view),
       shown_(scene.shown) {
+  constexpr std::size_t kMany = 12;
+  marks_.directions = marks_.directions && looks_.size() < kMany;
   try {
     std::filesystem::create_directories(folder_);
     remove_old_frames(folder_);
@@ -60,8 +63,7 @@ PictureScene ScenePictures::picture_scene(const Simulation& simulation) const {
   scene.up = UpAxis::z;
   scene.ground = ground_;
   scene.title = title_;
-  if (simulation.report() != nullptr)
-    mark_contacts(scene, *simulation.report(), {.directions = scene.bodies.size() < 12});
+  if (simulation.report() != nullptr) mark_contacts(scene, *simulation.report(), marks_);
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     if (looks_[i].visible) continue;
     scene.bodies[i].meeting_facets.clear();
@@ -87,6 +89,8 @@ void ScenePictures::take(const Simulation& simulation) {
   write_png(frame_file(folder_, count()), renderer_.render(scene, *camera_));
   captions_.push_back(std::move(caption));
 }
+
+std::filesystem::path ScenePictures::write_film() const { return make_film(folder_, count(), folder_ / "film"); }
 
 std::optional<std::filesystem::path> ScenePictures::write_sheet() {
   if (captions_.empty()) return std::nullopt;

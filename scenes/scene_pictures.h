@@ -19,6 +19,8 @@ class ScenePictures {
 
   // Writes the next picture. Errors: std::runtime_error if it cannot be written.
   void take(const Simulation& simulation);
+  // Makes a film of all pictures, FOLDER/film.mp4 or .webp, and returns its file. Errors: as make_film.
+  std::filesystem::path write_film() const;
   // Writes a sheet of six pictures, evenly spread, and returns its file; nothing if no picture was taken.
   std::optional<std::filesystem::path> write_sheet();
 
@@ -30,6 +32,7 @@ class ScenePictures {
 
   std::string title_;
   std::vector<Look> looks_;
+  ContactMarks marks_;
   std::optional<double> ground_;
   std::filesystem::path folder_;
   Renderer renderer_;
@@ -39,7 +42,7 @@ class ScenePictures {
   std::vector<std::string> captions_;
 };
 
-// The scene as a picture shows it: visible bodies in their colours, and where they meet.
+// The bodies as a picture shows them, in their colours, invisible ones included.
 std::vector<PictureBody> picture_bodies(const Simulation& simulation, const std::vector<Look>& looks);
 
 }  // namespace tact::scenes

@@ -58,10 +58,11 @@ struct Body {
   Springs springs;
   std::optional<VolumeKeeper> volume;
   std::optional<ShapeKeeper> shape;
-  double friction = 0.0;       // of a contact: the geometric mean of both bodies'
-  double drag = 0.0;           // 1 / seconds
-  double inner_damping = 0.0;  // 1 / seconds
-  double weight = 1.0;         // gravity times this
+  double friction = 0.0;        // of a contact: the geometric mean of both bodies'
+  double drag = 0.0;            // 1 / seconds
+  double inner_damping = 0.0;   // 1 / seconds
+  double weight = 1.0;          // gravity times this
+  double hull_stiffness = 0.0;  // newtons a metre, see push_hulls_apart
   // The surface that tact sees lies this far outside the body, metres; closed bodies only. Contacts are then known
   // before the surfaces themselves meet.
   double skin = 0.0;

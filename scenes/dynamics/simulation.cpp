@@ -6,6 +6,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/timer.h"
 #include "scenes/dynamics/damping.h"
+#include "scenes/dynamics/hull_push.h"
 
 namespace tact::scenes {
 namespace {
@@ -71,6 +72,7 @@ void Simulation::step() {
 
 void Simulation::move() {
   const double h = dynamics_.time_step / dynamics_.substeps;
+  if (report_ != nullptr) push_hulls_apart(report_->contacts(), bodies_, dynamics_.time_step);
   for (int substep = 1; substep <= dynamics_.substeps; ++substep) {
     for_each_body([&](std::size_t i, int threads) { begin_substep(i, h, threads); });
     if (script_) script_(state_.time + substep * h, bodies_);

@@ -23,7 +23,7 @@ struct DynamicsSettings {
 };
 
 // Moves the bodies that are not dynamic: sets their positions as they are at `time`, seconds. It may change the weight
-// of the others.
+// and the hull stiffness of the others.
 using Script = std::function<void(double time, std::vector<Body>& bodies)>;
 
 // What a step of the simulation took, wall time in milliseconds.
@@ -61,6 +61,10 @@ class Simulation {
   void step();
 
   const std::vector<Body>& bodies() const { return bodies_; }
+  // The positions of body i as tact sees them: moved out by its skin. Those of the last step.
+  const std::vector<Vec3>& surface(std::size_t i) const {
+    return bodies_[i].skin > 0.0 ? surfaces_[i] : bodies_[i].positions;
+  }
   const World& world() const { return world_.world(); }
   // Of the last step; null before the first.
   const Report* report() const { return report_; }

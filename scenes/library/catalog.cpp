@@ -9,8 +9,16 @@ namespace {
 constexpr std::array kScenes = {
     SceneEntry{"cloth-over-sphere", "a cloth falls on a sphere and drapes in folds",
                "vertices along a side of the cloth", 64, 8, 512, make_cloth_over_sphere},
+    SceneEntry{"sphere-into-cloth", "a sphere rises into a cloth that hangs from its corners",
+               "vertices along a side of the cloth", 64, 8, 512, make_sphere_into_cloth},
     SceneEntry{"pile", "soft bodies of several shapes, some concave, fall into a bin", "soft bodies", 100, 1, 4000,
                make_pile},
+    SceneEntry{"clamp", "a ball is held from two opposite sides by one body and lifted", "", 0, 0, 0, make_clamp},
+    SceneEntry{"liver-and-tool", "a tool pokes a concave soft organ of 500 facets", "", 0, 0, 0, make_liver_and_tool},
+    SceneEntry{"sphere-in-cloth", "a sphere sinks into a slack cloth and is pushed out the way it came",
+               "vertices along a side of the cloth", 48, 16, 256, make_sphere_in_cloth},
+    SceneEntry{"wheel-on-ground", "a soft wheel rolls over hilly ground that is far larger", "cells along the ground",
+               300, 50, 1000, make_wheel_on_ground},
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "engine/base/box.h"
 #include "scenes/dynamics/simulation.h"
 #include "scenes/pictures/camera.h"
+#include "scenes/pictures/contact_marks.h"
 
 namespace tact::scenes {
 
@@ -26,6 +27,7 @@ struct Scene {
   Script script;            // may be empty
   DynamicsSettings dynamics;
   View view;
+  ContactMarks marks;              // directions are left out of scenes with many bodies
   std::optional<base::Box> shown;  // what pictures show, metres; else the bodies as they are at the start
   std::optional<double> ground;    // height of a floor in pictures, metres
   // What the paper says of this scene, to stand beside our figures; empty: it does not have it.

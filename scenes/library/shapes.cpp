@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <utility>
 
 namespace tact::scenes {
@@ -117,6 +118,53 @@ Mesh box(Vec3 lower, Vec3 upper, double longest) {
   grid.add({lower + y, z, x, nz, nx});
   grid.add({lower, z, y, nz, ny});
   grid.add({lower + x, y, z, ny, nz});
+  return grid.mesh();
+}
+
+Mesh shaped_globe(int around, int rings, const std::function<Vec3(Vec3)>& shape) {
+  std::vector<Vec3> positions = {{0.0, 0.0, -1.0}};
+  for (int j = 1; j <= rings; ++j) {
+    const double latitude = std::numbers::pi * (static_cast<double>(j) / (rings + 1) - 0.5);
+    for (int i = 0; i < around; ++i) {
+      const double u = 2.0 * std::numbers::pi * (i + 0.5 * (j % 2)) / around;
+      positions.push_back({std::cos(latitude) * std::cos(u), std::cos(latitude) * std::sin(u), std::sin(latitude)});
+    }
+  }
+  const int top = static_cast<int>(positions.size());
+  positions.push_back({0.0, 0.0, 1.0});
+  std::vector<Corners> facets;
+  const auto vertex = [&](int j, int i) { return 1 + (j - 1) * around + i % around; };
+  for (int i = 0; i < around; ++i) facets.push_back({0, vertex(1, i + 1), vertex(1, i)});
+  for (int j = 1; j < rings; ++j) {
+    for (int i = 0; i < around; ++i) {
+      const int a = vertex(j, i), b = vertex(j, i + 1), c = vertex(j + 1, i + 1), d = vertex(j + 1, i);
+      // Odd rings are turned by half a segment.
+      if (j % 2 == 1) {
+        facets.insert(facets.end(), {{a, b, c}, {a, c, d}});
+      } else {
+        facets.insert(facets.end(), {{a, b, d}, {b, c, d}});
+      }
+    }
+  }
+  for (int i = 0; i < around; ++i) facets.push_back({top, vertex(rings, i), vertex(rings, i + 1)});
+  std::transform(positions.begin(), positions.end(), positions.begin(), shape);
+  return mesh_of(std::move(positions), facets);
+}
+
+Mesh cells(const std::vector<std::array<int, 3>>& filled, Vec3 cell_size) {
+  const std::set<std::array<int, 3>> all(filled.begin(), filled.end());
+  const Vec3 x{cell_size.x, 0.0, 0.0}, y{0.0, cell_size.y, 0.0}, z{0.0, 0.0, cell_size.z};
+  GridCollector grid;
+  for (const auto& [i, j, k] : all) {
+    const Vec3 corner{i * cell_size.x, j * cell_size.y, k * cell_size.z};
+    const auto open = [&](int di, int dj, int dk) { return !all.contains({i + di, j + dj, k + dk}); };
+    if (open(0, 0, -1)) grid.add({corner, y, x, 1, 1});
+    if (open(0, 0, 1)) grid.add({corner + z, x, y, 1, 1});
+    if (open(0, -1, 0)) grid.add({corner, x, z, 1, 1});
+    if (open(0, 1, 0)) grid.add({corner + y, z, x, 1, 1});
+    if (open(-1, 0, 0)) grid.add({corner, z, y, 1, 1});
+    if (open(1, 0, 0)) grid.add({corner + x, y, z, 1, 1});
+  }
   return grid.mesh();
 }
 

@@ -1,7 +1,9 @@
 // Meshes made by rule, for the scenes. Closed ones turn counter-clockwise seen from outside.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <vector>
 
 #include "scenes/dynamics/mesh.h"
 #include "scenes/library/random.h"
@@ -17,7 +19,13 @@ Mesh sphere(int levels, double radius);
 Mesh shaped_sphere(int levels, const std::function<Vec3(Vec3)>& shape);
 // A box between two corners, each face a grid with edges not longer than `longest`, metres.
 Mesh box(Vec3 lower, Vec3 upper, double longest);
-// A ring around the z axis: `around` segments of the radius `ring`, `across` of the radius `tube`.
+// A globe of `rings` circles of `around` vertices between two poles on the z axis, 2 * around * rings facets, whose
+// points p, of length 1, are moved to shape(p).
+Mesh shaped_globe(int around, int rings, const std::function<Vec3(Vec3)>& shape);
+// The surface of filled cells of the grid, each at `cell_size` times its three integers, metres. Cells must not touch
+// along an edge or at a corner alone.
+Mesh cells(const std::vector<std::array<int, 3>>& filled, Vec3 cell_size);
+// A ring around the z axis: `around` segments, an even number, of the radius `ring`, `across` of the radius `tube`.
 Mesh torus(int around, int across, double ring, double tube);
 
 Mesh moved(Mesh mesh, Vec3 by);

@@ -10,9 +10,12 @@ double diagonal(const PictureBody& body) {
   return (body.positions.rowwise().maxCoeff() - body.positions.rowwise().minCoeff()).norm();
 }
 
-// The middle of the box around the facets of `body` that meet.
+// The middle of the box around the facets of `body` that meet, or around all of it if none does.
 Eigen::Vector3d meeting_place(const PictureBody& body, const Contact& contact) {
   Eigen::AlignedBox3d box;
+  if (!contact.touching()) {
+    return 0.5 * (body.positions.rowwise().minCoeff() + body.positions.rowwise().maxCoeff());
+  }
   for (const FacetPair& pair : contact.facet_pairs()) {
     for (int k = 0; k < 3; ++k) box.extend(body.positions.col(body.facets(k, pair.a)));
   }
@@ -37,11 +40,12 @@ void mark_contacts(PictureScene& scene, const Report& report, const ContactMarks
         b.meeting_facets.push_back(pair.b);
       }
     }
-    if (marks.directions && contact.touching()) {
-      const double shortest = marks.shortest_arrow * std::min(diagonal(a), diagonal(b));
-      scene.arrows.push_back({.start = meeting_place(a, contact),
-                              .direction = contact.direction,
-                              .length = std::max(contact.depth, shortest)});
+    if (marks.directions && (marks.hulls || contact.touching())) {
+      const double size = std::min(diagonal(a), diagonal(b));
+      scene.arrows.push_back(
+          {.start = meeting_place(a, contact),
+           .direction = contact.direction,
+           .length = std::clamp(contact.depth, marks.shortest_arrow * size, marks.longest_arrow * size)});
     }
     if (marks.zones) {
       for (const ZoneDisk& zone : {contact.zone_a, contact.zone_b}) {

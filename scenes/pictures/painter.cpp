@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace tact::scenes {
@@ -28,7 +29,6 @@ Light shoulder(const Light& light) {
 
 }  // namespace
 
-const Painter::Place Painter::kOneSample[1] = {{0.5f, 0.5f}};
 const Painter::Place Painter::kFourSamples[4] = {
     {0.375f, 0.125f}, {0.875f, 0.375f}, {0.625f, 0.875f}, {0.125f, 0.625f}};
 
@@ -37,8 +37,9 @@ Painter::Painter(const DrawnScene& scene, int width, int height, int samples_per
       lights_(scene),
       width_(width),
       height_(height),
-      samples_(samples_per_pixel == 1 ? std::span<const Place>(kOneSample) : kFourSamples),
+      fine_(samples_per_pixel > 1),
       buffer_(width, height),
+      sketch_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
       backdrop_top_(linear({176, 200, 224})),
       backdrop_bottom_(linear({240, 241, 240})) {}
 
@@ -52,12 +53,35 @@ void Painter::light(int x, int y) {
 
 void Painter::smooth_light(int threads) { buffer_.smooth(kSmoothReach, threads); }
 
+void Painter::sketch(int x, int y) {
+  sketch_[index(x, y)] = shoulder(trace({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}));
+}
+
 Color Painter::color(int x, int y) const {
+  if (!fine_ || calm(x, y)) return displayed(sketch_[index(x, y)]);
   Light sum = Light::Zero();
-  for (const Place& sample : samples_) {
+  for (const Place& sample : kFourSamples) {
     sum += shoulder(trace({static_cast<float>(x) + sample.x, static_cast<float>(y) + sample.y}));
   }
-  return displayed(sum / static_cast<float>(samples_.size()));
+  return displayed(sum / static_cast<float>(std::size(kFourSamples)));
+}
+
+std::size_t Painter::index(int x, int y) const {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+}
+
+bool Painter::calm(int x, int y) const {
+  constexpr float kSame = 0.06f;  // greatest difference of a channel, as a share of the brighter one
+  constexpr float kDark = 0.02f;  // differences below this share of white are seen by nobody
+  const Light& here = sketch_[index(x, y)];
+  for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(width_ - 1, x + 1); ++u) {
+      const Light& there = sketch_[index(u, v)];
+      const Light greatest = kSame * here.cwiseMax(there).cwiseMax(kDark);
+      if (((here - there).cwiseAbs().array() > greatest.array()).any()) return false;
+    }
+  }
+  return true;
 }
 
 Ray Painter::ray(const Place& place) const {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <optional>
-#include <span>
+#include <vector>
 
 #include "scenes/pictures/drawn_scene.h"
 #include "scenes/pictures/light.h"
@@ -11,8 +11,11 @@
 
 namespace tact::scenes {
 
-// Paints a drawn scene in two rounds over the pixels, each in any order and by any number of threads: light() for every
-// pixel, then smooth_light(), then color() for every pixel.
+// Paints a drawn scene in three rounds over the pixels, each in any order and by any number of threads: light() for
+// every pixel, then smooth_light(), then sketch() for every pixel, then color() for every pixel.
+//
+// With four samples a pixel, only pixels that differ from a neighbour get all of them; the others keep the one of the
+// sketch. After T. Whitted, An Improved Illumination Model for Shaded Display, CACM 1980.
 class Painter {
  public:
   // `samples_per_pixel` is 1 or 4; `scene` must stay alive.
@@ -21,6 +24,8 @@ class Painter {
   // Finds the light on what is seen at the middle of the pixel.
   void light(int x, int y);
   void smooth_light(int threads);
+  // Traces the middle of the pixel.
+  void sketch(int x, int y);
   Color color(int x, int y) const;
 
  private:
@@ -37,6 +42,9 @@ class Painter {
     float edge = 0.0f;   // how much of an edge of the facet is seen, 0 to 1
   };
 
+  std::size_t index(int x, int y) const;
+  // Do all neighbours of the pixel look as it does, as far as the sketch tells?
+  bool calm(int x, int y) const;
   Ray ray(const Place& place) const;
   Light backdrop(const Place& place) const;
   std::optional<Met> meet(const Ray& ray) const;
@@ -53,13 +61,13 @@ class Painter {
   Lights lights_;
   int width_;
   int height_;
-  std::span<const Place> samples_;
+  bool fine_;
   DiskPattern pattern_;
   LightBuffer buffer_;
+  std::vector<Light> sketch_;  // by pixel, row by row
   Light backdrop_top_;
   Light backdrop_bottom_;
 
-  static const Place kOneSample[1];
   static const Place kFourSamples[4];
 };
 

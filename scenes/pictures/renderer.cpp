@@ -35,6 +35,7 @@ Picture Renderer::render(const PictureScene& scene, const Camera& camera) {
   };
   for_each_pixel([&](int x, int y) { painter.light(x, y); });
   painter.smooth_light(settings_.threads);
+  for_each_pixel([&](int x, int y) { painter.sketch(x, y); });
   for_each_pixel([&](int x, int y) { picture.at(x, y) = painter.color(x, y); });
   const int size = std::max(9, picture.height / 30);
   font_.draw(picture, scene.title, size, 2 * size, size + size / 4, kInk);

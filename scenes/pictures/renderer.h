@@ -11,7 +11,7 @@ namespace tact::scenes {
 
 enum class Quality {
   draft,  // one sample a pixel: rough rims
-  fine,   // four samples a pixel
+  fine,   // four samples a pixel where neighbours differ
 };
 
 struct RenderSettings {

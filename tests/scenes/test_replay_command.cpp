@@ -36,7 +36,12 @@ class ReplayCommand : public ::testing::Test {
 
 TEST_F(ReplayCommand, SceneOnTwoThreadsIsTheSameOnOne) {
   std::ostringstream ignored;
-  run({.scene = "pile", .frames = 12, .size = 8, .threads = 2, .record = recording_.string(), .pictures = false},
+  run({.scene = "pile",
+       .frames = 12,
+       .size = 8,
+       .threads = 2,
+       .record = recording_.string(),
+       .outputs = {.pictures = false}},
       ignored);
   expect_all_same({.recording = recording_}, "12 steps on 2 threads in ");
   expect_all_same({.recording = recording_, .threads = 1}, "12 steps on 1 thread in ");

@@ -1,0 +1,59 @@
+// Everything that `tact run` writes besides its table.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <ostream>
+#include <string>
+
+#include "scenes/export/gltf.h"
+#include "scenes/export/vtk.h"
+#include "scenes/library/scene.h"
+#include "scenes/output_file.h"
+#include "scenes/report_json.h"
+#include "scenes/scene_pictures.h"
+
+namespace tact::scenes {
+
+struct OutputOptions {
+  bool pictures = true;
+  std::filesystem::path out = {};  // the folder for pictures; empty: tact-<scene> in the working folder
+  int every = 0;                   // steps from one frame to the next, in pictures, gltf and vtk; 0: 60 frames a second
+  std::string json = {};           // the report of every step, "-" for standard output; empty: none
+  std::string contacts = {};       // the contacts of every step, a line each, "-" likewise
+  std::filesystem::path gltf = {};  // a .glb file; empty: none
+  std::filesystem::path vtk = {};   // a folder; empty: none
+};
+
+// The bodies that no picture shows are not in the files for other programs either.
+class RunOutputs {
+ public:
+  // `scene` without its bodies; `title` is its name. Errors: FileError; std::runtime_error if the font is missing.
+  RunOutputs(const OutputOptions& options, const std::string& title, const Scene& scene, const World& world,
+             int threads, std::ostream& out);
+
+  // What step number `step`, from 0, gives. Errors: FileError.
+  void add_step(int step, const Simulation& simulation);
+  // Ends all files; makes the contact sheet and the film. Errors: FileError.
+  void finish();
+  // Says where everything is.
+  void print(std::ostream& out) const;
+
+ private:
+  void add_frame(const Simulation& simulation);
+  std::vector<PictureBody> visible_bodies(const Simulation& simulation) const;
+
+  OutputOptions options_;
+  std::vector<Look> looks_;
+  int every_;
+  std::optional<ScenePictures> pictures_;
+  std::optional<OutputFile> json_file_;
+  std::optional<JsonReport> json_;
+  std::optional<OutputFile> contacts_;
+  std::optional<GltfAnimation> gltf_;
+  std::optional<VtkSeries> vtk_;
+  std::optional<std::filesystem::path> sheet_;
+  std::string film_;  // where it is, or why there is none
+};
+
+}  // namespace tact::scenes
