@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "bench/error_growth.h"
 #include "bench/error_meshes.h"
 #include "bench/error_recall.h"
 #include "bench/error_report.h"
@@ -58,6 +59,8 @@ int run_error(const BenchOptions& options) {
   for (const MeshRow& row : mesh_rows(options.quick))
     faults += run_row(row, Question::facet_pairs, mesh_methods(), seconds, tables);
   faults += print_recall(options);
+  faults += print_iterations(options);
+  print_growth(options);
   if (!options.out.empty()) {
     write_csv(tables, options.out / "error.csv");
     plot_tables(tables, Question::hulls, options.out, "error_hulls");

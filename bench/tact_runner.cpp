@@ -32,7 +32,7 @@ class Tact : public Rival {
 
 }  // namespace
 
-TactRunner::TactRunner(const Workload& workload, int threads) : workload_(workload), world_({.threads = threads}) {
+TactRunner::TactRunner(const Workload& workload, const Settings& settings) : workload_(workload), world_(settings) {
   for (const WorkloadBody& body : workload.bodies) {
     ids_.push_back(world_.add_body({.positions = body.positions(0),
                                     .facets = body.facets,

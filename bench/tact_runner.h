@@ -12,7 +12,8 @@ namespace tact::bench {
 class TactRunner {
  public:
   // The workload outlives it. All bodies are added at frame 0.
-  TactRunner(const Workload& workload, int threads);
+  TactRunner(const Workload& workload, const Settings& settings);
+  TactRunner(const Workload& workload, int threads) : TactRunner(workload, Settings{.threads = threads}) {}
 
   // Sets the positions of all bodies that are not fixed, then detects.
   const Report& step(int frame);
