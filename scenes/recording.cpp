@@ -1,5 +1,6 @@
 #include "scenes/recording.h"
 
+#include <array>
 #include <bit>
 #include <type_traits>
 
@@ -108,6 +109,11 @@ void RecordedWorld::remove_body(BodyId body) {
     put(out, RecordKind::remove);
     put_body(out, body);
   });
+}
+
+void RecordedWorld::set_positions(BodyId body, const Eigen::Ref<const Eigen::Matrix3Xd>& positions) {
+  world_.set_positions(body, positions);
+  record([&](std::ostream& out) { put_positions(out, std::array{PositionsUpdate{body, positions}}); });
 }
 
 void RecordedWorld::set_positions(std::span<const PositionsUpdate> updates) {

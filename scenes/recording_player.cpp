@@ -174,7 +174,8 @@ void RecordingPlayer::make(const Call& call) {
     call();
   } catch (const Error& error) {
     if (error.code() == ErrorCode::out_of_memory || error.code() == ErrorCode::backend_failure) throw;
-    fail_record(error.what());
+    constexpr std::size_t kLongest = 300;
+    fail_record(printable(error.what(), kLongest));  // it may hold the name of a body
   }
 }
 

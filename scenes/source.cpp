@@ -15,10 +15,9 @@ void Source::fail(const std::string& message) const {
   throw FileError(fmt::format("{}{}: {}{}", file_, place(), item, message));
 }
 
-std::string printable(std::string_view text) {
-  constexpr std::size_t kLongest = 40;
+std::string printable(std::string_view text, std::size_t longest) {
   std::string result;
-  for (const char c : text.substr(0, kLongest)) {
+  for (const char c : text.substr(0, longest)) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte > 0x7e) {
       result += fmt::format("\\x{:02x}", byte);
@@ -26,7 +25,7 @@ std::string printable(std::string_view text) {
       result += c;
     }
   }
-  return result + (text.size() > kLongest ? "..." : "");
+  return result + (text.size() > longest ? "..." : "");
 }
 
 std::string quoted(std::string_view text) { return "'" + printable(text) + "'"; }

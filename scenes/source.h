@@ -1,6 +1,7 @@
 // A file's bytes and where a reader stands in them, so that every message names the place.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -36,8 +37,8 @@ class Source {
   std::int64_t item_index_ = 0;
 };
 
-// `text` made safe to print: what is not printable ASCII stands as \xNN, and a long text is cut.
-std::string printable(std::string_view text);
+// `text` made safe to print: what is not printable ASCII stands as \xNN, and what is longer than `longest` bytes is cut.
+std::string printable(std::string_view text, std::size_t longest = 40);
 // The same in quotes.
 std::string quoted(std::string_view text);
 

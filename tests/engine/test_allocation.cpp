@@ -15,6 +15,8 @@
 namespace tact::tests {
 namespace {
 
+using tact::World;  // records nothing: a recording allocates
+
 enum class Outcome { finished, failed_unnoticed, threw };
 
 // Calls `call` with the allocation numbered `number` (from 0) failing, and all after it if `for_good`. What is thrown

@@ -16,6 +16,10 @@
 #include <embree3/rtcore.h>
 #endif
 
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/lsan_interface.h>
+#endif
+
 #include "tests/support/allocation_hook.h"
 #include "tests/support/random.h"
 
@@ -73,6 +77,13 @@ std::string error_of_build(ClusterForest& forest, EmbreeDevice& device, const Bo
   return "";
 }
 
+// Embree itself loses a few bytes where an allocation fails half-way through its start: not for a sanitizer to report.
+struct EmbreeMayLeak {
+#if defined(__SANITIZE_ADDRESS__)
+  __lsan::ScopedDisabler disabler;
+#endif
+};
+
 // Beyond the range of floats, in a point, and where Embree drops what is not a number.
 TEST(ClusterForest, FindsAllOverlapsAtEverySize) {
   EmbreeDevice device;
@@ -94,8 +105,12 @@ TEST(ClusterForest, FailingAllocationInsideEmbreeIsAnErrorAndTheNextBuildWorks) 
       ASSERT_LT(number, 1000);
       EmbreeDevice device;
       ClusterForest forest;
-      tests::fail_allocation(number, for_good);
-      const std::string error = error_of_build(forest, device, list);
+      std::string error;
+      {
+        [[maybe_unused]] const EmbreeMayLeak may_leak;
+        tests::fail_allocation(number, for_good);
+        error = error_of_build(forest, device, list);
+      }
       const bool has_failed = tests::stop_failing();
       // Where not even Embree's code finds memory, it is unknown.
       ASSERT_TRUE(error.empty() || error == "bad_alloc" || error == "out_of_memory" ||

@@ -25,12 +25,6 @@ void describe(::testing::AssertionResult& result, const char* what, const std::v
 
 }  // namespace
 
-std::vector<BodyId> add_bodies(World& world, std::span<const Mesh> bodies) {
-  std::vector<BodyId> ids;
-  for (const Mesh& body : bodies) ids.push_back(world.add_body({.positions = body.positions, .facets = body.facets}));
-  return ids;
-}
-
 std::vector<MeetingBodies> meeting_bodies(const Report& report, std::span<const BodyId> ids) {
   std::map<BodyId, int> number;
   for (std::size_t i = 0; i < ids.size(); ++i) number[ids[i]] = static_cast<int>(i);

@@ -11,11 +11,20 @@
 
 #include "tests/support/mesh.h"
 #include "tests/support/oracle.h"
+#include "tests/support/recorded_world.h"
 
 namespace tact::tests {
 
+// A test that fails leaves what entered its worlds.
+using World = RecordedWorld;
+
 // Adds the bodies in their order.
-std::vector<BodyId> add_bodies(World& world, std::span<const Mesh> bodies);
+template <class AnyWorld>
+std::vector<BodyId> add_bodies(AnyWorld& world, std::span<const Mesh> bodies) {
+  std::vector<BodyId> ids;
+  for (const Mesh& body : bodies) ids.push_back(world.add_body({.positions = body.positions, .facets = body.facets}));
+  return ids;
+}
 
 // The pairs of `report` that touch; a body's number is its place in `ids`, whatever its id.
 std::vector<MeetingBodies> meeting_bodies(const Report& report, std::span<const BodyId> ids);
