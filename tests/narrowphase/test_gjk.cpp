@@ -48,6 +48,14 @@ TEST(Gjk, FindsCubesFarFromZero) {  // openGJK#52: 0.0033 at 9e4, where the answ
            box({far + 0.97, far + 0.1, far + 0.15}, {far + 2, far + 1, far + 1}), GjkStatus::overlapping);
 }
 
+TEST(Gjk, FindsTheDistanceOfTwoPolytopes) {  // openGJK's first example, whose readme gives the distance
+  const std::vector<Vec3> p = {{0.0, 5.5, 0.0}, {2.3, 1.0, -2.0}, {8.1, 4.0, 2.4}, {4.3, 5.0, 2.2}, {2.5, 1.0, 2.3},
+                               {7.1, 1.0, 2.4}, {1.0, 1.5, 0.3},  {3.3, 0.5, 0.3}, {6.0, 1.4, 0.2}};
+  std::vector<Vec3> q;
+  for (const Vec3& v : p) q.push_back(-v);
+  EXPECT_NEAR(distance(points(p), points(q), GjkStatus::apart), 3.653650, 5e-7);
+}
+
 TEST(Gjk, BoundsCloseOnRandomHullsAtEveryScale) {
   Random random(5);
   for (int i = 0; i < 600; ++i) {

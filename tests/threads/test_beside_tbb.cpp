@@ -38,6 +38,11 @@ std::vector<std::uint64_t> hashes_of_steps(std::uint64_t seed, int threads) {
 }
 
 TEST(BesideTbb, WorldsInsideTasksAnswerAsAlone) {
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+  GTEST_SKIP() << "TBB is not instrumented: the thread sanitizer does not see that a task has ended";
+#endif
+#endif
   std::array<std::vector<std::uint64_t>, 4> found;
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) { found[i] = hashes_of_steps(i, 2); });
   for (std::uint64_t seed = 0; seed < found.size(); ++seed) EXPECT_EQ(found[seed], hashes_of_steps(seed, 1)) << seed;

@@ -1,0 +1,26 @@
+#!/bin/bash
+# Runs tests under the address and undefined-behaviour sanitizers, then under the thread sanitizer.
+# usage: scripts/sanitize.sh quick|all
+# quick: the layers below the engine; worlds among other threads. all: everything, about an hour on 2 cores.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+case ${1:-} in
+  quick) asan=(base broadphase narrowphase) tsan=(base threads) ;;
+  all) asan=() tsan=() ;;
+  *) echo "usage: scripts/sanitize.sh quick|all" >&2; exit 2 ;;
+esac
+scripts/setup.sh program tests sanitizers
+
+# Builds the test programs of some folders, or all, and runs them.
+run() {
+  local preset=$1 folders=("${@:2}")
+  if (( ${#folders[@]} == 0 )); then
+    scripts/build.sh "$preset"
+    ctest --preset "$preset" -j 2
+  else
+    scripts/build.sh "$preset" "${folders[@]/#/test_}"
+    ctest --preset "$preset" -j 2 -L "^($(IFS='|'; echo "${folders[*]}"))$"
+  fi
+}
+run asan "${asan[@]}"
+run tsan "${tsan[@]}"
