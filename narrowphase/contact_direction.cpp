@@ -12,8 +12,11 @@ namespace tact::narrowphase {
 namespace {
 
 // The shift beyond w(n), relative to the size of M. Small converges in fewer iterations; tiny makes the gap, and so the
-// direction between the closest points, ill-conditioned.
+// direction between the closest points, ill-conditioned. Where M is rounded with a radius far below the shift, as with
+// rods, an iteration turns n by the ratio of the two only: so the shift shrinks with every iteration.
 constexpr double kShift = 1e-3;
+constexpr double kShrink = 0.25;
+constexpr double kSmallestShift = 1e-12;
 // How far a vertex may lie below the supporting plane and still belong to its face, in roundings of a height.
 constexpr double kFaceTolerance = 4.0;
 
@@ -48,9 +51,8 @@ class Search {
  private:
   bool done() {
     if (finished_ || best_.height < -m_.height_error()) return true;
-    if (best_.iterations < settings_.iteration_limit) return false;
-    best_.limit_reached = true;
-    return true;
+    best_.limit_reached = best_.iterations >= settings_.iteration_limit;
+    return best_.limit_reached;
   }
 
   void turn_to(Vec3 n) {
@@ -95,11 +97,11 @@ class Search {
     ++best_.iterations;
     const Vec3 n = best_.n;
     const double height = best_.height;
-    const Vec3 shifted = (height + kShift * std::max(height, m_.size())) * n;
+    const Vec3 shifted = (height + shift_ * std::max(height, m_.size())) * n;
+    shift_ = std::max(kShrink * shift_, kSmallestShift);
     const GjkSimplex seed{{top_.a}, {top_.b}, 1};
     const GjkResult nearest = gjk(m_, shifted, best_.face.count > 0 ? best_.face : seed, settings_.gjk);
     best_.support_queries += nearest.support_queries;
-    best_.limit_reached = nearest.status == GjkStatus::limit_reached;
     best_.face = nearest.simplex;
     if (nearest.distance > 0.0) turn_to((-1.0 / nearest.distance) * nearest.offset);
     if (const auto normal = face_normal(m_, nearest.simplex, best_.n)) {
@@ -183,6 +185,11 @@ class Search {
       const Point2 from = c[i], to = c[(i + 1) % c.size()];
       try_turn(in_space(from), normalized((to.y - from.y) * u + (from.x - to.x) * v), lowest);
     }
+    if (!lowest.n && margin_of_foot(*polygon_) < shallow()) {  // near a corner: between the sides
+      for (const double x : {-1.0, 0.0, 1.0}) {
+        for (const double y : {-1.0, 0.0, 1.0}) try_direction(normalized(best_.n + kProbe * (x * u + y * v)), lowest);
+      }
+    }
     return lowest.n;
   }
 
@@ -191,21 +198,31 @@ class Search {
     std::optional<Vec3> n;
   };
 
-  // Turns about the axis through a point of M in the supporting plane.
+  // Turns about the axis through a point of M in the supporting plane, to the next face; and by small angles where that
+  // is not lower, for it may be a sliver with a lower face behind it.
   void try_turn(Vec3 axis_point, Vec3 towards, Lowest& lowest) {
-    const Vec3 turned = turned_to_next_face(m_, best_.n, axis_point, towards, tolerance_);
-    const double w = dot(turned, support(turned).point);
-    if (w < lowest.height) lowest = {w, turned};
+    const double before = lowest.height;
+    try_direction(turned_to_next_face(m_, best_.n, axis_point, towards, tolerance_), lowest);
+    for (double turn = kProbe; turn > kSmallestProbe && !(lowest.height < before); turn *= 0.1) {
+      try_direction(normalized(best_.n + turn * towards), lowest);
+    }
+  }
+
+  void try_direction(Vec3 n, Lowest& lowest) {
+    const double w = dot(n, support(n).point);
+    if (w < lowest.height) lowest = {w, n};
   }
 
   // 0.006: no turn by up to 0.01 leads lower, see shallow().
   static constexpr double kShallow = 0.006;
+  static constexpr double kProbe = 0.01, kSmallestProbe = 0.5e-6;
   static constexpr int kWalkLimit = 1000;
 
   const MinkowskiDifference& m_;
   const DirectionSettings& settings_;
   FaceFinder& faces_;
   double tolerance_;
+  double shift_ = kShift;
   ContactDirection best_;
   MinkowskiVertex top_;
   const FacePolygon* polygon_ = nullptr;  // of the face that n supports, once looked at

@@ -69,7 +69,7 @@ class Search {
     }
     return {.direction = best.direction,
             .height = best.height,
-            .lower_bound = std::min(lower_bound_ - m_.height_error(), best.height),
+            .lower_bound = std::min(lower_bound_ - 2.0 * m_.height_error(), best.height),
             .face = {},
             .support_queries = queried_.count(),
             .limit_reached = limit_reached_};

@@ -68,7 +68,7 @@ class Search {
     const SimplexClosest closest = closest_;
     append(next);
     reduce();
-    if (inside_ || norm_squared(closest_.point) < norm_squared(closest.point)) return true;
+    if (inside_ || closest_.is_nearer_than(closest)) return true;
     simplex_ = simplex;
     points_ = points;
     closest_ = closest;

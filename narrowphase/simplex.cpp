@@ -53,7 +53,7 @@ class Search {
   }
 
   SimplexClosest run() {
-    if (count_ == 4 && inside_tetrahedron()) return {{}, {0, 1, 2, 3}, 4};
+    if (count_ == 4 && inside_tetrahedron()) return {.point = {}, .carrier = {0, 1, 2, 3}, .carrier_count = 4};
     for (int i = 0; i < count_; ++i) offer(y(i), {i, 0, 0, 0}, 1);
     for (int i = 0; i < count_; ++i) {
       for (int j = i + 1; j < count_; ++j) edge(i, j);
@@ -91,8 +91,12 @@ class Search {
     const Scalar distance = dot(point, point);
     if (best_.carrier_count != 0 && !(distance < distance_)) return;
     distance_ = distance;
-    best_ = {
-        {static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z)}, carrier, count};
+    const auto rounded = static_cast<double>(distance);
+    best_ = {.point = {static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z)},
+             .carrier = carrier,
+             .carrier_count = count,
+             .distance_squared = rounded,
+             .distance_squared_tail = static_cast<double>(distance - static_cast<Scalar>(rounded))};
   }
 
   bool same_side(int i, int j, int k, int opposite) const {

@@ -20,6 +20,14 @@ struct SimplexClosest {
   Vec3 point;
   std::array<int, 4> carrier{};  // indices of the points that span the face, ascending
   int carrier_count = 0;         // 4: the origin lies inside the tetrahedron
+  // |point|², and what rounding took from it: twice the digits, where the search had them. For comparisons.
+  double distance_squared = 0.0;
+  double distance_squared_tail = 0.0;
+
+  bool is_nearer_than(const SimplexClosest& other) const {
+    if (distance_squared != other.distance_squared) return distance_squared < other.distance_squared;
+    return distance_squared_tail < other.distance_squared_tail;
+  }
 };
 
 // The point of the simplex nearest to the origin. Points may coincide or lie in a line or plane: every face is tried,

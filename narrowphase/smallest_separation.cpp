@@ -38,7 +38,7 @@ class Search {
     save();
     return SmallestSeparation{.direction = best.direction,
                               .height = best.height,
-                              .lower_bound = std::min(lower_bound_ - m_.height_error(), best.height),
+                              .lower_bound = std::min(lower_bound_ - 2.0 * m_.height_error(), best.height),
                               .face = face_across(best.direction),
                               .support_queries = queried_.count(),
                               .limit_reached = false};

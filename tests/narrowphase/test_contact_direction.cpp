@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "narrowphase/contact_direction.h"
 #include "tests/support/clustered.h"
@@ -108,6 +111,33 @@ TEST(ContactDirection, IsALocalMinimumAndNeverHigherThanItsStart) {
     EXPECT_LE(found.depth, static_cast<double>(tests::minkowski_height(a, b, start)) + 1e-14 * size) << "case " << i;
   }
   EXPECT_GT(overlapping, 150);
+}
+
+// Rods up to 1e11 times as long as thick: the difference is rounded with a radius far below its length.
+TEST(ContactDirection, RodsTakeFewIterations) {
+  Random random(23);
+  int overlapping = 0, most = 0;
+  for (int i = 0; i < 600; ++i) {
+    const auto thickness = [&] { return std::pow(10.0, random.uniform(-11.0, -1.0)); };
+    const Mesh rod = tests::rotated(tests::centered_box({1.0, thickness(), thickness()}), random.rotation());
+    const Mesh other = i % 3 == 0
+                           ? tests::icosphere(1, thickness())
+                           : tests::rotated(tests::centered_box({1.0, thickness(), thickness()}), random.rotation());
+    std::vector<Vec3> a, b;
+    for (int v = 0; v < rod.vertex_count(); ++v) a.push_back(rod.position(v));
+    const Vec3 shift = random.uniform(-0.5, 0.5) * (a[1] - a[0]);  // along the rod
+    for (int v = 0; v < other.vertex_count(); ++v) b.push_back(other.position(v) + shift);
+    const ClusteredMesh mesh_a = tests::mesh_through(a), mesh_b = tests::mesh_through(b);
+    const MinkowskiDifference m(mesh_a, mesh_b);
+    if (gjk(m, {}, {}, {}).status == GjkStatus::apart) continue;
+    ++overlapping;
+    const Found found = direction(mesh_a, mesh_b, random.direction());
+    most = std::max(most, found.iterations);
+    EXPECT_NEAR(found.depth, static_cast<double>(tests::minkowski_height(a, b, found.n)), 1e-14 * 4.0) << "case " << i;
+    EXPECT_TRUE(tests::is_local_minimum(a, b, found.n, 1e-10)) << "case " << i;
+  }
+  EXPECT_GT(overlapping, 300);
+  EXPECT_LE(most, 20);
 }
 
 TEST(ContactDirection, CoherentMotionTakesOneIterationOrNone) {

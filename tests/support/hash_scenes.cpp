@@ -66,7 +66,7 @@ constexpr HashScene kScenes[] = {
     {"crowd", crowd, 0xad879a6d69d6294c},
     {"everything", everything, 0xa48eda5822946b31},
     {"surgery", surgery, 0xd96f823c682f5a42},
-    {"as_in_the_paper", as_in_the_paper, 0xbb3fa5085644cef6},
+    {"as_in_the_paper", as_in_the_paper, 0xbcab2b765d1eea56},
     {"hulls_alone", hulls_alone, 0x3e992f9f6ad027ab},
     {"wall", wall, 0x2ec628f2ef8fbc7c},
     {"large", large, 0x31283addbd688e8a},
