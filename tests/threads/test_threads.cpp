@@ -1,5 +1,6 @@
 // Worlds among other threads, and callers with a floating-point mode of their own.
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <array>
 #include <cfenv>
@@ -135,6 +136,24 @@ TEST(Threads, RoundingModeOfTheCallerChangesNothing) {
       EXPECT_EQ(std::fegetround(), mode) << "the caller's mode was not given back";
     }
   }
+}
+
+// The workers are the caller's as well: OpenMP lends the same threads to both.
+TEST(Threads, WorkersKeepTheModeThatTheCallerGaveThem) {
+  constexpr int kThreads = 2;
+  const PreparedSteps steps(1.0);
+  const std::vector<std::uint64_t> expected = steps.hashes(kThreads);
+  std::array<int, kThreads> after{};
+#pragma omp parallel num_threads(kThreads)
+  std::fesetround(FE_UPWARD);
+  const std::vector<std::uint64_t> found = steps.hashes(kThreads);
+#pragma omp parallel num_threads(kThreads)
+  {
+    after[static_cast<std::size_t>(omp_get_thread_num())] = std::fegetround();
+    std::fesetround(FE_TONEAREST);
+  }
+  EXPECT_EQ(after, (std::array{FE_UPWARD, FE_UPWARD}));
+  EXPECT_EQ(found, expected);
 }
 
 #if defined(__SSE2__)
