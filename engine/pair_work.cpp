@@ -29,12 +29,21 @@ void set_apart(PairRecord& record, Vec3 direction) {
   record.history.has_surface = false;
 }
 
-// Stage 3. The vertices that showed the hulls to overlap in the last step are asked first, without a support query;
-// then a direction that parted the hulls, or in which they touched: one support query a body. Leaves the direction that
-// parts the hulls in the history; returns whether they overlap, or nearly do.
-bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, const GjkSettings& settings) {
+// Do the vertices that showed the hulls to overlap in the last step show it still? No support query.
+bool still_overlap(const PairRecord& record, const MinkowskiDifference& m, PairWork& work) {
+  const PairHistory& history = record.history;
+  work.surface_is_placed =
+      history.has_surface && record.surface->face_count > 0 && work.smallest.surface.start(m, *record.surface);
+  if (work.surface_is_placed) return true;
+  return history.kind == PairHistory::Kind::overlapping && holds_origin(m, history.hulls);
+}
+
+// Stage 3. What showed the hulls to overlap in the last step is asked first; then a direction that parted them, or in
+// which they touched: one support query a body. Leaves the direction that parts the hulls in the history; returns
+// whether they overlap, or nearly do.
+bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, const GjkSettings& settings, PairWork& work) {
   PairHistory& history = record.history;
-  if (history.kind == PairHistory::Kind::overlapping && holds_origin(m, history.hulls)) return true;
+  if (still_overlap(record, m, work)) return true;
   if (history.kind != PairHistory::Kind::none) {
     ++record.counts.gjk_iterations;
     if (dot(history.direction, m.support(history.direction).point) < -m.height_error()) {
@@ -78,7 +87,8 @@ Direction find_direction(PairRecord& record, const MinkowskiDifference& m, const
   }
   const SmallestStart start{.preferred = fresh_start ? Vec3{0.0, 0.0, 1.0} : history.direction,
                             .hulls = history.hulls,
-                            .shape = surface_of(record, settings)};
+                            .shape = surface_of(record, settings),
+                            .is_placed = work.surface_is_placed};
   const SmallestSeparation smallest = smallest_separation(m, start, work.smallest);
   record.counts.gjk_iterations += smallest.support_queries;
   Direction direction{contact_direction(m, smallest.direction, smallest.face, direction_settings, work.faces),
@@ -169,7 +179,7 @@ bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, c
   record.facet_pairs.clear();
   record.patches.clear();
   const MinkowskiDifference m(a.mesh, b.mesh);
-  const bool overlap = hulls_overlap(record, m, {settings.gjk_tolerance});
+  const bool overlap = hulls_overlap(record, m, {settings.gjk_tolerance}, work);
   record.counts.hulls_ms = timer.lap();
   if (!overlap) return false;
 

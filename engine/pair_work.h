@@ -23,6 +23,7 @@ struct PairWork {
   std::vector<std::int32_t> boxes_found;
   narrowphase::FaceFinder faces;
   narrowphase::SmallestMemory smallest;
+  bool surface_is_placed = false;  // smallest.surface is the record's, where the bodies are now
   narrowphase::CullCounts cull_a, cull_b;
   narrowphase::FacetPairSearch search;
 };

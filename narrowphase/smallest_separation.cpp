@@ -50,7 +50,7 @@ class Search {
   bool continues() {
     if (start_.shape == nullptr || start_.shape->face_count == 0) return false;
     fresh_face_count_ = start_.shape->fresh_face_count;
-    continued_ = surface_.start(m_, *start_.shape);
+    continued_ = start_.is_placed || surface_.start(m_, *start_.shape);
     return continued_;
   }
 

@@ -14,6 +14,7 @@ struct SmallestStart {
   Vec3 preferred;                 // of equally low directions the nearest to this one is wanted; any vector
   GjkSimplex hulls = {};          // where GJK on the hulls ended
   SurfaceShape* shape = nullptr;  // of the pair's last search, or empty; replaced by that of this one
+  bool is_placed = false;         // memory.surface has been started with the shape, and surrounds the origin
 };
 
 // What a search uses; lent to the next one, which then allocates little or nothing.

@@ -87,6 +87,7 @@ Vec3 wide_cross(const WideVec3& p, const WideVec3& q) {
 
 Vec3 unit_vector(Vec3 v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (largest > 0x1p-400 && largest < 0x1p400) return base::normalized(v);  // the same bits
   const int exponent = std::ilogb(largest);
   return base::normalized({std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent), std::ldexp(v.z, -exponent)});
 }
