@@ -52,6 +52,9 @@ double drawn_error(const ErrorResult& r, Question question) {
   return std::max(kLeastDepthDrawn, r.depth_error.value_or(1.0));
 }
 
+// Not a level without facet pairs, where these are what is asked for.
+bool is_drawn(const ErrorResult& r, Question question) { return question == Question::hulls || r.questions > 0; }
+
 // "tact, exact" and "tact, smallest" are series of their own: settings that differ in tolerance share one.
 std::string series_of(const ErrorResult& r) {
   const std::size_t last = r.setting.rfind(", ");
@@ -108,7 +111,9 @@ void plot_tables(const std::vector<ErrorTable>& tables, Question question, const
   for (const ErrorTable& table : tables) {
     if (table.question != question) continue;
     panels.push_back(&table);
-    for (const ErrorResult& r : table.results) number.try_emplace(series_of(r), static_cast<int>(number.size()) + 1);
+    for (const ErrorResult& r : table.results) {
+      if (is_drawn(r, question)) number.try_emplace(series_of(r), static_cast<int>(number.size()) + 1);
+    }
   }
   const std::size_t columns = std::min<std::size_t>(panels.size() + 1, question == Question::hulls ? 4 : 2);
   const std::size_t lines = (panels.size() + columns) / columns;
@@ -118,7 +123,7 @@ void plot_tables(const std::vector<ErrorTable>& tables, Question question, const
       lines, columns);
   script += question == Question::hulls
                 ? "set yrange [3e-18:1]\nset ylabel 'largest error of depth / size'\n"
-                : fmt::format("set yrange [{}:1]\nset ylabel 'share of facet pairs missed or wrong'\n",
+                : fmt::format("set yrange [{}:1]\nset ylabel 'facet pairs missed or wrong (10^{{-7}}: none)'\n",
                               0.3 * kLeastShareDrawn);
   const auto style = [&](const std::string& series) {
     const int n = number.at(series);
@@ -129,7 +134,7 @@ void plot_tables(const std::vector<ErrorTable>& tables, Question question, const
     script += fmt::format("set title '{}'\n", panel->row);
     std::map<std::string, std::string> points;
     for (const ErrorResult& r : panel->results) {
-      if (question == Question::facet_pairs && r.questions == 0) continue;
+      if (!is_drawn(r, question)) continue;
       points[series_of(r)] += fmt::format("{} {}\n", r.microseconds, drawn_error(r, question));
     }
     std::string plots, data;
