@@ -59,7 +59,7 @@ struct Sides {
   const std::vector<Vec3>* x_before;  // null: no friction
   const std::vector<Vec3>* y_before;
   double friction;
-  double share;
+  WayOut part;  // most in metres
 };
 
 void solve_point(const ContactPoint& point, const Sides& sides) {
@@ -69,7 +69,7 @@ void solve_point(const ContactPoint& point, const Sides& sides) {
   const double both = give(point.x_vertices, point.x_weights, sides.x.inverse_masses) +
                       give(point.y_vertices, point.y_weights, sides.y.inverse_masses);
   if (!(both > 0.0)) return;
-  Vec3 way = (sides.share * inside) * point.normal;
+  Vec3 way = std::min(sides.part.share * inside, sides.part.most) * point.normal;
   if (sides.x_before != nullptr) {
     const Vec3 since = between - (x_point(point, *sides.x_before) - y_point(point, *sides.y_before));
     const Vec3 slid = since - dot(since, point.normal) * point.normal;
@@ -109,11 +109,11 @@ void ContactSolver::start(std::vector<BodyContact>& contacts, const std::vector<
 }
 
 void ContactSolver::solve(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before, int threads) {
-  solve_contacts(bodies, &before, 1.0, threads);
+  solve_contacts(bodies, &before, {}, threads);
 }
 
-void ContactSolver::push_out(std::vector<Body>& bodies, double share, int threads) {
-  solve_contacts(bodies, nullptr, share, threads);
+void ContactSolver::push_out(std::vector<Body>& bodies, const WayOut& part, int threads) {
+  solve_contacts(bodies, nullptr, part, threads);
 }
 
 void ContactSolver::hold(const std::vector<Body>& bodies) {
@@ -127,27 +127,28 @@ void ContactSolver::hold(const std::vector<Body>& bodies) {
 }
 
 void ContactSolver::solve_contacts(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>* before,
-                                   double share, int threads) {
+                                   const WayOut& part, int threads) {
   if (contacts_ == nullptr) return;
   for (const std::vector<std::size_t>& group : groups_) {
     base::parallel_for(group.size(), 8, threads,
-                       [&](std::size_t i) { solve_contact(bodies, before, share, (*contacts_)[group[i]]); });
+                       [&](std::size_t i) { solve_contact(bodies, before, part, (*contacts_)[group[i]]); });
   }
-  for (const std::size_t i : rest_) solve_contact(bodies, before, share, (*contacts_)[i]);
+  for (const std::size_t i : rest_) solve_contact(bodies, before, part, (*contacts_)[i]);
 }
 
-void ContactSolver::solve_contact(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>* before, double share,
-                                  BodyContact& contact) const {
+void ContactSolver::solve_contact(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>* before,
+                                  const WayOut& part, BodyContact& contact) const {
   const auto a = static_cast<std::size_t>(contact.a);
   const auto b = static_cast<std::size_t>(contact.b);
   const double friction = std::sqrt(bodies[a].friction * bodies[b].friction);
   const std::vector<Vec3>* before_a = before != nullptr ? &(*before)[a] : nullptr;
   const std::vector<Vec3>* before_b = before != nullptr ? &(*before)[b] : nullptr;
+  const WayOut way{part.share, part.most * std::min(bodies[a].size, bodies[b].size)};
   for (const ContactPoint& point : contact.a_in_b) {
-    solve_point(point, {bodies[a], bodies[b], before_a, before_b, friction, share});
+    solve_point(point, {bodies[a], bodies[b], before_a, before_b, friction, way});
   }
   for (const ContactPoint& point : contact.b_in_a) {
-    solve_point(point, {bodies[b], bodies[a], before_b, before_a, friction, share});
+    solve_point(point, {bodies[b], bodies[a], before_b, before_a, friction, way});
   }
 }
 

@@ -1,6 +1,7 @@
 // Keeps the bodies of the simulation out of each other, as far as the contact points of the last step tell.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "scenes/dynamics/body.h"
@@ -14,6 +15,13 @@ struct BodyContact {
   int b = 0;
   std::vector<ContactPoint> a_in_b;
   std::vector<ContactPoint> b_in_a;
+  double deepest = 0.0;  // of all points, metres
+};
+
+// How much of its way out a point is moved in one sweep.
+struct WayOut {
+  double share = 1.0;                                     // of the way
+  double most = std::numeric_limits<double>::infinity();  // shares of the smaller body's size
 };
 
 // Contacts in groups of which no two move the same body; those of a group are solved in parallel, and give the same
@@ -29,15 +37,15 @@ class ContactSolver {
   // times the way out (Coulomb's cone, as in M. Müller et al., Detailed Rigid Body Simulation with Extended Position
   // Based Dynamics, SCA 2020).
   void solve(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before, int threads);
-  // The same without friction, and only this share of the way.
-  void push_out(std::vector<Body>& bodies, double share, int threads);
+  // The same without friction, and only part of the way.
+  void push_out(std::vector<Body>& bodies, const WayOut& part, int threads);
   // Points that are still inside need no longer move out from here, only not farther in.
   void hold(const std::vector<Body>& bodies);
 
  private:
-  void solve_contacts(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>* before, double share,
+  void solve_contacts(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>* before, const WayOut& part,
                       int threads);
-  void solve_contact(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>* before, double share,
+  void solve_contact(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>* before, const WayOut& part,
                      BodyContact& contact) const;
 
   std::vector<BodyContact>* contacts_ = nullptr;

@@ -1,6 +1,7 @@
 #include "scenes/dynamics/simulation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -21,6 +22,22 @@ void hold_together(Body& body, double h, int threads) {
   if (body.shape) body.shape->solve(body.positions, body.inverse_masses, h);
 }
 
+// Points deep inside do not agree on the way out: some point through thin parts to the far side. The contact direction,
+// carried from step to step, leads all of them back to where the body came from.
+void turn_deep_points(const Contact& contact, double size, BodyContact& points) {
+  constexpr double kDeep = 0.05;  // shares of the smaller body's size
+  if (points.deepest < kDeep * size) return;
+  const Vec3 direction{contact.direction.x(), contact.direction.y(), contact.direction.z()};
+  for (ContactPoint& point : points.a_in_b) point.normal = -direction;
+  for (ContactPoint& point : points.b_in_a) point.normal = direction;
+}
+
+double longest_way(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+  double square = 0.0;
+  for (std::size_t v = 0; v < from.size(); ++v) square = std::max(square, norm_squared(to[v] - from[v]));
+  return std::sqrt(square);
+}
+
 }  // namespace
 
 Simulation::Simulation(std::vector<Body> bodies, Script script, const DynamicsSettings& dynamics,
@@ -32,6 +49,8 @@ Simulation::Simulation(std::vector<Body> bodies, Script script, const DynamicsSe
       world_(settings, recording),
       before_(bodies_.size()),
       surfaces_(bodies_.size()),
+      last_seen_(bodies_.size()),
+      moved_(bodies_.size(), 0.0),
       finders_(static_cast<std::size_t>(threads_)) {
   if (script_) script_(0.0, bodies_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -44,6 +63,7 @@ Simulation::Simulation(std::vector<Body> bodies, Script script, const DynamicsSe
                                     .motion = body.motion,
                                     .name = body.name}));
     if (body.motion == Motion::fixed) continue;
+    last_seen_[i] = surface(i);
     (body.positions.size() < kLargeBody ? small_ : large_).push_back(i);
   }
 }
@@ -108,6 +128,8 @@ void Simulation::end_substep(std::size_t i, double h, int threads) {
 void Simulation::show_surfaces() {
   for_each_body([&](std::size_t i, int /*threads*/) {
     if (bodies_[i].skin > 0.0) move_out(bodies_[i], surfaces_[i]);
+    moved_[i] = longest_way(last_seen_[i], surface(i));
+    last_seen_[i] = surface(i);
   });
 }
 
@@ -125,35 +147,60 @@ void Simulation::detect() {
 
 void Simulation::find_contacts() {
   const auto contacts = report_->contacts();
+  std::swap(contacts_, last_contacts_);
   contacts_.resize(contacts.size());
-  const auto seen = [&](std::uint32_t i) {
-    return SeenBody{bodies_[i], bodies_[i].skin > 0.0 ? surfaces_[i] : bodies_[i].positions};
-  };
   base::parallel_for(contacts.size(), 4, threads_, [&](std::size_t i, int thread) {
-    const Contact& contact = contacts[i];
-    BodyContact& points = contacts_[i];
-    points.a = static_cast<int>(contact.a.index);
-    points.b = static_cast<int>(contact.b.index);
-    points.a_in_b.clear();
-    points.b_in_a.clear();
-    if (!contact.touching()) return;
-    PenetrationFinder& finder = finders_[static_cast<std::size_t>(thread)];
-    finder.find(contact, true, seen(contact.a.index), seen(contact.b.index), points.a_in_b);
-    finder.find(contact, false, seen(contact.b.index), seen(contact.a.index), points.b_in_a);
+    find_points(contacts[i], finders_[static_cast<std::size_t>(thread)], contacts_[i]);
   });
+}
+
+void Simulation::find_points(const Contact& contact, PenetrationFinder& finder, BodyContact& points) const {
+  points.a = static_cast<int>(contact.a.index);
+  points.b = static_cast<int>(contact.b.index);
+  points.a_in_b.clear();
+  points.b_in_a.clear();
+  points.deepest = 0.0;
+  if (!contact.touching()) return;
+  const Body& a = bodies_[contact.a.index];
+  const Body& b = bodies_[contact.b.index];
+  const SeenBody seen_a{a, surface(contact.a.index)};
+  const SeenBody seen_b{b, surface(contact.b.index)};
+  finder.find(contact, true, seen_a, seen_b, points.a_in_b);
+  finder.find(contact, false, seen_b, seen_a, points.b_in_a);
+  const double most = deepest_possible(points);
+  for (std::vector<ContactPoint>* side : {&points.a_in_b, &points.b_in_a}) {
+    for (ContactPoint& point : *side) {
+      point.depth = std::min(point.depth, most);
+      points.deepest = std::max(points.deepest, point.depth);
+    }
+  }
+  const bool solids = a.surface == Surface::closed && b.surface == Surface::closed;
+  if (solids) turn_deep_points(contact, std::min(a.size, b.size), points);
+}
+
+// Where a surface is crumpled, points outside can pass for points inside. But no point goes deeper than the bodies were
+// in each other plus the way that both went since.
+double Simulation::deepest_possible(const BodyContact& contact) const {
+  const auto last =
+      std::lower_bound(last_contacts_.begin(), last_contacts_.end(), contact,
+                       [](const BodyContact& i, const BodyContact& j) { return i.a != j.a ? i.a < j.a : i.b < j.b; });
+  const bool known = last != last_contacts_.end() && last->a == contact.a && last->b == contact.b;
+  return (known ? last->deepest : 0.0) + moved_[static_cast<std::size_t>(contact.a)] +
+         moved_[static_cast<std::size_t>(contact.b)];
 }
 
 // The way out is shared with the springs, so that a body is moved rather than torn; neither changes a velocity, for a
 // push out of a deep contact would throw the body.
 void Simulation::settle() {
-  constexpr double kShare = 0.7;  // of the way out in a sweep: more overshoots where many contacts share a body
+  // More overshoots where many contacts share a body, and tears where they disagree on the way.
+  constexpr WayOut kPart{.share = 0.7, .most = 0.03};
   const double h = dynamics_.time_step / dynamics_.substeps;
   solver_.start(contacts_, bodies_, dynamics_.slop);
   for (int sweep = 0; sweep < dynamics_.settle_sweeps; ++sweep) {
-    solver_.push_out(bodies_, kShare, threads_);
+    solver_.push_out(bodies_, kPart, threads_);
     for_each_body([&](std::size_t i, int threads) { hold_together(bodies_[i], h, threads); });
   }
-  solver_.push_out(bodies_, kShare, threads_);
+  solver_.push_out(bodies_, kPart, threads_);
   solver_.hold(bodies_);
 }
 
@@ -167,13 +214,8 @@ void Simulation::measure() {
   for (const BodyContact& contact : contacts_) {
     const Body& a = bodies_[static_cast<std::size_t>(contact.a)];
     const Body& b = bodies_[static_cast<std::size_t>(contact.b)];
-    const double size = std::min(a.size, b.size);
-    for (const std::vector<ContactPoint>* points : {&contact.a_in_b, &contact.b_in_a}) {
-      state_.contact_points += static_cast<std::int64_t>(points->size());
-      for (const ContactPoint& point : *points) {
-        state_.deepest = std::max(state_.deepest, (point.depth - a.skin - b.skin) / size);
-      }
-    }
+    state_.contact_points += static_cast<std::int64_t>(contact.a_in_b.size() + contact.b_in_a.size());
+    state_.deepest = std::max(state_.deepest, (contact.deepest - a.skin - b.skin) / std::min(a.size, b.size));
   }
 }
 

@@ -77,6 +77,9 @@ class Simulation {
   void begin_substep(std::size_t body, double h, int threads);
   void end_substep(std::size_t body, double h, int threads);
   void show_surfaces();
+  void find_points(const Contact& contact, PenetrationFinder& finder, BodyContact& points) const;
+  // How deep the two bodies can be in each other at most, metres.
+  double deepest_possible(const BodyContact& contact) const;
   void detect();
   void find_contacts();
   void settle();
@@ -91,11 +94,14 @@ class Simulation {
   std::vector<Body> bodies_;
   RecordedWorld world_;
   std::vector<BodyId> ids_;
-  std::vector<std::size_t> small_, large_;   // bodies that can move
-  std::vector<std::vector<Vec3>> before_;    // positions at the start of the substep, by body
-  std::vector<std::vector<Vec3>> surfaces_;  // positions moved out by the skin, by body; empty without skin
-  std::vector<PenetrationFinder> finders_;   // one a thread
-  std::vector<BodyContact> contacts_;
+  std::vector<std::size_t> small_, large_;    // bodies that can move
+  std::vector<std::vector<Vec3>> before_;     // positions at the start of the substep, by body
+  std::vector<std::vector<Vec3>> surfaces_;   // positions moved out by the skin, by body; empty without skin
+  std::vector<std::vector<Vec3>> last_seen_;  // what tact saw last, by body
+  std::vector<double> moved_;                 // the longest way of a vertex since then, by body, metres
+  std::vector<PenetrationFinder> finders_;    // one a thread
+  std::vector<BodyContact> contacts_;         // of the last detection, and of the one before
+  std::vector<BodyContact> last_contacts_;
   ContactSolver solver_;
   const Report* report_ = nullptr;
   DynamicsState state_;

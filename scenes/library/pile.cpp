@@ -12,12 +12,12 @@ namespace {
 struct Pile {
   std::uint64_t seed = 1;
   double body_size = 0.3;  // about the diameter of a body, metres
-  double spacing = 1.3;    // of the bodies before they fall, in body sizes
+  double spacing = 1.2;    // of the bodies before they fall, in body sizes
   double wall = 0.4;       // thickness of the bin, metres
   double bin_edges = 0.3;  // length of the edges of the bin's facets, metres
-  SoftMaterial soft{.skin = 0.003};
+  SoftMaterial soft{.drag = 0.5, .skin = 0.003};
   RigidMaterial bin{.friction = 0.5, .skin = 0.003};
-  DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 4, .settle_sweeps = 2, .slop = 0.0015};
+  DynamicsSettings dynamics{.time_step = 1.0 / 240.0, .substeps = 2, .settle_sweeps = 1, .slop = 0.0015};
 };
 
 // Shapes of radius about 1. All are spheres pulled into form, so that facets stay of one size.
@@ -38,14 +38,21 @@ Vec3 bone(Vec3 p) {
 Vec3 bean(Vec3 p) { return {0.6 * p.x + 0.6 * (p.z * p.z - 0.4), 0.55 * p.y, 1.15 * p.z}; }
 // The upper half of the sphere becomes the inside.
 Vec3 bowl(Vec3 p) {
-  const double inner = 1.0 - 0.35 * std::min(1.0, 2.5 * std::max(p.z, 0.0));
-  return {inner * p.x, inner * p.y, p.z > 0.0 ? -0.62 * p.z : 0.95 * p.z};
+  const double inner = 1.0 - 0.45 * std::min(1.0, 2.5 * std::max(p.z, 0.0));
+  return {inner * p.x, inner * p.y, p.z > 0.0 ? -0.5 * p.z : 0.95 * p.z};
 }
 
-Mesh shape(std::size_t kind) {
-  constexpr std::array kShapes = {ball, star, rounded_cube, bone, bean, bowl};
-  kind %= kShapes.size() + 1;
-  return kind < kShapes.size() ? shaped_sphere(2, kShapes[kind]) : torus(20, 8, 0.72, 0.33);
+struct Shape {
+  const char* name;
+  Vec3 (*shape)(Vec3);  // of a sphere; null: a ring
+};
+
+constexpr std::array kShapes = {Shape{"ball", ball},   Shape{"star", star}, Shape{"cube", rounded_cube},
+                                Shape{"bone", bone},   Shape{"bean", bean}, Shape{"bowl", bowl},
+                                Shape{"ring", nullptr}};
+
+Mesh mesh_of(const Shape& shape) {
+  return shape.shape != nullptr ? shaped_sphere(2, shape.shape) : torus(20, 8, 0.7, 0.37);
 }
 
 void add_bin(const Pile& p, double half, double height, Scene& scene) {
@@ -66,7 +73,7 @@ void add_bin(const Pile& p, double half, double height, Scene& scene) {
 Scene make_pile(int size) {
   const Pile p;
   Random random(p.seed);
-  const int side = std::max(1, static_cast<int>(std::ceil(std::cbrt(0.8 * size))));
+  const int side = std::max(1, static_cast<int>(std::ceil(std::cbrt(2.0 * size))));
   const int layers = (size + side * side - 1) / (side * side);
   const double step = p.spacing * p.body_size;
   const double half = 0.5 * step * side;
@@ -81,9 +88,9 @@ Scene make_pile(int size) {
     const double loose = 0.5 * (p.spacing - 1.05) * p.body_size;
     const Vec3 jitter{random.between(-loose, loose), random.between(-loose, loose), random.between(-loose, loose)};
     const Vec3 center = step * (cell + Vec3{0.5, 0.5, 0.6}) - Vec3{half, half, 0.0} + jitter;
-    const std::size_t kind = random.bits() % 7;
-    const Mesh mesh = moved(turned(scaled(shape(kind), 0.5 * p.body_size), random), center);
-    scene.add(make_soft("body " + std::to_string(i), mesh, p.soft));
+    const Shape& shape = kShapes[random.bits() % kShapes.size()];
+    const Mesh mesh = moved(turned(scaled(mesh_of(shape), 0.5 * p.body_size), random), center);
+    scene.add(make_soft(shape.name + (" " + std::to_string(i)), mesh, p.soft));
   }
   return scene;
 }
