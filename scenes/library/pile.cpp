@@ -17,7 +17,7 @@ struct Pile {
   double bin_edges = 0.3;  // length of the edges of the bin's facets, metres
   SoftMaterial soft{.drag = 0.5, .skin = 0.003};
   RigidMaterial bin{.friction = 0.5, .skin = 0.003};
-  DynamicsSettings dynamics{.time_step = 1.0 / 240.0, .substeps = 2, .settle_sweeps = 1, .slop = 0.0015};
+  DynamicsSettings dynamics{.time_step = 1.0 / 240.0, .substeps = 2, .settle_sweeps = 2, .slop = 0.0015};
 };
 
 // Shapes of radius about 1. All are spheres pulled into form, so that facets stay of one size.
