@@ -38,16 +38,17 @@ bool still_overlap(const PairRecord& record, const MinkowskiDifference& m, PairW
   return history.kind == PairHistory::Kind::overlapping && holds_origin(m, history.hulls);
 }
 
-// Stage 3. What showed the hulls to overlap in the last step is asked first; then a direction that parted them, or in
-// which they touched: one support query a body. Leaves the direction that parts the hulls in the history; returns
-// whether they overlap, or nearly do.
+// Stage 3. What showed the hulls to overlap in the last step is asked first; or the direction that parted them: boxes,
+// then one support query a body. Leaves the direction that parts the hulls in the history; returns whether they
+// overlap, or nearly do.
 bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, const GjkSettings& settings, PairWork& work) {
   PairHistory& history = record.history;
   if (still_overlap(record, m, work)) return true;
-  if (history.kind != PairHistory::Kind::none) {
-    ++record.counts.gjk_iterations;
-    if (dot(history.direction, m.support(history.direction).point) < -m.height_error()) {
-      record.counts.still_separated = history.kind == PairHistory::Kind::separated;
+  if (history.kind == PairHistory::Kind::separated) {
+    const bool apart = m.certainly_apart(history.direction);
+    record.counts.gjk_iterations += apart ? 0 : 1;
+    if (apart || dot(history.direction, m.support(history.direction).point) < -m.height_error()) {
+      record.counts.still_separated = true;
       set_apart(record, history.direction);
       return false;
     }

@@ -65,7 +65,7 @@ class Search {
 
   MinkowskiVertex support(Vec3 n) {
     ++best_.support_queries;
-    return m_.support(n);
+    return m_.support(n, top_);
   }
 
   // Does the last step's face still hold the foot? If not, goes on from the lower of `start` and what was tried.

@@ -30,7 +30,8 @@ class Search {
       result_.distance = norm(closest_.point);
       if (result_.distance <= rounding) break;
       const Vec3 toward = (-1.0 / result_.distance) * closest_.point;
-      const MinkowskiVertex next = m_.support(toward);
+      const MinkowskiVertex next = m_.support(toward, last_);
+      last_ = next;
       ++result_.support_queries;
       result_.lower_bound = std::max(result_.lower_bound, -dot(toward, next.point - point_));
       closed_ = result_.distance - result_.lower_bound <= settings.tolerance * result_.distance + rounding;
@@ -115,6 +116,7 @@ class Search {
   GjkSimplex simplex_;
   SimplexPoints points_;
   SimplexClosest closest_;
+  MinkowskiVertex last_;  // found
   bool inside_ = false;
   bool closed_ = false;
   bool wide_ = false;

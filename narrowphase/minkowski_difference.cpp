@@ -34,8 +34,17 @@ MinkowskiDifference::MinkowskiDifference(const ClusteredMesh& a, const Clustered
 }
 
 MinkowskiVertex MinkowskiDifference::support(Vec3 direction) const {
-  return vertex(narrowphase::support(*a_, direction, origin_).vertex,
-                narrowphase::support(*b_, -direction, origin_).vertex);
+  return support(direction, {});
+}
+
+MinkowskiVertex MinkowskiDifference::support(Vec3 direction, const MinkowskiVertex& near) const {
+  return vertex(narrowphase::support(*a_, direction, origin_, near.a).vertex,
+                narrowphase::support(*b_, -direction, origin_, near.b).vertex);
+}
+
+bool MinkowskiDifference::certainly_apart(Vec3 direction) const {
+  const double w = height_bound(*a_, direction, origin_) + height_bound(*b_, -direction, origin_);
+  return w < -3.0 * vertex_height_error_;
 }
 
 }  // namespace tact::narrowphase

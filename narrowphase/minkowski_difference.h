@@ -24,6 +24,10 @@ class MinkowskiDifference {
 
   // The vertex of M farthest along `direction`, which need not be of unit length.
   MinkowskiVertex support(Vec3 direction) const;
+  // The same vertex, found sooner if `near` is close to it.
+  MinkowskiVertex support(Vec3 direction, const MinkowskiVertex& near) const;
+  // Do boxes alone tell that M has no height along `direction`, of unit length? If so, the hulls are apart.
+  bool certainly_apart(Vec3 direction) const;
   // The point of M that vertices `a` and `b` make.
   MinkowskiVertex vertex(int a, int b) const { return {scale_ * (a_->position(a) - b_->position(b)), a, b}; }
 

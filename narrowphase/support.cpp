@@ -16,6 +16,12 @@ class Search {
   Search(const ClusteredMesh& mesh, Vec3 n, Vec3 origin)
       : mesh_(mesh), axis_{n.x, n.y, n.z, origin.x, origin.y, origin.z} {}
 
+  // Looks at one vertex.
+  void start_at(int vertex) {
+    const Vec3 p = mesh_.position(vertex);
+    best_ = {vertex, height_of(p.x, p.y, p.z)};
+  }
+
   // Looks at the vertices that a cluster owns.
   void open(int cluster) {
     const int begin = mesh_.vertex_begin(cluster), count = mesh_.vertex_end(cluster) - begin;
@@ -28,18 +34,15 @@ class Search {
     if (top.several) lower_tie(points, cluster, top.index + 1);
   }
 
-  void open_first(int cluster) {
-    first_ = cluster;
-    open(cluster);
-  }
-
-  // Looks at the clusters of a group that can hold the highest vertex, but for the first, which was looked at.
+  // Looks at the clusters of a group that can hold the highest vertex, the one that reaches farthest first.
   void open_group(int group, PointArrays far_corners) {
     double bound[kGroupSize + kPadding];
     const int begin = mesh_.cluster_begin(group), count = mesh_.cluster_end(group) - begin;
-    kernels().heights(from(far_corners, begin), count, axis_, bound);
+    const int first = kernels().heights(from(far_corners, begin), count, axis_, bound).index;
+    if (bound[first] < best_.height) return;
+    open(begin + first);
     for (int i = 0; i < count; ++i) {
-      if (bound[i] >= best_.height && begin + i != first_) open(begin + i);
+      if (bound[i] >= best_.height && i != first) open(begin + i);
     }
   }
 
@@ -51,20 +54,21 @@ class Search {
     return best_.vertex < 0 || mesh_.source_vertex(other.vertex) < mesh_.source_vertex(best_.vertex);
   }
 
+  double height_of(double x, double y, double z) const {
+    return (axis_.nx * (x - axis_.ox) + axis_.ny * (y - axis_.oy)) + axis_.nz * (z - axis_.oz);
+  }
+
   // Of the cluster's vertices from `first` on that are as high as the best, the one with the lowest source vertex.
   void lower_tie(PointArrays points, int cluster, int first) {
     const int begin = mesh_.vertex_begin(cluster), count = mesh_.vertex_end(cluster) - begin;
     for (int i = first; i < count; ++i) {
-      const double h = (axis_.nx * (points.x[i] - axis_.ox) + axis_.ny * (points.y[i] - axis_.oy)) +
-                       axis_.nz * (points.z[i] - axis_.oz);
-      const Support found{begin + i, h};
-      if (h == best_.height && precedes(found)) best_ = found;
+      const Support found{begin + i, height_of(points.x[i], points.y[i], points.z[i])};
+      if (found.height == best_.height && precedes(found)) best_ = found;
     }
   }
 
   const ClusteredMesh& mesh_;
   HeightAxis axis_;
-  int first_ = -1;
   Support best_{-1, -std::numeric_limits<double>::infinity()};
 };
 
@@ -75,27 +79,34 @@ PointArrays far_corners(const BoxArrays& boxes, Vec3 n) {
           (n.z >= 0.0 ? boxes.upper[2] : boxes.lower[2]).data()};
 }
 
-Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin) {
+Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near) {
   assert(mesh.facet_count() > 0);
   Search search(mesh, n, origin);
   if (mesh.cluster_count() == 1) {
     search.open(0);
     return search.best();
   }
+  if (near >= 0) search.start_at(near);
   const PointArrays groups = far_corners(mesh.group_boxes(), n), clusters = far_corners(mesh.cluster_boxes(), n);
-  // The box that reaches farthest is the best first guess.
-  const int first_group = kernels().highest_point(groups, mesh.group_count(), search.axis()).index;
-  const int begin = mesh.cluster_begin(first_group), count = mesh.cluster_end(first_group) - begin;
-  search.open_first(begin + kernels().highest_point(from(clusters, begin), count, search.axis()).index);
+  int first = 0;
+  if (mesh.group_count() > 1) first = kernels().highest_point(groups, mesh.group_count(), search.axis()).index;
+  search.open_group(first, clusters);
   double bound[kBlock + kPadding];
-  for (int block = 0; block < mesh.group_count(); block += kBlock) {
+  for (int block = 0; block < mesh.group_count() && mesh.group_count() > 1; block += kBlock) {
     const int groups_left = std::min(kBlock, mesh.group_count() - block);
     kernels().heights(from(groups, block), groups_left, search.axis(), bound);
     for (int i = 0; i < groups_left; ++i) {
-      if (bound[i] >= search.best().height) search.open_group(block + i, clusters);
+      if (bound[i] >= search.best().height && block + i != first) search.open_group(block + i, clusters);
     }
   }
   return search.best();
+}
+
+double height_bound(const ClusteredMesh& mesh, Vec3 n, Vec3 origin) {
+  const HeightAxis axis{n.x, n.y, n.z, origin.x, origin.y, origin.z};
+  const bool few = mesh.group_count() == 1;
+  const PointArrays corners = far_corners(few ? mesh.cluster_boxes() : mesh.group_boxes(), n);
+  return kernels().highest_point(corners, few ? mesh.cluster_count() : mesh.group_count(), axis).height;
 }
 
 void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double height,

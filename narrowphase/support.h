@@ -17,9 +17,13 @@ PointArrays far_corners(const BoxArrays& boxes, Vec3 n);
 
 // The vertex of `mesh` with the largest n · (position - origin). The mesh must have a facet. Bit for bit the answer of
 // support_by_full_scan: rounding is monotone, so the bound from a box, computed in the same order of operations, is
-// never below the height of a vertex in it.
-Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin);
+// never below the height of a vertex in it. `near`, a vertex or -1, makes the search shorter if it is high itself, and
+// changes nothing else.
+Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near = -1);
 Support support_by_full_scan(const ClusteredMesh& mesh, Vec3 n, Vec3 origin);
+
+// A height that no vertex exceeds, from boxes alone.
+double height_bound(const ClusteredMesh& mesh, Vec3 n, Vec3 origin);
 
 // The clusters whose box reaches up to `height`, ascending. Replaces the contents of `found`.
 void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double height,

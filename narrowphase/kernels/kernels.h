@@ -126,8 +126,8 @@ struct Kernels {
   // The box of `count` boxes.
   BoxBounds (*bounds)(const BoxPointers& boxes, int count);
 
-  // Writes the height of each point; `out` has room for kPadding more than `count`.
-  void (*heights)(PointArrays points, int count, const HeightAxis& axis, double* out);
+  // Writes the height of each point, and says which is highest; `out` has room for kPadding more than `count`.
+  HighestPoint (*heights)(PointArrays points, int count, const HeightAxis& axis, double* out);
 
   // Writes the indices i < count of points whose height is >= threshold, ascending; returns how many.
   int (*select_heights)(PointArrays points, int count, const HeightAxis& axis, double threshold, std::int32_t* indices);

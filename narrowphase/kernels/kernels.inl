@@ -45,9 +45,47 @@ std::int64_t find_large(const double* source, std::int64_t count, double largest
   return -1;
 }
 
-void heights(PointArrays points, int count, const HeightAxis& axis, double* out) {
+// First the highest of the heights, then the lanes that are as high.
+HighestPoint heights(PointArrays points, int count, const HeightAxis& axis, double* out) {
   const HeightPack height(axis);
-  for (int i = 0; i < count; i += kWidth) store(out + i, height(points, i));
+  const Pack lowest = spread(-__builtin_inf());
+  Pack high = lowest;
+  int i = 0;
+  for (; i + kWidth <= count; i += kWidth) {
+    const Pack h = height(points, i);
+    store(out + i, h);
+    high = max(high, h);
+  }
+  if (i < count) {
+    const Pack h = select(mask_of(lanes_left(count - i)), height(points, i), lowest);
+    store(out + i, h);
+    high = max(high, h);
+  }
+  const double top = largest_lane(high);
+  HighestPoint best{top + 0.0, -1, false};  // one zero: which of the two a maximum picks depends on the order
+  for (i = 0; i < count; i += kWidth) {
+    const unsigned equal = bits(less_equal(spread(top), load(out + i)));
+    if (equal == 0) continue;
+    if (best.index >= 0 || (equal & (equal - 1)) != 0) best.several = true;
+    if (best.index < 0) best.index = i + __builtin_ctz(equal);
+  }
+  return best;
+}
+
+HighestPoint highest_point(PointArrays points, int count, const HeightAxis& axis) {
+  constexpr int kChunk = 64;
+  HighestPoint best{-__builtin_inf(), -1, false};
+  for (int begin = 0; begin < count; begin += kChunk) {
+    double out[kChunk];
+    const PointArrays chunk{points.x + begin, points.y + begin, points.z + begin};
+    const HighestPoint one = heights(chunk, count - begin < kChunk ? count - begin : kChunk, axis, out);
+    if (best.index < 0 || one.height > best.height) {
+      best = {one.height, begin + one.index, one.several};
+    } else if (one.height == best.height) {
+      best.several = true;
+    }
+  }
+  return best;
 }
 
 int select_heights(PointArrays points, int count, const HeightAxis& axis, double threshold, std::int32_t* indices) {
@@ -75,35 +113,6 @@ BoxBounds bounds(const BoxPointers& boxes, int count) {
     result.upper[axis] = largest_lane(sub(zero, high)) + 0.0;
   }
   return result;
-}
-
-// By chunks: first the highest of their heights, then the lanes that are as high.
-HighestPoint highest_point(PointArrays points, int count, const HeightAxis& axis) {
-  constexpr int kChunk = 64;
-  const HeightPack height(axis);
-  HighestPoint best{-__builtin_inf(), -1, false};
-  for (int begin = 0; begin < count; begin += kChunk) {
-    const int size = count - begin < kChunk ? count - begin : kChunk;
-    double h[kChunk];
-    Pack high = spread(-__builtin_inf());
-    for (int i = 0; i < size; i += kWidth) {
-      const Pack one = height(points, begin + i);
-      const Pack known = size - i >= kWidth ? one : select(mask_of(lanes_left(size - i)), one, spread(-__builtin_inf()));
-      store(h + i, known);
-      high = max(high, known);
-    }
-    const double top = largest_lane(high);
-    if (top < best.height) continue;
-    std::uint64_t equal = 0;
-    for (int i = 0; i < size; i += kWidth) {
-      equal |= static_cast<std::uint64_t>(bits(less_equal(spread(top), load(h + i)))) << i;
-    }
-    const bool several = top == best.height || (equal & (equal - 1)) != 0;
-    if (top > best.height || best.index < 0) best.index = begin + __builtin_ctzll(equal);
-    best.several = several;
-    best.height = top + 0.0;  // one zero: which of the two a maximum picks depends on the order
-  }
-  return best;
 }
 
 struct BoxPack {
