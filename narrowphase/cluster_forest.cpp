@@ -26,7 +26,8 @@ constexpr int kBoxesPerTree = 512;
 // Throws what the calling thread's last calls of Embree left behind, and leaves nothing for the next.
 void check(RTCDevice device) {
   RTCError code = rtcGetDeviceError(device);
-  // A thread's first question allocates. Where that fails the answer is "unknown", and the reason is kept for the second.
+  // A thread's first question allocates. Where that fails the answer is "unknown", and the reason is kept for the
+  // second.
   if (code == RTC_ERROR_UNKNOWN) {
     const RTCError reason = rtcGetDeviceError(device);
     if (reason != RTC_ERROR_NONE) code = reason;

@@ -120,30 +120,64 @@ void ClusteredMesh::group_facets(std::span<const double> positions, std::span<co
 }
 
 void ClusteredMesh::number_vertices(std::span<const int> facets) {
-  const auto facet_total = static_cast<std::size_t>(facet_count());
   std::vector<int> number(static_cast<std::size_t>(source_vertex_count_), kFirstUse);
   std::vector<int> last_user(static_cast<std::size_t>(source_vertex_count_), kFirstUse);
-  for (auto& corner : corner_) corner.assign(facet_total + kPadding, 0);
+  std::vector<int> place(static_cast<std::size_t>(source_vertex_count_), 0);  // among those that the last user borrows
+  const auto source_of = [&](int f, int k) {
+    return facets[3 * static_cast<std::size_t>(source_facet(f)) + static_cast<std::size_t>(k)];
+  };
+  for (auto& corner : corner_) corner.assign(static_cast<std::size_t>(facet_count()), 0);
   for (int c = 0; c < cluster_count(); ++c) {
-    vertex_begin_.push_back(vertex_count());
-    borrowed_begin_.push_back(static_cast<int>(borrowed_source_.size()));
+    const int first = vertex_count(), first_borrowed = static_cast<int>(borrowed_.size());
+    vertex_begin_.push_back(first);
+    borrowed_begin_.push_back(first_borrowed);
+    for (int i = 0; i < 3 * (facet_end(c) - facet_begin(c)); ++i) {
+      const int source = source_of(facet_begin(c) + i / 3, i % 3);
+      const auto s = static_cast<std::size_t>(source);
+      if (number[s] == kFirstUse) {
+        number[s] = vertex_count();
+        source_vertex_.push_back(source);
+      } else if (number[s] < first && last_user[s] != c) {
+        place[s] = static_cast<int>(borrowed_.size()) - first_borrowed;
+        borrowed_.push_back(number[s]);
+        borrowed_source_.push_back(source);
+      }
+      last_user[s] = c;
+    }
+    const int owned = vertex_count() - first;
     for (int f = facet_begin(c); f < facet_end(c); ++f) {
       for (int k = 0; k < 3; ++k) {
-        const int source = facets[3 * static_cast<std::size_t>(source_facet(f)) + static_cast<std::size_t>(k)];
-        const auto s = static_cast<std::size_t>(source);
-        if (number[s] == kFirstUse) {
-          number[s] = vertex_count();
-          source_vertex_.push_back(source);
-        } else if (number[s] < vertex_begin_.back() && last_user[s] != c) {
-          borrowed_source_.push_back(source);
-        }
-        last_user[s] = c;
-        corner_[k][static_cast<std::size_t>(f)] = number[s];
+        const auto s = static_cast<std::size_t>(source_of(f, k));
+        const int local = number[s] < first ? owned + place[s] : number[s] - first;
+        corner_[k][static_cast<std::size_t>(f)] = static_cast<std::uint8_t>(local);
       }
     }
   }
   vertex_begin_.push_back(vertex_count());
-  borrowed_begin_.push_back(static_cast<int>(borrowed_source_.size()));
+  borrowed_begin_.push_back(static_cast<int>(borrowed_.size()));
+}
+
+ClusterFacets ClusteredMesh::facets_of(int cluster) const {
+  const auto c = static_cast<std::size_t>(cluster);
+  const int first = facet_begin(cluster), borrowed = borrowed_begin_[c];
+  return {.points = points(),
+          .owned_begin = vertex_begin(cluster),
+          .owned_count = vertex_end(cluster) - vertex_begin(cluster),
+          .borrowed = borrowed_.data() + borrowed,
+          .borrowed_count = borrowed_begin_[c + 1] - borrowed,
+          .corner = {corner_[0].data() + first, corner_[1].data() + first, corner_[2].data() + first},
+          .facet_count = facet_end(cluster) - first};
+}
+
+Corners ClusteredMesh::corners(int facet) const {
+  const ClusterFacets cluster = facets_of(facet / kClusterSize);
+  Corners corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int local = cluster.corner[k][facet % kClusterSize];
+    corners[k] =
+        local < cluster.owned_count ? cluster.owned_begin + local : cluster.borrowed[local - cluster.owned_count];
+  }
+  return corners;
 }
 
 bool ClusteredMesh::set_positions(const double* positions, int threads) {

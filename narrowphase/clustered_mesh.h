@@ -89,18 +89,15 @@ class ClusteredMesh {
   int vertex_begin(int cluster) const { return vertex_begin_[static_cast<std::size_t>(cluster)]; }
   int vertex_end(int cluster) const { return vertex_begin_[static_cast<std::size_t>(cluster) + 1]; }
 
-  Corners corners(int facet) const {
-    const auto f = static_cast<std::size_t>(facet);
-    return {corner_[0][f], corner_[1][f], corner_[2][f]};
-  }
+  Corners corners(int facet) const;
   Vec3 position(int vertex) const {
     const auto v = static_cast<std::size_t>(vertex);
     return {coordinate_[0][v], coordinate_[1][v], coordinate_[2][v]};
   }
   Triangle triangle(int facet) const;
 
-  // The arrays behind corners() and position(), for loops over many: an entry a facet, an entry a vertex.
-  const int* corner_array(int corner) const { return corner_[corner].data(); }
+  // What is behind corners() and position(), for loops over many.
+  ClusterFacets facets_of(int cluster) const;
   const double* coordinate_array(int axis) const { return coordinate_[axis].data(); }
   PointArrays points() const { return {coordinate_[0].data(), coordinate_[1].data(), coordinate_[2].data()}; }
 
@@ -123,11 +120,12 @@ class ClusteredMesh {
   std::vector<int> source_vertex_;  // of each vertex
   std::vector<int> source_facet_;   // of each facet
   std::vector<int> facet_of_source_;
-  std::vector<int> corner_[3];         // of each facet
-  std::vector<int> vertex_begin_;      // of each cluster, and one more
-  std::vector<int> borrowed_source_;   // source vertices that a cluster uses and does not own
-  std::vector<int> borrowed_begin_;    // of each cluster, and one more
-  std::vector<double> coordinate_[3];  // of each vertex
+  std::vector<std::uint8_t> corner_[3];  // of each facet: vertices that its cluster owns come first, then the borrowed
+  std::vector<int> vertex_begin_;        // of each cluster, and one more
+  std::vector<int> borrowed_;            // vertices that a cluster uses and does not own
+  std::vector<int> borrowed_source_;     // the same as source vertices
+  std::vector<int> borrowed_begin_;      // of each cluster, and one more
+  std::vector<double> coordinate_[3];    // of each vertex
   BoxArrays cluster_boxes_;
   BoxArrays group_boxes_;
   Box box_;

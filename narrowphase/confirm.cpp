@@ -26,22 +26,14 @@ Triangle triangle_in(const FacetBlock& block, std::size_t i) {
 
 FacetPlane facet_plane(const FacetBlock& block, std::size_t i, const BoxBounds& others) {
   FacetPlane facet;
-  double side[2][3];
+  double size = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     facet.box.lower[axis] = block.lower[axis][i];
     facet.box.upper[axis] = block.upper[axis][i];
     facet.corner[axis] = block.corner[0][axis][i];
-    side[0][axis] = block.corner[1][axis][i] - facet.corner[axis];
-    side[1][axis] = block.corner[2][axis][i] - facet.corner[axis];
-  }
-  double size = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int y = (axis + 1) % 3, z = (axis + 2) % 3;
-    const double p = side[0][y] * side[1][z], q = side[0][z] * side[1][y];
-    const double reach =
-        std::max(std::abs(others.lower[axis] - facet.corner[axis]), std::abs(others.upper[axis] - facet.corner[axis]));
-    facet.normal[axis] = p - q;
-    size += (std::abs(p) + std::abs(q)) * reach;
+    facet.normal[axis] = block.normal[axis][i];
+    const double to_lower = others.lower[axis] - facet.corner[axis], to_upper = others.upper[axis] - facet.corner[axis];
+    size += block.size[axis][i] * std::max(std::abs(to_lower), std::abs(to_upper));
   }
   facet.error = size * kRelativeRounding + kAbsoluteRounding;
   return facet;
@@ -149,8 +141,9 @@ void FacetPairSearch::decide_pairs(const ConfirmInput& input, const OpenCluster&
   }
   for (std::uint64_t left = meeting; left != 0; left &= left - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(left));
-    found.push_back(
-        {input.a->source_facet(a_.first_facet + pairs_.a[k]), input.b->source_facet(b.first_facet + pairs_.b[k])});
+    const int facet_a = a_.first_facet + a_.block.facet[pairs_.a[k]];
+    const int facet_b = b.first_facet + b.block.facet[pairs_.b[k]];
+    found.push_back({input.a->source_facet(facet_a), input.b->source_facet(facet_b)});
   }
   pairs_.count = 0;
 }

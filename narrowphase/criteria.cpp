@@ -119,21 +119,19 @@ void cull_again(const Box& other, KeptClusters& kept) {
 
 std::uint64_t cull_facets(const ClusteredMesh& mesh, int cluster, const Criteria& criteria, const Box& other,
                           FacetBlock& block, CullCounts& counts) {
-  const int first = mesh.facet_begin(cluster), count = mesh.facet_end(cluster) - first;
-  const std::int32_t* const corners[3] = {mesh.corner_array(0) + first, mesh.corner_array(1) + first,
-                                          mesh.corner_array(2) + first};
-  kernels().fill_facet_block(mesh.points(), corners, count, &block);
   const CullPlanes planes{.axis = {criteria.outward.x, criteria.outward.y, criteria.outward.z, criteria.origin.x,
                                    criteria.origin.y, criteria.origin.z},
                           .lowest = criteria.lowest,
-                          .box = bounds_of(other),
-                          .facing_away = criteria.facing_away};
-  const CullBits bits = kernels().cull_facets(block, count, planes);
-  const std::uint64_t facing = ~bits.facing_away, left = facing & bits.reaching;
-  const std::uint64_t kept = criteria.zone ? inside_zone(block, left & bits.all, criteria) : left & bits.all;
-  counts.facing_away += std::popcount(bits.facing_away & bits.all);
-  counts.outside_slab += std::popcount(facing & ~bits.reaching & bits.all);
-  counts.outside_zone += std::popcount(left & bits.all & ~kept);
+                          .box = bounds_of(other)};
+  const ClusterFacets facets = mesh.facets_of(cluster);
+  kernels().open_cluster(facets, planes, &block);
+  const std::uint64_t all =
+      block.count == FacetBlock::kCapacity ? ~std::uint64_t{0} : (std::uint64_t{1} << block.count) - 1;
+  const std::uint64_t away = criteria.facing_away ? kernels().facing_away(block, planes.axis) : 0;
+  const std::uint64_t left = all & ~away, kept = criteria.zone ? inside_zone(block, left, criteria) : left;
+  counts.outside_slab += facets.facet_count - block.count;
+  counts.facing_away += std::popcount(away);
+  counts.outside_zone += std::popcount(left & ~kept);
   counts.kept += std::popcount(kept);
   return kept;
 }

@@ -31,7 +31,8 @@ struct Criteria {
   Disk other_zone = {};      // of the other body, all margins included
 };
 
-// Facets dropped, by the first criterion that drops them, and kept.
+// Facets dropped, by the first criterion that drops them, and kept. Criterion 2 comes first: it alone needs no facet to
+// be looked at, only its corners.
 struct CullCounts {
   std::int64_t facing_away = 0;
   std::int64_t outside_slab = 0;
@@ -59,7 +60,8 @@ void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Bo
 // Drops from `kept` the clusters whose box misses `other`.
 void cull_again(const Box& other, KeptClusters& kept);
 
-// Fills `block` with the facets of a cluster and returns a bit for each that the criteria and the box `other` leave.
+// Fills `block` with the facets of a cluster that criterion 2 and the box `other` leave, and returns a bit for each of
+// them that the other criteria leave.
 std::uint64_t cull_facets(const ClusteredMesh& mesh, int cluster, const Criteria& criteria, const Box& other,
                           FacetBlock& block, CullCounts& counts);
 

@@ -108,9 +108,9 @@ void take_crossings(const ClusteredMesh& mesh, int cluster, const Projection& pr
   const int begin = mesh.facet_begin(cluster);
   const int count = mesh.facet_end(cluster) - begin;
   double heights[3][kClusterSize];
-  for (int k = 0; k < 3; ++k) {
-    const int* corner = mesh.corner_array(k) + begin;
-    for (int i = 0; i < count; ++i) heights[k][i] = projection.height(corner[i]);
+  for (int i = 0; i < count; ++i) {
+    const Corners corners = mesh.corners(begin + i);
+    for (std::size_t k = 0; k < 3; ++k) heights[k][i] = projection.height(corners[k]);
   }
   for (int i = 0; i < count; ++i) {
     const double lowest = std::min({heights[0][i], heights[1][i], heights[2][i]});

@@ -33,9 +33,7 @@ MinkowskiDifference::MinkowskiDifference(const ClusteredMesh& a, const Clustered
   height_error_ = kHeightRoundings * kUnitRoundoff * size_;
 }
 
-MinkowskiVertex MinkowskiDifference::support(Vec3 direction) const {
-  return support(direction, {});
-}
+MinkowskiVertex MinkowskiDifference::support(Vec3 direction) const { return support(direction, {}); }
 
 MinkowskiVertex MinkowskiDifference::support(Vec3 direction, const MinkowskiVertex& near) const {
   return vertex(narrowphase::support(*a_, direction, origin_, near.a).vertex,

@@ -1,22 +1,5 @@
 // The loops over facets, included by kernels.inl.
 
-void fill_facet_block(PointArrays points, const std::int32_t* const corners[3], int count, FacetBlock* block) {
-  const double* const coordinate[3] = {points.x, points.y, points.z};
-  for (int i = 0; i < count; i += kWidth) {
-    // The arrays of corners are padded to a whole number of packs, with vertices that exist.
-    for (int axis = 0; axis < 3; ++axis) {
-      const Pack p0 = gather(coordinate[axis], corners[0] + i);
-      const Pack p1 = gather(coordinate[axis], corners[1] + i);
-      const Pack p2 = gather(coordinate[axis], corners[2] + i);
-      store(block->corner[0][axis] + i, p0);
-      store(block->corner[1][axis] + i, p1);
-      store(block->corner[2][axis] + i, p2);
-      store(block->lower[axis] + i, min(min(p0, p1), p2));
-      store(block->upper[axis] + i, max(max(p0, p1), p2));
-    }
-  }
-}
-
 struct VectorPack {
   Pack x, y, z;
 };
@@ -76,52 +59,103 @@ inline SideFilter plane_of(const VectorPack& c0, const VectorPack& c1, const Vec
           {add(abs(xy), abs(xz)), add(abs(yz), abs(yx)), add(abs(zx), abs(zy))}};
 }
 
-CullBits cull_facets(const FacetBlock& block, int count, const CullPlanes& planes) {
-  const BoxPack box(planes.box);
-  const HeightPack height(planes.axis);
-  const Pack lowest = spread(planes.lowest), zero = spread(0.0);
-  const double* const lower[3] = {block.lower[0], block.lower[1], block.lower[2]};
-  const double* const upper[3] = {block.upper[0], block.upper[1], block.upper[2]};
-  CullBits result{count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1, 0, 0};
-  for (int i = 0; i < count; i += kWidth) {
-    unsigned reaching = box.overlap(lower, upper, i);
-    Pack top = height({block.corner[0][0], block.corner[0][1], block.corner[0][2]}, i);
-    for (int k = 1; k < 3; ++k) top = max(top, height({block.corner[k][0], block.corner[k][1], block.corner[k][2]}, i));
-    reaching &= bits(less_equal(lowest, top));
-    result.reaching |= static_cast<std::uint64_t>(reaching) << i;
-    if (!planes.facing_away) continue;
-    VectorPack c[3];
-    for (int k = 0; k < 3; ++k) c[k] = {load(block.corner[k][0] + i), load(block.corner[k][1] + i), load(block.corner[k][2] + i)};
-    const VectorPack n = plane_of(c[0], c[1], c[2]).normal;
-    const Pack along = add(add(mul(height.nx, n.x), mul(height.ny, n.y)), mul(height.nz, n.z));
-    const Mask area = either(either(not_equal(n.x, zero), not_equal(n.y, zero)), not_equal(n.z, zero));
-    result.facing_away |= static_cast<std::uint64_t>(bits(both(less_equal(along, zero), area))) << i;
+// The vertices of a cluster, owned ones first, and what rules each out: a bit for the plane and for each side of the box.
+struct ClusterVertices {
+  static constexpr int kCapacity = 192 + 8;
+  double x[kCapacity], y[kCapacity], z[kCapacity];
+  std::uint8_t outside[kCapacity];
+};
+
+inline void load_vertices(const ClusterFacets& in, ClusterVertices* v) {
+  const double *x = in.points.x + in.owned_begin, *y = in.points.y + in.owned_begin, *z = in.points.z + in.owned_begin;
+  for (int i = 0; i < in.owned_count; i += kWidth) {
+    store(v->x + i, load(x + i));
+    store(v->y + i, load(y + i));
+    store(v->z + i, load(z + i));
   }
-  result.reaching &= result.all;
-  result.facing_away &= result.all;
-  return result;
+  for (int i = 0; i < in.borrowed_count; ++i) {
+    const std::int32_t from = in.borrowed[i];
+    v->x[in.owned_count + i] = in.points.x[from];
+    v->y[in.owned_count + i] = in.points.y[from];
+    v->z[in.owned_count + i] = in.points.z[from];
+  }
 }
 
-inline void load_corners(const FacetBlock& block, int i, VectorPack* corner) {
-  for (int k = 0; k < 3; ++k) {
-    corner[k] = {load(block.corner[k][0] + i), load(block.corner[k][1] + i), load(block.corner[k][2] + i)};
+inline void judge_vertices(const CullPlanes& planes, int count, ClusterVertices* v) {
+  const BoxPack box(planes.box);
+  const HeightPack height(planes.axis);
+  const Pack lowest = spread(planes.lowest);
+  for (int i = 0; i < count; i += kWidth) {
+    const Pack x = load(v->x + i), y = load(v->y + i), z = load(v->z + i);
+    const Mask out[7] = {less(height({v->x, v->y, v->z}, i), lowest),
+                         less(x, box.lower[0]), less(box.upper[0], x),
+                         less(y, box.lower[1]), less(box.upper[1], y),
+                         less(z, box.lower[2]), less(box.upper[2], z)};
+    store_flags(v->outside + i, out);
   }
+}
+
+// A facet is left out if one and the same thing rules out all its corners.
+void open_cluster(const ClusterFacets& in, const CullPlanes& planes, FacetBlock* block) {
+  ClusterVertices v;
+  load_vertices(in, &v);
+  judge_vertices(planes, in.owned_count + in.borrowed_count, &v);
+  std::int32_t corner[3][FacetBlock::kCapacity + 8];
+  int count = 0;
+  for (int f = 0; f < in.facet_count; ++f) {
+    const std::uint8_t c0 = in.corner[0][f], c1 = in.corner[1][f], c2 = in.corner[2][f];
+    corner[0][count] = c0;
+    corner[1][count] = c1;
+    corner[2][count] = c2;
+    block->facet[count] = f;
+    count += (v.outside[c0] & v.outside[c1] & v.outside[c2]) == 0 ? 1 : 0;
+  }
+  block->count = count;
+  for (int i = count; i < count + 8; ++i) corner[0][i] = corner[1][i] = corner[2][i] = block->facet[i] = 0;
+  const double* const coordinate[3] = {v.x, v.y, v.z};
+  for (int i = 0; i < count; i += kWidth) {
+    Pack p[3][3];
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int k = 0; k < 3; ++k) {
+        p[k][axis] = gather(coordinate[axis], corner[k] + i);
+        store(block->corner[k][axis] + i, p[k][axis]);
+      }
+      store(block->lower[axis] + i, min(min(p[0][axis], p[1][axis]), p[2][axis]));
+      store(block->upper[axis] + i, max(max(p[0][axis], p[1][axis]), p[2][axis]));
+    }
+    const SideFilter plane = plane_of({p[0][0], p[0][1], p[0][2]}, {p[1][0], p[1][1], p[1][2]}, {p[2][0], p[2][1], p[2][2]});
+    const Pack normal[3] = {plane.normal.x, plane.normal.y, plane.normal.z};
+    const Pack size[3] = {plane.bound.x, plane.bound.y, plane.bound.z};
+    for (int axis = 0; axis < 3; ++axis) {
+      store(block->normal[axis] + i, normal[axis]);
+      store(block->size[axis] + i, size[axis]);
+    }
+  }
+}
+
+std::uint64_t facing_away(const FacetBlock& block, const HeightAxis& axis) {
+  const Pack nx = spread(axis.nx), ny = spread(axis.ny), nz = spread(axis.nz), zero = spread(0.0);
+  std::uint64_t away = 0;
+  for (int i = 0; i < block.count; i += kWidth) {
+    const Pack x = load(block.normal[0] + i), y = load(block.normal[1] + i), z = load(block.normal[2] + i);
+    const Pack along = add(add(mul(nx, x), mul(ny, y)), mul(nz, z));
+    const Mask area = either(either(not_equal(x, zero), not_equal(y, zero)), not_equal(z, zero));
+    away |= static_cast<std::uint64_t>(bits(both(less_equal(along, zero), area)) & lanes_left(block.count - i)) << i;
+  }
+  return away;
 }
 
 // The lanes whose plane certainly leaves the whole box on one side. Where x runs over the box, the determinant is lowest
 // and highest at corners of it, and as computed no higher and no lower than at any corner, since rounding keeps order.
-inline unsigned planes_apart(const VectorPack* corner, const BoxPack& box) {
-  const SideFilter plane = plane_of(corner[0], corner[1], corner[2]);
-  const Pack n[3] = {plane.normal.x, plane.normal.y, plane.normal.z};
-  const Pack bound[3] = {plane.bound.x, plane.bound.y, plane.bound.z};
-  const Pack origin[3] = {plane.origin.x, plane.origin.y, plane.origin.z};
+inline unsigned planes_apart(const FacetBlock& block, int i, const BoxPack& box) {
   Pack lowest[3], highest[3], size[3];
   for (int axis = 0; axis < 3; ++axis) {
-    const Pack to_lower = sub(box.lower[axis], origin[axis]), to_upper = sub(box.upper[axis], origin[axis]);
-    const Pack p = mul(n[axis], to_lower), q = mul(n[axis], to_upper);
+    const Pack origin = load(block.corner[0][axis] + i), n = load(block.normal[axis] + i);
+    const Pack to_lower = sub(box.lower[axis], origin), to_upper = sub(box.upper[axis], origin);
+    const Pack p = mul(n, to_lower), q = mul(n, to_upper);
     lowest[axis] = min(p, q);
     highest[axis] = max(p, q);
-    size[axis] = mul(bound[axis], max(abs(to_lower), abs(to_upper)));
+    size[axis] = mul(load(block.size[axis] + i), max(abs(to_lower), abs(to_upper)));
   }
   const Pack error = rounding_of(add(add(size[0], size[1]), size[2]));
   const Mask above = less(error, add(add(lowest[0], lowest[1]), lowest[2]));
@@ -144,9 +178,7 @@ NearFacets near_facets(const FacetBlock& block, std::uint64_t candidates, const 
     unsigned mask = static_cast<unsigned>(candidates >> i) & kAllLanes & pack.overlap(lower, upper, i);
     candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
     if (mask == 0) continue;
-    VectorPack corner[3];
-    load_corners(block, i, corner);
-    mask &= ~planes_apart(corner, pack);
+    mask &= ~planes_apart(block, i, pack);
     if (mask == 0) continue;
     near |= static_cast<std::uint64_t>(mask) << i;
     const Mask lanes = mask_of(mask);

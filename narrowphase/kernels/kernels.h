@@ -51,27 +51,35 @@ struct FacetPlane {
   double error;      // of the height over the plane, times the length of the normal, of any point that it is asked for
 };
 
-// Up to 64 facets in separate arrays: boxes, and coordinates of corners.
+// A cluster's facets and vertices. Of the vertices, those that it owns stand next to each other in `points`, the others
+// are borrowed; `corner` counts the owned ones first.
+struct ClusterFacets {
+  PointArrays points;  // of all vertices
+  std::int32_t owned_begin;
+  std::int32_t owned_count;
+  const std::int32_t* borrowed;
+  std::int32_t borrowed_count;
+  const std::uint8_t* corner[3];
+  std::int32_t facet_count;
+};
+
+// Some facets of a cluster in separate arrays, in the order of the cluster.
 struct FacetBlock {
   static constexpr int kCapacity = 64;
+  int count;
+  std::int32_t facet[kCapacity + 8];  // which of the cluster's; with room for a SIMD loop to write past the end
   double lower[3][kCapacity];
   double upper[3][kCapacity];
   double corner[3][3][kCapacity];  // corner, axis, facet
+  double normal[3][kCapacity];     // (c1 - c0) × (c2 - c0), as computed
+  double size[3][kCapacity];       // the same with absolute values of both products of each component
 };
 
 // What facets are judged by.
 struct CullPlanes {
   HeightAxis axis;
-  double lowest;     // a facet whose highest corner is lower is not reaching
-  BoxBounds box;     // nor is one whose box misses this
-  bool facing_away;  // look at normals as well
-};
-
-// A bit a facet.
-struct CullBits {
-  std::uint64_t all;
-  std::uint64_t reaching;
-  std::uint64_t facing_away;  // n · normal <= 0, normal not zero
+  double lowest;  // a facet whose highest corner is lower is left out
+  BoxBounds box;  // so is one whose box misses this
 };
 
 // Some facets of a block, a bit each, and the box of all of them; without any, the box means nothing.
@@ -138,11 +146,11 @@ struct Kernels {
   // Writes the indices i < count of boxes that overlap `box` (closed), ascending; returns how many.
   int (*select_overlapping)(const BoxPointers& boxes, int count, const BoxBounds& box, std::int32_t* indices);
 
-  // Fills `block` with `count` facets: corners[k] + first .. are the vertices of corner k.
-  void (*fill_facet_block)(PointArrays points, const std::int32_t* const corners[3], int count, FacetBlock* block);
+  // Fills `block` with the facets of a cluster that the planes do not leave out.
+  void (*open_cluster)(const ClusterFacets& cluster, const CullPlanes& planes, FacetBlock* block);
 
-  // Judges the `count` facets of `block`.
-  CullBits (*cull_facets)(const FacetBlock& block, int count, const CullPlanes& planes);
+  // A bit for each facet of `block` whose normal is not zero and has axis · normal <= 0.
+  std::uint64_t (*facing_away)(const FacetBlock& block, const HeightAxis& axis);
 
   // The facets of `block` that have a bit in `candidates`, whose box overlaps `box`, and whose plane does not certainly
   // leave it on one side.

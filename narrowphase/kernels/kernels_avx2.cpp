@@ -36,6 +36,18 @@ inline Mask mask_of(unsigned lanes) {
 }
 inline unsigned bits(Mask a) { return static_cast<unsigned>(_mm256_movemask_pd(a)); }
 inline Pack select(Mask mask, Pack yes, Pack no) { return _mm256_blendv_pd(no, yes, mask); }
+// Bit k of each byte: mask k.
+inline void store_flags(std::uint8_t* p, const Mask (&mask)[7]) {
+  __m256i flags = _mm256_setzero_si256();
+  for (int k = 0; k < 7; ++k) {
+    flags = _mm256_or_si256(flags, _mm256_and_si256(_mm256_castpd_si256(mask[k]), _mm256_set1_epi64x(1 << k)));
+  }
+  const __m128i two = _mm_packus_epi32(_mm256_castsi256_si128(flags), _mm256_extracti128_si256(flags, 1));
+  p[0] = static_cast<std::uint8_t>(_mm_extract_epi8(two, 0));
+  p[1] = static_cast<std::uint8_t>(_mm_extract_epi8(two, 4));
+  p[2] = static_cast<std::uint8_t>(_mm_extract_epi8(two, 8));
+  p[3] = static_cast<std::uint8_t>(_mm_extract_epi8(two, 12));
+}
 inline double largest_lane(Pack a) {
   const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1));
   return _mm_cvtsd_f64(_mm_max_sd(two, _mm_unpackhi_pd(two, two)));

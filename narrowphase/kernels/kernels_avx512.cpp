@@ -18,7 +18,7 @@ inline Pack load(const double* p) { return _mm512_loadu_pd(p); }
 inline void store(double* p, Pack a) { _mm512_storeu_pd(p, a); }
 inline Pack spread(double a) { return _mm512_set1_pd(a); }
 inline Pack gather(const double* p, const std::int32_t* i) {
-  return _mm512_i32gather_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(i)), p, 8);
+  return _mm512_set_pd(p[i[7]], p[i[6]], p[i[5]], p[i[4]], p[i[3]], p[i[2]], p[i[1]], p[i[0]]);
 }
 inline Pack add(Pack a, Pack b) { return _mm512_add_pd(a, b); }
 inline Pack sub(Pack a, Pack b) { return _mm512_sub_pd(a, b); }
@@ -29,12 +29,20 @@ inline Pack abs(Pack a) { return _mm512_abs_pd(a); }
 inline Mask less_equal(Pack a, Pack b) { return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ); }
 inline Mask less(Pack a, Pack b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
 inline Mask not_equal(Pack a, Pack b) { return _mm512_cmp_pd_mask(a, b, _CMP_NEQ_UQ); }
-inline Mask both(Mask a, Mask b) { return a & b; }
-inline Mask either(Mask a, Mask b) { return a | b; }
-inline Mask differ(Mask a, Mask b) { return a ^ b; }
+inline Mask both(Mask a, Mask b) { return _kand_mask8(a, b); }
+inline Mask either(Mask a, Mask b) { return _kor_mask8(a, b); }
+inline Mask differ(Mask a, Mask b) { return _kxor_mask8(a, b); }
 inline Mask mask_of(unsigned bits) { return static_cast<Mask>(bits); }
 inline unsigned bits(Mask a) { return a; }
 inline Pack select(Mask mask, Pack yes, Pack no) { return _mm512_mask_blend_pd(mask, no, yes); }
+// Bit k of each byte: mask k.
+inline void store_flags(std::uint8_t* p, const Mask (&mask)[7]) {
+  __m128i flags = _mm_setzero_si128();
+  for (int k = 0; k < 7; ++k) {
+    flags = _mm_or_si128(flags, _mm_maskz_set1_epi8(mask[k], static_cast<char>(1 << k)));
+  }
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(p), flags);
+}
 inline double largest_lane(Pack a) { return _mm512_reduce_max_pd(a); }
 
 }  // namespace

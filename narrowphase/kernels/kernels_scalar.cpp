@@ -30,6 +30,12 @@ inline Mask differ(Mask a, Mask b) { return a != b; }
 inline Mask mask_of(unsigned bits) { return bits != 0; }
 inline unsigned bits(Mask a) { return a ? 1u : 0u; }
 inline Pack select(Mask mask, Pack yes, Pack no) { return mask ? yes : no; }
+// Bit k of each byte: mask k.
+inline void store_flags(std::uint8_t* p, const Mask (&mask)[7]) {
+  unsigned flags = 0;
+  for (int k = 0; k < 7; ++k) flags |= bits(mask[k]) << k;
+  *p = static_cast<std::uint8_t>(flags);
+}
 inline double largest_lane(Pack a) { return a; }
 
 }  // namespace

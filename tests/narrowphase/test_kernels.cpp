@@ -25,12 +25,11 @@ std::vector<const Kernels*> available() {
   return all;
 }
 
-FacetBlock block_of(const Kernels& kernels, const ClusteredMesh& mesh, int cluster) {
+constexpr CullPlanes kAll{{0, 0, 1, 0, 0, 0}, -9, {{-9, -9, -9}, {9, 9, 9}}};
+
+FacetBlock block_of(const Kernels& kernels, const ClusteredMesh& mesh, int cluster, const CullPlanes& planes = kAll) {
   FacetBlock block{};
-  const int first = mesh.facet_begin(cluster);
-  const std::int32_t* const corners[3] = {mesh.corner_array(0) + first, mesh.corner_array(1) + first,
-                                          mesh.corner_array(2) + first};
-  kernels.fill_facet_block(mesh.points(), corners, mesh.facet_end(cluster) - first, &block);
+  kernels.open_cluster(mesh.facets_of(cluster), planes, &block);
   return block;
 }
 
@@ -133,10 +132,10 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
     const auto [mesh_a, mesh_b] = bodies(seed);
     const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
     const HeightAxis axis{0.48, -0.6, 0.64, 0.01, 0.02, -0.03};
-    const CullPlanes planes{
-        .axis = axis, .lowest = 0.1, .box = {{-0.4, -0.3, -0.5}, {0.5, 0.4, 0.6}}, .facing_away = true};
+    const CullPlanes planes{.axis = axis, .lowest = 0.1, .box = {{-0.4, -0.3, -0.5}, {0.5, 0.4, 0.6}}};
     const FacetBlock expected = block_of(*scalar_kernels(), b, 0), own = block_of(*scalar_kernels(), a, 0);
-    const CullBits bits = scalar_kernels()->cull_facets(expected, b.facet_end(0), planes);
+    const FacetBlock left = block_of(*scalar_kernels(), b, 0, planes);
+    const std::uint64_t away = scalar_kernels()->facing_away(expected, axis);
     const HighestPoint highest = scalar_kernels()->highest_point(b.points(), b.vertex_count(), axis);
     const NearFacets near = scalar_kernels()->near_facets(expected, all_bits(b.facet_end(0)), planes.box);
     for (const Kernels* kernels : available()) {
@@ -147,9 +146,11 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
           EXPECT_EQ(block.upper[axis_index][f], expected.upper[axis_index][f]);
         }
       }
-      const CullBits other = kernels->cull_facets(block, b.facet_end(0), planes);
-      EXPECT_EQ(other.reaching, bits.reaching) << kernels->name;
-      EXPECT_EQ(other.facing_away, bits.facing_away) << kernels->name;
+      EXPECT_EQ(kernels->facing_away(block, axis), away) << kernels->name;
+      const FacetBlock others_left = block_of(*kernels, b, 0, planes);
+      EXPECT_EQ(std::vector(others_left.facet, others_left.facet + others_left.count),
+                std::vector(left.facet, left.facet + left.count))
+          << kernels->name;
       const HighestPoint top = kernels->highest_point(b.points(), b.vertex_count(), axis);
       EXPECT_EQ(top.height, highest.height) << kernels->name;
       EXPECT_EQ(top.index, highest.index) << kernels->name;
@@ -169,6 +170,38 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
       }
       EXPECT_EQ(decide_all(*kernels, a, b).meeting, decide_all(*scalar_kernels(), a, b).meeting) << kernels->name;
       EXPECT_EQ(decide_all(*kernels, a, b).undecided, decide_all(*scalar_kernels(), a, b).undecided) << kernels->name;
+    }
+  }
+}
+
+TEST(Kernels, OpenClusterLeavesOutWhatOneSideRulesOut) {
+  for (int seed = 0; seed < 12; ++seed) {
+    const ClusteredMesh mesh = clustered(bodies(seed).first);
+    const CullPlanes planes{{0.48, -0.6, 0.64, 0.1, 0.2, 0.3}, -0.2, {{-0.3, -0.2, -0.4}, {0.3, 0.5, 0.2}}};
+    for (int c = 0; c < mesh.cluster_count(); ++c) {
+      std::vector<std::int32_t> expected;
+      for (int f = mesh.facet_begin(c); f < mesh.facet_end(c); ++f) {
+        Box box;
+        double top = -9.0;
+        for (const Vec3& p : mesh.triangle(f)) {
+          box = extended(box, p);
+          top = std::max(top, (0.48 * (p.x - 0.1) + -0.6 * (p.y - 0.2)) + 0.64 * (p.z - 0.3));
+        }
+        if (top >= planes.lowest && overlaps(box, Box{{-0.3, -0.2, -0.4}, {0.3, 0.5, 0.2}})) {
+          expected.push_back(f - mesh.facet_begin(c));
+        }
+      }
+      for (const Kernels* kernels : available()) {
+        const FacetBlock block = block_of(*kernels, mesh, c, planes);
+        EXPECT_EQ(std::vector(block.facet, block.facet + block.count), expected) << kernels->name << " seed " << seed;
+        for (int i = 0; i < block.count; ++i) {
+          const Triangle t = mesh.triangle(mesh.facet_begin(c) + block.facet[i]);
+          for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 corner{block.corner[k][0][i], block.corner[k][1][i], block.corner[k][2][i]};
+            EXPECT_EQ(corner, t[k]) << kernels->name << " seed " << seed;
+          }
+        }
+      }
     }
   }
 }
