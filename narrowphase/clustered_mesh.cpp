@@ -166,6 +166,7 @@ ClusterFacets ClusteredMesh::facets_of(int cluster) const {
           .borrowed = borrowed_.data() + borrowed,
           .borrowed_count = borrowed_begin_[c + 1] - borrowed,
           .corner = {corner_[0].data() + first, corner_[1].data() + first, corner_[2].data() + first},
+          .facet_begin = first,
           .facet_count = facet_end(cluster) - first};
 }
 

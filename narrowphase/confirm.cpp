@@ -68,47 +68,100 @@ void FacetPairSearch::run(const ConfirmInput& input, const std::vector<ClusterPa
                           std::size_t end, std::vector<FacetPair>& found, ConfirmCounts& counts) {
   opened_a_.clear();
   opened_b_.clear();
-  slot_.assign(static_cast<std::size_t>(input.kept_b->count()), -1);
-  std::int32_t opened = -1;
-  for (std::size_t i = begin; i < end; ++i) {
-    const ClusterPair& pair = pairs[i];
-    if (pair.a == opened && a_.kept == 0) continue;
-    const OpenCluster& b = open_b(input, pair.b);
-    const Box box_a = input.kept_a->boxes[static_cast<std::size_t>(pair.a)];
-    const NearFacets near_b = kernels().near_facets(b.block, b.kept, bounds_of(box_a));
-    if (near_b.facets == 0) continue;
-    if (pair.a != opened) open_a(input, pair.a);
-    opened = pair.a;
-    test_clusters(input, b, near_b, found, counts);
+  blocks_of_b_ = 0;
+  wanted_.clear();
+  empty_a();
+  place_.assign(static_cast<std::size_t>(input.kept_b->count()), {});
+  for (std::size_t i = begin; i < end;) {
+    const std::int32_t a = pairs[i].a;
+    wanted_by_next_.clear();
+    for (; i < end && pairs[i].a == a; ++i) {
+      if (reaches_b(input, pairs[i])) wanted_by_next_.push_back(place_[static_cast<std::size_t>(pairs[i].b)].block);
+    }
+    if (!wanted_by_next_.empty()) append_a(input, a, found, counts);
   }
+  finish_block(input, found, counts);
 }
 
-void FacetPairSearch::open_a(const ConfirmInput& input, std::int32_t index) {
-  opened_a_.push_back({index, {}});
+// May some facet of the cluster of B meet the cluster of A? Its box and the facets' planes tell.
+bool FacetPairSearch::reaches_b(const ConfirmInput& input, const ClusterPair& pair) {
+  const PlaceInB place = open_b(input, pair.b);
+  if (place.facets == 0) return false;
+  const Box box = input.kept_a->boxes[static_cast<std::size_t>(pair.a)];
+  const FacetBlock& block = b_[static_cast<std::size_t>(place.block)]->kept.block;
+  return kernels().any_near(block, place.facets, bounds_of(box));
+}
+
+FacetPairSearch::PlaceInB FacetPairSearch::open_b(const ConfirmInput& input, std::int32_t index) {
+  PlaceInB& place = place_[static_cast<std::size_t>(index)];
+  if (place.block >= 0) return place;
+  const std::int32_t cluster = input.kept_b->cluster[static_cast<std::size_t>(index)];
+  opened_b_.push_back({index, {}});
+  const auto append = [&](KeptFacets& kept) {
+    return append_facets(*input.b, cluster, input.criteria_b, input.kept_a->bounds, kept, opened_b_.back().counts);
+  };
+  std::uint64_t before = blocks_of_b_ > 0 ? b_[blocks_of_b_ - 1]->kept.facets : 0;
+  if (blocks_of_b_ == 0 || !append(b_[blocks_of_b_ - 1]->kept)) {
+    if (b_.size() == blocks_of_b_) b_.push_back(std::make_unique<BlockOfB>());
+    BlockOfB& fresh = *b_[blocks_of_b_++];
+    fresh.kept.block.count = 0;
+    fresh.kept.facets = before = 0;
+    fresh.bounds = {};
+    fresh.wanted = false;
+    append(fresh.kept);
+  }
+  BlockOfB& b = *b_[blocks_of_b_ - 1];
+  b.bounds = merged(b.bounds, input.kept_b->boxes[static_cast<std::size_t>(index)]);
+  place = {static_cast<std::int32_t>(blocks_of_b_ - 1), b.kept.facets & ~before};
+  return place;
+}
+
+void FacetPairSearch::append_a(const ConfirmInput& input, std::int32_t index, std::vector<FacetPair>& found,
+                               ConfirmCounts& counts) {
   const std::int32_t cluster = input.kept_a->cluster[static_cast<std::size_t>(index)];
-  a_.first_facet = input.a->facet_begin(cluster);
-  a_.kept = cull_facets(*input.a, cluster, input.criteria_a, input.kept_b->bounds, a_.block, opened_a_.back().counts);
-}
-
-const FacetPairSearch::OpenCluster& FacetPairSearch::open_b(const ConfirmInput& input, std::int32_t index) {
-  std::int32_t& slot = slot_[static_cast<std::size_t>(index)];
-  if (slot < 0) {
-    slot = static_cast<std::int32_t>(opened_b_.size());
-    opened_b_.push_back({index, {}});
-    if (opened_b_.size() > b_.size()) b_.push_back(std::make_unique<OpenCluster>());
-    OpenCluster& b = *b_[static_cast<std::size_t>(slot)];
-    const std::int32_t cluster = input.kept_b->cluster[static_cast<std::size_t>(index)];
-    b.first_facet = input.b->facet_begin(cluster);
-    b.kept = cull_facets(*input.b, cluster, input.criteria_b, input.kept_a->bounds, b.block, opened_b_.back().counts);
+  opened_a_.push_back({index, {}});
+  const auto append = [&] {
+    return append_facets(*input.a, cluster, input.criteria_a, input.kept_b->bounds, a_, opened_a_.back().counts);
+  };
+  if (!append()) {
+    finish_block(input, found, counts);
+    append();
   }
-  return *b_[static_cast<std::size_t>(slot)];
+  bounds_a_ = merged(bounds_a_, input.kept_a->boxes[static_cast<std::size_t>(index)]);
+  for (const std::int32_t block : wanted_by_next_) {
+    BlockOfB& b = *b_[static_cast<std::size_t>(block)];
+    if (!b.wanted) wanted_.push_back(block);
+    b.wanted = true;
+  }
 }
 
-// Each facet of the cluster with fewer of them near the other is held against all of the other's at once; the pairs
-// that this leaves are decided many at a time.
-void FacetPairSearch::test_clusters(const ConfirmInput& input, const OpenCluster& b, const NearFacets& near_b,
-                                    std::vector<FacetPair>& found, ConfirmCounts& counts) {
-  const NearFacets near_a = kernels().near_facets(a_.block, a_.kept, near_b.box);
+// Holds the block of A against those of B that it may touch, and empties it.
+void FacetPairSearch::finish_block(const ConfirmInput& input, std::vector<FacetPair>& found, ConfirmCounts& counts) {
+  for (const std::int32_t block : wanted_) {
+    BlockOfB& b = *b_[static_cast<std::size_t>(block)];
+    test_blocks(input, b.kept, b.bounds, found, counts);
+    b.wanted = false;
+  }
+  wanted_.clear();
+  empty_a();
+}
+
+void FacetPairSearch::empty_a() {
+  a_.block.count = 0;
+  a_.facets = 0;
+  bounds_a_ = {};
+  pairs_.count = 0;
+}
+
+// Each facet of the block with fewer of them near the other is held against all of the other's at once; the pairs that
+// this leaves are decided many at a time.
+void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b, const Box& bounds_b,
+                                  std::vector<FacetPair>& found, ConfirmCounts& counts) {
+  const Box common = intersection(bounds_a_, bounds_b);
+  NearFacets near_a, near_b;
+  kernels().near_facets(b.block, b.facets, bounds_of(common), &near_b);
+  if (near_b.facets == 0) return;
+  kernels().near_facets(a_.block, a_.facets, near_b.box, &near_a);
   const bool a_has_fewer = std::popcount(near_a.facets) <= std::popcount(near_b.facets);
   const NearFacets &few = a_has_fewer ? near_a : near_b, &many = a_has_fewer ? near_b : near_a;
   const FacetBlock &few_block = a_has_fewer ? a_.block : b.block, &many_block = a_has_fewer ? b.block : a_.block;
@@ -116,34 +169,32 @@ void FacetPairSearch::test_clusters(const ConfirmInput& input, const OpenCluster
   for (std::uint64_t left = few.facets; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
     const FacetPlane plane = facet_plane(few_block, static_cast<std::size_t>(i), many.box);
-    const CrossingFacets crossing = kernels().crossing_facets(many_block, many.facets, plane);
+    const CrossingFacets crossing = kernels().crossing_facets(many_block, many, plane);
     counts.facet_box_pairs += crossing.box_pairs;
     for (std::uint64_t bits = crossing.facets; bits != 0; bits &= bits - 1) {
-      if (pairs_.count == FacetPairList::kCapacity) decide_pairs(input, b, found, counts);
+      if (pairs_.count == FacetPairList::kCapacity) decide_pairs(input, b.block, found, counts);
       few_pairs[pairs_.count] = i;
       many_pairs[pairs_.count++] = std::countr_zero(bits);
     }
   }
-  decide_pairs(input, b, found, counts);
+  decide_pairs(input, b.block, found, counts);
 }
 
 // Decides the pairs in the list and empties it.
-void FacetPairSearch::decide_pairs(const ConfirmInput& input, const OpenCluster& b, std::vector<FacetPair>& found,
+void FacetPairSearch::decide_pairs(const ConfirmInput& input, const FacetBlock& b, std::vector<FacetPair>& found,
                                    ConfirmCounts& counts) {
-  const PairMatches matches = kernels().match_pairs(a_.block, b.block, pairs_);
+  const PairMatches matches = kernels().match_pairs(a_.block, b, pairs_);
   std::uint64_t meeting = matches.meeting;
   for (std::uint64_t left = matches.undecided; left != 0; left &= left - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(left));
     ++counts.triangle_tests;
     const Triangle p = triangle_in(a_.block, static_cast<std::size_t>(pairs_.a[k]));
-    const Triangle q = triangle_in(b.block, static_cast<std::size_t>(pairs_.b[k]));
+    const Triangle q = triangle_in(b, static_cast<std::size_t>(pairs_.b[k]));
     if (triangle_triangle_meet(p, q, counts.predicates)) meeting |= std::uint64_t{1} << k;
   }
   for (std::uint64_t left = meeting; left != 0; left &= left - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(left));
-    const int facet_a = a_.first_facet + a_.block.facet[pairs_.a[k]];
-    const int facet_b = b.first_facet + b.block.facet[pairs_.b[k]];
-    found.push_back({input.a->source_facet(facet_a), input.b->source_facet(facet_b)});
+    found.push_back({input.a->source_facet(a_.block.facet[pairs_.a[k]]), input.b->source_facet(b.facet[pairs_.b[k]])});
   }
   pairs_.count = 0;
 }

@@ -52,6 +52,9 @@ bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPai
                         std::vector<ClusterPair>& pairs, std::vector<std::int32_t>& scratch);
 
 // Tests the facets of cluster pairs; one for each thread, its memory reused.
+//
+// Of most clusters the criteria leave a few facets. So those of several clusters are packed into a block: blocks of A
+// are made one after the other and held against the blocks of B that hold a cluster which one of theirs may touch.
 class FacetPairSearch {
  public:
   // Appends the facet pairs (as source facets) that meet in pairs[begin, end), in no particular order.
@@ -63,22 +66,34 @@ class FacetPairSearch {
   const std::vector<OpenedCluster>& opened_b() const { return opened_b_; }
 
  private:
-  struct OpenCluster {
-    FacetBlock block;
-    int first_facet = 0;
-    std::uint64_t kept = 0;
+  struct BlockOfB {
+    KeptFacets kept;
+    Box bounds;           // of its clusters
+    bool wanted = false;  // by a cluster in the block of A
   };
-  void open_a(const ConfirmInput& input, std::int32_t index);
-  const OpenCluster& open_b(const ConfirmInput& input, std::int32_t index);
-  void test_clusters(const ConfirmInput& input, const OpenCluster& b, const NearFacets& near_b,
-                     std::vector<FacetPair>& found, ConfirmCounts& counts);
-  void decide_pairs(const ConfirmInput& input, const OpenCluster& b, std::vector<FacetPair>& found,
+  // Where the facets of an opened cluster of B are.
+  struct PlaceInB {
+    std::int32_t block = -1;
+    std::uint64_t facets = 0;
+  };
+  bool reaches_b(const ConfirmInput& input, const ClusterPair& pair);
+  PlaceInB open_b(const ConfirmInput& input, std::int32_t index);
+  void append_a(const ConfirmInput& input, std::int32_t index, std::vector<FacetPair>& found, ConfirmCounts& counts);
+  void finish_block(const ConfirmInput& input, std::vector<FacetPair>& found, ConfirmCounts& counts);
+  void empty_a();
+  void test_blocks(const ConfirmInput& input, const KeptFacets& b, const Box& bounds_b, std::vector<FacetPair>& found,
+                   ConfirmCounts& counts);
+  void decide_pairs(const ConfirmInput& input, const FacetBlock& b, std::vector<FacetPair>& found,
                     ConfirmCounts& counts);
 
-  OpenCluster a_;
-  FacetPairList pairs_;                          // of a_ and a cluster of B, to be decided together
-  std::vector<std::unique_ptr<OpenCluster>> b_;  // those of this run stand as in opened_b_
-  std::vector<std::int32_t> slot_;               // of each kept cluster of B in b_, or -1
+  KeptFacets a_;
+  Box bounds_a_;                              // of the clusters in a_
+  std::vector<std::int32_t> wanted_;          // blocks of B that clusters in a_ may touch
+  std::vector<std::int32_t> wanted_by_next_;  // and those that the cluster does which is about to join them
+  std::vector<std::unique_ptr<BlockOfB>> b_;
+  std::size_t blocks_of_b_ = 0;  // in use
+  std::vector<PlaceInB> place_;  // of each kept cluster of B
+  FacetPairList pairs_;          // of a_ and a block of B, to be decided together
   std::vector<OpenedCluster> opened_a_, opened_b_;
 };
 

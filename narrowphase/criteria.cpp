@@ -28,6 +28,8 @@ Criteria make_criteria(const Slab& slab, Vec3 outward, double plane, const Impac
   return criteria;
 }
 
+std::uint64_t lowest_bits(int count) { return count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1; }
+
 double squared(double x) { return x * x; }
 
 double distance_squared(Point2 p, Point2 a, Point2 b) {
@@ -117,23 +119,25 @@ void cull_again(const Box& other, KeptClusters& kept) {
   kept.boxes.truncate(found);
 }
 
-std::uint64_t cull_facets(const ClusteredMesh& mesh, int cluster, const Criteria& criteria, const Box& other,
-                          FacetBlock& block, CullCounts& counts) {
+bool append_facets(const ClusteredMesh& mesh, int cluster, const Criteria& criteria, const Box& other, KeptFacets& kept,
+                   CullCounts& counts) {
   const CullPlanes planes{.axis = {criteria.outward.x, criteria.outward.y, criteria.outward.z, criteria.origin.x,
                                    criteria.origin.y, criteria.origin.z},
                           .lowest = criteria.lowest,
                           .box = bounds_of(other)};
   const ClusterFacets facets = mesh.facets_of(cluster);
-  kernels().open_cluster(facets, planes, &block);
-  const std::uint64_t all =
-      block.count == FacetBlock::kCapacity ? ~std::uint64_t{0} : (std::uint64_t{1} << block.count) - 1;
-  const std::uint64_t away = criteria.facing_away ? kernels().facing_away(block, planes.axis) : 0;
-  const std::uint64_t left = all & ~away, kept = criteria.zone ? inside_zone(block, left, criteria) : left;
-  counts.outside_slab += facets.facet_count - block.count;
+  const int before = kept.block.count, count = kernels().open_cluster(facets, planes, &kept.block);
+  if (before + count > FacetBlock::kCapacity) return false;
+  const std::uint64_t appended = lowest_bits(before + count) & ~lowest_bits(before);
+  const std::uint64_t away = criteria.facing_away ? appended & kernels().facing_away(kept.block, planes.axis) : 0;
+  const std::uint64_t left = appended & ~away;
+  const std::uint64_t inside = criteria.zone ? inside_zone(kept.block, left, criteria) : left;
+  counts.outside_slab += facets.facet_count - count;
   counts.facing_away += std::popcount(away);
-  counts.outside_zone += std::popcount(left & ~kept);
-  counts.kept += std::popcount(kept);
-  return kept;
+  counts.outside_zone += std::popcount(left & ~inside);
+  counts.kept += std::popcount(inside);
+  kept.facets |= inside;
+  return true;
 }
 
 }  // namespace tact::narrowphase

@@ -60,9 +60,15 @@ void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Bo
 // Drops from `kept` the clusters whose box misses `other`.
 void cull_again(const Box& other, KeptClusters& kept);
 
-// Fills `block` with the facets of a cluster that criterion 2 and the box `other` leave, and returns a bit for each of
-// them that the other criteria leave.
-std::uint64_t cull_facets(const ClusteredMesh& mesh, int cluster, const Criteria& criteria, const Box& other,
-                          FacetBlock& block, CullCounts& counts);
+// Facets that may touch, of one or more clusters.
+struct KeptFacets {
+  FacetBlock block;
+  std::uint64_t facets = 0;  // a bit for each of the block that the criteria leave
+};
+
+// Appends the facets of a cluster that the criteria and the box `other` leave. Returns false, and changes nothing, if
+// the block has no room for them; an empty one has room for any cluster.
+bool append_facets(const ClusteredMesh& mesh, int cluster, const Criteria& criteria, const Box& other, KeptFacets& kept,
+                   CullCounts& counts);
 
 }  // namespace tact::narrowphase

@@ -60,7 +60,7 @@ inline SideFilter plane_of(const VectorPack& c0, const VectorPack& c1, const Vec
 }
 
 // The vertices of a cluster, owned ones first, and what rules each out: a bit for the plane and for each side of the box.
-struct ClusterVertices {
+struct alignas(64) ClusterVertices {
   static constexpr int kCapacity = 192 + 8;
   double x[kCapacity], y[kCapacity], z[kCapacity];
   std::uint8_t outside[kCapacity];
@@ -96,41 +96,47 @@ inline void judge_vertices(const CullPlanes& planes, int count, ClusterVertices*
 }
 
 // A facet is left out if one and the same thing rules out all its corners.
-void open_cluster(const ClusterFacets& in, const CullPlanes& planes, FacetBlock* block) {
+int open_cluster(const ClusterFacets& in, const CullPlanes& planes, FacetBlock* block) {
   ClusterVertices v;
   load_vertices(in, &v);
   judge_vertices(planes, in.owned_count + in.borrowed_count, &v);
-  std::int32_t corner[3][FacetBlock::kCapacity + 8];
-  int count = 0;
+  std::uint64_t left = 0;
   for (int f = 0; f < in.facet_count; ++f) {
-    const std::uint8_t c0 = in.corner[0][f], c1 = in.corner[1][f], c2 = in.corner[2][f];
-    corner[0][count] = c0;
-    corner[1][count] = c1;
-    corner[2][count] = c2;
-    block->facet[count] = f;
-    count += (v.outside[c0] & v.outside[c1] & v.outside[c2]) == 0 ? 1 : 0;
+    const unsigned out = v.outside[in.corner[0][f]] & v.outside[in.corner[1][f]] & v.outside[in.corner[2][f]];
+    left |= static_cast<std::uint64_t>(out == 0) << f;
   }
-  block->count = count;
-  for (int i = count; i < count + 8; ++i) corner[0][i] = corner[1][i] = corner[2][i] = block->facet[i] = 0;
+  const int count = __builtin_popcountll(left), begin = block->count;
+  if (begin + count > FacetBlock::kCapacity) return count;
+  alignas(64) std::int32_t corner[3][FacetBlock::kRoom];
+  for (int n = 0; left != 0; left &= left - 1, ++n) {
+    const int f = __builtin_ctzll(left);
+    for (int k = 0; k < 3; ++k) corner[k][n] = in.corner[k][f];
+    block->facet[begin + n] = in.facet_begin + f;
+  }
+  for (int n = count; n < count + kWidth; ++n) corner[0][n] = corner[1][n] = corner[2][n] = 0;
   const double* const coordinate[3] = {v.x, v.y, v.z};
   for (int i = 0; i < count; i += kWidth) {
+    const int to = begin + i;
     Pack p[3][3];
     for (int axis = 0; axis < 3; ++axis) {
       for (int k = 0; k < 3; ++k) {
         p[k][axis] = gather(coordinate[axis], corner[k] + i);
-        store(block->corner[k][axis] + i, p[k][axis]);
+        store(block->corner[k][axis] + to, p[k][axis]);
       }
-      store(block->lower[axis] + i, min(min(p[0][axis], p[1][axis]), p[2][axis]));
-      store(block->upper[axis] + i, max(max(p[0][axis], p[1][axis]), p[2][axis]));
+      store(block->lower[axis] + to, min(min(p[0][axis], p[1][axis]), p[2][axis]));
+      store(block->upper[axis] + to, max(max(p[0][axis], p[1][axis]), p[2][axis]));
     }
-    const SideFilter plane = plane_of({p[0][0], p[0][1], p[0][2]}, {p[1][0], p[1][1], p[1][2]}, {p[2][0], p[2][1], p[2][2]});
+    const SideFilter plane =
+        plane_of({p[0][0], p[0][1], p[0][2]}, {p[1][0], p[1][1], p[1][2]}, {p[2][0], p[2][1], p[2][2]});
     const Pack normal[3] = {plane.normal.x, plane.normal.y, plane.normal.z};
     const Pack size[3] = {plane.bound.x, plane.bound.y, plane.bound.z};
     for (int axis = 0; axis < 3; ++axis) {
-      store(block->normal[axis] + i, normal[axis]);
-      store(block->size[axis] + i, size[axis]);
+      store(block->normal[axis] + to, normal[axis]);
+      store(block->size[axis] + to, size[axis]);
     }
   }
+  block->count = begin + count;
+  return count;
 }
 
 std::uint64_t facing_away(const FacetBlock& block, const HeightAxis& axis) {
@@ -163,46 +169,81 @@ inline unsigned planes_apart(const FacetBlock& block, int i, const BoxPack& box)
   return bits(either(above, below));
 }
 
-NearFacets near_facets(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box) {
-  const BoxPack pack(box);
+// The facets from `i` on that have a bit in `candidates`, whose box overlaps `box` and whose plane does not leave it on
+// one side.
+inline unsigned near_lanes(const FacetBlock& block, int i, std::uint64_t candidates, const BoxPack& box) {
   const double* const lower[3] = {block.lower[0], block.lower[1], block.lower[2]};
   const double* const upper[3] = {block.upper[0], block.upper[1], block.upper[2]};
-  Pack low[3], high[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    low[axis] = spread(__builtin_inf());
-    high[axis] = spread(-__builtin_inf());
-  }
-  std::uint64_t near = 0;
-  while (candidates != 0) {
-    const int i = __builtin_ctzll(candidates) / kWidth * kWidth;
-    unsigned mask = static_cast<unsigned>(candidates >> i) & kAllLanes & pack.overlap(lower, upper, i);
-    candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
-    if (mask == 0) continue;
-    mask &= ~planes_apart(block, i, pack);
-    if (mask == 0) continue;
-    near |= static_cast<std::uint64_t>(mask) << i;
-    const Mask lanes = mask_of(mask);
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = select(lanes, min(low[axis], load(lower[axis] + i)), low[axis]);
-      high[axis] = select(lanes, max(high[axis], load(upper[axis] + i)), high[axis]);
-    }
-  }
-  NearFacets result{near, box};
-  for (int axis = 0; near != 0 && axis < 3; ++axis) {
-    result.box.lower[axis] = -largest_lane(sub(spread(0.0), low[axis]));
-    result.box.upper[axis] = largest_lane(high[axis]);
-  }
-  return result;
+  const unsigned mask = static_cast<unsigned>(candidates >> i) & kAllLanes & box.overlap(lower, upper, i);
+  return mask == 0 ? 0 : mask & ~planes_apart(block, i, box);
 }
 
-CrossingFacets crossing_facets(const FacetBlock& block, std::uint64_t candidates, const FacetPlane& facet) {
+bool any_near(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box) {
+  const BoxPack pack(box);
+  while (candidates != 0) {
+    const int i = __builtin_ctzll(candidates) / kWidth * kWidth;
+    if (near_lanes(block, i, candidates, pack) != 0) return true;
+    candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
+  }
+  return false;
+}
+
+// Widens a box by those of some facets from `i` on.
+inline void widen(const FacetBlock& block, int i, unsigned mask, double* lower, double* upper) {
+  const Pack infinite = spread(__builtin_inf());
+  const Mask lanes = mask_of(mask);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Pack low = select(lanes, sub(spread(0.0), load(block.lower[axis] + i)), sub(spread(0.0), infinite));
+    const Pack high = select(lanes, load(block.upper[axis] + i), sub(spread(0.0), infinite));
+    const double lowest = -largest_lane(low), highest = largest_lane(high);
+    if (lowest < lower[axis * NearFacets::kGroups]) lower[axis * NearFacets::kGroups] = lowest;
+    if (highest > upper[axis * NearFacets::kGroups]) upper[axis * NearFacets::kGroups] = highest;
+  }
+}
+
+void near_facets(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box, NearFacets* near) {
+  const BoxPack pack(box);
+  near->facets = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int g = 0; g < NearFacets::kGroups; ++g) {
+      near->lower[axis][g] = __builtin_inf();
+      near->upper[axis][g] = -__builtin_inf();
+    }
+  }
+  while (candidates != 0) {
+    const int i = __builtin_ctzll(candidates) / kWidth * kWidth, group = i / NearFacets::kGroupSize;
+    const unsigned mask = near_lanes(block, i, candidates, pack);
+    candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
+    if (mask == 0) continue;
+    near->facets |= static_cast<std::uint64_t>(mask) << i;
+    widen(block, i, mask, &near->lower[0][group], &near->upper[0][group]);
+  }
+  near->box = bounds({{near->lower[0], near->lower[1], near->lower[2]}, {near->upper[0], near->upper[1], near->upper[2]}},
+                     NearFacets::kGroups);
+}
+
+// The groups whose box overlaps, spread to the bits of their facets.
+inline std::uint64_t facets_of_groups(const NearFacets& near, const BoxPack& box) {
+  const double* const lower[3] = {near.lower[0], near.lower[1], near.lower[2]};
+  const double* const upper[3] = {near.upper[0], near.upper[1], near.upper[2]};
+  std::uint64_t facets = 0;
+  for (int g = 0; g < NearFacets::kGroups; g += kWidth) {
+    for (unsigned mask = box.overlap(lower, upper, g); mask != 0; mask &= mask - 1) {
+      facets |= std::uint64_t{0xff} << (NearFacets::kGroupSize * (g + __builtin_ctz(mask)));
+    }
+  }
+  return facets;
+}
+
+CrossingFacets crossing_facets(const FacetBlock& block, const NearFacets& near, const FacetPlane& facet) {
   const BoxPack box(facet.box);
-  const HeightPack height({facet.normal[0], facet.normal[1], facet.normal[2], facet.corner[0], facet.corner[1],
-                           facet.corner[2]});
+  const HeightPack height(
+      {facet.normal[0], facet.normal[1], facet.normal[2], facet.corner[0], facet.corner[1], facet.corner[2]});
   const Pack error = spread(facet.error), below = spread(-facet.error);
   const double* const lower[3] = {block.lower[0], block.lower[1], block.lower[2]};
   const double* const upper[3] = {block.upper[0], block.upper[1], block.upper[2]};
   CrossingFacets result{0, 0};
+  std::uint64_t candidates = near.facets & facets_of_groups(near, box);
   while (candidates != 0) {
     const int i = __builtin_ctzll(candidates) / kWidth * kWidth;
     const unsigned mask = static_cast<unsigned>(candidates >> i) & kAllLanes & box.overlap(lower, upper, i);

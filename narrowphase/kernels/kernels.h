@@ -60,19 +60,22 @@ struct ClusterFacets {
   const std::int32_t* borrowed;
   std::int32_t borrowed_count;
   const std::uint8_t* corner[3];
+  std::int32_t facet_begin;
   std::int32_t facet_count;
 };
 
-// Some facets of a cluster in separate arrays, in the order of the cluster.
-struct FacetBlock {
+// Facets of one or more clusters in separate arrays, which are longer by what a SIMD loop may write past the end, and
+// start at cache lines.
+struct alignas(64) FacetBlock {
   static constexpr int kCapacity = 64;
-  int count;
-  std::int32_t facet[kCapacity + 8];  // which of the cluster's; with room for a SIMD loop to write past the end
-  double lower[3][kCapacity];
-  double upper[3][kCapacity];
-  double corner[3][3][kCapacity];  // corner, axis, facet
-  double normal[3][kCapacity];     // (c1 - c0) × (c2 - c0), as computed
-  double size[3][kCapacity];       // the same with absolute values of both products of each component
+  static constexpr int kRoom = kCapacity + 8;
+  double lower[3][kRoom];
+  double upper[3][kRoom];
+  double corner[3][3][kRoom];  // corner, axis, facet
+  double normal[3][kRoom];     // (c1 - c0) × (c2 - c0), as computed
+  double size[3][kRoom];       // the same with absolute values of both products of each component
+  std::int32_t facet[kRoom];   // its number in the mesh
+  int count = 0;
 };
 
 // What facets are judged by.
@@ -82,10 +85,14 @@ struct CullPlanes {
   BoxBounds box;  // so is one whose box misses this
 };
 
-// Some facets of a block, a bit each, and the box of all of them; without any, the box means nothing.
-struct NearFacets {
-  std::uint64_t facets;
+// Some facets of a block, a bit each; the boxes of those among each eight of the block, in separate arrays; and the box
+// of all of them. Boxes of none are empty.
+struct alignas(64) NearFacets {
+  static constexpr int kGroups = 8, kGroupSize = 8;
+  double lower[3][kGroups];
+  double upper[3][kGroups];
   BoxBounds box;
+  std::uint64_t facets;
 };
 
 // Facets of a block, a bit each, whose box overlaps a facet's and that its plane does not certainly leave on one side;
@@ -146,18 +153,20 @@ struct Kernels {
   // Writes the indices i < count of boxes that overlap `box` (closed), ascending; returns how many.
   int (*select_overlapping)(const BoxPointers& boxes, int count, const BoxBounds& box, std::int32_t* indices);
 
-  // Fills `block` with the facets of a cluster that the planes do not leave out.
-  void (*open_cluster)(const ClusterFacets& cluster, const CullPlanes& planes, FacetBlock* block);
+  // Appends to `block` the facets of a cluster that the planes do not leave out, or does nothing if there is no room
+  // for them; returns how many they are.
+  int (*open_cluster)(const ClusterFacets& cluster, const CullPlanes& planes, FacetBlock* block);
 
   // A bit for each facet of `block` whose normal is not zero and has axis · normal <= 0.
   std::uint64_t (*facing_away)(const FacetBlock& block, const HeightAxis& axis);
 
   // The facets of `block` that have a bit in `candidates`, whose box overlaps `box`, and whose plane does not certainly
-  // leave it on one side.
-  NearFacets (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box);
+  // leave it on one side. Is there one?
+  void (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box, NearFacets* near);
+  bool (*any_near)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box);
 
-  // The facets of `block` that have a bit in `candidates` and that `facet` may meet.
-  CrossingFacets (*crossing_facets)(const FacetBlock& block, std::uint64_t candidates, const FacetPlane& facet);
+  // Those of the facets `near` of `block` that `facet` may meet.
+  CrossingFacets (*crossing_facets)(const FacetBlock& block, const NearFacets& near, const FacetPlane& facet);
 
   // Decides pairs of a facet of `a` and one of `b`. What doubles cannot tell is left undecided.
   PairMatches (*match_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs);

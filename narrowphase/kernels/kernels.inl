@@ -148,6 +148,6 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
 
 extern const Kernels TACT_KERNELS;
 const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, find_large, refresh_cluster, bounds, heights, select_heights, highest_point,
-                              select_overlapping, open_cluster, facing_away, near_facets, crossing_facets, match_pairs};
+                              select_overlapping, open_cluster, facing_away, near_facets, any_near, crossing_facets, match_pairs};
 
 }  // namespace tact::narrowphase
