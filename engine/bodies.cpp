@@ -13,6 +13,8 @@ using narrowphase::PositionProblem;
 
 constexpr Eigen::Index kLargestCount = std::numeric_limits<int>::max() / 4;
 constexpr std::size_t kUpdatesPerBlock = 16;
+constexpr std::size_t kPrefetchDistance = 4;  // bodies
+constexpr std::size_t kLargeBody = 32768;     // facets
 constexpr char kAxisName[] = {'x', 'y', 'z'};
 
 std::string quoted(const std::string& name) { return "body '" + name + "'"; }
@@ -124,6 +126,11 @@ void Bodies::prepare(Update& update, BodyId id, const Eigen::Ref<const Eigen::Ma
   update.positions = values.data();
 }
 
+// Asks for the memory of a body that is looked at soon: small bodies are scattered.
+void Bodies::prefetch(BodyId id) const {
+  if (id.index < slots_.size()) narrowphase::prefetch_lines(slots_[id.index].body.get(), 1);
+}
+
 void Bodies::apply(Update& update, int threads) {
   update.moved = update.body->mesh.set_positions(update.positions, threads);
 }
@@ -145,10 +152,20 @@ void Bodies::set_positions(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& 
 void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads) {
   const std::size_t count = updates.size();
   if (updates_.size() < count) updates_.resize(count);
-  base::parallel_for(count, kUpdatesPerBlock, threads,
-                     [&](std::size_t i) { prepare(updates_[i], updates[i].body, updates[i].positions); });
+  base::parallel_for(count, kUpdatesPerBlock, threads, [&](std::size_t i) {
+    if (i + kPrefetchDistance < count) prefetch(updates[i + kPrefetchDistance].body);
+    prepare(updates_[i], updates[i].body, updates[i].positions);
+  });
   check_named_once(updates);
-  base::parallel_for(count, kUpdatesPerBlock, threads, [&](std::size_t i) { apply(updates_[i], 1); });
+  // Large bodies one after the other, each on all threads.
+  const auto large = [&](std::size_t i) { return threads > 1 && updates_[i].body->facet_count >= kLargeBody; };
+  base::parallel_for(count, kUpdatesPerBlock, threads, [&](std::size_t i) {
+    if (i + kPrefetchDistance < count) updates_[i + kPrefetchDistance].body->mesh.prefetch();
+    if (!large(i)) apply(updates_[i], 1);
+  });
+  for (std::size_t i = 0; i < count; ++i) {
+    if (large(i)) apply(updates_[i], threads);
+  }
   for (std::size_t i = 0; i < count; ++i) note(updates_[i]);
 }
 

@@ -70,6 +70,7 @@ class Bodies {
     bool moved = false;
   };
   void prepare(Update& update, BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions);
+  void prefetch(BodyId id) const;
   void apply(Update& update, int threads);
   void note(const Update& update);
   void check_named_once(std::span<const PositionsUpdate> updates);

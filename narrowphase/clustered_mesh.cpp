@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kLaneGroup = 8;           // facets inside a cluster are ordered in groups of so many neighbours
 constexpr int kClustersPerRange = 256;  // what a thread refreshes at a time
+constexpr int kNearClusters = 4;        // of so few, the positions are still near since they were checked
 constexpr int kFirstUse = -1;
 
 Vec3 source_position(std::span<const double> positions, int vertex) {
@@ -57,35 +58,35 @@ class MedianOrder {
 
 Box box_of(const BoxBounds& b) { return {{b.lower[0], b.lower[1], b.lower[2]}, {b.upper[0], b.upper[1], b.upper[2]}}; }
 
+// Positions are gathered cluster by cluster, in an order in which memory is slow. Read once through in their own order
+// before, they come at full speed, and are near when they are gathered.
+void read_through(const double* positions, std::size_t count) {
+  constexpr std::size_t kLine = 8;  // doubles
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; i += kLine) sum += positions[i];
+  asm volatile("" : : "m"(sum));  // the sum itself is not wanted
+}
+
 [[noreturn]] void broken(const std::string& what) { throw std::logic_error("ClusteredMesh: " + what); }
 
 }  // namespace
 
 void BoxArrays::resize(std::size_t count) {
   const Box empty;
-  for (int axis = 0; axis < 3; ++axis) {
-    lower[axis].assign(count + kPadding, empty.lower[axis]);
-    upper[axis].assign(count + kPadding, empty.upper[axis]);
-  }
-}
-
-void BoxArrays::truncate(std::size_t count) {
-  for (int axis = 0; axis < 3; ++axis) {
-    lower[axis].resize(count + kPadding);
-    upper[axis].resize(count + kPadding);
-  }
+  stride_ = count + kPadding;
+  bounds_.assign(3 * stride_, empty.lower.x);
+  bounds_.resize(6 * stride_, empty.upper.x);
 }
 
 void BoxArrays::set(std::size_t i, const Box& box) {
-  for (int axis = 0; axis < 3; ++axis) {
-    lower[axis][i] = box.lower[axis];
-    upper[axis][i] = box.upper[axis];
-  }
+  double* bound = bounds_.data() + i;
+  for (int axis = 0; axis < 3; ++axis, bound += stride_) *bound = box.lower[axis];
+  for (int axis = 0; axis < 3; ++axis, bound += stride_) *bound = box.upper[axis];
 }
 
 BoxPointers BoxArrays::pointers(int first) const {
-  return {{lower[0].data() + first, lower[1].data() + first, lower[2].data() + first},
-          {upper[0].data() + first, upper[1].data() + first, upper[2].data() + first}};
+  return {{lower(0) + first, lower(1) + first, lower(2) + first},
+          {upper(0) + first, upper(1) + first, upper(2) + first}};
 }
 
 PositionProblem find_position_problem(const double* positions, std::size_t count, double largest) {
@@ -99,9 +100,10 @@ ClusteredMesh::ClusteredMesh(std::span<const double> positions, std::span<const 
     : source_vertex_count_(static_cast<int>(positions.size() / 3)) {
   group_facets(positions, facets);
   number_vertices(facets);
-  for (auto& coordinate : coordinate_) coordinate.assign(source_vertex_.size() + kPadding, 0.0);
+  stride_ = source_vertex_.size() + kPadding;
+  coordinates_.assign(3 * stride_, 0.0);
   cluster_boxes_.resize(static_cast<std::size_t>(cluster_count()));
-  group_boxes_.resize(static_cast<std::size_t>(group_count()));
+  if (group_count() > 1) group_boxes_.resize(static_cast<std::size_t>(group_count()));
   set_positions(positions.data(), 1);
 }
 
@@ -185,8 +187,14 @@ bool ClusteredMesh::set_positions(const double* positions, int threads) {
   const int ranges = (cluster_count() + kClustersPerRange - 1) / kClustersPerRange;
   bool changed = false;
   if (ranges <= 1 || threads <= 1) {
+    if (cluster_count() > kNearClusters) read_through(positions, 3 * static_cast<std::size_t>(source_vertex_count_));
     changed = refresh_range(positions, 0, cluster_count());
   } else {
+    const std::size_t part = 3 * static_cast<std::size_t>(source_vertex_count_) / static_cast<std::size_t>(ranges) + 1;
+    base::parallel_for(static_cast<std::size_t>(ranges), 1, threads, [&](std::size_t i) {
+      const std::size_t begin = i * part, end = 3 * static_cast<std::size_t>(source_vertex_count_);
+      if (begin < end) read_through(positions + begin, std::min(part, end - begin));
+    });
     std::vector<char> range_changed(static_cast<std::size_t>(ranges), 0);
     base::parallel_for(range_changed.size(), 1, threads, [&](std::size_t i) {
       const int begin = static_cast<int>(i) * kClustersPerRange;
@@ -194,12 +202,25 @@ bool ClusteredMesh::set_positions(const double* positions, int threads) {
     });
     for (const char one : range_changed) changed = changed || one != 0;
   }
+  if (group_count() <= 1) {
+    box_ = box_of(kernels().bounds(cluster_boxes_.pointers(), cluster_count()));
+    return changed;
+  }
   for (int g = 0; g < group_count(); ++g) {
     const int begin = cluster_begin(g), count = cluster_end(g) - begin;
     group_boxes_.set(static_cast<std::size_t>(g), box_of(kernels().bounds(cluster_boxes_.pointers(begin), count)));
   }
   box_ = box_of(kernels().bounds(group_boxes_.pointers(), group_count()));
   return changed;
+}
+
+void ClusteredMesh::prefetch() const {
+  prefetch_lines(source_vertex_.data(), source_vertex_.size());
+  prefetch_lines(borrowed_source_.data(), borrowed_source_.size());
+  prefetch_lines(vertex_begin_.data(), vertex_begin_.size());
+  prefetch_lines(borrowed_begin_.data(), borrowed_begin_.size());
+  prefetch_lines(coordinates_.data(), coordinates_.size());
+  prefetch_lines(cluster_boxes_.lower(0), 1);
 }
 
 bool ClusteredMesh::refresh_range(const double* positions, int cluster_begin, int cluster_end) {
@@ -213,9 +234,9 @@ bool ClusteredMesh::refresh_range(const double* positions, int cluster_begin, in
                              .owned_count = vertex_end(cluster) - first,
                              .borrowed = borrowed_source_.data() + borrowed,
                              .borrowed_count = borrowed_begin_[c + 1] - borrowed,
-                             .x = coordinate_[0].data() + first,
-                             .y = coordinate_[1].data() + first,
-                             .z = coordinate_[2].data() + first};
+                             .x = coordinates_.data() + first,
+                             .y = coordinates_.data() + stride_ + first,
+                             .z = coordinates_.data() + 2 * stride_ + first};
     BoxBounds box;
     changed = kernels().refresh_cluster(input, &box) || changed;
     cluster_boxes_.set(c, box_of(box));
@@ -250,7 +271,7 @@ void ClusteredMesh::validate() const {
     whole = merged(whole, box);
   }
   if (!(whole == box_)) broken("box of the mesh");
-  for (int g = 0; g < group_count(); ++g) {
+  for (int g = 0; g < group_count() && group_count() > 1; ++g) {
     Box box;
     for (int c = cluster_begin(g); c < cluster_end(g); ++c)
       box = merged(box, cluster_boxes_[static_cast<std::size_t>(c)]);

@@ -32,18 +32,22 @@ using Triangle = std::array<Vec3, 3>;
 // The most elements that a SIMD loop reads past the end of an array: arrays are longer by so many.
 inline constexpr int kPadding = 8;
 
-// Boxes in separate arrays, one entry a cluster (or a facet), for loops that compare many at once.
-struct BoxArrays {
-  std::vector<double> lower[3];
-  std::vector<double> upper[3];
-
-  void resize(std::size_t count);  // and kPadding empty boxes behind
-  void truncate(std::size_t count);
+// Boxes in separate arrays, one entry a cluster (or a facet), for loops that compare many at once. The arrays stand in
+// one block of memory, so that the boxes of a small body are next to each other.
+class BoxArrays {
+ public:
+  void resize(std::size_t count);  // empty boxes, and kPadding more behind
   void set(std::size_t i, const Box& box);
+  const double* lower(int axis) const { return bounds_.data() + static_cast<std::size_t>(axis) * stride_; }
+  const double* upper(int axis) const { return lower(axis + 3); }
   BoxPointers pointers(int first = 0) const;
   Box operator[](std::size_t i) const {
-    return {{lower[0][i], lower[1][i], lower[2][i]}, {upper[0][i], upper[1][i], upper[2][i]}};
+    return {{lower(0)[i], lower(1)[i], lower(2)[i]}, {upper(0)[i], upper(1)[i], upper(2)[i]}};
   }
+
+ private:
+  std::vector<double> bounds_;  // lower x, y, z, upper x, y, z
+  std::size_t stride_ = 0;
 };
 
 // The first coordinate that cannot be taken, if any.
@@ -56,6 +60,15 @@ struct PositionProblem {
 // Looks at 3 x count coordinates, column by column: are all finite and at most `largest` in size?
 PositionProblem find_position_problem(const double* positions, std::size_t count, double largest);
 
+// Asks for memory that is used soon: of long arrays only the beginning, as the hardware then sees what is wanted.
+inline constexpr int kPrefetchedBytes = 4096;
+template <class T>
+void prefetch_lines(const T* begin, std::size_t count) {
+  const auto* bytes = reinterpret_cast<const char*>(begin);
+  const std::size_t size = std::min<std::size_t>(count * sizeof(T), kPrefetchedBytes);
+  for (std::size_t i = 0; i < size; i += 64) __builtin_prefetch(bytes + i);
+}
+
 class ClusteredMesh {
  public:
   // positions: 3 x V coordinates in metres, checked by the caller; facets: 3 x F source vertices, each 0 <= i < V.
@@ -64,6 +77,8 @@ class ClusteredMesh {
   // Reads the new positions, 3 x V, and refreshes all boxes, in one pass; says whether any coordinate of a used vertex
   // changed. Large meshes are cut into ranges of clusters for up to `threads` threads.
   bool set_positions(const double* positions, int threads);
+  // Asks for the memory that set_positions writes, in good time.
+  void prefetch() const;
 
   int source_vertex_count() const { return source_vertex_count_; }
   int vertex_count() const { return static_cast<int>(source_vertex_.size()); }
@@ -92,17 +107,19 @@ class ClusteredMesh {
   Corners corners(int facet) const;
   Vec3 position(int vertex) const {
     const auto v = static_cast<std::size_t>(vertex);
-    return {coordinate_[0][v], coordinate_[1][v], coordinate_[2][v]};
+    const double* x = coordinates_.data() + v;
+    return {x[0], x[stride_], x[2 * stride_]};
   }
   Triangle triangle(int facet) const;
 
   // What is behind corners() and position(), for loops over many.
   ClusterFacets facets_of(int cluster) const;
-  const double* coordinate_array(int axis) const { return coordinate_[axis].data(); }
-  PointArrays points() const { return {coordinate_[0].data(), coordinate_[1].data(), coordinate_[2].data()}; }
+  PointArrays points() const {
+    return {coordinates_.data(), coordinates_.data() + stride_, coordinates_.data() + 2 * stride_};
+  }
 
   // The box of all facets; empty if there is none. The boxes of the clusters, borrowed vertices included, and of the
-  // groups.
+  // groups, if there are several.
   const Box& box() const { return box_; }
   const BoxArrays& cluster_boxes() const { return cluster_boxes_; }
   const BoxArrays& group_boxes() const { return group_boxes_; }
@@ -125,7 +142,8 @@ class ClusteredMesh {
   std::vector<int> borrowed_;            // vertices that a cluster uses and does not own
   std::vector<int> borrowed_source_;     // the same as source vertices
   std::vector<int> borrowed_begin_;      // of each cluster, and one more
-  std::vector<double> coordinate_[3];    // of each vertex
+  std::vector<double> coordinates_;      // x of each vertex, and stride_ later y, and z
+  std::size_t stride_ = 0;
   BoxArrays cluster_boxes_;
   BoxArrays group_boxes_;
   Box box_;

@@ -116,7 +116,6 @@ void cull_again(const Box& other, KeptClusters& kept) {
   }
   kept.bounds = bounds;
   kept.cluster.resize(found);
-  kept.boxes.truncate(found);
 }
 
 bool append_facets(const ClusteredMesh& mesh, int cluster, const Criteria& criteria, const Box& other, KeptFacets& kept,

@@ -52,8 +52,8 @@ Planes widened_planes(const Slab& slab) {
 Planes heights_of_box(const BoxArrays& boxes, std::size_t i, const Slab& slab) {
   Vec3 near, far;
   for (int axis = 0; axis < 3; ++axis) {
-    const double lower = boxes.lower[axis][i] - slab.origin[axis];
-    const double upper = boxes.upper[axis][i] - slab.origin[axis];
+    const double lower = boxes.lower(axis)[i] - slab.origin[axis];
+    const double upper = boxes.upper(axis)[i] - slab.origin[axis];
     near[axis] = slab.n[axis] >= 0.0 ? lower : upper;
     far[axis] = slab.n[axis] >= 0.0 ? upper : lower;
   }

@@ -75,8 +75,8 @@ class Search {
 }  // namespace
 
 PointArrays far_corners(const BoxArrays& boxes, Vec3 n) {
-  return {(n.x >= 0.0 ? boxes.upper[0] : boxes.lower[0]).data(), (n.y >= 0.0 ? boxes.upper[1] : boxes.lower[1]).data(),
-          (n.z >= 0.0 ? boxes.upper[2] : boxes.lower[2]).data()};
+  return {n.x >= 0.0 ? boxes.upper(0) : boxes.lower(0), n.y >= 0.0 ? boxes.upper(1) : boxes.lower(1),
+          n.z >= 0.0 ? boxes.upper(2) : boxes.lower(2)};
 }
 
 Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near) {
@@ -113,16 +113,19 @@ void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double h
                      std::vector<std::int32_t>& found) {
   const Vec3 n{axis.nx, axis.ny, axis.nz};
   const PointArrays groups = far_corners(mesh.group_boxes(), n), clusters = far_corners(mesh.cluster_boxes(), n);
+  const auto select_in_group = [&](int group) {
+    std::int32_t inside[kGroupSize];
+    const int begin = mesh.cluster_begin(group), count = mesh.cluster_end(group) - begin;
+    const int kept = kernels().select_heights(from(clusters, begin), count, axis, height, inside);
+    for (int k = 0; k < kept; ++k) found.push_back(begin + inside[k]);
+  };
   found.clear();
+  if (mesh.group_count() == 1) return select_in_group(0);
   for (int block = 0; block < mesh.group_count(); block += kBlock) {
-    std::int32_t chosen[kBlock], inside[kGroupSize];
+    std::int32_t chosen[kBlock];
     const int groups_left = std::min(kBlock, mesh.group_count() - block);
     const int count = kernels().select_heights(from(groups, block), groups_left, axis, height, chosen);
-    for (int i = 0; i < count; ++i) {
-      const int begin = mesh.cluster_begin(block + chosen[i]), end = mesh.cluster_end(block + chosen[i]);
-      const int kept = kernels().select_heights(from(clusters, begin), end - begin, axis, height, inside);
-      for (int k = 0; k < kept; ++k) found.push_back(begin + inside[k]);
-    }
+    for (int i = 0; i < count; ++i) select_in_group(block + chosen[i]);
   }
 }
 
