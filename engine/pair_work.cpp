@@ -219,6 +219,17 @@ void confirm(PairWork& work) {
 
 bool is_large(const PairWork& work) { return work.cluster_pairs.size() > kLargePair; }
 
+namespace {
+
+// Where the i-th range begins: between two clusters of A.
+std::size_t range_begin(const std::vector<ClusterPair>& pairs, std::size_t i) {
+  std::size_t begin = std::min(i * kPairsPerRange, pairs.size());
+  while (begin > 0 && begin < pairs.size() && pairs[begin].a == pairs[begin - 1].a) ++begin;
+  return begin;
+}
+
+}  // namespace
+
 void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int threads) {
   Timer timer;
   struct Range {
@@ -230,14 +241,13 @@ void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int t
   base::parallel_for(ranges.size(), 1, threads, [&](std::size_t i, int thread) {
     Range& range = ranges[i];
     FacetPairSearch& search = thread_work[static_cast<std::size_t>(thread)].search;
-    const std::size_t begin = i * kPairsPerRange, end = std::min(begin + kPairsPerRange, work.cluster_pairs.size());
+    const std::size_t begin = range_begin(work.cluster_pairs, i), end = range_begin(work.cluster_pairs, i + 1);
     search.run(work.input, work.cluster_pairs, begin, end, range.found, range.counts);
     range.opened_a = search.opened_a();
     range.opened_b = search.opened_b();
   });
-  // A cluster that several ranges opened counts once.
-  std::vector<char> seen_a(static_cast<std::size_t>(work.kept_a.count()), 0),
-      seen_b(static_cast<std::size_t>(work.kept_b.count()), 0);
+  // A cluster of B that several ranges opened counts once.
+  std::vector<char> seen_b(static_cast<std::size_t>(work.kept_b.count()), 0);
   ConfirmCounts counts;
   work.cull_a = work.cull_b = {};
   for (const Range& range : ranges) {
@@ -245,9 +255,7 @@ void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int t
     counts.facet_box_pairs += range.counts.facet_box_pairs;
     counts.triangle_tests += range.counts.triangle_tests;
     counts.predicates.exact += range.counts.predicates.exact;
-    for (const OpenedCluster& one : range.opened_a) {
-      if (!seen_a[static_cast<std::size_t>(one.index)]++) add(work.cull_a, one.counts);
-    }
+    for (const OpenedCluster& one : range.opened_a) add(work.cull_a, one.counts);
     for (const OpenedCluster& one : range.opened_b) {
       if (!seen_b[static_cast<std::size_t>(one.index)]++) add(work.cull_b, one.counts);
     }

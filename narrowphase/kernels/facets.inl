@@ -7,11 +7,13 @@ struct VectorPack {
 inline VectorPack sub(const VectorPack& a, const VectorPack& b) { return {sub(a.x, b.x), sub(a.y, b.y), sub(a.z, b.z)}; }
 inline VectorPack spread(const double* p) { return {spread(p[0]), spread(p[1]), spread(p[2])}; }
 
-// A determinant as computed, and a bound of its rounding.
+// A determinant as computed, a bound of its rounding, and the sum of the sizes of its products. If that is zero, each
+// product has a factor that is zero, and was so before rounding: then the determinant is zero (see nothing_vanishes).
 struct Determinant {
-  Pack value, error;
+  Pack value, error, size;
   Mask positive() const { return less(error, value); }
   Mask negative() const { return less(value, sub(spread(0.0), error)); }
+  Mask zero() const { return less_equal(size, spread(0.0)); }
 };
 
 // A 3 x 3 determinant of differences, x · n with n = e × f, rounds by at most (7 + 56 eps) eps times the same sum of absolute
@@ -23,30 +25,38 @@ inline Pack rounding_of(Pack size) { return add(mul(size, spread(kRelativeRoundi
 inline Determinant determinant(const VectorPack& x, const VectorPack& n, const VectorPack& n_bound) {
   const Pack value = add(add(mul(n.x, x.x), mul(n.y, x.y)), mul(n.z, x.z));
   const Pack size = add(add(mul(n_bound.x, abs(x.x)), mul(n_bound.y, abs(x.y))), mul(n_bound.z, abs(x.z)));
-  return {value, rounding_of(size)};
+  return {value, rounding_of(size), size};
 }
 
 // On which side of a plane the corners of a triangle certainly lie.
 struct Sides {
-  Mask above[3];
-  Mask certain;   // all three
-  unsigned apart; // bits: all three on one side
+  Mask above[3], below[3], zero[3];
+  unsigned apart;    // bits: all three strictly on one side
+  unsigned certain;  // all three strictly on a side
+  unsigned known;    // all three on a side or in the plane
+  unsigned flat;     // all three in the plane
 };
+
+inline unsigned all_of(Mask a, Mask b, Mask c) { return bits(both(both(a, b), c)); }
 
 struct SideFilter {
   VectorPack origin, normal, bound;
 
   Sides sides(const VectorPack* corner) const {
     Sides s;
-    Mask below[3];
+    Mask strict[3], known[3];
     for (int k = 0; k < 3; ++k) {
       const Determinant height = determinant(sub(corner[k], origin), normal, bound);
       s.above[k] = height.positive();
-      below[k] = height.negative();
+      s.below[k] = height.negative();
+      s.zero[k] = height.zero();
+      strict[k] = either(s.above[k], s.below[k]);
+      known[k] = either(strict[k], s.zero[k]);
     }
-    const Mask all_above = both(both(s.above[0], s.above[1]), s.above[2]), all_below = both(both(below[0], below[1]), below[2]);
-    s.apart = bits(either(all_above, all_below));
-    s.certain = both(both(either(s.above[0], below[0]), either(s.above[1], below[1])), either(s.above[2], below[2]));
+    s.apart = all_of(s.above[0], s.above[1], s.above[2]) | all_of(s.below[0], s.below[1], s.below[2]);
+    s.certain = all_of(strict[0], strict[1], strict[2]);
+    s.known = all_of(known[0], known[1], known[2]);
+    s.flat = all_of(s.zero[0], s.zero[1], s.zero[2]);
     return s;
   }
 };
@@ -266,18 +276,29 @@ inline VectorPack select(Mask mask, const VectorPack& yes, const VectorPack& no)
   return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
 }
 
-// A triangle with its corners turned so that the first is alone on its side of the other's plane.
+// A triangle with its corners turned so that the plane of the other parts the first from the other two, which it crosses
+// both edges to. `above` tells on which side the first is, or would be if the others decide that it is in the plane.
 struct LoneCorner {
   VectorPack lone, next, last;
   Mask above;
 };
 
+inline Mask without(Mask a, Mask b) { return differ(a, both(a, b)); }
+
+// The corners must neither be all strictly on one side nor all in the plane. As kLoneCorners in triangle_triangle.cpp.
 inline LoneCorner lone_corner(const VectorPack* c, const Sides& s) {
-  const Mask first = both(differ(s.above[0], s.above[1]), differ(s.above[0], s.above[2]));
-  const Mask second = both(differ(s.above[1], s.above[0]), differ(s.above[1], s.above[2]));
-  return {select(first, c[0], select(second, c[1], c[2])), select(first, c[1], select(second, c[2], c[0])),
-          select(first, c[2], select(second, c[0], c[1])),
-          either(both(first, s.above[0]), either(both(second, s.above[1]), both(both(differ(s.above[2], s.above[0]), differ(s.above[2], s.above[1])), s.above[2])))};
+  Mask up[3], here[3];
+  for (int i = 0; i < 3; ++i) {
+    const int n = (i + 1) % 3, l = (i + 2) % 3;
+    const Mask others_below = both(either(s.below[n], s.zero[n]), either(s.below[l], s.zero[l]));
+    const Mask others_above = both(either(s.above[n], s.zero[n]), either(s.above[l], s.zero[l]));
+    up[i] = either(both(s.above[i], others_below), both(s.zero[i], both(s.below[n], s.below[l])));
+    here[i] = either(up[i], either(both(s.below[i], others_above), both(s.zero[i], both(s.above[n], s.above[l]))));
+  }
+  const Mask second = without(here[1], here[0]), third = without(without(here[2], here[0]), here[1]);
+  return {select(here[0], c[0], select(here[1], c[1], c[2])), select(here[0], c[1], select(here[1], c[2], c[0])),
+          select(here[0], c[2], select(here[1], c[0], c[1])),
+          either(both(here[0], up[0]), either(both(second, up[1]), both(third, up[2])))};
 }
 
 // (a - d) · ((b - d) × (c - d)).
@@ -290,14 +311,20 @@ struct Meeting {
   unsigned yes, no;  // bits of lanes that are certain
 };
 
-// Both triangles cross the other's plane, no corner being near it: their intervals on the common line overlap if and only
-// if two orientations of an edge of each have the right signs (Guigue and Devillers, 2003). As in triangle_triangle.cpp,
-// where above is a negative orientation.
-inline Meeting intervals_meet(const LoneCorner& a, const LoneCorner& b) {
+// The same, where some lanes of `yes` hang on a determinant being zero.
+struct IntervalMeeting {
+  unsigned yes, no, by_zero;
+};
+
+// Each triangle crosses or touches the other's plane: their intervals on the common line overlap if and only if two
+// orientations of an edge of each have the right signs (Guigue and Devillers, 2003). As in triangle_triangle.cpp, where
+// above is a negative orientation.
+inline IntervalMeeting intervals_meet(const LoneCorner& a, const LoneCorner& b) {
   const VectorPack b1 = select(a.above, b.next, b.last), b2 = select(a.above, b.last, b.next);
   const VectorPack a1 = select(b.above, a.next, a.last), a2 = select(b.above, a.last, a.next);
   const Determinant p = orient3d(a.lone, a1, b.lone, b1), q = orient3d(a.lone, a2, b.lone, b2);
-  return {bits(both(p.positive(), q.negative())), bits(either(p.negative(), q.positive()))};
+  return {bits(both(either(p.positive(), p.zero()), either(q.negative(), q.zero()))),
+          bits(either(p.negative(), q.positive())), bits(either(p.zero(), q.zero()))};
 }
 
 inline void gather_corners(const FacetBlock& block, const std::int32_t* facet, VectorPack* corner) {
@@ -307,6 +334,20 @@ inline void gather_corners(const FacetBlock& block, const std::int32_t* facet, V
   }
 }
 
+// The lanes in which no coordinate is so small that a product of three differences that are not zero could vanish: all
+// are zero or at least 2^-200, so differences are at least 2^-252 and products 2^-756.
+inline unsigned nothing_vanishes(const VectorPack* corner) {
+  const Pack least = spread(0x1p-200), zero = spread(0.0);
+  unsigned tiny = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Pack coordinates[3] = {corner[k].x, corner[k].y, corner[k].z};
+    for (const Pack x : coordinates) {
+      tiny |= bits(both(less(abs(x), least), not_equal(x, zero)));
+    }
+  }
+  return ~tiny;
+}
+
 // By the sides of the planes, then by the intervals on their common line.
 inline Meeting match_lanes(const VectorPack* a, const VectorPack* b, unsigned mask) {
   const Sides sides_b = plane_of(a[0], a[1], a[2]).sides(b);
@@ -314,10 +355,17 @@ inline Meeting match_lanes(const VectorPack* a, const VectorPack* b, unsigned ma
   if (left == 0) return {0, mask};
   const Sides sides_a = plane_of(b[0], b[1], b[2]).sides(a);
   left &= ~sides_a.apart;
-  const unsigned certain = bits(both(sides_a.certain, sides_b.certain)) & left;
-  if (certain == 0) return {0, mask & ~left};
-  const Meeting meeting = intervals_meet(lone_corner(a, sides_a), lone_corner(b, sides_b));
-  return {meeting.yes & certain, (mask & ~left) | (meeting.no & certain)};
+  const unsigned certain = left & sides_a.certain & sides_b.certain;
+  const unsigned known = left & sides_a.known & sides_b.known & ~(sides_a.flat | sides_b.flat);
+  if (known == 0) return {0, mask & ~left};
+  IntervalMeeting meeting = intervals_meet(lone_corner(a, sides_a), lone_corner(b, sides_b));
+  const unsigned in_plane = known & ~certain, by_zero = in_plane | (known & meeting.by_zero);
+  if (by_zero != 0) {
+    const unsigned vanishing = by_zero & ~(nothing_vanishes(a) & nothing_vanishes(b));
+    meeting.yes &= ~vanishing;
+    meeting.no &= ~(vanishing & in_plane);
+  }
+  return {meeting.yes & known, (mask & ~left) | (meeting.no & known)};
 }
 
 PairMatches match_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs) {

@@ -95,6 +95,40 @@ TEST(Kernels, DecisionsAreRight) {
   }
 }
 
+// Products of tiny differences vanish: that is no zero.
+TEST(Kernels, DecisionsAreRightWhereProductsVanish) {
+  for (int seed = 0; seed < 12; ++seed) {
+    auto [mesh_a, mesh_b] = bodies(seed);
+    for (const double scale : {0x1p-190, 0x1p-280, 0x1p-350, 0x1p-500, 0x1p-1000}) {
+      Mesh small_a = mesh_a, small_b = mesh_b;
+      small_a.positions *= scale;
+      small_b.positions *= scale;
+      const ClusteredMesh a = clustered(small_a), b = clustered(small_b);
+      for (const Kernels* kernels : available()) {
+        const Decisions decisions = decide_all(*kernels, a, b);
+        std::vector<FacetPair> decided;
+        for (const FacetPair& pair : meeting_in_truth(a, b)) {
+          if (!std::binary_search(decisions.undecided.begin(), decisions.undecided.end(), pair))
+            decided.push_back(pair);
+        }
+        EXPECT_EQ(decisions.meeting, decided) << kernels->name << " seed " << seed << " scale " << scale;
+      }
+    }
+  }
+}
+
+TEST(Kernels, TouchingPairsOfALatticeAreDecidedUnlessCoplanar) {
+  const ClusteredMesh a = clustered(tests::lattice_soup(60, 2, 1)), b = clustered(tests::lattice_soup(60, 2, 8));
+  std::size_t touching_and_decided = 0;
+  for (const FacetPair& pair : decide_all(*scalar_kernels(), a, b).meeting) {
+    const Triangle p = a.triangle(pair.a), q = b.triangle(pair.b);
+    PredicateCounts counts;
+    const std::array<int, 3> sides = sides_of_plane(p[0], p[1], p[2], q, counts);
+    if (sides[0] == 0 || sides[1] == 0 || sides[2] == 0) ++touching_and_decided;
+  }
+  EXPECT_GT(touching_and_decided, 20u);
+}
+
 TEST(Kernels, PairsOfSmoothBodiesAreDecided) {
   const auto [mesh_a, mesh_b] = bodies(2);
   for (const Kernels* kernels : available()) {
