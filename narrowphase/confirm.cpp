@@ -64,6 +64,17 @@ bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPai
   return forest;
 }
 
+FacetPairSearch::FacetPairSearch() {
+  constexpr std::size_t kClusters = 64, kBlocks = 4;
+  wanted_.reserve(kBlocks);
+  wanted_by_next_.reserve(kClusters);
+  place_.reserve(kClusters);
+  opened_a_.reserve(kClusters);
+  opened_b_.reserve(kClusters);
+  b_.reserve(kClusters);
+  for (std::size_t i = 0; i < kBlocks; ++i) b_.push_back(std::make_unique<BlockOfB>());
+}
+
 void FacetPairSearch::run(const ConfirmInput& input, const std::vector<ClusterPair>& pairs, std::size_t begin,
                           std::size_t end, std::vector<FacetPair>& found, ConfirmCounts& counts) {
   opened_a_.clear();

@@ -57,6 +57,9 @@ bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPai
 // are made one after the other and held against the blocks of B that hold a cluster which one of theirs may touch.
 class FacetPairSearch {
  public:
+  // Takes room for most pairs at once: which thread looks at which pair is not the same in every step.
+  FacetPairSearch();
+
   // Appends the facet pairs (as source facets) that meet in pairs[begin, end), in no particular order. The range must hold
   // all pairs of a cluster of A or none, or a facet pair may be found in two ranges.
   void run(const ConfirmInput& input, const std::vector<ClusterPair>& pairs, std::size_t begin, std::size_t end,
