@@ -17,15 +17,13 @@ void Source::fail(const std::string& message) const {
 
 std::string printable(std::string_view text, std::size_t longest) {
   std::string result;
-  for (const char c : text.substr(0, longest)) {
+  for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte > 0x7e) {
-      result += fmt::format("\\x{:02x}", byte);
-    } else {
-      result += c;
-    }
+    const std::string shown = byte < 0x20 || byte > 0x7e ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+    if (result.size() + shown.size() > longest) return result + "...";
+    result += shown;
   }
-  return result + (text.size() > longest ? "..." : "");
+  return result;
 }
 
 std::string quoted(std::string_view text) { return "'" + printable(text) + "'"; }

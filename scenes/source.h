@@ -37,7 +37,8 @@ class Source {
   std::int64_t item_index_ = 0;
 };
 
-// `text` made safe to print: what is not printable ASCII stands as \xNN, and what is longer than `longest` bytes is cut.
+// `text` made safe to print: what is not printable ASCII stands as \xNN, and what would be longer than `longest`
+// characters is cut.
 std::string printable(std::string_view text, std::size_t longest = 40);
 // The same in quotes.
 std::string quoted(std::string_view text);

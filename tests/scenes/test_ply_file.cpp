@@ -132,7 +132,7 @@ TEST(PlyFile, MessagesStayShortAndPrintable) {
   const std::string name = "\x90" + std::string(1000, 'n');
   const std::string message =
       refusal(kPly + "element vertex 0\n" + kXyz + "element " + name + " 1\nproperty int " + name + "\nend_header\n");
-  const std::string cut = "\\x90" + std::string(39, 'n') + "...";
+  const std::string cut = "\\x90" + std::string(36, 'n') + "...";
   EXPECT_EQ(message, "m:10: " + cut + " 0: expected a value for " + cut + ", found the end of the file");
 }
 
