@@ -14,6 +14,8 @@
 namespace tact::scenes {
 namespace {
 
+constexpr std::size_t kManyBodies = 12;
+
 // Frames of a longer run before would end in this run's film.
 void remove_old_frames(const std::filesystem::path& folder) {
   for (int frame = 0; std::filesystem::remove(frame_file(folder, frame)); ++frame) {
@@ -47,8 +49,7 @@ ScenePictures::ScenePictures(std::string title, const Scene& scene, std::filesys
       renderer_({.threads = threads}),
       view_(scene.view),
       shown_(scene.shown) {
-  constexpr std::size_t kMany = 12;
-  marks_.directions = marks_.directions && looks_.size() < kMany;
+  marks_.directions = marks_.directions && looks_.size() < kManyBodies;
   try {
     std::filesystem::create_directories(folder_);
     remove_old_frames(folder_);
@@ -62,12 +63,12 @@ PictureScene ScenePictures::picture_scene(const Simulation& simulation) const {
   scene.bodies = picture_bodies(simulation, looks_);
   scene.up = UpAxis::z;
   scene.ground = ground_;
+  scene.facets_shine = looks_.size() < kManyBodies;
   scene.title = title_;
   if (simulation.report() != nullptr) mark_contacts(scene, *simulation.report(), marks_);
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    if (looks_[i].visible) continue;
-    scene.bodies[i].meeting_facets.clear();
-    scene.bodies[i].facets.resize(3, 0);
+    if (!looks_[i].visible || !looks_[i].marked) scene.bodies[i].meeting_facets.clear();
+    if (!looks_[i].visible) scene.bodies[i].facets.resize(3, 0);
   }
   return scene;
 }

@@ -1,7 +1,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "scenes/library/catalog.h"
 #include "scenes/library/shapes.h"
@@ -13,7 +16,7 @@ struct Pile {
   std::uint64_t seed = 1;
   double body_size = 0.3;  // about the diameter of a body, metres
   double spacing = 1.2;    // of the bodies before they fall, in body sizes
-  double wall = 0.4;       // thickness of the bin, metres
+  double wall = 0.15;      // thickness of the bin, metres
   double bin_edges = 0.3;  // length of the edges of the bin's facets, metres
   SoftMaterial soft{.drag = 0.5, .skin = 0.003};
   RigidMaterial bin{.friction = 0.5, .skin = 0.003};
@@ -60,12 +63,20 @@ void add_bin(const Pile& p, double half, double height, Scene& scene) {
   const auto add = [&](const char* name, Vec3 lower, Vec3 upper, const Look& look) {
     scene.add(make_rigid(name, box(lower, upper, p.bin_edges), p.bin, Motion::fixed), look);
   };
-  const Look hidden{.visible = false};
-  add("floor", {-out, -out, -p.wall}, {out, out, 0.0}, hidden);
-  add("left wall", {-out, -out, 0.0}, {-half, out, height}, hidden);
-  add("right wall", {half, -out, 0.0}, {out, out, height}, hidden);
-  add("front wall", {-half, -out, 0.0}, {half, -half, height}, hidden);
-  add("back wall", {-half, half, 0.0}, {half, out, height}, hidden);
+  const Look glass{.marked = false, .opacity = 0.07, .shading = Shading::flat};
+  add("floor", {-out, -out, -p.wall}, {out, out, 0.0}, {.visible = false});
+  add("left wall", {-out, -out, 0.0}, {-half, out, height}, glass);
+  add("right wall", {half, -out, 0.0}, {out, out, height}, glass);
+  add("front wall", {-half, -out, 0.0}, {half, -half, height}, glass);
+  add("back wall", {-half, half, 0.0}, {half, out, height}, glass);
+}
+
+// The numbers from 0 to count - 1 in random order.
+std::vector<int> shuffled(int count, Random& random) {
+  std::vector<int> numbers(static_cast<std::size_t>(count));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  for (std::size_t i = numbers.size(); i > 1; --i) std::swap(numbers[i - 1], numbers[random.bits() % i]);
+  return numbers;
 }
 
 }  // namespace
@@ -80,11 +91,13 @@ Scene make_pile(int size) {
   Scene scene;
   scene.dynamics = p.dynamics;
   scene.view = {.azimuth = 25.0, .elevation = 28.0};
-  scene.ground = 0.0;
-  add_bin(p, half, step * layers + p.body_size, scene);
+  scene.ground = -0.01 * p.body_size;  // below the walls, so that they do not blend
+  add_bin(p, half, step * layers + 0.2 * p.body_size, scene);
+  const std::vector<int> places = shuffled(size, random);
   for (int i = 0; i < size; ++i) {
-    const Vec3 cell{static_cast<double>(i % side), static_cast<double>(i / side % side),
-                    static_cast<double>(i / (side * side))};
+    const int place = places[static_cast<std::size_t>(i)];
+    const Vec3 cell{static_cast<double>(place % side), static_cast<double>(place / side % side),
+                    static_cast<double>(place / (side * side))};
     const double loose = 0.5 * (p.spacing - 1.05) * p.body_size;
     const Vec3 jitter{random.between(-loose, loose), random.between(-loose, loose), random.between(-loose, loose)};
     const Vec3 center = step * (cell + Vec3{0.5, 0.5, 0.6}) - Vec3{half, half, 0.0} + jitter;

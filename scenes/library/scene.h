@@ -17,6 +17,7 @@ namespace tact::scenes {
 // How pictures show a body.
 struct Look {
   bool visible = true;
+  bool marked = true;  // show where it meets others
   double opacity = 1.0;
   Shading shading = Shading::smooth;
 };
@@ -27,7 +28,7 @@ struct Scene {
   Script script;            // may be empty
   DynamicsSettings dynamics;
   View view;
-  ContactMarks marks;              // directions are left out of scenes with many bodies
+  ContactMarks marks;              // of many bodies, directions and what is hidden are left out
   std::optional<base::Box> shown;  // what pictures show, metres; else the bodies as they are at the start
   std::optional<double> ground;    // height of a floor in pictures, metres
   // What the paper says of this scene, to stand beside our figures; empty: it does not have it.

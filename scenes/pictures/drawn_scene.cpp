@@ -67,7 +67,7 @@ std::vector<DrawnMesh> meeting_facets(const PictureScene& scene, const std::vect
                    .corner_normals = {},
                    .reflectance = linear(kMeetingColor),
                    .opacity = kFacetOpacity,
-                   .hidden_opacity = kFacetHiddenOpacity,
+                   .hidden_opacity = scene.facets_shine ? kFacetHiddenOpacity : 0.0f,
                    .edges = true};
     marks.push_back(std::move(mark));
   }

@@ -25,7 +25,7 @@ struct PictureBody {
   Color color;
   Shading shading = Shading::smooth;
   double opacity = 1.0;             // below 1: seen through, casts no shadow
-  std::vector<int> meeting_facets;  // facets to mark; where another body hides them, they shine through
+  std::vector<int> meeting_facets;  // facets to mark
 };
 
 struct Arrow {
@@ -50,8 +50,9 @@ struct PictureScene {
   std::optional<double> ground;  // height of a floor that catches shadows, metres along the up axis
   std::vector<Arrow> arrows;
   std::vector<Disk> disks;
-  std::string title;    // top left; empty: none
-  std::string caption;  // bottom left; empty: none
+  bool facets_shine = true;  // meeting facets shine through the bodies that hide them
+  std::string title;         // top left; empty: none
+  std::string caption;       // bottom left; empty: none
 };
 
 inline Eigen::Vector3d up_vector(UpAxis up) {
