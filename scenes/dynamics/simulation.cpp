@@ -193,7 +193,7 @@ double Simulation::deepest_possible(const BodyContact& contact) const {
 // push out of a deep contact would throw the body.
 void Simulation::settle() {
   // More overshoots where many contacts share a body, and tears where they disagree on the way.
-  constexpr WayOut kPart{.share = 0.7, .most = 0.03};
+  constexpr WayOut kPart{.share = 0.7, .most = 0.05};
   const double h = dynamics_.time_step / dynamics_.substeps;
   solver_.start(contacts_, bodies_, dynamics_.slop);
   for (int sweep = 0; sweep < dynamics_.settle_sweeps; ++sweep) {

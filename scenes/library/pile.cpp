@@ -16,6 +16,7 @@ struct Pile {
   std::uint64_t seed = 1;
   double body_size = 0.3;  // about the diameter of a body, metres
   double spacing = 1.2;    // of the bodies before they fall, in body sizes
+  double layers = 5.0;     // of bodies before they fall, at most
   double wall = 0.15;      // thickness of the bin, metres
   double bin_edges = 0.3;  // length of the edges of the bin's facets, metres
   SoftMaterial soft{.drag = 0.5, .skin = 0.003};
@@ -84,7 +85,8 @@ std::vector<int> shuffled(int count, Random& random) {
 Scene make_pile(int size) {
   const Pile p;
   Random random(p.seed);
-  const int side = std::max(1, static_cast<int>(std::ceil(std::cbrt(2.0 * size))));
+  // Twice as wide as high, and so low that no body falls faster than contacts follow.
+  const int side = static_cast<int>(std::ceil(std::max(std::cbrt(2.0 * size), std::sqrt(size / p.layers))));
   const int layers = (size + side * side - 1) / (side * side);
   const double step = p.spacing * p.body_size;
   const double half = 0.5 * step * side;
