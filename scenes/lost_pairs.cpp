@@ -27,7 +27,7 @@ LostPairs::LostPairs(const Simulation& simulation, int threads)
     : exact_({.threads = threads, .accuracy = Accuracy::exact}) {
   for (std::size_t i = 0; i < simulation.bodies().size(); ++i) {
     const Body& body = simulation.bodies()[i];
-    ids_.push_back(exact_.add_body({.positions = as_matrix(simulation.surface(i)),
+    ids_.push_back(exact_.add_body({.positions = as_matrix(simulation.seen(i)),
                                     .facets = body.facets,
                                     .surface = body.surface,
                                     .motion = body.motion,
@@ -39,7 +39,7 @@ void LostPairs::add_step(const Simulation& simulation) {
   std::vector<PositionsUpdate> updates;
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     if (simulation.bodies()[i].motion == Motion::fixed) continue;
-    updates.push_back({ids_[i], as_matrix(simulation.surface(i))});
+    updates.push_back({ids_[i], as_matrix(simulation.seen(i))});
   }
   exact_.set_positions(updates);
   std::vector<FacetPair> missing;

@@ -166,6 +166,10 @@ double kinetic_energy(const Body& body) {
 }
 
 void move_out(const Body& body, std::vector<Vec3>& positions) {
+  if (!(body.skin > 0.0)) {
+    positions = body.positions;
+    return;
+  }
   positions.assign(body.positions.size(), {});
   for (Eigen::Index f = 0; f < body.facets.cols(); ++f) {
     const Vec3 normal = area_normal(body.positions, body.facets, f);

@@ -48,7 +48,7 @@ Simulation::Simulation(std::vector<Body> bodies, Script script, const DynamicsSe
       bodies_(std::move(bodies)),
       world_(settings, recording),
       before_(bodies_.size()),
-      surfaces_(bodies_.size()),
+      seen_(bodies_.size()),
       last_seen_(bodies_.size()),
       moved_(bodies_.size(), 0.0),
       finders_(static_cast<std::size_t>(threads_)) {
@@ -56,14 +56,13 @@ Simulation::Simulation(std::vector<Body> bodies, Script script, const DynamicsSe
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& body = bodies_[i];
     before_[i] = body.positions;
-    if (body.skin > 0.0) move_out(body, surfaces_[i]);
-    ids_.push_back(world_.add_body({.positions = as_matrix(body.skin > 0.0 ? surfaces_[i] : body.positions),
+    move_out(body, seen_[i]);
+    ids_.push_back(world_.add_body({.positions = as_matrix(seen_[i]),
                                     .facets = body.facets,
                                     .surface = body.surface,
                                     .motion = body.motion,
                                     .name = body.name}));
     if (body.motion == Motion::fixed) continue;
-    last_seen_[i] = surface(i);
     (body.positions.size() < kLargeBody ? small_ : large_).push_back(i);
   }
 }
@@ -127,9 +126,9 @@ void Simulation::end_substep(std::size_t i, double h, int threads) {
 
 void Simulation::show_surfaces() {
   for_each_body([&](std::size_t i, int /*threads*/) {
-    if (bodies_[i].skin > 0.0) move_out(bodies_[i], surfaces_[i]);
-    moved_[i] = longest_way(last_seen_[i], surface(i));
-    last_seen_[i] = surface(i);
+    std::swap(seen_[i], last_seen_[i]);
+    move_out(bodies_[i], seen_[i]);
+    moved_[i] = longest_way(last_seen_[i], seen_[i]);
   });
 }
 
@@ -138,7 +137,7 @@ void Simulation::detect() {
   updates.reserve(small_.size() + large_.size());
   for (const std::vector<std::size_t>* group : {&small_, &large_}) {
     for (const std::size_t i : *group) {
-      updates.push_back({ids_[i], as_matrix(bodies_[i].skin > 0.0 ? surfaces_[i] : bodies_[i].positions)});
+      updates.push_back({ids_[i], as_matrix(seen_[i])});
     }
   }
   world_.set_positions(updates);
@@ -163,8 +162,8 @@ void Simulation::find_points(const Contact& contact, PenetrationFinder& finder, 
   if (!contact.touching()) return;
   const Body& a = bodies_[contact.a.index];
   const Body& b = bodies_[contact.b.index];
-  const SeenBody seen_a{a, surface(contact.a.index)};
-  const SeenBody seen_b{b, surface(contact.b.index)};
+  const SeenBody seen_a{a, seen_[contact.a.index]};
+  const SeenBody seen_b{b, seen_[contact.b.index]};
   finder.find(contact, true, seen_a, seen_b, points.a_in_b);
   finder.find(contact, false, seen_b, seen_a, points.b_in_a);
   const double most = deepest_possible(points);

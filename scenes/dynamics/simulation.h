@@ -61,10 +61,8 @@ class Simulation {
   void step();
 
   const std::vector<Body>& bodies() const { return bodies_; }
-  // The positions of body i as tact sees them: moved out by its skin. Those of the last step.
-  const std::vector<Vec3>& surface(std::size_t i) const {
-    return bodies_[i].skin > 0.0 ? surfaces_[i] : bodies_[i].positions;
-  }
+  // The positions of body i that tact saw in the last step: moved out by its skin, before the pushes that followed.
+  const std::vector<Vec3>& seen(std::size_t i) const { return seen_[i]; }
   const World& world() const { return world_.world(); }
   // Of the last step; null before the first.
   const Report* report() const { return report_; }
@@ -94,13 +92,12 @@ class Simulation {
   std::vector<Body> bodies_;
   RecordedWorld world_;
   std::vector<BodyId> ids_;
-  std::vector<std::size_t> small_, large_;    // bodies that can move
-  std::vector<std::vector<Vec3>> before_;     // positions at the start of the substep, by body
-  std::vector<std::vector<Vec3>> surfaces_;   // positions moved out by the skin, by body; empty without skin
-  std::vector<std::vector<Vec3>> last_seen_;  // what tact saw last, by body
-  std::vector<double> moved_;                 // the longest way of a vertex since then, by body, metres
-  std::vector<PenetrationFinder> finders_;    // one a thread
-  std::vector<BodyContact> contacts_;         // of the last detection, and of the one before
+  std::vector<std::size_t> small_, large_;           // bodies that can move
+  std::vector<std::vector<Vec3>> before_;            // positions at the start of the substep, by body
+  std::vector<std::vector<Vec3>> seen_, last_seen_;  // what tact saw in the last step and in that before, by body
+  std::vector<double> moved_;                        // the longest way of a vertex between them, by body, metres
+  std::vector<PenetrationFinder> finders_;           // one a thread
+  std::vector<BodyContact> contacts_;                // of the last detection, and of the one before
   std::vector<BodyContact> last_contacts_;
   ContactSolver solver_;
   const Report* report_ = nullptr;
