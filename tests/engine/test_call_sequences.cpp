@@ -78,9 +78,10 @@ class Model {
  public:
   void apply(const Change& change) {
     Random random(static_cast<std::uint64_t>(change.seed));
+    const Vec3 by = random.in_cube(1.0);  // first: the order of arguments is the compiler's
     ModelBody* body = bodies_.empty() ? nullptr : &bodies_[static_cast<std::size_t>(change.body) % bodies_.size()];
     switch (change.call) {
-      case Call::add: return add(translated(shape(random.bits()), random.in_cube(1.0)));
+      case Call::add: return add(translated(shape(random.bits()), by));
       case Call::smallest: return set_direction(DirectionPolicy::smallest);
       case Call::carried: return set_direction(DirectionPolicy::carried);
       case Call::detect: return detect();
@@ -90,10 +91,10 @@ class Model {
     if (body == nullptr) return;
     switch (change.call) {
       case Call::remove: return remove(*body);
-      case Call::teleport: return move(*body, rotated(translated(body->mesh, random.in_cube(1.0)), random.rotation()));
+      case Call::teleport: return move(*body, rotated(translated(body->mesh, by), random.rotation()));
       case Call::crumple: return move(*body, crumpled(body->mesh, random.bits()));
       case Call::refused: return be_refused(*body);
-      default: return move(*body, translated(body->mesh, 0.1 * random.in_ball()));
+      default: return move(*body, translated(body->mesh, 0.1 * by));
     }
   }
 

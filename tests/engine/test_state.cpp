@@ -60,7 +60,8 @@ class Player {
   void add() {
     if (bodies_.size() > 24) return;
     ModelBody body;
-    body.mesh = translated(random_mesh(), random_.in_cube(1.5));
+    const Vec3 at = random_.in_cube(1.5);  // first: the order of arguments is the compiler's
+    body.mesh = translated(random_mesh(), at);
     body.surface = random_.chance(0.3) ? Surface::sheet : Surface::closed;
     body.motion = random_.chance(0.2) ? Motion::fixed : Motion::moving;
     body.layer = 1u << random_.below(3);

@@ -111,7 +111,10 @@ class Life {
  private:
   std::size_t any_body() { return static_cast<std::size_t>(random_.below(static_cast<int>(bodies_.size()))); }
 
-  Mesh anywhere(const Mesh& shape) { return translated(rotated(shape, random_.rotation()), random_.in_cube(kRoom)); }
+  Mesh anywhere(const Mesh& shape) {
+    const Vec3 at = random_.in_cube(kRoom);  // first: the order of arguments is the compiler's
+    return translated(rotated(shape, random_.rotation()), at);
+  }
 
   void add() {
     if (bodies_.size() >= kMostBodies) return remove();
@@ -135,7 +138,8 @@ class Life {
     if (random_.chance(0.1)) {
       body.mesh = anywhere(shapes_[body.shape]);
     } else {
-      body.mesh = jittered(translated(body.mesh, 0.1 * random_.in_ball()), 1e-3, random_.bits());
+      const Vec3 by = 0.1 * random_.in_ball();
+      body.mesh = jittered(translated(body.mesh, by), 1e-3, random_.bits());
     }
     world_.set_positions(body.id, body.mesh.positions);
   }

@@ -39,7 +39,7 @@ class MessySoup {
     switch (random_.below(10)) {
       case 0: return any_point();                            // a vertex that is there
       case 1: return nudged(any_point());                    // one that nearly is
-      case 2: return 0.5 * any_point() + 0.5 * any_point();  // the middle of what may be an edge
+      case 2: return middle_of(any_point());                 // the middle of what may be an edge
       case 3: return in_plane_of(any_point());               // in a plane across an axis
       case 4: return middle_ + kFar * random_.in_cube(1.0);  // the far end of a needle
       case 5:
@@ -47,6 +47,8 @@ class MessySoup {
       default: return middle_ + random_.in_cube(1.0);
     }
   }
+
+  Vec3 middle_of(Vec3 p) { return 0.5 * p + 0.5 * any_point(); }
 
   Vec3 nudged(Vec3 p) {
     for (int axis = 0; axis < 3; ++axis) {
