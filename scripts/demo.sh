@@ -1,20 +1,23 @@
 #!/bin/bash
 # Installs what is missing, builds the program, plays two scenes, says where their pictures and films are.
+# usage: scripts/demo.sh
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh program
 scripts/build.sh demo
+
 play() {
   echo
   rm -f "out/$1"/film.*
-  build/release/scenes/tact run "$@" --frames 120 --out "out/$1"
+  build/release/scenes/tact run "$@" --out "out/$1"
 }
-play cloth-over-sphere
-play pile --size 30
+show() {
+  local film
+  film=$(compgen -G "out/$1/film.*" || echo "none: neither ffmpeg nor img2webp is installed (packages ffmpeg and webp)")
+  printf '%-18s picture: %s\n%-18s film:    %s\n' "$1" "out/$1/sheet.png" "" "$film"
+}
+play cloth-over-sphere --frames 180 --every 6
+play pile --size 30 --frames 240 --every 8
 echo
-for scene in cloth-over-sphere pile; do
-  echo "picture: out/$scene/sheet.png"
-  for film in "out/$scene"/film.*; do
-    if [[ -e $film ]]; then echo "film:    $film"; fi
-  done
-done
+show cloth-over-sphere
+show pile

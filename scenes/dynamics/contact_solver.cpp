@@ -130,7 +130,7 @@ void ContactSolver::solve_contacts(std::vector<Body>& bodies, const std::vector<
                                    const WayOut& part, int threads) {
   if (contacts_ == nullptr) return;
   for (const std::vector<std::size_t>& group : groups_) {
-    base::parallel_for(group.size(), 8, threads,
+    base::parallel_for(group.size(), 32, threads,
                        [&](std::size_t i) { solve_contact(bodies, before, part, (*contacts_)[group[i]]); });
   }
   for (const std::size_t i : rest_) solve_contact(bodies, before, part, (*contacts_)[i]);

@@ -148,7 +148,7 @@ void Simulation::find_contacts() {
   const auto contacts = report_->contacts();
   std::swap(contacts_, last_contacts_);
   contacts_.resize(contacts.size());
-  base::parallel_for(contacts.size(), 4, threads_, [&](std::size_t i, int thread) {
+  base::parallel_for(contacts.size(), 16, threads_, [&](std::size_t i, int thread) {
     find_points(contacts[i], finders_[static_cast<std::size_t>(thread)], contacts_[i]);
   });
 }

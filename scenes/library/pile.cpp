@@ -16,6 +16,7 @@ struct Pile {
   std::uint64_t seed = 1;
   double body_size = 0.3;  // about the diameter of a body, metres
   double spacing = 1.2;    // of the bodies before they fall, in body sizes
+  double room = 0.04;      // between the outermost bodies and the wall, metres
   double layers = 5.0;     // of bodies before they fall, at most
   double wall = 0.15;      // thickness of the bin, metres
   double bin_edges = 0.3;  // length of the edges of the bin's facets, metres
@@ -94,7 +95,7 @@ Scene make_pile(int size) {
   scene.dynamics = p.dynamics;
   scene.view = {.azimuth = 25.0, .elevation = 28.0};
   scene.ground = -0.01 * p.body_size;  // below the walls, so that they do not blend
-  add_bin(p, half, step * layers + 0.2 * p.body_size, scene);
+  add_bin(p, half + p.room, step * layers + 0.2 * p.body_size, scene);
   const std::vector<int> places = shuffled(size, random);
   for (int i = 0; i < size; ++i) {
     const int place = places[static_cast<std::size_t>(i)];

@@ -1,0 +1,183 @@
+// `tact run`: what it writes, the same for any number of threads, and how it ends.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "scenes/run_command.h"
+#include "scenes/scenes_command.h"
+#include "scenes/usage_error.h"
+#include "tests/scenes/temporary_folder.h"
+
+namespace tact::scenes {
+namespace {
+
+std::string contents(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> lines(const std::filesystem::path& file) {
+  std::vector<std::string> result;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) result.push_back(line);
+  return result;
+}
+
+class RunCommand : public ::testing::Test {
+ protected:
+  std::string printed(const RunOptions& options) const {
+    std::ostringstream out;
+    run(options, out);
+    return out.str();
+  }
+
+  tests::TemporaryFolder folder_;
+};
+
+TEST_F(RunCommand, SamePicturesForOneAndTwoThreads) {
+  struct Short {
+    const char* scene;
+    int size, frames;
+  };
+  for (const Short& scene : {Short{"pile", 4, 41}, Short{"cloth-over-sphere", 12, 41}}) {
+    for (const int threads : {1, 2}) {
+      const auto out = folder_.path() / scene.scene / std::to_string(threads);
+      printed({.scene = scene.scene,
+               .frames = scene.frames,
+               .size = scene.size,
+               .threads = threads,
+               .outputs = {.out = out, .every = 40}});
+    }
+    for (const char* name : {"frame_00000.png", "frame_00001.png", "sheet.png"}) {
+      const std::string one = contents(folder_.path() / scene.scene / "1" / name);
+      EXPECT_GT(one.size(), 10000u) << scene.scene << ' ' << name;
+      EXPECT_TRUE(one == contents(folder_.path() / scene.scene / "2" / name)) << scene.scene << ' ' << name;
+    }
+  }
+}
+
+TEST_F(RunCommand, TotalsNameStepsTimesStagesContactsDepthAndEnergy) {
+  const std::string text = printed({.scene = "pile", .frames = 20, .size = 3, .outputs = {.pictures = false}});
+  for (const char* part : {"pile\n",
+                           "8 bodies",
+                           "20 steps, 0.083 s simulated in ",
+                           "steps a second",
+                           "contacts, ",
+                           "facet pairs",
+                           "deepest penetration found: ",
+                           "kinetic energy: ",
+                           " at its peak",
+                           "scene: motion",
+                           "engine",
+                           "1 refresh",
+                           "2 sweep",
+                           "3 hulls",
+                           "4 direction",
+                           "5 cull",
+                           "6 confirm",
+                           "7 report",
+                           "scene: contact points",
+                           "scene: pushing out"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
+  }
+}
+
+TEST_F(RunCommand, ScenesOfThePaperShowItsFiguresBesideOurs) {
+  for (const char* scene : {"liver-and-tool", "sphere-in-cloth", "wheel-on-ground", "clamp"}) {
+    const std::string text = printed({.scene = scene, .frames = 20, .outputs = {.pictures = false}});
+    EXPECT_NE(text.find("\nthe paper: "), std::string::npos) << text;
+    EXPECT_NE(text.find(" iterations a contact, "), std::string::npos) << text;
+    EXPECT_NE(text.find(" of the facets kept"), std::string::npos) << text;
+  }
+}
+
+TEST_F(RunCommand, ThePaperLevelTellsWhatItLoses) {
+  const RunOptions options{.scene = "clamp", .frames = 80, .accuracy = Accuracy::paper, .outputs = {.pictures = false}};
+  EXPECT_NE(printed(options).find("facet pairs lost, against the exact answer: "), std::string::npos);
+}
+
+TEST_F(RunCommand, FilesForOtherPrograms) {
+  const auto file = [&](const char* name) { return folder_.path() / name; };
+  const std::string text = printed({.scene = "pile",
+                                    .frames = 41,
+                                    .size = 5,
+                                    .outputs = {.pictures = false,
+                                                .every = 10,
+                                                .json = file("r.json"),
+                                                .contacts = file("contacts.jsonl"),
+                                                .gltf = file("pile.glb"),
+                                                .vtk = file("vtk")}});
+  EXPECT_NE(text.find("pile.glb"), std::string::npos) << text;
+  EXPECT_EQ(nlohmann::json::parse(contents(file("r.json")))["frames"].size(), 41u);
+  const std::vector<std::string> contacts = lines(file("contacts.jsonl"));
+  ASSERT_EQ(contacts.size(), 41u);
+  const auto last = nlohmann::json::parse(contacts.back());
+  EXPECT_EQ(last["frame"], 40);
+  EXPECT_FALSE(last["contacts"].empty());
+  EXPECT_TRUE(contents(file("pile.glb")).starts_with("glTF"));
+  for (const char* name : {"vtk/pile.pvd", "vtk/pile_00000.vtp", "vtk/pile_00004.vtp"}) {
+    EXPECT_TRUE(std::filesystem::exists(file(name))) << name;
+  }
+}
+
+// A child is sent the signal as Ctrl-C sends it: it must end with status 0 and whole files.
+TEST_F(RunCommand, AnInterruptKeepsWhatWasDone) {
+  const std::string out = (folder_.path() / "out.txt").string();
+  const std::string json = (folder_.path() / "r.json").string();
+  const pid_t child = fork();
+  if (child == 0) {
+    if (freopen(out.c_str(), "w", stdout) == nullptr) _exit(3);
+    execl(TACT_PROGRAM, TACT_PROGRAM, "run", "pile", "--size", "10", "--frames", "1000000", "--no-pictures", "--json",
+          json.c_str(), static_cast<char*>(nullptr));
+    _exit(4);
+  }
+  ASSERT_GT(child, 0);
+  // It has run for a while when its report has grown.
+  for (int i = 0; i < 1000 && (!std::filesystem::exists(json) || std::filesystem::file_size(json) < 100000); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  kill(child, SIGINT);
+  int status = -1;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_GT(nlohmann::json::parse(contents(json))["frames"].size(), 1u);
+  EXPECT_TRUE(contents(out).starts_with("pile, interrupted\n")) << contents(out);
+}
+
+TEST_F(RunCommand, WrongUsageIsNamed) {
+  const auto message = [](const RunOptions& options) -> std::string {
+    std::ostringstream out;
+    try {
+      run(options, out);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message({.scene = "plie"}), "plie: no such scene (tact scenes lists them)");
+  EXPECT_EQ(message({.scene = "pile", .size = 4001}), "--size: pile goes from 1 to 4000, not 4001");
+  EXPECT_EQ(message({.scene = "clamp", .size = 3}), "--size: clamp has one size only");
+  EXPECT_EQ(message({.scene = "pile", .outputs = {.json = "-", .contacts = "-"}}),
+            "--json and --contacts: only one of them can go to standard output");
+}
+
+TEST(ScenesCommand, ListsEverySceneWithItsSizes) {
+  std::ostringstream out;
+  list_scenes(out);
+  for (const char* part : {"cloth-over-sphere", "sphere-into-cloth", "pile", "clamp", "liver-and-tool",
+                           "sphere-in-cloth", "wheel-on-ground", "--size: soft bodies, 1 to 4000, 100 if not given"}) {
+    EXPECT_NE(out.str().find(part), std::string::npos) << part;
+  }
+}
+
+}  // namespace
+}  // namespace tact::scenes
