@@ -47,7 +47,11 @@ bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, const GjkSe
   if (history.kind == PairHistory::Kind::separated) {
     const bool apart = m.certainly_apart(history.direction);
     record.counts.gjk_iterations += apart ? 0 : 1;
-    if (apart || dot(history.direction, m.support(history.direction).point) < -m.height_error()) {
+    const GjkSimplex& nearest = history.hulls;
+    const auto w = [&] {
+      return dot(history.direction, m.support(history.direction, m.vertex(nearest.a[0], nearest.b[0])).point);
+    };
+    if (apart || w() < -m.height_error()) {
       record.counts.still_separated = true;
       set_apart(record, history.direction);
       return false;

@@ -60,8 +60,8 @@ class FacetPairSearch {
   // Takes room for most pairs at once: which thread looks at which pair is not the same in every step.
   FacetPairSearch();
 
-  // Appends the facet pairs (as source facets) that meet in pairs[begin, end), in no particular order. The range must hold
-  // all pairs of a cluster of A or none, or a facet pair may be found in two ranges.
+  // Appends the facet pairs (as source facets) that meet in pairs[begin, end), in no particular order. The range must
+  // hold all pairs of a cluster of A or none, or a facet pair may be found in two ranges.
   void run(const ConfirmInput& input, const std::vector<ClusterPair>& pairs, std::size_t begin, std::size_t end,
            std::vector<FacetPair>& found, ConfirmCounts& counts);
 

@@ -73,8 +73,10 @@ class Search {
     const std::optional<Vec3> n = face_normal(m_, face, start);
     if (!n || !(dot(*n, start) > 0.0)) {
       turn_to(start);
-      return false;
+      finished_ = std::abs(best_.height) <= tolerance_;  // where w = 0 every direction is a minimum
+      return finished_;
     }
+    top_ = m_.vertex(face.a[0], face.b[0]);
     turn_to(*n);
     if (supported_by(face)) {
       best_.face = face;
@@ -150,7 +152,7 @@ class Search {
   }
 
   double margin_of_face() {
-    polygon_ = &faces_.supported(m_, best_.n, tolerance_);
+    polygon_ = &faces_.supported(m_, best_.n, tolerance_, top_);
     return margin_of_foot(*polygon_);
   }
 
@@ -202,7 +204,7 @@ class Search {
   // is not lower, for it may be a sliver with a lower face behind it.
   void try_turn(Vec3 axis_point, Vec3 towards, Lowest& lowest) {
     const double before = lowest.height;
-    try_direction(turned_to_next_face(m_, best_.n, axis_point, towards, tolerance_), lowest);
+    try_direction(turned_to_next_face(m_, best_.n, axis_point, towards, tolerance_, top_), lowest);
     for (double turn = kProbe; turn > kSmallestProbe && !(lowest.height < before); turn *= 0.1) {
       try_direction(normalized(best_.n + turn * towards), lowest);
     }

@@ -22,6 +22,7 @@ class Search {
     }
     if (points_.count == 0) append(m_.support({1.0, 0.0, 0.0}));
     reduce();
+    last_ = m_.vertex(simplex_.a[0], simplex_.b[0]);
   }
 
   GjkResult run(const GjkSettings& settings) {
@@ -116,7 +117,7 @@ class Search {
   GjkSimplex simplex_;
   SimplexPoints points_;
   SimplexClosest closest_;
-  MinkowskiVertex last_;  // found
+  MinkowskiVertex last_;  // found, or of the start
   bool inside_ = false;
   bool closed_ = false;
   bool wide_ = false;

@@ -67,17 +67,19 @@ const FacePolygon& FaceFinder::spanned(const MinkowskiDifference& m, const GjkSi
   return polygon_;
 }
 
-const FacePolygon& FaceFinder::supported(const MinkowskiDifference& m, Vec3 n, double tolerance) {
-  collect(m.a(), n, m.origin(), tolerance / m.scale(), a_);
-  collect(m.b(), -n, m.origin(), tolerance / m.scale(), b_);
+const FacePolygon& FaceFinder::supported(const MinkowskiDifference& m, Vec3 n, double tolerance,
+                                         const MinkowskiVertex& near) {
+  collect(m.a(), n, m.origin(), tolerance / m.scale(), near.a, a_);
+  collect(m.b(), -n, m.origin(), tolerance / m.scale(), near.b, b_);
   project(m, n);
   return polygon_;
 }
 
 // The vertices of `mesh` within `tolerance` (metres) of the farthest along n.
-void FaceFinder::collect(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double tolerance, std::vector<int>& found) {
+void FaceFinder::collect(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double tolerance, int near,
+                         std::vector<int>& found) {
   const HeightAxis axis{n.x, n.y, n.z, origin.x, origin.y, origin.z};
-  const double height = support(mesh, n, origin).height - tolerance;
+  const double height = support(mesh, n, origin, near).height - tolerance;
   select_clusters(mesh, axis, height, clusters_);
   found.clear();
   for (const std::int32_t cluster : clusters_) {
@@ -127,10 +129,13 @@ double margin_of_foot(const FacePolygon& polygon) {
   return margin;
 }
 
-Vec3 turned_to_next_face(const MinkowskiDifference& m, Vec3 n, Vec3 p, Vec3 t, double tolerance) {
+Vec3 turned_to_next_face(const MinkowskiDifference& m, Vec3 n, Vec3 p, Vec3 t, double tolerance,
+                         const MinkowskiVertex& near) {
   Vec3 turned = t;
+  MinkowskiVertex top = near;
   for (int i = 0; i < kTurnLimit; ++i) {
-    const Vec3 d = m.support(turned).point - p;
+    top = m.support(turned, top);
+    const Vec3 d = top.point - p;
     if (dot(turned, d) <= tolerance) break;
     const double along = dot(t, d), below = std::max(0.0, -dot(n, d));
     if (along <= tolerance) break;

@@ -29,11 +29,12 @@ class FaceFinder {
  public:
   // What the vertices of A and of B in `simplex` span: all a - b. At least one of each.
   const FacePolygon& spanned(const MinkowskiDifference& m, const GjkSimplex& simplex, Vec3 n);
-  // What all vertices of A and of B within `tolerance` (scaled) of their supporting planes across n span.
-  const FacePolygon& supported(const MinkowskiDifference& m, Vec3 n, double tolerance);
+  // What all vertices of A and of B within `tolerance` (scaled) of their supporting planes across n span. `near`: see
+  // MinkowskiDifference::support().
+  const FacePolygon& supported(const MinkowskiDifference& m, Vec3 n, double tolerance, const MinkowskiVertex& near);
 
  private:
-  void collect(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double tolerance, std::vector<int>& found);
+  void collect(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double tolerance, int near, std::vector<int>& found);
   void project(const MinkowskiDifference& m, Vec3 n);
 
   FacePolygon polygon_;
@@ -44,7 +45,9 @@ class FaceFinder {
 
 // Turns n about the axis through `p`, a point of M in the supporting plane of n, towards `t` (unit, across n and the
 // axis) until the plane meets another vertex of M: the normal of that supporting plane. M must not reach beyond the
-// plane of n by more than `tolerance`. Nothing is found within a right angle: t itself.
-Vec3 turned_to_next_face(const MinkowskiDifference& m, Vec3 n, Vec3 p, Vec3 t, double tolerance);
+// plane of n by more than `tolerance`. Nothing is found within a right angle: t itself. `near`: see
+// MinkowskiDifference::support().
+Vec3 turned_to_next_face(const MinkowskiDifference& m, Vec3 n, Vec3 p, Vec3 t, double tolerance,
+                         const MinkowskiVertex& near);
 
 }  // namespace tact::narrowphase

@@ -7,7 +7,7 @@ namespace tact::narrowphase {
 
 namespace {
 
-constexpr int kBlock = 256;  // groups whose bounds are looked at together
+constexpr int kBlock = 256;  // groups that are looked at together
 
 PointArrays from(PointArrays points, int first) { return {points.x + first, points.y + first, points.z + first}; }
 
@@ -19,7 +19,7 @@ class Search {
   // Looks at one vertex.
   void start_at(int vertex) {
     const Vec3 p = mesh_.position(vertex);
-    best_ = {vertex, height_of(p.x, p.y, p.z)};
+    best_ = {vertex, height_of(p.x, p.y, p.z) + 0.0};
   }
 
   // Looks at the vertices that a cluster owns.
@@ -27,8 +27,8 @@ class Search {
     const int begin = mesh_.vertex_begin(cluster), count = mesh_.vertex_end(cluster) - begin;
     if (count == 0) return;
     const PointArrays points = from(mesh_.points(), begin);
-    const HighestPoint top = kernels().highest_point(points, count, axis_);
-    if (top.height < best_.height) return;
+    const HighestPoint top = kernels().highest_point(points, count, axis_, best_.height);
+    if (top.index < 0) return;
     const Support found{begin + top.index, top.height};
     if (top.height > best_.height || precedes(found)) best_ = found;
     if (top.several) lower_tie(points, cluster, top.index + 1);
@@ -36,13 +36,15 @@ class Search {
 
   // Looks at the clusters of a group that can hold the highest vertex, the one that reaches farthest first.
   void open_group(int group, PointArrays far_corners) {
-    double bound[kGroupSize + kPadding];
     const int begin = mesh_.cluster_begin(group), count = mesh_.cluster_end(group) - begin;
-    const int first = kernels().heights(from(far_corners, begin), count, axis_, bound).index;
-    if (bound[first] < best_.height) return;
+    const PointArrays corners = from(far_corners, begin);
+    const int first = kernels().highest_point(corners, count, axis_, best_.height).index;
+    if (first < 0) return;
     open(begin + first);
-    for (int i = 0; i < count; ++i) {
-      if (bound[i] >= best_.height && i != first) open(begin + i);
+    std::int32_t others[kGroupSize];
+    const int found = kernels().select_heights(corners, count, axis_, best_.height, others);
+    for (int k = 0; k < found; ++k) {
+      if (others[k] != first) open(begin + others[k]);
     }
   }
 
@@ -88,15 +90,22 @@ Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near) {
   }
   if (near >= 0) search.start_at(near);
   const PointArrays groups = far_corners(mesh.group_boxes(), n), clusters = far_corners(mesh.cluster_boxes(), n);
-  int first = 0;
-  if (mesh.group_count() > 1) first = kernels().highest_point(groups, mesh.group_count(), search.axis()).index;
+  if (mesh.group_count() == 1) {
+    search.open_group(0, clusters);
+    return search.best();
+  }
+  const int first =
+      kernels()
+          .highest_point(groups, mesh.group_count(), search.axis(), -std::numeric_limits<double>::infinity())
+          .index;
   search.open_group(first, clusters);
-  double bound[kBlock + kPadding];
-  for (int block = 0; block < mesh.group_count() && mesh.group_count() > 1; block += kBlock) {
+  for (int block = 0; block < mesh.group_count(); block += kBlock) {
+    std::int32_t others[kBlock];
     const int groups_left = std::min(kBlock, mesh.group_count() - block);
-    kernels().heights(from(groups, block), groups_left, search.axis(), bound);
-    for (int i = 0; i < groups_left; ++i) {
-      if (bound[i] >= search.best().height && block + i != first) search.open_group(block + i, clusters);
+    const int found =
+        kernels().select_heights(from(groups, block), groups_left, search.axis(), search.best().height, others);
+    for (int k = 0; k < found; ++k) {
+      if (block + others[k] != first) search.open_group(block + others[k], clusters);
     }
   }
   return search.best();
@@ -106,7 +115,8 @@ double height_bound(const ClusteredMesh& mesh, Vec3 n, Vec3 origin) {
   const HeightAxis axis{n.x, n.y, n.z, origin.x, origin.y, origin.z};
   const bool few = mesh.group_count() == 1;
   const PointArrays corners = far_corners(few ? mesh.cluster_boxes() : mesh.group_boxes(), n);
-  return kernels().highest_point(corners, few ? mesh.cluster_count() : mesh.group_count(), axis).height;
+  const int count = few ? mesh.cluster_count() : mesh.group_count();
+  return kernels().highest_point(corners, count, axis, -std::numeric_limits<double>::infinity()).height;
 }
 
 void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double height,

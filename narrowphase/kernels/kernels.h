@@ -141,14 +141,11 @@ struct Kernels {
   // The box of `count` boxes.
   BoxBounds (*bounds)(const BoxPointers& boxes, int count);
 
-  // Writes the height of each point, and says which is highest; `out` has room for kPadding more than `count`.
-  HighestPoint (*heights)(PointArrays points, int count, const HeightAxis& axis, double* out);
-
   // Writes the indices i < count of points whose height is >= threshold, ascending; returns how many.
   int (*select_heights)(PointArrays points, int count, const HeightAxis& axis, double threshold, std::int32_t* indices);
 
-  // The highest point. count >= 1.
-  HighestPoint (*highest_point)(PointArrays points, int count, const HeightAxis& axis);
+  // The highest point, or the index -1 if it is lower than `least`. count >= 1.
+  HighestPoint (*highest_point)(PointArrays points, int count, const HeightAxis& axis, double least);
 
   // Writes the indices i < count of boxes that overlap `box` (closed), ascending; returns how many.
   int (*select_overlapping)(const BoxPointers& boxes, int count, const BoxBounds& box, std::int32_t* indices);

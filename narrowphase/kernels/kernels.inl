@@ -45,45 +45,22 @@ std::int64_t find_large(const double* source, std::int64_t count, double largest
   return -1;
 }
 
-// First the highest of the heights, then the lanes that are as high.
-HighestPoint heights(PointArrays points, int count, const HeightAxis& axis, double* out) {
+// First the highest of the heights, then the lanes that are as high. Most calls end in between.
+HighestPoint highest_point(PointArrays points, int count, const HeightAxis& axis, double least) {
   const HeightPack height(axis);
   const Pack lowest = spread(-__builtin_inf());
   Pack high = lowest;
   int i = 0;
-  for (; i + kWidth <= count; i += kWidth) {
-    const Pack h = height(points, i);
-    store(out + i, h);
-    high = max(high, h);
-  }
-  if (i < count) {
-    const Pack h = select(mask_of(lanes_left(count - i)), height(points, i), lowest);
-    store(out + i, h);
-    high = max(high, h);
-  }
-  const double top = largest_lane(high);
-  HighestPoint best{top + 0.0, -1, false};  // one zero: which of the two a maximum picks depends on the order
+  for (; i + kWidth <= count; i += kWidth) high = max(high, height(points, i));
+  if (i < count) high = max(high, select(mask_of(lanes_left(count - i)), height(points, i), lowest));
+  if (bits(less_equal(spread(least), high)) == 0) return {-__builtin_inf(), -1, false};
+  const Pack top = spread(largest_lane(high));
+  HighestPoint best{largest_lane(high) + 0.0, -1, false};  // one zero: which of the two a maximum picks depends on the order
   for (i = 0; i < count; i += kWidth) {
-    const unsigned equal = bits(less_equal(spread(top), load(out + i)));
+    const unsigned equal = bits(less_equal(top, height(points, i))) & lanes_left(count - i);
     if (equal == 0) continue;
     if (best.index >= 0 || (equal & (equal - 1)) != 0) best.several = true;
     if (best.index < 0) best.index = i + __builtin_ctz(equal);
-  }
-  return best;
-}
-
-HighestPoint highest_point(PointArrays points, int count, const HeightAxis& axis) {
-  constexpr int kChunk = 64;
-  HighestPoint best{-__builtin_inf(), -1, false};
-  for (int begin = 0; begin < count; begin += kChunk) {
-    double out[kChunk];
-    const PointArrays chunk{points.x + begin, points.y + begin, points.z + begin};
-    const HighestPoint one = heights(chunk, count - begin < kChunk ? count - begin : kChunk, axis, out);
-    if (best.index < 0 || one.height > best.height) {
-      best = {one.height, begin + one.index, one.several};
-    } else if (one.height == best.height) {
-      best.several = true;
-    }
   }
   return best;
 }
@@ -147,7 +124,7 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
 }  // namespace
 
 extern const Kernels TACT_KERNELS;
-const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, find_large, refresh_cluster, bounds, heights, select_heights, highest_point,
+const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, find_large, refresh_cluster, bounds, select_heights, highest_point,
                               select_overlapping, open_cluster, facing_away, near_facets, any_near, crossing_facets, match_pairs};
 
 }  // namespace tact::narrowphase

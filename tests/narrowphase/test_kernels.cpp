@@ -173,7 +173,7 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
     const FacetBlock expected = block_of(*scalar_kernels(), b, 0), own = block_of(*scalar_kernels(), a, 0);
     const FacetBlock left = block_of(*scalar_kernels(), b, 0, planes);
     const std::uint64_t away = scalar_kernels()->facing_away(expected, axis);
-    const HighestPoint highest = scalar_kernels()->highest_point(b.points(), b.vertex_count(), axis);
+    const HighestPoint highest = scalar_kernels()->highest_point(b.points(), b.vertex_count(), axis, -1e300);
     NearFacets near;
     scalar_kernels()->near_facets(expected, all_bits(b.facet_end(0)), planes.box, &near);
     for (const Kernels* kernels : available()) {
@@ -189,10 +189,12 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
       EXPECT_EQ(std::vector(others_left.facet, others_left.facet + others_left.count),
                 std::vector(left.facet, left.facet + left.count))
           << kernels->name;
-      const HighestPoint top = kernels->highest_point(b.points(), b.vertex_count(), axis);
+      const HighestPoint top = kernels->highest_point(b.points(), b.vertex_count(), axis, highest.height);
       EXPECT_EQ(top.height, highest.height) << kernels->name;
       EXPECT_EQ(top.index, highest.index) << kernels->name;
       EXPECT_EQ(top.several, highest.several) << kernels->name;
+      const double above = std::nextafter(highest.height, 1e300);
+      EXPECT_EQ(kernels->highest_point(b.points(), b.vertex_count(), axis, above).index, -1) << kernels->name;
       NearFacets others;
       kernels->near_facets(block, all_bits(b.facet_end(0)), planes.box, &others);
       EXPECT_EQ(others.facets, near.facets) << kernels->name;
