@@ -195,13 +195,25 @@ void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b
 void FacetPairSearch::decide_pairs(const ConfirmInput& input, const FacetBlock& b, std::vector<FacetPair>& found,
                                    ConfirmCounts& counts) {
   const PairMatches matches = kernels().match_pairs(a_.block, b, pairs_);
-  std::uint64_t meeting = matches.meeting;
-  for (std::uint64_t left = matches.undecided; left != 0; left &= left - 1) {
+  std::uint64_t meeting = matches.meeting, undecided = matches.undecided, flat = matches.flat;
+  if (undecided != 0) {
+    const std::uint64_t sharing = kernels().sharing_pairs(a_.block, b, pairs_, undecided);
+    meeting |= sharing;
+    flat &= ~sharing;
+    const PairMatches wide = kernels().match_pairs_wide(a_.block, b, pairs_, undecided & ~(sharing | flat));
+    meeting |= wide.meeting;
+    flat |= wide.flat;
+    undecided = flat | wide.undecided;
+  }
+  for (std::uint64_t left = undecided; left != 0; left &= left - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(left));
     ++counts.triangle_tests;
     const Triangle p = triangle_in(a_.block, static_cast<std::size_t>(pairs_.a[k]));
     const Triangle q = triangle_in(b, static_cast<std::size_t>(pairs_.b[k]));
-    if (triangle_triangle_meet(p, q, counts.predicates)) meeting |= std::uint64_t{1} << k;
+    const bool is_flat = (flat >> k & 1) != 0;
+    if (is_flat ? coplanar_triangles_meet(p, q, counts.predicates) : triangle_triangle_meet(p, q, counts.predicates)) {
+      meeting |= std::uint64_t{1} << k;
+    }
   }
   for (std::uint64_t left = meeting; left != 0; left &= left - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(left));

@@ -97,17 +97,6 @@ bool collinear_meet(const Segment& a, const Segment& b) {
   return compare_lexicographically(p[0], q[1]) <= 0 && compare_lexicographically(q[0], p[1]) <= 0;
 }
 
-// `a` has its corners in the plane of `b`, or `b` has no area.
-bool flat_meet(const Triangle& a, const Triangle& b, PredicateCounts& counts) {
-  const auto projection = find_projection(b[0], b[1], b[2], counts);
-  if (!projection) return segment_triangle_meet(ends_of(b), a, counts);
-  const auto p = projected(a, projection->axis);
-  const auto q = projected(b, projection->axis);
-  const int turn = orient2d(p[0], p[1], p[2], counts);
-  if (turn == 0) return coplanar_meet(ends_of(a), b, *projection, counts);
-  return !side_separates(q, projection->turn, p, counts) && !side_separates(p, turn, q, counts);
-}
-
 // The corner of a triangle that a plane parts from the other two, when the corners are neither all strictly on one side
 // nor all in the plane. The plane crosses both edges at that corner, each in one point.
 struct LoneCorner {
@@ -165,12 +154,22 @@ bool intervals_meet(const Triangle& a, const Signs& a_sides, const Triangle& b, 
 bool triangle_triangle_meet(const Triangle& a, const Triangle& b, PredicateCounts& counts) {
   const Signs a_sides = sides_of_plane(b[0], b[1], b[2], a, counts);
   if (strictly_on_one_side(a_sides)) return false;
-  if (all_zero(a_sides)) return flat_meet(a, b, counts);
+  if (all_zero(a_sides)) return coplanar_triangles_meet(a, b, counts);
   const Signs b_sides = sides_of_plane(a[0], a[1], a[2], b, counts);
   if (strictly_on_one_side(b_sides)) return false;
   // b has an area and a is not in its plane, so a has none.
   if (all_zero(b_sides)) return segment_triangle_meet(ends_of(a), b, counts);
   return intervals_meet(a, a_sides, b, b_sides, counts);
+}
+
+bool coplanar_triangles_meet(const Triangle& a, const Triangle& b, PredicateCounts& counts) {
+  const auto projection = find_projection(b[0], b[1], b[2], counts);
+  if (!projection) return segment_triangle_meet(ends_of(b), a, counts);
+  const auto p = projected(a, projection->axis);
+  const auto q = projected(b, projection->axis);
+  const int turn = orient2d(p[0], p[1], p[2], counts);
+  if (turn == 0) return coplanar_meet(ends_of(a), b, *projection, counts);
+  return !side_separates(q, projection->turn, p, counts) && !side_separates(p, turn, q, counts);
 }
 
 bool segment_triangle_meet(const Segment& segment, const Triangle& triangle, PredicateCounts& counts) {

@@ -19,6 +19,9 @@ using Segment = std::array<Vec3, 2>;
 // orient3d tell; if the triangles cross each other's planes, two more.
 bool triangle_triangle_meet(const Triangle& a, const Triangle& b, PredicateCounts& counts);
 
+// The same where it is known that the corners of `a` lie in the plane of `b`, or that `b` has no area.
+bool coplanar_triangles_meet(const Triangle& a, const Triangle& b, PredicateCounts& counts);
+
 // Do `segment` and `triangle` share at least one point?
 bool segment_triangle_meet(const Segment& segment, const Triangle& triangle, PredicateCounts& counts);
 

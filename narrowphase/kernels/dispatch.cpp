@@ -16,7 +16,8 @@ const Kernels* scalar_kernels() { return &kScalarKernels; }
 
 #if defined(__x86_64__)
 const Kernels* avx2_kernels() {
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") ? &kAvx2Kernels : nullptr;
+  const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+  return has ? &kAvx2Kernels : nullptr;
 }
 const Kernels* avx512_kernels() {
   const bool has = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&

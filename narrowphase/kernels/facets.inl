@@ -28,46 +28,21 @@ inline Determinant determinant(const VectorPack& x, const VectorPack& n, const V
   return {value, rounding_of(size), size};
 }
 
-// On which side of a plane the corners of a triangle certainly lie.
-struct Sides {
-  Mask above[3], below[3], zero[3];
-  unsigned apart;    // bits: all three strictly on one side
-  unsigned certain;  // all three strictly on a side
-  unsigned known;    // all three on a side or in the plane
-  unsigned flat;     // all three in the plane
-};
-
-inline unsigned all_of(Mask a, Mask b, Mask c) { return bits(both(both(a, b), c)); }
-
-struct SideFilter {
+// The plane through the corners of a triangle.
+struct Plane {
   VectorPack origin, normal, bound;
 
-  Sides sides(const VectorPack* corner) const {
-    Sides s;
-    Mask strict[3], known[3];
-    for (int k = 0; k < 3; ++k) {
-      const Determinant height = determinant(sub(corner[k], origin), normal, bound);
-      s.above[k] = height.positive();
-      s.below[k] = height.negative();
-      s.zero[k] = height.zero();
-      strict[k] = either(s.above[k], s.below[k]);
-      known[k] = either(strict[k], s.zero[k]);
-    }
-    s.apart = all_of(s.above[0], s.above[1], s.above[2]) | all_of(s.below[0], s.below[1], s.below[2]);
-    s.certain = all_of(strict[0], strict[1], strict[2]);
-    s.known = all_of(known[0], known[1], known[2]);
-    s.flat = all_of(s.zero[0], s.zero[1], s.zero[2]);
-    return s;
+  Plane(const VectorPack& c0, const VectorPack& c1, const VectorPack& c2) : origin(c0) {
+    const VectorPack e = sub(c1, c0), f = sub(c2, c0);
+    const Pack xy = mul(e.y, f.z), xz = mul(e.z, f.y), yz = mul(e.z, f.x), yx = mul(e.x, f.z), zx = mul(e.x, f.y),
+               zy = mul(e.y, f.x);
+    normal = {sub(xy, xz), sub(yz, yx), sub(zx, zy)};
+    bound = {add(abs(xy), abs(xz)), add(abs(yz), abs(yx)), add(abs(zx), abs(zy))};
   }
-};
 
-inline SideFilter plane_of(const VectorPack& c0, const VectorPack& c1, const VectorPack& c2) {
-  const VectorPack e = sub(c1, c0), f = sub(c2, c0);
-  const Pack xy = mul(e.y, f.z), xz = mul(e.z, f.y), yz = mul(e.z, f.x), yx = mul(e.x, f.z), zx = mul(e.x, f.y), zy = mul(e.y, f.x);
-  return {c0,
-          {sub(xy, xz), sub(yz, yx), sub(zx, zy)},
-          {add(abs(xy), abs(xz)), add(abs(yz), abs(yx)), add(abs(zx), abs(zy))}};
-}
+  // (point - c0) · ((c1 - c0) × (c2 - c0)).
+  Determinant height(const VectorPack& point) const { return determinant(sub(point, origin), normal, bound); }
+};
 
 // The vertices of a cluster, owned ones first, and what rules each out: a bit for the plane and for each side of the box.
 struct alignas(64) ClusterVertices {
@@ -136,8 +111,7 @@ int open_cluster(const ClusterFacets& in, const CullPlanes& planes, FacetBlock* 
       store(block->lower[axis] + to, min(min(p[0][axis], p[1][axis]), p[2][axis]));
       store(block->upper[axis] + to, max(max(p[0][axis], p[1][axis]), p[2][axis]));
     }
-    const SideFilter plane =
-        plane_of({p[0][0], p[0][1], p[0][2]}, {p[1][0], p[1][1], p[1][2]}, {p[2][0], p[2][1], p[2][2]});
+    const Plane plane({p[0][0], p[0][1], p[0][2]}, {p[1][0], p[1][1], p[1][2]}, {p[2][0], p[2][1], p[2][2]});
     const Pack normal[3] = {plane.normal.x, plane.normal.y, plane.normal.z};
     const Pack size[3] = {plane.bound.x, plane.bound.y, plane.bound.z};
     for (int axis = 0; axis < 3; ++axis) {
@@ -270,114 +244,4 @@ CrossingFacets crossing_facets(const FacetBlock& block, const NearFacets& near, 
     result.facets |= static_cast<std::uint64_t>(mask & ~apart) << i;
   }
   return result;
-}
-
-inline VectorPack select(Mask mask, const VectorPack& yes, const VectorPack& no) {
-  return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
-}
-
-// A triangle with its corners turned so that the plane of the other parts the first from the other two, which it crosses
-// both edges to. `above` tells on which side the first is, or would be if the others decide that it is in the plane.
-struct LoneCorner {
-  VectorPack lone, next, last;
-  Mask above;
-};
-
-inline Mask without(Mask a, Mask b) { return differ(a, both(a, b)); }
-
-// The corners must neither be all strictly on one side nor all in the plane. As kLoneCorners in triangle_triangle.cpp.
-inline LoneCorner lone_corner(const VectorPack* c, const Sides& s) {
-  Mask up[3], here[3];
-  for (int i = 0; i < 3; ++i) {
-    const int n = (i + 1) % 3, l = (i + 2) % 3;
-    const Mask others_below = both(either(s.below[n], s.zero[n]), either(s.below[l], s.zero[l]));
-    const Mask others_above = both(either(s.above[n], s.zero[n]), either(s.above[l], s.zero[l]));
-    up[i] = either(both(s.above[i], others_below), both(s.zero[i], both(s.below[n], s.below[l])));
-    here[i] = either(up[i], either(both(s.below[i], others_above), both(s.zero[i], both(s.above[n], s.above[l]))));
-  }
-  const Mask second = without(here[1], here[0]), third = without(without(here[2], here[0]), here[1]);
-  return {select(here[0], c[0], select(here[1], c[1], c[2])), select(here[0], c[1], select(here[1], c[2], c[0])),
-          select(here[0], c[2], select(here[1], c[0], c[1])),
-          either(both(here[0], up[0]), either(both(second, up[1]), both(third, up[2])))};
-}
-
-// (a - d) · ((b - d) × (c - d)).
-inline Determinant orient3d(const VectorPack& a, const VectorPack& b, const VectorPack& c, const VectorPack& d) {
-  const SideFilter plane = plane_of(d, b, c);
-  return determinant(sub(a, d), plane.normal, plane.bound);
-}
-
-struct Meeting {
-  unsigned yes, no;  // bits of lanes that are certain
-};
-
-// The same, where some lanes of `yes` hang on a determinant being zero.
-struct IntervalMeeting {
-  unsigned yes, no, by_zero;
-};
-
-// Each triangle crosses or touches the other's plane: their intervals on the common line overlap if and only if two
-// orientations of an edge of each have the right signs (Guigue and Devillers, 2003). As in triangle_triangle.cpp, where
-// above is a negative orientation.
-inline IntervalMeeting intervals_meet(const LoneCorner& a, const LoneCorner& b) {
-  const VectorPack b1 = select(a.above, b.next, b.last), b2 = select(a.above, b.last, b.next);
-  const VectorPack a1 = select(b.above, a.next, a.last), a2 = select(b.above, a.last, a.next);
-  const Determinant p = orient3d(a.lone, a1, b.lone, b1), q = orient3d(a.lone, a2, b.lone, b2);
-  return {bits(both(either(p.positive(), p.zero()), either(q.negative(), q.zero()))),
-          bits(either(p.negative(), q.positive())), bits(either(p.zero(), q.zero()))};
-}
-
-inline void gather_corners(const FacetBlock& block, const std::int32_t* facet, VectorPack* corner) {
-  for (int k = 0; k < 3; ++k) {
-    corner[k] = {gather(block.corner[k][0], facet), gather(block.corner[k][1], facet),
-                 gather(block.corner[k][2], facet)};
-  }
-}
-
-// The lanes in which no coordinate is so small that a product of three differences that are not zero could vanish: all
-// are zero or at least 2^-200, so differences are at least 2^-252 and products 2^-756.
-inline unsigned nothing_vanishes(const VectorPack* corner) {
-  const Pack least = spread(0x1p-200), zero = spread(0.0);
-  unsigned tiny = 0;
-  for (int k = 0; k < 3; ++k) {
-    const Pack coordinates[3] = {corner[k].x, corner[k].y, corner[k].z};
-    for (const Pack x : coordinates) {
-      tiny |= bits(both(less(abs(x), least), not_equal(x, zero)));
-    }
-  }
-  return ~tiny;
-}
-
-// By the sides of the planes, then by the intervals on their common line.
-inline Meeting match_lanes(const VectorPack* a, const VectorPack* b, unsigned mask) {
-  const Sides sides_b = plane_of(a[0], a[1], a[2]).sides(b);
-  unsigned left = mask & ~sides_b.apart;
-  if (left == 0) return {0, mask};
-  const Sides sides_a = plane_of(b[0], b[1], b[2]).sides(a);
-  left &= ~sides_a.apart;
-  const unsigned certain = left & sides_a.certain & sides_b.certain;
-  const unsigned known = left & sides_a.known & sides_b.known & ~(sides_a.flat | sides_b.flat);
-  if (known == 0) return {0, mask & ~left};
-  IntervalMeeting meeting = intervals_meet(lone_corner(a, sides_a), lone_corner(b, sides_b));
-  const unsigned in_plane = known & ~certain, by_zero = in_plane | (known & meeting.by_zero);
-  if (by_zero != 0) {
-    const unsigned vanishing = by_zero & ~(nothing_vanishes(a) & nothing_vanishes(b));
-    meeting.yes &= ~vanishing;
-    meeting.no &= ~(vanishing & in_plane);
-  }
-  return {meeting.yes & known, (mask & ~left) | (meeting.no & known)};
-}
-
-PairMatches match_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs) {
-  PairMatches matches{0, 0};
-  for (int i = 0; i < pairs.count; i += kWidth) {
-    VectorPack corner_a[3], corner_b[3];
-    gather_corners(a, pairs.a + i, corner_a);
-    gather_corners(b, pairs.b + i, corner_b);
-    const unsigned mask = lanes_left(pairs.count - i);
-    const Meeting meeting = match_lanes(corner_a, corner_b, mask);
-    matches.meeting |= static_cast<std::uint64_t>(meeting.yes) << i;
-    matches.undecided |= static_cast<std::uint64_t>(mask & ~(meeting.yes | meeting.no)) << i;
-  }
-  return matches;
 }

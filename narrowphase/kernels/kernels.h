@@ -1,6 +1,7 @@
 // The few loops in which the time goes, compiled once for each instruction set from kernels.inl and chosen when the
-// program starts. Every instruction set gives the same bits: the same operations in the same order on every element, no
-// fused multiply-add. Plain pointers only: nothing inline may leak from files that are compiled for a newer machine.
+// program starts. Every instruction set gives the same bits: the same operations in the same order on every element, a
+// fused multiply-add only for the exact error of a product. Plain pointers only: nothing inline may leak from files
+// that are compiled for a newer machine.
 #pragma once
 
 #include <cstdint>
@@ -42,6 +43,8 @@ struct BoxBounds {
 // sizes, and this besides. See facets.inl.
 inline constexpr double kRelativeRounding = 1e-15;
 inline constexpr double kAbsoluteRounding = 1e-200;
+// The former where all is computed with twice the digits. See facet_pairs.inl.
+inline constexpr double kWideRelativeRounding = 0x1p-100;
 
 // A facet prepared to be held against many others.
 struct FacetPlane {
@@ -114,6 +117,7 @@ struct FacetPairList {
 struct PairMatches {
   std::uint64_t meeting;    // certainly
   std::uint64_t undecided;  // for exact predicates
+  std::uint64_t flat;       // of those undecided: the facet of `a` lies in the plane of the facet of `b`, certainly
 };
 
 // Vertices of a cluster to be refreshed. Coordinates of source vertex s are source[3 s], source[3 s + 1], source[3 s +
@@ -167,6 +171,12 @@ struct Kernels {
 
   // Decides pairs of a facet of `a` and one of `b`. What doubles cannot tell is left undecided.
   PairMatches (*match_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs);
+  // Those of the pairs that have a bit in `which` and a corner in common.
+  std::uint64_t (*sharing_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
+                                 std::uint64_t which);
+  // Decides those of the pairs that have a bit in `which`, with twice the digits.
+  PairMatches (*match_pairs_wide)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
+                                  std::uint64_t which);
 };
 
 // The best for this machine, or the one that the environment variable TACT_INSTRUCTION_SET names: scalar, avx2, avx512.

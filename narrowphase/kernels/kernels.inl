@@ -119,12 +119,14 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
 }
 
 #include "narrowphase/kernels/facets.inl"
+#include "narrowphase/kernels/facet_pairs.inl"
 #include "narrowphase/kernels/refresh.inl"
 
 }  // namespace
 
 extern const Kernels TACT_KERNELS;
 const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, find_large, refresh_cluster, bounds, select_heights, highest_point,
-                              select_overlapping, open_cluster, facing_away, near_facets, any_near, crossing_facets, match_pairs};
+                              select_overlapping, open_cluster, facing_away, near_facets, any_near, crossing_facets, match_pairs,
+                              sharing_pairs, match_pairs_wide};
 
 }  // namespace tact::narrowphase

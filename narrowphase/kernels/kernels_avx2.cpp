@@ -1,4 +1,4 @@
-// Four elements at a time. Compiled for AVX2, BMI and BMI2.
+// Four elements at a time. Compiled for AVX2, FMA, BMI and BMI2.
 #include <immintrin.h>
 
 #include "narrowphase/kernels/kernels.h"
@@ -21,6 +21,8 @@ inline Pack gather(const double* p, const std::int32_t* i) { return _mm256_set_p
 inline Pack add(Pack a, Pack b) { return _mm256_add_pd(a, b); }
 inline Pack sub(Pack a, Pack b) { return _mm256_sub_pd(a, b); }
 inline Pack mul(Pack a, Pack b) { return _mm256_mul_pd(a, b); }
+// a b - c, rounded once.
+inline Pack fused(Pack a, Pack b, Pack c) { return _mm256_fmsub_pd(a, b, c); }
 inline Pack min(Pack a, Pack b) { return _mm256_min_pd(a, b); }
 inline Pack max(Pack a, Pack b) { return _mm256_max_pd(a, b); }
 inline Pack abs(Pack a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a); }

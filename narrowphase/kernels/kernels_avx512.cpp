@@ -23,6 +23,8 @@ inline Pack gather(const double* p, const std::int32_t* i) {
 inline Pack add(Pack a, Pack b) { return _mm512_add_pd(a, b); }
 inline Pack sub(Pack a, Pack b) { return _mm512_sub_pd(a, b); }
 inline Pack mul(Pack a, Pack b) { return _mm512_mul_pd(a, b); }
+// a b - c, rounded once.
+inline Pack fused(Pack a, Pack b, Pack c) { return _mm512_fmsub_pd(a, b, c); }
 inline Pack min(Pack a, Pack b) { return _mm512_min_pd(a, b); }
 inline Pack max(Pack a, Pack b) { return _mm512_max_pd(a, b); }
 inline Pack abs(Pack a) { return _mm512_abs_pd(a); }

@@ -18,6 +18,8 @@ inline Pack gather(const double* p, const std::int32_t* index) { return p[*index
 inline Pack add(Pack a, Pack b) { return a + b; }
 inline Pack sub(Pack a, Pack b) { return a - b; }
 inline Pack mul(Pack a, Pack b) { return a * b; }
+// a b - c, rounded once.
+inline Pack fused(Pack a, Pack b, Pack c) { return __builtin_fma(a, b, -c); }
 inline Pack min(Pack a, Pack b) { return a < b ? a : b; }
 inline Pack max(Pack a, Pack b) { return a > b ? a : b; }
 inline Pack abs(Pack a) { return __builtin_fabs(a); }

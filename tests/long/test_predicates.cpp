@@ -1,5 +1,5 @@
-// Millions of hard triangle pairs against CGAL and against rationals. Not part of the ordinary tests: how many pairs is
-// read from the environment.
+// Millions of hard triangle pairs against CGAL and against rationals: one by one, and many at a time by every kernel
+// that the machine has. Not part of the ordinary tests: how many pairs is read from the environment.
 //   TACT_LONG_CGAL_PAIRS      pairs against CGAL's exact predicates, 100000 if not set
 //   TACT_LONG_RATIONAL_PAIRS  pairs against rational numbers alone, 10000 if not set
 //   TACT_LONG_SEED            which pairs, 1 if not set
@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
+#include "narrowphase/kernels/kernels.h"
 #include "narrowphase/triangle_triangle.h"
 #include "tests/support/triangle_oracle.h"
 #include "tests/support/triangle_pairs.h"
@@ -44,21 +46,93 @@ struct BlockResult {
 
 using Oracle = bool (*)(const Triangle&, const Triangle&);
 
+using narrowphase::FacetBlock;
+using narrowphase::Kernels;
+using narrowphase::PairMatches;
+
+void set_corners(FacetBlock& block, int i, const Triangle& t) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (int axis = 0; axis < 3; ++axis) block.corner[k][axis][i] = t[k][axis];
+  }
+}
+
+// What kernels say of up to 64 pairs.
+class Batch {
+ public:
+  bool full() const { return list_.count == narrowphase::FacetPairList::kCapacity; }
+
+  void add(const TrianglePair& pair, bool meet) {
+    const int i = list_.count++;
+    set_corners(a_, i, pair.a);
+    set_corners(b_, i, pair.b);
+    list_.a[i] = list_.b[i] = i;
+    pairs_.push_back(pair);
+    meeting_ |= static_cast<std::uint64_t>(meet) << i;
+  }
+
+  // Appends what is wrong and empties the batch.
+  void check(std::vector<std::string>& failures) {
+    const std::uint64_t all = full() ? ~std::uint64_t{0} : (std::uint64_t{1} << list_.count) - 1;
+    for (const Kernels* kernels :
+         {narrowphase::scalar_kernels(), narrowphase::avx2_kernels(), narrowphase::avx512_kernels()}) {
+      if (kernels == nullptr) continue;
+      const PairMatches simple = kernels->match_pairs(a_, b_, list_);
+      const PairMatches wide = kernels->match_pairs_wide(a_, b_, list_, all);
+      const std::uint64_t sharing = kernels->sharing_pairs(a_, b_, list_, all);
+      const std::string name = kernels->name;
+      note(simple.meeting ^ (meeting_ & ~simple.undecided), name + " in doubles", failures);
+      note(wide.meeting ^ (meeting_ & ~wide.undecided), name + " with twice the digits", failures);
+      note(sharing & ~meeting_, name + " by equal corners", failures);
+      note(((simple.flat | wide.flat) & ~flat()), name + " lies in the plane", failures);
+    }
+    list_.count = 0;
+    meeting_ = 0;
+    pairs_.clear();
+  }
+
+ private:
+  std::uint64_t flat() const {
+    std::uint64_t flat = 0;
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      narrowphase::PredicateCounts counts;
+      const Triangle& b = pairs_[i].b;
+      const bool all =
+          narrowphase::sides_of_plane(b[0], b[1], b[2], pairs_[i].a, counts) == std::array<int, 3>{0, 0, 0};
+      flat |= static_cast<std::uint64_t>(all) << i;
+    }
+    return flat;
+  }
+
+  void note(std::uint64_t wrong, const std::string& who, std::vector<std::string>& failures) const {
+    for (; wrong != 0; wrong &= wrong - 1) {
+      failures.push_back(who + ", wrongly: " + to_string(pairs_[static_cast<std::size_t>(std::countr_zero(wrong))]));
+    }
+  }
+
+  FacetBlock a_{}, b_{};
+  narrowphase::FacetPairList list_;
+  std::vector<TrianglePair> pairs_;
+  std::uint64_t meeting_ = 0;  // in truth
+};
+
 BlockResult run_block(std::uint64_t seed, std::uint64_t begin, std::uint64_t end, Oracle oracle) {
   BlockResult result;
+  Batch batch;
   for (std::uint64_t i = begin; i < end; ++i) {
     const TrianglePair pair = hard_triangle_pair(seed, i);
     narrowphase::PredicateCounts counts;
-    const bool meet = narrowphase::triangle_triangle_meet(pair.a, pair.b, counts);
+    const bool meet = narrowphase::triangle_triangle_meet(pair.a, pair.b, counts), truth = oracle(pair.a, pair.b);
     KindCounts& kind = result.kinds[static_cast<std::size_t>(pair.kind)];
     ++kind.pairs;
     kind.meeting += meet;
     kind.exact_pairs += counts.exact > 0;
     kind.exact_predicates += static_cast<std::uint64_t>(counts.exact);
-    if (meet != oracle(pair.a, pair.b)) {
+    if (meet != truth) {
       result.failures.push_back("pair " + std::to_string(i) +
                                 (meet ? " meets, wrongly: " : " does not meet, wrongly: ") + to_string(pair));
     }
+    batch.add(pair, truth);
+    if (batch.full() || i + 1 == end) batch.check(result.failures);
   }
   return result;
 }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
 #include <vector>
@@ -37,10 +38,13 @@ constexpr BoxBounds kEverything{{-9, -9, -9}, {9, 9, 9}};
 
 // What becomes of all pairs of a facet of `a` and one of `b`.
 struct Decisions {
-  std::vector<FacetPair> meeting, undecided;
+  std::vector<FacetPair> meeting, undecided, flat;
 };
 
-Decisions decide_all(const Kernels& kernels, const ClusteredMesh& a, const ClusteredMesh& b) {
+enum class Digits { simple, wide };
+
+Decisions decide_all(const Kernels& kernels, const ClusteredMesh& a, const ClusteredMesh& b,
+                     Digits digits = Digits::simple) {
   const FacetBlock block_a = block_of(kernels, a, 0), block_b = block_of(kernels, b, 0);
   Decisions decisions;
   for (int f = 0; f < a.facet_end(0); ++f) {
@@ -49,14 +53,23 @@ Decisions decide_all(const Kernels& kernels, const ClusteredMesh& a, const Clust
       pairs.a[pairs.count] = f;
       pairs.b[pairs.count++] = g;
     }
-    const PairMatches matches = kernels.match_pairs(block_a, block_b, pairs);
+    const std::uint64_t all = pairs.count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << pairs.count) - 1;
+    const PairMatches matches = digits == Digits::simple ? kernels.match_pairs(block_a, block_b, pairs)
+                                                         : kernels.match_pairs_wide(block_a, block_b, pairs, all);
     EXPECT_EQ(matches.meeting & matches.undecided, 0u);
+    EXPECT_EQ(matches.flat & ~matches.undecided, 0u);
     for (int g = 0; g < b.facet_end(0); ++g) {
       if ((matches.meeting >> g & 1) != 0) decisions.meeting.push_back({f, g});
       if ((matches.undecided >> g & 1) != 0) decisions.undecided.push_back({f, g});
+      if ((matches.flat >> g & 1) != 0) decisions.flat.push_back({f, g});
     }
   }
   return decisions;
+}
+
+bool lies_in_plane(const Triangle& a, const Triangle& b) {
+  PredicateCounts counts;
+  return sides_of_plane(b[0], b[1], b[2], a, counts) == std::array<int, 3>{0, 0, 0};
 }
 
 std::vector<FacetPair> meeting_in_truth(const ClusteredMesh& a, const ClusteredMesh& b) {
@@ -72,49 +85,108 @@ std::vector<FacetPair> meeting_in_truth(const ClusteredMesh& a, const ClusteredM
 
 std::uint64_t all_bits(int count) { return count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1; }
 
-// Seeded pairs of bodies: smooth ones, soups, and lattices where everything is coplanar or touches.
+Mesh turned(Mesh mesh) {
+  mesh.positions =
+      (Eigen::AngleAxisd(0.7, Eigen::Vector3d(0.36, 0.48, 0.8)).toRotationMatrix() * mesh.positions).eval();
+  return mesh;
+}
+
+// Seeded pairs of bodies: lattices where everything is coplanar or touches, soups, smooth ones, and lattices that were
+// turned, so that rounding alone keeps corners from planes.
 std::pair<Mesh, Mesh> bodies(int seed) {
   const auto s = static_cast<std::uint64_t>(seed);
-  if (seed % 3 == 0) return {tests::lattice_soup(100, 2, s), tests::lattice_soup(100, 2, s + 7)};
-  if (seed % 3 == 1) return {tests::soup(100, 1.0, s), tests::soup(100, 1.0, s + 7)};
+  const auto lattice = [](std::uint64_t one) { return tests::lattice_soup(100, 2, one); };
+  if (seed % 4 == 0) return {lattice(s), lattice(s + 7)};
+  if (seed % 4 == 1) return {tests::soup(100, 1.0, s), tests::soup(100, 1.0, s + 7)};
+  if (seed % 4 == 3) return {turned(lattice(s)), turned(lattice(s + 7))};
   return {tests::blob(1, 0.5, 0.3, s), tests::translated(tests::blob(1, 0.5, 0.3, s + 9), {0.3, 0.2, 0.1})};
 }
 
+void expect_right(const Kernels& kernels, const ClusteredMesh& a, const ClusteredMesh& b, Digits digits) {
+  const Decisions decisions = decide_all(kernels, a, b, digits);
+  std::vector<FacetPair> decided;
+  for (const FacetPair& pair : meeting_in_truth(a, b)) {
+    if (!std::binary_search(decisions.undecided.begin(), decisions.undecided.end(), pair)) decided.push_back(pair);
+  }
+  EXPECT_EQ(decisions.meeting, decided) << kernels.name;
+  for (const FacetPair& pair : decisions.flat) {
+    EXPECT_TRUE(lies_in_plane(a.triangle(pair.a), b.triangle(pair.b))) << kernels.name;
+  }
+}
+
 TEST(Kernels, DecisionsAreRight) {
-  for (int seed = 0; seed < 12; ++seed) {
+  for (int seed = 0; seed < 16; ++seed) {
     const auto [mesh_a, mesh_b] = bodies(seed);
     const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+    SCOPED_TRACE(seed);
     for (const Kernels* kernels : available()) {
-      const Decisions decisions = decide_all(*kernels, a, b);
-      std::vector<FacetPair> decided;
-      for (const FacetPair& pair : meeting_in_truth(a, b)) {
-        if (!std::binary_search(decisions.undecided.begin(), decisions.undecided.end(), pair)) decided.push_back(pair);
-      }
-      EXPECT_EQ(decisions.meeting, decided) << kernels->name << " seed " << seed;
+      expect_right(*kernels, a, b, Digits::simple);
+      expect_right(*kernels, a, b, Digits::wide);
     }
   }
 }
 
 // Products of tiny differences vanish: that is no zero.
 TEST(Kernels, DecisionsAreRightWhereProductsVanish) {
-  for (int seed = 0; seed < 12; ++seed) {
+  for (int seed = 0; seed < 16; ++seed) {
     auto [mesh_a, mesh_b] = bodies(seed);
     for (const double scale : {0x1p-190, 0x1p-280, 0x1p-350, 0x1p-500, 0x1p-1000}) {
       Mesh small_a = mesh_a, small_b = mesh_b;
       small_a.positions *= scale;
       small_b.positions *= scale;
       const ClusteredMesh a = clustered(small_a), b = clustered(small_b);
+      SCOPED_TRACE(::testing::Message() << "seed " << seed << " scale " << scale);
       for (const Kernels* kernels : available()) {
-        const Decisions decisions = decide_all(*kernels, a, b);
-        std::vector<FacetPair> decided;
-        for (const FacetPair& pair : meeting_in_truth(a, b)) {
-          if (!std::binary_search(decisions.undecided.begin(), decisions.undecided.end(), pair))
-            decided.push_back(pair);
-        }
-        EXPECT_EQ(decisions.meeting, decided) << kernels->name << " seed " << seed << " scale " << scale;
+        expect_right(*kernels, a, b, Digits::simple);
+        expect_right(*kernels, a, b, Digits::wide);
       }
     }
   }
+}
+
+bool share_a_corner(const Triangle& a, const Triangle& b) {
+  for (const Vec3& p : a) {
+    if (std::find(b.begin(), b.end(), p) != b.end()) return true;
+  }
+  return false;
+}
+
+// Twice the digits tell on which side a corner lies that rounding alone keeps from a plane.
+TEST(Kernels, WideDecidesWhatRoundingPutsNextToAPlane) {
+  for (const int seed : {3, 7, 11, 15}) {
+    const auto [mesh_a, mesh_b] = bodies(seed);
+    const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+    const auto undecided = [&](Digits digits) {
+      const std::vector<FacetPair> pairs = decide_all(*scalar_kernels(), a, b, digits).undecided;
+      return std::count_if(pairs.begin(), pairs.end(), [&](const FacetPair& pair) {
+        return !share_a_corner(a.triangle(pair.a), b.triangle(pair.b));
+      });
+    };
+    EXPECT_GT(undecided(Digits::simple), 100);
+    EXPECT_LT(3 * undecided(Digits::wide), undecided(Digits::simple));
+  }
+}
+
+TEST(Kernels, SharingPairsHaveACornerInCommon) {
+  const auto [mesh_a, mesh_b] = bodies(0);
+  const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+  std::size_t sharing = 0;
+  for (const Kernels* kernels : available()) {
+    const FacetBlock block_a = block_of(*kernels, a, 0), block_b = block_of(*kernels, b, 0);
+    for (int f = 0; f < a.facet_end(0); ++f) {
+      FacetPairList pairs;
+      std::uint64_t expected = 0;
+      for (int g = 0; g < b.facet_end(0); ++g) {
+        pairs.a[pairs.count] = f;
+        pairs.b[pairs.count++] = g;
+        expected |= static_cast<std::uint64_t>(share_a_corner(a.triangle(f), b.triangle(g))) << g;
+      }
+      constexpr std::uint64_t kSome = 0xfedcba9876543210;
+      EXPECT_EQ(kernels->sharing_pairs(block_a, block_b, pairs, kSome), expected & kSome) << kernels->name;
+      sharing += static_cast<std::size_t>(std::popcount(expected & kSome));
+    }
+  }
+  EXPECT_GT(sharing, 100u);
 }
 
 TEST(Kernels, TouchingPairsOfALatticeAreDecidedUnlessCoplanar) {
@@ -213,8 +285,12 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
         EXPECT_EQ(x.facets, y.facets) << kernels->name;
         EXPECT_EQ(x.box_pairs, y.box_pairs) << kernels->name;
       }
-      EXPECT_EQ(decide_all(*kernels, a, b).meeting, decide_all(*scalar_kernels(), a, b).meeting) << kernels->name;
-      EXPECT_EQ(decide_all(*kernels, a, b).undecided, decide_all(*scalar_kernels(), a, b).undecided) << kernels->name;
+      for (const Digits digits : {Digits::simple, Digits::wide}) {
+        const Decisions one = decide_all(*kernels, a, b, digits), other = decide_all(*scalar_kernels(), a, b, digits);
+        EXPECT_EQ(one.meeting, other.meeting) << kernels->name;
+        EXPECT_EQ(one.undecided, other.undecided) << kernels->name;
+        EXPECT_EQ(one.flat, other.flat) << kernels->name;
+      }
     }
   }
 }
