@@ -73,9 +73,9 @@ void read_through(const double* positions, std::size_t count) {
 
 void BoxArrays::resize(std::size_t count) {
   const Box empty;
-  stride_ = count + kPadding;
-  bounds_.assign(3 * stride_, empty.lower.x);
-  bounds_.resize(6 * stride_, empty.upper.x);
+  stride_ = count;
+  bounds_.assign(3 * count, empty.lower.x);
+  bounds_.resize(6 * count + kPadding, empty.upper.x);
 }
 
 void BoxArrays::set(std::size_t i, const Box& box) {
@@ -89,6 +89,8 @@ BoxPointers BoxArrays::pointers(int first) const {
           {upper(0) + first, upper(1) + first, upper(2) + first}};
 }
 
+void BoxArrays::prefetch() const { prefetch_lines(bounds_.data(), bounds_.size()); }
+
 PositionProblem find_position_problem(const double* positions, std::size_t count, double largest) {
   const std::int64_t at = kernels().find_large(positions, 3 * static_cast<std::int64_t>(count), largest);
   if (at < 0) return {};
@@ -100,8 +102,8 @@ ClusteredMesh::ClusteredMesh(std::span<const double> positions, std::span<const 
     : source_vertex_count_(static_cast<int>(positions.size() / 3)) {
   group_facets(positions, facets);
   number_vertices(facets);
-  stride_ = source_vertex_.size() + kPadding;
-  coordinates_.assign(3 * stride_, 0.0);
+  stride_ = static_cast<std::size_t>(vertex_count());
+  coordinates_.assign(3 * stride_ + kPadding, 0.0);
   cluster_boxes_.resize(static_cast<std::size_t>(cluster_count()));
   if (group_count() > 1) group_boxes_.resize(static_cast<std::size_t>(group_count()));
   set_positions(positions.data(), 1);
@@ -114,6 +116,7 @@ void ClusteredMesh::group_facets(std::span<const double> positions, std::span<co
     centers[f] = source_position(positions, facets[3 * f]) + source_position(positions, facets[3 * f + 1]) +
                  source_position(positions, facets[3 * f + 2]);
   }
+  facet_count_ = static_cast<int>(count);
   source_facet_.resize(count);
   std::iota(source_facet_.begin(), source_facet_.end(), 0);
   MedianOrder(centers, source_facet_).sort(0, count);
@@ -128,25 +131,25 @@ void ClusteredMesh::number_vertices(std::span<const int> facets) {
   const auto source_of = [&](int f, int k) {
     return facets[3 * static_cast<std::size_t>(source_facet(f)) + static_cast<std::size_t>(k)];
   };
+  std::vector<int> source_vertices, borrowed_sources;
   for (auto& corner : corner_) corner.assign(static_cast<std::size_t>(facet_count()), 0);
   for (int c = 0; c < cluster_count(); ++c) {
-    const int first = vertex_count(), first_borrowed = static_cast<int>(borrowed_.size());
-    vertex_begin_.push_back(first);
-    borrowed_begin_.push_back(first_borrowed);
+    const int first = vertex_count_, first_borrowed = static_cast<int>(borrowed_.size());
+    indices_.insert(indices_.end(), {first, first_borrowed});
     for (int i = 0; i < 3 * (facet_end(c) - facet_begin(c)); ++i) {
       const int source = source_of(facet_begin(c) + i / 3, i % 3);
       const auto s = static_cast<std::size_t>(source);
       if (number[s] == kFirstUse) {
-        number[s] = vertex_count();
-        source_vertex_.push_back(source);
+        number[s] = vertex_count_++;
+        source_vertices.push_back(source);
       } else if (number[s] < first && last_user[s] != c) {
         place[s] = static_cast<int>(borrowed_.size()) - first_borrowed;
         borrowed_.push_back(number[s]);
-        borrowed_source_.push_back(source);
+        borrowed_sources.push_back(source);
       }
       last_user[s] = c;
     }
-    const int owned = vertex_count() - first;
+    const int owned = vertex_count_ - first;
     for (int f = facet_begin(c); f < facet_end(c); ++f) {
       for (int k = 0; k < 3; ++k) {
         const auto s = static_cast<std::size_t>(source_of(f, k));
@@ -155,18 +158,18 @@ void ClusteredMesh::number_vertices(std::span<const int> facets) {
       }
     }
   }
-  vertex_begin_.push_back(vertex_count());
-  borrowed_begin_.push_back(static_cast<int>(borrowed_.size()));
+  indices_.insert(indices_.end(), {vertex_count_, static_cast<int>(borrowed_.size())});
+  indices_.insert(indices_.end(), source_vertices.begin(), source_vertices.end());
+  indices_.insert(indices_.end(), borrowed_sources.begin(), borrowed_sources.end());
 }
 
 ClusterFacets ClusteredMesh::facets_of(int cluster) const {
-  const auto c = static_cast<std::size_t>(cluster);
-  const int first = facet_begin(cluster), borrowed = borrowed_begin_[c];
+  const int first = facet_begin(cluster), borrowed = borrowed_begin(cluster);
   return {.points = points(),
           .owned_begin = vertex_begin(cluster),
           .owned_count = vertex_end(cluster) - vertex_begin(cluster),
           .borrowed = borrowed_.data() + borrowed,
-          .borrowed_count = borrowed_begin_[c + 1] - borrowed,
+          .borrowed_count = borrowed_begin(cluster + 1) - borrowed,
           .corner = {corner_[0].data() + first, corner_[1].data() + first, corner_[2].data() + first},
           .facet_begin = first,
           .facet_count = facet_end(cluster) - first};
@@ -185,63 +188,61 @@ Corners ClusteredMesh::corners(int facet) const {
 
 bool ClusteredMesh::set_positions(const double* positions, int threads) {
   const int ranges = (cluster_count() + kClustersPerRange - 1) / kClustersPerRange;
-  bool changed = false;
+  Refreshed all;
   if (ranges <= 1 || threads <= 1) {
     if (cluster_count() > kNearClusters) read_through(positions, 3 * static_cast<std::size_t>(source_vertex_count_));
-    changed = refresh_range(positions, 0, cluster_count());
+    all = refresh_range(positions, 0, cluster_count());
   } else {
     const std::size_t part = 3 * static_cast<std::size_t>(source_vertex_count_) / static_cast<std::size_t>(ranges) + 1;
     base::parallel_for(static_cast<std::size_t>(ranges), 1, threads, [&](std::size_t i) {
       const std::size_t begin = i * part, end = 3 * static_cast<std::size_t>(source_vertex_count_);
       if (begin < end) read_through(positions + begin, std::min(part, end - begin));
     });
-    std::vector<char> range_changed(static_cast<std::size_t>(ranges), 0);
-    base::parallel_for(range_changed.size(), 1, threads, [&](std::size_t i) {
+    std::vector<Refreshed> refreshed(static_cast<std::size_t>(ranges));
+    base::parallel_for(refreshed.size(), 1, threads, [&](std::size_t i) {
       const int begin = static_cast<int>(i) * kClustersPerRange;
-      range_changed[i] = refresh_range(positions, begin, std::min(begin + kClustersPerRange, cluster_count()));
+      refreshed[i] = refresh_range(positions, begin, std::min(begin + kClustersPerRange, cluster_count()));
     });
-    for (const char one : range_changed) changed = changed || one != 0;
+    for (const Refreshed& one : refreshed) {
+      all.changed = all.changed || one.changed;
+      all.box = merged(all.box, one.box);
+    }
   }
-  if (group_count() <= 1) {
-    box_ = box_of(kernels().bounds(cluster_boxes_.pointers(), cluster_count()));
-    return changed;
-  }
-  for (int g = 0; g < group_count(); ++g) {
+  box_ = all.box;
+  for (int g = 0; g < group_count() && group_count() > 1; ++g) {
     const int begin = cluster_begin(g), count = cluster_end(g) - begin;
     group_boxes_.set(static_cast<std::size_t>(g), box_of(kernels().bounds(cluster_boxes_.pointers(begin), count)));
   }
-  box_ = box_of(kernels().bounds(group_boxes_.pointers(), group_count()));
-  return changed;
+  return all.changed;
 }
 
 void ClusteredMesh::prefetch() const {
-  prefetch_lines(source_vertex_.data(), source_vertex_.size());
-  prefetch_lines(borrowed_source_.data(), borrowed_source_.size());
-  prefetch_lines(vertex_begin_.data(), vertex_begin_.size());
-  prefetch_lines(borrowed_begin_.data(), borrowed_begin_.size());
+  prefetch_lines(indices_.data(), indices_.size());
   prefetch_lines(coordinates_.data(), coordinates_.size());
-  prefetch_lines(cluster_boxes_.lower(0), 1);
+  cluster_boxes_.prefetch();
 }
 
-bool ClusteredMesh::refresh_range(const double* positions, int cluster_begin, int cluster_end) {
-  bool changed = false;
+ClusteredMesh::Refreshed ClusteredMesh::refresh_range(const double* positions, int cluster_begin, int cluster_end) {
+  Refreshed refreshed;
   for (int cluster = cluster_begin; cluster < cluster_end; ++cluster) {
     const auto c = static_cast<std::size_t>(cluster);
     const int first = vertex_begin(cluster);
-    const int borrowed = borrowed_begin_[c];
+    const int borrowed = borrowed_begin(cluster);
     const RefreshInput input{.source = positions,
-                             .owned = source_vertex_.data() + first,
+                             .owned = source_vertices() + first,
                              .owned_count = vertex_end(cluster) - first,
-                             .borrowed = borrowed_source_.data() + borrowed,
-                             .borrowed_count = borrowed_begin_[c + 1] - borrowed,
+                             .borrowed = borrowed_sources() + borrowed,
+                             .borrowed_count = borrowed_begin(cluster + 1) - borrowed,
                              .x = coordinates_.data() + first,
                              .y = coordinates_.data() + stride_ + first,
                              .z = coordinates_.data() + 2 * stride_ + first};
-    BoxBounds box;
-    changed = kernels().refresh_cluster(input, &box) || changed;
-    cluster_boxes_.set(c, box_of(box));
+    BoxBounds bounds;
+    refreshed.changed = kernels().refresh_cluster(input, &bounds) || refreshed.changed;
+    const Box box = box_of(bounds);
+    cluster_boxes_.set(c, box);
+    refreshed.box = merged(refreshed.box, box);
   }
-  return changed;
+  return refreshed;
 }
 
 Triangle ClusteredMesh::triangle(int facet) const {
@@ -255,7 +256,7 @@ void ClusteredMesh::validate() const {
     if (f < 0 || f >= facet_count() || seen[static_cast<std::size_t>(f)]++) broken("source facet " + std::to_string(f));
   }
   std::vector<char> owned(static_cast<std::size_t>(source_vertex_count_), 0);
-  for (const int s : source_vertex_) {
+  for (const int s : std::span(source_vertices(), static_cast<std::size_t>(vertex_count()))) {
     if (owned[static_cast<std::size_t>(s)]++) broken("source vertex " + std::to_string(s) + " has two owners");
   }
   Box whole;

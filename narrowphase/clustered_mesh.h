@@ -36,7 +36,8 @@ inline constexpr int kPadding = 8;
 // one block of memory, so that the boxes of a small body are next to each other.
 class BoxArrays {
  public:
-  void resize(std::size_t count);  // empty boxes, and kPadding more behind
+  void resize(std::size_t count);  // empty boxes
+  void prefetch() const;
   void set(std::size_t i, const Box& box);
   const double* lower(int axis) const { return bounds_.data() + static_cast<std::size_t>(axis) * stride_; }
   const double* upper(int axis) const { return lower(axis + 3); }
@@ -46,7 +47,7 @@ class BoxArrays {
   }
 
  private:
-  std::vector<double> bounds_;  // lower x, y, z, upper x, y, z
+  std::vector<double> bounds_;  // lower x, y, z, upper x, y, z, and kPadding more
   std::size_t stride_ = 0;
 };
 
@@ -81,16 +82,16 @@ class ClusteredMesh {
   void prefetch() const;
 
   int source_vertex_count() const { return source_vertex_count_; }
-  int vertex_count() const { return static_cast<int>(source_vertex_.size()); }
-  int facet_count() const { return static_cast<int>(source_facet_.size()); }
+  int vertex_count() const { return vertex_count_; }
+  int facet_count() const { return facet_count_; }
   int facet_of_source(int source_facet) const { return facet_of_source_[static_cast<std::size_t>(source_facet)]; }
   int cluster_count() const { return (facet_count() + kClusterSize - 1) / kClusterSize; }
   int group_count() const { return (cluster_count() + kGroupSize - 1) / kGroupSize; }
 
   // How many vertices of the caller set_positions reads, those that several clusters share more than once.
-  int vertex_reads() const { return vertex_count() + static_cast<int>(borrowed_source_.size()); }
+  int vertex_reads() const { return vertex_count() + static_cast<int>(borrowed_.size()); }
 
-  int source_vertex(int vertex) const { return source_vertex_[static_cast<std::size_t>(vertex)]; }
+  int source_vertex(int vertex) const { return source_vertices()[vertex]; }
   int source_facet(int facet) const { return source_facet_[static_cast<std::size_t>(facet)]; }
 
   // The clusters of a group are cluster_begin(g) <= c < cluster_end(g).
@@ -101,8 +102,8 @@ class ClusteredMesh {
   // vertex_begin(c) <= v < vertex_end(c).
   int facet_begin(int cluster) const { return cluster * kClusterSize; }
   int facet_end(int cluster) const { return std::min((cluster + 1) * kClusterSize, facet_count()); }
-  int vertex_begin(int cluster) const { return vertex_begin_[static_cast<std::size_t>(cluster)]; }
-  int vertex_end(int cluster) const { return vertex_begin_[static_cast<std::size_t>(cluster) + 1]; }
+  int vertex_begin(int cluster) const { return indices_[2 * static_cast<std::size_t>(cluster)]; }
+  int vertex_end(int cluster) const { return vertex_begin(cluster + 1); }
 
   Corners corners(int facet) const;
   Vec3 position(int vertex) const {
@@ -131,22 +132,33 @@ class ClusteredMesh {
  private:
   void group_facets(std::span<const double> positions, std::span<const int> facets);
   void number_vertices(std::span<const int> facets);
-  bool refresh_range(const double* positions, int cluster_begin, int cluster_end);
+  // Says what changed and gives the box of the clusters.
+  struct Refreshed {
+    bool changed = false;
+    Box box;
+  };
+  Refreshed refresh_range(const double* positions, int cluster_begin, int cluster_end);
 
+  // Where the borrowed vertices of a cluster begin.
+  int borrowed_begin(int cluster) const { return indices_[2 * static_cast<std::size_t>(cluster) + 1]; }
+  // Of all vertices, and of the borrowed ones of all clusters.
+  const int* source_vertices() const { return indices_.data() + 2 * cluster_count() + 2; }
+  const int* borrowed_sources() const { return source_vertices() + vertex_count_; }
+
+  // What set_positions needs comes first, in few blocks of memory: small bodies are scattered.
   int source_vertex_count_ = 0;
-  std::vector<int> source_vertex_;  // of each vertex
-  std::vector<int> source_facet_;   // of each facet
-  std::vector<int> facet_of_source_;
-  std::vector<std::uint8_t> corner_[3];  // of each facet: vertices that its cluster owns come first, then the borrowed
-  std::vector<int> vertex_begin_;        // of each cluster, and one more
-  std::vector<int> borrowed_;            // vertices that a cluster uses and does not own
-  std::vector<int> borrowed_source_;     // the same as source vertices
-  std::vector<int> borrowed_begin_;      // of each cluster, and one more
-  std::vector<double> coordinates_;      // x of each vertex, and stride_ later y, and z
+  int vertex_count_ = 0;
+  int facet_count_ = 0;
+  std::vector<int> indices_;         // vertex_begin and borrowed_begin of each cluster and one more; source vertices
+  std::vector<double> coordinates_;  // x of each vertex, and stride_ later y, and z
   std::size_t stride_ = 0;
   BoxArrays cluster_boxes_;
-  BoxArrays group_boxes_;
   Box box_;
+  BoxArrays group_boxes_;
+  std::vector<int> source_facet_;  // of each facet
+  std::vector<int> facet_of_source_;
+  std::vector<std::uint8_t> corner_[3];  // of each facet: vertices that its cluster owns come first, then the borrowed
+  std::vector<int> borrowed_;            // vertices that a cluster uses and does not own, cluster by cluster
 };
 
 }  // namespace tact::narrowphase
