@@ -61,7 +61,7 @@ TEST(ContactMarks, ArrowsEndInThePicture) {
   constexpr int kWidth = 640, kHeight = 360;
   PictureScene scene = two_cubes();
   const Camera camera = framing(bounding_box(scene), scene.up, kWidth, kHeight);
-  const Arrow out{.direction = Eigen::Vector3d::UnitY(), .length = 10.0}, in{.length = 0.01},
+  const Arrow out{.direction = Eigen::Vector3d::UnitY(), .length = 2.5}, in{.length = 0.01},
       gone{.start = {100.0, 0.0, 0.0}, .length = 1.0};
   scene.arrows = {out, in, gone};
   keep_arrows_in_picture(camera, kWidth, kHeight, scene);

@@ -147,7 +147,9 @@ void expect_nested(const nlohmann::json& events, int thread) {
   std::ranges::stable_sort(all, {}, &Stretch::begin);
   for (const Stretch& stretch : all) {
     while (!open.empty() && open.back().end <= stretch.begin + kRounding) open.pop_back();
-    if (!open.empty()) ASSERT_LE(stretch.end, open.back().end + kRounding) << "thread " << thread;
+    if (!open.empty()) {
+      ASSERT_LE(stretch.end, open.back().end + kRounding) << "thread " << thread;
+    }
     open.push_back(stretch);
   }
 }
