@@ -50,7 +50,7 @@ std::span<const PairList> BlockJoin::run(const BlockTree& tree, std::span<const 
                                          std::span<const Filter> filters, int threads) {
   parts_.resize(kParts);
   for (PairList& part : parts_) part.clear();
-  visits_.assign(kParts, 0);
+  counts_.assign(kParts, {});
   std::size_t level = tree.level_count() - 1;
   if (tree.block_count(level) == 0) return {};
   work_.clear();
@@ -67,31 +67,39 @@ std::span<const PairList> BlockJoin::run(const BlockTree& tree, std::span<const 
   base::parallel_for(kParts, 1, threads, [&](std::size_t part) {
     const std::size_t begin = work.size() * part / kParts;
     const std::size_t end = work.size() * (part + 1) / kParts;
-    std::size_t visits = 0;
-    for (std::size_t i = begin; i < end; ++i) visits += walk(tree, boxes, filters, level, work[i], parts_[part]);
-    visits_[part] = visits;
+    Counts counts;
+    for (std::size_t i = begin; i < end; ++i) walk(tree, boxes, filters, level, work[i], parts_[part], counts);
+    counts_[part] = counts;
   });
   return parts_;
 }
 
-std::size_t BlockJoin::visits() const { return std::accumulate(visits_.begin(), visits_.end(), std::size_t{0}); }
+std::size_t BlockJoin::visits() const {
+  return std::accumulate(counts_.begin(), counts_.end(), std::size_t{0},
+                         [](std::size_t sum, const Counts& counts) { return sum + counts.visits; });
+}
 
-// Appends the pairs below a pair of blocks; returns how many pairs of blocks on level 0 were compared.
-std::size_t BlockJoin::walk(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,
-                            std::size_t level, IndexPair blocks, PairList& out) const {
+std::size_t BlockJoin::excluded() const {
+  return std::accumulate(counts_.begin(), counts_.end(), std::size_t{0},
+                         [](std::size_t sum, const Counts& counts) { return sum + counts.excluded; });
+}
+
+// Appends the pairs below a pair of blocks.
+void BlockJoin::walk(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,
+                     std::size_t level, IndexPair blocks, PairList& out, Counts& counts) const {
   IndexPair children[kChildRoom] = {blocks};
   std::size_t count = 1;
   if (level > 0) count = child_pairs(tree, *kernels_, level, blocks, children);
   std::uint16_t rows[kChildRoom];
   kernels_->find_rows(tree.blocks(0), children, count, rows);
   for (std::size_t i = 0; i < count; ++i) {
-    if (rows[i] != 0) visit(tree, boxes, filters, children[i], rows[i], out);
+    if (rows[i] != 0) visit(tree, boxes, filters, children[i], rows[i], out, counts);
   }
-  return count;
+  counts.visits += count;
 }
 
 void BlockJoin::visit(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,
-                      IndexPair blocks, std::uint32_t rows, PairList& out) const {
+                      IndexPair blocks, std::uint32_t rows, PairList& out, Counts& counts) const {
   const BlockSide side_a{tree.blocks(0) + blocks.a, tree.members(blocks.a), tree.active(0, blocks.a)};
   const BlockSide side_b{tree.blocks(0) + blocks.b, tree.members(blocks.b), tree.active(0, blocks.b)};
   IndexPair* const found = out.room(kOverlapRoom);
@@ -101,7 +109,9 @@ void BlockJoin::visit(const BlockTree& tree, std::span<const Box> boxes, std::sp
     end = std::remove_if(found, end, [&](IndexPair pair) { return !base::overlaps(boxes[pair.a], boxes[pair.b]); });
   }
   if (!filters.empty()) {
+    IndexPair* const all = end;
     end = std::remove_if(found, end, [&](IndexPair pair) { return !tested(filters[pair.a], filters[pair.b]); });
+    counts.excluded += static_cast<std::size_t>(all - end);
   }
   out.extend(static_cast<std::size_t>(end - found));
 }

@@ -25,18 +25,24 @@ class BlockJoin {
 
   // How many pairs of blocks on level 0 the last run compared.
   std::size_t visits() const;
+  // How many overlapping pairs the filters of the last run dropped.
+  std::size_t excluded() const;
 
  private:
-  std::size_t walk(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,
-                   std::size_t level, IndexPair blocks, PairList& out) const;
+  struct Counts {
+    std::size_t visits = 0;
+    std::size_t excluded = 0;
+  };
+  void walk(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters, std::size_t level,
+            IndexPair blocks, PairList& out, Counts& counts) const;
   void visit(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters, IndexPair blocks,
-             std::uint32_t rows, PairList& out) const;
+             std::uint32_t rows, PairList& out, Counts& counts) const;
 
   const Kernels* kernels_;
   PairList work_;  // pairs of blocks on one level that may hold overlapping boxes
   PairList next_;
   std::vector<PairList> parts_;
-  std::vector<std::size_t> visits_;  // by part
+  std::vector<Counts> counts_;  // by part
 };
 
 }  // namespace tact::broadphase

@@ -16,6 +16,7 @@ constexpr std::size_t kThreadShare = 2048;  // changed boxes for which one more 
 std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std::span<const Filter> filters,
                                                  std::span<const std::uint32_t> changed, int threads) {
   assert(boxes.size() == filters.size());
+  excluded_ = 0;
   if (changed.empty() && boxes.size() == box_count_) return pairs_;
   const base::FloatingPointMode mode;
   box_count_ = boxes.size();
@@ -25,6 +26,7 @@ std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std
   tree_.update(boxes, changed, is_changed_, threads);
   const auto parts = join_.run(tree_, boxes, special_count_ == 0 ? std::span<const Filter>{} : filters, threads);
   tree_.note_cost(join_.visits(), changed_count);
+  excluded_ = join_.excluded();
   const auto fresh = sorter_.sort(parts, boxes.size(), threads);
   if (changed_count == boxes.size()) {
     pairs_.assign(fresh.begin(), fresh.end());

@@ -24,6 +24,8 @@ class SweepAndPrune {
                                     std::span<const std::uint32_t> changed, int threads);
 
   std::span<const IndexPair> pairs() const { return pairs_; }
+  // How many overlapping pairs, with a changed box, the filters kept out of the last answer.
+  std::size_t excluded() const { return excluded_; }
 
   // Whether what is kept between calls agrees with `boxes`, those of the last call. For tests.
   bool validate(std::span<const Box> boxes) const { return tree_.validate(boxes); }
@@ -39,6 +41,7 @@ class SweepAndPrune {
   std::vector<std::uint8_t> is_special_;  // by box: its filter is not the default one
   std::size_t special_count_ = 0;
   std::size_t box_count_ = 0;
+  std::size_t excluded_ = 0;
   std::vector<IndexPair> pairs_;
   std::vector<IndexPair> merged_;
 };

@@ -99,11 +99,15 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   slots_[slot].body = std::move(body);
   mark_changed(slot);
   ++count_;
+  vertices_ += slots_[slot].body->mesh.source_vertex_count();
+  moved_vertices_ += slots_[slot].body->mesh.source_vertex_count();
   return slots_[slot].body->id;
 }
 
 void Bodies::remove(BodyId id) {
-  at(id);
+  const auto vertices = at(id).mesh.source_vertex_count();
+  vertices_ -= vertices;
+  if (moved(id.index)) moved_vertices_ -= vertices;
   slots_[id.index].body.reset();
   boxes_[id.index] = base::Box{};
   free_.push_back(id.index);
@@ -137,8 +141,10 @@ void Bodies::apply(Update& update, int threads) {
 
 void Bodies::note(const Update& update) {
   if (!update.moved) return;
-  boxes_[update.body->id.index] = update.body->mesh.box();
-  mark_changed(update.body->id.index);
+  const std::uint32_t slot = update.body->id.index;
+  boxes_[slot] = update.body->mesh.box();
+  if (!moved(slot)) moved_vertices_ += update.body->mesh.source_vertex_count();
+  mark_changed(slot);
 }
 
 void Bodies::set_positions(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions, int threads) {
@@ -209,10 +215,12 @@ void Bodies::mark_changed(std::uint32_t slot) {
 void Bodies::end_step() {
   for (const std::uint32_t slot : changed_) slots_[slot].changed = false;
   changed_.clear();
+  moved_vertices_ = 0;
 }
 
 void Bodies::mark_all_changed() {
   for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) mark_changed(slot);
+  moved_vertices_ = vertices_;
 }
 
 }  // namespace tact

@@ -38,6 +38,9 @@ class Bodies {
   const Body& at(BodyId id) const;
   const Body& in_slot(std::uint32_t slot) const { return *slots_[slot].body; }
   std::size_t count() const noexcept { return count_; }
+  // Vertices of all bodies, and of those that moved.
+  std::int64_t vertices() const noexcept { return vertices_; }
+  std::int64_t moved_vertices() const noexcept { return moved_vertices_; }
   std::vector<BodyId> ids() const;
 
   // What the broad phase sees, an entry a slot; the box of an empty slot is empty.
@@ -83,6 +86,8 @@ class Bodies {
   std::vector<broadphase::Filter> filters_;
   std::vector<std::uint32_t> changed_;
   std::size_t count_ = 0;
+  std::int64_t vertices_ = 0;
+  std::int64_t moved_vertices_ = 0;
   std::vector<Update> updates_;  // scratch
   std::vector<char> named_;      // scratch, an entry a slot
 };

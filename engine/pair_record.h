@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tact/report.h>
+#include <tact/trace.h>
 
 #include <memory>
 #include <optional>
@@ -24,6 +25,11 @@ struct PairHistory {
 // What happened in the last step that looked at the pair.
 struct PairCounts {
   std::int64_t gjk_iterations = 0;
+  std::int64_t clusters = 0;  // of both bodies
+  std::int64_t clusters_outside_box = 0;
+  std::int64_t clusters_outside_slab = 0;
+  std::int64_t opened_clusters = 0;
+  std::int64_t opened_facets = 0;
   std::int64_t facets_facing_away = 0;
   std::int64_t facets_outside_zone = 0;
   std::int64_t cluster_pairs = 0;
@@ -31,8 +37,12 @@ struct PairCounts {
   std::int64_t triangle_tests = 0;
   std::int64_t exact_predicates = 0;
   bool still_separated = false;
+  bool still_overlapping = false;
   bool used_trees = false;
   bool limit_reached = false;
+  bool in_ranges = false;  // stage 6 was cut into ranges, for all threads
+  int thread = 0;          // that looked at the pair, from `begin` on
+  TraceEvent::Time begin;
   double hulls_ms = 0.0, direction_ms = 0.0, cull_ms = 0.0, confirm_ms = 0.0;
 };
 

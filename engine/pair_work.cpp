@@ -43,7 +43,8 @@ bool still_overlap(const PairRecord& record, const MinkowskiDifference& m, PairW
 // overlap, or nearly do.
 bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, const GjkSettings& settings, PairWork& work) {
   PairHistory& history = record.history;
-  if (still_overlap(record, m, work)) return true;
+  record.counts.still_overlapping = still_overlap(record, m, work);
+  if (record.counts.still_overlapping) return true;
   if (history.kind == PairHistory::Kind::separated) {
     const bool apart = m.certainly_apart(history.direction);
     record.counts.gjk_iterations += apart ? 0 : 1;
@@ -130,6 +131,14 @@ void fill_contact(PairRecord& record, const MinkowskiDifference& m, const Direct
   contact.plane_b = base + slab.lower;
 }
 
+void count_clusters(const Body& a, const Body& b, PairWork& work) {
+  PairCounts& counts = work.record->counts;
+  counts.clusters = a.mesh.cluster_count() + b.mesh.cluster_count();
+  counts.clusters_outside_slab = work.kept_a.outside_slab + work.kept_b.outside_slab;
+  counts.clusters_outside_box =
+      counts.clusters - counts.clusters_outside_slab - work.kept_a.count() - work.kept_b.count();
+}
+
 // Stage 5.
 void cull(PairRecord& record, const Body& a, const Body& b, const Slab& slab, const Settings& settings,
           EmbreeDevice& device, PairWork& work) {
@@ -151,20 +160,28 @@ void cull(PairRecord& record, const Body& a, const Body& b, const Slab& slab, co
   cull_clusters(a.mesh, work.input.criteria_a, b.mesh.box(), work.kept_a);
   cull_clusters(b.mesh, work.input.criteria_b, work.kept_a.bounds, work.kept_b);
   cull_again(work.kept_b.bounds, work.kept_a);
+  count_clusters(a, b, work);
   record.counts.used_trees = find_cluster_pairs(work.kept_a, work.kept_b, ClusterPairSource::automatic, device,
                                                 work.cluster_pairs, work.boxes_found);
   record.counts.cluster_pairs = static_cast<std::int64_t>(work.cluster_pairs.size());
 }
 
 void add(CullCounts& sum, const CullCounts& one) {
+  sum.opened_clusters += one.opened_clusters;
   sum.facing_away += one.facing_away;
   sum.outside_slab += one.outside_slab;
   sum.outside_zone += one.outside_zone;
   sum.kept += one.kept;
 }
 
+std::int64_t facets_of(const CullCounts& counts) {
+  return counts.facing_away + counts.outside_slab + counts.outside_zone + counts.kept;
+}
+
 void finish(PairWork& work, const ConfirmCounts& counts) {
   PairRecord& record = *work.record;
+  record.counts.opened_clusters = work.cull_a.opened_clusters + work.cull_b.opened_clusters;
+  record.counts.opened_facets = facets_of(work.cull_a) + facets_of(work.cull_b);
   std::sort(record.facet_pairs.begin(), record.facet_pairs.end());
   record.contact.kept_facets_a = work.cull_a.kept;
   record.contact.kept_facets_b = work.cull_b.kept;
@@ -181,6 +198,7 @@ bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, c
                              EmbreeDevice& device, PairWork& work) {
   Timer timer;
   record.counts = {};
+  record.counts.begin = timer.start();
   record.facet_pairs.clear();
   record.patches.clear();
   const MinkowskiDifference m(a.mesh, b.mesh);
@@ -236,19 +254,23 @@ std::size_t range_begin(const std::vector<ClusterPair>& pairs, std::size_t i) {
 
 void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int threads) {
   Timer timer;
+  work.ranges_begin = timer.start();
   struct Range {
     std::vector<FacetPair> found;
     ConfirmCounts counts;
     std::vector<OpenedCluster> opened_a, opened_b;
   };
   std::vector<Range> ranges((work.cluster_pairs.size() + kPairsPerRange - 1) / kPairsPerRange);
+  work.ranges.resize(ranges.size());
   base::parallel_for(ranges.size(), 1, threads, [&](std::size_t i, int thread) {
+    const Timer range_timer;
     Range& range = ranges[i];
     FacetPairSearch& search = thread_work[static_cast<std::size_t>(thread)].search;
     const std::size_t begin = range_begin(work.cluster_pairs, i), end = range_begin(work.cluster_pairs, i + 1);
     search.run(work.input, work.cluster_pairs, begin, end, range.found, range.counts);
     range.opened_a = search.opened_a();
     range.opened_b = search.opened_b();
+    work.ranges[i] = {thread, range_timer.start(), Timer::Clock::now(), static_cast<std::int64_t>(range.found.size())};
   });
   // A cluster of B that several ranges opened counts once.
   std::vector<char> seen_b(static_cast<std::size_t>(work.kept_b.count()), 0);

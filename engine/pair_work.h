@@ -13,6 +13,13 @@
 
 namespace tact {
 
+// A part of stage 6 of a large pair, as a trace tells it.
+struct ConfirmedRange {
+  int thread = 0;
+  TraceEvent::Time begin, end;
+  std::int64_t facet_pairs = 0;
+};
+
 // A pair between the criteria and the confirmation, and the memory for both; reused from pair to pair.
 struct PairWork {
   PairRecord* record = nullptr;
@@ -26,6 +33,8 @@ struct PairWork {
   bool surface_is_placed = false;  // smallest.surface is the record's, where the bodies are now
   narrowphase::CullCounts cull_a, cull_b;
   narrowphase::FacetPairSearch search;
+  std::vector<ConfirmedRange> ranges;  // of a large pair, from `ranges_begin` on
+  TraceEvent::Time ranges_begin;
 };
 
 // Stages 3 to 5: do the hulls overlap, in which direction and how deep, which clusters are left, and which pairs of

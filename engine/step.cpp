@@ -24,18 +24,18 @@ bool touches(const PairRecord& record) { return record.hulls_overlap && !record.
 }  // namespace
 
 const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh_ms) {
-  Timer total, timer;
+  Timer total;
+  Timer timer = total;
   if (forgotten_) start_afresh();
   if (bodies.changed().empty() && !all_) {
     keep_report();
-    report_.stats_.refresh_ms = refresh_ms;
-    report_.stats_.total_ms = refresh_ms + total.lap();
+    finish(total, settings, refresh_ms);
     return report_;
   }
   report_.stats_ = {};
   StepStats& stats = report_.stats_;
-  stats.refresh_ms = refresh_ms;
   stats.bodies = static_cast<std::int64_t>(bodies.count());
+  stats.vertices = bodies.vertices();
 
   sweep_.update(bodies.boxes(), bodies.filters(), bodies.changed(), settings.threads);
   match_records(bodies);
@@ -46,8 +46,17 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   stats.report_ms = timer.lap();
   bodies.end_step();
   all_ = false;
-  stats.total_ms = refresh_ms + total.lap();
+  finish(total, settings, refresh_ms);
   return report_;
+}
+
+void Step::finish(Timer& total, const Settings& settings, double refresh_ms) {
+  const auto begin = total.start();
+  report_.stats_.refresh_ms = refresh_ms;
+  report_.stats_.total_ms = refresh_ms + total.lap();
+  report_.trace_.clear();
+  if (settings.outputs.trace) trace_.make(begin, total.start(), report_.stats_, moved_, large_, report_.trace_);
+  trace_.forget_refreshes();
 }
 
 void Step::start_afresh() {
@@ -66,9 +75,12 @@ void Step::start_afresh() {
 
 // Nothing moved: the last answer stands, its events and its work do not.
 void Step::keep_report() {
+  moved_.clear();
+  large_.clear();
   const StepStats last = report_.stats_;
   report_.stats_ = {};
   report_.stats_.bodies = last.bodies;
+  report_.stats_.vertices = last.vertices;
   report_.stats_.candidate_pairs = last.candidate_pairs;
   report_.stats_.kept_pairs = last.candidate_pairs;
   report_.stats_.contacts = last.contacts;
@@ -136,11 +148,14 @@ void Step::narrow_phase(const Bodies& bodies, const Settings& settings) {
     PairWork& work = thread_work_[static_cast<std::size_t>(thread)];
     PairRecord& record = *moved_[i];
     const Body &a = bodies.in_slot(record.a.index), &b = bodies.in_slot(record.b.index);
-    if (!find_direction_and_cull(record, a, b, settings, device_, work)) return;
+    const bool confirms = find_direction_and_cull(record, a, b, settings, device_, work);
+    record.counts.thread = thread;
+    if (!confirms) return;
     if (settings.threads == 1 || !is_large(work)) {
       confirm(work);
       return;
     }
+    record.counts.in_ranges = true;
     auto large = std::make_unique<PairWork>(std::move(work));
     large->input.kept_a = &large->kept_a;
     large->input.kept_b = &large->kept_b;
@@ -164,6 +179,8 @@ void Step::make_report(const Bodies& bodies, const Settings& settings) {
   report_.candidate_pairs_.clear();
   stats.moved_bodies = static_cast<std::int64_t>(std::count_if(bodies.changed().begin(), bodies.changed().end(),
                                                                [&](std::uint32_t slot) { return bodies.used(slot); }));
+  stats.moved_vertices = bodies.moved_vertices();
+  stats.excluded_pairs = static_cast<std::int64_t>(sweep_.excluded());
   stats.candidate_pairs = static_cast<std::int64_t>(records_.size());
   stats.kept_pairs = static_cast<std::int64_t>(records_.size() - moved_.size());
   for (const PairRecord* record : moved_) add_work(*record, settings, bodies);
@@ -186,6 +203,8 @@ void Step::add_work(const PairRecord& record, const Settings& settings, const Bo
   const PairCounts& counts = record.counts;
   stats.gjk_iterations += counts.gjk_iterations;
   stats.hulls_ms += counts.hulls_ms;
+  stats.gjk_ms += counts.still_separated || counts.still_overlapping ? 0.0 : counts.hulls_ms;
+  stats.still_overlapping_pairs += counts.still_overlapping ? 1 : 0;
   stats.direction_ms += counts.direction_ms;
   stats.cull_ms += counts.cull_ms;
   stats.confirm_ms += counts.confirm_ms;
@@ -203,6 +222,11 @@ void Step::add_work(const PairRecord& record, const Settings& settings, const Bo
   if (settings.accuracy == Accuracy::hulls) return;
   const std::size_t facets = bodies.in_slot(record.a.index).facet_count + bodies.in_slot(record.b.index).facet_count;
   const std::int64_t kept = contact.kept_facets_a + contact.kept_facets_b;
+  stats.clusters += counts.clusters;
+  stats.clusters_outside_box += counts.clusters_outside_box;
+  stats.clusters_outside_slab += counts.clusters_outside_slab;
+  stats.opened_clusters += counts.opened_clusters;
+  stats.opened_facets += counts.opened_facets;
   stats.facets += static_cast<std::int64_t>(facets);
   stats.kept_facets += kept;
   stats.facets_facing_away += counts.facets_facing_away;

@@ -11,6 +11,7 @@
 #include "engine/bodies.h"
 #include "engine/pair_record.h"
 #include "engine/pair_work.h"
+#include "engine/step_trace.h"
 
 namespace tact {
 
@@ -25,6 +26,9 @@ class Step {
   // The next step starts from nothing: after a step that failed half-way. Allocates nothing.
   void forget() noexcept { forgotten_ = true; }
 
+  // Where stage 1 is noted, if Outputs::trace is set.
+  StepTrace& trace() { return trace_; }
+
  private:
   void start_afresh();
   void match_records(const Bodies& bodies);
@@ -33,6 +37,7 @@ class Step {
   void add_work(const PairRecord& record, const Settings& settings, const Bodies& bodies);
   void add_events();
   void keep_report();
+  void finish(base::Timer& total, const Settings& settings, double refresh_ms);
   PairRecord& new_record(BodyId a, BodyId b);
   void retire(PairRecord& record);
 
@@ -48,6 +53,7 @@ class Step {
   std::vector<ContactEvent> gone_;  // pairs that touched and are no candidates any more
   narrowphase::EmbreeDevice device_;
   Report report_;
+  StepTrace trace_;
   bool all_ = true;
   bool forgotten_ = false;
 };

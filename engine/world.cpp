@@ -57,6 +57,19 @@ struct World::Implementation {
   Bodies bodies{next_world()};
   Step step;
   double refresh_ms = 0.0;  // since the last step
+
+  // Calls set(), which is stage 1, and takes its time.
+  template <class Set>
+  void refresh(const Set& set) {
+    base::Timer timer;
+    const auto begin = timer.start();
+    with_memory("setting positions ran out of memory", [&] {
+      if (settings.outputs.trace) step.trace().make_room();
+      set();
+    });
+    refresh_ms += timer.lap();
+    if (settings.outputs.trace) step.trace().add_refresh(begin, timer.start());
+  }
 };
 
 World::World(const Settings& settings) : implementation_(std::make_unique<Implementation>(settings)) {}
@@ -79,17 +92,13 @@ BodyId World::add_body(const BodyDefinition& definition) {
 void World::remove_body(BodyId body) { implementation_->bodies.remove(body); }
 
 void World::set_positions(BodyId body, const Eigen::Ref<const Eigen::Matrix3Xd>& positions) {
-  base::Timer timer;
-  with_memory("setting positions ran out of memory",
-              [&] { implementation_->bodies.set_positions(body, positions, implementation_->settings.threads); });
-  implementation_->refresh_ms += timer.lap();
+  Implementation& i = *implementation_;
+  i.refresh([&] { i.bodies.set_positions(body, positions, i.settings.threads); });
 }
 
 void World::set_positions(std::span<const PositionsUpdate> updates) {
-  base::Timer timer;
-  with_memory("setting positions ran out of memory",
-              [&] { implementation_->bodies.set_positions(updates, implementation_->settings.threads); });
-  implementation_->refresh_ms += timer.lap();
+  Implementation& i = *implementation_;
+  i.refresh([&] { i.bodies.set_positions(updates, i.settings.threads); });
 }
 
 const Report& World::detect() {

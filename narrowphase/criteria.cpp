@@ -87,12 +87,16 @@ void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Bo
   int found = 0;
   kept.bounds = Box{};
   kept.facets = 0;
+  kept.outside_slab = 0;
   for (int i = 0; i < met; ++i) {
     const std::int32_t cluster = kept.cluster[static_cast<std::size_t>(i)];
     const Box box = mesh.cluster_boxes()[static_cast<std::size_t>(cluster)];
     const Vec3 top{n.x >= 0.0 ? box.upper.x : box.lower.x, n.y >= 0.0 ? box.upper.y : box.lower.y,
                    n.z >= 0.0 ? box.upper.z : box.lower.z};
-    if (dot(n, top - criteria.origin) < criteria.lowest) continue;
+    if (dot(n, top - criteria.origin) < criteria.lowest) {
+      ++kept.outside_slab;
+      continue;
+    }
     kept.cluster[static_cast<std::size_t>(found++)] = cluster;
     kept.bounds = merged(kept.bounds, intersection(box, other));
     kept.facets += mesh.facet_end(cluster) - mesh.facet_begin(cluster);
@@ -131,6 +135,7 @@ bool append_facets(const ClusteredMesh& mesh, int cluster, const Criteria& crite
   const std::uint64_t away = criteria.facing_away ? appended & kernels().facing_away(kept.block, planes.axis) : 0;
   const std::uint64_t left = appended & ~away;
   const std::uint64_t inside = criteria.zone ? inside_zone(kept.block, left, criteria) : left;
+  ++counts.opened_clusters;
   counts.outside_slab += facets.facet_count - count;
   counts.facing_away += std::popcount(away);
   counts.outside_zone += std::popcount(left & ~inside);

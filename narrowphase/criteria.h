@@ -34,6 +34,7 @@ struct Criteria {
 // Facets dropped, by the first criterion that drops them, and kept. Criterion 2 comes first: it alone needs no facet to
 // be looked at, only its corners.
 struct CullCounts {
+  std::int64_t opened_clusters = 0;
   std::int64_t facing_away = 0;
   std::int64_t outside_slab = 0;
   std::int64_t outside_zone = 0;
@@ -46,6 +47,7 @@ struct KeptClusters {
   BoxArrays boxes;  // of the clusters in this list, in its order
   Box bounds;       // of all of them, clipped to what they were held against
   std::int64_t facets = 0;
+  std::int64_t outside_slab = 0;  // clusters that criterion 2 dropped
 
   int count() const { return static_cast<int>(cluster.size()); }
 };

@@ -4,6 +4,18 @@
 #include <map>
 
 namespace tact::scenes {
+namespace {
+
+// An option that names a file; `what` goes there and not to standard output.
+void add_file_option(CLI::App& command, const std::string& option, std::string& file, const std::string& what,
+                     const std::string& text) {
+  const auto check = [what](const std::string& name) {
+    return name == "-" ? what + " goes to a file, not to standard output" : std::string();
+  };
+  command.add_option(option, file, text)->type_name("FILE")->check(check);
+}
+
+}  // namespace
 
 void add_accuracy_option(CLI::App& command, Accuracy& accuracy) {
   const std::map<std::string, Accuracy> names = {
@@ -29,12 +41,13 @@ void add_json_option(CLI::App& command, std::string& file) {
 }
 
 void add_record_option(CLI::App& command, std::string& file) {
-  const auto check = [](const std::string& name) {
-    return name == "-" ? std::string("a recording goes to a file, not to standard output") : std::string();
-  };
-  command.add_option("--record", file, "Write all that enters the engine to this file, for `tact replay`")
-      ->type_name("FILE")
-      ->check(check);
+  add_file_option(command, "--record", file, "a recording",
+                  "Write all that enters the engine to this file, for `tact replay`");
+}
+
+void add_trace_option(CLI::App& command, std::string& file) {
+  add_file_option(command, "--trace", file, "a trace",
+                  "Write which thread did what and when to this file, for ui.perfetto.dev or chrome://tracing");
 }
 
 }  // namespace tact::scenes

@@ -18,5 +18,7 @@ void add_threads_option(CLI::App& command, int& threads);
 void add_json_option(CLI::App& command, std::string& file);
 // --record FILE
 void add_record_option(CLI::App& command, std::string& file);
+// --trace FILE
+void add_trace_option(CLI::App& command, std::string& file);
 
 }  // namespace tact::scenes

@@ -10,6 +10,7 @@
 
 #include "engine/base/timer.h"
 #include "scenes/common_options.h"
+#include "scenes/counted.h"
 #include "scenes/interrupt.h"
 #include "scenes/mapped_file.h"
 #include "scenes/recording_player.h"
@@ -23,10 +24,6 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  tact run pile --frames 100 --no-pictures --record pile.tactrec\n"
     "  tact replay pile.tactrec --threads 1";
-
-std::string counted(int count, const char* thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
 
 }  // namespace
 

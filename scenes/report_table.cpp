@@ -8,17 +8,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/counted.h"
 #include "scenes/report_json.h"
 
 namespace tact::scenes {
 namespace {
 
 constexpr int kMostPairLines = 40;  // a frame, and in the summary
-
-// "1 frame", "2 frames".
-std::string counted(std::int64_t count, const char* noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
 
 double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   constexpr double kDegrees = 57.295779513082320877;

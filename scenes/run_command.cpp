@@ -11,6 +11,7 @@
 
 #include "engine/base/parallel.h"
 #include "scenes/common_options.h"
+#include "scenes/counted.h"
 #include "scenes/interrupt.h"
 #include "scenes/library/catalog.h"
 #include "scenes/lost_pairs.h"
@@ -56,8 +57,10 @@ void run(const RunOptions& options, std::ostream& out) {
   const int threads = options.threads > 0 ? options.threads : base::default_threads();
   std::optional<OutputFile> recording;
   if (!options.record.empty()) recording.emplace(options.record, out);
-  Simulation simulation(std::move(scene.bodies), scene.script, scene.dynamics,
-                        {.threads = threads, .accuracy = options.accuracy}, recording ? &recording->stream() : nullptr);
+  Simulation simulation(
+      std::move(scene.bodies), scene.script, scene.dynamics,
+      {.threads = threads, .accuracy = options.accuracy, .outputs = {.trace = !options.outputs.trace.empty()}},
+      recording ? &recording->stream() : nullptr);
   RunOutputs outputs(options.outputs, options.scene, scene, simulation.world(), threads, out);
 
   // What the paper's criteria lose is measured; the other levels promise all pairs or none.
@@ -72,7 +75,7 @@ void run(const RunOptions& options, std::ostream& out) {
     totals.add_step(simulation);
     if (lost) lost->add_step(simulation);
     outputs.add_step(step, simulation);
-    progress.show(step + 1, fmt::format("{} contacts", simulation.report()->stats().touching_contacts));
+    progress.show(step + 1, counted(simulation.report()->stats().touching_contacts, "contact"));
   }
   progress.clear();
   outputs.finish();
@@ -116,6 +119,7 @@ void add_run_command(CLI::App& program) {
       ->type_name("FILE.glb");
   command->add_option("--vtk", outputs.vtk, "Write the bodies, at every picture, to this folder for ParaView")
       ->type_name("FOLDER");
+  add_trace_option(*command, outputs.trace);
   add_record_option(*command, options->record);
   command->callback([options, no_pictures] {
     options->outputs.pictures = !*no_pictures;

@@ -34,6 +34,10 @@ RunOutputs::RunOutputs(const OutputOptions& options, const std::string& title, c
     json_.emplace(json_file_->stream(), world);
   }
   if (!options.contacts.empty()) contacts_.emplace(options.contacts, out);
+  if (!options.trace.empty()) {
+    trace_file_.emplace(options.trace, out);
+    trace_.emplace(trace_file_->stream(), title, threads);
+  }
   if (!options.gltf.empty()) gltf_.emplace(UpAxis::z);
   if (!options.vtk.empty()) vtk_.emplace(options.vtk, title);
 }
@@ -43,6 +47,7 @@ void RunOutputs::add_step(int step, const Simulation& simulation) {
   if (contacts_) {
     write_contact_line(contacts_->stream(), step, simulation.state().time, simulation.world(), *simulation.report());
   }
+  if (trace_) trace_->add_step(step, simulation);
   if (step % every_ == 0) add_frame(simulation);
 }
 
@@ -70,6 +75,8 @@ void RunOutputs::finish() {
   if (json_) json_->finish();
   if (json_file_) json_file_->finish();
   if (contacts_) contacts_->finish();
+  if (trace_) trace_->finish();
+  if (trace_file_) trace_file_->finish();
   if (gltf_ && gltf_->frames() > 0) gltf_->write(options_.gltf);
   if (!pictures_ || pictures_->count() == 0) return;
   sheet_ = pictures_->write_sheet();
@@ -83,6 +90,7 @@ void RunOutputs::finish() {
 void RunOutputs::print(std::ostream& out) const {
   if (vtk_) fmt::print(out, "frames for ParaView: {}\n", vtk_->index_file().string());
   if (gltf_ && gltf_->frames() > 0) fmt::print(out, "frames for Blender: {}\n", options_.gltf.string());
+  if (trace_) fmt::print(out, "trace for ui.perfetto.dev: {}\n", options_.trace);
   if (!sheet_) return;
   fmt::print(out, "{} pictures: {}, a sheet of them: {}\n{}\n", pictures_->count(), pictures_->folder().string(),
              sheet_->string(), film_);

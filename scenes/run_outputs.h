@@ -6,6 +6,7 @@
 #include <ostream>
 #include <string>
 
+#include "scenes/export/chrome_trace.h"
 #include "scenes/export/gltf.h"
 #include "scenes/export/vtk.h"
 #include "scenes/library/scene.h"
@@ -21,6 +22,7 @@ struct OutputOptions {
   int every = 0;                   // steps from one frame to the next, in pictures, gltf and vtk; 0: 60 frames a second
   std::string json = {};           // the report of every step, "-" for standard output; empty: none
   std::string contacts = {};       // the contacts of every step, a line each, "-" likewise
+  std::string trace = {};          // a Chrome trace of every step; empty: none
   std::filesystem::path gltf = {};  // a .glb file; empty: none
   std::filesystem::path vtk = {};   // a folder; empty: none
 };
@@ -50,6 +52,8 @@ class RunOutputs {
   std::optional<OutputFile> json_file_;
   std::optional<JsonReport> json_;
   std::optional<OutputFile> contacts_;
+  std::optional<OutputFile> trace_file_;
+  std::optional<ChromeTrace> trace_;
   std::optional<GltfAnimation> gltf_;
   std::optional<VtkSeries> vtk_;
   std::optional<std::filesystem::path> sheet_;

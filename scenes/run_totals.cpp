@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/counted.h"
+#include "scenes/skipped_work.h"
+
 namespace tact::scenes {
 namespace {
 
@@ -48,13 +51,14 @@ void RunTotals::print(std::ostream& out, const Simulation& simulation, double wa
   fmt::print(out, "{} bodies, {} facets\n", simulation.bodies().size(), facet_count(simulation));
   fmt::print(out, "{} steps, {:.3f} s simulated in {:.2f} s; without pictures and files {:.1f} steps a second\n",
              steps_, state.time, wall_seconds, times_.total_ms() > 0.0 ? 1e3 * steps_ / times_.total_ms() : 0.0);
-  fmt::print(out, "last step: {} contacts, {} facet pairs, {} contact points\n",
-             steps_ > 0 ? simulation.report()->stats().touching_contacts : 0,
-             steps_ > 0 ? simulation.report()->stats().facet_pairs : 0, state.contact_points);
+  const StepStats last = steps_ > 0 ? simulation.report()->stats() : StepStats{};
+  fmt::print(out, "last step: {}, {}, {}\n", counted(last.touching_contacts, "contact"),
+             counted(last.facet_pairs, "facet pair"), counted(state.contact_points, "contact point"));
   fmt::print(out, "deepest penetration found: {:.2f} % of the smaller body's size\n", 100.0 * deepest_);
   fmt::print(out, "kinetic energy: {:.4g} J now, {:.4g} J at its peak\n", state.kinetic_energy, peak_energy_);
   print_times(out);
   print_work(out);
+  if (steps_ > 0) print_skipped_work(out, stats_, steps_, simulation.world().settings());
   if (!paper.empty()) print_paper(out, paper);
 }
 

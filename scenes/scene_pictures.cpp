@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "scenes/counted.h"
 #include "scenes/file_error.h"
 #include "scenes/pictures/contact_marks.h"
 #include "scenes/pictures/contact_sheet.h"
@@ -81,10 +82,12 @@ void ScenePictures::take(const Simulation& simulation) {
     const base::Box box = shown_ ? *shown_ : bounding_box(scene);
     camera_ = framing(box, UpAxis::z, settings.width, settings.height, view_);
   }
+  keep_arrows_in_picture(*camera_, settings.width, settings.height, scene);
   std::string caption = fmt::format("{:.2f} s", simulation.state().time);
   if (simulation.report() != nullptr) {
     const StepStats& stats = simulation.report()->stats();
-    caption += fmt::format("   {} contacts   {} facet pairs", stats.touching_contacts, stats.facet_pairs);
+    caption += fmt::format("   {}   {}", counted(stats.touching_contacts, "contact"),
+                           counted(stats.facet_pairs, "facet pair"));
   }
   scene.caption = caption;
   write_png(frame_file(folder_, count()), renderer_.render(scene, *camera_));

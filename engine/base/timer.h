@@ -7,6 +7,8 @@ namespace tact::base {
 
 class Timer {
  public:
+  using Clock = std::chrono::steady_clock;
+
   // Milliseconds since construction or the last call of lap().
   double lap() {
     const auto now = Clock::now();
@@ -14,9 +16,10 @@ class Timer {
     start_ = now;
     return ms;
   }
+  // The time of construction or of the last call of lap().
+  Clock::time_point start() const { return start_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
 };
 

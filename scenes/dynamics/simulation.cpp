@@ -75,13 +75,15 @@ void Simulation::for_each_body(const Work& work) {
 
 void Simulation::step() {
   base::Timer timer;
+  times_.begin = timer.start();
   move();
   times_.move_ms = timer.lap();
   show_surfaces();
   times_.surfaces_ms = timer.lap();
   const double written_ms = world_.writing_ms();
   detect();
-  times_.engine_ms = timer.lap() - (world_.writing_ms() - written_ms);
+  times_.recording_ms = world_.writing_ms() - written_ms;
+  times_.engine_ms = timer.lap() - times_.recording_ms;
   find_contacts();
   times_.contacts_ms = timer.lap();
   settle();

@@ -3,6 +3,7 @@
 
 #include <tact/tact.h>
 
+#include <chrono>
 #include <functional>
 #include <ostream>
 #include <vector>
@@ -28,11 +29,13 @@ using Script = std::function<void(double time, std::vector<Body>& bodies)>;
 
 // What a step of the simulation took, wall time in milliseconds.
 struct DynamicsTimes {
-  double move_ms = 0.0;      // substeps
-  double surfaces_ms = 0.0;  // moving surfaces out by their skin
-  double engine_ms = 0.0;    // setting positions and detecting: tact
-  double contacts_ms = 0.0;  // from facet pairs to contact points
-  double settle_ms = 0.0;    // pushing out
+  double move_ms = 0.0;       // substeps
+  double surfaces_ms = 0.0;   // moving surfaces out by their skin
+  double engine_ms = 0.0;     // setting positions and detecting: tact
+  double contacts_ms = 0.0;   // from facet pairs to contact points
+  double settle_ms = 0.0;     // pushing out
+  double recording_ms = 0.0;  // writing what entered the engine, between its two calls; in none of the others
+  std::chrono::steady_clock::time_point begin = {};  // of the step: these follow in their order
   double total_ms() const { return move_ms + surfaces_ms + engine_ms + contacts_ms + settle_ms; }
 };
 

@@ -57,4 +57,19 @@ void mark_contacts(PictureScene& scene, const Report& report, const ContactMarks
   for (PictureBody& body : scene.bodies) sort_unique(body.meeting_facets);
 }
 
+void keep_arrows_in_picture(const Camera& camera, int width, int height, PictureScene& scene) {
+  const double edge = 0.02 * height;  // pixels that stay free
+  const auto is_seen = [&](const Eigen::Vector3d& point) {
+    const PicturePoint p = project(camera, point, width, height);
+    return p.depth > 0.0 && p.x > edge && p.x < width - edge && p.y > edge && p.y < height - edge;
+  };
+  for (Arrow& arrow : scene.arrows) {
+    for (double share = 1.0; share >= 0.1; share -= 0.05) {
+      if (!is_seen(arrow.start + share * arrow.length * arrow.direction)) continue;
+      arrow.length *= share;
+      break;
+    }
+  }
+}
+
 }  // namespace tact::scenes

@@ -3,6 +3,7 @@
 
 #include <tact/report.h>
 
+#include "scenes/pictures/camera.h"
 #include "scenes/pictures/picture_scene.h"
 
 namespace tact::scenes {
@@ -20,5 +21,8 @@ struct ContactMarks {
 // Adds the marks of `report` to `scene`, whose body i is the body of index i in the report. Contacts of bodies that the
 // scene does not hold are left out.
 void mark_contacts(PictureScene& scene, const Report& report, const ContactMarks& marks = {});
+
+// Shortens arrows whose tips `camera` does not see, down to a tenth, until it does.
+void keep_arrows_in_picture(const Camera& camera, int width, int height, PictureScene& scene);
 
 }  // namespace tact::scenes

@@ -37,7 +37,7 @@ Outcome call_short_of_memory(long number, bool for_good, const std::function<voi
 
 // A world and what it should hold.
 struct Scene {
-  World world{{.threads = 2, .outputs = {.zones = true, .patches = true}}};
+  World world{{.threads = 2, .outputs = {.zones = true, .patches = true, .trace = true}}};
   std::vector<Mesh> bodies;
   std::vector<BodyId> ids;
   BodyId added;
@@ -201,7 +201,8 @@ TEST(Allocation, SteadyStepsTakeNone) {
   for (const Accuracy accuracy : {Accuracy::hulls, Accuracy::paper, Accuracy::exact}) {
     for (const DirectionPolicy policy : {DirectionPolicy::carried, DirectionPolicy::smallest}) {
       for (const int threads : {1, 2}) {
-        Round round({.threads = threads, .accuracy = accuracy, .direction = policy, .outputs = {.zones = true}});
+        const Outputs outputs{.zones = true, .trace = true};
+        Round round({.threads = threads, .accuracy = accuracy, .direction = policy, .outputs = outputs});
         for (int warm_up = 0; warm_up < 4; ++warm_up) round.allocations_in_a_round();
         EXPECT_EQ(round.allocations_in_a_round(), 0)
             << threads << " threads, level " << static_cast<int>(accuracy) << ", policy " << static_cast<int>(policy);

@@ -92,6 +92,8 @@ TEST_F(CommandLine, BadInputReturnsOne) {
   expect_refusal("check 'odd\nname.stl'", 1, "odd name.stl: byte 4: ");
   expect_refusal("check none", 1, "none: the folder holds no mesh file");
   expect_refusal("check a.obj --json none/there/x.json", 1, "none/there/x.json: cannot be written: ");
+  expect_refusal("run pile --size 1 --frames 1 --no-pictures --trace none/there/t.json", 1,
+                 "none/there/t.json: cannot be written: ");
   const Outcome full = run("check a.obj --json /dev/full");
   EXPECT_EQ(full.status, 1);
   EXPECT_EQ(full.error, "tact: /dev/full: cannot be written to its end\n");
@@ -108,6 +110,7 @@ TEST_F(CommandLine, WrongUsageReturnsTwo) {
   expect_refusal("check a.obj b.off --threads many", 2, "--threads");
   expect_refusal("check a.obj b.off --frames 0", 2, "--frames");
   expect_refusal("check a.obj --json", 2, "--json");
+  expect_refusal("run pile --trace -", 2, "a trace goes to a file, not to standard output");
 }
 
 TEST_F(CommandLine, HelpAndVersionReturnZero) {

@@ -57,6 +57,21 @@ TEST(ContactMarks, NothingIsMarkedWhereNothingIsAskedFor) {
   EXPECT_TRUE(scene.disks.empty());
 }
 
+TEST(ContactMarks, ArrowsEndInThePicture) {
+  constexpr int kWidth = 640, kHeight = 360;
+  PictureScene scene = two_cubes();
+  const Camera camera = framing(bounding_box(scene), scene.up, kWidth, kHeight);
+  const Arrow out{.direction = Eigen::Vector3d::UnitY(), .length = 2.5}, in{.length = 0.01},
+      gone{.start = {100.0, 0.0, 0.0}, .length = 1.0};
+  scene.arrows = {out, in, gone};
+  keep_arrows_in_picture(camera, kWidth, kHeight, scene);
+  const Arrow& cut = scene.arrows[0];
+  EXPECT_LT(cut.length, out.length);
+  EXPECT_GT(project(camera, cut.start + cut.length * cut.direction, kWidth, kHeight).y, 0.0);
+  EXPECT_EQ(scene.arrows[1].length, in.length);
+  EXPECT_EQ(scene.arrows[2].length, gone.length);
+}
+
 TEST(ContactLines, ALineHoldsTheContactsOfAStep) {
   const PictureScene scene = two_cubes();
   World world = world_of(scene);

@@ -4,9 +4,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -70,7 +73,7 @@ TEST_F(RunCommand, TotalsNameStepsTimesStagesContactsDepthAndEnergy) {
                            "8 bodies",
                            "20 steps, 0.083 s simulated in ",
                            "steps a second",
-                           "contacts, ",
+                           "last step: ",
                            "facet pairs",
                            "deepest penetration found: ",
                            "kinetic energy: ",
@@ -85,7 +88,9 @@ TEST_F(RunCommand, TotalsNameStepsTimesStagesContactsDepthAndEnergy) {
                            "6 confirm",
                            "7 report",
                            "scene: contact points",
-                           "scene: pushing out"}) {
+                           "scene: pushing out",
+                           "skipped by the engine, a step",
+                           "(refresh of a vertex: "}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
   }
 }
@@ -128,15 +133,71 @@ TEST_F(RunCommand, FilesForOtherPrograms) {
   }
 }
 
+// What a thread did, as the trace tells it: in each other or apart.
+void expect_nested(const nlohmann::json& events, int thread) {
+  struct Stretch {
+    double begin, end;
+  };
+  constexpr double kRounding = 0.0011;  // microseconds
+  std::vector<Stretch> all, open;
+  for (const auto& event : events) {
+    if (event["ph"] != "X" || event["tid"] != thread) continue;
+    all.push_back({event["ts"], event["ts"].get<double>() + event["dur"].get<double>()});
+  }
+  std::ranges::stable_sort(all, {}, &Stretch::begin);
+  for (const Stretch& stretch : all) {
+    while (!open.empty() && open.back().end <= stretch.begin + kRounding) open.pop_back();
+    if (!open.empty()) {
+      ASSERT_LE(stretch.end, open.back().end + kRounding) << "thread " << thread;
+    }
+    open.push_back(stretch);
+  }
+}
+
+TEST_F(RunCommand, ATraceTellsOfStepsPhasesStagesAndPairs) {
+  const auto file = folder_.path() / "trace.json";
+  const std::string text = printed({.scene = "pile",
+                                    .frames = 40,
+                                    .size = 20,
+                                    .threads = 2,
+                                    .outputs = {.pictures = false, .trace = file.string()}});
+  EXPECT_NE(text.find("trace.json"), std::string::npos) << text;
+  const auto events = nlohmann::json::parse(contents(file))["traceEvents"];
+  std::map<std::string, double> ms;  // by name, steps together
+  std::set<std::string> categories;
+  for (const auto& event : events) {
+    if (event["ph"] == "M") continue;
+    EXPECT_EQ(event["ph"], "X");
+    const std::string name = event["name"];
+    ms[name.starts_with("step ") ? "step" : name] += 1e-3 * event["dur"].get<double>();
+    categories.insert(event["cat"]);
+  }
+  EXPECT_EQ(categories, (std::set<std::string>{"engine", "pair", "scene", "step"}));
+  EXPECT_EQ(events[0]["args"]["name"], "tact run pile");
+  EXPECT_EQ(events[2]["name"], "thread_name");
+  EXPECT_EQ(events[2]["args"]["name"], "thread 1");
+  for (const char* name : {"step", "motion", "surfaces", "engine", "contact points", "pushing out", "1 refresh",
+                           "detect", "2 sweep", "3-6 narrow phase", "7 report"}) {
+    EXPECT_GT(ms[name], 0.0) << name;
+  }
+  EXPECT_NEAR(ms["motion"] + ms["surfaces"] + ms["engine"] + ms["contact points"] + ms["pushing out"], ms["step"],
+              0.01);
+  EXPECT_LE(ms["1 refresh"] + ms["detect"], ms["engine"]);
+  EXPECT_LE(ms["2 sweep"] + ms["3-6 narrow phase"] + ms["7 report"], ms["detect"] + 0.01);
+  EXPECT_GT(ms["2 sweep"] + ms["3-6 narrow phase"] + ms["7 report"], 0.5 * ms["detect"]);
+  for (const int thread : {0, 1}) expect_nested(events, thread);
+}
+
 // A child is sent the signal as Ctrl-C sends it: it must end with status 0 and whole files.
 TEST_F(RunCommand, AnInterruptKeepsWhatWasDone) {
   const std::string out = (folder_.path() / "out.txt").string();
   const std::string json = (folder_.path() / "r.json").string();
+  const std::string trace = (folder_.path() / "trace.json").string();
   const pid_t child = fork();
   if (child == 0) {
     if (freopen(out.c_str(), "w", stdout) == nullptr) _exit(3);
     execl(TACT_PROGRAM, TACT_PROGRAM, "run", "pile", "--size", "10", "--frames", "1000000", "--no-pictures", "--json",
-          json.c_str(), static_cast<char*>(nullptr));
+          json.c_str(), "--trace", trace.c_str(), static_cast<char*>(nullptr));
     _exit(4);
   }
   ASSERT_GT(child, 0);
@@ -150,6 +211,7 @@ TEST_F(RunCommand, AnInterruptKeepsWhatWasDone) {
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0);
   EXPECT_GT(nlohmann::json::parse(contents(json))["frames"].size(), 1u);
+  EXPECT_GT(nlohmann::json::parse(contents(trace))["traceEvents"].size(), 10u);
   EXPECT_TRUE(contents(out).starts_with("pile, interrupted\n")) << contents(out);
 }
 

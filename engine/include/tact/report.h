@@ -6,6 +6,7 @@
 #include <tact/error.h>
 #include <tact/facet_pair.h>
 #include <tact/statistics.h>
+#include <tact/trace.h>
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -91,6 +92,8 @@ class TACT_API Report {
   // Pairs that touched in the last step and do not now, or of which a body was removed, sorted by (a, b).
   std::span<const ContactEvent> ended() const { return ended_; }
   const StepStats& stats() const { return stats_; }
+  // Filled if Outputs::trace is set; sorted by thread and time, an event before those within it.
+  std::span<const TraceEvent> trace() const { return trace_; }
 
   // A number made from every bit of the candidate pairs and the contacts (bodies by index, facet pairs included;
   // patches, times and counts not): equal answers have equal hashes, for any number of threads.
@@ -103,6 +106,7 @@ class TACT_API Report {
   std::vector<ContactEvent> began_;
   std::vector<ContactEvent> ended_;
   StepStats stats_;
+  std::vector<TraceEvent> trace_;
 };
 
 }  // namespace tact

@@ -1,0 +1,36 @@
+// Which thread did what, and when.
+#pragma once
+
+#include <tact/body.h>
+
+#include <chrono>
+#include <cstdint>
+
+namespace tact {
+
+// A stretch of one thread's work. Those of a thread lie in each other or apart.
+struct TraceEvent {
+  enum class Kind {
+    refresh,       // stage 1: a call of World::set_positions since the last step
+    detect,        // World::detect(): all that follows
+    sweep,         // stage 2
+    narrow_phase,  // stages 3 to 6 of all pairs, on the thread that called; `pair` and `small_pairs` tell of the others
+    pair,          // one pair that took long: the stages that follow
+    hulls,         // stage 3 of it
+    direction,     // stage 4 of it
+    cull,          // stage 5 of it
+    confirm,       // stage 6 of it; of a large pair after all others and outside its `pair`, on all threads in ranges
+    range,         // one thread's part in stage 6 of a large pair
+    small_pairs,   // pairs, one after the other, none of which took long
+    report,        // stage 7
+  };
+  using Time = std::chrono::steady_clock::time_point;
+
+  Kind kind = Kind::detect;
+  int thread = 0;  // from 0, the one that called
+  Time begin = {}, end = {};
+  BodyId a = {}, b = {};   // the pair that `pair`, its stages and its ranges tell of
+  std::int64_t count = 0;  // pair, confirm, range: facet pairs that meet; small_pairs: pairs
+};
+
+}  // namespace tact

@@ -1,0 +1,113 @@
+#include "engine/step_trace.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace tact {
+
+namespace {
+
+using Kind = TraceEvent::Kind;
+using Time = TraceEvent::Time;
+
+// Pairs that take less are joined to one event, so that a trace grows with time rather than with pairs.
+constexpr Time::duration kLongPair = std::chrono::microseconds(20);
+constexpr std::size_t kEventsOfStep = 4, kEventsOfPair = 5;  // at most, refreshes and ranges apart
+
+Time::duration duration_of(double ms) {
+  return std::chrono::round<Time::duration>(std::chrono::duration<double, std::milli>(ms));
+}
+
+// What one thread took for all stages of the pair; a large pair's stage 6 comes later.
+Time::duration pair_duration(const PairCounts& counts) {
+  return duration_of(counts.hulls_ms) + duration_of(counts.direction_ms) + duration_of(counts.cull_ms) +
+         (counts.in_ranges ? Time::duration(0) : duration_of(counts.confirm_ms));
+}
+
+std::int64_t facet_pairs_of(const PairRecord& record) { return static_cast<std::int64_t>(record.facet_pairs.size()); }
+
+void add_pair(const PairRecord& record, std::vector<TraceEvent>& events) {
+  const PairCounts& counts = record.counts;
+  const Time end = counts.begin + pair_duration(counts);
+  events.push_back({Kind::pair, counts.thread, counts.begin, end, record.a, record.b, facet_pairs_of(record)});
+  Time begin = counts.begin;
+  for (const auto& [kind, ms] : {std::pair{Kind::hulls, counts.hulls_ms},
+                                 {Kind::direction, counts.direction_ms},
+                                 {Kind::cull, counts.cull_ms},
+                                 {Kind::confirm, counts.confirm_ms}}) {
+    if (ms == 0.0 || (kind == Kind::confirm && counts.in_ranges)) continue;
+    const Time stage_end = begin + duration_of(ms);
+    const std::int64_t count = kind == Kind::confirm ? facet_pairs_of(record) : 0;
+    events.push_back({kind, counts.thread, begin, stage_end, record.a, record.b, count});
+    begin = stage_end;
+  }
+}
+
+void add_ranges(const PairWork& large, std::vector<TraceEvent>& events) {
+  const PairRecord& record = *large.record;
+  const Time end = large.ranges_begin + duration_of(record.counts.confirm_ms);
+  events.push_back({Kind::confirm, 0, large.ranges_begin, end, record.a, record.b, facet_pairs_of(record)});
+  for (const ConfirmedRange& range : large.ranges) {
+    events.push_back({Kind::range, range.thread, range.begin, range.end, record.a, record.b, range.facet_pairs});
+  }
+}
+
+void add_stages(Time begin, Time end, const StepStats& stats, std::vector<TraceEvent>& events) {
+  events.push_back({Kind::detect, 0, begin, end});
+  for (const auto& [kind, ms] : {std::pair{Kind::sweep, stats.sweep_ms},
+                                 {Kind::narrow_phase, stats.narrow_phase_ms},
+                                 {Kind::report, stats.report_ms}}) {
+    if (ms == 0.0) continue;  // nothing moved
+    const Time stage_end = begin + duration_of(ms);
+    events.push_back({kind, 0, begin, stage_end});
+    begin = stage_end;
+  }
+}
+
+bool before(const TraceEvent& x, const TraceEvent& y) {
+  return std::tie(x.thread, x.begin, y.end, x.kind) < std::tie(y.thread, y.begin, x.end, y.kind);
+}
+
+}  // namespace
+
+void StepTrace::make(Time begin, Time end, const StepStats& stats, std::span<PairRecord* const> pairs,
+                     std::span<const std::unique_ptr<PairWork>> large, std::vector<TraceEvent>& events) {
+  std::size_t most = refreshes_.size() + kEventsOfStep + kEventsOfPair * pairs.size();
+  for (const auto& work : large) most += work->ranges.size() + 1;
+  events.reserve(most);
+  events.assign(refreshes_.begin(), refreshes_.end());
+  add_stages(begin, end, stats, events);
+  add_pairs(pairs, events);
+  for (const auto& work : large) add_ranges(*work, events);
+  std::sort(events.begin(), events.end(), before);
+}
+
+void StepTrace::add_pairs(std::span<PairRecord* const> pairs, std::vector<TraceEvent>& events) {
+  by_thread_.assign(pairs.begin(), pairs.end());
+  std::sort(by_thread_.begin(), by_thread_.end(), [](const PairRecord* x, const PairRecord* y) {
+    return std::tie(x->counts.thread, x->counts.begin) < std::tie(y->counts.thread, y->counts.begin);
+  });
+  TraceEvent small{.kind = Kind::small_pairs};
+  const auto flush = [&] {
+    if (small.count > 0) events.push_back(small);
+    small.count = 0;
+  };
+  for (const PairRecord* record : by_thread_) {
+    const PairCounts& counts = record->counts;
+    const Time::duration duration = pair_duration(counts);
+    const bool is_long = counts.in_ranges || duration >= kLongPair;
+    if (is_long || counts.thread != small.thread) flush();
+    if (is_long) {
+      add_pair(*record, events);
+      continue;
+    }
+    if (small.count == 0) small.begin = counts.begin;
+    small.thread = counts.thread;
+    small.end = counts.begin + duration;
+    ++small.count;
+  }
+  flush();
+}
+
+}  // namespace tact

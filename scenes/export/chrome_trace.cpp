@@ -1,0 +1,123 @@
+#include "scenes/export/chrome_trace.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace tact::scenes {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Kind = TraceEvent::Kind;
+
+constexpr int kProcess = 1;
+
+// Names of files need not be UTF-8, JSON must be.
+std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+const char* kind_name(Kind kind) {
+  switch (kind) {
+    case Kind::refresh: return "1 refresh";
+    case Kind::detect: return "detect";
+    case Kind::sweep: return "2 sweep";
+    case Kind::narrow_phase: return "3-6 narrow phase";
+    case Kind::pair: return "pair";
+    case Kind::hulls: return "3 hulls";
+    case Kind::direction: return "4 direction";
+    case Kind::cull: return "5 cull";
+    case Kind::confirm: return "6 confirm";
+    case Kind::range: return "6 range";
+    case Kind::small_pairs: return "small pairs";
+    case Kind::report: return "7 report";
+  }
+  return "unknown";
+}
+
+bool has_facet_pairs(Kind kind) { return kind == Kind::pair || kind == Kind::confirm || kind == Kind::range; }
+
+Json stats_json(const StepStats& stats) {
+  Json json = Json::object();
+  const auto add = [&](const char* name, const char* /*text*/, auto value) {
+    if (value != 0) json[name] = value;
+  };
+  for_each_count(stats, add);
+  for_each_time(stats, add);
+  return json;
+}
+
+Json args_json(const TraceEvent& event, const World& world, const StepStats& stats) {
+  if (event.kind == Kind::detect) return stats_json(stats);
+  if (event.kind == Kind::small_pairs) return {{"pairs", event.count}};
+  if (event.a == BodyId{}) return Json::object();
+  Json json = {{"a", world.name(event.a)}, {"b", world.name(event.b)}};
+  if (has_facet_pairs(event.kind)) json["facet_pairs"] = event.count;
+  return json;
+}
+
+}  // namespace
+
+ChromeTrace::ChromeTrace(std::ostream& out, const std::string& title, int threads) : out_(out) {
+  out_ << "{\"displayTimeUnit\":\"ms\",\"traceEvents\":[";
+  write_name("process_name", 0, "tact run " + title);
+  for (int thread = 0; thread < threads; ++thread) write_name("thread_name", thread, fmt::format("thread {}", thread));
+}
+
+void ChromeTrace::write_name(std::string_view what, int thread, const std::string& name) {
+  const Json json = {{"name", what}, {"ph", "M"}, {"pid", kProcess}, {"tid", thread}, {"args", {{"name", name}}}};
+  out_ << (std::exchange(first_, false) ? "\n" : ",\n") << dump(json);
+}
+
+// A trace has many events: put together here rather than as a tree of JSON values.
+void ChromeTrace::write(const Event& event) {
+  out_ << fmt::format(
+      ",\n{{\"name\":{},\"cat\":\"{}\",\"ph\":\"X\",\"ts\":{:.3f},\"dur\":{:.3f},\"pid\":{},\"tid\":{},"
+      "\"args\":{}}}",
+      dump(event.name), event.category, microseconds(event.begin - *start_), microseconds(event.end - event.begin),
+      kProcess, event.thread, event.args);
+}
+
+double ChromeTrace::microseconds(Time::duration duration) const {
+  return std::chrono::duration<double, std::micro>(duration).count();
+}
+
+void ChromeTrace::add_step(int step, const Simulation& simulation) {
+  if (!start_) start_ = simulation.times().begin;
+  add_phases(step, simulation.times());
+  for (const TraceEvent& event : simulation.report()->trace()) add_engine_event(event, simulation);
+}
+
+void ChromeTrace::add_phases(int step, const DynamicsTimes& times) {
+  const auto after = [](Time time, double ms) {
+    return time + std::chrono::round<Time::duration>(std::chrono::duration<double, std::milli>(ms));
+  };
+  const Time end = after(times.begin, times.total_ms() + times.recording_ms);
+  write({.name = fmt::format("step {}", step), .category = "step", .begin = times.begin, .end = end});
+  Time begin = times.begin;
+  for (const auto& [name, ms] : {std::pair{"motion", times.move_ms},
+                                 {"surfaces", times.surfaces_ms},
+                                 {"engine", times.engine_ms + times.recording_ms},
+                                 {"contact points", times.contacts_ms},
+                                 {"pushing out", times.settle_ms}}) {
+    const Time phase_end = std::min(after(begin, ms), end);
+    write({.name = name, .category = "scene", .begin = begin, .end = phase_end});
+    begin = phase_end;
+  }
+}
+
+void ChromeTrace::add_engine_event(const TraceEvent& event, const Simulation& simulation) {
+  const World& world = simulation.world();
+  const bool of_pairs = event.kind == Kind::small_pairs || event.a != BodyId{};
+  std::string name = kind_name(event.kind);
+  if (event.kind == Kind::pair) name = fmt::format("{}, {}", world.name(event.a), world.name(event.b));
+  write({.name = std::move(name),
+         .category = of_pairs ? "pair" : "engine",
+         .thread = event.thread,
+         .begin = event.begin,
+         .end = event.end,
+         .args = dump(args_json(event, world, simulation.report()->stats()))});
+}
+
+void ChromeTrace::finish() { out_ << "]}\n"; }
+
+}  // namespace tact::scenes
