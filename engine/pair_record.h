@@ -4,6 +4,7 @@
 #include <tact/report.h>
 #include <tact/trace.h>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -15,48 +16,55 @@ namespace tact {
 
 // What the last step says about the direction: where the next one starts.
 struct PairHistory {
-  enum class Kind { none, separated, overlapping } kind = Kind::none;
+  enum class Kind : std::uint8_t { none, separated, overlapping };
   base::Vec3 direction;           // unit, from a to b: separates the hulls, or is their contact direction
   narrowphase::GjkSimplex hulls;  // where GJK on the hulls ended
-  narrowphase::GjkSimplex face;   // the face of the Minkowski difference that held the foot
-  bool has_surface = false;       // PairRecord::surface is of the last step
+  Kind kind = Kind::none;
+  bool has_surface = false;  // PairRecord::surface is of the last step
 };
 
 // What happened in the last step that looked at the pair.
 struct PairCounts {
-  std::int64_t gjk_iterations = 0;
+  TraceEvent::Time begin;
+  float hulls_ms = 0.0f, direction_ms = 0.0f, cull_ms = 0.0f, confirm_ms = 0.0f;
+  std::int32_t thread = 0;  // that looked at the pair, from `begin` on
+  std::int32_t gjk_iterations = 0;
+  bool still_separated = false;
+  bool still_overlapping = false;
+  bool limit_reached = false;
+  bool in_ranges = false;  // stage 6 was cut into ranges, for all threads
+};
+
+// The same of stages 5 and 6, of pairs whose hulls overlap.
+struct FacetCounts {
   std::int64_t clusters = 0;  // of both bodies
   std::int64_t clusters_outside_box = 0;
   std::int64_t clusters_outside_slab = 0;
   std::int64_t opened_clusters = 0;
   std::int64_t opened_facets = 0;
-  std::int64_t facets_facing_away = 0;
-  std::int64_t facets_outside_zone = 0;
+  std::int64_t facing_away = 0;
+  std::int64_t outside_zone = 0;
   std::int64_t cluster_pairs = 0;
   std::int64_t facet_box_pairs = 0;
   std::int64_t triangle_tests = 0;
   std::int64_t exact_predicates = 0;
-  bool still_separated = false;
-  bool still_overlapping = false;
   bool used_trees = false;
-  bool limit_reached = false;
-  bool in_ranges = false;  // stage 6 was cut into ranges, for all threads
-  int thread = 0;          // that looked at the pair, from `begin` on
-  TraceEvent::Time begin;
-  double hulls_ms = 0.0, direction_ms = 0.0, cull_ms = 0.0, confirm_ms = 0.0;
 };
 
-struct PairRecord {
+// Most pairs are apart: what these need comes first, in few lines of memory.
+struct alignas(64) PairRecord {
   BodyId a, b;
-  PairHistory history;
   bool hulls_overlap = false;
-  Contact contact;                     // if hulls_overlap
+  bool touched = false;  // in the step before this one
+  PairHistory history;
+  PairCounts counts;
+  // Of pairs whose hulls overlap; for others the vectors are empty and the rest is old.
+  narrowphase::GjkSimplex face;  // the face of the Minkowski difference that held the foot in the last step
+  FacetCounts facet_counts;
+  Contact contact;
   std::vector<FacetPair> facet_pairs;  // sorted
   std::vector<Patch> patches;
-  std::unique_ptr<narrowphase::SurfaceShape>
-      surface;  // where the search for the smallest separation ended, once there was one
-  PairCounts counts;
-  bool touched = false;  // in the step before this one
+  std::unique_ptr<narrowphase::SurfaceShape> surface;  // where the search for the smallest separation ended, once
 };
 
 }  // namespace tact

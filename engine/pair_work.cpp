@@ -25,7 +25,6 @@ void set_apart(PairRecord& record, Vec3 direction) {
   record.hulls_overlap = false;
   record.history.kind = PairHistory::Kind::separated;
   record.history.direction = direction;
-  record.history.face = {};
   record.history.has_surface = false;
 }
 
@@ -88,8 +87,9 @@ Direction find_direction(PairRecord& record, const MinkowskiDifference& m, const
   const bool fresh_start = history.kind == PairHistory::Kind::none;
   if (!fresh_start && settings.direction == DirectionPolicy::carried) {
     const bool carried = history.kind == PairHistory::Kind::overlapping;
-    return {contact_direction(m, history.direction, history.face, direction_settings, work.faces),
-            carried ? DirectionSource::carried : DirectionSource::fresh};
+    return {
+        contact_direction(m, history.direction, carried ? record.face : GjkSimplex{}, direction_settings, work.faces),
+        carried ? DirectionSource::carried : DirectionSource::fresh};
   }
   const SmallestStart start{.preferred = fresh_start ? Vec3{0.0, 0.0, 1.0} : history.direction,
                             .hulls = history.hulls,
@@ -132,7 +132,7 @@ void fill_contact(PairRecord& record, const MinkowskiDifference& m, const Direct
 }
 
 void count_clusters(const Body& a, const Body& b, PairWork& work) {
-  PairCounts& counts = work.record->counts;
+  FacetCounts& counts = work.record->facet_counts;
   counts.clusters = a.mesh.cluster_count() + b.mesh.cluster_count();
   counts.clusters_outside_slab = work.kept_a.outside_slab + work.kept_b.outside_slab;
   counts.clusters_outside_box =
@@ -161,9 +161,9 @@ void cull(PairRecord& record, const Body& a, const Body& b, const Slab& slab, co
   cull_clusters(b.mesh, work.input.criteria_b, work.kept_a.bounds, work.kept_b);
   cull_again(work.kept_b.bounds, work.kept_a);
   count_clusters(a, b, work);
-  record.counts.used_trees = find_cluster_pairs(work.kept_a, work.kept_b, ClusterPairSource::automatic, device,
-                                                work.cluster_pairs, work.boxes_found);
-  record.counts.cluster_pairs = static_cast<std::int64_t>(work.cluster_pairs.size());
+  record.facet_counts.used_trees = find_cluster_pairs(work.kept_a, work.kept_b, ClusterPairSource::automatic, device,
+                                                      work.cluster_pairs, work.boxes_found);
+  record.facet_counts.cluster_pairs = static_cast<std::int64_t>(work.cluster_pairs.size());
 }
 
 void add(CullCounts& sum, const CullCounts& one) {
@@ -180,16 +180,16 @@ std::int64_t facets_of(const CullCounts& counts) {
 
 void finish(PairWork& work, const ConfirmCounts& counts) {
   PairRecord& record = *work.record;
-  record.counts.opened_clusters = work.cull_a.opened_clusters + work.cull_b.opened_clusters;
-  record.counts.opened_facets = facets_of(work.cull_a) + facets_of(work.cull_b);
+  record.facet_counts.opened_clusters = work.cull_a.opened_clusters + work.cull_b.opened_clusters;
+  record.facet_counts.opened_facets = facets_of(work.cull_a) + facets_of(work.cull_b);
   std::sort(record.facet_pairs.begin(), record.facet_pairs.end());
   record.contact.kept_facets_a = work.cull_a.kept;
   record.contact.kept_facets_b = work.cull_b.kept;
-  record.counts.facets_facing_away = work.cull_a.facing_away + work.cull_b.facing_away;
-  record.counts.facets_outside_zone = work.cull_a.outside_zone + work.cull_b.outside_zone;
-  record.counts.facet_box_pairs = counts.facet_box_pairs;
-  record.counts.triangle_tests = counts.triangle_tests;
-  record.counts.exact_predicates = counts.predicates.exact;
+  record.facet_counts.facing_away = work.cull_a.facing_away + work.cull_b.facing_away;
+  record.facet_counts.outside_zone = work.cull_a.outside_zone + work.cull_b.outside_zone;
+  record.facet_counts.facet_box_pairs = counts.facet_box_pairs;
+  record.facet_counts.triangle_tests = counts.triangle_tests;
+  record.facet_counts.exact_predicates = counts.predicates.exact;
 }
 
 }  // namespace
@@ -199,32 +199,35 @@ bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, c
   Timer timer;
   record.counts = {};
   record.counts.begin = timer.start();
-  record.facet_pairs.clear();
-  record.patches.clear();
+  if (record.hulls_overlap) {
+    record.facet_pairs.clear();
+    record.patches.clear();
+  }
   const MinkowskiDifference m(a.mesh, b.mesh);
   const bool overlap = hulls_overlap(record, m, {settings.gjk_tolerance}, work);
-  record.counts.hulls_ms = timer.lap();
+  record.counts.hulls_ms = static_cast<float>(timer.lap());
   if (!overlap) return false;
 
   const Direction direction = find_direction(record, m, settings, work);
   record.counts.gjk_iterations += direction.found.support_queries;
   if (direction.found.height < -m.height_error()) {  // GJK could not tell, the direction can
     set_apart(record, direction.found.n);
-    record.counts.direction_ms = timer.lap();
+    record.counts.direction_ms = static_cast<float>(timer.lap());
     return false;
   }
   record.hulls_overlap = true;
+  record.facet_counts = {};
   record.history.kind = PairHistory::Kind::overlapping;
   record.history.direction = direction.found.n;
-  record.history.face = direction.found.face;
+  record.face = direction.found.face;
   const Slab slab = slab_of(m, direction.found);
   fill_contact(record, m, direction, slab);
-  record.counts.direction_ms = timer.lap();
+  record.counts.direction_ms = static_cast<float>(timer.lap());
   if (settings.accuracy == Accuracy::hulls) return false;
 
   work.record = &record;
   cull(record, a, b, slab, settings, device, work);
-  record.counts.cull_ms = timer.lap();
+  record.counts.cull_ms = static_cast<float>(timer.lap());
   return !work.cluster_pairs.empty();
 }
 
@@ -236,7 +239,7 @@ void confirm(PairWork& work) {
   for (const OpenedCluster& one : work.search.opened_a()) add(work.cull_a, one.counts);
   for (const OpenedCluster& one : work.search.opened_b()) add(work.cull_b, one.counts);
   finish(work, counts);
-  work.record->counts.confirm_ms = timer.lap();
+  work.record->counts.confirm_ms = static_cast<float>(timer.lap());
 }
 
 bool is_large(const PairWork& work) { return work.cluster_pairs.size() > kLargePair; }
@@ -287,7 +290,7 @@ void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int t
     }
   }
   finish(work, counts);
-  work.record->counts.confirm_ms = timer.lap();
+  work.record->counts.confirm_ms = static_cast<float>(timer.lap());
 }
 
 }  // namespace tact

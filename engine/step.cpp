@@ -139,12 +139,27 @@ void Step::retire(PairRecord& record) {
   free_.push_back(&record);
 }
 
+// Asks for the memory of pairs that are looked at soon: first the record, then the second body, then its boxes. The
+// first body of a pair is most often that of the last.
+void Step::prefetch_pairs(const Bodies& bodies, std::size_t i) const {
+  constexpr std::size_t kBoxes = 2, kBody = 4, kRecord = 8, kRecordLines = 3;  // how many pairs before, cache lines
+  const auto mesh_of = [&](std::size_t k) -> const narrowphase::ClusteredMesh& {
+    return bodies.in_slot(moved_[k]->b.index).mesh;
+  };
+  if (i + kRecord < moved_.size()) {
+    narrowphase::prefetch_lines(reinterpret_cast<const char*>(moved_[i + kRecord]), 64 * kRecordLines);
+  }
+  if (i + kBody < moved_.size()) narrowphase::prefetch_lines(&mesh_of(i + kBody), 1);
+  if (i + kBoxes < moved_.size()) mesh_of(i + kBoxes).cluster_boxes().prefetch();
+}
+
 // Stages 3 to 6, all pairs in parallel, each into its own record; then the large ones, each on all threads.
 void Step::narrow_phase(const Bodies& bodies, const Settings& settings) {
   thread_work_.resize(static_cast<std::size_t>(settings.threads));
   large_.clear();
   std::mutex mutex;
   base::parallel_for(moved_.size(), 4, settings.threads, [&](std::size_t i, int thread) {
+    prefetch_pairs(bodies, i);
     PairWork& work = thread_work_[static_cast<std::size_t>(thread)];
     PairRecord& record = *moved_[i];
     const Body &a = bodies.in_slot(record.a.index), &b = bodies.in_slot(record.b.index);
@@ -177,6 +192,8 @@ void Step::make_report(const Bodies& bodies, const Settings& settings) {
   StepStats& stats = report_.stats_;
   report_.contacts_.clear();
   report_.candidate_pairs_.clear();
+  report_.began_.clear();
+  report_.ended_ = gone_;
   stats.moved_bodies = static_cast<std::int64_t>(std::count_if(bodies.changed().begin(), bodies.changed().end(),
                                                                [&](std::uint32_t slot) { return bodies.used(slot); }));
   stats.moved_vertices = bodies.moved_vertices();
@@ -186,6 +203,8 @@ void Step::make_report(const Bodies& bodies, const Settings& settings) {
   for (const PairRecord* record : moved_) add_work(*record, settings, bodies);
   for (PairRecord* record : records_) {
     report_.candidate_pairs_.push_back({record->a, record->b, record->hulls_overlap});
+    if (touches(*record) && !record->touched) report_.began_.push_back(event_of(*record));
+    if (!touches(*record) && record->touched) report_.ended_.push_back(event_of(*record));
     if (!record->hulls_overlap) continue;
     Contact& contact = report_.contacts_.emplace_back(record->contact);
     contact.facet_pairs_ = record->facet_pairs;
@@ -194,7 +213,7 @@ void Step::make_report(const Bodies& bodies, const Settings& settings) {
     stats.touching_contacts += contact.touching() ? 1 : 0;
   }
   stats.contacts = static_cast<std::int64_t>(report_.contacts_.size());
-  add_events();
+  std::sort(report_.ended_.begin(), report_.ended_.end(), before);
 }
 
 // Adds what the pair cost in this step.
@@ -222,33 +241,24 @@ void Step::add_work(const PairRecord& record, const Settings& settings, const Bo
   if (settings.accuracy == Accuracy::hulls) return;
   const std::size_t facets = bodies.in_slot(record.a.index).facet_count + bodies.in_slot(record.b.index).facet_count;
   const std::int64_t kept = contact.kept_facets_a + contact.kept_facets_b;
-  stats.clusters += counts.clusters;
-  stats.clusters_outside_box += counts.clusters_outside_box;
-  stats.clusters_outside_slab += counts.clusters_outside_slab;
-  stats.opened_clusters += counts.opened_clusters;
-  stats.opened_facets += counts.opened_facets;
+  const FacetCounts& facet_counts = record.facet_counts;
+  stats.clusters += facet_counts.clusters;
+  stats.clusters_outside_box += facet_counts.clusters_outside_box;
+  stats.clusters_outside_slab += facet_counts.clusters_outside_slab;
+  stats.opened_clusters += facet_counts.opened_clusters;
+  stats.opened_facets += facet_counts.opened_facets;
   stats.facets += static_cast<std::int64_t>(facets);
   stats.kept_facets += kept;
-  stats.facets_facing_away += counts.facets_facing_away;
-  stats.facets_outside_zone += counts.facets_outside_zone;
+  stats.facets_facing_away += facet_counts.facing_away;
+  stats.facets_outside_zone += facet_counts.outside_zone;
   // Whole clusters fall to criterion 2.
   stats.facets_outside_slab +=
-      static_cast<std::int64_t>(facets) - kept - counts.facets_facing_away - counts.facets_outside_zone;
-  stats.cluster_pairs += counts.cluster_pairs;
-  stats.tree_pairs += counts.used_trees ? 1 : 0;
-  stats.facet_box_pairs += counts.facet_box_pairs;
-  stats.triangle_tests += counts.triangle_tests;
-  stats.exact_predicates += counts.exact_predicates;
-}
-
-void Step::add_events() {
-  report_.began_.clear();
-  report_.ended_ = gone_;
-  for (const PairRecord* record : records_) {
-    if (touches(*record) && !record->touched) report_.began_.push_back(event_of(*record));
-    if (!touches(*record) && record->touched) report_.ended_.push_back(event_of(*record));
-  }
-  std::sort(report_.ended_.begin(), report_.ended_.end(), before);
+      static_cast<std::int64_t>(facets) - kept - facet_counts.facing_away - facet_counts.outside_zone;
+  stats.cluster_pairs += facet_counts.cluster_pairs;
+  stats.tree_pairs += facet_counts.used_trees ? 1 : 0;
+  stats.facet_box_pairs += facet_counts.facet_box_pairs;
+  stats.triangle_tests += facet_counts.triangle_tests;
+  stats.exact_predicates += facet_counts.exact_predicates;
 }
 
 }  // namespace tact

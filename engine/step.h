@@ -33,9 +33,9 @@ class Step {
   void start_afresh();
   void match_records(const Bodies& bodies);
   void narrow_phase(const Bodies& bodies, const Settings& settings);
+  void prefetch_pairs(const Bodies& bodies, std::size_t i) const;
   void make_report(const Bodies& bodies, const Settings& settings);
   void add_work(const PairRecord& record, const Settings& settings, const Bodies& bodies);
-  void add_events();
   void keep_report();
   void finish(base::Timer& total, const Settings& settings, double refresh_ms);
   PairRecord& new_record(BodyId a, BodyId b);
