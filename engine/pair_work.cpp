@@ -37,20 +37,18 @@ bool still_overlap(const PairRecord& record, const MinkowskiDifference& m, PairW
   return history.kind == PairHistory::Kind::overlapping && holds_origin(m, history.hulls);
 }
 
-// Stage 3. What showed the hulls to overlap in the last step is asked first; or the direction that parted them: boxes,
-// then one support query a body. Leaves the direction that parts the hulls in the history; returns whether they
+// Stage 3. What showed the hulls to overlap in the last step is asked first; or the direction that parted them: a
+// plane, then one support query a body. Leaves the direction that parts the hulls in the history; returns whether they
 // overlap, or nearly do.
 bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, const GjkSettings& settings, PairWork& work) {
   PairHistory& history = record.history;
   record.counts.still_overlapping = still_overlap(record, m, work);
   if (record.counts.still_overlapping) return true;
   if (history.kind == PairHistory::Kind::separated) {
-    const bool apart = m.certainly_apart(history.direction);
+    const int a = history.hulls.a[0], b = history.hulls.b[0];
+    const bool apart = m.parted_by_plane(history.direction, a, b);
     record.counts.gjk_iterations += apart ? 0 : 1;
-    const GjkSimplex& nearest = history.hulls;
-    const auto w = [&] {
-      return dot(history.direction, m.support(history.direction, m.vertex(nearest.a[0], nearest.b[0])).point);
-    };
+    const auto w = [&] { return dot(history.direction, m.support(history.direction, m.vertex(a, b)).point); };
     if (apart || w() < -m.height_error()) {
       record.counts.still_separated = true;
       set_apart(record, history.direction);

@@ -40,9 +40,12 @@ MinkowskiVertex MinkowskiDifference::support(Vec3 direction, const MinkowskiVert
                 narrowphase::support(*b_, -direction, origin_, near.b).vertex);
 }
 
-bool MinkowskiDifference::certainly_apart(Vec3 direction) const {
-  const double w = height_bound(*a_, direction, origin_) + height_bound(*b_, -direction, origin_);
-  return w < -3.0 * vertex_height_error_;
+bool MinkowskiDifference::parted_by_plane(Vec3 direction, int a, int b) const {
+  const double height_a = dot(direction, a_->position(a) - origin_);
+  const double height_b = dot(-direction, b_->position(b) - origin_);
+  const double to_plane = -0.5 * (height_a + height_b) - 2.0 * vertex_height_error_;
+  return to_plane > 0.0 && stays_below(*a_, direction, origin_, height_a + to_plane) &&
+         stays_below(*b_, -direction, origin_, height_b + to_plane);
 }
 
 }  // namespace tact::narrowphase

@@ -26,8 +26,9 @@ class MinkowskiDifference {
   MinkowskiVertex support(Vec3 direction) const;
   // The same vertex, found sooner if `near` is close to it.
   MinkowskiVertex support(Vec3 direction, const MinkowskiVertex& near) const;
-  // Do boxes alone tell that M has no height along `direction`, of unit length? If so, the hulls are apart.
-  bool certainly_apart(Vec3 direction) const;
+  // Does a plane half-way between two vertices, a of A and b of B, have A below and B above, `direction`, of unit
+  // length, being upwards? If so, the hulls are apart, and that was found sooner than by a support query.
+  bool parted_by_plane(Vec3 direction, int a, int b) const;
   // The point of M that vertices `a` and `b` make.
   MinkowskiVertex vertex(int a, int b) const { return {scale_ * (a_->position(a) - b_->position(b)), a, b}; }
 

@@ -1,5 +1,6 @@
 #include "narrowphase/support.h"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 
@@ -111,12 +112,27 @@ Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near) {
   return search.best();
 }
 
-double height_bound(const ClusteredMesh& mesh, Vec3 n, Vec3 origin) {
+bool stays_below(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double height) {
   const HeightAxis axis{n.x, n.y, n.z, origin.x, origin.y, origin.z};
-  const bool few = mesh.group_count() == 1;
-  const PointArrays corners = far_corners(few ? mesh.cluster_boxes() : mesh.group_boxes(), n);
-  const int count = few ? mesh.cluster_count() : mesh.group_count();
-  return kernels().highest_point(corners, count, axis, -std::numeric_limits<double>::infinity()).height;
+  const PointArrays groups = far_corners(mesh.group_boxes(), n), clusters = far_corners(mesh.cluster_boxes(), n);
+  const auto cluster_reaches = [&](int cluster) {
+    const int begin = mesh.vertex_begin(cluster), count = mesh.vertex_end(cluster) - begin;
+    return count > 0 && kernels().highest_point(from(mesh.points(), begin), count, axis, height).index >= 0;
+  };
+  const auto group_reaches = [&](int group) {
+    std::int32_t near[kGroupSize];
+    const int begin = mesh.cluster_begin(group), count = mesh.cluster_end(group) - begin;
+    const int found = kernels().select_heights(from(clusters, begin), count, axis, height, near);
+    return std::any_of(near, near + found, [&](std::int32_t k) { return cluster_reaches(begin + k); });
+  };
+  if (mesh.group_count() == 1) return !group_reaches(0);
+  for (int block = 0; block < mesh.group_count(); block += kBlock) {
+    std::int32_t near[kBlock];
+    const int groups_left = std::min(kBlock, mesh.group_count() - block);
+    const int found = kernels().select_heights(from(groups, block), groups_left, axis, height, near);
+    if (std::any_of(near, near + found, [&](std::int32_t k) { return group_reaches(block + k); })) return false;
+  }
+  return true;
 }
 
 void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double height,

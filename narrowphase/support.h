@@ -22,8 +22,8 @@ PointArrays far_corners(const BoxArrays& boxes, Vec3 n);
 Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near = -1);
 Support support_by_full_scan(const ClusteredMesh& mesh, Vec3 n, Vec3 origin);
 
-// A height that no vertex exceeds, from boxes alone.
-double height_bound(const ClusteredMesh& mesh, Vec3 n, Vec3 origin);
+// Is every vertex lower than `height`?
+bool stays_below(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double height);
 
 // The clusters whose box reaches up to `height`, ascending. Replaces the contents of `found`.
 void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double height,
