@@ -17,6 +17,7 @@ std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std
                                                  std::span<const std::uint32_t> changed, int threads) {
   assert(boxes.size() == filters.size());
   excluded_ = 0;
+  pairs_changed_ = false;
   if (changed.empty() && boxes.size() == box_count_) return pairs_;
   const base::FloatingPointMode mode;
   box_count_ = boxes.size();
@@ -30,6 +31,7 @@ std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std
   const auto fresh = sorter_.sort(parts, boxes.size(), threads);
   if (changed_count == boxes.size()) {
     pairs_.assign(fresh.begin(), fresh.end());
+    pairs_changed_ = true;
   } else {
     merge(fresh, boxes.size());
   }
@@ -63,6 +65,7 @@ void SweepAndPrune::merge(std::span<const IndexPair> fresh, std::size_t box_coun
     merged_.push_back(pair);
   }
   merged_.insert(merged_.end(), next, fresh.end());
+  pairs_changed_ = pairs_ != merged_;
   std::swap(pairs_, merged_);
 }
 

@@ -24,6 +24,8 @@ class SweepAndPrune {
                                     std::span<const std::uint32_t> changed, int threads);
 
   std::span<const IndexPair> pairs() const { return pairs_; }
+  // Are the pairs other ones than before the last call? Also true where that would take long to tell.
+  bool pairs_changed() const { return pairs_changed_; }
   // How many overlapping pairs, with a changed box, the filters kept out of the last answer.
   std::size_t excluded() const { return excluded_; }
 
@@ -42,6 +44,7 @@ class SweepAndPrune {
   std::size_t special_count_ = 0;
   std::size_t box_count_ = 0;
   std::size_t excluded_ = 0;
+  bool pairs_changed_ = false;
   std::vector<IndexPair> pairs_;
   std::vector<IndexPair> merged_;
 };

@@ -112,6 +112,7 @@ void Bodies::remove(BodyId id) {
   boxes_[id.index] = base::Box{};
   free_.push_back(id.index);
   mark_changed(id.index);
+  removed_any_ = true;
   --count_;
 }
 
@@ -215,6 +216,7 @@ void Bodies::mark_changed(std::uint32_t slot) {
 void Bodies::end_step() {
   for (const std::uint32_t slot : changed_) slots_[slot].changed = false;
   changed_.clear();
+  removed_any_ = false;
   moved_vertices_ = 0;
 }
 

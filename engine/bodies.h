@@ -50,6 +50,8 @@ class Bodies {
   std::span<const std::uint32_t> changed() const { return changed_; }
   bool moved(std::uint32_t slot) const { return slots_[slot].changed; }
   bool used(std::uint32_t slot) const { return slots_[slot].body != nullptr; }
+  // Was any body removed since end_step()? Another may stand in its slot.
+  bool removed_any() const { return removed_any_; }
 
   // The step has seen the changes: nothing has moved.
   void end_step();
@@ -86,6 +88,7 @@ class Bodies {
   std::vector<broadphase::Filter> filters_;
   std::vector<std::uint32_t> changed_;
   std::size_t count_ = 0;
+  bool removed_any_ = false;
   std::int64_t vertices_ = 0;
   std::int64_t moved_vertices_ = 0;
   std::vector<Update> updates_;  // scratch

@@ -55,11 +55,13 @@ struct FacetCounts {
 struct alignas(64) PairRecord {
   BodyId a, b;
   bool hulls_overlap = false;
-  bool touched = false;  // in the step before this one
+  bool touched = false;       // in the step before this one
+  std::size_t candidate = 0;  // its place among the report's candidate pairs
   PairHistory history;
   PairCounts counts;
   // Of pairs whose hulls overlap; for others the vectors are empty and the rest is old.
   narrowphase::GjkSimplex face;  // the face of the Minkowski difference that held the foot in the last step
+  std::size_t reported = 0;      // the contact's place in the report
   FacetCounts facet_counts;
   Contact contact;
   std::vector<FacetPair> facet_pairs;  // sorted

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <utility>
 
 #include "engine/base/parallel.h"
 #include "engine/base/timer.h"
@@ -19,6 +20,8 @@ ContactEvent event_of(const PairRecord& record) { return {record.a, record.b}; }
 
 bool before(const ContactEvent& x, const ContactEvent& y) { return x.a < y.a || (x.a == y.a && x.b < y.b); }
 
+bool names(const Bodies& bodies, BodyId id) { return bodies.in_slot(id.index).id == id; }
+
 bool touches(const PairRecord& record) { return record.hulls_overlap && !record.facet_pairs.empty(); }
 
 }  // namespace
@@ -32,17 +35,22 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
     finish(total, settings, refresh_ms);
     return report_;
   }
+  const StepStats last = report_.stats_;
   report_.stats_ = {};
   StepStats& stats = report_.stats_;
   stats.bodies = static_cast<std::int64_t>(bodies.count());
   stats.vertices = bodies.vertices();
 
   sweep_.update(bodies.boxes(), bodies.filters(), bodies.changed(), settings.threads);
-  match_records(bodies);
+  note_touches();
+  const bool same_pairs = !all_ && !bodies.removed_any() && !sweep_.pairs_changed();
+  same_pairs ? select_moved(bodies) : match_records(bodies);
   stats.sweep_ms = timer.lap();
   narrow_phase(bodies, settings);
   stats.narrow_phase_ms = timer.lap();
-  make_report(bodies, settings);
+  count_work(bodies, settings);
+  same_pairs&& same_contacts() ? update_report(last) : make_report();
+  add_events();
   stats.report_ms = timer.lap();
   bodies.end_step();
   all_ = false;
@@ -62,6 +70,7 @@ void Step::finish(Timer& total, const Settings& settings, double refresh_ms) {
 void Step::start_afresh() {
   sweep_ = {};
   records_.clear();
+  pairs_.clear();
   previous_.clear();
   moved_.clear();
   free_.clear();
@@ -75,6 +84,7 @@ void Step::start_afresh() {
 
 // Nothing moved: the last answer stands, its events and its work do not.
 void Step::keep_report() {
+  note_touches();
   moved_.clear();
   large_.clear();
   const StepStats last = report_.stats_;
@@ -90,28 +100,41 @@ void Step::keep_report() {
   report_.ended_.clear();
 }
 
-// Both lists of pairs are sorted: a pair that stays keeps its record, unless a body of it was replaced by another.
+// What the last step looked at is the last step's now. Other records are as they were.
+void Step::note_touches() {
+  for (PairRecord* record : moved_) record->touched = touches(*record);
+}
+
+// The pairs are those of the last step: so are the records.
+void Step::select_moved(const Bodies& bodies) {
+  gone_.clear();
+  moved_.clear();
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (bodies.moved(pairs_[i].a) || bodies.moved(pairs_[i].b)) moved_.push_back(records_[i]);
+  }
+}
+
+// Both lists of pairs are sorted: a pair that stays keeps its record, unless a body of it was replaced by another. What
+// stays is not looked at, as memory is what costs where little moves.
 void Step::match_records(const Bodies& bodies) {
   gone_.clear();
   std::swap(previous_, records_);
   records_.clear();
   moved_.clear();
-  auto old = previous_.begin();
+  std::size_t old = 0;
   for (const broadphase::IndexPair& pair : sweep_.pairs()) {
-    const auto slots = [](const PairRecord* r) { return broadphase::IndexPair{r->a.index, r->b.index}; };
-    while (old != previous_.end() && slots(*old) < pair) retire(**old++);
-    const BodyId a = bodies.in_slot(pair.a).id, b = bodies.in_slot(pair.b).id;
-    const bool found = old != previous_.end() && slots(*old) == pair;
-    if (found && ((*old)->a != a || (*old)->b != b)) retire(**old);
-    const bool same = found && (*old)->a == a && (*old)->b == b;
-    PairRecord& record = same ? **old : new_record(a, b);
-    if (found) ++old;
-    record.touched = touches(record);
-    records_.push_back(&record);
-    if (all_ || bodies.moved(pair.a) || bodies.moved(pair.b)) moved_.push_back(&record);
+    while (old < pairs_.size() && pairs_[old] < pair) retire(*previous_[old++]);
+    PairRecord* record = old < pairs_.size() && pairs_[old] == pair ? previous_[old++] : nullptr;
+    if (record != nullptr && bodies.removed_any() && !(names(bodies, record->a) && names(bodies, record->b))) {
+      retire(*std::exchange(record, nullptr));
+    }
+    if (record == nullptr) record = &new_record(bodies.in_slot(pair.a).id, bodies.in_slot(pair.b).id);
+    records_.push_back(record);
+    if (all_ || bodies.moved(pair.a) || bodies.moved(pair.b)) moved_.push_back(record);
   }
-  while (old != previous_.end()) retire(**old++);
+  while (old < pairs_.size()) retire(*previous_[old++]);
   previous_.clear();
+  pairs_.assign(sweep_.pairs().begin(), sweep_.pairs().end());
 }
 
 PairRecord& Step::new_record(BodyId a, BodyId b) {
@@ -126,6 +149,7 @@ PairRecord& Step::new_record(BodyId a, BodyId b) {
   record.b = b;
   record.history = {};
   record.hulls_overlap = false;
+  record.touched = false;
   record.facet_pairs.clear();
   record.facet_pairs.reserve(room_);
   record.patches.clear();
@@ -188,12 +212,8 @@ void Step::narrow_phase(const Bodies& bodies, const Settings& settings) {
   }
 }
 
-void Step::make_report(const Bodies& bodies, const Settings& settings) {
+void Step::count_work(const Bodies& bodies, const Settings& settings) {
   StepStats& stats = report_.stats_;
-  report_.contacts_.clear();
-  report_.candidate_pairs_.clear();
-  report_.began_.clear();
-  report_.ended_ = gone_;
   stats.moved_bodies = static_cast<std::int64_t>(std::count_if(bodies.changed().begin(), bodies.changed().end(),
                                                                [&](std::uint32_t slot) { return bodies.used(slot); }));
   stats.moved_vertices = bodies.moved_vertices();
@@ -201,18 +221,64 @@ void Step::make_report(const Bodies& bodies, const Settings& settings) {
   stats.candidate_pairs = static_cast<std::int64_t>(records_.size());
   stats.kept_pairs = static_cast<std::int64_t>(records_.size() - moved_.size());
   for (const PairRecord* record : moved_) add_work(*record, settings, bodies);
+}
+
+void Step::make_report() {
+  StepStats& stats = report_.stats_;
+  report_.contacts_.clear();
+  report_.candidate_pairs_.clear();
   for (PairRecord* record : records_) {
+    record->candidate = report_.candidate_pairs_.size();
     report_.candidate_pairs_.push_back({record->a, record->b, record->hulls_overlap});
-    if (touches(*record) && !record->touched) report_.began_.push_back(event_of(*record));
-    if (!touches(*record) && record->touched) report_.ended_.push_back(event_of(*record));
     if (!record->hulls_overlap) continue;
-    Contact& contact = report_.contacts_.emplace_back(record->contact);
-    contact.facet_pairs_ = record->facet_pairs;
-    contact.patches_ = record->patches;
+    record->reported = report_.contacts_.size();
+    fill(report_.contacts_.emplace_back(), *record);
     stats.facet_pairs += static_cast<std::int64_t>(record->facet_pairs.size());
-    stats.touching_contacts += contact.touching() ? 1 : 0;
+    stats.touching_contacts += touches(*record) ? 1 : 0;
   }
   stats.contacts = static_cast<std::int64_t>(report_.contacts_.size());
+}
+
+void Step::fill(Contact& contact, const PairRecord& record) {
+  contact = record.contact;
+  contact.facet_pairs_ = record.facet_pairs;
+  contact.patches_ = record.patches;
+}
+
+// Do the pairs that this step looked at overlap where they did in the last?
+bool Step::same_contacts() const {
+  return std::all_of(moved_.begin(), moved_.end(), [&](const PairRecord* record) {
+    return report_.candidate_pairs_[record->candidate].hulls_overlap == record->hulls_overlap;
+  });
+}
+
+// The contacts are those of the last step, only what this one looked at is new.
+void Step::update_report(const StepStats& last) {
+  StepStats& stats = report_.stats_;
+  stats.contacts = last.contacts;
+  stats.facet_pairs = last.facet_pairs;
+  stats.touching_contacts = last.touching_contacts;
+  const auto add = [&](const Contact& contact, std::int64_t times) {
+    stats.facet_pairs += times * static_cast<std::int64_t>(contact.facet_pairs().size());
+    stats.touching_contacts += contact.touching() ? times : 0;
+  };
+  for (const PairRecord* record : moved_) {
+    if (!record->hulls_overlap) continue;
+    Contact& contact = report_.contacts_[record->reported];
+    add(contact, -1);
+    fill(contact, *record);
+    add(contact, 1);
+  }
+}
+
+// Only pairs that this step looked at can begin or cease to touch, and those that are no candidates any more.
+void Step::add_events() {
+  report_.began_.clear();
+  report_.ended_ = gone_;
+  for (const PairRecord* record : moved_) {
+    if (touches(*record) && !record->touched) report_.began_.push_back(event_of(*record));
+    if (!touches(*record) && record->touched) report_.ended_.push_back(event_of(*record));
+  }
   std::sort(report_.ended_.begin(), report_.ended_.end(), before);
 }
 

@@ -31,10 +31,17 @@ class Step {
 
  private:
   void start_afresh();
+  void note_touches();
   void match_records(const Bodies& bodies);
+  void select_moved(const Bodies& bodies);
   void narrow_phase(const Bodies& bodies, const Settings& settings);
   void prefetch_pairs(const Bodies& bodies, std::size_t i) const;
-  void make_report(const Bodies& bodies, const Settings& settings);
+  void count_work(const Bodies& bodies, const Settings& settings);
+  void make_report();
+  void update_report(const StepStats& last);
+  bool same_contacts() const;
+  static void fill(Contact& contact, const PairRecord& record);
+  void add_events();
   void add_work(const PairRecord& record, const Settings& settings, const Bodies& bodies);
   void keep_report();
   void finish(base::Timer& total, const Settings& settings, double refresh_ms);
@@ -44,10 +51,11 @@ class Step {
   broadphase::SweepAndPrune sweep_;
   std::vector<std::unique_ptr<PairRecord>> pool_;
   std::vector<PairRecord*> free_;
-  std::size_t room_ = 0;               // facet pairs that a record has room for when it is given out
-  std::vector<PairRecord*> records_;   // of the candidate pairs, sorted by (a, b)
-  std::vector<PairRecord*> previous_;  // those of the last step, while matching
-  std::vector<PairRecord*> moved_;     // those that this step looks at
+  std::size_t room_ = 0;                      // facet pairs that a record has room for when it is given out
+  std::vector<PairRecord*> records_;          // of the candidate pairs, sorted by (a, b)
+  std::vector<broadphase::IndexPair> pairs_;  // their slots
+  std::vector<PairRecord*> previous_;         // those of the last step, while matching
+  std::vector<PairRecord*> moved_;            // those that this step looks at
   std::vector<PairWork> thread_work_;
   std::vector<std::unique_ptr<PairWork>> large_;
   std::vector<ContactEvent> gone_;  // pairs that touched and are no candidates any more
