@@ -1,0 +1,104 @@
+// A step looks at what moved and keeps the rest: its report must be that of a step that looks at everything.
+#include <gtest/gtest.h>
+#include <tact/tact.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tests/support/detection.h"
+#include "tests/support/generators.h"
+#include "tests/support/random.h"
+
+namespace tact::tests {
+namespace {
+
+// What a report says, bodies by their index.
+struct Answer {
+  using Pair = std::array<std::uint32_t, 2>;
+  std::vector<std::array<std::uint32_t, 3>> candidates;  // with: do the hulls overlap
+  std::vector<Pair> contacts, began, ended;
+  std::vector<std::vector<FacetPair>> facet_pairs;  // of each contact
+  std::vector<std::size_t> patches;
+  std::array<std::int64_t, 4> totals{};
+  bool operator==(const Answer&) const = default;
+};
+
+Answer answer_of(const Report& report) {
+  Answer answer;
+  for (const CandidatePair& pair : report.candidate_pairs()) {
+    answer.candidates.push_back({pair.a.index, pair.b.index, pair.hulls_overlap ? 1u : 0u});
+  }
+  for (const Contact& contact : report.contacts()) {
+    answer.contacts.push_back({contact.a.index, contact.b.index});
+    answer.facet_pairs.emplace_back(contact.facet_pairs().begin(), contact.facet_pairs().end());
+    answer.patches.push_back(contact.patches().size());
+  }
+  for (const ContactEvent& event : report.began()) answer.began.push_back({event.a.index, event.b.index});
+  for (const ContactEvent& event : report.ended()) answer.ended.push_back({event.a.index, event.b.index});
+  const StepStats& stats = report.stats();
+  answer.totals = {stats.candidate_pairs, stats.contacts, stats.facet_pairs, stats.touching_contacts};
+  return answer;
+}
+
+enum class Looks { at_what_moved, at_everything };
+
+constexpr int kBodies = 30, kSteps = 400;
+
+// A crowd of which a few bodies move in each step, by little or by much, and now and then another takes one's place.
+// Settings that are set again make a step look at everything.
+std::vector<Answer> play(Looks looks, std::uint64_t seed) {
+  Random random(seed);
+  const auto offset = [&](double reach) {
+    const Vec3 v = random.in_cube(reach);
+    return Eigen::Vector3d(v.x, v.y, v.z);
+  };
+  const Settings settings{.threads = 1, .outputs = {.patches = true}};
+  World world(settings);
+  std::vector<Mesh> meshes;
+  std::vector<BodyId> ids;
+  const auto new_mesh = [&] {
+    Mesh mesh = blob(1, 0.5, 0.2, random.bits());
+    mesh.positions.colwise() += offset(1.2);
+    return mesh;
+  };
+  for (int k = 0; k < kBodies; ++k) {
+    meshes.push_back(new_mesh());
+    ids.push_back(world.add_body({.positions = meshes.back().positions, .facets = meshes.back().facets}));
+  }
+  std::vector<Answer> answers;
+  for (int step = 0; step < kSteps; ++step) {
+    for (int moves = random.below(4); moves > 0; --moves) {
+      const auto i = static_cast<std::size_t>(random.below(kBodies));
+      if (random.chance(0.03)) {
+        meshes[i] = new_mesh();
+        world.remove_body(ids[i]);
+        ids[i] = world.add_body({.positions = meshes[i].positions, .facets = meshes[i].facets});
+      } else {
+        meshes[i].positions.colwise() += offset(random.chance(0.1) ? 0.5 : 0.01);
+        world.set_positions(ids[i], meshes[i].positions);
+      }
+    }
+    if (looks == Looks::at_everything) world.set_settings(settings);
+    answers.push_back(answer_of(world.detect()));
+  }
+  return answers;
+}
+
+TEST(FewMoved, TheReportIsThatOfAStepThatLooksAtEverything) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const std::vector<Answer> few = play(Looks::at_what_moved, seed), all = play(Looks::at_everything, seed);
+    std::size_t events = 0, quiet = 0;
+    for (std::size_t step = 0; step < few.size(); ++step) {
+      ASSERT_EQ(few[step], all[step]) << "seed " << seed << ", step " << step;
+      events += few[step].began.size() + few[step].ended.size();
+      quiet += step > 0 && few[step].candidates == few[step - 1].candidates;
+    }
+    EXPECT_GT(events, 50u);
+    EXPECT_GT(quiet, 100u);  // steps that keep all pairs, and the answer whether they overlap
+    EXPECT_LT(quiet, few.size() - 50);
+  }
+}
+
+}  // namespace
+}  // namespace tact::tests
