@@ -1,6 +1,7 @@
 #include "bench/commands.h"
 
 #include "bench/broadphase.h"
+#include "bench/clusters.h"
 #include "bench/error.h"
 #include "bench/idle.h"
 #include "bench/predicates.h"
@@ -18,6 +19,7 @@ std::vector<Command> commands() {
       {"scaling", "one and more threads, growth with bodies and facets, the slowest of many steps", run_scaling},
       {"idle", "steps in which nothing moved, or few of many", run_idle},
       {"broadphase", "boxes alone, in every kind of motion, through tact, Embree and CGAL", run_broadphase},
+      {"clusters", "pairs of clusters by a loop and by Embree's trees", run_clusters},
       {"error", "run time against error, of every setting and of other libraries", run_error},
       {"predicates", "what a triangle test costs, and how often the exact path runs", run_predicates},
       {"stability", "hostile input of every kind: failures, which must be none", run_stability},
