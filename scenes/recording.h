@@ -13,8 +13,9 @@
 //   hash      u8 6, u64 Report::hash(); after every detect
 //
 // A text is u32 bytes and these; a body is u32 index and u32 generation of its BodyId; enumerations are numbered in the
-// order of their values. The records stand in the order of the calls; a call that was refused is not there. There is no
-// end mark: a program that dies leaves what it did, and one that dies in a step leaves a detect without its hash.
+// order of their values. Outputs::trace is left out: it changes no answer. The records stand in the order of the calls;
+// a call that was refused is not there. There is no end mark: a program that dies leaves what it did, and one that dies
+// in a step leaves a detect without its hash.
 #pragma once
 
 #include <tact/tact.h>

@@ -54,13 +54,15 @@ void run(const RunOptions& options, std::ostream& out) {
   check_outputs(options.outputs);
   const SceneEntry& entry = entry_of(options);
   Scene scene = entry.make(options.size > 0 ? options.size : entry.default_size);
+  scene.marks.zones = options.outputs.zones;
   const int threads = options.threads > 0 ? options.threads : base::default_threads();
   std::optional<OutputFile> recording;
   if (!options.record.empty()) recording.emplace(options.record, out);
-  Simulation simulation(
-      std::move(scene.bodies), scene.script, scene.dynamics,
-      {.threads = threads, .accuracy = options.accuracy, .outputs = {.trace = !options.outputs.trace.empty()}},
-      recording ? &recording->stream() : nullptr);
+  Simulation simulation(std::move(scene.bodies), scene.script, scene.dynamics,
+                        {.threads = threads,
+                         .accuracy = options.accuracy,
+                         .outputs = {.zones = options.outputs.zones, .trace = !options.outputs.trace.empty()}},
+                        recording ? &recording->stream() : nullptr);
   RunOutputs outputs(options.outputs, options.scene, scene, simulation.world(), threads, out);
 
   // What the paper's criteria lose is measured; the other levels promise all pairs or none.
@@ -112,6 +114,7 @@ void add_run_command(CLI::App& program) {
       ->add_option("--every", outputs.every, "Steps from one picture to the next; if not given, as many as 1/60 s has")
       ->type_name("N")
       ->check(CLI::Range(1, kMost).description(""));
+  command->add_flag("--zones", outputs.zones, "Show the impact zones in pictures; the engine then computes them");
   add_json_option(*command, outputs.json);
   command->add_option("--contacts", outputs.contacts, "Write the contacts as JSON, a line a step; - is standard output")
       ->type_name("FILE|-");

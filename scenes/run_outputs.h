@@ -20,6 +20,7 @@ struct OutputOptions {
   bool pictures = true;
   std::filesystem::path out = {};  // the folder for pictures; empty: tact-<scene> in the working folder
   int every = 0;                   // steps from one frame to the next, in pictures, gltf and vtk; 0: 60 frames a second
+  bool zones = false;              // show impact zones in pictures
   std::string json = {};           // the report of every step, "-" for standard output; empty: none
   std::string contacts = {};       // the contacts of every step, a line each, "-" likewise
   std::string trace = {};          // a Chrome trace of every step; empty: none

@@ -17,6 +17,7 @@ struct ClothOverSphere {
   ClothMaterial cloth;
   RigidMaterial ball{.friction = 0.3, .skin = 0.008};
   DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 8, .settle_sweeps = 3, .slop = 0.002};
+  int vertices_a_substep = 16;  // along a side, at most: a finer cloth needs finer steps, or it stretches and is passed
 };
 
 }  // namespace
@@ -25,6 +26,7 @@ Scene make_cloth_over_sphere(int size) {
   const ClothOverSphere p;
   Scene scene;
   scene.dynamics = p.dynamics;
+  scene.dynamics.substeps = std::max(p.dynamics.substeps, size / p.vertices_a_substep);
   scene.view = {.azimuth = 30.0, .elevation = 18.0};
   scene.ground = 0.0;
   scene.add(make_rigid("sphere", moved(sphere(4, p.radius), {0.0, 0.0, p.height}), p.ball, Motion::fixed));

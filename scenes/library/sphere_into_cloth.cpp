@@ -19,6 +19,7 @@ struct SphereIntoCloth {
   ClothMaterial cloth{.density = 0.25, .stretch_stiffness = 1500.0, .bend_stiffness = 0.3, .friction = 0.3};
   RigidMaterial ball{.friction = 0.3, .skin = 0.008};
   DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 8, .settle_sweeps = 3, .slop = 0.002};
+  int vertices_a_substep = 16;  // along a side, at most: a finer cloth needs finer steps, or it stretches and is passed
 };
 
 // Flat, with the four corners drawn together and held.
@@ -40,6 +41,7 @@ Scene make_sphere_into_cloth(int size) {
   const SphereIntoCloth p;
   Scene scene;
   scene.dynamics = p.dynamics;
+  scene.dynamics.substeps = std::max(p.dynamics.substeps, size / p.vertices_a_substep);
   scene.view = {.azimuth = 30.0, .elevation = 12.0};
   scene.ground = 0.0;
   const double half = 0.5 * p.cloth_side;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <fstream>
 #include <map>
@@ -65,6 +66,19 @@ TEST_F(RunCommand, SamePicturesForOneAndTwoThreads) {
       EXPECT_TRUE(one == contents(folder_.path() / scene.scene / "2" / name)) << scene.scene << ' ' << name;
     }
   }
+}
+
+TEST_F(RunCommand, ZonesAreShownWhereTheyAreAskedFor) {
+  std::array<std::string, 2> pictures;
+  for (const bool zones : {false, true}) {
+    const auto out = folder_.path() / (zones ? "with" : "without");
+    const std::string text =
+        printed({.scene = "clamp", .frames = 61, .outputs = {.out = out, .every = 60, .zones = zones}});
+    EXPECT_EQ(text.find("\n  zones ") == std::string::npos, zones) << text;  // in the ledger
+    pictures[zones ? 1 : 0] = contents(out / "frame_00001.png");
+    EXPECT_GT(pictures[zones ? 1 : 0].size(), 10000u);
+  }
+  EXPECT_FALSE(pictures[0] == pictures[1]);
 }
 
 TEST_F(RunCommand, TotalsNameStepsTimesStagesContactsDepthAndEnergy) {

@@ -15,13 +15,13 @@ struct TraceEvent {
     detect,        // World::detect(): all that follows
     sweep,         // stage 2
     narrow_phase,  // stages 3 to 6 of all pairs, on the thread that called; `pair` and `small_pairs` tell of the others
-    pair,          // one pair that took long: the stages that follow
+    pair,          // one pair that took 20 microseconds or more: the stages that follow
     hulls,         // stage 3 of it
     direction,     // stage 4 of it
     cull,          // stage 5 of it
     confirm,       // stage 6 of it; of a large pair after all others and outside its `pair`, on all threads in ranges
     range,         // one thread's part in stage 6 of a large pair
-    small_pairs,   // pairs, one after the other, none of which took long
+    small_pairs,   // pairs that took less, one after the other
     report,        // stage 7
   };
   using Time = std::chrono::steady_clock::time_point;
