@@ -314,9 +314,9 @@ TEST_F(WorldOfThree, RefusesSettingsWithoutMeaning) {
              {{.iteration_limit = 0}, "iteration_limit"},
              {{.accuracy = static_cast<Accuracy>(17)}, "accuracy"},
              {{.direction = static_cast<DirectionPolicy>(-3)}, "direction"}};
-  for (const auto& [settings, name] : bad) {
-    EXPECT_TRUE(throws_error([&] { world_.set_settings(settings); }, ErrorCode::bad_settings, {name}));
-    EXPECT_TRUE(throws_error([&] { World another(settings); }, ErrorCode::bad_settings, {name}));
+  for (const auto& one : bad) {
+    EXPECT_TRUE(throws_error([&] { world_.set_settings(one.settings); }, ErrorCode::bad_settings, {one.name}));
+    EXPECT_TRUE(throws_error([&] { World another(one.settings); }, ErrorCode::bad_settings, {one.name}));
     EXPECT_EQ(world_.settings().gjk_tolerance, 1e-9);
     EXPECT_EQ(world_.settings().threads, 1);
   }
