@@ -1,10 +1,11 @@
 // A world whose Embree fails: it does not start, it reports an error, its memory monitor refuses. Each is an error by
-// name, and the next step answers as a fresh world's. Allocations that fail inside Embree stand in test_allocation.cpp.
+// name, and the next step answers as a fresh world's. Where its floats end, nothing does. Allocations that fail inside
+// Embree stand in test_allocation.cpp.
 //
 // rtcNewDevice is wrapped by the linker for the whole test program, which gives the tests the device of a world.
 #include <gtest/gtest.h>
 
-#include <array>
+#include <cmath>
 #include <vector>
 
 #if __has_include(<embree4/rtcore.h>)
@@ -94,6 +95,19 @@ TEST_F(WorldWithEmbree, WhoseMemoryMonitorRefusesAll) {
   rtcSetDeviceMemoryMonitorFunction(last_device, nullptr, nullptr);
   detect_again();
   EXPECT_EQ(meeting_bodies(world_.detect(), ids_), meeting_bodies_by_engine(bodies_));
+}
+
+// Its boxes are floats, and those beyond 1.8e18 it drops. A power of two changes no bit of a position but the exponent.
+TEST_F(WorldWithEmbree, BeyondTheRangeOfItsFloats) {
+  const std::vector<MeetingBodies> expected = meeting_bodies(world_.detect(), ids_);
+  ASSERT_EQ(expected.size(), 1u);
+  for (const int exponent : {-1000, -200, 60, 62, 130, 299}) {
+    for (std::size_t i = 0; i < 2; ++i)
+      world_.set_positions(ids_[i], scaled(bodies_[i], std::ldexp(1.0, exponent)).positions);
+    const Report& report = world_.detect();
+    EXPECT_EQ(report.stats().tree_pairs, 1) << exponent;
+    EXPECT_TRUE(same_meeting_bodies(expected, meeting_bodies(report, ids_))) << exponent;
+  }
 }
 
 // What a failed step leaves is what the bodies are, not what an earlier step was told.
