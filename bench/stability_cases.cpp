@@ -309,7 +309,8 @@ StabilityCase nearly_touching(std::uint64_t seed) {
   return c;
 }
 
-// Embree drops boxes beyond 1.8e18; enough facets that its trees are used.
+// Embree drops boxes beyond 1.8e18, and floats end at 3.4e38. Bodies for which its trees are used are among the large
+// rough ones.
 StabilityCase beyond_float_boxes(std::uint64_t seed) {
   StabilityRandom random(seed);
   StabilityCase c = ordinary(random);
@@ -374,7 +375,7 @@ StabilityCase several_at_once(std::uint64_t seed) {
 }
 
 // Rough spheres of 20480 facets, one in the other: so many pairs of clusters that a pair is shared among threads. Every
-// fourth is of 81920 facets: so many clusters that trees find their pairs.
+// fourth is of 81920 facets: so many clusters that trees find their pairs; every other of these is beyond float boxes.
 StabilityCase large_rough_bodies(std::uint64_t seed) {
   StabilityRandom random(seed);
   const auto rough = [&](double radius) {
@@ -383,7 +384,9 @@ StabilityCase large_rough_bodies(std::uint64_t seed) {
     return mesh;
   };
   const TruthMesh inner = rough(0.95);
-  return {{{rough(1.0)}, {inner}}};
+  StabilityCase c{{{rough(1.0)}, {inner}}};
+  if (seed % 8 == 4) scale(c, 1e30);
+  return c;
 }
 
 StabilityCase out_of_range(std::uint64_t seed) {

@@ -77,32 +77,37 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
-const Settings& World::settings() const { return implementation_->settings; }
+World::Implementation& World::implementation() const {
+  if (implementation_ == nullptr) throw Error(ErrorCode::wrong_order, "the world was moved to another");
+  return *implementation_;
+}
+
+const Settings& World::settings() const { return implementation().settings; }
 
 void World::set_settings(const Settings& settings) {
-  implementation_->settings = checked(settings);
-  implementation_->step.look_at_all();
+  implementation().settings = checked(settings);
+  implementation().step.look_at_all();
 }
 
 BodyId World::add_body(const BodyDefinition& definition) {
   const base::FloatingPointMode mode;
-  return with_memory("adding a body ran out of memory", [&] { return implementation_->bodies.add(definition); });
+  return with_memory("adding a body ran out of memory", [&] { return implementation().bodies.add(definition); });
 }
 
-void World::remove_body(BodyId body) { implementation_->bodies.remove(body); }
+void World::remove_body(BodyId body) { implementation().bodies.remove(body); }
 
 void World::set_positions(BodyId body, const Eigen::Ref<const Eigen::Matrix3Xd>& positions) {
-  Implementation& i = *implementation_;
+  Implementation& i = implementation();
   i.refresh([&] { i.bodies.set_positions(body, positions, i.settings.threads); });
 }
 
 void World::set_positions(std::span<const PositionsUpdate> updates) {
-  Implementation& i = *implementation_;
+  Implementation& i = implementation();
   i.refresh([&] { i.bodies.set_positions(updates, i.settings.threads); });
 }
 
 const Report& World::detect() {
-  Implementation& i = *implementation_;
+  Implementation& i = implementation();
   const double refresh_ms = std::exchange(i.refresh_ms, 0.0);
   const base::FloatingPointMode mode;
   return with_memory("detect ran out of memory; the next call starts afresh", [&]() -> const Report& {
@@ -116,15 +121,15 @@ const Report& World::detect() {
   });
 }
 
-bool World::contains(BodyId body) const noexcept { return implementation_->bodies.contains(body); }
-std::size_t World::body_count() const noexcept { return implementation_->bodies.count(); }
-std::vector<BodyId> World::bodies() const { return implementation_->bodies.ids(); }
-const std::string& World::name(BodyId body) const { return implementation_->bodies.at(body).name; }
-Surface World::surface(BodyId body) const { return implementation_->bodies.at(body).surface; }
-Motion World::motion(BodyId body) const { return implementation_->bodies.at(body).motion; }
+bool World::contains(BodyId body) const noexcept { return implementation_ && implementation_->bodies.contains(body); }
+std::size_t World::body_count() const noexcept { return implementation_ ? implementation_->bodies.count() : 0; }
+std::vector<BodyId> World::bodies() const { return implementation().bodies.ids(); }
+const std::string& World::name(BodyId body) const { return implementation().bodies.at(body).name; }
+Surface World::surface(BodyId body) const { return implementation().bodies.at(body).surface; }
+Motion World::motion(BodyId body) const { return implementation().bodies.at(body).motion; }
 std::size_t World::vertex_count(BodyId body) const {
-  return static_cast<std::size_t>(implementation_->bodies.at(body).mesh.source_vertex_count());
+  return static_cast<std::size_t>(implementation().bodies.at(body).mesh.source_vertex_count());
 }
-std::size_t World::facet_count(BodyId body) const { return implementation_->bodies.at(body).facet_count; }
+std::size_t World::facet_count(BodyId body) const { return implementation().bodies.at(body).facet_count; }
 
 }  // namespace tact

@@ -1,5 +1,6 @@
 #include "narrowphase/clustered_mesh.h"
 
+#include <atomic>
 #include <cassert>
 #include <numeric>
 #include <stdexcept>
@@ -188,8 +189,9 @@ Corners ClusteredMesh::corners(int facet) const {
 
 bool ClusteredMesh::set_positions(const double* positions, int threads) {
   const int ranges = (cluster_count() + kClustersPerRange - 1) / kClustersPerRange;
+  const bool in_ranges = ranges > 1 && threads > 1;
   Refreshed all;
-  if (ranges <= 1 || threads <= 1) {
+  if (!in_ranges) {
     if (cluster_count() > kNearClusters) read_through(positions, 3 * static_cast<std::size_t>(source_vertex_count_));
     all = refresh_range(positions, 0, cluster_count());
   } else {
@@ -198,21 +200,19 @@ bool ClusteredMesh::set_positions(const double* positions, int threads) {
       const std::size_t begin = i * part, end = 3 * static_cast<std::size_t>(source_vertex_count_);
       if (begin < end) read_through(positions + begin, std::min(part, end - begin));
     });
-    std::vector<Refreshed> refreshed(static_cast<std::size_t>(ranges));
-    base::parallel_for(refreshed.size(), 1, threads, [&](std::size_t i) {
+    std::atomic<bool> any_changed{false};
+    base::parallel_for(static_cast<std::size_t>(ranges), 1, threads, [&](std::size_t i) {
       const int begin = static_cast<int>(i) * kClustersPerRange;
-      refreshed[i] = refresh_range(positions, begin, std::min(begin + kClustersPerRange, cluster_count()));
+      if (refresh_range(positions, begin, std::min(begin + kClustersPerRange, cluster_count())).changed)
+        any_changed = true;
     });
-    for (const Refreshed& one : refreshed) {
-      all.changed = all.changed || one.changed;
-      all.box = merged(all.box, one.box);
-    }
+    all.changed = any_changed;
   }
-  box_ = all.box;
   for (int g = 0; g < group_count() && group_count() > 1; ++g) {
     const int begin = cluster_begin(g), count = cluster_end(g) - begin;
     group_boxes_.set(static_cast<std::size_t>(g), box_of(kernels().bounds(cluster_boxes_.pointers(begin), count)));
   }
+  box_ = in_ranges ? box_of(kernels().bounds(group_boxes_.pointers(), group_count())) : all.box;
   return all.changed;
 }
 

@@ -76,7 +76,8 @@ class ClusteredMesh {
   ClusteredMesh(std::span<const double> positions, std::span<const int> facets);
 
   // Reads the new positions, 3 x V, and refreshes all boxes, in one pass; says whether any coordinate of a used vertex
-  // changed. Large meshes are cut into ranges of clusters for up to `threads` threads.
+  // changed. Large meshes are cut into ranges of clusters for up to `threads` threads. Allocates nothing, so that of a
+  // batch of bodies none can fail when others have moved.
   bool set_positions(const double* positions, int threads);
   // Asks for the memory that set_positions writes, in good time.
   void prefetch() const;

@@ -155,9 +155,9 @@ Mesh cells(const std::vector<std::array<int, 3>>& filled, Vec3 cell_size) {
   const std::set<std::array<int, 3>> all(filled.begin(), filled.end());
   const Vec3 x{cell_size.x, 0.0, 0.0}, y{0.0, cell_size.y, 0.0}, z{0.0, 0.0, cell_size.z};
   GridCollector grid;
-  for (const auto& [i, j, k] : all) {
-    const Vec3 corner{i * cell_size.x, j * cell_size.y, k * cell_size.z};
-    const auto open = [&](int di, int dj, int dk) { return !all.contains({i + di, j + dj, k + dk}); };
+  for (const auto& at : all) {
+    const Vec3 corner{at[0] * cell_size.x, at[1] * cell_size.y, at[2] * cell_size.z};
+    const auto open = [&](int di, int dj, int dk) { return !all.contains({at[0] + di, at[1] + dj, at[2] + dk}); };
     if (open(0, 0, -1)) grid.add({corner, y, x, 1, 1});
     if (open(0, 0, 1)) grid.add({corner + z, x, y, 1, 1});
     if (open(0, -1, 0)) grid.add({corner, x, z, 1, 1});

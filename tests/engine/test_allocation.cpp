@@ -137,6 +137,28 @@ TEST_P(FailingAllocation, LeavesAUsableWorldWhenAllThatFollowFailToo) { fail_eve
 
 INSTANTIATE_TEST_SUITE_P(Operations, FailingAllocation, ::testing::Range<std::size_t>(0, 11));
 
+// Bodies so large that a batch moves one after the other, each on all threads: if a later one cannot be moved, none is.
+TEST(Allocation, ThatFailsInABatchOfLargeBodiesMovesNone) {
+  const std::array before = {wrinkled_sheet(140, 2.0, 0.3, 1), wrinkled_sheet(140, 2.0, 0.3, 2)};
+  const std::array after = {translated(before[0], {0.0, 0.0, 0.03125}), translated(before[1], {0.125, 0.0, 0.0})};
+  const std::vector<MeetingBodies> met_before = meeting_bodies_by_engine(before);
+  const std::vector<MeetingBodies> met_after = meeting_bodies_by_engine(after);
+  for (long number = 0;; ++number) {
+    ASSERT_LT(number, 1000);
+    World world({.threads = 2});
+    const std::vector<BodyId> ids = add_bodies(world, before);
+    const std::array updates = {PositionsUpdate{ids[0], after[0].positions},
+                                PositionsUpdate{ids[1], after[1].positions}};
+    world.detect();
+    const Outcome outcome = call_short_of_memory(number, false, [&] { world.set_positions(updates); });
+    world.set_settings(world.settings());  // looks at every pair anew
+    ASSERT_TRUE(
+        same_meeting_bodies(outcome == Outcome::threw ? met_before : met_after, meeting_bodies(world.detect(), ids)))
+        << "allocation " << number;
+    if (outcome == Outcome::finished) break;
+  }
+}
+
 // Two bodies of so many clusters that Embree's trees find their pairs: its own allocations are among those that fail.
 // Where Embree fails to start is in test_cluster_forest.cpp.
 TEST(Allocation, ThatFailsInEmbreeLeavesAUsableWorld) {

@@ -110,20 +110,50 @@ TEST_F(WorldOfThree, RefusesStaleIdInEveryCall) {
   EXPECT_EQ(hash(), before);
 }
 
-TEST_F(WorldOfThree, RefusesForeignId) {
+TEST_F(WorldOfThree, RefusesForeignIdInEveryCall) {
   World other;
   const BodyId foreign = other.add_body(definition(left_mesh_));
+  ASSERT_EQ(foreign.index, left_.index);
+  const std::uint64_t before = hash(), others = other.detect().hash();
+  const std::array updates = {PositionsUpdate{left_, right_mesh_.positions},
+                              PositionsUpdate{foreign, right_mesh_.positions}};
   EXPECT_FALSE(world_.contains(foreign));
   EXPECT_TRUE(throws_error([&] { world_.remove_body(foreign); }, ErrorCode::foreign_body));
-  EXPECT_TRUE(throws_error([&] { world_.set_positions(foreign, left_mesh_.positions); }, ErrorCode::foreign_body));
+  EXPECT_TRUE(throws_error([&] { world_.set_positions(foreign, right_mesh_.positions); }, ErrorCode::foreign_body));
+  EXPECT_TRUE(throws_error([&] { world_.set_positions(updates); }, ErrorCode::foreign_body));
   EXPECT_TRUE(throws_error([&] { world_.name(foreign); }, ErrorCode::foreign_body));
+  EXPECT_TRUE(throws_error([&] { world_.surface(foreign); }, ErrorCode::foreign_body));
+  EXPECT_TRUE(throws_error([&] { world_.motion(foreign); }, ErrorCode::foreign_body));
+  EXPECT_TRUE(throws_error([&] { world_.vertex_count(foreign); }, ErrorCode::foreign_body));
+  EXPECT_TRUE(throws_error([&] { world_.facet_count(foreign); }, ErrorCode::foreign_body));
   EXPECT_EQ(world_.body_count(), 3u);
+  EXPECT_EQ(hash(), before);
+  EXPECT_EQ(other.detect().hash(), others);
 }
 
-TEST_F(WorldOfThree, KeepsIdsWhenMoved) {
-  World moved = std::move(world_);
-  EXPECT_TRUE(moved.contains(left_));
-  EXPECT_EQ(moved.detect().contacts().size(), 3u);
+TEST(World, KeepsIdsAndAnswersWhenMoved) {
+  const Mesh left = icosphere(1), right = translated(left, {1.5, 0.1, 0.2});
+  tact::World world;
+  const BodyId a = world.add_body(definition(left)), b = world.add_body(definition(right));
+  const std::uint64_t before = world.detect().hash();
+  tact::World moved = std::move(world);
+  EXPECT_TRUE(moved.contains(a) && moved.contains(b));
+  EXPECT_EQ(moved.detect().hash(), before);
+
+  EXPECT_FALSE(world.contains(a));
+  EXPECT_EQ(world.body_count(), 0u);
+  EXPECT_TRUE(throws_error([&] { world.settings(); }, ErrorCode::wrong_order));
+  EXPECT_TRUE(throws_error([&] { world.set_settings({}); }, ErrorCode::wrong_order));
+  EXPECT_TRUE(throws_error([&] { world.add_body(definition(left)); }, ErrorCode::wrong_order));
+  EXPECT_TRUE(throws_error([&] { world.remove_body(a); }, ErrorCode::wrong_order));
+  EXPECT_TRUE(throws_error([&] { world.set_positions(a, left.positions); }, ErrorCode::wrong_order));
+  EXPECT_TRUE(throws_error([&] { world.set_positions({}); }, ErrorCode::wrong_order));
+  EXPECT_TRUE(throws_error([&] { world.detect(); }, ErrorCode::wrong_order));
+  EXPECT_TRUE(throws_error([&] { world.bodies(); }, ErrorCode::wrong_order));
+  EXPECT_TRUE(throws_error([&] { world.name(a); }, ErrorCode::wrong_order));
+
+  world = std::move(moved);
+  EXPECT_EQ(world.detect().hash(), before);
 }
 
 TEST_F(WorldOfThree, RefusesBadPositionsAndNamesThem) {
@@ -166,6 +196,7 @@ TEST_F(WorldOfThree, RefusesWrongNumberOfPositions) {
 }
 
 TEST_F(WorldOfThree, RefusesFacetsOutOfRangeAndNamesThem) {
+  const std::uint64_t before = hash();
   for (const int index : {-1, 162, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
     Mesh bad = left_mesh_;
     bad.facets(2, 41) = index;
@@ -173,6 +204,23 @@ TEST_F(WorldOfThree, RefusesFacetsOutOfRangeAndNamesThem) {
                              {"bad", "41", std::to_string(index).c_str()}));
   }
   EXPECT_EQ(world_.body_count(), 3u);
+  EXPECT_EQ(hash(), before);
+}
+
+// So many that their numbers would not fit: refused before any of them is read.
+TEST_F(WorldOfThree, RefusesMoreThanIndicesCanNumber) {
+  const std::uint64_t before = hash();
+  constexpr Eigen::Index kTooMany = std::numeric_limits<int>::max() / 4 + Eigen::Index{1};
+  const Eigen::Map<const Eigen::Matrix3Xd> positions(left_mesh_.positions.data(), 3, kTooMany);
+  const Eigen::Map<const Eigen::Matrix3Xi> facets(left_mesh_.facets.data(), 3, kTooMany);
+  const auto add = [&](const BodyDefinition& body) { world_.add_body(body); };
+  EXPECT_TRUE(throws_error([&] { add({.positions = positions, .facets = left_mesh_.facets, .name = "huge"}); },
+                           ErrorCode::too_large, {"huge"}));
+  EXPECT_TRUE(throws_error([&] { add({.positions = left_mesh_.positions, .facets = facets, .name = "huge"}); },
+                           ErrorCode::too_large, {"huge"}));
+  EXPECT_TRUE(throws_error([&] { world_.set_positions(left_, positions); }, ErrorCode::wrong_size, {"left"}));
+  EXPECT_EQ(world_.body_count(), 3u);
+  EXPECT_EQ(hash(), before);
 }
 
 TEST_F(WorldOfThree, RefusesToMoveFixedBody) {
@@ -251,22 +299,29 @@ TEST_F(WorldOfThree, TellsWhenFacetsBeginAndCeaseToMeet) {
   EXPECT_TRUE(world_.detect().ended().empty());
 }
 
-TEST(WorldSettings, AreRefusedWhenTheyHaveNoMeaning) {
-  World world({.threads = 1, .gjk_tolerance = 1e-9});
-  const Settings bad[] = {{.threads = -1},
-                          {.gjk_tolerance = 0.0},
-                          {.gjk_tolerance = -1e-12},
-                          {.gjk_tolerance = kNan},
-                          {.gjk_tolerance = 1.0},
-                          {.iteration_limit = 0},
-                          {.accuracy = static_cast<Accuracy>(17)},
-                          {.direction = static_cast<DirectionPolicy>(-3)}};
-  for (const Settings& settings : bad) {
-    EXPECT_TRUE(throws_error([&] { world.set_settings(settings); }, ErrorCode::bad_settings));
-    EXPECT_TRUE(throws_error([&] { World another(settings); }, ErrorCode::bad_settings));
-    EXPECT_EQ(world.settings().gjk_tolerance, 1e-9);
-    EXPECT_EQ(world.settings().threads, 1);
+TEST_F(WorldOfThree, RefusesSettingsWithoutMeaning) {
+  world_.set_settings({.threads = 1, .gjk_tolerance = 1e-9});
+  const std::uint64_t before = hash();
+  const struct {
+    Settings settings;
+    const char* name;
+  } bad[] = {{{.threads = -1}, "threads"},
+             {{.threads = 1025}, "threads"},
+             {{.gjk_tolerance = 0.0}, "gjk_tolerance"},
+             {{.gjk_tolerance = -1e-12}, "gjk_tolerance"},
+             {{.gjk_tolerance = kNan}, "gjk_tolerance"},
+             {{.gjk_tolerance = 1.0}, "gjk_tolerance"},
+             {{.iteration_limit = 0}, "iteration_limit"},
+             {{.accuracy = static_cast<Accuracy>(17)}, "accuracy"},
+             {{.direction = static_cast<DirectionPolicy>(-3)}, "direction"}};
+  for (const auto& one : bad) {
+    EXPECT_TRUE(throws_error([&] { world_.set_settings(one.settings); }, ErrorCode::bad_settings, {one.name}));
+    EXPECT_TRUE(throws_error([&] { World another(one.settings); }, ErrorCode::bad_settings, {one.name}));
+    EXPECT_EQ(world_.settings().gjk_tolerance, 1e-9);
+    EXPECT_EQ(world_.settings().threads, 1);
   }
+  EXPECT_EQ(world_.detect().stats().kept_pairs, 3);  // not even a new look at the pairs
+  EXPECT_EQ(hash(), before);
 }
 
 TEST(World, IsEmptyAtFirst) {

@@ -53,6 +53,28 @@ TEST(Threads, WorldCanBeUsedInsideTheCallersParallelRegion) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) EXPECT_EQ(found[seed], hashes_of_crowd(seed, 1)) << seed;
 }
 
+// The caller's regions leave the worlds' own regions one thread, or two where the caller allows nesting.
+TEST(Threads, WorldsInRegionsOfTheCallerAnswerAsAlone) {
+  std::vector<std::vector<std::uint64_t>> expected;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) expected.push_back(hashes_of_crowd(seed, 1));
+  const int levels_before = omp_get_max_active_levels();
+  for (const int levels : {1, 2}) {
+    omp_set_max_active_levels(levels);
+    std::vector<std::vector<std::uint64_t>> found(4), by_tasks(4);
+#pragma omp parallel for num_threads(3)
+    for (std::size_t i = 0; i < found.size(); ++i) found[i] = hashes_of_crowd(i, 2);
+#pragma omp parallel num_threads(3)
+#pragma omp single
+    for (std::size_t i = 0; i < by_tasks.size(); ++i) {
+#pragma omp task firstprivate(i) shared(by_tasks)
+      by_tasks[i] = hashes_of_crowd(i, 2);
+    }
+    EXPECT_EQ(found, expected) << levels << " levels";
+    EXPECT_EQ(by_tasks, expected) << levels << " levels";
+  }
+  omp_set_max_active_levels(levels_before);
+}
+
 TEST(Threads, WorldCanPassFromThreadToThread) {
   const std::vector<Mesh> bodies = crowd_of_blobs(12, 1);
   World world;

@@ -37,6 +37,8 @@ class TACT_API World {
   // Errors: bad_settings.
   explicit World(const Settings& settings = {});
   ~World();
+  // A world that was moved from holds no body, and refuses all calls but these and those that never throw
+  // (wrong_order).
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
@@ -77,6 +79,7 @@ class TACT_API World {
 
  private:
   struct Implementation;
+  Implementation& implementation() const;
   std::unique_ptr<Implementation> implementation_;
 };
 

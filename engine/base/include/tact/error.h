@@ -22,7 +22,7 @@ enum class ErrorCode {
   foreign_body,           // the id was given out by another world
   fixed_body,             // positions were set on a body whose motion is fixed
   bad_settings,           // a setting has no meaning; the message says which
-  wrong_order,            // a call that is not allowed now, such as one from inside another call of the same world
+  wrong_order,            // a call of a world that was moved from, or a body named twice in one batch
   out_of_memory,          // an allocation failed, ours or Embree's
   backend_failure,        // Embree reported an error; the message holds its code
 };

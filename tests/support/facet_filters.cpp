@@ -1,0 +1,119 @@
+#include "tests/support/facet_filters.h"
+
+#include <array>
+#include <cstdint>
+
+#include "narrowphase/confirm.h"
+
+namespace tact::tests {
+namespace {
+
+using narrowphase::BoxBounds;
+using narrowphase::ClusterFacets;
+using narrowphase::CrossingFacets;
+using narrowphase::CullPlanes;
+using narrowphase::FacetBlock;
+using narrowphase::FacetPairList;
+using narrowphase::FacetPlane;
+using narrowphase::Kernels;
+using narrowphase::NearFacets;
+using narrowphase::PairMatches;
+
+constexpr double kFar = 0x1p301;
+constexpr CullPlanes kAll{.axis = {}, .lowest = -1.0, .box = {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}}};
+
+// One triangle of each pair as a facet with vertices of its own.
+FacetBlock block_of(const Kernels& kernels, std::span<const TrianglePair> pairs, Triangle TrianglePair::*triangle) {
+  constexpr std::size_t kVertices = 3 * FacetBlock::kCapacity + narrowphase::kPadding;
+  std::array<double, kVertices> x{}, y{}, z{};
+  std::array<std::array<std::uint8_t, FacetBlock::kCapacity>, 3> corner{};
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t v = 3 * i + k;
+      const base::Vec3 p = (pairs[i].*triangle)[k];
+      x[v] = p.x, y[v] = p.y, z[v] = p.z;
+      corner[k][i] = static_cast<std::uint8_t>(v);
+    }
+  }
+  const auto count = static_cast<std::int32_t>(pairs.size());
+  const ClusterFacets cluster{.points = {x.data(), y.data(), z.data()},
+                              .owned_begin = 0,
+                              .owned_count = 3 * count,
+                              .borrowed = nullptr,
+                              .borrowed_count = 0,
+                              .corner = {corner[0].data(), corner[1].data(), corner[2].data()},
+                              .facet_begin = 0,
+                              .facet_count = count};
+  FacetBlock block;
+  kernels.open_cluster(cluster, kAll, &block);
+  return block;
+}
+
+BoxBounds box_of(const FacetBlock& block, std::size_t i) {
+  return {{block.lower[0][i], block.lower[1][i], block.lower[2][i]},
+          {block.upper[0][i], block.upper[1][i], block.upper[2][i]}};
+}
+
+// Is facet i of `many` left out when facet i of `few` is held against it?
+bool leaves_out(const Kernels& kernels, const FacetBlock& few, const FacetBlock& many, std::size_t i) {
+  NearFacets near;
+  kernels.near_facets(many, std::uint64_t{1} << i, box_of(few, i), &near);
+  if (near.facets == 0) return true;
+  const FacetPlane plane = narrowphase::facet_plane(few, i, near.box);
+  return kernels.crossing_facets(many, near, plane).facets == 0;
+}
+
+Filtered::Decision decision(const PairMatches& matches, std::size_t i) {
+  if ((matches.undecided >> i & 1) != 0) return Filtered::Decision::undecided;
+  return (matches.meeting >> i & 1) != 0 ? Filtered::Decision::meeting : Filtered::Decision::apart;
+}
+
+bool is_right(Filtered::Decision decision, bool meet) {
+  return decision == Filtered::Decision::undecided || (decision == Filtered::Decision::meeting) == meet;
+}
+
+bool lies_in_plane(const Triangle& a, const Triangle& b) {
+  narrowphase::PredicateCounts counts;
+  return narrowphase::sides_of_plane(b[0], b[1], b[2], a, counts) == std::array<int, 3>{0, 0, 0};
+}
+
+}  // namespace
+
+std::vector<Filtered> filtered(const Kernels& kernels, std::span<const TrianglePair> pairs) {
+  const FacetBlock a = block_of(kernels, pairs, &TrianglePair::a), b = block_of(kernels, pairs, &TrianglePair::b);
+  FacetPairList list;
+  std::uint64_t all = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    list.a[i] = list.b[i] = static_cast<std::int32_t>(i);
+    ++list.count;
+    all |= std::uint64_t{1} << i;
+  }
+  const PairMatches simple = kernels.match_pairs(a, b, list), wide = kernels.match_pairs_wide(a, b, list, all);
+  const std::uint64_t sharing = kernels.sharing_pairs(a, b, list, all);
+  std::vector<Filtered> result(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    result[i] = {.left_out = leaves_out(kernels, a, b, i) || leaves_out(kernels, b, a, i),
+                 .simple = decision(simple, i),
+                 .wide = decision(wide, i),
+                 .sharing = (sharing >> i & 1) != 0,
+                 .flat = ((simple.flat | wide.flat) >> i & 1) != 0};
+  }
+  return result;
+}
+
+bool is_right(const Filtered& filtered, const TrianglePair& pair, bool meet) {
+  if ((filtered.left_out && meet) || (filtered.sharing && !meet)) return false;
+  if (filtered.flat && !lies_in_plane(pair.a, pair.b)) return false;
+  return is_right(filtered.simple, meet) && is_right(filtered.wide, meet);
+}
+
+std::vector<const Kernels*> available_kernels() {
+  std::vector<const Kernels*> all;
+  for (const Kernels* one :
+       {narrowphase::scalar_kernels(), narrowphase::avx2_kernels(), narrowphase::avx512_kernels()}) {
+    if (one != nullptr) all.push_back(one);
+  }
+  return all;
+}
+
+}  // namespace tact::tests

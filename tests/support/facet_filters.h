@@ -1,0 +1,37 @@
+// Pairs of triangles through the loops that the engine puts before its exact predicates: boxes, planes, and the
+// decision of many pairs at once.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "narrowphase/kernels/kernels.h"
+#include "tests/support/triangle_pairs.h"
+
+namespace tact::tests {
+
+// What became of a pair.
+struct Filtered {
+  enum class Decision { apart, meeting, undecided };
+  bool left_out = false;  // by a box or a plane: the pair is never asked about
+  Decision simple = Decision::undecided;
+  Decision wide = Decision::undecided;  // with twice the digits
+  bool sharing = false;                 // the triangles have a corner in common
+  bool flat = false;                    // the first lies in the plane of the second
+
+  // Is the pair one for the exact predicates?
+  bool undecided() const {
+    return !left_out && !sharing && simple == Decision::undecided && wide == Decision::undecided;
+  }
+};
+
+// Every pair by itself, its triangles as facets of two blocks. At most narrowphase::FacetBlock::kCapacity pairs.
+std::vector<Filtered> filtered(const narrowphase::Kernels& kernels, std::span<const TrianglePair> pairs);
+
+// Is all of it right, where the triangles meet, or do not?
+bool is_right(const Filtered& filtered, const TrianglePair& pair, bool meet);
+
+// The instruction sets that this machine and build have.
+std::vector<const narrowphase::Kernels*> available_kernels();
+
+}  // namespace tact::tests
