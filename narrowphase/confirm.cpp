@@ -9,8 +9,8 @@ namespace tact::narrowphase {
 
 namespace {
 
-// Measured (tact-bench clusters): a loop over all pairs of boxes takes half a nanosecond each, building and asking trees
-// 650 a box; they are equal at some 1.5 million pairs.
+// Measured (tact-bench clusters): a loop over all pairs of boxes takes half a nanosecond each, building and asking
+// trees 650 a box; they are equal at some 1.5 million pairs.
 constexpr std::int64_t kLargestLoop = std::int64_t{1} << 20;
 
 BoxBounds bounds_of(const Box& box) {
