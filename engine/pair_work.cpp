@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "engine/base/parallel.h"
 #include "engine/base/timer.h"
@@ -16,8 +17,11 @@ using base::Timer;
 using base::Vec3;
 using namespace narrowphase;
 
-constexpr std::size_t kPairsPerRange = 1024;  // cluster pairs
-constexpr std::size_t kLargePair = 4 * kPairsPerRange;
+// A pair of bodies is cut into ranges if it has many pairs of clusters, or if a step has few pairs of bodies to share
+// out. A pair of clusters takes about a microsecond, and at a border between ranges a few clusters are opened twice.
+constexpr std::size_t kLargePair = 4096, kFewestInRanges = 128, kFewestInRange = 64;  // pairs of clusters
+constexpr std::size_t kPairsPerThread = 4;                                            // pairs of bodies
+constexpr std::size_t kRangesPerThread = 4;
 
 Eigen::Vector3d to_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
 
@@ -240,13 +244,17 @@ void confirm(PairWork& work) {
   work.record->counts.confirm_ms = static_cast<float>(timer.lap());
 }
 
-bool is_large(const PairWork& work) { return work.cluster_pairs.size() > kLargePair; }
+bool is_large(const PairWork& work, std::size_t pairs, int threads) {
+  if (threads == 1) return false;
+  const std::size_t size = work.cluster_pairs.size();
+  return size > kLargePair || (size > kFewestInRanges && pairs < kPairsPerThread * static_cast<std::size_t>(threads));
+}
 
 namespace {
 
-// Where the i-th range begins: between two clusters of A.
-std::size_t range_begin(const std::vector<ClusterPair>& pairs, std::size_t i) {
-  std::size_t begin = std::min(i * kPairsPerRange, pairs.size());
+// Where the i-th of `count` ranges begins: between two clusters of A.
+std::size_t range_begin(const std::vector<ClusterPair>& pairs, std::size_t i, std::size_t count) {
+  std::size_t begin = pairs.size() * i / count;
   while (begin > 0 && begin < pairs.size() && pairs[begin].a == pairs[begin - 1].a) ++begin;
   return begin;
 }
@@ -256,35 +264,34 @@ std::size_t range_begin(const std::vector<ClusterPair>& pairs, std::size_t i) {
 void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int threads) {
   Timer timer;
   work.ranges_begin = timer.start();
-  struct Range {
-    std::vector<FacetPair> found;
-    ConfirmCounts counts;
-    std::vector<OpenedCluster> opened_a, opened_b;
-  };
-  std::vector<Range> ranges((work.cluster_pairs.size() + kPairsPerRange - 1) / kPairsPerRange);
-  work.ranges.resize(ranges.size());
-  base::parallel_for(ranges.size(), 1, threads, [&](std::size_t i, int thread) {
-    const Timer range_timer;
-    Range& range = ranges[i];
+  work.range_count =
+      std::min(kRangesPerThread * static_cast<std::size_t>(threads), work.cluster_pairs.size() / kFewestInRange + 1);
+  if (work.ranges.size() < work.range_count) work.ranges.resize(work.range_count);
+  base::parallel_for(work.range_count, 1, threads, [&](std::size_t i, int thread) {
+    ConfirmedRange& range = work.ranges[i];
+    range.thread = thread;
+    range.begin = Timer::Clock::now();
+    range.found.clear();
+    range.counts = {};
     FacetPairSearch& search = thread_work[static_cast<std::size_t>(thread)].search;
-    const std::size_t begin = range_begin(work.cluster_pairs, i), end = range_begin(work.cluster_pairs, i + 1);
-    search.run(work.input, work.cluster_pairs, begin, end, range.found, range.counts);
+    search.run(work.input, work.cluster_pairs, range_begin(work.cluster_pairs, i, work.range_count),
+               range_begin(work.cluster_pairs, i + 1, work.range_count), range.found, range.counts);
     range.opened_a = search.opened_a();
     range.opened_b = search.opened_b();
-    work.ranges[i] = {thread, range_timer.start(), Timer::Clock::now(), static_cast<std::int64_t>(range.found.size())};
+    range.end = Timer::Clock::now();
   });
   // A cluster of B that several ranges opened counts once.
-  std::vector<char> seen_b(static_cast<std::size_t>(work.kept_b.count()), 0);
+  work.seen_b.assign(static_cast<std::size_t>(work.kept_b.count()), 0);
   ConfirmCounts counts;
   work.cull_a = work.cull_b = {};
-  for (const Range& range : ranges) {
+  for (const ConfirmedRange& range : std::span(work.ranges).first(work.range_count)) {
     work.record->facet_pairs.insert(work.record->facet_pairs.end(), range.found.begin(), range.found.end());
     counts.facet_box_pairs += range.counts.facet_box_pairs;
     counts.triangle_tests += range.counts.triangle_tests;
     counts.predicates.exact += range.counts.predicates.exact;
     for (const OpenedCluster& one : range.opened_a) add(work.cull_a, one.counts);
     for (const OpenedCluster& one : range.opened_b) {
-      if (!seen_b[static_cast<std::size_t>(one.index)]++) add(work.cull_b, one.counts);
+      if (!work.seen_b[static_cast<std::size_t>(one.index)]++) add(work.cull_b, one.counts);
     }
   }
   finish(work, counts);

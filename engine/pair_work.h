@@ -13,11 +13,13 @@
 
 namespace tact {
 
-// A part of stage 6 of a large pair, as a trace tells it.
+// A part of stage 6 of a large pair: when and by which thread, and what was found.
 struct ConfirmedRange {
   int thread = 0;
   TraceEvent::Time begin, end;
-  std::int64_t facet_pairs = 0;
+  std::vector<FacetPair> found;
+  narrowphase::ConfirmCounts counts;
+  std::vector<narrowphase::OpenedCluster> opened_a, opened_b;
 };
 
 // A pair between the criteria and the confirmation, and the memory for both; reused from pair to pair.
@@ -33,7 +35,9 @@ struct PairWork {
   bool surface_is_placed = false;  // smallest.surface is the record's, where the bodies are now
   narrowphase::CullCounts cull_a, cull_b;
   narrowphase::FacetPairSearch search;
-  std::vector<ConfirmedRange> ranges;  // of a large pair, from `ranges_begin` on
+  std::vector<ConfirmedRange> ranges;  // of a large pair, from `ranges_begin` on; `range_count` of them are in use
+  std::size_t range_count = 0;
+  std::vector<char> seen_b;  // by cluster of kept_b
   TraceEvent::Time ranges_begin;
 };
 
@@ -48,7 +52,7 @@ void confirm(PairWork& work);
 // Stage 6 with the cluster pairs cut into ranges, for a pair too large for one thread.
 void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int threads);
 
-// Is the pair large enough for confirm_in_ranges to pay? Depends on the pair alone.
-bool is_large(const PairWork& work);
+// Does it pay to cut the pair into ranges, one of `pairs` that a step looks at?
+bool is_large(const PairWork& work, std::size_t pairs, int threads);
 
 }  // namespace tact

@@ -63,7 +63,7 @@ void Step::finish(Timer& total, const Settings& settings, double refresh_ms) {
   report_.stats_.refresh_ms = refresh_ms;
   report_.stats_.total_ms = refresh_ms + total.lap();
   report_.trace_.clear();
-  if (settings.outputs.trace) trace_.make(begin, total.start(), report_.stats_, moved_, large_, report_.trace_);
+  if (settings.outputs.trace) trace_.make(begin, total.start(), report_.stats_, moved_, large(), report_.trace_);
   trace_.forget_refreshes();
 }
 
@@ -76,6 +76,7 @@ void Step::start_afresh() {
   free_.clear();
   pool_.clear();
   large_.clear();
+  large_count_ = 0;
   thread_work_.clear();
   report_ = {};
   all_ = true;
@@ -86,7 +87,7 @@ void Step::start_afresh() {
 void Step::keep_report() {
   note_touches();
   moved_.clear();
-  large_.clear();
+  large_count_ = 0;
   const StepStats last = report_.stats_;
   report_.stats_ = {};
   report_.stats_.bodies = last.bodies;
@@ -180,7 +181,7 @@ void Step::prefetch_pairs(const Bodies& bodies, std::size_t i) const {
 // Stages 3 to 6, all pairs in parallel, each into its own record; then the large ones, each on all threads.
 void Step::narrow_phase(const Bodies& bodies, const Settings& settings) {
   thread_work_.resize(static_cast<std::size_t>(settings.threads));
-  large_.clear();
+  large_count_ = 0;
   std::mutex mutex;
   base::parallel_for(moved_.size(), 4, settings.threads, [&](std::size_t i, int thread) {
     prefetch_pairs(bodies, i);
@@ -190,19 +191,15 @@ void Step::narrow_phase(const Bodies& bodies, const Settings& settings) {
     const bool confirms = find_direction_and_cull(record, a, b, settings, device_, work);
     record.counts.thread = thread;
     if (!confirms) return;
-    if (settings.threads == 1 || !is_large(work)) {
+    if (!is_large(work, moved_.size(), settings.threads)) {
       confirm(work);
       return;
     }
     record.counts.in_ranges = true;
-    auto large = std::make_unique<PairWork>(std::move(work));
-    large->input.kept_a = &large->kept_a;
-    large->input.kept_b = &large->kept_b;
-    work = {};
     const std::lock_guard lock(mutex);
-    large_.push_back(std::move(large));
+    put_aside(work);
   });
-  for (const auto& work : large_) confirm_in_ranges(*work, thread_work_, settings.threads);
+  for (const auto& work : large()) confirm_in_ranges(*work, thread_work_, settings.threads);
   if (settings.outputs.patches && settings.accuracy != Accuracy::hulls) {
     base::parallel_for(moved_.size(), 4, settings.threads, [&](std::size_t i) {
       PairRecord& record = *moved_[i];
@@ -210,6 +207,15 @@ void Step::narrow_phase(const Bodies& bodies, const Settings& settings) {
       record.patches = find_patches(bodies.in_slot(record.a.index), bodies.in_slot(record.b.index), record);
     });
   }
+}
+
+// Takes the work on a large pair and gives other memory for it.
+void Step::put_aside(PairWork& work) {
+  if (large_.size() == large_count_) large_.push_back(std::make_unique<PairWork>());
+  PairWork& large = *large_[large_count_++];
+  std::swap(work, large);
+  large.input.kept_a = &large.kept_a;
+  large.input.kept_b = &large.kept_b;
 }
 
 void Step::count_work(const Bodies& bodies, const Settings& settings) {

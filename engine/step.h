@@ -5,6 +5,7 @@
 #include <tact/settings.h>
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "broadphase/sweep_and_prune.h"
@@ -36,6 +37,8 @@ class Step {
   void select_moved(const Bodies& bodies);
   void narrow_phase(const Bodies& bodies, const Settings& settings);
   void prefetch_pairs(const Bodies& bodies, std::size_t i) const;
+  void put_aside(PairWork& work);
+  std::span<const std::unique_ptr<PairWork>> large() const { return std::span(large_).first(large_count_); }
   void count_work(const Bodies& bodies, const Settings& settings);
   void make_report();
   void update_report(const StepStats& last);
@@ -57,7 +60,8 @@ class Step {
   std::vector<PairRecord*> previous_;         // those of the last step, while matching
   std::vector<PairRecord*> moved_;            // those that this step looks at
   std::vector<PairWork> thread_work_;
-  std::vector<std::unique_ptr<PairWork>> large_;
+  std::vector<std::unique_ptr<PairWork>> large_;  // pairs for all threads; large_count_ of them are in use
+  std::size_t large_count_ = 0;
   std::vector<ContactEvent> gone_;  // pairs that touched and are no candidates any more
   narrowphase::EmbreeDevice device_;
   Report report_;

@@ -48,8 +48,9 @@ void add_ranges(const PairWork& large, std::vector<TraceEvent>& events) {
   const PairRecord& record = *large.record;
   const Time end = large.ranges_begin + duration_of(record.counts.confirm_ms);
   events.push_back({Kind::confirm, 0, large.ranges_begin, end, record.a, record.b, facet_pairs_of(record)});
-  for (const ConfirmedRange& range : large.ranges) {
-    events.push_back({Kind::range, range.thread, range.begin, range.end, record.a, record.b, range.facet_pairs});
+  for (const ConfirmedRange& range : std::span(large.ranges).first(large.range_count)) {
+    events.push_back({Kind::range, range.thread, range.begin, range.end, record.a, record.b,
+                      static_cast<std::int64_t>(range.found.size())});
   }
 }
 
@@ -74,7 +75,7 @@ bool before(const TraceEvent& x, const TraceEvent& y) {
 void StepTrace::make(Time begin, Time end, const StepStats& stats, std::span<PairRecord* const> pairs,
                      std::span<const std::unique_ptr<PairWork>> large, std::vector<TraceEvent>& events) {
   std::size_t most = refreshes_.size() + kEventsOfStep + kEventsOfPair * pairs.size();
-  for (const auto& work : large) most += work->ranges.size() + 1;
+  for (const auto& work : large) most += work->range_count + 1;
   events.reserve(most);
   events.assign(refreshes_.begin(), refreshes_.end());
   add_stages(begin, end, stats, events);
