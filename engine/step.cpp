@@ -44,12 +44,20 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   sweep_.update(bodies.boxes(), bodies.filters(), bodies.changed(), settings.threads);
   note_touches();
   const bool same_pairs = !all_ && !bodies.removed_any() && !sweep_.pairs_changed();
-  same_pairs ? select_moved(bodies) : match_records(bodies);
+  if (same_pairs) {
+    select_moved(bodies);
+  } else {
+    match_records(bodies);
+  }
   stats.sweep_ms = timer.lap();
   narrow_phase(bodies, settings);
   stats.narrow_phase_ms = timer.lap();
   count_work(bodies, settings);
-  same_pairs&& same_contacts() ? update_report(last) : make_report();
+  if (same_pairs && same_contacts()) {
+    update_report(last);
+  } else {
+    make_report();
+  }
   add_events();
   stats.report_ms = timer.lap();
   bodies.end_step();
