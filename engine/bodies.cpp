@@ -10,6 +10,7 @@ namespace tact {
 namespace {
 
 using narrowphase::PositionProblem;
+using Staged = narrowphase::ClusteredMesh::Staged;
 
 constexpr Eigen::Index kLargestCount = std::numeric_limits<int>::max() / 4;
 constexpr std::size_t kUpdatesPerBlock = 16;
@@ -125,10 +126,8 @@ void Bodies::prepare(Update& update, BodyId id, const Eigen::Ref<const Eigen::Ma
                                            " vertices, but " + std::to_string(positions.cols()) +
                                            " positions were given");
   }
-  const std::span<const double> values = columns(positions, update.copy);
-  check_positions(values.data(), values.size() / 3, body.name);
+  update.positions = columns(positions, update.copy);
   update.body = &body;
-  update.positions = values.data();
 }
 
 // Asks for the memory of a body that is looked at soon: small bodies are scattered.
@@ -136,12 +135,18 @@ void Bodies::prefetch(BodyId id) const {
   if (id.index < slots_.size()) narrowphase::prefetch_lines(slots_[id.index].body.get(), 1);
 }
 
-void Bodies::apply(Update& update, int threads) {
-  update.moved = update.body->mesh.set_positions(update.positions, threads);
+void Bodies::stage(Update& update, int threads) {
+  update.staged = update.body->mesh.stage(update.positions.data(), kLargestCoordinate, threads);
 }
 
-void Bodies::note(const Update& update) {
-  if (!update.moved) return;
+void Bodies::check(const Update& update) {
+  if (update.staged != Staged::bad) return;
+  check_positions(update.positions.data(), update.positions.size() / 3, update.body->name);
+}
+
+void Bodies::take(const Update& update) {
+  if (update.staged != Staged::changed) return;
+  update.body->mesh.take_staged();
   const std::uint32_t slot = update.body->id.index;
   boxes_[slot] = update.body->mesh.box();
   if (!moved(slot)) moved_vertices_ += update.body->mesh.source_vertex_count();
@@ -152,28 +157,34 @@ void Bodies::set_positions(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& 
   const base::FloatingPointMode mode;
   if (updates_.empty()) updates_.resize(1);
   prepare(updates_[0], id, positions);
-  apply(updates_[0], threads);
-  note(updates_[0]);
+  stage(updates_[0], threads);
+  check(updates_[0]);
+  take(updates_[0]);
 }
 
 void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads) {
   const std::size_t count = updates.size();
   if (updates_.size() < count) updates_.resize(count);
-  base::parallel_for(count, kUpdatesPerBlock, threads, [&](std::size_t i) {
+  for (std::size_t i = 0; i < count; ++i) {
     if (i + kPrefetchDistance < count) prefetch(updates[i + kPrefetchDistance].body);
     prepare(updates_[i], updates[i].body, updates[i].positions);
-  });
+  }
   check_named_once(updates);
   // Large bodies one after the other, each on all threads.
   const auto large = [&](std::size_t i) { return threads > 1 && updates_[i].body->facet_count >= kLargeBody; };
   base::parallel_for(count, kUpdatesPerBlock, threads, [&](std::size_t i) {
-    if (i + kPrefetchDistance < count) updates_[i + kPrefetchDistance].body->mesh.prefetch();
-    if (!large(i)) apply(updates_[i], 1);
+    if (i + 2 * kPrefetchDistance < count) prefetch(updates[i + 2 * kPrefetchDistance].body);
+    if (i + kPrefetchDistance < count) {
+      const Update& next = updates_[i + kPrefetchDistance];
+      next.body->mesh.prefetch(next.positions.data());
+    }
+    if (!large(i)) stage(updates_[i], 1);
   });
   for (std::size_t i = 0; i < count; ++i) {
-    if (large(i)) apply(updates_[i], threads);
+    if (large(i)) stage(updates_[i], threads);
   }
-  for (std::size_t i = 0; i < count; ++i) note(updates_[i]);
+  for (std::size_t i = 0; i < count; ++i) check(updates_[i]);
+  for (std::size_t i = 0; i < count; ++i) take(updates_[i]);
 }
 
 void Bodies::check_named_once(std::span<const PositionsUpdate> updates) {

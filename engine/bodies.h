@@ -67,17 +67,18 @@ class Bodies {
 
   Body& writable(BodyId id) { return const_cast<Body&>(at(id)); }
 
-  // New positions of a body: checked, then applied, then noted. Only the first can fail.
+  // New positions of a body: prepared, then staged, then taken. Only what comes before taking can fail.
   struct Update {
     Body* body = nullptr;
-    const double* positions = nullptr;
+    std::span<const double> positions;
     std::vector<double> copy;
-    bool moved = false;
+    narrowphase::ClusteredMesh::Staged staged{};
   };
   void prepare(Update& update, BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions);
   void prefetch(BodyId id) const;
-  void apply(Update& update, int threads);
-  void note(const Update& update);
+  static void stage(Update& update, int threads);
+  static void check(const Update& update);
+  void take(const Update& update);
   void check_named_once(std::span<const PositionsUpdate> updates);
   void mark_changed(std::uint32_t slot);
 

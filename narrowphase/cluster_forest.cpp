@@ -82,7 +82,7 @@ struct ClusterForest::Builder {
   }
 };
 
-void ClusterForest::build(EmbreeDevice& device, const BoxArrays& boxes, int count) {
+void ClusterForest::build(EmbreeDevice& device, BoxView boxes, int count) {
   nodes_.clear();
   roots_.clear();
   root_boxes_.clear();

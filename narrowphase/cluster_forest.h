@@ -36,7 +36,7 @@ class EmbreeDevice {
 class ClusterForest {
  public:
   // A forest over boxes 0 <= i < count. Errors: backend_failure, out_of_memory.
-  void build(EmbreeDevice& device, const BoxArrays& boxes, int count);
+  void build(EmbreeDevice& device, BoxView boxes, int count);
 
   // Appends, in no particular order, the indices of the boxes that overlap `box`.
   void query(const Box& box, std::vector<std::int32_t>& found) const;

@@ -1,7 +1,10 @@
 #include "narrowphase/clustered_mesh.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -14,11 +17,11 @@ namespace {
 
 constexpr int kLaneGroup = 8;           // facets inside a cluster are ordered in groups of so many neighbours
 constexpr int kClustersPerRange = 256;  // what a thread refreshes at a time
-constexpr int kNearClusters = 4;        // of so few, the positions are still near since they were checked
+constexpr int kPrefetchDistance = 8;    // clusters
 constexpr int kFirstUse = -1;
 
-Vec3 source_position(std::span<const double> positions, int vertex) {
-  const double* p = positions.data() + 3 * static_cast<std::size_t>(vertex);
+Vec3 source_position(const double* positions, int vertex) {
+  const double* p = positions + 3 * static_cast<std::ptrdiff_t>(vertex);
   return {p[0], p[1], p[2]};
 }
 
@@ -59,13 +62,18 @@ class MedianOrder {
 
 Box box_of(const BoxBounds& b) { return {{b.lower[0], b.lower[1], b.lower[2]}, {b.upper[0], b.upper[1], b.upper[2]}}; }
 
-// Positions are gathered cluster by cluster, in an order in which memory is slow. Read once through in their own order
-// before, they come at full speed, and are near when they are gathered.
-void read_through(const double* positions, std::size_t count) {
-  constexpr std::size_t kLine = 8;  // doubles
-  double sum = 0.0;
-  for (std::size_t i = 0; i < count; i += kLine) sum += positions[i];
-  asm volatile("" : : "m"(sum));  // the sum itself is not wanted
+// See BoxView.
+void set_box(double* bounds, std::size_t stride, std::size_t i, const Box& box) {
+  double* bound = bounds + i;
+  for (int axis = 0; axis < 3; ++axis, bound += stride) *bound = box.lower[axis];
+  for (int axis = 0; axis < 3; ++axis, bound += stride) *bound = box.upper[axis];
+}
+
+bool is_within(const Box& box, double largest) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(box.lower[axis] >= -largest && box.upper[axis] <= largest)) return false;
+  }
+  return true;
 }
 
 [[noreturn]] void broken(const std::string& what) { throw std::logic_error("ClusteredMesh: " + what); }
@@ -79,23 +87,14 @@ void BoxArrays::resize(std::size_t count) {
   bounds_.resize(6 * count + kPadding, empty.upper.x);
 }
 
-void BoxArrays::set(std::size_t i, const Box& box) {
-  double* bound = bounds_.data() + i;
-  for (int axis = 0; axis < 3; ++axis, bound += stride_) *bound = box.lower[axis];
-  for (int axis = 0; axis < 3; ++axis, bound += stride_) *bound = box.upper[axis];
-}
-
-BoxPointers BoxArrays::pointers(int first) const {
-  return {{lower(0) + first, lower(1) + first, lower(2) + first},
-          {upper(0) + first, upper(1) + first, upper(2) + first}};
-}
-
-void BoxArrays::prefetch() const { prefetch_lines(bounds_.data(), bounds_.size()); }
+void BoxArrays::set(std::size_t i, const Box& box) { set_box(bounds_.data(), stride_, i, box); }
 
 PositionProblem find_position_problem(const double* positions, std::size_t count, double largest) {
-  const std::int64_t at = kernels().find_large(positions, 3 * static_cast<std::int64_t>(count), largest);
-  if (at < 0) return {};
-  const auto kind = std::isfinite(positions[at]) ? PositionProblem::out_of_range : PositionProblem::non_finite;
+  const auto is_good = [&](double x) { return std::abs(x) <= largest; };
+  const double *end = positions + 3 * count, *bad = std::find_if_not(positions, end, is_good);
+  if (bad == end) return {};
+  const auto at = bad - positions;
+  const auto kind = std::isfinite(*bad) ? PositionProblem::out_of_range : PositionProblem::non_finite;
   return {kind, static_cast<int>(at / 3), static_cast<int>(at % 3)};
 }
 
@@ -104,9 +103,10 @@ ClusteredMesh::ClusteredMesh(std::span<const double> positions, std::span<const 
   group_facets(positions, facets);
   number_vertices(facets);
   stride_ = static_cast<std::size_t>(vertex_count());
-  coordinates_.assign(3 * stride_ + kPadding, 0.0);
-  cluster_boxes_.resize(static_cast<std::size_t>(cluster_count()));
-  if (group_count() > 1) group_boxes_.resize(static_cast<std::size_t>(group_count()));
+  const auto boxes = static_cast<std::size_t>(cluster_count() + group_count()), size = 3 * stride_ + 6 * boxes;
+  memory_.assign(2 * size + kPadding, 0.0);
+  placed_.memory = memory_.data();
+  staged_.memory = memory_.data() + size;
   set_positions(positions.data(), 1);
 }
 
@@ -114,8 +114,7 @@ void ClusteredMesh::group_facets(std::span<const double> positions, std::span<co
   const std::size_t count = facets.size() / 3;
   std::vector<Vec3> centers(count);
   for (std::size_t f = 0; f < count; ++f) {
-    centers[f] = source_position(positions, facets[3 * f]) + source_position(positions, facets[3 * f + 1]) +
-                 source_position(positions, facets[3 * f + 2]);
+    for (std::size_t k = 0; k < 3; ++k) centers[f] = centers[f] + source_position(positions.data(), facets[3 * f + k]);
   }
   facet_count_ = static_cast<int>(count);
   source_facet_.resize(count);
@@ -162,6 +161,9 @@ void ClusteredMesh::number_vertices(std::span<const int> facets) {
   indices_.insert(indices_.end(), {vertex_count_, static_cast<int>(borrowed_.size())});
   indices_.insert(indices_.end(), source_vertices.begin(), source_vertices.end());
   indices_.insert(indices_.end(), borrowed_sources.begin(), borrowed_sources.end());
+  for (int s = 0; s < source_vertex_count_; ++s) {
+    if (number[static_cast<std::size_t>(s)] == kFirstUse) unused_sources_.push_back(s);
+  }
 }
 
 ClusterFacets ClusteredMesh::facets_of(int cluster) const {
@@ -187,59 +189,83 @@ Corners ClusteredMesh::corners(int facet) const {
   return corners;
 }
 
-bool ClusteredMesh::set_positions(const double* positions, int threads) {
+ClusteredMesh::Staged ClusteredMesh::stage(const double* positions, double largest, int threads) {
   const int ranges = (cluster_count() + kClustersPerRange - 1) / kClustersPerRange;
   const bool in_ranges = ranges > 1 && threads > 1;
   Refreshed all;
   if (!in_ranges) {
-    if (cluster_count() > kNearClusters) read_through(positions, 3 * static_cast<std::size_t>(source_vertex_count_));
     all = refresh_range(positions, 0, cluster_count());
   } else {
-    const std::size_t part = 3 * static_cast<std::size_t>(source_vertex_count_) / static_cast<std::size_t>(ranges) + 1;
-    base::parallel_for(static_cast<std::size_t>(ranges), 1, threads, [&](std::size_t i) {
-      const std::size_t begin = i * part, end = 3 * static_cast<std::size_t>(source_vertex_count_);
-      if (begin < end) read_through(positions + begin, std::min(part, end - begin));
-    });
-    std::atomic<bool> any_changed{false};
+    std::atomic<bool> any_changed{false}, any_not_a_number{false};
     base::parallel_for(static_cast<std::size_t>(ranges), 1, threads, [&](std::size_t i) {
       const int begin = static_cast<int>(i) * kClustersPerRange;
-      if (refresh_range(positions, begin, std::min(begin + kClustersPerRange, cluster_count())).changed)
-        any_changed = true;
+      const Refreshed range = refresh_range(positions, begin, std::min(begin + kClustersPerRange, cluster_count()));
+      if (range.changed) any_changed = true;
+      if (range.not_a_number) any_not_a_number = true;
     });
     all.changed = any_changed;
+    all.not_a_number = any_not_a_number;
   }
+  double* const group_bounds = staged_.memory + (group_boxes().lower(0) - placed_.memory);
   for (int g = 0; g < group_count() && group_count() > 1; ++g) {
     const int begin = cluster_begin(g), count = cluster_end(g) - begin;
-    group_boxes_.set(static_cast<std::size_t>(g), box_of(kernels().bounds(cluster_boxes_.pointers(begin), count)));
+    set_box(group_bounds, static_cast<std::size_t>(group_count()), static_cast<std::size_t>(g),
+            box_of(kernels().bounds(cluster_boxes(staged_).pointers(begin), count)));
   }
-  box_ = in_ranges ? box_of(kernels().bounds(group_boxes_.pointers(), group_count())) : all.box;
-  return all.changed;
+  staged_.box = in_ranges ? box_of(kernels().bounds(group_boxes(staged_).pointers(), group_count())) : all.box;
+  const auto unused_is_bad = [&](int vertex) {
+    const Vec3 p = source_position(positions, vertex);
+    return !(std::abs(p.x) <= largest && std::abs(p.y) <= largest && std::abs(p.z) <= largest);
+  };
+  if (all.not_a_number || !is_within(staged_.box, largest) || std::ranges::any_of(unused_sources_, unused_is_bad))
+    return Staged::bad;
+  return all.changed ? Staged::changed : Staged::same;
 }
 
-void ClusteredMesh::prefetch() const {
+bool ClusteredMesh::set_positions(const double* positions, int threads) {
+  const bool changed = stage(positions, std::numeric_limits<double>::infinity(), threads) == Staged::changed;
+  take_staged();
+  return changed;
+}
+
+void ClusteredMesh::prefetch(const double* positions) const {
+  prefetch_lines(positions, 3 * static_cast<std::size_t>(source_vertex_count_));
   prefetch_lines(indices_.data(), indices_.size());
-  prefetch_lines(coordinates_.data(), coordinates_.size());
-  cluster_boxes_.prefetch();
+  prefetch_lines(staged_.memory, memory_.size() / 2);
+  for (std::size_t axis = 0; axis < 3; ++axis) prefetch_line(placed_.memory + axis * stride_);
+}
+
+// Positions are gathered cluster by cluster, in an order that no hardware foresees.
+void ClusteredMesh::prefetch_sources(const double* positions, int cluster) const {
+  for (int v = vertex_begin(cluster); v < vertex_end(cluster); ++v) {
+    prefetch_line(positions + 3 * static_cast<std::ptrdiff_t>(source_vertex(v)));
+  }
 }
 
 ClusteredMesh::Refreshed ClusteredMesh::refresh_range(const double* positions, int cluster_begin, int cluster_end) {
   Refreshed refreshed;
+  double* const cluster_bounds = staged_.memory + 3 * stride_;
   for (int cluster = cluster_begin; cluster < cluster_end; ++cluster) {
-    const auto c = static_cast<std::size_t>(cluster);
+    if (cluster + kPrefetchDistance < cluster_end) prefetch_sources(positions, cluster + kPrefetchDistance);
     const int first = vertex_begin(cluster);
     const int borrowed = borrowed_begin(cluster);
+    const double* before = placed_.memory + first;
+    double* after = staged_.memory + first;
     const RefreshInput input{.source = positions,
                              .owned = source_vertices() + first,
                              .owned_count = vertex_end(cluster) - first,
                              .borrowed = borrowed_sources() + borrowed,
                              .borrowed_count = borrowed_begin(cluster + 1) - borrowed,
-                             .x = coordinates_.data() + first,
-                             .y = coordinates_.data() + stride_ + first,
-                             .z = coordinates_.data() + 2 * stride_ + first};
-    BoxBounds bounds;
-    refreshed.changed = kernels().refresh_cluster(input, &bounds) || refreshed.changed;
-    const Box box = box_of(bounds);
-    cluster_boxes_.set(c, box);
+                             .before = {before, before + stride_, before + 2 * stride_},
+                             .changed = refreshed.changed,
+                             .x = after,
+                             .y = after + stride_,
+                             .z = after + 2 * stride_};
+    const RefreshedCluster seen = kernels().refresh_cluster(input);
+    refreshed.changed = seen.changed;
+    refreshed.not_a_number = refreshed.not_a_number || seen.not_a_number;
+    const Box box = box_of(seen.box);
+    set_box(cluster_bounds, static_cast<std::size_t>(cluster_count()), static_cast<std::size_t>(cluster), box);
     refreshed.box = merged(refreshed.box, box);
   }
   return refreshed;
@@ -268,15 +294,15 @@ void ClusteredMesh::validate() const {
         box = extended(box, position(v));
       }
     }
-    if (!(box == cluster_boxes_[static_cast<std::size_t>(c)])) broken("box of cluster " + std::to_string(c));
+    if (!(box == cluster_boxes()[static_cast<std::size_t>(c)])) broken("box of cluster " + std::to_string(c));
     whole = merged(whole, box);
   }
-  if (!(whole == box_)) broken("box of the mesh");
+  if (!(whole == box())) broken("box of the mesh");
   for (int g = 0; g < group_count() && group_count() > 1; ++g) {
     Box box;
     for (int c = cluster_begin(g); c < cluster_end(g); ++c)
-      box = merged(box, cluster_boxes_[static_cast<std::size_t>(c)]);
-    if (!(box == group_boxes_[static_cast<std::size_t>(g)])) broken("box of group " + std::to_string(g));
+      box = merged(box, cluster_boxes()[static_cast<std::size_t>(c)]);
+    if (!(box == group_boxes()[static_cast<std::size_t>(g)])) broken("box of group " + std::to_string(g));
   }
 }
 

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/base/box.h"
@@ -32,22 +33,37 @@ using Triangle = std::array<Vec3, 3>;
 // The most elements that a SIMD loop reads past the end of an array: arrays are longer by so many.
 inline constexpr int kPadding = 8;
 
-// Boxes in separate arrays, one entry a cluster (or a facet), for loops that compare many at once. The arrays stand in
-// one block of memory, so that the boxes of a small body are next to each other.
-class BoxArrays {
+// Boxes in separate arrays, one entry a cluster (or a facet), for loops that compare many at once: lower x, y, z, upper
+// x, y, z, each `stride` long, in one block of memory.
+class BoxView {
  public:
-  void resize(std::size_t count);  // empty boxes
-  void prefetch() const;
-  void set(std::size_t i, const Box& box);
-  const double* lower(int axis) const { return bounds_.data() + static_cast<std::size_t>(axis) * stride_; }
+  BoxView(const double* bounds, std::size_t stride) : bounds_(bounds), stride_(stride) {}
+  const double* lower(int axis) const { return bounds_ + static_cast<std::size_t>(axis) * stride_; }
   const double* upper(int axis) const { return lower(axis + 3); }
-  BoxPointers pointers(int first = 0) const;
+  BoxPointers pointers(int first = 0) const {
+    return {{lower(0) + first, lower(1) + first, lower(2) + first},
+            {upper(0) + first, upper(1) + first, upper(2) + first}};
+  }
   Box operator[](std::size_t i) const {
     return {{lower(0)[i], lower(1)[i], lower(2)[i]}, {upper(0)[i], upper(1)[i], upper(2)[i]}};
   }
 
  private:
-  std::vector<double> bounds_;  // lower x, y, z, upper x, y, z, and kPadding more
+  const double* bounds_;
+  std::size_t stride_;
+};
+
+// The same with memory of its own.
+class BoxArrays {
+ public:
+  void resize(std::size_t count);  // empty boxes
+  void set(std::size_t i, const Box& box);
+  BoxView view() const { return {bounds_.data(), stride_}; }
+  BoxPointers pointers() const { return view().pointers(); }
+  Box operator[](std::size_t i) const { return view()[i]; }
+
+ private:
+  std::vector<double> bounds_;  // and kPadding more
   std::size_t stride_ = 0;
 };
 
@@ -63,24 +79,35 @@ PositionProblem find_position_problem(const double* positions, std::size_t count
 
 // Asks for memory that is used soon: of long arrays only the beginning, as the hardware then sees what is wanted.
 inline constexpr int kPrefetchedBytes = 4096;
+inline void prefetch_line(const void* line) {
+  __builtin_prefetch(line);
+  asm volatile("");  // GCC 12 thinks a function that only prefetches has no effect, and leaves out its calls
+}
 template <class T>
 void prefetch_lines(const T* begin, std::size_t count) {
   const auto* bytes = reinterpret_cast<const char*>(begin);
   const std::size_t size = std::min<std::size_t>(count * sizeof(T), kPrefetchedBytes);
-  for (std::size_t i = 0; i < size; i += 64) __builtin_prefetch(bytes + i);
+  for (std::size_t i = 0; i < size; i += 64) prefetch_line(bytes + i);
 }
 
 class ClusteredMesh {
  public:
   // positions: 3 x V coordinates in metres, checked by the caller; facets: 3 x F source vertices, each 0 <= i < V.
   ClusteredMesh(std::span<const double> positions, std::span<const int> facets);
+  ClusteredMesh(ClusteredMesh&&) = default;
+  ClusteredMesh& operator=(ClusteredMesh&&) = default;
 
-  // Reads the new positions, 3 x V, and refreshes all boxes, in one pass; says whether any coordinate of a used vertex
-  // changed. Large meshes are cut into ranges of clusters for up to `threads` threads. Allocates nothing, so that of a
-  // batch of bodies none can fail when others have moved.
+  // Reads new positions, 3 x V, in one pass: refreshes all boxes, looks whether every coordinate is finite and at most
+  // `largest` in size, and whether any of a used vertex changed. All of that is staged: take_staged() puts it in place,
+  // which cannot fail, so that of a batch of bodies all move or none. Large meshes are cut into ranges of clusters for
+  // up to `threads` threads. Allocates nothing.
+  enum class Staged { same, changed, bad };
+  Staged stage(const double* positions, double largest, int threads);
+  void take_staged() { std::swap(placed_, staged_); }
+  // Both at once, for positions that were checked; says whether any changed.
   bool set_positions(const double* positions, int threads);
-  // Asks for the memory that set_positions writes, in good time.
-  void prefetch() const;
+  // Asks for the memory that stage() reads and writes, in good time.
+  void prefetch(const double* positions) const;
 
   int source_vertex_count() const { return source_vertex_count_; }
   int vertex_count() const { return vertex_count_; }
@@ -89,7 +116,7 @@ class ClusteredMesh {
   int cluster_count() const { return (facet_count() + kClusterSize - 1) / kClusterSize; }
   int group_count() const { return (cluster_count() + kGroupSize - 1) / kGroupSize; }
 
-  // How many vertices of the caller set_positions reads, those that several clusters share more than once.
+  // How many vertices of the caller stage() reads, those that several clusters share more than once.
   int vertex_reads() const { return vertex_count() + static_cast<int>(borrowed_.size()); }
 
   int source_vertex(int vertex) const { return source_vertices()[vertex]; }
@@ -109,22 +136,25 @@ class ClusteredMesh {
   Corners corners(int facet) const;
   Vec3 position(int vertex) const {
     const auto v = static_cast<std::size_t>(vertex);
-    const double* x = coordinates_.data() + v;
+    const double* x = placed_.memory + v;
     return {x[0], x[stride_], x[2 * stride_]};
   }
   Triangle triangle(int facet) const;
 
   // What is behind corners() and position(), for loops over many.
   ClusterFacets facets_of(int cluster) const;
-  PointArrays points() const {
-    return {coordinates_.data(), coordinates_.data() + stride_, coordinates_.data() + 2 * stride_};
-  }
+  PointArrays points() const { return {placed_.memory, placed_.memory + stride_, placed_.memory + 2 * stride_}; }
 
   // The box of all facets; empty if there is none. The boxes of the clusters, borrowed vertices included, and of the
   // groups, if there are several.
-  const Box& box() const { return box_; }
-  const BoxArrays& cluster_boxes() const { return cluster_boxes_; }
-  const BoxArrays& group_boxes() const { return group_boxes_; }
+  const Box& box() const { return placed_.box; }
+  BoxView cluster_boxes() const { return cluster_boxes(placed_); }
+  BoxView group_boxes() const { return group_boxes(placed_); }
+
+  // Asks for the memory of the clusters' boxes, in good time.
+  void prefetch_boxes() const {
+    prefetch_lines(cluster_boxes().lower(0), 6 * static_cast<std::size_t>(cluster_count()));
+  }
 
   // Throws std::logic_error that says what is broken: every source facet stands in one cluster, every used source
   // vertex has one owner, boxes are the boxes of their vertices. For tests.
@@ -133,12 +163,26 @@ class ClusteredMesh {
  private:
   void group_facets(std::span<const double> positions, std::span<const int> facets);
   void number_vertices(std::span<const int> facets);
-  // Says what changed and gives the box of the clusters.
+  // All that moves with the vertices: x of each vertex, and stride_ later y, and z; then the boxes of the clusters,
+  // then those of the groups.
+  struct Placement {
+    double* memory = nullptr;
+    Box box;
+  };
+  BoxView cluster_boxes(const Placement& p) const {
+    return {p.memory + 3 * stride_, static_cast<std::size_t>(cluster_count())};
+  }
+  BoxView group_boxes(const Placement& p) const {
+    return {cluster_boxes(p).lower(0) + 6 * cluster_count(), static_cast<std::size_t>(group_count())};
+  }
+  // What was seen in a range of clusters.
   struct Refreshed {
     bool changed = false;
+    bool not_a_number = false;
     Box box;
   };
   Refreshed refresh_range(const double* positions, int cluster_begin, int cluster_end);
+  void prefetch_sources(const double* positions, int cluster) const;
 
   // Where the borrowed vertices of a cluster begin.
   int borrowed_begin(int cluster) const { return indices_[2 * static_cast<std::size_t>(cluster) + 1]; }
@@ -146,17 +190,16 @@ class ClusteredMesh {
   const int* source_vertices() const { return indices_.data() + 2 * cluster_count() + 2; }
   const int* borrowed_sources() const { return source_vertices() + vertex_count_; }
 
-  // What set_positions needs comes first, in few blocks of memory: small bodies are scattered.
+  // What stage() needs comes first, in few blocks of memory: small bodies are scattered.
   int source_vertex_count_ = 0;
   int vertex_count_ = 0;
   int facet_count_ = 0;
-  std::vector<int> indices_;         // vertex_begin and borrowed_begin of each cluster and one more; source vertices
-  std::vector<double> coordinates_;  // x of each vertex, and stride_ later y, and z
+  std::vector<int> indices_;  // vertex_begin and borrowed_begin of each cluster and one more; source vertices
   std::size_t stride_ = 0;
-  BoxArrays cluster_boxes_;
-  Box box_;
-  BoxArrays group_boxes_;
-  std::vector<int> source_facet_;  // of each facet
+  Placement placed_, staged_;
+  std::vector<double> memory_;       // of both, and kPadding more
+  std::vector<int> unused_sources_;  // source vertices that no facet uses
+  std::vector<int> source_facet_;    // of each facet
   std::vector<int> facet_of_source_;
   std::vector<std::uint8_t> corner_[3];  // of each facet: vertices that its cluster owns come first, then the borrowed
   std::vector<int> borrowed_;            // vertices that a cluster uses and does not own, cluster by cluster

@@ -48,7 +48,7 @@ bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPai
       source == ClusterPairSource::forest || (source == ClusterPairSource::automatic && all > kLargestLoop);
   if (all == 0) return false;
   ClusterForest trees;
-  if (forest) trees.build(device, b.boxes, b.count());
+  if (forest) trees.build(device, b.boxes.view(), b.count());
   for (std::int32_t i = 0; i < a.count(); ++i) {
     const Box box = a.boxes[static_cast<std::size_t>(i)];
     if (forest) {

@@ -49,7 +49,7 @@ Planes widened_planes(const Slab& slab) {
 }
 
 // Computed heights of every vertex in a box lie between these: rounding is monotone, and the operations are the same.
-Planes heights_of_box(const BoxArrays& boxes, std::size_t i, const Slab& slab) {
+Planes heights_of_box(BoxView boxes, std::size_t i, const Slab& slab) {
   Vec3 near, far;
   for (int axis = 0; axis < 3; ++axis) {
     const double lower = boxes.lower(axis)[i] - slab.origin[axis];

@@ -77,7 +77,7 @@ class Search {
 
 }  // namespace
 
-PointArrays far_corners(const BoxArrays& boxes, Vec3 n) {
+PointArrays far_corners(BoxView boxes, Vec3 n) {
   return {n.x >= 0.0 ? boxes.upper(0) : boxes.lower(0), n.y >= 0.0 ? boxes.upper(1) : boxes.lower(1),
           n.z >= 0.0 ? boxes.upper(2) : boxes.lower(2)};
 }

@@ -13,7 +13,7 @@ struct Support {
 };
 
 // The corner of each box that lies farthest along n.
-PointArrays far_corners(const BoxArrays& boxes, Vec3 n);
+PointArrays far_corners(BoxView boxes, Vec3 n);
 
 // The vertex of `mesh` with the largest n · (position - origin). The mesh must have a facet. Bit for bit the answer of
 // support_by_full_scan: rounding is monotone, so the bound from a box, computed in the same order of operations, is

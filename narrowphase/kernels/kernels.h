@@ -128,19 +128,26 @@ struct RefreshInput {
   std::int32_t owned_count;
   const std::int32_t* borrowed;  // source vertices that only widen the box
   std::int32_t borrowed_count;
+  PointArrays before;  // where the owned ones were
+  bool changed;        // known already: `before` is not read
   double* x;
   double* y;
   double* z;
 };
 
+// The box of owned and borrowed vertices; is any owned coordinate another one than before; is any not a number? The box
+// is of no use then.
+struct RefreshedCluster {
+  BoxBounds box;
+  bool changed;
+  bool not_a_number;
+};
+
 struct Kernels {
   const char* name;
 
-  // The index in `source` (3 x count coordinates) of the first coordinate whose size is not <= largest, or -1.
-  std::int64_t (*find_large)(const double* source, std::int64_t count, double largest);
-
-  // Copies the owned vertices and sets `box` to the box of all; says whether any owned coordinate changed.
-  bool (*refresh_cluster)(const RefreshInput& input, BoxBounds* box);
+  // Copies the owned vertices.
+  RefreshedCluster (*refresh_cluster)(const RefreshInput& input);
 
   // The box of `count` boxes.
   BoxBounds (*bounds)(const BoxPointers& boxes, int count);

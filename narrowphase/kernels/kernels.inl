@@ -30,21 +30,6 @@ struct HeightPack {
   }
 };
 
-std::int64_t find_large(const double* source, std::int64_t count, double largest) {
-  const Pack limit = spread(largest);
-  std::int64_t i = 0;
-  for (; i + 4 * kWidth <= count; i += 4 * kWidth) {
-    const Mask good = both(both(less_equal(abs(load(source + i)), limit), less_equal(abs(load(source + i + kWidth)), limit)),
-                           both(less_equal(abs(load(source + i + 2 * kWidth)), limit),
-                                less_equal(abs(load(source + i + 3 * kWidth)), limit)));
-    if (bits(good) != kAllLanes) break;
-  }
-  for (; i < count; ++i) {
-    if (!(__builtin_fabs(source[i]) <= largest)) return i;
-  }
-  return -1;
-}
-
 // First the highest of the heights, then the lanes that are as high. Most calls end in between.
 HighestPoint highest_point(PointArrays points, int count, const HeightAxis& axis, double least) {
   const HeightPack height(axis);
@@ -125,7 +110,7 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
 }  // namespace
 
 extern const Kernels TACT_KERNELS;
-const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, find_large, refresh_cluster, bounds, select_heights, highest_point,
+const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, refresh_cluster, bounds, select_heights, highest_point,
                               select_overlapping, open_cluster, facing_away, near_facets, any_near, crossing_facets, match_pairs,
                               sharing_pairs, match_pairs_wide};
 

@@ -6,13 +6,6 @@ inline __m256d load_vertex(const double* source, std::int32_t s) {
   return _mm256_maskload_pd(source + 3 * static_cast<std::int64_t>(s), three);
 }
 
-// Stores `value`; the lanes that were different.
-inline __m256d replace(double* p, __m256d value) {
-  const __m256d differs = _mm256_cmp_pd(_mm256_loadu_pd(p), value, _CMP_NEQ_UQ);
-  _mm256_storeu_pd(p, value);
-  return differs;
-}
-
 struct Bounds {
   __m256d lower = _mm256_set1_pd(__builtin_inf()), upper = _mm256_set1_pd(-__builtin_inf());
   void widen(__m256d v) {
@@ -21,9 +14,17 @@ struct Bounds {
   }
 };
 
-bool refresh_cluster(const RefreshInput& in, BoxBounds* box) {
+inline __m256d differing(const double* before, __m256d after) {
+  return _mm256_cmp_pd(_mm256_loadu_pd(before), after, _CMP_NEQ_UQ);
+}
+
+// Lanes in which a or b is not a number.
+inline __m256d not_numbers(__m256d a, __m256d b) { return _mm256_cmp_pd(a, b, _CMP_UNORD_Q); }
+
+RefreshedCluster refresh_cluster(const RefreshInput& in) {
   Bounds even, odd;  // two, so that one need not wait for the other
-  __m256d differs = _mm256_setzero_pd();
+  __m256d differs = _mm256_setzero_pd(), bad = _mm256_setzero_pd();
+  bool changed = in.changed;
   int i = 0;
   for (; i + 4 <= in.owned_count; i += 4) {
     const __m256d a = load_vertex(in.source, in.owned[i]), b = load_vertex(in.source, in.owned[i + 1]);
@@ -32,21 +33,29 @@ bool refresh_cluster(const RefreshInput& in, BoxBounds* box) {
     odd.widen(b);
     even.widen(c);
     odd.widen(d);
+    bad = _mm256_or_pd(bad, _mm256_or_pd(not_numbers(a, b), not_numbers(c, d)));
     const __m256d xz02 = _mm256_unpacklo_pd(a, b), y02 = _mm256_unpackhi_pd(a, b);
     const __m256d xz13 = _mm256_unpacklo_pd(c, d), y13 = _mm256_unpackhi_pd(c, d);
-    const __m256d x = replace(in.x + i, _mm256_permute2f128_pd(xz02, xz13, 0x20));
-    const __m256d y = replace(in.y + i, _mm256_permute2f128_pd(y02, y13, 0x20));
-    const __m256d z = replace(in.z + i, _mm256_permute2f128_pd(xz02, xz13, 0x31));
-    differs = _mm256_or_pd(_mm256_or_pd(differs, x), _mm256_or_pd(y, z));
+    const __m256d x = _mm256_permute2f128_pd(xz02, xz13, 0x20), y = _mm256_permute2f128_pd(y02, y13, 0x20);
+    const __m256d z = _mm256_permute2f128_pd(xz02, xz13, 0x31);
+    if (!changed) {
+      differs = _mm256_or_pd(_mm256_or_pd(differing(in.before.x + i, x), differing(in.before.y + i, y)),
+                             differing(in.before.z + i, z));
+      changed = _mm256_movemask_pd(differs) != 0;
+    }
+    _mm256_storeu_pd(in.x + i, x);
+    _mm256_storeu_pd(in.y + i, y);
+    _mm256_storeu_pd(in.z + i, z);
   }
-  bool changed = _mm256_movemask_pd(differs) != 0;
   for (; i < in.owned_count; ++i) {
     const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i]);
-    changed = changed || in.x[i] != p[0] || in.y[i] != p[1] || in.z[i] != p[2];
+    changed = changed || in.before.x[i] != p[0] || in.before.y[i] != p[1] || in.before.z[i] != p[2];
     in.x[i] = p[0];
     in.y[i] = p[1];
     in.z[i] = p[2];
-    even.widen(load_vertex(in.source, in.owned[i]));
+    const __m256d v = load_vertex(in.source, in.owned[i]);
+    even.widen(v);
+    bad = _mm256_or_pd(bad, not_numbers(v, v));
   }
   int k = 0;
   for (; k + 2 <= in.borrowed_count; k += 2) {
@@ -59,11 +68,7 @@ bool refresh_cluster(const RefreshInput& in, BoxBounds* box) {
   double low[4], high[4];
   _mm256_storeu_pd(low, _mm256_add_pd(lower, _mm256_setzero_pd()));
   _mm256_storeu_pd(high, _mm256_add_pd(upper, _mm256_setzero_pd()));
-  for (int axis = 0; axis < 3; ++axis) {
-    box->lower[axis] = low[axis];
-    box->upper[axis] = high[axis];
-  }
-  return changed;
+  return {{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}, changed, _mm256_movemask_pd(bad) != 0};
 }
 
 #else
@@ -75,29 +80,30 @@ inline void widen(BoxBounds* box, const double* p) {
   }
 }
 
-bool refresh_cluster(const RefreshInput& in, BoxBounds* box) {
+RefreshedCluster refresh_cluster(const RefreshInput& in) {
+  RefreshedCluster seen{.box = {}, .changed = in.changed, .not_a_number = false};
   for (int axis = 0; axis < 3; ++axis) {
-    box->lower[axis] = __builtin_inf();
-    box->upper[axis] = -__builtin_inf();
+    seen.box.lower[axis] = __builtin_inf();
+    seen.box.upper[axis] = -__builtin_inf();
   }
-  bool changed = false;
   for (int i = 0; i < in.owned_count; ++i) {
     const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i]);
-    changed = changed || in.x[i] != p[0] || in.y[i] != p[1] || in.z[i] != p[2];
+    seen.changed = seen.changed || in.before.x[i] != p[0] || in.before.y[i] != p[1] || in.before.z[i] != p[2];
+    seen.not_a_number = seen.not_a_number || p[0] != p[0] || p[1] != p[1] || p[2] != p[2];
     in.x[i] = p[0];
     in.y[i] = p[1];
     in.z[i] = p[2];
-    widen(box, p);
+    widen(&seen.box, p);
   }
   for (int k = 0; k < in.borrowed_count; ++k) {
-    widen(box, in.source + 3 * static_cast<std::int64_t>(in.borrowed[k]));
+    widen(&seen.box, in.source + 3 * static_cast<std::int64_t>(in.borrowed[k]));
   }
   // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
   for (int axis = 0; axis < 3; ++axis) {
-    box->lower[axis] += 0.0;
-    box->upper[axis] += 0.0;
+    seen.box.lower[axis] += 0.0;
+    seen.box.upper[axis] += 0.0;
   }
-  return changed;
+  return seen;
 }
 
 #endif

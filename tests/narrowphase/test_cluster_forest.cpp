@@ -68,7 +68,7 @@ BoxList random_boxes(int count, double size) {
 // What build() throws, "" if nothing.
 std::string error_of_build(ClusterForest& forest, EmbreeDevice& device, const BoxList& list) {
   try {
-    forest.build(device, list.boxes, list.count);
+    forest.build(device, list.boxes.view(), list.count);
   } catch (const std::bad_alloc&) {
     return "bad_alloc";
   } catch (const Error& error) {
@@ -91,7 +91,7 @@ TEST(ClusterForest, FindsAllOverlapsAtEverySize) {
     for (const int count : {1, 2, 3, 600}) {
       const BoxList list = random_boxes(count, size);
       ClusterForest forest;
-      forest.build(device, list.boxes, list.count);
+      forest.build(device, list.boxes.view(), list.count);
       EXPECT_TRUE(finds_all_overlaps(forest, list)) << count << " boxes of size " << size;
     }
   }

@@ -62,6 +62,47 @@ TEST(ClusteredMesh, MovesAndSaysSo) {
   }
 }
 
+TEST(ClusteredMesh, StagesBadPositionsAndStaysAsItWas) {
+  constexpr double kLargest = 8.0;
+  Mesh sound = tests::icosphere(2);
+  sound.positions.conservativeResize(3, sound.positions.cols() + 1);
+  sound.positions.rightCols(1).setConstant(1.0);  // no facet uses it
+  Mesh moved = sound;
+  moved.positions.array() += 0.5;
+  for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                             -std::numeric_limits<double>::infinity(), 8.5, -8.5}) {
+    for (Eigen::Index at = 0; at < moved.positions.size(); ++at) {
+      ClusteredMesh clusters = clustered(sound);
+      const Vec3 before = clusters.position(7);
+      const base::Box box = clusters.box();
+      Mesh bad = moved;
+      bad.positions.data()[at] = value;
+      EXPECT_EQ(clusters.stage(bad.positions.data(), kLargest, 1), ClusteredMesh::Staged::bad) << value << " at " << at;
+      clusters.validate();
+      EXPECT_EQ(clusters.position(7), before);
+      EXPECT_EQ(clusters.box(), box);
+    }
+  }
+  ClusteredMesh clusters = clustered(sound);
+  EXPECT_EQ(clusters.stage(sound.positions.data(), kLargest, 1), ClusteredMesh::Staged::same);
+  EXPECT_EQ(clusters.stage(moved.positions.data(), kLargest, 1), ClusteredMesh::Staged::changed);
+  clusters.take_staged();
+  clusters.validate();
+  EXPECT_EQ(clusters.position(7), moved.position(clusters.source_vertex(7)));
+}
+
+TEST(ClusteredMesh, StagesBadPositionsOnSeveralThreads) {
+  const Mesh mesh = tests::wrinkled_sheet(160, 2.0, 0.2, 2);  // several ranges of clusters
+  for (const int vertex : {0, mesh.vertex_count() / 2, mesh.vertex_count() - 1}) {
+    for (const double value : {std::numeric_limits<double>::quiet_NaN(), 9.0}) {
+      ClusteredMesh clusters = clustered(mesh);
+      Mesh bad = mesh;
+      bad.positions(1, vertex) = value;
+      EXPECT_EQ(clusters.stage(bad.positions.data(), 8.0, 2), ClusteredMesh::Staged::bad) << value << " at " << vertex;
+    }
+  }
+}
+
 TEST(ClusteredMesh, ThreadsDoNotChangeBoxes) {
   const Mesh mesh = tests::wrinkled_sheet(160, 2.0, 0.2, 2);  // several ranges of clusters
   const Mesh moved = tests::jittered(mesh, 0.01, 3);

@@ -339,46 +339,70 @@ TEST(Kernels, OpenClusterLeavesOutWhatOneSideRulesOut) {
   }
 }
 
-TEST(Kernels, FindsTheFirstCoordinateThatIsTooLargeOrNoNumber) {
+class RefreshCluster : public testing::Test {
+ protected:
+  RefreshCluster() {
+    for (int v = 0; v < mesh_.vertex_count(); ++v) (v % 3 == 1 ? borrowed_ : owned_).push_back(v);
+    for (std::vector<double>* axis : {&x_, &y_, &z_, &before_x_, &before_y_, &before_z_})
+      axis->assign(owned_.size(), 0.0);
+  }
+
+  RefreshedCluster refresh(const Kernels& kernels, bool changed = false) {
+    return kernels.refresh_cluster({.source = mesh_.positions.data(),
+                                    .owned = owned_.data(),
+                                    .owned_count = static_cast<std::int32_t>(owned_.size()),
+                                    .borrowed = borrowed_.data(),
+                                    .borrowed_count = static_cast<std::int32_t>(borrowed_.size()),
+                                    .before = {before_x_.data(), before_y_.data(), before_z_.data()},
+                                    .changed = changed,
+                                    .x = x_.data(),
+                                    .y = y_.data(),
+                                    .z = z_.data()});
+  }
+  void keep() {
+    before_x_ = x_;
+    before_y_ = y_;
+    before_z_ = z_;
+  }
+
+  Mesh mesh_ = tests::blob(1, 1.0, 0.3, 5);
+  std::vector<std::int32_t> owned_, borrowed_;
+  std::vector<double> x_, y_, z_, before_x_, before_y_, before_z_;
+};
+
+TEST_F(RefreshCluster, CopiesWidensAndNoticesChanges) {
   for (const Kernels* kernels : tests::available_kernels()) {
-    for (const double bad :
-         {2.0, -2.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
-      for (std::size_t at = 0; at < 99; ++at) {
-        std::vector<double> values(99, -0.5);
-        EXPECT_EQ(kernels->find_large(values.data(), 99, 1.0), -1);
-        values[at] = bad;
-        if (at + 1 < 99) values[98] = bad;
-        EXPECT_EQ(kernels->find_large(values.data(), 99, 1.0), static_cast<std::int64_t>(at)) << kernels->name;
+    before_x_.assign(owned_.size(), 0.0);
+    const RefreshedCluster first = refresh(*kernels);
+    EXPECT_TRUE(first.changed);
+    EXPECT_FALSE(first.not_a_number);
+    keep();
+    EXPECT_FALSE(refresh(*kernels).changed) << kernels->name;
+    EXPECT_TRUE(refresh(*kernels, true).changed) << kernels->name;
+    for (std::size_t i = 0; i < owned_.size(); ++i) {
+      EXPECT_EQ((Vec3{x_[i], y_[i], z_[i]}), mesh_.position(owned_[i])) << kernels->name;
+      for (std::vector<double>* axis : {&before_x_, &before_y_, &before_z_}) {
+        keep();
+        (*axis)[i] += 1.0;
+        EXPECT_TRUE(refresh(*kernels).changed) << kernels->name << " vertex " << i;
       }
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(first.box.lower[axis], mesh_.positions.row(axis).minCoeff());
+      EXPECT_EQ(first.box.upper[axis], mesh_.positions.row(axis).maxCoeff());
     }
   }
 }
 
-TEST(Kernels, RefreshCopiesWidensAndNoticesChanges) {
-  const Mesh mesh = tests::blob(1, 1.0, 0.3, 5);
-  std::vector<std::int32_t> owned, borrowed;
-  for (int v = 0; v < mesh.vertex_count(); ++v) (v % 3 == 1 ? borrowed : owned).push_back(v);
+TEST_F(RefreshCluster, NoticesEveryOwnedCoordinateThatIsNoNumber) {
   for (const Kernels* kernels : tests::available_kernels()) {
-    std::vector<double> x(owned.size()), y(owned.size()), z(owned.size());
-    const RefreshInput input{mesh.positions.data(),
-                             owned.data(),
-                             static_cast<std::int32_t>(owned.size()),
-                             borrowed.data(),
-                             static_cast<std::int32_t>(borrowed.size()),
-                             x.data(),
-                             y.data(),
-                             z.data()};
-    BoxBounds box;
-    EXPECT_TRUE(kernels->refresh_cluster(input, &box));
-    EXPECT_FALSE(kernels->refresh_cluster(input, &box)) << kernels->name;
-    for (std::size_t i = 0; i < owned.size(); ++i) {
-      EXPECT_EQ((Vec3{x[i], y[i], z[i]}), mesh.position(owned[i])) << kernels->name;
-      x[i] += 1.0;
-      EXPECT_TRUE(kernels->refresh_cluster(input, &box)) << kernels->name << " vertex " << i;
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-      EXPECT_EQ(box.lower[axis], mesh.positions.row(axis).minCoeff());
-      EXPECT_EQ(box.upper[axis], mesh.positions.row(axis).maxCoeff());
+    for (const std::int32_t v : owned_) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const Mesh sound = mesh_;
+        mesh_.positions(axis, v) = std::numeric_limits<double>::quiet_NaN();
+        EXPECT_TRUE(refresh(*kernels).not_a_number) << kernels->name << " vertex " << v;
+        mesh_ = sound;
+      }
     }
   }
 }
