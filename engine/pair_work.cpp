@@ -180,11 +180,19 @@ std::int64_t facets_of(const CullCounts& counts) {
   return counts.facing_away + counts.outside_slab + counts.outside_zone + counts.kept;
 }
 
+void sort(std::vector<FacetPair>& pairs) {
+  if (pairs.size() <= kMostSorted) {
+    kernels().sort_pairs(pairs.data(), static_cast<int>(pairs.size()));
+  } else {
+    std::sort(pairs.begin(), pairs.end());
+  }
+}
+
 void finish(PairWork& work, const ConfirmCounts& counts) {
   PairRecord& record = *work.record;
   record.facet_counts.opened_clusters = work.cull_a.opened_clusters + work.cull_b.opened_clusters;
   record.facet_counts.opened_facets = facets_of(work.cull_a) + facets_of(work.cull_b);
-  std::sort(record.facet_pairs.begin(), record.facet_pairs.end());
+  sort(record.facet_pairs);
   record.contact.kept_facets_a = work.cull_a.kept;
   record.contact.kept_facets_b = work.cull_b.kept;
   record.facet_counts.facing_away = work.cull_a.facing_away + work.cull_b.facing_away;

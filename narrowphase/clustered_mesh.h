@@ -151,6 +151,24 @@ class ClusteredMesh {
   BoxView cluster_boxes() const { return cluster_boxes(placed_); }
   BoxView group_boxes() const { return group_boxes(placed_); }
 
+  // Asks for the positions of a vertex and of those next to it, in good time.
+  void prefetch_near(int vertex) const {
+    constexpr int kAround = 16;  // vertices on each side: about a cluster
+    const int first = std::max(vertex - kAround, 0), last = std::min(vertex + kAround, vertex_count());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      prefetch_lines(placed_.memory + axis * stride_ + first, static_cast<std::size_t>(last - first));
+    }
+  }
+  // Asks for the memory of a cluster's facets, in good time.
+  void prefetch_facets(int cluster) const {
+    const int first = vertex_begin(cluster), borrowed = borrowed_begin(cluster);
+    const auto owned = static_cast<std::size_t>(vertex_end(cluster) - first);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      prefetch_lines(placed_.memory + axis * stride_ + first, owned);
+      prefetch_line(corner_[axis].data() + facet_begin(cluster));
+    }
+    prefetch_lines(borrowed_.data() + borrowed, static_cast<std::size_t>(borrowed_begin(cluster + 1) - borrowed));
+  }
   // Asks for the memory of the clusters' boxes, in good time.
   void prefetch_boxes() const {
     prefetch_lines(cluster_boxes().lower(0), 6 * static_cast<std::size_t>(cluster_count()));

@@ -13,6 +13,9 @@ namespace {
 // trees 650 a box; they are equal at some 1.5 million pairs.
 constexpr std::int64_t kLargestLoop = std::int64_t{1} << 20;
 
+// A facet whose box overlaps so many others asks its plane which of them it leaves aside; deciding fewer is as cheap.
+constexpr int kWorthAPlane = 6;
+
 BoxBounds bounds_of(const Box& box) {
   return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
 }
@@ -24,21 +27,6 @@ Triangle triangle_in(const FacetBlock& block, std::size_t i) {
 }
 
 }  // namespace
-
-FacetPlane facet_plane(const FacetBlock& block, std::size_t i, const BoxBounds& others) {
-  FacetPlane facet;
-  double size = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    facet.box.lower[axis] = block.lower[axis][i];
-    facet.box.upper[axis] = block.upper[axis][i];
-    facet.corner[axis] = block.corner[0][axis][i];
-    facet.normal[axis] = block.normal[axis][i];
-    const double to_lower = others.lower[axis] - facet.corner[axis], to_upper = others.upper[axis] - facet.corner[axis];
-    size += block.size[axis][i] * std::max(std::abs(to_lower), std::abs(to_upper));
-  }
-  facet.error = size * kRelativeRounding + kAbsoluteRounding;
-  return facet;
-}
 
 bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPairSource source, EmbreeDevice& device,
                         std::vector<ClusterPair>& pairs, std::vector<std::int32_t>& found) {
@@ -165,31 +153,22 @@ void FacetPairSearch::empty_a() {
   pairs_.count = 0;
 }
 
-// Each facet of the block with fewer of them near the other is held against all of the other's at once; the pairs that
-// this leaves are decided many at a time.
+// The facets of each block that are near the other's are paired by their boxes; pairs are decided many at a time.
 void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b, const Box& bounds_b,
                                   std::vector<FacetPair>& found, ConfirmCounts& counts) {
   const Box common = intersection(bounds_a_, bounds_b);
-  NearFacets near_a, near_b;
-  kernels().near_facets(b.block, b.facets, bounds_of(common), &near_b);
+  const NearFacets near_b = kernels().near_facets(b.block, b.facets, bounds_of(common));
   if (near_b.facets == 0) return;
-  kernels().near_facets(a_.block, a_.facets, near_b.box, &near_a);
-  const bool a_has_fewer = std::popcount(near_a.facets) <= std::popcount(near_b.facets);
-  const NearFacets &few = a_has_fewer ? near_a : near_b, &many = a_has_fewer ? near_b : near_a;
-  const FacetBlock &few_block = a_has_fewer ? a_.block : b.block, &many_block = a_has_fewer ? b.block : a_.block;
-  std::int32_t *few_pairs = a_has_fewer ? pairs_.a : pairs_.b, *many_pairs = a_has_fewer ? pairs_.b : pairs_.a;
-  for (std::uint64_t left = few.facets; left != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    const FacetPlane plane = facet_plane(few_block, static_cast<std::size_t>(i), many.box);
-    const CrossingFacets crossing = kernels().crossing_facets(many_block, many, plane);
-    counts.facet_box_pairs += crossing.box_pairs;
-    for (std::uint64_t bits = crossing.facets; bits != 0; bits &= bits - 1) {
-      if (pairs_.count == FacetPairList::kCapacity) decide_pairs(input, b.block, found, counts);
-      few_pairs[pairs_.count] = i;
-      many_pairs[pairs_.count++] = std::countr_zero(bits);
-    }
+  const NearFacets near_a = kernels().near_facets(a_.block, a_.facets, near_b.box);
+  const bool few_are_b = std::popcount(near_b.facets) < std::popcount(near_a.facets);
+  const FacetBlock &few = few_are_b ? b.block : a_.block, &many = few_are_b ? a_.block : b.block;
+  const NearFacets& others = few_are_b ? near_a : near_b;
+  for (std::uint64_t left = few_are_b ? near_b.facets : near_a.facets; left != 0;) {
+    const PairedFacets paired = kernels().pair_facets(few, left, many, others, few_are_b, kWorthAPlane, &pairs_);
+    left = paired.left_over;
+    counts.facet_box_pairs += paired.box_pairs;
+    decide_pairs(input, b.block, found, counts);
   }
-  decide_pairs(input, b.block, found, counts);
 }
 
 // Decides the pairs in the list and empties it.

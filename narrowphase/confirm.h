@@ -40,9 +40,6 @@ struct OpenedCluster {
   CullCounts counts;
 };
 
-// Facet `i` of a block, prepared for Kernels::crossing_facets on facets that lie in the box `others`.
-FacetPlane facet_plane(const FacetBlock& block, std::size_t i, const BoxBounds& others);
-
 // Where cluster pairs come from.
 enum class ClusterPairSource { automatic, loop, forest };
 

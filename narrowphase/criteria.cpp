@@ -97,6 +97,7 @@ void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Bo
       ++kept.outside_slab;
       continue;
     }
+    mesh.prefetch_facets(cluster);
     kept.cluster[static_cast<std::size_t>(found++)] = cluster;
     kept.bounds = merged(kept.bounds, intersection(box, other));
     kept.facets += mesh.facet_end(cluster) - mesh.facet_begin(cluster);

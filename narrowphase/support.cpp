@@ -9,6 +9,7 @@ namespace tact::narrowphase {
 namespace {
 
 constexpr int kBlock = 256;  // groups that are looked at together
+constexpr int kFew = 3;      // clusters
 
 PointArrays from(PointArrays points, int first) { return {points.x + first, points.y + first, points.z + first}; }
 
@@ -35,17 +36,21 @@ class Search {
     if (top.several) lower_tie(points, cluster, top.index + 1);
   }
 
-  // Looks at the clusters of a group that can hold the highest vertex, the one that reaches farthest first.
+  // Looks at the clusters of a group that can hold the highest vertex: all that reach above the best so far if these
+  // are few, else the one that reaches farthest first.
   void open_group(int group, PointArrays far_corners) {
     const int begin = mesh_.cluster_begin(group), count = mesh_.cluster_end(group) - begin;
     const PointArrays corners = from(far_corners, begin);
-    const int first = kernels().highest_point(corners, count, axis_, best_.height).index;
-    if (first < 0) return;
-    open(begin + first);
-    std::int32_t others[kGroupSize];
-    const int found = kernels().select_heights(corners, count, axis_, best_.height, others);
+    std::int32_t reaching[kGroupSize];
+    const auto select = [&] { return kernels().select_heights(corners, count, axis_, best_.height, reaching); };
+    int found = select(), first = -1;
+    if (found > kFew) {
+      first = kernels().highest_point(corners, count, axis_, best_.height).index;
+      open(begin + first);
+      found = select();
+    }
     for (int k = 0; k < found; ++k) {
-      if (others[k] != first) open(begin + others[k]);
+      if (reaching[k] != first) open(begin + reaching[k]);
     }
   }
 

@@ -45,8 +45,6 @@ inline WideVector difference(const VectorPack& a, const VectorPack& b) {
   return {difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z)};
 }
 
-inline Mask without(Mask a, Mask b) { return differ(a, both(a, b)); }
-
 // As Plane, with twice the digits. No product may vanish (see nothing_vanishes).
 //
 // With u = 2^-53: a difference has no error, a product one of at most 7u², a sum one of 6u² of the sum of the sizes of
@@ -145,7 +143,7 @@ inline IntervalMeeting intervals_meet(const LoneCorner& a, const LoneCorner& b) 
           bits(either(p.negative(), q.positive())), bits(either(p.zero(), q.zero()))};
 }
 
-inline void gather_corners(const FacetBlock& block, const std::int32_t* facet, VectorPack* corner) {
+inline void gather_corners(const FacetBlock& block, const std::uint8_t* facet, VectorPack* corner) {
   for (int k = 0; k < 3; ++k) {
     corner[k] = {gather(block.corner[k][0], facet), gather(block.corner[k][1], facet),
                  gather(block.corner[k][2], facet)};
@@ -210,7 +208,8 @@ template <class Judge>
 inline void for_each_pack(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, std::uint64_t which,
                           const Judge& judge) {
   while (which != 0) {
-    std::int32_t place[kWidth], facet_a[kWidth], facet_b[kWidth];
+    std::int32_t place[kWidth];
+    std::uint8_t facet_a[kWidth], facet_b[kWidth];
     int count = 0;
     for (; count < kWidth && which != 0; which &= which - 1) place[count++] = __builtin_ctzll(which);
     for (int k = count; k < kWidth; ++k) place[k] = place[0];

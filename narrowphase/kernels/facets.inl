@@ -85,20 +85,16 @@ int open_cluster(const ClusterFacets& in, const CullPlanes& planes, FacetBlock* 
   ClusterVertices v;
   load_vertices(in, &v);
   judge_vertices(planes, in.owned_count + in.borrowed_count, &v);
-  std::uint64_t left = 0;
-  for (int f = 0; f < in.facet_count; ++f) {
-    const unsigned out = v.outside[in.corner[0][f]] & v.outside[in.corner[1][f]] & v.outside[in.corner[2][f]];
-    left |= static_cast<std::uint64_t>(out == 0) << f;
-  }
+  const std::uint64_t left = sharing_no_bit(v.outside, in.owned_count + in.borrowed_count, in.corner, in.facet_count);
   const int count = __builtin_popcountll(left), begin = block->count;
   if (begin + count > FacetBlock::kCapacity) return count;
-  alignas(64) std::int32_t corner[3][FacetBlock::kRoom];
-  for (int n = 0; left != 0; left &= left - 1, ++n) {
-    const int f = __builtin_ctzll(left);
-    for (int k = 0; k < 3; ++k) corner[k][n] = in.corner[k][f];
-    block->facet[begin + n] = in.facet_begin + f;
+  alignas(64) std::uint8_t corner[3][2 * FacetBlock::kCapacity], place[FacetBlock::kCapacity];
+  for (int k = 0; k < 3; ++k) {
+    compress(left, in.corner[k], corner[k]);
+    for (int n = count; n < count + kWidth; ++n) corner[k][n] = 0;
   }
-  for (int n = count; n < count + kWidth; ++n) corner[0][n] = corner[1][n] = corner[2][n] = 0;
+  write_places(left, place);
+  for (int n = 0; n < count; ++n) block->facet[begin + n] = in.facet_begin + place[n];
   const double* const coordinate[3] = {v.x, v.y, v.z};
   for (int i = 0; i < count; i += kWidth) {
     const int to = begin + i;
@@ -172,76 +168,107 @@ bool any_near(const FacetBlock& block, std::uint64_t candidates, const BoxBounds
   return false;
 }
 
-// Widens a box by those of some facets from `i` on.
-inline void widen(const FacetBlock& block, int i, unsigned mask, double* lower, double* upper) {
-  const Pack infinite = spread(__builtin_inf());
-  const Mask lanes = mask_of(mask);
-  for (int axis = 0; axis < 3; ++axis) {
-    const Pack low = select(lanes, sub(spread(0.0), load(block.lower[axis] + i)), sub(spread(0.0), infinite));
-    const Pack high = select(lanes, load(block.upper[axis] + i), sub(spread(0.0), infinite));
-    const double lowest = -largest_lane(low), highest = largest_lane(high);
-    if (lowest < lower[axis * NearFacets::kGroups]) lower[axis * NearFacets::kGroups] = lowest;
-    if (highest > upper[axis * NearFacets::kGroups]) upper[axis * NearFacets::kGroups] = highest;
-  }
-}
+// The box of those lanes that were near.
+struct LaneBoxes {
+  Pack lower[3], opposite_upper[3];
 
-void near_facets(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box, NearFacets* near) {
-  const BoxPack pack(box);
-  near->facets = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int g = 0; g < NearFacets::kGroups; ++g) {
-      near->lower[axis][g] = __builtin_inf();
-      near->upper[axis][g] = -__builtin_inf();
+  LaneBoxes() {
+    for (int axis = 0; axis < 3; ++axis) lower[axis] = opposite_upper[axis] = spread(__builtin_inf());
+  }
+  void widen(const FacetBlock& block, int i, Mask lanes) {
+    const Pack infinite = spread(__builtin_inf());
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = min(lower[axis], select(lanes, load(block.lower[axis] + i), infinite));
+      opposite_upper[axis] =
+          min(opposite_upper[axis], select(lanes, sub(spread(0.0), load(block.upper[axis] + i)), infinite));
     }
   }
+  BoxBounds all() const {
+    BoxBounds box;
+    for (int axis = 0; axis < 3; ++axis) {
+      // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
+      box.lower[axis] = -largest_lane(sub(spread(0.0), lower[axis])) + 0.0;
+      box.upper[axis] = largest_lane(sub(spread(0.0), opposite_upper[axis])) + 0.0;
+    }
+    return box;
+  }
+};
+
+NearFacets near_facets(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box) {
+  const BoxPack pack(box);
+  LaneBoxes near_boxes;
+  std::uint64_t near = 0;
   while (candidates != 0) {
-    const int i = __builtin_ctzll(candidates) / kWidth * kWidth, group = i / NearFacets::kGroupSize;
+    const int i = __builtin_ctzll(candidates) / kWidth * kWidth;
     const unsigned mask = near_lanes(block, i, candidates, pack);
     candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
     if (mask == 0) continue;
-    near->facets |= static_cast<std::uint64_t>(mask) << i;
-    widen(block, i, mask, &near->lower[0][group], &near->upper[0][group]);
+    near |= static_cast<std::uint64_t>(mask) << i;
+    near_boxes.widen(block, i, mask_of(mask));
   }
-  near->box = bounds({{near->lower[0], near->lower[1], near->lower[2]}, {near->upper[0], near->upper[1], near->upper[2]}},
-                     NearFacets::kGroups);
+  return {near, near_boxes.all()};
 }
 
-// The groups whose box overlaps, spread to the bits of their facets.
-inline std::uint64_t facets_of_groups(const NearFacets& near, const BoxPack& box) {
-  const double* const lower[3] = {near.lower[0], near.lower[1], near.lower[2]};
-  const double* const upper[3] = {near.upper[0], near.upper[1], near.upper[2]};
-  std::uint64_t facets = 0;
-  for (int g = 0; g < NearFacets::kGroups; g += kWidth) {
-    for (unsigned mask = box.overlap(lower, upper, g); mask != 0; mask &= mask - 1) {
-      facets |= std::uint64_t{0xff} << (NearFacets::kGroupSize * (g + __builtin_ctz(mask)));
+// The plane of a facet, to be held against many facets in a box.
+struct FacetPlane {
+  HeightPack height;  // over the plane, times the length of the normal, as computed
+  Pack error;         // of the height of any point of the box
+
+  FacetPlane(const FacetBlock& block, int i, const BoxBounds& others)
+      : height({block.normal[0][i], block.normal[1][i], block.normal[2][i], block.corner[0][0][i], block.corner[0][1][i],
+                block.corner[0][2][i]}),
+        error(spread(error_in(block, i, others))) {}
+
+  static double error_in(const FacetBlock& block, int i, const BoxBounds& others) {
+    double size = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double corner = block.corner[0][axis][i];
+      const double below = __builtin_fabs(others.lower[axis] - corner), above = __builtin_fabs(others.upper[axis] - corner);
+      size += block.size[axis][i] * (below > above ? below : above);
     }
+    return kRelativeRounding * size + kAbsoluteRounding;
   }
-  return facets;
-}
 
-CrossingFacets crossing_facets(const FacetBlock& block, const NearFacets& near, const FacetPlane& facet) {
-  const BoxPack box(facet.box);
-  const HeightPack height(
-      {facet.normal[0], facet.normal[1], facet.normal[2], facet.corner[0], facet.corner[1], facet.corner[2]});
-  const Pack error = spread(facet.error), below = spread(-facet.error);
-  const double* const lower[3] = {block.lower[0], block.lower[1], block.lower[2]};
-  const double* const upper[3] = {block.upper[0], block.upper[1], block.upper[2]};
-  CrossingFacets result{0, 0};
-  std::uint64_t candidates = near.facets & facets_of_groups(near, box);
-  while (candidates != 0) {
-    const int i = __builtin_ctzll(candidates) / kWidth * kWidth;
-    const unsigned mask = static_cast<unsigned>(candidates >> i) & kAllLanes & box.overlap(lower, upper, i);
-    candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
-    if (mask == 0) continue;
-    result.box_pairs += __builtin_popcount(mask);
+  // The facets from `i` on that certainly lie on one side.
+  unsigned leaves_aside(const FacetBlock& block, int i) const {
     Pack lowest = height({block.corner[0][0], block.corner[0][1], block.corner[0][2]}, i), highest = lowest;
     for (int k = 1; k < 3; ++k) {
       const Pack h = height({block.corner[k][0], block.corner[k][1], block.corner[k][2]}, i);
       lowest = min(lowest, h);
       highest = max(highest, h);
     }
-    const unsigned apart = bits(either(less(error, lowest), less(highest, below)));
-    result.facets |= static_cast<std::uint64_t>(mask & ~apart) << i;
+    return bits(either(less(error, lowest), less(highest, sub(spread(0.0), error))));
   }
-  return result;
+};
+
+PairedFacets pair_facets(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, const NearFacets& others,
+                         bool few_are_b, int plane_from, FacetPairList* pairs) {
+  const double* const lower[3] = {many.lower[0], many.lower[1], many.lower[2]};
+  const double* const upper[3] = {many.upper[0], many.upper[1], many.upper[2]};
+  std::uint8_t *const of_few = few_are_b ? pairs->b : pairs->a, *const of_many = few_are_b ? pairs->a : pairs->b;
+  std::int64_t box_pairs = 0;
+  for (; some != 0; some &= some - 1) {
+    const int f = __builtin_ctzll(some);
+    const BoxPack box({{few.lower[0][f], few.lower[1][f], few.lower[2][f]},
+                       {few.upper[0][f], few.upper[1][f], few.upper[2][f]}});
+    std::uint64_t met = 0;
+    for (int i = 0; i < many.count; i += kWidth) met |= static_cast<std::uint64_t>(box.overlap(lower, upper, i)) << i;
+    met &= others.facets;
+    const int overlapping = __builtin_popcountll(met);
+    if (overlapping >= plane_from) {
+      const FacetPlane plane(few, f, others.box);
+      for (std::uint64_t left = met; left != 0;) {
+        const int i = __builtin_ctzll(left) / kWidth * kWidth;
+        met &= ~(static_cast<std::uint64_t>(plane.leaves_aside(many, i)) << i);
+        left &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
+      }
+    }
+    const int count = __builtin_popcountll(met);
+    if (pairs->count + count > FacetPairList::kCapacity) break;
+    box_pairs += overlapping;
+    write_places(met, of_many + pairs->count);
+    __builtin_memset(of_few + pairs->count, f, FacetPairList::kCapacity);
+    pairs->count += count;
+  }
+  return {some, box_pairs};
 }

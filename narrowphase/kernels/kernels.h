@@ -4,6 +4,8 @@
 // that are compiled for a newer machine.
 #pragma once
 
+#include <tact/facet_pair.h>
+
 #include <cstdint>
 
 namespace tact::narrowphase {
@@ -46,14 +48,6 @@ inline constexpr double kAbsoluteRounding = 1e-200;
 // The former where all is computed with twice the digits. See facet_pairs.inl.
 inline constexpr double kWideRelativeRounding = 0x1p-100;
 
-// A facet prepared to be held against many others.
-struct FacetPlane {
-  BoxBounds box;
-  double corner[3];  // a point of the plane
-  double normal[3];  // (c1 - c0) × (c2 - c0), as computed
-  double error;      // of the height over the plane, times the length of the normal, of any point that it is asked for
-};
-
 // A cluster's facets and vertices. Of the vertices, those that it owns stand next to each other in `points`, the others
 // are borrowed; `corner` counts the owned ones first.
 struct ClusterFacets {
@@ -88,30 +82,28 @@ struct CullPlanes {
   BoxBounds box;  // so is one whose box misses this
 };
 
-// Some facets of a block, a bit each; the boxes of those among each eight of the block, in separate arrays; and the box
-// of all of them. Boxes of none are empty.
-struct alignas(64) NearFacets {
-  static constexpr int kGroups = 8, kGroupSize = 8;
-  double lower[3][kGroups];
-  double upper[3][kGroups];
-  BoxBounds box;
+// Some facets of a block, a bit each, and the box of all of them, which is empty if there is none.
+struct NearFacets {
   std::uint64_t facets;
+  BoxBounds box;
 };
 
-// Facets of a block, a bit each, whose box overlaps a facet's and that its plane does not certainly leave on one side;
-// and how many boxes overlap.
-struct CrossingFacets {
-  std::uint64_t facets;
+// Pairs of facets of two blocks. Beyond `count` there are indices that may be read, and room for what a SIMD loop may
+// write past the end.
+struct FacetPairList {
+  static constexpr int kCapacity = 64;
+  std::uint8_t a[2 * kCapacity] = {};
+  std::uint8_t b[2 * kCapacity] = {};
+  int count = 0;
+};
+
+// The facets for which there was no room, and how many boxes overlap those of the others.
+struct PairedFacets {
+  std::uint64_t left_over;
   std::int64_t box_pairs;
 };
 
-// Pairs of facets of two blocks. Beyond `count` there are indices that may be read.
-struct FacetPairList {
-  static constexpr int kCapacity = 64;
-  std::int32_t a[kCapacity] = {};
-  std::int32_t b[kCapacity] = {};
-  int count = 0;
-};
+inline constexpr int kMostSorted = 128;
 
 // What became of a list of pairs, a bit each.
 struct PairMatches {
@@ -170,11 +162,17 @@ struct Kernels {
 
   // The facets of `block` that have a bit in `candidates`, whose box overlaps `box`, and whose plane does not certainly
   // leave it on one side. Is there one?
-  void (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box, NearFacets* near);
+  NearFacets (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box);
   bool (*any_near)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box);
 
-  // Those of the facets `near` of `block` that `facet` may meet.
-  CrossingFacets (*crossing_facets)(const FacetBlock& block, const NearFacets& near, const FacetPlane& facet);
+  // Pairs each facet of `few` that has a bit in `some` with those of the facets `others` of `many` whose box overlaps its
+  // own and, if these are at least `plane_from`, that its plane does not certainly leave on one side. Appends them to
+  // `pairs` as long as there is room for all of a facet's.
+  PairedFacets (*pair_facets)(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, const NearFacets& others,
+                              bool few_are_b, int plane_from, FacetPairList* pairs);
+
+  // Sorts up to kMostSorted pairs, no two of which are equal.
+  void (*sort_pairs)(FacetPair* pairs, int count);
 
   // Decides pairs of a facet of `a` and one of `b`. What doubles cannot tell is left undecided.
   PairMatches (*match_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs);

@@ -17,6 +17,8 @@ inline int append(unsigned mask, int first, std::int32_t* indices, int found) {
   return found;
 }
 
+inline Mask without(Mask a, Mask b) { return differ(a, both(a, b)); }
+
 struct HeightPack {
   Pack nx, ny, nz, ox, oy, oz;
   explicit HeightPack(const HeightAxis& axis)
@@ -30,24 +32,32 @@ struct HeightPack {
   }
 };
 
-// First the highest of the heights, then the lanes that are as high. Most calls end in between.
+// Each lane keeps the first of its highest points, and whether another was as high.
 HighestPoint highest_point(PointArrays points, int count, const HeightAxis& axis, double least) {
   const HeightPack height(axis);
   const Pack lowest = spread(-__builtin_inf());
-  Pack high = lowest;
-  int i = 0;
-  for (; i + kWidth <= count; i += kWidth) high = max(high, height(points, i));
-  if (i < count) high = max(high, select(mask_of(lanes_left(count - i)), height(points, i), lowest));
-  if (bits(less_equal(spread(least), high)) == 0) return {-__builtin_inf(), -1, false};
-  const Pack top = spread(largest_lane(high));
-  HighestPoint best{largest_lane(high) + 0.0, -1, false};  // one zero: which of the two a maximum picks depends on the order
-  for (i = 0; i < count; i += kWidth) {
-    const unsigned equal = bits(less_equal(top, height(points, i))) & lanes_left(count - i);
-    if (equal == 0) continue;
-    if (best.index >= 0 || (equal & (equal - 1)) != 0) best.several = true;
-    if (best.index < 0) best.index = i + __builtin_ctz(equal);
+  Pack high = lowest, first = spread(0.0);
+  Mask again = mask_of(0);
+  for (int i = 0; i < count; i += kWidth) {
+    Pack h = height(points, i);
+    if (count - i < kWidth) h = select(mask_of(lanes_left(count - i)), h, lowest);
+    const Mask higher = less(high, h);
+    again = without(either(again, less_equal(high, h)), higher);
+    first = select(higher, spread(i), first);
+    high = max(high, h);
   }
-  return best;
+  if (bits(less_equal(spread(least), high)) == 0) return {-__builtin_inf(), -1, false};
+  const double top = largest_lane(high);
+  const unsigned lanes = bits(less_equal(spread(top), high));
+  alignas(64) double first_of[kWidth];
+  store(first_of, first);
+  std::int32_t index = count;
+  for (unsigned left = lanes; left != 0; left &= left - 1) {
+    const std::int32_t lane = __builtin_ctz(left), i = static_cast<std::int32_t>(first_of[lane]) + lane;
+    if (i < index) index = i;
+  }
+  const bool several = (lanes & (lanes - 1)) != 0 || (bits(again) & lanes) != 0;
+  return {top + 0.0, index, several};  // one zero: which of the two a maximum picks depends on the order
 }
 
 int select_heights(PointArrays points, int count, const HeightAxis& axis, double threshold, std::int32_t* indices) {
@@ -103,15 +113,17 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
   return found;
 }
 
+#include "narrowphase/kernels/bytes.inl"
 #include "narrowphase/kernels/facets.inl"
 #include "narrowphase/kernels/facet_pairs.inl"
 #include "narrowphase/kernels/refresh.inl"
+#include "narrowphase/kernels/sort.inl"
 
 }  // namespace
 
 extern const Kernels TACT_KERNELS;
 const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, refresh_cluster, bounds, select_heights, highest_point,
-                              select_overlapping, open_cluster, facing_away, near_facets, any_near, crossing_facets, match_pairs,
+                              select_overlapping, open_cluster, facing_away, near_facets, any_near, pair_facets, sort_pairs, match_pairs,
                               sharing_pairs, match_pairs_wide};
 
 }  // namespace tact::narrowphase

@@ -1,4 +1,4 @@
-// Eight elements at a time. Compiled for AVX-512 F, DQ, VL, BW and BMI2.
+// Eight elements at a time. Compiled for AVX-512 F, DQ, VL, BW, VBMI, VBMI2, and BMI2.
 #include <immintrin.h>
 
 #include "narrowphase/kernels/kernels.h"
@@ -6,6 +6,7 @@
 #define TACT_KERNELS kAvx512Kernels
 #define TACT_KERNELS_NAME "avx512"
 #define TACT_KERNELS_AVX2_REFRESH
+#define TACT_KERNELS_AVX512_BYTES
 
 namespace tact::narrowphase {
 namespace {
@@ -17,7 +18,8 @@ using Mask = __mmask8;
 inline Pack load(const double* p) { return _mm512_loadu_pd(p); }
 inline void store(double* p, Pack a) { _mm512_storeu_pd(p, a); }
 inline Pack spread(double a) { return _mm512_set1_pd(a); }
-inline Pack gather(const double* p, const std::int32_t* i) {
+template <class Index>
+inline Pack gather(const double* p, const Index* i) {
   return _mm512_set_pd(p[i[7]], p[i[6]], p[i[5]], p[i[4]], p[i[3]], p[i[2]], p[i[1]], p[i[0]]);
 }
 inline Pack add(Pack a, Pack b) { return _mm512_add_pd(a, b); }
@@ -39,11 +41,9 @@ inline unsigned bits(Mask a) { return a; }
 inline Pack select(Mask mask, Pack yes, Pack no) { return _mm512_mask_blend_pd(mask, no, yes); }
 // Bit k of each byte: mask k.
 inline void store_flags(std::uint8_t* p, const Mask (&mask)[7]) {
-  __m128i flags = _mm_setzero_si128();
-  for (int k = 0; k < 7; ++k) {
-    flags = _mm_or_si128(flags, _mm_maskz_set1_epi8(mask[k], static_cast<char>(1 << k)));
-  }
-  _mm_storel_epi64(reinterpret_cast<__m128i*>(p), flags);
+  __m512i flags = _mm512_setzero_si512();
+  for (int k = 0; k < 7; ++k) flags = _mm512_or_si512(flags, _mm512_maskz_set1_epi64(mask[k], 1 << k));
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm512_cvtepi64_epi8(flags));
 }
 inline double largest_lane(Pack a) { return _mm512_reduce_max_pd(a); }
 

@@ -44,8 +44,8 @@ Decisions decide_all(const Kernels& kernels, const ClusteredMesh& a, const Clust
   for (int f = 0; f < a.facet_end(0); ++f) {
     FacetPairList pairs;
     for (int g = 0; g < b.facet_end(0); ++g) {
-      pairs.a[pairs.count] = f;
-      pairs.b[pairs.count++] = g;
+      pairs.a[pairs.count] = static_cast<std::uint8_t>(f);
+      pairs.b[pairs.count++] = static_cast<std::uint8_t>(g);
     }
     const std::uint64_t all = pairs.count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << pairs.count) - 1;
     const PairMatches matches = digits == Digits::simple ? kernels.match_pairs(block_a, block_b, pairs)
@@ -191,8 +191,8 @@ TEST(Kernels, SharingPairsHaveACornerInCommon) {
       FacetPairList pairs;
       std::uint64_t expected = 0;
       for (int g = 0; g < b.facet_end(0); ++g) {
-        pairs.a[pairs.count] = f;
-        pairs.b[pairs.count++] = g;
+        pairs.a[pairs.count] = static_cast<std::uint8_t>(f);
+        pairs.b[pairs.count++] = static_cast<std::uint8_t>(g);
         expected |= static_cast<std::uint64_t>(share_a_corner(a.triangle(f), b.triangle(g))) << g;
       }
       constexpr std::uint64_t kSome = 0xfedcba9876543210;
@@ -222,30 +222,102 @@ TEST(Kernels, PairsOfSmoothBodiesAreDecided) {
   }
 }
 
-// Neither by planes and boxes, nor by the box of the others, is a facet lost that meets one.
-TEST(Kernels, FacetsThatMeetAreNearAndCrossing) {
+BoxBounds box_of(const FacetBlock& block, int f) {
+  return {{block.lower[0][f], block.lower[1][f], block.lower[2][f]},
+          {block.upper[0][f], block.upper[1][f], block.upper[2][f]}};
+}
+
+// All pairs that boxes, and planes where they are asked, leave of two blocks, b's facets held against a's if
+// `few_are_b`.
+std::vector<FacetPair> paired(const Kernels& kernels, const FacetBlock& a, const FacetBlock& b, bool few_are_b,
+                              int plane_from, std::int64_t& box_pairs) {
+  std::vector<FacetPair> all;
+  const FacetBlock &few = few_are_b ? b : a, &many = few_are_b ? a : b;
+  const NearFacets others = kernels.near_facets(many, all_bits(many.count), kEverything);
+  for (std::uint64_t left = all_bits(few.count); left != 0;) {
+    FacetPairList pairs;
+    const PairedFacets found = kernels.pair_facets(few, left, many, others, few_are_b, plane_from, &pairs);
+    EXPECT_LT(std::popcount(found.left_over), std::popcount(left));
+    EXPECT_LE(pairs.count, FacetPairList::kCapacity);
+    left = found.left_over;
+    box_pairs += found.box_pairs;
+    for (int k = 0; k < pairs.count; ++k) all.push_back({pairs.a[k], pairs.b[k]});
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+constexpr int kAlways = 0, kNever = 65;  // is the plane asked
+
+// Neither by the box of the others, nor by planes and boxes, is a facet lost that meets one.
+TEST(Kernels, FacetsThatMeetAreNearAndPaired) {
   for (int seed = 0; seed < 30; ++seed) {
     const auto [mesh_a, mesh_b] = bodies(seed);
     const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
     const std::vector<FacetPair> meeting = meeting_in_truth(a, b);
     for (const Kernels* kernels : tests::available_kernels()) {
       const FacetBlock block_a = block_of(*kernels, a, 0), block_b = block_of(*kernels, b, 0);
-      std::size_t left_out = 0;
-      for (int f = 0; f < a.facet_end(0); ++f) {
-        const FacetPlane plane = facet_plane(block_a, static_cast<std::size_t>(f), kEverything);
-        NearFacets near, every;
-        kernels->near_facets(block_b, all_bits(b.facet_end(0)), plane.box, &near);
-        kernels->near_facets(block_b, all_bits(b.facet_end(0)), kEverything, &every);
-        const CrossingFacets crossing = kernels->crossing_facets(block_b, every, plane);
-        EXPECT_EQ(kernels->any_near(block_b, all_bits(b.facet_end(0)), plane.box), near.facets != 0);
-        left_out += 64 - static_cast<std::size_t>(std::popcount(near.facets & crossing.facets));
-        for (const FacetPair& pair : meeting) {
-          if (pair.a != f) continue;
-          EXPECT_NE(near.facets >> pair.b & 1, 0u) << kernels->name << " seed " << seed;
-          EXPECT_NE(crossing.facets >> pair.b & 1, 0u) << kernels->name << " seed " << seed;
+      for (const FacetPair& pair : meeting) {
+        const BoxBounds box = box_of(block_a, pair.a);
+        EXPECT_NE(kernels->near_facets(block_b, all_bits(block_b.count), box).facets >> pair.b & 1, 0u);
+        EXPECT_TRUE(kernels->any_near(block_b, std::uint64_t{1} << pair.b, box));
+      }
+      for (const bool few_are_b : {false, true}) {
+        for (const int plane_from : {kAlways, 6, kNever}) {
+          std::int64_t box_pairs = 0;
+          const std::vector<FacetPair> left = paired(*kernels, block_a, block_b, few_are_b, plane_from, box_pairs);
+          EXPECT_TRUE(std::includes(left.begin(), left.end(), meeting.begin(), meeting.end()))
+              << kernels->name << " seed " << seed << " plane from " << plane_from;
+          EXPECT_EQ(std::adjacent_find(left.begin(), left.end()), left.end());
         }
       }
-      EXPECT_GT(left_out, 0u);
+    }
+  }
+}
+
+TEST(Kernels, FacetsArePairedByTheirBoxesAndPlanes) {
+  std::size_t left_aside = 0;
+  for (int seed = 0; seed < 12; ++seed) {
+    const auto [mesh_a, mesh_b] = bodies(seed);
+    const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+    const FacetBlock block_a = block_of(*scalar_kernels(), a, 0), block_b = block_of(*scalar_kernels(), b, 0);
+    std::vector<FacetPair> overlapping;
+    const auto box = [](const BoxBounds& bounds) {
+      return Box{{bounds.lower[0], bounds.lower[1], bounds.lower[2]},
+                 {bounds.upper[0], bounds.upper[1], bounds.upper[2]}};
+    };
+    for (int f = 0; f < block_a.count; ++f) {
+      for (int g = 0; g < block_b.count; ++g) {
+        if (overlaps(box(box_of(block_a, f)), box(box_of(block_b, g)))) overlapping.push_back({f, g});
+      }
+    }
+    for (const Kernels* kernels : tests::available_kernels()) {
+      for (const bool few_are_b : {false, true}) {
+        std::int64_t box_pairs = 0;
+        EXPECT_EQ(paired(*kernels, block_a, block_b, few_are_b, kNever, box_pairs), overlapping) << kernels->name;
+        EXPECT_EQ(box_pairs, static_cast<std::int64_t>(overlapping.size()));
+        left_aside += overlapping.size() - paired(*kernels, block_a, block_b, few_are_b, kAlways, box_pairs).size();
+        EXPECT_EQ(box_pairs, 2 * static_cast<std::int64_t>(overlapping.size()));
+      }
+    }
+  }
+  EXPECT_GT(left_aside, 1000u);
+}
+
+TEST(Kernels, SortsPairs) {
+  tests::Random random(3);
+  for (int count = 0; count <= kMostSorted; ++count) {
+    std::vector<FacetPair> sorted, shuffled;
+    for (int i = 0; i < count; ++i) sorted.push_back({i / 5 * 70'000'000, 2'147'483'640 + i % 5});
+    std::sort(sorted.begin(), sorted.end());
+    shuffled = sorted;
+    for (std::size_t i = shuffled.size(); i > 1; --i) {
+      std::swap(shuffled[i - 1], shuffled[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+    }
+    for (const Kernels* kernels : tests::available_kernels()) {
+      std::vector<FacetPair> pairs = shuffled;
+      kernels->sort_pairs(pairs.data(), count);
+      EXPECT_EQ(pairs, sorted) << kernels->name;
     }
   }
 }
@@ -260,8 +332,7 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
     const FacetBlock left = block_of(*scalar_kernels(), b, 0, planes);
     const std::uint64_t away = scalar_kernels()->facing_away(expected, axis);
     const HighestPoint highest = scalar_kernels()->highest_point(b.points(), b.vertex_count(), axis, -1e300);
-    NearFacets near;
-    scalar_kernels()->near_facets(expected, all_bits(b.facet_end(0)), planes.box, &near);
+    const NearFacets near = scalar_kernels()->near_facets(expected, all_bits(b.facet_end(0)), planes.box);
     for (const Kernels* kernels : tests::available_kernels()) {
       const FacetBlock block = block_of(*kernels, b, 0);
       for (int axis_index = 0; axis_index < 3; ++axis_index) {
@@ -281,23 +352,17 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
       EXPECT_EQ(top.several, highest.several) << kernels->name;
       const double above = std::nextafter(highest.height, 1e300);
       EXPECT_EQ(kernels->highest_point(b.points(), b.vertex_count(), axis, above).index, -1) << kernels->name;
-      NearFacets others;
-      kernels->near_facets(block, all_bits(b.facet_end(0)), planes.box, &others);
+      const NearFacets others = kernels->near_facets(block, all_bits(b.facet_end(0)), planes.box);
       EXPECT_EQ(others.facets, near.facets) << kernels->name;
       for (int k = 0; k < 3; ++k) {
         EXPECT_EQ(others.box.lower[k], near.box.lower[k]) << kernels->name;
         EXPECT_EQ(others.box.upper[k], near.box.upper[k]) << kernels->name;
-        for (int g = 0; g < NearFacets::kGroups; ++g) {
-          EXPECT_EQ(others.lower[k][g], near.lower[k][g]) << kernels->name;
-          EXPECT_EQ(others.upper[k][g], near.upper[k][g]) << kernels->name;
-        }
       }
-      for (int f = 0; f < a.facet_end(0); ++f) {
-        const FacetPlane plane = facet_plane(own, static_cast<std::size_t>(f), kEverything);
-        const CrossingFacets x = scalar_kernels()->crossing_facets(expected, near, plane);
-        const CrossingFacets y = kernels->crossing_facets(block, others, plane);
-        EXPECT_EQ(x.facets, y.facets) << kernels->name;
-        EXPECT_EQ(x.box_pairs, y.box_pairs) << kernels->name;
+      for (const int plane_from : {kAlways, 6}) {
+        std::int64_t box_pairs = 0;
+        EXPECT_EQ(paired(*kernels, own, block, false, plane_from, box_pairs),
+                  paired(*scalar_kernels(), own, expected, false, plane_from, box_pairs))
+            << kernels->name;
       }
       for (const Digits digits : {Digits::simple, Digits::wide}) {
         const Decisions one = decide_all(*kernels, a, b, digits), other = decide_all(*scalar_kernels(), a, b, digits);

@@ -10,11 +10,9 @@ namespace {
 
 using narrowphase::BoxBounds;
 using narrowphase::ClusterFacets;
-using narrowphase::CrossingFacets;
 using narrowphase::CullPlanes;
 using narrowphase::FacetBlock;
 using narrowphase::FacetPairList;
-using narrowphase::FacetPlane;
 using narrowphase::Kernels;
 using narrowphase::NearFacets;
 using narrowphase::PairMatches;
@@ -56,11 +54,12 @@ BoxBounds box_of(const FacetBlock& block, std::size_t i) {
 
 // Is facet i of `many` left out when facet i of `few` is held against it?
 bool leaves_out(const Kernels& kernels, const FacetBlock& few, const FacetBlock& many, std::size_t i) {
-  NearFacets near;
-  kernels.near_facets(many, std::uint64_t{1} << i, box_of(few, i), &near);
+  const std::uint64_t bit = std::uint64_t{1} << i;
+  const NearFacets near = kernels.near_facets(many, bit, box_of(few, i));
   if (near.facets == 0) return true;
-  const FacetPlane plane = narrowphase::facet_plane(few, i, near.box);
-  return kernels.crossing_facets(many, near, plane).facets == 0;
+  FacetPairList pairs;
+  kernels.pair_facets(few, bit, many, near, false, 1, &pairs);
+  return pairs.count == 0;
 }
 
 Filtered::Decision decision(const PairMatches& matches, std::size_t i) {
@@ -84,7 +83,7 @@ std::vector<Filtered> filtered(const Kernels& kernels, std::span<const TriangleP
   FacetPairList list;
   std::uint64_t all = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    list.a[i] = list.b[i] = static_cast<std::int32_t>(i);
+    list.a[i] = list.b[i] = static_cast<std::uint8_t>(i);
     ++list.count;
     all |= std::uint64_t{1} << i;
   }
