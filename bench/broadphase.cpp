@@ -23,6 +23,7 @@ using tests::BoxWorkloadKind;
 
 constexpr std::uint64_t kSeed = 2024;
 constexpr std::size_t kBruteForce = 10000;  // up to this many boxes the truth is every pair compared, above it CGAL's
+constexpr double kPatience = 500.0;         // ms: a rival that took longer for fewer boxes is not asked about more
 
 struct Effort {
   std::vector<std::size_t> counts;
@@ -118,11 +119,13 @@ class Run {
     double own = 0.0;
     double fastest = 0.0;
     for (const BoxRivalKind& rival : box_rivals()) {
-      if (!suits(rival, kind)) {
+      double& last_ms = last_ms_[fmt::format("{},{},{}", rival.name, name_of(kind), threads)];
+      if (!suits(rival, kind) || last_ms > kPatience) {
         cells.push_back("-");
         continue;
       }
       const Times times = measure(rival, workload, threads, effort_, truths);
+      last_ms = times.median;
       cells.push_back(times.correct ? three_digits(times.median) : "wrong");
       correct_ = correct_ && times.correct;
       if (own == 0.0) {
@@ -143,6 +146,7 @@ class Run {
   std::vector<int> threads_;
   Table table_;
   Medians medians_;
+  std::map<std::string, double> last_ms_;  // of a rival, a workload and a number of threads
   bool correct_ = true;
 };
 

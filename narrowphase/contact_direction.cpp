@@ -42,6 +42,9 @@ class Search {
 
   ContactDirection run(Vec3 start, const GjkSimplex& face) {
     start = normalized(start);
+    around_.count = std::min(1 + face.count, 4);
+    std::copy_n(face.a.begin(), 3, around_.a.begin() + 1);
+    std::copy_n(face.b.begin(), 3, around_.b.begin() + 1);
     if (!stay_on(face, start)) {
       while (!done()) iterate();
     }
@@ -58,6 +61,8 @@ class Search {
   void turn_to(Vec3 n) {
     best_.n = n;
     top_ = support(n);
+    around_.a[0] = top_.a;
+    around_.b[0] = top_.b;
     best_.height = dot(n, top_.point);
     best_.top_a = top_.a;
     best_.top_b = top_.b;
@@ -101,16 +106,13 @@ class Search {
     const double height = best_.height;
     const Vec3 shifted = (height + shift_ * std::max(height, m_.size())) * n;
     shift_ = std::max(kShrink * shift_, kSmallestShift);
-    const GjkSimplex seed{{top_.a}, {top_.b}, 1};
-    const GjkResult nearest = gjk(m_, shifted, best_.face.count > 0 ? best_.face : seed, settings_.gjk);
+    const GjkResult nearest = gjk(m_, shifted, best_.face.count > 0 ? best_.face : around_, settings_.gjk);
     best_.support_queries += nearest.support_queries;
     best_.face = nearest.simplex;
-    if (nearest.distance > 0.0) turn_to((-1.0 / nearest.distance) * nearest.offset);
-    if (const auto normal = face_normal(m_, nearest.simplex, best_.n)) {
-      const Vec3 between = best_.n;
-      turn_to(*normal);
-      if (!supported_by(nearest.simplex)) turn_to(between);
-    }
+    const Vec3 between = nearest.distance > 0.0 ? (-1.0 / nearest.distance) * nearest.offset : n;
+    const std::optional<Vec3> normal = face_normal(m_, nearest.simplex, between);
+    if (normal) turn_to(*normal);
+    if (!normal || !supported_by(nearest.simplex)) turn_to(between);
     if (best_.height > height) turn_to(n);  // by rounding alone: w never increases
     settle(nearest.simplex);
     if (!finished_ && !(best_.height < height - tolerance_)) leave_or_finish();
@@ -227,6 +229,7 @@ class Search {
   double shift_ = kShift;
   ContactDirection best_;
   MinkowskiVertex top_;
+  GjkSimplex around_;                     // top_, and the vertices of the last step's face
   const FacePolygon* polygon_ = nullptr;  // of the face that n supports, once looked at
   bool finished_ = false;
 };
