@@ -131,23 +131,31 @@ void ClusteredMesh::number_vertices(std::span<const int> facets) {
   const auto source_of = [&](int f, int k) {
     return facets[3 * static_cast<std::size_t>(source_facet(f)) + static_cast<std::size_t>(k)];
   };
-  std::vector<int> source_vertices, borrowed_sources;
+  std::vector<int> source_vertices, borrowed_sources, owned_here, borrowed_here;
   for (auto& corner : corner_) corner.assign(static_cast<std::size_t>(facet_count()), 0);
   for (int c = 0; c < cluster_count(); ++c) {
     const int first = vertex_count_, first_borrowed = static_cast<int>(borrowed_.size());
     indices_.insert(indices_.end(), {first, first_borrowed});
+    owned_here.clear();
+    borrowed_here.clear();
     for (int i = 0; i < 3 * (facet_end(c) - facet_begin(c)); ++i) {
       const int source = source_of(facet_begin(c) + i / 3, i % 3);
       const auto s = static_cast<std::size_t>(source);
-      if (number[s] == kFirstUse) {
-        number[s] = vertex_count_++;
-        source_vertices.push_back(source);
-      } else if (number[s] < first && last_user[s] != c) {
-        place[s] = static_cast<int>(borrowed_.size()) - first_borrowed;
-        borrowed_.push_back(number[s]);
-        borrowed_sources.push_back(source);
-      }
+      if (last_user[s] == c) continue;
       last_user[s] = c;
+      (number[s] == kFirstUse ? owned_here : borrowed_here).push_back(source);
+    }
+    // In the caller's order: neighbours in memory are read one after the other.
+    std::ranges::sort(owned_here);
+    std::ranges::sort(borrowed_here);
+    for (const int source : owned_here) {
+      number[static_cast<std::size_t>(source)] = vertex_count_++;
+      source_vertices.push_back(source);
+    }
+    for (const int source : borrowed_here) {
+      place[static_cast<std::size_t>(source)] = static_cast<int>(borrowed_.size()) - first_borrowed;
+      borrowed_.push_back(number[static_cast<std::size_t>(source)]);
+      borrowed_sources.push_back(source);
     }
     const int owned = vertex_count_ - first;
     for (int f = facet_begin(c); f < facet_end(c); ++f) {
