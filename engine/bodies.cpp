@@ -14,7 +14,7 @@ using Staged = narrowphase::ClusteredMesh::Staged;
 
 constexpr Eigen::Index kLargestCount = std::numeric_limits<int>::max() / 4;
 constexpr std::size_t kUpdatesPerBlock = 16;
-constexpr std::size_t kPrefetchDistance = 4;  // bodies
+constexpr std::size_t kPrefetchDistance = 8;  // bodies
 constexpr std::size_t kLargeBody = 32768;     // facets
 constexpr char kAxisName[] = {'x', 'y', 'z'};
 
@@ -184,7 +184,10 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
     if (large(i)) stage(updates_[i], threads);
   }
   for (std::size_t i = 0; i < count; ++i) check(updates_[i]);
-  for (std::size_t i = 0; i < count; ++i) take(updates_[i]);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i + kPrefetchDistance < count) prefetch(updates[i + kPrefetchDistance].body);
+    take(updates_[i]);
+  }
 }
 
 void Bodies::check_named_once(std::span<const PositionsUpdate> updates) {
