@@ -1,6 +1,7 @@
 #include "engine/pair_work.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -180,19 +181,27 @@ std::int64_t facets_of(const CullCounts& counts) {
   return counts.facing_away + counts.outside_slab + counts.outside_zone + counts.kept;
 }
 
-void sort(std::vector<FacetPair>& pairs) {
-  if (pairs.size() <= kMostSorted) {
-    kernels().sort_pairs(pairs.data(), static_cast<int>(pairs.size()));
-  } else {
-    std::sort(pairs.begin(), pairs.end());
-  }
+void sort_facet_pairs(PairWork& work, int threads) {
+  std::vector<FacetPair>& pairs = work.record->facet_pairs;
+  if (pairs.size() <= kMostSorted) return kernels().sort_pairs(pairs.data(), static_cast<int>(pairs.size()));
+  const auto bits_of = [](const ClusteredMesh& mesh) {
+    return std::bit_width(static_cast<unsigned>(mesh.facet_count()));
+  };
+  const auto bits_a = bits_of(*work.input.a), bits_b = bits_of(*work.input.b);
+  const std::span<std::uint64_t> keys = work.sorter.keys(pairs.size());
+  std::ranges::transform(pairs, keys.begin(), [&](const FacetPair& pair) {
+    return static_cast<std::uint64_t>(pair.a) << bits_b | static_cast<std::uint64_t>(pair.b);
+  });
+  std::ranges::transform(work.sorter.sort(bits_a + bits_b, threads), pairs.begin(), [&](std::uint64_t key) {
+    return FacetPair{static_cast<int>(key >> bits_b), static_cast<int>(key & ((std::uint64_t{1} << bits_b) - 1))};
+  });
 }
 
-void finish(PairWork& work, const ConfirmCounts& counts) {
+void finish(PairWork& work, const ConfirmCounts& counts, int threads) {
   PairRecord& record = *work.record;
   record.facet_counts.opened_clusters = work.cull_a.opened_clusters + work.cull_b.opened_clusters;
   record.facet_counts.opened_facets = facets_of(work.cull_a) + facets_of(work.cull_b);
-  sort(record.facet_pairs);
+  sort_facet_pairs(work, threads);
   record.contact.kept_facets_a = work.cull_a.kept;
   record.contact.kept_facets_b = work.cull_b.kept;
   record.facet_counts.facing_away = work.cull_a.facing_away + work.cull_b.facing_away;
@@ -248,7 +257,7 @@ void confirm(PairWork& work) {
   work.cull_a = work.cull_b = {};
   for (const OpenedCluster& one : work.search.opened_a()) add(work.cull_a, one.counts);
   for (const OpenedCluster& one : work.search.opened_b()) add(work.cull_b, one.counts);
-  finish(work, counts);
+  finish(work, counts, 1);
   work.record->counts.confirm_ms = static_cast<float>(timer.lap());
 }
 
@@ -302,7 +311,7 @@ void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int t
       if (!work.seen_b[static_cast<std::size_t>(one.index)]++) add(work.cull_b, one.counts);
     }
   }
-  finish(work, counts);
+  finish(work, counts, threads);
   work.record->counts.confirm_ms = static_cast<float>(timer.lap());
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/base/key_sort.h"
 #include "engine/bodies.h"
 #include "engine/pair_record.h"
 #include "narrowphase/confirm.h"
@@ -35,6 +36,7 @@ struct PairWork {
   bool surface_is_placed = false;  // smallest.surface is the record's, where the bodies are now
   narrowphase::CullCounts cull_a, cull_b;
   narrowphase::FacetPairSearch search;
+  base::KeySorter sorter;
   std::vector<ConfirmedRange> ranges;  // of a large pair, from `ranges_begin` on; `range_count` of them are in use
   std::size_t range_count = 0;
   std::vector<char> seen_b;  // by cluster of kept_b
