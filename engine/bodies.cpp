@@ -13,7 +13,6 @@ using narrowphase::PositionProblem;
 using Staged = narrowphase::ClusteredMesh::Staged;
 
 constexpr Eigen::Index kLargestCount = std::numeric_limits<int>::max() / 4;
-constexpr std::size_t kUpdatesPerBlock = 16;
 constexpr std::size_t kPrefetchDistance = 8;  // bodies
 constexpr std::size_t kLargeBody = 32768;     // facets
 constexpr char kAxisName[] = {'x', 'y', 'z'};
@@ -172,7 +171,7 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
   check_named_once(updates);
   // Large bodies one after the other, each on all threads.
   const auto large = [&](std::size_t i) { return threads > 1 && updates_[i].body->facet_count >= kLargeBody; };
-  base::parallel_for(count, kUpdatesPerBlock, threads, [&](std::size_t i) {
+  base::parallel_for(count, base::grain_of(count, threads, 16, 128), threads, [&](std::size_t i) {
     if (i + 2 * kPrefetchDistance < count) prefetch(updates[i + 2 * kPrefetchDistance].body);
     if (i + kPrefetchDistance < count) {
       const Update& next = updates_[i + kPrefetchDistance];

@@ -198,7 +198,8 @@ void Step::narrow_phase(const Bodies& bodies, const Settings& settings) {
   thread_work_.resize(static_cast<std::size_t>(settings.threads));
   large_count_ = 0;
   std::mutex mutex;
-  base::parallel_for(moved_.size(), 4, settings.threads, [&](std::size_t i, int thread) {
+  const std::size_t grain = base::grain_of(moved_.size(), settings.threads, 4, 64);
+  base::parallel_for(moved_.size(), grain, settings.threads, [&](std::size_t i, int thread) {
     prefetch_pairs(bodies, i);
     PairWork& work = thread_work_[static_cast<std::size_t>(thread)];
     PairRecord& record = *moved_[i];

@@ -4,6 +4,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <type_traits>
@@ -14,6 +15,13 @@ namespace tact::base {
 
 // The number of threads that `threads = 0` stands for.
 inline int default_threads() { return omp_get_max_threads(); }
+
+// How many neighbouring items to give out at a time: few enough that threads end together, and up to `most` of them,
+// so that what an item asks memory for is wanted by the same thread.
+inline std::size_t grain_of(std::size_t count, int threads, std::size_t least, std::size_t most) {
+  constexpr std::size_t kBlocksPerThread = 32;
+  return std::clamp(count / (kBlocksPerThread * static_cast<std::size_t>(threads)), least, most);
+}
 
 template <class Work>
 void call_work(const Work& work, std::size_t item, int thread) {
