@@ -119,8 +119,9 @@ class Run {
     double own = 0.0;
     double fastest = 0.0;
     for (const BoxRivalKind& rival : box_rivals()) {
+      const bool is_tact = &rival == &box_rivals().front();
       double& last_ms = last_ms_[fmt::format("{},{},{}", rival.name, name_of(kind), threads)];
-      if (!suits(rival, kind) || last_ms > kPatience) {
+      if (!suits(rival, kind) || (!is_tact && last_ms > kPatience)) {
         cells.push_back("-");
         continue;
       }
@@ -128,7 +129,7 @@ class Run {
       last_ms = times.median;
       cells.push_back(times.correct ? three_digits(times.median) : "wrong");
       correct_ = correct_ && times.correct;
-      if (own == 0.0) {
+      if (is_tact) {
         own = times.median;
         cells.push_back(three_digits(times.least));
         medians_[fmt::format("{},{}", name_of(kind), threads)].push_back(own);
@@ -136,7 +137,7 @@ class Run {
         fastest = times.median;
       }
     }
-    cells.push_back(three_digits(fastest / own));
+    cells.push_back(fastest > 0.0 ? three_digits(fastest / own) : "-");
     table_.add(cells);
     fmt::print("{} {} boxes, {} threads: {} ms\n", cells[0], cells[1], cells[3], cells[4]);
     std::fflush(stdout);

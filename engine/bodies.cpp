@@ -162,6 +162,7 @@ void Bodies::set_positions(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& 
 }
 
 void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads) {
+  const base::FloatingPointMode mode;
   const std::size_t count = updates.size();
   if (updates_.size() < count) updates_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {

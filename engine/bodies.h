@@ -67,7 +67,7 @@ class Bodies {
 
   Body& writable(BodyId id) { return const_cast<Body&>(at(id)); }
 
-  // New positions of a body: prepared, then staged, then taken. Only what comes before taking can fail.
+  // New positions of a body: prepared, staged, checked, then taken. Only what comes before taking can fail.
   struct Update {
     Body* body = nullptr;
     std::span<const double> positions;

@@ -183,14 +183,7 @@ void Step::prefetch_pairs(const Bodies& bodies, std::size_t i) const {
     narrowphase::prefetch_lines(reinterpret_cast<const char*>(moved_[i + kRecord]), 64 * kRecordLines);
   }
   if (i + kBody < moved_.size()) narrowphase::prefetch_lines(&mesh_of(i + kBody), 1);
-  if (i + kBoxes < moved_.size()) {
-    mesh_of(i + kBoxes).prefetch_boxes();
-    const PairRecord& record = *moved_[i + kBoxes];
-    if (record.history.hulls.count > 0) {
-      bodies.in_slot(record.a.index).mesh.prefetch_near(record.history.hulls.a[0]);
-      mesh_of(i + kBoxes).prefetch_near(record.history.hulls.b[0]);
-    }
-  }
+  if (i + kBoxes < moved_.size()) mesh_of(i + kBoxes).prefetch_boxes();
 }
 
 // Stages 3 to 6, all pairs in parallel, each into its own record; then the large ones, each on all threads.

@@ -119,7 +119,7 @@ class ClusteredMesh {
   int cluster_count() const { return (facet_count() + kClusterSize - 1) / kClusterSize; }
   int group_count() const { return (cluster_count() + kGroupSize - 1) / kGroupSize; }
 
-  // How many vertices of the caller stage() reads, those that several clusters share more than once.
+  // How many vertices of the caller stage() reads for clusters, those that several clusters share more than once.
   int vertex_reads() const { return vertex_count() + static_cast<int>(borrowed_.size()); }
 
   int source_vertex(int vertex) const { return source_vertices()[vertex]; }
@@ -154,14 +154,6 @@ class ClusteredMesh {
   BoxView cluster_boxes() const { return cluster_boxes(placed_); }
   BoxView group_boxes() const { return group_boxes(placed_); }
 
-  // Asks for the positions of a vertex and of those next to it, in good time.
-  void prefetch_near(int vertex) const {
-    constexpr int kAround = 16;  // vertices on each side: about a cluster
-    const int first = std::max(vertex - kAround, 0), last = std::min(vertex + kAround, vertex_count());
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      prefetch_lines(placed_.memory + axis * stride_ + first, static_cast<std::size_t>(last - first));
-    }
-  }
   // Asks for the memory of a cluster's facets, in good time.
   void prefetch_facets(int cluster) const {
     const int first = vertex_begin(cluster), borrowed = borrowed_begin(cluster);

@@ -58,11 +58,15 @@ class Search {
     return best_.limit_reached;
   }
 
+  void set_top(const MinkowskiVertex& top) {
+    top_ = top;
+    around_.a[0] = top.a;
+    around_.b[0] = top.b;
+  }
+
   void turn_to(Vec3 n) {
     best_.n = n;
-    top_ = support(n);
-    around_.a[0] = top_.a;
-    around_.b[0] = top_.b;
+    set_top(support(n));
     best_.height = dot(n, top_.point);
     best_.top_a = top_.a;
     best_.top_b = top_.b;
@@ -95,7 +99,7 @@ class Search {
     const int queries = best_.support_queries;
     best_ = tried;
     best_.support_queries = queries;
-    top_ = top;
+    set_top(top);
     return false;
   }
 

@@ -17,8 +17,8 @@ constexpr std::size_t kFewestRoom = 4096;
 
 std::span<std::uint64_t> KeySorter::keys(std::size_t count) {
   if (from_.size() < count) {
-    from_.resize(std::max(count + count / 4, kFewestRoom));
-    to_.resize(from_.size());
+    to_.resize(std::max(count + count / 4, kFewestRoom));
+    from_.resize(to_.size());  // last: it tells how much room there is
   }
   count_ = count;
   return {from_.data(), count};

@@ -203,6 +203,30 @@ TEST(Threads, FlushToZeroOfTheCallerChangesNothing) {
   }
 }
 
+// The boxes of a body so large that it is refreshed in ranges, in a batch.
+TEST(Threads, FlushToZeroOfTheCallerChangesNoLargeBody) {
+  Mesh sheet = wrinkled_sheet(130, 4.0, 0.5, 1), ball = icosphere(2);
+  ASSERT_GT(sheet.facets.cols(), 32768);
+  for (Mesh* mesh : {&sheet, &ball}) mesh->positions *= 0x1p-1060;
+  const auto meeting = [&](unsigned mode) {
+    World world({.threads = 2});
+    const std::vector<BodyId> ids = add_bodies(world, std::array{ball, sheet});
+    const Mesh moved_sheet = translated(sheet, {0.0, 0.0, 0x1p-1064}),
+               moved_ball = translated(ball, {0x1p-1064, 0.0, 0.0});
+    const unsigned before = _mm_getcsr();
+    _mm_setcsr(before | mode);
+    world.set_positions(
+        std::array{PositionsUpdate{ids[0], moved_ball.positions}, PositionsUpdate{ids[1], moved_sheet.positions}});
+    const Report& report = world.detect();
+    _mm_setcsr(before);
+    return report.contacts().empty() ? std::vector<FacetPair>{}
+                                     : std::vector<FacetPair>(report.contacts()[0].facet_pairs().begin(),
+                                                              report.contacts()[0].facet_pairs().end());
+  };
+  EXPECT_GT(meeting(0).size(), 100u);
+  EXPECT_EQ(meeting(0x8040u), meeting(0));
+}
+
 // A caller that has unmasked floating-point exceptions must not be stopped by one of ours.
 TEST(Threads, TrapsOfTheCallerAreNotSprung) {
   const PreparedSteps steps(1.0);
