@@ -222,8 +222,8 @@ ClusteredMesh::Staged ClusteredMesh::stage(const double* positions, double large
   }
   staged_.box = in_ranges ? box_of(kernels().bounds(group_boxes(staged_).pointers(), group_count())) : all.box;
   const auto unused_is_bad = [&](int vertex) {
-    const Vec3 p = source_position(positions, vertex);
-    return !(std::abs(p.x) <= largest && std::abs(p.y) <= largest && std::abs(p.z) <= largest);
+    const double* position = positions + 3 * static_cast<std::ptrdiff_t>(vertex);
+    return find_position_problem(position, 1, largest).kind != PositionProblem::none;
   };
   if (all.not_a_number || !is_within(staged_.box, largest) || std::ranges::any_of(unused_sources_, unused_is_bad))
     return Staged::bad;
@@ -292,6 +292,10 @@ void ClusteredMesh::validate() const {
   std::vector<char> owned(static_cast<std::size_t>(source_vertex_count_), 0);
   for (const int s : std::span(source_vertices(), static_cast<std::size_t>(vertex_count()))) {
     if (owned[static_cast<std::size_t>(s)]++) broken("source vertex " + std::to_string(s) + " has two owners");
+  }
+  for (int c = 0; c < cluster_count(); ++c) {
+    if (!std::is_sorted(source_vertices() + vertex_begin(c), source_vertices() + vertex_end(c)))
+      broken("the order of the vertices of cluster " + std::to_string(c));
   }
   Box whole;
   for (int c = 0; c < cluster_count(); ++c) {

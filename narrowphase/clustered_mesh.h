@@ -3,9 +3,9 @@
 // matter.
 //
 // Vertices are renumbered: a vertex belongs to the first cluster that uses it (its *owner*), and the vertices of a
-// cluster stand next to each other. Clusters borrow the other vertices that they use from earlier clusters, so that
-// refreshing in order reads each vertex of the caller once. A vertex that no facet uses is left out. "vertex" below
-// means the new number, "source vertex" the caller's; likewise "facet" and "source facet".
+// cluster stand next to each other, in the caller's order. Clusters borrow the other vertices that they use from
+// earlier clusters, so that refreshing in order reads each vertex of the caller once. A vertex that no facet uses is
+// left out. "vertex" below means the new number, "source vertex" the caller's; likewise "facet" and "source facet".
 #pragma once
 
 #include <array>
@@ -170,7 +170,8 @@ class ClusteredMesh {
   }
 
   // Throws std::logic_error that says what is broken: every source facet stands in one cluster, every used source
-  // vertex has one owner, boxes are the boxes of their vertices. For tests.
+  // vertex has one owner, those of a cluster stand in the caller's order, boxes are the boxes of their vertices. For
+  // tests.
   void validate() const;
 
  private:

@@ -24,7 +24,8 @@ class Search {
     best_ = {vertex, height_of(p.x, p.y, p.z) + 0.0};
   }
 
-  // Looks at the vertices that a cluster owns.
+  // Looks at the vertices that a cluster owns. These stand in the caller's order: the first of the highest is the one
+  // with the lowest source vertex.
   void open(int cluster) {
     const int begin = mesh_.vertex_begin(cluster), count = mesh_.vertex_end(cluster) - begin;
     if (count == 0) return;
@@ -33,7 +34,6 @@ class Search {
     if (top.index < 0) return;
     const Support found{begin + top.index, top.height};
     if (top.height > best_.height || precedes(found)) best_ = found;
-    if (top.several) lower_tie(points, cluster, top.index + 1);
   }
 
   // Looks at the clusters of a group that can hold the highest vertex: all that reach above the best so far if these
@@ -64,15 +64,6 @@ class Search {
 
   double height_of(double x, double y, double z) const {
     return (axis_.nx * (x - axis_.ox) + axis_.ny * (y - axis_.oy)) + axis_.nz * (z - axis_.oz);
-  }
-
-  // Of the cluster's vertices from `first` on that are as high as the best, the one with the lowest source vertex.
-  void lower_tie(PointArrays points, int cluster, int first) {
-    const int begin = mesh_.vertex_begin(cluster), count = mesh_.vertex_end(cluster) - begin;
-    for (int i = first; i < count; ++i) {
-      const Support found{begin + i, height_of(points.x[i], points.y[i], points.z[i])};
-      if (found.height == best_.height && precedes(found)) best_ = found;
-    }
   }
 
   const ClusteredMesh& mesh_;

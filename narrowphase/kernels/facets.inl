@@ -168,34 +168,10 @@ bool any_near(const FacetBlock& block, std::uint64_t candidates, const BoxBounds
   return false;
 }
 
-// The box of those lanes that were near.
-struct LaneBoxes {
-  Pack lower[3], opposite_upper[3];
-
-  LaneBoxes() {
-    for (int axis = 0; axis < 3; ++axis) lower[axis] = opposite_upper[axis] = spread(__builtin_inf());
-  }
-  void widen(const FacetBlock& block, int i, Mask lanes) {
-    const Pack infinite = spread(__builtin_inf());
-    for (int axis = 0; axis < 3; ++axis) {
-      lower[axis] = min(lower[axis], select(lanes, load(block.lower[axis] + i), infinite));
-      opposite_upper[axis] =
-          min(opposite_upper[axis], select(lanes, sub(spread(0.0), load(block.upper[axis] + i)), infinite));
-    }
-  }
-  BoxBounds all() const {
-    BoxBounds box;
-    for (int axis = 0; axis < 3; ++axis) {
-      // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
-      box.lower[axis] = -largest_lane(sub(spread(0.0), lower[axis])) + 0.0;
-      box.upper[axis] = largest_lane(sub(spread(0.0), opposite_upper[axis])) + 0.0;
-    }
-    return box;
-  }
-};
-
 NearFacets near_facets(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box) {
   const BoxPack pack(box);
+  const BoxPointers boxes{{block.lower[0], block.lower[1], block.lower[2]},
+                          {block.upper[0], block.upper[1], block.upper[2]}};
   LaneBoxes near_boxes;
   std::uint64_t near = 0;
   while (candidates != 0) {
@@ -204,7 +180,7 @@ NearFacets near_facets(const FacetBlock& block, std::uint64_t candidates, const 
     candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
     if (mask == 0) continue;
     near |= static_cast<std::uint64_t>(mask) << i;
-    near_boxes.widen(block, i, mask_of(mask));
+    near_boxes.widen(boxes, i, mask_of(mask));
   }
   return {near, near_boxes.all()};
 }

@@ -26,7 +26,6 @@ struct HeightAxis {
 struct HighestPoint {
   double height;
   std::int32_t index;  // of several that are as high, the first
-  bool several;
 };
 
 // Lower and upper bounds of boxes in separate arrays.
@@ -165,11 +164,11 @@ struct Kernels {
   NearFacets (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box);
   bool (*any_near)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box);
 
-  // Pairs each facet of `few` that has a bit in `some` with those of the facets `others` of `many` whose box overlaps its
-  // own and, if these are at least `plane_from`, that its plane does not certainly leave on one side. Appends them to
-  // `pairs` as long as there is room for all of a facet's.
-  PairedFacets (*pair_facets)(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, const NearFacets& others,
-                              bool few_are_b, int plane_from, FacetPairList* pairs);
+  // Pairs each facet of `few` that has a bit in `some` with those of the facets `others` of `many` whose box overlaps
+  // its own and, if these are at least `plane_from`, that its plane does not certainly leave on one side. Appends them
+  // to `pairs` as long as there is room for all of a facet's.
+  PairedFacets (*pair_facets)(const FacetBlock& few, std::uint64_t some, const FacetBlock& many,
+                              const NearFacets& others, bool few_are_b, int plane_from, FacetPairList* pairs);
 
   // Sorts up to kMostSorted pairs, no two of which are equal.
   void (*sort_pairs)(FacetPair* pairs, int count);

@@ -33,21 +33,19 @@ struct HeightPack {
   }
 };
 
-// Each lane keeps the first of its highest points, and whether another was as high.
+// Each lane keeps the first of its highest points.
 HighestPoint highest_point(PointArrays points, int count, const HeightAxis& axis, double least) {
   const HeightPack height(axis);
   const Pack lowest = spread(-__builtin_inf());
   Pack high = lowest, first = spread(0.0);
-  Mask again = mask_of(0);
   for (int i = 0; i < count; i += kWidth) {
     Pack h = height(points, i);
     if (count - i < kWidth) h = select(mask_of(lanes_left(count - i)), h, lowest);
     const Mask higher = less(high, h);
-    again = without(either(again, less_equal(high, h)), higher);
     first = select(higher, spread(i), first);
     high = max(high, h);
   }
-  if (bits(less_equal(spread(least), high)) == 0) return {-__builtin_inf(), -1, false};
+  if (bits(less_equal(spread(least), high)) == 0) return {-__builtin_inf(), -1};
   const double top = largest_lane(high);
   const unsigned lanes = bits(less_equal(spread(top), high));
   alignas(64) double first_of[kWidth];
@@ -57,8 +55,7 @@ HighestPoint highest_point(PointArrays points, int count, const HeightAxis& axis
     const std::int32_t lane = __builtin_ctz(left), i = static_cast<std::int32_t>(first_of[lane]) + lane;
     if (i < index) index = i;
   }
-  const bool several = (lanes & (lanes - 1)) != 0 || (bits(again) & lanes) != 0;
-  return {top + 0.0, index, several};  // one zero: which of the two a maximum picks depends on the order
+  return {top + 0.0, index};  // one zero: which of the two a maximum picks depends on the order
 }
 
 int select_heights(PointArrays points, int count, const HeightAxis& axis, double threshold, std::int32_t* indices) {
@@ -71,21 +68,36 @@ int select_heights(PointArrays points, int count, const HeightAxis& axis, double
   return found;
 }
 
-BoxBounds bounds(const BoxPointers& boxes, int count) {
-  const Pack infinite = spread(__builtin_inf()), zero = spread(0.0);
-  BoxBounds result;
-  for (int axis = 0; axis < 3; ++axis) {
-    Pack low = infinite, high = infinite;  // of the opposite of the upper bounds
-    for (int i = 0; i < count; i += kWidth) {
-      const Mask lanes = mask_of(lanes_left(count - i));
-      low = min(low, select(lanes, load(boxes.lower[axis] + i), infinite));
-      high = min(high, select(lanes, sub(zero, load(boxes.upper[axis] + i)), infinite));
-    }
-    // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
-    result.lower[axis] = -largest_lane(sub(zero, low)) + 0.0;
-    result.upper[axis] = largest_lane(sub(zero, high)) + 0.0;
+// The box of some lanes of boxes.
+struct LaneBoxes {
+  Pack lower[3], opposite_upper[3];
+
+  LaneBoxes() {
+    for (int axis = 0; axis < 3; ++axis) lower[axis] = opposite_upper[axis] = spread(__builtin_inf());
   }
-  return result;
+  void widen(const BoxPointers& boxes, int i, Mask lanes) {
+    const Pack infinite = spread(__builtin_inf()), zero = spread(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Pack low = load(boxes.lower[axis] + i), opposite_high = sub(zero, load(boxes.upper[axis] + i));
+      lower[axis] = min(lower[axis], select(lanes, low, infinite));
+      opposite_upper[axis] = min(opposite_upper[axis], select(lanes, opposite_high, infinite));
+    }
+  }
+  BoxBounds all() const {
+    BoxBounds box;
+    for (int axis = 0; axis < 3; ++axis) {
+      // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
+      box.lower[axis] = -largest_lane(sub(spread(0.0), lower[axis])) + 0.0;
+      box.upper[axis] = largest_lane(sub(spread(0.0), opposite_upper[axis])) + 0.0;
+    }
+    return box;
+  }
+};
+
+BoxBounds bounds(const BoxPointers& boxes, int count) {
+  LaneBoxes lanes;
+  for (int i = 0; i < count; i += kWidth) lanes.widen(boxes, i, mask_of(lanes_left(count - i)));
+  return lanes.all();
 }
 
 struct BoxPack {

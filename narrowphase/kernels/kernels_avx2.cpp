@@ -18,7 +18,9 @@ inline Pack load(const double* p) { return _mm256_loadu_pd(p); }
 inline void store(double* p, Pack a) { _mm256_storeu_pd(p, a); }
 inline Pack spread(double a) { return _mm256_set1_pd(a); }
 template <class Index>
-inline Pack gather(const double* p, const Index* i) { return _mm256_set_pd(p[i[3]], p[i[2]], p[i[1]], p[i[0]]); }
+inline Pack gather(const double* p, const Index* i) {
+  return _mm256_set_pd(p[i[3]], p[i[2]], p[i[1]], p[i[0]]);
+}
 inline Pack add(Pack a, Pack b) { return _mm256_add_pd(a, b); }
 inline Pack sub(Pack a, Pack b) { return _mm256_sub_pd(a, b); }
 inline Pack mul(Pack a, Pack b) { return _mm256_mul_pd(a, b); }

@@ -15,7 +15,9 @@ inline Pack load(const double* p) { return *p; }
 inline void store(double* p, Pack a) { *p = a; }
 inline Pack spread(double a) { return a; }
 template <class Index>
-inline Pack gather(const double* p, const Index* index) { return p[*index]; }
+inline Pack gather(const double* p, const Index* index) {
+  return p[*index];
+}
 inline Pack add(Pack a, Pack b) { return a + b; }
 inline Pack sub(Pack a, Pack b) { return a - b; }
 inline Pack mul(Pack a, Pack b) { return a * b; }
