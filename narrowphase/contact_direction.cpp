@@ -1,9 +1,11 @@
 #include "narrowphase/contact_direction.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
+#include "narrowphase/frame.h"
 #include "narrowphase/minkowski_face.h"
 #include "narrowphase/wide_vec3.h"
 
@@ -116,9 +118,13 @@ class Search {
     const Vec3 between = nearest.distance > 0.0 ? (-1.0 / nearest.distance) * nearest.offset : n;
     const std::optional<Vec3> normal = face_normal(m_, nearest.simplex, between);
     if (normal) turn_to(*normal);
-    if (!normal || !supported_by(nearest.simplex)) turn_to(between);
-    if (best_.height > height) turn_to(n);  // by rounding alone: w never increases
-    settle(nearest.simplex);
+    bool on_face = normal && supported_by(nearest.simplex);
+    if (!on_face) turn_to(between);
+    if (best_.height > height) {  // by rounding alone: w never increases
+      turn_to(n);
+      on_face = false;
+    }
+    settle(on_face ? nearest.simplex : GjkSimplex{});
     if (!finished_ && !(best_.height < height - tolerance_)) leave_or_finish();
   }
 
@@ -131,7 +137,7 @@ class Search {
   // face: at a distance of r w(n) from the border, w is lower again beyond a turn of 2 r radians.
   double shallow() const { return std::max(tolerance_, kShallow * best_.height); }
 
-  // Finishes if the foot lies well inside the face that n supports, of which `part` is known.
+  // Finishes if the foot lies well inside the face that n supports, of which `part` is known, or nothing.
   void settle(const GjkSimplex& part) {
     if (part.count == 3) {
       finished_ = holds_foot(part);
@@ -177,27 +183,25 @@ class Search {
     finished_ = true;
   }
 
-  // The lowest of the faces across the sides that the foot is near to or beyond; both ways from an edge; four ways from
-  // a corner. Nothing if none is lower.
+  // The lowest of the faces across the sides that the foot is near to or beyond, both ways from an edge; around a
+  // corner that the foot is near to or beyond. Nothing if none is lower.
   std::optional<Vec3> lowest_adjacent() {
     const std::vector<Point2>& c = polygon_->corner;
     const Vec3 u = polygon_->u, v = polygon_->v;
     const auto in_space = [&](Point2 p) { return p.x * u + p.y * v + best_.height * best_.n; };
+    const auto is_near = [&](std::size_t side) {
+      return c.size() == 2 || distance_from_side(*polygon_, side % c.size()) <= shallow();
+    };
     Lowest lowest{best_.height - tolerance_, std::nullopt};
-    if (c.size() == 1) {
-      for (const Vec3 t : {u, -u, v, -v}) try_turn(in_space(c[0]), t, lowest);
-      return lowest.n;
+    std::array<Vec3, kNearCorners> near;
+    std::size_t count = 0;
+    if (c.size() == 1) near[count++] = in_space(c[0]);
+    for (std::size_t i = 0; c.size() > 1 && i < c.size(); ++i) {
+      if (!is_near(i)) continue;
+      try_turn(in_space(c[i]), outward_of_side(*polygon_, i), lowest);
+      if (is_near(i + 1) && count < kNearCorners) near[count++] = in_space(corner_at(c, i + 1));
     }
-    for (std::size_t i = 0; i < c.size(); ++i) {
-      if (c.size() > 2 && distance_from_side(*polygon_, i) > shallow()) continue;
-      const Point2 from = c[i], to = c[(i + 1) % c.size()];
-      try_turn(in_space(from), normalized((to.y - from.y) * u + (from.x - to.x) * v), lowest);
-    }
-    if (!lowest.n && margin_of_foot(*polygon_) < shallow()) {  // near a corner: between the sides
-      for (const double x : {-1.0, 0.0, 1.0}) {
-        for (const double y : {-1.0, 0.0, 1.0}) try_direction(normalized(best_.n + kProbe * (x * u + y * v)), lowest);
-      }
-    }
+    for (std::size_t k = 0; k < count && !lowest.n; ++k) try_faces_around(near[k], lowest);
     return lowest.n;
   }
 
@@ -216,6 +220,42 @@ class Search {
     }
   }
 
+  // Of the directions that a corner of M supports w is the lowest at the normal of a face around it. Goes around it one
+  // way, and the other way too if the first comes to a right angle to n.
+  void try_faces_around(Vec3 corner, Lowest& lowest) {
+    if (!walk_around(corner, Way::counter_clockwise, lowest)) walk_around(corner, Way::clockwise, lowest);
+  }
+
+  enum class Way { counter_clockwise, clockwise };
+
+  // Did the walk come back to the first face?
+  bool walk_around(Vec3 corner, Way way, Lowest& lowest) {
+    Vec3 n = best_.n;
+    std::optional<Vec3> first;
+    for (int i = 0; i < kFacesAround; ++i) {
+      const FacePolygon& face = faces_.supported(m_, n, tolerance_, top_);
+      const std::size_t sides = face.corner.size();
+      if (sides == 1 && i > 0) return false;
+      const std::size_t k = nearest_corner(face, {dot(face.u, corner), dot(face.v, corner)});
+      const std::size_t side = way == Way::clockwise ? k + sides - 1 : k;
+      const Vec3 outward = sides == 1 ? away_from(corner, n) : outward_of_side(face, side % sides);
+      if (sides > 2) {
+        if (first && norm(n - *first) <= kSameFace) return true;
+        if (!first) first = n;
+      }
+      n = turned_to_next_face(m_, n, corner, outward, tolerance_, top_);
+      try_direction(n, lowest);
+      if (!(dot(n, best_.n) > 0.0)) return false;
+    }
+    return false;
+  }
+
+  // The tangent at n along which the height of the corner falls fastest.
+  static Vec3 away_from(Vec3 corner, Vec3 n) {
+    const Vec3 across = corner - dot(corner, n) * n;
+    return across == Vec3{} ? frame_across(n).u : normalized(-across);
+  }
+
   void try_direction(Vec3 n, Lowest& lowest) {
     const double w = dot(n, support(n).point);
     if (w < lowest.height) lowest = {w, n};
@@ -224,6 +264,9 @@ class Search {
   // 0.006: no turn by up to 0.01 leads lower, see shallow().
   static constexpr double kShallow = 0.006;
   static constexpr double kProbe = 0.01, kSmallestProbe = 0.5e-6;
+  static constexpr std::size_t kNearCorners = 8;  // looked at, of a polygon
+  static constexpr double kSameFace = 1e-13;
+  static constexpr int kFacesAround = 256;
   static constexpr int kWalkLimit = 1000;
 
   const MinkowskiDifference& m_;

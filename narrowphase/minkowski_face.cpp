@@ -34,8 +34,6 @@ void convex_hull(std::vector<Point2>& points, std::vector<Point2>& hull) {
   hull.pop_back();
 }
 
-Point2 corner_at(const std::vector<Point2>& polygon, std::size_t i) { return polygon[i % polygon.size()]; }
-
 // The sum of two convex polygons: their sides in the order of their angles. Both start at the lowest x.
 void minkowski_sum(const std::vector<Point2>& p, const std::vector<Point2>& q, std::vector<Point2>& sum) {
   sum.clear();
@@ -58,7 +56,16 @@ void minkowski_sum(const std::vector<Point2>& p, const std::vector<Point2>& q, s
   if (sum.empty()) sum.push_back({p[0].x + q[0].x, p[0].y + q[0].y});
 }
 
+// Leaves one of neighbouring corners that are no farther apart than `distance`: no side of theirs has a direction.
+void drop_repeated(std::vector<Point2>& polygon, double distance) {
+  const auto repeats = [&](Point2 p, Point2 q) { return std::hypot(p.x - q.x, p.y - q.y) <= distance; };
+  polygon.erase(std::unique(polygon.begin(), polygon.end(), repeats), polygon.end());
+  if (polygon.size() > 1 && repeats(polygon.front(), polygon.back())) polygon.pop_back();
+}
+
 }  // namespace
+
+Point2 corner_at(const std::vector<Point2>& polygon, std::size_t i) { return polygon[i % polygon.size()]; }
 
 const FacePolygon& FaceFinder::spanned(const MinkowskiDifference& m, const GjkSimplex& simplex, Vec3 n) {
   a_.assign(simplex.a.begin(), simplex.a.begin() + simplex.count);
@@ -107,6 +114,7 @@ void FaceFinder::project(const MinkowskiDifference& m, Vec3 n) {
   polygon_.u = frame.u;
   polygon_.v = frame.v;
   convex_hull(sum_, polygon_.corner);  // drops corners that rounding made straight or inward
+  drop_repeated(polygon_.corner, m.height_error());
   const Point2 base = flat(m.vertex(a_[0], b_[0]).point);
   for (Point2& c : polygon_.corner) c = {c.x + base.x, c.y + base.y};
 }
@@ -114,6 +122,16 @@ void FaceFinder::project(const MinkowskiDifference& m, Vec3 n) {
 double distance_from_side(const FacePolygon& polygon, std::size_t side) {
   const Point2 from = polygon.corner[side], along = minus(corner_at(polygon.corner, side + 1), from);
   return cross2(along, {-from.x, -from.y}) / std::hypot(along.x, along.y);
+}
+
+Vec3 outward_of_side(const FacePolygon& polygon, std::size_t side) {
+  const Point2 along = minus(corner_at(polygon.corner, side + 1), polygon.corner[side]);
+  return normalized(along.y * polygon.u - along.x * polygon.v);
+}
+
+std::size_t nearest_corner(const FacePolygon& polygon, Point2 point) {
+  const auto distance = [&](Point2 c) { return std::hypot(c.x - point.x, c.y - point.y); };
+  return static_cast<std::size_t>(std::ranges::min_element(polygon.corner, {}, distance) - polygon.corner.begin());
 }
 
 double margin_of_foot(const FacePolygon& polygon) {

@@ -21,6 +21,12 @@ struct FacePolygon {
 // has two sides, on one line. There must be at least two corners.
 double distance_from_side(const FacePolygon& polygon, std::size_t side);
 
+// Across n and the side, away from the polygon; unit.
+Vec3 outward_of_side(const FacePolygon& polygon, std::size_t side);
+
+Point2 corner_at(const std::vector<Point2>& polygon, std::size_t i);  // i may be beyond the last: it goes around
+std::size_t nearest_corner(const FacePolygon& polygon, Point2 point);
+
 // The distance of the foot from the border; negative outside. At most zero for an edge or a corner.
 double margin_of_foot(const FacePolygon& polygon);
 

@@ -10,13 +10,13 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "engine/base/parallel.h"
 #include "narrowphase/triangle_triangle.h"
+#include "tests/support/environment.h"
 #include "tests/support/facet_filters.h"
 #include "tests/support/triangle_oracle.h"
 #include "tests/support/triangle_pairs.h"
@@ -26,11 +26,6 @@ namespace {
 
 constexpr std::uint64_t kBlock = 156 * narrowphase::FacetBlock::kCapacity;  // pairs
 constexpr std::size_t kFailuresShown = 5;
-
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* value = std::getenv(name);
-  return value ? std::strtoull(value, nullptr, 10) : otherwise;
-}
 
 // What was seen of one kind of pair.
 struct KindCounts {

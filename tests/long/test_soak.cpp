@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <vector>
 
 #include "engine/base/timer.h"
 #include "tests/support/body_pairs.h"
 #include "tests/support/detection.h"
+#include "tests/support/environment.h"
 #include "tests/support/generators.h"
 
 namespace tact::tests {
@@ -26,11 +26,6 @@ constexpr double kRoom = 1.5;           // half edge of the cube that bodies are
 constexpr double kChecked = 0.005;      // part of the steps that are held against a fresh world
 constexpr int kParts = 10;              // of the life, a line of output each
 constexpr std::int64_t kGrowth = 2048;  // kB that memory may grow by after the first part
-
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* value = std::getenv(name);
-  return value ? std::strtoull(value, nullptr, 10) : otherwise;
-}
 
 // Memory of this process that is resident, in kB; 0 where the system does not tell.
 std::int64_t resident_memory() {

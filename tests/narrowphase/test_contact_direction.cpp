@@ -8,6 +8,7 @@
 #include "narrowphase/contact_direction.h"
 #include "tests/support/clustered.h"
 #include "tests/support/generators.h"
+#include "tests/support/hostile_hulls.h"
 #include "tests/support/minkowski_oracle.h"
 #include "tests/support/random.h"
 
@@ -111,6 +112,14 @@ TEST(ContactDirection, IsALocalMinimumAndNeverHigherThanItsStart) {
     EXPECT_LE(found.depth, static_cast<double>(tests::minkowski_height(a, b, start)) + 1e-14 * size) << "case " << i;
   }
   EXPECT_GT(overlapping, 150);
+}
+
+TEST(ContactDirection, HostilePairsEndAtLocalMinima) {
+  std::int64_t directions = 0;
+  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+    EXPECT_EQ(tests::problem_of_directions(tests::hostile_hull_pair(seed), directions), "") << "seed " << seed;
+  }
+  EXPECT_GT(directions, 600);
 }
 
 // Rods up to 1e11 times as long as thick: the difference is rounded with a radius far below its length.

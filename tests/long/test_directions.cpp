@@ -1,0 +1,31 @@
+// Contact directions of hostile pairs of hulls against the heights of their Minkowski difference. Not part of the
+// ordinary tests: how many pairs is read from the environment.
+//   TACT_LONG_HULL_PAIRS  5000 if not set
+//   TACT_LONG_SEED        which pairs, 1 if not set
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+#include "tests/support/environment.h"
+#include "tests/support/hostile_hulls.h"
+
+namespace tact::tests {
+namespace {
+
+TEST(DirectionsLong, HostilePairsEndAtLocalMinima) {
+  const std::uint64_t pairs = from_environment("TACT_LONG_HULL_PAIRS", 5'000);
+  const std::uint64_t seed = from_environment("TACT_LONG_SEED", 1) << 40;
+  std::int64_t directions = 0;
+  for (std::uint64_t i = 0; i < pairs; ++i) {
+    const std::string problem = problem_of_directions(hostile_hull_pair(seed + i), directions);
+    EXPECT_EQ(problem, "") << "pair " << i;
+  }
+  std::printf("%llu pairs, %lld directions\n", static_cast<unsigned long long>(pairs),
+              static_cast<long long>(directions));
+  EXPECT_GT(directions, static_cast<std::int64_t>(pairs));
+}
+
+}  // namespace
+}  // namespace tact::tests

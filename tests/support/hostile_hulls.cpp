@@ -1,0 +1,229 @@
+#include "tests/support/hostile_hulls.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "narrowphase/contact_direction.h"
+#include "tests/support/minkowski_oracle.h"
+#include "tests/support/random.h"
+
+namespace tact::tests {
+namespace {
+
+using Points = std::vector<Vec3>;
+
+void move(Points& points, Vec3 by) {
+  for (Vec3& p : points) p = p + by;
+}
+
+void scale(Points& points, Vec3 by) {
+  for (Vec3& p : points) p = {by.x * p.x, by.y * p.y, by.z * p.z};
+}
+
+void turn(Points& points, Random& random) {
+  const Rotation rotation = random.rotation();
+  for (Vec3& p : points) p = {dot(rotation.row[0], p), dot(rotation.row[1], p), dot(rotation.row[2], p)};
+}
+
+double power_of_ten(Random& random, double low, double high) { return std::pow(10.0, random.uniform(low, high)); }
+
+Points cloud(Random& random, int least, int most) {
+  Points points(static_cast<std::size_t>(least + random.below(most - least + 1)));
+  for (Vec3& p : points) p = random.in_cube(1.0);
+  return points;
+}
+
+Points corners_of_box(Vec3 half) {
+  Points points;
+  for (int i = 0; i < 8; ++i)
+    points.push_back({i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z});
+  return points;
+}
+
+Points flat_cloud(Random& random) {
+  Points points = cloud(random, 4, 8);
+  scale(points, {1.0, 1.0, power_of_ten(random, -16, -3)});
+  turn(points, random);
+  return points;
+}
+
+Points needle(Random& random) {
+  Points points = cloud(random, 4, 8);
+  const double width = power_of_ten(random, -14, -2);
+  scale(points, {1.0, width, width * random.uniform(0.1, 1.0)});
+  turn(points, random);
+  return points;
+}
+
+Points rod(Random& random) {
+  Points points = corners_of_box({1.0, power_of_ten(random, -11, -1), power_of_ten(random, -11, -1)});
+  if (random.chance(0.5)) turn(points, random);
+  return points;
+}
+
+Points box_of_eighths(Random& random) {
+  const auto eighths = [&] { return (1 + random.below(4)) / 8.0; };
+  return corners_of_box({eighths(), eighths(), eighths()});
+}
+
+Points lattice(Random&) {
+  Points points;
+  for (int i = 0; i < 27; ++i) points.push_back({i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 - 1.0});
+  return points;
+}
+
+Points ball(Random& random) {
+  Points points(static_cast<std::size_t>(20 + random.below(41)));
+  for (Vec3& p : points) p = random.direction();
+  return points;
+}
+
+Points sheet_cloud(Random& random) {
+  Points points = cloud(random, 3, 6);
+  scale(points, {1.0, 1.0, 0.0});
+  if (random.chance(0.5)) turn(points, random);
+  return points;
+}
+
+Points segment(Random& random) { return cloud(random, 2, 2); }
+
+Points tiny(Random& random) {
+  Points points = cloud(random, 4, 8);
+  const double size = power_of_ten(random, -9, -1);
+  scale(points, {size, size, size});
+  return points;
+}
+
+Points prism(Random& random) {
+  const int sides = 5 + random.below(26);
+  Points points;
+  const double height = power_of_ten(random, -10, 1);
+  for (int i = 0; i < 2 * sides; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (i % sides) / sides;
+    points.push_back({std::cos(angle), std::sin(angle), i < sides ? 0.0 : height});
+  }
+  if (random.chance(0.5)) turn(points, random);
+  return points;
+}
+
+Points nearly_twice(Random& random) {
+  Points points = cloud(random, 4, 7);
+  for (std::size_t i = 0, count = points.size(); i < count; ++i) {
+    if (random.chance(0.5)) points.push_back(points[i] + 1e-15 * random.direction());
+  }
+  return points;
+}
+
+struct Kind {
+  const char* name;
+  Points (*make)(Random&);
+};
+
+Points some_cloud(Random& random) { return cloud(random, 4, 8); }
+
+constexpr std::array<Kind, 12> kKinds{{{"cloud", some_cloud},
+                                       {"flat", flat_cloud},
+                                       {"needle", needle},
+                                       {"rod", rod},
+                                       {"box", box_of_eighths},
+                                       {"lattice", lattice},
+                                       {"ball", ball},
+                                       {"sheet", sheet_cloud},
+                                       {"segment", segment},
+                                       {"tiny", tiny},
+                                       {"prism", prism},
+                                       {"nearly twice", nearly_twice}}};
+
+Vec3 inside(const Points& points, Random& random) {
+  Vec3 sum;
+  double weights = 0.0;
+  for (const Vec3& p : points) {
+    const double weight = random.uniform();
+    sum = sum + weight * p;
+    weights += weight;
+  }
+  return (1.0 / weights) * sum;
+}
+
+Vec3 any_of(const Points& points, Random& random) {
+  return points[static_cast<std::size_t>(random.below(static_cast<int>(points.size())))];
+}
+
+// Points inside each other, the same drawn apart until they touch, or two vertices in one place.
+void place(const Points& a, Points& b, Random& random) {
+  const int how = random.below(6);
+  if (how == 5) return;
+  move(b, how == 4 ? any_of(a, random) - any_of(b, random) : inside(a, random) - inside(b, random));
+  if (how != 3) return;
+  const SmallestHeight smallest = smallest_height(a, b, 0.0);
+  move(b, static_cast<double>(smallest.height) * smallest.directions[0]);
+}
+
+Points relative(Points points, Vec3 to) {
+  move(points, -to);
+  return points;
+}
+
+std::vector<double> coordinates(const Points& points) {
+  std::vector<double> result;
+  for (const Vec3& p : points) result.insert(result.end(), {p.x, p.y, p.z});
+  return result;
+}
+
+}  // namespace
+
+HullPair hostile_hull_pair(std::uint64_t seed) {
+  Random random(seed);
+  const auto any_kind = [&] { return kKinds[static_cast<std::size_t>(random.below(kKinds.size()))]; };
+  HullPair pair;
+  const Kind kind = any_kind();
+  pair.a = kind.make(random);
+  const Kind other = random.chance(0.3) ? kind : any_kind();
+  pair.b = random.chance(0.1) ? pair.a : other.make(random);
+  pair.kinds = std::string(kind.name) + " and " + other.name;
+  place(pair.a, pair.b, random);
+  const double size = random.chance(0.5) ? 1.0 : power_of_ten(random, -9, 9);
+  const Vec3 far = random.chance(0.25) ? size * power_of_ten(random, 0, 8) * random.direction() : Vec3{};
+  for (Points* points : {&pair.a, &pair.b}) {
+    scale(*points, {size, size, size});
+    move(*points, far);
+  }
+  pair.b_before = pair.b;
+  move(pair.b_before, power_of_ten(random, -6, -1) * size * random.direction());
+  pair.start = random.direction();
+  return pair;
+}
+
+std::string problem_of_directions(const HullPair& pair, std::int64_t& directions) {
+  using namespace narrowphase;
+  const ClusteredMesh a = mesh_through(pair.a);
+  ClusteredMesh b = mesh_through(pair.b_before);
+  FaceFinder faces;
+  GjkSimplex face;
+  Vec3 start = pair.start;
+  std::ostringstream problem;
+  for (const Points* now : {&pair.b_before, &pair.b}) {
+    b.set_positions(coordinates(*now).data(), 1);
+    const MinkowskiDifference m(a, b);
+    if (gjk(m, {}, {}, {}).status == GjkStatus::apart) continue;
+    const ContactDirection found = contact_direction(m, start, face, {}, faces);
+    ++directions;
+    // Far from zero, heights about a near point are exact enough for the oracle.
+    const Points near_a = relative(pair.a, pair.a[0]), near_b = relative(*now, pair.a[0]);
+    const double size = m.size() / m.scale(), depth = found.height / m.scale();
+    const auto height = [&](Vec3 n) { return static_cast<double>(minkowski_height(near_a, near_b, n)); };
+    if (found.limit_reached) problem << "given up after " << found.iterations << " iterations; ";
+    if (!(std::abs(depth - height(found.n)) <= 1e-13 * size)) problem << "depth " << depth << " is not w; ";
+    if (!(height(found.n) <= height(start) + 1e-13 * size)) problem << "above its start; ";
+    if (found.height > 8.0 * m.height_error() && !is_local_minimum(near_a, near_b, found.n, 1e-12 * size))
+      problem << "no local minimum at depth " << depth / size << " of the size; ";
+    start = found.n;
+    face = found.face;
+  }
+  return problem.str().empty() ? "" : pair.kinds + ": " + problem.str();
+}
+
+}  // namespace tact::tests
