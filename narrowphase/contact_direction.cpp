@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "narrowphase/frame.h"
@@ -47,7 +48,7 @@ class Search {
     around_.count = std::min(1 + face.count, 4);
     std::copy_n(face.a.begin(), 3, around_.a.begin() + 1);
     std::copy_n(face.b.begin(), 3, around_.b.begin() + 1);
-    if (!stay_on(face, start)) {
+    if (!stay_near(face, start)) {
       while (!done()) iterate();
     }
     return best_;
@@ -79,30 +80,114 @@ class Search {
     return m_.support(n, top_);
   }
 
-  // Does the last step's face still hold the foot? If not, goes on from the lower of `start` and what was tried.
-  bool stay_on(const GjkSimplex& face, Vec3 start) {
-    const std::optional<Vec3> n = face_normal(m_, face, start);
+  // Is the foot in the last step's face still, or in one a few steps away? If not, goes on from the lower of `start`
+  // and what was tried.
+  bool stay_near(const GjkSimplex& face, Vec3 start) {
+    std::optional<Vec3> n = face_normal(m_, face, start);
     if (!n || !(dot(*n, start) > 0.0)) {
       turn_to(start);
       finished_ = std::abs(best_.height) <= tolerance_;  // where w = 0 every direction is a minimum
       return finished_;
     }
     top_ = m_.vertex(face.a[0], face.b[0]);
-    turn_to(*n);
-    if (supported_by(face)) {
-      best_.face = face;
-      settle(face);
-      if (finished_) return true;
+    GjkSimplex part = face;
+    double start_height = -std::numeric_limits<double>::infinity();  // of all vertices seen
+    for (int step = 0; step < kSteps && n && dot(*n, start) > 0.0; ++step) {
+      turn_to(*n);
+      const CornerPoints corner = corner_points(part);
+      for (const Vec3 p : {corner[0], corner[1], corner[2], top_.point})
+        start_height = std::max(start_height, dot(start, p));
+      std::optional<GjkSimplex> next;
+      if (!supported_by(part)) {
+        next = toward_foot(part, corner);
+      } else {
+        const FootSide side = side_of_foot(corner);
+        if (side.distance >= -shallow()) {
+          best_.face = part;
+          settle(part);
+          if (finished_ && best_.height <= start_height) return true;
+          break;
+        }
+        next = across(part, corner, side.index);
+      }
+      if (!next) break;
+      part = *next;
+      n = face_normal(m_, part, best_.n);
     }
-    const ContactDirection tried = best_;
+    return stay_below(start);
+  }
+
+  // Goes back to `start` if that is lower than what was found. Is the search finished?
+  bool stay_below(Vec3 start) {
+    const ContactDirection found = best_;
     const MinkowskiVertex top = top_;
     turn_to(start);
-    if (best_.height < tried.height) return false;
+    if (best_.height < found.height) return finished_ = false;
     const int queries = best_.support_queries;
-    best_ = tried;
+    best_ = found;
     best_.support_queries = queries;
     set_top(top);
-    return false;
+    return finished_;
+  }
+
+  using CornerPoints = std::array<Vec3, 3>;
+  CornerPoints corner_points(const GjkSimplex& part) const {
+    const auto point = [&](std::size_t i) { return m_.vertex(part.a[i], part.b[i]).point; };
+    return {point(0), point(1), point(2)};
+  }
+
+  // Twice the area that a side spans with the foot, seen against n, which the triangle may be turned to or away from.
+  double span(Vec3 from, Vec3 to) const { return dot(cross(from, to - from), best_.n); }
+  double turn_of(const CornerPoints& c) const {
+    return dot(cross(c[1] - c[0], c[2] - c[0]), best_.n) < 0.0 ? -1.0 : 1.0;
+  }
+
+  // The side of a triangle that the foot is nearest to, or farthest beyond; distances are negative outside.
+  struct FootSide {
+    std::size_t index;  // from this corner to the next
+    double distance;
+  };
+  FootSide side_of_foot(const CornerPoints& c) const {
+    const double turn = turn_of(c);
+    FootSide nearest{0, std::numeric_limits<double>::infinity()};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 to = c[(i + 1) % 3];
+      const double distance = turn * span(c[i], to) / norm(to - c[i]);
+      if (!(distance >= nearest.distance)) nearest = {i, distance};
+    }
+    return nearest;
+  }
+
+  static GjkSimplex side_and(const GjkSimplex& part, std::size_t side, const MinkowskiVertex& v) {
+    const std::size_t next = (side + 1) % 3;
+    return {{part.a[side], part.a[next], v.a}, {part.b[side], part.b[next], v.b}, 3};
+  }
+
+  // The foot lies beyond a side of a face of M: the side, and the vertex that a plane turned about it by a fixed angle
+  // finds, unless that is an end of the side.
+  std::optional<GjkSimplex> across(const GjkSimplex& part, const CornerPoints& c, std::size_t side) {
+    const Vec3 along = c[(side + 1) % 3] - c[side];
+    const Vec3 outward = normalized(turn_of(c) * cross(along, best_.n));
+    const MinkowskiVertex v = support(normalized(best_.n + kTilt * outward));
+    const std::size_t next = (side + 1) % 3;
+    if ((v.a == part.a[side] && v.b == part.b[side]) || (v.a == part.a[next] && v.b == part.b[next]))
+      return std::nullopt;
+    return side_and(part, side, v);
+  }
+
+  // A vertex lies above a triangle of M: of the triangles that it forms with a side, the one that holds the foot; or,
+  // if none does, the one beyond the side that the foot lies beyond.
+  std::optional<GjkSimplex> toward_foot(const GjkSimplex& part, const CornerPoints& c) const {
+    const Vec3 v = top_.point;
+    const double turn = turn_of(c);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 from = c[i], to = c[(i + 1) % 3];
+      if (turn * span(from, to) >= 0.0 && turn * span(to, v) >= 0.0 && turn * span(v, from) >= 0.0)
+        return side_and(part, i, top_);
+    }
+    const FootSide side = side_of_foot(c);
+    if (side.distance >= 0.0) return std::nullopt;
+    return side_and(part, side.index, top_);
   }
 
   // One shifted call of GJK, then the face that it ended on.
@@ -150,18 +235,7 @@ class Search {
   }
 
   // Does the foot lie well inside the triangle of three vertices of the face? The face may be larger.
-  bool holds_foot(const GjkSimplex& part) const {
-    Vec3 p[3];
-    for (std::size_t i = 0; i < 3; ++i) p[i] = m_.vertex(part.a[i], part.b[i]).point;
-    const double side = dot(cross(p[1] - p[0], p[2] - p[0]), best_.n) < 0.0 ? -1.0 : 1.0;
-    const double least = shallow() * shallow();
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 from = p[i], along = p[(i + 1) % 3] - from;
-      const double inside = side * dot(cross(from, along), best_.n);
-      if (!(inside > 0.0 && inside * inside > least * norm_squared(along))) return false;
-    }
-    return true;
-  }
+  bool holds_foot(const GjkSimplex& part) const { return side_of_foot(corner_points(part)).distance > shallow(); }
 
   double margin_of_face() {
     polygon_ = &faces_.supported(m_, best_.n, tolerance_, top_);
@@ -263,6 +337,8 @@ class Search {
 
   // 0.006: no turn by up to 0.01 leads lower, see shallow().
   static constexpr double kShallow = 0.006;
+  static constexpr int kSteps = 8;
+  static constexpr double kTilt = 0.25;
   static constexpr double kProbe = 0.01, kSmallestProbe = 0.5e-6;
   static constexpr std::size_t kNearCorners = 8;  // looked at, of a polygon
   static constexpr double kSameFace = 1e-13;
