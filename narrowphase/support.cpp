@@ -9,7 +9,7 @@ namespace tact::narrowphase {
 namespace {
 
 constexpr int kBlock = 256;  // groups that are looked at together
-constexpr int kFew = 3;      // clusters
+constexpr int kFew = 8;      // clusters
 
 PointArrays from(PointArrays points, int first) { return {points.x + first, points.y + first, points.z + first}; }
 
@@ -24,40 +24,46 @@ class Search {
     best_ = {vertex, height_of(p.x, p.y, p.z) + 0.0};
   }
 
-  // Looks at the vertices that a cluster owns. These stand in the caller's order: the first of the highest is the one
-  // with the lowest source vertex.
-  void open(int cluster) {
-    const int begin = mesh_.vertex_begin(cluster), count = mesh_.vertex_end(cluster) - begin;
-    if (count == 0) return;
-    const PointArrays points = from(mesh_.points(), begin);
-    const HighestPoint top = kernels().highest_point(points, count, axis_, best_.height);
+  // Looks at the vertices that some clusters own, given in ascending order. Of equal ones in one cluster the first is
+  // the one with the lowest source vertex, as they stand in the caller's order; of several clusters each is asked.
+  void open(const std::int32_t* clusters, int count) {
+    IndexRange ranges[kGroupSize];
+    for (int k = 0; k < count; ++k) ranges[k] = {mesh_.vertex_begin(clusters[k]), mesh_.vertex_end(clusters[k])};
+    const HighestPoint top = kernels().highest_point(mesh_.points(), ranges, count, axis_, best_.height);
     if (top.index < 0) return;
-    const Support found{begin + top.index, top.height};
+    if (top.several && count > 1) {
+      for (int k = 0; k < count; ++k) open(clusters + k, 1);
+      return;
+    }
+    const Support found{top.index, top.height};
     if (top.height > best_.height || precedes(found)) best_ = found;
   }
 
   // Looks at the clusters of a group that can hold the highest vertex: all that reach above the best so far if these
   // are few, else the one that reaches farthest first.
   void open_group(int group, PointArrays far_corners) {
-    const int begin = mesh_.cluster_begin(group), count = mesh_.cluster_end(group) - begin;
-    const PointArrays corners = from(far_corners, begin);
+    const IndexRange clusters{mesh_.cluster_begin(group), mesh_.cluster_end(group)};
     std::int32_t reaching[kGroupSize];
-    const auto select = [&] { return kernels().select_heights(corners, count, axis_, best_.height, reaching); };
-    int found = select(), first = -1;
+    int found = select(clusters, far_corners, reaching);
     if (found > kFew) {
-      first = kernels().highest_point(corners, count, axis_, best_.height).index;
-      open(begin + first);
-      found = select();
+      const std::int32_t first = kernels().highest_point(far_corners, &clusters, 1, axis_, best_.height).index;
+      open(&first, 1);
+      found = select(clusters, far_corners, reaching);
     }
-    for (int k = 0; k < found; ++k) {
-      if (reaching[k] != first) open(begin + reaching[k]);
-    }
+    if (found > 0) open(reaching, found);
   }
 
   const Support& best() const { return best_; }
   const HeightAxis& axis() const { return axis_; }
 
  private:
+  int select(IndexRange clusters, PointArrays far_corners, std::int32_t* reaching) const {
+    const int found = kernels().select_heights(from(far_corners, clusters.begin), clusters.end - clusters.begin, axis_,
+                                               best_.height, reaching);
+    for (int k = 0; k < found; ++k) reaching[k] += clusters.begin;
+    return found;
+  }
+
   bool precedes(const Support& other) const {
     return best_.vertex < 0 || mesh_.source_vertex(other.vertex) < mesh_.source_vertex(best_.vertex);
   }
@@ -82,7 +88,8 @@ Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near) {
   assert(mesh.facet_count() > 0);
   Search search(mesh, n, origin);
   if (mesh.cluster_count() == 1) {
-    search.open(0);
+    const std::int32_t only = 0;
+    search.open(&only, 1);
     return search.best();
   }
   if (near >= 0) search.start_at(near);
@@ -91,10 +98,9 @@ Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near) {
     search.open_group(0, clusters);
     return search.best();
   }
+  const IndexRange all_groups{0, mesh.group_count()};
   const int first =
-      kernels()
-          .highest_point(groups, mesh.group_count(), search.axis(), -std::numeric_limits<double>::infinity())
-          .index;
+      kernels().highest_point(groups, &all_groups, 1, search.axis(), -std::numeric_limits<double>::infinity()).index;
   search.open_group(first, clusters);
   for (int block = 0; block < mesh.group_count(); block += kBlock) {
     std::int32_t others[kBlock];
@@ -111,15 +117,13 @@ Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near) {
 bool stays_below(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double height) {
   const HeightAxis axis{n.x, n.y, n.z, origin.x, origin.y, origin.z};
   const PointArrays groups = far_corners(mesh.group_boxes(), n), clusters = far_corners(mesh.cluster_boxes(), n);
-  const auto cluster_reaches = [&](int cluster) {
-    const int begin = mesh.vertex_begin(cluster), count = mesh.vertex_end(cluster) - begin;
-    return count > 0 && kernels().highest_point(from(mesh.points(), begin), count, axis, height).index >= 0;
-  };
   const auto group_reaches = [&](int group) {
     std::int32_t near[kGroupSize];
     const int begin = mesh.cluster_begin(group), count = mesh.cluster_end(group) - begin;
     const int found = kernels().select_heights(from(clusters, begin), count, axis, height, near);
-    return std::any_of(near, near + found, [&](std::int32_t k) { return cluster_reaches(begin + k); });
+    IndexRange ranges[kGroupSize];
+    for (int k = 0; k < found; ++k) ranges[k] = {mesh.vertex_begin(begin + near[k]), mesh.vertex_end(begin + near[k])};
+    return kernels().highest_point(mesh.points(), ranges, found, axis, height).index >= 0;
   };
   if (mesh.group_count() == 1) return !group_reaches(0);
   for (int block = 0; block < mesh.group_count(); block += kBlock) {
@@ -153,7 +157,7 @@ void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double h
 
 Support support_by_full_scan(const ClusteredMesh& mesh, Vec3 n, Vec3 origin) {
   Search search(mesh, n, origin);
-  for (int cluster = 0; cluster < mesh.cluster_count(); ++cluster) search.open(cluster);
+  for (std::int32_t cluster = 0; cluster < mesh.cluster_count(); ++cluster) search.open(&cluster, 1);
   return search.best();
 }
 

@@ -34,28 +34,38 @@ struct HeightPack {
 };
 
 // Each lane keeps the first of its highest points.
-HighestPoint highest_point(PointArrays points, int count, const HeightAxis& axis, double least) {
+HighestPoint highest_point(PointArrays points, const IndexRange* ranges, int range_count, const HeightAxis& axis,
+                           double least) {
   const HeightPack height(axis);
   const Pack lowest = spread(-__builtin_inf());
   Pack high = lowest, first = spread(0.0);
-  for (int i = 0; i < count; i += kWidth) {
-    Pack h = height(points, i);
-    if (count - i < kWidth) h = select(mask_of(lanes_left(count - i)), h, lowest);
-    const Mask higher = less(high, h);
-    first = select(higher, spread(i), first);
-    high = max(high, h);
+  Mask again = mask_of(0);
+  for (int range = 0; range < range_count; ++range) {
+    const int end = ranges[range].end;
+    Pack here = spread(ranges[range].begin);
+    for (int i = ranges[range].begin; i < end; i += kWidth) {
+      Pack h = height(points, i);
+      if (end - i < kWidth) h = select(mask_of(lanes_left(end - i)), h, lowest);
+      const Mask higher = less(high, h);
+      again = without(either(again, less_equal(high, h)), higher);
+      first = select(higher, here, first);
+      high = max(high, h);
+      here = add(here, spread(kWidth));
+    }
   }
-  if (bits(less_equal(spread(least), high)) == 0) return {-__builtin_inf(), -1};
+  if (bits(less_equal(spread(least), high)) == 0) return {-__builtin_inf(), -1, false};
   const double top = largest_lane(high);
-  const unsigned lanes = bits(less_equal(spread(top), high));
+  const Mask at_top = less_equal(spread(top), high);
   alignas(64) double first_of[kWidth];
   store(first_of, first);
-  std::int32_t index = count;
+  std::int32_t index = -1;
+  const unsigned lanes = bits(at_top);
   for (unsigned left = lanes; left != 0; left &= left - 1) {
     const std::int32_t lane = __builtin_ctz(left), i = static_cast<std::int32_t>(first_of[lane]) + lane;
-    if (i < index) index = i;
+    if (index < 0 || i < index) index = i;
   }
-  return {top + 0.0, index};  // one zero: which of the two a maximum picks depends on the order
+  const bool several = (lanes & (lanes - 1)) != 0 || bits(both(again, at_top)) != 0;
+  return {top + 0.0, index, several};  // one zero: which of the two a maximum picks depends on the order
 }
 
 int select_heights(PointArrays points, int count, const HeightAxis& axis, double threshold, std::int32_t* indices) {

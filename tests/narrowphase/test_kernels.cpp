@@ -304,21 +304,31 @@ TEST(Kernels, FacetsArePairedByTheirBoxesAndPlanes) {
   EXPECT_GT(left_aside, 1000u);
 }
 
-// Points of few heights: wherever the first of the highest stands, it is found.
+// Points of few heights in some ranges: wherever the first of the highest stands, it is found, and whether it is alone.
 TEST(Kernels, OfEquallyHighPointsTheFirstIsTheHighest) {
   tests::Random random(4);
-  const std::vector<double> zero(48, 0.0);
-  for (int count = 1; count <= 40; ++count) {
-    for (int repeat = 0; repeat < 20; ++repeat) {
-      std::vector<double> x(48, 9.0);  // beyond `count` it is higher
-      for (int i = 0; i < count; ++i) x[static_cast<std::size_t>(i)] = random.below(3) - 1.0;
-      const auto first = std::max_element(x.begin(), x.begin() + count);
-      for (const Kernels* kernels : tests::available_kernels()) {
-        const HighestPoint top =
-            kernels->highest_point({x.data(), zero.data(), zero.data()}, count, {1, 0, 0, 0, 0, 0}, -1.0);
-        EXPECT_EQ(top.index, first - x.begin()) << kernels->name;
-        EXPECT_EQ(top.height, *first) << kernels->name;
-      }
+  const std::vector<double> zero(60, 0.0);
+  for (int repeat = 0; repeat < 2000; ++repeat) {
+    std::vector<double> x(60, 9.0);  // outside of the ranges it is higher
+    std::vector<IndexRange> ranges;
+    std::vector<int> inside;
+    for (int begin = random.below(4); begin < 40;) {
+      const int end = std::min(begin + random.below(20), 40);
+      ranges.push_back({begin, end});
+      for (int i = begin; i < end; ++i) inside.push_back(i);
+      begin = end + random.below(5);
+    }
+    for (const int i : inside) x[static_cast<std::size_t>(i)] = random.below(1 + repeat % 40) - 1.0;
+    const auto height = [&](int i) { return x[static_cast<std::size_t>(i)]; };
+    const auto first = std::ranges::max_element(inside, {}, height);
+    const int index = first == inside.end() ? -1 : *first;
+    const bool several = index >= 0 && std::ranges::count(inside, height(index), height) > 1;
+    for (const Kernels* kernels : tests::available_kernels()) {
+      const HighestPoint top = kernels->highest_point({x.data(), zero.data(), zero.data()}, ranges.data(),
+                                                      static_cast<int>(ranges.size()), {1, 0, 0, 0, 0, 0}, -1.0);
+      EXPECT_EQ(top.index, index) << kernels->name;
+      EXPECT_EQ(top.several, several) << kernels->name;
+      EXPECT_EQ(top.height, index < 0 ? -std::numeric_limits<double>::infinity() : height(index)) << kernels->name;
     }
   }
 }
@@ -350,7 +360,8 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
     const FacetBlock expected = block_of(*scalar_kernels(), b, 0), own = block_of(*scalar_kernels(), a, 0);
     const FacetBlock left = block_of(*scalar_kernels(), b, 0, planes);
     const std::uint64_t away = scalar_kernels()->facing_away(expected, axis);
-    const HighestPoint highest = scalar_kernels()->highest_point(b.points(), b.vertex_count(), axis, -1e300);
+    const IndexRange all{0, b.vertex_count()};
+    const HighestPoint highest = scalar_kernels()->highest_point(b.points(), &all, 1, axis, -1e300);
     const NearFacets near = scalar_kernels()->near_facets(expected, all_bits(b.facet_end(0)), planes.box);
     for (const Kernels* kernels : tests::available_kernels()) {
       const FacetBlock block = block_of(*kernels, b, 0);
@@ -365,11 +376,11 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
       EXPECT_EQ(std::vector(others_left.facet, others_left.facet + others_left.count),
                 std::vector(left.facet, left.facet + left.count))
           << kernels->name;
-      const HighestPoint top = kernels->highest_point(b.points(), b.vertex_count(), axis, highest.height);
+      const HighestPoint top = kernels->highest_point(b.points(), &all, 1, axis, highest.height);
       EXPECT_EQ(top.height, highest.height) << kernels->name;
       EXPECT_EQ(top.index, highest.index) << kernels->name;
       const double above = std::nextafter(highest.height, 1e300);
-      EXPECT_EQ(kernels->highest_point(b.points(), b.vertex_count(), axis, above).index, -1) << kernels->name;
+      EXPECT_EQ(kernels->highest_point(b.points(), &all, 1, axis, above).index, -1) << kernels->name;
       const NearFacets others = kernels->near_facets(block, all_bits(b.facet_end(0)), planes.box);
       EXPECT_EQ(others.facets, near.facets) << kernels->name;
       for (int k = 0; k < 3; ++k) {
