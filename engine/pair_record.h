@@ -37,7 +37,8 @@ struct PairCounts {
 
 // The same of stages 5 and 6, of pairs whose hulls overlap.
 struct FacetCounts {
-  std::int64_t clusters = 0;  // of both bodies
+  std::int64_t facets = 0;    // of both bodies
+  std::int64_t clusters = 0;  // likewise
   std::int64_t clusters_outside_box = 0;
   std::int64_t clusters_outside_slab = 0;
   std::int64_t opened_clusters = 0;

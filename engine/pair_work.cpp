@@ -134,8 +134,9 @@ void fill_contact(PairRecord& record, const MinkowskiDifference& m, const Direct
   contact.plane_b = base + slab.lower;
 }
 
-void count_clusters(const Body& a, const Body& b, PairWork& work) {
+void count_facets(const Body& a, const Body& b, PairWork& work) {
   FacetCounts& counts = work.record->facet_counts;
+  counts.facets = static_cast<std::int64_t>(a.facet_count + b.facet_count);
   counts.clusters = a.mesh.cluster_count() + b.mesh.cluster_count();
   counts.clusters_outside_slab = work.kept_a.outside_slab + work.kept_b.outside_slab;
   counts.clusters_outside_box =
@@ -163,7 +164,7 @@ void cull(PairRecord& record, const Body& a, const Body& b, const Slab& slab, co
   cull_clusters(a.mesh, work.input.criteria_a, b.mesh.box(), work.kept_a);
   cull_clusters(b.mesh, work.input.criteria_b, work.kept_a.bounds, work.kept_b);
   cull_again(work.kept_b.bounds, work.kept_a);
-  count_clusters(a, b, work);
+  count_facets(a, b, work);
   record.facet_counts.used_trees = find_cluster_pairs(work.kept_a, work.kept_b, ClusterPairSource::automatic, device,
                                                       work.cluster_pairs, work.boxes_found);
   record.facet_counts.cluster_pairs = static_cast<std::int64_t>(work.cluster_pairs.size());

@@ -172,18 +172,28 @@ void Step::retire(PairRecord& record) {
   free_.push_back(&record);
 }
 
-// Asks for the memory of pairs that are looked at soon: first the record, then the second body, then its boxes. The
-// first body of a pair is most often that of the last.
-void Step::prefetch_pairs(const Bodies& bodies, std::size_t i) const {
+// Asks for the memory of pairs that are looked at soon: first the record, then the rest of it and the second body, then
+// its boxes and the vertices that the last step ended at. The first body of a pair is most often that of the last. Of
+// the records from `own_end` on, which another thread may write, only the bodies are read.
+void Step::prefetch_pairs(const Bodies& bodies, std::size_t i, std::size_t own_end) const {
   constexpr std::size_t kBoxes = 2, kBody = 4, kRecord = 8, kRecordLines = 3;  // how many pairs before, cache lines
-  const auto mesh_of = [&](std::size_t k) -> const narrowphase::ClusteredMesh& {
-    return bodies.in_slot(moved_[k]->b.index).mesh;
+  const auto lines = [](const PairRecord* record, std::size_t first, std::size_t last) {
+    narrowphase::prefetch_lines(reinterpret_cast<const char*>(record) + 64 * first, 64 * (last - first));
   };
-  if (i + kRecord < moved_.size()) {
-    narrowphase::prefetch_lines(reinterpret_cast<const char*>(moved_[i + kRecord]), 64 * kRecordLines);
+  const auto mesh = [&](BodyId id) -> const narrowphase::ClusteredMesh& { return bodies.in_slot(id.index).mesh; };
+  if (i + kRecord < moved_.size()) lines(moved_[i + kRecord], 0, kRecordLines);
+  if (i + kBody < moved_.size()) {
+    const PairRecord& record = *moved_[i + kBody];
+    narrowphase::prefetch_lines(&mesh(record.b), 1);
+    if (i + kBody < own_end && record.hulls_overlap) lines(&record, kRecordLines, sizeof(PairRecord) / 64);
   }
-  if (i + kBody < moved_.size()) narrowphase::prefetch_lines(&mesh_of(i + kBody), 1);
-  if (i + kBoxes < moved_.size()) mesh_of(i + kBoxes).prefetch_boxes();
+  if (i + kBoxes < moved_.size()) {
+    const PairRecord& record = *moved_[i + kBoxes];
+    mesh(record.b).prefetch_boxes();
+    if (i + kBoxes >= own_end || record.history.kind == PairHistory::Kind::none) return;
+    mesh(record.a).prefetch_position(record.history.hulls.a[0]);
+    mesh(record.b).prefetch_position(record.history.hulls.b[0]);
+  }
 }
 
 // Stages 3 to 6, all pairs in parallel, each into its own record; then the large ones, each on all threads.
@@ -193,7 +203,7 @@ void Step::narrow_phase(const Bodies& bodies, const Settings& settings) {
   std::mutex mutex;
   const std::size_t grain = base::grain_of(moved_.size(), settings.threads, 4, 64);
   base::parallel_for(moved_.size(), grain, settings.threads, [&](std::size_t i, int thread) {
-    prefetch_pairs(bodies, i);
+    prefetch_pairs(bodies, i, settings.threads == 1 ? moved_.size() : i - i % grain + grain);
     PairWork& work = thread_work_[static_cast<std::size_t>(thread)];
     PairRecord& record = *moved_[i];
     const Body &a = bodies.in_slot(record.a.index), &b = bodies.in_slot(record.b.index);
@@ -235,7 +245,7 @@ void Step::count_work(const Bodies& bodies, const Settings& settings) {
   stats.excluded_pairs = static_cast<std::int64_t>(sweep_.excluded());
   stats.candidate_pairs = static_cast<std::int64_t>(records_.size());
   stats.kept_pairs = static_cast<std::int64_t>(records_.size() - moved_.size());
-  for (const PairRecord* record : moved_) add_work(*record, settings, bodies);
+  for (const PairRecord* record : moved_) add_work(*record, settings);
 }
 
 void Step::make_report() {
@@ -298,7 +308,7 @@ void Step::add_events() {
 }
 
 // Adds what the pair cost in this step.
-void Step::add_work(const PairRecord& record, const Settings& settings, const Bodies& bodies) {
+void Step::add_work(const PairRecord& record, const Settings& settings) {
   StepStats& stats = report_.stats_;
   const PairCounts& counts = record.counts;
   stats.gjk_iterations += counts.gjk_iterations;
@@ -320,7 +330,6 @@ void Step::add_work(const PairRecord& record, const Settings& settings, const Bo
   stats.fresh_directions += contact.source == DirectionSource::fresh ? 1 : 0;
   stats.smallest_directions += contact.source == DirectionSource::smallest ? 1 : 0;
   if (settings.accuracy == Accuracy::hulls) return;
-  const std::size_t facets = bodies.in_slot(record.a.index).facet_count + bodies.in_slot(record.b.index).facet_count;
   const std::int64_t kept = contact.kept_facets_a + contact.kept_facets_b;
   const FacetCounts& facet_counts = record.facet_counts;
   stats.clusters += facet_counts.clusters;
@@ -328,13 +337,12 @@ void Step::add_work(const PairRecord& record, const Settings& settings, const Bo
   stats.clusters_outside_slab += facet_counts.clusters_outside_slab;
   stats.opened_clusters += facet_counts.opened_clusters;
   stats.opened_facets += facet_counts.opened_facets;
-  stats.facets += static_cast<std::int64_t>(facets);
+  stats.facets += facet_counts.facets;
   stats.kept_facets += kept;
   stats.facets_facing_away += facet_counts.facing_away;
   stats.facets_outside_zone += facet_counts.outside_zone;
   // Whole clusters fall to criterion 2.
-  stats.facets_outside_slab +=
-      static_cast<std::int64_t>(facets) - kept - facet_counts.facing_away - facet_counts.outside_zone;
+  stats.facets_outside_slab += facet_counts.facets - kept - facet_counts.facing_away - facet_counts.outside_zone;
   stats.cluster_pairs += facet_counts.cluster_pairs;
   stats.tree_pairs += facet_counts.used_trees ? 1 : 0;
   stats.facet_box_pairs += facet_counts.facet_box_pairs;

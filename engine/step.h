@@ -36,7 +36,7 @@ class Step {
   void match_records(const Bodies& bodies);
   void select_moved(const Bodies& bodies);
   void narrow_phase(const Bodies& bodies, const Settings& settings);
-  void prefetch_pairs(const Bodies& bodies, std::size_t i) const;
+  void prefetch_pairs(const Bodies& bodies, std::size_t i, std::size_t own_end) const;
   void put_aside(PairWork& work);
   std::span<const std::unique_ptr<PairWork>> large() const { return std::span(large_).first(large_count_); }
   void count_work(const Bodies& bodies, const Settings& settings);
@@ -45,7 +45,7 @@ class Step {
   bool same_contacts() const;
   static void fill(Contact& contact, const PairRecord& record);
   void add_events();
-  void add_work(const PairRecord& record, const Settings& settings, const Bodies& bodies);
+  void add_work(const PairRecord& record, const Settings& settings);
   void keep_report();
   void finish(base::Timer& total, const Settings& settings, double refresh_ms);
   PairRecord& new_record(BodyId a, BodyId b);

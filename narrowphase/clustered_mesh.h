@@ -164,8 +164,13 @@ class ClusteredMesh {
     }
     prefetch_lines(borrowed_.data() + borrowed, static_cast<std::size_t>(borrowed_begin(cluster + 1) - borrowed));
   }
-  // Asks for the memory of the clusters' boxes, in good time.
+  // Asks for the position of a vertex, in good time.
+  void prefetch_position(int vertex) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) prefetch_line(placed_.memory + axis * stride_ + vertex);
+  }
+  // Asks for the memory of the clusters' boxes, and of where their vertices begin, in good time.
   void prefetch_boxes() const {
+    prefetch_lines(indices_.data(), 2 * static_cast<std::size_t>(cluster_count()));
     prefetch_lines(cluster_boxes().lower(0), 6 * static_cast<std::size_t>(cluster_count()));
   }
 

@@ -36,6 +36,7 @@ class Search {
       return;
     }
     const Support found{top.index, top.height};
+    if (found.vertex == best_.vertex) return;
     if (top.height > best_.height || precedes(found)) best_ = found;
   }
 
