@@ -163,6 +163,8 @@ class ClusteredMesh {
       prefetch_line(corner_[axis].data() + facet_begin(cluster));
     }
     prefetch_lines(borrowed_.data() + borrowed, static_cast<std::size_t>(borrowed_begin(cluster + 1) - borrowed));
+    prefetch_lines(source_facet_.data() + facet_begin(cluster),
+                   static_cast<std::size_t>(facet_end(cluster) - facet_begin(cluster)));
   }
   // Asks for the position of a vertex, in good time.
   void prefetch_position(int vertex) const {
