@@ -56,8 +56,6 @@ struct FacetCounts {
 struct alignas(64) PairRecord {
   BodyId a, b;
   bool hulls_overlap = false;
-  bool touched = false;       // in the step before this one
-  std::size_t candidate = 0;  // its place among the report's candidate pairs
   PairHistory history;
   PairCounts counts;
   // Of pairs whose hulls overlap; for others the vectors are empty and the rest is old.
@@ -69,5 +67,7 @@ struct alignas(64) PairRecord {
   std::vector<Patch> patches;
   std::unique_ptr<narrowphase::SurfaceShape> surface;  // where the search for the smallest separation ended, once
 };
+
+inline bool touches(const PairRecord& record) { return record.hulls_overlap && !record.facet_pairs.empty(); }
 
 }  // namespace tact

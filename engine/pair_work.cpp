@@ -6,7 +6,6 @@
 #include <span>
 
 #include "engine/base/parallel.h"
-#include "engine/base/timer.h"
 #include "narrowphase/contact_direction.h"
 #include "narrowphase/smallest_separation.h"
 
@@ -215,8 +214,7 @@ void finish(PairWork& work, const ConfirmCounts& counts, int threads) {
 }  // namespace
 
 bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, const Settings& settings,
-                             EmbreeDevice& device, PairWork& work) {
-  Timer timer;
+                             EmbreeDevice& device, PairWork& work, Timer& timer) {
   record.counts = {};
   record.counts.begin = timer.start();
   if (record.hulls_overlap) {
@@ -251,8 +249,7 @@ bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, c
   return !work.cluster_pairs.empty();
 }
 
-void confirm(PairWork& work) {
-  Timer timer;
+void confirm(PairWork& work, Timer& timer) {
   ConfirmCounts counts;
   work.search.run(work.input, work.cluster_pairs, 0, work.cluster_pairs.size(), work.record->facet_pairs, counts);
   work.cull_a = work.cull_b = {};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/key_sort.h"
+#include "engine/base/timer.h"
 #include "engine/bodies.h"
 #include "engine/pair_record.h"
 #include "narrowphase/confirm.h"
@@ -44,12 +45,12 @@ struct PairWork {
 };
 
 // Stages 3 to 5: do the hulls overlap, in which direction and how deep, which clusters are left, and which pairs of
-// them meet. Returns true if there are cluster pairs to confirm.
+// them meet. Returns true if there are cluster pairs to confirm. `timer` is the thread's, and runs from pair to pair.
 bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, const Settings& settings,
-                             narrowphase::EmbreeDevice& device, PairWork& work);
+                             narrowphase::EmbreeDevice& device, PairWork& work, base::Timer& timer);
 
 // Stage 6 in the calling thread: the facet pairs of `work`, into its record.
-void confirm(PairWork& work);
+void confirm(PairWork& work, base::Timer& timer);
 
 // Stage 6 with the cluster pairs cut into ranges, for a pair too large for one thread.
 void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int threads);

@@ -4,13 +4,14 @@
 #include <tact/report.h>
 #include <tact/settings.h>
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "broadphase/sweep_and_prune.h"
 #include "engine/bodies.h"
-#include "engine/pair_record.h"
+#include "engine/pair_table.h"
 #include "engine/pair_work.h"
 #include "engine/step_trace.h"
 
@@ -31,38 +32,32 @@ class Step {
   StepTrace& trace() { return trace_; }
 
  private:
+  // What a thread did, and its clock.
+  struct alignas(64) ThreadTally {
+    base::Timer timer;
+    StepStats stats;
+  };
+
   void start_afresh();
-  void note_touches();
-  void match_records(const Bodies& bodies);
-  void select_moved(const Bodies& bodies);
   void narrow_phase(const Bodies& bodies, const Settings& settings);
   void prefetch_pairs(const Bodies& bodies, std::size_t i, std::size_t own_end) const;
   void put_aside(PairWork& work);
   std::span<const std::unique_ptr<PairWork>> large() const { return std::span(large_).first(large_count_); }
-  void count_work(const Bodies& bodies, const Settings& settings);
-  void make_report();
+  void count_bodies_and_pairs(const Bodies& bodies);
+  void make_report(int threads);
   void update_report(const StepStats& last);
-  bool same_contacts() const;
   static void fill(Contact& contact, const PairRecord& record);
   void add_events();
-  void add_work(const PairRecord& record, const Settings& settings);
   void keep_report();
   void finish(base::Timer& total, const Settings& settings, double refresh_ms);
-  PairRecord& new_record(BodyId a, BodyId b);
-  void retire(PairRecord& record);
 
   broadphase::SweepAndPrune sweep_;
-  std::vector<std::unique_ptr<PairRecord>> pool_;
-  std::vector<PairRecord*> free_;
-  std::size_t room_ = 0;                      // facet pairs that a record has room for when it is given out
-  std::vector<PairRecord*> records_;          // of the candidate pairs, sorted by (a, b)
-  std::vector<broadphase::IndexPair> pairs_;  // their slots
-  std::vector<PairRecord*> previous_;         // those of the last step, while matching
-  std::vector<PairRecord*> moved_;            // those that this step looks at
+  PairTable table_;
   std::vector<PairWork> thread_work_;
+  std::vector<ThreadTally> tallies_;              // a thread each
   std::vector<std::unique_ptr<PairWork>> large_;  // pairs for all threads; large_count_ of them are in use
   std::size_t large_count_ = 0;
-  std::vector<ContactEvent> gone_;  // pairs that touched and are no candidates any more
+  std::vector<std::uint32_t> contact_places_;  // among the candidates
   narrowphase::EmbreeDevice device_;
   Report report_;
   StepTrace trace_;

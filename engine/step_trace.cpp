@@ -72,7 +72,7 @@ bool before(const TraceEvent& x, const TraceEvent& y) {
 
 }  // namespace
 
-void StepTrace::make(Time begin, Time end, const StepStats& stats, std::span<PairRecord* const> pairs,
+void StepTrace::make(Time begin, Time end, const StepStats& stats, std::span<const MovedPair> pairs,
                      std::span<const std::unique_ptr<PairWork>> large, std::vector<TraceEvent>& events) {
   std::size_t most = refreshes_.size() + kEventsOfStep + kEventsOfPair * pairs.size();
   for (const auto& work : large) most += work->range_count + 1;
@@ -84,8 +84,9 @@ void StepTrace::make(Time begin, Time end, const StepStats& stats, std::span<Pai
   std::sort(events.begin(), events.end(), before);
 }
 
-void StepTrace::add_pairs(std::span<PairRecord* const> pairs, std::vector<TraceEvent>& events) {
-  by_thread_.assign(pairs.begin(), pairs.end());
+void StepTrace::add_pairs(std::span<const MovedPair> pairs, std::vector<TraceEvent>& events) {
+  by_thread_.clear();
+  for (const MovedPair& pair : pairs) by_thread_.push_back(pair.record);
   std::sort(by_thread_.begin(), by_thread_.end(), [](const PairRecord* x, const PairRecord* y) {
     return std::tie(x->counts.thread, x->counts.begin) < std::tie(y->counts.thread, y->counts.begin);
   });

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/timer.h"
+#include "engine/pair_table.h"
 #include "engine/pair_work.h"
 
 namespace tact {
@@ -27,11 +28,11 @@ class StepTrace {
   // Replaces `events` by those of a step from `begin` to `end`, with the refreshes before it, sorted by thread and
   // time; an event stands before those within it. `pairs` are those that the step looked at, `large` those cut into
   // ranges.
-  void make(Time begin, Time end, const StepStats& stats, std::span<PairRecord* const> pairs,
+  void make(Time begin, Time end, const StepStats& stats, std::span<const MovedPair> pairs,
             std::span<const std::unique_ptr<PairWork>> large, std::vector<TraceEvent>& events);
 
  private:
-  void add_pairs(std::span<PairRecord* const> pairs, std::vector<TraceEvent>& events);
+  void add_pairs(std::span<const MovedPair> pairs, std::vector<TraceEvent>& events);
 
   std::vector<TraceEvent> refreshes_;
   std::vector<const PairRecord*> by_thread_;  // scratch

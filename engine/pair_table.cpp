@@ -1,0 +1,92 @@
+#include "engine/pair_table.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tact {
+
+namespace {
+
+constexpr std::size_t kLargestRoom = 512;  // facet pairs, 4 kB
+
+bool names(const Bodies& bodies, BodyId id) { return bodies.in_slot(id.index).id == id; }
+
+}  // namespace
+
+void PairTable::update(const broadphase::SweepAndPrune& sweep, const Bodies& bodies, bool all) {
+  gone_.clear();
+  moved_.clear();
+  same_pairs_ = !all && !bodies.removed_any() && !sweep.pairs_changed();
+  if (same_pairs_) {
+    select_moved(bodies);
+  } else {
+    match(sweep.pairs(), bodies, all);
+  }
+}
+
+void PairTable::select_moved(const Bodies& bodies) {
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (bodies.moved(pairs_[i].a) || bodies.moved(pairs_[i].b))
+      moved_.push_back({records_[i], static_cast<std::uint32_t>(i)});
+  }
+}
+
+void PairTable::match(std::span<const broadphase::IndexPair> pairs, const Bodies& bodies, bool all) {
+  std::swap(last_records_, records_);
+  std::swap(last_candidates_, candidates_);
+  records_.clear();
+  candidates_.clear();
+  std::size_t last = 0;
+  for (const broadphase::IndexPair& pair : pairs) {
+    while (last < pairs_.size() && pairs_[last] < pair) retire(*last_records_[last++]);
+    PairRecord* record = nullptr;
+    CandidatePair candidate;
+    if (last < pairs_.size() && pairs_[last] == pair) {
+      candidate = last_candidates_[last];
+      record = last_records_[last++];
+      if (bodies.removed_any() && !(names(bodies, candidate.a) && names(bodies, candidate.b)))
+        retire(*std::exchange(record, nullptr));
+    }
+    if (record == nullptr) {
+      candidate = {bodies.in_slot(pair.a).id, bodies.in_slot(pair.b).id, false};
+      record = &new_record(candidate.a, candidate.b);
+    }
+    if (all || bodies.moved(pair.a) || bodies.moved(pair.b))
+      moved_.push_back({record, static_cast<std::uint32_t>(records_.size())});
+    records_.push_back(record);
+    candidates_.push_back(candidate);
+  }
+  while (last < pairs_.size()) retire(*last_records_[last++]);
+  pairs_.assign(pairs.begin(), pairs.end());
+}
+
+PairRecord& PairTable::new_record(BodyId a, BodyId b) {
+  if (free_.empty()) {
+    free_.reserve(pool_.size() + 1);  // so that retire() cannot fail
+    pool_.push_back(std::make_unique<PairRecord>());
+    free_.push_back(pool_.back().get());
+  }
+  PairRecord& record = *free_.back();
+  free_.pop_back();
+  record.a = a;
+  record.b = b;
+  record.history = {};
+  record.hulls_overlap = false;
+  record.facet_pairs.clear();
+  record.facet_pairs.reserve(room_);
+  record.patches.clear();
+  return record;
+}
+
+void PairTable::retire(PairRecord& record) {
+  if (touches(record)) gone_.push_back({record.a, record.b});
+  // Records are given out again in any order: each has room for what the largest held.
+  room_ = std::min(std::max(room_, record.facet_pairs.capacity()), kLargestRoom);
+  free_.push_back(&record);
+}
+
+bool PairTable::same_contacts() const {
+  return same_pairs_ && std::ranges::none_of(moved_, [](const MovedPair& pair) { return pair.changed; });
+}
+
+}  // namespace tact

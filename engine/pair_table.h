@@ -1,0 +1,77 @@
+// The candidate pairs and their records, from step to step.
+#pragma once
+
+#include <tact/report.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "broadphase/sweep_and_prune.h"
+#include "engine/bodies.h"
+#include "engine/pair_record.h"
+
+namespace tact {
+
+// A pair that the step looks at.
+struct MovedPair {
+  PairRecord* record = nullptr;
+  std::uint32_t place = 0;  // among the candidates
+  bool touched = false;     // in the step before
+  bool changed = false;     // do the hulls overlap now and did not in the step before, or the other way around?
+};
+
+class PairTable {
+ public:
+  // Takes the pairs of the sweep, sorted: a pair that stays keeps its record, unless a body of it was replaced by
+  // another. Then moved() are those with a body that moved, or all.
+  void update(const broadphase::SweepAndPrune& sweep, const Bodies& bodies, bool all);
+  // Nothing moved.
+  void keep() { moved_.clear(); }
+
+  // Sorted by (a, b). Records of pairs that are not looked at are not read either, as memory is what costs where little
+  // moves.
+  std::span<const CandidatePair> candidates() const { return candidates_; }
+  const PairRecord& record(std::size_t place) const { return *records_[place]; }
+  PairRecord& record(std::size_t place) { return *records_[place]; }
+
+  std::span<MovedPair> moved() { return moved_; }
+  std::span<const MovedPair> moved() const { return moved_; }
+  // Before and after a step looks at a pair; a thread each.
+  void begin(MovedPair& pair) const { pair.touched = touches(*pair.record); }
+  void end(MovedPair& pair) {
+    bool& overlap = candidates_[pair.place].hulls_overlap;
+    pair.changed = overlap != pair.record->hulls_overlap;
+    overlap = pair.record->hulls_overlap;
+  }
+  // Does it touch, once it was looked at? Pairs that are apart and were are not read.
+  bool touches_now(const MovedPair& pair) const {
+    return candidates_[pair.place].hulls_overlap && touches(*pair.record);
+  }
+  // Are the pairs whose hulls overlap those of the last step?
+  bool same_contacts() const;
+
+  // Pairs that touched and are no candidates any more.
+  std::span<const ContactEvent> gone() const { return gone_; }
+
+ private:
+  void select_moved(const Bodies& bodies);
+  void match(std::span<const broadphase::IndexPair> pairs, const Bodies& bodies, bool all);
+  PairRecord& new_record(BodyId a, BodyId b);
+  void retire(PairRecord& record);
+
+  std::vector<std::unique_ptr<PairRecord>> pool_;
+  std::vector<PairRecord*> free_;
+  std::size_t room_ = 0;                      // facet pairs that a record has room for when it is given out
+  std::vector<broadphase::IndexPair> pairs_;  // slots
+  std::vector<CandidatePair> candidates_;     // the same pairs, of bodies
+  std::vector<PairRecord*> records_;          // of these
+  std::vector<CandidatePair> last_candidates_;
+  std::vector<PairRecord*> last_records_;
+  std::vector<MovedPair> moved_;
+  std::vector<ContactEvent> gone_;
+  bool same_pairs_ = false;
+};
+
+}  // namespace tact
