@@ -14,7 +14,8 @@ using Staged = narrowphase::ClusteredMesh::Staged;
 
 constexpr Eigen::Index kLargestCount = std::numeric_limits<int>::max() / 4;
 constexpr std::size_t kPrefetchDistance = 8;  // bodies
-constexpr std::size_t kLargeBody = 32768;     // facets
+// A body of so many facets is refreshed by all threads: one among many, or one of a few that would not keep them busy.
+constexpr std::size_t kLargeBody = 32768, kLargeOfFew = 8192, kFewPerThread = 4;
 constexpr char kAxisName[] = {'x', 'y', 'z'};
 
 std::string quoted(const std::string& name) { return "body '" + name + "'"; }
@@ -171,7 +172,10 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
   }
   check_named_once(updates);
   // Large bodies one after the other, each on all threads.
-  const auto large = [&](std::size_t i) { return threads > 1 && updates_[i].body->facet_count >= kLargeBody; };
+  const bool few = count < kFewPerThread * static_cast<std::size_t>(threads);
+  const auto large = [&](std::size_t i) {
+    return threads > 1 && updates_[i].body->facet_count >= (few ? kLargeOfFew : kLargeBody);
+  };
   base::parallel_for(count, base::grain_of(count, threads, 16, 128), threads, [&](std::size_t i) {
     if (i + 2 * kPrefetchDistance < count) prefetch(updates[i + 2 * kPrefetchDistance].body);
     if (i + kPrefetchDistance < count) {

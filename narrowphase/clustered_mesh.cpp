@@ -15,9 +15,9 @@ namespace tact::narrowphase {
 
 namespace {
 
-constexpr int kLaneGroup = 8;           // facets inside a cluster are ordered in groups of so many neighbours
-constexpr int kClustersPerRange = 256;  // what a thread refreshes at a time
-constexpr int kPrefetchDistance = 8;    // clusters
+constexpr int kLaneGroup = 8;  // facets inside a cluster are ordered in groups of so many neighbours
+constexpr int kFewestInRange = 32, kMostInRange = 256;  // clusters that a thread refreshes at a time
+constexpr int kPrefetchDistance = 8;                    // clusters
 constexpr int kFirstUse = -1;
 
 Vec3 source_position(const double* positions, int vertex) {
@@ -198,16 +198,17 @@ Corners ClusteredMesh::corners(int facet) const {
 }
 
 ClusteredMesh::Staged ClusteredMesh::stage(const double* positions, double largest, int threads) {
-  const int ranges = (cluster_count() + kClustersPerRange - 1) / kClustersPerRange;
-  const bool in_ranges = ranges > 1 && threads > 1;
+  const int per_range = std::clamp(cluster_count() / (4 * threads), kFewestInRange, kMostInRange);
+  const int ranges = (cluster_count() + per_range - 1) / per_range;
+  const bool in_ranges = threads > 1 && cluster_count() > kGroupSize && ranges > 1;
   Refreshed all;
   if (!in_ranges) {
     all = refresh_range(positions, 0, cluster_count());
   } else {
     std::atomic<bool> any_changed{false}, any_not_a_number{false};
     base::parallel_for(static_cast<std::size_t>(ranges), 1, threads, [&](std::size_t i) {
-      const int begin = static_cast<int>(i) * kClustersPerRange;
-      const Refreshed range = refresh_range(positions, begin, std::min(begin + kClustersPerRange, cluster_count()));
+      const int begin = static_cast<int>(i) * per_range;
+      const Refreshed range = refresh_range(positions, begin, std::min(begin + per_range, cluster_count()));
       if (range.changed) any_changed = true;
       if (range.not_a_number) any_not_a_number = true;
     });

@@ -122,6 +122,7 @@ bool stays_below(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double height) 
     std::int32_t near[kGroupSize];
     const int begin = mesh.cluster_begin(group), count = mesh.cluster_end(group) - begin;
     const int found = kernels().select_heights(from(clusters, begin), count, axis, height, near);
+    if (found == 0) return false;
     IndexRange ranges[kGroupSize];
     for (int k = 0; k < found; ++k) ranges[k] = {mesh.vertex_begin(begin + near[k]), mesh.vertex_end(begin + near[k])};
     return kernels().highest_point(mesh.points(), ranges, found, axis, height).index >= 0;
