@@ -16,6 +16,9 @@ constexpr std::int64_t kLargestLoop = std::int64_t{1} << 20;
 // A facet whose box overlaps so many others asks its plane which of them it leaves aside; deciding fewer is as cheap.
 constexpr int kWorthAPlane = 6;
 
+// Two blocks of so many facets are paired at once; of more, those near the other are looked for first.
+constexpr int kFewInBlocks = 48;
+
 BoxBounds bounds_of(const Box& box) {
   return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
 }
@@ -156,10 +159,15 @@ void FacetPairSearch::empty_a() {
 // The facets of each block that are near the other's are paired by their boxes; pairs are decided many at a time.
 void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b, const Box& bounds_b,
                                   std::vector<FacetPair>& found, ConfirmCounts& counts) {
-  const Box common = intersection(bounds_a_, bounds_b);
-  const NearFacets near_b = kernels().near_facets(b.block, b.facets, bounds_of(common));
-  if (near_b.facets == 0) return;
-  const NearFacets near_a = kernels().near_facets(a_.block, a_.facets, near_b.box);
+  const auto of_block = [](const KeptFacets& kept, const Box& bounds) {
+    return NearFacets{kept.facets, bounds_of(bounds)};
+  };
+  NearFacets near_a = of_block(a_, bounds_a_), near_b = of_block(b, bounds_b);
+  if (a_.block.count + b.block.count > kFewInBlocks) {
+    near_b = kernels().near_facets(b.block, b.facets, bounds_of(intersection(bounds_a_, bounds_b)));
+    if (near_b.facets == 0) return;
+    near_a = kernels().near_facets(a_.block, a_.facets, near_b.box);
+  }
   const bool few_are_b = std::popcount(near_b.facets) < std::popcount(near_a.facets);
   const FacetBlock &few = few_are_b ? b.block : a_.block, &many = few_are_b ? a_.block : b.block;
   const NearFacets& others = few_are_b ? near_a : near_b;
