@@ -1,0 +1,93 @@
+#include "narrowphase/adjacent_faces.h"
+
+#include <array>
+
+#include "narrowphase/frame.h"
+
+namespace tact::narrowphase {
+
+namespace {
+
+// Radians. The largest is that up to which no turn is to lead lower, the smallest the one at which a turn about an edge
+// is within rounding.
+constexpr double kProbe = 0.01, kSmallestProbe = 0.5e-6;
+constexpr std::size_t kNearCorners = 8;  // looked at, of a polygon
+constexpr int kFacesAround = 256;        // a corner
+constexpr double kSameFace = 1e-13;      // between unit normals
+
+// The tangent at n along which the height of a corner falls fastest.
+Vec3 away_from(Vec3 corner, Vec3 n) {
+  const Vec3 across = corner - dot(corner, n) * n;
+  return across == Vec3{} ? frame_across(n).u : normalized(-across);
+}
+
+}  // namespace
+
+std::optional<Vec3> AdjacentFaces::lowest(const SupportedFace& face, double near) {
+  const FacePolygon& polygon = *face.polygon;
+  const std::size_t sides = polygon.corner.size();
+  const auto in_space = [&](Point2 p) { return p.x * polygon.u + p.y * polygon.v + face.height * face.n; };
+  const auto is_near = [&](std::size_t side) {
+    return sides == 2 || distance_from_side(polygon, side % sides) <= near;
+  };
+  lowest_height_ = face.height - tolerance_;
+  lowest_.reset();
+  std::array<Vec3, kNearCorners> corners;
+  std::size_t count = 0;
+  if (sides == 1) corners[count++] = in_space(polygon.corner[0]);
+  for (std::size_t i = 0; sides > 1 && i < sides; ++i) {
+    if (!is_near(i)) continue;
+    turn_over_side(face, in_space(polygon.corner[i]), outward_of_side(polygon, i));
+    if (is_near(i + 1) && count < kNearCorners) corners[count++] = in_space(corner_at(polygon.corner, i + 1));
+  }
+  for (std::size_t k = 0; k < count && !lowest_; ++k) go_around(face, corners[k]);
+  return lowest_;
+}
+
+// Turns about the axis through a point of the side, to the next face; and by small angles where that is not lower, for
+// it may be a sliver with a lower face behind it.
+void AdjacentFaces::turn_over_side(const SupportedFace& face, Vec3 axis_point, Vec3 outward) {
+  const double before = lowest_height_;
+  try_direction(turned_to_next_face(m_, face.n, axis_point, outward, tolerance_, face.top), face.top);
+  for (double turn = kProbe; turn > kSmallestProbe && !(lowest_height_ < before); turn *= 0.1) {
+    try_direction(normalized(face.n + turn * outward), face.top);
+  }
+}
+
+// Of the directions that a corner of M supports, w is the lowest at the normal of a face around it. Goes around it one
+// way, and the other way too if the first comes to a right angle to n.
+void AdjacentFaces::go_around(const SupportedFace& face, Vec3 corner) {
+  if (!go_around(face, corner, Way::counter_clockwise)) go_around(face, corner, Way::clockwise);
+}
+
+// Did it come back to where it began?
+bool AdjacentFaces::go_around(const SupportedFace& face, Vec3 corner, Way way) {
+  Vec3 n = face.n;
+  std::optional<Vec3> first;
+  for (int i = 0; i < kFacesAround; ++i) {
+    const FacePolygon& polygon = faces_.supported(m_, n, tolerance_, face.top);
+    const std::size_t sides = polygon.corner.size();
+    if (sides == 1 && i > 0) return false;
+    if (sides > 2) {
+      if (first && norm(n - *first) <= kSameFace) return true;
+      if (!first) first = n;
+    }
+    const std::size_t k = nearest_corner(polygon, {dot(polygon.u, corner), dot(polygon.v, corner)});
+    const std::size_t side = (way == Way::clockwise ? k + sides - 1 : k) % sides;
+    const Vec3 outward = sides == 1 ? away_from(corner, n) : outward_of_side(polygon, side);
+    n = turned_to_next_face(m_, n, corner, outward, tolerance_, face.top);
+    try_direction(n, face.top);
+    if (!(dot(n, face.n) > 0.0)) return false;
+  }
+  return false;
+}
+
+void AdjacentFaces::try_direction(Vec3 n, const MinkowskiVertex& near) {
+  ++support_queries_;
+  const double w = dot(n, m_.support(n, near).point);
+  if (!(w < lowest_height_)) return;
+  lowest_height_ = w;
+  lowest_ = n;
+}
+
+}  // namespace tact::narrowphase
