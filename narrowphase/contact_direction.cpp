@@ -117,7 +117,9 @@ class Search {
   // The foot lies beyond a side of a face of M: the side, and the vertex that a plane turned about it by a fixed angle
   // finds, unless that is an end of the side.
   std::optional<GjkSimplex> across(const FaceTriangle& triangle, std::size_t side) {
-    const MinkowskiVertex v = support(normalized(best_.n + kTilt * triangle.outward(side)));
+    const Vec3 outward = triangle.outward(side);
+    if (!(norm_squared(outward) > 0.0)) return std::nullopt;  // not a number: rounding has turned the side along n
+    const MinkowskiVertex v = support(normalized(best_.n + kTilt * outward));
     if (triangle.is_end_of(side, v)) return std::nullopt;
     return triangle.side_and(side, v);
   }

@@ -33,8 +33,9 @@ FaceTriangle::Side FaceTriangle::side_of_foot() const {
   Side nearest{0, std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 from = corner_[i], to = corner_[(i + 1) % 3];
-    const double distance = span(from, to) / norm(to - from);
-    if (!(distance >= nearest.distance)) nearest = {i, distance};
+    const double length = norm(to - from);  // of points of M, rounded: it may vanish where that of a side does not
+    const double distance = length > 0.0 ? span(from, to) / length : 0.0;
+    if (distance < nearest.distance) nearest = {i, distance};
   }
   return nearest;
 }
