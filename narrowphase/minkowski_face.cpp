@@ -56,13 +56,6 @@ void minkowski_sum(const std::vector<Point2>& p, const std::vector<Point2>& q, s
   if (sum.empty()) sum.push_back({p[0].x + q[0].x, p[0].y + q[0].y});
 }
 
-// Leaves one of neighbouring corners that are no farther apart than `distance`: no side of theirs has a direction.
-void drop_repeated(std::vector<Point2>& polygon, double distance) {
-  const auto repeats = [&](Point2 p, Point2 q) { return std::hypot(p.x - q.x, p.y - q.y) <= distance; };
-  polygon.erase(std::unique(polygon.begin(), polygon.end(), repeats), polygon.end());
-  if (polygon.size() > 1 && repeats(polygon.front(), polygon.back())) polygon.pop_back();
-}
-
 }  // namespace
 
 Point2 corner_at(const std::vector<Point2>& polygon, std::size_t i) { return polygon[i % polygon.size()]; }
@@ -114,7 +107,6 @@ void FaceFinder::project(const MinkowskiDifference& m, Vec3 n) {
   polygon_.u = frame.u;
   polygon_.v = frame.v;
   convex_hull(sum_, polygon_.corner);  // drops corners that rounding made straight or inward
-  drop_repeated(polygon_.corner, m.height_error());
   const Point2 base = flat(m.vertex(a_[0], b_[0]).point);
   for (Point2& c : polygon_.corner) c = {c.x + base.x, c.y + base.y};
 }

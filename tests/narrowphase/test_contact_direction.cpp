@@ -114,9 +114,13 @@ TEST(ContactDirection, IsALocalMinimumAndNeverHigherThanItsStart) {
   EXPECT_GT(overlapping, 150);
 }
 
+// The first of them, and those that show what is left out: corners that are near to a face's foot, faces that are not
+// supported, a walk that ends above its start.
 TEST(ContactDirection, HostilePairsEndAtLocalMinima) {
+  std::vector<std::uint64_t> seeds{1115, 2053, 2951, 83345, 100435, 110414};
+  for (std::uint64_t seed = 0; seed < 600; ++seed) seeds.push_back(seed);
   std::int64_t directions = 0;
-  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+  for (const std::uint64_t seed : seeds) {
     EXPECT_EQ(tests::problem_of_directions(tests::hostile_hull_pair(seed), directions), "") << "seed " << seed;
   }
   EXPECT_GT(directions, 600);
