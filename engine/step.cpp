@@ -135,6 +135,7 @@ void Step::narrow_phase(const Bodies& bodies, const Settings& settings) {
     ThreadTally& tally = tallies_[static_cast<std::size_t>(thread)];
     PairRecord& record = *moved[i].record;
     const Body &a = bodies.in_slot(record.a.index), &b = bodies.in_slot(record.b.index);
+    if (!std::exchange(tally.begun, true)) tally.timer.lap();
     table_.begin(moved[i]);
     const bool confirms = find_direction_and_cull(record, a, b, settings, device_, work, tally.timer);
     record.counts.thread = thread;
@@ -182,6 +183,7 @@ void Step::count_bodies_and_pairs(const Bodies& bodies) {
 
 void Step::make_report(int threads) {
   const std::span<const CandidatePair> candidates = table_.candidates();
+  if (report_.candidate_pairs_.capacity() < candidates.size()) report_.candidate_pairs_.reserve(2 * candidates.size());
   report_.candidate_pairs_.assign(candidates.begin(), candidates.end());
   contact_places_.clear();
   for (std::size_t i = 0; i < candidates.size(); ++i) {

@@ -34,7 +34,8 @@ class Step {
  private:
   // What a thread did, and its clock.
   struct alignas(64) ThreadTally {
-    base::Timer timer;
+    base::Timer timer;  // runs from pair to pair
+    bool begun = false;
     StepStats stats;
   };
 

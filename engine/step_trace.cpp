@@ -27,9 +27,10 @@ Time::duration pair_duration(const PairCounts& counts) {
 
 std::int64_t facet_pairs_of(const PairRecord& record) { return static_cast<std::int64_t>(record.facet_pairs.size()); }
 
-void add_pair(const PairRecord& record, std::vector<TraceEvent>& events) {
+// Durations are rounded: none ends after `latest`, when the thread went on to the next pair.
+void add_pair(const PairRecord& record, Time latest, std::vector<TraceEvent>& events) {
   const PairCounts& counts = record.counts;
-  const Time end = counts.begin + pair_duration(counts);
+  const Time end = std::min(counts.begin + pair_duration(counts), latest);
   events.push_back({Kind::pair, counts.thread, counts.begin, end, record.a, record.b, facet_pairs_of(record)});
   Time begin = counts.begin;
   for (const auto& [kind, ms] : {std::pair{Kind::hulls, counts.hulls_ms},
@@ -37,7 +38,7 @@ void add_pair(const PairRecord& record, std::vector<TraceEvent>& events) {
                                  {Kind::cull, counts.cull_ms},
                                  {Kind::confirm, counts.confirm_ms}}) {
     if (ms == 0.0 || (kind == Kind::confirm && counts.in_ranges)) continue;
-    const Time stage_end = begin + duration_of(ms);
+    const Time stage_end = std::min(begin + duration_of(ms), latest);
     const std::int64_t count = kind == Kind::confirm ? facet_pairs_of(record) : 0;
     events.push_back({kind, counts.thread, begin, stage_end, record.a, record.b, count});
     begin = stage_end;
@@ -95,18 +96,21 @@ void StepTrace::add_pairs(std::span<const MovedPair> pairs, std::vector<TraceEve
     if (small.count > 0) events.push_back(small);
     small.count = 0;
   };
-  for (const PairRecord* record : by_thread_) {
-    const PairCounts& counts = record->counts;
+  for (std::size_t i = 0; i < by_thread_.size(); ++i) {
+    const PairRecord& record = *by_thread_[i];
+    const PairCounts& counts = record.counts;
+    const bool last = i + 1 == by_thread_.size() || by_thread_[i + 1]->counts.thread != counts.thread;
+    const Time latest = last ? Time::max() : by_thread_[i + 1]->counts.begin;
     const Time::duration duration = pair_duration(counts);
     const bool is_long = counts.in_ranges || duration >= kLongPair;
     if (is_long || counts.thread != small.thread) flush();
     if (is_long) {
-      add_pair(*record, events);
+      add_pair(record, latest, events);
       continue;
     }
     if (small.count == 0) small.begin = counts.begin;
     small.thread = counts.thread;
-    small.end = counts.begin + duration;
+    small.end = std::min(counts.begin + duration, latest);
     ++small.count;
   }
   flush();

@@ -1,8 +1,7 @@
 #include "narrowphase/adjacent_faces.h"
 
 #include <array>
-
-#include "narrowphase/frame.h"
+#include <cmath>
 
 namespace tact::narrowphase {
 
@@ -12,13 +11,14 @@ namespace {
 // is within rounding.
 constexpr double kProbe = 0.01, kSmallestProbe = 0.5e-6;
 constexpr std::size_t kNearCorners = 8;  // looked at, of a polygon
-constexpr int kFacesAround = 256;        // a corner
+constexpr int kFacesAround = 256;        // a corner, each way
 constexpr double kSameFace = 1e-13;      // between unit normals
 
-// The tangent at n along which the height of a corner falls fastest.
-Vec3 away_from(Vec3 corner, Vec3 n) {
-  const Vec3 across = corner - dot(corner, n) * n;
-  return across == Vec3{} ? frame_across(n).u : normalized(-across);
+// The tangent along which the height of a polygon's only corner falls fastest; any where the foot is the corner.
+Vec3 away_from_corner(const FacePolygon& polygon) {
+  const Point2 c = polygon.corner[0];
+  const double distance = std::hypot(c.x, c.y);
+  return distance > 0.0 ? (-c.x / distance) * polygon.u - (c.y / distance) * polygon.v : polygon.u;
 }
 
 }  // namespace
@@ -47,6 +47,7 @@ std::optional<Vec3> AdjacentFaces::lowest(const SupportedFace& face, double near
 // Turns about the axis through a point of the side, to the next face; and by small angles where that is not lower, for
 // it may be a sliver with a lower face behind it.
 void AdjacentFaces::turn_over_side(const SupportedFace& face, Vec3 axis_point, Vec3 outward) {
+  if (!(norm_squared(outward) > 0.0)) return;
   const double before = lowest_height_;
   try_direction(turned_to_next_face(m_, face.n, axis_point, outward, tolerance_, face.top), face.top);
   for (double turn = kProbe; turn > kSmallestProbe && !(lowest_height_ < before); turn *= 0.1) {
@@ -74,7 +75,7 @@ bool AdjacentFaces::go_around(const SupportedFace& face, Vec3 corner, Way way) {
     }
     const std::size_t k = nearest_corner(polygon, {dot(polygon.u, corner), dot(polygon.v, corner)});
     const std::size_t side = (way == Way::clockwise ? k + sides - 1 : k) % sides;
-    const Vec3 outward = sides == 1 ? away_from(corner, n) : outward_of_side(polygon, side);
+    const Vec3 outward = sides == 1 ? away_from_corner(polygon) : outward_of_side(polygon, side);
     n = turned_to_next_face(m_, n, corner, outward, tolerance_, face.top);
     try_direction(n, face.top);
     if (!(dot(n, face.n) > 0.0)) return false;

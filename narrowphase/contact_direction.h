@@ -27,13 +27,13 @@ struct ContactDirection {
 // direction supports. Each iteration shifts A back along n by a little more than the hulls overlap, takes the closest
 // points by GJK and turns n to them; w never increases. A foot on an edge or a corner of M repeats without being a
 // minimum: from an edge n is turned to the adjacent face with the smaller w, from a corner to the lowest of the faces
-// around it. So it is from a foot that lies in a face, but so near to its border that a small turn beyond leads lower. n
-// is the normal of the face, computed from its vertices, and does not depend on the path.
+// around it. So it is from a foot that lies in a face, but so near to its border that a small turn beyond leads lower.
+// n is the normal of the face, computed from its vertices, and does not depend on the path.
 //
-// `face` is the last step's: from it the search goes over sides, and to vertices that have come up, a face at a time. If
-// that ends at one that holds the foot, no higher than w(start), that is the answer, without an iteration. Where M is flat
-// the height is zero and n its normal on the side of `start`; where M is a segment or a point, n is the direction across
-// it nearest to `start`. `faces` lends its memory.
+// `face` is the last step's: from it the search goes over sides, and to vertices that have come up, a face at a time.
+// If that ends at one that holds the foot, no higher than w(start), that is the answer, without an iteration. Where M
+// is flat the height is zero and n its normal on the side of `start`; where M is a segment or a point, n is the
+// direction across it nearest to `start`. `faces` lends its memory.
 ContactDirection contact_direction(const MinkowskiDifference& m, Vec3 start, const GjkSimplex& face,
                                    const DirectionSettings& settings, FaceFinder& faces);
 

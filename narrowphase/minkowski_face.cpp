@@ -141,6 +141,7 @@ double margin_of_foot(const FacePolygon& polygon) {
 
 Vec3 turned_to_next_face(const MinkowskiDifference& m, Vec3 n, Vec3 p, Vec3 t, double tolerance,
                          const MinkowskiVertex& near) {
+  if (!(norm_squared(t) > 0.0)) return n;  // not a direction
   Vec3 turned = t;
   MinkowskiVertex top = near;
   for (int i = 0; i < kTurnLimit; ++i) {
@@ -150,7 +151,7 @@ Vec3 turned_to_next_face(const MinkowskiDifference& m, Vec3 n, Vec3 p, Vec3 t, d
     const double along = dot(t, d), below = std::max(0.0, -dot(n, d));
     if (along <= tolerance) break;
     const Vec3 next = normalized(along * n + below * t);
-    if (next == turned) break;
+    if (next == turned || !(norm_squared(next) > 0.0)) break;
     turned = next;
   }
   return turned;

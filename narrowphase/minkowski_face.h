@@ -21,7 +21,7 @@ struct FacePolygon {
 // has two sides, on one line. There must be at least two corners.
 double distance_from_side(const FacePolygon& polygon, std::size_t side);
 
-// Across n and the side, away from the polygon; unit.
+// Across n and the side, away from the polygon; unit, or not numbers for a side without length.
 Vec3 outward_of_side(const FacePolygon& polygon, std::size_t side);
 
 Point2 corner_at(const std::vector<Point2>& polygon, std::size_t i);  // i may be beyond the last: it goes around
@@ -51,8 +51,8 @@ class FaceFinder {
 
 // Turns n about the axis through `p`, a point of M in the supporting plane of n, towards `t` (unit, across n and the
 // axis) until the plane meets another vertex of M: the normal of that supporting plane. M must not reach beyond the
-// plane of n by more than `tolerance`. Nothing is found within a right angle: t itself. `near`: see
-// MinkowskiDifference::support().
+// plane of n by more than `tolerance`. Nothing is found within a right angle: t itself; t is not a direction: n.
+// `near`: see MinkowskiDifference::support().
 Vec3 turned_to_next_face(const MinkowskiDifference& m, Vec3 n, Vec3 p, Vec3 t, double tolerance,
                          const MinkowskiVertex& near);
 

@@ -1,12 +1,14 @@
 #!/bin/bash
-# What is too long for every change: millions of hard triangle pairs, a soak of a million steps, a thousand cases of every
-# kind of hardship, the tests with assertions on and under the sanitizers, and the fuzzing of the readers.
+# What is too long for every change: a hundred million hard triangle pairs, a million of hulls, a soak of a million steps,
+# a thousand cases of every kind of hardship, the tests with assertions on and under the sanitizers, and the fuzzing of the
+# readers.
 # usage: scripts/nightly.sh [SECONDS of fuzzing a format, 600 if not given]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh program tests bench sanitizers
 scripts/build.sh release
 TACT_LONG_CGAL_PAIRS=100000000 TACT_LONG_RATIONAL_PAIRS=1000000 build/release/tests/long/test_predicates_long
+TACT_LONG_HULL_PAIRS=1000000 build/release/tests/long/test_directions_long
 TACT_SOAK_STEPS=1000000 build/release/tests/long/test_soak_long
 build/release/bench/tact-bench stability
 scripts/build.sh debug

@@ -53,7 +53,7 @@ HighestPoint highest_point(PointArrays points, const IndexRange* ranges, int ran
       here = add(here, spread(kWidth));
     }
   }
-  if (bits(less_equal(spread(least), high)) == 0) return {-__builtin_inf(), -1, false};
+  if (bits(both(less(lowest, high), less_equal(spread(least), high))) == 0) return {-__builtin_inf(), -1, false};
   const double top = largest_lane(high);
   const Mask at_top = less_equal(spread(top), high);
   alignas(64) double first_of[kWidth];

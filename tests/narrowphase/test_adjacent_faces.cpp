@@ -59,6 +59,27 @@ TEST(AdjacentFaces, AroundACornerTheLowestIsFound) {
   }
 }
 
+// The foot is a corner itself, but for rounding: no direction away from it is better than another.
+TEST(AdjacentFaces, FromAFootOnACornerToAFace) {
+  const double s = 1.0 / std::numbers::sqrt2, r = 1.0;
+  const std::vector<Vec3> octahedron{{0, s, s}, {0, -s, s}, {0, s, -s}, {0, -s, -s}, {r, 0, 0}, {-r, 0, 0}};
+  const ClusteredMesh a = tests::mesh_through(octahedron);
+  const Vec3 n = normalized(Vec3{0, 1, 1});
+  for (int i = 1; i <= 400; ++i) {
+    const double k = s * (1.0 - i / 400.0);
+    const ClusteredMesh b = tests::mesh_through(std::vector<Vec3>{{0, k, k}});  // M's corner is (0, s - k, s - k)
+    const MinkowskiDifference m(a, b);
+    const double tolerance = 4.0 * m.height_error();
+    FaceFinder faces;
+    AdjacentFaces adjacent(m, faces, tolerance);
+    const MinkowskiVertex top = m.support(n);
+    const auto lowest = adjacent.lowest(
+        {.n = n, .height = dot(n, top.point), .top = top, .polygon = &faces.supported(m, n, tolerance, top)}, 0.0);
+    ASSERT_TRUE(lowest) << i;
+    EXPECT_NEAR(dot(*lowest, m.support(*lowest).point), dot(n, top.point) / std::numbers::sqrt3, 1e-14) << i;
+  }
+}
+
 // The foot lies in the middle of the top of a box, or so near to a side of it that what is behind is lower.
 TEST(AdjacentFaces, OverASideOnlyIfTheFootIsNearIt) {
   const std::vector<Vec3> box{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};

@@ -47,6 +47,19 @@ TEST(ContactDirection, LeavesTheDiagonalOfACube) {  // fcl#545: the corner and t
   }
 }
 
+// Vertex on vertex along the start, at many depths: the corner repeats, and every tangent is as good as another.
+TEST(ContactDirection, LeavesTheVerticesOfOctahedra) {
+  const double s = 1.0 / std::numbers::sqrt2;
+  const std::vector<Vec3> octahedron{{0, s, s}, {0, -s, s}, {0, s, -s}, {0, -s, -s}, {1, 0, 0}, {-1, 0, 0}};
+  const ClusteredMesh a = tests::mesh_through(octahedron);
+  for (int i = 1; i < 200; ++i) {
+    std::vector<Vec3> other = octahedron;
+    for (Vec3& p : other) p = p + (2.0 * s * (1.0 - i / 400.0)) * Vec3{0, 1, 1};
+    const Found found = direction(a, tests::mesh_through(other), {0, 1, 1});
+    EXPECT_TRUE(tests::is_local_minimum(octahedron, other, found.n, 1e-13)) << i;
+  }
+}
+
 TEST(ContactDirection, StackedBoxesHaveDepthZero) {
   const Found found = direction(box({0, 0, 0}, {1, 1, 1}), box({0, 0, 1}, {1, 1, 2}), {0.1, 0.2, 1.0});
   EXPECT_EQ(found.depth, 0.0);

@@ -312,7 +312,7 @@ TEST(Kernels, OfEquallyHighPointsTheFirstIsTheHighest) {
     std::vector<double> x(60, 9.0);  // outside of the ranges it is higher
     std::vector<IndexRange> ranges;
     std::vector<int> inside;
-    for (int begin = random.below(4); begin < 40;) {
+    for (int begin = random.below(4); begin < 40 && repeat % 50 != 49;) {  // none, once in a while
       const int end = std::min(begin + random.below(20), 40);
       ranges.push_back({begin, end});
       for (int i = begin; i < end; ++i) inside.push_back(i);
@@ -323,9 +323,10 @@ TEST(Kernels, OfEquallyHighPointsTheFirstIsTheHighest) {
     const auto first = std::ranges::max_element(inside, {}, height);
     const int index = first == inside.end() ? -1 : *first;
     const bool several = index >= 0 && std::ranges::count(inside, height(index), height) > 1;
+    const double least = repeat % 2 == 0 ? -1.0 : -std::numeric_limits<double>::infinity();
     for (const Kernels* kernels : tests::available_kernels()) {
       const HighestPoint top = kernels->highest_point({x.data(), zero.data(), zero.data()}, ranges.data(),
-                                                      static_cast<int>(ranges.size()), {1, 0, 0, 0, 0, 0}, -1.0);
+                                                      static_cast<int>(ranges.size()), {1, 0, 0, 0, 0, 0}, least);
       EXPECT_EQ(top.index, index) << kernels->name;
       EXPECT_EQ(top.several, several) << kernels->name;
       EXPECT_EQ(top.height, index < 0 ? -std::numeric_limits<double>::infinity() : height(index)) << kernels->name;

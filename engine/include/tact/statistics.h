@@ -44,16 +44,16 @@ namespace tact {
 
 // Every time of a step, in milliseconds. The stages 3 to 6 run pair by pair on all threads: theirs are sums over
 // threads.
-#define TACT_STEP_TIMES(X)                                                     \
-  X(refresh_ms, "stage 1: setting positions since the last step")              \
-  X(sweep_ms, "stage 2: candidate pairs")                                      \
-  X(hulls_ms, "stage 3: do the hulls overlap, summed over threads")            \
-  X(gjk_ms, "that part of stage 3 in which pairs needed GJK")                  \
-  X(direction_ms, "stage 4: contact direction and depth, summed over threads") \
-  X(cull_ms, "stage 5: zones and criteria, summed over threads")               \
-  X(confirm_ms, "stage 6: facet pairs, summed over threads")                   \
-  X(narrow_phase_ms, "stages 3 to 6 together, wall time")                      \
-  X(report_ms, "stage 7: the report")                                          \
+#define TACT_STEP_TIMES(X)                                                                         \
+  X(refresh_ms, "stage 1: setting positions since the last step")                                  \
+  X(sweep_ms, "stage 2: candidate pairs")                                                          \
+  X(hulls_ms, "stage 3: do the hulls overlap, summed over threads; and from one pair to the next") \
+  X(gjk_ms, "that part of stage 3 in which pairs needed GJK")                                      \
+  X(direction_ms, "stage 4: contact direction and depth, summed over threads")                     \
+  X(cull_ms, "stage 5: zones and criteria, summed over threads")                                   \
+  X(confirm_ms, "stage 6: facet pairs, summed over threads")                                       \
+  X(narrow_phase_ms, "stages 3 to 6 together, wall time")                                          \
+  X(report_ms, "stage 7: the report")                                                              \
   X(total_ms, "the whole step, refresh included")
 
 struct StepStats {
