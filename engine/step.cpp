@@ -15,7 +15,8 @@ namespace {
 
 using base::Timer;
 
-constexpr std::size_t kContactsAtATime = 64;
+// So many contacts are reported by one thread: it takes less than to wake another.
+constexpr std::size_t kFewContacts = 1024, kContactsAtATime = 64;
 
 ContactEvent event_of(const PairRecord& record) { return {record.a, record.b}; }
 
@@ -191,7 +192,8 @@ void Step::make_report(int threads) {
   }
   report_.contacts_.resize(contact_places_.size());
   report_.stats_.contacts = static_cast<std::int64_t>(contact_places_.size());
-  base::parallel_for(contact_places_.size(), kContactsAtATime, threads, [&](std::size_t i, int thread) {
+  const std::size_t at_a_time = contact_places_.size() <= kFewContacts ? kFewContacts : kContactsAtATime;
+  base::parallel_for(contact_places_.size(), at_a_time, threads, [&](std::size_t i, int thread) {
     PairRecord& record = table_.record(contact_places_[i]);
     record.reported = i;
     fill(report_.contacts_[i], record);
