@@ -33,7 +33,6 @@ class PairTable {
   // Sorted by (a, b). Records of pairs that are not looked at are not read either, as memory is what costs where little
   // moves.
   std::span<const CandidatePair> candidates() const { return candidates_; }
-  const PairRecord& record(std::size_t place) const { return *records_[place]; }
   PairRecord& record(std::size_t place) { return *records_[place]; }
 
   std::span<MovedPair> moved() { return moved_; }

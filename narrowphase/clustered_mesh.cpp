@@ -16,8 +16,9 @@ namespace tact::narrowphase {
 namespace {
 
 constexpr int kLaneGroup = 8;  // facets inside a cluster are ordered in groups of so many neighbours
-constexpr int kFewestInRange = 32, kMostInRange = 256;  // clusters that a thread refreshes at a time
-constexpr int kPrefetchDistance = 8;                    // clusters
+// Clusters that a thread refreshes at a time: at least a group, so that whoever is cut into ranges has groups.
+constexpr int kFewestInRange = kGroupSize, kMostInRange = 256;
+constexpr int kPrefetchDistance = 8;  // clusters
 constexpr int kFirstUse = -1;
 
 Vec3 source_position(const double* positions, int vertex) {
@@ -200,7 +201,7 @@ Corners ClusteredMesh::corners(int facet) const {
 ClusteredMesh::Staged ClusteredMesh::stage(const double* positions, double largest, int threads) {
   const int per_range = std::clamp(cluster_count() / (4 * threads), kFewestInRange, kMostInRange);
   const int ranges = (cluster_count() + per_range - 1) / per_range;
-  const bool in_ranges = threads > 1 && cluster_count() > kGroupSize && ranges > 1;
+  const bool in_ranges = threads > 1 && ranges > 1;
   Refreshed all;
   if (!in_ranges) {
     all = refresh_range(positions, 0, cluster_count());

@@ -13,6 +13,23 @@ constexpr int kFew = 8;      // clusters
 
 PointArrays from(PointArrays points, int first) { return {points.x + first, points.y + first, points.z + first}; }
 
+// The clusters of a group whose box reaches up to `height`, ascending; how many, at most kGroupSize.
+int reaching_clusters(const ClusteredMesh& mesh, int group, PointArrays far_corners, const HeightAxis& axis,
+                      double height, std::int32_t* found) {
+  const int begin = mesh.cluster_begin(group), count = mesh.cluster_end(group) - begin;
+  const int reaching = kernels().select_heights(from(far_corners, begin), count, axis, height, found);
+  for (int k = 0; k < reaching; ++k) found[k] += begin;
+  return reaching;
+}
+
+// The highest of the vertices that some clusters own, at most kGroupSize of them, ascending.
+HighestPoint highest_vertex(const ClusteredMesh& mesh, const std::int32_t* clusters, int count, const HeightAxis& axis,
+                            double least) {
+  IndexRange ranges[kGroupSize];
+  for (int k = 0; k < count; ++k) ranges[k] = {mesh.vertex_begin(clusters[k]), mesh.vertex_end(clusters[k])};
+  return kernels().highest_point(mesh.points(), ranges, count, axis, least);
+}
+
 class Search {
  public:
   Search(const ClusteredMesh& mesh, Vec3 n, Vec3 origin)
@@ -27,9 +44,7 @@ class Search {
   // Looks at the vertices that some clusters own, given in ascending order. Of equal ones in one cluster the first is
   // the one with the lowest source vertex, as they stand in the caller's order; of several clusters each is asked.
   void open(const std::int32_t* clusters, int count) {
-    IndexRange ranges[kGroupSize];
-    for (int k = 0; k < count; ++k) ranges[k] = {mesh_.vertex_begin(clusters[k]), mesh_.vertex_end(clusters[k])};
-    const HighestPoint top = kernels().highest_point(mesh_.points(), ranges, count, axis_, best_.height);
+    const HighestPoint top = highest_vertex(mesh_, clusters, count, axis_, best_.height);
     if (top.index < 0) return;
     if (top.several && count > 1) {
       for (int k = 0; k < count; ++k) open(clusters + k, 1);
@@ -43,13 +58,14 @@ class Search {
   // Looks at the clusters of a group that can hold the highest vertex: all that reach above the best so far if these
   // are few, else the one that reaches farthest first.
   void open_group(int group, PointArrays far_corners) {
-    const IndexRange clusters{mesh_.cluster_begin(group), mesh_.cluster_end(group)};
     std::int32_t reaching[kGroupSize];
-    int found = select(clusters, far_corners, reaching);
+    const auto select = [&] { return reaching_clusters(mesh_, group, far_corners, axis_, best_.height, reaching); };
+    int found = select();
     if (found > kFew) {
+      const IndexRange clusters{mesh_.cluster_begin(group), mesh_.cluster_end(group)};
       const std::int32_t first = kernels().highest_point(far_corners, &clusters, 1, axis_, best_.height).index;
       open(&first, 1);
-      found = select(clusters, far_corners, reaching);
+      found = select();
     }
     if (found > 0) open(reaching, found);
   }
@@ -58,13 +74,6 @@ class Search {
   const HeightAxis& axis() const { return axis_; }
 
  private:
-  int select(IndexRange clusters, PointArrays far_corners, std::int32_t* reaching) const {
-    const int found = kernels().select_heights(from(far_corners, clusters.begin), clusters.end - clusters.begin, axis_,
-                                               best_.height, reaching);
-    for (int k = 0; k < found; ++k) reaching[k] += clusters.begin;
-    return found;
-  }
-
   bool precedes(const Support& other) const {
     return best_.vertex < 0 || mesh_.source_vertex(other.vertex) < mesh_.source_vertex(best_.vertex);
   }
@@ -120,12 +129,8 @@ bool stays_below(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double height) 
   const PointArrays groups = far_corners(mesh.group_boxes(), n), clusters = far_corners(mesh.cluster_boxes(), n);
   const auto group_reaches = [&](int group) {
     std::int32_t near[kGroupSize];
-    const int begin = mesh.cluster_begin(group), count = mesh.cluster_end(group) - begin;
-    const int found = kernels().select_heights(from(clusters, begin), count, axis, height, near);
-    if (found == 0) return false;
-    IndexRange ranges[kGroupSize];
-    for (int k = 0; k < found; ++k) ranges[k] = {mesh.vertex_begin(begin + near[k]), mesh.vertex_end(begin + near[k])};
-    return kernels().highest_point(mesh.points(), ranges, found, axis, height).index >= 0;
+    const int found = reaching_clusters(mesh, group, clusters, axis, height, near);
+    return found > 0 && highest_vertex(mesh, near, found, axis, height).index >= 0;
   };
   if (mesh.group_count() == 1) return !group_reaches(0);
   for (int block = 0; block < mesh.group_count(); block += kBlock) {
@@ -143,9 +148,8 @@ void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double h
   const PointArrays groups = far_corners(mesh.group_boxes(), n), clusters = far_corners(mesh.cluster_boxes(), n);
   const auto select_in_group = [&](int group) {
     std::int32_t inside[kGroupSize];
-    const int begin = mesh.cluster_begin(group), count = mesh.cluster_end(group) - begin;
-    const int kept = kernels().select_heights(from(clusters, begin), count, axis, height, inside);
-    for (int k = 0; k < kept; ++k) found.push_back(begin + inside[k]);
+    const int kept = reaching_clusters(mesh, group, clusters, axis, height, inside);
+    found.insert(found.end(), inside, inside + kept);
   };
   found.clear();
   if (mesh.group_count() == 1) return select_in_group(0);

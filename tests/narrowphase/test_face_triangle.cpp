@@ -10,8 +10,8 @@
 namespace tact::narrowphase {
 namespace {
 
-// A triangle at height 1 less a point at the origin: vertices of M are those of the triangle. A third of the size of a
-// body is enough to have no effect.
+// Points less a point at the origin: vertices of M are those of A. The first three are a triangle at height 1, two more
+// are higher, and the last stands where the first does.
 class Triangle : public ::testing::TestWithParam<std::array<int, 3>> {
  protected:
   Triangle() : a_(tests::mesh_through(points())), b_(tests::mesh_through(std::vector<Vec3>{{0, 0, 0}})), m_(a_, b_) {}
