@@ -101,5 +101,18 @@ TEST(AdjacentFaces, OverASideOnlyIfTheFootIsNearIt) {
   }
 }
 
+TEST(AdjacentFaces, ASideWithoutLengthTurnsNothing) {
+  const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const ClusteredMesh a = tests::mesh_through(corners);
+  const ClusteredMesh b = tests::mesh_through(std::vector<Vec3>{{0.1, 0.1, 0.1}});
+  const MinkowskiDifference m(a, b);
+  const Vec3 up{0, 0, 1};
+  const FacePolygon polygon{.u = {1, 0, 0}, .v = {0, 1, 0}, .corner = {{0.5, 0.5}, {0.5, 0.5}}};
+  const Vec3 outward = outward_of_side(polygon, 0);
+  EXPECT_TRUE(std::isnan(outward.x));
+  const MinkowskiVertex top = m.support(up);
+  EXPECT_EQ(turned_to_next_face(m, up, top.point, outward, 4.0 * m.height_error(), top), up);
+}
+
 }  // namespace
 }  // namespace tact::narrowphase
