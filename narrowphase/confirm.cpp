@@ -23,6 +23,15 @@ BoxBounds bounds_of(const Box& box) {
   return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
 }
 
+BoxBounds merged(const BoxBounds& a, const BoxBounds& b) {
+  BoxBounds all;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    all.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
+    all.upper[axis] = std::max(a.upper[axis], b.upper[axis]);
+  }
+  return all;
+}
+
 Triangle triangle_in(const FacetBlock& block, std::size_t i) {
   Triangle t;
   for (std::size_t k = 0; k < 3; ++k) t[k] = {block.corner[k][0][i], block.corner[k][1][i], block.corner[k][2][i]};
@@ -168,6 +177,7 @@ void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b
     if (near_b.facets == 0) return;
     near_a = kernels().near_facets(a_.block, a_.facets, near_b.box);
   }
+  const BoxBounds bounds = merged(near_a.box, near_b.box);
   const bool few_are_b = std::popcount(near_b.facets) < std::popcount(near_a.facets);
   const FacetBlock &few = few_are_b ? b.block : a_.block, &many = few_are_b ? a_.block : b.block;
   const NearFacets& others = few_are_b ? near_a : near_b;
@@ -175,14 +185,14 @@ void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b
     const PairedFacets paired = kernels().pair_facets(few, left, many, others, few_are_b, kWorthAPlane, &pairs_);
     left = paired.left_over;
     counts.facet_box_pairs += paired.box_pairs;
-    decide_pairs(input, b.block, found, counts);
+    decide_pairs(input, b.block, bounds, found, counts);
   }
 }
 
-// Decides the pairs in the list and empties it.
-void FacetPairSearch::decide_pairs(const ConfirmInput& input, const FacetBlock& b, std::vector<FacetPair>& found,
-                                   ConfirmCounts& counts) {
-  const PairMatches matches = kernels().match_pairs(a_.block, b, pairs_);
+// Decides the pairs in the list, all of facets in a box, and empties it.
+void FacetPairSearch::decide_pairs(const ConfirmInput& input, const FacetBlock& b, const BoxBounds& bounds,
+                                   std::vector<FacetPair>& found, ConfirmCounts& counts) {
+  const PairMatches matches = kernels().match_pairs(a_.block, b, pairs_, bounds);
   std::uint64_t meeting = matches.meeting, undecided = matches.undecided, flat = matches.flat;
   if (undecided != 0) {
     const std::uint64_t sharing = kernels().sharing_pairs(a_.block, b, pairs_, undecided);

@@ -84,8 +84,8 @@ class FacetPairSearch {
   void empty_a();
   void test_blocks(const ConfirmInput& input, const KeptFacets& b, const Box& bounds_b, std::vector<FacetPair>& found,
                    ConfirmCounts& counts);
-  void decide_pairs(const ConfirmInput& input, const FacetBlock& b, std::vector<FacetPair>& found,
-                    ConfirmCounts& counts);
+  void decide_pairs(const ConfirmInput& input, const FacetBlock& b, const BoxBounds& bounds,
+                    std::vector<FacetPair>& found, ConfirmCounts& counts);
 
   KeptFacets a_;
   Box bounds_a_;                              // of the clusters in a_

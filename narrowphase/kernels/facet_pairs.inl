@@ -187,14 +187,75 @@ inline Meeting match_lanes(const VectorPack* a, const VectorPack* b, unsigned ma
   return {meeting.yes & known, (mask & ~left) | (meeting.no & known), flat & ~vanishing};
 }
 
-PairMatches match_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs) {
+// Bounds the rounding of every determinant of differences of points in a box, as Determinant::error does and no less:
+// each of its six products is at most that of the box's sides, which may have been rounded down.
+inline Pack rounding_in(const BoxBounds& box) {
+  double product = 6.0 * 1.0001;
+  for (int axis = 0; axis < 3; ++axis) product *= box.upper[axis] - box.lower[axis];
+  return rounding_of(spread(product));
+}
+
+// On which side of a plane the corners of a triangle lie, by their heights over it.
+struct StrictSides {
+  Mask above[3];
+  unsigned apart, certain;  // bits: all three on one side; all three farther away than rounding
+
+  StrictSides(const Plane& plane, const VectorPack* corner, Pack error) {
+    Mask below[3];
+    for (int k = 0; k < 3; ++k) {
+      const Pack height = plane.height(corner[k]).value;
+      above[k] = less(error, height);
+      below[k] = less(height, sub(spread(0.0), error));
+    }
+    const Mask all_above = both(both(above[0], above[1]), above[2]), all_below = both(both(below[0], below[1]), below[2]);
+    apart = bits(either(all_above, all_below));
+    certain = bits(both(both(either(above[0], below[0]), either(above[1], below[1])), either(above[2], below[2])));
+  }
+};
+
+// Of three sides two are equal: the lone corner is on that which an odd number are on.
+inline LoneCorner lone_corner(const VectorPack* c, const StrictSides& s) {
+  const Mask not_first = differ(s.above[1], s.above[2]), third = differ(s.above[0], s.above[2]);
+  const auto turned = [&](int first) {
+    return select(not_first, select(third, c[(first + 2) % 3], c[(first + 1) % 3]), c[first]);
+  };
+  return {turned(0), turned(1), turned(2), differ(s.above[0], not_first)};
+}
+
+// What match_lanes<Plane> says of lanes in which every determinant is larger than `error`, which is not below its own;
+// nothing of others.
+inline Meeting match_clear_lanes(const VectorPack* a, const VectorPack* b, unsigned mask, Pack error) {
+  const StrictSides sides_b(Plane(a[0], a[1], a[2]), b, error);
+  unsigned left = mask & ~sides_b.apart;
+  if (left == 0) return {0, mask, 0};
+  const StrictSides sides_a(Plane(b[0], b[1], b[2]), a, error);
+  left &= ~sides_a.apart;
+  const unsigned certain = left & sides_a.certain & sides_b.certain;
+  if (certain == 0) return {0, mask & ~left, 0};
+  const LoneCorner lone_a = lone_corner(a, sides_a), lone_b = lone_corner(b, sides_b);
+  const VectorPack b1 = select(lone_a.above, lone_b.next, lone_b.last), b2 = select(lone_a.above, lone_b.last, lone_b.next);
+  const VectorPack a1 = select(lone_b.above, lone_a.next, lone_a.last), a2 = select(lone_b.above, lone_a.last, lone_a.next);
+  const Pack p = Plane(b1, a1, lone_b.lone).height(lone_a.lone).value;
+  const Pack q = Plane(b2, a2, lone_b.lone).height(lone_a.lone).value;
+  const Pack opposite_error = sub(spread(0.0), error);
+  const unsigned yes = bits(both(less(error, p), less(q, opposite_error)));
+  const unsigned no = bits(either(less(p, opposite_error), less(error, q)));
+  return {yes & certain, (mask & ~left) | (no & certain), 0};
+}
+
+// The rounding of all pairs together is soon known, and most are clear of it. Where a pair is not, others are likely not.
+PairMatches match_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, const BoxBounds& bounds) {
   PairMatches matches{0, 0, 0};
+  const Pack error = rounding_in(bounds);
+  bool clear = true;
   for (int i = 0; i < pairs.count; i += kWidth) {
     VectorPack corner_a[3], corner_b[3];
     gather_corners(a, pairs.a + i, corner_a);
     gather_corners(b, pairs.b + i, corner_b);
     const unsigned mask = lanes_left(pairs.count - i);
-    const Meeting meeting = match_lanes<Plane>(corner_a, corner_b, mask);
+    Meeting meeting = clear ? match_clear_lanes(corner_a, corner_b, mask, error) : Meeting{0, 0, 0};
+    clear = (meeting.yes | meeting.no) == mask;
+    if (!clear) meeting = match_lanes<Plane>(corner_a, corner_b, mask);
     matches.meeting |= static_cast<std::uint64_t>(meeting.yes) << i;
     matches.undecided |= static_cast<std::uint64_t>(mask & ~(meeting.yes | meeting.no)) << i;
     matches.flat |= static_cast<std::uint64_t>(meeting.flat) << i;

@@ -45,6 +45,13 @@ struct BoxBounds {
   double upper[3];
 };
 
+// How far points reach along the diagonals of a cube's faces: y + z, z + x, x + y, y - z, z - x, x - y.
+inline constexpr int kDiagonals = 6;
+struct DiagonalBounds {
+  double lower[kDiagonals];
+  double upper[kDiagonals];
+};
+
 // The rounding of a determinant of differences of coordinates up to 2^300: at most this times the sum of its products'
 // sizes, and this besides. See facets.inl.
 inline constexpr double kRelativeRounding = 1e-15;
@@ -148,6 +155,9 @@ struct Kernels {
   // The box of `count` boxes.
   BoxBounds (*bounds)(const BoxPointers& boxes, int count);
 
+  // The bounds of `count` points, at least one.
+  DiagonalBounds (*diagonal_bounds)(PointArrays points, int count);
+
   // Writes the indices i < count of points whose height is >= threshold, ascending; returns how many.
   int (*select_heights)(PointArrays points, int count, const HeightAxis& axis, double threshold, std::int32_t* indices);
 
@@ -179,8 +189,10 @@ struct Kernels {
   // Sorts up to kMostSorted pairs, no two of which are equal.
   void (*sort_pairs)(FacetPair* pairs, int count);
 
-  // Decides pairs of a facet of `a` and one of `b`. What doubles cannot tell is left undecided.
-  PairMatches (*match_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs);
+  // Decides pairs of a facet of `a` and one of `b`, all of them in the box `bounds`. What doubles cannot tell is left
+  // undecided.
+  PairMatches (*match_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
+                             const BoxBounds& bounds);
   // Those of the pairs that have a bit in `which` and a corner in common.
   std::uint64_t (*sharing_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
                                  std::uint64_t which);

@@ -110,6 +110,35 @@ BoxBounds bounds(const BoxPointers& boxes, int count) {
   return lanes.all();
 }
 
+DiagonalBounds diagonal_bounds(PointArrays points, int count) {
+  Pack lower[kDiagonals], upper[kDiagonals];
+  for (int k = 0; k < kDiagonals; ++k) {
+    lower[k] = spread(__builtin_inf());
+    upper[k] = spread(-__builtin_inf());
+  }
+  for (int i = 0; i < count; i += kWidth) {
+    Pack x = load(points.x + i), y = load(points.y + i), z = load(points.z + i);
+    if (count - i < kWidth) {
+      const Mask points_left = mask_of(lanes_left(count - i));
+      x = select(points_left, x, spread(points.x[0]));
+      y = select(points_left, y, spread(points.y[0]));
+      z = select(points_left, z, spread(points.z[0]));
+    }
+    const Pack reach[kDiagonals] = {add(y, z), add(z, x), add(x, y), sub(y, z), sub(z, x), sub(x, y)};
+    for (int k = 0; k < kDiagonals; ++k) {
+      lower[k] = min(lower[k], reach[k]);
+      upper[k] = max(upper[k], reach[k]);
+    }
+  }
+  DiagonalBounds all;
+  for (int k = 0; k < kDiagonals; ++k) {
+    // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
+    all.lower[k] = -largest_lane(sub(spread(0.0), lower[k])) + 0.0;
+    all.upper[k] = largest_lane(upper[k]) + 0.0;
+  }
+  return all;
+}
+
 struct BoxPack {
   Pack lower[3], upper[3];
   explicit BoxPack(const BoxBounds& box) {
@@ -145,7 +174,7 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
 }  // namespace
 
 extern const Kernels TACT_KERNELS;
-const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, refresh_cluster, bounds, select_heights, highest_point,
+const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, refresh_cluster, bounds, diagonal_bounds, select_heights, highest_point,
                               select_overlapping, open_cluster, facing_away, near_facets, any_near, pair_facets, sort_pairs, match_pairs,
                               sharing_pairs, match_pairs_wide};
 

@@ -62,6 +62,19 @@ bool leaves_out(const Kernels& kernels, const FacetBlock& few, const FacetBlock&
   return pairs.count == 0;
 }
 
+BoxBounds merged(BoxBounds box, const BoxBounds& other) {
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = std::min(box.lower[axis], other.lower[axis]);
+    box.upper[axis] = std::max(box.upper[axis], other.upper[axis]);
+  }
+  return box;
+}
+
+// The box of the i-th facets of two blocks.
+BoxBounds bounds_of(const FacetBlock& a, const FacetBlock& b, std::size_t i) {
+  return merged(box_of(a, i), box_of(b, i));
+}
+
 Filtered::Decision decision(const PairMatches& matches, std::size_t i) {
   if ((matches.undecided >> i & 1) != 0) return Filtered::Decision::undecided;
   return (matches.meeting >> i & 1) != 0 ? Filtered::Decision::meeting : Filtered::Decision::apart;
@@ -82,20 +95,29 @@ std::vector<Filtered> filtered(const Kernels& kernels, std::span<const TriangleP
   const FacetBlock a = block_of(kernels, pairs, &TrianglePair::a), b = block_of(kernels, pairs, &TrianglePair::b);
   FacetPairList list;
   std::uint64_t all = 0;
+  BoxBounds everything = bounds_of(a, b, 0);
+  std::vector<Filtered::Decision> alone;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     list.a[i] = list.b[i] = static_cast<std::uint8_t>(i);
     ++list.count;
     all |= std::uint64_t{1} << i;
+    everything = merged(everything, bounds_of(a, b, i));
+    FacetPairList one;
+    one.count = 1;
+    one.a[0] = one.b[0] = static_cast<std::uint8_t>(i);
+    alone.push_back(decision(kernels.match_pairs(a, b, one, bounds_of(a, b, i)), 0));
   }
-  const PairMatches simple = kernels.match_pairs(a, b, list), wide = kernels.match_pairs_wide(a, b, list, all);
+  const PairMatches together = kernels.match_pairs(a, b, list, everything);
+  const PairMatches wide = kernels.match_pairs_wide(a, b, list, all);
   const std::uint64_t sharing = kernels.sharing_pairs(a, b, list, all);
   std::vector<Filtered> result(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     result[i] = {.left_out = leaves_out(kernels, a, b, i) || leaves_out(kernels, b, a, i),
-                 .simple = decision(simple, i),
+                 .simple = alone[i],
+                 .together = decision(together, i),
                  .wide = decision(wide, i),
                  .sharing = (sharing >> i & 1) != 0,
-                 .flat = ((simple.flat | wide.flat) >> i & 1) != 0};
+                 .flat = ((together.flat | wide.flat) >> i & 1) != 0};
   }
   return result;
 }
@@ -103,7 +125,7 @@ std::vector<Filtered> filtered(const Kernels& kernels, std::span<const TriangleP
 bool is_right(const Filtered& filtered, const TrianglePair& pair, bool meet) {
   if ((filtered.left_out && meet) || (filtered.sharing && !meet)) return false;
   if (filtered.flat && !lies_in_plane(pair.a, pair.b)) return false;
-  return is_right(filtered.simple, meet) && is_right(filtered.wide, meet);
+  return is_right(filtered.simple, meet) && is_right(filtered.together, meet) && is_right(filtered.wide, meet);
 }
 
 std::vector<const Kernels*> available_kernels() {

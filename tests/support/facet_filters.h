@@ -13,11 +13,12 @@ namespace tact::tests {
 // What became of a pair.
 struct Filtered {
   enum class Decision { apart, meeting, undecided };
-  bool left_out = false;  // by a box or a plane: the pair is never asked about
-  Decision simple = Decision::undecided;
-  Decision wide = Decision::undecided;  // with twice the digits
-  bool sharing = false;                 // the triangles have a corner in common
-  bool flat = false;                    // the first lies in the plane of the second
+  bool left_out = false;                    // by a box or a plane: the pair is never asked about
+  Decision simple = Decision::undecided;    // by itself, within its own box
+  Decision together = Decision::undecided;  // beside the others, within the box of all
+  Decision wide = Decision::undecided;      // with twice the digits
+  bool sharing = false;                     // the triangles have a corner in common
+  bool flat = false;                        // the first lies in the plane of the second
 
   // Is the pair one for the exact predicates?
   bool undecided() const {
