@@ -29,6 +29,7 @@ struct Moving {
   double us = 0.0;
   double candidate_pairs = 0.0;
   double kept_pairs = 0.0;
+  double parted_pairs = 0.0;
 };
 
 // A step in which `count` bodies get new positions.
@@ -42,6 +43,7 @@ Moving moving_step(TactRunner& runner, const Workload& workload, std::size_t cou
       const StepStats& stats = runner.step_few(k % workload.frames, count).stats();
       result.candidate_pairs = static_cast<double>(stats.candidate_pairs);
       result.kept_pairs = static_cast<double>(stats.kept_pairs);
+      result.parted_pairs = static_cast<double>(stats.parted_pairs);
     }));
     expected_ms = times.back();
   }
@@ -58,19 +60,21 @@ int run_idle(const BenchOptions& options) {
   fmt::print("{}\n\n", machine_line(threads));
   std::vector<int> sizes{27, 125, 1000};
   if (!options.quick) sizes = {100, 1000, 10000};
-  Table table({"blobs of 320 in a pile", "threads", "bodies that move", "us a step", "candidate pairs", "kept pairs"});
+  Table table({"blobs of 320 in a pile", "threads", "bodies that move", "us a step", "candidate pairs", "kept pairs",
+               "parted pairs"});
   for (const int size : sizes) {
     const Workload workload = pile(size, 4, kFrames);
     for (const int count : threads > 1 ? std::vector<int>{1, threads} : std::vector<int>{1}) {
       TactRunner runner(workload, count);
       runner.step(0);
-      table.add({fmt::to_string(size), fmt::to_string(count), "none", three_digits(idle_step_us(runner)), "", ""});
+      table.add({fmt::to_string(size), fmt::to_string(count), "none", three_digits(idle_step_us(runner)), "", "", ""});
       for (const std::size_t moving : {1, 10, 100, size}) {
         if (moving > static_cast<std::size_t>(size)) continue;
         const Moving result = moving_step(runner, workload, moving, count, budget_ms);
         table.add({fmt::to_string(size), fmt::to_string(count),
                    moving == static_cast<std::size_t>(size) ? "all" : fmt::to_string(moving), three_digits(result.us),
-                   fmt::format("{:.0f}", result.candidate_pairs), fmt::format("{:.0f}", result.kept_pairs)});
+                   fmt::format("{:.0f}", result.candidate_pairs), fmt::format("{:.0f}", result.kept_pairs),
+                   fmt::format("{:.0f}", result.parted_pairs)});
       }
     }
   }

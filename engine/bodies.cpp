@@ -16,6 +16,7 @@ constexpr Eigen::Index kLargestCount = std::numeric_limits<int>::max() / 4;
 constexpr std::size_t kPrefetchDistance = 8;  // bodies
 // A body of so many facets is refreshed by all threads: one among many, or one of a few that would not keep them busy.
 constexpr std::size_t kLargeBody = 32768, kLargeOfFew = 8192, kFewPerThread = 4;
+constexpr int kMostWithDiagonals = 4096;  // vertices: to look how far more of them reach takes longer than it saves
 constexpr char kAxisName[] = {'x', 'y', 'z'};
 
 std::string quoted(const std::string& name) { return "body '" + name + "'"; }
@@ -39,6 +40,10 @@ void check_facets(std::span<const int> corner, Eigen::Index vertices, const std:
                                                    std::to_string(corner[i]) + ", but there are " +
                                                    std::to_string(vertices) + " vertices");
   }
+}
+
+bool has_diagonals(const narrowphase::ClusteredMesh& mesh) {
+  return mesh.vertex_count() > 0 && mesh.vertex_count() <= kMostWithDiagonals;
 }
 
 template <class T>
@@ -89,6 +94,8 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   make_room(slots_, slots_.size() + 1);
   boxes_.resize(std::max<std::size_t>(boxes_.size(), slot + 1));
   filters_.resize(std::max<std::size_t>(filters_.size(), slot + 1));
+  diagonals_.resize(std::max<std::size_t>(diagonals_.size(), slot + 1));
+  wants_diagonals_.resize(std::max<std::size_t>(wants_diagonals_.size(), slot + 1));
   if (slot == slots_.size()) {
     slots_.emplace_back();
   } else {
@@ -96,6 +103,10 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   }
   body->id = {slot, ++slots_[slot].generation, world_};
   boxes_[slot] = body->mesh.box();
+  const bool knows_diagonals = has_diagonals(body->mesh);
+  diagonals_[slot].known = knows_diagonals;
+  if (knows_diagonals) diagonals_[slot].bounds = body->mesh.diagonals();
+  wants_diagonals_[slot] = 0;
   filters_[slot] = {definition.layer, definition.mask, definition.motion == Motion::fixed};
   slots_[slot].body = std::move(body);
   mark_changed(slot);
@@ -135,8 +146,10 @@ void Bodies::prefetch(BodyId id) const {
   if (id.index < slots_.size()) narrowphase::prefetch_lines(slots_[id.index].body.get(), 1);
 }
 
-void Bodies::stage(Update& update, int threads) {
+void Bodies::stage(Update& update, int threads) const {
   update.staged = update.body->mesh.stage(update.positions.data(), kLargestCoordinate, threads);
+  update.diagonals.known = wants_diagonals_[update.body->id.index] != 0 && has_diagonals(update.body->mesh);
+  if (update.diagonals.known) update.diagonals.bounds = update.body->mesh.staged_diagonals();
 }
 
 void Bodies::check(const Update& update) {
@@ -149,6 +162,8 @@ void Bodies::take(const Update& update) {
   update.body->mesh.take_staged();
   const std::uint32_t slot = update.body->id.index;
   boxes_[slot] = update.body->mesh.box();
+  diagonals_[slot].known = update.diagonals.known;
+  if (update.diagonals.known) diagonals_[slot].bounds = update.diagonals.bounds;
   if (!moved(slot)) moved_vertices_ += update.body->mesh.source_vertex_count();
   mark_changed(slot);
 }

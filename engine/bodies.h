@@ -4,6 +4,7 @@
 #include <tact/body.h>
 #include <tact/world.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -46,6 +47,13 @@ class Bodies {
   // What the broad phase sees, an entry a slot; the box of an empty slot is empty.
   std::span<const base::Box> boxes() const { return boxes_; }
   std::span<const broadphase::Filter> filters() const { return filters_; }
+  // How far a body reaches along diagonals, or null if nobody wanted to know when it moved last.
+  const narrowphase::DiagonalBounds* diagonals(std::uint32_t slot) const {
+    return diagonals_[slot].known ? &diagonals_[slot].bounds : nullptr;
+  }
+  // Only a body for which it is wanted looks how far it reaches when it moves next; a large one never does.
+  void want_diagonals(std::uint32_t slot) { wants_diagonals_[slot] = 1; }
+  void want_no_diagonals() { std::ranges::fill(wants_diagonals_, char{0}); }
   // Slots whose body was added, removed or moved since end_step().
   std::span<const std::uint32_t> changed() const { return changed_; }
   bool moved(std::uint32_t slot) const { return slots_[slot].changed; }
@@ -65,6 +73,11 @@ class Bodies {
     bool changed = false;
   };
 
+  struct Diagonals {
+    narrowphase::DiagonalBounds bounds;
+    bool known = false;
+  };
+
   Body& writable(BodyId id) { return const_cast<Body&>(at(id)); }
 
   // New positions of a body: prepared, staged, checked, then taken. Only what comes before taking can fail.
@@ -73,10 +86,11 @@ class Bodies {
     std::span<const double> positions;
     std::vector<double> copy;
     narrowphase::ClusteredMesh::Staged staged{};
+    Diagonals diagonals;
   };
   void prepare(Update& update, BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions);
   void prefetch(BodyId id) const;
-  static void stage(Update& update, int threads);
+  void stage(Update& update, int threads) const;
   static void check(const Update& update);
   void take(const Update& update);
   void check_named_once(std::span<const PositionsUpdate> updates);
@@ -87,6 +101,8 @@ class Bodies {
   std::vector<std::uint32_t> free_;
   std::vector<base::Box> boxes_;
   std::vector<broadphase::Filter> filters_;
+  std::vector<Diagonals> diagonals_;
+  std::vector<char> wants_diagonals_;
   std::vector<std::uint32_t> changed_;
   std::size_t count_ = 0;
   bool removed_any_ = false;

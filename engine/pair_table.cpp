@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/parallel.h"
+
 namespace tact {
 
 namespace {
 
-constexpr std::size_t kLargestRoom = 512;  // facet pairs, 4 kB
+using narrowphase::PartingDiagonal;
+
+constexpr std::size_t kLargestRoom = 512;     // facet pairs, 4 kB
+constexpr std::size_t kPartedAtATime = 2048;  // pairs
 
 bool names(const Bodies& bodies, BodyId id) { return bodies.in_slot(id.index).id == id; }
 
@@ -27,36 +32,36 @@ void PairTable::update(const broadphase::SweepAndPrune& sweep, const Bodies& bod
 void PairTable::select_moved(const Bodies& bodies) {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     if (bodies.moved(pairs_[i].a) || bodies.moved(pairs_[i].b))
-      moved_.push_back({records_[i], static_cast<std::uint32_t>(i)});
+      moved_.push_back({entries_[i].record, static_cast<std::uint32_t>(i)});
   }
 }
 
 void PairTable::match(std::span<const broadphase::IndexPair> pairs, const Bodies& bodies, bool all) {
-  std::swap(last_records_, records_);
+  std::swap(last_entries_, entries_);
   std::swap(last_candidates_, candidates_);
-  records_.clear();
+  entries_.clear();
   candidates_.clear();
   std::size_t last = 0;
   for (const broadphase::IndexPair& pair : pairs) {
-    while (last < pairs_.size() && pairs_[last] < pair) retire(*last_records_[last++]);
-    PairRecord* record = nullptr;
+    while (last < pairs_.size() && pairs_[last] < pair) retire(*last_entries_[last++].record);
+    Entry entry;
     CandidatePair candidate;
     if (last < pairs_.size() && pairs_[last] == pair) {
       candidate = last_candidates_[last];
-      record = last_records_[last++];
+      entry = last_entries_[last++];
       if (bodies.removed_any() && !(names(bodies, candidate.a) && names(bodies, candidate.b)))
-        retire(*std::exchange(record, nullptr));
+        retire(*std::exchange(entry, {}).record);
     }
-    if (record == nullptr) {
+    if (entry.record == nullptr) {
       candidate = {bodies.in_slot(pair.a).id, bodies.in_slot(pair.b).id, false};
-      record = &new_record(candidate.a, candidate.b);
+      entry.record = &new_record(candidate.a, candidate.b);
     }
     if (all || bodies.moved(pair.a) || bodies.moved(pair.b))
-      moved_.push_back({record, static_cast<std::uint32_t>(records_.size())});
-    records_.push_back(record);
+      moved_.push_back({entry.record, static_cast<std::uint32_t>(entries_.size())});
+    entries_.push_back(entry);
     candidates_.push_back(candidate);
   }
-  while (last < pairs_.size()) retire(*last_records_[last++]);
+  while (last < pairs_.size()) retire(*last_entries_[last++].record);
   pairs_.assign(pairs.begin(), pairs.end());
 }
 
@@ -83,6 +88,32 @@ void PairTable::retire(PairRecord& record) {
   // Records are given out again in any order: each has room for what the largest held.
   room_ = std::min(std::max(room_, record.facet_pairs.capacity()), kLargestRoom);
   free_.push_back(&record);
+}
+
+void PairTable::take_out_parted(Bodies& bodies, int threads) {
+  base::parallel_for(moved_.size(), kPartedAtATime, threads,
+                     [&](std::size_t i) { moved_[i].parted = part(moved_[i], bodies); });
+  bodies.want_no_diagonals();
+  for (const MovedPair& pair : moved_) {
+    if (candidates_[pair.place].hulls_overlap) continue;
+    bodies.want_diagonals(pairs_[pair.place].a);
+    bodies.want_diagonals(pairs_[pair.place].b);
+  }
+  parted_ = std::erase_if(moved_, [](const MovedPair& pair) { return pair.parted; });
+}
+
+// Was the pair apart, and does a diagonal part it? Notes which.
+bool PairTable::part(const MovedPair& pair, const Bodies& bodies) {
+  if (candidates_[pair.place].hulls_overlap) return false;
+  const broadphase::IndexPair slots = pairs_[pair.place];
+  const auto *a = bodies.diagonals(slots.a), *b = bodies.diagonals(slots.b);
+  const auto now = a != nullptr && b != nullptr ? narrowphase::parting_diagonal(*a, *b) : PartingDiagonal{0};
+  const auto before = std::exchange(entries_[pair.place].parting, now);
+  if (now == 0 && before != 0) {
+    pair.record->history.kind = PairHistory::Kind::separated;
+    pair.record->history.direction = narrowphase::direction_of(before);
+  }
+  return now != 0;
 }
 
 bool PairTable::same_contacts() const {

@@ -11,6 +11,7 @@
 #include "broadphase/sweep_and_prune.h"
 #include "engine/bodies.h"
 #include "engine/pair_record.h"
+#include "narrowphase/diagonals.h"
 
 namespace tact {
 
@@ -20,6 +21,7 @@ struct MovedPair {
   std::uint32_t place = 0;  // among the candidates
   bool touched = false;     // in the step before
   bool changed = false;     // do the hulls overlap now and did not in the step before, or the other way around?
+  bool parted = false;      // along a diagonal
 };
 
 class PairTable {
@@ -28,15 +30,23 @@ class PairTable {
   // another. Then moved() are those with a body that moved, or all.
   void update(const broadphase::SweepAndPrune& sweep, const Bodies& bodies, bool all);
   // Nothing moved.
-  void keep() { moved_.clear(); }
+  void keep() {
+    moved_.clear();
+    parted_ = 0;
+  }
+  // Takes pairs out of moved() that were apart and still are, along a diagonal: their records are not read. A pair that
+  // is not taken out any more starts from the diagonal that parted it last.
+  void take_out_parted(Bodies& bodies, int threads);
 
   // Sorted by (a, b). Records of pairs that are not looked at are not read either, as memory is what costs where little
   // moves.
   std::span<const CandidatePair> candidates() const { return candidates_; }
-  PairRecord& record(std::size_t place) { return *records_[place]; }
+  PairRecord& record(std::size_t place) { return *entries_[place].record; }
 
   std::span<MovedPair> moved() { return moved_; }
   std::span<const MovedPair> moved() const { return moved_; }
+  // How many were taken out.
+  std::size_t parted() const { return parted_; }
   // Before and after a step looks at a pair; a thread each.
   void begin(MovedPair& pair) const { pair.touched = touches(*pair.record); }
   void end(MovedPair& pair) {
@@ -55,6 +65,11 @@ class PairTable {
   std::span<const ContactEvent> gone() const { return gone_; }
 
  private:
+  struct Entry {
+    PairRecord* record = nullptr;
+    narrowphase::PartingDiagonal parting = 0;  // in the last step that moved a body of the pair
+  };
+  bool part(const MovedPair& pair, const Bodies& bodies);
   void select_moved(const Bodies& bodies);
   void match(std::span<const broadphase::IndexPair> pairs, const Bodies& bodies, bool all);
   PairRecord& new_record(BodyId a, BodyId b);
@@ -65,10 +80,11 @@ class PairTable {
   std::size_t room_ = 0;                      // facet pairs that a record has room for when it is given out
   std::vector<broadphase::IndexPair> pairs_;  // slots
   std::vector<CandidatePair> candidates_;     // the same pairs, of bodies
-  std::vector<PairRecord*> records_;          // of these
+  std::vector<Entry> entries_;                // of these
   std::vector<CandidatePair> last_candidates_;
-  std::vector<PairRecord*> last_records_;
+  std::vector<Entry> last_entries_;
   std::vector<MovedPair> moved_;
+  std::size_t parted_ = 0;
   std::vector<ContactEvent> gone_;
   bool same_pairs_ = false;
 };

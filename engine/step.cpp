@@ -98,7 +98,7 @@ void Step::keep_report() {
 }
 
 // Asks for the memory of pairs that are looked at soon: first the record, then the rest of it and the second body, then
-// its boxes and the vertices that the last step ended at. The first body of a pair is most often that of the last. Of
+// its boxes, and its vertices if the hulls overlapped. The first body of a pair is most often that of the last. Of
 // the records from `own_end` on, which another thread may write, only the bodies are read.
 void Step::prefetch_pairs(const Bodies& bodies, std::size_t i, std::size_t own_end) const {
   constexpr std::size_t kBoxes = 2, kBody = 4, kRecord = 8, kRecordLines = 3;  // how many pairs before, cache lines
@@ -116,6 +116,7 @@ void Step::prefetch_pairs(const Bodies& bodies, std::size_t i, std::size_t own_e
   if (i + kBoxes < moved.size()) {
     const PairRecord& record = *moved[i + kBoxes].record;
     mesh(record.b).prefetch_boxes();
+    if (record.hulls_overlap) mesh(record.b).prefetch_points();
     if (i + kBoxes >= own_end || record.history.kind == PairHistory::Kind::none) return;
     mesh(record.a).prefetch_position(record.history.hulls.a[0]);
     mesh(record.b).prefetch_position(record.history.hulls.b[0]);
@@ -123,7 +124,10 @@ void Step::prefetch_pairs(const Bodies& bodies, std::size_t i, std::size_t own_e
 }
 
 // Stages 3 to 6, all pairs in parallel, each into its own record; then the large ones, each on all threads.
-void Step::narrow_phase(const Bodies& bodies, const Settings& settings) {
+void Step::narrow_phase(Bodies& bodies, const Settings& settings) {
+  Timer timer;
+  table_.take_out_parted(bodies, settings.threads);
+  report_.stats_.parting_ms = report_.stats_.hulls_ms = timer.lap();
   const std::span<MovedPair> moved = table_.moved();
   thread_work_.resize(static_cast<std::size_t>(settings.threads));
   tallies_.assign(static_cast<std::size_t>(settings.threads), {});
@@ -179,7 +183,8 @@ void Step::count_bodies_and_pairs(const Bodies& bodies) {
   stats.moved_vertices = bodies.moved_vertices();
   stats.excluded_pairs = static_cast<std::int64_t>(sweep_.excluded());
   stats.candidate_pairs = static_cast<std::int64_t>(table_.candidates().size());
-  stats.kept_pairs = static_cast<std::int64_t>(table_.candidates().size() - table_.moved().size());
+  stats.parted_pairs = static_cast<std::int64_t>(table_.parted());
+  stats.kept_pairs = static_cast<std::int64_t>(table_.candidates().size() - table_.moved().size() - table_.parted());
 }
 
 void Step::make_report(int threads) {

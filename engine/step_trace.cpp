@@ -13,7 +13,7 @@ using Time = TraceEvent::Time;
 
 // Pairs that take less are joined to one event, so that a trace grows with time rather than with pairs.
 constexpr Time::duration kLongPair = std::chrono::microseconds(20);
-constexpr std::size_t kEventsOfStep = 4, kEventsOfPair = 5;  // at most, refreshes and ranges apart
+constexpr std::size_t kEventsOfStep = 5, kEventsOfPair = 5;  // at most, refreshes and ranges apart
 
 Time::duration duration_of(double ms) {
   return std::chrono::round<Time::duration>(std::chrono::duration<double, std::milli>(ms));
@@ -81,8 +81,16 @@ void StepTrace::make(Time begin, Time end, const StepStats& stats, std::span<con
   events.assign(refreshes_.begin(), refreshes_.end());
   add_stages(begin, end, stats, events);
   add_pairs(pairs, events);
+  if (stats.parted_pairs > 0) add_parted(begin + duration_of(stats.sweep_ms), stats, events);
   for (const auto& work : large) add_ranges(*work, events);
   std::sort(events.begin(), events.end(), before);
+}
+
+// On the thread that called, before all other pairs; these are in order by now.
+void StepTrace::add_parted(Time begin, const StepStats& stats, std::vector<TraceEvent>& events) {
+  Time end = begin + std::min(duration_of(stats.parting_ms), duration_of(stats.narrow_phase_ms));
+  if (!by_thread_.empty() && by_thread_[0]->counts.thread == 0) end = std::min(end, by_thread_[0]->counts.begin);
+  events.push_back({.kind = Kind::parted_pairs, .begin = begin, .end = end, .count = stats.parted_pairs});
 }
 
 void StepTrace::add_pairs(std::span<const MovedPair> pairs, std::vector<TraceEvent>& events) {

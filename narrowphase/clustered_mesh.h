@@ -153,6 +153,10 @@ class ClusteredMesh {
   const Box& box() const { return placed_.box; }
   BoxView cluster_boxes() const { return cluster_boxes(placed_); }
   BoxView group_boxes() const { return group_boxes(placed_); }
+  // How far the vertices, of which there must be one, reach along the diagonals of a cube's faces, in one more pass;
+  // the same of what is staged.
+  DiagonalBounds diagonals() const { return diagonals(placed_); }
+  DiagonalBounds staged_diagonals() const { return diagonals(staged_); }
 
   // Asks for the memory of a cluster's facets, in good time.
   void prefetch_facets(int cluster) const {
@@ -169,6 +173,10 @@ class ClusteredMesh {
   // Asks for the position of a vertex, in good time.
   void prefetch_position(int vertex) const {
     for (std::size_t axis = 0; axis < 3; ++axis) prefetch_line(placed_.memory + axis * stride_ + vertex);
+  }
+  // Asks for the positions of all vertices, or of the first thousands.
+  void prefetch_points() const {
+    for (std::size_t axis = 0; axis < 3; ++axis) prefetch_lines(placed_.memory + axis * stride_, stride_);
   }
   // Asks for the memory of the clusters' boxes, and of where their vertices begin, in good time.
   void prefetch_boxes() const {
@@ -195,6 +203,9 @@ class ClusteredMesh {
   }
   BoxView group_boxes(const Placement& p) const {
     return {cluster_boxes(p).lower(0) + 6 * cluster_count(), static_cast<std::size_t>(group_count())};
+  }
+  DiagonalBounds diagonals(const Placement& p) const {
+    return kernels().diagonal_bounds({p.memory, p.memory + stride_, p.memory + 2 * stride_}, vertex_count_);
   }
   // What was seen in a range of clusters.
   struct Refreshed {

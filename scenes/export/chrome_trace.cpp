@@ -29,11 +29,13 @@ const char* kind_name(Kind kind) {
     case Kind::confirm: return "6 confirm";
     case Kind::range: return "6 range";
     case Kind::small_pairs: return "small pairs";
+    case Kind::parted_pairs: return "parted pairs";
     case Kind::report: return "7 report";
   }
   return "unknown";
 }
 
+bool has_pairs(Kind kind) { return kind == Kind::small_pairs || kind == Kind::parted_pairs; }
 bool has_facet_pairs(Kind kind) { return kind == Kind::pair || kind == Kind::confirm || kind == Kind::range; }
 
 Json stats_json(const StepStats& stats) {
@@ -48,7 +50,7 @@ Json stats_json(const StepStats& stats) {
 
 Json args_json(const TraceEvent& event, const World& world, const StepStats& stats) {
   if (event.kind == Kind::detect) return stats_json(stats);
-  if (event.kind == Kind::small_pairs) return {{"pairs", event.count}};
+  if (has_pairs(event.kind)) return {{"pairs", event.count}};
   if (event.a == BodyId{}) return Json::object();
   Json json = {{"a", world.name(event.a)}, {"b", world.name(event.b)}};
   if (has_facet_pairs(event.kind)) json["facet_pairs"] = event.count;
@@ -107,7 +109,7 @@ void ChromeTrace::add_phases(int step, const DynamicsTimes& times) {
 
 void ChromeTrace::add_engine_event(const TraceEvent& event, const Simulation& simulation) {
   const World& world = simulation.world();
-  const bool of_pairs = event.kind == Kind::small_pairs || event.a != BodyId{};
+  const bool of_pairs = has_pairs(event.kind) || event.a != BodyId{};
   std::string name = kind_name(event.kind);
   if (event.kind == Kind::pair) name = fmt::format("{}, {}", world.name(event.a), world.name(event.b));
   write({.name = std::move(name),

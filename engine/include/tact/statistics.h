@@ -14,6 +14,7 @@ namespace tact {
   X(excluded_pairs, "overlapping boxes, one moved, that layers or two fixed bodies exclude")      \
   X(candidate_pairs, "pairs of bodies whose boxes overlap")                                       \
   X(kept_pairs, "candidate pairs in which neither body moved: the last result was kept")          \
+  X(parted_pairs, "pairs that were and are apart, along a diagonal of a cube's face")             \
   X(still_separated_pairs, "pairs that the last separating direction still separates")            \
   X(still_overlapping_pairs, "pairs whose hulls the last step's vertices still show to overlap")  \
   X(separated_pairs, "other pairs whose hulls GJK found to be apart")                             \
@@ -48,6 +49,7 @@ namespace tact {
   X(refresh_ms, "stage 1: setting positions since the last step")                                  \
   X(sweep_ms, "stage 2: candidate pairs")                                                          \
   X(hulls_ms, "stage 3: do the hulls overlap, summed over threads; and from one pair to the next") \
+  X(parting_ms, "that part of stage 3 in which diagonals were asked, wall time")                   \
   X(gjk_ms, "that part of stage 3 in which pairs needed GJK")                                      \
   X(direction_ms, "stage 4: contact direction and depth, summed over threads")                     \
   X(cull_ms, "stage 5: zones and criteria, summed over threads")                                   \

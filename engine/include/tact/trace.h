@@ -14,7 +14,7 @@ struct TraceEvent {
     refresh,       // stage 1: a call of World::set_positions since the last step
     detect,        // World::detect(): all that follows
     sweep,         // stage 2
-    narrow_phase,  // stages 3 to 6 of all pairs, on the thread that called; `pair` and `small_pairs` tell of the others
+    narrow_phase,  // stages 3 to 6 of all pairs, on the thread that called; the other kinds of pairs tell who did what
     pair,          // one pair that took 20 microseconds or more: the stages that follow
     hulls,         // stage 3 of it
     direction,     // stage 4 of it
@@ -22,6 +22,7 @@ struct TraceEvent {
     confirm,       // stage 6 of it; of a large pair after all others and outside its `pair`, on all threads in ranges
     range,         // one thread's part in stage 6 of a large pair
     small_pairs,   // pairs that took less, one after the other
+    parted_pairs,  // pairs that diagonals part, all of them
     report,        // stage 7
   };
   using Time = std::chrono::steady_clock::time_point;
@@ -30,7 +31,7 @@ struct TraceEvent {
   int thread = 0;  // from 0, the one that called
   Time begin = {}, end = {};
   BodyId a = {}, b = {};   // the pair that `pair`, its stages and its ranges tell of
-  std::int64_t count = 0;  // pair, confirm, range: facet pairs that meet; small_pairs: pairs
+  std::int64_t count = 0;  // pair, confirm, range: facet pairs that meet; small_pairs, parted_pairs: pairs
 };
 
 }  // namespace tact

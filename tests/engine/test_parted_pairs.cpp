@@ -1,0 +1,141 @@
+// Pairs that a diagonal of a cube's face parts are not looked at: whatever moves, comes, goes or is replaced, the
+// answer is that of a world that never asks a diagonal.
+#include <gtest/gtest.h>
+#include <tact/tact.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tests/support/detection.h"
+#include "tests/support/generators.h"
+#include "tests/support/random.h"
+
+namespace tact::tests {
+namespace {
+
+const Mesh kBall = icosphere(4);  // of radius 1
+
+Eigen::Matrix3Xd ball_at(double x, double y, double z) { return translated(kBall, {x, y, z}).positions; }
+
+BodyId add_ball(World& world, double x, double y, double z) {
+  const Eigen::Matrix3Xd positions = ball_at(x, y, z);
+  return world.add_body({.positions = positions, .facets = kBall.facets});
+}
+
+// Where all bodies moved, every pair is one of these.
+void expect_sums(const StepStats& stats) {
+  if (stats.kept_pairs > 0) return;
+  EXPECT_EQ(stats.parted_pairs + stats.still_separated_pairs + stats.separated_pairs + stats.contacts,
+            stats.candidate_pairs);
+}
+
+TEST(PartedPairs, ComeIntoContactFromTheDiagonalThatPartedThem) {
+  World world;
+  add_ball(world, 0, 0, 0);
+  const BodyId b = add_ball(world, 1.6, 1.6, 0);
+  EXPECT_EQ(world.detect().stats().parted_pairs, 1);
+  EXPECT_EQ(world.detect().stats().parted_pairs, 0);  // nothing moved: it was not looked at
+  for (double x = 1.59; x > 1.3; x -= 0.01) {
+    world.set_positions(b, ball_at(x, x, 0));
+    const Report& report = world.detect();
+    expect_sums(report.stats());
+    ASSERT_EQ(report.candidate_pairs().size(), 1u);
+    EXPECT_EQ(report.candidate_pairs()[0].hulls_overlap, !report.contacts().empty());
+    if (report.contacts().empty()) continue;
+    EXPECT_LT(x, 1.415);  // where the balls, of facets, touch at the latest
+    EXPECT_GT(x, 1.36);
+    EXPECT_EQ(report.contacts()[0].source, DirectionSource::fresh);
+    EXPECT_GT(report.contacts()[0].direction.dot(Eigen::Vector3d(1, 1, 0).normalized()), 0.99);
+    return;
+  }
+  FAIL() << "the balls never touched";
+}
+
+// A body that nothing is near does not look how far it reaches; what it knew is of no use when it has moved on.
+TEST(PartedPairs, WhatABodyKnewIsForgottenWhenItMoves) {
+  World world;
+  add_ball(world, 0, 0, 0);
+  const BodyId b = add_ball(world, 1.6, 1.6, 0);
+  EXPECT_EQ(world.detect().stats().parted_pairs, 1);
+  world.set_positions(b, ball_at(50, 50, 0));
+  EXPECT_EQ(world.detect().stats().candidate_pairs, 0);
+  world.set_positions(b, ball_at(1.5, 0, 0));
+  EXPECT_EQ(world.detect().stats().contacts, 1);
+  world.set_positions(b, ball_at(50, 50, 0));
+  world.detect();
+  world.set_positions(b, ball_at(60, 50, 0));
+  world.detect();
+  world.set_positions(b, ball_at(1.6, 1.6, 0));
+  const StepStats& unknown = world.detect().stats();
+  EXPECT_EQ(unknown.parted_pairs, 0);
+  EXPECT_EQ(unknown.separated_pairs, 1);
+  world.set_positions(b, ball_at(1.61, 1.6, 0));
+  EXPECT_EQ(world.detect().stats().parted_pairs, 1);
+}
+
+TEST(PartedPairs, ABodyInTheSlotOfAnotherStartsAnew) {
+  World world;
+  add_ball(world, 0, 0, 0);
+  const BodyId b = add_ball(world, 1.6, 1.6, 0);
+  EXPECT_EQ(world.detect().stats().parted_pairs, 1);
+  world.remove_body(b);
+  const BodyId other = add_ball(world, 1.2, 1.2, 0);
+  EXPECT_EQ(other.index, b.index);
+  const Report& report = world.detect();
+  ASSERT_EQ(report.contacts().size(), 1u);
+  EXPECT_EQ(report.contacts()[0].source, DirectionSource::smallest);
+}
+
+TEST(PartedPairs, LargeBodiesAreLookedAt) {
+  World world;
+  const Mesh large = icosphere(5);
+  add_bodies(world, std::array{large, translated(large, {1.6, 1.6, 0})});
+  const StepStats& stats = world.detect().stats();
+  EXPECT_EQ(stats.parted_pairs, 0);
+  EXPECT_EQ(stats.separated_pairs, 1);
+}
+
+// A lattice of balls that jostle, most pairs of which a diagonal parts, so many that threads share them. A second world
+// is made anew in every step: it knows how far bodies reach, but nothing of the steps before.
+TEST(PartedPairs, OfAJostlingCrowdAreThoseOfAnyOtherWorld) {
+  constexpr int kSide = 11;
+  const Mesh ball = scaled(icosphere(1), 0.6);
+  std::vector<Mesh> bodies;
+  Random random(5);
+  for (int i = 0; i < kSide * kSide * kSide; ++i) {
+    const auto at = [&](int k) { return k + random.uniform(-0.05, 0.05); };
+    bodies.push_back(translated(ball, {at(i % kSide), at(i / kSide % kSide), at(i / kSide / kSide)}));
+  }
+  World one({.threads = 1}), two({.threads = 2});
+  const auto ids_one = add_bodies(one, bodies), ids_two = add_bodies(two, bodies);
+  std::int64_t parted = 0, contacts = 0;
+  for (int step = 0; step < 6; ++step) {
+    const Report &report = one.detect(), &other = two.detect();
+    EXPECT_EQ(report.hash(), other.hash()) << "step " << step;
+    EXPECT_EQ(report.stats().parted_pairs, other.stats().parted_pairs);
+    EXPECT_GT(report.stats().candidate_pairs, 4096);
+    expect_sums(report.stats());
+    World fresh;
+    add_bodies(fresh, bodies);
+    const Report& anew = fresh.detect();
+    ASSERT_EQ(report.candidate_pairs().size(), anew.candidate_pairs().size());
+    for (std::size_t i = 0; i < anew.candidate_pairs().size(); ++i) {
+      ASSERT_EQ(report.candidate_pairs()[i].hulls_overlap, anew.candidate_pairs()[i].hulls_overlap) << "pair " << i;
+    }
+    parted += report.stats().parted_pairs;
+    contacts += report.stats().contacts;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (step % 2 == 1 && random.chance(0.3)) continue;
+      const Vec3 by = random.in_cube(0.1);
+      bodies[i].positions.colwise() += Eigen::Vector3d(by.x, by.y, by.z);
+      one.set_positions(ids_one[i], bodies[i].positions);
+      two.set_positions(ids_two[i], bodies[i].positions);
+    }
+  }
+  EXPECT_GT(parted, 20'000);
+  EXPECT_GT(contacts, 5'000);
+}
+
+}  // namespace
+}  // namespace tact::tests
