@@ -82,10 +82,8 @@ bool is_within(const Box& box, double largest) {
 }  // namespace
 
 void BoxArrays::resize(std::size_t count) {
-  const Box empty;
   stride_ = count;
-  bounds_.assign(3 * count, empty.lower.x);
-  bounds_.resize(6 * count + kPadding, empty.upper.x);
+  if (bounds_.size() < 6 * count + kPadding) bounds_.resize(6 * count + kPadding);
 }
 
 void BoxArrays::set(std::size_t i, const Box& box) { set_box(bounds_.data(), stride_, i, box); }

@@ -56,7 +56,7 @@ class BoxView {
 // The same with memory of its own.
 class BoxArrays {
  public:
-  void resize(std::size_t count);  // empty boxes
+  void resize(std::size_t count);  // what the boxes are then is left open
   void set(std::size_t i, const Box& box);
   BoxView view() const { return {bounds_.data(), stride_}; }
   BoxPointers pointers() const { return view().pointers(); }

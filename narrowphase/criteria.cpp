@@ -85,6 +85,7 @@ void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Bo
                                                kept.cluster.data());
   const Vec3 n = criteria.outward;
   int found = 0;
+  kept.boxes.resize(static_cast<std::size_t>(met));
   kept.bounds = Box{};
   kept.facets = 0;
   kept.outside_slab = 0;
@@ -98,15 +99,12 @@ void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Bo
       continue;
     }
     mesh.prefetch_facets(cluster);
+    kept.boxes.set(static_cast<std::size_t>(found), box);
     kept.cluster[static_cast<std::size_t>(found++)] = cluster;
     kept.bounds = merged(kept.bounds, intersection(box, other));
     kept.facets += mesh.facet_end(cluster) - mesh.facet_begin(cluster);
   }
   kept.cluster.resize(static_cast<std::size_t>(found));
-  kept.boxes.resize(kept.cluster.size());
-  for (std::size_t i = 0; i < kept.cluster.size(); ++i) {
-    kept.boxes.set(i, mesh.cluster_boxes()[static_cast<std::size_t>(kept.cluster[i])]);
-  }
 }
 
 void cull_again(const Box& other, KeptClusters& kept) {
