@@ -102,18 +102,22 @@ void PairTable::take_out_parted(Bodies& bodies, int threads) {
   parted_ = std::erase_if(moved_, [](const MovedPair& pair) { return pair.parted; });
 }
 
-// Was the pair apart, and does a diagonal part it? Notes which.
+// Was the pair apart, and does a diagonal part it, the last one or another? Notes which.
 bool PairTable::part(const MovedPair& pair, const Bodies& bodies) {
   if (candidates_[pair.place].hulls_overlap) return false;
   const broadphase::IndexPair slots = pairs_[pair.place];
   const auto *a = bodies.diagonals(slots.a), *b = bodies.diagonals(slots.b);
-  const auto now = a != nullptr && b != nullptr ? narrowphase::parting_diagonal(*a, *b) : PartingDiagonal{0};
-  const auto before = std::exchange(entries_[pair.place].parting, now);
-  if (now == 0 && before != 0) {
+  PartingDiagonal& parting = entries_[pair.place].parting;
+  const PartingDiagonal last = parting;
+  const bool known = a != nullptr && b != nullptr;
+  if (known && narrowphase::parts(last, *a, *b)) return true;
+  parting = known ? narrowphase::parting_diagonal(*a, *b) : PartingDiagonal{0};
+  if (parting != 0) return true;
+  if (last != 0) {
     pair.record->history.kind = PairHistory::Kind::separated;
-    pair.record->history.direction = narrowphase::direction_of(before);
+    pair.record->history.direction = narrowphase::direction_of(last);
   }
-  return now != 0;
+  return false;
 }
 
 bool PairTable::same_contacts() const {

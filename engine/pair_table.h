@@ -67,7 +67,7 @@ class PairTable {
  private:
   struct Entry {
     PairRecord* record = nullptr;
-    narrowphase::PartingDiagonal parting = 0;  // in the last step that moved a body of the pair
+    narrowphase::PartingDiagonal parting = 0;  // in the last step that looked at the pair
   };
   bool part(const MovedPair& pair, const Bodies& bodies);
   void select_moved(const Bodies& bodies);

@@ -23,15 +23,6 @@ BoxBounds bounds_of(const Box& box) {
   return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
 }
 
-BoxBounds merged(const BoxBounds& a, const BoxBounds& b) {
-  BoxBounds all;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    all.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
-    all.upper[axis] = std::max(a.upper[axis], b.upper[axis]);
-  }
-  return all;
-}
-
 Triangle triangle_in(const FacetBlock& block, std::size_t i) {
   Triangle t;
   for (std::size_t k = 0; k < 3; ++k) t[k] = {block.corner[k][0][i], block.corner[k][1][i], block.corner[k][2][i]};
@@ -102,8 +93,8 @@ bool FacetPairSearch::reaches_b(const ConfirmInput& input, const ClusterPair& pa
   const PlaceInB place = open_b(input, pair.b);
   if (place.facets == 0) return false;
   const Box box = input.kept_a->boxes[static_cast<std::size_t>(pair.a)];
-  const FacetBlock& block = b_[static_cast<std::size_t>(place.block)]->kept.block;
-  return kernels().any_near(block, place.facets, bounds_of(box));
+  const KeptFacets& kept = b_[static_cast<std::size_t>(place.block)]->kept;
+  return kernels().any_near(kept.block, place.facets, bounds_of(box), bounds_of(merged(kept.bounds, box)));
 }
 
 FacetPairSearch::PlaceInB FacetPairSearch::open_b(const ConfirmInput& input, std::int32_t index) {
@@ -118,15 +109,12 @@ FacetPairSearch::PlaceInB FacetPairSearch::open_b(const ConfirmInput& input, std
   if (blocks_of_b_ == 0 || !append(b_[blocks_of_b_ - 1]->kept)) {
     if (b_.size() == blocks_of_b_) b_.push_back(std::make_unique<BlockOfB>());
     BlockOfB& fresh = *b_[blocks_of_b_++];
-    fresh.kept.block.count = 0;
-    fresh.kept.facets = before = 0;
-    fresh.bounds = {};
+    fresh.kept.clear();
     fresh.wanted = false;
+    before = 0;
     append(fresh.kept);
   }
-  BlockOfB& b = *b_[blocks_of_b_ - 1];
-  b.bounds = merged(b.bounds, input.kept_b->boxes[static_cast<std::size_t>(index)]);
-  place = {static_cast<std::int32_t>(blocks_of_b_ - 1), b.kept.facets & ~before};
+  place = {static_cast<std::int32_t>(blocks_of_b_ - 1), b_[blocks_of_b_ - 1]->kept.facets & ~before};
   return place;
 }
 
@@ -141,7 +129,6 @@ void FacetPairSearch::append_a(const ConfirmInput& input, std::int32_t index, st
     finish_block(input, found, counts);
     append();
   }
-  bounds_a_ = merged(bounds_a_, input.kept_a->boxes[static_cast<std::size_t>(index)]);
   for (const std::int32_t block : wanted_by_next_) {
     BlockOfB& b = *b_[static_cast<std::size_t>(block)];
     if (!b.wanted) wanted_.push_back(block);
@@ -153,7 +140,7 @@ void FacetPairSearch::append_a(const ConfirmInput& input, std::int32_t index, st
 void FacetPairSearch::finish_block(const ConfirmInput& input, std::vector<FacetPair>& found, ConfirmCounts& counts) {
   for (const std::int32_t block : wanted_) {
     BlockOfB& b = *b_[static_cast<std::size_t>(block)];
-    test_blocks(input, b.kept, b.bounds, found, counts);
+    test_blocks(input, b.kept, found, counts);
     b.wanted = false;
   }
   wanted_.clear();
@@ -161,30 +148,28 @@ void FacetPairSearch::finish_block(const ConfirmInput& input, std::vector<FacetP
 }
 
 void FacetPairSearch::empty_a() {
-  a_.block.count = 0;
-  a_.facets = 0;
-  bounds_a_ = {};
+  a_.clear();
   pairs_.count = 0;
 }
 
 // The facets of each block that are near the other's are paired by their boxes; pairs are decided many at a time.
-void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b, const Box& bounds_b,
-                                  std::vector<FacetPair>& found, ConfirmCounts& counts) {
-  const auto of_block = [](const KeptFacets& kept, const Box& bounds) {
-    return NearFacets{kept.facets, bounds_of(bounds)};
-  };
-  NearFacets near_a = of_block(a_, bounds_a_), near_b = of_block(b, bounds_b);
+void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b, std::vector<FacetPair>& found,
+                                  ConfirmCounts& counts) {
+  const BoxBounds bounds = bounds_of(merged(a_.bounds, b.bounds));
+  std::uint64_t near_a = a_.facets, near_b = b.facets;
   if (a_.block.count + b.block.count > kFewInBlocks) {
-    near_b = kernels().near_facets(b.block, b.facets, bounds_of(intersection(bounds_a_, bounds_b)));
-    if (near_b.facets == 0) return;
-    near_a = kernels().near_facets(a_.block, a_.facets, near_b.box);
+    const BoxBounds common = bounds_of(intersection(a_.bounds, b.bounds));
+    const NearFacets of_b = kernels().near_facets(b.block, b.facets, common, bounds);
+    if (of_b.facets == 0) return;
+    near_a = kernels().near_facets(a_.block, a_.facets, of_b.box, bounds).facets;
+    near_b = of_b.facets;
   }
-  const BoxBounds bounds = merged(near_a.box, near_b.box);
-  const bool few_are_b = std::popcount(near_b.facets) < std::popcount(near_a.facets);
+  const bool few_are_b = std::popcount(near_b) < std::popcount(near_a);
   const FacetBlock &few = few_are_b ? b.block : a_.block, &many = few_are_b ? a_.block : b.block;
-  const NearFacets& others = few_are_b ? near_a : near_b;
-  for (std::uint64_t left = few_are_b ? near_b.facets : near_a.facets; left != 0;) {
-    const PairedFacets paired = kernels().pair_facets(few, left, many, others, few_are_b, kWorthAPlane, &pairs_);
+  const std::uint64_t others = few_are_b ? near_a : near_b;
+  for (std::uint64_t left = few_are_b ? near_b : near_a; left != 0;) {
+    const PairedFacets paired =
+        kernels().pair_facets(few, left, many, others, bounds, few_are_b, kWorthAPlane, &pairs_);
     left = paired.left_over;
     counts.facet_box_pairs += paired.box_pairs;
     decide_pairs(input, b.block, bounds, found, counts);

@@ -69,7 +69,6 @@ class FacetPairSearch {
  private:
   struct BlockOfB {
     KeptFacets kept;
-    Box bounds;           // of its clusters
     bool wanted = false;  // by a cluster in the block of A
   };
   // Where the facets of an opened cluster of B are.
@@ -82,13 +81,12 @@ class FacetPairSearch {
   void append_a(const ConfirmInput& input, std::int32_t index, std::vector<FacetPair>& found, ConfirmCounts& counts);
   void finish_block(const ConfirmInput& input, std::vector<FacetPair>& found, ConfirmCounts& counts);
   void empty_a();
-  void test_blocks(const ConfirmInput& input, const KeptFacets& b, const Box& bounds_b, std::vector<FacetPair>& found,
+  void test_blocks(const ConfirmInput& input, const KeptFacets& b, std::vector<FacetPair>& found,
                    ConfirmCounts& counts);
   void decide_pairs(const ConfirmInput& input, const FacetBlock& b, const BoxBounds& bounds,
                     std::vector<FacetPair>& found, ConfirmCounts& counts);
 
   KeptFacets a_;
-  Box bounds_a_;                              // of the clusters in a_
   std::vector<std::int32_t> wanted_;          // blocks of B that clusters in a_ may touch
   std::vector<std::int32_t> wanted_by_next_;  // and those that the cluster does which is about to join them
   std::vector<std::unique_ptr<BlockOfB>> b_;

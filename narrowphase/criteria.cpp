@@ -140,6 +140,7 @@ bool append_facets(const ClusteredMesh& mesh, int cluster, const Criteria& crite
   counts.outside_zone += std::popcount(left & ~inside);
   counts.kept += std::popcount(inside);
   kept.facets |= inside;
+  kept.bounds = merged(kept.bounds, mesh.cluster_boxes()[static_cast<std::size_t>(cluster)]);
   return true;
 }
 

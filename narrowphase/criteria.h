@@ -66,6 +66,13 @@ void cull_again(const Box& other, KeptClusters& kept);
 struct KeptFacets {
   FacetBlock block;
   std::uint64_t facets = 0;  // a bit for each of the block that the criteria leave
+  Box bounds;                // of their clusters
+
+  void clear() {
+    block.count = 0;
+    facets = 0;
+    bounds = {};
+  }
 };
 
 // Appends the facets of a cluster that the criteria and the box `other` leave. Returns false, and changes nothing, if

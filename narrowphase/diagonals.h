@@ -16,6 +16,12 @@ using PartingDiagonal = std::int8_t;
 // The one along which `a` lies below `b`, with the widest gap; of equal gaps the first.
 PartingDiagonal parting_diagonal(const DiagonalBounds& a, const DiagonalBounds& b);
 
+// Does it part them?
+inline bool parts(PartingDiagonal parting, const DiagonalBounds& a, const DiagonalBounds& b) {
+  return parting > 0 ? a.upper[parting - 1] < b.lower[parting - 1]
+                     : parting < 0 && b.upper[-parting - 1] < a.lower[-parting - 1];
+}
+
 // The unit vector along a diagonal that parts: from a to b.
 base::Vec3 direction_of(PartingDiagonal parting);
 

@@ -187,14 +187,6 @@ inline Meeting match_lanes(const VectorPack* a, const VectorPack* b, unsigned ma
   return {meeting.yes & known, (mask & ~left) | (meeting.no & known), flat & ~vanishing};
 }
 
-// Bounds the rounding of every determinant of differences of points in a box, as Determinant::error does and no less:
-// each of its six products is at most that of the box's sides, which may have been rounded down.
-inline Pack rounding_in(const BoxBounds& box) {
-  double product = 6.0 * 1.0001;
-  for (int axis = 0; axis < 3; ++axis) product *= box.upper[axis] - box.lower[axis];
-  return rounding_of(spread(product));
-}
-
 // On which side of a plane the corners of a triangle lie, by their heights over it.
 struct StrictSides {
   Mask above[3];

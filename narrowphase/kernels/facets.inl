@@ -109,11 +109,7 @@ int open_cluster(const ClusterFacets& in, const CullPlanes& planes, FacetBlock* 
     }
     const Plane plane({p[0][0], p[0][1], p[0][2]}, {p[1][0], p[1][1], p[1][2]}, {p[2][0], p[2][1], p[2][2]});
     const Pack normal[3] = {plane.normal.x, plane.normal.y, plane.normal.z};
-    const Pack size[3] = {plane.bound.x, plane.bound.y, plane.bound.z};
-    for (int axis = 0; axis < 3; ++axis) {
-      store(block->normal[axis] + to, normal[axis]);
-      store(block->size[axis] + to, size[axis]);
-    }
+    for (int axis = 0; axis < 3; ++axis) store(block->normal[axis] + to, normal[axis]);
   }
   block->count = begin + count;
   return count;
@@ -131,19 +127,25 @@ std::uint64_t facing_away(const FacetBlock& block, const HeightAxis& axis) {
   return away;
 }
 
+// Bounds the rounding of every determinant of differences of points in a box, as Determinant::error does and no less:
+// each of its six products is at most that of the box's sides, which may have been rounded down.
+inline Pack rounding_in(const BoxBounds& box) {
+  double product = 6.0 * 1.0001;
+  for (int axis = 0; axis < 3; ++axis) product *= box.upper[axis] - box.lower[axis];
+  return rounding_of(spread(product));
+}
+
 // The lanes whose plane certainly leaves the whole box on one side. Where x runs over the box, the determinant is lowest
 // and highest at corners of it, and as computed no higher and no lower than at any corner, since rounding keeps order.
-inline unsigned planes_apart(const FacetBlock& block, int i, const BoxPack& box) {
-  Pack lowest[3], highest[3], size[3];
+inline unsigned planes_apart(const FacetBlock& block, int i, const BoxPack& box, Pack error) {
+  Pack lowest[3], highest[3];
   for (int axis = 0; axis < 3; ++axis) {
     const Pack origin = load(block.corner[0][axis] + i), n = load(block.normal[axis] + i);
     const Pack to_lower = sub(box.lower[axis], origin), to_upper = sub(box.upper[axis], origin);
     const Pack p = mul(n, to_lower), q = mul(n, to_upper);
     lowest[axis] = min(p, q);
     highest[axis] = max(p, q);
-    size[axis] = mul(load(block.size[axis] + i), max(abs(to_lower), abs(to_upper)));
   }
-  const Pack error = rounding_of(add(add(size[0], size[1]), size[2]));
   const Mask above = less(error, add(add(lowest[0], lowest[1]), lowest[2]));
   const Mask below = less(add(add(highest[0], highest[1]), highest[2]), sub(spread(0.0), error));
   return bits(either(above, below));
@@ -151,32 +153,35 @@ inline unsigned planes_apart(const FacetBlock& block, int i, const BoxPack& box)
 
 // The facets from `i` on that have a bit in `candidates`, whose box overlaps `box` and whose plane does not leave it on
 // one side.
-inline unsigned near_lanes(const FacetBlock& block, int i, std::uint64_t candidates, const BoxPack& box) {
+inline unsigned near_lanes(const FacetBlock& block, int i, std::uint64_t candidates, const BoxPack& box, Pack error) {
   const double* const lower[3] = {block.lower[0], block.lower[1], block.lower[2]};
   const double* const upper[3] = {block.upper[0], block.upper[1], block.upper[2]};
   const unsigned mask = static_cast<unsigned>(candidates >> i) & kAllLanes & box.overlap(lower, upper, i);
-  return mask == 0 ? 0 : mask & ~planes_apart(block, i, box);
+  return mask == 0 ? 0 : mask & ~planes_apart(block, i, box, error);
 }
 
-bool any_near(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box) {
+bool any_near(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box, const BoxBounds& bounds) {
   const BoxPack pack(box);
+  const Pack error = rounding_in(bounds);
   while (candidates != 0) {
     const int i = __builtin_ctzll(candidates) / kWidth * kWidth;
-    if (near_lanes(block, i, candidates, pack) != 0) return true;
+    if (near_lanes(block, i, candidates, pack, error) != 0) return true;
     candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
   }
   return false;
 }
 
-NearFacets near_facets(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box) {
+NearFacets near_facets(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box,
+                       const BoxBounds& bounds) {
   const BoxPack pack(box);
+  const Pack error = rounding_in(bounds);
   const BoxPointers boxes{{block.lower[0], block.lower[1], block.lower[2]},
                           {block.upper[0], block.upper[1], block.upper[2]}};
   LaneBoxes near_boxes;
   std::uint64_t near = 0;
   while (candidates != 0) {
     const int i = __builtin_ctzll(candidates) / kWidth * kWidth;
-    const unsigned mask = near_lanes(block, i, candidates, pack);
+    const unsigned mask = near_lanes(block, i, candidates, pack, error);
     candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
     if (mask == 0) continue;
     near |= static_cast<std::uint64_t>(mask) << i;
@@ -185,25 +190,15 @@ NearFacets near_facets(const FacetBlock& block, std::uint64_t candidates, const 
   return {near, near_boxes.all()};
 }
 
-// The plane of a facet, to be held against many facets in a box.
+// The plane of a facet, to be held against many facets.
 struct FacetPlane {
   HeightPack height;  // over the plane, times the length of the normal, as computed
-  Pack error;         // of the height of any point of the box
+  Pack error;         // of the heights of all others
 
-  FacetPlane(const FacetBlock& block, int i, const BoxBounds& others)
+  FacetPlane(const FacetBlock& block, int i, Pack rounding)
       : height({block.normal[0][i], block.normal[1][i], block.normal[2][i], block.corner[0][0][i], block.corner[0][1][i],
                 block.corner[0][2][i]}),
-        error(spread(error_in(block, i, others))) {}
-
-  static double error_in(const FacetBlock& block, int i, const BoxBounds& others) {
-    double size = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double corner = block.corner[0][axis][i];
-      const double below = __builtin_fabs(others.lower[axis] - corner), above = __builtin_fabs(others.upper[axis] - corner);
-      size += block.size[axis][i] * (below > above ? below : above);
-    }
-    return kRelativeRounding * size + kAbsoluteRounding;
-  }
+        error(rounding) {}
 
   // The facets from `i` on that certainly lie on one side.
   unsigned leaves_aside(const FacetBlock& block, int i) const {
@@ -217,11 +212,12 @@ struct FacetPlane {
   }
 };
 
-PairedFacets pair_facets(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, const NearFacets& others,
-                         bool few_are_b, int plane_from, FacetPairList* pairs) {
+PairedFacets pair_facets(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, std::uint64_t others,
+                         const BoxBounds& bounds, bool few_are_b, int plane_from, FacetPairList* pairs) {
   const double* const lower[3] = {many.lower[0], many.lower[1], many.lower[2]};
   const double* const upper[3] = {many.upper[0], many.upper[1], many.upper[2]};
   std::uint8_t *const of_few = few_are_b ? pairs->b : pairs->a, *const of_many = few_are_b ? pairs->a : pairs->b;
+  const Pack error = rounding_in(bounds);
   std::int64_t box_pairs = 0;
   for (; some != 0; some &= some - 1) {
     const int f = __builtin_ctzll(some);
@@ -229,10 +225,10 @@ PairedFacets pair_facets(const FacetBlock& few, std::uint64_t some, const FacetB
                        {few.upper[0][f], few.upper[1][f], few.upper[2][f]}});
     std::uint64_t met = 0;
     for (int i = 0; i < many.count; i += kWidth) met |= static_cast<std::uint64_t>(box.overlap(lower, upper, i)) << i;
-    met &= others.facets;
+    met &= others;
     const int overlapping = __builtin_popcountll(met);
     if (overlapping >= plane_from) {
-      const FacetPlane plane(few, f, others.box);
+      const FacetPlane plane(few, f, error);
       for (std::uint64_t left = met; left != 0;) {
         const int i = __builtin_ctzll(left) / kWidth * kWidth;
         met &= ~(static_cast<std::uint64_t>(plane.leaves_aside(many, i)) << i);

@@ -81,7 +81,6 @@ struct alignas(64) FacetBlock {
   double upper[3][kRoom];
   double corner[3][3][kRoom];  // corner, axis, facet
   double normal[3][kRoom];     // (c1 - c0) × (c2 - c0), as computed
-  double size[3][kRoom];       // the same with absolute values of both products of each component
   std::int32_t facet[kRoom];   // its number in the mesh
   int count = 0;
 };
@@ -176,15 +175,16 @@ struct Kernels {
   std::uint64_t (*facing_away)(const FacetBlock& block, const HeightAxis& axis);
 
   // The facets of `block` that have a bit in `candidates`, whose box overlaps `box`, and whose plane does not certainly
-  // leave it on one side. Is there one?
-  NearFacets (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box);
-  bool (*any_near)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box);
+  // leave it on one side. Is there one? All of these facets and `box` lie in the box `bounds`.
+  NearFacets (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box,
+                            const BoxBounds& bounds);
+  bool (*any_near)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box, const BoxBounds& bounds);
 
   // Pairs each facet of `few` that has a bit in `some` with those of the facets `others` of `many` whose box overlaps
   // its own and, if these are at least `plane_from`, that its plane does not certainly leave on one side. Appends them
-  // to `pairs` as long as there is room for all of a facet's.
-  PairedFacets (*pair_facets)(const FacetBlock& few, std::uint64_t some, const FacetBlock& many,
-                              const NearFacets& others, bool few_are_b, int plane_from, FacetPairList* pairs);
+  // to `pairs` as long as there is room for all of a facet's. All of these facets lie in the box `bounds`.
+  PairedFacets (*pair_facets)(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, std::uint64_t others,
+                              const BoxBounds& bounds, bool few_are_b, int plane_from, FacetPairList* pairs);
 
   // Sorts up to kMostSorted pairs, no two of which are equal.
   void (*sort_pairs)(FacetPair* pairs, int count);

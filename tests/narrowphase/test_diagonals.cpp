@@ -108,6 +108,8 @@ TEST(Diagonals, OneThatPartsDoesSoBeforeRounding) {
     ++parted;
     const auto k = static_cast<std::size_t>(std::abs(parting) - 1);
     ASSERT_TRUE(parting > 0 ? upper[0][k] < lower[1][k] : upper[1][k] < lower[0][k]) << "repeat " << repeat;
+    ASSERT_TRUE(parts(static_cast<PartingDiagonal>(parting), a, b));
+    ASSERT_FALSE(parts(static_cast<PartingDiagonal>(-parting), a, b));
   }
   EXPECT_GT(parted, 1000);
   EXPECT_GT(touching, 1000);
@@ -147,6 +149,10 @@ TEST(Diagonals, NonePartsBodiesThatTouch) {
   EXPECT_EQ(parting_diagonal(scalar_kernels()->diagonal_bounds(a.arrays(), 2),
                              scalar_kernels()->diagonal_bounds(b.arrays(), 2)),
             0);
+  for (PartingDiagonal parting = -6; parting <= 6; ++parting) {
+    EXPECT_FALSE(parts(parting, scalar_kernels()->diagonal_bounds(a.arrays(), 2),
+                       scalar_kernels()->diagonal_bounds(b.arrays(), 2)));
+  }
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ namespace {
 
 using tests::clustered;
 using tests::Mesh;
+using tests::MeshBuilder;
 
 constexpr CullPlanes kAll{{0, 0, 1, 0, 0, 0}, -9, {{-9, -9, -9}, {9, 9, 9}}};
 
@@ -141,15 +142,26 @@ TEST(Kernels, DecisionsAreRight) {
   }
 }
 
+// A triangle with edges along the diagonals of a cube, and others with a corner next to its plane: the
+// products of a determinant come as near as can be to those of the cube's sides.
+std::pair<Mesh, Mesh> corners_next_to_a_plane() {
+  MeshBuilder a, b;
+  a.triangle({0, 0, 1}, {1, 1, 0}, {1, 0.9, 0.8});
+  for (int k = -30; k <= 30; ++k) {
+    b.triangle({1, 0.95, 0.4 + k * 0x1p-49}, {0.2, 0.9, 0.9}, {0.9, 0.1, 0.1});
+  }
+  return {a.mesh(), b.mesh()};
+}
+
 // Where rounding is bounded for all pairs at once, that is no tighter than the bound of each determinant: the same is
 // decided with the tightest box of a pair as with one that tells nothing.
 TEST(Kernels, DecisionsDoNotDependOnTheBounds) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   constexpr BoxBounds kNothing{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
   std::size_t undecided = 0, decided = 0;
-  for (int seed = 0; seed < 16; ++seed) {
+  for (int seed = 0; seed < 17; ++seed) {
     for (const double scale : {1.0, 0x1p-260}) {
-      auto [mesh_a, mesh_b] = bodies(seed);
+      auto [mesh_a, mesh_b] = seed < 16 ? bodies(seed) : corners_next_to_a_plane();
       mesh_a.positions *= scale;
       mesh_b.positions *= scale;
       const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
@@ -284,10 +296,10 @@ std::vector<FacetPair> paired(const Kernels& kernels, const FacetBlock& a, const
                               int plane_from, std::int64_t& box_pairs) {
   std::vector<FacetPair> all;
   const FacetBlock &few = few_are_b ? b : a, &many = few_are_b ? a : b;
-  const NearFacets others = kernels.near_facets(many, all_bits(many.count), kEverything);
+  const std::uint64_t others = kernels.near_facets(many, all_bits(many.count), kEverything, kEverything).facets;
   for (std::uint64_t left = all_bits(few.count); left != 0;) {
     FacetPairList pairs;
-    const PairedFacets found = kernels.pair_facets(few, left, many, others, few_are_b, plane_from, &pairs);
+    const PairedFacets found = kernels.pair_facets(few, left, many, others, kEverything, few_are_b, plane_from, &pairs);
     EXPECT_LT(std::popcount(found.left_over), std::popcount(left));
     EXPECT_LE(pairs.count, FacetPairList::kCapacity);
     left = found.left_over;
@@ -310,8 +322,8 @@ TEST(Kernels, FacetsThatMeetAreNearAndPaired) {
       const FacetBlock block_a = block_of(*kernels, a, 0), block_b = block_of(*kernels, b, 0);
       for (const FacetPair& pair : meeting) {
         const BoxBounds box = box_of(block_a, pair.a);
-        EXPECT_NE(kernels->near_facets(block_b, all_bits(block_b.count), box).facets >> pair.b & 1, 0u);
-        EXPECT_TRUE(kernels->any_near(block_b, std::uint64_t{1} << pair.b, box));
+        EXPECT_NE(kernels->near_facets(block_b, all_bits(block_b.count), box, kEverything).facets >> pair.b & 1, 0u);
+        EXPECT_TRUE(kernels->any_near(block_b, std::uint64_t{1} << pair.b, box, merged(box, box_of(block_b, pair.b))));
       }
       for (const bool few_are_b : {false, true}) {
         for (const int plane_from : {kAlways, 6, kNever}) {
@@ -414,7 +426,7 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
     const std::uint64_t away = scalar_kernels()->facing_away(expected, axis);
     const IndexRange all{0, b.vertex_count()};
     const HighestPoint highest = scalar_kernels()->highest_point(b.points(), &all, 1, axis, -1e300);
-    const NearFacets near = scalar_kernels()->near_facets(expected, all_bits(b.facet_end(0)), planes.box);
+    const NearFacets near = scalar_kernels()->near_facets(expected, all_bits(b.facet_end(0)), planes.box, kEverything);
     for (const Kernels* kernels : tests::available_kernels()) {
       const FacetBlock block = block_of(*kernels, b, 0);
       for (int axis_index = 0; axis_index < 3; ++axis_index) {
@@ -433,7 +445,7 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
       EXPECT_EQ(top.index, highest.index) << kernels->name;
       const double above = std::nextafter(highest.height, 1e300);
       EXPECT_EQ(kernels->highest_point(b.points(), &all, 1, axis, above).index, -1) << kernels->name;
-      const NearFacets others = kernels->near_facets(block, all_bits(b.facet_end(0)), planes.box);
+      const NearFacets others = kernels->near_facets(block, all_bits(b.facet_end(0)), planes.box, kEverything);
       EXPECT_EQ(others.facets, near.facets) << kernels->name;
       for (int k = 0; k < 3; ++k) {
         EXPECT_EQ(others.box.lower[k], near.box.lower[k]) << kernels->name;

@@ -52,16 +52,6 @@ BoxBounds box_of(const FacetBlock& block, std::size_t i) {
           {block.upper[0][i], block.upper[1][i], block.upper[2][i]}};
 }
 
-// Is facet i of `many` left out when facet i of `few` is held against it?
-bool leaves_out(const Kernels& kernels, const FacetBlock& few, const FacetBlock& many, std::size_t i) {
-  const std::uint64_t bit = std::uint64_t{1} << i;
-  const NearFacets near = kernels.near_facets(many, bit, box_of(few, i));
-  if (near.facets == 0) return true;
-  FacetPairList pairs;
-  kernels.pair_facets(few, bit, many, near, false, 1, &pairs);
-  return pairs.count == 0;
-}
-
 BoxBounds merged(BoxBounds box, const BoxBounds& other) {
   for (int axis = 0; axis < 3; ++axis) {
     box.lower[axis] = std::min(box.lower[axis], other.lower[axis]);
@@ -73,6 +63,17 @@ BoxBounds merged(BoxBounds box, const BoxBounds& other) {
 // The box of the i-th facets of two blocks.
 BoxBounds bounds_of(const FacetBlock& a, const FacetBlock& b, std::size_t i) {
   return merged(box_of(a, i), box_of(b, i));
+}
+
+// Is facet i of `many` left out when facet i of `few` is held against it?
+bool leaves_out(const Kernels& kernels, const FacetBlock& few, const FacetBlock& many, std::size_t i) {
+  const std::uint64_t bit = std::uint64_t{1} << i;
+  const BoxBounds bounds = bounds_of(few, many, i);
+  const NearFacets near = kernels.near_facets(many, bit, box_of(few, i), bounds);
+  if (near.facets == 0) return true;
+  FacetPairList pairs;
+  kernels.pair_facets(few, bit, many, near.facets, bounds, false, 1, &pairs);
+  return pairs.count == 0;
 }
 
 Filtered::Decision decision(const PairMatches& matches, std::size_t i) {
