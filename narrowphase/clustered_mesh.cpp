@@ -237,10 +237,10 @@ bool ClusteredMesh::set_positions(const double* positions, int threads) {
 }
 
 void ClusteredMesh::prefetch(const double* positions) const {
-  prefetch_lines(positions, 3 * static_cast<std::size_t>(source_vertex_count_));
+  prefetch_lines(positions, 3 * static_cast<std::size_t>(source_vertex_count_) + 1);  // masked loads touch one more
   prefetch_lines(indices_.data(), indices_.size());
   prefetch_lines(staged_.memory, memory_.size() / 2);
-  for (std::size_t axis = 0; axis < 3; ++axis) prefetch_line(placed_.memory + axis * stride_);
+  for (std::size_t axis = 0; axis < 3; ++axis) prefetch_lines(placed_.memory + axis * stride_, 4);
 }
 
 // Positions are gathered cluster by cluster, in an order that no hardware foresees.

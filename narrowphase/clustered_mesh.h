@@ -87,9 +87,9 @@ inline void prefetch_line(const void* line) {
 }
 template <class T>
 void prefetch_lines(const T* begin, std::size_t count) {
-  const auto* bytes = reinterpret_cast<const char*>(begin);
-  const std::size_t size = std::min<std::size_t>(count * sizeof(T), kPrefetchedBytes);
-  for (std::size_t i = 0; i < size; i += 64) __builtin_prefetch(bytes + i, 0, 2);
+  const auto address = reinterpret_cast<std::uintptr_t>(begin), line = address / 64 * 64;
+  const std::size_t size = address - line + std::min<std::size_t>(count * sizeof(T), kPrefetchedBytes);
+  for (std::size_t i = 0; i < size; i += 64) __builtin_prefetch(reinterpret_cast<const char*>(line + i), 0, 2);
   asm volatile("");
 }
 
