@@ -14,6 +14,7 @@ using Staged = narrowphase::ClusteredMesh::Staged;
 
 constexpr Eigen::Index kLargestCount = std::numeric_limits<int>::max() / 4;
 constexpr std::size_t kPrefetchDistance = 8;  // bodies
+constexpr std::size_t kRefreshedBytes = 272;  // of a Body, its first: what stage 1 reads
 // A body of so many facets is refreshed by all threads: one among many, or one of a few that would not keep them busy.
 constexpr std::size_t kLargeBody = 32768, kLargeOfFew = 8192, kFewPerThread = 4;
 constexpr int kMostWithDiagonals = 4096;  // vertices: to look how far more of them reach takes longer than it saves
@@ -143,7 +144,7 @@ void Bodies::prepare(Update& update, BodyId id, const Eigen::Ref<const Eigen::Ma
 
 // Asks for the memory of a body that is looked at soon: small bodies are scattered.
 void Bodies::prefetch(BodyId id) const {
-  if (id.index < slots_.size()) narrowphase::prefetch_lines(slots_[id.index].body.get(), 1);
+  if (id.index < slots_.size()) narrowphase::prefetch_lines(reinterpret_cast<const char*>(slots_[id.index].body.get()), kRefreshedBytes);
 }
 
 void Bodies::stage(Update& update, int threads) const {
