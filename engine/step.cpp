@@ -18,6 +18,9 @@ using base::Timer;
 // So many contacts are reported by one thread: it takes less than to wake another.
 constexpr std::size_t kFewContacts = 1024, kContactsAtATime = 64;
 
+// How many pairs ahead memory is asked for, and the cache lines of a record that pairs need which are apart.
+constexpr std::size_t kBoxes = 2, kBody = 4, kRecord = 8, kRecordLines = 3;
+
 ContactEvent event_of(const PairRecord& record) { return {record.a, record.b}; }
 
 bool before(const ContactEvent& x, const ContactEvent& y) { return x.a < y.a || (x.a == y.a && x.b < y.b); }
@@ -101,7 +104,6 @@ void Step::keep_report() {
 // its boxes, and its vertices if the hulls overlapped. The first body of a pair is most often that of the last. Of
 // the records from `own_end` on, which another thread may write, only the bodies are read.
 void Step::prefetch_pairs(const Bodies& bodies, std::size_t i, std::size_t own_end) const {
-  constexpr std::size_t kBoxes = 2, kBody = 4, kRecord = 8, kRecordLines = 3;  // how many pairs before, cache lines
   const std::span<const MovedPair> moved = table_.moved();
   const auto lines = [](const PairRecord* record, std::size_t first, std::size_t last) {
     narrowphase::prefetch_lines(reinterpret_cast<const char*>(record) + 64 * first, 64 * (last - first));
@@ -123,6 +125,18 @@ void Step::prefetch_pairs(const Bodies& bodies, std::size_t i, std::size_t own_e
   }
 }
 
+// The same for the first bodies, where they change from pair to pair.
+void Step::prefetch_first_bodies(const Bodies& bodies, std::size_t i) const {
+  const std::span<const MovedPair> moved = table_.moved();
+  const auto mesh = [&](std::size_t k) -> const narrowphase::ClusteredMesh& {
+    return bodies.in_slot(moved[k].record->a.index).mesh;
+  };
+  if (i + kBody < moved.size()) narrowphase::prefetch_lines(&mesh(i + kBody), 1);
+  if (i + kBoxes >= moved.size()) return;
+  mesh(i + kBoxes).prefetch_boxes();
+  if (moved[i + kBoxes].record->hulls_overlap) mesh(i + kBoxes).prefetch_points();
+}
+
 // Stages 3 to 6, all pairs in parallel, each into its own record; then the large ones, each on all threads.
 void Step::narrow_phase(Bodies& bodies, const Settings& settings) {
   Timer timer;
@@ -134,7 +148,9 @@ void Step::narrow_phase(Bodies& bodies, const Settings& settings) {
   large_count_ = 0;
   std::mutex mutex;
   const std::size_t grain = base::grain_of(moved.size(), settings.threads, 4, 64);
+  const bool few_pairs = moved.size() < bodies.count();  // then the first body is another one in each
   base::parallel_for(moved.size(), grain, settings.threads, [&](std::size_t i, int thread) {
+    if (few_pairs) prefetch_first_bodies(bodies, i);
     prefetch_pairs(bodies, i, settings.threads == 1 ? moved.size() : i - i % grain + grain);
     PairWork& work = thread_work_[static_cast<std::size_t>(thread)];
     ThreadTally& tally = tallies_[static_cast<std::size_t>(thread)];
