@@ -109,11 +109,13 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   if (knows_diagonals) diagonals_[slot].bounds = body->mesh.diagonals();
   wants_diagonals_[slot] = 0;
   filters_[slot] = {definition.layer, definition.mask, definition.motion == Motion::fixed};
+  slots_[slot].vertex_count = body->mesh.source_vertex_count();
+  slots_[slot].fixed = definition.motion == Motion::fixed;
   slots_[slot].body = std::move(body);
   mark_changed(slot);
   ++count_;
-  vertices_ += slots_[slot].body->mesh.source_vertex_count();
-  moved_vertices_ += slots_[slot].body->mesh.source_vertex_count();
+  vertices_ += slots_[slot].vertex_count;
+  moved_vertices_ += slots_[slot].vertex_count;
   return slots_[slot].body->id;
 }
 
@@ -130,26 +132,28 @@ void Bodies::remove(BodyId id) {
 }
 
 void Bodies::prepare(Update& update, BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions) {
-  Body& body = writable(id);
-  if (body.motion == Motion::fixed)
-    throw Error(ErrorCode::fixed_body, quoted(body.name) + " is fixed: its positions cannot be set");
-  if (positions.cols() != body.mesh.source_vertex_count()) {
-    throw Error(ErrorCode::wrong_size, quoted(body.name) + " has " + std::to_string(body.mesh.source_vertex_count()) +
+  const Body& body = at(id);
+  const Slot& slot = slots_[id.index];
+  if (slot.fixed) throw Error(ErrorCode::fixed_body, quoted(body.name) + " is fixed: its positions cannot be set");
+  if (positions.cols() != slot.vertex_count) {
+    throw Error(ErrorCode::wrong_size, quoted(body.name) + " has " + std::to_string(slot.vertex_count) +
                                            " vertices, but " + std::to_string(positions.cols()) +
                                            " positions were given");
   }
   update.positions = columns(positions, update.copy);
-  update.body = &body;
+  update.body = slot.body.get();
+  update.slot = id.index;
 }
 
 // Asks for the memory of a body that is looked at soon: small bodies are scattered.
 void Bodies::prefetch(BodyId id) const {
-  if (id.index < slots_.size()) narrowphase::prefetch_lines(reinterpret_cast<const char*>(slots_[id.index].body.get()), kRefreshedBytes);
+  if (id.index < slots_.size())
+    narrowphase::prefetch_lines(reinterpret_cast<const char*>(slots_[id.index].body.get()), kRefreshedBytes);
 }
 
 void Bodies::stage(Update& update, int threads) const {
   update.staged = update.body->mesh.stage(update.positions.data(), kLargestCoordinate, threads);
-  update.diagonals.known = wants_diagonals_[update.body->id.index] != 0 && has_diagonals(update.body->mesh);
+  update.diagonals.known = wants_diagonals_[update.slot] != 0 && has_diagonals(update.body->mesh);
   if (update.diagonals.known) update.diagonals.bounds = update.body->mesh.staged_diagonals();
 }
 
@@ -161,11 +165,11 @@ void Bodies::check(const Update& update) {
 void Bodies::take(const Update& update) {
   if (update.staged != Staged::changed) return;
   update.body->mesh.take_staged();
-  const std::uint32_t slot = update.body->id.index;
+  const std::uint32_t slot = update.slot;
   boxes_[slot] = update.body->mesh.box();
   diagonals_[slot].known = update.diagonals.known;
   if (update.diagonals.known) diagonals_[slot].bounds = update.diagonals.bounds;
-  if (!moved(slot)) moved_vertices_ += update.body->mesh.source_vertex_count();
+  if (!moved(slot)) moved_vertices_ += slots_[slot].vertex_count;
   mark_changed(slot);
 }
 
@@ -182,10 +186,7 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
   const base::FloatingPointMode mode;
   const std::size_t count = updates.size();
   if (updates_.size() < count) updates_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i + kPrefetchDistance < count) prefetch(updates[i + kPrefetchDistance].body);
-    prepare(updates_[i], updates[i].body, updates[i].positions);
-  }
+  for (std::size_t i = 0; i < count; ++i) prepare(updates_[i], updates[i].body, updates[i].positions);
   check_named_once(updates);
   // Large bodies one after the other, each on all threads.
   const bool few = count < kFewPerThread * static_cast<std::size_t>(threads);

@@ -70,6 +70,8 @@ class Bodies {
   struct Slot {
     std::unique_ptr<Body> body;
     std::uint32_t generation = 0;
+    std::int32_t vertex_count = 0;  // the caller's; with `fixed`, so that a batch can be looked over without the bodies
+    bool fixed = false;
     bool changed = false;
   };
 
@@ -78,11 +80,10 @@ class Bodies {
     bool known = false;
   };
 
-  Body& writable(BodyId id) { return const_cast<Body&>(at(id)); }
-
   // New positions of a body: prepared, staged, checked, then taken. Only what comes before taking can fail.
   struct Update {
     Body* body = nullptr;
+    std::uint32_t slot = 0;
     std::span<const double> positions;
     std::vector<double> copy;
     narrowphase::ClusteredMesh::Staged staged{};
