@@ -1,6 +1,7 @@
 #include "engine/bodies.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 #include "engine/base/parallel.h"
@@ -14,6 +15,7 @@ using Staged = narrowphase::ClusteredMesh::Staged;
 
 constexpr Eigen::Index kLargestCount = std::numeric_limits<int>::max() / 4;
 constexpr std::size_t kPrefetchDistance = 8;  // bodies
+constexpr std::size_t kTakenAtATime = 1024;   // bodies
 constexpr std::size_t kRefreshedBytes = 272;  // of a Body, its first: what stage 1 reads
 // A body of so many facets is refreshed by all threads: one among many, or one of a few that would not keep them busy.
 constexpr std::size_t kLargeBody = 32768, kLargeOfFew = 8192, kFewPerThread = 4;
@@ -169,8 +171,12 @@ void Bodies::take(const Update& update) {
   boxes_[slot] = update.body->mesh.box();
   diagonals_[slot].known = update.diagonals.known;
   if (update.diagonals.known) diagonals_[slot].bounds = update.diagonals.bounds;
-  if (!moved(slot)) moved_vertices_ += slots_[slot].vertex_count;
-  mark_changed(slot);
+}
+
+void Bodies::note_change(const Update& update) {
+  if (update.staged != Staged::changed) return;
+  if (!moved(update.slot)) moved_vertices_ += slots_[update.slot].vertex_count;
+  mark_changed(update.slot);
 }
 
 void Bodies::set_positions(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions, int threads) {
@@ -180,6 +186,7 @@ void Bodies::set_positions(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& 
   stage(updates_[0], threads);
   check(updates_[0]);
   take(updates_[0]);
+  note_change(updates_[0]);
 }
 
 void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads) {
@@ -189,6 +196,7 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
   for (std::size_t i = 0; i < count; ++i) prepare(updates_[i], updates[i].body, updates[i].positions);
   check_named_once(updates);
   // Large bodies one after the other, each on all threads.
+  std::atomic<bool> any_large{false};
   const bool few = count < kFewPerThread * static_cast<std::size_t>(threads);
   const auto large = [&](std::size_t i) {
     return threads > 1 && updates_[i].body->facet_count >= (few ? kLargeOfFew : kLargeBody);
@@ -199,16 +207,21 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
       const Update& next = updates_[i + kPrefetchDistance];
       next.body->mesh.prefetch(next.positions.data());
     }
-    if (!large(i)) stage(updates_[i], 1);
+    if (large(i)) {
+      any_large = true;
+    } else {
+      stage(updates_[i], 1);
+    }
   });
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count && any_large; ++i) {
     if (large(i)) stage(updates_[i], threads);
   }
   for (std::size_t i = 0; i < count; ++i) check(updates_[i]);
-  for (std::size_t i = 0; i < count; ++i) {
+  base::parallel_for(count, kTakenAtATime, threads, [&](std::size_t i) {
     if (i + kPrefetchDistance < count) prefetch(updates[i + kPrefetchDistance].body);
     take(updates_[i]);
-  }
+  });
+  for (std::size_t i = 0; i < count; ++i) note_change(updates_[i]);
 }
 
 void Bodies::check_named_once(std::span<const PositionsUpdate> updates) {

@@ -94,6 +94,7 @@ class Bodies {
   void stage(Update& update, int threads) const;
   static void check(const Update& update);
   void take(const Update& update);
+  void note_change(const Update& update);
   void check_named_once(std::span<const PositionsUpdate> updates);
   void mark_changed(std::uint32_t slot);
 
