@@ -18,7 +18,7 @@ namespace {
 constexpr int kLaneGroup = 8;  // facets inside a cluster are ordered in groups of so many neighbours
 // Clusters that a thread refreshes at a time: at least a group, so that whoever is cut into ranges has groups.
 constexpr int kFewestInRange = kGroupSize, kMostInRange = 256;
-constexpr int kPrefetchDistance = 8;  // clusters
+constexpr int kPrefetchDistance = 3;  // clusters
 constexpr int kFirstUse = -1;
 
 Vec3 source_position(const double* positions, int vertex) {
@@ -246,7 +246,9 @@ void ClusteredMesh::prefetch(const double* positions) const {
 // Positions are gathered cluster by cluster, in an order that no hardware foresees.
 void ClusteredMesh::prefetch_sources(const double* positions, int cluster) const {
   for (int v = vertex_begin(cluster); v < vertex_end(cluster); ++v) {
-    prefetch_line(positions + 3 * static_cast<std::ptrdiff_t>(source_vertex(v)));
+    const double* p = positions + 3 * static_cast<std::ptrdiff_t>(source_vertex(v));
+    prefetch_line(p);
+    prefetch_line(p + 3);  // masked loads touch it
   }
 }
 
