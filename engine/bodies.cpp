@@ -109,7 +109,7 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   const bool knows_diagonals = has_diagonals(body->mesh);
   diagonals_[slot].known = knows_diagonals;
   if (knows_diagonals) diagonals_[slot].bounds = body->mesh.diagonals();
-  wants_diagonals_[slot] = 0;
+  wants_diagonals_[slot] = 1;
   filters_[slot] = {definition.layer, definition.mask, definition.motion == Motion::fixed};
   slots_[slot].vertex_count = body->mesh.source_vertex_count();
   slots_[slot].fixed = definition.motion == Motion::fixed;
@@ -155,7 +155,8 @@ void Bodies::prefetch(BodyId id) const {
 
 void Bodies::stage(Update& update, int threads) const {
   update.staged = update.body->mesh.stage(update.positions.data(), kLargestCoordinate, threads);
-  update.diagonals.known = wants_diagonals_[update.slot] != 0 && has_diagonals(update.body->mesh);
+  update.diagonals.known =
+      update.staged == Staged::changed && wants_diagonals_[update.slot] != 0 && has_diagonals(update.body->mesh);
   if (update.diagonals.known) update.diagonals.bounds = update.body->mesh.staged_diagonals();
 }
 

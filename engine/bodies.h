@@ -4,7 +4,6 @@
 #include <tact/body.h>
 #include <tact/world.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -51,9 +50,8 @@ class Bodies {
   const narrowphase::DiagonalBounds* diagonals(std::uint32_t slot) const {
     return diagonals_[slot].known ? &diagonals_[slot].bounds : nullptr;
   }
-  // Only a body for which it is wanted looks how far it reaches when it moves next; a large one never does.
-  void want_diagonals(std::uint32_t slot) { wants_diagonals_[slot] = 1; }
-  void want_no_diagonals() { std::ranges::fill(wants_diagonals_, char{0}); }
+  // Does a body look how far it reaches when it moves next? A new one does, a large one never.
+  void want_diagonals(std::uint32_t slot, bool wanted) { wants_diagonals_[slot] = wanted ? 1 : 0; }
   // Slots whose body was added, removed or moved since end_step().
   std::span<const std::uint32_t> changed() const { return changed_; }
   bool moved(std::uint32_t slot) const { return slots_[slot].changed; }

@@ -14,7 +14,8 @@
 
 namespace tact {
 
-// What the last step says about the direction: where the next one starts.
+// What the last step that looked at the pair says about the direction: where the next one starts. It looks at no pair
+// that a diagonal parts, see PairTable.
 struct PairHistory {
   enum class Kind : std::uint8_t { none, separated, overlapping };
   base::Vec3 direction;           // unit, from a to b: separates the hulls, or is their contact direction

@@ -93,11 +93,12 @@ void PairTable::retire(PairRecord& record) {
 void PairTable::take_out_parted(Bodies& bodies, int threads) {
   base::parallel_for(moved_.size(), kPartedAtATime, threads,
                      [&](std::size_t i) { moved_[i].parted = part(moved_[i], bodies); });
-  bodies.want_no_diagonals();
+  // Bodies that moved and have no pair that was apart need not know how far they reach when they move next.
+  for (const std::uint32_t slot : bodies.changed()) bodies.want_diagonals(slot, false);
   for (const MovedPair& pair : moved_) {
     if (candidates_[pair.place].hulls_overlap) continue;
-    bodies.want_diagonals(pairs_[pair.place].a);
-    bodies.want_diagonals(pairs_[pair.place].b);
+    bodies.want_diagonals(pairs_[pair.place].a, true);
+    bodies.want_diagonals(pairs_[pair.place].b, true);
   }
   parted_ = std::erase_if(moved_, [](const MovedPair& pair) { return pair.parted; });
 }

@@ -67,7 +67,7 @@ class PairTable {
  private:
   struct Entry {
     PairRecord* record = nullptr;
-    narrowphase::PartingDiagonal parting = 0;  // in the last step that looked at the pair
+    narrowphase::PartingDiagonal parting = 0;  // in the last step in which a body of the pair moved
   };
   bool part(const MovedPair& pair, const Bodies& bodies);
   void select_moved(const Bodies& bodies);

@@ -101,8 +101,9 @@ void Step::keep_report() {
 }
 
 // Asks for the memory of pairs that are looked at soon: first the record, then the rest of it and the second body, then
-// its boxes, and its vertices if the hulls overlapped. The first body of a pair is most often that of the last. Of
-// the records from `own_end` on, which another thread may write, only the bodies are read.
+// its boxes, and its vertices if the hulls overlapped. The first body of a pair is most often that of the last; where
+// there are fewer pairs than bodies it is not. Of the records from `own_end` on, which another thread may write, only
+// the bodies are read.
 void Step::prefetch_pairs(const Bodies& bodies, std::size_t i, std::size_t own_end) const {
   const std::span<const MovedPair> moved = table_.moved();
   const auto lines = [](const PairRecord* record, std::size_t first, std::size_t last) {
@@ -118,15 +119,15 @@ void Step::prefetch_pairs(const Bodies& bodies, std::size_t i, std::size_t own_e
   if (i + kBoxes < moved.size()) {
     const PairRecord& record = *moved[i + kBoxes].record;
     mesh(record.b).prefetch_boxes();
-    if (record.hulls_overlap) mesh(record.b).prefetch_points();
     if (i + kBoxes >= own_end || record.history.kind == PairHistory::Kind::none) return;
+    if (record.hulls_overlap) mesh(record.b).prefetch_points();
     mesh(record.a).prefetch_position(record.history.hulls.a[0]);
     mesh(record.b).prefetch_position(record.history.hulls.b[0]);
   }
 }
 
-// The same for the first bodies, where they change from pair to pair.
-void Step::prefetch_first_bodies(const Bodies& bodies, std::size_t i) const {
+// The same for the first bodies.
+void Step::prefetch_first_bodies(const Bodies& bodies, std::size_t i, std::size_t own_end) const {
   const std::span<const MovedPair> moved = table_.moved();
   const auto mesh = [&](std::size_t k) -> const narrowphase::ClusteredMesh& {
     return bodies.in_slot(moved[k].record->a.index).mesh;
@@ -134,7 +135,7 @@ void Step::prefetch_first_bodies(const Bodies& bodies, std::size_t i) const {
   if (i + kBody < moved.size()) narrowphase::prefetch_lines(&mesh(i + kBody), 1);
   if (i + kBoxes >= moved.size()) return;
   mesh(i + kBoxes).prefetch_boxes();
-  if (moved[i + kBoxes].record->hulls_overlap) mesh(i + kBoxes).prefetch_points();
+  if (i + kBoxes < own_end && moved[i + kBoxes].record->hulls_overlap) mesh(i + kBoxes).prefetch_points();
 }
 
 // Stages 3 to 6, all pairs in parallel, each into its own record; then the large ones, each on all threads.
@@ -148,10 +149,11 @@ void Step::narrow_phase(Bodies& bodies, const Settings& settings) {
   large_count_ = 0;
   std::mutex mutex;
   const std::size_t grain = base::grain_of(moved.size(), settings.threads, 4, 64);
-  const bool few_pairs = moved.size() < bodies.count();  // then the first body is another one in each
+  const bool few_pairs = moved.size() < bodies.count();
   base::parallel_for(moved.size(), grain, settings.threads, [&](std::size_t i, int thread) {
-    if (few_pairs) prefetch_first_bodies(bodies, i);
-    prefetch_pairs(bodies, i, settings.threads == 1 ? moved.size() : i - i % grain + grain);
+    const std::size_t own_end = settings.threads == 1 ? moved.size() : i - i % grain + grain;
+    if (few_pairs) prefetch_first_bodies(bodies, i, own_end);
+    prefetch_pairs(bodies, i, own_end);
     PairWork& work = thread_work_[static_cast<std::size_t>(thread)];
     ThreadTally& tally = tallies_[static_cast<std::size_t>(thread)];
     PairRecord& record = *moved[i].record;

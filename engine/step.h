@@ -41,7 +41,7 @@ class Step {
 
   void start_afresh();
   void narrow_phase(Bodies& bodies, const Settings& settings);
-  void prefetch_first_bodies(const Bodies& bodies, std::size_t i) const;
+  void prefetch_first_bodies(const Bodies& bodies, std::size_t i, std::size_t own_end) const;
   void prefetch_pairs(const Bodies& bodies, std::size_t i, std::size_t own_end) const;
   void put_aside(PairWork& work);
   std::span<const std::unique_ptr<PairWork>> large() const { return std::span(large_).first(large_count_); }

@@ -214,8 +214,8 @@ inline LoneCorner lone_corner(const VectorPack* c, const StrictSides& s) {
   return {turned(0), turned(1), turned(2), differ(s.above[0], not_first)};
 }
 
-// What match_lanes<Plane> says of lanes in which every determinant is larger than `error`, which is not below its own;
-// nothing of others.
+// What match_lanes<Plane> says, where determinants larger than `error`, which is not below their own, suffice; nothing of
+// other lanes.
 inline Meeting match_clear_lanes(const VectorPack* a, const VectorPack* b, unsigned mask, Pack error) {
   const StrictSides sides_b(Plane(a[0], a[1], a[2]), b, error);
   unsigned left = mask & ~sides_b.apart;

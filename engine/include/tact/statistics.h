@@ -49,7 +49,7 @@ namespace tact {
   X(refresh_ms, "stage 1: setting positions since the last step")                                  \
   X(sweep_ms, "stage 2: candidate pairs")                                                          \
   X(hulls_ms, "stage 3: do the hulls overlap, summed over threads; and from one pair to the next") \
-  X(parting_ms, "that part of stage 3 in which diagonals were asked, wall time")                   \
+  X(parting_ms, "the part of stage 3 in which diagonals are asked, once for all threads")          \
   X(gjk_ms, "that part of stage 3 in which pairs needed GJK")                                      \
   X(direction_ms, "stage 4: contact direction and depth, summed over threads")                     \
   X(cull_ms, "stage 5: zones and criteria, summed over threads")                                   \

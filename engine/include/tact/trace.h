@@ -14,7 +14,7 @@ struct TraceEvent {
     refresh,       // stage 1: a call of World::set_positions since the last step
     detect,        // World::detect(): all that follows
     sweep,         // stage 2
-    narrow_phase,  // stages 3 to 6 of all pairs, on the thread that called; the other kinds of pairs tell who did what
+    narrow_phase,  // stages 3 to 6 of all pairs, on the thread that called; `pair` and `small_pairs` tell of the others
     pair,          // one pair that took 20 microseconds or more: the stages that follow
     hulls,         // stage 3 of it
     direction,     // stage 4 of it
@@ -22,7 +22,7 @@ struct TraceEvent {
     confirm,       // stage 6 of it; of a large pair after all others and outside its `pair`, on all threads in ranges
     range,         // one thread's part in stage 6 of a large pair
     small_pairs,   // pairs that took less, one after the other
-    parted_pairs,  // pairs that diagonals part, all of them
+    parted_pairs,  // pairs that diagonals part: all are asked at once, on all threads, but shown on the one that called
     report,        // stage 7
   };
   using Time = std::chrono::steady_clock::time_point;
