@@ -91,14 +91,21 @@ std::vector<double> data_caches() {
   return sizes;
 }
 
-// The smallest cache that holds `bytes`: 1, 2, 3, or 4 for memory.
-int cache_level(double bytes) {
+// The smallest cache that holds `bytes`: 1, 2, 3, or 4 for memory; none up to twice the size of a cache, of which a
+// part stays in it from step to step.
+std::optional<int> cache_level(double bytes) {
   int level = 1;
-  for (const double size : data_caches()) level += bytes > size ? 1 : 0;
+  for (const double size : data_caches()) {
+    if (bytes > size && bytes < 2.0 * size) return std::nullopt;
+    level += bytes > size ? 1 : 0;
+  }
   return level;
 }
 
-std::string level_name(int level) { return level > 3 ? "memory" : fmt::format("L{}", level); }
+std::string level_name(std::optional<int> level) {
+  if (!level) return "between";
+  return *level > 3 ? "memory" : fmt::format("L{}", *level);
+}
 
 struct GrowthPoint {
   double size = 0.0;   // bodies or facets
@@ -156,15 +163,17 @@ std::vector<Growth> growths(bool quick) {
     return {{"column of blobs of 80", "bodies", {1, 2, 4}, column, body_count},
             {"two blobs", "facets", {10, 20, 40}, pair, facet_count}};
   }
-  return {{"column of blobs of 80", "bodies", {4, 8, 16, 32, 64, 128, 256}, column, body_count},
-          {"blobs of 80, few touch", "bodies", {250, 500, 1000, 2000, 4000, 8000, 16000, 32000}, thin, body_count},
-          {"two blobs", "facets", {10, 20, 40, 80, 113, 160, 226, 320}, pair, facet_count},
-          {"cloth over a sphere", "facets", {40, 80, 160, 320, 453, 640, 906}, drape, facet_count}};
+  return {
+      {"column of blobs of 80", "bodies", {4, 8, 16, 32, 64, 128, 256}, column, body_count},
+      {"blobs of 80, few touch", "bodies", {250, 500, 1000, 2000, 4000, 8000, 16000, 32000, 64000}, thin, body_count},
+      {"two blobs", "facets", {10, 20, 40, 80, 113, 160, 226, 320, 452}, pair, facet_count},
+      {"cloth over a sphere", "facets", {40, 80, 160, 320, 453, 640, 906}, drape, facet_count}};
 }
 
 // The exponent over the points of one level of cache, if there are three or more.
-std::optional<double> exponent_of_level(const std::vector<GrowthPoint>& points, int level) {
+std::optional<double> exponent_of_level(const std::vector<GrowthPoint>& points, std::optional<int> level) {
   std::vector<double> x, y;
+  if (!level) return std::nullopt;
   for (const GrowthPoint& point : points) {
     if (cache_level(point.bytes) != level) continue;
     x.push_back(point.size);
@@ -186,7 +195,7 @@ void growth(const BenchOptions& options) {
     const std::string block = fmt::format("$g{}", std::count(plots.begin(), plots.end(), '$'));
     data += block + " << EOD\n";
     for (const GrowthPoint& point : points) {
-      const int level = cache_level(point.bytes);
+      const std::optional<int> level = cache_level(point.bytes);
       const std::optional<double> exponent = exponent_of_level(points, level);
       table.add({kind.name, fmt::format("{:.0f}", point.size), kind.unit, three_digits(1e-6 * point.bytes),
                  level_name(level), fmt::format("{:.0f}", point.pairs), three_digits(point.ms),
