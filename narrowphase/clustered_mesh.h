@@ -67,6 +67,11 @@ class BoxArrays {
   std::size_t stride_ = 0;
 };
 
+// A box as the kernels take it.
+inline BoxBounds bounds_of(const Box& box) {
+  return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
+}
+
 // The first coordinate that cannot be taken, if any.
 struct PositionProblem {
   enum Kind { none, non_finite, out_of_range } kind = none;

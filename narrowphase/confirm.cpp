@@ -19,10 +19,6 @@ constexpr int kWorthAPlane = 6;
 // Two blocks of so many facets are paired at once; of more, those near the other are looked for first.
 constexpr int kFewInBlocks = 48;
 
-BoxBounds bounds_of(const Box& box) {
-  return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
-}
-
 Triangle triangle_in(const FacetBlock& block, std::size_t i) {
   Triangle t;
   for (std::size_t k = 0; k < 3; ++k) t[k] = {block.corner[k][0][i], block.corner[k][1][i], block.corner[k][2][i]};

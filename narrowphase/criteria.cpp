@@ -8,10 +8,6 @@ namespace tact::narrowphase {
 
 namespace {
 
-BoxBounds bounds_of(const Box& box) {
-  return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
-}
-
 Criteria make_criteria(const Slab& slab, Vec3 outward, double plane, const ImpactZone* other_zone, bool facing_away) {
   Criteria criteria{.outward = outward,
                     .origin = slab.origin,

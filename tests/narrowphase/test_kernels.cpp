@@ -18,7 +18,9 @@
 namespace tact::narrowphase {
 namespace {
 
+using tests::box_of;
 using tests::clustered;
+using tests::merged;
 using tests::Mesh;
 using tests::MeshBuilder;
 
@@ -31,19 +33,6 @@ FacetBlock block_of(const Kernels& kernels, const ClusteredMesh& mesh, int clust
 }
 
 constexpr BoxBounds kEverything{{-9, -9, -9}, {9, 9, 9}};
-
-BoxBounds box_of(const FacetBlock& block, int f) {
-  return {{block.lower[0][f], block.lower[1][f], block.lower[2][f]},
-          {block.upper[0][f], block.upper[1][f], block.upper[2][f]}};
-}
-
-BoxBounds merged(BoxBounds box, const BoxBounds& other) {
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = std::min(box.lower[axis], other.lower[axis]);
-    box.upper[axis] = std::max(box.upper[axis], other.upper[axis]);
-  }
-  return box;
-}
 
 // What becomes of all pairs of a facet of `a` and one of `b`.
 struct Decisions {
@@ -142,8 +131,8 @@ TEST(Kernels, DecisionsAreRight) {
   }
 }
 
-// A triangle with edges along the diagonals of a cube, and others with a corner next to its plane: the
-// products of a determinant come as near as can be to those of the cube's sides.
+// A triangle with edges along the diagonals of a cube, and others with a corner next to its plane: the products of a
+// determinant come as near as can be to those of the cube's sides.
 std::pair<Mesh, Mesh> corners_next_to_a_plane() {
   MeshBuilder a, b;
   a.triangle({0, 0, 1}, {1, 1, 0}, {1, 0.9, 0.8});

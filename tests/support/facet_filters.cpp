@@ -1,5 +1,6 @@
 #include "tests/support/facet_filters.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -47,19 +48,6 @@ FacetBlock block_of(const Kernels& kernels, std::span<const TrianglePair> pairs,
   return block;
 }
 
-BoxBounds box_of(const FacetBlock& block, std::size_t i) {
-  return {{block.lower[0][i], block.lower[1][i], block.lower[2][i]},
-          {block.upper[0][i], block.upper[1][i], block.upper[2][i]}};
-}
-
-BoxBounds merged(BoxBounds box, const BoxBounds& other) {
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = std::min(box.lower[axis], other.lower[axis]);
-    box.upper[axis] = std::max(box.upper[axis], other.upper[axis]);
-  }
-  return box;
-}
-
 // The box of the i-th facets of two blocks.
 BoxBounds bounds_of(const FacetBlock& a, const FacetBlock& b, std::size_t i) {
   return merged(box_of(a, i), box_of(b, i));
@@ -91,6 +79,19 @@ bool lies_in_plane(const Triangle& a, const Triangle& b) {
 }
 
 }  // namespace
+
+BoxBounds box_of(const FacetBlock& block, std::size_t facet) {
+  return {{block.lower[0][facet], block.lower[1][facet], block.lower[2][facet]},
+          {block.upper[0][facet], block.upper[1][facet], block.upper[2][facet]}};
+}
+
+BoxBounds merged(BoxBounds box, const BoxBounds& other) {
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = std::min(box.lower[axis], other.lower[axis]);
+    box.upper[axis] = std::max(box.upper[axis], other.upper[axis]);
+  }
+  return box;
+}
 
 std::vector<Filtered> filtered(const Kernels& kernels, std::span<const TrianglePair> pairs) {
   const FacetBlock a = block_of(kernels, pairs, &TrianglePair::a), b = block_of(kernels, pairs, &TrianglePair::b);

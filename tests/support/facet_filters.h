@@ -2,6 +2,7 @@
 // decision of many pairs at once.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,10 @@ std::vector<Filtered> filtered(const narrowphase::Kernels& kernels, std::span<co
 
 // Is all of it right, where the triangles meet, or do not?
 bool is_right(const Filtered& filtered, const TrianglePair& pair, bool meet);
+
+// The box of a facet of a block, and the box of two.
+narrowphase::BoxBounds box_of(const narrowphase::FacetBlock& block, std::size_t facet);
+narrowphase::BoxBounds merged(narrowphase::BoxBounds box, const narrowphase::BoxBounds& other);
 
 // The instruction sets that this machine and build have.
 std::vector<const narrowphase::Kernels*> available_kernels();
