@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -15,51 +14,11 @@ namespace tact::narrowphase {
 
 namespace {
 
-constexpr int kLaneGroup = 8;  // facets inside a cluster are ordered in groups of so many neighbours
 // Clusters that a thread refreshes at a time: at least a group, so that whoever is cut into ranges has groups.
 constexpr int kFewestInRange = kGroupSize, kMostInRange = 256;
-constexpr int kPrefetchDistance = 3;  // clusters
+// Vertices whose positions are asked for ahead: fewer where a body is small, as none are for its last.
+constexpr int kFewestAhead = 64, kMostAhead = 128;
 constexpr int kFirstUse = -1;
-
-Vec3 source_position(const double* positions, int vertex) {
-  const double* p = positions + 3 * static_cast<std::ptrdiff_t>(vertex);
-  return {p[0], p[1], p[2]};
-}
-
-// Orders facets so that neighbours in space are neighbours in the order: halves at the median of the longest axis, cut
-// at multiples of `unit` so that clusters come out full. Ties break by facet number.
-class MedianOrder {
- public:
-  MedianOrder(const std::vector<Vec3>& centers, std::vector<int>& order) : centers_(centers), order_(order) {}
-
-  void sort(std::size_t begin, std::size_t end) {
-    const std::size_t count = end - begin;
-    if (count <= kLaneGroup) return;
-    const std::size_t unit = count > kClusterSize ? kClusterSize : kLaneGroup;
-    const std::size_t units = (count + unit - 1) / unit;
-    const std::size_t middle = begin + (units + 1) / 2 * unit;
-    if (middle >= end) return;
-    const int axis = longest_axis(begin, end);
-    const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end), [&](int a, int b) {
-      const double x = centers_[static_cast<std::size_t>(a)][axis], y = centers_[static_cast<std::size_t>(b)][axis];
-      return x < y || (x == y && a < b);
-    });
-    sort(begin, middle);
-    sort(middle, end);
-  }
-
- private:
-  int longest_axis(std::size_t begin, std::size_t end) const {
-    Box box;
-    for (std::size_t i = begin; i < end; ++i) box = extended(box, centers_[static_cast<std::size_t>(order_[i])]);
-    const Vec3 size = box.upper - box.lower;
-    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  }
-
-  const std::vector<Vec3>& centers_;
-  std::vector<int>& order_;
-};
 
 Box box_of(const BoxBounds& b) { return {{b.lower[0], b.lower[1], b.lower[2]}, {b.upper[0], b.upper[1], b.upper[2]}}; }
 
@@ -110,16 +69,9 @@ ClusteredMesh::ClusteredMesh(std::span<const double> positions, std::span<const 
 }
 
 void ClusteredMesh::group_facets(std::span<const double> positions, std::span<const int> facets) {
-  const std::size_t count = facets.size() / 3;
-  std::vector<Vec3> centers(count);
-  for (std::size_t f = 0; f < count; ++f) {
-    for (std::size_t k = 0; k < 3; ++k) centers[f] = centers[f] + source_position(positions.data(), facets[3 * f + k]);
-  }
-  facet_count_ = static_cast<int>(count);
-  source_facet_.resize(count);
-  std::iota(source_facet_.begin(), source_facet_.end(), 0);
-  MedianOrder(centers, source_facet_).sort(0, count);
-  facet_of_source_.resize(count);
+  source_facet_ = facet_order(positions, facets, source_vertex_count_);
+  facet_count_ = static_cast<int>(source_facet_.size());
+  facet_of_source_.resize(source_facet_.size());
   for (int f = 0; f < facet_count(); ++f) facet_of_source_[static_cast<std::size_t>(source_facet(f))] = f;
 }
 
@@ -243,20 +195,12 @@ void ClusteredMesh::prefetch(const double* positions) const {
   for (std::size_t axis = 0; axis < 3; ++axis) prefetch_lines(placed_.memory + axis * stride_, 4);
 }
 
-// Positions are gathered cluster by cluster, in an order that no hardware foresees.
-void ClusteredMesh::prefetch_sources(const double* positions, int cluster) const {
-  for (int v = vertex_begin(cluster); v < vertex_end(cluster); ++v) {
-    const double* p = positions + 3 * static_cast<std::ptrdiff_t>(source_vertex(v));
-    prefetch_line(p);
-    prefetch_line(p + 3);  // masked loads touch it
-  }
-}
-
 ClusteredMesh::Refreshed ClusteredMesh::refresh_range(const double* positions, int cluster_begin, int cluster_end) {
   Refreshed refreshed;
   double* const cluster_bounds = staged_.memory + 3 * stride_;
+  // Positions are gathered cluster by cluster, in an order that no hardware foresees.
+  const int end = vertex_begin(cluster_end), ahead = std::clamp(vertex_count() / 8, kFewestAhead, kMostAhead);
   for (int cluster = cluster_begin; cluster < cluster_end; ++cluster) {
-    if (cluster + kPrefetchDistance < cluster_end) prefetch_sources(positions, cluster + kPrefetchDistance);
     const int first = vertex_begin(cluster);
     const int borrowed = borrowed_begin(cluster);
     const double* before = placed_.memory + first;
@@ -266,6 +210,7 @@ ClusteredMesh::Refreshed ClusteredMesh::refresh_range(const double* positions, i
                              .owned_count = vertex_end(cluster) - first,
                              .borrowed = borrowed_sources() + borrowed,
                              .borrowed_count = borrowed_begin(cluster + 1) - borrowed,
+                             .ahead = vertex_end(cluster) + ahead <= end ? ahead : 0,
                              .before = {before, before + stride_, before + 2 * stride_},
                              .changed = refreshed.changed,
                              .x = after,

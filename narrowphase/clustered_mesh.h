@@ -16,6 +16,7 @@
 
 #include "engine/base/box.h"
 #include "engine/base/vec3.h"
+#include "narrowphase/facet_order.h"
 #include "narrowphase/kernels/kernels.h"
 
 namespace tact::narrowphase {
@@ -23,8 +24,7 @@ namespace tact::narrowphase {
 using base::Box;
 using base::Vec3;
 
-inline constexpr int kClusterSize = 64;  // facets in a cluster, at most
-inline constexpr int kGroupSize = 32;    // clusters in a group, at most: neighbours, with a box of their own
+inline constexpr int kGroupSize = 32;  // clusters in a group, at most: neighbours, with a box of their own
 
 // Corners of a facet as vertices, and as points.
 using Corners = std::array<int, 3>;
@@ -219,7 +219,6 @@ class ClusteredMesh {
     Box box;
   };
   Refreshed refresh_range(const double* positions, int cluster_begin, int cluster_end);
-  void prefetch_sources(const double* positions, int cluster) const;
 
   // Where the borrowed vertices of a cluster begin.
   int borrowed_begin(int cluster) const { return indices_[2 * static_cast<std::size_t>(cluster) + 1]; }

@@ -130,6 +130,7 @@ struct RefreshInput {
   std::int32_t owned_count;
   const std::int32_t* borrowed;  // source vertices that only widen the box
   std::int32_t borrowed_count;
+  std::int32_t ahead;  // unless 0: vertices owned[ahead] to owned[ahead + owned_count - 1] are read soon
   PointArrays before;  // where the owned ones were
   bool changed;        // known already: `before` is not read
   double* x;

@@ -1,3 +1,13 @@
+// Asks for `count` of the vertices that come later. Both lines that one may lie in: masked loads touch the next double.
+inline void ask_ahead(const RefreshInput& in, int i, int count) {
+  if (in.ahead == 0) return;
+  for (int k = 0; k < count; ++k) {
+    const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i + in.ahead + k]);
+    __builtin_prefetch(p);
+    __builtin_prefetch(p + 3);
+  }
+}
+
 #if defined(TACT_KERNELS_AVX2_REFRESH)
 
 // A vertex in the low three lanes, zero in the fourth.
@@ -27,6 +37,7 @@ RefreshedCluster refresh_cluster(const RefreshInput& in) {
   bool changed = in.changed;
   int i = 0;
   for (; i + 4 <= in.owned_count; i += 4) {
+    ask_ahead(in, i, 4);
     const __m256d a = load_vertex(in.source, in.owned[i]), b = load_vertex(in.source, in.owned[i + 1]);
     const __m256d c = load_vertex(in.source, in.owned[i + 2]), d = load_vertex(in.source, in.owned[i + 3]);
     even.widen(a);
@@ -48,6 +59,7 @@ RefreshedCluster refresh_cluster(const RefreshInput& in) {
     _mm256_storeu_pd(in.z + i, z);
   }
   for (; i < in.owned_count; ++i) {
+    ask_ahead(in, i, 1);
     const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i]);
     changed = changed || in.before.x[i] != p[0] || in.before.y[i] != p[1] || in.before.z[i] != p[2];
     in.x[i] = p[0];
@@ -87,6 +99,7 @@ RefreshedCluster refresh_cluster(const RefreshInput& in) {
     seen.box.upper[axis] = -__builtin_inf();
   }
   for (int i = 0; i < in.owned_count; ++i) {
+    ask_ahead(in, i, 1);
     const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i]);
     seen.changed = seen.changed || in.before.x[i] != p[0] || in.before.y[i] != p[1] || in.before.z[i] != p[2];
     seen.not_a_number = seen.not_a_number || p[0] != p[0] || p[1] != p[1] || p[2] != p[2];

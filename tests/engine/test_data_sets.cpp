@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/support/clustered.h"
 #include "tests/support/data.h"
 #include "tests/support/detection.h"
 #include "tests/support/minkowski_oracle.h"
@@ -47,6 +48,14 @@ Mesh placed_in(const Mesh& mesh, const Mesh& other, std::uint64_t seed) {
   const double size = extent(other);
   const Mesh unit = scaled(translated(mesh, -centroid(mesh)), 0.8 * size / extent(mesh));
   return translated(rotated(unit, random.rotation()), centroid(other) + 0.3 * size * random.in_ball());
+}
+
+TEST(DataSets, VerticesAreReadAtMostOneAndAHalfTimes) {
+  TACT_SKIP_WITHOUT_DATA();
+  for (std::size_t i = 0; i < kFirstMessy; ++i) {
+    const narrowphase::ClusteredMesh clusters = clustered(read_data(kFiles[i]));
+    EXPECT_LE(clusters.vertex_reads(), 3 * clusters.vertex_count() / 2) << kFiles[i];
+  }
 }
 
 TEST(DataSets, EveryFileMeetsEveryOtherAsTheOracleSays) {

@@ -115,12 +115,6 @@ TEST(ClusteredMesh, ThreadsDoNotChangeBoxes) {
   }
 }
 
-TEST(ClusteredMesh, ReadsEachVertexAtMostOneAndAHalfTimes) {
-  const Mesh mesh = tests::icosphere(5);
-  const ClusteredMesh clusters = clustered(mesh);
-  EXPECT_LE(clusters.vertex_reads(), 3 * mesh.vertex_count() / 2);
-}
-
 TEST(FindPositionProblem, NamesTheFirst) {
   Mesh mesh = tests::box({0, 0, 0}, {1, 1, 1});
   const auto look = [&] { return find_position_problem(mesh.positions.data(), 8, 0x1p300); };

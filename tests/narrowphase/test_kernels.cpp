@@ -500,6 +500,7 @@ class RefreshCluster : public testing::Test {
                                     .owned_count = static_cast<std::int32_t>(owned_.size()),
                                     .borrowed = borrowed_.data(),
                                     .borrowed_count = static_cast<std::int32_t>(borrowed_.size()),
+                                    .ahead = 0,
                                     .before = {before_x_.data(), before_y_.data(), before_z_.data()},
                                     .changed = changed,
                                     .x = x_.data(),
