@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <optional>
 
 #include "engine/base/parallel.h"
 
@@ -20,6 +21,10 @@ constexpr std::size_t kRefreshedBytes = 272;  // of a Body, its first: what stag
 // A body of so many facets is refreshed by all threads: one among many, or one of a few that would not keep them busy.
 constexpr std::size_t kLargeBody = 32768, kLargeOfFew = 8192, kFewPerThread = 4;
 constexpr int kMostWithDiagonals = 4096;  // vertices: to look how far more of them reach takes longer than it saves
+// The clusters of a body, if they are at least so many, are looked at after so many moves. Where they are so many times
+// looser than they were, they are grouped anew, and that is kept if the spread falls to this part of what it was.
+constexpr int kFewestRegrouped = 4, kMovesToLook = 32;
+constexpr double kLoose = 2.0, kWorthRegrouping = 0.75;
 constexpr char kAxisName[] = {'x', 'y', 'z'};
 
 std::string quoted(const std::string& name) { return "body '" + name + "'"; }
@@ -99,6 +104,8 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   filters_.resize(std::max<std::size_t>(filters_.size(), slot + 1));
   diagonals_.resize(std::max<std::size_t>(diagonals_.size(), slot + 1));
   wants_diagonals_.resize(std::max<std::size_t>(wants_diagonals_.size(), slot + 1));
+  groupings_.resize(std::max<std::size_t>(groupings_.size(), slot + 1));
+  make_room(loose_, slots_.size() + 1);
   if (slot == slots_.size()) {
     slots_.emplace_back();
   } else {
@@ -110,6 +117,7 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   diagonals_[slot].known = knows_diagonals;
   if (knows_diagonals) diagonals_[slot].bounds = body->mesh.diagonals();
   wants_diagonals_[slot] = 1;
+  groupings_[slot] = {.looseness = body->mesh.looseness(), .moves = 0, .loose = false};
   filters_[slot] = {definition.layer, definition.mask, definition.motion == Motion::fixed};
   slots_[slot].vertex_count = body->mesh.source_vertex_count();
   slots_[slot].fixed = definition.motion == Motion::fixed;
@@ -128,6 +136,7 @@ void Bodies::remove(BodyId id) {
   slots_[id.index].body.reset();
   boxes_[id.index] = base::Box{};
   free_.push_back(id.index);
+  std::erase(loose_, id.index);
   mark_changed(id.index);
   removed_any_ = true;
   --count_;
@@ -158,6 +167,9 @@ void Bodies::stage(Update& update, int threads) const {
   update.diagonals.known =
       update.staged == Staged::changed && wants_diagonals_[update.slot] != 0 && has_diagonals(update.body->mesh);
   if (update.diagonals.known) update.diagonals.bounds = update.body->mesh.staged_diagonals();
+  const bool looks = update.staged == Staged::changed && groupings_[update.slot].moves + 1 == kMovesToLook &&
+                     update.body->mesh.cluster_count() >= kFewestRegrouped;
+  update.looseness = looks ? update.body->mesh.staged_looseness() : 0.0;
 }
 
 void Bodies::check(const Update& update) {
@@ -172,12 +184,44 @@ void Bodies::take(const Update& update) {
   boxes_[slot] = update.body->mesh.box();
   diagonals_[slot].known = update.diagonals.known;
   if (update.diagonals.known) diagonals_[slot].bounds = update.diagonals.bounds;
+  Grouping& grouping = groupings_[slot];
+  grouping.moves = static_cast<std::uint8_t>((grouping.moves + 1) % kMovesToLook);
 }
 
 void Bodies::note_change(const Update& update) {
   if (update.staged != Staged::changed) return;
   if (!moved(update.slot)) moved_vertices_ += slots_[update.slot].vertex_count;
   mark_changed(update.slot);
+  if (update.looseness == 0.0) return;  // most often: nothing of the grouping is read
+  Grouping& grouping = groupings_[update.slot];
+  if (update.looseness <= kLoose * grouping.looseness || grouping.loose) return;
+  grouping.loose = true;
+  loose_.push_back(update.slot);
+}
+
+std::vector<Bodies::Regrouped> Bodies::regroup(int threads) {
+  std::ranges::sort(loose_);
+  std::vector<Regrouped> all(loose_.size());
+  std::vector<std::optional<narrowphase::ClusteredMesh>> meshes(loose_.size());
+  base::parallel_for(loose_.size(), 1, threads, [&](std::size_t i) {
+    const narrowphase::ClusteredMesh& mesh = in_slot(loose_[i]).mesh;
+    meshes[i] = mesh.regrouped();
+    all[i] = {loose_[i], mesh.numbers_in(*meshes[i])};
+  });
+  // From here on nothing can fail.
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Body& body = *slots_[all[i].slot].body;
+    const bool gains = meshes[i]->spread() <= kWorthRegrouping * body.mesh.spread();
+    if (gains) {
+      body.mesh = std::move(*meshes[i]);
+    } else {
+      all[i].numbers.clear();
+    }
+    groupings_[all[i].slot] = {.looseness = body.mesh.looseness(), .moves = 0, .loose = false};
+  }
+  std::erase_if(all, [](const Regrouped& body) { return body.numbers.empty(); });
+  loose_.clear();
+  return all;
 }
 
 void Bodies::set_positions(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions, int threads) {

@@ -59,6 +59,17 @@ class Bodies {
   // Was any body removed since end_step()? Another may stand in its slot.
   bool removed_any() const { return removed_any_; }
 
+  // A body that was grouped anew: what numbers its vertices have now, each under the number that it had.
+  struct Regrouped {
+    std::uint32_t slot;
+    std::vector<int> numbers;
+  };
+  // Clusters are grouped by where the facets are when a body is added. Have those of any body lost their shape?
+  bool any_loose() const { return !loose_.empty(); }
+  // Groups the facets of such bodies by where they are now, unless that gains little. Sorted by slot. If it fails,
+  // nothing has changed.
+  std::vector<Regrouped> regroup(int threads);
+
   // The step has seen the changes: nothing has moved.
   void end_step();
   // Everything has moved: after a step that failed half-way.
@@ -71,6 +82,13 @@ class Bodies {
     std::int32_t vertex_count = 0;  // the caller's; with `fixed`, so that a batch can be looked over without the bodies
     bool fixed = false;
     bool changed = false;
+  };
+
+  // How the clusters keep their shape.
+  struct Grouping {
+    double looseness = 0.0;  // see ClusteredMesh: when they were made, or last thought about
+    std::uint8_t moves = 0;  // since it was last looked at
+    bool loose = false;
   };
 
   struct Diagonals {
@@ -86,6 +104,7 @@ class Bodies {
     std::vector<double> copy;
     narrowphase::ClusteredMesh::Staged staged{};
     Diagonals diagonals;
+    double looseness = 0.0;  // of the clusters, if it was time to look
   };
   void prepare(Update& update, BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions);
   void prefetch(BodyId id) const;
@@ -103,6 +122,8 @@ class Bodies {
   std::vector<broadphase::Filter> filters_;
   std::vector<Diagonals> diagonals_;
   std::vector<char> wants_diagonals_;
+  std::vector<Grouping> groupings_;
+  std::vector<std::uint32_t> loose_;  // slots of bodies whose clusters have lost their shape
   std::vector<std::uint32_t> changed_;
   std::size_t count_ = 0;
   bool removed_any_ = false;

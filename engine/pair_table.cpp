@@ -16,6 +16,19 @@ constexpr std::size_t kPartedAtATime = 2048;  // pairs
 
 bool names(const Bodies& bodies, BodyId id) { return bodies.in_slot(id.index).id == id; }
 
+// Of one body, if it has other numbers now. What a record keeps of earlier pairs is left alone.
+template <class InSimplex, class InSurface>
+void renumber_vertices(PairRecord& record, std::span<const int> numbers, InSimplex in_simplex, InSurface in_surface) {
+  if (numbers.empty()) return;
+  const auto renumber = [&](auto& vertices, int count) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+      vertices[k] = numbers[static_cast<std::size_t>(vertices[k])];
+  };
+  renumber(record.history.hulls.*in_simplex, record.history.hulls.count);
+  if (record.hulls_overlap) renumber(record.face.*in_simplex, record.face.count);
+  if (record.history.has_surface) renumber(*record.surface.*in_surface, record.surface->vertex_count);
+}
+
 }  // namespace
 
 void PairTable::update(const broadphase::SweepAndPrune& sweep, const Bodies& bodies, bool all) {
@@ -88,6 +101,19 @@ void PairTable::retire(PairRecord& record) {
   // Records are given out again in any order: each has room for what the largest held.
   room_ = std::min(std::max(room_, record.facet_pairs.capacity()), kLargestRoom);
   free_.push_back(&record);
+}
+
+void PairTable::renumber(std::span<const Bodies::Regrouped> bodies) {
+  if (bodies.empty()) return;
+  const auto numbers_of = [&](std::uint32_t slot) -> std::span<const int> {
+    const auto found = std::ranges::lower_bound(bodies, slot, {}, &Bodies::Regrouped::slot);
+    return found != bodies.end() && found->slot == slot ? std::span(found->numbers) : std::span<const int>();
+  };
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    PairRecord& record = *entries_[i].record;
+    renumber_vertices(record, numbers_of(pairs_[i].a), &narrowphase::GjkSimplex::a, &narrowphase::SurfaceShape::a);
+    renumber_vertices(record, numbers_of(pairs_[i].b), &narrowphase::GjkSimplex::b, &narrowphase::SurfaceShape::b);
+  }
 }
 
 void PairTable::take_out_parted(Bodies& bodies, int threads) {

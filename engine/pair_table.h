@@ -34,6 +34,8 @@ class PairTable {
     moved_.clear();
     parted_ = 0;
   }
+  // Vertices have other numbers: so have those that the records name. `bodies` are sorted by slot.
+  void renumber(std::span<const Bodies::Regrouped> bodies);
   // Takes pairs out of moved() that were apart and still are, along a diagonal: their records are not read. A pair that
   // is not taken out any more starts from the diagonal that parted it last.
   void take_out_parted(Bodies& bodies, int threads);

@@ -27,6 +27,12 @@ bool before(const ContactEvent& x, const ContactEvent& y) { return x.a < y.a || 
 
 }  // namespace
 
+void Step::regroup(Bodies& bodies, int threads) {
+  const std::vector<Bodies::Regrouped> regrouped = bodies.regroup(threads);
+  regrouped_ += static_cast<std::int64_t>(regrouped.size());
+  if (!forgotten_) table_.renumber(regrouped);
+}
+
 const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh_ms) {
   Timer total;
   Timer timer = total;
@@ -41,6 +47,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   StepStats& stats = report_.stats_;
   stats.bodies = static_cast<std::int64_t>(bodies.count());
   stats.vertices = bodies.vertices();
+  stats.regrouped_bodies = std::exchange(regrouped_, 0);
 
   sweep_.update(bodies.boxes(), bodies.filters(), bodies.changed(), settings.threads);
   table_.update(sweep_, bodies, all_);

@@ -23,6 +23,9 @@ class Step {
   // took.
   const Report& run(Bodies& bodies, const Settings& settings, double refresh_ms);
 
+  // Groups the facets anew of bodies whose clusters have lost their shape; what pairs remember stays.
+  void regroup(Bodies& bodies, int threads);
+
   // The next step looks at every pair; directions are carried on.
   void look_at_all() { all_ = true; }
   // The next step starts from nothing: after a step that failed half-way. Allocates nothing.
@@ -63,6 +66,7 @@ class Step {
   narrowphase::EmbreeDevice device_;
   Report report_;
   StepTrace trace_;
+  std::int64_t regrouped_ = 0;  // bodies, since the last step
   bool all_ = true;
   bool forgotten_ = false;
 };

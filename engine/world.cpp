@@ -48,6 +48,8 @@ decltype(auto) with_memory(const char* what, const Work& work) {
   }
 }
 
+constexpr const char* kSetting = "setting positions ran out of memory";
+
 }  // namespace
 
 struct World::Implementation {
@@ -58,14 +60,14 @@ struct World::Implementation {
   Step step;
   double refresh_ms = 0.0;  // since the last step
 
-  // Calls set(), which is stage 1, and takes its time.
-  template <class Set>
-  void refresh(const Set& set) {
+  // Calls work(), which is part of stage 1, and takes its time.
+  template <class Work>
+  void refresh(const char* what, const Work& work) {
     base::Timer timer;
     const auto begin = timer.start();
-    with_memory("setting positions ran out of memory", [&] {
+    with_memory(what, [&] {
       if (settings.outputs.trace) step.trace().make_room();
-      set();
+      work();
     });
     refresh_ms += timer.lap();
     if (settings.outputs.trace) step.trace().add_refresh(begin, timer.start());
@@ -98,18 +100,22 @@ void World::remove_body(BodyId body) { implementation().bodies.remove(body); }
 
 void World::set_positions(BodyId body, const Eigen::Ref<const Eigen::Matrix3Xd>& positions) {
   Implementation& i = implementation();
-  i.refresh([&] { i.bodies.set_positions(body, positions, i.settings.threads); });
+  i.refresh(kSetting, [&] { i.bodies.set_positions(body, positions, i.settings.threads); });
 }
 
 void World::set_positions(std::span<const PositionsUpdate> updates) {
   Implementation& i = implementation();
-  i.refresh([&] { i.bodies.set_positions(updates, i.settings.threads); });
+  i.refresh(kSetting, [&] { i.bodies.set_positions(updates, i.settings.threads); });
 }
 
 const Report& World::detect() {
   Implementation& i = implementation();
-  const double refresh_ms = std::exchange(i.refresh_ms, 0.0);
   const base::FloatingPointMode mode;
+  if (i.bodies.any_loose()) {
+    i.refresh("grouping facets anew ran out of memory; nothing has changed",
+              [&] { i.step.regroup(i.bodies, i.settings.threads); });
+  }
+  const double refresh_ms = std::exchange(i.refresh_ms, 0.0);
   return with_memory("detect ran out of memory; the next call starts afresh", [&]() -> const Report& {
     try {
       return i.step.run(i.bodies, i.settings, refresh_ms);

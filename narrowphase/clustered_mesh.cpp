@@ -18,6 +18,7 @@ namespace {
 constexpr int kFewestInRange = kGroupSize, kMostInRange = 256;
 // Vertices whose positions are asked for ahead: fewer where a body is small, as none are for its last.
 constexpr int kFewestAhead = 64, kMostAhead = 128;
+constexpr int kMostMeasured = 128;  // facets
 constexpr int kFirstUse = -1;
 
 Box box_of(const BoxBounds& b) { return {{b.lower[0], b.lower[1], b.lower[2]}, {b.upper[0], b.upper[1], b.upper[2]}}; }
@@ -27,6 +28,12 @@ void set_box(double* bounds, std::size_t stride, std::size_t i, const Box& box) 
   double* bound = bounds + i;
   for (int axis = 0; axis < 3; ++axis, bound += stride) *bound = box.lower[axis];
   for (int axis = 0; axis < 3; ++axis, bound += stride) *bound = box.upper[axis];
+}
+
+double spread_of(const Box& box) {
+  const Vec3 size = box.upper - box.lower;
+  const double extent = size.x + size.y + size.z;
+  return extent * extent;
 }
 
 bool is_within(const Box& box, double largest) {
@@ -224,6 +231,49 @@ ClusteredMesh::Refreshed ClusteredMesh::refresh_range(const double* positions, i
     refreshed.box = merged(refreshed.box, box);
   }
   return refreshed;
+}
+
+double ClusteredMesh::spread(const Placement& p) const {
+  const BoxView boxes = cluster_boxes(p);
+  double sum = 0.0;
+  for (int c = 0; c < cluster_count(); ++c) sum += spread_of(boxes[static_cast<std::size_t>(c)]);
+  return sum;
+}
+
+// Facets are taken by the caller's numbers, which grouping does not change.
+double ClusteredMesh::looseness(const Placement& p) const {
+  const int step = (facet_count() + kMostMeasured - 1) / kMostMeasured;
+  double sum = 0.0;
+  int measured = 0;
+  for (int source = 0; source < facet_count(); source += step, ++measured) {
+    Box box;
+    for (const int v : corners(facet_of_source(source))) box = extended(box, position(p, v));
+    sum += spread_of(box);
+  }
+  return sum > 0.0 ? spread(p) / (sum / measured * facet_count()) : 0.0;
+}
+
+ClusteredMesh ClusteredMesh::regrouped() const {
+  std::vector<double> positions(3 * static_cast<std::size_t>(source_vertex_count_), 0.0);
+  std::vector<int> facets(3 * static_cast<std::size_t>(facet_count_));
+  for (int v = 0; v < vertex_count(); ++v) {
+    const Vec3 p = position(v);
+    for (int axis = 0; axis < 3; ++axis)
+      positions[3 * static_cast<std::size_t>(source_vertex(v)) + static_cast<std::size_t>(axis)] = p[axis];
+  }
+  for (int f = 0; f < facet_count(); ++f) {
+    const Corners c = corners(f);
+    for (std::size_t k = 0; k < 3; ++k) facets[3 * static_cast<std::size_t>(source_facet(f)) + k] = source_vertex(c[k]);
+  }
+  return {positions, facets};
+}
+
+std::vector<int> ClusteredMesh::numbers_in(const ClusteredMesh& other) const {
+  std::vector<int> of_source(static_cast<std::size_t>(source_vertex_count_)), numbers;
+  for (int v = 0; v < other.vertex_count(); ++v) of_source[static_cast<std::size_t>(other.source_vertex(v))] = v;
+  numbers.reserve(static_cast<std::size_t>(vertex_count()));
+  for (int v = 0; v < vertex_count(); ++v) numbers.push_back(of_source[static_cast<std::size_t>(source_vertex(v))]);
+  return numbers;
 }
 
 Triangle ClusteredMesh::triangle(int facet) const {

@@ -142,11 +142,7 @@ class ClusteredMesh {
   int vertex_end(int cluster) const { return vertex_begin(cluster + 1); }
 
   Corners corners(int facet) const;
-  Vec3 position(int vertex) const {
-    const auto v = static_cast<std::size_t>(vertex);
-    const double* x = placed_.memory + v;
-    return {x[0], x[stride_], x[2 * stride_]};
-  }
+  Vec3 position(int vertex) const { return position(placed_, vertex); }
   Triangle triangle(int facet) const;
 
   // What is behind corners() and position(), for loops over many.
@@ -158,6 +154,17 @@ class ClusteredMesh {
   const Box& box() const { return placed_.box; }
   BoxView cluster_boxes() const { return cluster_boxes(placed_); }
   BoxView group_boxes() const { return group_boxes(placed_); }
+  // How large the clusters are: the sum of (length + width + height)² of their boxes, in square metres.
+  double spread() const { return spread(placed_); }
+  // The same over the spread of the facets, of some hundred of them at most: about 0.6 for a smooth mesh, whatever its
+  // size, and more as clusters lose the shape in which they were grouped. Zero if the facets have no size. Of what is
+  // staged, too.
+  double looseness() const { return looseness(placed_); }
+  double staged_looseness() const { return looseness(staged_); }
+  // The same mesh, its facets grouped by where they are now; and what numbers this one's vertices have in `other`,
+  // which was grouped from it.
+  ClusteredMesh regrouped() const;
+  std::vector<int> numbers_in(const ClusteredMesh& other) const;
   // How far the vertices, of which there must be one, reach along the diagonals of a cube's faces, in one more pass;
   // the same of what is staged.
   DiagonalBounds diagonals() const { return diagonals(placed_); }
@@ -208,6 +215,12 @@ class ClusteredMesh {
   }
   BoxView group_boxes(const Placement& p) const {
     return {cluster_boxes(p).lower(0) + 6 * cluster_count(), static_cast<std::size_t>(group_count())};
+  }
+  double spread(const Placement& p) const;
+  double looseness(const Placement& p) const;
+  Vec3 position(const Placement& p, int vertex) const {
+    const double* x = p.memory + vertex;
+    return {x[0], x[stride_], x[2 * stride_]};
   }
   DiagonalBounds diagonals(const Placement& p) const {
     return kernels().diagonal_bounds({p.memory, p.memory + stride_, p.memory + 2 * stride_}, vertex_count_);

@@ -367,4 +367,12 @@ Mesh crumpled(Mesh mesh, std::uint64_t seed) {
   return mapped(std::move(mesh), [&](Vec3) { return random.in_ball(); });
 }
 
+Mesh scrambled(const Mesh& mesh, std::uint64_t seed) {
+  const std::vector<int> places = Random(seed).permutation(mesh.vertex_count());
+  Mesh other = mesh;
+  for (int v = 0; v < mesh.vertex_count(); ++v)
+    other.positions.col(v) = mesh.positions.col(places[static_cast<std::size_t>(v)]);
+  return other;
+}
+
 }  // namespace tact::tests

@@ -49,5 +49,7 @@ Mesh needles(int facets, double aspect, std::uint64_t seed);
 Mesh jittered(Mesh mesh, double amount, std::uint64_t seed);
 // Every vertex at a random place of the unit ball.
 Mesh crumpled(Mesh mesh, std::uint64_t seed);
+// Each vertex at the place of another.
+Mesh scrambled(const Mesh& mesh, std::uint64_t seed);
 
 }  // namespace tact::tests

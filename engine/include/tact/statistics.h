@@ -6,41 +6,42 @@
 namespace tact {
 
 // Every count of a step, with a sentence on each: the one list that printing, JSON, CSV and averages are made from.
-#define TACT_STEP_COUNTS(X)                                                                       \
-  X(bodies, "bodies in the world")                                                                \
-  X(moved_bodies, "bodies that were added or whose positions changed")                            \
-  X(vertices, "vertices of the bodies in the world")                                              \
-  X(moved_vertices, "vertices of the moved bodies")                                               \
-  X(excluded_pairs, "overlapping boxes, one moved, that layers or two fixed bodies exclude")      \
-  X(candidate_pairs, "pairs of bodies whose boxes overlap")                                       \
-  X(kept_pairs, "candidate pairs in which neither body moved: the last result was kept")          \
-  X(parted_pairs, "pairs that were and are apart, along a diagonal of a cube's face")             \
-  X(still_separated_pairs, "pairs that the last separating direction still separates")            \
-  X(still_overlapping_pairs, "pairs whose hulls the last step's vertices still show to overlap")  \
-  X(separated_pairs, "other pairs whose hulls GJK found to be apart")                             \
-  X(contacts, "pairs whose hulls overlap")                                                        \
-  X(carried_directions, "contact directions found from the last step's")                          \
-  X(fresh_directions, "contact directions found from the closest points of hulls once apart")     \
-  X(smallest_directions, "contact directions that are the smallest separation")                   \
-  X(direction_iterations, "shifted calls of GJK")                                                 \
-  X(gjk_iterations, "support queries of GJK, a vertex of each body")                              \
-  X(limits_reached, "pairs in which GJK or the direction stopped at a limit")                     \
-  X(clusters, "clusters of the bodies in contact, once a contact")                                \
-  X(clusters_outside_box, "clusters dropped whole: outside the box of what is left of the other") \
-  X(clusters_outside_slab, "clusters dropped whole by criterion 2, outside the slab")             \
-  X(opened_clusters, "clusters of which a cluster of the other body is near")                     \
-  X(opened_facets, "facets of the opened clusters")                                               \
-  X(facets, "facets of the bodies in contact, once a contact")                                    \
-  X(facets_facing_away, "facets dropped by criterion 1, facing away (paper only)")                \
-  X(facets_outside_slab, "facets dropped by criterion 2, outside the slab or the other's box")    \
-  X(facets_outside_zone, "facets dropped by criterion 3, outside the impact zone")                \
-  X(kept_facets, "facets left after the criteria")                                                \
-  X(cluster_pairs, "pairs of clusters whose boxes overlap")                                       \
-  X(tree_pairs, "contacts whose cluster pairs were found by trees rather than a plain loop")      \
-  X(facet_box_pairs, "pairs of facets whose boxes overlap")                                       \
-  X(triangle_tests, "pairs of facets that doubles could not decide")                              \
-  X(exact_predicates, "orientation predicates that needed integers")                              \
-  X(facet_pairs, "pairs of facets that meet")                                                     \
+#define TACT_STEP_COUNTS(X)                                                                               \
+  X(bodies, "bodies in the world")                                                                        \
+  X(moved_bodies, "bodies that were added or whose positions changed")                                    \
+  X(vertices, "vertices of the bodies in the world")                                                      \
+  X(moved_vertices, "vertices of the moved bodies")                                                       \
+  X(regrouped_bodies, "moved bodies whose clusters had lost their shape: their facets were grouped anew") \
+  X(excluded_pairs, "overlapping boxes, one moved, that layers or two fixed bodies exclude")              \
+  X(candidate_pairs, "pairs of bodies whose boxes overlap")                                               \
+  X(kept_pairs, "candidate pairs in which neither body moved: the last result was kept")                  \
+  X(parted_pairs, "pairs that were and are apart, along a diagonal of a cube's face")                     \
+  X(still_separated_pairs, "pairs that the last separating direction still separates")                    \
+  X(still_overlapping_pairs, "pairs whose hulls the last step's vertices still show to overlap")          \
+  X(separated_pairs, "other pairs whose hulls GJK found to be apart")                                     \
+  X(contacts, "pairs whose hulls overlap")                                                                \
+  X(carried_directions, "contact directions found from the last step's")                                  \
+  X(fresh_directions, "contact directions found from the closest points of hulls once apart")             \
+  X(smallest_directions, "contact directions that are the smallest separation")                           \
+  X(direction_iterations, "shifted calls of GJK")                                                         \
+  X(gjk_iterations, "support queries of GJK, a vertex of each body")                                      \
+  X(limits_reached, "pairs in which GJK or the direction stopped at a limit")                             \
+  X(clusters, "clusters of the bodies in contact, once a contact")                                        \
+  X(clusters_outside_box, "clusters dropped whole: outside the box of what is left of the other")         \
+  X(clusters_outside_slab, "clusters dropped whole by criterion 2, outside the slab")                     \
+  X(opened_clusters, "clusters of which a cluster of the other body is near")                             \
+  X(opened_facets, "facets of the opened clusters")                                                       \
+  X(facets, "facets of the bodies in contact, once a contact")                                            \
+  X(facets_facing_away, "facets dropped by criterion 1, facing away (paper only)")                        \
+  X(facets_outside_slab, "facets dropped by criterion 2, outside the slab or the other's box")            \
+  X(facets_outside_zone, "facets dropped by criterion 3, outside the impact zone")                        \
+  X(kept_facets, "facets left after the criteria")                                                        \
+  X(cluster_pairs, "pairs of clusters whose boxes overlap")                                               \
+  X(tree_pairs, "contacts whose cluster pairs were found by trees rather than a plain loop")              \
+  X(facet_box_pairs, "pairs of facets whose boxes overlap")                                               \
+  X(triangle_tests, "pairs of facets that doubles could not decide")                                      \
+  X(exact_predicates, "orientation predicates that needed integers")                                      \
+  X(facet_pairs, "pairs of facets that meet")                                                             \
   X(touching_contacts, "contacts with at least one facet pair")
 
 // Every time of a step, in milliseconds. The stages 3 to 6 run pair by pair on all threads: theirs are sums over
