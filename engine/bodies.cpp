@@ -21,9 +21,10 @@ constexpr std::size_t kRefreshedBytes = 272;  // of a Body, its first: what stag
 // A body of so many facets is refreshed by all threads: one among many, or one of a few that would not keep them busy.
 constexpr std::size_t kLargeBody = 32768, kLargeOfFew = 8192, kFewPerThread = 4;
 constexpr int kMostWithDiagonals = 4096;  // vertices: to look how far more of them reach takes longer than it saves
-// The clusters of a body, if they are at least so many, are looked at after so many moves. Where they are so many times
-// looser than they were, they are grouped anew, and that is kept if the spread falls to this part of what it was.
-constexpr int kFewestRegrouped = 4, kMovesToLook = 32;
+// The clusters of a body, if they are at least so many, are looked at after so many moves, and twice as many after each
+// try to group them anew, up to a limit. Where they are so many times looser than they were, it is tried, and kept if
+// the spread falls to this part of what it was.
+constexpr int kFewestRegrouped = 4, kMovesToLook = 32, kMostDoublings = 8;
 constexpr double kLoose = 2.0, kWorthRegrouping = 0.75;
 constexpr char kAxisName[] = {'x', 'y', 'z'};
 
@@ -49,6 +50,8 @@ void check_facets(std::span<const int> corner, Eigen::Index vertices, const std:
                                                    std::to_string(vertices) + " vertices");
   }
 }
+
+int moves_to_look(int tries) { return kMovesToLook << tries; }
 
 bool has_diagonals(const narrowphase::ClusteredMesh& mesh) {
   return mesh.vertex_count() > 0 && mesh.vertex_count() <= kMostWithDiagonals;
@@ -117,7 +120,7 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   diagonals_[slot].known = knows_diagonals;
   if (knows_diagonals) diagonals_[slot].bounds = body->mesh.diagonals();
   wants_diagonals_[slot] = 1;
-  groupings_[slot] = {.looseness = body->mesh.looseness(), .moves = 0, .loose = false};
+  groupings_[slot] = {.looseness = body->mesh.looseness()};
   filters_[slot] = {definition.layer, definition.mask, definition.motion == Motion::fixed};
   slots_[slot].vertex_count = body->mesh.source_vertex_count();
   slots_[slot].fixed = definition.motion == Motion::fixed;
@@ -167,7 +170,8 @@ void Bodies::stage(Update& update, int threads) const {
   update.diagonals.known =
       update.staged == Staged::changed && wants_diagonals_[update.slot] != 0 && has_diagonals(update.body->mesh);
   if (update.diagonals.known) update.diagonals.bounds = update.body->mesh.staged_diagonals();
-  const bool looks = update.staged == Staged::changed && groupings_[update.slot].moves + 1 == kMovesToLook &&
+  const bool looks = update.staged == Staged::changed &&
+                     groupings_[update.slot].moves + 1 == moves_to_look(groupings_[update.slot].tries) &&
                      update.body->mesh.cluster_count() >= kFewestRegrouped;
   update.looseness = looks ? update.body->mesh.staged_looseness() : 0.0;
 }
@@ -185,7 +189,7 @@ void Bodies::take(const Update& update) {
   diagonals_[slot].known = update.diagonals.known;
   if (update.diagonals.known) diagonals_[slot].bounds = update.diagonals.bounds;
   Grouping& grouping = groupings_[slot];
-  grouping.moves = static_cast<std::uint8_t>((grouping.moves + 1) % kMovesToLook);
+  grouping.moves = static_cast<std::uint16_t>((grouping.moves + 1) % moves_to_look(grouping.tries));
 }
 
 void Bodies::note_change(const Update& update) {
@@ -194,10 +198,12 @@ void Bodies::note_change(const Update& update) {
   mark_changed(update.slot);
   if (update.looseness == 0.0) return;  // most often: nothing of the grouping is read
   Grouping& grouping = groupings_[update.slot];
-  if (update.looseness <= kLoose * grouping.looseness || grouping.loose) return;
+  if (grouping.loose || !is_loose(grouping, update.looseness)) return;
   grouping.loose = true;
   loose_.push_back(update.slot);
 }
+
+bool Bodies::is_loose(const Grouping& grouping, double looseness) { return looseness > kLoose * grouping.looseness; }
 
 std::vector<Bodies::Regrouped> Bodies::regroup(int threads) {
   std::ranges::sort(loose_);
@@ -205,23 +211,34 @@ std::vector<Bodies::Regrouped> Bodies::regroup(int threads) {
   std::vector<std::optional<narrowphase::ClusteredMesh>> meshes(loose_.size());
   base::parallel_for(loose_.size(), 1, threads, [&](std::size_t i) {
     const narrowphase::ClusteredMesh& mesh = in_slot(loose_[i]).mesh;
+    if (!is_loose(groupings_[loose_[i]], mesh.looseness())) return;  // it was, when it was looked at
     meshes[i] = mesh.regrouped();
-    all[i] = {loose_[i], mesh.numbers_in(*meshes[i])};
+    all[i] = {in_slot(loose_[i]).id, mesh.numbers_in(*meshes[i])};
   });
   // From here on nothing can fail.
   for (std::size_t i = 0; i < all.size(); ++i) {
-    Body& body = *slots_[all[i].slot].body;
-    const bool gains = meshes[i]->spread() <= kWorthRegrouping * body.mesh.spread();
-    if (gains) {
+    if (!meshes[i]) continue;
+    Body& body = *slots_[loose_[i]].body;
+    Grouping& grouping = groupings_[loose_[i]];
+    if (meshes[i]->spread() <= kWorthRegrouping * body.mesh.spread()) {
       body.mesh = std::move(*meshes[i]);
     } else {
       all[i].numbers.clear();
     }
-    groupings_[all[i].slot] = {.looseness = body.mesh.looseness(), .moves = 0, .loose = false};
+    grouping.looseness = body.mesh.looseness();
+    grouping.tries = static_cast<std::uint8_t>(std::min(grouping.tries + 1, kMostDoublings));
   }
   std::erase_if(all, [](const Regrouped& body) { return body.numbers.empty(); });
-  loose_.clear();
+  keep_groups();
   return all;
+}
+
+void Bodies::keep_groups() noexcept {
+  for (const std::uint32_t slot : loose_) {
+    groupings_[slot].loose = false;
+    groupings_[slot].moves = 0;
+  }
+  loose_.clear();
 }
 
 void Bodies::set_positions(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions, int threads) {

@@ -61,14 +61,16 @@ class Bodies {
 
   // A body that was grouped anew: what numbers its vertices have now, each under the number that it had.
   struct Regrouped {
-    std::uint32_t slot;
+    BodyId id;
     std::vector<int> numbers;
   };
   // Clusters are grouped by where the facets are when a body is added. Have those of any body lost their shape?
   bool any_loose() const { return !loose_.empty(); }
-  // Groups the facets of such bodies by where they are now, unless that gains little. Sorted by slot. If it fails,
-  // nothing has changed.
+  // Groups the facets of such bodies by where they are now, if they still are loose and it gains something. Sorted by
+  // slot. If it fails, nothing has changed.
   std::vector<Regrouped> regroup(int threads);
+  // Does without: the groups stay as they are, until the bodies are looked at again.
+  void keep_groups() noexcept;
 
   // The step has seen the changes: nothing has moved.
   void end_step();
@@ -86,8 +88,9 @@ class Bodies {
 
   // How the clusters keep their shape.
   struct Grouping {
-    double looseness = 0.0;  // see ClusteredMesh: when they were made, or last thought about
-    std::uint8_t moves = 0;  // since it was last looked at
+    double looseness = 0.0;   // see ClusteredMesh: when they were made, or could not be made better
+    std::uint16_t moves = 0;  // since it was last looked at
+    std::uint8_t tries = 0;   // to group anew: the more there were, the longer until the next look
     bool loose = false;
   };
 
@@ -114,6 +117,7 @@ class Bodies {
   void note_change(const Update& update);
   void check_named_once(std::span<const PositionsUpdate> updates);
   void mark_changed(std::uint32_t slot);
+  static bool is_loose(const Grouping& grouping, double looseness);
 
   std::uint32_t world_;
   std::vector<Slot> slots_;

@@ -26,7 +26,8 @@ void renumber_vertices(PairRecord& record, std::span<const int> numbers, InSimpl
   };
   renumber(record.history.hulls.*in_simplex, record.history.hulls.count);
   if (record.hulls_overlap) renumber(record.face.*in_simplex, record.face.count);
-  if (record.history.has_surface) renumber(*record.surface.*in_surface, record.surface->vertex_count);
+  if (record.history.has_surface && record.surface->face_count > 0)
+    renumber(*record.surface.*in_surface, record.surface->vertex_count);
 }
 
 }  // namespace
@@ -105,14 +106,16 @@ void PairTable::retire(PairRecord& record) {
 
 void PairTable::renumber(std::span<const Bodies::Regrouped> bodies) {
   if (bodies.empty()) return;
-  const auto numbers_of = [&](std::uint32_t slot) -> std::span<const int> {
-    const auto found = std::ranges::lower_bound(bodies, slot, {}, &Bodies::Regrouped::slot);
-    return found != bodies.end() && found->slot == slot ? std::span(found->numbers) : std::span<const int>();
+  // A body that was removed may stand in the records still: another has its slot.
+  const auto numbers_of = [&](BodyId id) -> std::span<const int> {
+    const auto slot_of = [](const Bodies::Regrouped& body) { return body.id.index; };
+    const auto found = std::ranges::lower_bound(bodies, id.index, {}, slot_of);
+    return found != bodies.end() && found->id == id ? std::span(found->numbers) : std::span<const int>();
   };
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    PairRecord& record = *entries_[i].record;
-    renumber_vertices(record, numbers_of(pairs_[i].a), &narrowphase::GjkSimplex::a, &narrowphase::SurfaceShape::a);
-    renumber_vertices(record, numbers_of(pairs_[i].b), &narrowphase::GjkSimplex::b, &narrowphase::SurfaceShape::b);
+  for (const Entry& entry : entries_) {
+    PairRecord& record = *entry.record;
+    renumber_vertices(record, numbers_of(record.a), &narrowphase::GjkSimplex::a, &narrowphase::SurfaceShape::a);
+    renumber_vertices(record, numbers_of(record.b), &narrowphase::GjkSimplex::b, &narrowphase::SurfaceShape::b);
   }
 }
 

@@ -29,7 +29,7 @@ bool before(const ContactEvent& x, const ContactEvent& y) { return x.a < y.a || 
 
 void Step::regroup(Bodies& bodies, int threads) {
   const std::vector<Bodies::Regrouped> regrouped = bodies.regroup(threads);
-  regrouped_ += static_cast<std::int64_t>(regrouped.size());
+  regrouped_ = static_cast<std::int64_t>(regrouped.size());
   if (!forgotten_) table_.renumber(regrouped);
 }
 
@@ -48,6 +48,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   stats.bodies = static_cast<std::int64_t>(bodies.count());
   stats.vertices = bodies.vertices();
   stats.regrouped_bodies = std::exchange(regrouped_, 0);
+  stats.regroup_ms = std::exchange(regroup_ms_, 0.0);
 
   sweep_.update(bodies.boxes(), bodies.filters(), bodies.changed(), settings.threads);
   table_.update(sweep_, bodies, all_);

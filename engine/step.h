@@ -1,4 +1,4 @@
-// The step: stages 2 to 7 over all bodies (stage 1 is Bodies::set_positions).
+// The step: stages 2 to 7 over all bodies (stage 1 is Bodies::set_positions, and regroup()).
 #pragma once
 
 #include <tact/report.h>
@@ -23,8 +23,10 @@ class Step {
   // took.
   const Report& run(Bodies& bodies, const Settings& settings, double refresh_ms);
 
-  // Groups the facets anew of bodies whose clusters have lost their shape; what pairs remember stays.
+  // Groups the facets anew of bodies whose clusters have lost their shape; what pairs remember stays. A part of stage
+  // 1, before run(). If it fails, nothing has changed.
   void regroup(Bodies& bodies, int threads);
+  void note_regrouping(double ms) { regroup_ms_ = ms; }
 
   // The next step looks at every pair; directions are carried on.
   void look_at_all() { all_ = true; }
@@ -66,7 +68,8 @@ class Step {
   narrowphase::EmbreeDevice device_;
   Report report_;
   StepTrace trace_;
-  std::int64_t regrouped_ = 0;  // bodies, since the last step
+  std::int64_t regrouped_ = 0;  // bodies, for the next step, and how long that took
+  double regroup_ms_ = 0.0;
   bool all_ = true;
   bool forgotten_ = false;
 };

@@ -48,8 +48,6 @@ decltype(auto) with_memory(const char* what, const Work& work) {
   }
 }
 
-constexpr const char* kSetting = "setting positions ran out of memory";
-
 }  // namespace
 
 struct World::Implementation {
@@ -62,15 +60,30 @@ struct World::Implementation {
 
   // Calls work(), which is part of stage 1, and takes its time.
   template <class Work>
-  void refresh(const char* what, const Work& work) {
+  double refresh(const Work& work) {
     base::Timer timer;
     const auto begin = timer.start();
-    with_memory(what, [&] {
-      if (settings.outputs.trace) step.trace().make_room();
-      work();
-    });
-    refresh_ms += timer.lap();
+    if (settings.outputs.trace) step.trace().make_room();
+    work();
+    const double ms = timer.lap();
+    refresh_ms += ms;
     if (settings.outputs.trace) step.trace().add_refresh(begin, timer.start());
+    return ms;
+  }
+
+  template <class Set>
+  void set_positions(const Set& set) {
+    with_memory("setting positions ran out of memory", [&] { refresh(set); });
+  }
+
+  // Where memory is short bodies stay grouped as they are: that is slower, and nothing else.
+  void regroup() {
+    if (!bodies.any_loose()) return;
+    try {
+      step.note_regrouping(refresh([&] { step.regroup(bodies, settings.threads); }));
+    } catch (const std::bad_alloc&) {
+      bodies.keep_groups();
+    }
   }
 };
 
@@ -100,21 +113,18 @@ void World::remove_body(BodyId body) { implementation().bodies.remove(body); }
 
 void World::set_positions(BodyId body, const Eigen::Ref<const Eigen::Matrix3Xd>& positions) {
   Implementation& i = implementation();
-  i.refresh(kSetting, [&] { i.bodies.set_positions(body, positions, i.settings.threads); });
+  i.set_positions([&] { i.bodies.set_positions(body, positions, i.settings.threads); });
 }
 
 void World::set_positions(std::span<const PositionsUpdate> updates) {
   Implementation& i = implementation();
-  i.refresh(kSetting, [&] { i.bodies.set_positions(updates, i.settings.threads); });
+  i.set_positions([&] { i.bodies.set_positions(updates, i.settings.threads); });
 }
 
 const Report& World::detect() {
   Implementation& i = implementation();
   const base::FloatingPointMode mode;
-  if (i.bodies.any_loose()) {
-    i.refresh("grouping facets anew ran out of memory; nothing has changed",
-              [&] { i.step.regroup(i.bodies, i.settings.threads); });
-  }
+  i.regroup();
   const double refresh_ms = std::exchange(i.refresh_ms, 0.0);
   return with_memory("detect ran out of memory; the next call starts afresh", [&]() -> const Report& {
     try {

@@ -72,7 +72,7 @@ std::string duration_text(double ms) {
 std::vector<SkippedWork> skipped_work(const StepStats& sums, const Settings& settings) {
   Ledger ledger;
   ledger.add("vertices", sums.vertices - sums.moved_vertices, "their bodies are fixed or did not move",
-             {sums.refresh_ms, sums.moved_vertices, "refresh of a vertex"});
+             {sums.refresh_ms - sums.regroup_ms, sums.moved_vertices, "refresh of a vertex"});
   add_pairs(sums, ledger);
   if (settings.accuracy != Accuracy::hulls) add_facets(sums, ledger);
   add_outputs(sums, settings, ledger);

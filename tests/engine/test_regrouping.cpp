@@ -5,6 +5,7 @@
 
 #include "tests/support/detection.h"
 #include "tests/support/generators.h"
+#include "tests/support/random.h"
 
 namespace tact::tests {
 namespace {
@@ -136,6 +137,69 @@ TEST_F(Regrouping, ABodyThatIsOnlyMadeWorseIsLeftAlone) {
   add(world, a_);
   a_ = scrambled(a_, 3);
   for (int step = 1; step <= 3 * kLongEnough; ++step) EXPECT_EQ(move(world, step).stats().regrouped_bodies, 0);
+}
+
+TEST_F(Regrouping, ABodyInTheSlotOfALargerOneIsNotTakenForIt) {
+  World world({.threads = 1});
+  add(world, a_);
+  world.remove_body(world.bodies()[0]);
+  const Mesh small = blob(2, 1.0, 0.2, 1);
+  const BodyId id = world.add_body({.positions = scrambled(small, 3).positions, .facets = small.facets});
+  for (int step = 1; step <= kLongEnough; ++step) world.set_positions(id, shifted(small, step).positions);
+  const Report& report = world.detect();
+  EXPECT_EQ(report.stats().regrouped_bodies, 1);
+  EXPECT_TRUE(same_meeting_bodies(meeting_bodies_by_oracle(std::array{shifted(small, kLongEnough), b_}),
+                                  meeting_bodies(report, world.bodies())));
+}
+
+// A record that was another pair's may hold a surface between vertices of that.
+TEST_F(Regrouping, SurfacesOfEarlierPairsAreLeftAlone) {
+  World world({.threads = 1, .direction = DirectionPolicy::smallest});
+  add(world, a_);
+  for (const BodyId id : world.bodies()) world.remove_body(id);
+  world.detect();
+  const Mesh cloth = sheet(16, 16, 1.0, 1.0), floor = sheet(1, 1, 4.0, 4.0);
+  const BodyId id = world.add_body({.positions = scrambled(cloth, 3).positions, .facets = cloth.facets});
+  world.add_body({.positions = floor.positions, .facets = floor.facets});
+  world.detect();
+  std::int64_t regrouped = 0;
+  for (int step = 1; step <= kLongEnough; ++step) {
+    world.set_positions(id, translated(cloth, {0x1p-20 * step, 0.0, 0.0}).positions);
+    const Report& report = world.detect();
+    EXPECT_EQ(report.contacts().size(), 1u);
+    regrouped += report.stats().regrouped_bodies;
+  }
+  EXPECT_EQ(regrouped, 1);
+}
+
+TEST_F(Regrouping, ABodyThatIsLooseNoMoreIsLeftAlone) {
+  World world({.threads = 1});
+  add(world, scrambled(a_, 3));
+  for (int step = 1; step <= kLongEnough; ++step) world.set_positions(world.bodies()[0], shifted(a_, step).positions);
+  Mesh point = a_;
+  point.positions.setZero();
+  world.set_positions(world.bodies()[0], point.positions);
+  EXPECT_EQ(world.detect().stats().regrouped_bodies, 0);
+}
+
+// Small facets, each alone, that change places to and fro.
+TEST_F(Regrouping, ComesAtLongerAndLongerIntervals) {
+  const Mesh here = soup(400, 0.1, 5);
+  Mesh there = here;
+  const std::vector<int> places = Random(6).permutation(here.facet_count());
+  for (int f = 0; f < here.facet_count(); ++f) {
+    for (int k = 0; k < 3; ++k)
+      there.positions.col(here.facets(k, f)) = here.positions.col(here.facets(k, places[static_cast<std::size_t>(f)]));
+  }
+  World world({.threads = 1});
+  const BodyId id = add_bodies(world, std::array{here})[0];
+  int regrouped = 0;
+  for (int step = 1; step <= 2048; ++step) {
+    world.set_positions(id, shifted(step / 40 % 2 == 0 ? here : there, step).positions);
+    regrouped += static_cast<int>(world.detect().stats().regrouped_bodies);
+  }
+  EXPECT_GE(regrouped, 2);
+  EXPECT_LE(regrouped, 6);
 }
 
 }  // namespace

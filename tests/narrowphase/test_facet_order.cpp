@@ -53,5 +53,18 @@ TEST(FacetOrder, VerticesAreReadAtMostOneAndAHalfTimes) {
   }
 }
 
+// Between components no vertex is shared: cuts there must not make clusters long.
+TEST(FacetOrder, ClustersOfManyComponentsAreCompact) {
+  std::vector<Mesh> strands, layers;
+  for (int i = 0; i < 64; ++i)
+    strands.push_back(tests::translated(tests::sheet(32, 1, 1.0, 0.03), {0.0, 0.06 * i, 0.0}));
+  for (int i = 0; i < 20; ++i)
+    layers.push_back(tests::translated(tests::sheet(10, 10, 1.0, 1.0), {0.0, 0.0, 0.02 * i}));
+  for (const std::vector<Mesh>& parts : {strands, layers}) {
+    const ClusteredMesh clusters = tests::clustered(tests::merged(parts));
+    EXPECT_LE(clusters.looseness(), 1.2);
+  }
+}
+
 }  // namespace
 }  // namespace tact::narrowphase

@@ -47,7 +47,8 @@ namespace tact {
 // Every time of a step, in milliseconds. The stages 3 to 6 run pair by pair on all threads: theirs are sums over
 // threads.
 #define TACT_STEP_TIMES(X)                                                                         \
-  X(refresh_ms, "stage 1: setting positions since the last step")                                  \
+  X(refresh_ms, "stage 1: setting positions since the last step, and grouping facets anew")        \
+  X(regroup_ms, "the part of stage 1 in which facets were grouped anew")                           \
   X(sweep_ms, "stage 2: candidate pairs")                                                          \
   X(hulls_ms, "stage 3: do the hulls overlap, summed over threads; and from one pair to the next") \
   X(parting_ms, "the part of stage 3 in which diagonals are asked, once for all threads")          \

@@ -11,8 +11,8 @@ namespace tact {
 // A stretch of one thread's work. Those of a thread lie in each other or apart.
 struct TraceEvent {
   enum class Kind {
-    refresh,       // stage 1: a call of World::set_positions since the last step
-    detect,        // World::detect(): all that follows
+    refresh,       // stage 1: a call of World::set_positions since the last step, or grouping facets anew
+    detect,        // World::detect() but for that: all that follows
     sweep,         // stage 2
     narrow_phase,  // stages 3 to 6 of all pairs, on the thread that called; `pair` and `small_pairs` tell of the others
     pair,          // one pair that took 20 microseconds or more: the stages that follow

@@ -47,7 +47,8 @@ class TACT_API World {
   // Errors: bad_settings.
   void set_settings(const Settings& settings);
 
-  // Copies the mesh and groups its facets into clusters: the only costly call of a body's life.
+  // Copies the mesh and groups its facets into clusters, which is costly. detect() does that again for a body whose
+  // facets have changed places so much that their groups have lost their shape (StepStats::regrouped_bodies).
   // Errors: non_finite_position, position_out_of_range, facet_out_of_range, too_large, out_of_memory.
   BodyId add_body(const BodyDefinition& definition);
   // Errors: stale_body, foreign_body.
