@@ -19,6 +19,7 @@ namespace {
 using narrowphase::ClusteredMesh;
 using narrowphase::ClusterPair;
 using narrowphase::ClusterPairSource;
+using narrowphase::ClusterPairWork;
 using narrowphase::KeptClusters;
 
 // A wavy sheet, 4 m wide; `delay` shifts its waves.
@@ -45,7 +46,7 @@ struct Search {
   const KeptClusters& b;
   narrowphase::EmbreeDevice& device;
   std::vector<ClusterPair> pairs;
-  std::vector<std::int32_t> scratch;
+  ClusterPairWork scratch;
 
   void run(ClusterPairSource source) { find_cluster_pairs(a, b, source, device, pairs, scratch); }
 

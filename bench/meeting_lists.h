@@ -52,9 +52,9 @@ inline bool facets_meet(const MeshView& a, int facet_a, const MeshView& b, int f
                             Kernel::Triangle_3(point(t[0]), point(t[1]), point(t[2])));
 }
 
-// Threads that pay off: waking them costs more than the whole frame of a small workload.
+// Threads that pay off: waking them costs more than the whole frame of so small a workload, the organ and the tool.
 inline int useful_threads(const Workload& workload, int threads) {
-  constexpr std::size_t kSmall = 5000;  // facets
+  constexpr std::size_t kSmall = 1000;  // facets
   return workload.facet_count() < kSmall ? 1 : threads;
 }
 

@@ -15,7 +15,7 @@ namespace tact::broadphase {
 
 class BlockJoin {
  public:
-  explicit BlockJoin(const Kernels& kernels = best_kernels()) : kernels_(&kernels) {}
+  explicit BlockJoin(const Kernels& kernels = broadphase::kernels()) : kernels_(&kernels) {}
 
   // Every pair of `boxes`, those of `tree`, that overlap, of which the tree's last update changed at least one, and
   // whose filters agree; once each, with a < b, in parts whose order and number mean nothing. `filters` may be empty:

@@ -20,7 +20,7 @@ namespace tact::broadphase {
 
 class BlockTree {
  public:
-  explicit BlockTree(const Kernels& kernels = best_kernels()) : kernels_(&kernels) {}
+  explicit BlockTree(const Kernels& kernels = broadphase::kernels()) : kernels_(&kernels) {}
 
   // Takes over all boxes whose index is in `changed` or is new. `is_changed` has a byte for each box, nonzero for
   // those. Boxes of indices past the end of `boxes` are taken out.

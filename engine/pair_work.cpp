@@ -165,7 +165,7 @@ void cull(PairRecord& record, const Body& a, const Body& b, const Slab& slab, co
   cull_again(work.kept_b.bounds, work.kept_a);
   count_facets(a, b, work);
   record.facet_counts.used_trees = find_cluster_pairs(work.kept_a, work.kept_b, ClusterPairSource::automatic, device,
-                                                      work.cluster_pairs, work.boxes_found);
+                                                      work.cluster_pairs, work.cluster_pair_work);
   record.facet_counts.cluster_pairs = static_cast<std::int64_t>(work.cluster_pairs.size());
 }
 

@@ -31,7 +31,7 @@ struct PairWork {
   narrowphase::KeptClusters kept_a, kept_b;
   std::vector<narrowphase::ClusterPair> cluster_pairs;
   std::vector<narrowphase::Point2> zone_points;
-  std::vector<std::int32_t> boxes_found;
+  narrowphase::ClusterPairWork cluster_pair_work;
   narrowphase::FaceFinder faces;
   narrowphase::SmallestMemory smallest;
   bool surface_is_placed = false;  // smallest.surface is the record's, where the bodies are now

@@ -8,6 +8,7 @@
 #include <tact/error.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 namespace tact::narrowphase {
@@ -94,19 +95,18 @@ void ClusterForest::build(EmbreeDevice& device, BoxView boxes, int count) {
   const double scale = largest > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000)) : 1.0;
   const auto embree = static_cast<RTCDevice>(device.get());
   Builder builder{*this};
-  std::vector<RTCBuildPrimitive> primitives;
+  std::array<RTCBuildPrimitive, kBoxesPerTree> primitives;
   for (int begin = 0; begin < count; begin += kBoxesPerTree) {
-    primitives.clear();
-    for (int i = begin; i < std::min(begin + kBoxesPerTree, count); ++i) {
+    const int tree_size = std::min(kBoxesPerTree, count - begin);
+    for (int i = begin; i < begin + tree_size; ++i) {
       const Box box = boxes[static_cast<std::size_t>(i)];
       const Vec3 low = scale * (box.lower - origin), high = scale * (box.upper - origin);
-      RTCBuildPrimitive p{};
+      RTCBuildPrimitive& p = primitives[static_cast<std::size_t>(i - begin)] = {};
       p.lower_x = static_cast<float>(low.x), p.lower_y = static_cast<float>(low.y),
       p.lower_z = static_cast<float>(low.z);
       p.upper_x = static_cast<float>(high.x), p.upper_y = static_cast<float>(high.y),
       p.upper_z = static_cast<float>(high.z);
       p.primID = static_cast<unsigned>(i);
-      primitives.push_back(p);
     }
     RTCBVH bvh = rtcNewBVH(embree);
     if (bvh == nullptr) {
@@ -120,7 +120,7 @@ void ClusterForest::build(EmbreeDevice& device, BoxView boxes, int count) {
     arguments.maxDepth = 60;
     arguments.bvh = bvh;
     arguments.primitives = primitives.data();
-    arguments.primitiveCount = primitives.size();
+    arguments.primitiveCount = static_cast<std::size_t>(tree_size);
     arguments.primitiveArrayCapacity = primitives.size();
     arguments.createNode = Builder::create_node;
     arguments.setNodeChildren = Builder::set_children;

@@ -28,21 +28,21 @@ Triangle triangle_in(const FacetBlock& block, std::size_t i) {
 }  // namespace
 
 bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPairSource source, EmbreeDevice& device,
-                        std::vector<ClusterPair>& pairs, std::vector<std::int32_t>& found) {
+                        std::vector<ClusterPair>& pairs, ClusterPairWork& work) {
   pairs.clear();
   const std::int64_t all = static_cast<std::int64_t>(a.count()) * b.count();
   const bool forest =
       source == ClusterPairSource::forest || (source == ClusterPairSource::automatic && all > kLargestLoop);
   if (all == 0) return false;
-  ClusterForest trees;
-  if (forest) trees.build(device, b.boxes.view(), b.count());
+  std::vector<std::int32_t>& found = work.found;
+  if (forest) work.forest.build(device, b.boxes.view(), b.count());
   found.resize(static_cast<std::size_t>(b.count()));
   for (std::int32_t i = 0; i < a.count(); ++i) {
     const Box box = a.boxes[static_cast<std::size_t>(i)];
     std::size_t count = 0;
     if (forest) {
       found.clear();
-      trees.query(box, found);
+      work.forest.query(box, found);
       std::sort(found.begin(), found.end());
       count = found.size();
     } else {

@@ -43,10 +43,16 @@ struct OpenedCluster {
 // Where cluster pairs come from.
 enum class ClusterPairSource { automatic, loop, forest };
 
+// Memory for finding cluster pairs, used again and again.
+struct ClusterPairWork {
+  std::vector<std::int32_t> found;
+  ClusterForest forest;
+};
+
 // The pairs of kept clusters whose boxes overlap, sorted: by a loop over boxes where they are few, by Embree's trees
-// where they are many. Says whether trees were used. `pairs` is replaced, `scratch` lends its memory.
+// where they are many. Says whether trees were used. `pairs` is replaced, `work` lends its memory.
 bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPairSource source, EmbreeDevice& device,
-                        std::vector<ClusterPair>& pairs, std::vector<std::int32_t>& scratch);
+                        std::vector<ClusterPair>& pairs, ClusterPairWork& work);
 
 // Tests the facets of cluster pairs; one for each thread, its memory reused.
 //

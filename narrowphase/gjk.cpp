@@ -133,6 +133,35 @@ bool holds_origin(const MinkowskiDifference& m, const GjkSimplex& simplex) {
   return tetrahedron_holds_origin(points);
 }
 
+ClosestPoints closest_points(const MinkowskiDifference& m, const GjkResult& result) {
+  const GjkSimplex& simplex = result.simplex;
+  const auto y = [&](std::size_t i) { return m.vertex(simplex.a[i], simplex.b[i]).point; };
+  // Shares of the vertices in the nearest point; the origin's, where it is inside.
+  std::array<double, 4> share{1.0, 0.0, 0.0, 0.0};
+  const Vec3 to = result.offset - y(0);
+  if (simplex.count == 2) {
+    const Vec3 e = y(1) - y(0);
+    share[1] = dot(to, e) / dot(e, e);
+  } else if (simplex.count == 3) {
+    const Vec3 e = y(1) - y(0), f = y(2) - y(0), n = cross(e, f);
+    share[1] = dot(cross(to, f), n) / dot(n, n);
+    share[2] = dot(cross(e, to), n) / dot(n, n);
+  } else if (simplex.count == 4) {
+    const Vec3 e = y(1) - y(0), f = y(2) - y(0), g = y(3) - y(0), o = -y(0);
+    const double volume = dot(e, cross(f, g));
+    share[1] = dot(o, cross(f, g)) / volume;
+    share[2] = dot(e, cross(o, g)) / volume;
+    share[3] = dot(e, cross(f, o)) / volume;
+  }
+  share[0] = 1.0 - share[1] - share[2] - share[3];
+  ClosestPoints closest;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(simplex.count); ++i) {
+    closest.a = closest.a + share[i] * (m.a().position(simplex.a[i]) - m.origin());
+    closest.b = closest.b + share[i] * (m.b().position(simplex.b[i]) - m.origin());
+  }
+  return {closest.a + m.origin(), closest.b + m.origin()};
+}
+
 GjkResult gjk(const MinkowskiDifference& m, Vec3 point, const GjkSimplex& start, const GjkSettings& settings) {
   Search search(m, point);
   search.start(start);

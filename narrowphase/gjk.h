@@ -13,7 +13,8 @@ enum class GjkStatus {
   touching,  // but for rounding, the point lies on a vertex, an edge or a triangle of vertices of M: it touches M, or
              // is inside
   overlapping,    // the point lies inside a tetrahedron of vertices of M
-  limit_reached,  // the bounds did not close: the result is the best found
+  limit_reached,  // the bounds did not close, not even to 1e-10 of the size, where doubles make no more progress: the
+                  // result is the best found
 };
 
 // Pairs of vertices that span the part of M nearest to the point: the start of the next search.
@@ -42,5 +43,12 @@ bool holds_origin(const MinkowskiDifference& m, const GjkSimplex& simplex);
 
 // The distance of `point` (scaled) from M. `start` may hold vertices from an earlier search, or nothing.
 GjkResult gjk(const MinkowskiDifference& m, Vec3 point, const GjkSimplex& start, const GjkSettings& settings);
+
+// The points of the hulls, in metres, whose difference is the nearest point of M that a search for the origin found:
+// those between which the bodies are closest where they are apart. (Others may be as close, where faces are parallel.)
+struct ClosestPoints {
+  Vec3 a, b;
+};
+ClosestPoints closest_points(const MinkowskiDifference& m, const GjkResult& result);
 
 }  // namespace tact::narrowphase

@@ -1,4 +1,5 @@
 #include "broadphase/kernels/kernels.h"
+#include "engine/base/instruction_set.h"
 
 namespace tact::broadphase {
 
@@ -23,10 +24,9 @@ const Kernels* avx2_kernels() { return nullptr; }
 const Kernels* avx512_kernels() { return nullptr; }
 #endif
 
-const Kernels& best_kernels() {
-  if (const Kernels* kernels = avx512_kernels()) return *kernels;
-  if (const Kernels* kernels = avx2_kernels()) return *kernels;
-  return *baseline_kernels();
+const Kernels& kernels() {
+  static const Kernels& chosen = base::wanted_kernels({baseline_kernels(), avx2_kernels(), avx512_kernels()});
+  return chosen;
 }
 
 }  // namespace tact::broadphase

@@ -49,6 +49,6 @@ const Kernels* avx2_kernels();
 const Kernels* avx512_kernels();
 
 // The best for this machine.
-const Kernels& best_kernels();
+const Kernels& kernels();
 
 }  // namespace tact::broadphase

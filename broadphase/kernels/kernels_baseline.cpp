@@ -9,6 +9,6 @@ namespace {
 }  // namespace
 
 extern const Kernels kBaselineKernels;
-const Kernels kBaselineKernels{"baseline", find_rows, find_overlaps, refresh_lanes};
+const Kernels kBaselineKernels{"scalar", find_rows, find_overlaps, refresh_lanes};
 
 }  // namespace tact::broadphase

@@ -1,7 +1,4 @@
-#include <cstdlib>
-#include <cstring>
-#include <initializer_list>
-
+#include "engine/base/instruction_set.h"
 #include "narrowphase/kernels/kernels.h"
 
 namespace tact::narrowphase {
@@ -30,21 +27,9 @@ const Kernels* avx2_kernels() { return nullptr; }
 const Kernels* avx512_kernels() { return nullptr; }
 #endif
 
-namespace {
-
-const Kernels& choose() {
-  const Kernels* best = avx512_kernels() ? avx512_kernels() : avx2_kernels() ? avx2_kernels() : scalar_kernels();
-  const char* wanted = std::getenv("TACT_INSTRUCTION_SET");
-  for (const Kernels* one : {scalar_kernels(), avx2_kernels(), avx512_kernels()}) {
-    if (wanted && one && std::strcmp(wanted, one->name) == 0) return *one;
-  }
-  return *best;
-}
-
-}  // namespace
-
 const Kernels& kernels() {
-  static const Kernels& chosen = choose();  // the same for the whole process; no answer depends on it
+  // The same for the whole process.
+  static const Kernels& chosen = base::wanted_kernels({scalar_kernels(), avx2_kernels(), avx512_kernels()});
   return chosen;
 }
 

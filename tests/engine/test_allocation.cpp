@@ -199,7 +199,7 @@ TEST(Allocation, ThatFailsInEmbreeLeavesAUsableWorld) {
     ASSERT_TRUE(same_facet_pairs(expected, report.contacts()[0].facet_pairs())) << "allocation " << number;
     if (outcome == Outcome::finished) break;
   }
-  EXPECT_GT(failures, 8);
+  EXPECT_GT(failures, 3);  // all of them Embree's: what is ours was there from the step before
 }
 
 TEST(Allocation, OfAWorldThatFailsLeavesNothing) {
@@ -272,6 +272,19 @@ TEST(Allocation, SteadyStepsWithAPairForAllThreadsTakeNone) {
   EXPECT_GT(std::count_if(events.begin(), events.end(),
                           [](const TraceEvent& event) { return event.kind == TraceEvent::Kind::range; }),
             1);
+}
+
+// A pair of so many clusters that trees find those that are near: Embree takes memory for each tree, and nothing else
+// does.
+TEST(Allocation, SteadyStepsWithTreesTakeOnlyEmbrees) {
+  const Mesh a = wrinkled_sheet(200, 2.0, 0.05, 1), b = wrinkled_sheet(200, 2.0, 0.05, 2);
+  Round round({.threads = 1}, {a, b});
+  const long taken = fewest_allocations(round, 1);
+  round.world.set_positions(round.ids[0], round.frames[3][0].positions);
+  EXPECT_EQ(round.world.detect().stats().tree_pairs, 1);
+  const auto trees = static_cast<long>(round.frames.size()) * 2;  // of up to 512 clusters, of which a sheet has 1250
+  EXPECT_GT(taken, 0);
+  EXPECT_LE(taken, 2 * trees);
 }
 
 TEST(Allocation, SteadyBatchesTakeNone) {

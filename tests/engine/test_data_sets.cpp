@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "tests/support/clustered.h"
+#include "tests/support/contact_checks.h"
 #include "tests/support/data.h"
 #include "tests/support/detection.h"
 #include "tests/support/minkowski_oracle.h"
@@ -72,6 +73,22 @@ TEST(DataSets, EveryFileMeetsEveryOtherAsTheOracleSays) {
     }
   }
   EXPECT_GT(meeting, 120);
+}
+
+TEST(DataSets, DirectionsAndDepthsOfEveryPairOfFilesAreSound) {
+  TACT_SKIP_WITHOUT_DATA();
+  const std::vector<Mesh> meshes = all_files();
+  int contacts = 0;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Mesh placed = placed_in(meshes[i], meshes[j], 100 * i + j);
+      const std::optional<Contact> contact = contact_of(meshes[j], placed);
+      if (!contact) continue;
+      ++contacts;
+      EXPECT_TRUE(is_sound(*contact, meshes[j], placed)) << kFiles[j] << ", " << kFiles[i];
+    }
+  }
+  EXPECT_GT(contacts, 120);
 }
 
 TEST(DataSets, AllFilesInOneWorldMeetAsTheOracleSays) {

@@ -1,7 +1,7 @@
 // Cases of other projects on hulls, direction and depth, with the numbers that they were reported with. Cases on
-// triangles stand in test_triangle_triangle.cpp, distances (openGJK, Jolt) in test_gjk.cpp, since a world tells none of
-// bodies that are apart; the poses of queries of continuous detection in test_data_sets.cpp. Left out are FCL's witness
-// points, which tact does not report, and depths of libccd's MPR, which are recorded output and no truth.
+// triangles stand in test_triangle_triangle.cpp, distances and closest points (openGJK, Jolt, parry, Box2D) in
+// test_gjk.cpp, since a world tells none of bodies that are apart; the poses of queries of continuous detection in
+// test_data_sets.cpp. Left out are depths of libccd's MPR, which are recorded output and no truth.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -31,7 +31,7 @@ std::vector<std::pair<int, int>> as_pairs(const std::vector<ClusterPair>& pairs)
 }
 
 TEST(ClusterPairs, LoopAndForestAgree) {
-  std::vector<std::int32_t> scratch;
+  ClusterPairWork scratch;
   EmbreeDevice device;
   for (const double offset : {0.0, 1e9}) {
     const Mesh sheet = tests::translated(tests::wrinkled_sheet(200, 2.0, 0.3, 1), {offset, 0, 0});
@@ -47,7 +47,7 @@ TEST(ClusterPairs, LoopAndForestAgree) {
 }
 
 TEST(ClusterPairs, EmbreeIsNotStartedByALoop) {
-  std::vector<std::int32_t> scratch;
+  ClusterPairWork scratch;
   EmbreeDevice device;
   const ClusteredMesh a = tests::clustered(tests::icosphere(3));
   const KeptClusters kept = all_clusters(a);
@@ -90,7 +90,7 @@ class ThroughCriteria {
   KeptClusters kept_a_, kept_b_;
   std::vector<Point2> points_;
   std::vector<ClusterPair> pairs_;
-  std::vector<std::int32_t> scratch_;
+  ClusterPairWork scratch_;
   FacetPairSearch search_;
   std::vector<FacetPair> found_;
 };
