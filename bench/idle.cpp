@@ -27,9 +27,7 @@ double idle_step_us(TactRunner& runner) {
 
 struct Moving {
   double us = 0.0;
-  double candidate_pairs = 0.0;
-  double kept_pairs = 0.0;
-  double parted_pairs = 0.0;
+  StepStats stats;  // of the last step
 };
 
 // A step in which `count` bodies get new positions.
@@ -39,16 +37,73 @@ Moving moving_step(TactRunner& runner, const Workload& workload, std::size_t cou
   const double start = wall_ms();
   double expected_ms = 0.0;
   for (int k = 0; k < 10 || wall_ms() - start < budget_ms; ++k) {
-    times.push_back(time_ms(threads, expected_ms, [&] {
-      const StepStats& stats = runner.step_few(k % workload.frames, count).stats();
-      result.candidate_pairs = static_cast<double>(stats.candidate_pairs);
-      result.kept_pairs = static_cast<double>(stats.kept_pairs);
-      result.parted_pairs = static_cast<double>(stats.parted_pairs);
-    }));
+    times.push_back(
+        time_ms(threads, expected_ms, [&] { result.stats = runner.step_few(k % workload.frames, count).stats(); }));
     expected_ms = times.back();
   }
   result.us = 1e3 * median(times);
   return result;
+}
+
+// A pile in which one thing need not be done.
+struct Skip {
+  const char* what;
+  Workload workload;
+  Settings settings;
+  std::size_t moving;  // bodies
+};
+
+std::vector<Skip> skips(const Workload& pile) {
+  const std::size_t all = pile.bodies.size();
+  const auto changed = [&](const auto& change) {
+    Workload workload = pile;
+    for (std::size_t i = 0; i < all; ++i) change(workload.bodies[i], i);
+    return workload;
+  };
+  // Turned, so that boxes overlap where hulls do not, and drawn apart from its middle.
+  Eigen::Matrix3d turn;
+  turn << 0.6, -0.64, 0.48, 0.8, 0.48, -0.36, 0.0, 0.6, 0.8;
+  const Workload apart = changed([&](WorkloadBody& body, std::size_t) {
+    const Eigen::Vector3d center = body.frames[0].rowwise().mean();
+    for (Eigen::Matrix3Xd& frame : body.frames) frame = turn * (frame.colwise() + 0.08 * center);
+  });
+  const Settings one{.threads = 1};
+  Settings hulls = one, zones = one, patches = one;
+  hulls.accuracy = Accuracy::hulls;
+  zones.outputs.zones = true;
+  patches.outputs.patches = true;
+  return {
+      {"nothing", pile, one, all},
+      {"bodies at rest: nine in ten", pile, one, all / 10},
+      {"fixed bodies: every other", changed([](WorkloadBody& body, std::size_t i) {
+         if (i % 2 == 1) body.frames.resize(1);
+       }),
+       one, all},
+      {"pairs that layers exclude: all", changed([](WorkloadBody& body, std::size_t) { body.mask = 0; }), one, all},
+      {"direction and facets of bodies that are apart: all", apart, one, all},
+      {"facets: hulls only", pile, hulls, all},
+      {"no skip, but zones asked for", pile, zones, all},
+      {"no skip, but patches asked for", pile, patches, all},
+  };
+}
+
+// What skipping is worth, one reason at a time.
+Table skip_table(bool quick, double budget_ms) {
+  constexpr int kFrames = 6;
+  const int size = quick ? 64 : 1000;
+  Table table({fmt::format("skipped, of a pile of {} blobs of 320", size), "us a step", "vertices read",
+               "excluded pairs", "kept pairs", "parted pairs", "still separated", "contacts", "clusters dropped",
+               "facets kept"});
+  for (const Skip& skip : skips(pile(size, 4, kFrames))) {
+    TactRunner runner(skip.workload, skip.settings);
+    runner.step(0);
+    const auto [us, s] = moving_step(runner, skip.workload, skip.moving, 1, budget_ms);
+    table.add({skip.what, three_digits(us), fmt::to_string(s.moved_vertices), fmt::to_string(s.excluded_pairs),
+               fmt::to_string(s.kept_pairs), fmt::to_string(s.parted_pairs), fmt::to_string(s.still_separated_pairs),
+               fmt::to_string(s.contacts), fmt::to_string(s.clusters - s.opened_clusters),
+               fmt::to_string(s.kept_facets)});
+  }
+  return table;
 }
 
 }  // namespace
@@ -73,13 +128,19 @@ int run_idle(const BenchOptions& options) {
         const Moving result = moving_step(runner, workload, moving, count, budget_ms);
         table.add({fmt::to_string(size), fmt::to_string(count),
                    moving == static_cast<std::size_t>(size) ? "all" : fmt::to_string(moving), three_digits(result.us),
-                   fmt::format("{:.0f}", result.candidate_pairs), fmt::format("{:.0f}", result.kept_pairs),
-                   fmt::format("{:.0f}", result.parted_pairs)});
+                   fmt::to_string(result.stats.candidate_pairs), fmt::to_string(result.stats.kept_pairs),
+                   fmt::to_string(result.stats.parted_pairs)});
       }
     }
   }
   table.print();
-  if (!options.out.empty()) table.write_csv(options.out / "idle.csv");
+  fmt::print("\n");
+  const Table skipped = skip_table(options.quick, budget_ms);
+  skipped.print();
+  if (!options.out.empty()) {
+    table.write_csv(options.out / "idle.csv");
+    skipped.write_csv(options.out / "skipped.csv");
+  }
   return 0;
 }
 

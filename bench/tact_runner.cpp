@@ -37,7 +37,8 @@ TactRunner::TactRunner(const Workload& workload, const Settings& settings) : wor
     ids_.push_back(world_.add_body({.positions = body.positions(0),
                                     .facets = body.facets,
                                     .surface = body.surface,
-                                    .motion = body.fixed() ? Motion::fixed : Motion::moving}));
+                                    .motion = body.fixed() ? Motion::fixed : Motion::moving,
+                                    .mask = body.mask}));
   }
   updates_.reserve(ids_.size());
 }

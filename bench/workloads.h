@@ -17,6 +17,7 @@ struct WorkloadBody {
   Eigen::Matrix3Xi facets{3, 0};
   Surface surface = Surface::closed;
   std::vector<Eigen::Matrix3Xd> frames;  // 3 x V metres, one a frame; a single one: the body is fixed
+  std::uint32_t mask = 0xffffffffu;      // see BodyDefinition
 
   bool fixed() const { return frames.size() == 1; }
   const Eigen::Matrix3Xd& positions(int frame) const { return frames[fixed() ? 0 : static_cast<std::size_t>(frame)]; }

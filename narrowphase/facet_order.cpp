@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "engine/base/box.h"
 
@@ -86,7 +87,7 @@ class FacetOrder {
       return size > 0.0 && facet_lengths_[axis] > 0.0 ? size / facet_lengths_[axis] : 0.0;
     };
     Axes axes;
-    std::ranges::stable_sort(axes.axis, [&](int a, int b) { return length(a) > length(b); });
+    std::ranges::sort(axes.axis, [&](int a, int b) { return std::pair(-length(a), a) < std::pair(-length(b), b); });
     while (axes.long_ones < 3 && length(axes.axis[axes.long_ones]) >= kLongEnough * length(axes.axis[0]))
       ++axes.long_ones;
     return axes;

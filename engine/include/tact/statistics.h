@@ -33,7 +33,7 @@ namespace tact {
   X(opened_facets, "facets of the opened clusters")                                                       \
   X(facets, "facets of the bodies in contact, once a contact")                                            \
   X(facets_facing_away, "facets dropped by criterion 1, facing away (paper only)")                        \
-  X(facets_outside_slab, "facets dropped by criterion 2, outside the slab or the other's box")            \
+  X(facets_outside_slab, "facets outside the slab or the other's box, or in clusters not opened")         \
   X(facets_outside_zone, "facets dropped by criterion 3, outside the impact zone")                        \
   X(kept_facets, "facets left after the criteria")                                                        \
   X(cluster_pairs, "pairs of clusters whose boxes overlap")                                               \
