@@ -28,9 +28,11 @@ bool before(const ContactEvent& x, const ContactEvent& y) { return x.a < y.a || 
 }  // namespace
 
 void Step::regroup(Bodies& bodies, int threads) {
+  Timer timer;
   const std::vector<Bodies::Regrouped> regrouped = bodies.regroup(threads);
   regrouped_ = static_cast<std::int64_t>(regrouped.size());
   if (!forgotten_) table_.renumber(regrouped);
+  regroup_ms_ = timer.lap();
 }
 
 const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh_ms) {

@@ -26,7 +26,6 @@ class Step {
   // Groups the facets anew of bodies whose clusters have lost their shape; what pairs remember stays. A part of stage
   // 1, before run(). If it fails, nothing has changed.
   void regroup(Bodies& bodies, int threads);
-  void note_regrouping(double ms) { regroup_ms_ = ms; }
 
   // The next step looks at every pair; directions are carried on.
   void look_at_all() { all_ = true; }

@@ -60,15 +60,13 @@ struct World::Implementation {
 
   // Calls work(), which is part of stage 1, and takes its time.
   template <class Work>
-  double refresh(const Work& work) {
+  void refresh(const Work& work) {
     base::Timer timer;
     const auto begin = timer.start();
     if (settings.outputs.trace) step.trace().make_room();
     work();
-    const double ms = timer.lap();
-    refresh_ms += ms;
+    refresh_ms += timer.lap();
     if (settings.outputs.trace) step.trace().add_refresh(begin, timer.start());
-    return ms;
   }
 
   template <class Set>
@@ -80,7 +78,7 @@ struct World::Implementation {
   void regroup() {
     if (!bodies.any_loose()) return;
     try {
-      step.note_regrouping(refresh([&] { step.regroup(bodies, settings.threads); }));
+      refresh([&] { step.regroup(bodies, settings.threads); });
     } catch (const std::bad_alloc&) {
       bodies.keep_groups();
     }

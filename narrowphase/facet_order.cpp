@@ -58,7 +58,6 @@ class FacetOrder {
     const std::size_t unit = count > kClusterSize ? kClusterSize : kLaneGroup;
     const std::size_t units = (count + unit - 1) / unit;
     const Cut cut{begin, begin + (units + 1) / 2 * unit, end};
-    if (cut.middle >= end) return std::sort(place(begin), place(end));
     if (count > kClusterSize && count <= kMostRefined) {
       halve_sharing_few(cut);
     } else {

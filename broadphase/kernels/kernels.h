@@ -48,7 +48,7 @@ const Kernels* baseline_kernels();
 const Kernels* avx2_kernels();
 const Kernels* avx512_kernels();
 
-// The best for this machine.
+// Those that TACT_INSTRUCTION_SET names, or the best for this machine; the same for the whole process.
 const Kernels& kernels();
 
 }  // namespace tact::broadphase

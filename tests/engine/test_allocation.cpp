@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "narrowphase/facet_order.h"
 #include "tests/support/allocation_hook.h"
 #include "tests/support/body_pairs.h"
+#include "tests/support/clustered.h"
 #include "tests/support/detection.h"
 #include "tests/support/generators.h"
 
@@ -310,15 +310,9 @@ TEST(Allocation, SteadyBatchesTakeNone) {
 // without gain, and never again.
 TEST(Allocation, ABodyThatCannotBeGroupedBetterIsTriedOnce) {
   const Mesh blob_in_any_order = blob(3, 1.0, 0.3, 1);
-  const auto entries = [](const auto& matrix) {
-    return std::span(matrix.data(), static_cast<std::size_t>(matrix.size()));
-  };
   std::vector<int> vertices(static_cast<std::size_t>(blob_in_any_order.vertex_count()));
   std::iota(vertices.begin(), vertices.end(), 0);
-  const Mesh mesh =
-      permuted(blob_in_any_order, vertices,
-               narrowphase::facet_order(entries(blob_in_any_order.positions), entries(blob_in_any_order.facets),
-                                        blob_in_any_order.vertex_count()));
+  const Mesh mesh = permuted(blob_in_any_order, vertices, facet_order_of(blob_in_any_order));
   Mesh point = mesh;
   point.positions.setZero();
   World world({.threads = 1});

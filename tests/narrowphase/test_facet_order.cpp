@@ -12,11 +12,6 @@ namespace {
 
 using tests::Mesh;
 
-std::vector<int> order_of(const Mesh& mesh) {
-  return facet_order({mesh.positions.data(), static_cast<std::size_t>(mesh.positions.size())},
-                     {mesh.facets.data(), static_cast<std::size_t>(mesh.facets.size())}, mesh.vertex_count());
-}
-
 TEST(FacetOrder, NamesEveryFacetOnce) {
   Mesh in_one_place = tests::sheet(70, 70, 1.0, 1.0);
   in_one_place.positions.setZero();
@@ -27,7 +22,7 @@ TEST(FacetOrder, NamesEveryFacetOnce) {
   empty.facets.resize(3, 0);
   for (const Mesh& mesh : {in_one_place, with_degenerate_facets, empty, tests::sheet(1, 1, 1.0, 1.0),
                            tests::lattice_soup(3000, 3, 2), tests::soup(5000, 0.1, 3), tests::needles(700, 1e9, 4)}) {
-    std::vector<int> order = order_of(mesh);
+    std::vector<int> order = tests::facet_order_of(mesh);
     std::ranges::sort(order);
     std::vector<int> all(static_cast<std::size_t>(mesh.facet_count()));
     std::iota(all.begin(), all.end(), 0);

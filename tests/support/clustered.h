@@ -11,4 +11,11 @@ inline narrowphase::ClusteredMesh clustered(const Mesh& mesh) {
           {mesh.facets.data(), static_cast<std::size_t>(mesh.facets.size())}};
 }
 
+// The order in which its facets stand in the clusters.
+inline std::vector<int> facet_order_of(const Mesh& mesh) {
+  return narrowphase::facet_order({mesh.positions.data(), static_cast<std::size_t>(mesh.positions.size())},
+                                  {mesh.facets.data(), static_cast<std::size_t>(mesh.facets.size())},
+                                  mesh.vertex_count());
+}
+
 }  // namespace tact::tests
