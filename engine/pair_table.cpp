@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/fast_paths.h"
 #include "engine/base/parallel.h"
 
 namespace tact {
@@ -134,7 +135,7 @@ void PairTable::take_out_parted(Bodies& bodies, int threads) {
 
 // Was the pair apart, and does a diagonal part it, the last one or another? Notes which.
 bool PairTable::part(const MovedPair& pair, const Bodies& bodies) {
-  if (candidates_[pair.place].hulls_overlap) return false;
+  if (candidates_[pair.place].hulls_overlap || base::fast_paths() == base::FastPaths::off) return false;
   const broadphase::IndexPair slots = pairs_[pair.place];
   const auto *a = bodies.diagonals(slots.a), *b = bodies.diagonals(slots.b);
   PartingDiagonal& parting = entries_[pair.place].parting;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "engine/base/fast_paths.h"
 #include "engine/base/parallel.h"
 #include "narrowphase/contact_direction.h"
 #include "narrowphase/smallest_separation.h"
@@ -22,6 +23,12 @@ using namespace narrowphase;
 constexpr std::size_t kLargePair = 4096, kFewestInRanges = 128, kFewestInRange = 64;  // pairs of clusters
 constexpr std::size_t kPairsPerThread = 4;                                            // pairs of bodies
 constexpr std::size_t kRangesPerThread = 4;
+
+using base::fast_paths;
+using base::FastPaths;
+
+// What the last step knew of a pair is a start from which less is to be done; its direction is more than that.
+bool starts_from_last_step() { return fast_paths() != FastPaths::off; }
 
 Eigen::Vector3d to_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
 
@@ -46,9 +53,9 @@ bool still_overlap(const PairRecord& record, const MinkowskiDifference& m, PairW
 // overlap, or nearly do.
 bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, const GjkSettings& settings, PairWork& work) {
   PairHistory& history = record.history;
-  record.counts.still_overlapping = still_overlap(record, m, work);
+  record.counts.still_overlapping = starts_from_last_step() && still_overlap(record, m, work);
   if (record.counts.still_overlapping) return true;
-  if (history.kind == PairHistory::Kind::separated) {
+  if (starts_from_last_step() && history.kind == PairHistory::Kind::separated) {
     const int a = history.hulls.a[0], b = history.hulls.b[0];
     const bool apart = m.parted_by_plane(history.direction, a, b);
     record.counts.gjk_iterations += apart ? 0 : 1;
@@ -75,7 +82,7 @@ struct Direction {
 
 // The surface that the search for the smallest separation starts from and leaves, if every step searches.
 SurfaceShape* surface_of(PairRecord& record, const Settings& settings) {
-  if (settings.direction != DirectionPolicy::smallest) return nullptr;
+  if (settings.direction != DirectionPolicy::smallest || !starts_from_last_step()) return nullptr;
   if (record.surface == nullptr) record.surface = std::make_unique<SurfaceShape>();
   if (!record.history.has_surface) record.surface->face_count = 0;
   record.history.has_surface = true;
@@ -89,9 +96,9 @@ Direction find_direction(PairRecord& record, const MinkowskiDifference& m, const
   const bool fresh_start = history.kind == PairHistory::Kind::none;
   if (!fresh_start && settings.direction == DirectionPolicy::carried) {
     const bool carried = history.kind == PairHistory::Kind::overlapping;
-    return {
-        contact_direction(m, history.direction, carried ? record.face : GjkSimplex{}, direction_settings, work.faces),
-        carried ? DirectionSource::carried : DirectionSource::fresh};
+    const GjkSimplex face = carried && starts_from_last_step() ? record.face : GjkSimplex{};
+    return {contact_direction(m, history.direction, face, direction_settings, work.faces),
+            carried ? DirectionSource::carried : DirectionSource::fresh};
   }
   const SmallestStart start{.preferred = fresh_start ? Vec3{0.0, 0.0, 1.0} : history.direction,
                             .hulls = history.hulls,
@@ -260,9 +267,10 @@ void confirm(PairWork& work, Timer& timer) {
 }
 
 bool is_large(const PairWork& work, std::size_t pairs, int threads) {
-  if (threads == 1) return false;
+  if (threads == 1 || fast_paths() == FastPaths::off) return false;
   const std::size_t size = work.cluster_pairs.size();
-  return size > kLargePair || (size > kFewestInRanges && pairs < kPairsPerThread * static_cast<std::size_t>(threads));
+  return fast_paths() == FastPaths::always || size > kLargePair ||
+         (size > kFewestInRanges && pairs < kPairsPerThread * static_cast<std::size_t>(threads));
 }
 
 namespace {
@@ -279,8 +287,9 @@ std::size_t range_begin(const std::vector<ClusterPair>& pairs, std::size_t i, st
 void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int threads) {
   Timer timer;
   work.ranges_begin = timer.start();
+  const std::size_t fewest = fast_paths() == FastPaths::always ? 1 : kFewestInRange;
   work.range_count =
-      std::min(kRangesPerThread * static_cast<std::size_t>(threads), work.cluster_pairs.size() / kFewestInRange + 1);
+      std::min(kRangesPerThread * static_cast<std::size_t>(threads), work.cluster_pairs.size() / fewest + 1);
   if (work.ranges.size() < work.range_count) work.ranges.resize(work.range_count);
   base::parallel_for(work.range_count, 1, threads, [&](std::size_t i, int thread) {
     ConfirmedRange& range = work.ranges[i];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "engine/base/fast_paths.h"
 #include "narrowphase/triangle_triangle.h"
 
 namespace tact::narrowphase {
@@ -19,10 +20,46 @@ constexpr int kWorthAPlane = 6;
 // Two blocks of so many facets are paired at once; of more, those near the other are looked for first.
 constexpr int kFewInBlocks = 48;
 
+using base::fast_paths;
+using base::FastPaths;
+
+bool worth_trees(std::int64_t box_pairs) {
+  if (fast_paths() == FastPaths::automatic) return box_pairs > kLargestLoop;
+  return fast_paths() == FastPaths::always;
+}
+
+bool worth_looking_for_near_facets(int facets) {
+  if (fast_paths() == FastPaths::automatic) return facets > kFewInBlocks;
+  return fast_paths() == FastPaths::always;
+}
+
+// From how many facets on a plane is asked.
+int worth_a_plane() {
+  if (fast_paths() == FastPaths::automatic) return kWorthAPlane;
+  return fast_paths() == FastPaths::always ? 1 : FacetBlock::kCapacity + 1;
+}
+
 Triangle triangle_in(const FacetBlock& block, std::size_t i) {
   Triangle t;
   for (std::size_t k = 0; k < 3; ++k) t[k] = {block.corner[k][0][i], block.corner[k][1][i], block.corner[k][2][i]};
   return t;
+}
+
+// What can be told of many pairs at once: in doubles; of those that these leave open by equal corners, then with twice
+// the digits.
+PairMatches matches_of(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, const BoxBounds& bounds) {
+  if (fast_paths() == FastPaths::off) {
+    const std::uint64_t all = pairs.count == 0 ? 0 : ~std::uint64_t{0} >> (FacetPairList::kCapacity - pairs.count);
+    return {.meeting = 0, .undecided = all, .flat = 0};
+  }
+  const PairMatches matches = kernels().match_pairs(a, b, pairs, bounds);
+  if (matches.undecided == 0) return matches;
+  const std::uint64_t sharing = kernels().sharing_pairs(a, b, pairs, matches.undecided);
+  const std::uint64_t flat = matches.flat & ~sharing;
+  const PairMatches wide = kernels().match_pairs_wide(a, b, pairs, matches.undecided & ~(sharing | flat));
+  return {.meeting = matches.meeting | sharing | wide.meeting,
+          .undecided = flat | wide.flat | wide.undecided,
+          .flat = flat | wide.flat};
 }
 
 }  // namespace
@@ -32,7 +69,7 @@ bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPai
   pairs.clear();
   const std::int64_t all = static_cast<std::int64_t>(a.count()) * b.count();
   const bool forest =
-      source == ClusterPairSource::forest || (source == ClusterPairSource::automatic && all > kLargestLoop);
+      source == ClusterPairSource::forest || (source == ClusterPairSource::automatic && worth_trees(all));
   if (all == 0) return false;
   std::vector<std::int32_t>& found = work.found;
   if (forest) work.forest.build(device, b.boxes.view(), b.count());
@@ -88,6 +125,7 @@ void FacetPairSearch::run(const ConfirmInput& input, const std::vector<ClusterPa
 bool FacetPairSearch::reaches_b(const ConfirmInput& input, const ClusterPair& pair) {
   const PlaceInB place = open_b(input, pair.b);
   if (place.facets == 0) return false;
+  if (fast_paths() == FastPaths::off) return true;
   const Box box = input.kept_a->boxes[static_cast<std::size_t>(pair.a)];
   const KeptFacets& kept = b_[static_cast<std::size_t>(place.block)]->kept;
   return kernels().any_near(kept.block, place.facets, bounds_of(box), bounds_of(merged(kept.bounds, box)));
@@ -153,7 +191,7 @@ void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b
                                   ConfirmCounts& counts) {
   const BoxBounds bounds = bounds_of(merged(a_.bounds, b.bounds));
   std::uint64_t near_a = a_.facets, near_b = b.facets;
-  if (a_.block.count + b.block.count > kFewInBlocks) {
+  if (worth_looking_for_near_facets(a_.block.count + b.block.count)) {
     const BoxBounds common = bounds_of(intersection(a_.bounds, b.bounds));
     const NearFacets of_b = kernels().near_facets(b.block, b.facets, common, bounds);
     if (of_b.facets == 0) return;
@@ -165,7 +203,7 @@ void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b
   const std::uint64_t others = few_are_b ? near_a : near_b;
   for (std::uint64_t left = few_are_b ? near_b : near_a; left != 0;) {
     const PairedFacets paired =
-        kernels().pair_facets(few, left, many, others, bounds, few_are_b, kWorthAPlane, &pairs_);
+        kernels().pair_facets(few, left, many, others, bounds, few_are_b, worth_a_plane(), &pairs_);
     left = paired.left_over;
     counts.facet_box_pairs += paired.box_pairs;
     decide_pairs(input, b.block, bounds, found, counts);
@@ -175,23 +213,14 @@ void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b
 // Decides the pairs in the list, all of facets in a box, and empties it.
 void FacetPairSearch::decide_pairs(const ConfirmInput& input, const FacetBlock& b, const BoxBounds& bounds,
                                    std::vector<FacetPair>& found, ConfirmCounts& counts) {
-  const PairMatches matches = kernels().match_pairs(a_.block, b, pairs_, bounds);
-  std::uint64_t meeting = matches.meeting, undecided = matches.undecided, flat = matches.flat;
-  if (undecided != 0) {
-    const std::uint64_t sharing = kernels().sharing_pairs(a_.block, b, pairs_, undecided);
-    meeting |= sharing;
-    flat &= ~sharing;
-    const PairMatches wide = kernels().match_pairs_wide(a_.block, b, pairs_, undecided & ~(sharing | flat));
-    meeting |= wide.meeting;
-    flat |= wide.flat;
-    undecided = flat | wide.undecided;
-  }
-  for (std::uint64_t left = undecided; left != 0; left &= left - 1) {
+  const PairMatches matches = matches_of(a_.block, b, pairs_, bounds);
+  std::uint64_t meeting = matches.meeting;
+  for (std::uint64_t left = matches.undecided; left != 0; left &= left - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(left));
     ++counts.triangle_tests;
     const Triangle p = triangle_in(a_.block, static_cast<std::size_t>(pairs_.a[k]));
     const Triangle q = triangle_in(b, static_cast<std::size_t>(pairs_.b[k]));
-    const bool is_flat = (flat >> k & 1) != 0;
+    const bool is_flat = (matches.flat >> k & 1) != 0;
     if (is_flat ? coplanar_triangles_meet(p, q, counts.predicates) : triangle_triangle_meet(p, q, counts.predicates)) {
       meeting |= std::uint64_t{1} << k;
     }

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <limits>
 
+#include "engine/base/fast_paths.h"
+
 namespace tact::narrowphase {
 
 namespace {
@@ -96,6 +98,7 @@ PointArrays far_corners(BoxView boxes, Vec3 n) {
 
 Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near) {
   assert(mesh.facet_count() > 0);
+  if (base::fast_paths() == base::FastPaths::off) return support_by_full_scan(mesh, n, origin);
   Search search(mesh, n, origin);
   if (mesh.cluster_count() == 1) {
     const std::int32_t only = 0;

@@ -1,0 +1,27 @@
+// The ways to an answer that only save work.
+#pragma once
+
+#include <cstdlib>
+#include <string_view>
+
+namespace tact::base {
+
+// Clusters in support queries, what the last step knew of a pair, diagonals and planes that part hulls, planes of
+// facets, arithmetic on many facets at once, trees, ranges of large pairs. None changes which facets meet.
+enum class FastPaths {
+  automatic,  // taken where they pay
+  off,        // none is taken: the plain way is left
+  always      // also those that have a border are taken, whatever the size
+};
+
+// What the environment variable TACT_FAST_PATHS says when it is first asked for, off or always; for tests.
+inline FastPaths fast_paths() {
+  static const FastPaths wanted = [] {
+    const char* value = std::getenv("TACT_FAST_PATHS");
+    const std::string_view name = value == nullptr ? "" : value;
+    return name == "off" ? FastPaths::off : name == "always" ? FastPaths::always : FastPaths::automatic;
+  }();
+  return wanted;
+}
+
+}  // namespace tact::base
