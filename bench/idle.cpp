@@ -80,36 +80,43 @@ std::vector<Skip> skips(const Workload& pile) {
        }),
        one, all},
       {"pairs that layers exclude: all", changed([](WorkloadBody& body, std::size_t) { body.mask = 0; }), one, all},
-      {"direction and facets of bodies that are apart: all", apart, one, all},
+      {"bodies that are apart: all", apart, one, all},
       {"facets: hulls only", pile, hulls, all},
       {"no skip, but zones asked for", pile, zones, all},
       {"no skip, but patches asked for", pile, patches, all},
   };
 }
 
+struct Skipped {
+  Table table;
+  BarChart chart;
+};
+
 // What skipping is worth, one reason at a time.
-Table skip_table(bool quick, double budget_ms) {
+Skipped measure_skips(bool quick, double budget_ms) {
   constexpr int kFrames = 6;
   const int size = quick ? 64 : 1000;
-  Table table({fmt::format("skipped, of a pile of {} blobs of 320", size), "us a step", "vertices read",
-               "excluded pairs", "kept pairs", "parted pairs", "still separated", "contacts", "clusters dropped",
-               "facets kept"});
+  const std::string pile_name = fmt::format("a pile of {} blobs of 320", size);
+  Skipped skipped{Table({"skipped, of " + pile_name, "us a step", "vertices read", "excluded pairs", "kept pairs",
+                         "parted pairs", "still separated", "contacts", "clusters dropped", "facets kept"}),
+                  BarChart{.title = "what skipping is worth in " + pile_name, .unit = "us", .bars = {"a step"}}};
   for (const Skip& skip : skips(pile(size, 4, kFrames))) {
     TactRunner runner(skip.workload, skip.settings);
     runner.step(0);
     const auto [us, s] = moving_step(runner, skip.workload, skip.moving, 1, budget_ms);
-    table.add({skip.what, three_digits(us), fmt::to_string(s.moved_vertices), fmt::to_string(s.excluded_pairs),
-               fmt::to_string(s.kept_pairs), fmt::to_string(s.parted_pairs), fmt::to_string(s.still_separated_pairs),
-               fmt::to_string(s.contacts), fmt::to_string(s.clusters - s.opened_clusters),
-               fmt::to_string(s.kept_facets)});
+    skipped.chart.groups.push_back({skip.what, {us}});
+    skipped.table.add({skip.what, three_digits(us), fmt::to_string(s.moved_vertices), fmt::to_string(s.excluded_pairs),
+                       fmt::to_string(s.kept_pairs), fmt::to_string(s.parted_pairs),
+                       fmt::to_string(s.still_separated_pairs), fmt::to_string(s.contacts),
+                       fmt::to_string(s.clusters - s.opened_clusters), fmt::to_string(s.kept_facets)});
   }
-  return table;
+  return skipped;
 }
 
 }  // namespace
 
 int run_idle(const BenchOptions& options) {
-  constexpr int kFrames = 6;
+  constexpr int kFrames = 6, kAll = -1;
   const int threads = thread_count(options.threads);
   const double budget_ms = options.quick ? 20.0 : 500.0;
   fmt::print("{}\n\n", machine_line(threads));
@@ -123,23 +130,25 @@ int run_idle(const BenchOptions& options) {
       TactRunner runner(workload, count);
       runner.step(0);
       table.add({fmt::to_string(size), fmt::to_string(count), "none", three_digits(idle_step_us(runner)), "", "", ""});
-      for (const std::size_t moving : {1, 10, 100, size}) {
-        if (moving > static_cast<std::size_t>(size)) continue;
+      for (const int few : {1, 10, 100, kAll}) {
+        const bool all = few == kAll;
+        if (!all && few >= size) continue;
+        const auto moving = static_cast<std::size_t>(all ? size : few);
         const Moving result = moving_step(runner, workload, moving, count, budget_ms);
-        table.add({fmt::to_string(size), fmt::to_string(count),
-                   moving == static_cast<std::size_t>(size) ? "all" : fmt::to_string(moving), three_digits(result.us),
-                   fmt::to_string(result.stats.candidate_pairs), fmt::to_string(result.stats.kept_pairs),
-                   fmt::to_string(result.stats.parted_pairs)});
+        table.add({fmt::to_string(size), fmt::to_string(count), all ? "all" : fmt::to_string(few),
+                   three_digits(result.us), fmt::to_string(result.stats.candidate_pairs),
+                   fmt::to_string(result.stats.kept_pairs), fmt::to_string(result.stats.parted_pairs)});
       }
     }
   }
   table.print();
   fmt::print("\n");
-  const Table skipped = skip_table(options.quick, budget_ms);
-  skipped.print();
+  const Skipped skipped = measure_skips(options.quick, budget_ms);
+  skipped.table.print();
   if (!options.out.empty()) {
     table.write_csv(options.out / "idle.csv");
-    skipped.write_csv(options.out / "skipped.csv");
+    skipped.table.write_csv(options.out / "skipped.csv");
+    plot_bars(options.out, "skipped", skipped.chart);
   }
   return 0;
 }

@@ -121,8 +121,12 @@ int run_refresh(const BenchOptions& options) {
   if (thread_count(options.threads) > 1) threads.push_back(thread_count(options.threads));
   fmt::print("{}\n\n", machine_line(threads.back()));
   Table table({"mesh", "stored", "vertices", "threads", "ms", "million vertices/s", "GB/s read", "sum GB/s", "ratio"});
+  BarChart chart{.title = "refreshing a mesh against adding up its coordinates",
+                 .unit = "part of the rate",
+                 .bars = thread_names(threads)};
   for (const Subject& subject : subjects(options.quick)) {
     const Frames frames = frames_of(subject);
+    chart.groups.push_back({subject.name + ", " + subject.order, {}});
     const double vertices = static_cast<double>(subject.shape.positions.cols()) * subject.bodies;
     for (const int count : threads) {
       const Speed speed = measure(subject, frames, count, options.quick ? 50.0 : 1500.0);
@@ -131,10 +135,13 @@ int run_refresh(const BenchOptions& options) {
                  three_digits(speed.refresh_ms), three_digits(1e-3 * vertices / speed.refresh_ms),
                  three_digits(gigabytes / speed.refresh_ms), three_digits(gigabytes / speed.sum_ms),
                  fmt::format("{:.2f}", speed.sum_ms / speed.refresh_ms)});
+      chart.groups.back().values.push_back(speed.sum_ms / speed.refresh_ms);
     }
   }
   table.print();
-  if (!options.out.empty()) table.write_csv(options.out / "refresh.csv");
+  if (options.out.empty()) return 0;
+  table.write_csv(options.out / "refresh.csv");
+  plot_bars(options.out, "refresh", chart);
   return 0;
 }
 

@@ -183,23 +183,20 @@ void print_summary(const std::vector<Row>& rows, const std::vector<int>& threads
 }
 
 void plot_factors(const std::vector<Row>& rows, const std::vector<int>& threads, const std::filesystem::path& out) {
-  std::string data = "$factors << EOD\n";
+  BarChart chart{.title = "tact against the fastest rival that finds every facet pair",
+                 .unit = "times faster",
+                 .bars = thread_names(threads),
+                 .mark = "to reach",
+                 .settings =
+                     "set logscale y 2\nset yrange [0.25:*]\n"
+                     "set arrow from graph 0, first 1 to graph 1, first 1 nohead lc rgb 'black'"};
   for (const Row& row : rows) {
-    data += '"' + row.workload.name + '"';
-    for (std::size_t k = 0; k < threads.size(); ++k) data += fmt::format(" {:.4g}", row.factor(k));
-    data += fmt::format(" {:g}\n", row.workload.required_factor);
+    BarChart::Group group{row.workload.name, {}};
+    for (std::size_t k = 0; k < threads.size(); ++k) group.values.push_back(row.factor(k));
+    group.values.push_back(row.workload.required_factor);
+    chart.groups.push_back(std::move(group));
   }
-  std::string script = data +
-                       "EOD\nset title 'tact against the fastest rival that finds every facet pair'\n"
-                       "set ylabel 'times faster'\nset style data histograms\nset style fill solid 0.8\n"
-                       "set logscale y 2\nset yrange [0.25:*]\nset grid y\nset xtics rotate by -35\nset key top left\n"
-                       "set arrow from graph 0, first 1 to graph 1, first 1 nohead lc rgb 'black'\nplot ";
-  for (std::size_t k = 0; k < threads.size(); ++k) {
-    script +=
-        fmt::format("$factors using {}:xtic(1) title '{} thread{}', ", k + 2, threads[k], threads[k] == 1 ? "" : "s");
-  }
-  script += fmt::format("'' using {} with points pt 7 lc rgb 'black' title 'to reach'", threads.size() + 2);
-  plot(out, "rivals", script);
+  plot_bars(out, "rivals", chart);
 }
 
 // FNV-1a over all answers: equal answers, equal numbers, on any machine.

@@ -50,21 +50,28 @@ void strong_scaling(const BenchOptions& options) {
   const std::vector<NamedWorkload> all = rival_workloads(options.quick ? Size::small : Size::full);
   const std::vector<int> counts = thread_counts(options);
   Table table({"strong scaling", "threads", "ms", "times faster than 1 thread"});
+  BarChart chart{
+      .title = "a step on several threads", .unit = "times faster than on one", .bars = thread_names(counts)};
   for (const NamedWorkload& named : all) {
     const Workload workload = named.make();
     double one = 0.0;
+    chart.groups.push_back({named.name, {}});
     for (const int count : counts) {
       const double ms = median(step_times(workload, count, (options.quick ? 1 : 4) * workload.frames));
       if (count == 1) one = ms;
       table.add({named.name, fmt::to_string(count), three_digits(ms), fmt::format("{:.2f}", one / ms)});
+      chart.groups.back().values.push_back(one / ms);
     }
   }
   table.print();
-  if (!options.out.empty()) table.write_csv(options.out / "scaling_strong.csv");
+  if (options.out.empty()) return;
+  table.write_csv(options.out / "scaling_strong.csv");
+  plot_bars(options.out, "scaling_strong", chart);
 }
 
 void weak_scaling(const BenchOptions& options) {
   Table table({"weak scaling", "bodies", "threads", "ms", "efficiency"});
+  BarChart chart{.title = "a column of blobs, as many for each thread", .unit = "ms", .bars = {"a step"}};
   double one = 0.0;
   for (const int count : thread_counts(options)) {
     const Workload workload = pile_column((options.quick ? 1 : 8) * count, 8, kFrames);
@@ -72,9 +79,12 @@ void weak_scaling(const BenchOptions& options) {
     if (count == 1) one = ms;
     table.add({"a column of blobs", fmt::to_string(workload.bodies.size()), fmt::to_string(count), three_digits(ms),
                fmt::format("{:.2f}", one / ms)});
+    chart.groups.push_back({fmt::format("{}, {} bodies", thread_names({count}).front(), workload.bodies.size()), {ms}});
   }
   table.print();
-  if (!options.out.empty()) table.write_csv(options.out / "scaling_weak.csv");
+  if (options.out.empty()) return;
+  table.write_csv(options.out / "scaling_weak.csv");
+  plot_bars(options.out, "scaling_weak", chart);
 }
 
 // --- Growth ---
@@ -221,15 +231,33 @@ void growth(const BenchOptions& options) {
 void latency(const BenchOptions& options) {
   const Workload workload = options.quick ? pile(27, 4, kFrames) : pile(100, 8, 24);
   const int steps = options.quick ? 200 : 10000;
+  constexpr int kPoints = 100;
+  std::string data, plots;
   Table table({"latency", "threads", "steps", "median ms", "99 %", "99.9 %", "slowest", "99 % / median"});
   for (const int count : thread_counts(options)) {
     const std::vector<double> times = step_times(workload, count, steps);
     table.add({fmt::format("pile of {}", workload.bodies.size()), fmt::to_string(count), fmt::to_string(steps),
                three_digits(median(times)), three_digits(quantile(times, 0.99)), three_digits(quantile(times, 0.999)),
                three_digits(quantile(times, 1.0)), fmt::format("{:.2f}", quantile(times, 0.99) / median(times))});
+    const std::string block = fmt::format("$t{}", count);
+    data += block + " << EOD\n";
+    for (int k = 0; k <= kPoints; ++k) {  // evenly on the axis: 1 - 10^-k/10
+      const double slower = std::pow(10.0, -k * std::log10(steps) / kPoints);
+      data += fmt::format("{:.6g} {:.6g}\n", slower, quantile(times, 1.0 - slower) / median(times));
+    }
+    data += "EOD\n";
+    plots +=
+        fmt::format("{}{} with lines lw 2 title '{}'", plots.empty() ? "" : ", ", block, thread_names({count}).front());
   }
   table.print();
-  if (!options.out.empty()) table.write_csv(options.out / "latency.csv");
+  if (options.out.empty()) return;
+  table.write_csv(options.out / "latency.csv");
+  plot(options.out, "latency",
+       data + fmt::format("set title 'the slowest of {0} steps of a pile'\nset logscale x\nset xrange [1:1.0/{0}]\n"
+                          "set grid\nset key top left\nset yrange [0:*]\n"
+                          "set xlabel 'part of the steps that took longer'\nset ylabel 'time over the median'\n"
+                          "plot {1}, 1.5 dt 2 lc rgb 'black' title '1.5'",
+                          steps, plots));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "bench/table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -70,11 +71,34 @@ std::string three_digits(double value) {
 }
 
 std::string machine_line(int threads) {
-  return fmt::format("{}, {} processors, {} thread{}, compiler {}", processor_name(),
-                     std::thread::hardware_concurrency(), threads, threads == 1 ? "" : "s", __VERSION__);
+  return fmt::format("{}, {} processors, {}, compiler {}", processor_name(), std::thread::hardware_concurrency(),
+                     thread_names({threads}).front(), __VERSION__);
+}
+
+std::vector<std::string> thread_names(const std::vector<int>& counts) {
+  std::vector<std::string> names;
+  for (const int count : counts) names.push_back(fmt::format("{} thread{}", count, count == 1 ? "" : "s"));
+  return names;
 }
 
 int thread_count(int asked) { return asked > 0 ? asked : base::default_threads(); }
+
+void plot_bars(const std::filesystem::path& out, const std::string& name, const BarChart& chart) {
+  std::string script = "$bars << EOD\n";
+  for (const BarChart::Group& group : chart.groups) {
+    script += fmt::format("\"{}\" {:.4g}\n", group.label, fmt::join(group.values, " "));
+  }
+  script += fmt::format(
+      "EOD\nset title '{}'\nset ylabel '{}'\nset style data histograms\nset style fill solid 0.8\nset grid y\n"
+      "set xtics rotate by -35\nset key top left\nset yrange [0:*]\n{}\nplot ",
+      chart.title, chart.unit, chart.settings);
+  for (std::size_t k = 0; k < chart.bars.size(); ++k)
+    script += fmt::format("{}$bars using {}:xtic(1) title '{}'", k == 0 ? "" : ", ", k + 2, chart.bars[k]);
+  if (!chart.mark.empty())
+    script +=
+        fmt::format(", $bars using {} with points pt 7 lc rgb 'black' title '{}'", chart.bars.size() + 2, chart.mark);
+  plot(out, name, script);
+}
 
 void plot(const std::filesystem::path& out, const std::string& name, const std::string& script) {
   for (const auto& [terminal, ending] : {std::pair{"pngcairo size 1200,700", "png"}, {"svg size 1200,700", "svg"}}) {

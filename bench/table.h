@@ -33,8 +33,26 @@ std::string machine_line(int threads);
 // The number of threads that 0 stands for, or `asked`.
 int thread_count(int asked);
 
+// "1 thread", "2 threads"
+std::vector<std::string> thread_names(const std::vector<int>& counts);
+
 // Runs gnuplot on `script`, once with output to out/name.png and once to out/name.svg, in the folder `out`.
 // Errors: std::runtime_error if gnuplot is missing or fails.
 void plot(const std::filesystem::path& out, const std::string& name, const std::string& script);
+
+// Groups of bars beside each other.
+struct BarChart {
+  struct Group {
+    std::string label;
+    std::vector<double> values;  // one for each of `bars`; then that of `mark`, if it has a name
+  };
+  std::string title;
+  std::string unit;  // of the values
+  std::vector<std::string> bars;
+  std::string mark = {};      // a dot over each group
+  std::string settings = {};  // of gnuplot
+  std::vector<Group> groups = {};
+};
+void plot_bars(const std::filesystem::path& out, const std::string& name, const BarChart& chart);
 
 }  // namespace tact::bench
