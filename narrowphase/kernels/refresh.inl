@@ -1,11 +1,13 @@
-// Asks for `count` of the vertices that come later. Both lines that one may lie in: masked loads touch the next double.
+// Asks for `count` of the vertices that come later, in the second level of the cache: the first has room for few under
+// way, and what is written needs it. Both lines that a vertex may lie in: masked loads touch the next double.
 inline void ask_ahead(const RefreshInput& in, int i, int count) {
   if (in.ahead == 0) return;
   for (int k = 0; k < count; ++k) {
     const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i + in.ahead + k]);
-    __builtin_prefetch(p);
-    __builtin_prefetch(p + 3);
+    __builtin_prefetch(p, 0, 2);
+    __builtin_prefetch(p + 3, 0, 2);
   }
+  asm volatile("");  // or GCC 12 may leave it all out
 }
 
 #if defined(TACT_KERNELS_AVX2_REFRESH)
