@@ -12,8 +12,9 @@ namespace {
 
 using narrowphase::PartingDiagonal;
 
-constexpr std::size_t kLargestRoom = 512;     // facet pairs, 4 kB
-constexpr std::size_t kPartedAtATime = 2048;  // pairs
+constexpr std::size_t kLargestRoom = 512;                      // facet pairs, 4 kB
+constexpr std::size_t kPartedAtATime = 2048;                   // pairs
+constexpr std::size_t kFewestRecords = 4, kMostRecords = 256;  // taken at once
 
 bool names(const Bodies& bodies, BodyId id) { return bodies.in_slot(id.index).id == id; }
 
@@ -80,12 +81,17 @@ void PairTable::match(std::span<const broadphase::IndexPair> pairs, const Bodies
   pairs_.assign(pairs.begin(), pairs.end());
 }
 
+// Many at once, so that pairs that follow each other lie together.
+void PairTable::add_records() {
+  const std::size_t count = std::clamp(record_count_, kFewestRecords, kMostRecords);
+  free_.reserve(record_count_ + count);  // so that retire() cannot fail
+  pool_.push_back(std::make_unique<PairRecord[]>(count));
+  record_count_ += count;
+  for (std::size_t i = count; i-- > 0;) free_.push_back(&pool_.back()[i]);
+}
+
 PairRecord& PairTable::new_record(BodyId a, BodyId b) {
-  if (free_.empty()) {
-    free_.reserve(pool_.size() + 1);  // so that retire() cannot fail
-    pool_.push_back(std::make_unique<PairRecord>());
-    free_.push_back(pool_.back().get());
-  }
+  if (free_.empty()) add_records();
   PairRecord& record = *free_.back();
   free_.pop_back();
   record.a = a;

@@ -74,10 +74,12 @@ class PairTable {
   bool part(const MovedPair& pair, const Bodies& bodies);
   void select_moved(const Bodies& bodies);
   void match(std::span<const broadphase::IndexPair> pairs, const Bodies& bodies, bool all);
+  void add_records();
   PairRecord& new_record(BodyId a, BodyId b);
   void retire(PairRecord& record);
 
-  std::vector<std::unique_ptr<PairRecord>> pool_;
+  std::vector<std::unique_ptr<PairRecord[]>> pool_;
+  std::size_t record_count_ = 0;  // in the pool
   std::vector<PairRecord*> free_;
   std::size_t room_ = 0;                      // facet pairs that a record has room for when it is given out
   std::vector<broadphase::IndexPair> pairs_;  // slots

@@ -63,37 +63,35 @@ PositionProblem find_position_problem(const double* positions, std::size_t count
   return {kind, static_cast<int>(at / 3), static_cast<int>(at % 3)};
 }
 
+struct ClusteredMesh::Numbering {
+  std::vector<int> ranges;  // of each cluster and one more
+  std::vector<int> source_vertices;
+  std::vector<int> borrowed, borrowed_sources;
+  std::vector<int> unused_sources;
+  std::vector<std::uint8_t> corner[3];
+};
+
 ClusteredMesh::ClusteredMesh(std::span<const double> positions, std::span<const int> facets)
-    : source_vertex_count_(static_cast<int>(positions.size() / 3)) {
-  group_facets(positions, facets);
-  number_vertices(facets);
-  stride_ = static_cast<std::size_t>(vertex_count());
-  const auto boxes = static_cast<std::size_t>(cluster_count() + group_count()), size = 3 * stride_ + 6 * boxes;
-  memory_.assign(2 * size + kPadding, 0.0);
-  placed_.memory = memory_.data();
-  staged_.memory = memory_.data() + size;
+    : source_vertex_count_(static_cast<int>(positions.size() / 3)), facet_count_(static_cast<int>(facets.size() / 3)) {
+  const std::vector<int> order = facet_order(positions, facets, source_vertex_count_);
+  take_memory(number_vertices(facets, order), order);
   set_positions(positions.data(), 1);
 }
 
-void ClusteredMesh::group_facets(std::span<const double> positions, std::span<const int> facets) {
-  source_facet_ = facet_order(positions, facets, source_vertex_count_);
-  facet_count_ = static_cast<int>(source_facet_.size());
-  facet_of_source_.resize(source_facet_.size());
-  for (int f = 0; f < facet_count(); ++f) facet_of_source_[static_cast<std::size_t>(source_facet(f))] = f;
-}
-
-void ClusteredMesh::number_vertices(std::span<const int> facets) {
+ClusteredMesh::Numbering ClusteredMesh::number_vertices(std::span<const int> facets, std::span<const int> order) const {
+  Numbering made;
   std::vector<int> number(static_cast<std::size_t>(source_vertex_count_), kFirstUse);
   std::vector<int> last_user(static_cast<std::size_t>(source_vertex_count_), kFirstUse);
   std::vector<int> place(static_cast<std::size_t>(source_vertex_count_), 0);  // among those that the last user borrows
   const auto source_of = [&](int f, int k) {
-    return facets[3 * static_cast<std::size_t>(source_facet(f)) + static_cast<std::size_t>(k)];
+    return facets[3 * static_cast<std::size_t>(order[static_cast<std::size_t>(f)]) + static_cast<std::size_t>(k)];
   };
-  std::vector<int> source_vertices, borrowed_sources, owned_here, borrowed_here;
-  for (auto& corner : corner_) corner.assign(static_cast<std::size_t>(facet_count()), 0);
+  const auto vertices = [&] { return static_cast<int>(made.source_vertices.size()); };
+  std::vector<int> owned_here, borrowed_here;
+  for (auto& corner : made.corner) corner.assign(static_cast<std::size_t>(facet_count()), 0);
   for (int c = 0; c < cluster_count(); ++c) {
-    const int first = vertex_count_, first_borrowed = static_cast<int>(borrowed_.size());
-    indices_.insert(indices_.end(), {first, first_borrowed});
+    const int first = vertices(), first_borrowed = static_cast<int>(made.borrowed.size());
+    made.ranges.insert(made.ranges.end(), {first, first_borrowed});
     owned_here.clear();
     borrowed_here.clear();
     for (int i = 0; i < 3 * (facet_end(c) - facet_begin(c)); ++i) {
@@ -107,29 +105,62 @@ void ClusteredMesh::number_vertices(std::span<const int> facets) {
     std::ranges::sort(owned_here);
     std::ranges::sort(borrowed_here);
     for (const int source : owned_here) {
-      number[static_cast<std::size_t>(source)] = vertex_count_++;
-      source_vertices.push_back(source);
+      number[static_cast<std::size_t>(source)] = vertices();
+      made.source_vertices.push_back(source);
     }
     for (const int source : borrowed_here) {
-      place[static_cast<std::size_t>(source)] = static_cast<int>(borrowed_.size()) - first_borrowed;
-      borrowed_.push_back(number[static_cast<std::size_t>(source)]);
-      borrowed_sources.push_back(source);
+      place[static_cast<std::size_t>(source)] = static_cast<int>(made.borrowed.size()) - first_borrowed;
+      made.borrowed.push_back(number[static_cast<std::size_t>(source)]);
+      made.borrowed_sources.push_back(source);
     }
-    const int owned = vertex_count_ - first;
+    const int owned = vertices() - first;
     for (int f = facet_begin(c); f < facet_end(c); ++f) {
       for (int k = 0; k < 3; ++k) {
         const auto s = static_cast<std::size_t>(source_of(f, k));
         const int local = number[s] < first ? owned + place[s] : number[s] - first;
-        corner_[k][static_cast<std::size_t>(f)] = static_cast<std::uint8_t>(local);
+        made.corner[k][static_cast<std::size_t>(f)] = static_cast<std::uint8_t>(local);
       }
     }
   }
-  indices_.insert(indices_.end(), {vertex_count_, static_cast<int>(borrowed_.size())});
-  indices_.insert(indices_.end(), source_vertices.begin(), source_vertices.end());
-  indices_.insert(indices_.end(), borrowed_sources.begin(), borrowed_sources.end());
+  made.ranges.insert(made.ranges.end(), {vertices(), static_cast<int>(made.borrowed.size())});
   for (int s = 0; s < source_vertex_count_; ++s) {
-    if (number[static_cast<std::size_t>(s)] == kFirstUse) unused_sources_.push_back(s);
+    if (number[static_cast<std::size_t>(s)] == kFirstUse) made.unused_sources.push_back(s);
   }
+  return made;
+}
+
+void ClusteredMesh::take_memory(const Numbering& numbering, const std::vector<int>& order) {
+  vertex_count_ = static_cast<int>(numbering.source_vertices.size());
+  borrowed_count_ = static_cast<int>(numbering.borrowed.size());
+  unused_count_ = static_cast<int>(numbering.unused_sources.size());
+  stride_ = static_cast<std::size_t>(vertex_count());
+  const std::size_t placement = 3 * stride_ + 6 * static_cast<std::size_t>(cluster_count() + group_count());
+  const std::size_t indices = numbering.ranges.size() + stride_ + 2 * numbering.borrowed.size() + 2 * order.size() +
+                              numbering.unused_sources.size();
+  memory_ = std::make_unique<std::byte[]>((2 * placement + kPadding) * sizeof(double) + indices * sizeof(int) +
+                                          3 * order.size());
+  std::byte* at = memory_.get();
+  const auto take = [&]<class T>(T*& array, std::size_t count) {
+    array = reinterpret_cast<T*>(at);
+    at += count * sizeof(T);
+  };
+  const auto append = [&]<class T>(const std::vector<T>& values) {
+    T* array = nullptr;
+    take(array, values.size());
+    std::ranges::copy(values, array);
+    return array;
+  };
+  take(placed_.memory, placement);
+  take(staged_.memory, placement + kPadding);
+  ranges_ = append(numbering.ranges);
+  append(numbering.source_vertices);
+  append(numbering.borrowed_sources);
+  borrowed_ = append(numbering.borrowed);
+  source_facet_ = append(order);
+  unused_sources_ = append(numbering.unused_sources);
+  take(facet_of_source_, order.size());
+  for (std::size_t k = 0; k < 3; ++k) corner_[k] = append(numbering.corner[k]);
+  for (int f = 0; f < facet_count(); ++f) facet_of_source_[source_facet(f)] = f;
 }
 
 ClusterFacets ClusteredMesh::facets_of(int cluster) const {
@@ -137,9 +168,9 @@ ClusterFacets ClusteredMesh::facets_of(int cluster) const {
   return {.points = points(),
           .owned_begin = vertex_begin(cluster),
           .owned_count = vertex_end(cluster) - vertex_begin(cluster),
-          .borrowed = borrowed_.data() + borrowed,
+          .borrowed = borrowed_ + borrowed,
           .borrowed_count = borrowed_begin(cluster + 1) - borrowed,
-          .corner = {corner_[0].data() + first, corner_[1].data() + first, corner_[2].data() + first},
+          .corner = {corner_[0] + first, corner_[1] + first, corner_[2] + first},
           .facet_begin = first,
           .facet_count = facet_end(cluster) - first};
 }
@@ -184,7 +215,8 @@ ClusteredMesh::Staged ClusteredMesh::stage(const double* positions, double large
     const double* position = positions + 3 * static_cast<std::ptrdiff_t>(vertex);
     return find_position_problem(position, 1, largest).kind != PositionProblem::none;
   };
-  if (all.not_a_number || !is_within(staged_.box, largest) || std::ranges::any_of(unused_sources_, unused_is_bad))
+  if (all.not_a_number || !is_within(staged_.box, largest) ||
+      std::any_of(unused_sources_, unused_sources_ + unused_count_, unused_is_bad))
     return Staged::bad;
   return all.changed ? Staged::changed : Staged::same;
 }
@@ -197,8 +229,8 @@ bool ClusteredMesh::set_positions(const double* positions, int threads) {
 
 void ClusteredMesh::prefetch(const double* positions) const {
   prefetch_lines(positions, 3 * static_cast<std::size_t>(source_vertex_count_) + 1);  // masked loads touch one more
-  prefetch_lines(indices_.data(), indices_.size());
-  prefetch_lines(staged_.memory, memory_.size() / 2);
+  prefetch_lines(ranges_, static_cast<std::size_t>(2 * cluster_count() + 2 + vertex_reads()));
+  prefetch_lines(staged_.memory, 3 * stride_ + 6 * static_cast<std::size_t>(cluster_count() + group_count()));
   for (std::size_t axis = 0; axis < 3; ++axis) prefetch_lines(placed_.memory + axis * stride_, 4);
 }
 
@@ -283,7 +315,7 @@ Triangle ClusteredMesh::triangle(int facet) const {
 
 void ClusteredMesh::validate() const {
   std::vector<char> seen(static_cast<std::size_t>(facet_count()), 0);
-  for (const int f : source_facet_) {
+  for (const int f : std::span(source_facet_, static_cast<std::size_t>(facet_count()))) {
     if (f < 0 || f >= facet_count() || seen[static_cast<std::size_t>(f)]++) broken("source facet " + std::to_string(f));
   }
   std::vector<char> owned(static_cast<std::size_t>(source_vertex_count_), 0);

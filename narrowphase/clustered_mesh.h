@@ -9,7 +9,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -120,15 +122,15 @@ class ClusteredMesh {
   int source_vertex_count() const { return source_vertex_count_; }
   int vertex_count() const { return vertex_count_; }
   int facet_count() const { return facet_count_; }
-  int facet_of_source(int source_facet) const { return facet_of_source_[static_cast<std::size_t>(source_facet)]; }
+  int facet_of_source(int source_facet) const { return facet_of_source_[source_facet]; }
   int cluster_count() const { return (facet_count() + kClusterSize - 1) / kClusterSize; }
   int group_count() const { return (cluster_count() + kGroupSize - 1) / kGroupSize; }
 
   // How many vertices of the caller stage() reads for clusters, those that several clusters share more than once.
-  int vertex_reads() const { return vertex_count() + static_cast<int>(borrowed_.size()); }
+  int vertex_reads() const { return vertex_count_ + borrowed_count_; }
 
   int source_vertex(int vertex) const { return source_vertices()[vertex]; }
-  int source_facet(int facet) const { return source_facet_[static_cast<std::size_t>(facet)]; }
+  int source_facet(int facet) const { return source_facet_[facet]; }
 
   // The clusters of a group are cluster_begin(g) <= c < cluster_end(g).
   int cluster_begin(int group) const { return group * kGroupSize; }
@@ -138,7 +140,7 @@ class ClusteredMesh {
   // vertex_begin(c) <= v < vertex_end(c).
   int facet_begin(int cluster) const { return cluster * kClusterSize; }
   int facet_end(int cluster) const { return std::min((cluster + 1) * kClusterSize, facet_count()); }
-  int vertex_begin(int cluster) const { return indices_[2 * static_cast<std::size_t>(cluster)]; }
+  int vertex_begin(int cluster) const { return ranges_[2 * cluster]; }
   int vertex_end(int cluster) const { return vertex_begin(cluster + 1); }
 
   Corners corners(int facet) const;
@@ -176,10 +178,10 @@ class ClusteredMesh {
     const auto owned = static_cast<std::size_t>(vertex_end(cluster) - first);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       prefetch_lines(placed_.memory + axis * stride_ + first, owned);
-      prefetch_line(corner_[axis].data() + facet_begin(cluster));
+      prefetch_line(corner_[axis] + facet_begin(cluster));
     }
-    prefetch_lines(borrowed_.data() + borrowed, static_cast<std::size_t>(borrowed_begin(cluster + 1) - borrowed));
-    prefetch_lines(source_facet_.data() + facet_begin(cluster),
+    prefetch_lines(borrowed_ + borrowed, static_cast<std::size_t>(borrowed_begin(cluster + 1) - borrowed));
+    prefetch_lines(source_facet_ + facet_begin(cluster),
                    static_cast<std::size_t>(facet_end(cluster) - facet_begin(cluster)));
   }
   // Asks for the position of a vertex, in good time.
@@ -192,7 +194,7 @@ class ClusteredMesh {
   }
   // Asks for the memory of the clusters' boxes, and of where their vertices begin, in good time.
   void prefetch_boxes() const {
-    prefetch_lines(indices_.data(), 2 * static_cast<std::size_t>(cluster_count()));
+    prefetch_lines(ranges_, 2 * static_cast<std::size_t>(cluster_count()));
     prefetch_lines(cluster_boxes().lower(0), 6 * static_cast<std::size_t>(cluster_count()));
   }
 
@@ -202,8 +204,9 @@ class ClusteredMesh {
   void validate() const;
 
  private:
-  void group_facets(std::span<const double> positions, std::span<const int> facets);
-  void number_vertices(std::span<const int> facets);
+  struct Numbering;
+  Numbering number_vertices(std::span<const int> facets, std::span<const int> order) const;
+  void take_memory(const Numbering& numbering, const std::vector<int>& order);
   // All that moves with the vertices: x of each vertex, and stride_ later y, and z; then the boxes of the clusters,
   // then those of the groups.
   struct Placement {
@@ -234,24 +237,27 @@ class ClusteredMesh {
   Refreshed refresh_range(const double* positions, int cluster_begin, int cluster_end);
 
   // Where the borrowed vertices of a cluster begin.
-  int borrowed_begin(int cluster) const { return indices_[2 * static_cast<std::size_t>(cluster) + 1]; }
+  int borrowed_begin(int cluster) const { return ranges_[2 * cluster + 1]; }
   // Of all vertices, and of the borrowed ones of all clusters.
-  const int* source_vertices() const { return indices_.data() + 2 * cluster_count() + 2; }
+  const int* source_vertices() const { return ranges_ + 2 * cluster_count() + 2; }
   const int* borrowed_sources() const { return source_vertices() + vertex_count_; }
 
-  // What stage() needs comes first, in few blocks of memory: small bodies are scattered.
+  // All arrays are in one block of memory: the bodies of a world are scattered, what is read of one should not be. What
+  // stage() needs comes first.
   int source_vertex_count_ = 0;
   int vertex_count_ = 0;
   int facet_count_ = 0;
-  std::vector<int> indices_;  // vertex_begin and borrowed_begin of each cluster and one more; source vertices
+  int borrowed_count_ = 0;
+  int unused_count_ = 0;
   std::size_t stride_ = 0;
   Placement placed_, staged_;
-  std::vector<double> memory_;       // of both, and kPadding more
-  std::vector<int> unused_sources_;  // source vertices that no facet uses
-  std::vector<int> source_facet_;    // of each facet
-  std::vector<int> facet_of_source_;
-  std::vector<std::uint8_t> corner_[3];  // of each facet: vertices that its cluster owns come first, then the borrowed
-  std::vector<int> borrowed_;            // vertices that a cluster uses and does not own, cluster by cluster
+  int* ranges_ = nullptr;         // vertex_begin and borrowed_begin of each cluster and one more; then source vertices
+  int* borrowed_ = nullptr;       // vertices that a cluster uses and does not own, cluster by cluster
+  std::uint8_t* corner_[3] = {};  // of each facet: vertices that its cluster owns come first, then the borrowed
+  int* source_facet_ = nullptr;   // of each facet
+  int* facet_of_source_ = nullptr;
+  int* unused_sources_ = nullptr;  // source vertices that no facet uses
+  std::unique_ptr<std::byte[]> memory_;
 };
 
 }  // namespace tact::narrowphase
