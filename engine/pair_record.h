@@ -61,7 +61,6 @@ struct alignas(64) PairRecord {
   PairCounts counts;
   // Of pairs whose hulls overlap; for others the vectors are empty and the rest is old.
   narrowphase::GjkSimplex face;  // the face of the Minkowski difference that held the foot in the last step
-  std::size_t reported = 0;      // the contact's place in the report
   FacetCounts facet_counts;
   Contact contact;
   std::vector<FacetPair> facet_pairs;  // sorted

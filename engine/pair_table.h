@@ -44,6 +44,9 @@ class PairTable {
   // moves.
   std::span<const CandidatePair> candidates() const { return candidates_; }
   PairRecord& record(std::size_t place) { return *entries_[place].record; }
+  // The contact's place in the last report, if it is as it was there.
+  static constexpr std::uint32_t kNotReported = ~std::uint32_t{0};
+  std::uint32_t& reported(std::size_t place) { return entries_[place].reported; }
 
   std::span<MovedPair> moved() { return moved_; }
   std::span<const MovedPair> moved() const { return moved_; }
@@ -69,6 +72,7 @@ class PairTable {
  private:
   struct Entry {
     PairRecord* record = nullptr;
+    std::uint32_t reported = kNotReported;
     narrowphase::PartingDiagonal parting = 0;  // in the last step in which a body of the pair moved
   };
   bool part(const MovedPair& pair, const Bodies& bodies);

@@ -223,16 +223,23 @@ void Step::make_report(int threads) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (candidates[i].hulls_overlap) contact_places_.push_back(static_cast<std::uint32_t>(i));
   }
+  for (const MovedPair& pair : table_.moved()) table_.reported(pair.place) = PairTable::kNotReported;
+  std::swap(report_.contacts_, last_contacts_);
   report_.contacts_.resize(contact_places_.size());
   report_.stats_.contacts = static_cast<std::int64_t>(contact_places_.size());
   const std::size_t at_a_time = contact_places_.size() <= kFewContacts ? kFewContacts : kContactsAtATime;
   base::parallel_for(contact_places_.size(), at_a_time, threads, [&](std::size_t i, int thread) {
-    PairRecord& record = table_.record(contact_places_[i]);
-    record.reported = i;
-    fill(report_.contacts_[i], record);
+    Contact& contact = report_.contacts_[i];
+    std::uint32_t& reported = table_.reported(contact_places_[i]);
+    if (reported == PairTable::kNotReported) {
+      fill(contact, table_.record(contact_places_[i]));
+    } else {
+      contact = last_contacts_[reported];
+    }
+    reported = static_cast<std::uint32_t>(i);
     StepStats& stats = tallies_[static_cast<std::size_t>(thread)].stats;
-    stats.facet_pairs += static_cast<std::int64_t>(record.facet_pairs.size());
-    stats.touching_contacts += touches(record) ? 1 : 0;
+    stats.facet_pairs += static_cast<std::int64_t>(contact.facet_pairs().size());
+    stats.touching_contacts += contact.touching() ? 1 : 0;
   });
 }
 
@@ -254,7 +261,7 @@ void Step::update_report(const StepStats& last) {
   };
   for (const MovedPair& pair : table_.moved()) {
     if (!table_.candidates()[pair.place].hulls_overlap) continue;
-    Contact& contact = report_.contacts_[pair.record->reported];
+    Contact& contact = report_.contacts_[table_.reported(pair.place)];
     add(contact, -1);
     fill(contact, *pair.record);
     add(contact, 1);

@@ -64,6 +64,7 @@ class Step {
   std::vector<std::unique_ptr<PairWork>> large_;  // pairs for all threads; large_count_ of them are in use
   std::size_t large_count_ = 0;
   std::vector<std::uint32_t> contact_places_;  // among the candidates
+  std::vector<Contact> last_contacts_;         // of the last report, while a new one is made
   narrowphase::EmbreeDevice device_;
   Report report_;
   StepTrace trace_;
