@@ -174,7 +174,7 @@ std::vector<Growth> growths(bool quick) {
             {"two blobs", "facets", {10, 20, 40}, pair, facet_count}};
   }
   return {
-      {"column of blobs of 80", "bodies", {4, 8, 16, 32, 64, 128, 256}, column, body_count},
+      {"column of blobs of 80", "bodies", {4, 8, 16, 32, 64, 128, 256, 512}, column, body_count},
       {"blobs of 80, few touch", "bodies", {250, 500, 1000, 2000, 4000, 8000, 16000, 32000, 64000}, thin, body_count},
       {"two blobs", "facets", {10, 20, 40, 80, 113, 160, 226, 320, 452}, pair, facet_count},
       {"cloth over a sphere", "facets", {40, 80, 160, 320, 453, 640, 906}, drape, facet_count}};
