@@ -57,13 +57,19 @@ Frames frames_of(const Subject& subject) {
   return frames;
 }
 
+constexpr std::size_t kRange = 1 << 15;  // doubles
+
+// Of each body.
+std::size_t ranges_of(const std::vector<Eigen::Matrix3Xd>& bodies) {
+  return (static_cast<std::size_t>(bodies.front().size()) + kRange - 1) / kRange;
+}
+
 // The same memory, by bodies, large ones in ranges: work(body, first double, how many, number of the range). Returns
 // how many ranges there are.
 template <class Work>
 std::size_t for_each_range(const std::vector<Eigen::Matrix3Xd>& bodies, int threads, const Work& work) {
-  constexpr std::size_t kRange = 1 << 15;  // doubles
   const std::size_t size = static_cast<std::size_t>(bodies.front().size());
-  const std::size_t ranges = (size + kRange - 1) / kRange, count = bodies.size() * ranges;
+  const std::size_t ranges = ranges_of(bodies), count = bodies.size() * ranges;
   base::parallel_for(count, 8, threads, [&](std::size_t k) {
     const std::size_t begin = k % ranges * kRange;
     work(k / ranges, begin, std::min(kRange, size - begin), k);
@@ -102,7 +108,7 @@ Speed measure(const Subject& subject, const Frames& frames, int threads, double 
     }
   }
   std::vector<double> refresh, sum, copy;
-  std::vector<double> sums(static_cast<std::size_t>(subject.shape.positions.size()) * frames.front().size());
+  std::vector<double> sums(frames.front().size() * ranges_of(frames.front()));
   // Two, in turn: like refresh, which keeps the last positions until the new ones are known to be good.
   std::vector<std::vector<Eigen::Matrix3Xd>> copies(2, frames.front());
   double total = 0.0;  // used, so that no sum is left out by the compiler
@@ -146,8 +152,8 @@ int run_refresh(const BenchOptions& options) {
   std::vector<int> threads{1};
   if (thread_count(options.threads) > 1) threads.push_back(thread_count(options.threads));
   fmt::print("{}\n\n", machine_line(threads.back()));
-  Table table({"mesh", "stored", "vertices", "threads", "ms", "million vertices/s", "GB/s read", "sum GB/s", "ratio",
-               "copy GB/s", "ratio"});
+  Table table({"mesh", "stored", "vertices", "threads", "ms", "million vertices/s", "GB/s read", "sum GB/s", "to sum",
+               "copy GB/s", "to copy"});
   BarChart chart{.title = "refreshing a mesh against adding up its coordinates",
                  .unit = "part of the rate",
                  .bars = thread_names(threads)};

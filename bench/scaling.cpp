@@ -241,7 +241,7 @@ void latency(const BenchOptions& options) {
                three_digits(quantile(times, 1.0)), fmt::format("{:.2f}", quantile(times, 0.99) / median(times))});
     const std::string block = fmt::format("$t{}", count);
     data += block + " << EOD\n";
-    for (int k = 0; k <= kPoints; ++k) {  // evenly on the axis: 1 - 10^-k/10
+    for (int k = 0; k <= kPoints; ++k) {  // evenly on the axis
       const double slower = std::pow(10.0, -k * std::log10(steps) / kPoints);
       data += fmt::format("{:.6g} {:.6g}\n", slower, quantile(times, 1.0 - slower) / median(times));
     }

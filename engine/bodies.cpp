@@ -17,7 +17,7 @@ using Staged = narrowphase::ClusteredMesh::Staged;
 constexpr Eigen::Index kLargestCount = std::numeric_limits<int>::max() / 4;
 constexpr std::size_t kPrefetchDistance = 8;  // bodies
 constexpr std::size_t kTakenAtATime = 1024;   // bodies
-constexpr std::size_t kRefreshedBytes = 272;  // of a Body, its first: what stage 1 reads
+constexpr std::size_t kRefreshedBytes = 224;  // of a Body, its first: what stage 1 reads
 // A body of so many facets is refreshed by all threads: one among many, or one of a few that would not keep them busy.
 constexpr std::size_t kLargeBody = 32768, kLargeOfFew = 8192, kFewPerThread = 4;
 constexpr int kMostWithDiagonals = 4096;  // vertices: to look how far more of them reach takes longer than it saves

@@ -44,9 +44,10 @@ class PairTable {
   // moves.
   std::span<const CandidatePair> candidates() const { return candidates_; }
   PairRecord& record(std::size_t place) { return *entries_[place].record; }
-  // The contact's place in the last report, if it is as it was there.
-  static constexpr std::uint32_t kNotReported = ~std::uint32_t{0};
-  std::uint32_t& reported(std::size_t place) { return entries_[place].reported; }
+  // Where the last report has the contact; kNowhere if it has none, or if a new one cannot take it from there, as the
+  // step looked at the pair.
+  static constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
+  std::uint32_t& place_in_report(std::size_t place) { return entries_[place].place_in_report; }
 
   std::span<MovedPair> moved() { return moved_; }
   std::span<const MovedPair> moved() const { return moved_; }
@@ -72,7 +73,7 @@ class PairTable {
  private:
   struct Entry {
     PairRecord* record = nullptr;
-    std::uint32_t reported = kNotReported;
+    std::uint32_t place_in_report = kNowhere;
     narrowphase::PartingDiagonal parting = 0;  // in the last step in which a body of the pair moved
   };
   bool part(const MovedPair& pair, const Bodies& bodies);

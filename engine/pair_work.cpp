@@ -66,7 +66,7 @@ bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, const GjkSe
       return false;
     }
   }
-  const GjkResult hulls = gjk(m, {}, history.hulls, settings);
+  const GjkResult hulls = gjk(m, {}, starts_from_last_step() ? history.hulls : GjkSimplex{}, settings);
   history.hulls = hulls.simplex;
   record.counts.gjk_iterations += hulls.support_queries;
   record.counts.limit_reached = hulls.status == GjkStatus::limit_reached;

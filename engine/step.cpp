@@ -88,6 +88,7 @@ void Step::start_afresh() {
   large_.clear();
   large_count_ = 0;
   thread_work_.clear();
+  last_contacts_ = {};
   report_ = {};
   all_ = true;
   forgotten_ = false;
@@ -223,20 +224,24 @@ void Step::make_report(int threads) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (candidates[i].hulls_overlap) contact_places_.push_back(static_cast<std::uint32_t>(i));
   }
-  for (const MovedPair& pair : table_.moved()) table_.reported(pair.place) = PairTable::kNotReported;
+  // Contacts of pairs that were not looked at stand as they are: their records, far apart in memory, are not read.
+  for (const MovedPair& pair : table_.moved()) table_.place_in_report(pair.place) = PairTable::kNowhere;
   std::swap(report_.contacts_, last_contacts_);
+  for (std::vector<Contact>* contacts : {&report_.contacts_, &last_contacts_}) {
+    if (contacts->capacity() < contact_places_.size()) contacts->reserve(2 * contact_places_.size());
+  }
   report_.contacts_.resize(contact_places_.size());
   report_.stats_.contacts = static_cast<std::int64_t>(contact_places_.size());
   const std::size_t at_a_time = contact_places_.size() <= kFewContacts ? kFewContacts : kContactsAtATime;
   base::parallel_for(contact_places_.size(), at_a_time, threads, [&](std::size_t i, int thread) {
     Contact& contact = report_.contacts_[i];
-    std::uint32_t& reported = table_.reported(contact_places_[i]);
-    if (reported == PairTable::kNotReported) {
+    std::uint32_t& place = table_.place_in_report(contact_places_[i]);
+    if (place == PairTable::kNowhere) {
       fill(contact, table_.record(contact_places_[i]));
     } else {
-      contact = last_contacts_[reported];
+      contact = last_contacts_[place];
     }
-    reported = static_cast<std::uint32_t>(i);
+    place = static_cast<std::uint32_t>(i);
     StepStats& stats = tallies_[static_cast<std::size_t>(thread)].stats;
     stats.facet_pairs += static_cast<std::int64_t>(contact.facet_pairs().size());
     stats.touching_contacts += contact.touching() ? 1 : 0;
@@ -261,7 +266,7 @@ void Step::update_report(const StepStats& last) {
   };
   for (const MovedPair& pair : table_.moved()) {
     if (!table_.candidates()[pair.place].hulls_overlap) continue;
-    Contact& contact = report_.contacts_[table_.reported(pair.place)];
+    Contact& contact = report_.contacts_[table_.place_in_report(pair.place)];
     add(contact, -1);
     fill(contact, *pair.record);
     add(contact, 1);

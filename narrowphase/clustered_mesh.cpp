@@ -137,8 +137,9 @@ void ClusteredMesh::take_memory(const Numbering& numbering, const std::vector<in
   const std::size_t placement = 3 * stride_ + 6 * static_cast<std::size_t>(cluster_count() + group_count());
   const std::size_t indices = numbering.ranges.size() + stride_ + 2 * numbering.borrowed.size() + 2 * order.size() +
                               numbering.unused_sources.size();
-  memory_ = std::make_unique<std::byte[]>((2 * placement + kPadding) * sizeof(double) + indices * sizeof(int) +
-                                          3 * order.size());
+  const std::size_t size =
+      (2 * placement + kPadding) * sizeof(double) + indices * sizeof(int) + 3 * order.size() * sizeof(std::uint8_t);
+  memory_ = std::make_unique<std::byte[]>(size);
   std::byte* at = memory_.get();
   const auto take = [&]<class T>(T*& array, std::size_t count) {
     array = reinterpret_cast<T*>(at);
@@ -153,13 +154,14 @@ void ClusteredMesh::take_memory(const Numbering& numbering, const std::vector<in
   take(placed_.memory, placement);
   take(staged_.memory, placement + kPadding);
   ranges_ = append(numbering.ranges);
-  append(numbering.source_vertices);
+  append(numbering.source_vertices);  // see source_vertices()
   append(numbering.borrowed_sources);
+  unused_sources_ = append(numbering.unused_sources);
   borrowed_ = append(numbering.borrowed);
   source_facet_ = append(order);
-  unused_sources_ = append(numbering.unused_sources);
   take(facet_of_source_, order.size());
   for (std::size_t k = 0; k < 3; ++k) corner_[k] = append(numbering.corner[k]);
+  assert(at == memory_.get() + size);
   for (int f = 0; f < facet_count(); ++f) facet_of_source_[source_facet(f)] = f;
 }
 
@@ -317,6 +319,7 @@ void ClusteredMesh::validate() const {
   std::vector<char> seen(static_cast<std::size_t>(facet_count()), 0);
   for (const int f : std::span(source_facet_, static_cast<std::size_t>(facet_count()))) {
     if (f < 0 || f >= facet_count() || seen[static_cast<std::size_t>(f)]++) broken("source facet " + std::to_string(f));
+    if (source_facet(facet_of_source(f)) != f) broken("the place of source facet " + std::to_string(f));
   }
   std::vector<char> owned(static_cast<std::size_t>(source_vertex_count_), 0);
   for (const int s : std::span(source_vertices(), static_cast<std::size_t>(vertex_count()))) {

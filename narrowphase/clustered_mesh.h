@@ -251,12 +251,13 @@ class ClusteredMesh {
   int unused_count_ = 0;
   std::size_t stride_ = 0;
   Placement placed_, staged_;
-  int* ranges_ = nullptr;         // vertex_begin and borrowed_begin of each cluster and one more; then source vertices
-  int* borrowed_ = nullptr;       // vertices that a cluster uses and does not own, cluster by cluster
-  std::uint8_t* corner_[3] = {};  // of each facet: vertices that its cluster owns come first, then the borrowed
-  int* source_facet_ = nullptr;   // of each facet
-  int* facet_of_source_ = nullptr;
+  int* ranges_ =
+      nullptr;  // vertex_begin and borrowed_begin of each cluster and one more; after them all source vertices
   int* unused_sources_ = nullptr;  // source vertices that no facet uses
+  int* borrowed_ = nullptr;        // vertices that a cluster uses and does not own, cluster by cluster
+  std::uint8_t* corner_[3] = {};   // of each facet: vertices that its cluster owns come first, then the borrowed
+  int* source_facet_ = nullptr;    // of each facet
+  int* facet_of_source_ = nullptr;
   std::unique_ptr<std::byte[]> memory_;
 };
 

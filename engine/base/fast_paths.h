@@ -1,4 +1,4 @@
-// The ways to an answer that only save work.
+// Shorter ways to an answer that can be left out, or taken whatever the size.
 #pragma once
 
 #include <cstdlib>
@@ -6,12 +6,13 @@
 
 namespace tact::base {
 
-// Clusters in support queries, what the last step knew of a pair, diagonals and planes that part hulls, planes of
-// facets, arithmetic on many facets at once, trees, ranges of large pairs. None changes which facets meet.
+// Clusters in support queries, what the last step knew of a pair but its direction, diagonals and planes that part
+// hulls, planes of facets, arithmetic on many facets at once, trees, ranges of large pairs. None changes which facets
+// meet. (Others are always taken: the criteria themselves, and that pairs at rest keep their results.)
 enum class FastPaths {
-  automatic,  // taken where they pay
-  off,        // none is taken: the plain way is left
-  always      // also those that have a border are taken, whatever the size
+  automatic,  // where they pay
+  off,        // none of these
+  always      // also those that have a border, whatever the size
 };
 
 // What the environment variable TACT_FAST_PATHS says when it is first asked for, off or always; for tests.

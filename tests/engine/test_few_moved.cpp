@@ -4,6 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "tests/support/detection.h"
@@ -98,6 +101,62 @@ TEST(FewMoved, TheReportIsThatOfAStepThatLooksAtEverything) {
     EXPECT_GT(quiet, 100u);  // steps that keep all pairs, and the answer whether they overlap
     EXPECT_LT(quiet, few.size() - 50);
   }
+}
+
+// All numbers of a contact.
+std::vector<double> numbers_of(const Contact& contact) {
+  std::vector<double> numbers(contact.direction.begin(), contact.direction.end());
+  for (const ZoneDisk& zone : {contact.zone_a, contact.zone_b}) {
+    numbers.insert(numbers.end(), zone.center.begin(), zone.center.end());
+    numbers.push_back(zone.radius);
+  }
+  for (const double number : {contact.depth, contact.plane_a, contact.plane_b, static_cast<double>(contact.iterations),
+                              static_cast<double>(contact.source), static_cast<double>(contact.kept_facets_a),
+                              static_cast<double>(contact.kept_facets_b)}) {
+    numbers.push_back(number);
+  }
+  for (const FacetPair& pair : contact.facet_pairs()) numbers.insert(numbers.end(), {1.0 * pair.a, 1.0 * pair.b});
+  return numbers;
+}
+
+// More contacts than one thread reports alone, some of which begin and end in every step: those of pairs at rest stand.
+TEST(FewMoved, ContactsOfPairsAtRestStandToTheLastBit) {
+  constexpr int kSide = 8;
+  const Mesh ball = icosphere(1);
+  std::vector<Mesh> meshes;
+  for (int k = 0; k < kSide * kSide * kSide; ++k) {
+    meshes.push_back(translated(ball, {1.8 * (k % kSide), 1.8 * (k / kSide % kSide), 1.8 * (k / kSide / kSide)}));
+  }
+  World one({.threads = 1, .outputs = {.zones = true}}), two({.threads = 2, .outputs = {.zones = true}});
+  const std::vector<BodyId> ids = add_bodies(one, meshes), ids_of_two = add_bodies(two, meshes);
+  Random random(8);
+  std::map<std::array<std::uint32_t, 2>, std::vector<double>> last;
+  std::size_t stood = 0, changes = 0;
+  for (int step = 0; step < 12; ++step) {
+    std::set<std::uint32_t> moved;
+    for (int k = 0; step > 0 && k < 3; ++k) {
+      const auto i = static_cast<std::size_t>(random.below(static_cast<int>(meshes.size())));
+      const Vec3 v = random.in_cube(0.6);
+      meshes[i].positions.colwise() += Eigen::Vector3d(v.x, v.y, v.z);
+      one.set_positions(ids[i], meshes[i].positions);
+      two.set_positions(ids_of_two[i], meshes[i].positions);
+      moved.insert(ids[i].index);
+    }
+    const Report& report = one.detect();
+    ASSERT_EQ(report.hash(), two.detect().hash()) << "step " << step;
+    ASSERT_GT(report.contacts().size(), 1100u);
+    std::map<std::array<std::uint32_t, 2>, std::vector<double>> now;
+    for (const Contact& contact : report.contacts()) now[{contact.a.index, contact.b.index}] = numbers_of(contact);
+    for (const auto& [pair, numbers] : last) {
+      if (moved.contains(pair[0]) || moved.contains(pair[1])) continue;
+      ASSERT_EQ(now[pair], numbers) << "step " << step << ", bodies " << pair[0] << ", " << pair[1];
+      ++stood;
+    }
+    changes += report.began().size() + report.ended().size();
+    last = std::move(now);
+  }
+  EXPECT_GT(stood, 11000u);
+  EXPECT_GT(changes, 1100u + 30u);
 }
 
 }  // namespace
