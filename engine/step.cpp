@@ -228,7 +228,8 @@ void Step::make_report(int threads) {
   for (const MovedPair& pair : table_.moved()) table_.place_in_report(pair.place) = PairTable::kNowhere;
   std::swap(report_.contacts_, last_contacts_);
   for (std::vector<Contact>* contacts : {&report_.contacts_, &last_contacts_}) {
-    if (contacts->capacity() < contact_places_.size()) contacts->reserve(2 * contact_places_.size());
+    if (contacts->capacity() < contact_places_.size())
+      contacts->reserve(contact_places_.size() + contact_places_.size() / 4);
   }
   report_.contacts_.resize(contact_places_.size());
   report_.stats_.contacts = static_cast<std::int64_t>(contact_places_.size());
