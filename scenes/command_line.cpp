@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <string>
 
@@ -36,17 +37,8 @@ int fail(int status, std::string message) {
 
 int fail_usage(const std::string& message) { return fail(kWrongUsage, message + " (see tact --help)"); }
 
-}  // namespace
-
-int run_command_line(int argc, const char* const* argv) {
-  CLI::App program("Finds where many deformable bodies touch.", "tact");
-  program.set_version_flag("--version", "tact " TACT_VERSION, "Print the version and exit");
-  program.footer(
-      "Exit status: 0 done; 1 the input is bad; 2 wrong usage.\n`tact COMMAND --help` tells about a command.");
-  add_check_command(program);
-  add_run_command(program);
-  add_replay_command(program);
-  add_scenes_command(program);
+// To parse a command is to run it.
+int parse(CLI::App& program, int argc, const char* const* argv) {
   try {
     program.parse(argc, argv);
     return program.get_subcommands().empty() ? fail_usage("no command") : 0;
@@ -65,6 +57,24 @@ int run_command_line(int argc, const char* const* argv) {
   } catch (const std::exception& error) {  // such as a file system that fails
     return fail(kBadInput, error.what());
   }
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  CLI::App program("Finds where many deformable bodies touch.", "tact");
+  program.set_version_flag("--version", "tact " TACT_VERSION, "Print the version and exit");
+  program.footer(
+      "Exit status: 0 done; 1 the input is bad, or a file or standard output cannot be written; 2 wrong usage.\n"
+      "`tact COMMAND --help` tells about a command.");
+  add_check_command(program);
+  add_run_command(program);
+  add_replay_command(program);
+  add_scenes_command(program);
+  const int status = parse(program, argc, argv);
+  // What was printed may still wait in a buffer.
+  if (status == 0 && !std::cout.flush()) return fail(kBadInput, "standard output: cannot be written to its end");
+  return status;
 }
 
 }  // namespace tact::scenes

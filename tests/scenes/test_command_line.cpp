@@ -29,10 +29,11 @@ std::string contents(const std::filesystem::path& file) {
 
 class CommandLine : public ::testing::Test {
  protected:
-  // Runs the program in the folder of the test; `arguments` are for the shell.
-  Outcome run(const std::string& arguments) const {
+  // Runs the program in the folder of the test; `arguments`, which may say where output goes, and variables of the
+  // environment are for the shell.
+  Outcome run(const std::string& arguments, const std::string& variables = "") const {
     const std::string line =
-        "cd '" + folder_.path().string() + "' && '" TACT_PROGRAM "' " + arguments + " >.out 2>.err";
+        "cd '" + folder_.path().string() + "' && " + variables + " '" TACT_PROGRAM "' >.out 2>.err " + arguments;
     const int status = std::system(line.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder_.path() / ".out"),
             contents(folder_.path() / ".err")};
@@ -97,6 +98,17 @@ TEST_F(CommandLine, BadInputReturnsOne) {
   const Outcome full = run("check a.obj --json /dev/full");
   EXPECT_EQ(full.status, 1);
   EXPECT_EQ(full.error, "tact: /dev/full: cannot be written to its end\n");
+}
+
+TEST_F(CommandLine, WhatStandardOutputDoesNotTakeIsAnError) {
+  ASSERT_EQ(run("check a.obj b.off --record r").status, 0);
+  for (const char* command :
+       {"check a.obj b.off", "check a.obj --json -", "check a.obj --json r.json", "scenes", "replay r", "--help",
+        "--version", "check --help", "run pile --size 1 --frames 1 --no-pictures"}) {
+    const Outcome outcome = run(command + std::string(" >/dev/full"));
+    EXPECT_EQ(outcome.status, 1) << command;
+    EXPECT_EQ(outcome.error, "tact: standard output: cannot be written to its end\n") << command;
+  }
 }
 
 TEST_F(CommandLine, WrongUsageReturnsTwo) {
