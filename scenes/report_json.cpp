@@ -39,7 +39,9 @@ Json pair_json(const CandidatePair& pair, const Contact* contact, bool has_facet
   if (contact != nullptr) {
     json["direction"] = to_json(contact->direction);
     json["depth"] = contact->depth;
+    json["source"] = direction_source_name(contact->source);
     json["iterations"] = contact->iterations;
+    json["limit_reached"] = contact->limit_reached;
     json["kept_facets"] = Json::array({contact->kept_facets_a, contact->kept_facets_b});
   }
   if (!has_facets) {
@@ -86,6 +88,15 @@ std::string accuracy_name(Accuracy accuracy) {
 }
 
 std::string surface_name(Surface surface) { return surface == Surface::closed ? "closed" : "sheet"; }
+
+std::string direction_source_name(DirectionSource source) {
+  switch (source) {
+    case DirectionSource::carried: return "carried";
+    case DirectionSource::fresh: return "fresh";
+    case DirectionSource::smallest: return "smallest";
+  }
+  return "unknown";
+}
 
 std::string hash_text(const Report& report) { return fmt::format("{:016x}", report.hash()); }
 

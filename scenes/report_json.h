@@ -3,14 +3,16 @@
 //   {"tact":"<version>","accuracy":"exact","threads":2,
 //    "bodies":[{"name":"spot.ply","vertices":2930,"facets":5856,"surface":"closed"},...],
 //    "frames":[{"frame":0,"hash":"<16 hexadecimal digits>",
-//      "pairs":[{"a":0,"b":1,"hulls_overlap":true,"direction":[x,y,z],"depth":d,"iterations":k,
-//                "kept_facets":[ka,kb],"facet_pairs":[[fa,fb],...]},...],
+//      "pairs":[{"a":0,"b":1,"hulls_overlap":true,"direction":[x,y,z],"depth":d,
+//                "source":"carried","iterations":k,"limit_reached":false,"kept_facets":[ka,kb],
+//                "facet_pairs":[[fa,fb],...]},...],
 //      "stats":{"bodies":2,...},"times_ms":{"refresh":0.1,...}}]}
 //
 // `a` and `b` are places in `bodies`. `pairs` are the candidate pairs, sorted by (a, b); one whose hulls are apart has
-// only "hulls_overlap":false and an empty "facet_pairs". At Accuracy::hulls every "facet_pairs" is null. `stats` and
-// `times_ms` have the names of <tact/statistics.h>, the times without their "_ms". Numbers read back to the same
-// double. A name that is not UTF-8 has U+FFFD in the place of each wrong byte.
+// only "hulls_overlap":false and an empty "facet_pairs". "source" tells how the direction was found: "carried", "fresh"
+// or "smallest"; "limit_reached" whether it is only the best that was found before a limit. At Accuracy::hulls every
+// "facet_pairs" is null. `stats` and `times_ms` have the names of <tact/statistics.h>, the times without their "_ms".
+// Numbers read back to the same double. A name that is not UTF-8 has U+FFFD in the place of each wrong byte.
 #pragma once
 
 #include <tact/report.h>
@@ -22,9 +24,10 @@
 
 namespace tact::scenes {
 
-// "hulls", "paper" or "exact"; "closed" or "sheet".
+// "hulls", "paper" or "exact"; "closed" or "sheet"; "carried", "fresh" or "smallest".
 std::string accuracy_name(Accuracy accuracy);
 std::string surface_name(Surface surface);
+std::string direction_source_name(DirectionSource source);
 // The hash of `report` as 16 hexadecimal digits.
 std::string hash_text(const Report& report);
 

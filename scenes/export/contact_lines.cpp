@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "scenes/report_json.h"
+
 namespace tact::scenes {
 namespace {
 
@@ -22,15 +24,6 @@ Json contact_json(const World& world, const Contact& contact) {
 }
 
 }  // namespace
-
-const char* direction_source_name(DirectionSource source) {
-  switch (source) {
-    case DirectionSource::carried: return "carried";
-    case DirectionSource::fresh: return "fresh";
-    case DirectionSource::smallest: return "smallest";
-  }
-  return "unknown";
-}
 
 void write_contact_line(std::ostream& out, int frame, double time, const World& world, const Report& report) {
   Json contacts = Json::array();

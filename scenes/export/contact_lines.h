@@ -15,9 +15,6 @@
 
 namespace tact::scenes {
 
-// "carried", "fresh" or "smallest".
-const char* direction_source_name(DirectionSource source);
-
 // Writes one line; the bodies of `report` must still be in `world`.
 void write_contact_line(std::ostream& out, int frame, double time, const World& world, const Report& report);
 

@@ -2,7 +2,9 @@
 #include <tact/version.h>
 #include <tact/world.h>
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "scenes/body_files.h"
@@ -10,6 +12,7 @@
 #include "scenes/report_json.h"
 #include "scenes/usage_error.h"
 #include "tests/scenes/temporary_folder.h"
+#include "tests/support/generators.h"
 
 namespace tact::scenes {
 namespace {
@@ -71,8 +74,8 @@ TEST_F(CheckCommand, JsonHasTheDocumentedShape) {
 TEST_F(CheckCommand, PairsAreTheCandidatesAndOverlappingOnesTellMore) {
   const Json pairs = check_json({.meshes = {a_, b_, c_, d_}})["frames"][0]["pairs"];
   ASSERT_EQ(pairs.size(), 3u);
-  EXPECT_EQ(keys_of(pairs[0]), (std::vector<std::string>{"a", "b", "hulls_overlap", "direction", "depth", "iterations",
-                                                         "kept_facets", "facet_pairs"}));
+  EXPECT_EQ(keys_of(pairs[0]), (std::vector<std::string>{"a", "b", "hulls_overlap", "direction", "depth", "source",
+                                                         "iterations", "limit_reached", "kept_facets", "facet_pairs"}));
   EXPECT_EQ(pairs[0]["a"], 0);
   EXPECT_EQ(pairs[0]["b"], 1);
   EXPECT_EQ(pairs[0]["hulls_overlap"], true);
@@ -99,6 +102,33 @@ TEST_F(CheckCommand, NumbersReadBackToTheSameDoubles) {
   for (const FacetPair& p : contact.facet_pairs()) facet_pairs.push_back(Json::array({p.a, p.b}));
   EXPECT_EQ(pair["facet_pairs"], facet_pairs);
   EXPECT_FALSE(facet_pairs.empty());
+}
+
+// Few of these pairs reach the limit, low as it is.
+TEST_F(CheckCommand, PairsTellHowTheDirectionWasFoundAndWhetherALimitWasReached) {
+  std::set<std::string> sources, limits;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const tests::Mesh still = tests::random_hull(30, seed), moving = tests::random_hull(30, seed + 100);
+    World world({.gjk_tolerance = 0.1, .iteration_limit = 1});
+    world.add_body({.positions = still.positions, .facets = still.facets});
+    const BodyId b = world.add_body({.positions = moving.positions, .facets = moving.facets});
+    for (const double x : {1.5, 0.5, 0.1}) {
+      world.set_positions(b, moving.positions.colwise() + x * Eigen::Vector3d(1.0, 0.9, 0.8));
+      const Report& report = world.detect();
+      if (report.contacts().empty()) continue;
+      std::ostringstream out;
+      JsonReport json(out, world);
+      json.add_frame(0, report);
+      json.finish();
+      const Json pair = Json::parse(out.str())["frames"][0]["pairs"][0];
+      EXPECT_EQ(pair["limit_reached"], report.contacts()[0].limit_reached) << "seed " << seed;
+      EXPECT_EQ(pair["source"], direction_source_name(report.contacts()[0].source)) << "seed " << seed;
+      sources.insert(pair["source"]);
+      limits.insert(pair["limit_reached"].dump());
+    }
+  }
+  EXPECT_TRUE(sources.contains("carried") && sources.size() > 1);
+  EXPECT_EQ(limits, (std::set<std::string>{"false", "true"}));
 }
 
 TEST_F(CheckCommand, HullsHaveNoFacets) {

@@ -8,6 +8,7 @@
 
 #include "scenes/export/contact_lines.h"
 #include "scenes/pictures/contact_marks.h"
+#include "scenes/report_json.h"
 #include "tests/scenes/picture_bodies.h"
 
 using namespace tact;
