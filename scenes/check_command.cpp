@@ -85,17 +85,15 @@ void check(const CheckOptions& options, std::ostream& out) {
   std::vector<BodyFrames> bodies = read_bodies(options.meshes, most_frames);
   mark_sheets(options.sheets, bodies);
   const int threads = options.threads > 0 ? options.threads : base::default_threads();
+  std::optional<OutputFile> json_file;
+  if (!options.json.empty()) json_file.emplace(options.json, out);
   std::optional<OutputFile> recording;
-  if (!options.record.empty()) recording.emplace(options.record, out);
+  if (!options.record.empty()) recording.emplace(options.record, out, Appears::at_once);
   RecordedWorld world({.threads = threads, .accuracy = options.accuracy}, recording ? &recording->stream() : nullptr);
   const std::vector<BodyId> ids = add_bodies(bodies, world);
 
-  std::optional<OutputFile> json_file;
   std::optional<JsonReport> json;
-  if (!options.json.empty()) {
-    json_file.emplace(options.json, out);
-    json.emplace(json_file->stream(), world.world());
-  }
+  if (json_file) json.emplace(json_file->stream(), world.world());
   std::optional<TableReport> table;
   if (options.json != "-") table.emplace(out, world.world());
 

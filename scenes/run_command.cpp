@@ -57,7 +57,7 @@ void run(const RunOptions& options, std::ostream& out) {
   scene.marks.zones = options.outputs.zones;
   const int threads = options.threads > 0 ? options.threads : base::default_threads();
   std::optional<OutputFile> recording;
-  if (!options.record.empty()) recording.emplace(options.record, out);
+  if (!options.record.empty()) recording.emplace(options.record, out, Appears::at_once);
   Simulation simulation(std::move(scene.bodies), scene.script, scene.dynamics,
                         {.threads = threads,
                          .accuracy = options.accuracy,

@@ -216,7 +216,8 @@ TEST_F(RunCommand, AnInterruptKeepsWhatWasDone) {
   }
   ASSERT_GT(child, 0);
   // It has run for a while when its report has grown.
-  for (int i = 0; i < 1000 && (!std::filesystem::exists(json) || std::filesystem::file_size(json) < 100000); ++i) {
+  const std::string part = json + "." + std::to_string(child) + ".part";
+  for (int i = 0; i < 1000 && (!std::filesystem::exists(part) || std::filesystem::file_size(part) < 100000); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   kill(child, SIGINT);
