@@ -12,6 +12,7 @@
 #include "engine/base/parallel.h"
 #include "scenes/common_options.h"
 #include "scenes/counted.h"
+#include "scenes/failures.h"
 #include "scenes/interrupt.h"
 #include "scenes/library/catalog.h"
 #include "scenes/lost_pairs.h"
@@ -80,15 +81,18 @@ void run(const RunOptions& options, std::ostream& out) {
     progress.show(step + 1, counted(simulation.report()->stats().touching_contacts, "contact"));
   }
   progress.clear();
-  outputs.finish();
-  if (recording) recording->finish();
-  if (options.outputs.json == "-" || options.outputs.contacts == "-") return;
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-  fmt::print(out, "{}{}\n", options.scene, totals.steps() < options.frames ? ", interrupted" : "");
-  totals.print(out, simulation, wall.count(), scene.paper);
-  if (lost) lost->print(out);
-  fmt::print(out, "\n");
-  outputs.print(out);
+  Failures failures;
+  outputs.finish(failures);
+  if (recording) failures.attempt([&] { recording->finish(); });
+  if (options.outputs.json != "-" && options.outputs.contacts != "-") {
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+    fmt::print(out, "{}{}\n", options.scene, totals.steps() < options.frames ? ", interrupted" : "");
+    totals.print(out, simulation, wall.count(), scene.paper);
+    if (lost) lost->print(out);
+    fmt::print(out, "\n");
+    outputs.print(out);
+  }
+  failures.report();
 }
 
 void add_run_command(CLI::App& program) {

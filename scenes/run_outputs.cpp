@@ -25,10 +25,6 @@ RunOutputs::RunOutputs(const OutputOptions& options, const std::string& title, c
     : options_(options),
       looks_(scene.looks),
       every_(options.every > 0 ? options.every : steps_a_frame(scene.dynamics)) {
-  if (options.pictures) {
-    pictures_.emplace(title, scene, options.out.empty() ? std::filesystem::path("tact-" + title) : options.out,
-                      threads);
-  }
   if (!options.json.empty()) {
     json_file_.emplace(options.json, out);
     json_.emplace(json_file_->stream(), world);
@@ -38,8 +34,16 @@ RunOutputs::RunOutputs(const OutputOptions& options, const std::string& title, c
     trace_file_.emplace(options.trace, out);
     trace_.emplace(trace_file_->stream(), title, threads);
   }
-  if (!options.gltf.empty()) gltf_.emplace(UpAxis::z);
+  if (!options.gltf.empty()) {
+    gltf_file_.emplace(options.gltf.string(), out);
+    gltf_.emplace(UpAxis::z);
+  }
   if (!options.vtk.empty()) vtk_.emplace(options.vtk, title);
+  // Last, as it takes an older run's pictures away.
+  if (options.pictures) {
+    pictures_.emplace(title, scene, options.out.empty() ? std::filesystem::path("tact-" + title) : options.out,
+                      threads);
+  }
 }
 
 void RunOutputs::add_step(int step, const Simulation& simulation) {
@@ -71,29 +75,46 @@ std::vector<PictureBody> RunOutputs::visible_bodies(const Simulation& simulation
   return bodies;
 }
 
-void RunOutputs::finish() {
-  if (json_) json_->finish();
-  if (json_file_) json_file_->finish();
-  if (contacts_) contacts_->finish();
-  if (trace_) trace_->finish();
-  if (trace_file_) trace_file_->finish();
-  if (gltf_ && gltf_->frames() > 0) gltf_->write(options_.gltf);
-  if (!pictures_ || pictures_->count() == 0) return;
-  sheet_ = pictures_->write_sheet();
-  try {
-    film_ = fmt::format("film: {}", pictures_->write_film().string());
-  } catch (const NoEncoder& error) {
-    film_ = error.what();
+void RunOutputs::finish(Failures& failures) {
+  if (json_) {
+    failures.attempt([&] {
+      json_->finish();
+      json_file_->finish();
+    });
   }
+  if (contacts_) failures.attempt([&] { contacts_->finish(); });
+  if (vtk_) made_.push_back(fmt::format("frames for ParaView: {}", vtk_->index_file().string()));
+  if (gltf_ && gltf_->frames() > 0) {
+    failures.attempt([&] {
+      gltf_->write(gltf_file_->stream());
+      gltf_file_->finish();
+      made_.push_back(fmt::format("frames for Blender: {}", options_.gltf.string()));
+    });
+  }
+  if (trace_) {
+    failures.attempt([&] {
+      trace_->finish();
+      trace_file_->finish();
+      made_.push_back(fmt::format("trace for ui.perfetto.dev: {}", options_.trace));
+    });
+  }
+  if (pictures_ && pictures_->count() > 0) finish_pictures(failures);
+}
+
+void RunOutputs::finish_pictures(Failures& failures) {
+  made_.push_back(fmt::format("{} pictures: {}", pictures_->count(), pictures_->folder().string()));
+  failures.attempt([&] { made_.back() += fmt::format(", a sheet of them: {}", pictures_->write_sheet()->string()); });
+  failures.attempt([&] {
+    try {
+      made_.push_back(fmt::format("film: {}", pictures_->write_film().string()));
+    } catch (const NoEncoder& error) {
+      made_.emplace_back(error.what());
+    }
+  });
 }
 
 void RunOutputs::print(std::ostream& out) const {
-  if (vtk_) fmt::print(out, "frames for ParaView: {}\n", vtk_->index_file().string());
-  if (gltf_ && gltf_->frames() > 0) fmt::print(out, "frames for Blender: {}\n", options_.gltf.string());
-  if (trace_) fmt::print(out, "trace for ui.perfetto.dev: {}\n", options_.trace);
-  if (!sheet_) return;
-  fmt::print(out, "{} pictures: {}, a sheet of them: {}\n{}\n", pictures_->count(), pictures_->folder().string(),
-             sheet_->string(), film_);
+  for (const std::string& line : made_) fmt::print(out, "{}\n", line);
 }
 
 }  // namespace tact::scenes

@@ -5,10 +5,12 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "scenes/export/chrome_trace.h"
 #include "scenes/export/gltf.h"
 #include "scenes/export/vtk.h"
+#include "scenes/failures.h"
 #include "scenes/library/scene.h"
 #include "scenes/output_file.h"
 #include "scenes/report_json.h"
@@ -31,19 +33,21 @@ struct OutputOptions {
 // The bodies that no picture shows are not in the files for other programs either.
 class RunOutputs {
  public:
-  // `scene` without its bodies; `title` is its name. Errors: FileError; std::runtime_error if the font is missing.
+  // Opens all files and makes the folders, so that a run does not begin for which one of them cannot be. `scene`
+  // without its bodies; `title` is its name. Errors: FileError; std::runtime_error if the font is missing.
   RunOutputs(const OutputOptions& options, const std::string& title, const Scene& scene, const World& world,
              int threads, std::ostream& out);
 
   // What step number `step`, from 0, gives. Errors: FileError.
   void add_step(int step, const Simulation& simulation);
-  // Ends all files; makes the contact sheet and the film. Errors: FileError.
-  void finish();
-  // Says where everything is.
+  // Ends all files; makes the contact sheet and the film. Each is tried, also after others failed.
+  void finish(Failures& failures);
+  // Says where everything is that could be made.
   void print(std::ostream& out) const;
 
  private:
   void add_frame(const Simulation& simulation);
+  void finish_pictures(Failures& failures);
   std::vector<PictureBody> visible_bodies(const Simulation& simulation) const;
 
   OutputOptions options_;
@@ -55,10 +59,10 @@ class RunOutputs {
   std::optional<OutputFile> contacts_;
   std::optional<OutputFile> trace_file_;
   std::optional<ChromeTrace> trace_;
+  std::optional<OutputFile> gltf_file_;
   std::optional<GltfAnimation> gltf_;
   std::optional<VtkSeries> vtk_;
-  std::optional<std::filesystem::path> sheet_;
-  std::string film_;  // where it is, or why there is none
+  std::vector<std::string> made_;  // lines that say where things are, or why there is no film
 };
 
 }  // namespace tact::scenes

@@ -8,13 +8,11 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
-#include "scenes/file_error.h"
 #include "scenes/pictures/drawn_scene.h"
 
 namespace tact::scenes {
@@ -95,15 +93,14 @@ class GltfAnimation::Writer {
   }
 
   // The whole file.
-  std::string bytes(const std::filesystem::path& file) const {
+  std::string bytes() const {
     std::string json = root_.dump(-1, ' ', false, Json::error_handler_t::replace);
     json.append((4 - json.size() % 4) % 4, ' ');
     std::size_t data = 0;
     for (const std::string& view : views_) data += view.size();
     const std::size_t total = 12 + 8 + json.size() + (data > 0 ? 8 + data : 0);
     if (total > std::numeric_limits<std::uint32_t>::max()) {
-      throw FileError(
-          fmt::format("{}: {} bytes are more than glTF can hold; export fewer frames", file.string(), total));
+      throw std::runtime_error(fmt::format("glTF: {} bytes are more than a file can hold; export fewer frames", total));
     }
     std::string result;
     result.reserve(total);
@@ -229,13 +226,10 @@ class GltfAnimation::Writer {
   std::array<std::string, 3> views_;
 };
 
-void GltfAnimation::write(const std::filesystem::path& file) const {
-  if (times_.empty()) throw FileError(file.string() + ": no frame to write");
-  const std::string bytes = Writer(*this).bytes(file);
-  std::ofstream out(file, std::ios::binary);
+void GltfAnimation::write(std::ostream& out) const {
+  if (times_.empty()) throw std::runtime_error("glTF: no frame to write");
+  const std::string bytes = Writer(*this).bytes();
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) throw FileError(file.string() + ": cannot write the file");
 }
 
 int gltf_stride(std::int64_t vertices, int frames, std::int64_t bytes) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
+#include <ostream>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,9 +26,9 @@ class GltfAnimation {
 
   int frames() const { return static_cast<int>(times_.size()); }
 
-  // Errors: FileError if there is no frame, if the file would pass the format's limit of 4 GiB, or if it cannot be
-  // written.
-  void write(const std::filesystem::path& file) const;
+  // Writes the file; whether `out` took all is for its owner to ask. Errors: std::runtime_error if there is no frame,
+  // or if the file would pass the format's limit of 4 GiB.
+  void write(std::ostream& out) const;
 
  private:
   struct Body {

@@ -93,8 +93,13 @@ TEST_F(CommandLine, BadInputReturnsOne) {
   expect_refusal("check 'odd\nname.stl'", 1, "odd name.stl: byte 4: ");
   expect_refusal("check none", 1, "none: the folder holds no mesh file");
   expect_refusal("check a.obj --json none/there/x.json", 1, "none/there/x.json: cannot be written: ");
-  expect_refusal("run pile --size 1 --frames 1 --no-pictures --trace none/there/t.json", 1,
-                 "none/there/t.json: cannot be written: ");
+  for (const std::string option : {"--trace", "--gltf", "--json", "--contacts", "--record"}) {
+    expect_refusal("run pile --size 1 --frames 1 --out pictures --vtk vtk " + option + " none/there/x", 1,
+                   "none/there/x: cannot be written: ");
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "vtk" / "pile_00000.vtp")) << option << ": a step was made";
+  }
+  expect_refusal("run pile --size 1 --frames 1 --no-pictures --vtk a.obj", 1, "a.obj: cannot create the folder: ");
+  expect_refusal("run pile --size 1 --frames 1 --out a.obj --vtk vtk", 1, "a.obj: cannot be written: ");
   const Outcome full = run("check a.obj --json /dev/full");
   EXPECT_EQ(full.status, 1);
   EXPECT_EQ(full.error, "tact: /dev/full: cannot be written to its end\n");
@@ -109,6 +114,29 @@ TEST_F(CommandLine, WhatStandardOutputDoesNotTakeIsAnError) {
     EXPECT_EQ(outcome.status, 1) << command;
     EXPECT_EQ(outcome.error, "tact: standard output: cannot be written to its end\n") << command;
   }
+}
+
+TEST_F(CommandLine, AnOutputThatFailsAtTheEndOfARunTakesNothingElseWithIt) {
+  const std::filesystem::path ffmpeg = folder_.write("bin/ffmpeg", "#!/bin/sh\necho no room for it\nexit 1\n");
+  std::filesystem::permissions(ffmpeg, std::filesystem::perms::owner_all);
+  const Outcome outcome =
+      run("run pile --size 1 --frames 1 --out pictures --json /dev/full --gltf /dev/full --trace t.json --record r",
+          "PATH=\"$PWD/bin:$PATH\"");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(
+      outcome.error.starts_with("tact: /dev/full: cannot be written to its end; /dev/full: cannot be written "
+                                "to its end; "))
+      << outcome.error;
+  EXPECT_TRUE(outcome.error.ends_with("film.mp4: ffmpeg could not make the film: no room for it\n")) << outcome.error;
+  EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  for (const char* part : {"pile\n", "1 steps, ", "trace for ui.perfetto.dev: t.json\n",
+                           "1 pictures: pictures, a sheet of them: pictures/sheet.png\n"}) {
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " is not in\n" << outcome.out;
+  }
+  EXPECT_EQ(outcome.out.find("Blender"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "pictures" / "sheet.png"));
+  EXPECT_TRUE(nlohmann::json::parse(contents(folder_.path() / "t.json")).contains("traceEvents"));
+  EXPECT_EQ(run("replay r").status, 0);
 }
 
 TEST_F(CommandLine, WrongUsageReturnsTwo) {
