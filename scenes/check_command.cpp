@@ -1,6 +1,7 @@
 #include "scenes/check_command.h"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 #include <tact/world.h>
 
 #include <CLI/Validators.hpp>
@@ -13,6 +14,8 @@
 #include "engine/base/parallel.h"
 #include "scenes/body_files.h"
 #include "scenes/common_options.h"
+#include "scenes/failures.h"
+#include "scenes/interrupt.h"
 #include "scenes/output_file.h"
 #include "scenes/progress_line.h"
 #include "scenes/recording.h"
@@ -85,6 +88,7 @@ void check(const CheckOptions& options, std::ostream& out) {
   std::vector<BodyFrames> bodies = read_bodies(options.meshes, most_frames);
   mark_sheets(options.sheets, bodies);
   const int threads = options.threads > 0 ? options.threads : base::default_threads();
+  const Interrupt interrupt;  // before any file is opened, so that none is left unfinished
   std::optional<OutputFile> json_file;
   if (!options.json.empty()) json_file.emplace(options.json, out);
   std::optional<OutputFile> recording;
@@ -99,7 +103,8 @@ void check(const CheckOptions& options, std::ostream& out) {
 
   const int frames = frames_to_step(options, bodies);
   ProgressLine progress("frame", frames, ProgressLine::Beside::output);
-  for (int frame = 0; frame < frames; ++frame) {
+  int frame = 0;
+  for (; frame < frames && !interrupt.requested(); ++frame) {
     if (frame > 0) set_frame(bodies, ids, frame, world);
     const Report& report = world.detect();
     if (json) json->add_frame(frame, report);
@@ -107,12 +112,18 @@ void check(const CheckOptions& options, std::ostream& out) {
     progress.show(frame + 1);
   }
   progress.clear();
-  if (json) {
-    json->finish();
-    json_file->finish();
-  }
+  const Ending ending = frame < frames ? Ending::interrupted : Ending::complete;
+  if (table && ending == Ending::interrupted) fmt::print(out, "\ninterrupted after {} of {} frames\n", frame, frames);
   if (table) table->finish();
-  if (recording) recording->finish();
+  Failures failures;
+  if (json) {
+    failures.attempt([&] {
+      json->finish(ending);
+      json_file->finish();
+    });
+  }
+  if (recording) failures.attempt([&] { recording->finish(); });
+  failures.report();
 }
 
 void add_check_command(CLI::App& program) {

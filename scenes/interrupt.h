@@ -5,6 +5,9 @@
 
 namespace tact::scenes {
 
+// How a long run ended.
+enum class Ending { complete, interrupted };
+
 // While one lives, the first SIGINT is only remembered; a second one ends the program as usual. One at a time.
 class Interrupt {
  public:

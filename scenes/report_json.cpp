@@ -117,6 +117,8 @@ void JsonReport::add_frame(int frame, const Report& report) {
   first_ = false;
 }
 
-void JsonReport::finish() { out_ << "]}\n"; }
+void JsonReport::finish(Ending ending) {
+  out_ << (ending == Ending::interrupted ? "],\n \"interrupted\":true}\n" : "]}\n");
+}
 
 }  // namespace tact::scenes

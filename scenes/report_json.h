@@ -6,13 +6,15 @@
 //      "pairs":[{"a":0,"b":1,"hulls_overlap":true,"direction":[x,y,z],"depth":d,
 //                "source":"carried","iterations":k,"limit_reached":false,"kept_facets":[ka,kb],
 //                "facet_pairs":[[fa,fb],...]},...],
-//      "stats":{"bodies":2,...},"times_ms":{"refresh":0.1,...}}]}
+//      "stats":{"bodies":2,...},"times_ms":{"refresh":0.1,...}}],
+//    "interrupted":true}
 //
 // `a` and `b` are places in `bodies`. `pairs` are the candidate pairs, sorted by (a, b); one whose hulls are apart has
 // only "hulls_overlap":false and an empty "facet_pairs". "source" tells how the direction was found: "carried", "fresh"
 // or "smallest"; "limit_reached" whether it is only the best that was found before a limit. At Accuracy::hulls every
 // "facet_pairs" is null. `stats` and `times_ms` have the names of <tact/statistics.h>, the times without their "_ms".
-// Numbers read back to the same double. A name that is not UTF-8 has U+FFFD in the place of each wrong byte.
+// `interrupted` is there only if Ctrl-C ended the frames. Numbers read back to the same double. A name that is not
+// UTF-8 has U+FFFD in the place of each wrong byte.
 #pragma once
 
 #include <tact/report.h>
@@ -21,6 +23,8 @@
 
 #include <ostream>
 #include <string>
+
+#include "scenes/interrupt.h"
 
 namespace tact::scenes {
 
@@ -39,7 +43,7 @@ class JsonReport {
   JsonReport(std::ostream& out, const World& world);
   void add_frame(int frame, const Report& report);
   // Writes what comes after the frames.
-  void finish();
+  void finish(Ending ending = Ending::complete);
 
  private:
   std::ostream& out_;

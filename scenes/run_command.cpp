@@ -57,6 +57,7 @@ void run(const RunOptions& options, std::ostream& out) {
   Scene scene = entry.make(options.size > 0 ? options.size : entry.default_size);
   scene.marks.zones = options.outputs.zones;
   const int threads = options.threads > 0 ? options.threads : base::default_threads();
+  const Interrupt interrupt;  // before any file is opened, so that none is left unfinished
   std::optional<OutputFile> recording;
   if (!options.record.empty()) recording.emplace(options.record, out, Appears::at_once);
   Simulation simulation(std::move(scene.bodies), scene.script, scene.dynamics,
@@ -72,7 +73,6 @@ void run(const RunOptions& options, std::ostream& out) {
 
   RunTotals totals;
   ProgressLine progress("step", options.frames, ProgressLine::Beside::nothing);
-  const Interrupt interrupt;
   for (int step = 0; step < options.frames && !interrupt.requested(); ++step) {
     simulation.step();
     totals.add_step(simulation);
@@ -81,12 +81,13 @@ void run(const RunOptions& options, std::ostream& out) {
     progress.show(step + 1, counted(simulation.report()->stats().touching_contacts, "contact"));
   }
   progress.clear();
+  const Ending ending = totals.steps() < options.frames ? Ending::interrupted : Ending::complete;
   Failures failures;
-  outputs.finish(failures);
+  outputs.finish(ending, failures);
   if (recording) failures.attempt([&] { recording->finish(); });
   if (options.outputs.json != "-" && options.outputs.contacts != "-") {
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-    fmt::print(out, "{}{}\n", options.scene, totals.steps() < options.frames ? ", interrupted" : "");
+    fmt::print(out, "{}{}\n", options.scene, ending == Ending::interrupted ? ", interrupted" : "");
     totals.print(out, simulation, wall.count(), scene.paper);
     if (lost) lost->print(out);
     fmt::print(out, "\n");

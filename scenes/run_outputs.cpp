@@ -75,10 +75,10 @@ std::vector<PictureBody> RunOutputs::visible_bodies(const Simulation& simulation
   return bodies;
 }
 
-void RunOutputs::finish(Failures& failures) {
+void RunOutputs::finish(Ending ending, Failures& failures) {
   if (json_) {
     failures.attempt([&] {
-      json_->finish();
+      json_->finish(ending);
       json_file_->finish();
     });
   }

@@ -11,6 +11,7 @@
 #include "scenes/export/gltf.h"
 #include "scenes/export/vtk.h"
 #include "scenes/failures.h"
+#include "scenes/interrupt.h"
 #include "scenes/library/scene.h"
 #include "scenes/output_file.h"
 #include "scenes/report_json.h"
@@ -41,7 +42,7 @@ class RunOutputs {
   // What step number `step`, from 0, gives. Errors: FileError.
   void add_step(int step, const Simulation& simulation);
   // Ends all files; makes the contact sheet and the film. Each is tried, also after others failed.
-  void finish(Failures& failures);
+  void finish(Ending ending, Failures& failures);
   // Says where everything is that could be made.
   void print(std::ostream& out) const;
 

@@ -2,10 +2,13 @@
 #include <tact/version.h>
 #include <tact/world.h>
 
+#include <csignal>
 #include <cstdint>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "scenes/body_files.h"
 #include "scenes/check_command.h"
@@ -167,6 +170,46 @@ TEST_F(CheckCommand, FilesStandStillForAsManyFramesAsAsked) {
   EXPECT_EQ(frames[2]["frame"], 2);
   EXPECT_EQ(frames[2]["stats"]["moved_bodies"], 0);
   EXPECT_EQ(frames[2]["hash"], frames[0]["hash"]);
+}
+
+// Sends the program SIGINT when `text` was written to it.
+class InterruptingBuffer : public std::stringbuf {
+ public:
+  explicit InterruptingBuffer(std::string text) : text_(std::move(text)) {}
+
+ private:
+  std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+    const std::streamsize written = std::stringbuf::xsputn(bytes, count);
+    if (!sent_ && str().find(text_) != std::string::npos) {
+      sent_ = true;
+      raise(SIGINT);
+    }
+    return written;
+  }
+
+  std::string text_;
+  bool sent_ = false;
+};
+
+TEST_F(CheckCommand, AnInterruptEndsItAfterTheFrameAndTheReportSaysSo) {
+  InterruptingBuffer buffer(R"("frame":1,)");
+  std::ostream out(&buffer);
+  check({.meshes = {a_, b_}, .frames = 1000000, .json = "-"}, out);
+  const Json json = Json::parse(buffer.str());
+  EXPECT_EQ(json["frames"].size(), 2u);
+  EXPECT_EQ(json["interrupted"], true);
+}
+
+TEST_F(CheckCommand, AnInterruptKeepsTheTableAndTheFiles) {
+  InterruptingBuffer buffer("frame 2: ");
+  std::ostream out(&buffer);
+  const auto file = folder_.path() / "report.json";
+  check({.meshes = {a_, b_}, .frames = 1000000, .json = file.string()}, out);
+  EXPECT_NE(buffer.str().find("\ninterrupted after 3 of 1000000 frames\n\nover 3 frames: "), std::string::npos)
+      << buffer.str();
+  const Json json = Json::parse(std::ifstream(file));
+  EXPECT_EQ(json["frames"].size(), 3u);
+  EXPECT_EQ(json["interrupted"], true);
 }
 
 TEST_F(CheckCommand, TheTableTellsTheSame) {

@@ -225,7 +225,10 @@ TEST_F(RunCommand, AnInterruptKeepsWhatWasDone) {
   waitpid(child, &status, 0);
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0);
-  EXPECT_GT(nlohmann::json::parse(contents(json))["frames"].size(), 1u);
+  const auto report = nlohmann::json::parse(contents(json));
+  EXPECT_GT(report["frames"].size(), 1u);
+  EXPECT_EQ(report["interrupted"], true);
+  EXPECT_FALSE(std::filesystem::exists(part));
   EXPECT_GT(nlohmann::json::parse(contents(trace))["traceEvents"].size(), 10u);
   EXPECT_TRUE(contents(out).starts_with("pile, interrupted\n")) << contents(out);
 }
