@@ -94,10 +94,11 @@ void check_topology(const BodyFrames& body, const MeshFile& mesh, const fs::path
   }
 }
 
-BodyFrames read_frames(std::string name, const Listing& listing, int most_frames) {
-  const std::size_t count = std::min(listing.files.size(), static_cast<std::size_t>(most_frames));
+// `read` is called after each file.
+template <class Read>
+BodyFrames read_frames(std::string name, const Listing& listing, const Read& read) {
   BodyFrames body{.name = std::move(name), .moves = listing.is_folder};
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < listing.files.size(); ++i) {
     MeshFile mesh = read_mesh_file(listing.files[i]);
     if (i == 0) {
       body.facets = std::move(mesh.facets);
@@ -106,20 +107,29 @@ BodyFrames read_frames(std::string name, const Listing& listing, int most_frames
     }
     body.files.push_back(listing.files[i]);
     body.positions.push_back(std::move(mesh.positions));
+    read();
   }
   return body;
 }
 
 }  // namespace
 
-std::vector<BodyFrames> read_bodies(const std::vector<fs::path>& paths, int most_frames) {
+std::vector<BodyFrames> read_bodies(const std::vector<fs::path>& paths, int most_frames, const ReadProgress& progress) {
   std::vector<Listing> listings;
   for (const fs::path& path : paths) listings.push_back(list_files(path));
   check_frame_counts(paths, listings);
+  std::size_t all = 0;
+  for (Listing& listing : listings) {
+    listing.files.resize(std::min(listing.files.size(), static_cast<std::size_t>(most_frames)));
+    all += listing.files.size();
+  }
+  int done = 0;
+  const auto tell = [&] { progress(done++, static_cast<int>(all)); };
+  tell();
   Names names;
   std::vector<BodyFrames> bodies;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    bodies.push_back(read_frames(names.unique(base_name(paths[i])), listings[i], most_frames));
+    bodies.push_back(read_frames(names.unique(base_name(paths[i])), listings[i], tell));
   }
   return bodies;
 }

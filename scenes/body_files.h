@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -23,11 +24,16 @@ struct BodyFrames {
   bool moves = false;  // was it a folder?
 };
 
+// Is told that `done` of `all` files are read: before the first one, and after each.
+using ReadProgress = std::function<void(int done, int all)>;
+
 // The bodies of `paths`, in their order. Of a folder the mesh files are taken, in the order of their names as bytes, up
-// to `most_frames` of them; other files, and those whose names begin with a dot, are ignored. Errors: FileError, also
-// for a folder without a mesh file, frames of different topology and folders with different numbers of files.
-std::vector<BodyFrames> read_bodies(const std::vector<std::filesystem::path>& paths,
-                                    int most_frames = std::numeric_limits<int>::max());
+// to `most_frames` of them; other files, and those whose names begin with a dot, are ignored. All frames are held: 24
+// bytes a vertex and frame. Errors: FileError, also for a folder without a mesh file, frames of different topology and
+// folders with different numbers of files.
+std::vector<BodyFrames> read_bodies(
+    const std::vector<std::filesystem::path>& paths, int most_frames = std::numeric_limits<int>::max(),
+    const ReadProgress& progress = [](int, int) {});
 
 // How many frames the folders among `bodies` hold; 0 if none of them moves.
 int frame_count(const std::vector<BodyFrames>& bodies);

@@ -28,6 +28,7 @@ namespace {
 
 constexpr const char* kExamples = R"(A folder is one moving body: its mesh files in the order of their names, a file a
 frame; all folders must hold the same number of frames. A single file stands still.
+All files are read before the first step and held in memory: 24 bytes a vertex and frame.
 A body's name is its file's or folder's name; a repeated one gets #2 and so on.
 
 Examples:
@@ -35,6 +36,15 @@ Examples:
   tact check sphere.obj cloth_frames/ --sheet cloth_frames --json contacts.json
   tact check part.stl part.stl --sheet part.stl#2 --accuracy hulls
   tact check a.off b.off c.off --json - | python3 -m json.tool)";
+
+std::vector<BodyFrames> bodies_of(const CheckOptions& options) {
+  const int most_frames = options.frames > 0 ? options.frames : std::numeric_limits<int>::max();
+  std::optional<ProgressLine> line;
+  return read_bodies(options.meshes, most_frames, [&](int done, int all) {
+    if (!line) line.emplace("reading file", all, ProgressLine::Beside::nothing);
+    line->show(done);
+  });
+}
 
 void mark_sheets(const std::vector<std::string>& sheets, std::vector<BodyFrames>& bodies) {
   for (const std::string& sheet : sheets) {
@@ -84,8 +94,7 @@ int frames_to_step(const CheckOptions& options, const std::vector<BodyFrames>& b
 }  // namespace
 
 void check(const CheckOptions& options, std::ostream& out) {
-  const int most_frames = options.frames > 0 ? options.frames : std::numeric_limits<int>::max();
-  std::vector<BodyFrames> bodies = read_bodies(options.meshes, most_frames);
+  std::vector<BodyFrames> bodies = bodies_of(options);
   mark_sheets(options.sheets, bodies);
   const int threads = options.threads > 0 ? options.threads : base::default_threads();
   const Interrupt interrupt;  // before any file is opened, so that none is left unfinished

@@ -20,6 +20,10 @@ class ProgressLine {
   };
 
   ProgressLine(std::string unit, int all, Beside beside);
+  // Takes the line away, so that a message about what ended the work does not stand in it.
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
   // Number `done` of all is done.
   void show(int done, std::string_view note = {});
   // Takes the line away.

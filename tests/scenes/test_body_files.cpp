@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "scenes/body_files.h"
 #include "tests/scenes/temporary_folder.h"
 
@@ -56,6 +58,15 @@ TEST(BodyFiles, ReadsNoMoreFramesThanAsked) {
   folder.write("seq/2.obj", kTriangle);
   folder.write("seq/3.obj", "broken beyond the frames that are asked for");
   EXPECT_EQ(frame_count(read_bodies({folder.path() / "seq"}, 2)), 2);
+}
+
+TEST(BodyFiles, TellsHowManyFilesAreRead) {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.write("a.obj", kTriangle);
+  for (const char* frame : {"seq/1.obj", "seq/2.obj", "seq/3.obj"}) folder.write(frame, kTriangle);
+  std::vector<std::pair<int, int>> told;
+  read_bodies({file, folder.path() / "seq"}, 2, [&](int done, int all) { told.emplace_back(done, all); });
+  EXPECT_EQ(told, (std::vector<std::pair<int, int>>{{0, 3}, {1, 3}, {2, 3}, {3, 3}}));
 }
 
 TEST(BodyFiles, NamesAreOfFilesAndFoldersAndRepeatWithANumber) {

@@ -153,6 +153,10 @@ TEST_F(CommandLine, WrongUsageReturnsTwo) {
   expect_refusal("run pile --trace -", 2, "a trace goes to a file, not to standard output");
 }
 
+TEST_F(CommandLine, HelpOfCheckTellsWhatFramesTake) {
+  EXPECT_NE(run("check --help").out.find("held in memory: 24 bytes a vertex and frame"), std::string::npos);
+}
+
 TEST_F(CommandLine, HelpAndVersionReturnZero) {
   EXPECT_EQ(run("--version").out, "tact " TACT_VERSION "\n");
   for (const char* arguments : {"--help", "check --help"}) {
