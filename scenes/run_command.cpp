@@ -46,6 +46,7 @@ void check_outputs(const OutputOptions& options) {
   if (options.json == "-" && options.contacts == "-") {
     throw UsageError("--json and --contacts: only one of them can go to standard output");
   }
+  if (options.gltf == "-") throw UsageError("--gltf: an animation goes to a file, not to standard output");
 }
 
 }  // namespace

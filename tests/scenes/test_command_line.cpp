@@ -139,6 +139,18 @@ TEST_F(CommandLine, AnOutputThatFailsAtTheEndOfARunTakesNothingElseWithIt) {
   EXPECT_EQ(run("replay r").status, 0);
 }
 
+TEST_F(CommandLine, ARunThatFailsInItsMiddleLeavesTheLastReport) {
+  folder_.write("r.json", "of the last run");
+  std::filesystem::create_directories(folder_.path() / "vtk" / "pile_00001.vtp");  // in the second frame's way
+  const Outcome outcome = run("run pile --size 1 --frames 9 --every 1 --no-pictures --vtk vtk --json r.json");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.error, "tact: vtk/pile_00001.vtp: cannot write the file\n");
+  EXPECT_EQ(contents(folder_.path() / "r.json"), "of the last run");
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+  }
+}
+
 TEST_F(CommandLine, WrongUsageReturnsTwo) {
   expect_refusal("", 2, "no command");
   expect_refusal("bogus", 2, "bogus");

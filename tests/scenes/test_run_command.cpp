@@ -248,6 +248,8 @@ TEST_F(RunCommand, WrongUsageIsNamed) {
   EXPECT_EQ(message({.scene = "clamp", .size = 3}), "--size: clamp has one size only");
   EXPECT_EQ(message({.scene = "pile", .outputs = {.json = "-", .contacts = "-"}}),
             "--json and --contacts: only one of them can go to standard output");
+  EXPECT_EQ(message({.scene = "pile", .outputs = {.gltf = "-"}}),
+            "--gltf: an animation goes to a file, not to standard output");
 }
 
 TEST(ScenesCommand, ListsEverySceneWithItsSizes) {
