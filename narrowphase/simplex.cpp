@@ -99,10 +99,15 @@ class Search {
              .distance_squared_tail = static_cast<double>(distance - static_cast<Scalar>(rounded))};
   }
 
+  // The sides e and f of a face have a rounding a component; a product of two of their components has three, and the
+  // difference of two products one more. With the three of a dot product, n · p is off by at most 7 roundoffs of the
+  // sum of |e_a f_b p_c| over the six orders of the axes, and n · (p - q) by 8: not of |n||p|, which is smaller by the
+  // sine of the angle between e and f. That sum is below the product of the three sums of sizes, and two of 10
+  // roundoffs are for their own rounding. Products that vanish are below `kVanishing`.
   bool same_side(int i, int j, int k, int opposite) const {
-    const Point n = cross(y(j) - y(i), y(k) - y(i));
+    const Point e = y(j) - y(i), f = y(k) - y(i), n = cross(e, f);
     const Scalar origin = -dot(n, y(i)), corner = dot(n, y(opposite) - y(i));
-    const Scalar error = 10 * roundoff_ * size(n) * (size(y(i)) + size(y(opposite)));
+    const Scalar error = 10 * roundoff_ * (size(e) * size(f)) * (size(y(i)) + size(y(opposite))) + kVanishing;
     return (origin > error && corner > error) || (origin < -error && corner < -error);
   }
 
@@ -111,6 +116,8 @@ class Search {
     const auto absolute = [](Scalar a) { return a < 0 ? -a : a; };
     return absolute(p.x) + absolute(p.y) + absolute(p.z);
   }
+
+  static constexpr double kVanishing = 0x1p-1000;
 
   std::array<Point, 4> y_;
   int count_;
