@@ -93,6 +93,7 @@ class Search {
   GjkResult finish() {
     result_.simplex = simplex_;
     result_.offset = closest_.point;
+    result_.weight = closest_.weight;
     result_.distance = norm(closest_.point);
     const double error = m_.height_error();
     if (inside_) {
@@ -124,40 +125,26 @@ class Search {
   GjkResult result_;
 };
 
+SimplexPoints vertices_of(const MinkowskiDifference& m, const GjkSimplex& simplex) {
+  SimplexPoints points{.point = {}, .count = simplex.count};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(simplex.count); ++i)
+    points.point[i] = m.vertex(simplex.a[i], simplex.b[i]).point;
+  return points;
+}
+
 }  // namespace
 
 bool holds_origin(const MinkowskiDifference& m, const GjkSimplex& simplex) {
-  if (simplex.count < 4) return false;
-  SimplexPoints points{.point = {}, .count = 4};
-  for (std::size_t i = 0; i < 4; ++i) points.point[i] = m.vertex(simplex.a[i], simplex.b[i]).point;
-  return tetrahedron_holds_origin(points);
+  return simplex.count == 4 && tetrahedron_holds_origin(vertices_of(m, simplex));
 }
 
 ClosestPoints closest_points(const MinkowskiDifference& m, const GjkResult& result) {
   const GjkSimplex& simplex = result.simplex;
-  const auto y = [&](std::size_t i) { return m.vertex(simplex.a[i], simplex.b[i]).point; };
-  // Shares of the vertices in the nearest point; the origin's, where it is inside.
-  std::array<double, 4> share{1.0, 0.0, 0.0, 0.0};
-  const Vec3 to = result.offset - y(0);
-  if (simplex.count == 2) {
-    const Vec3 e = y(1) - y(0);
-    share[1] = dot(to, e) / dot(e, e);
-  } else if (simplex.count == 3) {
-    const Vec3 e = y(1) - y(0), f = y(2) - y(0), n = cross(e, f);
-    share[1] = dot(cross(to, f), n) / dot(n, n);
-    share[2] = dot(cross(e, to), n) / dot(n, n);
-  } else if (simplex.count == 4) {
-    const Vec3 e = y(1) - y(0), f = y(2) - y(0), g = y(3) - y(0), o = -y(0);
-    const double volume = dot(e, cross(f, g));
-    share[1] = dot(o, cross(f, g)) / volume;
-    share[2] = dot(e, cross(o, g)) / volume;
-    share[3] = dot(e, cross(f, o)) / volume;
-  }
-  share[0] = 1.0 - share[1] - share[2] - share[3];
+  const std::array<double, 4> weight = simplex.count < 4 ? result.weight : origin_weights(vertices_of(m, simplex));
   ClosestPoints closest;
   for (std::size_t i = 0; i < static_cast<std::size_t>(simplex.count); ++i) {
-    closest.a = closest.a + share[i] * (m.a().position(simplex.a[i]) - m.origin());
-    closest.b = closest.b + share[i] * (m.b().position(simplex.b[i]) - m.origin());
+    closest.a = closest.a + weight[i] * (m.a().position(simplex.a[i]) - m.origin());
+    closest.b = closest.b + weight[i] * (m.b().position(simplex.b[i]) - m.origin());
   }
   return {closest.a + m.origin(), closest.b + m.origin()};
 }

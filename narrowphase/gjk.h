@@ -30,6 +30,8 @@ struct GjkResult {
   double distance = 0.0;     // |offset|: an upper bound, but for rounding
   double lower_bound = 0.0;  // M is at least this far, but for rounding
   GjkSimplex simplex;        // the vertices of M around the nearest point
+  // Of up to three vertices of the simplex: their sum, so weighted, is the nearest point. None is negative.
+  std::array<double, 4> weight{};
   int support_queries = 0;
 };
 
@@ -38,14 +40,16 @@ struct GjkSettings {
   int query_limit = 1000;    // reached by no input known; a guard, not a tool
 };
 
-// Do four vertices of M hold the origin strictly inside, for certain? Then the hulls overlap. False for fewer vertices.
+// Do four vertices of M hold the origin strictly inside, for certain? Then the hulls overlap, but for the rounding of
+// these vertices. False for fewer.
 bool holds_origin(const MinkowskiDifference& m, const GjkSimplex& simplex);
 
 // The distance of `point` (scaled) from M. `start` may hold vertices from an earlier search, or nothing.
 GjkResult gjk(const MinkowskiDifference& m, Vec3 point, const GjkSimplex& start, const GjkSettings& settings);
 
-// The points of the hulls, in metres, whose difference is the nearest point of M that a search for the origin found:
-// those between which the bodies are closest where they are apart. (Others may be as close, where faces are parallel.)
+// The points of the hulls, in metres, whose difference is the nearest point of M that a search found, or the origin
+// where it ended `overlapping`: of a search for the origin, those between which the bodies are closest where they are
+// apart. (Others may be as close, where faces are parallel.) Each lies between the vertices that the simplex names.
 struct ClosestPoints {
   Vec3 a, b;
 };

@@ -20,6 +20,8 @@ struct SimplexClosest {
   Vec3 point;
   std::array<int, 4> carrier{};  // indices of the points that span the face, ascending
   int carrier_count = 0;         // 4: the origin lies inside the tetrahedron
+  // Of up to three points of the carrier in `point`: none is negative, and they sum to 1 but for rounding.
+  std::array<double, 4> weight{};
   // |point|², and what rounding took from it: twice the digits, where the search had them. For comparisons.
   double distance_squared = 0.0;
   double distance_squared_tail = 0.0;
@@ -37,8 +39,12 @@ SimplexClosest simplex_closest(const SimplexPoints& simplex);
 // Does the origin lie strictly inside the tetrahedron of four points, for certain? False where rounding could decide.
 bool tetrahedron_holds_origin(const SimplexPoints& simplex);
 
-// The same with numbers of twice the digits, some fifty times slower: for simplices so thin that doubles lose the
-// point.
+// simplex_closest() with numbers of twice the digits, some fifty times slower: for simplices so thin that doubles lose
+// the point.
 SimplexClosest simplex_closest_wide(const SimplexPoints& simplex);
+
+// The weights of four points around the origin, with twice the digits: their sum, so weighted, is the origin but for
+// rounding. Where the tetrahedron is too flat to tell, the weights of the point of its faces that is nearest.
+std::array<double, 4> origin_weights(const SimplexPoints& simplex);
 
 }  // namespace tact::narrowphase
