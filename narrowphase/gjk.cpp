@@ -34,9 +34,12 @@ class Search {
       const MinkowskiVertex next = m_.support(toward, last_);
       last_ = next;
       ++result_.support_queries;
-      result_.lower_bound = std::max(result_.lower_bound, -dot(toward, next.point - point_));
-      closed_ = result_.distance - result_.lower_bound <= settings.tolerance * result_.distance + rounding;
-      if (closed_) break;
+      const double height = -dot(toward, next.point - point_);
+      result_.lower_bound = std::max(result_.lower_bound, height);
+      const double gap = settings.tolerance * result_.distance + rounding;
+      closed_ = result_.distance - result_.lower_bound <= gap;
+      // Not where an earlier direction closed the bounds: the last one is to part M from the point by as much.
+      if (result_.distance - height <= gap) break;
       // Where no progress shows, the simplex is thin and doubles have lost the nearest point: go on with more digits.
       if (holds(next.a, next.b) || !advance(next)) {
         if (wide_) break;
@@ -103,15 +106,9 @@ class Search {
     } else if (result_.distance <= 2.0 * (error + kRoundingGap * m_.size())) {
       result_.status = GjkStatus::touching;
     }
-    if (result_.status == GjkStatus::apart && !closed_ &&
-        result_.distance - result_.lower_bound > kStalledGap * (result_.distance + m_.size())) {
-      result_.status = GjkStatus::limit_reached;
-    }
+    result_.closed = closed_ || inside_;
     return result_;
   }
-
-  // Where no double makes progress, the bounds are this close, relative to the size, unless something is wrong.
-  static constexpr double kStalledGap = 1e-10;
 
   const MinkowskiDifference& m_;
   Vec3 point_;

@@ -13,8 +13,7 @@ enum class GjkStatus {
   touching,  // but for rounding, the point lies on a vertex, an edge or a triangle of vertices of M: it touches M, or
              // is inside
   overlapping,    // the point lies inside a tetrahedron of vertices of M
-  limit_reached,  // the bounds did not close, not even to 1e-10 of the size, where doubles make no more progress: the
-                  // result is the best found
+  limit_reached,  // none of these was shown, by no input known: the result is the best found
 };
 
 // Pairs of vertices that span the part of M nearest to the point: the start of the next search.
@@ -26,10 +25,11 @@ struct GjkSimplex {
 
 struct GjkResult {
   GjkStatus status = GjkStatus::limit_reached;
-  Vec3 offset;               // from the point to the nearest point of M, scaled
+  Vec3 offset;               // from the point to the nearest point of M, scaled; its opposite parts the two
   double distance = 0.0;     // |offset|: an upper bound, but for rounding
   double lower_bound = 0.0;  // M is at least this far, but for rounding
-  GjkSimplex simplex;        // the vertices of M around the nearest point
+  bool closed = false;  // the bounds are as close as GjkSettings says: `apart` is certain without that, `distance` not
+  GjkSimplex simplex;   // the vertices of M around the nearest point
   // Of up to three vertices of the simplex: their sum, so weighted, is the nearest point. None is negative.
   std::array<double, 4> weight{};
   int support_queries = 0;

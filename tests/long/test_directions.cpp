@@ -1,5 +1,5 @@
-// Contact directions of hostile pairs of hulls against the heights of their Minkowski difference. Not part of the
-// ordinary tests: how many pairs is read from the environment.
+// Contact directions and distances of hostile pairs of hulls against the heights of their Minkowski difference. Not
+// part of the ordinary tests: how many pairs is read from the environment.
 //   TACT_LONG_HULL_PAIRS  5000 if not set
 //   TACT_LONG_SEED        which pairs, 1 if not set
 #include <gtest/gtest.h>
@@ -25,6 +25,20 @@ TEST(DirectionsLong, HostilePairsEndAtLocalMinima) {
   std::printf("%llu pairs, %lld directions\n", static_cast<unsigned long long>(pairs),
               static_cast<long long>(directions));
   EXPECT_GT(directions, static_cast<std::int64_t>(pairs));
+}
+
+TEST(DistancesLong, HostilePairsAreAsFarApartAsSaid) {
+  const std::uint64_t pairs = from_environment("TACT_LONG_HULL_PAIRS", 5'000);
+  const std::uint64_t seed = from_environment("TACT_LONG_SEED", 1) << 40;
+  DistanceCounts counts;
+  for (std::uint64_t i = 0; i < pairs; ++i) {
+    const HullPair pair = hostile_hull_pair(seed + i);
+    for (const std::vector<Vec3>* b : {&pair.b, &pair.b_before, &pair.b_parted}) {
+      EXPECT_EQ(problem_of_distance(pair.a, *b, counts), "") << pair.kinds << ", pair " << i;
+    }
+  }
+  std::printf("%lld apart, %lld touching, %lld overlapping\n", static_cast<long long>(counts.apart),
+              static_cast<long long>(counts.touching), static_cast<long long>(counts.overlapping));
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "narrowphase/gjk.h"
 #include "tests/support/clustered.h"
 #include "tests/support/generators.h"
+#include "tests/support/hostile_hulls.h"
 #include "tests/support/minkowski_oracle.h"
 #include "tests/support/random.h"
 
@@ -133,6 +136,101 @@ TEST(Gjk, ClosestPointsLieInTheHulls) {
   }
 }
 
+// Three vertices nearly on a line below a point, and two nearly parallel segments across each other: the triangle and
+// the parallelogram in which the nearest point lies have sides at an angle of `width`.
+TEST(Gjk, ClosestPointsOfSliversAreRight) {
+  Random random(31);
+  int triangles = 0, thinnest = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double gap = std::pow(10.0, random.uniform(-13.0, 0.0)), width = std::pow(10.0, random.uniform(-15.5, -4.0));
+    const tests::Rotation turn = random.rotation();
+    const auto turned = [&](Vec3 p) { return Vec3{dot(turn.row[0], p), dot(turn.row[1], p), dot(turn.row[2], p)}; };
+    std::vector<Vec3> a{{-1, 0, 0}, {1, 0, 0}}, b{{-1, -width, gap}, {1, width, gap}};
+    if (i % 2 == 0) {
+      a.push_back({random.uniform(-0.5, 0.5), width, 0});
+      b = {{a[2].x + random.uniform(-0.1, 0.1), 0.5 * width, gap}};
+    }
+    for (std::vector<Vec3>* points : {&a, &b}) {
+      for (Vec3& p : *points) p = turned(p);
+    }
+    tests::DistanceCounts counts;
+    EXPECT_EQ(tests::problem_of_distance(a, b, counts), "") << "case " << i << ", width " << width << ", gap " << gap;
+    const ClusteredMesh mesh_a = mesh_through(a), mesh_b = mesh_through(b);
+    const MinkowskiDifference m(mesh_a, mesh_b);
+    const GjkResult result = gjk(m, {}, {}, {});
+    if (result.status != GjkStatus::apart) continue;
+    triangles += result.simplex.count == 3 ? 1 : 0;
+    thinnest += result.simplex.count == 3 && width < 1e-10 ? 1 : 0;
+    // A vertex is turned to within 4 roundoffs, which moves the hulls by no more.
+    const ClosestPoints closest = closest_points(m, result);
+    EXPECT_NEAR(norm(closest.a - closest.b), gap, 1e-12 * gap + 1e-14) << "case " << i << ", width " << width;
+  }
+  EXPECT_GT(triangles, 600);
+  EXPECT_GT(thinnest, 100);
+}
+
+// The first of them, and one whose nearest point is lost unless it is taken along the normal of its triangle: points
+// inside each other, touching, a little or far apart.
+TEST(Gjk, HostilePairsAreAsFarApartAsSaid) {
+  std::vector<std::uint64_t> seeds{1261025};
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) seeds.push_back(seed);
+  tests::DistanceCounts counts;
+  for (const std::uint64_t seed : seeds) {
+    const tests::HullPair pair = tests::hostile_hull_pair(seed);
+    for (const std::vector<Vec3>* b : {&pair.b, &pair.b_before, &pair.b_parted}) {
+      EXPECT_EQ(tests::problem_of_distance(pair.a, *b, counts), "") << pair.kinds << ", seed " << seed;
+    }
+  }
+  EXPECT_GT(counts.apart, 1000);
+  EXPECT_GT(counts.touching, 100);
+  EXPECT_GT(counts.overlapping, 500);
+}
+
+std::vector<Vec3> degenerate_hull(Random& random, int kind) {
+  const Vec3 p = random.in_ball(), e = random.direction(), f = random.direction();
+  const double width = std::pow(10.0, random.uniform(-16.0, -3.0));
+  switch (kind) {
+    case 0: return {p};
+    case 1: return {p, p + e};
+    case 2: return {p, p + e, p + 0.5 * e + width * f, p + 0.3 * e - width * f, p + 0.7 * e + width * random.in_ball()};
+    case 3: return {p, p + e, p + f, p + e + f, p + 0.5 * (e + f)};
+    case 4: return {p, p, p, p};                        // coincident
+    case 5: return {p, p + e, p, p + e, p + f, p + f};  // twice the same
+    default: return {p, p + e, p + f, p + random.in_ball(), p + width * random.in_ball()};
+  }
+}
+
+// Points, segments, needles, flat and coincident sets; apart, sharing a vertex, crossing, and one the other's copy; of
+// all sizes, about zero and so far from it that a few bits are left.
+TEST(Gjk, DegenerateHullsAreAsFarApartAsSaidAtEveryScale) {
+  Random random(41);
+  tests::DistanceCounts counts;
+  for (const double scale : {1e-9, 1e-4, 1.0, 1e5, 1e9}) {
+    for (const double far : {0.0, 1e4, 1e8}) {
+      for (int pair = 0; pair < 49; ++pair) {
+        for (int place = 0; place < 4; ++place) {
+          std::vector<Vec3> a = degenerate_hull(random, pair / 7);
+          std::vector<Vec3> b = place == 3 ? a : degenerate_hull(random, pair % 7);
+          const Vec3 by = place == 0   ? random.uniform(0.0, 3.0) * random.direction()
+                          : place == 1 ? a.back() - b.back()
+                          : place == 2 ? 0.5 * (a.front() + a.back()) - 0.5 * (b.front() + b.back())
+                                       : Vec3{};
+          const Vec3 offset = far * random.direction();
+          for (Vec3& p : b) p = p + by;
+          for (std::vector<Vec3>* points : {&a, &b}) {
+            for (Vec3& p : *points) p = scale * (p + offset);
+          }
+          EXPECT_EQ(tests::problem_of_distance(a, b, counts), "")
+              << "scale " << scale << ", far " << far << ", kinds " << pair / 7 << " and " << pair % 7 << ", place "
+              << place;
+        }
+      }
+    }
+  }
+  EXPECT_GT(counts.apart, 500);
+  EXPECT_GT(counts.touching, 500);
+}
+
 TEST(Gjk, BoundsCloseToTheToleranceThatIsSet) {
   Random random(7);
   for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14}) {
@@ -147,6 +245,7 @@ TEST(Gjk, BoundsCloseToTheToleranceThatIsSet) {
       const MinkowskiDifference m(mesh_a, mesh_b);
       const GjkResult result = gjk(m, {}, {}, {.tolerance = tolerance});
       ASSERT_EQ(result.status, GjkStatus::apart) << "case " << i;
+      EXPECT_TRUE(result.closed) << "case " << i << ", tolerance " << tolerance;
       EXPECT_LE(result.distance - result.lower_bound, tolerance * result.distance + 16 * 0x1p-52 * m.size())
           << "case " << i << ", tolerance " << tolerance;
     }

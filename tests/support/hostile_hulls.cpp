@@ -162,9 +162,74 @@ void place(const Points& a, Points& b, Random& random) {
   move(b, static_cast<double>(smallest.height) * smallest.directions[0]);
 }
 
+constexpr double kUnitRoundoff = 0x1p-53;
+constexpr std::size_t kFacesOfPoints = 40;
+
 Points relative(Points points, Vec3 to) {
   move(points, -to);
   return points;
+}
+
+Points relative(std::span<const Vec3> points, Vec3 to) { return relative(Points(points.begin(), points.end()), to); }
+
+double largest_coordinate(std::span<const Vec3> points) {
+  double largest = 0.0;
+  for (const Vec3& p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return largest;
+}
+
+// How far p lies beyond the hull of a few points, seen along their edges, across pairs of them, and across both; at
+// most so far as it does.
+double beyond(const Points& hull, Vec3 p) {
+  Points directions;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    directions.push_back(p - hull[i]);
+    for (std::size_t j = 0; j < i; ++j) directions.push_back(hull[i] - hull[j]);
+  }
+  for (std::size_t i = 0, edges = directions.size(); i < edges; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec3 n = cross(directions[i], directions[j]);
+      directions.insert(directions.end(), {n, cross(n, directions[i]), cross(n, directions[j])});
+    }
+  }
+  double farthest = 0.0;
+  for (const Vec3& d : directions) {
+    const double length = norm(d);
+    if (!(length > 0.0)) continue;
+    for (const double sign : {1.0, -1.0}) {
+      const Vec3 n = (sign / length) * d;
+      double least = dot(n, p - hull[0]);
+      for (const Vec3& v : hull) least = std::min(least, dot(n, p - v));
+      farthest = std::max(farthest, least);
+    }
+  }
+  return farthest;
+}
+
+// A point is a sum of up to four vertices about m.origin(), which are no farther from it than the size: the difference,
+// product and sum of each and the weights have 8 roundoffs of the size together. Moving it back from m.origin() rounds
+// it to the coordinates. The offset is such a sum as well, of vertices up to twice the size, with edges up to four
+// times.
+std::string problem_of_points(std::span<const Vec3> a, std::span<const Vec3> b,
+                              const narrowphase::MinkowskiDifference& m, const narrowphase::GjkResult& result) {
+  const double size = m.size() / m.scale(), far = std::max(largest_coordinate(a), largest_coordinate(b));
+  const double of_point = kUnitRoundoff * (8.0 * size + 2.0 * far), of_check = 8.0 * kUnitRoundoff * size;
+  const narrowphase::ClosestPoints closest = closest_points(m, result);
+  const auto named = [&](std::span<const Vec3> hull, const std::array<int, 4>& vertices) {
+    Points points;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(result.simplex.count); ++i)
+      points.push_back(hull[static_cast<std::size_t>(vertices[i])] - a[0]);
+    return points;
+  };
+  const double beyond_a = beyond(named(a, result.simplex.a), closest.a - a[0]),
+               beyond_b = beyond(named(b, result.simplex.b), closest.b - a[0]),
+               between = norm((closest.a - closest.b) - (1.0 / m.scale()) * result.offset);
+  std::ostringstream problem;
+  if (!(beyond_a <= of_point + of_check)) problem << "the point of A is " << beyond_a / size << " sizes outside; ";
+  if (!(beyond_b <= of_point + of_check)) problem << "the point of B is " << beyond_b / size << " sizes outside; ";
+  if (!(between <= 2.0 * of_point + 3.0 * of_check))
+    problem << "the points are " << between / size << " sizes from the offset; ";
+  return problem.str();
 }
 
 std::vector<double> coordinates(const Points& points) {
@@ -187,6 +252,7 @@ HullPair hostile_hull_pair(std::uint64_t seed) {
   place(pair.a, pair.b, random);
   const double size = random.chance(0.5) ? 1.0 : power_of_ten(random, -9, 9);
   const Vec3 far = random.chance(0.25) ? size * power_of_ten(random, 0, 8) * random.direction() : Vec3{};
+  const Points a = pair.a, b = pair.b;
   for (Points* points : {&pair.a, &pair.b}) {
     scale(*points, {size, size, size});
     move(*points, far);
@@ -194,6 +260,11 @@ HullPair hostile_hull_pair(std::uint64_t seed) {
   pair.b_before = pair.b;
   move(pair.b_before, power_of_ten(random, -6, -1) * size * random.direction());
   pair.start = random.direction();
+  pair.b_parted = b;
+  move(pair.b_parted,
+       (static_cast<double>(minkowski_height(a, b, pair.start)) + power_of_ten(random, -14, 1)) * pair.start);
+  scale(pair.b_parted, {size, size, size});
+  move(pair.b_parted, far);
   return pair;
 }
 
@@ -224,6 +295,40 @@ std::string problem_of_directions(const HullPair& pair, std::int64_t& directions
     face = found.face;
   }
   return problem.str().empty() ? "" : pair.kinds + ": " + problem.str();
+}
+
+std::string problem_of_distance(std::span<const Vec3> a, std::span<const Vec3> b, DistanceCounts& counts) {
+  using namespace narrowphase;
+  const ClusteredMesh mesh_a = mesh_through(a), mesh_b = mesh_through(b);
+  const MinkowskiDifference m(mesh_a, mesh_b);
+  const GjkSettings settings;
+  const GjkResult result = gjk(m, {}, {}, settings);
+  std::ostringstream problem;
+  const bool apart = result.status == GjkStatus::apart;
+  const double size = m.size() / m.scale(), error = m.height_error() / m.scale(),
+               distance = result.distance / m.scale(), rounding = 32.0 * kUnitRoundoff * size;
+  const double gap = settings.tolerance * distance + rounding;  // as GjkSettings says
+  // Far from zero, heights about a near point are exact enough for the oracle.
+  const Points near_a = relative(a, a[0]), near_b = relative(b, a[0]);
+  counts.apart += apart ? 1 : 0;
+  counts.touching += result.status == GjkStatus::touching ? 1 : 0;
+  counts.overlapping += result.status == GjkStatus::overlapping ? 1 : 0;
+  if (result.status == GjkStatus::limit_reached) problem << "given up; ";
+  if (apart) {
+    if (!result.closed) problem << "bounds are " << (result.distance - result.lower_bound) / m.scale() << " apart; ";
+    const double height = -static_cast<double>(minkowski_height(near_a, near_b, -result.offset));
+    if (!(height > 0.0)) problem << "apart by " << height << "; ";
+    if (!(std::abs(distance - height) <= gap + error))
+      problem << "distance " << distance << " and height " << height << " differ by " << (distance - height) / size
+              << " of the size; ";
+  } else if (a.size() + b.size() <= kFacesOfPoints) {
+    // A touching point is within this of M.
+    const double outside = result.status == GjkStatus::touching ? 2.0 * (error + rounding) : 0.0;
+    const double height = static_cast<double>(smallest_height(near_a, near_b, 0.0).height);
+    if (!(height >= -outside - error)) problem << "not apart at height " << height << "; ";
+  }
+  problem << problem_of_points(a, b, m, result);
+  return problem.str();
 }
 
 }  // namespace tact::tests
