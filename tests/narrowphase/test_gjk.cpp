@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
+#include "narrowphase/contact_direction.h"
 #include "narrowphase/gjk.h"
 #include "tests/support/clustered.h"
 #include "tests/support/generators.h"
 #include "tests/support/hostile_hulls.h"
+#include "tests/support/known_shapes.h"
 #include "tests/support/minkowski_oracle.h"
 #include "tests/support/random.h"
 
@@ -229,6 +232,156 @@ TEST(Gjk, DegenerateHullsAreAsFarApartAsSaidAtEveryScale) {
   }
   EXPECT_GT(counts.apart, 500);
   EXPECT_GT(counts.touching, 500);
+}
+
+// The points of the surfaces of overlapping hulls whose difference is the foot of the origin in the face of M that the
+// direction ends on.
+ClosestPoints deepest_points(const MinkowskiDifference& m, const ContactDirection& found) {
+  return closest_points(m, gjk(m, (found.height + 0.1) * found.n, found.face, {}));
+}
+
+ContactDirection direction_from(const MinkowskiDifference& m, Vec3 start) {
+  FaceFinder faces;
+  return contact_direction(m, start, {}, {}, faces);
+}
+
+// Are the nearest or deepest points of such a pair (-0.5, y) and (depth - 0.5, y) at one height?
+void expect_points_of_edge_and_face(const Mesh& a, const Mesh& b, double y, double depth, const tests::Pose& frame,
+                                    double error) {
+  const ClusteredMesh mesh_a = tests::clustered(a), mesh_b = tests::clustered(b);
+  const MinkowskiDifference m(mesh_a, mesh_b);
+  const GjkResult result = gjk(m, {}, {}, {});
+  ClosestPoints points = closest_points(m, result);
+  const auto& row = frame.rotation.row;
+  if (depth > 0.0) {
+    const ContactDirection found = direction_from(m, {-row[0].x, -row[1].x, -row[2].x});
+    EXPECT_NE(result.status, GjkStatus::apart);
+    EXPECT_NEAR(found.height / m.scale(), depth, error);
+    points = deepest_points(m, found);
+  } else {
+    EXPECT_NEAR(result.distance / m.scale(), -depth, error);
+  }
+  const auto in_frame = [&](Vec3 p) {
+    const Vec3 d = p - frame.translation;
+    return d.x * row[0] + d.y * row[1] + d.z * row[2];
+  };
+  const Vec3 on_a = in_frame(points.a), on_b = in_frame(points.b);
+  EXPECT_NEAR(on_a.x, -0.5, error);
+  EXPECT_NEAR(on_a.y, y, error);
+  EXPECT_NEAR(on_b.x, depth - 0.5, error);
+  EXPECT_NEAR(on_b.y, y, error);
+  EXPECT_NEAR(on_a.z, on_b.z, error);
+  EXPECT_NEAR(on_a.z, 0.5, 0.5 + error);
+}
+
+// FCL: an edge against a face, apart, touching and inside; in several frames of the world, in doubles and in floats.
+TEST(Gjk, FindsThePointsOfAnEdgeAndAFace) {
+  const std::vector<tests::Pose> frames = tests::frames_of_the_world();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    for (const double y : {0.0, 0.1, -0.1, -0.05}) {
+      for (const double depth : {-0.1, 0.0, 0.1}) {
+        SCOPED_TRACE(::testing::Message() << "frame " << i << ", y " << y << ", depth " << depth);
+        const tests::BoxPair boxes = tests::edge_against_face(y, depth);
+        const Mesh a = tests::posed(boxes.a, frames[i]), b = tests::posed(boxes.b, frames[i]);
+        expect_points_of_edge_and_face(a, b, y, depth, frames[i], 1e-14);
+        expect_points_of_edge_and_face(tests::rounded_to_floats(a), tests::rounded_to_floats(b), y, depth, frames[i],
+                                       1e-6);
+      }
+    }
+  }
+}
+
+// FCL's boxes from the field: the signed distance is that of the two points.
+TEST(Gjk, FindsThePointsOfBoxesFromTheField) {
+  std::vector<tests::BoxPair> pairs = tests::boxes_from_the_field();
+  pairs.push_back(tests::boxes_from_the_field_that_touch());
+  tests::DistanceCounts counts;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const std::vector<Vec3> a = tests::used_points(pairs[i].a), b = tests::used_points(pairs[i].b);
+    EXPECT_EQ(tests::problem_of_distance(a, b, counts), "") << "pair " << i;
+    EXPECT_EQ(tests::problem_of_distance(b, a, counts), "") << "pair " << i;
+    const tests::SmallestHeight smallest = tests::smallest_height(a, b, 0.0);
+    const ClusteredMesh mesh_a = mesh_through(a), mesh_b = mesh_through(b);
+    const MinkowskiDifference m(mesh_a, mesh_b);
+    const GjkResult result = gjk(m, {}, {}, {});
+    const auto height = static_cast<double>(smallest.height);
+    ASSERT_EQ(result.status, height < 0.0 ? GjkStatus::apart : GjkStatus::overlapping) << "pair " << i;
+    if (height < 0.0) continue;
+    const ContactDirection found = direction_from(m, smallest.directions[0]);
+    const ClosestPoints points = deepest_points(m, found);
+    EXPECT_NEAR(norm(points.a - points.b), height, 1e-14) << "pair " << i;
+    EXPECT_LE(norm(points.a - points.b - height * found.n), 1e-13) << "pair " << i;
+  }
+}
+
+// Jolt's EPATests: the points on the edge or the corner, and on the ball, where it is deepest.
+TEST(Gjk, FindsTheDeepestPointsOfABoxAndOfBalls) {
+  const auto expect_deepest = [](const Mesh& box, const Mesh& ball, Vec3 n, Vec3 on_box, double depth, Vec3 free) {
+    const ClusteredMesh mesh_a = tests::clustered(box), mesh_b = tests::clustered(ball);
+    const MinkowskiDifference m(mesh_a, mesh_b);
+    EXPECT_EQ(gjk(m, {}, {}, {}).status, GjkStatus::overlapping);
+    const ContactDirection found = direction_from(m, n + Vec3{0.01, -0.02, 0.015});
+    EXPECT_NEAR(found.height / m.scale(), depth, 1e-14);
+    EXPECT_LE(norm(found.n - normalized(n)), 1e-14);
+    const ClosestPoints points = deepest_points(m, found);
+    EXPECT_LE(norm(points.a - points.b - depth * normalized(n)), 1e-14);
+    const Vec3 along_box = dot(points.a - on_box, free) * free;
+    EXPECT_LE(norm(points.a - on_box - along_box), 1e-14);
+    EXPECT_LE(norm(along_box), 0.5);
+  };
+  const double eight = std::sqrt(8.0), twelve = std::sqrt(12.0);
+  expect_deepest(tests::box({1, 1, -2}, {2, 2, 2}), tests::ball_with_facet({4, 4, 0}, eight + 0.01, {-1, -1, 0}),
+                 {1, 1, 0}, {2, 2, 0}, 0.01, {0, 0, 1});
+  expect_deepest(tests::box({1, 1, 1}, {2, 2, 2}), tests::ball_with_facet({4, 4, 4}, twelve + 0.01, {-1, -1, -1}),
+                 {1, 1, 1}, {2, 2, 2}, 0.01, {});
+}
+
+// Jolt's GJKTests: two balls of radius 1 whose centres are 2 apart along (1, 1, 1) touch in one vertex.
+TEST(Gjk, BallsThatTouchInAVertex) {
+  const Vec3 tip = normalized(Vec3{1, 1, 1});
+  std::vector<Vec3> a{tip}, b{tip};
+  for (const Vec3& d : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+    for (const double sign : {1.0, -1.0}) {
+      a.push_back(sign * d);
+      b.push_back(2.0 * tip + sign * d);
+    }
+  }
+  const ClusteredMesh mesh_a = mesh_through(a), mesh_b = mesh_through(b);
+  const MinkowskiDifference m(mesh_a, mesh_b);
+  const GjkResult result = gjk(m, {}, {}, {});
+  EXPECT_EQ(result.status, GjkStatus::touching);
+  EXPECT_EQ(result.distance, 0.0);
+  const ClosestPoints closest = closest_points(m, result);
+  EXPECT_LE(norm(closest.a - tip), 4e-16);
+  EXPECT_LE(norm(closest.b - tip), 4e-16);
+}
+
+// openGJK#54: a cube with its corners cut off, and points before its faces, edges and cut corners.
+TEST(Gjk, FindsTheDistanceOfPointsFromACutCube) {
+  constexpr double kLong = 0.414213562373, kShort = 0.171572875254;
+  std::vector<Vec3> cube;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int signs = 0; signs < 8; ++signs) {
+      Vec3 p{kLong, kLong, kLong};
+      p[axis] = kShort;
+      cube.push_back({(signs & 1) != 0 ? -p.x : p.x, (signs & 2) != 0 ? -p.y : p.y, (signs & 4) != 0 ? -p.z : p.z});
+    }
+  }
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        const int axes = x * x + y * y + z * z;
+        if (axes == 0) continue;
+        for (const double t : {0.415, 0.5, 1.0, 100.0}) {
+          const Vec3 p{t * x, t * y, t * z};
+          const double expected =
+              axes == 3 ? (3.0 * t - 2.0 * kLong - kShort) / std::sqrt(3.0) : (t - kLong) * std::sqrt(axes);
+          EXPECT_NEAR(distance(points(cube), points({p}), GjkStatus::apart), expected, 1e-15 * (1.0 + t))
+              << x << ' ' << y << ' ' << z << " times " << t;
+        }
+      }
+    }
+  }
 }
 
 TEST(Gjk, BoundsCloseToTheToleranceThatIsSet) {
