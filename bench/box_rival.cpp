@@ -5,12 +5,6 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,6 +14,7 @@
 
 #include "broadphase/sweep_and_prune.h"
 #include "engine/base/parallel.h"
+#include "narrowphase/embree.h"
 
 namespace tact::bench {
 namespace {

@@ -14,7 +14,7 @@ namespace tact::bench {
 
 std::vector<Command> commands() {
   return {
-      {"rivals", "the same frames through tact, Embree, CGAL, FCL and Bullet", run_rivals},
+      {"rivals", "the same frames through tact, Embree, CGAL, FCL and Bullet", run_rivals, true},
       {"refresh", "vertices a second of taking in new positions, against a plain sum", run_refresh},
       {"scaling", "one and more threads, growth with bodies and facets, the slowest of many steps", run_scaling},
       {"idle", "steps in which nothing moved, or few of many", run_idle},

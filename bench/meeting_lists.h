@@ -1,7 +1,8 @@
-// What the rivals share: an exact test of two facets, and lists of those that meet, one a thread.
+// What the rivals share: a test of two facets, and lists of those that meet, one a thread.
 #pragma once
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/intersections.h>
 
 #include <algorithm>
@@ -41,15 +42,21 @@ inline base::Box box_of(const FacetCorners& t) {
   return base::extended(base::extended(base::Box{t[0], t[0]}, t[1]), t[2]);
 }
 
-// Do the facets share a point? Exact by CGAL's filtered predicates, so that every rival that proposes enough pairs
-// gives the same answer, one that shares no code with tact. Facets must have an area.
-inline bool facets_meet(const MeshView& a, int facet_a, const MeshView& b, int facet_b) {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+// Do the facets share a point? By CGAL, so that no code is shared with tact. `exact`: filtered predicates, right
+// whatever the facets are. `plain`: the same predicates in doubles as they come, right where nothing hangs on rounding,
+// and faster where the filters fail, as on a lattice. Facets must have an area.
+template <class Kernel>
+bool facets_meet_in(const FacetCorners& s, const FacetCorners& t) {
+  const auto point = [](const base::Vec3& p) { return typename Kernel::Point_3(p.x, p.y, p.z); };
+  return CGAL::do_intersect(typename Kernel::Triangle_3(point(s[0]), point(s[1]), point(s[2])),
+                            typename Kernel::Triangle_3(point(t[0]), point(t[1]), point(t[2])));
+}
+
+inline bool facets_meet(const MeshView& a, int facet_a, const MeshView& b, int facet_b, TriangleTest test) {
   const FacetCorners s = a.corners(facet_a), t = b.corners(facet_b);
   if (!base::overlaps(box_of(s), box_of(t))) return false;
-  const auto point = [](const base::Vec3& p) { return Kernel::Point_3(p.x, p.y, p.z); };
-  return CGAL::do_intersect(Kernel::Triangle_3(point(s[0]), point(s[1]), point(s[2])),
-                            Kernel::Triangle_3(point(t[0]), point(t[1]), point(t[2])));
+  return test == TriangleTest::exact ? facets_meet_in<CGAL::Exact_predicates_inexact_constructions_kernel>(s, t)
+                                     : facets_meet_in<CGAL::Simple_cartesian<double>>(s, t);
 }
 
 // Threads that pay off: waking them costs more than the whole frame of so small a workload, the organ and the tool.

@@ -38,15 +38,21 @@ struct RivalKind {
   std::string name;
   // The workload outlives the rival. At most `threads` threads run.
   std::unique_ptr<Rival> (*make)(const Workload& workload, int threads) = nullptr;
-  // Some libraries decide triangles by a test of their own that misses pairs. They are shown, not competed with.
+  // Some decide triangles, or their boxes, with rounding. They compete where they find every pair, and need not.
   bool complete = true;
 };
 
+// How rivals decide what their boxes propose, see meeting_lists.h.
+enum class TriangleTest { exact, plain };
+
 std::unique_ptr<Rival> make_tact(const Workload& workload, int threads);
 std::unique_ptr<Rival> make_embree_scene_a_body(const Workload& workload, int threads);
+std::unique_ptr<Rival> make_embree_scene_a_body_plain(const Workload& workload, int threads);
 std::unique_ptr<Rival> make_embree_one_scene(const Workload& workload, int threads);
 std::unique_ptr<Rival> make_cgal_boxes(const Workload& workload, int threads);
 std::unique_ptr<Rival> make_cgal_clipped(const Workload& workload, int threads);
+std::unique_ptr<Rival> make_cgal_boxes_plain(const Workload& workload, int threads);
+std::unique_ptr<Rival> make_cgal_clipped_plain(const Workload& workload, int threads);
 std::unique_ptr<Rival> make_fcl_aabb(const Workload& workload, int threads);
 std::unique_ptr<Rival> make_fcl_obbrss(const Workload& workload, int threads);
 std::unique_ptr<Rival> make_fcl_own_test(const Workload& workload, int threads);

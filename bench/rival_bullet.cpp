@@ -104,7 +104,7 @@ class Bullet : public Rival {
     btGImpactBvh::find_collision(&first.boxes, still, &second.boxes, still, candidates);
     for (int k = 0; k < candidates.size(); ++k) {
       const int i = candidates[k].m_index1, j = candidates[k].m_index2;
-      if (!facets_meet(first.facets.mesh(), i, second.facets.mesh(), j)) continue;
+      if (!facets_meet(first.facets.mesh(), i, second.facets.mesh(), j, TriangleTest::exact)) continue;
       lists_.of_thread(thread).push_back({a, b, i, j});
     }
   }

@@ -61,10 +61,11 @@ struct Scratch {
 
 class Cgal : public Rival {
  public:
-  Cgal(const Workload& workload, int threads, Clipping clipping)
+  Cgal(const Workload& workload, int threads, Clipping clipping, TriangleTest test)
       : workload_(workload),
         threads_(useful_threads(workload, threads)),
         clipping_(clipping),
+        test_(test),
         body_boxes_(workload.bodies.size()),
         lists_(threads_),
         scratch_(static_cast<std::size_t>(threads_)) {
@@ -143,7 +144,7 @@ class Cgal : public Rival {
     });
     const auto report = [&](const CgalBox* p, const CgalBox* q) {
       const int i = static_cast<int>(p->number), j = static_cast<int>(q->number - first_of_b);
-      if (!facets_meet(a, i, b, j)) return;
+      if (!facets_meet(a, i, b, j, test_)) return;
       auto& list = kParallel ? found_.local() : lists_.of_thread(thread);
       list.push_back({body_a, body_b, i, j});
     };
@@ -154,6 +155,7 @@ class Cgal : public Rival {
   const Workload& workload_;
   int threads_;
   Clipping clipping_;
+  TriangleTest test_;
   std::vector<base::Box> body_boxes_;
   std::vector<std::pair<int, int>> pairs_;
   MeetingLists lists_;
@@ -164,11 +166,19 @@ class Cgal : public Rival {
 }  // namespace
 
 std::unique_ptr<Rival> make_cgal_boxes(const Workload& workload, int threads) {
-  return std::make_unique<Cgal>(workload, threads, Clipping::off);
+  return std::make_unique<Cgal>(workload, threads, Clipping::off, TriangleTest::exact);
 }
 
 std::unique_ptr<Rival> make_cgal_clipped(const Workload& workload, int threads) {
-  return std::make_unique<Cgal>(workload, threads, Clipping::on);
+  return std::make_unique<Cgal>(workload, threads, Clipping::on, TriangleTest::exact);
+}
+
+std::unique_ptr<Rival> make_cgal_boxes_plain(const Workload& workload, int threads) {
+  return std::make_unique<Cgal>(workload, threads, Clipping::off, TriangleTest::plain);
+}
+
+std::unique_ptr<Rival> make_cgal_clipped_plain(const Workload& workload, int threads) {
+  return std::make_unique<Cgal>(workload, threads, Clipping::on, TriangleTest::plain);
 }
 
 }  // namespace tact::bench

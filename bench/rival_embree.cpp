@@ -10,14 +10,9 @@
 #include <string>
 #include <utility>
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
 #include "bench/meeting_lists.h"
 #include "bench/rival.h"
+#include "narrowphase/embree.h"
 
 namespace tact::bench {
 namespace {
@@ -96,7 +91,7 @@ void facet_bounds(const RTCBoundsFunctionArguments* arguments) {
 // What rtcCollide proposes, decided and kept. Embree may call back from several threads.
 class Answers {
  public:
-  explicit Answers(const std::vector<MeshView>& meshes) : meshes_(meshes) {}
+  Answers(const std::vector<MeshView>& meshes, TriangleTest test) : meshes_(meshes), test_(test) {}
 
   void clear() {
     for (std::vector<FacetMeeting>& list : lists_) list.clear();
@@ -110,12 +105,13 @@ class Answers {
   void decide(int body_a, int facet_a, int body_b, int facet_b, std::vector<FacetMeeting>& list) const {
     const MeshView& a = meshes_[static_cast<std::size_t>(body_a)];
     const MeshView& b = meshes_[static_cast<std::size_t>(body_b)];
-    if (facets_meet(a, facet_a, b, facet_b)) list.push_back({body_a, body_b, facet_a, facet_b});
+    if (facets_meet(a, facet_a, b, facet_b, test_)) list.push_back({body_a, body_b, facet_a, facet_b});
   }
   std::vector<FacetMeeting>& of_this_thread() { return lists_.local(); }
 
  private:
   const std::vector<MeshView>& meshes_;
+  TriangleTest test_;
   tbb::enumerable_thread_specific<std::vector<FacetMeeting>> lists_;
 };
 
@@ -183,12 +179,12 @@ class BodySweep {
 
 class SceneABody : public Rival {
  public:
-  SceneABody(const Workload& workload, int threads)
+  SceneABody(const Workload& workload, int threads, TriangleTest test)
       : workload_(workload),
         threads_(useful_threads(workload, threads)),
         device_(threads_),
         views_(first_views(workload)),
-        answers_(views_),
+        answers_(views_, test),
         sweep_(device_, views_.size()) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_));
     for (std::size_t k = 0; k < views_.size(); ++k) {
@@ -253,7 +249,7 @@ class OneScene : public Rival {
         threads_(useful_threads(workload, threads)),
         device_(threads_),
         views_(first_views(workload)),
-        answers_(views_),
+        answers_(views_, TriangleTest::exact),
         scene_(device_) {
     for (MeshView& view : views_) {
       geometries_.push_back(scene_.attach(device_, view.facet_count, facet_bounds, &view));
@@ -302,7 +298,11 @@ class OneScene : public Rival {
 }  // namespace
 
 std::unique_ptr<Rival> make_embree_scene_a_body(const Workload& workload, int threads) {
-  return std::make_unique<SceneABody>(workload, threads);
+  return std::make_unique<SceneABody>(workload, threads, TriangleTest::exact);
+}
+
+std::unique_ptr<Rival> make_embree_scene_a_body_plain(const Workload& workload, int threads) {
+  return std::make_unique<SceneABody>(workload, threads, TriangleTest::plain);
 }
 
 std::unique_ptr<Rival> make_embree_one_scene(const Workload& workload, int threads) {

@@ -31,7 +31,7 @@ class ExactNode : public Node {
 
   void leafTesting(int leaf_a, int leaf_b) const override {
     const int i = this->model1->getBV(leaf_a).primitiveId(), j = this->model2->getBV(leaf_b).primitiveId();
-    if (facets_meet(a_, i, b_, j)) meetings_.push_back({body_a_, body_b_, i, j});
+    if (facets_meet(a_, i, b_, j, TriangleTest::exact)) meetings_.push_back({body_a_, body_b_, i, j});
   }
   bool canStop() const override { return false; }
 

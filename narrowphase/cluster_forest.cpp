@@ -1,15 +1,12 @@
 #include "narrowphase/cluster_forest.h"
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
 #include <tact/error.h>
 
 #include <algorithm>
 #include <array>
 #include <string>
+
+#include "narrowphase/embree.h"
 
 namespace tact::narrowphase {
 

@@ -6,11 +6,8 @@
 #include <limits>
 #include <string>
 #include <vector>
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
+
+#include "narrowphase/embree.h"
 
 namespace tact::scenes {
 

@@ -8,12 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
+#include "narrowphase/embree.h"
 #include "tests/support/detection.h"
 #include "tests/support/generators.h"
 
