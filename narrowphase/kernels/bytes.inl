@@ -59,3 +59,14 @@ inline void write_places(std::uint64_t set, std::uint8_t* to) {
 }
 
 #endif
+
+// The k-th bit goes to where the k-th bit of `set` is.
+inline std::uint64_t expand(std::uint64_t bits, std::uint64_t set) {
+#if defined(__BMI2__)
+  return _pdep_u64(bits, set);
+#else
+  std::uint64_t result = 0;
+  for (; set != 0; set &= set - 1, bits >>= 1) result |= (bits & 1) != 0 ? set & -set : 0;
+  return result;
+#endif
+}

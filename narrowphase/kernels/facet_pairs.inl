@@ -1,6 +1,6 @@
 // Which of many pairs of facets meet, included by kernels.inl: by the signs of determinants, as in triangle_triangle.cpp.
-// First in doubles; where these cannot tell, by equal corners, then in numbers of twice the digits; what is left is for
-// exact predicates.
+// First in doubles; where these cannot tell, by equal corners, within the plane that both lie in, and in numbers of twice
+// the digits; what is left is for exact predicates.
 
 // A number of twice the digits: high + low, where high is the sum rounded. The arithmetic is that of Dekker, "A
 // floating-point technique for extending the available precision", 1971, but for sums, which leave out a step that matters
@@ -45,12 +45,27 @@ inline WideVector difference(const VectorPack& a, const VectorPack& b) {
   return {difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z)};
 }
 
+// As Plane, for points on a lattice (see are_on_lattice): nothing is rounded.
+struct ExactPlane {
+  static constexpr bool kRounds = false;
+  VectorPack origin, normal;
+
+  ExactPlane(const VectorPack& c0, const VectorPack& c1, const VectorPack& c2)
+      : origin(c0), normal(Plane(c0, c1, c2).normal) {}
+
+  Determinant height(const VectorPack& point) const {
+    const Pack value = Determinant::dot(sub(point, origin), normal);
+    return {value, spread(0.0), abs(value)};
+  }
+};
+
 // As Plane, with twice the digits. No product may vanish (see nothing_vanishes).
 //
 // With u = 2^-53: a difference has no error, a product one of at most 7u², a sum one of 6u² of the sum of the sizes of
 // what it adds. So each of the three products of three collects at most 20u² of the sum of the sizes of its products, and
 // the two last sums 12u² more; the sizes, which are doubles, may be a few u too low. 64u² leaves room for all of it.
 struct WidePlane {
+  static constexpr bool kRounds = true;
   VectorPack origin, bound;
   WideVector normal;
 
@@ -70,7 +85,7 @@ struct WidePlane {
 
 // On which side of a plane the corners of a triangle certainly lie.
 struct Sides {
-  Mask above[3], below[3], zero[3];
+  Mask above[3];     // where some corners lie in the plane, these count as below if any lies above, else as above
   unsigned apart;    // bits: all three strictly on one side
   unsigned certain;  // all three strictly on a side
   unsigned known;    // all three on a side or in the plane
@@ -78,7 +93,7 @@ struct Sides {
 
   template <class AnyPlane>
   Sides(const AnyPlane& plane, const VectorPack* corner) {
-    Mask strict[3], on_any[3];
+    Mask below[3], zero[3], strict[3], on_any[3];
     for (int k = 0; k < 3; ++k) {
       const Determinant height = plane.height(corner[k]);
       above[k] = height.positive();
@@ -92,6 +107,8 @@ struct Sides {
     certain = all(strict);
     known = all(on_any);
     flat = all(zero);
+    const Mask any_above = either(either(above[0], above[1]), above[2]);
+    for (int k = 0; k < 3; ++k) above[k] = either(above[k], without(zero[k], any_above));
   }
 };
 
@@ -100,26 +117,20 @@ inline VectorPack select(Mask mask, const VectorPack& yes, const VectorPack& no)
 }
 
 // A triangle with its corners turned so that the plane of the other parts the first from the other two, which it crosses
-// both edges to. `above` tells on which side the first is, or would be if the others decide that it is in the plane.
+// both edges to. `above` tells on which side the first is.
 struct LoneCorner {
   VectorPack lone, next, last;
   Mask above;
 };
 
-// The corners must neither be all strictly on one side nor all in the plane. As kLoneCorners in triangle_triangle.cpp.
-inline LoneCorner lone_corner(const VectorPack* c, const Sides& s) {
-  Mask up[3], here[3];
-  for (int i = 0; i < 3; ++i) {
-    const int n = (i + 1) % 3, l = (i + 2) % 3;
-    const Mask others_below = both(either(s.below[n], s.zero[n]), either(s.below[l], s.zero[l]));
-    const Mask others_above = both(either(s.above[n], s.zero[n]), either(s.above[l], s.zero[l]));
-    up[i] = either(both(s.above[i], others_below), both(s.zero[i], both(s.below[n], s.below[l])));
-    here[i] = either(up[i], either(both(s.below[i], others_above), both(s.zero[i], both(s.above[n], s.above[l]))));
-  }
-  const Mask second = without(here[1], here[0]), third = without(without(here[2], here[0]), here[1]);
-  return {select(here[0], c[0], select(here[1], c[1], c[2])), select(here[0], c[1], select(here[1], c[2], c[0])),
-          select(here[0], c[2], select(here[1], c[0], c[1])),
-          either(both(here[0], up[0]), either(both(second, up[1]), both(third, up[2])))};
+// The corners must not be all on one side. Of three sides two are equal: the lone corner is on that which an odd number
+// are on.
+inline LoneCorner lone_corner(const VectorPack* c, const Mask* above) {
+  const Mask not_first = differ(above[1], above[2]), third = differ(above[0], above[2]);
+  const auto turned = [&](int first) {
+    return select(not_first, select(third, c[(first + 2) % 3], c[(first + 1) % 3]), c[first]);
+  };
+  return {turned(0), turned(1), turned(2), differ(above[0], not_first)};
 }
 
 struct Meeting {
@@ -144,9 +155,10 @@ inline IntervalMeeting intervals_meet(const LoneCorner& a, const LoneCorner& b) 
 }
 
 inline void gather_corners(const FacetBlock& block, const std::uint8_t* facet, VectorPack* corner) {
+  const Picks at(facet);
   for (int k = 0; k < 3; ++k) {
-    corner[k] = {gather(block.corner[k][0], facet), gather(block.corner[k][1], facet),
-                 gather(block.corner[k][2], facet)};
+    corner[k] = {pick(block.corner[k][0], block.count, at), pick(block.corner[k][1], block.count, at),
+                 pick(block.corner[k][2], block.count, at)};
   }
 }
 
@@ -176,10 +188,11 @@ inline Meeting match_lanes(const VectorPack* a, const VectorPack* b, unsigned ma
   const unsigned known = left & sides_a.known & sides_b.known & ~(sides_a.flat | sides_b.flat);
   const unsigned flat = left & sides_a.flat;
   if (known == 0 && flat == 0) return {0, mask & ~left, 0};
-  IntervalMeeting meeting = intervals_meet<AnyPlane>(lone_corner(a, sides_a), lone_corner(b, sides_b));
+  if (known == 0 && !AnyPlane::kRounds) return {0, mask & ~left, flat};
+  IntervalMeeting meeting = intervals_meet<AnyPlane>(lone_corner(a, sides_a.above), lone_corner(b, sides_b.above));
   const unsigned in_plane = known & ~certain, by_zero = in_plane | (known & meeting.by_zero) | flat;
   unsigned vanishing = 0;
-  if (by_zero != 0) {
+  if (AnyPlane::kRounds && by_zero != 0) {
     vanishing = by_zero & ~(nothing_vanishes(a) & nothing_vanishes(b));
     meeting.yes &= ~vanishing;
     meeting.no &= ~(vanishing & in_plane);
@@ -205,15 +218,6 @@ struct StrictSides {
   }
 };
 
-// Of three sides two are equal: the lone corner is on that which an odd number are on.
-inline LoneCorner lone_corner(const VectorPack* c, const StrictSides& s) {
-  const Mask not_first = differ(s.above[1], s.above[2]), third = differ(s.above[0], s.above[2]);
-  const auto turned = [&](int first) {
-    return select(not_first, select(third, c[(first + 2) % 3], c[(first + 1) % 3]), c[first]);
-  };
-  return {turned(0), turned(1), turned(2), differ(s.above[0], not_first)};
-}
-
 // What match_lanes<Plane> says, where determinants larger than `error`, which is not below their own, suffice; nothing of
 // other lanes.
 inline Meeting match_clear_lanes(const VectorPack* a, const VectorPack* b, unsigned mask, Pack error) {
@@ -224,7 +228,7 @@ inline Meeting match_clear_lanes(const VectorPack* a, const VectorPack* b, unsig
   left &= ~sides_a.apart;
   const unsigned certain = left & sides_a.certain & sides_b.certain;
   if (certain == 0) return {0, mask & ~left, 0};
-  const LoneCorner lone_a = lone_corner(a, sides_a), lone_b = lone_corner(b, sides_b);
+  const LoneCorner lone_a = lone_corner(a, sides_a.above), lone_b = lone_corner(b, sides_b.above);
   const VectorPack b1 = select(lone_a.above, lone_b.next, lone_b.last), b2 = select(lone_a.above, lone_b.last, lone_b.next);
   const VectorPack a1 = select(lone_b.above, lone_a.next, lone_a.last), a2 = select(lone_b.above, lone_a.last, lone_a.next);
   const Pack p = Plane(b1, a1, lone_b.lone).height(lone_a.lone).value;
@@ -235,9 +239,59 @@ inline Meeting match_clear_lanes(const VectorPack* a, const VectorPack* b, unsig
   return {yes & certain, (mask & ~left) | (no & certain), 0};
 }
 
+// Points lie on a lattice if all coordinates are whole numbers of some step, a power of two, and within 2^16 steps of
+// each other. Then nothing of a determinant is rounded: differences are up to 2^16 steps, products of two up to 2^32, and
+// a sum of six products of three up to 3 * 2^49. So it is with bricks, voxels and what was drawn on a grid.
+//
+// x is a whole number of steps if adding 3/2 * 2^52 steps, which leaves no room for parts of one, and taking them away
+// again gives x, which is to be less than 2^51 steps.
+class Lattice {
+ public:
+  explicit Lattice(const BoxBounds& bounds) {
+    double extent = 0.0, farthest = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double lower = bounds.lower[axis], upper = bounds.upper[axis];
+      if (upper - lower > extent) extent = upper - lower;
+      if (-lower > farthest) farthest = -lower;
+      if (upper > farthest) farthest = upper;
+    }
+    if (!(extent > 0x1p-150 && extent < 0x1p150)) return;
+    const std::uint64_t exponent = __builtin_bit_cast(std::uint64_t, extent) >> 52;
+    const double step = __builtin_bit_cast(double, (exponent - 15) << 52);  // at most the extent's 2^-15 part
+    if (farthest < 0x1p51 * step) shift_ = 0x1.8p52 * step;
+  }
+
+  bool holds(const FacetBlock& block) const {
+    if (shift_ == 0.0) return false;
+    const Pack shift = spread(shift_);
+    for (int i = 0; i < block.count; i += kWidth) {
+      for (int k = 0; k < 3; ++k) {
+        unsigned off = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+          const Pack x = load(block.corner[k][axis] + i);
+          off |= bits(not_equal(sub(add(x, shift), shift), x));
+        }
+        if ((off & lanes_left(block.count - i)) != 0) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  double shift_ = 0.0;  // 0: there is no lattice
+};
+
 // The rounding of all pairs together is soon known, and most are clear of it. Where a pair is not, others are likely not.
+inline Meeting match_rounding_lanes(const VectorPack* a, const VectorPack* b, unsigned mask, Pack error, bool* clear) {
+  const Meeting meeting = *clear ? match_clear_lanes(a, b, mask, error) : Meeting{0, 0, 0};
+  *clear = (meeting.yes | meeting.no) == mask;
+  return *clear ? meeting : match_lanes<Plane>(a, b, mask);
+}
+
 PairMatches match_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, const BoxBounds& bounds) {
-  PairMatches matches{0, 0, 0};
+  PairMatches matches;
+  const Lattice lattice(bounds);
+  matches.on_lattice = lattice.holds(a) && lattice.holds(b);
   const Pack error = rounding_in(bounds);
   bool clear = true;
   for (int i = 0; i < pairs.count; i += kWidth) {
@@ -245,9 +299,8 @@ PairMatches match_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPai
     gather_corners(a, pairs.a + i, corner_a);
     gather_corners(b, pairs.b + i, corner_b);
     const unsigned mask = lanes_left(pairs.count - i);
-    Meeting meeting = clear ? match_clear_lanes(corner_a, corner_b, mask, error) : Meeting{0, 0, 0};
-    clear = (meeting.yes | meeting.no) == mask;
-    if (!clear) meeting = match_lanes<Plane>(corner_a, corner_b, mask);
+    const Meeting meeting = matches.on_lattice ? match_lanes<ExactPlane>(corner_a, corner_b, mask)
+                                               : match_rounding_lanes(corner_a, corner_b, mask, error, &clear);
     matches.meeting |= static_cast<std::uint64_t>(meeting.yes) << i;
     matches.undecided |= static_cast<std::uint64_t>(mask & ~(meeting.yes | meeting.no)) << i;
     matches.flat |= static_cast<std::uint64_t>(meeting.flat) << i;
@@ -255,33 +308,29 @@ PairMatches match_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPai
   return matches;
 }
 
-// Those of the pairs that have a bit in `which`, a pack at a time: calls judge(corners of a, corners of b, lanes, place),
-// where lane k is pair place[k].
+// Those of the pairs that have a bit in `which`, a pack at a time: by judge(corners of a, corners of b, lanes).
 template <class Judge>
-inline void for_each_pack(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, std::uint64_t which,
-                          const Judge& judge) {
-  while (which != 0) {
-    std::int32_t place[kWidth];
-    std::uint8_t facet_a[kWidth], facet_b[kWidth];
-    int count = 0;
-    for (; count < kWidth && which != 0; which &= which - 1) place[count++] = __builtin_ctzll(which);
-    for (int k = count; k < kWidth; ++k) place[k] = place[0];
-    for (int k = 0; k < kWidth; ++k) {
-      facet_a[k] = pairs.a[place[k]];
-      facet_b[k] = pairs.b[place[k]];
-    }
+inline PairMatches match_some(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, std::uint64_t which,
+                              const Judge& judge) {
+  FacetPairList some;
+  some.count = __builtin_popcountll(which);
+  compress(which, pairs.a, some.a);
+  compress(which, pairs.b, some.b);
+  std::uint64_t yes = 0, no = 0, flat = 0;
+  for (int i = 0; i < some.count; i += kWidth) {
     VectorPack corner_a[3], corner_b[3];
-    gather_corners(a, facet_a, corner_a);
-    gather_corners(b, facet_b, corner_b);
-    judge(corner_a, corner_b, lanes_left(count), place);
+    gather_corners(a, some.a + i, corner_a);
+    gather_corners(b, some.b + i, corner_b);
+    const Meeting meeting = judge(corner_a, corner_b, lanes_left(some.count - i));
+    yes |= static_cast<std::uint64_t>(meeting.yes) << i;
+    no |= static_cast<std::uint64_t>(meeting.no) << i;
+    flat |= static_cast<std::uint64_t>(meeting.flat) << i;
   }
-}
-
-// Lanes as bits of the list.
-inline std::uint64_t in_list(unsigned lanes, const std::int32_t* place) {
-  std::uint64_t bits = 0;
-  for (; lanes != 0; lanes &= lanes - 1) bits |= std::uint64_t{1} << place[__builtin_ctz(lanes)];
-  return bits;
+  PairMatches matches;
+  matches.meeting = expand(yes, which);
+  matches.undecided = which & ~expand(yes | no, which);
+  matches.flat = expand(flat, which);
+  return matches;
 }
 
 // Equal points.
@@ -290,22 +339,96 @@ inline Mask same(const VectorPack& a, const VectorPack& b) {
 }
 
 std::uint64_t sharing_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, std::uint64_t which) {
-  std::uint64_t sharing = 0;
-  for_each_pack(a, b, pairs, which, [&](const VectorPack* p, const VectorPack* q, unsigned lanes, const std::int32_t* place) {
+  const auto share = [](const VectorPack* p, const VectorPack* q, unsigned lanes) -> Meeting {
     Mask any = mask_of(0);
     for (int i = 0; i < 3; ++i) any = either(any, either(either(same(p[i], q[0]), same(p[i], q[1])), same(p[i], q[2])));
-    sharing |= in_list(bits(any) & lanes, place);
-  });
-  return sharing;
+    return {bits(any) & lanes, 0, 0};
+  };
+  return match_some(a, b, pairs, which, share).meeting;
 }
 
 PairMatches match_pairs_wide(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, std::uint64_t which) {
-  PairMatches matches{0, 0, 0};
-  for_each_pack(a, b, pairs, which, [&](const VectorPack* p, const VectorPack* q, unsigned lanes, const std::int32_t* place) {
-    const Meeting meeting = match_lanes<WidePlane>(p, q, lanes & nothing_vanishes(p) & nothing_vanishes(q));
-    matches.meeting |= in_list(meeting.yes, place);
-    matches.undecided |= in_list(lanes & ~(meeting.yes | meeting.no), place);
-    matches.flat |= in_list(meeting.flat, place);
+  return match_some(a, b, pairs, which, [](const VectorPack* p, const VectorPack* q, unsigned lanes) {
+    return match_lanes<WidePlane>(p, q, lanes & nothing_vanishes(p) & nothing_vanishes(q));
   });
-  return matches;
+}
+
+// A point of a plane, projected along an axis.
+struct PointPack {
+  Pack x, y;
+};
+
+// As coplanar_triangles_meet in triangle_triangle.cpp: along the axis of the largest part of the normal.
+struct Projection {
+  Mask along_x, along_y;
+
+  explicit Projection(const VectorPack& normal) {
+    const Pack x = abs(normal.x), y = abs(normal.y), z = abs(normal.z);
+    along_x = both(less_equal(y, x), less_equal(z, x));
+    along_y = without(less_equal(z, y), along_x);
+  }
+  Pack component(const VectorPack& v) const { return select(along_x, v.x, select(along_y, v.y, v.z)); }
+  PointPack operator()(const VectorPack& p) const {
+    return {select(along_x, p.y, select(along_y, p.z, p.x)), select(along_x, p.z, select(along_y, p.x, p.y))};
+  }
+};
+
+// The turn from a over b to c, which rounds less than a determinant of three rows. A product that vanishes is not zero:
+// see nothing_vanishes.
+template <bool kRounds>
+inline Determinant turn(const PointPack& a, const PointPack& b, const PointPack& c) {
+  const Pack left = mul(sub(b.x, a.x), sub(c.y, a.y)), right = mul(sub(b.y, a.y), sub(c.x, a.x));
+  const Pack value = sub(left, right);
+  if (!kRounds) return {value, spread(0.0), abs(value)};
+  const Pack size = add(abs(left), abs(right));
+  return {value, rounding_of(size), size};
+}
+
+// Certainly: does some side of `t`, which turns to the left where `left` is set, have all of `other` strictly beyond it?
+// Has every side something of it that is not?
+struct SideSeparation {
+  Mask some = mask_of(0), none = mask_of(kAllLanes);
+
+  template <bool kRounds>
+  void add_sides(const PointPack* t, Mask left, const PointPack* other) {
+    for (int i = 0; i < 3; ++i) {
+      Mask all_beyond = mask_of(kAllLanes), any_not = mask_of(0);
+      for (int k = 0; k < 3; ++k) {
+        const Determinant d = turn<kRounds>(t[i], t[(i + 1) % 3], other[k]);
+        const Mask positive = d.positive(), negative = d.negative();
+        const Mask inside = either(both(left, positive), without(negative, left));
+        all_beyond = both(all_beyond, either(both(left, negative), without(positive, left)));
+        any_not = either(any_not, either(inside, d.zero()));
+      }
+      some = either(some, all_beyond);
+      none = both(none, any_not);
+    }
+  }
+};
+
+// Triangles of one plane are apart if and only if a side of one has the other beyond it.
+template <class AnyPlane>
+inline Meeting match_flat_lanes(const VectorPack* a, const VectorPack* b, unsigned mask) {
+  const Plane plane_a(a[0], a[1], a[2]), plane_b(b[0], b[1], b[2]);
+  const Projection project(plane_b.normal);
+  const Pack turn_a = project.component(plane_a.normal), turn_b = project.component(plane_b.normal);
+  const Pack zero = spread(0.0);
+  const Pack error_a = AnyPlane::kRounds ? rounding_of(project.component(plane_a.bound)) : zero;
+  const Pack error_b = AnyPlane::kRounds ? rounding_of(project.component(plane_b.bound)) : zero;
+  const unsigned known = mask & bits(both(less(error_a, abs(turn_a)), less(error_b, abs(turn_b))));
+  if (known == 0) return {0, 0, 0};
+  const PointPack p[3] = {project(a[0]), project(a[1]), project(a[2])};
+  const PointPack q[3] = {project(b[0]), project(b[1]), project(b[2])};
+  SideSeparation separation;
+  separation.template add_sides<AnyPlane::kRounds>(q, less(zero, turn_b), p);
+  separation.template add_sides<AnyPlane::kRounds>(p, less(zero, turn_a), q);
+  return {known & bits(separation.none), known & bits(separation.some), mask};
+}
+
+PairMatches match_flat_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, std::uint64_t which,
+                             bool on_lattice) {
+  return match_some(a, b, pairs, which, [&](const VectorPack* p, const VectorPack* q, unsigned lanes) {
+    return on_lattice ? match_flat_lanes<ExactPlane>(p, q, lanes)
+                      : match_flat_lanes<Plane>(p, q, lanes & nothing_vanishes(p) & nothing_vanishes(q));
+  });
 }

@@ -11,6 +11,10 @@ inline VectorPack spread(const double* p) { return {spread(p[0]), spread(p[1]), 
 // product has a factor that is zero, and was so before rounding: then the determinant is zero (see nothing_vanishes).
 struct Determinant {
   Pack value, error, size;
+
+  static Pack dot(const VectorPack& x, const VectorPack& n) {
+    return add(add(mul(n.x, x.x), mul(n.y, x.y)), mul(n.z, x.z));
+  }
   Mask positive() const { return less(error, value); }
   Mask negative() const { return less(value, sub(spread(0.0), error)); }
   Mask zero() const { return less_equal(size, spread(0.0)); }
@@ -23,13 +27,14 @@ struct Determinant {
 inline Pack rounding_of(Pack size) { return add(mul(size, spread(kRelativeRounding)), spread(kAbsoluteRounding)); }
 
 inline Determinant determinant(const VectorPack& x, const VectorPack& n, const VectorPack& n_bound) {
-  const Pack value = add(add(mul(n.x, x.x), mul(n.y, x.y)), mul(n.z, x.z));
+  const Pack value = Determinant::dot(x, n);
   const Pack size = add(add(mul(n_bound.x, abs(x.x)), mul(n_bound.y, abs(x.y))), mul(n_bound.z, abs(x.z)));
   return {value, rounding_of(size), size};
 }
 
 // The plane through the corners of a triangle.
 struct Plane {
+  static constexpr bool kRounds = true;
   VectorPack origin, normal, bound;
 
   Plane(const VectorPack& c0, const VectorPack& c1, const VectorPack& c2) : origin(c0) {

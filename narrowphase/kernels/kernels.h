@@ -117,9 +117,10 @@ inline constexpr int kMostSorted = 128;
 
 // What became of a list of pairs, a bit each.
 struct PairMatches {
-  std::uint64_t meeting;    // certainly
-  std::uint64_t undecided;  // for exact predicates
-  std::uint64_t flat;       // of those undecided: the facet of `a` lies in the plane of the facet of `b`, certainly
+  std::uint64_t meeting = 0;    // certainly
+  std::uint64_t undecided = 0;  // for exact predicates
+  std::uint64_t flat = 0;       // of those undecided: the facet of `a` certainly lies in the plane of the facet of `b`
+  bool on_lattice = false;      // coordinates are such that nothing was rounded
 };
 
 // Vertices of a cluster to be refreshed. Coordinates of source vertex s are source[3 s], source[3 s + 1], source[3 s +
@@ -200,6 +201,9 @@ struct Kernels {
   // Decides those of the pairs that have a bit in `which`, with twice the digits.
   PairMatches (*match_pairs_wide)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
                                   std::uint64_t which);
+  // Decides those of the pairs that have a bit in `which`, all of them of facets in one plane.
+  PairMatches (*match_flat_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
+                                  std::uint64_t which, bool on_lattice);
 };
 
 // The best for this machine, or the one that the environment variable TACT_INSTRUCTION_SET names: scalar, avx2, avx512.

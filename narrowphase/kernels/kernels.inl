@@ -176,6 +176,6 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
 extern const Kernels TACT_KERNELS;
 const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, refresh_cluster, bounds, diagonal_bounds, select_heights, highest_point,
                               select_overlapping, open_cluster, facing_away, near_facets, any_near, pair_facets, sort_pairs, match_pairs,
-                              sharing_pairs, match_pairs_wide};
+                              sharing_pairs, match_pairs_wide, match_flat_pairs};
 
 }  // namespace tact::narrowphase

@@ -21,6 +21,12 @@ template <class Index>
 inline Pack gather(const double* p, const Index* i) {
   return _mm256_set_pd(p[i[3]], p[i[2]], p[i[1]], p[i[0]]);
 }
+// Elements of an array.
+struct Picks {
+  const std::uint8_t* place;
+  explicit Picks(const std::uint8_t* p) : place(p) {}
+};
+inline Pack pick(const double* p, int, const Picks& at) { return gather(p, at.place); }
 inline Pack add(Pack a, Pack b) { return _mm256_add_pd(a, b); }
 inline Pack sub(Pack a, Pack b) { return _mm256_sub_pd(a, b); }
 inline Pack mul(Pack a, Pack b) { return _mm256_mul_pd(a, b); }

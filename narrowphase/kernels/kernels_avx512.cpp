@@ -22,6 +22,22 @@ template <class Index>
 inline Pack gather(const double* p, const Index* i) {
   return _mm512_set_pd(p[i[7]], p[i[6]], p[i[5]], p[i[4]], p[i[3]], p[i[2]], p[i[1]], p[i[0]]);
 }
+// Elements of a padded array of up to 64, of which `count` are filled. Short arrays are taken whole into registers.
+struct Picks {
+  const std::uint8_t* place;
+  __m512i index;
+  Mask beyond_16;
+  explicit Picks(const std::uint8_t* p)
+      : place(p),
+        index(_mm512_cvtepu8_epi64(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)))),
+        beyond_16(_mm512_test_epi64_mask(index, _mm512_set1_epi64(16))) {}
+};
+inline Pack pick(const double* p, int count, const Picks& at) {
+  if (count > 32) return gather(p, at.place);
+  const Pack first = _mm512_permutex2var_pd(load(p), at.index, load(p + 8));
+  if (count <= 16) return first;
+  return _mm512_mask_blend_pd(at.beyond_16, first, _mm512_permutex2var_pd(load(p + 16), at.index, load(p + 24)));
+}
 inline Pack add(Pack a, Pack b) { return _mm512_add_pd(a, b); }
 inline Pack sub(Pack a, Pack b) { return _mm512_sub_pd(a, b); }
 inline Pack mul(Pack a, Pack b) { return _mm512_mul_pd(a, b); }

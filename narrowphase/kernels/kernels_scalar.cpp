@@ -18,6 +18,12 @@ template <class Index>
 inline Pack gather(const double* p, const Index* index) {
   return p[*index];
 }
+// Elements of an array.
+struct Picks {
+  const std::uint8_t* place;
+  explicit Picks(const std::uint8_t* p) : place(p) {}
+};
+inline Pack pick(const double* p, int, const Picks& at) { return gather(p, at.place); }
 inline Pack add(Pack a, Pack b) { return a + b; }
 inline Pack sub(Pack a, Pack b) { return a - b; }
 inline Pack mul(Pack a, Pack b) { return a * b; }

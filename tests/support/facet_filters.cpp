@@ -111,15 +111,18 @@ std::vector<Filtered> filtered(const Kernels& kernels, std::span<const TriangleP
   }
   const PairMatches together = kernels.match_pairs(a, b, list, everything);
   const PairMatches wide = kernels.match_pairs_wide(a, b, list, all);
-  const std::uint64_t sharing = kernels.sharing_pairs(a, b, list, all);
+  const std::uint64_t sharing = kernels.sharing_pairs(a, b, list, all), flat = together.flat | wide.flat;
+  PairMatches in_plane = kernels.match_flat_pairs(a, b, list, flat, together.on_lattice);
+  in_plane.undecided |= all & ~flat;
   std::vector<Filtered> result(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     result[i] = {.left_out = leaves_out(kernels, a, b, i) || leaves_out(kernels, b, a, i),
                  .simple = alone[i],
                  .together = decision(together, i),
                  .wide = decision(wide, i),
+                 .in_plane = decision(in_plane, i),
                  .sharing = (sharing >> i & 1) != 0,
-                 .flat = ((together.flat | wide.flat) >> i & 1) != 0};
+                 .flat = (flat >> i & 1) != 0};
   }
   return result;
 }
@@ -127,7 +130,8 @@ std::vector<Filtered> filtered(const Kernels& kernels, std::span<const TriangleP
 bool is_right(const Filtered& filtered, const TrianglePair& pair, bool meet) {
   if ((filtered.left_out && meet) || (filtered.sharing && !meet)) return false;
   if (filtered.flat && !lies_in_plane(pair.a, pair.b)) return false;
-  return is_right(filtered.simple, meet) && is_right(filtered.together, meet) && is_right(filtered.wide, meet);
+  return is_right(filtered.simple, meet) && is_right(filtered.together, meet) && is_right(filtered.wide, meet) &&
+         is_right(filtered.in_plane, meet);
 }
 
 std::vector<const Kernels*> available_kernels() {

@@ -18,12 +18,14 @@ struct Filtered {
   Decision simple = Decision::undecided;    // by itself, within its own box
   Decision together = Decision::undecided;  // beside the others, within the box of all
   Decision wide = Decision::undecided;      // with twice the digits
+  Decision in_plane = Decision::undecided;  // within the plane that both lie in, if they do
   bool sharing = false;                     // the triangles have a corner in common
   bool flat = false;                        // the first lies in the plane of the second
 
   // Is the pair one for the exact predicates?
   bool undecided() const {
-    return !left_out && !sharing && simple == Decision::undecided && wide == Decision::undecided;
+    return !left_out && !sharing && simple == Decision::undecided && wide == Decision::undecided &&
+           in_plane == Decision::undecided;
   }
 };
 
