@@ -38,7 +38,12 @@ std::optional<Vec3> AdjacentFaces::lowest(const SupportedFace& face, double near
   for (std::size_t i = 0; sides > 1 && i < sides; ++i) {
     if (!is_near(i)) continue;
     turn_over_side(face, in_space(polygon.corner[i]), outward_of_side(polygon, i));
-    if (is_near(i + 1) && count < kNearCorners) corners[count++] = in_space(corner_at(polygon.corner, i + 1));
+    if (!is_near(i + 1)) continue;
+    if (count < kNearCorners) {
+      corners[count++] = in_space(corner_at(polygon.corner, i + 1));
+    } else {
+      limit_reached_ = true;
+    }
   }
   for (std::size_t k = 0; k < count && !lowest_; ++k) go_around(face, corners[k]);
   return lowest_;
@@ -80,6 +85,7 @@ bool AdjacentFaces::go_around(const SupportedFace& face, Vec3 corner, Way way) {
     try_direction(n, face.top);
     if (!(dot(n, face.n) > 0.0)) return false;
   }
+  limit_reached_ = true;
   return false;
 }
 

@@ -28,6 +28,8 @@ class AdjacentFaces {
   std::optional<Vec3> lowest(const SupportedFace& face, double near);
 
   int support_queries() const { return support_queries_; }
+  // Were there corners that it did not look at, or more faces around one?
+  bool limit_reached() const { return limit_reached_; }
 
  private:
   enum class Way { counter_clockwise, clockwise };
@@ -43,6 +45,7 @@ class AdjacentFaces {
   double lowest_height_ = 0.0;
   std::optional<Vec3> lowest_;
   int support_queries_ = 0;
+  bool limit_reached_ = false;
 };
 
 }  // namespace tact::narrowphase

@@ -41,8 +41,9 @@ class Search {
  private:
   bool done() {
     if (finished_ || best_.height < -m_.height_error()) return true;
-    best_.limit_reached = best_.iterations >= settings_.iteration_limit;
-    return best_.limit_reached;
+    const bool at_limit = best_.iterations >= settings_.iteration_limit;
+    best_.limit_reached = best_.limit_reached || at_limit;
+    return at_limit;
   }
 
   void set_top(const MinkowskiVertex& top) {
@@ -133,6 +134,7 @@ class Search {
     shift_ = std::max(kShrink * shift_, kSmallestShift);
     const GjkResult nearest = gjk(m_, shifted, best_.face.count > 0 ? best_.face : around_, settings_.gjk);
     best_.support_queries += nearest.support_queries;
+    best_.limit_reached = best_.limit_reached || nearest.status == GjkStatus::limit_reached;
     best_.face = nearest.simplex;
     const Vec3 between = nearest.distance > 0.0 ? (-1.0 / nearest.distance) * nearest.offset : n;
     const std::optional<Vec3> normal = face_normal(m_, nearest.simplex, between);
@@ -190,7 +192,7 @@ class Search {
       turn_to(*lower);
       if (margin_of_face() < -tolerance_) return;
     }
-    finished_ = true;
+    finished_ = best_.limit_reached = true;
   }
 
   std::optional<Vec3> lowest_adjacent() {
@@ -198,6 +200,7 @@ class Search {
     const std::optional<Vec3> lowest =
         adjacent.lowest({.n = best_.n, .height = best_.height, .top = top_, .polygon = polygon_}, shallow());
     best_.support_queries += adjacent.support_queries();
+    best_.limit_reached = best_.limit_reached || adjacent.limit_reached();
     return lowest;
   }
 

@@ -3,23 +3,30 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace tact::narrowphase {
 
 namespace {
 
 Criteria make_criteria(const Slab& slab, Vec3 outward, double plane, const ImpactZone* other_zone, bool facing_away) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Criteria criteria{.outward = outward,
                     .origin = slab.origin,
-                    .lowest = plane - 2.0 * slab.error,
+                    .lowest = std::nextafter(plane - 2.0 * slab.error, -kInfinity),
                     .facing_away = facing_away,
                     .zone = other_zone != nullptr,
-                    .u = slab.u,
-                    .v = slab.v,
+                    .u = {},
+                    .v = {},
                     .other_zone = {}};
   if (other_zone != nullptr) {
-    criteria.other_zone = other_zone->disk;
-    if (criteria.other_zone.radius >= 0.0) criteria.other_zone.radius += other_zone->error + 2.0 * slab.error;
+    // In a unit, a power of two, in which the slab's error is about 1 and no square vanishes nor overflows.
+    const double scale = std::ldexp(1.0, std::clamp(-std::ilogb(slab.error), -1000, 1000));
+    const Disk& disk = other_zone->disk;
+    const double radius = disk.radius >= 0.0 ? disk.radius + (other_zone->error + 2.0 * slab.error) : disk.radius;
+    criteria.u = scale * slab.u;
+    criteria.v = scale * slab.v;
+    criteria.other_zone = {{scale * disk.center.x, scale * disk.center.y}, scale * radius};
   }
   return criteria;
 }
@@ -36,8 +43,9 @@ double distance_squared(Point2 p, Point2 a, Point2 b) {
 
 double turn(Point2 a, Point2 b, Point2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-// Does the disk reach the triangle? Its rounding is below 1e-14 of the size of what is compared; the disk is widened by
-// more than that.
+// Does the disk reach the triangle? Distances from its centre round by less than 1e-14 of what is compared, by which
+// the disk is widened. A point of a side, a.x + t * ex, also rounds by a roundoff of |a.x|, which the slab's error is
+// four times of: the disk is wider by 2 of these errors, of which the facet's projection takes sqrt(2).
 bool meets(const Disk& disk, Point2 a, Point2 b, Point2 c) {
   if (disk.radius < 0.0) return false;
   const double reach =
@@ -83,7 +91,6 @@ void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Bo
   int found = 0;
   kept.boxes.resize(static_cast<std::size_t>(met));
   kept.bounds = Box{};
-  kept.facets = 0;
   kept.outside_slab = 0;
   for (int i = 0; i < met; ++i) {
     const std::int32_t cluster = kept.cluster[static_cast<std::size_t>(i)];
@@ -98,7 +105,6 @@ void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Bo
     kept.boxes.set(static_cast<std::size_t>(found), box);
     kept.cluster[static_cast<std::size_t>(found++)] = cluster;
     kept.bounds = merged(kept.bounds, intersection(box, other));
-    kept.facets += mesh.facet_end(cluster) - mesh.facet_begin(cluster);
   }
   kept.cluster.resize(static_cast<std::size_t>(found));
 }

@@ -1,16 +1,15 @@
 // Which facets of two overlapping bodies can touch (paper §3): clusters first, then facets.
 //
 // A facet F of A, n the contact direction (B the same with -n):
-//   1 facing away     n · normal(F) <= 0: dropped. Loses contacts on spikes and folds: Accuracy::paper only, and never
-//   on
-//                     a sheet or a facet without area.
+//   1 facing away     n · normal(F) <= 0: dropped. Loses contacts on spikes and folds: Accuracy::paper only, and
+//                     never on a sheet or a facet without area.
 //   2 outside slab    F lies before the plane of B. Also: F's box misses the box of what is left of B.
 //   3 outside zone    the projection of F misses the disk around B's impact zone. Where a zone was computed.
 //
 // Criteria 2 and 3 lose no contact in real arithmetic, and none here: a height computed as n · (x - origin) is off by
 // at most e = Slab::error from the true one, and so is a plane, the extreme of such heights. A facet is dropped if its
-// highest corner lies more than 2 e below the plane: then it lies below in truth. Boxes are compared as they are. For
-// the disk see impact_zone.h; the facet's projection is off by at most sqrt(2) e more.
+// highest corner lies more than 2 e, rounded downwards, below the plane: then it lies below in truth. Boxes are
+// compared as they are. For the disk see impact_zone.h; the facet's projection is off by at most sqrt(2) e more.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +26,8 @@ struct Criteria {
   double lowest = 0.0;       // a facet whose highest corner is lower cannot touch; all margins included, metres
   bool facing_away = false;  // criterion 1 applies
   bool zone = false;         // criterion 3 applies
-  Vec3 u = {}, v = {};       // axes of the zone's plane
-  Disk other_zone = {};      // of the other body, all margins included
+  Vec3 u = {}, v = {};       // axes of the zone's plane, of equal length
+  Disk other_zone = {};      // of the other body, all margins included, in units of that length
 };
 
 // Facets dropped, by the first criterion that drops them, and kept. Criterion 2 comes first: it alone needs no facet to
@@ -44,9 +43,8 @@ struct CullCounts {
 // The clusters of a body that can hold a facet that touches, ascending, with their boxes.
 struct KeptClusters {
   std::vector<std::int32_t> cluster;
-  BoxArrays boxes;  // of the clusters in this list, in its order
-  Box bounds;       // of all of them, clipped to what they were held against
-  std::int64_t facets = 0;
+  BoxArrays boxes;                // of the clusters in this list, in its order
+  Box bounds;                     // of all of them, clipped to what they were held against
   std::int64_t outside_slab = 0;  // clusters that criterion 2 dropped
 
   int count() const { return static_cast<int>(cluster.size()); }

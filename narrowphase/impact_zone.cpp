@@ -13,22 +13,25 @@ namespace tact::narrowphase {
 // error, at every vertex.
 //
 // - The planes of the clip are L <= lower - 2e and U >= upper + 2e, rounded outward.
+//
 // - Along an edge from p to q let h(t) = h(p) + t (h(q) - h(p)), a function of the computed heights taken as exact. The
-// real
-//   height of the same point is within e of it, for both are linear in t and the ends are. So the part of the edge in
-//   the true slab, wider than the given one by e, lies in the part with L <= h(t) <= U. That part ends at p, at q or at
-//   t = (L - h(p)) / (h(q) - h(p)), likewise for U.
+//   real height of the same point is within e of it, for both are linear in t and the ends are. So the part of the edge
+//   in the true slab, wider than the given one by e, lies in the part with L <= h(t) <= U. That part ends at p, at q or
+//   at t = (L - h(p)) / (h(q) - h(p)), likewise for U.
+//
 // - A facet's part of the slab is the hull of its edges' parts. So the true zone lies in the hull of the real
-// projections of
-//   such ends, and it is enough that each of them is near a point of the disk.
+// projections
+//   of such ends, and it is enough that each of them is near a point of the disk.
+//
 // - h(p) and h(q) being exact here, t has three roundings (two differences, one quotient), each relative to its result:
 //   the computed t is off by at most 3.1 u, u = 2^-53, for t <= 1, however close h(p) and h(q) are. Where they are
 //   close, L is not between them unless it is within rounding of both, and the widening of the planes has paid for
 //   that.
+//
 // - A coordinate of a computed end is P + t (Q - P) from computed projections P and Q, off by e each, so their mean is
-// too. With
-//   R >= |P|, |Q|: the error of t gives 3.1 u 2R, the difference, the product and the sum u 2R, u 2R and u 3R at most.
-//   Together less than e + 14 u R a coordinate, and less than 1.5 (e + 14 u R) in the plane.
+//   too. With R >= |P|, |Q|: the error of t gives 3.1 u 2R, the difference, the product and the sum u 2R, u 2R and u 3R
+//   at most. Together less than e + 14 u R a coordinate, and less than 1.5 (e + 14 u R) in the plane.
+//
 // - The disk holds the computed ends in real arithmetic.
 namespace {
 

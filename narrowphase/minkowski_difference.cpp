@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tact::narrowphase {
 
@@ -11,8 +12,13 @@ constexpr double kUnitRoundoff = 0x1p-53;
 // A height n · (x - o) is off by at most 4 roundoffs of |x - o|, n being of unit length but for rounding. Two vertices
 // are chosen, each at most two such errors below the true extreme, and n · (a - b), |a - b| <= 2 size, is off by 4 of 2
 // size.
+//
+// Besides, where products fall below the smallest normal number, each of the three of n · (x - o) may be off by half of
+// the least subnormal one. That is in metres: one unit is 3/2 of it rounded up, and heights that choose vertices are
+// off by four such errors.
 constexpr double kVertexRoundings = 4.0 * 1.05;
 constexpr double kHeightRoundings = (2.0 * 2.0 * 4.0 + 2.0 * 4.0) * 1.05;
+constexpr double kVanishing = 2.0 * std::numeric_limits<double>::denorm_min();
 
 double farthest(const Box& box, Vec3 origin, int axis) {
   return std::max(std::abs(box.lower[axis] - origin[axis]), std::abs(box.upper[axis] - origin[axis]));
@@ -29,8 +35,9 @@ MinkowskiDifference::MinkowskiDifference(const ClusteredMesh& a, const Clustered
   const double largest = std::max({reach.x, reach.y, reach.z});
   if (largest > 0.0) scale_ = std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000));
   size_ = norm(scale_ * reach);
-  vertex_height_error_ = kVertexRoundings * kUnitRoundoff * norm(reach);
-  height_error_ = kHeightRoundings * kUnitRoundoff * size_;
+  // size_, not the norm of what it was scaled from, whose squares vanish where bodies are tiny.
+  vertex_height_error_ = kVertexRoundings * kUnitRoundoff * size_ / scale_ + kVanishing;
+  height_error_ = kHeightRoundings * kUnitRoundoff * size_ + 4.0 * scale_ * kVanishing;
 }
 
 MinkowskiVertex MinkowskiDifference::support(Vec3 direction) const { return support(direction, {}); }

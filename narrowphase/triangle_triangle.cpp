@@ -101,8 +101,8 @@ bool collinear_meet(const Segment& a, const Segment& b) {
 // nor all in the plane. The plane crosses both edges at that corner, each in one point.
 struct LoneCorner {
   std::int8_t corner;
-  std::int8_t
-      side;  // +1 or -1: the corner is on that side or in the plane, the others on the other side or in the plane
+  // +1 or -1: the corner is on that side or in the plane, the others on the other side or in the plane.
+  std::int8_t side;
 };
 
 constexpr LoneCorner find_lone_corner(const Signs& s) {

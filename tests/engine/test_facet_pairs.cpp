@@ -154,6 +154,25 @@ TEST(FacetPairs, OfKissingBodiesEqualOracle) {
   }
 }
 
+// Where squares vanish, and where products and coordinates themselves are subnormal.
+TEST(FacetPairs, OfTinyKissingBodiesEqualOracle) {
+  std::size_t meeting = 0;
+  for (const int exponent : {-520, -600, -1000, -1040}) {
+    for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+      std::vector<Mesh> bodies = kissing_bodies(seed);
+      for (Mesh& body : bodies) body = scaled(std::move(body), std::ldexp(1.0, exponent));
+      const std::vector<FacetPair> expected = facet_pairs_by_oracle(bodies[0], bodies[1]);
+      meeting += expected.empty() ? 0 : 1;
+      for (const bool zones : {false, true}) {
+        const Settings settings{.outputs = {.zones = zones}};
+        ASSERT_TRUE(same_facet_pairs(expected, facet_pairs_by_engine(bodies[0], bodies[1], settings)))
+            << "seed " << seed << ", 2^" << exponent;
+      }
+    }
+  }
+  EXPECT_GT(meeting, 1500u);
+}
+
 // Soups as broken files hold them, at some 10⁴ m; here whole, then each facet a body of its own.
 TEST(FacetPairs, OfMessySoupsEqualOracle) {
   std::size_t meeting = 0;

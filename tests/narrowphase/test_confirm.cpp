@@ -130,8 +130,9 @@ void move_to(const std::array<Vec3, 3>& corners, ClusteredMesh& triangle) {
   triangle.set_positions(positions, 1);
 }
 
-// A vertex of B exactly on the facet of A whose rounded normal is n, moved by ulps: in one case of fifteen the rounded
-// heights put them in the wrong order, and a criterion without a margin would drop the pair.
+// A vertex of B exactly on the facet of A whose rounded normal is n, inside of it, on an edge or on a corner, moved by
+// ulps: in one case of fifteen the rounded heights put them in the wrong order, and a criterion without a margin would
+// drop the pair. On edges and corners the facet ends at the disk, a point and its margin, around B's zone.
 TEST(Criteria, LoseNoPairThatHangsOnTheLastBit) {
   constexpr int kCases = 1'000'000;
   Random random(8);
@@ -145,7 +146,8 @@ TEST(Criteria, LoseNoPairThatHangsOnTheLastBit) {
     const Vec3 offset = (i % 3 == 0 ? 1e6 : i % 3 == 1 ? 1.0 : 0.0) * random.direction();
     const Vec3 p = offset + random.in_ball(), q = offset + random.in_ball(), r = offset + random.in_ball();
     const Vec3 n = normalized(cross(q - p, r - p));
-    const double s = random.uniform(0.1, 0.4), t = random.uniform(0.1, 0.4);
+    const int place = random.below(4);
+    const double s = place == 3 ? 0.0 : random.uniform(0.1, 0.4), t = place >= 2 ? 0.0 : random.uniform(0.1, 0.4);
     Vec3 tip = p + s * (q - p) + t * (r - p);
     for (int axis = 0; axis < 3; ++axis) {
       const double towards = random.chance(0.5) ? 1e300 : -1e300;
@@ -157,7 +159,7 @@ TEST(Criteria, LoseNoPairThatHangsOnTheLastBit) {
     meeting += expected ? 1 : 0;
     ASSERT_EQ(through_criteria(a, b, n, i % 2 == 0).size(), expected ? 1u : 0u) << "case " << i;
   }
-  EXPECT_GT(meeting, kCases / 4);
+  EXPECT_GT(meeting, kCases / 5);
   EXPECT_LT(meeting, kCases * 3 / 4);
 }
 
