@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/base/parallel.h"
+#include "engine/base/text.h"
 
 namespace tact {
 
@@ -38,7 +39,7 @@ void check_positions(const double* positions, std::size_t count, const std::stri
       positions[3 * static_cast<std::size_t>(problem.source_vertex) + static_cast<std::size_t>(problem.axis)];
   throw Error(infinite ? ErrorCode::non_finite_position : ErrorCode::position_out_of_range,
               quoted(name) + ": vertex " + std::to_string(problem.source_vertex) + " has " + kAxisName[problem.axis] +
-                  " = " + std::to_string(value) +
+                  " = " + base::text_of(value) +
                   (infinite ? ", which is not finite" : ", which is larger than 2^300 in size"));
 }
 
@@ -62,17 +63,24 @@ void make_room(std::vector<T>& vector, std::size_t count) {
   if (vector.capacity() < count) vector.reserve(2 * count);
 }
 
-// The columns of a matrix, one after the other. A Ref may have gaps between columns (the top rows of a taller matrix):
-// they are then copied to `copy`.
-template <class Matrix>
-std::span<const typename Matrix::Scalar> columns(const Eigen::Ref<const Matrix>& m,
-                                                 std::vector<typename Matrix::Scalar>& copy) {
-  const auto size = static_cast<std::size_t>(m.size());
-  if (m.outerStride() == 3 || m.cols() <= 1) return {m.data(), size};
+template <class Scalar>
+void check_rows(const Columns<Scalar>& m, const char* what, const std::string& name) {
+  if (m.rows() == 3) return;
+  throw Error(ErrorCode::wrong_size, quoted(name) + ": the matrix of " + what + " is " + std::to_string(m.rows()) +
+                                         " x " + std::to_string(m.cols()) + ", not 3 x N");
+}
+
+// The columns of a matrix, one after the other. There may be gaps between them (the top rows of a taller matrix): they
+// are then copied to `copy`.
+template <class Scalar>
+std::span<const Scalar> packed(const Columns<Scalar>& m, std::vector<Scalar>& copy) {
+  const auto size = static_cast<std::size_t>(3 * m.cols());
+  if (m.stride() == 3 || m.cols() <= 1) return {m.data(), size};
   copy.clear();
   copy.reserve(size);
   for (Eigen::Index column = 0; column < m.cols(); ++column) {
-    for (Eigen::Index row = 0; row < 3; ++row) copy.push_back(m(row, column));
+    const Scalar* first = m.data() + column * m.stride();
+    copy.insert(copy.end(), first, first + 3);
   }
   return copy;
 }
@@ -82,6 +90,8 @@ std::span<const typename Matrix::Scalar> columns(const Eigen::Ref<const Matrix>&
 BodyId Bodies::add(const BodyDefinition& definition) {
   const auto slot = free_.empty() ? static_cast<std::uint32_t>(slots_.size()) : free_.back();
   const std::string name = definition.name.empty() ? "body " + std::to_string(slot) : definition.name;
+  check_rows(definition.positions, "positions", name);
+  check_rows(definition.facets, "facets", name);
   if (slots_.size() >= std::numeric_limits<std::uint32_t>::max() || definition.positions.cols() > kLargestCount ||
       definition.facets.cols() > kLargestCount) {
     throw Error(ErrorCode::too_large,
@@ -89,8 +99,8 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   }
   std::vector<double> position_copy;
   std::vector<int> facet_copy;
-  const std::span<const double> positions = columns(definition.positions, position_copy);
-  const std::span<const int> facets = columns(definition.facets, facet_copy);
+  const std::span<const double> positions = packed(definition.positions, position_copy);
+  const std::span<const int> facets = packed(definition.facets, facet_copy);
   check_positions(positions.data(), positions.size() / 3, name);
   check_facets(facets, definition.positions.cols(), name);
   auto body = std::make_unique<Body>(Body{.id = {},
@@ -99,21 +109,17 @@ BodyId Bodies::add(const BodyDefinition& definition) {
                                           .motion = definition.motion,
                                           .facet_count = static_cast<std::size_t>(definition.facets.cols()),
                                           .mesh = {positions, facets}});
-  // From here on nothing can fail half-way: what may allocate comes first.
-  make_room(changed_, slots_.size() + 1);
-  make_room(free_, slots_.size() + 1);
-  make_room(slots_, slots_.size() + 1);
-  boxes_.resize(std::max<std::size_t>(boxes_.size(), slot + 1));
-  filters_.resize(std::max<std::size_t>(filters_.size(), slot + 1));
-  diagonals_.resize(std::max<std::size_t>(diagonals_.size(), slot + 1));
-  wants_diagonals_.resize(std::max<std::size_t>(wants_diagonals_.size(), slot + 1));
-  groupings_.resize(std::max<std::size_t>(groupings_.size(), slot + 1));
-  make_room(loose_, slots_.size() + 1);
-  if (slot == slots_.size()) {
-    slots_.emplace_back();
-  } else {
-    free_.pop_back();
-  }
+  // Nothing can fail half-way: all that may allocate comes first.
+  const std::size_t slots = std::max<std::size_t>(slots_.size(), slot + 1);
+  const auto on_all = [&](const auto& grow) {
+    grow(boxes_), grow(filters_), grow(diagonals_), grow(wants_diagonals_), grow(groupings_), grow(slots_);
+  };
+  on_all([&](auto& vector) { make_room(vector, slots); });
+  make_room(changed_, slots);
+  make_room(free_, slots);
+  make_room(loose_, slots);
+  if (slot < slots_.size()) free_.pop_back();
+  on_all([&](auto& vector) { vector.resize(slots); });
   body->id = {slot, ++slots_[slot].generation, world_};
   boxes_[slot] = body->mesh.box();
   const bool knows_diagonals = has_diagonals(body->mesh);
@@ -145,16 +151,17 @@ void Bodies::remove(BodyId id) {
   --count_;
 }
 
-void Bodies::prepare(Update& update, BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions) {
+void Bodies::prepare(Update& update, BodyId id, const Positions& positions) {
   const Body& body = at(id);
   const Slot& slot = slots_[id.index];
   if (slot.fixed) throw Error(ErrorCode::fixed_body, quoted(body.name) + " is fixed: its positions cannot be set");
+  check_rows(positions, "positions", body.name);
   if (positions.cols() != slot.vertex_count) {
     throw Error(ErrorCode::wrong_size, quoted(body.name) + " has " + std::to_string(slot.vertex_count) +
                                            " vertices, but " + std::to_string(positions.cols()) +
                                            " positions were given");
   }
-  update.positions = columns(positions, update.copy);
+  update.positions = packed(positions, update.copy);
   update.body = slot.body.get();
   update.slot = id.index;
 }
@@ -174,6 +181,14 @@ void Bodies::stage(Update& update, int threads) const {
                      groupings_[update.slot].moves + 1 == moves_to_look(groupings_[update.slot].tries) &&
                      update.body->mesh.cluster_count() >= kFewestRegrouped;
   update.looseness = looks ? update.body->mesh.staged_looseness() : 0.0;
+}
+
+void Bodies::find_diagonals(int threads) {
+  base::parallel_for(unknown_.size(), 1, threads, [&](std::size_t i) {
+    const narrowphase::ClusteredMesh& mesh = in_slot(unknown_[i]).mesh;
+    if (has_diagonals(mesh)) diagonals_[unknown_[i]] = {mesh.diagonals(), true};
+  });
+  unknown_.clear();
 }
 
 void Bodies::check(const Update& update) {
@@ -241,11 +256,11 @@ void Bodies::keep_groups() noexcept {
   loose_.clear();
 }
 
-void Bodies::set_positions(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions, int threads) {
+void Bodies::set_positions(BodyId id, const Positions& positions, int threads) {
   const base::FloatingPointMode mode;
   if (updates_.empty()) updates_.resize(1);
   prepare(updates_[0], id, positions);
-  stage(updates_[0], threads);
+  stage(updates_[0], updates_[0].body->facet_count >= kLargeOfFew ? threads : 1);
   check(updates_[0]);
   take(updates_[0]);
   note_change(updates_[0]);

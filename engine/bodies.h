@@ -31,7 +31,7 @@ class Bodies {
   BodyId add(const BodyDefinition& definition);
   void remove(BodyId id);
   void set_positions(std::span<const PositionsUpdate> updates, int threads);
-  void set_positions(BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions, int threads);
+  void set_positions(BodyId id, const Positions& positions, int threads);
 
   bool contains(BodyId id) const noexcept;
   // Errors: stale_body, foreign_body.
@@ -46,12 +46,17 @@ class Bodies {
   // What the broad phase sees, an entry a slot; the box of an empty slot is empty.
   std::span<const base::Box> boxes() const { return boxes_; }
   std::span<const broadphase::Filter> filters() const { return filters_; }
-  // How far a body reaches along diagonals, or null if nobody wanted to know when it moved last.
+  // How far a body reaches along diagonals, or null if nobody wanted to know.
   const narrowphase::DiagonalBounds* diagonals(std::uint32_t slot) const {
     return diagonals_[slot].known ? &diagonals_[slot].bounds : nullptr;
   }
   // Does a body look how far it reaches when it moves next? A new one does, a large one never.
-  void want_diagonals(std::uint32_t slot, bool wanted) { wants_diagonals_[slot] = wanted ? 1 : 0; }
+  void want_diagonals(std::uint32_t slot, bool wanted) {
+    if (wanted && wants_diagonals_[slot] == 0 && !diagonals_[slot].known) unknown_.push_back(slot);
+    wants_diagonals_[slot] = wanted ? 1 : 0;
+  }
+  // Bodies of which it is wanted and that did not know look now.
+  void find_diagonals(int threads);
   // Slots whose body was added, removed or moved since end_step().
   std::span<const std::uint32_t> changed() const { return changed_; }
   bool moved(std::uint32_t slot) const { return slots_[slot].changed; }
@@ -109,7 +114,7 @@ class Bodies {
     Diagonals diagonals;
     double looseness = 0.0;  // of the clusters, if it was time to look
   };
-  void prepare(Update& update, BodyId id, const Eigen::Ref<const Eigen::Matrix3Xd>& positions);
+  void prepare(Update& update, BodyId id, const Positions& positions);
   void prefetch(BodyId id) const;
   void stage(Update& update, int threads) const;
   static void check(const Update& update);
@@ -126,6 +131,7 @@ class Bodies {
   std::vector<broadphase::Filter> filters_;
   std::vector<Diagonals> diagonals_;
   std::vector<char> wants_diagonals_;
+  std::vector<std::uint32_t> unknown_;  // slots of bodies that are to look now
   std::vector<Grouping> groupings_;
   std::vector<std::uint32_t> loose_;  // slots of bodies whose clusters have lost their shape
   std::vector<std::uint32_t> changed_;

@@ -99,14 +99,12 @@ PairRecord& PairTable::new_record(BodyId a, BodyId b) {
   record.history = {};
   record.hulls_overlap = false;
   record.facet_pairs.clear();
-  record.facet_pairs.reserve(room_);
   record.patches.clear();
   return record;
 }
 
 void PairTable::retire(PairRecord& record) {
   if (touches(record)) gone_.push_back({record.a, record.b});
-  // Records are given out again in any order: each has room for what the largest held.
   room_ = std::min(std::max(room_, record.facet_pairs.capacity()), kLargestRoom);
   free_.push_back(&record);
 }
@@ -127,21 +125,24 @@ void PairTable::renumber(std::span<const Bodies::Regrouped> bodies) {
 }
 
 void PairTable::take_out_parted(Bodies& bodies, int threads) {
-  base::parallel_for(moved_.size(), kPartedAtATime, threads,
-                     [&](std::size_t i) { moved_[i].parted = part(moved_[i], bodies); });
-  // Bodies that moved and have no pair that was apart need not know how far they reach when they move next.
+  if (base::fast_paths() == base::FastPaths::off) return;
+  // Of a pair that was apart, or is new, both bodies know how far they reach, whatever other pairs they have: what is
+  // found of a pair depends on no other. Bodies that moved and have no such pair need not know when they move next.
   for (const std::uint32_t slot : bodies.changed()) bodies.want_diagonals(slot, false);
   for (const MovedPair& pair : moved_) {
     if (candidates_[pair.place].hulls_overlap) continue;
     bodies.want_diagonals(pairs_[pair.place].a, true);
     bodies.want_diagonals(pairs_[pair.place].b, true);
   }
+  bodies.find_diagonals(threads);
+  base::parallel_for(moved_.size(), kPartedAtATime, threads,
+                     [&](std::size_t i) { moved_[i].parted = part(moved_[i], bodies); });
   parted_ = std::erase_if(moved_, [](const MovedPair& pair) { return pair.parted; });
 }
 
 // Was the pair apart, and does a diagonal part it, the last one or another? Notes which.
 bool PairTable::part(const MovedPair& pair, const Bodies& bodies) {
-  if (candidates_[pair.place].hulls_overlap || base::fast_paths() == base::FastPaths::off) return false;
+  if (candidates_[pair.place].hulls_overlap) return false;
   const broadphase::IndexPair slots = pairs_[pair.place];
   const auto *a = bodies.diagonals(slots.a), *b = bodies.diagonals(slots.b);
   PartingDiagonal& parting = entries_[pair.place].parting;

@@ -51,6 +51,8 @@ class PairTable {
 
   std::span<MovedPair> moved() { return moved_; }
   std::span<const MovedPair> moved() const { return moved_; }
+  // Records are given out again in any order: one whose facets are looked at gets room for what the largest held.
+  void make_room(PairRecord& record) const { record.facet_pairs.reserve(room_); }
   // How many were taken out.
   std::size_t parted() const { return parted_; }
   // Before and after a step looks at a pair; a thread each.
@@ -86,7 +88,7 @@ class PairTable {
   std::vector<std::unique_ptr<PairRecord[]>> pool_;
   std::size_t record_count_ = 0;  // in the pool
   std::vector<PairRecord*> free_;
-  std::size_t room_ = 0;                      // facet pairs that a record has room for when it is given out
+  std::size_t room_ = 0;                      // facet pairs
   std::vector<broadphase::IndexPair> pairs_;  // slots
   std::vector<CandidatePair> candidates_;     // the same pairs, of bodies
   std::vector<Entry> entries_;                // of these

@@ -174,6 +174,7 @@ void Step::narrow_phase(Bodies& bodies, const Settings& settings) {
     const bool confirms = find_direction_and_cull(record, a, b, settings, device_, work, tally.timer);
     record.counts.thread = thread;
     table_.end(moved[i]);
+    if (confirms) table_.make_room(record);
     if (confirms && is_large(work, moved.size(), settings.threads)) {
       record.counts.in_ranges = true;
       const std::lock_guard lock(mutex);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/base/text.h"
 #include "engine/base/timer.h"
 #include "engine/bodies.h"
 #include "engine/step.h"
@@ -25,7 +26,7 @@ Settings checked(Settings settings) {
   if (settings.threads < 0 || settings.threads > 1024)
     refuse("threads is " + std::to_string(settings.threads) + ", not 0 to 1024");
   if (!(settings.gjk_tolerance >= 1e-15 && settings.gjk_tolerance <= 0.1)) {
-    refuse("gjk_tolerance is " + std::to_string(settings.gjk_tolerance) + ", not 1e-15 to 0.1");
+    refuse("gjk_tolerance is " + base::text_of(settings.gjk_tolerance) + ", not 1e-15 to 0.1");
   }
   if (settings.iteration_limit < 1)
     refuse("iteration_limit is " + std::to_string(settings.iteration_limit) + ", not at least 1");
@@ -109,7 +110,7 @@ BodyId World::add_body(const BodyDefinition& definition) {
 
 void World::remove_body(BodyId body) { implementation().bodies.remove(body); }
 
-void World::set_positions(BodyId body, const Eigen::Ref<const Eigen::Matrix3Xd>& positions) {
+void World::set_positions(BodyId body, const Positions& positions) {
   Implementation& i = implementation();
   i.set_positions([&] { i.bodies.set_positions(body, positions, i.settings.threads); });
 }

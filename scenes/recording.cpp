@@ -30,11 +30,11 @@ void put_body(std::ostream& out, BodyId body) {
 }
 
 // Column by column: the caller's columns need not follow each other.
-template <class Matrix>
-void put_columns(std::ostream& out, const Matrix& columns) {
-  constexpr auto kSize = static_cast<std::streamsize>(3 * sizeof(typename Matrix::Scalar));
+template <class Scalar>
+void put_columns(std::ostream& out, const Columns<Scalar>& columns) {
+  constexpr auto kSize = static_cast<std::streamsize>(3 * sizeof(Scalar));
   for (Eigen::Index i = 0; i < columns.cols(); ++i) {
-    out.write(reinterpret_cast<const char*>(columns.col(i).data()), kSize);
+    out.write(reinterpret_cast<const char*>(columns.data() + i * columns.stride()), kSize);
   }
 }
 
@@ -111,7 +111,7 @@ void RecordedWorld::remove_body(BodyId body) {
   });
 }
 
-void RecordedWorld::set_positions(BodyId body, const Eigen::Ref<const Eigen::Matrix3Xd>& positions) {
+void RecordedWorld::set_positions(BodyId body, const Positions& positions) {
   world_.set_positions(body, positions);
   record([&](std::ostream& out) { put_positions(out, std::array{PositionsUpdate{body, positions}}); });
 }

@@ -240,11 +240,15 @@ std::vector<Mesh> crowd_and_sheet() {
   return bodies;
 }
 
-// Which of two threads looks at which pair is not the same in every step: until each has had the largest may take a
-// while. What a step always takes shows in every round.
+// On one thread nothing may be taken once the first rounds are over. Which of two threads looks at which pair is not the
+// same in every step: until each has had the largest may take a while; what a step always takes shows in every round.
 long fewest_allocations(Round& round, int threads) {
+  if (threads == 1) {
+    for (int repeat = 0; repeat < 5; ++repeat) round.allocations_in_a_round();
+    return round.allocations_in_a_round() + round.allocations_in_a_round() + round.allocations_in_a_round();
+  }
   long fewest = std::numeric_limits<long>::max();
-  for (int repeat = 0; repeat < (threads == 1 ? 5 : 100) && fewest > 0; ++repeat) {
+  for (int repeat = 0; repeat < 100 && fewest > 0; ++repeat) {
     fewest = std::min(fewest, round.allocations_in_a_round());
   }
   return fewest;
@@ -284,7 +288,7 @@ TEST(Allocation, SteadyStepsWithTreesTakeOnlyEmbrees) {
   EXPECT_EQ(round.world.detect().stats().tree_pairs, 1);
   const auto trees = static_cast<long>(round.frames.size()) * 2;  // of up to 512 clusters, of which a sheet has 1250
   EXPECT_GT(taken, 0);
-  EXPECT_LE(taken, 2 * trees);
+  EXPECT_LE(taken, 3 * 2 * trees);  // in three rounds
 }
 
 TEST(Allocation, SteadyBatchesTakeNone) {

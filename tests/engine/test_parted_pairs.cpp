@@ -54,7 +54,8 @@ TEST(PartedPairs, ComeIntoContactFromTheDiagonalThatPartedThem) {
   FAIL() << "the balls never touched";
 }
 
-// A body that nothing is near does not look how far it reaches; what it knew is of no use when it has moved on.
+// A body that nothing is near does not look how far it reaches; what it knew is of no use when it has moved on, and it
+// looks again when a pair wants to know.
 TEST(PartedPairs, WhatABodyKnewIsForgottenWhenItMoves) {
   World world;
   add_ball(world, 0, 0, 0);
@@ -64,16 +65,37 @@ TEST(PartedPairs, WhatABodyKnewIsForgottenWhenItMoves) {
   EXPECT_EQ(world.detect().stats().candidate_pairs, 0);
   world.set_positions(b, ball_at(1.5, 0, 0));
   EXPECT_EQ(world.detect().stats().contacts, 1);
-  world.set_positions(b, ball_at(50, 50, 0));
-  world.detect();
-  world.set_positions(b, ball_at(60, 50, 0));
-  world.detect();
+  for (const double x : {50.0, 60.0}) {
+    world.set_positions(b, ball_at(x, 50, 0));
+    world.detect();
+  }
   world.set_positions(b, ball_at(1.6, 1.6, 0));
-  const StepStats& unknown = world.detect().stats();
-  EXPECT_EQ(unknown.parted_pairs, 0);
-  EXPECT_EQ(unknown.separated_pairs, 1);
-  world.set_positions(b, ball_at(1.61, 1.6, 0));
   EXPECT_EQ(world.detect().stats().parted_pairs, 1);
+}
+
+// Whether a body looks how far it reaches hangs on all its pairs; what is found of one does not.
+TEST(PartedPairs, AnswerAsIfTheyWereAlone) {
+  World alone, among_others;
+  std::array<BodyId, 2> moving;
+  for (World* world : {&alone, &among_others}) {
+    add_ball(*world, 0, 0, 0);
+    moving[world == &alone ? 0 : 1] = add_ball(*world, 50, 50, 0);
+  }
+  for (const double x : {48.4, 51.6}) add_ball(among_others, x, 48.4, 0);  // which the ball is apart from
+  for (const double x : {50.0, 50.01, 1.6, 1.59, 1.45, 1.42, 1.41, 1.4}) {
+    alone.set_positions(moving[0], ball_at(x, x, 0));
+    among_others.set_positions(moving[1], ball_at(x, x, 0));
+    const Report &expected = alone.detect(), &report = among_others.detect();
+    if (x > 2) continue;
+    ASSERT_EQ(report.stats().parted_pairs, expected.stats().parted_pairs) << x;
+    ASSERT_EQ(report.contacts().size(), expected.contacts().size()) << x;
+    for (std::size_t i = 0; i < expected.contacts().size(); ++i) {
+      EXPECT_EQ(report.contacts()[i].direction, expected.contacts()[i].direction) << x;
+      EXPECT_EQ(report.contacts()[i].depth, expected.contacts()[i].depth) << x;
+      EXPECT_EQ(report.contacts()[i].source, expected.contacts()[i].source) << x;
+    }
+  }
+  EXPECT_EQ(alone.detect().contacts().size(), 1u);
 }
 
 TEST(PartedPairs, ABodyInTheSlotOfAnotherStartsAnew) {

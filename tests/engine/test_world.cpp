@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -402,7 +403,7 @@ TEST(World, NeverTestsTwoFixedBodies) {
   EXPECT_EQ(world.detect().candidate_pairs().size(), 2u);
 }
 
-// A row-major matrix is copied by Eigen, and a block of a larger one is read as it is.
+// A row-major matrix is copied, and a block of a larger one is read where it is.
 TEST(World, TakesRowMajorMatricesAndBlocks) {
   World world;
   const Mesh mesh = icosphere(1), other = translated(mesh, {1.2, 0.0, 0.0});
@@ -429,6 +430,74 @@ TEST(World, TakesPositionsWithGapsBetweenColumns) {
   EXPECT_TRUE(
       same_meeting_bodies(meeting_bodies_by_oracle(std::array{mesh, other}), meeting_bodies(world.detect(), ids)));
 }
+
+// What is no matrix of whole columns in the caller's memory is held by the update and its copies.
+TEST(World, UpdatesOutliveWhatTheyWereMadeFrom) {
+  World world;
+  const Mesh mesh = icosphere(1);
+  const std::array ids = {world.add_body(definition(mesh)), world.add_body(definition(mesh)),
+                          world.add_body(definition(mesh)), world.add_body(definition(mesh))};
+  std::vector<PositionsUpdate> updates;
+  std::vector<Mesh> expected;
+  const auto at = [&](double x) { return translated(mesh, {x, 0.0, 0.0}); };
+  {
+    const Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> rows = at(1.0).positions;
+    const Eigen::Matrix3Xf narrow = at(2.0).positions.cast<float>();
+    const Eigen::Matrix3Xd half = 0.5 * at(3.0).positions;
+    updates.push_back({ids[0], rows});
+    updates.push_back({ids[1], narrow});
+    updates.push_back({ids[2], 2.0 * half});
+    updates.push_back({ids[3], at(4.0).positions});
+    expected = {at(1.0), at(2.0), at(3.0), at(4.0)};
+    expected[1].positions = narrow.cast<double>();
+  }
+  const std::vector<PositionsUpdate> copies = updates;
+  updates.clear();
+  world.set_positions(copies);
+  EXPECT_TRUE(same_meeting_bodies(meeting_bodies_by_oracle(expected), meeting_bodies(world.detect(), ids)));
+}
+
+// What is looked at is not copied.
+TEST(World, LooksAtMatricesWhereTheyAre) {
+  Eigen::Matrix3Xd matrix = icosphere(1).positions;
+  Eigen::MatrixXd tall(5, 7);
+  EXPECT_EQ(Positions(matrix).data(), matrix.data());
+  EXPECT_EQ(Positions(Eigen::Ref<const Eigen::Matrix3Xd>(matrix)).data(), matrix.data());
+  EXPECT_EQ(Positions(Eigen::Map<Eigen::Matrix3Xd>(matrix.data(), 3, 4)).data(), matrix.data());
+  EXPECT_EQ(Positions(tall.middleRows(1, 3)).data(), tall.data() + 1);
+  EXPECT_EQ(Positions(tall.middleRows(1, 3)).stride(), 5);
+  const double* const data = matrix.data();
+  EXPECT_EQ(Positions(std::move(matrix)).data(), data);  // taken over
+}
+
+TEST_F(WorldOfThree, RefusesMatricesThatHaveVerticesAsRows) {
+  const Eigen::MatrixXd rows = left_mesh_.positions.transpose();
+  const Eigen::MatrixXi facet_rows = left_mesh_.facets.transpose();
+  const std::uint64_t before = hash();
+  const auto refuses = [](const auto& call, const char* who, const char* what) {
+    return throws_error(call, ErrorCode::wrong_size, {who, what});
+  };
+  EXPECT_TRUE(refuses([&] { world_.set_positions(left_, rows); }, "left", "positions is 162 x 3, not 3 x N"));
+  EXPECT_TRUE(refuses([&] { world_.add_body({.positions = rows, .facets = left_mesh_.facets, .name = "new"}); }, "new",
+                      "positions is 162 x 3, not 3 x N"));
+  EXPECT_TRUE(
+      refuses([&] { world_.add_body({.positions = left_mesh_.positions, .facets = facet_rows, .name = "new"}); }, "new",
+              "facets is 320 x 3, not 3 x N"));
+  EXPECT_EQ(hash(), before);
+}
+
+TEST_F(WorldOfThree, WritesNumbersThatCanBeRead) {
+  Mesh far = left_mesh_;
+  far.positions(1, 7) = -1e300;
+  EXPECT_TRUE(throws_error([&] { world_.set_positions(left_, far.positions); }, ErrorCode::position_out_of_range,
+                           {"vertex 7 has y = -1e+300, which"}));
+  EXPECT_TRUE(throws_error([&] { world_.set_settings({.gjk_tolerance = 1e-16}); }, ErrorCode::bad_settings,
+                           {"gjk_tolerance is 1e-16, not"}));
+}
+
+// A report shows what is the world's: it cannot be copied by mistake.
+static_assert(!std::is_copy_constructible_v<Report> && !std::is_copy_assignable_v<Report> &&
+              !std::is_move_constructible_v<Report>);
 
 }  // namespace
 }  // namespace tact::tests

@@ -101,7 +101,7 @@ BodyId RecordedWorld::add_body(const BodyDefinition& definition) {
 
 void RecordedWorld::remove_body(BodyId body) { recorded_.remove_body(body); }
 
-void RecordedWorld::set_positions(BodyId body, const Eigen::Ref<const Eigen::Matrix3Xd>& positions) {
+void RecordedWorld::set_positions(BodyId body, const Positions& positions) {
   recorded_.set_positions(body, positions);
   limit_length();
 }

@@ -26,7 +26,7 @@ class RecordedWorld {
   void set_settings(const Settings& settings);
   BodyId add_body(const BodyDefinition& definition);
   void remove_body(BodyId body);
-  void set_positions(BodyId body, const Eigen::Ref<const Eigen::Matrix3Xd>& positions);
+  void set_positions(BodyId body, const Positions& positions);
   void set_positions(std::span<const PositionsUpdate> updates);
   const Report& detect();
 

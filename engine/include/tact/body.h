@@ -1,7 +1,8 @@
 // A body: a triangle mesh with an identity.
 #pragma once
 
-#include <Eigen/Core>
+#include <tact/columns.h>
+
 #include <compare>
 #include <cstdint>
 #include <string>
@@ -31,11 +32,10 @@ inline constexpr double kLargestCoordinate = 0x1p300;
 
 // How to add a body. Only positions and facets are needed.
 struct BodyDefinition {
-  // 3 x V, metres. A row-major matrix, or one of another type than double, is copied by Eigen on the way in.
-  Eigen::Ref<const Eigen::Matrix3Xd> positions;
+  Positions positions;  // 3 x V, metres
   // 3 x F, indices of vertices. Any triangle soup is accepted: repeated vertices, facets without area, no facet at all.
   // A vertex that no facet uses does not count.
-  Eigen::Ref<const Eigen::Matrix3Xi> facets;
+  Facets facets;
   Surface surface = Surface::closed;
   Motion motion = Motion::moving;
   std::string name = {};             // for messages; empty: "body <index>"

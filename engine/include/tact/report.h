@@ -1,5 +1,6 @@
 // What a step found. A report and everything in it is valid until the world's next detect(), set_settings() or
-// destruction, and may be read by many threads at once.
+// destruction, and may be read by many threads at once. To keep something for longer, copy it: a Contact's numbers, and
+// what its facet_pairs() and patches() show by itself, as a copied Contact still points to the world's.
 #pragma once
 
 #include <tact/body.h>
@@ -25,7 +26,7 @@ enum class DirectionSource {
 // The disk around an impact zone, in the plane through `center` across the contact direction.
 struct ZoneDisk {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // metres
-  double radius = -1.0;                              // metres; negative: not asked for, or the zone has no point
+  double radius = -1.0;  // metres; negative: not asked for, or the zone has no point, or Accuracy::hulls
 };
 
 // A connected set of facet pairs: two that share a facet are neighbours.
@@ -36,7 +37,8 @@ struct Patch {
   std::vector<int> facet_pairs;  // indices into Contact::facet_pairs(), ascending
 };
 
-// Two bodies whose convex hulls overlap or touch.
+// Two bodies whose convex hulls overlap or touch. Their facets need not: where bodies are not convex, a ball in a bowl
+// say, ask touching() before they are pushed apart by `depth`, or ask for patches, which have depths of their own.
 struct Contact {
   BodyId a;  // a.index < b.index
   BodyId b;
@@ -55,9 +57,9 @@ struct Contact {
 
   // The facets that meet, sorted; empty at Accuracy::hulls.
   std::span<const FacetPair> facet_pairs() const { return facet_pairs_; }
-  // Does any facet of a meet one of b?
+  // Does any facet of a meet one of b? At Accuracy::hulls nobody looked: false.
   bool touching() const { return !facet_pairs_.empty(); }
-  // Filled if Outputs::patches is set; ordered by their first facet pair.
+  // Filled if Outputs::patches is set, but at Accuracy::hulls; ordered by their first facet pair.
   std::span<const Patch> patches() const { return patches_; }
 
  private:
@@ -83,13 +85,19 @@ struct ContactEvent {
 
 class TACT_API Report {
  public:
+  Report() = default;
+  Report(const Report&) = delete;  // what it shows is the world's: take a reference
+  Report& operator=(const Report&) = delete;
+
   // Pairs whose hulls overlap, sorted by (a, b).
   std::span<const Contact> contacts() const { return contacts_; }
   // Pairs whose boxes overlap, sorted by (a, b).
   std::span<const CandidatePair> candidate_pairs() const { return candidate_pairs_; }
-  // Pairs that touch now and did not in the last step, sorted by (a, b).
+  // Pairs that touch now and did not in the last step, sorted by (a, b). Of a step that starts afresh (see
+  // World::detect), all that touch. At Accuracy::hulls none touch.
   std::span<const ContactEvent> began() const { return began_; }
-  // Pairs that touched in the last step and do not now, or of which a body was removed, sorted by (a, b).
+  // Pairs that touched in the last step and do not now, or of which a body was removed, sorted by (a, b). Ask
+  // World::contains() before the ids are used: those of removed bodies are stale.
   std::span<const ContactEvent> ended() const { return ended_; }
   const StepStats& stats() const { return stats_; }
   // Filled if Outputs::trace is set; sorted by thread and time, an event before those within it.
@@ -101,6 +109,8 @@ class TACT_API Report {
 
  private:
   friend class Step;
+  Report(Report&&) = default;
+  Report& operator=(Report&&) = default;
   std::vector<Contact> contacts_;
   std::vector<CandidatePair> candidate_pairs_;
   std::vector<ContactEvent> began_;

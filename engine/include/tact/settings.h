@@ -5,7 +5,7 @@ namespace tact {
 
 // What a report promises of its pairs.
 enum class Accuracy {
-  hulls,  // do the convex hulls overlap, in which direction, how deep; no facets
+  hulls,  // do the convex hulls overlap, in which direction, how deep; no facets, so no zones, patches nor events
   paper,  // the paper's three criteria, then confirmation; may miss facet pairs on folds, spikes and clamped bodies
   exact,  // every facet pair that meets and no other
 };
@@ -24,7 +24,10 @@ struct Outputs {
 };
 
 struct Settings {
-  int threads = 0;  // 0: as many as OpenMP would use
+  // 0 to 1024; 0: as many as OpenMP would use, of which World::settings() then tells the number. They are OpenMP's,
+  // which by default keep spinning for a while after each step: in a program with busy threads of its own, set
+  // OMP_WAIT_POLICY=passive in its environment, or fewer threads here.
+  int threads = 0;
   Accuracy accuracy = Accuracy::exact;
   DirectionPolicy direction = DirectionPolicy::carried;
   double gjk_tolerance = 1e-12;  // relative gap at which GJK stops, 1e-15 to 0.1

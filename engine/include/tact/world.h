@@ -6,7 +6,6 @@
 #include <tact/report.h>
 #include <tact/settings.h>
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -15,10 +14,14 @@
 
 namespace tact {
 
-// New positions of one body, for World::set_positions of many.
+// New positions of one body, for World::set_positions of many:
+//
+//   std::vector<tact::PositionsUpdate> updates;
+//   for (Cloth& cloth : cloths) updates.push_back({cloth.body, cloth.positions});
+//   world.set_positions(updates);
 struct PositionsUpdate {
   BodyId body;
-  Eigen::Ref<const Eigen::Matrix3Xd> positions;  // 3 x V, metres
+  Positions positions;  // 3 x V, metres
 };
 
 // A set of bodies and the contacts among them.
@@ -29,9 +32,9 @@ struct PositionsUpdate {
 //   world.set_positions(a, new_positions);
 //   for (const tact::Contact& contact : world.detect().contacts()) ...
 //
-// Every function throws Error for data that it cannot take, and has then changed nothing. A world is used by one thread
-// at a time; different worlds may be used by different threads. The answers do not depend on the number of threads, nor
-// on the floating-point mode of the caller.
+// Every function throws Error for data that it cannot take, and has then changed nothing (for detect(), which takes
+// none, see there). A world is used by one thread at a time; different worlds may be used by different threads. The
+// answers do not depend on the number of threads, nor on the floating-point mode of the caller.
 class TACT_API World {
  public:
   // Errors: bad_settings.
@@ -49,7 +52,7 @@ class TACT_API World {
 
   // Copies the mesh and groups its facets into clusters, which is costly. detect() does that again for a body whose
   // facets have changed places so much that their groups have lost their shape (StepStats::regrouped_bodies).
-  // Errors: non_finite_position, position_out_of_range, facet_out_of_range, too_large, out_of_memory.
+  // Errors: wrong_size, non_finite_position, position_out_of_range, facet_out_of_range, too_large, out_of_memory.
   BodyId add_body(const BodyDefinition& definition);
   // Errors: stale_body, foreign_body.
   void remove_body(BodyId body);
@@ -57,12 +60,13 @@ class TACT_API World {
   // Copies the new positions of a body, 3 x V in metres, V as when it was added. A body whose coordinates are all equal
   // to the old ones has not moved. Errors: stale_body, foreign_body, fixed_body, wrong_size, non_finite_position,
   // position_out_of_range, out_of_memory.
-  void set_positions(BodyId body, const Eigen::Ref<const Eigen::Matrix3Xd>& positions);
+  void set_positions(BodyId body, const Positions& positions);
   // The same for many bodies, in parallel; all or none. A body must not be named twice (wrong_order).
   void set_positions(std::span<const PositionsUpdate> updates);
 
   // One step: finds the contacts of the positions as they are now. Never throws for what positions can hold.
-  // Errors: out_of_memory, backend_failure; the next call starts afresh.
+  // Errors: out_of_memory, backend_failure. Bodies and positions are then as they were, but the next call starts
+  // afresh: it knows of no step before, so directions are not carried on, and all pairs that touch have begun to.
   const Report& detect();
 
   // Does `body` name a body of this world? Never throws.

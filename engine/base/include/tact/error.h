@@ -16,7 +16,7 @@ enum class ErrorCode {
   non_finite_position,    // a coordinate is NaN or infinite
   position_out_of_range,  // a coordinate is larger than kLargestCoordinate in size
   facet_out_of_range,     // a facet names a vertex that the body does not have
-  wrong_size,             // the number of positions differs from the body's number of vertices
+  wrong_size,             // a matrix is not 3 x N, or the number of positions is not the body's of vertices
   too_large,              // more vertices, facets or bodies than 32-bit indices can number
   stale_body,             // the id is of a body that was removed, or was never given out
   foreign_body,           // the id was given out by another world
