@@ -11,7 +11,6 @@ std::vector<RivalKind> all_rivals() {
       {"FCL, AABB", make_fcl_aabb},
       {"Bullet, GImpact", make_bullet_gimpact},
       {"Embree, a scene a body, plain", make_embree_scene_a_body_plain, false},
-      {"CGAL, boxes, plain", make_cgal_boxes_plain, false},
       {"CGAL, clipped boxes, plain", make_cgal_clipped_plain, false},
       {"FCL, OBBRSS", make_fcl_obbrss, false},  // its boxes are not rounded outward: a few pairs are lost
       {"FCL, own triangle test", make_fcl_own_test, false},

@@ -51,7 +51,6 @@ std::unique_ptr<Rival> make_embree_scene_a_body_plain(const Workload& workload, 
 std::unique_ptr<Rival> make_embree_one_scene(const Workload& workload, int threads);
 std::unique_ptr<Rival> make_cgal_boxes(const Workload& workload, int threads);
 std::unique_ptr<Rival> make_cgal_clipped(const Workload& workload, int threads);
-std::unique_ptr<Rival> make_cgal_boxes_plain(const Workload& workload, int threads);
 std::unique_ptr<Rival> make_cgal_clipped_plain(const Workload& workload, int threads);
 std::unique_ptr<Rival> make_fcl_aabb(const Workload& workload, int threads);
 std::unique_ptr<Rival> make_fcl_obbrss(const Workload& workload, int threads);

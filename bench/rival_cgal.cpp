@@ -173,10 +173,6 @@ std::unique_ptr<Rival> make_cgal_clipped(const Workload& workload, int threads) 
   return std::make_unique<Cgal>(workload, threads, Clipping::on, TriangleTest::exact);
 }
 
-std::unique_ptr<Rival> make_cgal_boxes_plain(const Workload& workload, int threads) {
-  return std::make_unique<Cgal>(workload, threads, Clipping::off, TriangleTest::plain);
-}
-
 std::unique_ptr<Rival> make_cgal_clipped_plain(const Workload& workload, int threads) {
   return std::make_unique<Cgal>(workload, threads, Clipping::on, TriangleTest::plain);
 }

@@ -118,6 +118,7 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   make_room(changed_, slots);
   make_room(free_, slots);
   make_room(loose_, slots);
+  make_room(unknown_, slots);
   if (slot < slots_.size()) free_.pop_back();
   on_all([&](auto& vector) { vector.resize(slots); });
   body->id = {slot, ++slots_[slot].generation, world_};
@@ -346,6 +347,7 @@ void Bodies::end_step() {
 }
 
 void Bodies::mark_all_changed() {
+  unknown_.clear();
   for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) mark_changed(slot);
   moved_vertices_ = vertices_;
 }

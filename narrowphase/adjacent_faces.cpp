@@ -32,6 +32,7 @@ std::optional<Vec3> AdjacentFaces::lowest(const SupportedFace& face, double near
   };
   lowest_height_ = face.height - tolerance_;
   lowest_.reset();
+  limit_reached_ = false;
   std::array<Vec3, kNearCorners> corners;
   std::size_t count = 0;
   if (sides == 1) corners[count++] = in_space(polygon.corner[0]);
@@ -46,6 +47,7 @@ std::optional<Vec3> AdjacentFaces::lowest(const SupportedFace& face, double near
     }
   }
   for (std::size_t k = 0; k < count && !lowest_; ++k) go_around(face, corners[k]);
+  limit_reached_ = limit_reached_ && !lowest_;
   return lowest_;
 }
 

@@ -134,7 +134,7 @@ class Search {
     shift_ = std::max(kShrink * shift_, kSmallestShift);
     const GjkResult nearest = gjk(m_, shifted, best_.face.count > 0 ? best_.face : around_, settings_.gjk);
     best_.support_queries += nearest.support_queries;
-    best_.limit_reached = best_.limit_reached || nearest.status == GjkStatus::limit_reached;
+    best_.limit_reached = best_.limit_reached || !nearest.closed;
     best_.face = nearest.simplex;
     const Vec3 between = nearest.distance > 0.0 ? (-1.0 / nearest.distance) * nearest.offset : n;
     const std::optional<Vec3> normal = face_normal(m_, nearest.simplex, between);

@@ -21,7 +21,7 @@ Criteria make_criteria(const Slab& slab, Vec3 outward, double plane, const Impac
                     .other_zone = {}};
   if (other_zone != nullptr) {
     // In a unit, a power of two, in which the slab's error is about 1 and no square vanishes nor overflows.
-    const double scale = std::ldexp(1.0, std::clamp(-std::ilogb(slab.error), -1000, 1000));
+    const double scale = std::ldexp(1.0, -std::clamp(std::ilogb(slab.error), -1000, 1000));
     const Disk& disk = other_zone->disk;
     const double radius = disk.radius >= 0.0 ? disk.radius + (other_zone->error + 2.0 * slab.error) : disk.radius;
     criteria.u = scale * slab.u;

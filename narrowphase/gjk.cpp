@@ -29,7 +29,8 @@ class Search {
     const double rounding = kRoundingGap * m_.size();
     while (!inside_ && result_.support_queries < settings.query_limit) {
       result_.distance = norm(closest_.point);
-      if (result_.distance <= rounding) break;
+      closed_ = result_.distance <= rounding;
+      if (closed_) break;
       const Vec3 toward = (-1.0 / result_.distance) * closest_.point;
       const MinkowskiVertex next = m_.support(toward, last_);
       last_ = next;

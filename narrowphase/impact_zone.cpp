@@ -19,9 +19,8 @@ namespace tact::narrowphase {
 //   in the true slab, wider than the given one by e, lies in the part with L <= h(t) <= U. That part ends at p, at q or
 //   at t = (L - h(p)) / (h(q) - h(p)), likewise for U.
 //
-// - A facet's part of the slab is the hull of its edges' parts. So the true zone lies in the hull of the real
-// projections
-//   of such ends, and it is enough that each of them is near a point of the disk.
+// - A facet's part of the slab is the hull of its edges' parts. So the true zone lies in the hull of the projections of
+//   such ends, in real arithmetic, and it is enough that each of them is near a point of the disk.
 //
 // - h(p) and h(q) being exact here, t has three roundings (two differences, one quotient), each relative to its result:
 //   the computed t is off by at most 3.1 u, u = 2^-53, for t <= 1, however close h(p) and h(q) are. Where they are

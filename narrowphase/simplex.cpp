@@ -1,6 +1,7 @@
 #include "narrowphase/simplex.h"
 
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace tact::narrowphase {
@@ -11,6 +12,7 @@ namespace {
 __extension__ typedef __float128 Quad;
 #else
 typedef long double Quad;
+static_assert(std::numeric_limits<Quad>::digits > 110, "twice the digits of a double, and some");
 #endif
 
 template <class Scalar>

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
 #include "scenes/file_error.h"
 
@@ -18,7 +19,8 @@ namespace fs = std::filesystem;
 bool replaceable(const std::string& path) {
   std::error_code ignored;
   const fs::file_type type = fs::symlink_status(path, ignored).type();
-  return type == fs::file_type::not_found || (type == fs::file_type::regular && access(path.c_str(), W_OK) == 0);
+  return type == fs::file_type::not_found ||
+         (type == fs::file_type::regular && access(path.c_str(), W_OK) == 0 && fs::hard_link_count(path, ignored) == 1);
 }
 
 }  // namespace
@@ -54,7 +56,12 @@ void OutputFile::finish() {
   if (part_.empty()) return;
   std::error_code error;
   fs::rename(part_, name_, error);
-  if (error) throw FileError(fmt::format("{}: cannot be written: {}", name_, error.message()));
+  if (error && !fs::copy_file(part_, name_, fs::copy_options::overwrite_existing, error)) {
+    const std::string part = std::exchange(part_, {}).string();  // stays: it is all that there is
+    throw FileError(
+        fmt::format("{}: cannot be written: {}; what was to be in it is in {}", name_, error.message(), part));
+  }
+  if (!error) fs::remove(part_, error);
   part_.clear();
 }
 

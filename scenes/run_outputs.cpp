@@ -29,7 +29,7 @@ RunOutputs::RunOutputs(const OutputOptions& options, const std::string& title, c
     json_file_.emplace(options.json, out);
     json_.emplace(json_file_->stream(), world);
   }
-  if (!options.contacts.empty()) contacts_.emplace(options.contacts, out);
+  if (!options.contacts.empty()) contacts_.emplace(options.contacts, out, Appears::at_once);
   if (!options.trace.empty()) {
     trace_file_.emplace(options.trace, out);
     trace_.emplace(trace_file_->stream(), title, threads);

@@ -45,7 +45,7 @@ inline WideVector difference(const VectorPack& a, const VectorPack& b) {
   return {difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z)};
 }
 
-// As Plane, for points on a lattice (see are_on_lattice): nothing is rounded.
+// As Plane, for points on a lattice (see Lattice): nothing is rounded.
 struct ExactPlane {
   static constexpr bool kRounds = false;
   VectorPack origin, normal;

@@ -7,7 +7,8 @@ struct VectorPack {
 inline VectorPack sub(const VectorPack& a, const VectorPack& b) { return {sub(a.x, b.x), sub(a.y, b.y), sub(a.z, b.z)}; }
 inline VectorPack spread(const double* p) { return {spread(p[0]), spread(p[1]), spread(p[2])}; }
 
-// A determinant as computed, a bound of its rounding, and the sum of the sizes of its products. If that is zero, each
+// A determinant as computed, a bound of its rounding, and the sum of the sizes of its products, or, where nothing was
+// rounded, its own size. If that is zero, each
 // product has a factor that is zero, and was so before rounding: then the determinant is zero (see nothing_vanishes).
 struct Determinant {
   Pack value, error, size;

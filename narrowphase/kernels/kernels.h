@@ -119,8 +119,8 @@ inline constexpr int kMostSorted = 128;
 struct PairMatches {
   std::uint64_t meeting = 0;    // certainly
   std::uint64_t undecided = 0;  // for exact predicates
-  std::uint64_t flat = 0;       // of those undecided: the facet of `a` certainly lies in the plane of the facet of `b`
-  bool on_lattice = false;      // coordinates are such that nothing was rounded
+  std::uint64_t flat = 0;       // the facet of `a` certainly lies in the plane of the facet of `b`, if that has one
+  bool on_lattice = false;      // match_pairs: coordinates are such that nothing was rounded
 };
 
 // Vertices of a cluster to be refreshed. Coordinates of source vertex s are source[3 s], source[3 s + 1], source[3 s +

@@ -6,6 +6,8 @@
 namespace tact::narrowphase {
 namespace {
 
+static_assert(__FLT_EVAL_METHOD__ == 0, "an operation in double has to be rounded to double");
+
 constexpr unsigned kAllLanes = (1u << kWidth) - 1u;
 
 inline unsigned lanes_left(int left) { return left >= kWidth ? kAllLanes : (1u << left) - 1u; }

@@ -436,7 +436,8 @@ TEST(World, UpdatesOutliveWhatTheyWereMadeFrom) {
   World world;
   const Mesh mesh = icosphere(1);
   const std::array ids = {world.add_body(definition(mesh)), world.add_body(definition(mesh)),
-                          world.add_body(definition(mesh)), world.add_body(definition(mesh))};
+                          world.add_body(definition(mesh)), world.add_body(definition(mesh)),
+                          world.add_body(definition(mesh))};
   std::vector<PositionsUpdate> updates;
   std::vector<Mesh> expected;
   const auto at = [&](double x) { return translated(mesh, {x, 0.0, 0.0}); };
@@ -448,7 +449,9 @@ TEST(World, UpdatesOutliveWhatTheyWereMadeFrom) {
     updates.push_back({ids[1], narrow});
     updates.push_back({ids[2], 2.0 * half});
     updates.push_back({ids[3], at(4.0).positions});
-    expected = {at(1.0), at(2.0), at(3.0), at(4.0)};
+    updates.push_back({ids[4], Eigen::Ref<const Eigen::Matrix3Xd>(2.0 * at(2.5).positions.array() - 5.0)});
+    expected = {at(1.0), at(2.0), at(3.0), at(4.0), at(2.5)};
+    expected[4].positions = 2.0 * expected[4].positions.array() - 5.0;
     expected[1].positions = narrow.cast<double>();
   }
   const std::vector<PositionsUpdate> copies = updates;
@@ -457,12 +460,28 @@ TEST(World, UpdatesOutliveWhatTheyWereMadeFrom) {
   EXPECT_TRUE(same_meeting_bodies(meeting_bodies_by_oracle(expected), meeting_bodies(world.detect(), ids)));
 }
 
+// Classes derived from a matrix, whole numbers, vectors and nothing at all.
+TEST(World, TakesWhateverIsAMatrix) {
+  struct Points : Eigen::Matrix3Xd {
+    using Eigen::Matrix3Xd::Matrix3Xd;
+  };
+  Points points(3, 4);
+  points << 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1;
+  EXPECT_EQ(Positions(points).data(), points.data());
+  const Eigen::Matrix<int, 3, 4> whole = points.cast<int>();
+  const Positions positions = whole;
+  EXPECT_TRUE((Eigen::Map<const Eigen::Matrix3Xd>(positions.data(), 3, 4) == points));
+  EXPECT_EQ(Positions(Eigen::Vector3d(1, 2, 3)).cols(), 1);
+  EXPECT_EQ(Positions(Eigen::Matrix3Xd()).cols(), 0);
+}
+
 // What is looked at is not copied.
 TEST(World, LooksAtMatricesWhereTheyAre) {
   Eigen::Matrix3Xd matrix = icosphere(1).positions;
   Eigen::MatrixXd tall(5, 7);
   EXPECT_EQ(Positions(matrix).data(), matrix.data());
-  EXPECT_EQ(Positions(Eigen::Ref<const Eigen::Matrix3Xd>(matrix)).data(), matrix.data());
+  const Eigen::Ref<const Eigen::Matrix3Xd> ref = matrix;
+  EXPECT_EQ(Positions(ref).data(), matrix.data());
   EXPECT_EQ(Positions(Eigen::Map<Eigen::Matrix3Xd>(matrix.data(), 3, 4)).data(), matrix.data());
   EXPECT_EQ(Positions(tall.middleRows(1, 3)).data(), tall.data() + 1);
   EXPECT_EQ(Positions(tall.middleRows(1, 3)).stride(), 5);
