@@ -87,8 +87,7 @@ bool AdjacentFaces::go_around(const SupportedFace& face, Vec3 corner, Way way) {
     try_direction(n, face.top);
     if (!(dot(n, face.n) > 0.0)) return false;
   }
-  limit_reached_ = true;
-  return false;
+  return false;  // around needles rounding may lead in circles that miss the first face: what is there was looked at
 }
 
 void AdjacentFaces::try_direction(Vec3 n, const MinkowskiVertex& near) {

@@ -28,7 +28,7 @@ class AdjacentFaces {
   std::optional<Vec3> lowest(const SupportedFace& face, double near);
 
   int support_queries() const { return support_queries_; }
-  // Did lowest() find nothing, but left corners out, or faces around one?
+  // Did lowest() find nothing, but left corners out?
   bool limit_reached() const { return limit_reached_; }
 
  private:
