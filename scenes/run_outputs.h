@@ -34,8 +34,9 @@ struct OutputOptions {
 // The bodies that no picture shows are not in the files for other programs either.
 class RunOutputs {
  public:
-  // Opens all files and makes the folders, so that a run does not begin for which one of them cannot be. `scene`
-  // without its bodies; `title` is its name. Errors: FileError; std::runtime_error if the font is missing.
+  // Opens reports, contacts, trace and animation and makes the folders, so that a run does not begin for which one of
+  // them cannot be. `scene` without its bodies; `title` is its name. Errors: FileError; std::runtime_error if the font
+  // is missing.
   RunOutputs(const OutputOptions& options, const std::string& title, const Scene& scene, const World& world,
              int threads, std::ostream& out);
 

@@ -240,8 +240,9 @@ std::vector<Mesh> crowd_and_sheet() {
   return bodies;
 }
 
-// On one thread nothing may be taken once the first rounds are over. Which of two threads looks at which pair is not the
-// same in every step: until each has had the largest may take a while; what a step always takes shows in every round.
+// On one thread nothing may be taken once the first rounds are over. Which of two threads looks at which pair is not
+// the same in every step: until each has had the largest may take a while; what a step always takes shows in every
+// round.
 long fewest_allocations(Round& round, int threads) {
   if (threads == 1) {
     for (int repeat = 0; repeat < 5; ++repeat) round.allocations_in_a_round();
