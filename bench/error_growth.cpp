@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/error_measure.h"
 #include "bench/measure.h"
 #include "bench/table.h"
 #include "bench/tact_runner.h"
@@ -30,11 +31,6 @@ struct PairTimes {
   double cull = 0.0;
   double stages() const { return hulls + direction + cull; }
 };
-
-int frame_of_step(int step, int frames) {
-  const int place = step % (2 * frames - 2);
-  return place < frames ? place : 2 * frames - 2 - place;
-}
 
 PairTimes measure_pair(const Workload& workload, Accuracy accuracy, int steps) {
   TactRunner runner(workload, {.threads = 1, .accuracy = accuracy});
@@ -157,24 +153,33 @@ void print_growth(const BenchOptions& options) {
       "a time\n");
   Table table({"facets", "hulls", "direction", "exact: criteria", "exact: stages 3-5", "paper: zones, criteria",
                "paper: stages 3-5", "plain scan", "scan", "exact / plain", "exact / scan", "paper / scan"});
-  std::vector<double> facets, exact, paper, plain_scan, scan;
   for (const GrowthRow& row : rows) {
     table.add({fmt::format("{:.0f}", row.facets), three_digits(row.exact.hulls), three_digits(row.exact.direction),
                three_digits(row.exact.cull), three_digits(row.exact.stages()), three_digits(row.paper.cull),
                three_digits(row.paper.stages()), three_digits(row.plain_scan), three_digits(row.scan),
                three_digits(row.exact.stages() / row.plain_scan), three_digits(row.exact.stages() / row.scan),
                three_digits(row.paper.stages() / row.scan)});
-    facets.push_back(row.facets);
-    exact.push_back(row.exact.stages());
-    paper.push_back(row.paper.stages());
-    plain_scan.push_back(row.plain_scan);
-    scan.push_back(row.scan);
   }
-  const auto exponent = [&](const std::vector<double>& times) {
-    return fmt::format("{:.2f}", fitted_exponent(facets, times));
-  };
-  table.add(
-      {"exponent", "", "", "", exponent(exact), "", exponent(paper), exponent(plain_scan), exponent(scan), "", "", ""});
+  // Over the whole range, which begins with the fixed cost of a pair, and over its last part, where bodies leave
+  // caches.
+  for (const std::size_t first : {std::size_t{0}, rows.size() - 2}) {
+    const auto exponent = [&](const auto& time) {
+      std::vector<double> facets, times;
+      for (std::size_t i = first; i < rows.size(); ++i) {
+        facets.push_back(rows[i].facets);
+        times.push_back(time(rows[i]));
+      }
+      return fmt::format("{:.2f}", fitted_exponent(facets, times));
+    };
+    table.add({first == 0 ? "exponent" : "of the last two", exponent([](const auto& row) { return row.exact.hulls; }),
+               exponent([](const auto& row) { return row.exact.direction; }),
+               exponent([](const auto& row) { return row.exact.cull; }),
+               exponent([](const auto& row) { return row.exact.stages(); }),
+               exponent([](const auto& row) { return row.paper.cull; }),
+               exponent([](const auto& row) { return row.paper.stages(); }),
+               exponent([](const auto& row) { return row.plain_scan; }),
+               exponent([](const auto& row) { return row.scan; }), "", "", ""});
+  }
   table.print();
   if (options.out.empty()) return;
   table.write_csv(options.out / "growth.csv");

@@ -60,14 +60,17 @@ void HullErrors::summarize(ErrorResult& result) const {
   result.median_direction_error = median(direction_);
 }
 
+int frame_of_step(int step, int frames) {
+  const int place = step % steps_there_and_back(frames);
+  return place < frames ? place : steps_there_and_back(frames) - place;
+}
+
 double median_step_time(const std::function<void(int)>& step, int frames, double seconds) {
   std::vector<double> times;
   double spent = 0.0;
   for (int i = 0; spent < 1e3 * seconds || i < 4 * frames; ++i) {
-    const int place = i % (2 * frames - 2);
-    const int frame = place < frames ? place : 2 * frames - 2 - place;
     base::Timer timer;
-    step(frame);
+    step(frame_of_step(i, frames));
     times.push_back(timer.lap());
     spent += times.back();
   }
@@ -78,7 +81,8 @@ ErrorResult judge(const HullRow& row, const HullMethodKind& kind) {
   ErrorResult result{.row = row.name, .library = kind.library, .setting = kind.setting, .minimum = kind.minimum};
   HullErrors errors;
   const std::unique_ptr<HullMethod> method = kind.make(row);
-  for (int frame = 0; frame < row.frames; ++frame) {
+  for (int step = 0; step < steps_there_and_back(row.frames); ++step) {
+    const int frame = frame_of_step(step, row.frames);
     method->step(frame);
     for (std::size_t i = 0; i < row.pairs.size(); ++i) {
       const HullPair& pair = row.pairs[i];

@@ -40,11 +40,15 @@ class HullErrors {
   std::vector<double> depth_, direction_;
 };
 
+// The frame of a step, where frames are played there and back again, and the steps until they begin anew.
+int frame_of_step(int step, int frames);
+inline int steps_there_and_back(int frames) { return 2 * frames - 2; }
+
 // The median time of a step in microseconds: `step(frame)` is called for the frames there and back again for about
 // `seconds`, at least twice.
 double median_step_time(const std::function<void(int)>& step, int frames, double seconds);
 
-// All answers of a method for all frames of a row, given one after the other.
+// All answers of a method for all frames of a row, there and back again.
 ErrorResult judge(const HullRow& row, const HullMethodKind& kind);
 // The median time of a pair in microseconds.
 double measure(const HullRow& row, const HullMethodKind& kind, double seconds);

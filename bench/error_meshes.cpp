@@ -115,7 +115,7 @@ std::vector<MeshMethodKind> mesh_methods() {
   std::vector<MeshMethodKind> kinds;
   for (const Accuracy accuracy : {Accuracy::hulls, Accuracy::paper, Accuracy::exact}) {
     for (const DirectionPolicy policy : {DirectionPolicy::carried, DirectionPolicy::smallest}) {
-      for (const double tolerance : {1e-2, 1e-6, 1e-12}) {
+      for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14}) {
         const bool carried = policy == DirectionPolicy::carried;
         const Settings settings{.threads = 1, .accuracy = accuracy, .direction = policy, .gjk_tolerance = tolerance};
         kinds.push_back(
@@ -141,7 +141,8 @@ ErrorResult judge(const MeshRow& row, const MeshMethodKind& kind) {
   HullErrors errors;
   const std::unique_ptr<Rival> method = kind.make(row.workload);
   const auto* hulls = dynamic_cast<const HullRival*>(method.get());
-  for (int frame = 0; frame < row.workload.frames; ++frame) {
+  for (int step = 0; step < steps_there_and_back(row.workload.frames); ++step) {
+    const int frame = frame_of_step(step, row.workload.frames);
     method->step(frame);
     const auto at = static_cast<std::size_t>(frame);
     if (kind.pairs) {

@@ -31,20 +31,6 @@ bool as_accurate(const ErrorResult& rival, const ErrorResult& tact, Question que
          *rival.direction_error <= std::max(*tact.direction_error, kDirectionPromise);
 }
 
-void print_verdict(const ErrorTable& table, const std::string& setting) {
-  const auto tact =
-      std::ranges::find_if(table.results, [&](const auto& r) { return r.library == "tact" && r.setting == setting; });
-  if (tact == table.results.end()) return;
-  bool any = false;
-  for (const ErrorResult& r : table.results) {
-    if (r.library == "tact" || r.microseconds >= tact->microseconds || !as_accurate(r, *tact, table.question)) continue;
-    fmt::print("  {} {} is as accurate as tact ({}) and {} times as fast.\n", r.library, r.setting, setting,
-               three_digits(tact->microseconds / r.microseconds));
-    any = true;
-  }
-  if (!any) fmt::print("  No rival is as accurate as tact ({}) and faster.\n", setting);
-}
-
 double drawn_error(const ErrorResult& r, Question question) {
   if (question == Question::facet_pairs) {
     return std::max(kLeastShareDrawn, static_cast<double>(r.missed + r.wrong) / std::max(1, r.questions));
@@ -81,12 +67,17 @@ void print(const ErrorTable& table) {
 }
 
 void print_verdict(const ErrorTable& table) {
-  if (table.question == Question::hulls) {
-    print_verdict(table, "smallest, 1e-12");
-    print_verdict(table, "carried, 1e-12");
-  } else {
-    print_verdict(table, "exact, carried, 1e-12");
+  bool any = false;
+  for (const ErrorResult& tact : table.results) {
+    if (tact.library != "tact" || !is_drawn(tact, table.question)) continue;
+    for (const ErrorResult& r : table.results) {
+      if (r.library == "tact" || r.microseconds >= tact.microseconds || !as_accurate(r, tact, table.question)) continue;
+      fmt::print("  {} {} is as accurate as tact ({}) and {} times as fast.\n", r.library, r.setting, tact.setting,
+                 three_digits(tact.microseconds / r.microseconds));
+      any = true;
+    }
   }
+  if (!any) fmt::print("  No rival is as accurate as any setting of tact and faster.\n");
   fmt::print("\n");
 }
 
