@@ -4,7 +4,6 @@
 #include <bit>
 
 #include "engine/base/fast_paths.h"
-#include "narrowphase/triangle_triangle.h"
 
 namespace tact::narrowphase {
 
@@ -37,29 +36,6 @@ bool worth_looking_for_near_facets(int facets) {
 int worth_a_plane() {
   if (fast_paths() == FastPaths::automatic) return kWorthAPlane;
   return fast_paths() == FastPaths::always ? 1 : FacetBlock::kCapacity + 1;
-}
-
-Triangle triangle_in(const FacetBlock& block, std::size_t i) {
-  Triangle t;
-  for (std::size_t k = 0; k < 3; ++k) t[k] = {block.corner[k][0][i], block.corner[k][1][i], block.corner[k][2][i]};
-  return t;
-}
-
-// What can be told of many pairs at once: in doubles; of those that these leave open by equal corners, then within a
-// common plane or with twice the digits.
-PairMatches matches_of(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, const BoxBounds& bounds) {
-  if (fast_paths() == FastPaths::off)
-    return {.undecided = pairs.count == 0 ? 0 : ~std::uint64_t{0} >> (FacetPairList::kCapacity - pairs.count)};
-  const PairMatches matches = kernels().match_pairs(a, b, pairs, bounds);
-  if (matches.undecided == 0) return matches;
-  const std::uint64_t sharing = matches.on_lattice ? 0 : kernels().sharing_pairs(a, b, pairs, matches.undecided);
-  const std::uint64_t flat = matches.flat & ~sharing;
-  const PairMatches wide = kernels().match_pairs_wide(a, b, pairs, matches.undecided & ~(sharing | flat));
-  const std::uint64_t in_plane = flat | (wide.undecided & wide.flat);
-  const PairMatches plane = kernels().match_flat_pairs(a, b, pairs, in_plane, matches.on_lattice);
-  return {.meeting = matches.meeting | sharing | wide.meeting | plane.meeting,
-          .undecided = (wide.undecided & ~in_plane) | plane.undecided,
-          .flat = plane.undecided};
 }
 
 }  // namespace
@@ -104,6 +80,7 @@ FacetPairSearch::FacetPairSearch() {
 
 void FacetPairSearch::run(const ConfirmInput& input, const std::vector<ClusterPair>& pairs, std::size_t begin,
                           std::size_t end, std::vector<FacetPair>& found, ConfirmCounts& counts) {
+  grid_ = grid_over(bounds_of(intersection(input.kept_a->bounds, input.kept_b->bounds)), kLastCell);
   opened_a_.clear();
   opened_b_.clear();
   blocks_of_b_ = 0;
@@ -188,7 +165,7 @@ void FacetPairSearch::empty_a() {
 }
 
 // The facets of each block that are near the other's are paired by their boxes; pairs are decided many at a time.
-void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b, std::vector<FacetPair>& found,
+void FacetPairSearch::test_blocks(const ConfirmInput& input, KeptFacets& b, std::vector<FacetPair>& found,
                                   ConfirmCounts& counts) {
   const BoxBounds bounds = bounds_of(merged(a_.bounds, b.bounds));
   std::uint64_t near_a = a_.facets, near_b = b.facets;
@@ -199,6 +176,9 @@ void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b
     near_a = kernels().near_facets(a_.block, a_.facets, of_b.box, bounds).facets;
     near_b = of_b.facets;
   }
+  kernels().find_cells(grid_, &a_.block);
+  kernels().find_cells(grid_, &b.block);
+  block_pair_.begin(a_.block, near_a, b.block, near_b, bounds, grid_);
   const bool few_are_b = std::popcount(near_b) < std::popcount(near_a);
   const FacetBlock &few = few_are_b ? b.block : a_.block, &many = few_are_b ? a_.block : b.block;
   const std::uint64_t others = few_are_b ? near_a : near_b;
@@ -207,30 +187,13 @@ void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b
         kernels().pair_facets(few, left, many, others, bounds, few_are_b, worth_a_plane(), &pairs_);
     left = paired.left_over;
     counts.facet_box_pairs += paired.box_pairs;
-    decide_pairs(input, b.block, bounds, found, counts);
-  }
-}
-
-// Decides the pairs in the list, all of facets in a box, and empties it.
-void FacetPairSearch::decide_pairs(const ConfirmInput& input, const FacetBlock& b, const BoxBounds& bounds,
-                                   std::vector<FacetPair>& found, ConfirmCounts& counts) {
-  const PairMatches matches = matches_of(a_.block, b, pairs_, bounds);
-  std::uint64_t meeting = matches.meeting;
-  for (std::uint64_t left = matches.undecided; left != 0; left &= left - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(left));
-    ++counts.triangle_tests;
-    const Triangle p = triangle_in(a_.block, static_cast<std::size_t>(pairs_.a[k]));
-    const Triangle q = triangle_in(b, static_cast<std::size_t>(pairs_.b[k]));
-    const bool is_flat = (matches.flat >> k & 1) != 0;
-    if (is_flat ? coplanar_triangles_meet(p, q, counts.predicates) : triangle_triangle_meet(p, q, counts.predicates)) {
-      meeting |= std::uint64_t{1} << k;
+    for (std::uint64_t meeting = block_pair_.meeting(pairs_, counts); meeting != 0; meeting &= meeting - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(meeting));
+      found.push_back(
+          {input.a->source_facet(a_.block.facet[pairs_.a[k]]), input.b->source_facet(b.block.facet[pairs_.b[k]])});
     }
+    pairs_.count = 0;
   }
-  for (std::uint64_t left = meeting; left != 0; left &= left - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(left));
-    found.push_back({input.a->source_facet(a_.block.facet[pairs_.a[k]]), input.b->source_facet(b.facet[pairs_.b[k]])});
-  }
-  pairs_.count = 0;
 }
 
 }  // namespace tact::narrowphase

@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
+#include "narrowphase/block_pair.h"
 #include "narrowphase/cluster_forest.h"
 #include "narrowphase/criteria.h"
-#include "narrowphase/predicates.h"
 
 namespace tact::narrowphase {
 
@@ -20,12 +20,6 @@ struct ConfirmInput {
   Criteria criteria_a, criteria_b;
   const KeptClusters* kept_a = nullptr;
   const KeptClusters* kept_b = nullptr;
-};
-
-struct ConfirmCounts {
-  std::int64_t facet_box_pairs = 0;
-  std::int64_t triangle_tests = 0;
-  PredicateCounts predicates;
 };
 
 // A cluster of A and one of B whose boxes overlap: indices into kept_a and kept_b.
@@ -87,18 +81,17 @@ class FacetPairSearch {
   void append_a(const ConfirmInput& input, std::int32_t index, std::vector<FacetPair>& found, ConfirmCounts& counts);
   void finish_block(const ConfirmInput& input, std::vector<FacetPair>& found, ConfirmCounts& counts);
   void empty_a();
-  void test_blocks(const ConfirmInput& input, const KeptFacets& b, std::vector<FacetPair>& found,
-                   ConfirmCounts& counts);
-  void decide_pairs(const ConfirmInput& input, const FacetBlock& b, const BoxBounds& bounds,
-                    std::vector<FacetPair>& found, ConfirmCounts& counts);
+  void test_blocks(const ConfirmInput& input, KeptFacets& b, std::vector<FacetPair>& found, ConfirmCounts& counts);
 
+  Grid grid_ = {};  // over what both bodies reach
   KeptFacets a_;
   std::vector<std::int32_t> wanted_;          // blocks of B that clusters in a_ may touch
   std::vector<std::int32_t> wanted_by_next_;  // and those that the cluster does which is about to join them
   std::vector<std::unique_ptr<BlockOfB>> b_;
   std::size_t blocks_of_b_ = 0;  // in use
   std::vector<PlaceInB> place_;  // of each kept cluster of B
-  FacetPairList pairs_;          // of a_ and a block of B, to be decided together
+  BlockPair block_pair_;         // a_ and a block of B
+  FacetPairList pairs_;          // of their facets, to be decided together
   std::vector<OpenedCluster> opened_a_, opened_b_;
 };
 

@@ -67,7 +67,7 @@ struct KeptFacets {
   Box bounds;                // of their clusters
 
   void clear() {
-    block.count = 0;
+    block.count = block.in_cells = 0;
     facets = 0;
     bounds = {};
   }

@@ -1,4 +1,5 @@
-// Loops over the bytes of a cluster, included by kernels.inl: a byte a vertex of flags, a byte a corner of a facet.
+// Loops over small whole numbers, included by kernels.inl: a byte a vertex of flags, a byte a corner of a facet, cells of
+// boxes.
 
 // A bit for each i < count of which the flags of its three corners, flags[corner[k][i]], have no bit in common.
 inline std::uint64_t sharing_no_bit_one_by_one(const std::uint8_t* flags, const std::uint8_t* const (&corner)[3],
@@ -56,6 +57,63 @@ inline void compress(std::uint64_t set, const std::uint8_t* from, std::uint8_t* 
 
 inline void write_places(std::uint64_t set, std::uint8_t* to) {
   for (; set != 0; set &= set - 1) *to++ = static_cast<std::uint8_t>(__builtin_ctzll(set));
+}
+
+#endif
+
+// A bit for each facet of `block` whose box shares cells with that of facet f of `other`.
+#if defined(TACT_KERNELS_AVX512_BYTES)
+
+inline std::uint64_t sharing_cells(const FacetBlock& other, int f, const FacetBlock& block) {
+  const auto half = [&](int begin) {
+    __mmask32 shared = ~__mmask32{0};
+    for (int axis = 0; axis < 3; ++axis) {
+      const __m512i lower = _mm512_set1_epi16(other.lower_cell[axis][f]);
+      const __m512i upper = _mm512_set1_epi16(other.upper_cell[axis][f]);
+      shared = _mm512_mask_cmple_epi16_mask(shared, _mm512_load_si512(block.lower_cell[axis] + begin), upper);
+      shared = _mm512_mask_cmple_epi16_mask(shared, lower, _mm512_load_si512(block.upper_cell[axis] + begin));
+    }
+    return std::uint64_t{shared};
+  };
+  return block.count <= 32 ? half(0) : half(0) | half(32) << 32;
+}
+
+#elif defined(TACT_KERNELS_AVX2_BYTES)
+
+inline std::uint64_t sharing_cells(const FacetBlock& other, int f, const FacetBlock& block) {
+  std::uint64_t shared = 0;
+  for (int begin = 0; begin < block.count; begin += 32) {
+    __m256i apart[2] = {_mm256_setzero_si256(), _mm256_setzero_si256()};
+    for (int axis = 0; axis < 3; ++axis) {
+      const __m256i lower = _mm256_set1_epi16(other.lower_cell[axis][f]);
+      const __m256i upper = _mm256_set1_epi16(other.upper_cell[axis][f]);
+      for (int k = 0; k < 2; ++k) {
+        const auto at = [&](const std::int16_t* cell) {
+          return _mm256_load_si256(reinterpret_cast<const __m256i*>(cell + begin + 16 * k));
+        };
+        const __m256i above = _mm256_cmpgt_epi16(at(block.lower_cell[axis]), upper);
+        const __m256i below = _mm256_cmpgt_epi16(lower, at(block.upper_cell[axis]));
+        apart[k] = _mm256_or_si256(apart[k], _mm256_or_si256(above, below));
+      }
+    }
+    const __m256i bytes = _mm256_permute4x64_epi64(_mm256_packs_epi16(apart[0], apart[1]), 0b11011000);
+    shared |= std::uint64_t{~static_cast<std::uint32_t>(_mm256_movemask_epi8(bytes))} << begin;
+  }
+  return shared;
+}
+
+#else
+
+inline std::uint64_t sharing_cells(const FacetBlock& other, int f, const FacetBlock& block) {
+  std::uint64_t shared = 0;
+  for (int i = 0; i < block.count; ++i) {
+    bool all = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      all &= block.lower_cell[axis][i] <= other.upper_cell[axis][f] && other.lower_cell[axis][f] <= block.upper_cell[axis][i];
+    }
+    shared |= std::uint64_t{all} << i;
+  }
+  return shared;
 }
 
 #endif

@@ -1,5 +1,5 @@
 // Which of many pairs of facets meet, included by kernels.inl: by the signs of determinants, as in triangle_triangle.cpp.
-// First in doubles; where these cannot tell, by equal corners, within the plane that both lie in, and in numbers of twice
+// In doubles; where these cannot tell, by equal corners, within the plane that both lie in, and in numbers of twice
 // the digits; what is left is for exact predicates.
 
 // A number of twice the digits: high + low, where high is the sum rounded. The arithmetic is that of Dekker, "A
@@ -112,31 +112,6 @@ struct Sides {
   }
 };
 
-inline VectorPack select(Mask mask, const VectorPack& yes, const VectorPack& no) {
-  return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
-}
-
-// A triangle with its corners turned so that the plane of the other parts the first from the other two, which it crosses
-// both edges to. `above` tells on which side the first is.
-struct LoneCorner {
-  VectorPack lone, next, last;
-  Mask above;
-};
-
-// The corners must not be all on one side. Of three sides two are equal: the lone corner is on that which an odd number
-// are on.
-inline LoneCorner lone_corner(const VectorPack* c, const Mask* above) {
-  const Mask not_first = differ(above[1], above[2]), third = differ(above[0], above[2]);
-  const auto turned = [&](int first) {
-    return select(not_first, select(third, c[(first + 2) % 3], c[(first + 1) % 3]), c[first]);
-  };
-  return {turned(0), turned(1), turned(2), differ(above[0], not_first)};
-}
-
-struct Meeting {
-  unsigned yes, no, flat;  // bits of lanes that are certain; of the others, those where `a` lies in the plane of `b`
-};
-
 // Bits of lanes that are certain, and of those that hang on a determinant being zero.
 struct IntervalMeeting {
   unsigned yes, no, by_zero;
@@ -146,7 +121,7 @@ struct IntervalMeeting {
 // orientations of an edge of each have the right signs (Guigue and Devillers, 2003). As in triangle_triangle.cpp, where
 // above is a negative orientation.
 template <class AnyPlane>
-inline IntervalMeeting intervals_meet(const LoneCorner& a, const LoneCorner& b) {
+inline IntervalMeeting intervals_meet(const LoneCorner<double>& a, const LoneCorner<double>& b) {
   const VectorPack b1 = select(a.above, b.next, b.last), b2 = select(a.above, b.last, b.next);
   const VectorPack a1 = select(b.above, a.next, a.last), a2 = select(b.above, a.last, a.next);
   const Determinant p = AnyPlane(b1, a1, b.lone).height(a.lone), q = AnyPlane(b2, a2, b.lone).height(a.lone);
@@ -189,7 +164,7 @@ inline Meeting match_lanes(const VectorPack* a, const VectorPack* b, unsigned ma
   const unsigned flat = left & sides_a.flat;
   if (known == 0 && flat == 0) return {0, mask & ~left, 0};
   if (known == 0 && !AnyPlane::kRounds) return {0, mask & ~left, flat};
-  IntervalMeeting meeting = intervals_meet<AnyPlane>(lone_corner(a, sides_a.above), lone_corner(b, sides_b.above));
+  IntervalMeeting meeting = intervals_meet<AnyPlane>(lone_corner<double>(a, sides_a.above), lone_corner<double>(b, sides_b.above));
   const unsigned in_plane = known & ~certain, by_zero = in_plane | (known & meeting.by_zero) | flat;
   unsigned vanishing = 0;
   if (AnyPlane::kRounds && by_zero != 0) {
@@ -198,45 +173,6 @@ inline Meeting match_lanes(const VectorPack* a, const VectorPack* b, unsigned ma
     meeting.no &= ~(vanishing & in_plane);
   }
   return {meeting.yes & known, (mask & ~left) | (meeting.no & known), flat & ~vanishing};
-}
-
-// On which side of a plane the corners of a triangle lie, by their heights over it.
-struct StrictSides {
-  Mask above[3];
-  unsigned apart, certain;  // bits: all three on one side; all three farther away than rounding
-
-  StrictSides(const Plane& plane, const VectorPack* corner, Pack error) {
-    Mask below[3];
-    for (int k = 0; k < 3; ++k) {
-      const Pack height = plane.height(corner[k]).value;
-      above[k] = less(error, height);
-      below[k] = less(height, sub(spread(0.0), error));
-    }
-    const Mask all_above = both(both(above[0], above[1]), above[2]), all_below = both(both(below[0], below[1]), below[2]);
-    apart = bits(either(all_above, all_below));
-    certain = bits(both(both(either(above[0], below[0]), either(above[1], below[1])), either(above[2], below[2])));
-  }
-};
-
-// What match_lanes<Plane> says, where determinants larger than `error`, which is not below their own, suffice; nothing of
-// other lanes.
-inline Meeting match_clear_lanes(const VectorPack* a, const VectorPack* b, unsigned mask, Pack error) {
-  const StrictSides sides_b(Plane(a[0], a[1], a[2]), b, error);
-  unsigned left = mask & ~sides_b.apart;
-  if (left == 0) return {0, mask, 0};
-  const StrictSides sides_a(Plane(b[0], b[1], b[2]), a, error);
-  left &= ~sides_a.apart;
-  const unsigned certain = left & sides_a.certain & sides_b.certain;
-  if (certain == 0) return {0, mask & ~left, 0};
-  const LoneCorner lone_a = lone_corner(a, sides_a.above), lone_b = lone_corner(b, sides_b.above);
-  const VectorPack b1 = select(lone_a.above, lone_b.next, lone_b.last), b2 = select(lone_a.above, lone_b.last, lone_b.next);
-  const VectorPack a1 = select(lone_b.above, lone_a.next, lone_a.last), a2 = select(lone_b.above, lone_a.last, lone_a.next);
-  const Pack p = Plane(b1, a1, lone_b.lone).height(lone_a.lone).value;
-  const Pack q = Plane(b2, a2, lone_b.lone).height(lone_a.lone).value;
-  const Pack opposite_error = sub(spread(0.0), error);
-  const unsigned yes = bits(both(less(error, p), less(q, opposite_error)));
-  const unsigned no = bits(either(less(p, opposite_error), less(error, q)));
-  return {yes & certain, (mask & ~left) | (no & certain), 0};
 }
 
 // Points lie on a lattice if all coordinates are whole numbers of some step, a power of two, and within 2^16 steps of
@@ -281,31 +217,13 @@ class Lattice {
   double shift_ = 0.0;  // 0: there is no lattice
 };
 
+bool on_lattice(const FacetBlock& block, const BoxBounds& bounds) { return Lattice(bounds).holds(block); }
+
 // The rounding of all pairs together is soon known, and most are clear of it. Where a pair is not, others are likely not.
 inline Meeting match_rounding_lanes(const VectorPack* a, const VectorPack* b, unsigned mask, Pack error, bool* clear) {
-  const Meeting meeting = *clear ? match_clear_lanes(a, b, mask, error) : Meeting{0, 0, 0};
+  const Meeting meeting = *clear ? match_clear_lanes(a, b, mask, error, sub(spread(0.0), error)) : Meeting{0, 0, 0};
   *clear = (meeting.yes | meeting.no) == mask;
   return *clear ? meeting : match_lanes<Plane>(a, b, mask);
-}
-
-PairMatches match_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, const BoxBounds& bounds) {
-  PairMatches matches;
-  const Lattice lattice(bounds);
-  matches.on_lattice = lattice.holds(a) && lattice.holds(b);
-  const Pack error = rounding_in(bounds);
-  bool clear = true;
-  for (int i = 0; i < pairs.count; i += kWidth) {
-    VectorPack corner_a[3], corner_b[3];
-    gather_corners(a, pairs.a + i, corner_a);
-    gather_corners(b, pairs.b + i, corner_b);
-    const unsigned mask = lanes_left(pairs.count - i);
-    const Meeting meeting = matches.on_lattice ? match_lanes<ExactPlane>(corner_a, corner_b, mask)
-                                               : match_rounding_lanes(corner_a, corner_b, mask, error, &clear);
-    matches.meeting |= static_cast<std::uint64_t>(meeting.yes) << i;
-    matches.undecided |= static_cast<std::uint64_t>(mask & ~(meeting.yes | meeting.no)) << i;
-    matches.flat |= static_cast<std::uint64_t>(meeting.flat) << i;
-  }
-  return matches;
 }
 
 // Those of the pairs that have a bit in `which`, a pack at a time: by judge(corners of a, corners of b, lanes).
@@ -331,6 +249,20 @@ inline PairMatches match_some(const FacetBlock& a, const FacetBlock& b, const Fa
   matches.undecided = which & ~expand(yes | no, which);
   matches.flat = expand(flat, which);
   return matches;
+}
+
+PairMatches match_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, std::uint64_t which,
+                        const BoxBounds& bounds, bool on_lattice) {
+  if (on_lattice) {
+    return match_some(a, b, pairs, which, [](const VectorPack* p, const VectorPack* q, unsigned lanes) {
+      return match_lanes<ExactPlane>(p, q, lanes);
+    });
+  }
+  const Pack error = rounding_in(bounds);
+  bool clear = true;
+  return match_some(a, b, pairs, which, [&](const VectorPack* p, const VectorPack* q, unsigned lanes) {
+    return match_rounding_lanes(p, q, lanes, error, &clear);
+  });
 }
 
 // Equal points.

@@ -1,10 +1,16 @@
 // The loops over facets, included by kernels.inl.
 
-struct VectorPack {
-  Pack x, y, z;
+// Vectors of doubles or floats, a lane each.
+template <class Real>
+struct VectorOf {
+  PackOf<Real> x, y, z;
 };
+using VectorPack = VectorOf<double>;
 
-inline VectorPack sub(const VectorPack& a, const VectorPack& b) { return {sub(a.x, b.x), sub(a.y, b.y), sub(a.z, b.z)}; }
+template <class Real>
+inline VectorOf<Real> sub(const VectorOf<Real>& a, const VectorOf<Real>& b) {
+  return {sub(a.x, b.x), sub(a.y, b.y), sub(a.z, b.z)};
+}
 inline VectorPack spread(const double* p) { return {spread(p[0]), spread(p[1]), spread(p[2])}; }
 
 // A determinant as computed, a bound of its rounding, and the sum of the sizes of its products, or, where nothing was
@@ -121,6 +127,24 @@ int open_cluster(const ClusterFacets& in, const CullPlanes& planes, FacetBlock* 
   return count;
 }
 
+inline Pack place_in(const Grid& grid, int axis, Pack x) {
+  return mul(sub(x, spread(grid.origin[axis])), spread(grid.scale[axis]));
+}
+
+inline Pack cell(const Grid& grid, int axis, Pack x) {
+  return max(min(place_in(grid, axis, x), spread(kLastCell)), spread(0.0));
+}
+
+void find_cells(const Grid& grid, FacetBlock* block) {
+  for (int i = block->in_cells; i < block->count; i += kWidth) {
+    for (int axis = 0; axis < 3; ++axis) {
+      store_cells(block->lower_cell[axis] + i, cell(grid, axis, load(block->lower[axis] + i)));
+      store_cells(block->upper_cell[axis] + i, cell(grid, axis, load(block->upper[axis] + i)));
+    }
+  }
+  block->in_cells = block->count;
+}
+
 std::uint64_t facing_away(const FacetBlock& block, const HeightAxis& axis) {
   const Pack nx = spread(axis.nx), ny = spread(axis.ny), nz = spread(axis.nz), zero = spread(0.0);
   std::uint64_t away = 0;
@@ -220,18 +244,12 @@ struct FacetPlane {
 
 PairedFacets pair_facets(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, std::uint64_t others,
                          const BoxBounds& bounds, bool few_are_b, int plane_from, FacetPairList* pairs) {
-  const double* const lower[3] = {many.lower[0], many.lower[1], many.lower[2]};
-  const double* const upper[3] = {many.upper[0], many.upper[1], many.upper[2]};
   std::uint8_t *const of_few = few_are_b ? pairs->b : pairs->a, *const of_many = few_are_b ? pairs->a : pairs->b;
   const Pack error = rounding_in(bounds);
   std::int64_t box_pairs = 0;
   for (; some != 0; some &= some - 1) {
     const int f = __builtin_ctzll(some);
-    const BoxPack box({{few.lower[0][f], few.lower[1][f], few.lower[2][f]},
-                       {few.upper[0][f], few.upper[1][f], few.upper[2][f]}});
-    std::uint64_t met = 0;
-    for (int i = 0; i < many.count; i += kWidth) met |= static_cast<std::uint64_t>(box.overlap(lower, upper, i)) << i;
-    met &= others;
+    std::uint64_t met = others & sharing_cells(few, f, many);
     const int overlapping = __builtin_popcountll(met);
     if (overlapping >= plane_from) {
       const FacetPlane plane(few, f, error);

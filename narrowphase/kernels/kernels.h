@@ -72,17 +72,37 @@ struct ClusterFacets {
   std::int32_t facet_count;
 };
 
+// A box cut into cells along each axis: x is at (x - origin) scale, which does not change the order of two coordinates,
+// however it is rounded.
+struct Grid {
+  double origin[3];
+  double scale[3];
+};
+inline constexpr double kLastCell = 0x7fff;
+
 // Facets of one or more clusters in separate arrays, which are longer by what a SIMD loop may write past the end, and
 // start at cache lines.
 struct alignas(64) FacetBlock {
   static constexpr int kCapacity = 64;
   static constexpr int kRoom = kCapacity + 8;
+  static constexpr int kCellRoom = kCapacity + 32;
+  std::int16_t lower_cell[3][kCellRoom];  // of the first `in_cells` facets, cut off at 0 and kLastCell
+  std::int16_t upper_cell[3][kCellRoom];
   double lower[3][kRoom];
   double upper[3][kRoom];
   double corner[3][3][kRoom];  // corner, axis, facet
   double normal[3][kRoom];     // (c1 - c0) × (c2 - c0), as computed
   std::int32_t facet[kRoom];   // its number in the mesh
   int count = 0;
+  int in_cells = 0;
+};
+
+// The corners of a block's facets in a grid of a single cell that holds them all, rounded to floats.
+struct alignas(64) FloatCorners {
+  static constexpr int kRoom = FacetBlock::kCapacity + 16;
+  float corner[3][3][kRoom];  // corner, axis, facet
+  double extent[3];           // of the largest facet, in the grid
+  int count;
 };
 
 // What facets are judged by.
@@ -107,7 +127,7 @@ struct FacetPairList {
   int count = 0;
 };
 
-// The facets for which there was no room, and how many boxes overlap those of the others.
+// The facets for which there was no room, and how many boxes share cells with those of the others.
 struct PairedFacets {
   std::uint64_t left_over;
   std::int64_t box_pairs;
@@ -120,7 +140,6 @@ struct PairMatches {
   std::uint64_t meeting = 0;    // certainly
   std::uint64_t undecided = 0;  // for exact predicates
   std::uint64_t flat = 0;       // the facet of `a` certainly lies in the plane of the facet of `b`, if that has one
-  bool on_lattice = false;      // match_pairs: coordinates are such that nothing was rounded
 };
 
 // Vertices of a cluster to be refreshed. Coordinates of source vertex s are source[3 s], source[3 s + 1], source[3 s +
@@ -173,6 +192,9 @@ struct Kernels {
   // for them; returns how many they are.
   int (*open_cluster)(const ClusterFacets& cluster, const CullPlanes& planes, FacetBlock* block);
 
+  // Finds the cells of the facets that have none yet.
+  void (*find_cells)(const Grid& grid, FacetBlock* block);
+
   // A bit for each facet of `block` whose normal is not zero and has axis · normal <= 0.
   std::uint64_t (*facing_away)(const FacetBlock& block, const HeightAxis& axis);
 
@@ -182,19 +204,31 @@ struct Kernels {
                             const BoxBounds& bounds);
   bool (*any_near)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box, const BoxBounds& bounds);
 
-  // Pairs each facet of `few` that has a bit in `some` with those of the facets `others` of `many` whose box overlaps
-  // its own and, if these are at least `plane_from`, that its plane does not certainly leave on one side. Appends them
-  // to `pairs` as long as there is room for all of a facet's. All of these facets lie in the box `bounds`.
+  // Pairs each facet of `few` that has a bit in `some` with those of the facets `others` of `many` whose box shares
+  // cells with its own and, if these are at least `plane_from`, that its plane does not certainly leave on one side.
+  // Appends them to `pairs` as long as there is room for all of a facet's. All of these facets lie in the box `bounds`,
+  // and have cells of the same grid.
   PairedFacets (*pair_facets)(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, std::uint64_t others,
                               const BoxBounds& bounds, bool few_are_b, int plane_from, FacetPairList* pairs);
 
   // Sorts up to kMostSorted pairs, no two of which are equal.
   void (*sort_pairs)(FacetPair* pairs, int count);
 
-  // Decides pairs of a facet of `a` and one of `b`, all of them in the box `bounds`. What doubles cannot tell is left
-  // undecided.
-  PairMatches (*match_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
-                             const BoxBounds& bounds);
+  // Are the corners of all facets, which lie in the box `bounds`, such that nothing is rounded when pairs are decided?
+  bool (*on_lattice)(const FacetBlock& block, const BoxBounds& bounds);
+
+  // The corners of the facets that have a bit; those of others are left open.
+  void (*float_corners)(const FacetBlock& block, std::uint64_t facets, const Grid& grid, FloatCorners* corners);
+
+  // Decides pairs of a facet of `a` and one of `b`, in the same grid, whose boxes are at most `gap` apart along each of
+  // its axes. What floats cannot tell is left undecided.
+  PairMatches (*match_float_pairs)(const FloatCorners& a, const FloatCorners& b, const FacetPairList& pairs,
+                                   const double* gap);
+
+  // Decides those of the pairs that have a bit in `which`, all of them in the box `bounds`. What doubles cannot tell is
+  // left undecided.
+  PairMatches (*match_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, std::uint64_t which,
+                             const BoxBounds& bounds, bool on_lattice);
   // Those of the pairs that have a bit in `which` and a corner in common.
   std::uint64_t (*sharing_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
                                  std::uint64_t which);

@@ -8,6 +8,22 @@ namespace {
 
 static_assert(__FLT_EVAL_METHOD__ == 0, "an operation in double has to be rounded to double");
 
+// Packs and masks of doubles or floats.
+template <class Real>
+struct Lanes {
+  using Packed = Pack;
+  using Masked = Mask;
+};
+template <>
+struct Lanes<float> {
+  using Packed = FloatPack;
+  using Masked = FloatMask;
+};
+template <class Real>
+using PackOf = typename Lanes<Real>::Packed;
+template <class Real>
+using MaskOf = typename Lanes<Real>::Masked;
+
 constexpr unsigned kAllLanes = (1u << kWidth) - 1u;
 
 inline unsigned lanes_left(int left) { return left >= kWidth ? kAllLanes : (1u << left) - 1u; }
@@ -44,7 +60,7 @@ HighestPoint highest_point(PointArrays points, const IndexRange* ranges, int ran
   Mask again = mask_of(0);
   for (int range = 0; range < range_count; ++range) {
     const int end = ranges[range].end;
-    Pack here = spread(ranges[range].begin);
+    Pack here = spread(static_cast<double>(ranges[range].begin));
     for (int i = ranges[range].begin; i < end; i += kWidth) {
       Pack h = height(points, i);
       if (end - i < kWidth) h = select(mask_of(lanes_left(end - i)), h, lowest);
@@ -52,7 +68,7 @@ HighestPoint highest_point(PointArrays points, const IndexRange* ranges, int ran
       again = without(either(again, less_equal(high, h)), higher);
       first = select(higher, here, first);
       high = max(high, h);
-      here = add(here, spread(kWidth));
+      here = add(here, spread(static_cast<double>(kWidth)));
     }
   }
   if (bits(both(less(lowest, high), less_equal(spread(least), high))) == 0) return {-__builtin_inf(), -1, false};
@@ -169,6 +185,7 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
 
 #include "narrowphase/kernels/bytes.inl"
 #include "narrowphase/kernels/facets.inl"
+#include "narrowphase/kernels/clear_pairs.inl"
 #include "narrowphase/kernels/facet_pairs.inl"
 #include "narrowphase/kernels/refresh.inl"
 #include "narrowphase/kernels/sort.inl"
@@ -177,7 +194,7 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
 
 extern const Kernels TACT_KERNELS;
 const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, refresh_cluster, bounds, diagonal_bounds, select_heights, highest_point,
-                              select_overlapping, open_cluster, facing_away, near_facets, any_near, pair_facets, sort_pairs, match_pairs,
-                              sharing_pairs, match_pairs_wide, match_flat_pairs};
+                              select_overlapping, open_cluster, find_cells, facing_away, near_facets, any_near, pair_facets, sort_pairs,
+                              on_lattice, float_corners, match_float_pairs, match_pairs, sharing_pairs, match_pairs_wide, match_flat_pairs};
 
 }  // namespace tact::narrowphase

@@ -6,6 +6,7 @@
 #define TACT_KERNELS kAvx2Kernels
 #define TACT_KERNELS_NAME "avx2"
 #define TACT_KERNELS_AVX2_REFRESH
+#define TACT_KERNELS_AVX2_BYTES
 
 namespace tact::narrowphase {
 namespace {
@@ -58,6 +59,36 @@ inline void store_flags(std::uint8_t* p, const Mask (&mask)[7]) {
   p[1] = static_cast<std::uint8_t>(_mm_extract_epi8(two, 4));
   p[2] = static_cast<std::uint8_t>(_mm_extract_epi8(two, 8));
   p[3] = static_cast<std::uint8_t>(_mm_extract_epi8(two, 12));
+}
+
+// Eight floats at a time.
+constexpr int kFloatWidth = 8;
+using FloatPack = __m256;
+using FloatMask = __m256;
+inline void store(float* p, Pack a) { _mm_storeu_ps(p, _mm256_cvtpd_ps(a)); }
+inline FloatPack spread(float a) { return _mm256_set1_ps(a); }
+struct FloatPicks {
+  const std::uint8_t* place;
+  explicit FloatPicks(const std::uint8_t* p) : place(p) {}
+};
+inline FloatPack pick(const float* p, int, const FloatPicks& at) {
+  const std::uint8_t* const i = at.place;
+  return _mm256_set_ps(p[i[7]], p[i[6]], p[i[5]], p[i[4]], p[i[3]], p[i[2]], p[i[1]], p[i[0]]);
+}
+inline FloatPack add(FloatPack a, FloatPack b) { return _mm256_add_ps(a, b); }
+inline FloatPack sub(FloatPack a, FloatPack b) { return _mm256_sub_ps(a, b); }
+inline FloatPack mul(FloatPack a, FloatPack b) { return _mm256_mul_ps(a, b); }
+inline FloatMask less(FloatPack a, FloatPack b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
+inline FloatMask both(FloatMask a, FloatMask b) { return _mm256_and_ps(a, b); }
+inline FloatMask either(FloatMask a, FloatMask b) { return _mm256_or_ps(a, b); }
+inline FloatMask differ(FloatMask a, FloatMask b) { return _mm256_xor_ps(a, b); }
+inline unsigned bits(FloatMask a) { return static_cast<unsigned>(_mm256_movemask_ps(a)); }
+inline FloatPack select(FloatMask mask, FloatPack yes, FloatPack no) { return _mm256_blendv_ps(no, yes, mask); }
+
+// Numbers from 0 to 2^15 - 1, without what follows the point.
+inline void store_cells(std::int16_t* p, Pack a) {
+  const __m128i numbers = _mm256_cvttpd_epi32(a);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_packs_epi32(numbers, numbers));
 }
 inline double largest_lane(Pack a) {
   const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1));

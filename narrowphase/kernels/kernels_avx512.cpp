@@ -61,6 +61,40 @@ inline void store_flags(std::uint8_t* p, const Mask (&mask)[7]) {
   for (int k = 0; k < 7; ++k) flags = _mm512_or_si512(flags, _mm512_maskz_set1_epi64(mask[k], 1 << k));
   _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm512_cvtepi64_epi8(flags));
 }
+
+// Sixteen floats at a time.
+constexpr int kFloatWidth = 16;
+using FloatPack = __m512;
+using FloatMask = __mmask16;
+inline void store(float* p, Pack a) { _mm256_storeu_ps(p, _mm512_cvtpd_ps(a)); }
+inline FloatPack spread(float a) { return _mm512_set1_ps(a); }
+struct FloatPicks {
+  __m512i index;
+  FloatMask beyond_32;
+  explicit FloatPicks(const std::uint8_t* place)
+      : index(_mm512_cvtepu8_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(place)))),
+        beyond_32(_mm512_test_epi32_mask(index, _mm512_set1_epi32(32))) {}
+};
+inline FloatPack pick(const float* p, int count, const FloatPicks& at) {
+  const FloatPack first = _mm512_permutex2var_ps(_mm512_loadu_ps(p), at.index, _mm512_loadu_ps(p + 16));
+  if (count <= 32) return first;
+  const FloatPack last = _mm512_permutex2var_ps(_mm512_loadu_ps(p + 32), at.index, _mm512_loadu_ps(p + 48));
+  return _mm512_mask_blend_ps(at.beyond_32, first, last);
+}
+inline FloatPack add(FloatPack a, FloatPack b) { return _mm512_add_ps(a, b); }
+inline FloatPack sub(FloatPack a, FloatPack b) { return _mm512_sub_ps(a, b); }
+inline FloatPack mul(FloatPack a, FloatPack b) { return _mm512_mul_ps(a, b); }
+inline FloatMask less(FloatPack a, FloatPack b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+inline FloatMask both(FloatMask a, FloatMask b) { return _kand_mask16(a, b); }
+inline FloatMask either(FloatMask a, FloatMask b) { return _kor_mask16(a, b); }
+inline FloatMask differ(FloatMask a, FloatMask b) { return _kxor_mask16(a, b); }
+inline unsigned bits(FloatMask a) { return a; }
+inline FloatPack select(FloatMask mask, FloatPack yes, FloatPack no) { return _mm512_mask_blend_ps(mask, no, yes); }
+
+// Numbers from 0 to 2^15 - 1, without what follows the point.
+inline void store_cells(std::int16_t* p, Pack a) {
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_cvtepi32_epi16(_mm512_cvttpd_epi32(a)));
+}
 inline double largest_lane(Pack a) { return _mm512_reduce_max_pd(a); }
 
 }  // namespace

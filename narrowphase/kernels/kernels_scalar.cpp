@@ -47,6 +47,25 @@ inline void store_flags(std::uint8_t* p, const Mask (&mask)[7]) {
   for (int k = 0; k < 7; ++k) flags |= bits(mask[k]) << k;
   *p = static_cast<std::uint8_t>(flags);
 }
+
+constexpr int kFloatWidth = 1;
+using FloatPack = float;
+using FloatMask = bool;
+inline void store(float* p, Pack a) { *p = static_cast<float>(a); }
+inline FloatPack spread(float a) { return a; }
+struct FloatPicks {
+  const std::uint8_t* place;
+  explicit FloatPicks(const std::uint8_t* p) : place(p) {}
+};
+inline FloatPack pick(const float* p, int, const FloatPicks& at) { return p[*at.place]; }
+inline FloatPack add(FloatPack a, FloatPack b) { return a + b; }
+inline FloatPack sub(FloatPack a, FloatPack b) { return a - b; }
+inline FloatPack mul(FloatPack a, FloatPack b) { return a * b; }
+inline FloatMask less(FloatPack a, FloatPack b) { return a < b; }
+inline FloatPack select(FloatMask mask, FloatPack yes, FloatPack no) { return mask ? yes : no; }
+
+// Numbers from 0 to 2^15 - 1, without what follows the point.
+inline void store_cells(std::int16_t* p, Pack a) { *p = static_cast<std::int16_t>(a); }
 inline double largest_lane(Pack a) { return a; }
 
 }  // namespace

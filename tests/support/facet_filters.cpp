@@ -14,6 +14,8 @@ using narrowphase::ClusterFacets;
 using narrowphase::CullPlanes;
 using narrowphase::FacetBlock;
 using narrowphase::FacetPairList;
+using narrowphase::FloatCorners;
+using narrowphase::Grid;
 using narrowphase::Kernels;
 using narrowphase::NearFacets;
 using narrowphase::PairMatches;
@@ -22,7 +24,8 @@ constexpr double kFar = 0x1p301;
 constexpr CullPlanes kAll{.axis = {}, .lowest = -1.0, .box = {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}}};
 
 // One triangle of each pair as a facet with vertices of its own.
-FacetBlock block_of(const Kernels& kernels, std::span<const TrianglePair> pairs, Triangle TrianglePair::*triangle) {
+FacetBlock block_of(const Kernels& kernels, std::span<const TrianglePair> pairs, Triangle TrianglePair::*triangle,
+                    const Grid& grid) {
   constexpr std::size_t kVertices = 3 * FacetBlock::kCapacity + narrowphase::kPadding;
   std::array<double, kVertices> x{}, y{}, z{};
   std::array<std::array<std::uint8_t, FacetBlock::kCapacity>, 3> corner{};
@@ -45,7 +48,18 @@ FacetBlock block_of(const Kernels& kernels, std::span<const TrianglePair> pairs,
                               .facet_count = count};
   FacetBlock block;
   kernels.open_cluster(cluster, kAll, &block);
+  kernels.find_cells(grid, &block);
   return block;
+}
+
+// The box of all triangles.
+BoxBounds bounds_of(std::span<const TrianglePair> pairs) {
+  base::Box box;
+  for (const TrianglePair& pair : pairs) {
+    for (const base::Vec3& p : pair.a) box = extended(box, p);
+    for (const base::Vec3& p : pair.b) box = extended(box, p);
+  }
+  return narrowphase::bounds_of(box);
 }
 
 // The box of the i-th facets of two blocks.
@@ -93,12 +107,46 @@ BoxBounds merged(BoxBounds box, const BoxBounds& other) {
   return box;
 }
 
+bool on_lattice(const Kernels& kernels, const FacetBlock& a, const FacetBlock& b, const BoxBounds& bounds) {
+  return kernels.on_lattice(a, bounds) && kernels.on_lattice(b, bounds);
+}
+
+PairMatches match_pairs(const Kernels& kernels, const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
+                        const BoxBounds& bounds) {
+  const std::uint64_t all = ~std::uint64_t{0} >> (FacetPairList::kCapacity - pairs.count);
+  return kernels.match_pairs(a, b, pairs, all, bounds, on_lattice(kernels, a, b, bounds));
+}
+
+PairMatches match_float_pairs(const Kernels& kernels, const FacetBlock& a, const FacetBlock& b,
+                              const FacetPairList& pairs, const BoxBounds& bounds) {
+  FloatCorners floats_a, floats_b;
+  std::uint64_t of_a = 0, of_b = 0;
+  for (int k = 0; k < pairs.count; ++k) {
+    of_a |= std::uint64_t{1} << pairs.a[k];
+    of_b |= std::uint64_t{1} << pairs.b[k];
+  }
+  const Grid unit = narrowphase::grid_over(bounds, 1.0);
+  kernels.float_corners(a, of_a, unit, &floats_a);
+  kernels.float_corners(b, of_b, unit, &floats_b);
+  double gap[3] = {};
+  for (int k = 0; k < pairs.count; ++k) {
+    const BoxBounds box_a = box_of(a, pairs.a[k]), box_b = box_of(b, pairs.b[k]);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double apart = std::max(box_b.lower[axis] - box_a.upper[axis], box_a.lower[axis] - box_b.upper[axis]);
+      gap[axis] = std::max(gap[axis], apart * unit.scale[axis]);
+    }
+  }
+  return kernels.match_float_pairs(floats_a, floats_b, pairs, gap);
+}
+
 std::vector<Filtered> filtered(const Kernels& kernels, std::span<const TrianglePair> pairs) {
-  const FacetBlock a = block_of(kernels, pairs, &TrianglePair::a), b = block_of(kernels, pairs, &TrianglePair::b);
+  const Grid grid = narrowphase::grid_over(bounds_of(pairs), narrowphase::kLastCell);
+  const FacetBlock a = block_of(kernels, pairs, &TrianglePair::a, grid);
+  const FacetBlock b = block_of(kernels, pairs, &TrianglePair::b, grid);
   FacetPairList list;
   std::uint64_t all = 0;
   BoxBounds everything = bounds_of(a, b, 0);
-  std::vector<Filtered::Decision> alone;
+  std::vector<Filtered::Decision> alone, alone_in_floats;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     list.a[i] = list.b[i] = static_cast<std::uint8_t>(i);
     ++list.count;
@@ -107,16 +155,21 @@ std::vector<Filtered> filtered(const Kernels& kernels, std::span<const TriangleP
     FacetPairList one;
     one.count = 1;
     one.a[0] = one.b[0] = static_cast<std::uint8_t>(i);
-    alone.push_back(decision(kernels.match_pairs(a, b, one, bounds_of(a, b, i)), 0));
+    const BoxBounds bounds = bounds_of(a, b, i);
+    alone.push_back(decision(match_pairs(kernels, a, b, one, bounds), 0));
+    alone_in_floats.push_back(decision(match_float_pairs(kernels, a, b, one, bounds), 0));
   }
-  const PairMatches together = kernels.match_pairs(a, b, list, everything);
+  const PairMatches together = match_pairs(kernels, a, b, list, everything);
+  const PairMatches in_floats = match_float_pairs(kernels, a, b, list, everything);
   const PairMatches wide = kernels.match_pairs_wide(a, b, list, all);
   const std::uint64_t sharing = kernels.sharing_pairs(a, b, list, all), flat = together.flat | wide.flat;
-  PairMatches in_plane = kernels.match_flat_pairs(a, b, list, flat, together.on_lattice);
+  PairMatches in_plane = kernels.match_flat_pairs(a, b, list, flat, on_lattice(kernels, a, b, everything));
   in_plane.undecided |= all & ~flat;
   std::vector<Filtered> result(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     result[i] = {.left_out = leaves_out(kernels, a, b, i) || leaves_out(kernels, b, a, i),
+                 .in_floats = alone_in_floats[i],
+                 .in_floats_together = decision(in_floats, i),
                  .simple = alone[i],
                  .together = decision(together, i),
                  .wide = decision(wide, i),
@@ -130,7 +183,8 @@ std::vector<Filtered> filtered(const Kernels& kernels, std::span<const TriangleP
 bool is_right(const Filtered& filtered, const TrianglePair& pair, bool meet) {
   if ((filtered.left_out && meet) || (filtered.sharing && !meet)) return false;
   if (filtered.flat && !lies_in_plane(pair.a, pair.b)) return false;
-  return is_right(filtered.simple, meet) && is_right(filtered.together, meet) && is_right(filtered.wide, meet) &&
+  return is_right(filtered.in_floats, meet) && is_right(filtered.in_floats_together, meet) &&
+         is_right(filtered.simple, meet) && is_right(filtered.together, meet) && is_right(filtered.wide, meet) &&
          is_right(filtered.in_plane, meet);
 }
 

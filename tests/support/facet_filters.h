@@ -14,7 +14,8 @@ namespace tact::tests {
 // What became of a pair.
 struct Filtered {
   enum class Decision { apart, meeting, undecided };
-  bool left_out = false;                    // by a box or a plane: the pair is never asked about
+  bool left_out = false;  // by a box or a plane: the pair is never asked about
+  Decision in_floats = Decision::undecided, in_floats_together = Decision::undecided;
   Decision simple = Decision::undecided;    // by itself, within its own box
   Decision together = Decision::undecided;  // beside the others, within the box of all
   Decision wide = Decision::undecided;      // with twice the digits
@@ -34,6 +35,16 @@ std::vector<Filtered> filtered(const narrowphase::Kernels& kernels, std::span<co
 
 // Is all of it right, where the triangles meet, or do not?
 bool is_right(const Filtered& filtered, const TrianglePair& pair, bool meet);
+
+// All of the pairs in doubles and in floats, which lie in the box `bounds`. Is nothing rounded there?
+narrowphase::PairMatches match_pairs(const narrowphase::Kernels& kernels, const narrowphase::FacetBlock& a,
+                                     const narrowphase::FacetBlock& b, const narrowphase::FacetPairList& pairs,
+                                     const narrowphase::BoxBounds& bounds);
+narrowphase::PairMatches match_float_pairs(const narrowphase::Kernels& kernels, const narrowphase::FacetBlock& a,
+                                           const narrowphase::FacetBlock& b, const narrowphase::FacetPairList& pairs,
+                                           const narrowphase::BoxBounds& bounds);
+bool on_lattice(const narrowphase::Kernels& kernels, const narrowphase::FacetBlock& a, const narrowphase::FacetBlock& b,
+                const narrowphase::BoxBounds& bounds);
 
 // The box of a facet of a block, and the box of two.
 narrowphase::BoxBounds box_of(const narrowphase::FacetBlock& block, std::size_t facet);

@@ -1,0 +1,154 @@
+// Which of many pairs of facets meet where no determinant is near zero, included by kernels.inl: in floats, which take half
+// the time and leave few open, and in doubles.
+
+template <class Real>
+inline VectorOf<Real> select(MaskOf<Real> mask, const VectorOf<Real>& yes, const VectorOf<Real>& no) {
+  return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
+}
+
+// A triangle with its corners turned so that the plane of the other parts the first from the other two, which it crosses
+// both edges to. `above` tells on which side the first is.
+template <class Real>
+struct LoneCorner {
+  VectorOf<Real> lone, next, last;
+  MaskOf<Real> above;
+};
+
+// The corners must not be all on one side. Of three sides two are equal: the lone corner is on that which an odd number
+// are on.
+template <class Real>
+inline LoneCorner<Real> lone_corner(const VectorOf<Real>* c, const MaskOf<Real>* above) {
+  const MaskOf<Real> not_first = differ(above[1], above[2]), third = differ(above[0], above[2]);
+  const auto turned = [&](int first) {
+    return select(not_first, select(third, c[(first + 2) % 3], c[(first + 1) % 3]), c[first]);
+  };
+  return {turned(0), turned(1), turned(2), differ(above[0], not_first)};
+}
+
+// Bits of lanes that are certain; of the others, those where `a` lies in the plane of `b`.
+struct Meeting {
+  unsigned yes, no, flat;
+};
+
+// A determinant without a bound of its own: the height of `point` over the plane through three points, times the length of
+// its normal.
+template <class Real>
+struct ClearPlane {
+  VectorOf<Real> origin, normal;
+
+  ClearPlane(const VectorOf<Real>& c0, const VectorOf<Real>& c1, const VectorOf<Real>& c2) : origin(c0) {
+    const VectorOf<Real> e = sub(c1, c0), f = sub(c2, c0);
+    normal = {sub(mul(e.y, f.z), mul(e.z, f.y)), sub(mul(e.z, f.x), mul(e.x, f.z)), sub(mul(e.x, f.y), mul(e.y, f.x))};
+  }
+  PackOf<Real> height(const VectorOf<Real>& point) const {
+    const VectorOf<Real> x = sub(point, origin);
+    return add(add(mul(normal.x, x.x), mul(normal.y, x.y)), mul(normal.z, x.z));
+  }
+};
+
+// On which side of a plane the corners of a triangle lie, by their heights over it.
+template <class Real>
+struct ClearSides {
+  MaskOf<Real> above[3];
+  unsigned apart, certain;  // bits: all three on one side; all three farther away than rounding
+
+  ClearSides(const ClearPlane<Real>& plane, const VectorOf<Real>* corner, PackOf<Real> error, PackOf<Real> opposite_error) {
+    MaskOf<Real> below[3];
+    for (int k = 0; k < 3; ++k) {
+      const PackOf<Real> height = plane.height(corner[k]);
+      above[k] = less(error, height);
+      below[k] = less(height, opposite_error);
+    }
+    const auto all_above = both(both(above[0], above[1]), above[2]), all_below = both(both(below[0], below[1]), below[2]);
+    apart = bits(either(all_above, all_below));
+    certain = bits(both(both(either(above[0], below[0]), either(above[1], below[1])), either(above[2], below[2])));
+  }
+};
+
+// What match_lanes says, where all determinants are farther from zero than `error`, which bounds the rounding of each;
+// nothing of other lanes.
+template <class Real>
+inline Meeting match_clear_lanes(const VectorOf<Real>* a, const VectorOf<Real>* b, unsigned mask, PackOf<Real> error,
+                                 PackOf<Real> opposite_error) {
+  const ClearSides<Real> sides_b({a[0], a[1], a[2]}, b, error, opposite_error);
+  unsigned left = mask & ~sides_b.apart;
+  if (left == 0) return {0, mask, 0};
+  const ClearSides<Real> sides_a({b[0], b[1], b[2]}, a, error, opposite_error);
+  left &= ~sides_a.apart;
+  const unsigned certain = left & sides_a.certain & sides_b.certain;
+  if (certain == 0) return {0, mask & ~left, 0};
+  const LoneCorner<Real> lone_a = lone_corner<Real>(a, sides_a.above), lone_b = lone_corner<Real>(b, sides_b.above);
+  const auto b1 = select(lone_a.above, lone_b.next, lone_b.last), b2 = select(lone_a.above, lone_b.last, lone_b.next);
+  const auto a1 = select(lone_b.above, lone_a.next, lone_a.last), a2 = select(lone_b.above, lone_a.last, lone_a.next);
+  const PackOf<Real> p = ClearPlane<Real>(b1, a1, lone_b.lone).height(lone_a.lone);
+  const PackOf<Real> q = ClearPlane<Real>(b2, a2, lone_b.lone).height(lone_a.lone);
+  const unsigned yes = bits(both(less(error, p), less(q, opposite_error)));
+  const unsigned no = bits(either(less(p, opposite_error), less(error, q)));
+  return {yes & certain, (mask & ~left) | (no & certain), 0};
+}
+
+// Scaling the axes does not change the sign of a determinant, so where two facets meet is asked of their corners in a
+// grid of one cell, between 0 and 1 along each axis.
+void float_corners(const FacetBlock& block, std::uint64_t facets, const Grid& grid, FloatCorners* corners) {
+  Pack extent[3] = {spread(0.0), spread(0.0), spread(0.0)};
+  corners->count = block.count;
+  for (std::uint64_t left = facets; left != 0;) {
+    const int i = __builtin_ctzll(left) / kWidth * kWidth;
+    const Mask lanes = mask_of(static_cast<unsigned>(left >> i) & kAllLanes);
+    left &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int k = 0; k < 3; ++k) {
+        store(corners->corner[k][axis] + i, place_in(grid, axis, load(block.corner[k][axis] + i)));
+      }
+      const Pack one = sub(load(block.upper[axis] + i), load(block.lower[axis] + i));
+      extent[axis] = max(extent[axis], select(lanes, one, spread(0.0)));
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis) corners->extent[axis] = largest_lane(extent[axis]) * grid.scale[axis];
+}
+
+// Bounds the rounding of every determinant of a pair of facets whose boxes are at most `gap` apart along each axis, all of
+// it in units of the grid. With u = 2^-24: coordinates are off by at most 1.001 u, differences, which are up to
+// m = the extents of two facets and the gap, by 2.003 u + 1.001 m u, and each of the six products of three is rounded
+// five times, sums included. So with S = mx my + my mz + mz mx a determinant is off by at most 6 * 2.003 u S +
+// 6 * (3.003 + 5.001) u mx my mz, and by what products lose that vanish.
+inline float float_rounding(const FloatCorners& a, const FloatCorners& b, const double* gap) {
+  double m[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    m[axis] = a.extent[axis] + b.extent[axis] + gap[axis];
+    if (!(m[axis] < 1.0)) m[axis] = 1.0;
+    m[axis] *= 1.0001;
+  }
+  const double sides = m[0] * m[1] + m[1] * m[2] + m[2] * m[0], product = m[0] * m[1] * m[2];
+  return static_cast<float>(0x1p-24 * (12.1 * sides + 48.2 * product) + 1e-30);
+}
+
+// Where floats leave half of the pairs open, they are asked no more.
+PairMatches match_float_pairs(const FloatCorners& a, const FloatCorners& b, const FacetPairList& pairs,
+                              const double* gap) {
+  const float rounding = float_rounding(a, b, gap);
+  const FloatPack error = spread(rounding), opposite_error = spread(-rounding);
+  std::uint64_t yes = 0, no = 0;
+  const auto corners_of = [](const FloatCorners& of, const FloatPicks& at, VectorOf<float>* corner) {
+    for (int k = 0; k < 3; ++k) {
+      corner[k] = {pick(of.corner[k][0], of.count, at), pick(of.corner[k][1], of.count, at),
+                   pick(of.corner[k][2], of.count, at)};
+    }
+  };
+  for (int i = 0; i < pairs.count; i += kFloatWidth) {
+    VectorOf<float> corner_a[3], corner_b[3];
+    corners_of(a, FloatPicks(pairs.a + i), corner_a);
+    corners_of(b, FloatPicks(pairs.b + i), corner_b);
+    const int left = pairs.count - i;
+    const unsigned lanes = left >= kFloatWidth ? (1u << kFloatWidth) - 1u : (1u << left) - 1u;
+    const Meeting meeting = match_clear_lanes(corner_a, corner_b, lanes, error, opposite_error);
+    yes |= static_cast<std::uint64_t>(meeting.yes) << i;
+    no |= static_cast<std::uint64_t>(meeting.no) << i;
+    const int seen = i + kFloatWidth;
+    if (seen % 16 == 0 && 2 * __builtin_popcountll(yes | no) < seen) break;
+  }
+  PairMatches matches;
+  matches.meeting = yes;
+  matches.undecided = (pairs.count == 0 ? 0 : ~std::uint64_t{0} >> (FacetPairList::kCapacity - pairs.count)) & ~(yes | no);
+  return matches;
+}

@@ -1,0 +1,200 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "tests/support/clustered.h"
+#include "tests/support/facet_blocks.h"
+
+namespace tact::narrowphase {
+namespace {
+
+using tests::all_bits;
+using tests::block_of;
+using tests::bodies;
+using tests::box_of;
+using tests::clustered;
+using tests::decide_all;
+using tests::Decisions;
+using tests::Digits;
+using tests::kEverything;
+using tests::kGrid;
+using tests::meeting_in_truth;
+using tests::merged;
+
+TEST(FacetBlocks, OpenClusterLeavesOutWhatOneSideRulesOut) {
+  for (int seed = 0; seed < 12; ++seed) {
+    const ClusteredMesh mesh = clustered(bodies(seed).first);
+    const CullPlanes planes{{0.48, -0.6, 0.64, 0.1, 0.2, 0.3}, -0.2, {{-0.3, -0.2, -0.4}, {0.3, 0.5, 0.2}}};
+    for (int c = 0; c < mesh.cluster_count(); ++c) {
+      std::vector<std::int32_t> expected;
+      for (int f = mesh.facet_begin(c); f < mesh.facet_end(c); ++f) {
+        Box box;
+        double top = -9.0;
+        for (const Vec3& p : mesh.triangle(f)) {
+          box = extended(box, p);
+          top = std::max(top, (0.48 * (p.x - 0.1) + -0.6 * (p.y - 0.2)) + 0.64 * (p.z - 0.3));
+        }
+        if (top >= planes.lowest && overlaps(box, Box{{-0.3, -0.2, -0.4}, {0.3, 0.5, 0.2}})) expected.push_back(f);
+      }
+      for (const Kernels* kernels : tests::available_kernels()) {
+        const FacetBlock block = block_of(*kernels, mesh, c, planes);
+        EXPECT_EQ(std::vector(block.facet, block.facet + block.count), expected) << kernels->name << " seed " << seed;
+        for (int i = 0; i < block.count; ++i) {
+          const Triangle t = mesh.triangle(block.facet[i]);
+          for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 corner{block.corner[k][0][i], block.corner[k][1][i], block.corner[k][2][i]};
+            EXPECT_EQ(corner, t[k]) << kernels->name << " seed " << seed;
+          }
+        }
+      }
+    }
+  }
+}
+
+// All pairs that boxes, and planes where they are asked, leave of two blocks, b's facets held against a's if
+// `few_are_b`.
+std::vector<FacetPair> paired(const Kernels& kernels, const FacetBlock& a, const FacetBlock& b, bool few_are_b,
+                              int plane_from, std::int64_t& box_pairs) {
+  std::vector<FacetPair> all;
+  const FacetBlock &few = few_are_b ? b : a, &many = few_are_b ? a : b;
+  const std::uint64_t others = kernels.near_facets(many, all_bits(many.count), kEverything, kEverything).facets;
+  for (std::uint64_t left = all_bits(few.count); left != 0;) {
+    FacetPairList pairs;
+    const PairedFacets found = kernels.pair_facets(few, left, many, others, kEverything, few_are_b, plane_from, &pairs);
+    EXPECT_LT(std::popcount(found.left_over), std::popcount(left));
+    EXPECT_LE(pairs.count, FacetPairList::kCapacity);
+    left = found.left_over;
+    box_pairs += found.box_pairs;
+    for (int k = 0; k < pairs.count; ++k) all.push_back({pairs.a[k], pairs.b[k]});
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+constexpr int kAlways = 0, kNever = 65;  // is the plane asked
+
+// Neither by the box of the others, nor by planes and boxes, is a facet lost that meets one.
+TEST(FacetBlocks, FacetsThatMeetAreNearAndPaired) {
+  for (int seed = 0; seed < 30; ++seed) {
+    const auto [mesh_a, mesh_b] = bodies(seed);
+    const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+    const std::vector<FacetPair> meeting = meeting_in_truth(a, b);
+    for (const Kernels* kernels : tests::available_kernels()) {
+      const FacetBlock block_a = block_of(*kernels, a, 0), block_b = block_of(*kernels, b, 0);
+      for (const FacetPair& pair : meeting) {
+        const BoxBounds box = box_of(block_a, pair.a);
+        EXPECT_NE(kernels->near_facets(block_b, all_bits(block_b.count), box, kEverything).facets >> pair.b & 1, 0u);
+        EXPECT_TRUE(kernels->any_near(block_b, std::uint64_t{1} << pair.b, box, merged(box, box_of(block_b, pair.b))));
+      }
+      for (const bool few_are_b : {false, true}) {
+        for (const int plane_from : {kAlways, 6, kNever}) {
+          std::int64_t box_pairs = 0;
+          const std::vector<FacetPair> left = paired(*kernels, block_a, block_b, few_are_b, plane_from, box_pairs);
+          EXPECT_TRUE(std::includes(left.begin(), left.end(), meeting.begin(), meeting.end()))
+              << kernels->name << " seed " << seed << " plane from " << plane_from;
+          EXPECT_EQ(std::adjacent_find(left.begin(), left.end()), left.end());
+        }
+      }
+    }
+  }
+}
+
+// Cells of kGrid, whose coordinates stay within it.
+bool share_cells(const BoxBounds& a, const BoxBounds& b) {
+  const auto cell = [](double x) { return std::floor((x + 9.0) / 18.0 * kLastCell); };
+  for (int axis = 0; axis < 3; ++axis) {
+    if (cell(a.upper[axis]) < cell(b.lower[axis]) || cell(b.upper[axis]) < cell(a.lower[axis])) return false;
+  }
+  return true;
+}
+
+TEST(FacetBlocks, FacetsArePairedByTheirBoxesAndPlanes) {
+  std::size_t left_aside = 0;
+  for (int seed = 0; seed < 12; ++seed) {
+    const auto [mesh_a, mesh_b] = bodies(seed);
+    const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+    const FacetBlock block_a = block_of(*scalar_kernels(), a, 0), block_b = block_of(*scalar_kernels(), b, 0);
+    std::vector<FacetPair> sharing;
+    const auto box = [](const BoxBounds& bounds) {
+      return Box{{bounds.lower[0], bounds.lower[1], bounds.lower[2]},
+                 {bounds.upper[0], bounds.upper[1], bounds.upper[2]}};
+    };
+    for (int f = 0; f < block_a.count; ++f) {
+      for (int g = 0; g < block_b.count; ++g) {
+        const bool share = share_cells(box_of(block_a, f), box_of(block_b, g));
+        EXPECT_TRUE(share || !overlaps(box(box_of(block_a, f)), box(box_of(block_b, g))));
+        if (share) sharing.push_back({f, g});
+      }
+    }
+    for (const Kernels* kernels : tests::available_kernels()) {
+      for (const bool few_are_b : {false, true}) {
+        std::int64_t box_pairs = 0;
+        EXPECT_EQ(paired(*kernels, block_a, block_b, few_are_b, kNever, box_pairs), sharing) << kernels->name;
+        EXPECT_EQ(box_pairs, static_cast<std::int64_t>(sharing.size()));
+        left_aside += sharing.size() - paired(*kernels, block_a, block_b, few_are_b, kAlways, box_pairs).size();
+        EXPECT_EQ(box_pairs, 2 * static_cast<std::int64_t>(sharing.size()));
+      }
+    }
+  }
+  EXPECT_GT(left_aside, 1000u);
+}
+
+TEST(FacetBlocks, EveryInstructionSetGivesTheSameBits) {
+  for (int seed = 0; seed < 12; ++seed) {
+    const auto [mesh_a, mesh_b] = bodies(seed);
+    const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+    const HeightAxis axis{0.48, -0.6, 0.64, 0.01, 0.02, -0.03};
+    const CullPlanes planes{.axis = axis, .lowest = 0.1, .box = {{-0.4, -0.3, -0.5}, {0.5, 0.4, 0.6}}};
+    const FacetBlock expected = block_of(*scalar_kernels(), b, 0), own = block_of(*scalar_kernels(), a, 0);
+    const FacetBlock left = block_of(*scalar_kernels(), b, 0, planes);
+    const std::uint64_t away = scalar_kernels()->facing_away(expected, axis);
+    const IndexRange all{0, b.vertex_count()};
+    const HighestPoint highest = scalar_kernels()->highest_point(b.points(), &all, 1, axis, -1e300);
+    const NearFacets near = scalar_kernels()->near_facets(expected, all_bits(b.facet_end(0)), planes.box, kEverything);
+    for (const Kernels* kernels : tests::available_kernels()) {
+      const FacetBlock block = block_of(*kernels, b, 0);
+      for (int axis_index = 0; axis_index < 3; ++axis_index) {
+        for (int f = 0; f < b.facet_end(0); ++f) {
+          EXPECT_EQ(block.lower[axis_index][f], expected.lower[axis_index][f]);
+          EXPECT_EQ(block.upper[axis_index][f], expected.upper[axis_index][f]);
+          EXPECT_EQ(block.lower_cell[axis_index][f], expected.lower_cell[axis_index][f]) << kernels->name;
+          EXPECT_EQ(block.upper_cell[axis_index][f], expected.upper_cell[axis_index][f]) << kernels->name;
+        }
+      }
+      EXPECT_EQ(kernels->facing_away(block, axis), away) << kernels->name;
+      const FacetBlock others_left = block_of(*kernels, b, 0, planes);
+      EXPECT_EQ(std::vector(others_left.facet, others_left.facet + others_left.count),
+                std::vector(left.facet, left.facet + left.count))
+          << kernels->name;
+      const HighestPoint top = kernels->highest_point(b.points(), &all, 1, axis, highest.height);
+      EXPECT_EQ(top.height, highest.height) << kernels->name;
+      EXPECT_EQ(top.index, highest.index) << kernels->name;
+      const double above = std::nextafter(highest.height, 1e300);
+      EXPECT_EQ(kernels->highest_point(b.points(), &all, 1, axis, above).index, -1) << kernels->name;
+      const NearFacets others = kernels->near_facets(block, all_bits(b.facet_end(0)), planes.box, kEverything);
+      EXPECT_EQ(others.facets, near.facets) << kernels->name;
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(others.box.lower[k], near.box.lower[k]) << kernels->name;
+        EXPECT_EQ(others.box.upper[k], near.box.upper[k]) << kernels->name;
+      }
+      for (const int plane_from : {kAlways, 6}) {
+        std::int64_t box_pairs = 0;
+        EXPECT_EQ(paired(*kernels, own, block, false, plane_from, box_pairs),
+                  paired(*scalar_kernels(), own, expected, false, plane_from, box_pairs))
+            << kernels->name;
+      }
+      for (const Digits digits : {Digits::few, Digits::simple, Digits::wide}) {
+        const Decisions one = decide_all(*kernels, a, b, digits), other = decide_all(*scalar_kernels(), a, b, digits);
+        EXPECT_EQ(one.meeting, other.meeting) << kernels->name;
+        EXPECT_EQ(one.undecided, other.undecided) << kernels->name;
+        EXPECT_EQ(one.flat, other.flat) << kernels->name;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tact::narrowphase

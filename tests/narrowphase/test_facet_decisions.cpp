@@ -1,0 +1,313 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "narrowphase/triangle_triangle.h"
+#include "tests/support/clustered.h"
+#include "tests/support/facet_blocks.h"
+#include "tests/support/generators.h"
+#include "tests/support/random.h"
+
+namespace tact::narrowphase {
+namespace {
+
+using tests::all_with;
+using tests::block_of;
+using tests::bodies;
+using tests::bounds_of;
+using tests::clustered;
+using tests::decide_all;
+using tests::Decisions;
+using tests::Digits;
+using tests::expect_right;
+using tests::kAnywhere;
+using tests::kSpace;
+using tests::merged;
+using tests::Mesh;
+using tests::MeshBuilder;
+
+TEST(FacetDecisions, DecisionsAreRight) {
+  for (int seed = 0; seed < 16; ++seed) {
+    const auto [mesh_a, mesh_b] = bodies(seed);
+    const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+    SCOPED_TRACE(seed);
+    for (const Kernels* kernels : tests::available_kernels()) {
+      for (const Digits digits : {Digits::few, Digits::simple, Digits::wide}) expect_right(*kernels, a, b, digits);
+    }
+  }
+}
+
+// A triangle with edges along the diagonals of a cube, and others with a corner next to its plane: the products of a
+// determinant come as near as can be to those of the cube's sides.
+std::pair<Mesh, Mesh> corners_next_to_a_plane() {
+  MeshBuilder a, b;
+  a.triangle({0, 0, 1}, {1, 1, 0}, {1, 0.9, 0.8});
+  for (int k = -30; k <= 30; ++k) {
+    b.triangle({1, 0.95, 0.4 + k * 0x1p-49}, {0.2, 0.9, 0.9}, {0.9, 0.1, 0.1});
+  }
+  return {a.mesh(), b.mesh()};
+}
+
+// Where rounding is bounded for all pairs at once, that is no tighter than the bound of each determinant: the same is
+// decided with the tightest box of a pair as with one that tells nothing.
+TEST(FacetDecisions, DecisionsDoNotDependOnTheBounds) {
+  std::size_t undecided = 0, decided = 0;
+  for (int seed = 0; seed < 17; ++seed) {
+    for (const double scale : {1.0, 0x1p-260}) {
+      auto [mesh_a, mesh_b] = seed < 16 ? bodies(seed) : corners_next_to_a_plane();
+      mesh_a.positions *= scale;
+      mesh_b.positions *= scale;
+      const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+      for (const Kernels* kernels : tests::available_kernels()) {
+        const FacetBlock block_a = block_of(*kernels, a, 0), block_b = block_of(*kernels, b, 0);
+        for (int f = 0; f < block_a.count; ++f) {
+          for (int g = 0; g < block_b.count; ++g) {
+            FacetPairList pair;
+            pair.count = 1;
+            pair.a[0] = static_cast<std::uint8_t>(f);
+            pair.b[0] = static_cast<std::uint8_t>(g);
+            const BoxBounds bounds = bounds_of(pair, block_a, block_b);
+            const PairMatches tight = tests::match_pairs(*kernels, block_a, block_b, pair, bounds);
+            const PairMatches loose = tests::match_pairs(*kernels, block_a, block_b, pair, kSpace);
+            ASSERT_FALSE(tests::on_lattice(*kernels, block_a, block_b, kSpace));
+            if (tests::on_lattice(*kernels, block_a, block_b, bounds)) {  // more is decided
+              ASSERT_EQ(tight.undecided & ~loose.undecided, 0u);
+              continue;
+            }
+            ASSERT_EQ(tight.meeting, loose.meeting) << kernels->name << " seed " << seed << ": " << f << ' ' << g;
+            ASSERT_EQ(tight.undecided, loose.undecided) << kernels->name << " seed " << seed << ": " << f << ' ' << g;
+            ASSERT_EQ(tight.flat, loose.flat) << kernels->name << " seed " << seed << ": " << f << ' ' << g;
+            (tight.undecided != 0 ? undecided : decided) += 1;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(undecided, 5'000u);
+  EXPECT_GT(decided, 10'000u);
+}
+
+// Products of tiny differences vanish: that is no zero.
+TEST(FacetDecisions, DecisionsAreRightOfTinyFacets) {
+  for (int seed = 0; seed < 16; ++seed) {
+    auto [mesh_a, mesh_b] = bodies(seed);
+    for (const double scale : {0x1p-190, 0x1p-280, 0x1p-350, 0x1p-500, 0x1p-1000}) {
+      Mesh small_a = mesh_a, small_b = mesh_b;
+      small_a.positions *= scale;
+      small_b.positions *= scale;
+      const ClusteredMesh a = clustered(small_a), b = clustered(small_b);
+      SCOPED_TRACE(::testing::Message() << "seed " << seed << " scale " << scale);
+      for (const Kernels* kernels : tests::available_kernels()) {
+        for (const Digits digits : {Digits::few, Digits::simple, Digits::wide}) expect_right(*kernels, a, b, digits);
+      }
+    }
+  }
+}
+
+// A lattice whose zeros are off by so little that products with them vanish: what looks like zero is none.
+TEST(FacetDecisions, DecisionsAreRightWhereProductsVanish) {
+  const auto disturbed = [](Mesh mesh, double by, std::uint64_t seed) {
+    tests::Random random(seed);
+    for (double& x : mesh.positions.reshaped()) x = x == 0.0 ? (random.below(3) - 1) * by : x;
+    return mesh;
+  };
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    for (const double by : {0x1p-190, 0x1p-540, 0x1p-1000, 0x1p-1074}) {
+      const ClusteredMesh a = clustered(disturbed(tests::lattice_soup(60, 1, seed), by, seed));
+      const ClusteredMesh b = clustered(disturbed(tests::lattice_soup(60, 1, seed + 99), by, seed + 1));
+      SCOPED_TRACE(::testing::Message() << "seed " << seed << ", zeros off by " << by);
+      for (const Kernels* kernels : tests::available_kernels()) {
+        for (const Digits digits : {Digits::few, Digits::simple, Digits::wide}) expect_right(*kernels, a, b, digits);
+      }
+    }
+  }
+}
+
+bool share_a_corner(const Triangle& a, const Triangle& b) {
+  for (const Vec3& p : a) {
+    if (std::find(b.begin(), b.end(), p) != b.end()) return true;
+  }
+  return false;
+}
+
+// Twice the digits tell on which side a corner lies that rounding alone keeps from a plane.
+TEST(FacetDecisions, WideDecidesWhatRoundingPutsNextToAPlane) {
+  for (const int seed : {3, 7, 11, 15}) {
+    const auto [mesh_a, mesh_b] = bodies(seed);
+    const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+    const auto undecided = [&](Digits digits) {
+      const std::vector<FacetPair> pairs = decide_all(*scalar_kernels(), a, b, digits).undecided;
+      return std::count_if(pairs.begin(), pairs.end(), [&](const FacetPair& pair) {
+        return !share_a_corner(a.triangle(pair.a), b.triangle(pair.b));
+      });
+    };
+    EXPECT_GT(undecided(Digits::simple), 100);
+    EXPECT_LT(3 * undecided(Digits::wide), undecided(Digits::simple));
+  }
+}
+
+TEST(FacetDecisions, SharingPairsHaveACornerInCommon) {
+  const auto [mesh_a, mesh_b] = bodies(0);
+  const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+  std::size_t sharing = 0;
+  for (const Kernels* kernels : tests::available_kernels()) {
+    const FacetBlock block_a = block_of(*kernels, a, 0), block_b = block_of(*kernels, b, 0);
+    for (int f = 0; f < a.facet_end(0); ++f) {
+      FacetPairList pairs;
+      std::uint64_t expected = 0;
+      for (int g = 0; g < b.facet_end(0); ++g) {
+        pairs.a[pairs.count] = static_cast<std::uint8_t>(f);
+        pairs.b[pairs.count++] = static_cast<std::uint8_t>(g);
+        expected |= static_cast<std::uint64_t>(share_a_corner(a.triangle(f), b.triangle(g))) << g;
+      }
+      constexpr std::uint64_t kSome = 0xfedcba9876543210;
+      EXPECT_EQ(kernels->sharing_pairs(block_a, block_b, pairs, kSome), expected & kSome) << kernels->name;
+      sharing += static_cast<std::size_t>(std::popcount(expected & kSome));
+    }
+  }
+  EXPECT_GT(sharing, 100u);
+}
+
+TEST(FacetDecisions, TouchingPairsOfALatticeAreDecidedUnlessCoplanar) {
+  const ClusteredMesh a = clustered(tests::lattice_soup(60, 2, 1)), b = clustered(tests::lattice_soup(60, 2, 8));
+  std::size_t touching_and_decided = 0;
+  for (const FacetPair& pair : decide_all(*scalar_kernels(), a, b).meeting) {
+    const Triangle p = a.triangle(pair.a), q = b.triangle(pair.b);
+    PredicateCounts counts;
+    const std::array<int, 3> sides = sides_of_plane(p[0], p[1], p[2], q, counts);
+    if (sides[0] == 0 || sides[1] == 0 || sides[2] == 0) ++touching_and_decided;
+  }
+  EXPECT_GT(touching_and_decided, 20u);
+}
+
+bool has_area(const Triangle& t) {
+  return cross(t[1] - t[0], t[2] - t[0]) != Vec3{};  // exact on a lattice
+}
+
+// All pairs of two lattices, offset and scaled in a way that leaves them lattices.
+TEST(FacetDecisions, PairsOnALatticeAreAllDecided) {
+  std::size_t in_plane = 0;
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    for (const auto& [scale, offset] :
+         {std::pair{1.0, 0.0}, {0x1p-6, 0x1p20}, {0x1p-100, -0x1p-80}, {3.0, 0x1p36}, {1000.0, 5e8}}) {
+      const auto placed = [&](std::uint64_t of) {
+        Mesh mesh = tests::lattice_soup(60, of % 2 == 0 ? 1 : 3, of);
+        mesh.positions = (scale * mesh.positions).array() + offset;
+        return mesh;
+      };
+      const ClusteredMesh a = clustered(placed(seed)), b = clustered(placed(seed + 50));
+      for (const Kernels* kernels : tests::available_kernels()) {
+        const FacetBlock block_a = block_of(*kernels, a, 0, kAnywhere), block_b = block_of(*kernels, b, 0, kAnywhere);
+        const BoxBounds bounds = narrowphase::bounds_of(base::merged(a.box(), b.box()));
+        for (int f = 0; f < a.facet_end(0); ++f) {
+          const FacetPairList pairs = all_with(f, b.facet_end(0));
+          const PairMatches matches = tests::match_pairs(*kernels, block_a, block_b, pairs, bounds);
+          ASSERT_TRUE(tests::on_lattice(*kernels, block_a, block_b, bounds))
+              << kernels->name << " scale " << scale << " offset " << offset;
+          const PairMatches flat = kernels->match_flat_pairs(block_a, block_b, pairs, matches.flat, true);
+          for (int g = 0; g < b.facet_end(0); ++g) {
+            const bool areas = has_area(a.triangle(f)) && has_area(b.triangle(g)),
+                       is_flat = (matches.flat >> g & 1) != 0;
+            const std::uint64_t undecided = is_flat ? flat.undecided : matches.undecided;
+            if ((undecided >> g & 1) != 0) {
+              ASSERT_FALSE(areas) << kernels->name << ": " << f << ' ' << g;
+              continue;
+            }
+            PredicateCounts counts;
+            const bool meet = (((is_flat ? flat : matches).meeting >> g) & 1) != 0;
+            ASSERT_EQ(meet, triangle_triangle_meet(a.triangle(f), b.triangle(g), counts)) << f << ' ' << g;
+            in_plane += is_flat ? 1 : 0;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(in_plane, 1000u);
+}
+
+// A coordinate next to one of a lattice is none.
+TEST(FacetDecisions, ACoordinateBesideALatticeIsNoticed) {
+  Mesh mesh = tests::lattice_soup(20, 3, 5);
+  const ClusteredMesh b = clustered(mesh);
+  for (Eigen::Index i = 0; i < 3 * mesh.facets.size(); ++i) {
+    Mesh other = mesh;
+    double& x = other.positions(i % 3, mesh.facets.reshaped()[i / 3]);
+    x = x == 0.0 ? 0x1p-1074 : std::nextafter(x, 1e300);
+    const ClusteredMesh a = clustered(other);
+    const BoxBounds bounds = narrowphase::bounds_of(base::merged(a.box(), b.box()));
+    for (const Kernels* kernels : tests::available_kernels()) {
+      const FacetBlock block_a = block_of(*kernels, a, 0, kAnywhere), block_b = block_of(*kernels, b, 0, kAnywhere);
+      EXPECT_FALSE(kernels->on_lattice(block_a, bounds)) << kernels->name << ' ' << i;
+      EXPECT_TRUE(kernels->on_lattice(block_b, bounds)) << kernels->name << ' ' << i;
+    }
+  }
+}
+
+// Coordinates of more digits than a lattice of 2^16 steps has are none.
+TEST(FacetDecisions, ALatticeHasFewSteps) {
+  for (const double last : {0x1p-15, 0x1p-16, 0x1p-17}) {
+    MeshBuilder builder;
+    builder.triangle({0, 0, 0}, {1, 0, last}, {0, 1, 0});
+    const ClusteredMesh mesh = clustered(builder.mesh());
+    for (const Kernels* kernels : tests::available_kernels()) {
+      const FacetBlock block = block_of(*kernels, mesh, 0, kAnywhere);
+      EXPECT_EQ(kernels->on_lattice(block, narrowphase::bounds_of(mesh.box())), last == 0x1p-15) << kernels->name;
+    }
+  }
+}
+
+// Corners so near to a plane, and edges so near to another, that floats are just about to tell.
+TEST(FacetDecisions, FloatsAreSilentWithinTheirRounding) {
+  tests::Random random(12);
+  const auto point = [&] { return Vec3{random.uniform(0.0, 1.0), random.uniform(0.0, 1.0), random.uniform(0.0, 1.0)}; };
+  int told = 0, silent = 0;
+  for (int repeat = 0; repeat < 400; ++repeat) {
+    const Vec3 scale{std::ldexp(1.0, random.below(60) - 30), std::ldexp(1.0, random.below(60) - 30), 1.0};
+    const double offset = repeat % 3 == 0 ? 100.0 : 0.0;
+    const auto placed = [&](Vec3 p) {
+      return Vec3{scale.x * (p.x + offset), scale.y * (p.y + offset), scale.z * (p.z + offset)};
+    };
+    MeshBuilder a, b;
+    const Vec3 p = point(), q = point(), r = point();
+    a.triangle(placed(p), placed(q), placed(r));
+    const Vec3 n = cross(q - p, r - p);
+    for (int k = 0; k < 60; ++k) {
+      const double s = random.uniform(0.1, 0.4), t = k % 2 == 0 ? random.uniform(0.1, 0.4) : 0.0;  // inside, on a side
+      const double away = random.uniform(-200.0, 200.0) * 0x1p-24 / dot(n, n);
+      const Vec3 near = p + s * (q - p) + t * (r - p) + away * n;
+      b.triangle(placed(near), placed(near + n), placed(near + n + 0.1 * (q - p)));
+    }
+    const ClusteredMesh mesh_a = clustered(a.mesh()), mesh_b = clustered(b.mesh());
+    for (const Kernels* kernels : tests::available_kernels()) {
+      expect_right(*kernels, mesh_a, mesh_b, Digits::few, kAnywhere);
+      const Decisions decisions = decide_all(*kernels, mesh_a, mesh_b, Digits::few, kAnywhere);
+      silent += static_cast<int>(decisions.undecided.size());
+      told += 60 - static_cast<int>(decisions.undecided.size());
+    }
+  }
+  EXPECT_GT(told, 1000);
+  EXPECT_GT(silent, 1000);
+}
+
+TEST(FacetDecisions, FloatsDecideMostPairsOfSmoothBodies) {
+  const auto [mesh_a, mesh_b] = bodies(2);
+  const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+  const std::size_t pairs = static_cast<std::size_t>(a.facet_end(0)) * static_cast<std::size_t>(b.facet_end(0));
+  for (const Kernels* kernels : tests::available_kernels()) {
+    EXPECT_LT(10 * decide_all(*kernels, a, b, Digits::few).undecided.size(), pairs) << kernels->name;
+  }
+}
+
+TEST(FacetDecisions, PairsOfSmoothBodiesAreDecided) {
+  const auto [mesh_a, mesh_b] = bodies(2);
+  for (const Kernels* kernels : tests::available_kernels()) {
+    EXPECT_TRUE(decide_all(*kernels, clustered(mesh_a), clustered(mesh_b)).undecided.empty()) << kernels->name;
+  }
+}
+
+}  // namespace
+}  // namespace tact::narrowphase
