@@ -108,16 +108,16 @@ void float_corners(const FacetBlock& block, std::uint64_t facets, const Grid& gr
 }
 
 // Bounds the rounding of every determinant of a pair of facets whose boxes are at most `gap` apart along each axis, all of
-// it in units of the grid. With u = 2^-24: coordinates are off by at most 1.001 u, differences, which are up to
-// m = the extents of two facets and the gap, by 2.003 u + 1.001 m u, and each of the six products of three is rounded
-// five times, sums included. So with S = mx my + my mz + mz mx a determinant is off by at most 6 * 2.003 u S +
-// 6 * (3.003 + 5.001) u mx my mz, and by what products lose that vanish.
+// it in units of the grid. With u = 2^-24: coordinates are off by at most 1.001 u; differences, which are up to
+// m <= 1, the extents of two facets and the gap, by 2.003 u + 1.001 m u < 4 u, so up to m' = m + 4 u as computed; each of
+// the six products of three is rounded five times, sums included. So with S = m'x m'y + m'y m'z + m'z m'x a determinant is
+// off by at most 6 * 2.003 u S + 6 * (3.003 + 5.001) u m'x m'y m'z, and by what products lose that vanish.
 inline float float_rounding(const FloatCorners& a, const FloatCorners& b, const double* gap) {
   double m[3];
   for (int axis = 0; axis < 3; ++axis) {
     m[axis] = a.extent[axis] + b.extent[axis] + gap[axis];
     if (!(m[axis] < 1.0)) m[axis] = 1.0;
-    m[axis] *= 1.0001;
+    m[axis] = 1.0001 * (m[axis] + 0x1p-22);
   }
   const double sides = m[0] * m[1] + m[1] * m[2] + m[2] * m[0], product = m[0] * m[1] * m[2];
   return static_cast<float>(0x1p-24 * (12.1 * sides + 48.2 * product) + 1e-30);

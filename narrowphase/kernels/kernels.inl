@@ -1,6 +1,6 @@
 // The loops of kernels.h over the packs that the including file defines: over points and boxes here, over the bytes of a
-// cluster in bytes.inl, over facets in facets.inl, over pairs of them in facet_pairs.inl and sort.inl, over the caller's
-// positions in refresh.inl. A tail of fewer than kWidth elements is read from
+// cluster and the cells of boxes in bytes.inl, over facets in facets.inl, over pairs of them in clear_pairs.inl,
+// facet_pairs.inl and sort.inl, over the caller's positions in refresh.inl. A tail of fewer than kWidth elements is read from
 // a padded array where the caller promises padding (points, boxes: see ClusteredMesh) and its lanes are masked off.
 
 namespace tact::narrowphase {

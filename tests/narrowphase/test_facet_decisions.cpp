@@ -293,6 +293,71 @@ TEST(FacetDecisions, FloatsAreSilentWithinTheirRounding) {
   EXPECT_GT(silent, 1000);
 }
 
+// All pairs of facets whose boxes overlap are decided within the unit cube, one facet of `a` after the other; nothing
+// that floats say is wrong.
+int decided_in_unit_cube(const Kernels& kernels, const ClusteredMesh& a, const ClusteredMesh& b) {
+  const FacetBlock block_a = block_of(kernels, a, 0), block_b = block_of(kernels, b, 0);
+  int decided = 0;
+  for (int f = 0; f < block_a.count; ++f) {
+    FacetPairList pairs;
+    for (int g = 0; g < block_b.count; ++g) {
+      if (!overlaps(tests::facet_box(a, f), tests::facet_box(b, g))) continue;
+      pairs.a[pairs.count] = static_cast<std::uint8_t>(f);
+      pairs.b[pairs.count++] = static_cast<std::uint8_t>(g);
+    }
+    if (pairs.count == 0) continue;
+    const PairMatches matches = tests::match_float_pairs(kernels, block_a, block_b, pairs, {{0, 0, 0}, {1, 1, 1}});
+    for (int k = 0; k < pairs.count; ++k) {
+      if ((matches.undecided >> k & 1) != 0) continue;
+      PredicateCounts counts;
+      EXPECT_EQ((matches.meeting >> k & 1) != 0, triangle_triangle_meet(a.triangle(f), b.triangle(pairs.b[k]), counts))
+          << kernels.name << ' ' << f << ' ' << static_cast<int>(pairs.b[k]);
+      ++decided;
+    }
+  }
+  return decided;
+}
+
+// Facets as small as the rounding of their corners, in a box of size one.
+TEST(FacetDecisions, FloatsAreSilentOfFacetsTheySeeAsPoints) {
+  for (int seed = 0; seed < 12; ++seed) {
+    for (int halvings = 0; halvings < 45; ++halvings) {
+      auto [mesh_a, mesh_b] = bodies(seed);
+      for (Mesh* mesh : {&mesh_a, &mesh_b}) {
+        mesh->positions = (std::ldexp(0.1, -halvings) * mesh->positions).array() + (seed % 2 == 0 ? 0.7 : 0.3);
+      }
+      for (const Kernels* kernels : tests::available_kernels()) {
+        SCOPED_TRACE(::testing::Message() << "seed " << seed << ", halved " << halvings << " times");
+        const int decided = decided_in_unit_cube(*kernels, clustered(mesh_a), clustered(mesh_b));
+        if (halvings == 0 && seed % 4 != 0) {
+          EXPECT_GT(decided, 10);
+        } else if (halvings > 26) {
+          EXPECT_EQ(decided, 0);
+        }
+      }
+    }
+  }
+}
+
+// All corners are a float's last bit apart, or none, by less than they are rounded.
+TEST(FacetDecisions, FloatsAreSilentWhereRoundingMakesTheFacets) {
+  const double u = 0x1p-24, between = double{0.7f} + 0.5 * u;  // half-way to the next float
+  for (const double size : {0.01, 0.02, 0.05, 0.06, 0.1, 0.3, 1.0, 2.0}) {
+    const auto at = [&](double x, double y, double z) {
+      return Vec3{between + size * u * x, between + size * u * y, between + size * u * z};
+    };
+    const double third = -1.0 / 3.0, half = 0.2;
+    MeshBuilder a, b;
+    a.triangle(at(1, -1, -1), at(-1, 1, -1), at(-1, -1, 1));
+    for (const double x : {-half, half}) {
+      b.triangle(at(third + x, third + x, third + x), at(third - x, third - x, third), at(third - x, third, third - x));
+    }
+    for (const Kernels* kernels : tests::available_kernels()) {
+      EXPECT_EQ(decided_in_unit_cube(*kernels, clustered(a.mesh()), clustered(b.mesh())), 0) << kernels->name;
+    }
+  }
+}
+
 TEST(FacetDecisions, FloatsDecideMostPairsOfSmoothBodies) {
   const auto [mesh_a, mesh_b] = bodies(2);
   const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);

@@ -16,6 +16,7 @@ using narrowphase::ClusteredMesh;
 using narrowphase::CullPlanes;
 using narrowphase::FacetBlock;
 using narrowphase::FacetPairList;
+using narrowphase::Grid;
 using narrowphase::Kernels;
 using narrowphase::PairMatches;
 using narrowphase::PredicateCounts;
@@ -36,11 +37,18 @@ Mesh turned(Mesh mesh) {
 
 }  // namespace
 
-FacetBlock block_of(const Kernels& kernels, const ClusteredMesh& mesh, int cluster, const CullPlanes& planes) {
+FacetBlock block_of(const Kernels& kernels, const ClusteredMesh& mesh, int cluster, const CullPlanes& planes,
+                    const Grid& grid) {
   FacetBlock block{};
   kernels.open_cluster(mesh.facets_of(cluster), planes, &block);
-  kernels.find_cells(kGrid, &block);
+  kernels.find_cells(grid, &block);
   return block;
+}
+
+base::Box facet_box(const ClusteredMesh& mesh, int facet) {
+  base::Box box;
+  for (const base::Vec3& p : mesh.triangle(facet)) box = extended(box, p);
+  return box;
 }
 
 BoxBounds bounds_of(const FacetPairList& pairs, const FacetBlock& a, const FacetBlock& b) {

@@ -23,11 +23,14 @@ inline constexpr narrowphase::CullPlanes kAnywhere{{0, 0, 1, 0, 0, 0}, -kEverywh
 inline const narrowphase::Grid kGrid = narrowphase::grid_over(kEverything, narrowphase::kLastCell);
 
 narrowphase::FacetBlock block_of(const narrowphase::Kernels& kernels, const narrowphase::ClusteredMesh& mesh,
-                                 int cluster, const narrowphase::CullPlanes& planes = kAll);
+                                 int cluster, const narrowphase::CullPlanes& planes = kAll,
+                                 const narrowphase::Grid& grid = kGrid);
 
 // Seeded pairs of bodies: lattices where everything is coplanar or touches, soups, smooth ones, and lattices that were
 // turned, so that rounding alone keeps corners from planes.
 std::pair<Mesh, Mesh> bodies(int seed);
+
+base::Box facet_box(const narrowphase::ClusteredMesh& mesh, int facet);
 
 // The box of the facets of some pairs.
 narrowphase::BoxBounds bounds_of(const narrowphase::FacetPairList& pairs, const narrowphase::FacetBlock& a,

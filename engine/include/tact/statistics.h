@@ -38,7 +38,7 @@ namespace tact {
   X(kept_facets, "facets left after the criteria")                                                        \
   X(cluster_pairs, "pairs of clusters whose boxes overlap")                                               \
   X(tree_pairs, "contacts whose cluster pairs were found by trees rather than a plain loop")              \
-  X(facet_box_pairs, "pairs of facets whose boxes overlap")                                               \
+  X(facet_box_pairs, "pairs of facets whose boxes overlap or nearly do")                                  \
   X(triangle_tests, "pairs of facets that doubles could not decide")                                      \
   X(exact_predicates, "orientation predicates that needed integers")                                      \
   X(facet_pairs, "pairs of facets that meet")                                                             \
