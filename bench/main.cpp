@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/os.h>
 #include <tact/version.h>
 
 #include <CLI/App.hpp>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "bench/commands.h"
+#include "bench/table.h"
 
 namespace {
 
@@ -22,7 +24,12 @@ int fail(int status, const char* message) {
 }
 
 int run(const tact::bench::Command& command, const tact::bench::BenchOptions& options) {
-  if (!options.out.empty()) std::filesystem::create_directories(options.out);
+  if (!options.out.empty()) {
+    std::filesystem::create_directories(options.out);
+    fmt::output_file((options.out / "machine.txt").string())
+        .print("tact {}, {}{}\n{}\n", TACT_VERSION, command.name, options.quick ? ", quick" : "",
+               tact::bench::machine_line(tact::bench::thread_count(options.threads)));
+  }
   return command.run(options);
 }
 

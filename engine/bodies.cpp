@@ -123,9 +123,7 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   on_all([&](auto& vector) { vector.resize(slots); });
   body->id = {slot, ++slots_[slot].generation, world_};
   boxes_[slot] = body->mesh.box();
-  const bool knows_diagonals = has_diagonals(body->mesh);
-  diagonals_[slot].known = knows_diagonals;
-  if (knows_diagonals) diagonals_[slot].bounds = body->mesh.diagonals();
+  find_diagonals(slot, body->mesh);
   wants_diagonals_[slot] = 1;
   groupings_[slot] = {.looseness = body->mesh.looseness()};
   filters_[slot] = {definition.layer, definition.mask, definition.motion == Motion::fixed};
@@ -185,11 +183,14 @@ void Bodies::stage(Update& update, int threads) const {
 }
 
 void Bodies::find_diagonals(int threads) {
-  base::parallel_for(unknown_.size(), 1, threads, [&](std::size_t i) {
-    const narrowphase::ClusteredMesh& mesh = in_slot(unknown_[i]).mesh;
-    if (has_diagonals(mesh)) diagonals_[unknown_[i]] = {mesh.diagonals(), true};
-  });
+  base::parallel_for(unknown_.size(), 1, threads,
+                     [&](std::size_t i) { find_diagonals(unknown_[i], in_slot(unknown_[i]).mesh); });
   unknown_.clear();
+}
+
+void Bodies::find_diagonals(std::uint32_t slot, const narrowphase::ClusteredMesh& mesh) {
+  diagonals_[slot].known = has_diagonals(mesh);
+  if (diagonals_[slot].known) diagonals_[slot].bounds = mesh.diagonals();
 }
 
 void Bodies::check(const Update& update) {

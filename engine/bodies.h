@@ -121,6 +121,7 @@ class Bodies {
   void take(const Update& update);
   void note_change(const Update& update);
   void check_named_once(std::span<const PositionsUpdate> updates);
+  void find_diagonals(std::uint32_t slot, const narrowphase::ClusteredMesh& mesh);
   void mark_changed(std::uint32_t slot);
   static bool is_loose(const Grouping& grouping, double looseness);
 
