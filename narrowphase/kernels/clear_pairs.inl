@@ -40,11 +40,13 @@ struct ClearPlane {
     const VectorOf<Real> e = sub(c1, c0), f = sub(c2, c0);
     normal = {sub(mul(e.y, f.z), mul(e.z, f.y)), sub(mul(e.z, f.x), mul(e.x, f.z)), sub(mul(e.x, f.y), mul(e.y, f.x))};
   }
-  PackOf<Real> height(const VectorOf<Real>& point) const {
-    const VectorOf<Real> x = sub(point, origin);
-    return add(add(mul(normal.x, x.x), mul(normal.y, x.y)), mul(normal.z, x.z));
-  }
+  PackOf<Real> height(const VectorOf<Real>& point) const { return dot(normal, sub(point, origin)); }
 };
+
+template <class Real>
+inline PackOf<Real> opposite(PackOf<Real> x) {
+  return sub(spread(Real{0}), x);
+}
 
 // On which side of a plane the corners of a triangle lie, by their heights over it.
 template <class Real>
@@ -52,7 +54,8 @@ struct ClearSides {
   MaskOf<Real> above[3];
   unsigned apart, certain;  // bits: all three on one side; all three farther away than rounding
 
-  ClearSides(const ClearPlane<Real>& plane, const VectorOf<Real>* corner, PackOf<Real> error, PackOf<Real> opposite_error) {
+  ClearSides(const ClearPlane<Real>& plane, const VectorOf<Real>* corner, PackOf<Real> error) {
+    const PackOf<Real> opposite_error = opposite<Real>(error);
     MaskOf<Real> below[3];
     for (int k = 0; k < 3; ++k) {
       const PackOf<Real> height = plane.height(corner[k]);
@@ -68,12 +71,12 @@ struct ClearSides {
 // What match_lanes says, where all determinants are farther from zero than `error`, which bounds the rounding of each;
 // nothing of other lanes.
 template <class Real>
-inline Meeting match_clear_lanes(const VectorOf<Real>* a, const VectorOf<Real>* b, unsigned mask, PackOf<Real> error,
-                                 PackOf<Real> opposite_error) {
-  const ClearSides<Real> sides_b({a[0], a[1], a[2]}, b, error, opposite_error);
+inline Meeting match_clear_lanes(const VectorOf<Real>* a, const VectorOf<Real>* b, unsigned mask,
+                                 PackOf<Real> error) {
+  const ClearSides<Real> sides_b({a[0], a[1], a[2]}, b, error);
   unsigned left = mask & ~sides_b.apart;
   if (left == 0) return {0, mask, 0};
-  const ClearSides<Real> sides_a({b[0], b[1], b[2]}, a, error, opposite_error);
+  const ClearSides<Real> sides_a({b[0], b[1], b[2]}, a, error);
   left &= ~sides_a.apart;
   const unsigned certain = left & sides_a.certain & sides_b.certain;
   if (certain == 0) return {0, mask & ~left, 0};
@@ -82,6 +85,7 @@ inline Meeting match_clear_lanes(const VectorOf<Real>* a, const VectorOf<Real>* 
   const auto a1 = select(lone_b.above, lone_a.next, lone_a.last), a2 = select(lone_b.above, lone_a.last, lone_a.next);
   const PackOf<Real> p = ClearPlane<Real>(b1, a1, lone_b.lone).height(lone_a.lone);
   const PackOf<Real> q = ClearPlane<Real>(b2, a2, lone_b.lone).height(lone_a.lone);
+  const PackOf<Real> opposite_error = opposite<Real>(error);
   const unsigned yes = bits(both(less(error, p), less(q, opposite_error)));
   const unsigned no = bits(either(less(p, opposite_error), less(error, q)));
   return {yes & certain, (mask & ~left) | (no & certain), 0};
@@ -126,8 +130,7 @@ inline float float_rounding(const FloatCorners& a, const FloatCorners& b, const 
 // Where floats leave half of the pairs open, they are asked no more.
 PairMatches match_float_pairs(const FloatCorners& a, const FloatCorners& b, const FacetPairList& pairs,
                               const double* gap) {
-  const float rounding = float_rounding(a, b, gap);
-  const FloatPack error = spread(rounding), opposite_error = spread(-rounding);
+  const FloatPack error = spread(float_rounding(a, b, gap));
   std::uint64_t yes = 0, no = 0;
   const auto corners_of = [](const FloatCorners& of, const FloatPicks& at, VectorOf<float>* corner) {
     for (int k = 0; k < 3; ++k) {
@@ -141,7 +144,7 @@ PairMatches match_float_pairs(const FloatCorners& a, const FloatCorners& b, cons
     corners_of(b, FloatPicks(pairs.b + i), corner_b);
     const int left = pairs.count - i;
     const unsigned lanes = left >= kFloatWidth ? (1u << kFloatWidth) - 1u : (1u << left) - 1u;
-    const Meeting meeting = match_clear_lanes(corner_a, corner_b, lanes, error, opposite_error);
+    const Meeting meeting = match_clear_lanes(corner_a, corner_b, lanes, error);
     yes |= static_cast<std::uint64_t>(meeting.yes) << i;
     no |= static_cast<std::uint64_t>(meeting.no) << i;
     const int seen = i + kFloatWidth;

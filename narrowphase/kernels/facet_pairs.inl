@@ -48,13 +48,12 @@ inline WideVector difference(const VectorPack& a, const VectorPack& b) {
 // As Plane, for points on a lattice (see Lattice): nothing is rounded.
 struct ExactPlane {
   static constexpr bool kRounds = false;
-  VectorPack origin, normal;
+  ClearPlane<double> plane;
 
-  ExactPlane(const VectorPack& c0, const VectorPack& c1, const VectorPack& c2)
-      : origin(c0), normal(Plane(c0, c1, c2).normal) {}
+  ExactPlane(const VectorPack& c0, const VectorPack& c1, const VectorPack& c2) : plane(c0, c1, c2) {}
 
   Determinant height(const VectorPack& point) const {
-    const Pack value = Determinant::dot(sub(point, origin), normal);
+    const Pack value = plane.height(point);
     return {value, spread(0.0), abs(value)};
   }
 };
@@ -221,7 +220,7 @@ bool on_lattice(const FacetBlock& block, const BoxBounds& bounds) { return Latti
 
 // The rounding of all pairs together is soon known, and most are clear of it. Where a pair is not, others are likely not.
 inline Meeting match_rounding_lanes(const VectorPack* a, const VectorPack* b, unsigned mask, Pack error, bool* clear) {
-  const Meeting meeting = *clear ? match_clear_lanes(a, b, mask, error, sub(spread(0.0), error)) : Meeting{0, 0, 0};
+  const Meeting meeting = *clear ? match_clear_lanes(a, b, mask, error) : Meeting{0, 0, 0};
   *clear = (meeting.yes | meeting.no) == mask;
   return *clear ? meeting : match_lanes<Plane>(a, b, mask);
 }

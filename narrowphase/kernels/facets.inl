@@ -11,6 +11,10 @@ template <class Real>
 inline VectorOf<Real> sub(const VectorOf<Real>& a, const VectorOf<Real>& b) {
   return {sub(a.x, b.x), sub(a.y, b.y), sub(a.z, b.z)};
 }
+template <class Real>
+inline PackOf<Real> dot(const VectorOf<Real>& n, const VectorOf<Real>& x) {
+  return add(add(mul(n.x, x.x), mul(n.y, x.y)), mul(n.z, x.z));
+}
 inline VectorPack spread(const double* p) { return {spread(p[0]), spread(p[1]), spread(p[2])}; }
 
 // A determinant as computed, a bound of its rounding, and the sum of the sizes of its products, or, where nothing was
@@ -19,9 +23,6 @@ inline VectorPack spread(const double* p) { return {spread(p[0]), spread(p[1]), 
 struct Determinant {
   Pack value, error, size;
 
-  static Pack dot(const VectorPack& x, const VectorPack& n) {
-    return add(add(mul(n.x, x.x), mul(n.y, x.y)), mul(n.z, x.z));
-  }
   Mask positive() const { return less(error, value); }
   Mask negative() const { return less(value, sub(spread(0.0), error)); }
   Mask zero() const { return less_equal(size, spread(0.0)); }
@@ -34,7 +35,7 @@ struct Determinant {
 inline Pack rounding_of(Pack size) { return add(mul(size, spread(kRelativeRounding)), spread(kAbsoluteRounding)); }
 
 inline Determinant determinant(const VectorPack& x, const VectorPack& n, const VectorPack& n_bound) {
-  const Pack value = Determinant::dot(x, n);
+  const Pack value = dot(n, x);
   const Pack size = add(add(mul(n_bound.x, abs(x.x)), mul(n_bound.y, abs(x.y))), mul(n_bound.z, abs(x.z)));
   return {value, rounding_of(size), size};
 }

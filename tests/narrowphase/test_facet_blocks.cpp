@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "narrowphase/criteria.h"
 #include "tests/support/clustered.h"
 #include "tests/support/facet_blocks.h"
 #include "tests/support/generators.h"
@@ -104,17 +105,20 @@ TEST(FacetBlocks, BoxesThatOverlapShareCellsOfAnyGrid) {
 TEST(FacetBlocks, CellsOfAppendedFacetsAreFound) {
   const ClusteredMesh mesh = clustered(tests::blob(2, 0.5, 0.3, 3));
   const CullPlanes planes{{0, 0, 1, 0, 0, 0}, 0.25, kEverything};  // leaves a few of a cluster
-  const Grid other = grid_over({{-1, -1, -1}, {1, 1, 1}}, kLastCell);
   for (const Kernels* kernels : tests::available_kernels()) {
-    FacetBlock at_once{}, one_by_one{};
-    for (int c = 0; c < mesh.cluster_count(); ++c) {
-      kernels->open_cluster(mesh.facets_of(c), planes, &at_once);
-      kernels->open_cluster(mesh.facets_of(c), planes, &one_by_one);
-      kernels->find_cells(other, &one_by_one);
-    }
-    kernels->find_cells(other, &at_once);
-    ASSERT_GT(at_once.count, 20);
-    const auto expect_equal = [&] {
+    KeptFacets kept;
+    for (const double reach : {1.0, 2.0}) {
+      const Grid grid = grid_over({{-reach, -reach, -reach}, {reach, reach, reach}}, kLastCell);
+      FacetBlock at_once{};
+      kept.clear();
+      FacetBlock& one_by_one = kept.block;
+      for (int c = 0; c < mesh.cluster_count(); ++c) {
+        kernels->open_cluster(mesh.facets_of(c), planes, &at_once);
+        kernels->open_cluster(mesh.facets_of(c), planes, &one_by_one);
+        kernels->find_cells(grid, &one_by_one);
+      }
+      kernels->find_cells(grid, &at_once);
+      ASSERT_GT(at_once.count, 20);
       ASSERT_EQ(one_by_one.count, at_once.count);
       for (int axis = 0; axis < 3; ++axis) {
         for (int f = 0; f < at_once.count; ++f) {
@@ -123,8 +127,7 @@ TEST(FacetBlocks, CellsOfAppendedFacetsAreFound) {
           EXPECT_GE(at_once.upper_cell[axis][f], at_once.lower_cell[axis][f]);
         }
       }
-    };
-    expect_equal();
+    }
   }
 }
 
@@ -192,14 +195,10 @@ TEST(FacetBlocks, FacetsArePairedByTheirBoxesAndPlanes) {
     const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
     const FacetBlock block_a = block_of(*scalar_kernels(), a, 0), block_b = block_of(*scalar_kernels(), b, 0);
     std::vector<FacetPair> sharing;
-    const auto box = [](const BoxBounds& bounds) {
-      return Box{{bounds.lower[0], bounds.lower[1], bounds.lower[2]},
-                 {bounds.upper[0], bounds.upper[1], bounds.upper[2]}};
-    };
     for (int f = 0; f < block_a.count; ++f) {
       for (int g = 0; g < block_b.count; ++g) {
         const bool share = share_cells(box_of(block_a, f), box_of(block_b, g));
-        EXPECT_TRUE(share || !overlaps(box(box_of(block_a, f)), box(box_of(block_b, g))));
+        EXPECT_TRUE(share || !overlaps(tests::facet_box(a, f), tests::facet_box(b, g)));
         if (share) sharing.push_back({f, g});
       }
     }

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 
 #include "narrowphase/triangle_triangle.h"
 #include "tests/support/generators.h"
@@ -20,14 +19,8 @@ using narrowphase::Grid;
 using narrowphase::Kernels;
 using narrowphase::PairMatches;
 using narrowphase::PredicateCounts;
-using narrowphase::Triangle;
 
 namespace {
-
-bool lies_in_plane(const Triangle& a, const Triangle& b) {
-  PredicateCounts counts;
-  return sides_of_plane(b[0], b[1], b[2], a, counts) == std::array<int, 3>{0, 0, 0};
-}
 
 Mesh turned(Mesh mesh) {
   mesh.positions =
@@ -72,11 +65,11 @@ Decisions decide_all(const Kernels& kernels, const ClusteredMesh& a, const Clust
   Decisions decisions;
   for (int f = 0; f < a.facet_end(0); ++f) {
     const FacetPairList pairs = all_with(f, b.facet_end(0));
-    const std::uint64_t all = pairs.count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << pairs.count) - 1;
     const BoxBounds bounds = bounds_of(pairs, block_a, block_b);
-    const PairMatches matches = digits == Digits::few      ? match_float_pairs(kernels, block_a, block_b, pairs, bounds)
-                                : digits == Digits::simple ? match_pairs(kernels, block_a, block_b, pairs, bounds)
-                                                           : kernels.match_pairs_wide(block_a, block_b, pairs, all);
+    const PairMatches matches = digits == Digits::few ? match_float_pairs(kernels, block_a, block_b, pairs, bounds)
+                                : digits == Digits::simple
+                                    ? match_pairs(kernels, block_a, block_b, pairs, bounds)
+                                    : kernels.match_pairs_wide(block_a, block_b, pairs, all_bits(pairs.count));
     EXPECT_EQ(matches.meeting & matches.undecided, 0u);
     EXPECT_EQ(matches.flat & ~matches.undecided, 0u);
     for (int g = 0; g < b.facet_end(0); ++g) {
@@ -98,8 +91,6 @@ std::vector<FacetPair> meeting_in_truth(const ClusteredMesh& a, const ClusteredM
   }
   return pairs;
 }
-
-std::uint64_t all_bits(int count) { return count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1; }
 
 std::pair<Mesh, Mesh> bodies(int seed) {
   const auto s = static_cast<std::uint64_t>(seed);

@@ -38,7 +38,6 @@ narrowphase::BoxBounds bounds_of(const narrowphase::FacetPairList& pairs, const 
 
 // A facet with each of `count`.
 narrowphase::FacetPairList all_with(int facet, int count);
-std::uint64_t all_bits(int count);
 
 // What becomes of all pairs of a facet of the first cluster of `a` and one of `b`.
 struct Decisions {

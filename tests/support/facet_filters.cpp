@@ -87,12 +87,14 @@ bool is_right(Filtered::Decision decision, bool meet) {
   return decision == Filtered::Decision::undecided || (decision == Filtered::Decision::meeting) == meet;
 }
 
+}  // namespace
+
 bool lies_in_plane(const Triangle& a, const Triangle& b) {
   narrowphase::PredicateCounts counts;
   return narrowphase::sides_of_plane(b[0], b[1], b[2], a, counts) == std::array<int, 3>{0, 0, 0};
 }
 
-}  // namespace
+std::uint64_t all_bits(int count) { return ~std::uint64_t{0} >> (64 - count); }
 
 BoxBounds box_of(const FacetBlock& block, std::size_t facet) {
   return {{block.lower[0][facet], block.lower[1][facet], block.lower[2][facet]},
@@ -113,8 +115,7 @@ bool on_lattice(const Kernels& kernels, const FacetBlock& a, const FacetBlock& b
 
 PairMatches match_pairs(const Kernels& kernels, const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
                         const BoxBounds& bounds) {
-  const std::uint64_t all = ~std::uint64_t{0} >> (FacetPairList::kCapacity - pairs.count);
-  return kernels.match_pairs(a, b, pairs, all, bounds, on_lattice(kernels, a, b, bounds));
+  return kernels.match_pairs(a, b, pairs, all_bits(pairs.count), bounds, on_lattice(kernels, a, b, bounds));
 }
 
 PairMatches match_float_pairs(const Kernels& kernels, const FacetBlock& a, const FacetBlock& b,

@@ -46,6 +46,12 @@ narrowphase::PairMatches match_float_pairs(const narrowphase::Kernels& kernels, 
 bool on_lattice(const narrowphase::Kernels& kernels, const narrowphase::FacetBlock& a, const narrowphase::FacetBlock& b,
                 const narrowphase::BoxBounds& bounds);
 
+// Does the first lie in the plane of the second?
+bool lies_in_plane(const narrowphase::Triangle& a, const narrowphase::Triangle& b);
+
+// The lowest 1 to 64 bits.
+std::uint64_t all_bits(int count);
+
 // The box of a facet of a block, and the box of two.
 narrowphase::BoxBounds box_of(const narrowphase::FacetBlock& block, std::size_t facet);
 narrowphase::BoxBounds merged(narrowphase::BoxBounds box, const narrowphase::BoxBounds& other);
