@@ -45,6 +45,8 @@ struct FacetCounts {
   std::int64_t opened_clusters = 0;
   std::int64_t opened_facets = 0;
   std::int64_t facing_away = 0;
+  std::int64_t outside_slab = 0;
+  std::int64_t outside_box = 0;
   std::int64_t outside_zone = 0;
   std::int64_t cluster_pairs = 0;
   std::int64_t facet_box_pairs = 0;

@@ -180,12 +180,13 @@ void add(CullCounts& sum, const CullCounts& one) {
   sum.opened_clusters += one.opened_clusters;
   sum.facing_away += one.facing_away;
   sum.outside_slab += one.outside_slab;
+  sum.outside_box += one.outside_box;
   sum.outside_zone += one.outside_zone;
   sum.kept += one.kept;
 }
 
 std::int64_t facets_of(const CullCounts& counts) {
-  return counts.facing_away + counts.outside_slab + counts.outside_zone + counts.kept;
+  return counts.facing_away + counts.outside_slab + counts.outside_box + counts.outside_zone + counts.kept;
 }
 
 void sort_facet_pairs(PairWork& work, int threads) {
@@ -212,6 +213,8 @@ void finish(PairWork& work, const ConfirmCounts& counts, int threads) {
   record.contact.kept_facets_a = work.cull_a.kept;
   record.contact.kept_facets_b = work.cull_b.kept;
   record.facet_counts.facing_away = work.cull_a.facing_away + work.cull_b.facing_away;
+  record.facet_counts.outside_slab = work.cull_a.outside_slab + work.cull_b.outside_slab;
+  record.facet_counts.outside_box = work.cull_a.outside_box + work.cull_b.outside_box;
   record.facet_counts.outside_zone = work.cull_a.outside_zone + work.cull_b.outside_zone;
   record.facet_counts.facet_box_pairs = counts.facet_box_pairs;
   record.facet_counts.triangle_tests = counts.triangle_tests;

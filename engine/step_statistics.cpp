@@ -23,7 +23,6 @@ void add_work(const PairRecord& record, const Settings& settings, StepStats& sta
   stats.fresh_directions += contact.source == DirectionSource::fresh ? 1 : 0;
   stats.smallest_directions += contact.source == DirectionSource::smallest ? 1 : 0;
   if (settings.accuracy == Accuracy::hulls) return;
-  const std::int64_t kept = contact.kept_facets_a + contact.kept_facets_b;
   const FacetCounts& facet_counts = record.facet_counts;
   stats.clusters += facet_counts.clusters;
   stats.clusters_outside_box += facet_counts.clusters_outside_box;
@@ -31,11 +30,11 @@ void add_work(const PairRecord& record, const Settings& settings, StepStats& sta
   stats.opened_clusters += facet_counts.opened_clusters;
   stats.opened_facets += facet_counts.opened_facets;
   stats.facets += facet_counts.facets;
-  stats.kept_facets += kept;
+  stats.kept_facets += contact.kept_facets_a + contact.kept_facets_b;
   stats.facets_facing_away += facet_counts.facing_away;
+  stats.facets_outside_slab += facet_counts.outside_slab;
+  stats.facets_outside_box += facet_counts.outside_box;
   stats.facets_outside_zone += facet_counts.outside_zone;
-  // Whole clusters fall to criterion 2.
-  stats.facets_outside_slab += facet_counts.facets - kept - facet_counts.facing_away - facet_counts.outside_zone;
   stats.cluster_pairs += facet_counts.cluster_pairs;
   stats.tree_pairs += facet_counts.used_trees ? 1 : 0;
   stats.facet_box_pairs += facet_counts.facet_box_pairs;

@@ -178,7 +178,8 @@ class ClusteredMesh {
     const auto owned = static_cast<std::size_t>(vertex_end(cluster) - first);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       prefetch_lines(placed_.memory + axis * stride_ + first, owned);
-      prefetch_line(corner_[axis] + facet_begin(cluster));
+      prefetch_lines(corner_[axis] + facet_begin(cluster),
+                     static_cast<std::size_t>(facet_end(cluster) - facet_begin(cluster)));
     }
     prefetch_lines(borrowed_ + borrowed, static_cast<std::size_t>(borrowed_begin(cluster + 1) - borrowed));
     prefetch_lines(source_facet_ + facet_begin(cluster),

@@ -130,14 +130,16 @@ bool append_facets(const ClusteredMesh& mesh, int cluster, const Criteria& crite
                           .lowest = criteria.lowest,
                           .box = bounds_of(other)};
   const ClusterFacets facets = mesh.facets_of(cluster);
-  const int before = kept.block.count, count = kernels().open_cluster(facets, planes, &kept.block);
-  if (before + count > FacetBlock::kCapacity) return false;
-  const std::uint64_t appended = lowest_bits(before + count) & ~lowest_bits(before);
+  const int before = kept.block.count;
+  const OpenedFacets opened = kernels().open_cluster(facets, planes, &kept.block);
+  if (before + opened.left > FacetBlock::kCapacity) return false;
+  const std::uint64_t appended = lowest_bits(before + opened.left) & ~lowest_bits(before);
   const std::uint64_t away = criteria.facing_away ? appended & kernels().facing_away(kept.block, planes.axis) : 0;
   const std::uint64_t left = appended & ~away;
   const std::uint64_t inside = criteria.zone ? inside_zone(kept.block, left, criteria) : left;
   ++counts.opened_clusters;
-  counts.outside_slab += facets.facet_count - count;
+  counts.outside_slab += opened.low;
+  counts.outside_box += facets.facet_count - opened.left - opened.low;
   counts.facing_away += std::popcount(away);
   counts.outside_zone += std::popcount(left & ~inside);
   counts.kept += std::popcount(inside);

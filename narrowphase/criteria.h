@@ -3,7 +3,8 @@
 // A facet F of A, n the contact direction (B the same with -n):
 //   1 facing away     n · normal(F) <= 0: dropped. Loses contacts on spikes and folds: Accuracy::paper only, and
 //                     never on a sheet or a facet without area.
-//   2 outside slab    F lies before the plane of B. Also: F's box misses the box of what is left of B.
+//   2 outside slab    F lies before the plane of B.
+//     outside box     F's box misses the box of what is left of B: costs as little, and is not the paper's.
 //   3 outside zone    the projection of F misses the disk around B's impact zone. Where a zone was computed.
 //
 // Criteria 2 and 3 lose no contact in real arithmetic, and none here: a height computed as n · (x - origin) is off by
@@ -30,12 +31,13 @@ struct Criteria {
   Disk other_zone = {};      // of the other body, all margins included, in units of that length
 };
 
-// Facets dropped, by the first criterion that drops them, and kept. Criterion 2 comes first: it alone needs no facet to
-// be looked at, only its corners.
+// Facets dropped, by the first that drops them, and kept. Criterion 2 and the box come first: they need no facet to be
+// looked at, only its corners.
 struct CullCounts {
   std::int64_t opened_clusters = 0;
   std::int64_t facing_away = 0;
   std::int64_t outside_slab = 0;
+  std::int64_t outside_box = 0;
   std::int64_t outside_zone = 0;
   std::int64_t kept = 0;
 };

@@ -46,10 +46,9 @@ void add_facets(const StepStats& s, Ledger& ledger) {
   ledger.add("clusters, criterion 2", s.clusters_outside_slab, "outside the slab", cluster);
   ledger.add("clusters, far", far, "no cluster of the other is near", cluster);
   const Mean facet{s.confirm_ms, s.kept_facets, "stage 6 of a kept facet, at most"};
-  const std::int64_t outside_slab =
-      s.opened_facets - s.kept_facets - s.facets_facing_away - s.facets_outside_zone;  // or the other's box
+  ledger.add("facets, box", s.facets_outside_box, "outside the box of what is left of the other", facet);
   ledger.add("facets, criterion 1", s.facets_facing_away, "facing away", facet);
-  ledger.add("facets, criterion 2", outside_slab, "outside the slab or the other's box", facet);
+  ledger.add("facets, criterion 2", s.facets_outside_slab, "outside the slab", facet);
   ledger.add("facets, criterion 3", s.facets_outside_zone, "outside the impact zone", facet);
 }
 

@@ -1,30 +1,35 @@
 // Loops over small whole numbers, included by kernels.inl: a byte a vertex of flags, a byte a corner of a facet, cells of
 // boxes.
 
-// A bit for each i < count of which the flags of its three corners, flags[corner[k][i]], have no bit in common.
-inline std::uint64_t sharing_no_bit_one_by_one(const std::uint8_t* flags, const std::uint8_t* const (&corner)[3],
-                                               int count) {
-  std::uint64_t none = 0;
+// Of the i < count, a bit for each: do the flags of its three corners, flags[corner[k][i]], have no bit in common, do
+// they have the lowest?
+struct CommonFlags {
+  std::uint64_t none, lowest;
+};
+
+inline CommonFlags common_flags_one_by_one(const std::uint8_t* flags, const std::uint8_t* const (&corner)[3], int count) {
+  CommonFlags found{0, 0};
   for (int i = 0; i < count; ++i) {
     const unsigned common = flags[corner[0][i]] & flags[corner[1][i]] & flags[corner[2][i]];
-    none |= static_cast<std::uint64_t>(common == 0) << i;
+    found.none |= static_cast<std::uint64_t>(common == 0) << i;
+    found.lowest |= static_cast<std::uint64_t>(common & 1) << i;
   }
-  return none;
+  return found;
 }
 
 #if defined(TACT_KERNELS_AVX512_BYTES)
 
 // Up to 128 flags stand in two registers. At least 128 bytes of flags can be read, and 1 <= count <= 64.
-inline std::uint64_t sharing_no_bit(const std::uint8_t* flags, int flag_count, const std::uint8_t* const (&corner)[3],
-                                    int count) {
-  if (flag_count > 128) return sharing_no_bit_one_by_one(flags, corner, count);
+inline CommonFlags common_flags(const std::uint8_t* flags, int flag_count, const std::uint8_t* const (&corner)[3],
+                                int count) {
+  if (flag_count > 128) return common_flags_one_by_one(flags, corner, count);
   const __mmask64 all = ~std::uint64_t{0} >> (64 - count);
   const __m512i low = _mm512_loadu_si512(flags), high = _mm512_loadu_si512(flags + 64);
   const auto of_corner = [&](int k) {
     return _mm512_permutex2var_epi8(low, _mm512_maskz_loadu_epi8(all, corner[k]), high);
   };
   const __m512i common = _mm512_and_si512(_mm512_and_si512(of_corner(0), of_corner(1)), of_corner(2));
-  return _mm512_mask_testn_epi8_mask(all, common, common);
+  return {_mm512_mask_testn_epi8_mask(all, common, common), _mm512_mask_test_epi8_mask(all, common, _mm512_set1_epi8(1))};
 }
 
 // Copies those of up to 64 bytes that have a bit, one after the other. Writes 64 bytes.
@@ -47,8 +52,8 @@ inline void write_places(std::uint64_t set, std::uint8_t* to) {
 
 #else
 
-inline std::uint64_t sharing_no_bit(const std::uint8_t* flags, int, const std::uint8_t* const (&corner)[3], int count) {
-  return sharing_no_bit_one_by_one(flags, corner, count);
+inline CommonFlags common_flags(const std::uint8_t* flags, int, const std::uint8_t* const (&corner)[3], int count) {
+  return common_flags_one_by_one(flags, corner, count);
 }
 
 inline void compress(std::uint64_t set, const std::uint8_t* from, std::uint8_t* to) {

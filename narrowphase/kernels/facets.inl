@@ -57,7 +57,8 @@ struct Plane {
   Determinant height(const VectorPack& point) const { return determinant(sub(point, origin), normal, bound); }
 };
 
-// The vertices of a cluster, owned ones first, and what rules each out: a bit for the plane and for each side of the box.
+// The vertices of a cluster, owned ones first, and what rules each out: the lowest bit for the plane, one for each side of
+// the box.
 struct alignas(64) ClusterVertices {
   static constexpr int kCapacity = 192 + 8;
   double x[kCapacity], y[kCapacity], z[kCapacity];
@@ -94,13 +95,15 @@ inline void judge_vertices(const CullPlanes& planes, int count, ClusterVertices*
 }
 
 // A facet is left out if one and the same thing rules out all its corners.
-int open_cluster(const ClusterFacets& in, const CullPlanes& planes, FacetBlock* block) {
+OpenedFacets open_cluster(const ClusterFacets& in, const CullPlanes& planes, FacetBlock* block) {
   ClusterVertices v;
   load_vertices(in, &v);
   judge_vertices(planes, in.owned_count + in.borrowed_count, &v);
-  const std::uint64_t left = sharing_no_bit(v.outside, in.owned_count + in.borrowed_count, in.corner, in.facet_count);
+  const CommonFlags flags = common_flags(v.outside, in.owned_count + in.borrowed_count, in.corner, in.facet_count);
+  const std::uint64_t left = flags.none;
   const int count = __builtin_popcountll(left), begin = block->count;
-  if (begin + count > FacetBlock::kCapacity) return count;
+  const OpenedFacets opened{count, __builtin_popcountll(flags.lowest)};
+  if (begin + count > FacetBlock::kCapacity) return opened;
   alignas(64) std::uint8_t corner[3][2 * FacetBlock::kCapacity], place[FacetBlock::kCapacity];
   for (int k = 0; k < 3; ++k) {
     compress(left, in.corner[k], corner[k]);
@@ -125,7 +128,7 @@ int open_cluster(const ClusterFacets& in, const CullPlanes& planes, FacetBlock* 
     for (int axis = 0; axis < 3; ++axis) store(block->normal[axis] + to, normal[axis]);
   }
   block->count = begin + count;
-  return count;
+  return opened;
 }
 
 inline Pack place_in(const Grid& grid, int axis, Pack x) {

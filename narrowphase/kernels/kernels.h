@@ -112,6 +112,12 @@ struct CullPlanes {
   BoxBounds box;  // so is one whose box misses this
 };
 
+// Facets of a cluster that the planes leave, and those that are too low.
+struct OpenedFacets {
+  std::int32_t left;
+  std::int32_t low;
+};
+
 // Some facets of a block, a bit each, and the box of all of them, which is empty if there is none.
 struct NearFacets {
   std::uint64_t facets;
@@ -190,7 +196,7 @@ struct Kernels {
 
   // Appends to `block` the facets of a cluster that the planes do not leave out, or does nothing if there is no room
   // for them; returns how many they are.
-  int (*open_cluster)(const ClusterFacets& cluster, const CullPlanes& planes, FacetBlock* block);
+  OpenedFacets (*open_cluster)(const ClusterFacets& cluster, const CullPlanes& planes, FacetBlock* block);
 
   // Finds the cells of the facets that have none yet.
   void (*find_cells)(const Grid& grid, FacetBlock* block);

@@ -81,7 +81,11 @@ TEST(Statistics, ClustersAndFacetsAddUp) {
     EXPECT_LE(s.opened_facets, s.facets);
     EXPECT_LE(s.kept_facets, s.opened_facets);
     EXPECT_LE(s.opened_facets, 64 * s.opened_clusters);
+    EXPECT_GT(s.facets_outside_slab, 0);
+    EXPECT_GT(s.facets_outside_box, 0);
+    EXPECT_EQ(s.facets_outside_slab + s.facets_outside_box + s.kept_facets, s.opened_facets);
   }
+  EXPECT_EQ(found[0].facets_outside_slab, found[1].facets_outside_slab);
   EXPECT_EQ(found[0].clusters_outside_box, found[1].clusters_outside_box);
   EXPECT_EQ(found[0].clusters_outside_slab, found[1].clusters_outside_slab);
   EXPECT_EQ(found[0].opened_clusters, found[1].opened_clusters);

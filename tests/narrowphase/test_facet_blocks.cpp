@@ -32,6 +32,7 @@ TEST(FacetBlocks, OpenClusterLeavesOutWhatOneSideRulesOut) {
     const CullPlanes planes{{0.48, -0.6, 0.64, 0.1, 0.2, 0.3}, -0.2, {{-0.3, -0.2, -0.4}, {0.3, 0.5, 0.2}}};
     for (int c = 0; c < mesh.cluster_count(); ++c) {
       std::vector<std::int32_t> expected;
+      int low = 0;
       for (int f = mesh.facet_begin(c); f < mesh.facet_end(c); ++f) {
         Box box;
         double top = -9.0;
@@ -39,10 +40,14 @@ TEST(FacetBlocks, OpenClusterLeavesOutWhatOneSideRulesOut) {
           box = extended(box, p);
           top = std::max(top, (0.48 * (p.x - 0.1) + -0.6 * (p.y - 0.2)) + 0.64 * (p.z - 0.3));
         }
+        low += top < planes.lowest ? 1 : 0;
         if (top >= planes.lowest && overlaps(box, Box{{-0.3, -0.2, -0.4}, {0.3, 0.5, 0.2}})) expected.push_back(f);
       }
       for (const Kernels* kernels : tests::available_kernels()) {
-        const FacetBlock block = block_of(*kernels, mesh, c, planes);
+        FacetBlock block{};
+        const OpenedFacets opened = kernels->open_cluster(mesh.facets_of(c), planes, &block);
+        EXPECT_EQ(opened.left, block.count) << kernels->name << " seed " << seed;
+        EXPECT_EQ(opened.low, low) << kernels->name << " seed " << seed;
         EXPECT_EQ(std::vector(block.facet, block.facet + block.count), expected) << kernels->name << " seed " << seed;
         for (int i = 0; i < block.count; ++i) {
           const Triangle t = mesh.triangle(block.facet[i]);

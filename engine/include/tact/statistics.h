@@ -30,10 +30,11 @@ namespace tact {
   X(clusters_outside_box, "clusters dropped whole: outside the box of what is left of the other")         \
   X(clusters_outside_slab, "clusters dropped whole by criterion 2, outside the slab")                     \
   X(opened_clusters, "clusters of which a cluster of the other body is near")                             \
-  X(opened_facets, "facets of the opened clusters")                                                       \
+  X(opened_facets, "facets of the opened clusters: those dropped next, and those kept")                   \
   X(facets, "facets of the bodies in contact, once a contact")                                            \
   X(facets_facing_away, "facets dropped by criterion 1, facing away (paper only)")                        \
-  X(facets_outside_slab, "facets outside the slab or the other's box, or in clusters not opened")         \
+  X(facets_outside_slab, "facets dropped by criterion 2, outside the slab")                               \
+  X(facets_outside_box, "other facets dropped: outside the box of what is left of the other")             \
   X(facets_outside_zone, "facets dropped by criterion 3, outside the impact zone")                        \
   X(kept_facets, "facets left after the criteria")                                                        \
   X(cluster_pairs, "pairs of clusters whose boxes overlap")                                               \
