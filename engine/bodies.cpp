@@ -18,9 +18,10 @@ using Staged = narrowphase::ClusteredMesh::Staged;
 constexpr Eigen::Index kLargestCount = std::numeric_limits<int>::max() / 4;
 constexpr std::size_t kPrefetchDistance = 8;  // bodies
 constexpr std::size_t kTakenAtATime = 1024;   // bodies
-constexpr std::size_t kRefreshedBytes = 224;  // of a Body, its first: what stage 1 reads
+constexpr std::size_t kRefreshedBytes = 160;  // of a Body, its first: what stage 1 reads
 // A body of so many facets is refreshed by all threads: one among many, or one of a few that would not keep them busy.
-constexpr std::size_t kLargeBody = 32768, kLargeOfFew = 8192, kFewPerThread = 4;
+constexpr int kLargeBody = 32768, kLargeOfFew = 8192;  // facets
+constexpr std::size_t kFewPerThread = 4;
 constexpr int kMostWithDiagonals = 4096;  // vertices: to look how far more of them reach takes longer than it saves
 // The clusters of a body, if they are at least so many, are looked at after so many moves, and twice as many after each
 // try to group them anew, up to a limit. Where they are so many times looser than they were, it is tried, and kept if
@@ -103,16 +104,13 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   const std::span<const int> facets = packed(definition.facets, facet_copy);
   check_positions(positions.data(), positions.size() / 3, name);
   check_facets(facets, definition.positions.cols(), name);
-  auto body = std::make_unique<Body>(Body{.id = {},
-                                          .name = name,
-                                          .surface = definition.surface,
-                                          .motion = definition.motion,
-                                          .facet_count = static_cast<std::size_t>(definition.facets.cols()),
-                                          .mesh = {positions, facets}});
+  auto body = std::make_unique<Body>(Body{
+      .mesh = {positions, facets}, .id = {}, .name = name, .surface = definition.surface, .motion = definition.motion});
   // Nothing can fail half-way: all that may allocate comes first.
   const std::size_t slots = std::max<std::size_t>(slots_.size(), slot + 1);
   const auto on_all = [&](const auto& grow) {
-    grow(boxes_), grow(filters_), grow(diagonals_), grow(wants_diagonals_), grow(groupings_), grow(slots_);
+    grow(boxes_), grow(filters_), grow(diagonals_), grow(knows_diagonals_), grow(wants_diagonals_), grow(groupings_),
+        grow(slots_);
   };
   on_all([&](auto& vector) { make_room(vector, slots); });
   make_room(changed_, slots);
@@ -150,6 +148,11 @@ void Bodies::remove(BodyId id) {
   --count_;
 }
 
+void Bodies::make_updates(std::size_t count) {
+  if (staged_diagonals_.size() < count) staged_diagonals_.resize(count);
+  if (updates_.size() < count) updates_.resize(count);
+}
+
 void Bodies::prepare(Update& update, BodyId id, const Positions& positions) {
   const Body& body = at(id);
   const Slot& slot = slots_[id.index];
@@ -171,11 +174,12 @@ void Bodies::prefetch(BodyId id) const {
     narrowphase::prefetch_lines(reinterpret_cast<const char*>(slots_[id.index].body.get()), kRefreshedBytes);
 }
 
-void Bodies::stage(Update& update, int threads) const {
+void Bodies::stage(std::size_t i, int threads) {
+  Update& update = updates_[i];
   update.staged = update.body->mesh.stage(update.positions.data(), kLargestCoordinate, threads);
-  update.diagonals.known =
+  update.knows_diagonals =
       update.staged == Staged::changed && wants_diagonals_[update.slot] != 0 && has_diagonals(update.body->mesh);
-  if (update.diagonals.known) update.diagonals.bounds = update.body->mesh.staged_diagonals();
+  if (update.knows_diagonals) staged_diagonals_[i] = update.body->mesh.staged_diagonals();
   const bool looks = update.staged == Staged::changed &&
                      groupings_[update.slot].moves + 1 == moves_to_look(groupings_[update.slot].tries) &&
                      update.body->mesh.cluster_count() >= kFewestRegrouped;
@@ -189,8 +193,8 @@ void Bodies::find_diagonals(int threads) {
 }
 
 void Bodies::find_diagonals(std::uint32_t slot, const narrowphase::ClusteredMesh& mesh) {
-  diagonals_[slot].known = has_diagonals(mesh);
-  if (diagonals_[slot].known) diagonals_[slot].bounds = mesh.diagonals();
+  knows_diagonals_[slot] = has_diagonals(mesh) ? 1 : 0;
+  if (has_diagonals(mesh)) diagonals_[slot] = mesh.diagonals();
 }
 
 void Bodies::check(const Update& update) {
@@ -198,13 +202,14 @@ void Bodies::check(const Update& update) {
   check_positions(update.positions.data(), update.positions.size() / 3, update.body->name);
 }
 
-void Bodies::take(const Update& update) {
+void Bodies::take(std::size_t i) {
+  const Update& update = updates_[i];
   if (update.staged != Staged::changed) return;
   update.body->mesh.take_staged();
   const std::uint32_t slot = update.slot;
   boxes_[slot] = update.body->mesh.box();
-  diagonals_[slot].known = update.diagonals.known;
-  if (update.diagonals.known) diagonals_[slot].bounds = update.diagonals.bounds;
+  knows_diagonals_[slot] = update.knows_diagonals ? 1 : 0;
+  if (update.knows_diagonals) diagonals_[slot] = staged_diagonals_[i];
   Grouping& grouping = groupings_[slot];
   grouping.moves = static_cast<std::uint16_t>((grouping.moves + 1) % moves_to_look(grouping.tries));
 }
@@ -260,25 +265,25 @@ void Bodies::keep_groups() noexcept {
 
 void Bodies::set_positions(BodyId id, const Positions& positions, int threads) {
   const base::FloatingPointMode mode;
-  if (updates_.empty()) updates_.resize(1);
+  make_updates(1);
   prepare(updates_[0], id, positions);
-  stage(updates_[0], updates_[0].body->facet_count >= kLargeOfFew ? threads : 1);
+  stage(0, updates_[0].body->mesh.facet_count() >= kLargeOfFew ? threads : 1);
   check(updates_[0]);
-  take(updates_[0]);
+  take(0);
   note_change(updates_[0]);
 }
 
 void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads) {
   const base::FloatingPointMode mode;
   const std::size_t count = updates.size();
-  if (updates_.size() < count) updates_.resize(count);
+  make_updates(count);
   for (std::size_t i = 0; i < count; ++i) prepare(updates_[i], updates[i].body, updates[i].positions);
   check_named_once(updates);
   // Large bodies one after the other, each on all threads.
   std::atomic<bool> any_large{false};
   const bool few = count < kFewPerThread * static_cast<std::size_t>(threads);
   const auto large = [&](std::size_t i) {
-    return threads > 1 && updates_[i].body->facet_count >= (few ? kLargeOfFew : kLargeBody);
+    return threads > 1 && updates_[i].body->mesh.facet_count() >= (few ? kLargeOfFew : kLargeBody);
   };
   base::parallel_for(count, base::grain_of(count, threads, 16, 128), threads, [&](std::size_t i) {
     if (i + 2 * kPrefetchDistance < count) prefetch(updates[i + 2 * kPrefetchDistance].body);
@@ -289,16 +294,16 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
     if (large(i)) {
       any_large = true;
     } else {
-      stage(updates_[i], 1);
+      stage(i, 1);
     }
   });
   for (std::size_t i = 0; i < count && any_large; ++i) {
-    if (large(i)) stage(updates_[i], threads);
+    if (large(i)) stage(i, threads);
   }
   for (std::size_t i = 0; i < count; ++i) check(updates_[i]);
   base::parallel_for(count, kTakenAtATime, threads, [&](std::size_t i) {
     if (i + kPrefetchDistance < count) prefetch(updates[i + kPrefetchDistance].body);
-    take(updates_[i]);
+    take(i);
   });
   for (std::size_t i = 0; i < count; ++i) note_change(updates_[i]);
 }

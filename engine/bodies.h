@@ -15,13 +15,13 @@
 
 namespace tact {
 
-struct Body {
+// What every step reads comes first, in few lines of memory.
+struct alignas(64) Body {
+  narrowphase::ClusteredMesh mesh;
   BodyId id;
   std::string name;
   Surface surface = Surface::closed;
   Motion motion = Motion::moving;
-  std::size_t facet_count = 0;
-  narrowphase::ClusteredMesh mesh;
 };
 
 class Bodies {
@@ -48,11 +48,11 @@ class Bodies {
   std::span<const broadphase::Filter> filters() const { return filters_; }
   // How far a body reaches along diagonals, or null if nobody wanted to know.
   const narrowphase::DiagonalBounds* diagonals(std::uint32_t slot) const {
-    return diagonals_[slot].known ? &diagonals_[slot].bounds : nullptr;
+    return knows_diagonals_[slot] != 0 ? &diagonals_[slot] : nullptr;
   }
   // Does a body look how far it reaches when it moves next? A new one does, a large one never.
   void want_diagonals(std::uint32_t slot, bool wanted) {
-    if (wanted && wants_diagonals_[slot] == 0 && !diagonals_[slot].known) unknown_.push_back(slot);
+    if (wanted && wants_diagonals_[slot] == 0 && knows_diagonals_[slot] == 0) unknown_.push_back(slot);
     wants_diagonals_[slot] = wanted ? 1 : 0;
   }
   // Bodies of which it is wanted and that did not know look now.
@@ -99,11 +99,6 @@ class Bodies {
     bool loose = false;
   };
 
-  struct Diagonals {
-    narrowphase::DiagonalBounds bounds;
-    bool known = false;
-  };
-
   // New positions of a body: prepared, staged, checked, then taken. Only what comes before taking can fail.
   struct Update {
     Body* body = nullptr;
@@ -111,14 +106,15 @@ class Bodies {
     std::span<const double> positions;
     std::vector<double> copy;
     narrowphase::ClusteredMesh::Staged staged{};
-    Diagonals diagonals;
+    bool knows_diagonals = false;
     double looseness = 0.0;  // of the clusters, if it was time to look
   };
+  void make_updates(std::size_t count);
   void prepare(Update& update, BodyId id, const Positions& positions);
   void prefetch(BodyId id) const;
-  void stage(Update& update, int threads) const;
+  void stage(std::size_t i, int threads);
   static void check(const Update& update);
-  void take(const Update& update);
+  void take(std::size_t i);
   void note_change(const Update& update);
   void check_named_once(std::span<const PositionsUpdate> updates);
   void find_diagonals(std::uint32_t slot, const narrowphase::ClusteredMesh& mesh);
@@ -130,8 +126,8 @@ class Bodies {
   std::vector<std::uint32_t> free_;
   std::vector<base::Box> boxes_;
   std::vector<broadphase::Filter> filters_;
-  std::vector<Diagonals> diagonals_;
-  std::vector<char> wants_diagonals_;
+  std::vector<narrowphase::DiagonalBounds> diagonals_;
+  std::vector<char> knows_diagonals_, wants_diagonals_;
   std::vector<std::uint32_t> unknown_;  // slots of bodies that are to look now
   std::vector<Grouping> groupings_;
   std::vector<std::uint32_t> loose_;  // slots of bodies whose clusters have lost their shape
@@ -140,8 +136,9 @@ class Bodies {
   bool removed_any_ = false;
   std::int64_t vertices_ = 0;
   std::int64_t moved_vertices_ = 0;
-  std::vector<Update> updates_;  // scratch
-  std::vector<char> named_;      // scratch, an entry a slot
+  std::vector<Update> updates_;                                // scratch
+  std::vector<narrowphase::DiagonalBounds> staged_diagonals_;  // of those that know them
+  std::vector<char> named_;                                    // scratch, an entry a slot
 };
 
 }  // namespace tact

@@ -142,7 +142,7 @@ void fill_contact(PairRecord& record, const MinkowskiDifference& m, const Direct
 
 void count_facets(const Body& a, const Body& b, PairWork& work) {
   FacetCounts& counts = work.record->facet_counts;
-  counts.facets = static_cast<std::int64_t>(a.facet_count + b.facet_count);
+  counts.facets = a.mesh.facet_count() + b.mesh.facet_count();
   counts.clusters = a.mesh.cluster_count() + b.mesh.cluster_count();
   counts.clusters_outside_slab = work.kept_a.outside_slab + work.kept_b.outside_slab;
   counts.clusters_outside_box =

@@ -145,6 +145,8 @@ Motion World::motion(BodyId body) const { return implementation().bodies.at(body
 std::size_t World::vertex_count(BodyId body) const {
   return static_cast<std::size_t>(implementation().bodies.at(body).mesh.source_vertex_count());
 }
-std::size_t World::facet_count(BodyId body) const { return implementation().bodies.at(body).facet_count; }
+std::size_t World::facet_count(BodyId body) const {
+  return static_cast<std::size_t>(implementation().bodies.at(body).mesh.facet_count());
+}
 
 }  // namespace tact

@@ -233,7 +233,7 @@ void ClusteredMesh::prefetch(const double* positions) const {
   prefetch_lines(positions, 3 * static_cast<std::size_t>(source_vertex_count_) + 1);  // masked loads touch one more
   prefetch_lines(ranges_, static_cast<std::size_t>(2 * cluster_count() + 2 + vertex_reads()));
   prefetch_lines(staged_.memory, 3 * stride_ + 6 * static_cast<std::size_t>(cluster_count() + group_count()));
-  for (std::size_t axis = 0; axis < 3; ++axis) prefetch_lines(placed_.memory + axis * stride_, 4);
+  prefetch_line(placed_.memory);  // if anything moves, the first x of all do
 }
 
 ClusteredMesh::Refreshed ClusteredMesh::refresh_range(const double* positions, int cluster_begin, int cluster_end) {

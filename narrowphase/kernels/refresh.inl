@@ -26,8 +26,8 @@ struct Bounds {
   }
 };
 
-inline __m256d differing(const double* before, __m256d after) {
-  return _mm256_cmp_pd(_mm256_loadu_pd(before), after, _CMP_NEQ_UQ);
+inline bool differs(const double* before, __m256d after) {
+  return _mm256_movemask_pd(_mm256_cmp_pd(_mm256_loadu_pd(before), after, _CMP_NEQ_UQ)) != 0;
 }
 
 // Lanes in which a or b is not a number.
@@ -35,7 +35,7 @@ inline __m256d not_numbers(__m256d a, __m256d b) { return _mm256_cmp_pd(a, b, _C
 
 RefreshedCluster refresh_cluster(const RefreshInput& in) {
   Bounds even, odd;  // two, so that one need not wait for the other
-  __m256d differs = _mm256_setzero_pd(), bad = _mm256_setzero_pd();
+  __m256d bad = _mm256_setzero_pd();
   bool changed = in.changed;
   int i = 0;
   for (; i + 4 <= in.owned_count; i += 4) {
@@ -51,11 +51,7 @@ RefreshedCluster refresh_cluster(const RefreshInput& in) {
     const __m256d xz13 = _mm256_unpacklo_pd(c, d), y13 = _mm256_unpackhi_pd(c, d);
     const __m256d x = _mm256_permute2f128_pd(xz02, xz13, 0x20), y = _mm256_permute2f128_pd(y02, y13, 0x20);
     const __m256d z = _mm256_permute2f128_pd(xz02, xz13, 0x31);
-    if (!changed) {
-      differs = _mm256_or_pd(_mm256_or_pd(differing(in.before.x + i, x), differing(in.before.y + i, y)),
-                             differing(in.before.z + i, z));
-      changed = _mm256_movemask_pd(differs) != 0;
-    }
+    changed = changed || differs(in.before.x + i, x) || differs(in.before.y + i, y) || differs(in.before.z + i, z);
     _mm256_storeu_pd(in.x + i, x);
     _mm256_storeu_pd(in.y + i, y);
     _mm256_storeu_pd(in.z + i, z);
