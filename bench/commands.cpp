@@ -9,6 +9,7 @@
 #include "bench/rivals.h"
 #include "bench/scaling.h"
 #include "bench/stability.h"
+#include "bench/stages.h"
 
 namespace tact::bench {
 
@@ -17,6 +18,7 @@ std::vector<Command> commands() {
       {"rivals", "the same frames through tact, Embree, CGAL, FCL and Bullet", run_rivals, true},
       {"refresh", "vertices a second of taking in new positions, against a plain sum", run_refresh},
       {"scaling", "one and more threads, growth with bodies and facets, the slowest of many steps", run_scaling},
+      {"stages", "what each stage costs in every level of the cache, and on all threads", run_stages},
       {"idle", "steps in which nothing moved, or few of many", run_idle},
       {"broadphase", "boxes alone, in every kind of motion, through tact, Embree and CGAL", run_broadphase},
       {"clusters", "pairs of clusters by a loop and by Embree's trees", run_clusters},

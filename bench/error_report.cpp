@@ -112,10 +112,10 @@ void plot_tables(const std::vector<ErrorTable>& tables, Question question, const
       "set multiplot layout {},{}\nset logscale xy\nset format x '%g'\nset format y '10^{{%L}}'\nset key off\n"
       "set xlabel 'µs a pair and step'\nset grid\n",
       lines, columns);
-  script += question == Question::hulls
-                ? "set yrange [3e-18:1]\nset ylabel 'largest error of depth / size'\n"
-                : fmt::format("set yrange [{}:1]\nset ylabel 'facet pairs missed or wrong (10^{{-7}}: none)'\n",
-                              0.3 * kLeastShareDrawn);
+  script +=
+      question == Question::hulls
+          ? "set yrange [3e-18:1]\nset ylabel 'largest error of depth / size'\n"
+          : fmt::format("set yrange [{}:1]\nset ylabel 'missed or wrong (10^{{-7}}: none)'\n", 0.3 * kLeastShareDrawn);
   const auto style = [&](const std::string& series) {
     const int n = number.at(series);
     const bool tact = series.starts_with("tact");

@@ -1,16 +1,15 @@
 #include "bench/scaling.h"
 
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/caches.h"
 #include "bench/measure.h"
 #include "bench/table.h"
 #include "bench/tact_runner.h"
@@ -89,45 +88,12 @@ void weak_scaling(const BenchOptions& options) {
 
 // --- Growth ---
 
-// The caches of processor 0 in bytes, smallest first; as far as the system tells.
-std::vector<double> data_caches() {
-  std::vector<double> sizes;
-  for (const int index : {0, 2, 3}) {
-    std::ifstream file(fmt::format("/sys/devices/system/cpu/cpu0/cache/index{}/size", index));
-    double size = 0.0;
-    char unit = ' ';
-    if (file >> size >> unit) sizes.push_back(size * (unit == 'K' ? 1024.0 : unit == 'M' ? 1048576.0 : 1.0));
-  }
-  return sizes;
-}
-
-// The smallest cache that holds `bytes`: 1, 2, 3, or 4 for memory; none up to twice the size of a cache, of which a
-// part stays in it from step to step.
-std::optional<int> cache_level(double bytes) {
-  int level = 1;
-  for (const double size : data_caches()) {
-    if (bytes > size && bytes < 2.0 * size) return std::nullopt;
-    level += bytes > size ? 1 : 0;
-  }
-  return level;
-}
-
-std::string level_name(std::optional<int> level) {
-  if (!level) return "between";
-  return *level > 3 ? "memory" : fmt::format("L{}", *level);
-}
-
 struct GrowthPoint {
   double size = 0.0;   // bodies or facets
   double bytes = 0.0;  // of the world and of a frame's positions
   double pairs = 0.0;
   double ms = 0.0;
 };
-
-double heap_bytes() {
-  const struct mallinfo2 info = mallinfo2();
-  return static_cast<double>(info.uordblks + info.hblkhd);
-}
 
 GrowthPoint measure_growth(const Workload& workload, double size, double budget_ms) {
   GrowthPoint point;
@@ -138,10 +104,7 @@ GrowthPoint measure_growth(const Workload& workload, double size, double budget_
   for (int frame = 0; frame < workload.frames; ++frame) {
     pairs.push_back(static_cast<double>(runner.step(frame).stats().facet_pairs));
   }
-  for (const WorkloadBody& body : workload.bodies) {
-    point.bytes += static_cast<double>(body.frames.front().size()) * sizeof(double);
-  }
-  point.bytes += heap_bytes() - before;
+  point.bytes = frame_bytes(workload) + heap_bytes() - before;
   const double start = wall_ms();
   double expected_ms = 0.0;
   for (int k = 0; k < workload.frames || wall_ms() - start < budget_ms; ++k) {
