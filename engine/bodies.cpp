@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <new>
 #include <optional>
 
 #include "engine/base/parallel.h"
@@ -13,12 +14,12 @@ namespace tact {
 namespace {
 
 using narrowphase::PositionProblem;
-using Staged = narrowphase::ClusteredMesh::Staged;
+using Refresh = narrowphase::ClusteredMesh::Refresh;
 
 constexpr Eigen::Index kLargestCount = std::numeric_limits<int>::max() / 4;
 constexpr std::size_t kPrefetchDistance = 8;  // bodies
 constexpr std::size_t kTakenAtATime = 1024;   // bodies
-constexpr std::size_t kRefreshedBytes = 160;  // of a Body, its first: what stage 1 reads
+constexpr std::size_t kRefreshedBytes = 128;  // of a Body, its first: what stage 1 reads
 // A body of so many facets is refreshed by all threads: one among many, or one of a few that would not keep them busy.
 constexpr int kLargeBody = 32768, kLargeOfFew = 8192;  // facets
 constexpr std::size_t kFewPerThread = 4;
@@ -128,6 +129,7 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   slots_[slot].vertex_count = body->mesh.source_vertex_count();
   slots_[slot].fixed = definition.motion == Motion::fixed;
   slots_[slot].body = std::move(body);
+  packed_meshes_.add(slots_[slot].body->mesh);
   mark_changed(slot);
   ++count_;
   vertices_ += slots_[slot].vertex_count;
@@ -139,6 +141,7 @@ void Bodies::remove(BodyId id) {
   const auto vertices = at(id).mesh.source_vertex_count();
   vertices_ -= vertices;
   if (moved(id.index)) moved_vertices_ -= vertices;
+  packed_meshes_.remove(slots_[id.index].body->mesh);
   slots_[id.index].body.reset();
   boxes_[id.index] = base::Box{};
   free_.push_back(id.index);
@@ -148,8 +151,19 @@ void Bodies::remove(BodyId id) {
   --count_;
 }
 
+// Where memory is short the meshes stay where they are.
+void Bodies::pack(int threads) try {
+  std::vector<narrowphase::ClusteredMesh*> meshes;
+  meshes.reserve(count_);
+  for (const Slot& slot : slots_) {
+    if (slot.body) meshes.push_back(&slot.body->mesh);
+  }
+  packed_meshes_.pack(meshes, threads);
+} catch (const std::bad_alloc&) {
+}
+
 void Bodies::make_updates(std::size_t count) {
-  if (staged_diagonals_.size() < count) staged_diagonals_.resize(count);
+  if (new_diagonals_.size() < count) new_diagonals_.resize(count);
   if (updates_.size() < count) updates_.resize(count);
 }
 
@@ -174,16 +188,18 @@ void Bodies::prefetch(BodyId id) const {
     narrowphase::prefetch_lines(reinterpret_cast<const char*>(slots_[id.index].body.get()), kRefreshedBytes);
 }
 
-void Bodies::stage(std::size_t i, int threads) {
+void Bodies::refresh(std::size_t i, int threads) {
   Update& update = updates_[i];
-  update.staged = update.body->mesh.stage(update.positions.data(), kLargestCoordinate, threads);
-  update.knows_diagonals =
-      update.staged == Staged::changed && wants_diagonals_[update.slot] != 0 && has_diagonals(update.body->mesh);
-  if (update.knows_diagonals) staged_diagonals_[i] = update.body->mesh.staged_diagonals();
-  const bool looks = update.staged == Staged::changed &&
-                     groupings_[update.slot].moves + 1 == moves_to_look(groupings_[update.slot].tries) &&
-                     update.body->mesh.cluster_count() >= kFewestRegrouped;
-  update.looseness = looks ? update.body->mesh.staged_looseness() : 0.0;
+  narrowphase::ClusteredMesh& mesh = update.body->mesh;
+  update.refreshed = mesh.refresh(update.positions.data(), kLargestCoordinate, threads);
+  const bool changed = update.refreshed == Refresh::changed;
+  update.box = mesh.box();
+  update.knows_diagonals = changed && wants_diagonals_[update.slot] != 0 && has_diagonals(mesh);
+  if (update.knows_diagonals) new_diagonals_[i] = mesh.diagonals();
+  const Grouping& grouping = groupings_[update.slot];
+  const bool looks =
+      changed && grouping.moves + 1 == moves_to_look(grouping.tries) && mesh.cluster_count() >= kFewestRegrouped;
+  update.looseness = looks ? mesh.looseness() : 0.0;
 }
 
 void Bodies::find_diagonals(int threads) {
@@ -197,25 +213,30 @@ void Bodies::find_diagonals(std::uint32_t slot, const narrowphase::ClusteredMesh
   if (has_diagonals(mesh)) diagonals_[slot] = mesh.diagonals();
 }
 
-void Bodies::check(const Update& update) {
-  if (update.staged != Staged::bad) return;
-  check_positions(update.positions.data(), update.positions.size() / 3, update.body->name);
+// Takes all bodies back and says what is wrong if the positions of any cannot be taken.
+void Bodies::check(std::size_t count) {
+  const std::span<Update> updates = std::span(updates_).first(count);
+  const auto bad = std::ranges::find(updates, Refresh::bad, &Update::refreshed);
+  if (bad == updates.end()) return;
+  for (const Update& update : updates) {
+    if (update.refreshed == Refresh::changed) update.body->mesh.take_back();
+  }
+  check_positions(bad->positions.data(), bad->positions.size() / 3, bad->body->name);
 }
 
 void Bodies::take(std::size_t i) {
   const Update& update = updates_[i];
-  if (update.staged != Staged::changed) return;
-  update.body->mesh.take_staged();
+  if (update.refreshed != Refresh::changed) return;
   const std::uint32_t slot = update.slot;
-  boxes_[slot] = update.body->mesh.box();
+  boxes_[slot] = update.box;
   knows_diagonals_[slot] = update.knows_diagonals ? 1 : 0;
-  if (update.knows_diagonals) diagonals_[slot] = staged_diagonals_[i];
+  if (update.knows_diagonals) diagonals_[slot] = new_diagonals_[i];
   Grouping& grouping = groupings_[slot];
   grouping.moves = static_cast<std::uint16_t>((grouping.moves + 1) % moves_to_look(grouping.tries));
 }
 
 void Bodies::note_change(const Update& update) {
-  if (update.staged != Staged::changed) return;
+  if (update.refreshed != Refresh::changed) return;
   if (!moved(update.slot)) moved_vertices_ += slots_[update.slot].vertex_count;
   mark_changed(update.slot);
   if (update.looseness == 0.0) return;  // most often: nothing of the grouping is read
@@ -243,7 +264,9 @@ std::vector<Bodies::Regrouped> Bodies::regroup(int threads) {
     Body& body = *slots_[loose_[i]].body;
     Grouping& grouping = groupings_[loose_[i]];
     if (meshes[i]->spread() <= kWorthRegrouping * body.mesh.spread()) {
+      packed_meshes_.remove(body.mesh);
       body.mesh = std::move(*meshes[i]);
+      packed_meshes_.add(body.mesh);
     } else {
       all[i].numbers.clear();
     }
@@ -267,8 +290,8 @@ void Bodies::set_positions(BodyId id, const Positions& positions, int threads) {
   const base::FloatingPointMode mode;
   make_updates(1);
   prepare(updates_[0], id, positions);
-  stage(0, updates_[0].body->mesh.facet_count() >= kLargeOfFew ? threads : 1);
-  check(updates_[0]);
+  refresh(0, updates_[0].body->mesh.facet_count() >= kLargeOfFew ? threads : 1);
+  check(1);
   take(0);
   note_change(updates_[0]);
 }
@@ -276,6 +299,7 @@ void Bodies::set_positions(BodyId id, const Positions& positions, int threads) {
 void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads) {
   const base::FloatingPointMode mode;
   const std::size_t count = updates.size();
+  if (packed_meshes_.is_due()) pack(threads);
   make_updates(count);
   for (std::size_t i = 0; i < count; ++i) prepare(updates_[i], updates[i].body, updates[i].positions);
   check_named_once(updates);
@@ -294,17 +318,14 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
     if (large(i)) {
       any_large = true;
     } else {
-      stage(i, 1);
+      refresh(i, 1);
     }
   });
   for (std::size_t i = 0; i < count && any_large; ++i) {
-    if (large(i)) stage(i, threads);
+    if (large(i)) refresh(i, threads);
   }
-  for (std::size_t i = 0; i < count; ++i) check(updates_[i]);
-  base::parallel_for(count, kTakenAtATime, threads, [&](std::size_t i) {
-    if (i + kPrefetchDistance < count) prefetch(updates[i + kPrefetchDistance].body);
-    take(i);
-  });
+  check(count);
+  base::parallel_for(count, kTakenAtATime, threads, [&](std::size_t i) { take(i); });
   for (std::size_t i = 0; i < count; ++i) note_change(updates_[i]);
 }
 

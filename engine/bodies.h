@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "broadphase/sweep_and_prune.h"
+#include "engine/packed_meshes.h"
 #include "narrowphase/clustered_mesh.h"
 
 namespace tact {
@@ -99,21 +100,23 @@ class Bodies {
     bool loose = false;
   };
 
-  // New positions of a body: prepared, staged, checked, then taken. Only what comes before taking can fail.
+  // New positions of a body: prepared; its mesh refreshed; taken, if all of a batch can be, which cannot fail.
   struct Update {
     Body* body = nullptr;
     std::uint32_t slot = 0;
     std::span<const double> positions;
     std::vector<double> copy;
-    narrowphase::ClusteredMesh::Staged staged{};
+    narrowphase::ClusteredMesh::Refresh refreshed{};
+    base::Box box;
     bool knows_diagonals = false;
     double looseness = 0.0;  // of the clusters, if it was time to look
   };
+  void pack(int threads);
   void make_updates(std::size_t count);
   void prepare(Update& update, BodyId id, const Positions& positions);
   void prefetch(BodyId id) const;
-  void stage(std::size_t i, int threads);
-  static void check(const Update& update);
+  void refresh(std::size_t i, int threads);
+  void check(std::size_t count);
   void take(std::size_t i);
   void note_change(const Update& update);
   void check_named_once(std::span<const PositionsUpdate> updates);
@@ -122,6 +125,7 @@ class Bodies {
   static bool is_loose(const Grouping& grouping, double looseness);
 
   std::uint32_t world_;
+  PackedMeshes packed_meshes_;
   std::vector<Slot> slots_;
   std::vector<std::uint32_t> free_;
   std::vector<base::Box> boxes_;
@@ -136,9 +140,9 @@ class Bodies {
   bool removed_any_ = false;
   std::int64_t vertices_ = 0;
   std::int64_t moved_vertices_ = 0;
-  std::vector<Update> updates_;                                // scratch
-  std::vector<narrowphase::DiagonalBounds> staged_diagonals_;  // of those that know them
-  std::vector<char> named_;                                    // scratch, an entry a slot
+  std::vector<Update> updates_;                             // scratch
+  std::vector<narrowphase::DiagonalBounds> new_diagonals_;  // of those that know them
+  std::vector<char> named_;                                 // scratch, an entry a slot
 };
 
 }  // namespace tact

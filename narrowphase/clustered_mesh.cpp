@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -21,7 +20,7 @@ constexpr int kFewestAhead = 64, kMostAhead = 128;
 constexpr int kMostMeasured = 128;  // facets
 constexpr int kFirstUse = -1;
 
-Box box_of(const BoxBounds& b) { return {{b.lower[0], b.lower[1], b.lower[2]}, {b.upper[0], b.upper[1], b.upper[2]}}; }
+Box to_box(const BoxBounds& b) { return {{b.lower[0], b.lower[1], b.lower[2]}, {b.upper[0], b.upper[1], b.upper[2]}}; }
 
 // See BoxView.
 void set_box(double* bounds, std::size_t stride, std::size_t i, const Box& box) {
@@ -76,6 +75,7 @@ ClusteredMesh::ClusteredMesh(std::span<const double> positions, std::span<const 
   const std::vector<int> order = facet_order(positions, facets, source_vertex_count_);
   take_memory(number_vertices(facets, order), order);
   set_positions(positions.data(), 1);
+  box_ = box_of(placed_);  // if all positions are zero, nothing changed
 }
 
 ClusteredMesh::Numbering ClusteredMesh::number_vertices(std::span<const int> facets, std::span<const int> order) const {
@@ -129,40 +129,55 @@ ClusteredMesh::Numbering ClusteredMesh::number_vertices(std::span<const int> fac
   return made;
 }
 
-void ClusteredMesh::take_memory(const Numbering& numbering, const std::vector<int>& order) {
+ClusteredMesh::MemorySize ClusteredMesh::memory_size() const {
+  const auto clusters = static_cast<std::size_t>(cluster_count()), groups = static_cast<std::size_t>(group_count());
+  const auto facets = static_cast<std::size_t>(facet_count_), borrowed = static_cast<std::size_t>(borrowed_count_);
+  return {.placement = 3 * stride_ + 6 * (clusters + groups),
+          .indices = 2 * clusters + 2 + stride_ + borrowed,
+          .rest = (static_cast<std::size_t>(unused_count_) + borrowed + 2 * facets) * sizeof(int) + 3 * facets};
+}
+
+void ClusteredMesh::lay_out(const Memory& memory) {
+  placed_ = memory.placement[0];
+  other_ = memory.placement[1];
+  ranges_ = memory.indices;
+  unused_sources_ = reinterpret_cast<int*>(memory.rest);
+  borrowed_ = unused_sources_ + unused_count_;
+  source_facet_ = borrowed_ + borrowed_count_;
+  facet_of_source_ = source_facet_ + facet_count_;
+  corner_[0] = reinterpret_cast<std::uint8_t*>(facet_of_source_ + facet_count_);
+  corner_[1] = corner_[0] + facet_count_;
+  corner_[2] = corner_[1] + facet_count_;
+}
+
+void ClusteredMesh::take_memory(const Numbering& numbering, std::span<const int> order) {
   vertex_count_ = static_cast<int>(numbering.source_vertices.size());
   borrowed_count_ = static_cast<int>(numbering.borrowed.size());
   unused_count_ = static_cast<int>(numbering.unused_sources.size());
   stride_ = static_cast<std::size_t>(vertex_count());
-  const std::size_t placement = 3 * stride_ + 6 * static_cast<std::size_t>(cluster_count() + group_count());
-  const std::size_t indices = numbering.ranges.size() + stride_ + 2 * numbering.borrowed.size() + 2 * order.size() +
-                              numbering.unused_sources.size();
-  const std::size_t size =
-      (2 * placement + kPadding) * sizeof(double) + indices * sizeof(int) + 3 * order.size() * sizeof(std::uint8_t);
-  memory_ = std::make_unique<std::byte[]>(size);
-  std::byte* at = memory_.get();
-  const auto take = [&]<class T>(T*& array, std::size_t count) {
-    array = reinterpret_cast<T*>(at);
-    at += count * sizeof(T);
-  };
-  const auto append = [&]<class T>(const std::vector<T>& values) {
-    T* array = nullptr;
-    take(array, values.size());
-    std::ranges::copy(values, array);
-    return array;
-  };
-  take(placed_.memory, placement);
-  take(staged_.memory, placement + kPadding);
-  ranges_ = append(numbering.ranges);
-  append(numbering.source_vertices);  // see source_vertices()
-  append(numbering.borrowed_sources);
-  unused_sources_ = append(numbering.unused_sources);
-  borrowed_ = append(numbering.borrowed);
-  source_facet_ = append(order);
-  take(facet_of_source_, order.size());
-  for (std::size_t k = 0; k < 3; ++k) corner_[k] = append(numbering.corner[k]);
-  assert(at == memory_.get() + size);
+  const MemorySize size = memory_size();
+  const std::size_t placements = (2 * size.placement + kPadding) * sizeof(double);
+  memory_ = std::make_unique<std::byte[]>(placements + size.indices * sizeof(int) + size.rest);
+  double* const first = reinterpret_cast<double*>(memory_.get());
+  int* const indices = reinterpret_cast<int*>(memory_.get() + placements);
+  lay_out({{first, first + size.placement}, indices, reinterpret_cast<std::byte*>(indices + size.indices)});
+  int* at = std::ranges::copy(numbering.ranges, ranges_).out;
+  at = std::ranges::copy(numbering.source_vertices, at).out;
+  std::ranges::copy(numbering.borrowed_sources, at);
+  std::ranges::copy(numbering.unused_sources, unused_sources_);
+  std::ranges::copy(numbering.borrowed, borrowed_);
+  std::ranges::copy(order, source_facet_);
   for (int f = 0; f < facet_count(); ++f) facet_of_source_[source_facet(f)] = f;
+  for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(numbering.corner[k], corner_[k]);
+}
+
+void ClusteredMesh::move_to(const Memory& memory) {
+  const MemorySize size = memory_size();
+  std::copy_n(placed_, size.placement, memory.placement[0]);
+  std::copy_n(ranges_, size.indices, memory.indices);
+  std::copy_n(reinterpret_cast<const std::byte*>(unused_sources_), size.rest, memory.rest);
+  lay_out(memory);
+  memory_.reset();
 }
 
 ClusterFacets ClusteredMesh::facets_of(int cluster) const {
@@ -188,12 +203,11 @@ Corners ClusteredMesh::corners(int facet) const {
   return corners;
 }
 
-ClusteredMesh::Staged ClusteredMesh::stage(const double* positions, double largest, int threads) {
+ClusteredMesh::Refresh ClusteredMesh::refresh(const double* positions, double largest, int threads) {
   const int per_range = std::clamp(cluster_count() / (4 * threads), kFewestInRange, kMostInRange);
   const int ranges = (cluster_count() + per_range - 1) / per_range;
-  const bool in_ranges = threads > 1 && ranges > 1;
-  Refreshed all;
-  if (!in_ranges) {
+  Refreshed all{};
+  if (threads == 1 || ranges <= 1) {
     all = refresh_range(positions, 0, cluster_count());
   } else {
     std::atomic<bool> any_changed{false}, any_not_a_number{false};
@@ -206,85 +220,90 @@ ClusteredMesh::Staged ClusteredMesh::stage(const double* positions, double large
     all.changed = any_changed;
     all.not_a_number = any_not_a_number;
   }
-  double* const group_bounds = staged_.memory + (group_boxes().lower(0) - placed_.memory);
-  for (int g = 0; g < group_count() && group_count() > 1; ++g) {
-    const int begin = cluster_begin(g), count = cluster_end(g) - begin;
-    set_box(group_bounds, static_cast<std::size_t>(group_count()), static_cast<std::size_t>(g),
-            box_of(kernels().bounds(cluster_boxes(staged_).pointers(begin), count)));
-  }
-  staged_.box = in_ranges ? box_of(kernels().bounds(group_boxes(staged_).pointers(), group_count())) : all.box;
+  refresh_groups();
+  const Box box = threads == 1 || ranges <= 1 ? to_box(all.box) : box_of(other_);
   const auto unused_is_bad = [&](int vertex) {
     const double* position = positions + 3 * static_cast<std::ptrdiff_t>(vertex);
     return find_position_problem(position, 1, largest).kind != PositionProblem::none;
   };
-  if (all.not_a_number || !is_within(staged_.box, largest) ||
+  if (all.not_a_number || !is_within(box, largest) ||
       std::any_of(unused_sources_, unused_sources_ + unused_count_, unused_is_bad))
-    return Staged::bad;
-  return all.changed ? Staged::changed : Staged::same;
+    return Refresh::bad;
+  if (!all.changed) return Refresh::same;
+  std::swap(placed_, other_);
+  box_ = box;
+  return Refresh::changed;
+}
+
+void ClusteredMesh::take_back() {
+  std::swap(placed_, other_);
+  box_ = box_of(placed_);
 }
 
 bool ClusteredMesh::set_positions(const double* positions, int threads) {
-  const bool changed = stage(positions, std::numeric_limits<double>::infinity(), threads) == Staged::changed;
-  take_staged();
-  return changed;
+  return refresh(positions, std::numeric_limits<double>::infinity(), threads) == Refresh::changed;
 }
 
 void ClusteredMesh::prefetch(const double* positions) const {
   prefetch_lines(positions, 3 * static_cast<std::size_t>(source_vertex_count_) + 1);  // masked loads touch one more
   prefetch_lines(ranges_, static_cast<std::size_t>(2 * cluster_count() + 2 + vertex_reads()));
-  prefetch_lines(staged_.memory, 3 * stride_ + 6 * static_cast<std::size_t>(cluster_count() + group_count()));
-  prefetch_line(placed_.memory);  // if anything moves, the first x of all do
+  prefetch_lines(other_, 3 * stride_ + 6 * static_cast<std::size_t>(cluster_count() + group_count()));
+  prefetch_line(placed_);  // if anything moves, the first x of all do
 }
 
-ClusteredMesh::Refreshed ClusteredMesh::refresh_range(const double* positions, int cluster_begin, int cluster_end) {
-  Refreshed refreshed;
-  double* const cluster_bounds = staged_.memory + 3 * stride_;
-  // Positions are gathered cluster by cluster, in an order that no hardware foresees.
-  const int end = vertex_begin(cluster_end), ahead = std::clamp(vertex_count() / 8, kFewestAhead, kMostAhead);
-  for (int cluster = cluster_begin; cluster < cluster_end; ++cluster) {
-    const int first = vertex_begin(cluster);
-    const int borrowed = borrowed_begin(cluster);
-    const double* before = placed_.memory + first;
-    double* after = staged_.memory + first;
-    const RefreshInput input{.source = positions,
-                             .owned = source_vertices() + first,
-                             .owned_count = vertex_end(cluster) - first,
-                             .borrowed = borrowed_sources() + borrowed,
-                             .borrowed_count = borrowed_begin(cluster + 1) - borrowed,
-                             .ahead = vertex_end(cluster) + ahead <= end ? ahead : 0,
-                             .before = {before, before + stride_, before + 2 * stride_},
-                             .changed = refreshed.changed,
-                             .x = after,
-                             .y = after + stride_,
-                             .z = after + 2 * stride_};
-    const RefreshedCluster seen = kernels().refresh_cluster(input);
-    refreshed.changed = seen.changed;
-    refreshed.not_a_number = refreshed.not_a_number || seen.not_a_number;
-    const Box box = box_of(seen.box);
-    set_box(cluster_bounds, static_cast<std::size_t>(cluster_count()), static_cast<std::size_t>(cluster), box);
-    refreshed.box = merged(refreshed.box, box);
+// From the boxes of the clusters, or of the groups if there are several.
+Box ClusteredMesh::box_of(const double* placement) const {
+  const bool has_groups = group_count() > 1;
+  const BoxView boxes = has_groups ? group_boxes(placement) : cluster_boxes(placement);
+  return to_box(kernels().bounds(boxes.pointers(), has_groups ? group_count() : cluster_count()));
+}
+
+Refreshed ClusteredMesh::refresh_range(const double* positions, int cluster_begin, int cluster_end) const {
+  // Positions are gathered cluster by cluster, in an order that no hardware foresees. A small body was asked for whole.
+  const int ahead = std::clamp(vertex_count() / 8, kFewestAhead, kMostAhead);
+  return kernels().refresh_clusters({.source = positions,
+                                     .cluster_begin = cluster_begin,
+                                     .cluster_end = cluster_end,
+                                     .ranges = ranges_,
+                                     .owned = source_vertices(),
+                                     .borrowed = borrowed_sources(),
+                                     .ahead = vertex_count() > ahead ? ahead : 0,
+                                     .before = {placed_, placed_ + stride_, placed_ + 2 * stride_},
+                                     .x = other_,
+                                     .y = other_ + stride_,
+                                     .z = other_ + 2 * stride_,
+                                     .boxes = other_ + 3 * stride_,
+                                     .box_stride = cluster_count()});
+}
+
+void ClusteredMesh::refresh_groups() const {
+  if (group_count() <= 1) return;
+  double* const bounds = other_ + 3 * stride_ + 6 * static_cast<std::size_t>(cluster_count());
+  for (int g = 0; g < group_count(); ++g) {
+    const int begin = cluster_begin(g), count = cluster_end(g) - begin;
+    const Box box = to_box(kernels().bounds(cluster_boxes(other_).pointers(begin), count));
+    set_box(bounds, static_cast<std::size_t>(group_count()), static_cast<std::size_t>(g), box);
   }
-  return refreshed;
 }
 
-double ClusteredMesh::spread(const Placement& p) const {
-  const BoxView boxes = cluster_boxes(p);
+double ClusteredMesh::spread() const {
+  const BoxView boxes = cluster_boxes();
   double sum = 0.0;
   for (int c = 0; c < cluster_count(); ++c) sum += spread_of(boxes[static_cast<std::size_t>(c)]);
   return sum;
 }
 
 // Facets are taken by the caller's numbers, which grouping does not change.
-double ClusteredMesh::looseness(const Placement& p) const {
+double ClusteredMesh::looseness() const {
   const int step = (facet_count() + kMostMeasured - 1) / kMostMeasured;
   double sum = 0.0;
   int measured = 0;
   for (int source = 0; source < facet_count(); source += step, ++measured) {
     Box box;
-    for (const int v : corners(facet_of_source(source))) box = extended(box, position(p, v));
+    for (const int v : corners(facet_of_source(source))) box = extended(box, position(v));
     sum += spread_of(box);
   }
-  return sum > 0.0 ? spread(p) / (sum / measured * facet_count()) : 0.0;
+  return sum > 0.0 ? spread() / (sum / measured * facet_count()) : 0.0;
 }
 
 ClusteredMesh ClusteredMesh::regrouped() const {

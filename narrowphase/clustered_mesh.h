@@ -108,15 +108,15 @@ class ClusteredMesh {
   ClusteredMesh& operator=(ClusteredMesh&&) = default;
 
   // Reads new positions, 3 x V, in one pass: refreshes all boxes, looks whether every coordinate is finite and at most
-  // `largest` in size, and whether any of a used vertex changed. All of that is staged: take_staged() puts it in place,
-  // which cannot fail, so that of a batch of bodies all move or none. Large meshes are cut into ranges of clusters for
-  // up to `threads` threads. Allocates nothing.
-  enum class Staged { same, changed, bad };
-  Staged stage(const double* positions, double largest, int threads);
-  void take_staged() { std::swap(placed_, staged_); }
-  // Both at once, for positions that were checked; says whether any changed.
+  // `largest` in size, and whether any of a used vertex changed. The mesh moves if any did and none is bad. Large
+  // meshes are cut into ranges of clusters for up to `threads` threads. Allocates nothing.
+  enum class Refresh { same, changed, bad };
+  Refresh refresh(const double* positions, double largest, int threads);
+  // Undoes the last refresh(), which changed the mesh: so that of a batch of bodies all move or none.
+  void take_back();
+  // For positions that were checked; says whether any changed.
   bool set_positions(const double* positions, int threads);
-  // Asks for the memory that stage() reads and writes, in good time.
+  // Asks for the memory that refresh() reads and writes, in good time.
   void prefetch(const double* positions) const;
 
   int source_vertex_count() const { return source_vertex_count_; }
@@ -126,7 +126,7 @@ class ClusteredMesh {
   int cluster_count() const { return (facet_count() + kClusterSize - 1) / kClusterSize; }
   int group_count() const { return (cluster_count() + kGroupSize - 1) / kGroupSize; }
 
-  // How many vertices of the caller stage() reads for clusters, those that several clusters share more than once.
+  // How many vertices of the caller refresh() reads for clusters, those that several clusters share more than once.
   int vertex_reads() const { return vertex_count_ + borrowed_count_; }
 
   int source_vertex(int vertex) const { return source_vertices()[vertex]; }
@@ -144,40 +144,39 @@ class ClusteredMesh {
   int vertex_end(int cluster) const { return vertex_begin(cluster + 1); }
 
   Corners corners(int facet) const;
-  Vec3 position(int vertex) const { return position(placed_, vertex); }
+  Vec3 position(int vertex) const {
+    const double* x = placed_ + vertex;
+    return {x[0], x[stride_], x[2 * stride_]};
+  }
   Triangle triangle(int facet) const;
 
   // What is behind corners() and position(), for loops over many.
   ClusterFacets facets_of(int cluster) const;
-  PointArrays points() const { return {placed_.memory, placed_.memory + stride_, placed_.memory + 2 * stride_}; }
+  PointArrays points() const { return {placed_, placed_ + stride_, placed_ + 2 * stride_}; }
 
   // The box of all facets; empty if there is none. The boxes of the clusters, borrowed vertices included, and of the
   // groups, if there are several.
-  const Box& box() const { return placed_.box; }
+  const Box& box() const { return box_; }
   BoxView cluster_boxes() const { return cluster_boxes(placed_); }
   BoxView group_boxes() const { return group_boxes(placed_); }
   // How large the clusters are: the sum of (length + width + height)² of their boxes, in square metres.
-  double spread() const { return spread(placed_); }
+  double spread() const;
   // The same over the spread of the facets, of some hundred of them at most: about 0.6 for a smooth mesh, whatever its
-  // size, and more as clusters lose the shape in which they were grouped. Zero if the facets have no size. Of what is
-  // staged, too.
-  double looseness() const { return looseness(placed_); }
-  double staged_looseness() const { return looseness(staged_); }
+  // size, and more as clusters lose the shape in which they were grouped. Zero if the facets have no size.
+  double looseness() const;
   // The same mesh, its facets grouped by where they are now; and what numbers this one's vertices have in `other`,
   // which was grouped from it.
   ClusteredMesh regrouped() const;
   std::vector<int> numbers_in(const ClusteredMesh& other) const;
-  // How far the vertices, of which there must be one, reach along the diagonals of a cube's faces, in one more pass;
-  // the same of what is staged.
-  DiagonalBounds diagonals() const { return diagonals(placed_); }
-  DiagonalBounds staged_diagonals() const { return diagonals(staged_); }
+  // How far the vertices, of which there must be one, reach along the diagonals of a cube's faces, in one more pass.
+  DiagonalBounds diagonals() const { return kernels().diagonal_bounds(points(), vertex_count_); }
 
   // Asks for the memory of a cluster's facets, in good time.
   void prefetch_facets(int cluster) const {
     const int first = vertex_begin(cluster), borrowed = borrowed_begin(cluster);
     const auto owned = static_cast<std::size_t>(vertex_end(cluster) - first);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      prefetch_lines(placed_.memory + axis * stride_ + first, owned);
+      prefetch_lines(placed_ + axis * stride_ + first, owned);
       prefetch_lines(corner_[axis] + facet_begin(cluster),
                      static_cast<std::size_t>(facet_end(cluster) - facet_begin(cluster)));
     }
@@ -187,17 +186,35 @@ class ClusteredMesh {
   }
   // Asks for the position of a vertex, in good time.
   void prefetch_position(int vertex) const {
-    for (std::size_t axis = 0; axis < 3; ++axis) prefetch_line(placed_.memory + axis * stride_ + vertex);
+    for (std::size_t axis = 0; axis < 3; ++axis) prefetch_line(placed_ + axis * stride_ + vertex);
   }
   // Asks for the positions of all vertices, or of the first thousands.
   void prefetch_points() const {
-    for (std::size_t axis = 0; axis < 3; ++axis) prefetch_lines(placed_.memory + axis * stride_, stride_);
+    for (std::size_t axis = 0; axis < 3; ++axis) prefetch_lines(placed_ + axis * stride_, stride_);
   }
   // Asks for the memory of the clusters' boxes, and of where their vertices begin, in good time.
   void prefetch_boxes() const {
     prefetch_lines(ranges_, 2 * static_cast<std::size_t>(cluster_count()));
     prefetch_lines(cluster_boxes().lower(0), 6 * static_cast<std::size_t>(cluster_count()));
   }
+
+  // The memory of a mesh: two placements (see below), what refresh() reads besides, and the rest. A mesh begins with
+  // memory of its own, in one block; where many small ones are refreshed, parts of a kind are better next to each
+  // other, as the hardware then foresees what is read.
+  struct Memory {
+    double* placement[2];
+    int* indices;
+    std::byte* rest;
+  };
+  struct MemorySize {
+    std::size_t placement;  // doubles, of each
+    std::size_t indices;    // ints
+    std::size_t rest;       // bytes; begins where an int may
+  };
+  MemorySize memory_size() const;
+  // Moves there, to memory that outlives the mesh and is followed by kPadding doubles.
+  void move_to(const Memory& memory);
+  bool has_own_memory() const { return memory_ != nullptr; }
 
   // Throws std::logic_error that says what is broken: every source facet stands in one cluster, every used source
   // vertex has one owner, those of a cluster stand in the caller's order, boxes are the boxes of their vertices. For
@@ -207,35 +224,19 @@ class ClusteredMesh {
  private:
   struct Numbering;
   Numbering number_vertices(std::span<const int> facets, std::span<const int> order) const;
-  void take_memory(const Numbering& numbering, const std::vector<int>& order);
-  // All that moves with the vertices: x of each vertex, and stride_ later y, and z; then the boxes of the clusters,
-  // then those of the groups.
-  struct Placement {
-    double* memory = nullptr;
-    Box box;
-  };
-  BoxView cluster_boxes(const Placement& p) const {
-    return {p.memory + 3 * stride_, static_cast<std::size_t>(cluster_count())};
+  void take_memory(const Numbering& numbering, std::span<const int> order);
+  void lay_out(const Memory& memory);
+  // All that moves with the vertices is a placement: x of each vertex, and stride_ later y, and z; then the boxes of
+  // the clusters, then those of the groups.
+  BoxView cluster_boxes(const double* placement) const {
+    return {placement + 3 * stride_, static_cast<std::size_t>(cluster_count())};
   }
-  BoxView group_boxes(const Placement& p) const {
-    return {cluster_boxes(p).lower(0) + 6 * cluster_count(), static_cast<std::size_t>(group_count())};
+  BoxView group_boxes(const double* placement) const {
+    return {cluster_boxes(placement).lower(0) + 6 * cluster_count(), static_cast<std::size_t>(group_count())};
   }
-  double spread(const Placement& p) const;
-  double looseness(const Placement& p) const;
-  Vec3 position(const Placement& p, int vertex) const {
-    const double* x = p.memory + vertex;
-    return {x[0], x[stride_], x[2 * stride_]};
-  }
-  DiagonalBounds diagonals(const Placement& p) const {
-    return kernels().diagonal_bounds({p.memory, p.memory + stride_, p.memory + 2 * stride_}, vertex_count_);
-  }
-  // What was seen in a range of clusters.
-  struct Refreshed {
-    bool changed = false;
-    bool not_a_number = false;
-    Box box;
-  };
-  Refreshed refresh_range(const double* positions, int cluster_begin, int cluster_end);
+  Box box_of(const double* placement) const;
+  Refreshed refresh_range(const double* positions, int cluster_begin, int cluster_end) const;
+  void refresh_groups() const;
 
   // Where the borrowed vertices of a cluster begin.
   int borrowed_begin(int cluster) const { return ranges_[2 * cluster + 1]; }
@@ -243,23 +244,23 @@ class ClusteredMesh {
   const int* source_vertices() const { return ranges_ + 2 * cluster_count() + 2; }
   const int* borrowed_sources() const { return source_vertices() + vertex_count_; }
 
-  // All arrays are in one block of memory: the bodies of a world are scattered, what is read of one should not be. What
-  // stage() needs comes first.
+  // What refresh() needs comes first.
   int source_vertex_count_ = 0;
   int vertex_count_ = 0;
   int facet_count_ = 0;
   int borrowed_count_ = 0;
   int unused_count_ = 0;
   std::size_t stride_ = 0;
-  Placement placed_, staged_;
-  int* ranges_ =
-      nullptr;  // vertex_begin and borrowed_begin of each cluster and one more; after them all source vertices
+  double *placed_ = nullptr, *other_ = nullptr;  // placements: where the mesh is; where it was, or is about to be
+  Box box_;
+  // vertex_begin and borrowed_begin of each cluster and one more; after them all source vertices.
+  int* ranges_ = nullptr;
   int* unused_sources_ = nullptr;  // source vertices that no facet uses
   int* borrowed_ = nullptr;        // vertices that a cluster uses and does not own, cluster by cluster
   std::uint8_t* corner_[3] = {};   // of each facet: vertices that its cluster owns come first, then the borrowed
   int* source_facet_ = nullptr;    // of each facet
   int* facet_of_source_ = nullptr;
-  std::unique_ptr<std::byte[]> memory_;
+  std::unique_ptr<std::byte[]> memory_;  // unless the mesh was moved
 };
 
 }  // namespace tact::narrowphase

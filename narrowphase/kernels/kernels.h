@@ -148,25 +148,27 @@ struct PairMatches {
   std::uint64_t flat = 0;       // the facet of `a` certainly lies in the plane of the facet of `b`, if that has one
 };
 
-// Vertices of a cluster to be refreshed. Coordinates of source vertex s are source[3 s], source[3 s + 1], source[3 s +
-// 2].
+// Clusters to be refreshed: cluster_begin <= c < cluster_end. Coordinates of source vertex s are source[3 s], source[3
+// s + 1], source[3 s + 2].
 struct RefreshInput {
   const double* source;
-  const std::int32_t* owned;  // source vertices, copied to x, y, z in this order
-  std::int32_t owned_count;
+  std::int32_t cluster_begin, cluster_end;
+  // Where the vertices begin that a cluster owns and that it borrows, one after the other; and for one cluster more.
+  const std::int32_t* ranges;
+  const std::int32_t* owned;     // source vertices, copied to x, y, z in this order
   const std::int32_t* borrowed;  // source vertices that only widen the box
-  std::int32_t borrowed_count;
-  std::int32_t ahead;  // unless 0: vertices owned[ahead] to owned[ahead + owned_count - 1] are read soon
-  PointArrays before;  // where the owned ones were
-  bool changed;        // known already: `before` is not read
+  std::int32_t ahead;            // how many owned vertices ahead positions are asked for; 0 for none
+  PointArrays before;            // where the owned ones were
   double* x;
   double* y;
   double* z;
+  double* boxes;  // of the clusters, see BoxPointers: one array after the other, each box_stride long
+  std::int32_t box_stride;
 };
 
-// The box of owned and borrowed vertices; is any owned coordinate another one than before; is any not a number? The box
-// is of no use then.
-struct RefreshedCluster {
+// The box of all these clusters; is any owned coordinate another one than before; is any not a number? The boxes are of
+// no use then.
+struct Refreshed {
   BoxBounds box;
   bool changed;
   bool not_a_number;
@@ -175,8 +177,8 @@ struct RefreshedCluster {
 struct Kernels {
   const char* name;
 
-  // Copies the owned vertices.
-  RefreshedCluster (*refresh_cluster)(const RefreshInput& input);
+  // Copies the owned vertices and finds the box of each cluster, owned and borrowed vertices in it.
+  Refreshed (*refresh_clusters)(const RefreshInput& input);
 
   // The box of `count` boxes.
   BoxBounds (*bounds)(const BoxPointers& boxes, int count);

@@ -193,7 +193,7 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
 }  // namespace
 
 extern const Kernels TACT_KERNELS;
-const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, refresh_cluster, bounds, diagonal_bounds, select_heights, highest_point,
+const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, refresh_clusters, bounds, diagonal_bounds, select_heights, highest_point,
                               select_overlapping, open_cluster, find_cells, facing_away, near_facets, any_near, pair_facets, sort_pairs,
                               on_lattice, float_corners, match_float_pairs, match_pairs, sharing_pairs, match_pairs_wide, match_flat_pairs};
 

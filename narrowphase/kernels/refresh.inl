@@ -1,9 +1,9 @@
-// Asks for `count` of the vertices that come later, in the second level of the cache: the first has room for few under
-// way, and what is written needs it. Both lines that a vertex may lie in: masked loads touch the next double.
-inline void ask_ahead(const RefreshInput& in, int i, int count) {
-  if (in.ahead == 0) return;
+// Asks for the positions of `count` owned vertices from the i-th on, in good time and in the second level of the cache:
+// the first has room for few under way, and what is written needs it. Both lines that a vertex may lie in: masked loads
+// touch the next double.
+inline void ask_for(const RefreshInput& in, int i, int count) {
   for (int k = 0; k < count; ++k) {
-    const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i + in.ahead + k]);
+    const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i + k]);
     __builtin_prefetch(p, 0, 2);
     __builtin_prefetch(p + 3, 0, 2);
   }
@@ -24,7 +24,18 @@ struct Bounds {
     lower = _mm256_min_pd(lower, v);
     upper = _mm256_max_pd(upper, v);
   }
+  void widen(const Bounds& other) {
+    lower = _mm256_min_pd(lower, other.lower);
+    upper = _mm256_max_pd(upper, other.upper);
+  }
 };
+
+inline void store_three(__m256d v, double* x, std::int64_t stride) {
+  const __m128d xy = _mm256_castpd256_pd128(v);
+  _mm_storel_pd(x, xy);
+  _mm_storeh_pd(x + stride, xy);
+  _mm_storel_pd(x + 2 * stride, _mm256_extractf128_pd(v, 1));
+}
 
 inline bool differs(const double* before, __m256d after) {
   return _mm256_movemask_pd(_mm256_cmp_pd(_mm256_loadu_pd(before), after, _CMP_NEQ_UQ)) != 0;
@@ -33,15 +44,19 @@ inline bool differs(const double* before, __m256d after) {
 // Lanes in which a or b is not a number.
 inline __m256d not_numbers(__m256d a, __m256d b) { return _mm256_cmp_pd(a, b, _CMP_UNORD_Q); }
 
-RefreshedCluster refresh_cluster(const RefreshInput& in) {
+struct RefreshLoop {
+  explicit RefreshLoop(const RefreshInput& input) : in(input) {}
+
+  const RefreshInput& in;
   Bounds even, odd;  // two, so that one need not wait for the other
   __m256d bad = _mm256_setzero_pd();
-  bool changed = in.changed;
-  int i = 0;
-  for (; i + 4 <= in.owned_count; i += 4) {
-    ask_ahead(in, i, 4);
-    const __m256d a = load_vertex(in.source, in.owned[i]), b = load_vertex(in.source, in.owned[i + 1]);
-    const __m256d c = load_vertex(in.source, in.owned[i + 2]), d = load_vertex(in.source, in.owned[i + 3]);
+  bool changed = false;
+
+  __m256d load(const std::int32_t* s) const { return load_vertex(in.source, *s); }
+
+  void copy_four(int i) {
+    const std::int32_t* s = in.owned + i;
+    const __m256d a = load(s), b = load(s + 1), c = load(s + 2), d = load(s + 3);
     even.widen(a);
     odd.widen(b);
     even.widen(c);
@@ -56,63 +71,110 @@ RefreshedCluster refresh_cluster(const RefreshInput& in) {
     _mm256_storeu_pd(in.y + i, y);
     _mm256_storeu_pd(in.z + i, z);
   }
-  for (; i < in.owned_count; ++i) {
-    ask_ahead(in, i, 1);
+
+  void copy_one(int i) {
     const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i]);
     changed = changed || in.before.x[i] != p[0] || in.before.y[i] != p[1] || in.before.z[i] != p[2];
     in.x[i] = p[0];
     in.y[i] = p[1];
     in.z[i] = p[2];
-    const __m256d v = load_vertex(in.source, in.owned[i]);
+    const __m256d v = load(in.owned + i);
     even.widen(v);
     bad = _mm256_or_pd(bad, not_numbers(v, v));
   }
-  int k = 0;
-  for (; k + 2 <= in.borrowed_count; k += 2) {
-    even.widen(load_vertex(in.source, in.borrowed[k]));
-    odd.widen(load_vertex(in.source, in.borrowed[k + 1]));
+
+  // The last four may have been copied in part already.
+  void copy(int begin, int end, int ask_until) {
+    int i = begin;
+    for (; i + 4 <= end; i += 4) {
+      if (i + 4 <= ask_until) ask_for(in, i + in.ahead, 4);
+      copy_four(i);
+    }
+    if (i == end) return;
+    if (i < ask_until) ask_for(in, i + in.ahead, (end < ask_until ? end : ask_until) - i);
+    if (end - begin >= 4) return copy_four(end - 4);
+    for (; i < end; ++i) copy_one(i);
   }
-  if (k < in.borrowed_count) even.widen(load_vertex(in.source, in.borrowed[k]));
-  const __m256d lower = _mm256_min_pd(even.lower, odd.lower), upper = _mm256_max_pd(even.upper, odd.upper);
-  // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
-  double low[4], high[4];
-  _mm256_storeu_pd(low, _mm256_add_pd(lower, _mm256_setzero_pd()));
-  _mm256_storeu_pd(high, _mm256_add_pd(upper, _mm256_setzero_pd()));
-  return {{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}, changed, _mm256_movemask_pd(bad) != 0};
+
+  void borrow(int begin, int end) {
+    int k = begin;
+    for (; k + 2 <= end; k += 2) {
+      even.widen(load(in.borrowed + k));
+      odd.widen(load(in.borrowed + k + 1));
+    }
+    if (k < end) even.widen(load(in.borrowed + k));
+  }
+};
+
+Refreshed refresh_clusters(const RefreshInput& in) {
+  const __m256d zero = _mm256_setzero_pd();
+  RefreshLoop loop(in);
+  Bounds all;
+  const int ask_until = in.ahead == 0 ? 0 : in.ranges[2 * in.cluster_end] - in.ahead;
+  for (int c = in.cluster_begin; c < in.cluster_end; ++c) {
+    const std::int32_t* range = in.ranges + 2 * c;
+    loop.even = loop.odd = Bounds{};
+    loop.copy(range[0], range[2], ask_until);
+    loop.borrow(range[1], range[3]);
+    Bounds box = loop.even;
+    box.widen(loop.odd);
+    // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
+    box = {_mm256_add_pd(box.lower, zero), _mm256_add_pd(box.upper, zero)};
+    store_three(box.lower, in.boxes + c, in.box_stride);
+    store_three(box.upper, in.boxes + c + 3 * static_cast<std::int64_t>(in.box_stride), in.box_stride);
+    all.widen(box);
+  }
+  Refreshed seen{.box = {}, .changed = loop.changed, .not_a_number = _mm256_movemask_pd(loop.bad) != 0};
+  store_three(all.lower, seen.box.lower, 1);
+  store_three(all.upper, seen.box.upper, 1);
+  return seen;
 }
 
 #else
 
-inline void widen(BoxBounds* box, const double* p) {
-  for (int axis = 0; axis < 3; ++axis) {
-    box->lower[axis] = min(box->lower[axis], p[axis]);
-    box->upper[axis] = max(box->upper[axis], p[axis]);
+struct Bounds {
+  double lower[3] = {__builtin_inf(), __builtin_inf(), __builtin_inf()};
+  double upper[3] = {-__builtin_inf(), -__builtin_inf(), -__builtin_inf()};
+  void widen(const double* low, const double* high) {
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = min(lower[axis], low[axis]);
+      upper[axis] = max(upper[axis], high[axis]);
+    }
   }
-}
+};
 
-RefreshedCluster refresh_cluster(const RefreshInput& in) {
-  RefreshedCluster seen{.box = {}, .changed = in.changed, .not_a_number = false};
+Refreshed refresh_clusters(const RefreshInput& in) {
+  Refreshed seen{.box = {}, .changed = false, .not_a_number = false};
+  Bounds all;
+  const int ask_until = in.ahead == 0 ? 0 : in.ranges[2 * in.cluster_end] - in.ahead;
+  for (int c = in.cluster_begin; c < in.cluster_end; ++c) {
+    const std::int32_t* range = in.ranges + 2 * c;
+    Bounds box;
+    for (int i = range[0]; i < range[2]; ++i) {
+      if (i < ask_until) ask_for(in, i + in.ahead, 1);
+      const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i]);
+      seen.changed = seen.changed || in.before.x[i] != p[0] || in.before.y[i] != p[1] || in.before.z[i] != p[2];
+      seen.not_a_number = seen.not_a_number || p[0] != p[0] || p[1] != p[1] || p[2] != p[2];
+      in.x[i] = p[0];
+      in.y[i] = p[1];
+      in.z[i] = p[2];
+      box.widen(p, p);
+    }
+    for (int k = range[1]; k < range[3]; ++k) {
+      const double* p = in.source + 3 * static_cast<std::int64_t>(in.borrowed[k]);
+      box.widen(p, p);
+    }
+    // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::int64_t stride = in.box_stride;
+      in.boxes[axis * stride + c] = box.lower[axis] += 0.0;
+      in.boxes[(axis + 3) * stride + c] = box.upper[axis] += 0.0;
+    }
+    all.widen(box.lower, box.upper);
+  }
   for (int axis = 0; axis < 3; ++axis) {
-    seen.box.lower[axis] = __builtin_inf();
-    seen.box.upper[axis] = -__builtin_inf();
-  }
-  for (int i = 0; i < in.owned_count; ++i) {
-    ask_ahead(in, i, 1);
-    const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i]);
-    seen.changed = seen.changed || in.before.x[i] != p[0] || in.before.y[i] != p[1] || in.before.z[i] != p[2];
-    seen.not_a_number = seen.not_a_number || p[0] != p[0] || p[1] != p[1] || p[2] != p[2];
-    in.x[i] = p[0];
-    in.y[i] = p[1];
-    in.z[i] = p[2];
-    widen(&seen.box, p);
-  }
-  for (int k = 0; k < in.borrowed_count; ++k) {
-    widen(&seen.box, in.source + 3 * static_cast<std::int64_t>(in.borrowed[k]));
-  }
-  // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
-  for (int axis = 0; axis < 3; ++axis) {
-    seen.box.lower[axis] += 0.0;
-    seen.box.upper[axis] += 0.0;
+    seen.box.lower[axis] = all.lower[axis];
+    seen.box.upper[axis] = all.upper[axis];
   }
   return seen;
 }

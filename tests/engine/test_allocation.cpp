@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/fast_paths.h"
 #include "tests/support/allocation_hook.h"
 #include "tests/support/body_pairs.h"
 #include "tests/support/clustered.h"
@@ -309,6 +310,36 @@ TEST(Allocation, SteadyBatchesTakeNone) {
     last = allocation_count() - before;
   }
   EXPECT_EQ(last, 0);
+}
+
+// Many small bodies are put next to each other by the first batch after they came, and again after half of them went.
+TEST(Allocation, ManySmallBodiesArePackedOnce) {
+  if (base::fast_paths() != base::FastPaths::automatic) GTEST_SKIP() << "decided by TACT_FAST_PATHS";
+  const Mesh mesh = icosphere(1);
+  World world({.threads = 1});
+  std::vector<BodyId> ids = add_bodies(world, std::vector<Mesh>(100, mesh));
+  int move = 0;
+  const auto allocations_of_a_batch = [&] {
+    const Mesh moved = translated(mesh, {0.0, 0.0, 0x1p-20 * ++move});
+    std::vector<PositionsUpdate> batch;
+    for (const BodyId id : ids) batch.push_back({id, moved.positions});
+    const long before = allocation_count();
+    world.set_positions(batch);
+    return allocation_count() - before;
+  };
+  allocations_of_a_batch();
+  EXPECT_EQ(allocations_of_a_batch(), 0);
+  for (int i = 0; i < 20; ++i) {
+    world.remove_body(ids.back());
+    ids.pop_back();
+  }
+  EXPECT_EQ(allocations_of_a_batch(), 0);
+  for (int i = 0; i < 14; ++i) {
+    world.remove_body(ids.back());
+    ids.pop_back();
+  }
+  EXPECT_GT(allocations_of_a_batch(), 0);
+  EXPECT_EQ(allocations_of_a_batch(), 0);
 }
 
 // A body that was one point when it was added, its facets in an order that is as good as any: it is grouped anew once,

@@ -62,7 +62,7 @@ TEST(ClusteredMesh, MovesAndSaysSo) {
   }
 }
 
-TEST(ClusteredMesh, StagesBadPositionsAndStaysAsItWas) {
+TEST(ClusteredMesh, RefusesBadPositionsAndStaysAsItWas) {
   constexpr double kLargest = 8.0;
   Mesh sound = tests::icosphere(2);
   sound.positions.conservativeResize(3, sound.positions.cols() + 1);
@@ -77,28 +77,49 @@ TEST(ClusteredMesh, StagesBadPositionsAndStaysAsItWas) {
       const base::Box box = clusters.box();
       Mesh bad = moved;
       bad.positions.data()[at] = value;
-      EXPECT_EQ(clusters.stage(bad.positions.data(), kLargest, 1), ClusteredMesh::Staged::bad) << value << " at " << at;
+      EXPECT_EQ(clusters.refresh(bad.positions.data(), kLargest, 1), ClusteredMesh::Refresh::bad)
+          << value << " at " << at;
       clusters.validate();
       EXPECT_EQ(clusters.position(7), before);
       EXPECT_EQ(clusters.box(), box);
     }
   }
   ClusteredMesh clusters = clustered(sound);
-  EXPECT_EQ(clusters.stage(sound.positions.data(), kLargest, 1), ClusteredMesh::Staged::same);
-  EXPECT_EQ(clusters.stage(moved.positions.data(), kLargest, 1), ClusteredMesh::Staged::changed);
-  clusters.take_staged();
+  EXPECT_EQ(clusters.refresh(sound.positions.data(), kLargest, 1), ClusteredMesh::Refresh::same);
+  EXPECT_EQ(clusters.refresh(moved.positions.data(), kLargest, 1), ClusteredMesh::Refresh::changed);
   clusters.validate();
   EXPECT_EQ(clusters.position(7), moved.position(clusters.source_vertex(7)));
 }
 
-TEST(ClusteredMesh, StagesBadPositionsOnSeveralThreads) {
+TEST(ClusteredMesh, IsTakenBackToWhereItWas) {
+  for (const Mesh& mesh : many()) {
+    ClusteredMesh clusters = clustered(mesh);
+    const base::Box box = clusters.box();
+    EXPECT_TRUE(clusters.set_positions(tests::crumpled(mesh, 11).positions.data(), 1));
+    clusters.take_back();
+    clusters.validate();
+    EXPECT_EQ(clusters.box(), box);
+    EXPECT_FALSE(clusters.set_positions(mesh.positions.data(), 1));
+  }
+}
+
+TEST(ClusteredMesh, BodyOfOnePointAtTheOriginHasABox) {
+  Mesh mesh = tests::box({0, 0, 0}, {1, 1, 1});
+  mesh.positions.setZero();
+  const ClusteredMesh clusters = clustered(mesh);
+  clusters.validate();
+  EXPECT_EQ(clusters.box(), (Box{{0, 0, 0}, {0, 0, 0}}));
+}
+
+TEST(ClusteredMesh, RefusesBadPositionsOnSeveralThreads) {
   const Mesh mesh = tests::wrinkled_sheet(160, 2.0, 0.2, 2);  // several ranges of clusters
   for (const int vertex : {0, mesh.vertex_count() / 2, mesh.vertex_count() - 1}) {
     for (const double value : {std::numeric_limits<double>::quiet_NaN(), 9.0}) {
       ClusteredMesh clusters = clustered(mesh);
       Mesh bad = mesh;
       bad.positions(1, vertex) = value;
-      EXPECT_EQ(clusters.stage(bad.positions.data(), 8.0, 2), ClusteredMesh::Staged::bad) << value << " at " << vertex;
+      EXPECT_EQ(clusters.refresh(bad.positions.data(), 8.0, 2), ClusteredMesh::Refresh::bad)
+          << value << " at " << vertex;
     }
   }
 }

@@ -1,0 +1,88 @@
+#include "engine/packed_meshes.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "engine/base/fast_paths.h"
+#include "engine/base/parallel.h"
+
+namespace tact {
+
+namespace {
+
+using narrowphase::ClusteredMesh;
+
+// A large mesh is read from one end to the other as it is; a few fit into the cache.
+constexpr int kSmall = 1024;  // facets
+constexpr std::size_t kFewestPacked = 64;
+constexpr std::size_t kMovedAtATime = 64;
+constexpr std::size_t kLine = 64;  // bytes: no two meshes share a line of the cache
+
+bool is_small(const ClusteredMesh& mesh) { return mesh.facet_count() <= kSmall; }
+
+std::size_t whole_lines(std::size_t bytes) { return (bytes + kLine - 1) / kLine * kLine; }
+
+// Bytes, of one mesh or of all before it.
+struct Sizes {
+  std::size_t placement = 0, indices = 0, rest = 0;
+};
+
+Sizes sizes_of(const ClusteredMesh& mesh) {
+  const ClusteredMesh::MemorySize size = mesh.memory_size();
+  return {whole_lines(size.placement * sizeof(double)), whole_lines(size.indices * sizeof(int)),
+          whole_lines(size.rest)};
+}
+
+}  // namespace
+
+void PackedMeshes::add(const ClusteredMesh& mesh) {
+  if (is_small(mesh)) ++loose_;
+}
+
+void PackedMeshes::remove(const ClusteredMesh& mesh) {
+  if (!is_small(mesh)) return;
+  if (mesh.has_own_memory()) {
+    --loose_;
+  } else {
+    --packed_;
+    ++holes_;
+  }
+}
+
+bool PackedMeshes::is_due() const {
+  if (base::fast_paths() == base::FastPaths::off) return false;
+  if (base::fast_paths() == base::FastPaths::always) return loose_ > 0;
+  return loose_ + packed_ >= kFewestPacked && 2 * (loose_ + holes_) > packed_;
+}
+
+void PackedMeshes::pack(std::span<ClusteredMesh* const> meshes, int threads) {
+  std::vector<std::pair<ClusteredMesh*, Sizes>> small;  // and where they begin
+  Sizes all;
+  for (ClusteredMesh* const mesh : meshes) {
+    if (!is_small(*mesh)) continue;
+    small.emplace_back(mesh, all);
+    const Sizes sizes = sizes_of(*mesh);
+    all = {all.placement + sizes.placement, all.indices + sizes.indices, all.rest + sizes.rest};
+  }
+  constexpr std::size_t kPadding = narrowphase::kPadding * sizeof(double);
+  const std::size_t size = kLine + 2 * all.placement + kPadding + all.indices + all.rest;
+  auto memory = std::make_unique<std::byte[]>(size);
+  void* line = memory.get();
+  std::size_t space = size;
+  std::byte* const begin = static_cast<std::byte*>(std::align(kLine, size - kLine, line, space));
+  base::parallel_for(small.size(), kMovedAtATime, threads, [&](std::size_t i) {
+    const auto& [mesh, at] = small[i];
+    std::byte* const placement = begin + at.placement;
+    std::byte* const indices = begin + 2 * all.placement + kPadding + at.indices;
+    std::byte* const rest = begin + 2 * all.placement + kPadding + all.indices + at.rest;
+    mesh->move_to({{reinterpret_cast<double*>(placement), reinterpret_cast<double*>(placement + all.placement)},
+                   reinterpret_cast<int*>(indices),
+                   rest});
+  });
+  memory_ = std::move(memory);
+  packed_ = small.size();
+  loose_ = holes_ = 0;
+}
+
+}  // namespace tact

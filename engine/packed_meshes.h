@@ -1,0 +1,30 @@
+// Memory for the small meshes of a world, each kind of their data in one piece: a refresh of many reads and writes it
+// from one end to the other, as the hardware foresees, where memory that each took for itself is scattered.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "narrowphase/clustered_mesh.h"
+
+namespace tact {
+
+class PackedMeshes {
+ public:
+  // A world's meshes come and go: those that come have memory of their own, those that go leave holes.
+  void add(const narrowphase::ClusteredMesh& mesh);
+  void remove(const narrowphase::ClusteredMesh& mesh);
+  // Are so many small ones out of place that it is worth to pack all anew? Of n bodies that come one by one each is
+  // moved a few times at most.
+  bool is_due() const;
+  // Moves the small ones of all meshes of the world next to each other, in their order. If it fails,
+  // nothing has changed.
+  void pack(std::span<narrowphase::ClusteredMesh* const> meshes, int threads);
+
+ private:
+  std::size_t loose_ = 0, packed_ = 0, holes_ = 0;  // small meshes
+  std::unique_ptr<std::byte[]> memory_;
+};
+
+}  // namespace tact
