@@ -17,9 +17,9 @@ using narrowphase::PositionProblem;
 using Refresh = narrowphase::ClusteredMesh::Refresh;
 
 constexpr Eigen::Index kLargestCount = std::numeric_limits<int>::max() / 4;
-constexpr std::size_t kPrefetchDistance = 8;  // bodies
-constexpr std::size_t kTakenAtATime = 1024;   // bodies
-constexpr std::size_t kRefreshedBytes = 128;  // of a Body, its first: what stage 1 reads
+constexpr std::size_t kPrefetchDistance = 8;     // bodies
+constexpr std::size_t kPublishedAtATime = 1024;  // bodies
+constexpr std::size_t kRefreshedBytes = 128;     // of a Body, its first: what stage 1 reads
 // A body of so many facets is refreshed by all threads: one among many, or one of a few that would not keep them busy.
 constexpr int kLargeBody = 32768, kLargeOfFew = 8192;  // facets
 constexpr std::size_t kFewPerThread = 4;
@@ -152,7 +152,7 @@ void Bodies::remove(BodyId id) {
 }
 
 // Where memory is short the meshes stay where they are.
-void Bodies::pack(int threads) try {
+void Bodies::pack_meshes(int threads) try {
   std::vector<narrowphase::ClusteredMesh*> meshes;
   meshes.reserve(count_);
   for (const Slot& slot : slots_) {
@@ -160,6 +160,7 @@ void Bodies::pack(int threads) try {
   }
   packed_meshes_.pack(meshes, threads);
 } catch (const std::bad_alloc&) {
+  packed_meshes_.put_off();
 }
 
 void Bodies::make_updates(std::size_t count) {
@@ -214,7 +215,7 @@ void Bodies::find_diagonals(std::uint32_t slot, const narrowphase::ClusteredMesh
 }
 
 // Takes all bodies back and says what is wrong if the positions of any cannot be taken.
-void Bodies::check(std::size_t count) {
+void Bodies::take_back_if_bad(std::size_t count) {
   const std::span<Update> updates = std::span(updates_).first(count);
   const auto bad = std::ranges::find(updates, Refresh::bad, &Update::refreshed);
   if (bad == updates.end()) return;
@@ -224,7 +225,7 @@ void Bodies::check(std::size_t count) {
   check_positions(bad->positions.data(), bad->positions.size() / 3, bad->body->name);
 }
 
-void Bodies::take(std::size_t i) {
+void Bodies::publish(std::size_t i) {
   const Update& update = updates_[i];
   if (update.refreshed != Refresh::changed) return;
   const std::uint32_t slot = update.slot;
@@ -291,15 +292,15 @@ void Bodies::set_positions(BodyId id, const Positions& positions, int threads) {
   make_updates(1);
   prepare(updates_[0], id, positions);
   refresh(0, updates_[0].body->mesh.facet_count() >= kLargeOfFew ? threads : 1);
-  check(1);
-  take(0);
+  take_back_if_bad(1);
+  publish(0);
   note_change(updates_[0]);
 }
 
 void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads) {
   const base::FloatingPointMode mode;
   const std::size_t count = updates.size();
-  if (packed_meshes_.is_due()) pack(threads);
+  if (packed_meshes_.is_due()) pack_meshes(threads);
   make_updates(count);
   for (std::size_t i = 0; i < count; ++i) prepare(updates_[i], updates[i].body, updates[i].positions);
   check_named_once(updates);
@@ -309,12 +310,16 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
   const auto large = [&](std::size_t i) {
     return threads > 1 && updates_[i].body->mesh.facet_count() >= (few ? kLargeOfFew : kLargeBody);
   };
-  base::parallel_for(count, base::grain_of(count, threads, 16, 128), threads, [&](std::size_t i) {
+  const std::size_t grain = base::grain_of(count, threads, 16, 128);
+  base::parallel_for(count, grain, threads, [&](std::size_t i) {
+    // Of the bodies that another thread may turn over, only where they are is read.
+    const std::size_t own_end = threads == 1 ? count : std::min(count, i - i % grain + grain);
+    const auto ask_for = [&](std::size_t k) {
+      if (k < own_end) updates_[k].body->mesh.prefetch(updates_[k].positions.data());
+    };
+    for (std::size_t k = 1; i % grain == 0 && k < kPrefetchDistance; ++k) ask_for(i + k);
+    ask_for(i + kPrefetchDistance);
     if (i + 2 * kPrefetchDistance < count) prefetch(updates[i + 2 * kPrefetchDistance].body);
-    if (i + kPrefetchDistance < count) {
-      const Update& next = updates_[i + kPrefetchDistance];
-      next.body->mesh.prefetch(next.positions.data());
-    }
     if (large(i)) {
       any_large = true;
     } else {
@@ -324,8 +329,8 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
   for (std::size_t i = 0; i < count && any_large; ++i) {
     if (large(i)) refresh(i, threads);
   }
-  check(count);
-  base::parallel_for(count, kTakenAtATime, threads, [&](std::size_t i) { take(i); });
+  take_back_if_bad(count);
+  base::parallel_for(count, kPublishedAtATime, threads, [&](std::size_t i) { publish(i); });
   for (std::size_t i = 0; i < count; ++i) note_change(updates_[i]);
 }
 

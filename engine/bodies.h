@@ -100,7 +100,7 @@ class Bodies {
     bool loose = false;
   };
 
-  // New positions of a body: prepared; its mesh refreshed; taken, if all of a batch can be, which cannot fail.
+  // New positions of a body: prepared; its mesh refreshed, and taken back if any of a batch is bad; published.
   struct Update {
     Body* body = nullptr;
     std::uint32_t slot = 0;
@@ -111,13 +111,13 @@ class Bodies {
     bool knows_diagonals = false;
     double looseness = 0.0;  // of the clusters, if it was time to look
   };
-  void pack(int threads);
+  void pack_meshes(int threads);
   void make_updates(std::size_t count);
   void prepare(Update& update, BodyId id, const Positions& positions);
   void prefetch(BodyId id) const;
   void refresh(std::size_t i, int threads);
-  void check(std::size_t count);
-  void take(std::size_t i);
+  void take_back_if_bad(std::size_t count);
+  void publish(std::size_t i);
   void note_change(const Update& update);
   void check_named_once(std::span<const PositionsUpdate> updates);
   void find_diagonals(std::uint32_t slot, const narrowphase::ClusteredMesh& mesh);

@@ -14,12 +14,14 @@ namespace {
 using narrowphase::ClusteredMesh;
 
 // A large mesh is read from one end to the other as it is; a few fit into the cache.
-constexpr int kSmall = 1024;  // facets
+constexpr int kMostFacets = 1024, kMostVertices = 4096;  // the caller's
 constexpr std::size_t kFewestPacked = 64;
 constexpr std::size_t kMovedAtATime = 64;
 constexpr std::size_t kLine = 64;  // bytes: no two meshes share a line of the cache
 
-bool is_small(const ClusteredMesh& mesh) { return mesh.facet_count() <= kSmall; }
+bool is_small(const ClusteredMesh& mesh) {
+  return mesh.facet_count() <= kMostFacets && mesh.source_vertex_count() <= kMostVertices;
+}
 
 std::size_t whole_lines(std::size_t bytes) { return (bytes + kLine - 1) / kLine * kLine; }
 
@@ -37,23 +39,29 @@ Sizes sizes_of(const ClusteredMesh& mesh) {
 }  // namespace
 
 void PackedMeshes::add(const ClusteredMesh& mesh) {
-  if (is_small(mesh)) ++loose_;
+  if (!is_small(mesh)) return;
+  ++scattered_;
+  put_off_ = false;
 }
 
 void PackedMeshes::remove(const ClusteredMesh& mesh) {
   if (!is_small(mesh)) return;
+  put_off_ = false;
   if (mesh.has_own_memory()) {
-    --loose_;
-  } else {
-    --packed_;
-    ++holes_;
+    --scattered_;
+    return;
   }
+  --packed_;
+  ++holes_;
+  if (packed_ > 0) return;
+  memory_.reset();
+  holes_ = 0;
 }
 
 bool PackedMeshes::is_due() const {
-  if (base::fast_paths() == base::FastPaths::off) return false;
-  if (base::fast_paths() == base::FastPaths::always) return loose_ > 0;
-  return loose_ + packed_ >= kFewestPacked && 2 * (loose_ + holes_) > packed_;
+  if (put_off_ || base::fast_paths() == base::FastPaths::off) return false;
+  if (base::fast_paths() == base::FastPaths::always) return scattered_ > 0;
+  return std::max(scattered_ + packed_, holes_) >= kFewestPacked && 2 * (scattered_ + holes_) > packed_;
 }
 
 void PackedMeshes::pack(std::span<ClusteredMesh* const> meshes, int threads) {
@@ -82,7 +90,7 @@ void PackedMeshes::pack(std::span<ClusteredMesh* const> meshes, int threads) {
   });
   memory_ = std::move(memory);
   packed_ = small.size();
-  loose_ = holes_ = 0;
+  scattered_ = holes_ = 0;
 }
 
 }  // namespace tact

@@ -15,15 +15,18 @@ class PackedMeshes {
   // A world's meshes come and go: those that come have memory of their own, those that go leave holes.
   void add(const narrowphase::ClusteredMesh& mesh);
   void remove(const narrowphase::ClusteredMesh& mesh);
-  // Are so many small ones out of place that it is worth to pack all anew? Of n bodies that come one by one each is
-  // moved a few times at most.
+  // Are so many small ones out of place, or so much of the memory holes, that it is worth to pack all anew? Of n bodies
+  // that come one by one each is moved a few times at most.
   bool is_due() const;
-  // Moves the small ones of all meshes of the world next to each other, in their order. If it fails,
-  // nothing has changed.
+  // Moves the small ones of all meshes of the world next to each other, in their order; until that is done they take
+  // twice the memory. If it fails, nothing has changed.
   void pack(std::span<narrowphase::ClusteredMesh* const> meshes, int threads);
+  // Is not due until meshes have come or gone: there is no memory for it.
+  void put_off() { put_off_ = true; }
 
  private:
-  std::size_t loose_ = 0, packed_ = 0, holes_ = 0;  // small meshes
+  std::size_t scattered_ = 0, packed_ = 0, holes_ = 0;  // small meshes
+  bool put_off_ = false;
   std::unique_ptr<std::byte[]> memory_;
 };
 

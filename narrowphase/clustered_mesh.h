@@ -112,7 +112,7 @@ class ClusteredMesh {
   // meshes are cut into ranges of clusters for up to `threads` threads. Allocates nothing.
   enum class Refresh { same, changed, bad };
   Refresh refresh(const double* positions, double largest, int threads);
-  // Undoes the last refresh(), which changed the mesh: so that of a batch of bodies all move or none.
+  // Undoes a refresh() that changed the mesh, right after it: so that of a batch of bodies all move or none.
   void take_back();
   // For positions that were checked; says whether any changed.
   bool set_positions(const double* positions, int threads);
@@ -212,7 +212,7 @@ class ClusteredMesh {
     std::size_t rest;       // bytes; begins where an int may
   };
   MemorySize memory_size() const;
-  // Moves there, to memory that outlives the mesh and is followed by kPadding doubles.
+  // Moves there. The memory stays the caller's, until the mesh moves again or is no more, and kPadding doubles follow.
   void move_to(const Memory& memory);
   bool has_own_memory() const { return memory_ != nullptr; }
 
@@ -251,7 +251,8 @@ class ClusteredMesh {
   int borrowed_count_ = 0;
   int unused_count_ = 0;
   std::size_t stride_ = 0;
-  double *placed_ = nullptr, *other_ = nullptr;  // placements: where the mesh is; where it was, or is about to be
+  double *placed_ = nullptr,
+         *other_ = nullptr;  // placements: where the mesh is, and one to refresh into: after that, where it was
   Box box_;
   // vertex_begin and borrowed_begin of each cluster and one more; after them all source vertices.
   int* ranges_ = nullptr;
@@ -260,7 +261,7 @@ class ClusteredMesh {
   std::uint8_t* corner_[3] = {};   // of each facet: vertices that its cluster owns come first, then the borrowed
   int* source_facet_ = nullptr;    // of each facet
   int* facet_of_source_ = nullptr;
-  std::unique_ptr<std::byte[]> memory_;  // unless the mesh was moved
+  std::unique_ptr<std::byte[]> memory_;  // unless move_to() was called
 };
 
 }  // namespace tact::narrowphase

@@ -312,7 +312,27 @@ TEST(Allocation, SteadyBatchesTakeNone) {
   EXPECT_EQ(last, 0);
 }
 
-// Many small bodies are put next to each other by the first batch after they came, and again after half of them went.
+// Where there is no memory to put small bodies next to each other, they move as they are.
+TEST(Allocation, ThatFailsWhileSmallBodiesArePackedLeavesAUsableWorld) {
+  const std::vector<Mesh> before = crowd_of_blobs(80, 1);
+  std::vector<Mesh> after;
+  for (const Mesh& mesh : before) after.push_back(translated(mesh, {0.03125, 0.0, 0.0}));
+  const std::vector<MeetingBodies> met = meeting_bodies_by_engine(after);
+  for (long number = 0;; ++number) {
+    ASSERT_LT(number, 1000);
+    World world({.threads = 2});
+    const std::vector<BodyId> ids = add_bodies(world, before);
+    std::vector<PositionsUpdate> updates;
+    for (std::size_t i = 0; i < ids.size(); ++i) updates.push_back({ids[i], after[i].positions});
+    const Outcome outcome = call_short_of_memory(number, false, [&] { world.set_positions(updates); });
+    if (outcome != Outcome::finished) world.set_positions(updates);
+    ASSERT_TRUE(same_meeting_bodies(met, meeting_bodies(world.detect(), ids))) << "allocation " << number;
+    if (outcome == Outcome::finished) break;
+  }
+}
+
+// Many small bodies are put next to each other by the first batch after they came, and again after a third of them
+// went.
 TEST(Allocation, ManySmallBodiesArePackedOnce) {
   if (base::fast_paths() != base::FastPaths::automatic) GTEST_SKIP() << "decided by TACT_FAST_PATHS";
   const Mesh mesh = icosphere(1);

@@ -92,6 +92,29 @@ TEST_F(Packing, IsDueWhereManyAreOutOfPlace) {
   EXPECT_FALSE(packed_.is_due());
   remove_last(40);
   EXPECT_TRUE(packed_.is_due());
+  pack();
+  add(200);
+  pack();
+  remove_last(static_cast<int>(meshes_.size()) - 10);
+  EXPECT_TRUE(packed_.is_due());  // few, but in a large piece of memory
+  packed_.put_off();
+  EXPECT_FALSE(packed_.is_due());
+  remove_last(1);
+  EXPECT_TRUE(packed_.is_due());
+  remove_last(9);
+  EXPECT_FALSE(packed_.is_due());  // none, and no memory
+  add(10);
+  EXPECT_FALSE(packed_.is_due());
+}
+
+TEST_F(Packing, LeavesOutAMeshOfManyVerticesThatItDoesNotUse) {
+  sources_.push_back(tests::box({0, 0, 0}, {1, 2, 3}));
+  sources_.back().positions.conservativeResize(3, 5000);
+  sources_.back().positions.rightCols(4992).setZero();
+  meshes_.push_back(std::make_unique<ClusteredMesh>(tests::clustered(sources_.back())));
+  packed_.add(*meshes_.back());
+  pack();
+  EXPECT_TRUE(meshes_.back()->has_own_memory());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cfenv>
+#include <limits>
 #include <thread>
 #include <vector>
 
@@ -201,6 +202,37 @@ TEST(Threads, FlushToZeroOfTheCallerChangesNothing) {
       EXPECT_EQ(after & 0xffc0u, (before | 0x8040u) & 0xffc0u) << "the caller's mode was not given back";
     }
   }
+}
+
+// Several blocks of small bodies, which threads turn over side by side; and back, as the last one is bad.
+TEST(Threads, BatchesOfSmallBodiesMoveAllOrNone) {
+  const auto hashes = [](int threads) {
+    std::vector<Mesh> bodies = crowd_of_blobs(150, 3);
+    World world({.threads = threads});
+    const std::vector<BodyId> ids = add_bodies(world, bodies);
+    std::vector<std::uint64_t> all;
+    for (int step = 0; step < 6; ++step) {
+      std::vector<Mesh> moved;
+      std::vector<PositionsUpdate> batch;
+      moved.reserve(bodies.size());
+      for (std::size_t i = 0; i < bodies.size(); ++i) {
+        moved.push_back(translated(bodies[i], {0.03125, 0.0625, -0.03125 * static_cast<double>(i % 3)}));
+        if (step % 2 == 1 && i + 1 == bodies.size())
+          moved[i].positions(1, 2) = std::numeric_limits<double>::quiet_NaN();
+        batch.push_back({ids[i], moved[i].positions});
+      }
+      if (step % 2 == 1) {
+        EXPECT_THROW(world.set_positions(batch), Error);
+        world.set_settings(world.settings());  // looks at every pair anew
+      } else {
+        world.set_positions(batch);
+        bodies = moved;
+      }
+      all.push_back(world.detect().hash());
+    }
+    return all;
+  };
+  EXPECT_EQ(hashes(2), hashes(1));
 }
 
 // The boxes of a body so large that it is refreshed in ranges, in a batch.
