@@ -206,8 +206,9 @@ Corners ClusteredMesh::corners(int facet) const {
 ClusteredMesh::Refresh ClusteredMesh::refresh(const double* positions, double largest, int threads) {
   const int per_range = std::clamp(cluster_count() / (4 * threads), kFewestInRange, kMostInRange);
   const int ranges = (cluster_count() + per_range - 1) / per_range;
+  const bool in_ranges = threads > 1 && ranges > 1;
   Refreshed all{};
-  if (threads == 1 || ranges <= 1) {
+  if (!in_ranges) {
     all = refresh_range(positions, 0, cluster_count());
   } else {
     std::atomic<bool> any_changed{false}, any_not_a_number{false};
@@ -221,7 +222,7 @@ ClusteredMesh::Refresh ClusteredMesh::refresh(const double* positions, double la
     all.not_a_number = any_not_a_number;
   }
   refresh_groups();
-  const Box box = threads == 1 || ranges <= 1 ? to_box(all.box) : box_of(other_);
+  const Box box = in_ranges ? box_of(other_) : to_box(all.box);
   const auto unused_is_bad = [&](int vertex) {
     const double* position = positions + 3 * static_cast<std::ptrdiff_t>(vertex);
     return find_position_problem(position, 1, largest).kind != PositionProblem::none;

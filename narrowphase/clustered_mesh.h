@@ -251,8 +251,8 @@ class ClusteredMesh {
   int borrowed_count_ = 0;
   int unused_count_ = 0;
   std::size_t stride_ = 0;
-  double *placed_ = nullptr,
-         *other_ = nullptr;  // placements: where the mesh is, and one to refresh into: after that, where it was
+  double* placed_ = nullptr;  // the placement where the mesh is
+  double* other_ = nullptr;   // one to refresh into, and after that where the mesh was
   Box box_;
   // vertex_begin and borrowed_begin of each cluster and one more; after them all source vertices.
   int* ranges_ = nullptr;
