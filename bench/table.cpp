@@ -103,13 +103,11 @@ void plot_bars(const std::filesystem::path& out, const std::string& name, const 
 void plot(const std::filesystem::path& out, const std::string& name, const std::string& script) {
   for (const auto& [terminal, ending] : {std::pair{"pngcairo size 1200,700", "png"}, {"svg size 1200,700", "svg"}}) {
     const std::string command = "cd '" + out.string() + "' && gnuplot";
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "w"), pclose);
-    if (!pipe) throw std::runtime_error("cannot run gnuplot");
-    fmt::print(pipe.get(), "set terminal {} font 'sans,13'\nset output '{}.{}'\n{}\n", terminal, name, ending, script);
-  }
-  for (const char* ending : {".png", ".svg"}) {
-    if (!std::filesystem::exists(out / (name + ending))) {
-      throw std::runtime_error("gnuplot made no " + name + ending + ": is it installed?");
+    std::FILE* pipe = popen(command.c_str(), "w");
+    if (pipe == nullptr) throw std::runtime_error("cannot run gnuplot");
+    fmt::print(pipe, "set terminal {} font 'sans,13'\nset output '{}.{}'\n{}\n", terminal, name, ending, script);
+    if (pclose(pipe) != 0) {
+      throw std::runtime_error(fmt::format("gnuplot could not make {}.{}: is it installed?", name, ending));
     }
   }
 }

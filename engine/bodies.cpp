@@ -144,7 +144,8 @@ void Bodies::remove(BodyId id) {
   packed_meshes_.remove(slots_[id.index].body->mesh);
   slots_[id.index].body.reset();
   boxes_[id.index] = base::Box{};
-  free_.push_back(id.index);
+  // No id is given out twice: a slot whose generations are used up stays empty.
+  if (id.generation < std::numeric_limits<std::uint32_t>::max()) free_.push_back(id.index);
   std::erase(loose_, id.index);
   mark_changed(id.index);
   removed_any_ = true;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "narrowphase/criteria.h"
 #include "narrowphase/gjk.h"
 #include "narrowphase/star_surface.h"
 
@@ -42,12 +43,7 @@ struct FacetCounts {
   std::int64_t clusters = 0;  // likewise
   std::int64_t clusters_outside_box = 0;
   std::int64_t clusters_outside_slab = 0;
-  std::int64_t opened_clusters = 0;
-  std::int64_t opened_facets = 0;
-  std::int64_t facing_away = 0;
-  std::int64_t outside_slab = 0;
-  std::int64_t outside_box = 0;
-  std::int64_t outside_zone = 0;
+  narrowphase::CullCounts cull;  // of both bodies
   std::int64_t cluster_pairs = 0;
   std::int64_t facet_box_pairs = 0;
   std::int64_t triangle_tests = 0;
@@ -66,6 +62,7 @@ struct alignas(64) PairRecord {
   FacetCounts facet_counts;
   Contact contact;
   std::vector<FacetPair> facet_pairs;  // sorted
+  std::size_t room_left = 0;           // for facet pairs, by a large pair that had this record before, see PairTable
   std::vector<Patch> patches;
   std::unique_ptr<narrowphase::SurfaceShape> surface;  // where the search for the smallest separation ended, once
 };

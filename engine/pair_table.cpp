@@ -13,6 +13,7 @@ namespace {
 using narrowphase::PartingDiagonal;
 
 constexpr std::size_t kLargestRoom = 512;                      // facet pairs, 4 kB
+constexpr std::size_t kMostSpareRoom = std::size_t{1} << 20;   // facet pairs, 8 MB
 constexpr std::size_t kPartedAtATime = 2048;                   // pairs
 constexpr std::size_t kFewestRecords = 4, kMostRecords = 256;  // taken at once
 
@@ -105,7 +106,16 @@ PairRecord& PairTable::new_record(BodyId a, BodyId b) {
 
 void PairTable::retire(PairRecord& record) {
   if (touches(record)) gone_.push_back({record.a, record.b});
-  room_ = std::min(std::max(room_, record.facet_pairs.capacity()), kLargestRoom);
+  const std::size_t room = record.facet_pairs.capacity();
+  room_ = std::min(std::max(room_, room), kLargestRoom);
+  // A large pair may leave its room to a small one, and take new room when it comes back. So there is a limit to what is
+  // left in all.
+  spare_room_ -= std::exchange(record.room_left, 0);
+  if (room > kLargestRoom && spare_room_ + room <= kMostSpareRoom) {
+    spare_room_ += record.room_left = room;
+  } else if (room > kLargestRoom) {
+    record.facet_pairs = std::vector<FacetPair>();
+  }
   free_.push_back(&record);
 }
 

@@ -89,6 +89,7 @@ class PairTable {
   std::size_t record_count_ = 0;  // in the pool
   std::vector<PairRecord*> free_;
   std::size_t room_ = 0;                      // facet pairs
+  std::size_t spare_room_ = 0;                // of large pairs that are gone, facet pairs
   std::vector<broadphase::IndexPair> pairs_;  // slots
   std::vector<CandidatePair> candidates_;     // the same pairs, of bodies
   std::vector<Entry> entries_;                // of these

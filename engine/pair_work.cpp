@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "engine/base/fast_paths.h"
 #include "engine/base/parallel.h"
@@ -176,19 +177,6 @@ void cull(PairRecord& record, const Body& a, const Body& b, const Slab& slab, co
   record.facet_counts.cluster_pairs = static_cast<std::int64_t>(work.cluster_pairs.size());
 }
 
-void add(CullCounts& sum, const CullCounts& one) {
-  sum.opened_clusters += one.opened_clusters;
-  sum.facing_away += one.facing_away;
-  sum.outside_slab += one.outside_slab;
-  sum.outside_box += one.outside_box;
-  sum.outside_zone += one.outside_zone;
-  sum.kept += one.kept;
-}
-
-std::int64_t facets_of(const CullCounts& counts) {
-  return counts.facing_away + counts.outside_slab + counts.outside_box + counts.outside_zone + counts.kept;
-}
-
 void sort_facet_pairs(PairWork& work, int threads) {
   std::vector<FacetPair>& pairs = work.record->facet_pairs;
   if (pairs.size() <= kMostSorted) return kernels().sort_pairs(pairs.data(), static_cast<int>(pairs.size()));
@@ -207,15 +195,11 @@ void sort_facet_pairs(PairWork& work, int threads) {
 
 void finish(PairWork& work, const ConfirmCounts& counts, int threads) {
   PairRecord& record = *work.record;
-  record.facet_counts.opened_clusters = work.cull_a.opened_clusters + work.cull_b.opened_clusters;
-  record.facet_counts.opened_facets = facets_of(work.cull_a) + facets_of(work.cull_b);
   sort_facet_pairs(work, threads);
   record.contact.kept_facets_a = work.cull_a.kept;
   record.contact.kept_facets_b = work.cull_b.kept;
-  record.facet_counts.facing_away = work.cull_a.facing_away + work.cull_b.facing_away;
-  record.facet_counts.outside_slab = work.cull_a.outside_slab + work.cull_b.outside_slab;
-  record.facet_counts.outside_box = work.cull_a.outside_box + work.cull_b.outside_box;
-  record.facet_counts.outside_zone = work.cull_a.outside_zone + work.cull_b.outside_zone;
+  record.facet_counts.cull = work.cull_a;
+  record.facet_counts.cull += work.cull_b;
   record.facet_counts.facet_box_pairs = counts.facet_box_pairs;
   record.facet_counts.triangle_tests = counts.triangle_tests;
   record.facet_counts.exact_predicates = counts.predicates.exact;
@@ -263,8 +247,8 @@ void confirm(PairWork& work, Timer& timer) {
   ConfirmCounts counts;
   work.search.run(work.input, work.cluster_pairs, 0, work.cluster_pairs.size(), work.record->facet_pairs, counts);
   work.cull_a = work.cull_b = {};
-  for (const OpenedCluster& one : work.search.opened_a()) add(work.cull_a, one.counts);
-  for (const OpenedCluster& one : work.search.opened_b()) add(work.cull_b, one.counts);
+  for (const OpenedCluster& one : work.search.opened_a()) work.cull_a += one.counts;
+  for (const OpenedCluster& one : work.search.opened_b()) work.cull_b += one.counts;
   finish(work, counts, 1);
   work.record->counts.confirm_ms = static_cast<float>(timer.lap());
 }
@@ -308,7 +292,7 @@ void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int t
     range.end = Timer::Clock::now();
   });
   // A cluster of B that several ranges opened counts once.
-  work.seen_b.assign(static_cast<std::size_t>(work.kept_b.count()), 0);
+  work.seen_b.assign(static_cast<std::size_t>(work.kept_b.count()), false);
   ConfirmCounts counts;
   work.cull_a = work.cull_b = {};
   for (const ConfirmedRange& range : std::span(work.ranges).first(work.range_count)) {
@@ -316,9 +300,9 @@ void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int t
     counts.facet_box_pairs += range.counts.facet_box_pairs;
     counts.triangle_tests += range.counts.triangle_tests;
     counts.predicates.exact += range.counts.predicates.exact;
-    for (const OpenedCluster& one : range.opened_a) add(work.cull_a, one.counts);
+    for (const OpenedCluster& one : range.opened_a) work.cull_a += one.counts;
     for (const OpenedCluster& one : range.opened_b) {
-      if (!work.seen_b[static_cast<std::size_t>(one.index)]++) add(work.cull_b, one.counts);
+      if (!std::exchange(work.seen_b[static_cast<std::size_t>(one.index)], true)) work.cull_b += one.counts;
     }
   }
   finish(work, counts, threads);

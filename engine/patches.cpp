@@ -1,8 +1,11 @@
 #include "engine/patches.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "narrowphase/wide_vec3.h"
 
 namespace tact {
 
@@ -45,7 +48,10 @@ Vec3 area_normal(const Body& body, int facet, Vec3 side) {
   return body.surface == Surface::sheet && dot(n, side) < 0.0 ? -n : n;
 }
 
-double highest(const Triangle& t, Vec3 n) { return std::max({dot(n, t[0]), dot(n, t[1]), dot(n, t[2])}); }
+// Above the origin, along n.
+double highest(const Triangle& t, Vec3 n, Vec3 origin) {
+  return std::max({dot(n, t[0] - origin), dot(n, t[1] - origin), dot(n, t[2] - origin)});
+}
 
 std::vector<std::vector<int>> connected(const std::vector<FacetPair>& pairs) {
   Sets sets(pairs.size());
@@ -79,15 +85,16 @@ Patch make_patch(const Body& a, const Body& b, const PairRecord& record, std::ve
     const Box common = intersection(box_of(triangle_of(a, pair(i).a)), box_of(triangle_of(b, pair(i).b)));
     center = center + (0.5 * common.lower + 0.5 * common.upper);
   }
-  const double length = norm(normal);
-  const Vec3 n = length > 0.0 && std::isfinite(length) ? (1.0 / length) * normal : contact_direction;
+  const Vec3 point = (1.0 / static_cast<double>(members.size())) * center;
+  const bool has_direction = normal != Vec3{} && std::isfinite(normal.x + normal.y + normal.z);
+  const Vec3 n = has_direction ? narrowphase::unit_vector(normal) : contact_direction;
   double depth = -std::numeric_limits<double>::infinity();
   for (const int i : members) {
-    const double reach = highest(triangle_of(a, pair(i).a), n) + highest(triangle_of(b, pair(i).b), -n);
+    const double reach = highest(triangle_of(a, pair(i).a), n, point) + highest(triangle_of(b, pair(i).b), -n, point);
     depth = std::max(depth, reach);
   }
   Patch patch;
-  patch.point = to_eigen((1.0 / static_cast<double>(members.size())) * center);
+  patch.point = to_eigen(point);
   patch.direction = to_eigen(n);
   patch.depth = std::max(0.0, depth);
   patch.facet_pairs = std::move(members);

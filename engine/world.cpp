@@ -39,13 +39,22 @@ Settings checked(Settings settings) {
   return settings;
 }
 
+// There may be no memory for the message either.
+[[noreturn]] void refuse_memory(const char* what) {
+  try {
+    throw Error(ErrorCode::out_of_memory, what);
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::out_of_memory, {});
+  }
+}
+
 // Calls `work`; a failed allocation becomes the error that the interface names.
 template <class Work>
 decltype(auto) with_memory(const char* what, const Work& work) {
   try {
     return work();
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::out_of_memory, what);
+    refuse_memory(what);
   }
 }
 
@@ -86,7 +95,9 @@ struct World::Implementation {
   }
 };
 
-World::World(const Settings& settings) : implementation_(std::make_unique<Implementation>(settings)) {}
+World::World(const Settings& settings)
+    : implementation_(with_memory("making a world ran out of memory",
+                                  [&] { return std::make_unique<Implementation>(settings); })) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -138,7 +149,9 @@ const Report& World::detect() {
 
 bool World::contains(BodyId body) const noexcept { return implementation_ && implementation_->bodies.contains(body); }
 std::size_t World::body_count() const noexcept { return implementation_ ? implementation_->bodies.count() : 0; }
-std::vector<BodyId> World::bodies() const { return implementation().bodies.ids(); }
+std::vector<BodyId> World::bodies() const {
+  return with_memory("listing the bodies ran out of memory", [&] { return implementation().bodies.ids(); });
+}
 const std::string& World::name(BodyId body) const { return implementation().bodies.at(body).name; }
 Surface World::surface(BodyId body) const { return implementation().bodies.at(body).surface; }
 Motion World::motion(BodyId body) const { return implementation().bodies.at(body).motion; }

@@ -30,8 +30,6 @@ class ConvexPolytope {
 
   // Faces keep their numbers; those that a point has covered are marked as removed.
   const std::vector<Face>& faces() const { return faces_; }
-  // Points in the order in which they came, inner ones included.
-  const std::vector<Vec3>& points() const { return points_; }
   Vec3 corner(int face, int k) const;
 
   // Does p lie strictly outside the plane of `face`?

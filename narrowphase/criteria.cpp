@@ -74,6 +74,16 @@ std::uint64_t inside_zone(const FacetBlock& block, std::uint64_t candidates, con
 
 }  // namespace
 
+CullCounts& CullCounts::operator+=(const CullCounts& one) {
+  opened_clusters += one.opened_clusters;
+  facing_away += one.facing_away;
+  outside_slab += one.outside_slab;
+  outside_box += one.outside_box;
+  outside_zone += one.outside_zone;
+  kept += one.kept;
+  return *this;
+}
+
 Criteria criteria_for_a(const Slab& slab, const ImpactZone* zone_b, bool facing_away) {
   return make_criteria(slab, slab.n, slab.lower, zone_b, facing_away);
 }

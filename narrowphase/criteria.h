@@ -40,6 +40,9 @@ struct CullCounts {
   std::int64_t outside_box = 0;
   std::int64_t outside_zone = 0;
   std::int64_t kept = 0;
+
+  std::int64_t facets() const { return facing_away + outside_slab + outside_box + outside_zone + kept; }
+  CullCounts& operator+=(const CullCounts& one);
 };
 
 // The clusters of a body that can hold a facet that touches, ascending, with their boxes.

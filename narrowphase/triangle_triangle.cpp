@@ -191,15 +191,6 @@ bool segment_triangle_meet(const Segment& segment, const Triangle& triangle, Pre
   return ab * ca >= 0 && bc * ca >= 0;
 }
 
-bool point_triangle_meet(const Vec3& point, const Triangle& triangle, PredicateCounts& counts) {
-  const auto& [a, b, c] = triangle;
-  if (orient3d(a, b, c, point, counts) != 0) return false;
-  const auto projection = find_projection(a, b, c, counts);
-  if (!projection) return segment_segment_meet({point, point}, ends_of(triangle), counts);
-  return !side_separates(projected(triangle, projection->axis), projection->turn,
-                         projected(std::array{point}, projection->axis), counts);
-}
-
 bool segment_segment_meet(const Segment& a, const Segment& b, PredicateCounts& counts) {
   if (orient3d(a[0], a[1], b[0], b[1], counts) != 0) return false;
   auto projection = find_projection(a[0], a[1], b[0], counts);

@@ -25,9 +25,6 @@ bool coplanar_triangles_meet(const Triangle& a, const Triangle& b, PredicateCoun
 // Do `segment` and `triangle` share at least one point?
 bool segment_triangle_meet(const Segment& segment, const Triangle& triangle, PredicateCounts& counts);
 
-// Is `point` a point of `triangle`, its border included?
-bool point_triangle_meet(const Vec3& point, const Triangle& triangle, PredicateCounts& counts);
-
 // Do `a` and `b` share at least one point?
 bool segment_segment_meet(const Segment& a, const Segment& b, PredicateCounts& counts);
 

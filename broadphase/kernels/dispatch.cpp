@@ -16,7 +16,8 @@ const Kernels* avx2_kernels() {
 }
 const Kernels* avx512_kernels() {
   const bool has = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                   __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("bmi");
+                   __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("bmi") &&
+                   __builtin_cpu_supports("popcnt");
   return has ? &kAvx512Kernels : nullptr;
 }
 #else

@@ -12,12 +12,19 @@ extern const Kernels kAvx512Kernels;
 const Kernels* scalar_kernels() { return &kScalarKernels; }
 
 #if defined(__x86_64__)
+namespace {
+// All that a file is compiled for is asked for: a virtual machine may hide any of it.
+bool has_bit_operations() {
+  return __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt");
+}
+}  // namespace
+
 const Kernels* avx2_kernels() {
-  const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+  const bool has = has_bit_operations() && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   return has ? &kAvx2Kernels : nullptr;
 }
 const Kernels* avx512_kernels() {
-  const bool has = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+  const bool has = has_bit_operations() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                    __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
                    __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("avx512vbmi2");
   return has ? &kAvx512Kernels : nullptr;

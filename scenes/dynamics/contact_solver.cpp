@@ -37,6 +37,7 @@ template <class Vertices, class Weights>
 void move(const Vertices& vertices, const Weights& weights, Vec3 impulse, Body& body) {
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     const auto vertex = static_cast<std::size_t>(vertices[k]);
+    if (!(body.inverse_masses[vertex] > 0.0)) continue;  // several contacts of a group may read what does not move
     body.positions[vertex] = body.positions[vertex] + (weights[k] * body.inverse_masses[vertex]) * impulse;
   }
 }

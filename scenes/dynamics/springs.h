@@ -26,9 +26,6 @@ class Springs {
   // need not be stored. Source: M. Macklin et al., Small Steps in Physics Simulation, SCA 2019.
   void solve(std::vector<Vec3>& positions, const std::vector<double>& inverse_masses, double h, int threads) const;
 
-  std::size_t size() const { return springs_.size(); }
-  std::size_t groups() const { return group_ends_.size(); }
-
  private:
   std::vector<Spring> springs_;
   std::vector<std::size_t> group_ends_;

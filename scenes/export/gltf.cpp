@@ -32,10 +32,6 @@ constexpr int kElementArrayBuffer = 34963;
 // The three kinds of data, each a view of the file's one buffer. All items are made of four bytes, so all is aligned.
 enum class Section : std::size_t { indices, positions, animation };
 
-std::int64_t stored_bytes(std::int64_t vertices, std::int64_t frames) {
-  return 12 * vertices * frames + 4 * frames * frames;
-}
-
 void append_word(std::string& bytes, std::uint32_t word) {
   bytes.append(reinterpret_cast<const char*>(&word), sizeof(word));
 }
@@ -230,13 +226,6 @@ void GltfAnimation::write(std::ostream& out) const {
   if (times_.empty()) throw std::runtime_error("glTF: no frame to write");
   const std::string bytes = Writer(*this).bytes();
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-}
-
-int gltf_stride(std::int64_t vertices, int frames, std::int64_t bytes) {
-  for (int stride = 1; stride < frames; ++stride) {
-    if (stored_bytes(vertices, (frames + stride - 1) / stride) < bytes) return stride;
-  }
-  return std::max(1, frames);
 }
 
 }  // namespace tact::scenes

@@ -45,7 +45,4 @@ class GltfAnimation {
   std::vector<Body> bodies_;
 };
 
-// The smallest step from frame to frame with which `frames` frames of `vertices` moving vertices stay below `bytes`.
-int gltf_stride(std::int64_t vertices, int frames, std::int64_t bytes = 256'000'000);
-
 }  // namespace tact::scenes

@@ -28,10 +28,11 @@ class Surroundings {
  public:
   Surroundings(const std::filesystem::path& folder, const std::filesystem::path& log) {
     check(posix_spawn_file_actions_init(&actions_), "posix_spawn_file_actions_init");
-    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
-    posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
+    const auto add = [](int error) { check(error, "posix_spawn_file_actions"); };
+    add(posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0));
+    add(posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644));
+    add(posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO));
+    add(posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str()));
   }
   ~Surroundings() { posix_spawn_file_actions_destroy(&actions_); }
   Surroundings(const Surroundings&) = delete;

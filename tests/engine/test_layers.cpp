@@ -22,7 +22,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"broadphase", {"engine/base"}},
     {"narrowphase", {"engine/base"}},
     {"engine", {"engine/base", "broadphase", "narrowphase"}},
-    {"scenes", {"engine/base", "broadphase", "narrowphase", "engine"}},
+    {"scenes", {"engine/base", "engine"}},
     {"bench", {"engine/base", "broadphase", "narrowphase", "engine", "scenes", "tests"}},
     {"tests", {"engine/base", "broadphase", "narrowphase", "engine", "scenes", "bench"}},
 };
@@ -89,7 +89,8 @@ TEST(Layers, IncludeOnlyWhatLiesBelow) {
   for (const Include& include : includes) {
     const std::string from = layer_of(include.file), to = layer_of(include.header);
     if (to.empty() || to == from) continue;
-    EXPECT_TRUE(kMayInclude.at(from).contains(to)) << include.file << " includes " << include.header;
+    const bool draws_with_embree = from == "scenes" && include.header == "narrowphase/embree.h";
+    EXPECT_TRUE(kMayInclude.at(from).contains(to) || draws_with_embree) << include.file << " includes " << include.header;
   }
 }
 

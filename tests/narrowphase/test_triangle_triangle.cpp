@@ -15,7 +15,6 @@
 
 namespace {
 
-using tact::narrowphase::point_triangle_meet;
 using tact::narrowphase::PredicateCounts;
 using tact::narrowphase::Segment;
 using tact::narrowphase::segment_segment_meet;
@@ -266,16 +265,6 @@ TEST(SegmentTriangle, HardPairsMeetWhereCgalSaysSo) {
     PredicateCounts counts;
     ASSERT_EQ(segment_triangle_meet(segment, pair.b, counts), cgal_meet({segment[0], segment[1], segment[1]}, pair.b))
         << "seed " << kSeed + 3 << " pair " << i << ' ' << to_string(pair);
-  }
-}
-
-TEST(PointTriangle, HardPairsMeetWhereCgalSaysSo) {
-  for (std::uint64_t i = 0; i < 20000; ++i) {
-    const TrianglePair pair = hard_triangle_pair(kSeed + 4, i);
-    const Vec3 p = pair.a[0];
-    PredicateCounts counts;
-    ASSERT_EQ(point_triangle_meet(p, pair.b, counts), cgal_meet({p, p, p}, pair.b))
-        << "seed " << kSeed + 4 << " pair " << i << ' ' << to_string(pair);
   }
 }
 

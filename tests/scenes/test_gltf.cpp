@@ -162,9 +162,3 @@ TEST(Gltf, FramesThatDoNotFitAreRefused) {
   EXPECT_EQ(animation.frames(), 1);
 }
 
-TEST(Gltf, StrideKeepsTheFileBelowItsLimit) {
-  EXPECT_EQ(gltf_stride(1000, 300), 1);
-  EXPECT_EQ(gltf_stride(1000, 100, 12 * 1000 * 50 + 4 * 50 * 50 + 1), 2);
-  EXPECT_EQ(gltf_stride(1'000'000'000, 300), 300);
-  EXPECT_EQ(gltf_stride(1000, 0), 1);
-}

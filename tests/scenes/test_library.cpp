@@ -192,7 +192,9 @@ TEST(SphereInCloth, IsPushedOutTheWayItCame) {
     if (box_of(simulation.bodies()[0].positions).upper.z > rim - 0.05) continue;
     wholly_inside = true;
     for (std::size_t i = 0; i < 2; ++i) smallest.set_positions(ids[i], as_matrix(simulation.seen(i)));
-    const Contact shortest = smallest.detect().contacts()[0];
+    const auto by_hulls = smallest.detect().contacts();
+    ASSERT_EQ(by_hulls.size(), 1u) << "step " << step;
+    const Contact& shortest = by_hulls[0];
     EXPECT_LE(shortest.depth, contacts[0].depth + 1e-9) << "step " << step;
     through_the_cloth = through_the_cloth || shortest.direction.z() > -0.5;
   }

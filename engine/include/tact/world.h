@@ -37,7 +37,7 @@ struct PositionsUpdate {
 // answers do not depend on the number of threads, nor on the floating-point mode of the caller.
 class TACT_API World {
  public:
-  // Errors: bad_settings.
+  // Errors: bad_settings, out_of_memory.
   explicit World(const Settings& settings = {});
   ~World();
   // A world that was moved from holds no body, and refuses all calls but these and those that never throw
@@ -72,7 +72,7 @@ class TACT_API World {
   // Does `body` name a body of this world? Never throws.
   bool contains(BodyId body) const noexcept;
   std::size_t body_count() const noexcept;
-  // The bodies in the order of their index.
+  // The bodies in the order of their index. Errors: out_of_memory.
   std::vector<BodyId> bodies() const;
 
   // Errors of these: stale_body, foreign_body.
