@@ -22,7 +22,7 @@ constexpr double kOrderCost = 40.0;        // what ordering costs for each block
 constexpr std::size_t kFewChanged = 4;  // with fewer than 1 / kFewChanged of the boxes changed, the cost tells nothing
 constexpr std::size_t kThin = 12;       // a batch of fewer than 1 / kThin of the boxes has a block for each box, since
                                         // sixteen of them would span many blocks of the others; break-even at 12
-constexpr std::size_t kSparse = 4;      // the order is made anew when fewer than 1 / kSparse of the lanes hold a box
+constexpr std::size_t kSparse = 4;      // the order is made anew when fewer than 1 / kSparse of its boxes are left
 
 bool occupied(const Box& box) {
   return box.lower.x <= box.upper.x && box.lower.y <= box.upper.y && box.lower.z <= box.upper.z;

@@ -1,4 +1,5 @@
-// Which boxes overlap: sweep and prune, carried from step to step.
+// Which boxes overlap, carried from step to step as in sweep and prune: what moves little is not sorted again. The
+// order is along all three axes, that of a tree of blocks of sixteen boxes which is joined with itself: see README.md.
 #pragma once
 
 #include <cstddef>

@@ -108,8 +108,8 @@ void PairTable::retire(PairRecord& record) {
   if (touches(record)) gone_.push_back({record.a, record.b});
   const std::size_t room = record.facet_pairs.capacity();
   room_ = std::min(std::max(room_, room), kLargestRoom);
-  // A large pair may leave its room to a small one, and take new room when it comes back. So there is a limit to what is
-  // left in all.
+  // A large pair may leave its room to a small one, and take new room when it comes back. So there is a limit to what
+  // is left in all.
   spare_room_ -= std::exchange(record.room_left, 0);
   if (room > kLargestRoom && spare_room_ + room <= kMostSpareRoom) {
     spare_room_ += record.room_left = room;

@@ -28,7 +28,7 @@ void add_accuracy_option(CLI::App& command, Accuracy& accuracy) {
 
 void add_threads_option(CLI::App& command, int& threads) {
   constexpr int kMost = 1024;
-  command.add_option("--threads", threads, "How many threads to use; 0, if not given: one a core")
+  command.add_option("--threads", threads, "How many threads to use; 0, if not given: as many as OpenMP would")
       ->type_name("N")
       ->check(CLI::Range(0, kMost).description(""));
 }

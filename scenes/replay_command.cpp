@@ -63,7 +63,8 @@ void add_replay_command(CLI::App& program) {
   command->add_option("FILE", *file, "What --record wrote")->required();
   add_threads_option(*command, *threads);
   CLI::Option* given = command->get_option("--threads");
-  given->description("How many threads to use, 0: one a core; as many as the recording had if not given");
+  given->description(
+      "How many threads to use, 0: as many as OpenMP would use; as many as the recording had if not given");
   command->callback([file, threads, given] {
     replay({.recording = *file, .threads = given->count() > 0 ? std::optional<int>(*threads) : std::nullopt},
            std::cout);

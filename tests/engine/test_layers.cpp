@@ -90,7 +90,8 @@ TEST(Layers, IncludeOnlyWhatLiesBelow) {
     const std::string from = layer_of(include.file), to = layer_of(include.header);
     if (to.empty() || to == from) continue;
     const bool draws_with_embree = from == "scenes" && include.header == "narrowphase/embree.h";
-    EXPECT_TRUE(kMayInclude.at(from).contains(to) || draws_with_embree) << include.file << " includes " << include.header;
+    EXPECT_TRUE(kMayInclude.at(from).contains(to) || draws_with_embree)
+        << include.file << " includes " << include.header;
   }
 }
 

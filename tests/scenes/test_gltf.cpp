@@ -161,4 +161,3 @@ TEST(Gltf, FramesThatDoNotFitAreRefused) {
   EXPECT_THROW(animation.add_frame(bodies, 2.0), std::runtime_error);
   EXPECT_EQ(animation.frames(), 1);
 }
-

@@ -21,7 +21,7 @@ namespace tact {
   X(separated_pairs, "other pairs whose hulls GJK found to be apart")                                     \
   X(contacts, "pairs whose hulls overlap")                                                                \
   X(carried_directions, "contact directions found from the last step's")                                  \
-  X(fresh_directions, "contact directions found from the closest points of hulls once apart")             \
+  X(fresh_directions, "contact directions found from the one that separated the hulls before")            \
   X(smallest_directions, "contact directions that are the smallest separation")                           \
   X(direction_iterations, "shifted calls of GJK")                                                         \
   X(gjk_iterations, "support queries of GJK, a vertex of each body")                                      \

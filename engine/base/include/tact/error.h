@@ -30,8 +30,8 @@ enum class ErrorCode {
 // The name of `code` as it stands in the enumeration, such as "stale_body".
 TACT_API const char* error_code_name(ErrorCode code);
 
-// The exception of every public function. `what()` names the body, vertex, facet or setting; of out_of_memory it is empty
-// if there was no memory for a message.
+// The exception of every public function. `what()` names the body, vertex, facet or setting; of out_of_memory it is
+// empty if there was no memory for a message.
 class TACT_API Error : public std::runtime_error {
  public:
   Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
