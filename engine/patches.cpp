@@ -42,9 +42,15 @@ Triangle triangle_of(const Body& body, int source_facet) {
 
 Box box_of(const Triangle& t) { return extended(extended(Box{t[0], t[0]}, t[1]), t[2]); }
 
-Vec3 area_normal(const Body& body, int facet, Vec3 side) {
+double longest(const Box& box) {
+  const Vec3 size = box.upper - box.lower;
+  return std::max({size.x, size.y, size.z});
+}
+
+// `scale` is a unit of length in which the area neither vanishes nor overflows.
+Vec3 area_normal(const Body& body, int facet, Vec3 side, double scale) {
   const Triangle t = triangle_of(body, facet);
-  const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
+  const Vec3 n = cross(scale * (t[1] - t[0]), scale * (t[2] - t[0]));
   return body.surface == Surface::sheet && dot(n, side) < 0.0 ? -n : n;
 }
 
@@ -80,14 +86,19 @@ Patch make_patch(const Body& a, const Body& b, const PairRecord& record, std::ve
   const Vec3 contact_direction = from_eigen(record.contact.direction);
   Vec3 normal, center;
   const auto pair = [&](int i) { return record.facet_pairs[static_cast<std::size_t>(i)]; };
+  double largest = 0.0;
+  for (const int i : members)
+    largest =
+        std::max({largest, longest(box_of(triangle_of(a, pair(i).a))), longest(box_of(triangle_of(b, pair(i).b)))});
+  const double scale = largest > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000)) : 1.0;
   for (const int i : members) {
-    normal = normal + (area_normal(a, pair(i).a, contact_direction) - area_normal(b, pair(i).b, -contact_direction));
+    normal = normal + (area_normal(a, pair(i).a, contact_direction, scale) -
+                       area_normal(b, pair(i).b, -contact_direction, scale));
     const Box common = intersection(box_of(triangle_of(a, pair(i).a)), box_of(triangle_of(b, pair(i).b)));
     center = center + (0.5 * common.lower + 0.5 * common.upper);
   }
   const Vec3 point = (1.0 / static_cast<double>(members.size())) * center;
-  const bool has_direction = normal != Vec3{} && std::isfinite(normal.x + normal.y + normal.z);
-  const Vec3 n = has_direction ? narrowphase::unit_vector(normal) : contact_direction;
+  const Vec3 n = normal != Vec3{} ? narrowphase::unit_vector(normal) : contact_direction;
   double depth = -std::numeric_limits<double>::infinity();
   for (const int i : members) {
     const double reach = highest(triangle_of(a, pair(i).a), n, point) + highest(triangle_of(b, pair(i).b), -n, point);

@@ -21,8 +21,8 @@ constexpr int kBoxesPerTree = 512;
   throw Error(ErrorCode::backend_failure, "Embree reported error " + std::to_string(static_cast<int>(code)));
 }
 
-// Throws what the calling thread's last calls of Embree left behind, and leaves nothing for the next.
-void check(RTCDevice device) {
+// What the calling thread's last calls of Embree left behind. Leaves nothing for the next.
+RTCError take_error(RTCDevice device) {
   RTCError code = rtcGetDeviceError(device);
   // A thread's first question allocates. Where that fails the answer is "unknown", and the reason is kept for the
   // second.
@@ -30,7 +30,7 @@ void check(RTCDevice device) {
     const RTCError reason = rtcGetDeviceError(device);
     if (reason != RTC_ERROR_NONE) code = reason;
   }
-  if (code != RTC_ERROR_NONE) fail(code);
+  return code;
 }
 
 // Numbers in Embree's void pointers: never null, so that a node of zero is told from a failure.
@@ -106,9 +106,10 @@ void ClusterForest::build(EmbreeDevice& device, BoxView boxes, int count) {
       p.primID = static_cast<unsigned>(i);
     }
     RTCBVH bvh = rtcNewBVH(embree);
-    if (bvh == nullptr) {
-      check(embree);
-      throw Error(ErrorCode::backend_failure, "Embree made no tree");
+    RTCError error = take_error(embree);
+    if (bvh == nullptr || error != RTC_ERROR_NONE) {
+      if (bvh != nullptr) rtcReleaseBVH(bvh);
+      fail(error);
     }
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
@@ -124,11 +125,17 @@ void ClusterForest::build(EmbreeDevice& device, BoxView boxes, int count) {
     arguments.setNodeBounds = Builder::set_bounds;
     arguments.createLeaf = Builder::create_leaf;
     arguments.userPtr = &builder;
+    const std::size_t nodes_before = nodes_.size();
     void* root = rtcBuildBVH(&arguments);
     rtcReleaseBVH(bvh);
-    check(embree);
-    if (root == nullptr) throw Error(ErrorCode::backend_failure, "Embree built no tree");
-    roots_.push_back(child_of(root));
+    error = take_error(embree);
+    if (error != RTC_ERROR_NONE && error != RTC_ERROR_UNKNOWN) fail(error);
+    if (root != nullptr && error == RTC_ERROR_NONE) {
+      roots_.push_back(child_of(root));
+    } else {
+      nodes_.resize(nodes_before);
+      roots_.push_back(halve(begin, begin + tree_size));
+    }
   }
   // Embree makes a node before its children: in reverse order, every child is ready.
   const auto box_of = [&](std::int32_t child) {
@@ -140,6 +147,19 @@ void ClusterForest::build(EmbreeDevice& device, BoxView boxes, int count) {
     for (int k = 0; k < 2; ++k) nodes_[i].box[k] = box_of(nodes_[i].child[k]);
   }
   for (const std::int32_t root : roots_) root_boxes_.push_back(box_of(root));
+}
+
+// Embree gives up, with an unknown error, where boxes gather about a point so closely that a tree which cuts space
+// would be deeper than its limit. This one cuts the list, in which neighbours follow each other.
+std::int32_t ClusterForest::halve(int begin, int end) {
+  if (end - begin == 1) return ~begin;
+  const auto node = static_cast<std::int32_t>(nodes_.size());
+  nodes_.emplace_back();
+  const int middle = begin + (end - begin) / 2;
+  const std::int32_t first = halve(begin, middle), second = halve(middle, end);
+  nodes_[static_cast<std::size_t>(node)].child[0] = first;
+  nodes_[static_cast<std::size_t>(node)].child[1] = second;
+  return node;
 }
 
 void ClusterForest::query(const Box& box, std::vector<std::int32_t>& found) const {

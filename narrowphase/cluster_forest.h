@@ -48,6 +48,7 @@ class ClusterForest {
     std::int32_t child[2];
   };
   struct Builder;
+  std::int32_t halve(int begin, int end);
 
   std::vector<Node> nodes_;
   std::vector<std::int32_t> roots_;

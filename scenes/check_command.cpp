@@ -16,6 +16,7 @@
 #include "scenes/common_options.h"
 #include "scenes/failures.h"
 #include "scenes/interrupt.h"
+#include "scenes/named_files.h"
 #include "scenes/output_file.h"
 #include "scenes/progress_line.h"
 #include "scenes/recording.h"
@@ -59,6 +60,15 @@ void mark_sheets(const std::vector<std::string>& sheets, std::vector<BodyFrames>
   }
 }
 
+void check_outputs(const CheckOptions& options, const std::vector<BodyFrames>& bodies) {
+  NamedFiles files;
+  for (const BodyFrames& body : bodies) {
+    for (const std::filesystem::path& file : body.files) files.add_input(file);
+  }
+  files.add_output("--json", options.json);
+  files.add_output("--record", options.record);
+}
+
 // The engine's message names the body; the file tells which frame it is.
 [[noreturn]] void rethrow_for_file(const std::filesystem::path& file, const Error& error) {
   throw FileError(fmt::format("{}: {}", file.string(), error.what()));
@@ -96,6 +106,7 @@ int frames_to_step(const CheckOptions& options, const std::vector<BodyFrames>& b
 void check(const CheckOptions& options, std::ostream& out) {
   std::vector<BodyFrames> bodies = bodies_of(options);
   mark_sheets(options.sheets, bodies);
+  check_outputs(options, bodies);
   const int threads = options.threads > 0 ? options.threads : base::default_threads();
   const Interrupt interrupt;  // before any file is opened, so that none is left unfinished
   std::optional<OutputFile> json_file;

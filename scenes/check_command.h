@@ -25,7 +25,7 @@ struct CheckOptions {
 
 // Reads all files first, so that nothing is written if one is bad; then steps one world through the frames. Without
 // "-" for JSON, tables go to `out`. SIGINT ends it after the frame. Errors: FileError, UsageError (a sheet that is no
-// body), Error.
+// body, an output that is a mesh or another output), Error.
 void check(const CheckOptions& options, std::ostream& out);
 
 // Adds the subcommand `check` to `program`; to parse it is to run it.

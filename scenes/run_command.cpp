@@ -16,6 +16,7 @@
 #include "scenes/interrupt.h"
 #include "scenes/library/catalog.h"
 #include "scenes/lost_pairs.h"
+#include "scenes/named_files.h"
 #include "scenes/output_file.h"
 #include "scenes/progress_line.h"
 #include "scenes/run_totals.h"
@@ -41,19 +42,26 @@ const SceneEntry& entry_of(const RunOptions& options) {
   return *entry;
 }
 
-// Two reports in one stream would be none.
-void check_outputs(const OutputOptions& options) {
+// Two reports in one stream or file would be none.
+void check_outputs(const RunOptions& run) {
+  const OutputOptions& options = run.outputs;
   if (options.json == "-" && options.contacts == "-") {
     throw UsageError("--json and --contacts: only one of them can go to standard output");
   }
   if (options.gltf == "-") throw UsageError("--gltf: an animation goes to a file, not to standard output");
+  NamedFiles files;
+  files.add_output("--json", options.json);
+  files.add_output("--contacts", options.contacts);
+  files.add_output("--trace", options.trace);
+  files.add_output("--gltf", options.gltf);
+  files.add_output("--record", run.record);
 }
 
 }  // namespace
 
 void run(const RunOptions& options, std::ostream& out) {
   const auto start = std::chrono::steady_clock::now();
-  check_outputs(options.outputs);
+  check_outputs(options);
   const SceneEntry& entry = entry_of(options);
   Scene scene = entry.make(options.size > 0 ? options.size : entry.default_size);
   scene.marks.zones = options.outputs.zones;

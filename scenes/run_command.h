@@ -24,8 +24,8 @@ struct RunOptions {
 };
 
 // Runs the scene and prints what the run adds up to to `out`, or to nobody if JSON goes there. SIGINT ends it with what
-// was done so far. Errors: UsageError (no such scene, a size that it does not have), FileError, Error; FileError for
-// what could not be ended comes after all is printed.
+// was done so far. Errors: UsageError (no such scene, a size that it does not have, two outputs in one file),
+// FileError, Error; FileError for what could not be ended comes after all is printed.
 void run(const RunOptions& options, std::ostream& out);
 
 // Adds the subcommand `run` to `program`; to parse it is to run it.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 #include <type_traits>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -346,6 +347,36 @@ TEST(World, GivesNoIdTwice) {
     world.remove_body(id);
   }
   for (const BodyId id : seen) EXPECT_FALSE(world.contains(id));
+}
+
+TEST(World, IdsAreKeysOfUnorderedContainers) {
+  World world, other;
+  const Mesh mesh = icosphere(0);
+  std::unordered_set<BodyId> ids;
+  for (int k = 0; k < 10; ++k) {
+    const BodyId id = add_bodies(world, std::array{mesh})[0];
+    ids.insert(id);
+    ids.insert(add_bodies(other, std::array{mesh})[0]);
+    if (k % 2 == 0) world.remove_body(id);  // the slot is used again
+  }
+  EXPECT_EQ(ids.size(), 20u);
+  for (const BodyId id : world.bodies()) EXPECT_TRUE(ids.contains(id));
+}
+
+TEST(World, RefusesASurfaceOrMotionThatIsNone) {
+  World world;
+  const Mesh mesh = icosphere(0);
+  const auto add = [&](int surface, int motion) {
+    world.add_body({.positions = mesh.positions,
+                    .facets = mesh.facets,
+                    .surface = static_cast<Surface>(surface),
+                    .motion = static_cast<Motion>(motion),
+                    .name = "odd"});
+  };
+  EXPECT_TRUE(throws_error([&] { add(2, 0); }, ErrorCode::bad_settings, {"odd", "surface", "2"}));
+  EXPECT_TRUE(throws_error([&] { add(0, -1); }, ErrorCode::bad_settings, {"odd", "motion", "-1"}));
+  EXPECT_EQ(world.body_count(), 0u);
+  EXPECT_NO_THROW(add(1, 1));
 }
 
 TEST(World, NamesBodiesByIndexIfNotNamed) {

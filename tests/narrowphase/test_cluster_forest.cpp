@@ -92,6 +92,28 @@ TEST(ClusterForest, FindsAllOverlapsAtEverySize) {
   }
 }
 
+// Boxes that halve their distance from a point again and again, along each axis: cuts of space find one at a time, and
+// Embree's builder comes to its greatest depth.
+TEST(ClusterForest, FindsAllOverlapsWhereBoxesGatherAboutAPoint) {
+  EmbreeDevice device;
+  for (const int ratio : {1, 2, 5, 8}) {
+    BoxList list{.boxes = {}, .count = 600};
+    list.boxes.resize(static_cast<std::size_t>(list.count));
+    for (int i = 0; i < list.count; ++i) {
+      Vec3 lower{};
+      if (const int power = i / 3 * ratio; power < 115) {
+        lower[i % 3] = std::ldexp(1.0, -power);
+      } else {
+        lower = std::ldexp(static_cast<double>(i), -140) * Vec3{1.0, 1.0, 1.0};
+      }
+      list.boxes.set(static_cast<std::size_t>(i), {lower, 1.001 * lower});
+    }
+    ClusterForest forest;
+    EXPECT_EQ(error_of_build(forest, device, list), "") << "ratio " << ratio;
+    EXPECT_TRUE(finds_all_overlaps(forest, list)) << "ratio " << ratio;
+  }
+}
+
 TEST(ClusterForest, FailingAllocationInsideEmbreeIsAnErrorAndTheNextBuildWorks) {
   const BoxList list = random_boxes(kBoxes, 1.0);
   for (const bool for_good : {false, true}) {

@@ -57,6 +57,29 @@ class CheckCommand : public ::testing::Test {
   const std::filesystem::path d_ = folder_.write("d.obj", tetrahedron_at(9, 9, 9));
 };
 
+// A mesh is not written over, by whatever name it is called, nor one output by another.
+TEST_F(CheckCommand, NoFileIsWrittenOver) {
+  const auto message = [](const CheckOptions& options) -> std::string {
+    std::ostringstream out;
+    try {
+      check(options, out);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto size_before = std::filesystem::file_size(a_);
+  const std::string link = (folder_.path() / "link.obj").string();
+  std::filesystem::create_symlink(a_, link);
+  EXPECT_EQ(message({.meshes = {a_, b_}, .json = link}), "--json: " + link + " is read, and would be lost");
+  EXPECT_EQ(message({.meshes = {b_, a_}, .record = a_.string()}),
+            "--record: " + a_.string() + " is read, and would be lost");
+  EXPECT_EQ(std::filesystem::file_size(a_), size_before);
+  const std::string out = (folder_.path() / "out").string();
+  EXPECT_EQ(message({.meshes = {a_, b_}, .json = out, .record = out}), "--json and --record: both would be " + out);
+  EXPECT_EQ(message({.meshes = {a_, b_}, .json = "/dev/null", .record = "/dev/null"}), "");
+}
+
 TEST_F(CheckCommand, JsonHasTheDocumentedShape) {
   const Json json = check_json({.meshes = {a_, b_, c_, d_}, .threads = 2});
   EXPECT_EQ(keys_of(json), (std::vector<std::string>{"tact", "accuracy", "threads", "bodies", "frames"}));

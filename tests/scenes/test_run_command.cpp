@@ -250,6 +250,10 @@ TEST_F(RunCommand, WrongUsageIsNamed) {
             "--json and --contacts: only one of them can go to standard output");
   EXPECT_EQ(message({.scene = "pile", .outputs = {.gltf = "-"}}),
             "--gltf: an animation goes to a file, not to standard output");
+  EXPECT_EQ(message({.scene = "pile", .outputs = {.json = "no/x", .trace = "no/../no/x"}}),
+            "--json and --trace: both would be no/../no/x");
+  EXPECT_EQ(message({.scene = "pile", .record = "y", .outputs = {.contacts = "y"}}),
+            "--contacts and --record: both would be y");
 }
 
 TEST(ScenesCommand, ListsEverySceneWithItsSizes) {

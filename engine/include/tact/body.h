@@ -4,7 +4,9 @@
 #include <tact/columns.h>
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace tact {
@@ -44,3 +46,12 @@ struct BodyDefinition {
 };
 
 }  // namespace tact
+
+// For unordered containers.
+template <>
+struct std::hash<tact::BodyId> {
+  std::size_t operator()(const tact::BodyId& id) const noexcept {
+    const std::uint64_t slot = std::uint64_t{id.generation} << 32 | id.index;
+    return std::hash<std::uint64_t>()(slot ^ std::uint64_t{id.world} << 17);
+  }
+};

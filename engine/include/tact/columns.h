@@ -37,7 +37,7 @@ class Columns {
     using Type = typename decltype(eigen_type(matrix))::type;
     using Number = typename Type::Scalar;
     static_assert(Type::RowsAtCompileTime == 3 || Type::RowsAtCompileTime == Eigen::Dynamic,
-                  "a vertex or a facet is a column, not a row: transpose the matrix");
+                  "a vertex or a facet is a column of three rows: transpose a matrix that has them in rows");
     static_assert(kFits<Number, Scalar>, "cast<>() the matrix: its numbers need not fit");
     constexpr bool kIsTemporary = !std::is_lvalue_reference_v<Given> &&
                                   (std::is_base_of_v<Eigen::PlainObjectBase<Type>, Type> || kIsEigenRef<Type>);

@@ -26,13 +26,15 @@ enum class DirectionSource {
 // The disk around an impact zone, in the plane through `center` across the contact direction.
 struct ZoneDisk {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // metres
-  double radius = -1.0;  // metres; negative: not asked for, or the zone has no point, or Accuracy::hulls
+  double radius = -1.0;  // metres; negative: not asked for, or the zone has no point, or Accuracy::hulls. At
+                         // Accuracy::paper zones are computed whether they are asked for or not
 };
 
 // A connected set of facet pairs: two that share a facet are neighbours.
 struct Patch {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();      // mean of the centres of its facet pairs' common boxes, metres
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit, from a to b: the mean normal of its facets
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // mean of the centres of its facet pairs' common boxes, metres
+  // Unit, from a to b: the mean normal of its facets, weighted by area; the contact's direction if that is zero.
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   double depth = 0.0;            // moving b by depth * direction parts every facet pair of the patch, metres
   std::vector<int> facet_pairs;  // indices into Contact::facet_pairs(), ascending
 };
@@ -45,9 +47,11 @@ struct Contact {
   Eigen::Vector3d direction =
       Eigen::Vector3d::Zero();  // unit, from a to b: move b by depth * direction to part the hulls
   double depth = 0.0;           // overlap of the hulls along `direction`, metres, not negative
+  // Of the last step in which a body of the pair had moved, as all of the contact: nothing is done for pairs at rest.
   DirectionSource source = DirectionSource::fresh;
-  int iterations = 0;              // shifted calls of GJK that it took
-  bool limit_reached = false;      // GJK or the direction stopped at a limit: the direction is the best found
+  int iterations = 0;          // shifted calls of GJK that it took
+  bool limit_reached = false;  // GJK or the direction stopped at a limit: the direction is the best found
+  // Planes are as far from zero as the bodies, and rounded as coordinates there are; `depth` is not their difference.
   double plane_a = 0.0;            // contact plane of a: direction · x = plane_a, the farthest that a's hull reaches
   double plane_b = 0.0;            // contact plane of b: direction · x = plane_b, the nearest that b's hull reaches
   ZoneDisk zone_a;                 // around the part of a between the planes

@@ -26,12 +26,15 @@ struct Outputs {
 struct Settings {
   // 0 to 1024; 0: as many as OpenMP would use, of which World::settings() then tells the number. They are OpenMP's,
   // which by default keep spinning for a while after each step: in a program with busy threads of its own, set
-  // OMP_WAIT_POLICY=passive in its environment, or fewer threads here.
+  // OMP_WAIT_POLICY=passive in its environment, or fewer threads here. What holds for OpenMP holds here: GCC's ends the
+  // program if a thread cannot be started, and a child of fork() can use one thread only.
   int threads = 0;
   Accuracy accuracy = Accuracy::exact;
   DirectionPolicy direction = DirectionPolicy::carried;
-  double gjk_tolerance = 1e-12;  // relative gap at which GJK stops, 1e-15 to 0.1
-  int iteration_limit = 100;     // shifted calls of GJK a pair and step, at least 1
+  // Relative gap at which GJK stops, 1e-15 to 0.1. A larger one saves some support queries of new contacts; directions
+  // end on a face of the Minkowski difference all the same.
+  double gjk_tolerance = 1e-12;
+  int iteration_limit = 100;  // shifted calls of GJK a pair and step, at least 1
   Outputs outputs = {};
 };
 

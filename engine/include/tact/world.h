@@ -45,6 +45,7 @@ class TACT_API World {
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
+  // Valid as long as the world. (So is the name of a body, until the body is removed.)
   const Settings& settings() const;
   // Takes effect with the next step, which then looks at every pair anew; directions are carried on.
   // Errors: bad_settings.
@@ -52,7 +53,8 @@ class TACT_API World {
 
   // Copies the mesh and groups its facets into clusters, which is costly. detect() does that again for a body whose
   // facets have changed places so much that their groups have lost their shape (StepStats::regrouped_bodies).
-  // Errors: wrong_size, non_finite_position, position_out_of_range, facet_out_of_range, too_large, out_of_memory.
+  // Errors: wrong_size, non_finite_position, position_out_of_range, facet_out_of_range, too_large, bad_settings (a
+  // surface or motion that is none), out_of_memory.
   BodyId add_body(const BodyDefinition& definition);
   // Errors: stale_body, foreign_body.
   void remove_body(BodyId body);
