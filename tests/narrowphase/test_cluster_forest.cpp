@@ -101,12 +101,15 @@ TEST(ClusterForest, FindsAllOverlapsWhereBoxesGatherAboutAPoint) {
     list.boxes.resize(static_cast<std::size_t>(list.count));
     for (int i = 0; i < list.count; ++i) {
       Vec3 lower{};
-      if (const int power = i / 3 * ratio; power < 115) {
+      if (i < 3) {
+        lower[i] = -1.0 - 0x1p-10;  // so that the point is in the middle of all, where floats are finest
+      } else if (const int power = (i / 3 - 1) * ratio; power < 110) {
         lower[i % 3] = std::ldexp(1.0, -power);
       } else {
         lower = std::ldexp(static_cast<double>(i), -140) * Vec3{1.0, 1.0, 1.0};
       }
-      list.boxes.set(static_cast<std::size_t>(i), {lower, 1.001 * lower});
+      const double size = 0x1p-10 * std::max({std::abs(lower.x), std::abs(lower.y), std::abs(lower.z)});
+      list.boxes.set(static_cast<std::size_t>(i), {lower, lower + size * Vec3{1.0, 1.0, 1.0}});
     }
     ClusterForest forest;
     EXPECT_EQ(error_of_build(forest, device, list), "") << "ratio " << ratio;
