@@ -314,7 +314,13 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
   const std::size_t count = updates.size();
   if (packed_meshes_.is_due()) pack_meshes(threads);
   make_updates(count);
-  for (std::size_t i = 0; i < count; ++i) prepare(updates_[i], updates[i].body, updates[i].positions);
+  for (std::size_t i = 0; i < count; ++i) {
+    try {
+      prepare(updates_[i], updates[i].body, updates[i].positions);
+    } catch (const Error& error) {
+      throw Error(error.code(), "update " + std::to_string(i) + ": " + error.what());
+    }
+  }
   check_named_once(updates);
   // Large bodies one after the other, each on all threads.
   std::atomic<bool> any_large{false};
@@ -365,7 +371,11 @@ const Body& Bodies::at(BodyId id) const {
   };
   if (id.generation == 0) throw Error(ErrorCode::stale_body, text() + " names no body");
   if (id.world != world_) throw Error(ErrorCode::foreign_body, text() + " was given out by another world");
-  if (!contains(id)) throw Error(ErrorCode::stale_body, text() + " names a body that was removed");
+  if (!contains(id)) {
+    const bool was_given = id.index < slots_.size() && id.generation <= slots_[id.index].generation;
+    throw Error(ErrorCode::stale_body,
+                text() + (was_given ? " names a body that was removed" : " was never given out"));
+  }
   return *slots_[id.index].body;
 }
 

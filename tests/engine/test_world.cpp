@@ -108,7 +108,12 @@ TEST_F(WorldOfThree, RefusesStaleIdInEveryCall) {
     EXPECT_TRUE(throws_error([&] { world_.vertex_count(stale); }, ErrorCode::stale_body));
     EXPECT_TRUE(throws_error([&] { world_.facet_count(stale); }, ErrorCode::stale_body));
   }
-  EXPECT_TRUE(throws_error([&] { world_.set_positions(updates); }, ErrorCode::stale_body));
+  EXPECT_TRUE(throws_error([&] { world_.set_positions(updates); }, ErrorCode::stale_body, {"update 1", "removed"}));
+  EXPECT_TRUE(throws_error(
+      [&] {
+        world_.name({left_.index, 7, left_.world});
+      },
+      ErrorCode::stale_body, {"never given"}));
   EXPECT_EQ(hash(), before);
 }
 
