@@ -8,6 +8,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/text.h"
+#include "engine/check_name.h"
 
 namespace tact {
 
@@ -87,22 +88,13 @@ std::span<const Scalar> packed(const Columns<Scalar>& m, std::vector<Scalar>& co
   return copy;
 }
 
-void check_kind(const BodyDefinition& definition, const std::string& name) {
-  const int surface = static_cast<int>(definition.surface), motion = static_cast<int>(definition.motion);
-  if (surface < 0 || surface > static_cast<int>(Surface::sheet))
-    throw Error(ErrorCode::bad_settings,
-                quoted(name) + ": surface is " + std::to_string(surface) + ", which is none of its names");
-  if (motion < 0 || motion > static_cast<int>(Motion::fixed))
-    throw Error(ErrorCode::bad_settings,
-                quoted(name) + ": motion is " + std::to_string(motion) + ", which is none of its names");
-}
-
 }  // namespace
 
 BodyId Bodies::add(const BodyDefinition& definition) {
   const auto slot = free_.empty() ? static_cast<std::uint32_t>(slots_.size()) : free_.back();
   const std::string name = definition.name.empty() ? "body " + std::to_string(slot) : definition.name;
-  check_kind(definition, name);
+  check_name(definition.surface, Surface::sheet, quoted(name) + ": surface");
+  check_name(definition.motion, Motion::fixed, quoted(name) + ": motion");
   check_rows(definition.positions, "positions", name);
   check_rows(definition.facets, "facets", name);
   if (slots_.size() >= std::numeric_limits<std::uint32_t>::max() || definition.positions.cols() > kLargestCount ||

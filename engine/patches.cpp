@@ -1,10 +1,10 @@
 #include "engine/patches.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "narrowphase/unit_scale.h"
 #include "narrowphase/wide_vec3.h"
 
 namespace tact {
@@ -90,7 +90,7 @@ Patch make_patch(const Body& a, const Body& b, const PairRecord& record, std::ve
   for (const int i : members)
     largest =
         std::max({largest, longest(box_of(triangle_of(a, pair(i).a))), longest(box_of(triangle_of(b, pair(i).b)))});
-  const double scale = largest > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000)) : 1.0;
+  const double scale = narrowphase::unit_scale(largest);
   for (const int i : members) {
     normal = normal + (area_normal(a, pair(i).a, contact_direction, scale) -
                        area_normal(b, pair(i).b, -contact_direction, scale));

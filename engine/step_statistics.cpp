@@ -30,7 +30,7 @@ void add_work(const PairRecord& record, const Settings& settings, StepStats& sta
   stats.opened_clusters += facet_counts.cull.opened_clusters;
   stats.opened_facets += facet_counts.cull.facets();
   stats.facets += facet_counts.facets;
-  stats.kept_facets += contact.kept_facets_a + contact.kept_facets_b;
+  stats.kept_facets += facet_counts.cull.kept;
   stats.facets_facing_away += facet_counts.cull.facing_away;
   stats.facets_outside_slab += facet_counts.cull.outside_slab;
   stats.facets_outside_box += facet_counts.cull.outside_box;

@@ -8,6 +8,7 @@
 #include "engine/base/text.h"
 #include "engine/base/timer.h"
 #include "engine/bodies.h"
+#include "engine/check_name.h"
 #include "engine/step.h"
 
 namespace tact {
@@ -30,11 +31,8 @@ Settings checked(Settings settings) {
   }
   if (settings.iteration_limit < 1)
     refuse("iteration_limit is " + std::to_string(settings.iteration_limit) + ", not at least 1");
-  const int accuracy = static_cast<int>(settings.accuracy), direction = static_cast<int>(settings.direction);
-  if (accuracy < 0 || accuracy > static_cast<int>(Accuracy::exact))
-    refuse("accuracy is " + std::to_string(accuracy) + ", which is none of its names");
-  if (direction < 0 || direction > static_cast<int>(DirectionPolicy::smallest))
-    refuse("direction is " + std::to_string(direction) + ", which is none of its names");
+  check_name(settings.accuracy, Accuracy::exact, "accuracy");
+  check_name(settings.direction, DirectionPolicy::smallest, "direction");
   if (settings.threads == 0) settings.threads = base::default_threads();
   return settings;
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "narrowphase/embree.h"
+#include "narrowphase/unit_scale.h"
 
 namespace tact::narrowphase {
 
@@ -89,7 +90,7 @@ void ClusterForest::build(EmbreeDevice& device, BoxView boxes, int count) {
   for (int i = 0; i < count; ++i) whole = merged(whole, boxes[static_cast<std::size_t>(i)]);
   const Vec3 origin = 0.5 * whole.lower + 0.5 * whole.upper, size = whole.upper - whole.lower;
   const double largest = std::max({size.x, size.y, size.z});
-  const double scale = largest > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000)) : 1.0;
+  const double scale = unit_scale(largest);
   const auto embree = static_cast<RTCDevice>(device.get());
   Builder builder{*this};
   std::array<RTCBuildPrimitive, kBoxesPerTree> primitives;

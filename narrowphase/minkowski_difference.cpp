@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "narrowphase/unit_scale.h"
+
 namespace tact::narrowphase {
 
 namespace {
@@ -33,7 +35,7 @@ MinkowskiDifference::MinkowskiDifference(const ClusteredMesh& a, const Clustered
   for (int axis = 0; axis < 3; ++axis)
     reach[axis] = std::max(farthest(a.box(), origin_, axis), farthest(b.box(), origin_, axis));
   const double largest = std::max({reach.x, reach.y, reach.z});
-  if (largest > 0.0) scale_ = std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000));
+  scale_ = unit_scale(largest);
   size_ = norm(scale_ * reach);
   // size_, not the norm of what it was scaled from, whose squares vanish where bodies are tiny.
   vertex_height_error_ = kVertexRoundings * kUnitRoundoff * size_ / scale_ + kVanishing;
