@@ -27,7 +27,8 @@
 namespace tact::scenes {
 namespace {
 
-constexpr const char* kExamples = R"(A folder is one moving body: its mesh files in the order of their names, a file a
+constexpr const char* kCheckExamples =
+    R"(A folder is one moving body: its mesh files in the order of their names, a file a
 frame; all folders must hold the same number of frames. A single file stands still.
 All files are read before the first step and held in memory: 24 bytes a vertex and frame.
 A body's name is its file's or folder's name; a repeated one gets #2 and so on.
@@ -150,7 +151,7 @@ void add_check_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("check", "Find where the bodies of mesh files touch");
   const auto options = std::make_shared<CheckOptions>();
   const auto meshes = std::make_shared<std::vector<std::string>>();
-  command->footer(kExamples);
+  command->footer(kCheckExamples);
   command->add_option("MESH", *meshes, "Mesh files (.obj, .off, .ply, .stl) and folders of them")
       ->type_name("")
       ->required();

@@ -25,7 +25,7 @@ void check_keyword(const TextReader& text, std::string_view keyword) {
   }
   if (prefix.empty()) return;
   if (prefix == "4" || prefix == "n" || prefix == "4n")
-    text.fail(quoted(keyword) + ": only three coordinates are read");
+    text.fail(in_quotes(keyword) + ": only three coordinates are read");
   text.fail_expected("OFF, or the numbers of vertices and polygons", keyword);
 }
 

@@ -58,7 +58,7 @@ PlyElement read_element(TextReader& text, const PlyHeader& header) {
   element.count = text.integer("the number of elements");
   if (element.count < 0) text.fail(fmt::format("the number of elements is {}", element.count));
   for (const PlyElement& other : header.elements) {
-    if (other.name == element.name) text.fail("a second element " + quoted(element.name));
+    if (other.name == element.name) text.fail("a second element " + in_quotes(element.name));
   }
   return element;
 }
@@ -74,7 +74,7 @@ PlyProperty read_property(TextReader& text, const PlyElement& element) {
   property.type = type_of(text, type);
   property.name = text.expect_token("the name of a property");
   for (const PlyProperty& other : element.properties) {
-    if (other.name == property.name) text.fail("a second property " + quoted(property.name));
+    if (other.name == property.name) text.fail("a second property " + in_quotes(property.name));
   }
   return property;
 }

@@ -10,7 +10,7 @@
 namespace tact::scenes {
 namespace {
 
-std::string duration_text(double seconds) {
+std::string time_left_text(double seconds) {
   const auto whole = static_cast<long long>(std::ceil(seconds));
   return whole < 120 ? fmt::format("{} s", whole) : fmt::format("{} min", (whole + 30) / 60);
 }
@@ -19,7 +19,7 @@ std::string duration_text(double seconds) {
 
 std::string progress_text(std::string_view unit, int done, int all, double seconds, std::string_view note) {
   std::string text = fmt::format("{} {} of {}, {} %", unit, done, all, 100LL * done / all);
-  if (done > 0) text += fmt::format(", {} left", duration_text(seconds / done * (all - done)));
+  if (done > 0) text += fmt::format(", {} left", time_left_text(seconds / done * (all - done)));
   if (!note.empty()) text += fmt::format(", {}", note);
   return text;
 }

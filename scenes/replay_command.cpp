@@ -18,7 +18,7 @@
 namespace tact::scenes {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kReplayExamples =
     "A hash is made from every bit of a step's answer. Other threads must give the same; another version of tact need "
     "not.\n\n"
     "Examples:\n"
@@ -59,7 +59,7 @@ void add_replay_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("replay", "Run a recording again and compare the hash of every step");
   const auto file = std::make_shared<std::string>();
   const auto threads = std::make_shared<int>(0);
-  command->footer(kExamples);
+  command->footer(kReplayExamples);
   command->add_option("FILE", *file, "What --record wrote")->required();
   add_threads_option(*command, *threads);
   CLI::Option* given = command->get_option("--threads");

@@ -3,16 +3,12 @@
 #include <fmt/format.h>
 #include <tact/version.h>
 
-#include <nlohmann/json.hpp>
 #include <string_view>
+
+#include "scenes/json_text.h"
 
 namespace tact::scenes {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-// Names of files need not be UTF-8, JSON must be.
-std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
@@ -102,8 +98,9 @@ std::string hash_text(const Report& report) { return fmt::format("{:016x}", repo
 
 JsonReport::JsonReport(std::ostream& out, const World& world)
     : out_(out), has_facets_(world.settings().accuracy != Accuracy::hulls) {
-  out_ << "{\"tact\":" << dump(TACT_VERSION) << ",\"accuracy\":" << dump(accuracy_name(world.settings().accuracy))
-       << ",\"threads\":" << world.settings().threads << ",\n \"bodies\":" << dump(bodies_json(world))
+  out_ << "{\"tact\":" << json_text(TACT_VERSION)
+       << ",\"accuracy\":" << json_text(accuracy_name(world.settings().accuracy))
+       << ",\"threads\":" << world.settings().threads << ",\n \"bodies\":" << json_text(bodies_json(world))
        << ",\n \"frames\":[";
 }
 
@@ -113,7 +110,7 @@ void JsonReport::add_frame(int frame, const Report& report) {
                      {"pairs", pairs_json(report, has_facets_)},
                      {"stats", stats_json(report.stats())},
                      {"times_ms", times_json(report.stats())}};
-  out_ << (first_ ? "\n" : ",\n") << dump(json);
+  out_ << (first_ ? "\n" : ",\n") << json_text(json);
   first_ = false;
 }
 

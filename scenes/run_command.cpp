@@ -25,7 +25,7 @@
 namespace tact::scenes {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kRunExamples =
     "Examples:\n"
     "  tact run cloth-over-sphere\n"
     "  tact run pile --size 1000 --frames 100 --no-pictures";
@@ -111,7 +111,7 @@ void add_run_command(CLI::App& program) {
   const auto no_pictures = std::make_shared<bool>(false);
   constexpr int kMost = std::numeric_limits<int>::max();
   OutputOptions& outputs = options->outputs;
-  command->footer(kExamples);
+  command->footer(kRunExamples);
   command->add_option("SCENE", options->scene, "A scene that `tact scenes` lists")->required();
   command->add_option("--frames", options->frames, "How many steps; 300 if not given")
       ->type_name("N")

@@ -13,7 +13,7 @@ struct Mean {
   const char* of = "";
 };
 
-constexpr Mean kUnknown;
+constexpr Mean kNotMeasured;
 
 class Ledger {
  public:
@@ -55,13 +55,13 @@ void add_facets(const StepStats& s, Ledger& ledger) {
 void add_outputs(const StepStats& s, const Settings& settings, Ledger& ledger) {
   const bool has_facets = settings.accuracy != Accuracy::hulls;
   const bool has_zones = settings.outputs.zones || settings.accuracy == Accuracy::paper;
-  if (!has_facets) ledger.add("stages 5 and 6", s.contacts, "facet pairs were not asked for", kUnknown);
-  if (has_facets) ledger.add("Embree", s.contacts - s.tree_pairs, "the clusters are few: a plain loop", kUnknown);
-  if (has_facets && !has_zones) ledger.add("zones", s.contacts, "not asked for", kUnknown);
-  if (!settings.outputs.patches) ledger.add("patches", s.touching_contacts, "not asked for", kUnknown);
+  if (!has_facets) ledger.add("stages 5 and 6", s.contacts, "facet pairs were not asked for", kNotMeasured);
+  if (has_facets) ledger.add("Embree", s.contacts - s.tree_pairs, "the clusters are few: a plain loop", kNotMeasured);
+  if (has_facets && !has_zones) ledger.add("zones", s.contacts, "not asked for", kNotMeasured);
+  if (!settings.outputs.patches) ledger.add("patches", s.touching_contacts, "not asked for", kNotMeasured);
 }
 
-std::string duration_text(double ms) {
+std::string time_each_text(double ms) {
   if (ms >= 1.0) return fmt::format("{:.3g} ms", ms);
   return ms >= 1e-3 ? fmt::format("{:.3g} µs", 1e3 * ms) : fmt::format("{:.3g} ns", 1e6 * ms);
 }
@@ -87,7 +87,7 @@ void print_skipped_work(std::ostream& out, const StepStats& sums, int steps, con
     const std::optional<double> ms = line.ms();
     fmt::print(out, "  {:<22} {:>11.1f} {:>10}  {}{}\n", line.what, static_cast<double>(line.count) / steps,
                ms ? fmt::format("{:.3f} ms", *ms / steps) : "-", line.why,
-               line.ms_each ? fmt::format(" ({}: {})", line.measured_on, duration_text(*line.ms_each)) : "");
+               line.ms_each ? fmt::format(" ({}: {})", line.measured_on, time_each_text(*line.ms_each)) : "");
   }
 }
 

@@ -41,6 +41,6 @@ class Source {
 // characters is cut.
 std::string printable(std::string_view text, std::size_t longest = 40);
 // The same in quotes.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 }  // namespace tact::scenes

@@ -143,7 +143,7 @@ std::int64_t TextReader::integer(std::string_view what, std::string_view subject
 void TextReader::fail_expected(std::string_view what, std::optional<std::string_view> found,
                                std::string_view subject) const {
   const std::string purpose = subject.empty() ? std::string() : " for " + printable(subject);
-  const std::string text = found                      ? quoted(*found)
+  const std::string text = found                      ? in_quotes(*found)
                            : offset_ >= bytes_.size() ? "the end of the file"
                                                       : "the end of the line";
   fail(fmt::format("expected {}{}, found {}", what, purpose, text));

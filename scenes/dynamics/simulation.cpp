@@ -12,8 +12,8 @@
 namespace tact::scenes {
 namespace {
 
-constexpr std::size_t kLargeBody = 8192;  // vertices from which a body is worth all threads
-constexpr std::size_t kGrain = 2048;      // vertices
+constexpr std::size_t kLargeBody = 8192;        // vertices from which a body is worth all threads
+constexpr std::size_t kVerticesAtATime = 2048;  // vertices
 
 // The springs, volume and shape of a body, once each.
 void hold_together(Body& body, double h, int threads) {
@@ -111,7 +111,7 @@ void Simulation::begin_substep(std::size_t i, double h, int threads) {
   std::vector<Vec3>& before = before_[i];
   const Vec3 fall{0.0, 0.0, -dynamics_.gravity * body.weight * h};
   const double keep = 1.0 / (1.0 + body.drag * h);
-  base::parallel_for(body.positions.size(), kGrain, threads, [&](std::size_t v) {
+  base::parallel_for(body.positions.size(), kVerticesAtATime, threads, [&](std::size_t v) {
     before[v] = body.positions[v];
     if (!(body.inverse_masses[v] > 0.0)) return;
     body.positions[v] = body.positions[v] + (h * keep) * (body.velocities[v] + fall);
@@ -122,7 +122,7 @@ void Simulation::begin_substep(std::size_t i, double h, int threads) {
 void Simulation::end_substep(std::size_t i, double h, int threads) {
   Body& body = bodies_[i];
   const std::vector<Vec3>& before = before_[i];
-  base::parallel_for(body.positions.size(), kGrain, threads,
+  base::parallel_for(body.positions.size(), kVerticesAtATime, threads,
                      [&](std::size_t v) { body.velocities[v] = (1.0 / h) * (body.positions[v] - before[v]); });
 }
 

@@ -2,19 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <utility>
+
+#include "scenes/json_text.h"
 
 namespace tact::scenes {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Kind = TraceEvent::Kind;
 
 constexpr int kProcess = 1;
-
-// Names of files need not be UTF-8, JSON must be.
-std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 const char* kind_name(Kind kind) {
   switch (kind) {
@@ -38,7 +35,7 @@ const char* kind_name(Kind kind) {
 bool has_pairs(Kind kind) { return kind == Kind::small_pairs || kind == Kind::parted_pairs; }
 bool has_facet_pairs(Kind kind) { return kind == Kind::pair || kind == Kind::confirm || kind == Kind::range; }
 
-Json stats_json(const StepStats& stats) {
+Json nonzero_stats_json(const StepStats& stats) {
   Json json = Json::object();
   const auto add = [&](const char* name, const char* /*text*/, auto value) {
     if (value != 0) json[name] = value;
@@ -49,7 +46,7 @@ Json stats_json(const StepStats& stats) {
 }
 
 Json args_json(const TraceEvent& event, const World& world, const StepStats& stats) {
-  if (event.kind == Kind::detect) return stats_json(stats);
+  if (event.kind == Kind::detect) return nonzero_stats_json(stats);
   if (has_pairs(event.kind)) return {{"pairs", event.count}};
   if (event.a == BodyId{}) return Json::object();
   Json json = {{"a", world.name(event.a)}, {"b", world.name(event.b)}};
@@ -67,7 +64,7 @@ ChromeTrace::ChromeTrace(std::ostream& out, const std::string& title, int thread
 
 void ChromeTrace::write_name(std::string_view what, int thread, const std::string& name) {
   const Json json = {{"name", what}, {"ph", "M"}, {"pid", kProcess}, {"tid", thread}, {"args", {{"name", name}}}};
-  out_ << (std::exchange(first_, false) ? "\n" : ",\n") << dump(json);
+  out_ << (std::exchange(first_, false) ? "\n" : ",\n") << json_text(json);
 }
 
 // A trace has many events: put together here rather than as a tree of JSON values.
@@ -75,7 +72,7 @@ void ChromeTrace::write(const Event& event) {
   out_ << fmt::format(
       ",\n{{\"name\":{},\"cat\":\"{}\",\"ph\":\"X\",\"ts\":{:.3f},\"dur\":{:.3f},\"pid\":{},\"tid\":{},"
       "\"args\":{}}}",
-      dump(event.name), event.category, microseconds(event.begin - *start_), microseconds(event.end - event.begin),
+      json_text(event.name), event.category, microseconds(event.begin - *start_), microseconds(event.end - event.begin),
       kProcess, event.thread, event.args);
 }
 
@@ -117,7 +114,7 @@ void ChromeTrace::add_engine_event(const TraceEvent& event, const Simulation& si
          .thread = event.thread,
          .begin = event.begin,
          .end = event.end,
-         .args = dump(args_json(event, world, simulation.report()->stats()))});
+         .args = json_text(args_json(event, world, simulation.report()->stats()))});
 }
 
 void ChromeTrace::finish() { out_ << "]}\n"; }

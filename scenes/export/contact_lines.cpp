@@ -1,14 +1,12 @@
 #include "scenes/export/contact_lines.h"
 
-#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "scenes/json_text.h"
 #include "scenes/report_json.h"
 
 namespace tact::scenes {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json contact_json(const World& world, const Contact& contact) {
   Json pairs = Json::array();
@@ -29,7 +27,7 @@ void write_contact_line(std::ostream& out, int frame, double time, const World& 
   Json contacts = Json::array();
   for (const Contact& contact : report.contacts()) contacts.push_back(contact_json(world, contact));
   const Json line = {{"frame", frame}, {"time", time}, {"contacts", std::move(contacts)}};
-  out << line.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+  out << json_text(line) << '\n';
 }
 
 }  // namespace tact::scenes

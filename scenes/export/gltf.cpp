@@ -9,10 +9,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "scenes/json_text.h"
 #include "scenes/pictures/drawn_scene.h"
 
 namespace tact::scenes {
@@ -20,8 +20,6 @@ namespace tact::scenes {
 static_assert(std::endian::native == std::endian::little, "glTF is little-endian");
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // The numbers by which glTF names types.
 constexpr int kFloat = 5126;
@@ -90,7 +88,7 @@ class GltfAnimation::Writer {
 
   // The whole file.
   std::string bytes() const {
-    std::string json = root_.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string json = json_text(root_);
     json.append((4 - json.size() % 4) % 4, ' ');
     std::size_t data = 0;
     for (const std::string& view : views_) data += view.size();

@@ -12,7 +12,6 @@ namespace tact::scenes {
 namespace {
 
 constexpr Color kPaper{252, 252, 251};
-constexpr Color kInk{38, 44, 54};
 
 void check(std::span<const Picture> pictures, std::span<const std::string> captions, const SheetSettings& settings) {
   if (pictures.empty()) throw std::runtime_error("a contact sheet of no pictures");

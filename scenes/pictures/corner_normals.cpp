@@ -10,7 +10,7 @@
 namespace tact::scenes {
 namespace {
 
-constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kFacetsAtATime = 4096;
 
 // The corners (3f + k) around each vertex, in rising order.
 struct VertexCorners {
@@ -39,7 +39,7 @@ Eigen::Matrix3Xf corner_normals(const Eigen::Matrix3Xf& positions, const Eigen::
   const auto facet_count = static_cast<std::size_t>(facets.cols());
   Eigen::Matrix3Xf normals(3, facets.cols());
   Eigen::VectorXf angles(facets.size());
-  base::parallel_for(facet_count, kGrain, threads, [&](std::size_t facet) {
+  base::parallel_for(facet_count, kFacetsAtATime, threads, [&](std::size_t facet) {
     const auto f = static_cast<Eigen::Index>(facet);
     const auto at = [&](int corner) -> Eigen::Vector3f { return positions.col(facets(corner, f)); };
     normals.col(f) = (at(1) - at(0)).cross(at(2) - at(0)).stableNormalized();
@@ -53,7 +53,7 @@ Eigen::Matrix3Xf corner_normals(const Eigen::Matrix3Xf& positions, const Eigen::
   const VertexCorners around = corners_around(facets, positions.cols());
   const auto least_cosine = static_cast<float>(std::cos(crease * std::numbers::pi / 180.0));
   Eigen::Matrix3Xf result(3, facets.size());
-  base::parallel_for(facet_count, kGrain, threads, [&](std::size_t facet) {
+  base::parallel_for(facet_count, kFacetsAtATime, threads, [&](std::size_t facet) {
     const auto f = static_cast<Eigen::Index>(facet);
     for (int k = 0; k < 3; ++k) {
       const auto vertex = static_cast<std::size_t>(facets(k, f));

@@ -10,10 +10,10 @@
 namespace tact::scenes {
 namespace {
 
-constexpr std::size_t kRows = 8;        // that a thread takes at a time
-constexpr float kSameNormal = 0.95f;    // least cosine between normals of one piece of surface
-constexpr float kSamePlace = 0.04f;     // greatest distance between its points, in units of the drawn scene
-constexpr float kSameSurface = 0.004f;  // greatest distance of a point from the other's tangent plane
+constexpr std::size_t kSampleRowsAtATime = 8;  // that a thread takes at a time
+constexpr float kSameNormal = 0.95f;           // least cosine between normals of one piece of surface
+constexpr float kSamePlace = 0.04f;            // greatest distance between its points, in units of the drawn scene
+constexpr float kSameSurface = 0.004f;         // greatest distance of a point from the other's tangent plane
 
 bool same_piece(const LitPoint& a, const LitPoint& b) {
   if (a.mesh != b.mesh || a.normal.dot(b.normal) < kSameNormal) return false;
@@ -57,7 +57,7 @@ Lighting LightBuffer::mean(int x, int y, int reach) const {
 
 void LightBuffer::smooth(int reach, int threads) {
   std::vector<Lighting> smoothed(lights_.size());
-  base::parallel_for(static_cast<std::size_t>(height_), kRows, threads, [&](std::size_t row) {
+  base::parallel_for(static_cast<std::size_t>(height_), kSampleRowsAtATime, threads, [&](std::size_t row) {
     const auto y = static_cast<int>(row);
     for (int x = 0; x < width_; ++x) {
       const std::size_t i = index(x, y);

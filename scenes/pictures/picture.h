@@ -15,6 +15,8 @@ struct Color {
   friend bool operator==(const Color&, const Color&) = default;
 };
 
+inline constexpr Color kInk{38, 44, 54};  // of text
+
 // Rows from the top, pixels from the left.
 struct Picture {
   int width = 0;

@@ -12,8 +12,7 @@
 namespace tact::scenes {
 namespace {
 
-constexpr std::size_t kRows = 4;  // rows of pixels that a thread takes at a time
-constexpr Color kInk{38, 44, 54};
+constexpr std::size_t kPixelRowsAtATime = 4;  // rows of pixels that a thread takes at a time
 
 }  // namespace
 
@@ -29,9 +28,10 @@ Picture Renderer::render(const PictureScene& scene, const Camera& camera) {
   Painter painter(drawn, settings_.width, settings_.height, settings_.quality == Quality::draft ? 1 : 4);
   Picture picture(settings_.width, settings_.height);
   const auto for_each_pixel = [&](const auto& visit) {
-    base::parallel_for(static_cast<std::size_t>(picture.height), kRows, settings_.threads, [&](std::size_t row) {
-      for (int x = 0; x < picture.width; ++x) visit(x, static_cast<int>(row));
-    });
+    base::parallel_for(static_cast<std::size_t>(picture.height), kPixelRowsAtATime, settings_.threads,
+                       [&](std::size_t row) {
+                         for (int x = 0; x < picture.width; ++x) visit(x, static_cast<int>(row));
+                       });
   };
   for_each_pixel([&](int x, int y) { painter.light(x, y); });
   painter.smooth_light(settings_.threads);

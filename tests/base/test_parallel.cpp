@@ -84,14 +84,14 @@ TEST(ParallelFor, StopsOnlyTheBlockThatFailed) {
 }
 
 // Read from memory, so that the sum is made when the program runs. Rounded upward it is more than 1.
-const volatile double kOne = 1.0, kTiny = 0x1p-60;
+const volatile double kTerm = 1.0, kTinyTerm = 0x1p-60;
 
 TEST(ParallelFor, RoundsToNearestAndLeavesTheCallersModeAsItWas) {
   for (const int threads : {1, 4}) {
     ASSERT_EQ(std::fesetround(FE_UPWARD), 0);
     std::atomic<int> rounded_up = 0;
-    parallel_for(100, 1, threads, [&](std::size_t) { rounded_up += kOne + kTiny > 1.0 ? 1 : 0; });
-    const bool caller_rounds_up = kOne + kTiny > 1.0;
+    parallel_for(100, 1, threads, [&](std::size_t) { rounded_up += kTerm + kTinyTerm > 1.0 ? 1 : 0; });
+    const bool caller_rounds_up = kTerm + kTinyTerm > 1.0;
     std::fesetround(FE_TONEAREST);
     EXPECT_EQ(rounded_up, 0) << "threads " << threads;
     EXPECT_TRUE(caller_rounds_up) << "threads " << threads;

@@ -68,7 +68,7 @@ Mesh shape(std::uint64_t seed) {
   }
 }
 
-struct ModelBody {
+struct BodyAndMesh {
   BodyId id;
   Mesh mesh;
 };
@@ -79,7 +79,7 @@ class Model {
   void apply(const Change& change) {
     Random random(static_cast<std::uint64_t>(change.seed));
     const Vec3 by = random.in_cube(1.0);  // first: the order of arguments is the compiler's
-    ModelBody* body = bodies_.empty() ? nullptr : &bodies_[static_cast<std::size_t>(change.body) % bodies_.size()];
+    BodyAndMesh* body = bodies_.empty() ? nullptr : &bodies_[static_cast<std::size_t>(change.body) % bodies_.size()];
     switch (change.call) {
       case Call::add: return add(translated(shape(random.bits()), by));
       case Call::smallest: return set_direction(DirectionPolicy::smallest);
@@ -101,7 +101,7 @@ class Model {
   void detect() {
     World fresh({.threads = 1, .direction = direction_});
     std::vector<BodyId> ids, fresh_ids;
-    for (const ModelBody& body : bodies_) {
+    for (const BodyAndMesh& body : bodies_) {
       ids.push_back(body.id);
       fresh_ids.push_back(fresh.add_body({.positions = body.mesh.positions, .facets = body.mesh.facets}));
     }
@@ -126,19 +126,19 @@ class Model {
       bodies_.push_back({world_.add_body({.positions = mesh.positions, .facets = mesh.facets}), mesh});
   }
 
-  void remove(const ModelBody& body) {
+  void remove(const BodyAndMesh& body) {
     world_.remove_body(body.id);
     bodies_.erase(bodies_.begin() + (&body - bodies_.data()));
   }
 
-  void move(ModelBody& body, Mesh to) {
+  void move(BodyAndMesh& body, Mesh to) {
     body.mesh = std::move(to);
     world_.set_positions(body.id, body.mesh.positions);
   }
 
   void move_many(Random& random) {
     std::vector<PositionsUpdate> updates;
-    for (ModelBody& body : bodies_) {
+    for (BodyAndMesh& body : bodies_) {
       if (random.chance(0.3)) continue;
       body.mesh = translated(body.mesh, 0.1 * random.in_ball());
       updates.push_back({body.id, body.mesh.positions});
@@ -151,7 +151,7 @@ class Model {
     world_.set_settings({.threads = 1, .direction = direction});
   }
 
-  void be_refused(const ModelBody& body) {
+  void be_refused(const BodyAndMesh& body) {
     Eigen::Matrix3Xd bad = 2.0 * body.mesh.positions;
     bad(1, bad.cols() - 1) = HUGE_VAL;
     RC_ASSERT_THROWS_AS(world_.set_positions(body.id, bad), Error);
@@ -161,7 +161,7 @@ class Model {
 
   World world_{{.threads = 1}};
   DirectionPolicy direction_ = DirectionPolicy::carried;
-  std::vector<ModelBody> bodies_;
+  std::vector<BodyAndMesh> bodies_;
 };
 
 TEST(CallSequences, LeaveAWorldThatAnswersAsAFreshOne) {

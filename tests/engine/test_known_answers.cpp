@@ -17,8 +17,6 @@
 namespace tact::tests {
 namespace {
 
-Mesh cube(double edge, Vec3 center) { return translated(centered_box({edge / 2, edge / 2, edge / 2}), center); }
-
 // All three are seldom given: what is said of the pair must hold, and agree with the smallest separation by brute
 // force.
 void expect_right(const Mesh& a, const Mesh& b) {

@@ -22,8 +22,6 @@
 namespace tact::tests {
 namespace {
 
-Mesh cube(double edge, Vec3 center) { return translated(centered_box({edge / 2, edge / 2, edge / 2}), center); }
-
 // 1 fcl#574, 2 coal#357: the depth of two meshes came out as 0, or as the height of a wall. Ours is that of the hulls.
 TEST(UserPains, DepthOfTwoMeshesIsThatOfTheirHulls) {
   const Mesh a = torus(16, 8, 1.0, 0.25), b = translated(torus(16, 8, 1.0, 0.25), {0.0, 0.0, 0.4});

@@ -35,10 +35,8 @@ Found direction(const ClusteredMesh& a, const ClusteredMesh& b, Vec3 start, cons
 
 void expect_near(Vec3 found, Vec3 expected, double tolerance) { EXPECT_LE(norm(found - expected), tolerance); }
 
-ClusteredMesh box(Vec3 lower, Vec3 upper) { return tests::clustered(tests::box(lower, upper)); }
-
 TEST(ContactDirection, LeavesTheDiagonalOfACube) {  // fcl#545: the corner and the edge of [-1, 1]³ repeat too
-  const ClusteredMesh cube = box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  const ClusteredMesh cube = tests::clustered_box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
   for (const Vec3 start : {Vec3{1, 1, 1}, Vec3{1, 1, 0}, Vec3{-1, 1, -1}, Vec3{0, -1, 1}}) {
     const Found found = direction(cube, cube, start);
     EXPECT_NEAR(found.depth, 1.0, 1e-15);
@@ -61,7 +59,8 @@ TEST(ContactDirection, LeavesTheVerticesOfOctahedra) {
 }
 
 TEST(ContactDirection, StackedBoxesHaveDepthZero) {
-  const Found found = direction(box({0, 0, 0}, {1, 1, 1}), box({0, 0, 1}, {1, 1, 2}), {0.1, 0.2, 1.0});
+  const Found found = direction(tests::clustered_box({0, 0, 0}, {1, 1, 1}), tests::clustered_box({0, 0, 1}, {1, 1, 2}),
+                                {0.1, 0.2, 1.0});
   EXPECT_EQ(found.depth, 0.0);
   expect_near(found.n, {0, 0, 1}, 1e-15);
 }

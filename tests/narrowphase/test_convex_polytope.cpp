@@ -9,10 +9,8 @@
 
 #include "narrowphase/convex_polytope.h"
 
+namespace tact::narrowphase {
 namespace {
-
-using tact::base::Vec3;
-using tact::narrowphase::ConvexPolytope;
 
 std::size_t face_count(const ConvexPolytope& polytope) {
   const auto& faces = polytope.faces();
@@ -71,7 +69,7 @@ TEST(ConvexPolytope, RandomPoints) {
   std::normal_distribution<double> normal;
   std::vector<Vec3> points(150);
   for (Vec3& p : points) {
-    p = tact::base::normalized({normal(random), normal(random), normal(random)});
+    p = base::normalized({normal(random), normal(random), normal(random)});
   }
   EXPECT_EQ(face_count(hull_of(points, {points[0], points[1], points[2], points[3]})), 2 * points.size() - 4);
 }
@@ -112,3 +110,5 @@ TEST(ConvexPolytope, NearlyFlatPoints) {
   for (Vec3& p : points) p = {uniform(random), uniform(random), 1e-300 * uniform(random)};
   hull_of(points, {points[0], points[1], points[2], points[3]});
 }
+
+}  // namespace tact::narrowphase

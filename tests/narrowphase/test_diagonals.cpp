@@ -16,8 +16,8 @@ namespace {
 
 using base::Vec3;
 
-// Points as a mesh stores them: coordinates in separate arrays, with room to read past the end.
-struct Points {
+// PointSoup as a mesh stores them: coordinates in separate arrays, with room to read past the end.
+struct PointSoup {
   std::array<std::vector<double>, 3> coordinate;
   int count = 0;
 
@@ -45,7 +45,7 @@ std::array<Number, 6> along_diagonals(Number x, Number y, Number z) {
 TEST(Diagonals, BoundsAreThoseOfEveryPoint) {
   tests::Random random(1);
   for (int count = 1; count <= 70; ++count) {
-    Points points;
+    PointSoup points;
     DiagonalBounds expected;
     std::ranges::fill(expected.lower, std::numeric_limits<double>::infinity());
     std::ranges::fill(expected.upper, -std::numeric_limits<double>::infinity());
@@ -77,7 +77,7 @@ TEST(Diagonals, OneThatPartsDoesSoBeforeRounding) {
   int parted = 0, touching = 0;
   for (int repeat = 0; repeat < 20'000; ++repeat) {
     constexpr std::int64_t kLarge = std::int64_t{1} << 53;
-    std::array<Points, 2> points;
+    std::array<PointSoup, 2> points;
     std::array<std::array<std::int64_t, 6>, 2> lower, upper;
     const int diagonal = random.below(6), first = (diagonal % 3 + 1) % 3, second = (diagonal % 3 + 2) % 3;
     for (std::size_t body = 0; body < 2; ++body) {
@@ -125,7 +125,7 @@ TEST(Diagonals, TheWidestGapPartsFromAToB) {
           Vec3 offset;
           offset[first] = along;
           offset[second] = along * sign;
-          Points a, b;
+          PointSoup a, b;
           a.add(5, 6, 7);
           b.add(5 + offset.x, 6 + offset.y, 7 + offset.z);
           const PartingDiagonal parting = parting_diagonal(scalar_kernels()->diagonal_bounds(a.arrays(), 1),
@@ -141,7 +141,7 @@ TEST(Diagonals, TheWidestGapPartsFromAToB) {
 }
 
 TEST(Diagonals, NonePartsBodiesThatTouch) {
-  Points a, b;
+  PointSoup a, b;
   a.add(0, 0, 0);
   a.add(1, 0, 0);
   b.add(1, 0, 0);

@@ -12,9 +12,10 @@ namespace {
 
 // Points less a point at the origin: vertices of M are those of A. The first three are a triangle at height 1, two more
 // are higher, and the last stands where the first does.
-class Triangle : public ::testing::TestWithParam<std::array<int, 3>> {
+class FaceTriangles : public ::testing::TestWithParam<std::array<int, 3>> {
  protected:
-  Triangle() : a_(tests::mesh_through(points())), b_(tests::mesh_through(std::vector<Vec3>{{0, 0, 0}})), m_(a_, b_) {}
+  FaceTriangles()
+      : a_(tests::mesh_through(points())), b_(tests::mesh_through(std::vector<Vec3>{{0, 0, 0}})), m_(a_, b_) {}
 
   static std::vector<Vec3> points() {
     return {{-1, -1, 1}, {3, -1, 1}, {-1, 3, 1}, {0.5, 0.5, 2}, {-4, 0, 2}, {-1, -1, 1}};
@@ -38,7 +39,7 @@ class Triangle : public ::testing::TestWithParam<std::array<int, 3>> {
   MinkowskiDifference m_;
 };
 
-TEST_P(Triangle, KnowsTheSideThatTheFootIsNearest) {
+TEST_P(FaceTriangles, KnowsTheSideThatTheFootIsNearest) {
   const FaceTriangle triangle(m_, simplex(GetParam()), {0, 0, 1});
   const FaceTriangle::Side side = triangle.side_of_foot();
   // The sides x = -1 and y = -1 are a metre away, x + y = 2 is farther.
@@ -48,7 +49,7 @@ TEST_P(Triangle, KnowsTheSideThatTheFootIsNearest) {
   EXPECT_NEAR(std::max(outward.x, outward.y), 0.0, 1e-15);
 }
 
-TEST_P(Triangle, GoesToAVertexAboveIt) {
+TEST_P(FaceTriangles, GoesToAVertexAboveIt) {
   const FaceTriangle triangle(m_, simplex(GetParam()), {0, 0, 1});
   const auto next = triangle.toward_foot(vertex(3));  // above (0.5, 0.5): the foot lies between it and (-1, -1)
   ASSERT_TRUE(next);
@@ -58,10 +59,10 @@ TEST_P(Triangle, GoesToAVertexAboveIt) {
   EXPECT_TRUE(holds(1) || holds(2));
 }
 
-INSTANTIATE_TEST_SUITE_P(EitherWayAround, Triangle,
+INSTANTIATE_TEST_SUITE_P(EitherWayAround, FaceTriangles,
                          ::testing::Values(std::array{0, 1, 2}, std::array{2, 1, 0}, std::array{1, 2, 0}));
 
-class FootOutside : public Triangle {};
+class FootOutside : public FaceTriangles {};
 
 TEST_P(FootOutside, IsBeyondASide) {
   const ClusteredMesh far =
@@ -85,13 +86,13 @@ TEST_P(FootOutside, IsBeyondASide) {
 INSTANTIATE_TEST_SUITE_P(EitherWayAround, FootOutside,
                          ::testing::Values(std::array{0, 1, 2}, std::array{2, 1, 0}, std::array{1, 2, 0}));
 
-TEST_F(Triangle, OfASideWithoutLengthNothingIsNotANumber) {
+TEST_F(FaceTriangles, OfASideWithoutLengthNothingIsNotANumber) {
   const FaceTriangle triangle(m_, simplex({0, 5, 1}), {0, 0, 1});
   EXPECT_LE(triangle.side_of_foot().distance, 0.0);
   EXPECT_FALSE(face_normal(m_, simplex({0, 5, 1}), {0, 0, 1}));
 }
 
-TEST_F(Triangle, ItsNormalIsOnTheSideAskedFor) {
+TEST_F(FaceTriangles, ItsNormalIsOnTheSideAskedFor) {
   for (const double side : {1.0, -1.0}) {
     const auto n = face_normal(m_, simplex({0, 1, 2}), {0.3, 0.1, side});
     ASSERT_TRUE(n);

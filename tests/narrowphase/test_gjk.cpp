@@ -28,7 +28,6 @@ double distance(const ClusteredMesh& a, const ClusteredMesh& b, GjkStatus expect
 }
 
 ClusteredMesh points(std::vector<Vec3> p) { return mesh_through(p); }
-ClusteredMesh box(Vec3 lower, Vec3 upper) { return tests::clustered(tests::box(lower, upper)); }
 
 TEST(Gjk, PointsSegmentsAndFlatHulls) {
   EXPECT_NEAR(distance(points({{0, 0, 0}}), points({{3, 4, 0}}), GjkStatus::apart), 5.0, 1e-14);
@@ -41,17 +40,18 @@ TEST(Gjk, PointsSegmentsAndFlatHulls) {
 }
 
 TEST(Gjk, CubesThatTouchOverlapAndPart) {
-  const ClusteredMesh cube = box({0, 0, 0}, {1, 1, 1});
-  distance(cube, box({1, 0, 0}, {2, 1, 1}), GjkStatus::touching);
-  distance(cube, box({0.3, 0.4, 0.45}, {2, 2, 2}), GjkStatus::overlapping);
+  const ClusteredMesh cube = tests::clustered_box({0, 0, 0}, {1, 1, 1});
+  distance(cube, tests::clustered_box({1, 0, 0}, {2, 1, 1}), GjkStatus::touching);
+  distance(cube, tests::clustered_box({0.3, 0.4, 0.45}, {2, 2, 2}), GjkStatus::overlapping);
   distance(cube, cube, GjkStatus::touching);  // zero is the middle of an edge between two vertices of M
-  EXPECT_NEAR(distance(cube, box({1 + 1e-9, 0.2, 0}, {2, 1, 1}), GjkStatus::apart), 1e-9, 1e-15);
+  EXPECT_NEAR(distance(cube, tests::clustered_box({1 + 1e-9, 0.2, 0}, {2, 1, 1}), GjkStatus::apart), 1e-9, 1e-15);
 }
 
 TEST(Gjk, FindsCubesFarFromZero) {  // openGJK#52: 0.0033 at 9e4, where the answer is 0
   const double far = 9e4;
-  distance(box({far, far, far}, {far + 1, far + 1, far + 1}),
-           box({far + 0.97, far + 0.1, far + 0.15}, {far + 2, far + 1, far + 1}), GjkStatus::overlapping);
+  distance(tests::clustered_box({far, far, far}, {far + 1, far + 1, far + 1}),
+           tests::clustered_box({far + 0.97, far + 0.1, far + 0.15}, {far + 2, far + 1, far + 1}),
+           GjkStatus::overlapping);
 }
 
 TEST(Gjk, FindsTheDistanceOfTwoPolytopes) {  // openGJK's first example, whose readme gives the distance
@@ -84,8 +84,9 @@ TEST(Gjk, FindsTheClosestPointsOfABoxAndOfBalls) {
     }
     return mesh_through(p);
   };
-  const ClusteredMesh cuboid = box({-2, -3, -4}, {2, 3, 4}), edge = box({1, 1, -2}, {2, 2, 2}),
-                      corner = box({1, 1, 1}, {2, 2, 2});
+  const ClusteredMesh cuboid = tests::clustered_box({-2, -3, -4}, {2, 3, 4}),
+                      edge = tests::clustered_box({1, 1, -2}, {2, 2, 2}),
+                      corner = tests::clustered_box({1, 1, 1}, {2, 2, 2});
   expect_closest(cuboid, ball({4, 0, 0}, 1.99, {-1, 0, 0}), 0.01, {2, 0, 0}, {2.01, 0, 0});
   const double eight = std::sqrt(8.0), twelve = std::sqrt(12.0);
   const double x = 4 - (eight - 0.01) / std::sqrt(2.0), y = 4 - (twelve - 0.01) / std::sqrt(3.0);
@@ -104,8 +105,8 @@ TEST(Gjk, FindsTheClosestPointsOfThinThings) {
   EXPECT_NEAR(norm(foot - r), 0.17147861, 5e-7);  // found in floats
   expect_closest(points({p, q, q}), points({r}), norm(foot - r), foot, r);
   for (const double off : {0.005, 1e-6}) {
-    expect_closest(box({-0.5, -0.0016, -0.0016}, {0.5, 0.0016, 0.0016}), points({{0.5 + off, 0.001, 0.0005}}), off,
-                   {0.5, 0.001, 0.0005}, {0.5 + off, 0.001, 0.0005});
+    expect_closest(tests::clustered_box({-0.5, -0.0016, -0.0016}, {0.5, 0.0016, 0.0016}),
+                   points({{0.5 + off, 0.001, 0.0005}}), off, {0.5, 0.001, 0.0005}, {0.5 + off, 0.001, 0.0005});
   }
 }
 

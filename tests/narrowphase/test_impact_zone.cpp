@@ -9,16 +9,8 @@
 
 #include "narrowphase/impact_zone.h"
 
+namespace tact::narrowphase {
 namespace {
-
-using tact::base::Vec3;
-using tact::narrowphase::ClusteredMesh;
-using tact::narrowphase::impact_zone;
-using tact::narrowphase::ImpactZone;
-using tact::narrowphase::make_slab;
-using tact::narrowphase::Point2;
-using tact::narrowphase::Slab;
-using tact::narrowphase::smallest_enclosing_disk;
 
 struct Soup {
   std::vector<double> positions;
@@ -259,3 +251,5 @@ TEST(ImpactZone, MeshWithoutFacetsHasNone) {
   const ClusteredMesh mesh({}, {});
   EXPECT_LT(impact_zone(mesh, make_slab({0, 0, 1}, {}, -1, 1, 0), scratch).disk.radius, 0.0);
 }
+
+}  // namespace tact::narrowphase

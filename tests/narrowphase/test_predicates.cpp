@@ -21,20 +21,13 @@
 #include "tests/support/triangle_oracle.h"
 #include "tests/support/triangle_pairs.h"
 
+namespace tact::narrowphase {
 namespace {
 
-using tact::narrowphase::compare_lexicographically;
-using tact::narrowphase::orient2d;
-using tact::narrowphase::orient3d;
-using tact::narrowphase::Point2;
-using tact::narrowphase::PredicateCounts;
-using tact::narrowphase::sides_of_plane;
-using tact::narrowphase::Triangle;
-using tact::narrowphase::Vec3;
-using tact::tests::hard_triangle_pair;
-using tact::tests::rational_orient2d;
-using tact::tests::rational_orient3d;
-using tact::tests::TrianglePair;
+using tests::hard_triangle_pair;
+using tests::rational_orient2d;
+using tests::rational_orient3d;
+using tests::TrianglePair;
 
 constexpr std::uint64_t kSeed = 20240517;
 constexpr double kTiniest = std::numeric_limits<double>::denorm_min();
@@ -230,3 +223,4 @@ TEST(CompareLexicographically, OrdersByXThenYThenZ) {
 }
 
 }  // namespace
+}  // namespace tact::narrowphase

@@ -11,19 +11,16 @@
 
 #include "narrowphase/smallest_enclosing_disk.h"
 
+namespace tact::narrowphase {
 namespace {
 
-using tact::narrowphase::Disk;
-using tact::narrowphase::Point2;
-using tact::narrowphase::smallest_enclosing_disk;
-
-using Points = std::vector<Point2>;
+using PlanePoints = std::vector<Point2>;
 
 long double distance(long double x, long double y, Point2 p) { return std::hypot(p.x - x, p.y - y); }
 
 // The radius of the smallest disk about a pair's middle or a triple's circumcenter that holds all points, in long
 // double.
-long double radius_by_brute_force(const Points& points) {
+long double radius_by_brute_force(const PlanePoints& points) {
   long double best = points.size() == 1 ? 0.0L : std::numeric_limits<long double>::infinity();
   const auto consider = [&](long double x, long double y) {
     long double radius = 0.0L;
@@ -49,24 +46,24 @@ long double radius_by_brute_force(const Points& points) {
   return best;
 }
 
-void expect_encloses(const Disk& disk, const Points& points) {
+void expect_encloses(const Disk& disk, const PlanePoints& points) {
   for (const Point2& p : points) {
     EXPECT_LE(std::hypot(p.x - disk.center.x, p.y - disk.center.y), disk.radius);
     EXPECT_LE(distance(disk.center.x, disk.center.y, p), disk.radius);
   }
 }
 
-void expect_smallest(const Points& points, const char* what, unsigned seed) {
+void expect_smallest(const PlanePoints& points, const char* what, unsigned seed) {
   SCOPED_TRACE(testing::Message() << what << ", seed " << seed << ", " << points.size() << " points");
   const Disk disk = smallest_enclosing_disk(points);
   expect_encloses(disk, points);
   EXPECT_LE(disk.radius, radius_by_brute_force(points) * (1.0L + 1e-12L));
 }
 
-Points random_points(std::size_t count, unsigned seed) {
+PlanePoints random_points(std::size_t count, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
-  Points points(count);
+  PlanePoints points(count);
   for (Point2& p : points) p = {coordinate(random), coordinate(random)};
   return points;
 }
@@ -76,7 +73,7 @@ Points random_points(std::size_t count, unsigned seed) {
 TEST(SmallestEnclosingDisk, NoPointsGiveNoDisk) { EXPECT_LT(smallest_enclosing_disk({}).radius, 0.0); }
 
 TEST(SmallestEnclosingDisk, OnePointIsItsOwnDisk) {
-  const Points points{{0.1, -3e200}, {0.1, -3e200}};
+  const PlanePoints points{{0.1, -3e200}, {0.1, -3e200}};
   for (const std::size_t count : {1u, 2u}) {
     const Disk disk = smallest_enclosing_disk(std::span(points).first(count));
     EXPECT_EQ(disk.center.x, 0.1);
@@ -86,7 +83,7 @@ TEST(SmallestEnclosingDisk, OnePointIsItsOwnDisk) {
 }
 
 TEST(SmallestEnclosingDisk, ClosedForms) {
-  const auto expect = [](const Points& points, Point2 center, double radius) {
+  const auto expect = [](const PlanePoints& points, Point2 center, double radius) {
     const Disk disk = smallest_enclosing_disk(points);
     expect_encloses(disk, points);
     EXPECT_NEAR(disk.center.x, center.x, 1e-15);
@@ -107,7 +104,7 @@ TEST(SmallestEnclosingDisk, EqualsBruteForceOnRandomPoints) {
 
 TEST(SmallestEnclosingDisk, EqualsBruteForceOnGridsFullOfTies) {
   for (unsigned seed = 0; seed < 2000; ++seed) {
-    Points points = random_points(2 + seed % 12, seed);
+    PlanePoints points = random_points(2 + seed % 12, seed);
     for (Point2& p : points) p = {std::round(2 * p.x), std::round(2 * p.y)};
     expect_smallest(points, "grid", seed);
   }
@@ -115,7 +112,7 @@ TEST(SmallestEnclosingDisk, EqualsBruteForceOnGridsFullOfTies) {
 
 TEST(SmallestEnclosingDisk, EqualsBruteForceOnOneCircleOrNearly) {
   for (unsigned seed = 0; seed < 2000; ++seed) {
-    Points points = random_points(3 + seed % 10, seed);
+    PlanePoints points = random_points(3 + seed % 10, seed);
     const double noise = seed % 4 == 0 ? 0.0 : std::pow(10.0, -4.0 * (seed % 4));
     for (Point2& p : points) {
       const double angle = std::numbers::pi * p.x;
@@ -127,7 +124,7 @@ TEST(SmallestEnclosingDisk, EqualsBruteForceOnOneCircleOrNearly) {
 
 TEST(SmallestEnclosingDisk, EqualsBruteForceOnNearlyStraightAndNearlyEqualPoints) {
   for (unsigned seed = 0; seed < 3000; ++seed) {
-    Points points = random_points(2 + seed % 9, seed);
+    PlanePoints points = random_points(2 + seed % 9, seed);
     const double thickness = std::pow(10.0, -static_cast<double>(seed % 18));
     for (std::size_t i = 0; i < points.size(); ++i) {
       Point2& p = points[i];
@@ -142,10 +139,10 @@ TEST(SmallestEnclosingDisk, EqualsBruteForceOnNearlyStraightAndNearlyEqualPoints
 // Scaling by a power of two changes nothing but the exponent, down to where doubles lose bits.
 TEST(SmallestEnclosingDisk, ScalesWithPowersOfTwo) {
   for (unsigned seed = 0; seed < 50; ++seed) {
-    const Points points = random_points(8, seed);
+    const PlanePoints points = random_points(8, seed);
     const Disk disk = smallest_enclosing_disk(points);
     for (const int exponent : {-900, -300, -30, 30, 299}) {
-      Points scaled = points;
+      PlanePoints scaled = points;
       for (Point2& p : scaled) p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)};
       const Disk scaled_disk = smallest_enclosing_disk(scaled);
       EXPECT_EQ(scaled_disk.radius, std::ldexp(disk.radius, exponent)) << seed << ' ' << exponent;
@@ -156,7 +153,7 @@ TEST(SmallestEnclosingDisk, ScalesWithPowersOfTwo) {
 
 TEST(SmallestEnclosingDisk, SubnormalCoordinatesAreEnclosed) {
   const double tiny = std::numeric_limits<double>::denorm_min();
-  const Points points{{0, 0}, {3 * tiny, 0}, {0, 5 * tiny}, {7 * tiny, 7 * tiny}};
+  const PlanePoints points{{0, 0}, {3 * tiny, 0}, {0, 5 * tiny}, {7 * tiny, 7 * tiny}};
   const Disk disk = smallest_enclosing_disk(points);
   expect_encloses(disk, points);
   EXPECT_LE(disk.radius, 7 * tiny);
@@ -164,7 +161,7 @@ TEST(SmallestEnclosingDisk, SubnormalCoordinatesAreEnclosed) {
 
 TEST(SmallestEnclosingDisk, FarFromTheOriginLosesOnlyTheCentersRounding) {
   for (unsigned seed = 0; seed < 200; ++seed) {
-    Points points = random_points(9, seed);
+    PlanePoints points = random_points(9, seed);
     for (Point2& p : points) p = {p.x + 1e8, p.y - 3e8};
     const Disk disk = smallest_enclosing_disk(points);
     expect_encloses(disk, points);
@@ -174,7 +171,7 @@ TEST(SmallestEnclosingDisk, FarFromTheOriginLosesOnlyTheCentersRounding) {
 
 TEST(SmallestEnclosingDisk, DependsOnTheSetAlone) {
   for (unsigned seed = 0; seed < 200; ++seed) {
-    Points points = random_points(40, seed);
+    PlanePoints points = random_points(40, seed);
     if (seed % 2 == 0) {
       for (Point2& p : points) p = {std::round(4 * p.x), std::round(4 * p.y)};
     }
@@ -190,7 +187,7 @@ TEST(SmallestEnclosingDisk, DependsOnTheSetAlone) {
 
 // Many points, of which a known few decide: a ring of them just inside a circle through three.
 TEST(SmallestEnclosingDisk, ManyPoints) {
-  Points points = random_points(100000, 7);
+  PlanePoints points = random_points(100000, 7);
   for (Point2& p : points) {
     const double angle = std::numbers::pi * p.x;
     const double radius = 1.0 - 1e-9 * (1.0 + p.y);
@@ -203,3 +200,5 @@ TEST(SmallestEnclosingDisk, ManyPoints) {
   EXPECT_NEAR(disk.radius, 1.0, 1e-14);
   expect_encloses(disk, points);
 }
+
+}  // namespace tact::narrowphase

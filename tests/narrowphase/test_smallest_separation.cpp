@@ -9,22 +9,14 @@
 #include "narrowphase/smallest_separation.h"
 #include "tests/support/minkowski_oracle.h"
 
+namespace tact::narrowphase {
 namespace {
 
-using tact::base::Vec3;
-using tact::narrowphase::ClusteredMesh;
-using tact::narrowphase::expanding_polytope;
-using tact::narrowphase::gjk;
-using tact::narrowphase::MinkowskiDifference;
-using tact::narrowphase::smallest_separation;
-using tact::narrowphase::SmallestMemory;
-using tact::narrowphase::SmallestSeparation;
-using tact::narrowphase::SurfaceShape;
-using tact::tests::is_local_minimum;
-using tact::tests::mesh_through;
-using tact::tests::minkowski_height;
-using tact::tests::smallest_height;
-using tact::tests::SmallestHeight;
+using tests::is_local_minimum;
+using tests::mesh_through;
+using tests::minkowski_height;
+using tests::smallest_height;
+using tests::SmallestHeight;
 
 using Points = std::vector<Vec3>;
 
@@ -87,9 +79,9 @@ void expect_smallest(const Pair& pair, double relative = 1e-13, const Pair* last
   }
 }
 
-class Random {
+class RandomHulls {
  public:
-  explicit Random(unsigned seed) : engine_(seed) {}
+  explicit RandomHulls(unsigned seed) : engine_(seed) {}
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
   int integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
   Vec3 point() { return {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; }
@@ -140,7 +132,9 @@ Points box(Vec3 half, Vec3 center = {}) {
 }
 
 // Moves b so that a point inside both hulls coincides.
-void make_overlap(Pair& pair, Random& random) { translate(pair.b, random.point_in(pair.a) - random.point_in(pair.b)); }
+void make_overlap(Pair& pair, RandomHulls& random) {
+  translate(pair.b, random.point_in(pair.a) - random.point_in(pair.b));
+}
 
 // Moves b so that the hulls touch across n.
 void make_touch(Pair& pair, Vec3 n) { translate(pair.b, static_cast<double>(minkowski_height(pair.a, pair.b, n)) * n); }
@@ -150,7 +144,7 @@ template <class Make>
 void expect_smallest_for_seeds(unsigned count, const Make& make) {
   for (unsigned seed = 0; seed < count; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
-    Random random(seed);
+    RandomHulls random(seed);
     expect_smallest(make(random));
     if (testing::Test::HasFailure()) return;
   }
@@ -159,7 +153,7 @@ void expect_smallest_for_seeds(unsigned count, const Make& make) {
 }  // namespace
 
 TEST(SmallestSeparation, RandomPolytopes) {
-  expect_smallest_for_seeds(2500, [](Random& random) {
+  expect_smallest_for_seeds(2500, [](RandomHulls& random) {
     Pair pair{random.cloud(random.integer(4, 8)), random.cloud(random.integer(4, 8))};
     make_overlap(pair, random);
     return pair;
@@ -167,7 +161,7 @@ TEST(SmallestSeparation, RandomPolytopes) {
 }
 
 TEST(SmallestSeparation, LargerHulls) {
-  expect_smallest_for_seeds(100, [](Random& random) {
+  expect_smallest_for_seeds(100, [](RandomHulls& random) {
     Pair pair{random.cloud(random.integer(9, 24)), random.cloud(random.integer(9, 24))};
     make_overlap(pair, random);
     return pair;
@@ -175,7 +169,7 @@ TEST(SmallestSeparation, LargerHulls) {
 }
 
 TEST(SmallestSeparation, BoxesInRandomPoses) {
-  expect_smallest_for_seeds(1000, [](Random& random) {
+  expect_smallest_for_seeds(1000, [](RandomHulls& random) {
     Pair pair{box({1, 0.7, 0.4}), box({0.2, 0.5, 1.5})};
     rotate(pair.a, random.direction(), random.uniform(0, 3));
     rotate(pair.b, random.direction(), random.uniform(0, 3));
@@ -186,7 +180,7 @@ TEST(SmallestSeparation, BoxesInRandomPoses) {
 
 // Faces of M that many vertices share, in one plane exactly or but for rounding.
 TEST(SmallestSeparation, AlignedBoxes) {
-  expect_smallest_for_seeds(1500, [](Random& random) {
+  expect_smallest_for_seeds(1500, [](RandomHulls& random) {
     const auto eighth = [&] { return random.integer(1, 8) / 8.0; };
     Pair pair{box({eighth(), eighth(), eighth()}), box({eighth(), eighth(), eighth()})};
     translate(pair.b, {random.integer(-1, 1) / 8.0, random.integer(-1, 1) / 8.0, random.integer(-1, 1) / 8.0});
@@ -200,7 +194,7 @@ TEST(SmallestSeparation, AlignedBoxes) {
 }
 
 TEST(SmallestSeparation, AlignedGridsOfPoints) {
-  expect_smallest_for_seeds(60, [](Random& random) {
+  expect_smallest_for_seeds(60, [](RandomHulls& random) {
     Points grid;
     for (int i = 0; i < 27; ++i) grid.push_back(Vec3{i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 - 1.0});
     rotate(grid, random.direction(), 0.3 * random.integer(0, 1));
@@ -211,7 +205,7 @@ TEST(SmallestSeparation, AlignedGridsOfPoints) {
 }
 
 TEST(SmallestSeparation, CrossedBars) {
-  expect_smallest_for_seeds(1000, [](Random& random) {
+  expect_smallest_for_seeds(1000, [](RandomHulls& random) {
     Pair pair{box({2, 0.1, 0.1}), box({2, 0.1, 0.1})};
     rotate(pair.a, {1, 0, 0}, std::numbers::pi / 4 * random.integer(0, 1));
     rotate(pair.b, {1, 0, 0}, std::numbers::pi / 4 + random.uniform(-0.1, 0.1));
@@ -222,7 +216,7 @@ TEST(SmallestSeparation, CrossedBars) {
 }
 
 TEST(SmallestSeparation, FlatSheets) {
-  expect_smallest_for_seeds(1000, [](Random& random) {
+  expect_smallest_for_seeds(1000, [](RandomHulls& random) {
     Pair pair{random.cloud(random.integer(3, 6)), random.cloud(random.integer(3, 6))};
     for (Vec3& p : pair.a) p.z = 0.0;
     const int kind = random.integer(0, 2);  // both in one plane; across each other; a sheet in a solid
@@ -241,7 +235,7 @@ TEST(SmallestSeparation, FlatSheets) {
 }
 
 TEST(SmallestSeparation, Needles) {
-  expect_smallest_for_seeds(1500, [](Random& random) {
+  expect_smallest_for_seeds(1500, [](RandomHulls& random) {
     const double width = std::pow(10.0, random.uniform(-9, -1));
     Pair pair{random.cloud(random.integer(4, 8)), random.cloud(random.integer(4, 8))};
     stretch(pair.a, {1.0, width, width});
@@ -254,7 +248,7 @@ TEST(SmallestSeparation, Needles) {
 }
 
 TEST(SmallestSeparation, OriginOnTheBorder) {
-  expect_smallest_for_seeds(1500, [](Random& random) {
+  expect_smallest_for_seeds(1500, [](RandomHulls& random) {
     Pair pair{random.cloud(random.integer(4, 8)), random.cloud(random.integer(4, 8))};
     if (random.integer(0, 1) == 1) pair.b = box({0.5, 0.25, 1.0});
     make_overlap(pair, random);
@@ -264,7 +258,7 @@ TEST(SmallestSeparation, OriginOnTheBorder) {
 }
 
 TEST(SmallestSeparation, EdgeOrCornerOfMOnTheOrigin) {
-  expect_smallest_for_seeds(1000, [](Random& random) {
+  expect_smallest_for_seeds(1000, [](RandomHulls& random) {
     Pair pair{random.cloud(random.integer(4, 8)), random.cloud(random.integer(4, 8))};
     if (random.integer(0, 1) == 1) pair = {box({1, 1, 1}), box({0.5, 0.25, 1.0})};
     make_overlap(pair, random);
@@ -280,7 +274,7 @@ TEST(SmallestSeparation, EdgeOrCornerOfMOnTheOrigin) {
 
 TEST(SmallestSeparation, DirectionIsALocalMinimum) {
   for (unsigned seed = 0; seed < 100; ++seed) {
-    Random random(seed);
+    RandomHulls random(seed);
     Pair pair{random.cloud(random.integer(4, 20)), random.cloud(random.integer(4, 20))};
     make_overlap(pair, random);
     EXPECT_TRUE(is_local_minimum(pair.a, pair.b, solve(pair).separation.direction, 1e-14)) << "seed " << seed;
@@ -288,7 +282,7 @@ TEST(SmallestSeparation, DirectionIsALocalMinimum) {
 }
 
 TEST(SmallestSeparation, ScalesWithPowersOfTwo) {
-  Random random(1);
+  RandomHulls random(1);
   Pair pair{random.cloud(8), random.cloud(8)};
   make_overlap(pair, random);
   const Answer answer = solve(pair);
@@ -308,7 +302,7 @@ TEST(SmallestSeparation, FlatDifferenceTakesThePreferredSide) {
   EXPECT_EQ(solve(pair, {0.1, 0.2, 1}).separation.direction, (Vec3{0, 0, 1}));
   EXPECT_EQ(solve(pair, {0.1, 0.2, -1}).separation.direction, (Vec3{0, 0, -1}));
   for (unsigned seed = 0; seed < 300; ++seed) {  // turned, the sheets are flat but for rounding
-    Random random(seed);
+    RandomHulls random(seed);
     Pair turned = pair;
     const Vec3 axis = random.direction();
     const double angle = random.uniform(0, 3);
@@ -341,7 +335,7 @@ TEST(SmallestSeparation, SegmentAndPointDifferences) {
 // Turned, the segments are straight but for rounding.
 TEST(SmallestSeparation, SegmentDifferenceTakesTheNearestDirectionAcross) {
   for (unsigned seed = 0; seed < 300; ++seed) {
-    Random random(seed);
+    RandomHulls random(seed);
     const Vec3 along = random.direction();
     const Vec3 across = normalized(cross(along, random.direction()));
     const Answer answer = solve({{-1.0 * along, 2.0 * along}, {{0, 0, 0}, 5.0 * along}}, across + 0.5 * along);
@@ -354,7 +348,7 @@ TEST(SmallestSeparation, SegmentDifferenceTakesTheNearestDirectionAcross) {
 TEST(SmallestSeparation, ContinuesFromTheLastSearch) {
   for (unsigned seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
-    Random random(seed);
+    RandomHulls random(seed);
     Pair last{random.cloud(random.integer(4, 20)), random.cloud(random.integer(4, 20))};
     if (random.integer(0, 2) == 0) last = {box({1, 0.7, 0.4}), box({0.2, 0.5, 1.5})};
     make_overlap(last, random);
@@ -371,7 +365,7 @@ TEST(SmallestSeparation, ContinuesFromTheLastSearch) {
 
 // On small motions the last surface is worth its memory: one or two queries a step.
 TEST(SmallestSeparation, TakesFewQueriesOnCoherentMotion) {
-  Random random(1);
+  RandomHulls random(1);
   Pair pair{random.cloud(60), random.cloud(60)};
   SmallestMemory memory;
   SurfaceShape shape;
@@ -424,7 +418,7 @@ TEST(SmallestSeparation, TurnedBoxAgainstCube) {
   for (unsigned frame = 0; frame < 6; ++frame) {
     for (const double y : {0.0, 0.1, -0.1, 0.05, -0.05}) {
       for (const double x : {-1.0, -0.9}) {
-        Random random(frame);
+        RandomHulls random(frame);
         Points turned = box({0.3, 0.4, 0.5});
         for (Vec3& p : turned) p = {0.6 * p.x - 0.8 * p.y + x, 0.8 * p.x + 0.6 * p.y + y, p.z + 0.5};
         Pair pair{turned, box({0.5, 0.5, 0.5}, {0, 0, 0.5})};
@@ -444,7 +438,7 @@ TEST(SmallestSeparation, TurnedBoxAgainstCube) {
 // fcl#503: boxes that touch are reported 0.33 to 1.84 deep. The depth is never more than the overlap along any axis.
 TEST(SmallestSeparation, DepthIsAtMostTheOverlapAlongAnyAxis) {
   for (unsigned seed = 0; seed < 200; ++seed) {
-    Random random(seed);
+    RandomHulls random(seed);
     Pair pair{box({1, 0.5, 0.25}), box({0.3, 2, 0.7})};
     rotate(pair.b, random.direction(), random.uniform(0, 3));
     const Vec3 n = random.direction();
@@ -458,7 +452,7 @@ TEST(SmallestSeparation, DepthIsAtMostTheOverlapAlongAnyAxis) {
 // fcl#493, #398: "origin is outside of the polytope" is thrown for boxes that merely touch.
 TEST(SmallestSeparation, OriginOutsideByRoundingIsNoError) {
   for (unsigned seed = 0; seed < 500; ++seed) {
-    Random random(seed);
+    RandomHulls random(seed);
     Pair pair{box({0.307, 1.5, 0.0185}), box({0.25, 0.25, 0.25})};
     rotate(pair.a, random.direction(), random.uniform(0, 3));
     const SmallestHeight truth = smallest_height(pair.a, pair.b, 0.0);
@@ -478,7 +472,7 @@ TEST(SmallestSeparation, OfEqualDirectionsThePreferredComes) {
   const Pair cubes{box({1, 1, 1}), box({1, 1, 1})};
   EXPECT_EQ(solve(cubes, {0.2, -1, 0.1}).separation.direction, (Vec3{0, -1, 0}));
   for (unsigned seed = 0; seed < 100; ++seed) {
-    Random random(seed);
+    RandomHulls random(seed);
     Pair turned{box({1, 2, 3}), box({1, 2, 3})};
     const Vec3 axis = random.direction(), preferred = random.direction();
     for (Points* points : {&turned.a, &turned.b}) rotate(*points, axis, 1.0);
@@ -507,3 +501,5 @@ TEST(SmallestSeparation, RoundBodiesCloseTheirBoundsInReasonableTime) {
     EXPECT_NEAR(answer.height, answer.lower_bound, 1e-13);
   }
 }
+
+}  // namespace tact::narrowphase

@@ -13,25 +13,19 @@
 #include "tests/support/triangle_oracle.h"
 #include "tests/support/triangle_pairs.h"
 
+namespace tact::narrowphase {
 namespace {
 
-using tact::narrowphase::PredicateCounts;
-using tact::narrowphase::Segment;
-using tact::narrowphase::segment_segment_meet;
-using tact::narrowphase::segment_triangle_meet;
-using tact::narrowphase::Triangle;
-using tact::narrowphase::triangle_triangle_meet;
-using tact::narrowphase::Vec3;
-using tact::tests::all_orders;
-using tact::tests::available_kernels;
-using tact::tests::cgal_meet;
-using tact::tests::Filtered;
-using tact::tests::filtered;
-using tact::tests::hard_triangle_pair;
-using tact::tests::is_right;
-using tact::tests::TrianglePair;
+using tests::all_orders;
+using tests::available_kernels;
+using tests::cgal_meet;
+using tests::Filtered;
+using tests::filtered;
+using tests::hard_triangle_pair;
+using tests::is_right;
+using tests::TrianglePair;
 
-constexpr std::uint64_t kSeed = 8051977;
+constexpr std::uint64_t kPairSeed = 8051977;
 
 bool meet(const Triangle& a, const Triangle& b) {
   PredicateCounts counts;
@@ -46,7 +40,7 @@ int orders_that_meet(const Triangle& a, const Triangle& b) {
   const auto orders = all_orders({a, b});
   int count = 0;
   for (const TrianglePair& pair : orders) count += meet(pair.a, pair.b);
-  for (const tact::narrowphase::Kernels* kernels : available_kernels()) {
+  for (const Kernels* kernels : available_kernels()) {
     for (const auto half : {std::span(orders).first<kAll / 2>(), std::span(orders).last<kAll / 2>()}) {
       const std::vector<Filtered> found = filtered(*kernels, half);
       for (std::size_t i = 0; i < half.size(); ++i) {
@@ -216,7 +210,7 @@ TEST(TriangleTriangle, TriangleWithoutAreaIsASegmentOrAPoint) {
 }
 
 TEST(TriangleTriangle, FarPairsNeverNeedTheExactPath) {
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random(kPairSeed);
   std::uniform_real_distribution<double> coordinate(0.0, 1.0);
   PredicateCounts counts;
   for (int i = 0; i < 10000; ++i) {
@@ -229,30 +223,31 @@ TEST(TriangleTriangle, FarPairsNeverNeedTheExactPath) {
 
 TEST(TriangleTriangle, HardPairsMeetWhereCgalSaysSo) {
   for (std::uint64_t i = 0; i < 300000; ++i) {
-    const TrianglePair pair = hard_triangle_pair(kSeed, i);
+    const TrianglePair pair = hard_triangle_pair(kPairSeed, i);
     ASSERT_EQ(meet(pair.a, pair.b), cgal_meet(pair.a, pair.b))
-        << "seed " << kSeed << " pair " << i << ' ' << to_string(pair);
+        << "seed " << kPairSeed << " pair " << i << ' ' << to_string(pair);
   }
 }
 
 TEST(TriangleTriangle, OrderOfCornersAndArgumentsChangesNothing) {
   for (std::uint64_t i = 0; i < 10000; ++i) {
-    const TrianglePair pair = hard_triangle_pair(kSeed + 1, i);
+    const TrianglePair pair = hard_triangle_pair(kPairSeed + 1, i);
     ASSERT_EQ(orders_that_meet(pair.a, pair.b), meet(pair.a, pair.b) ? kAll : 0)
-        << "seed " << kSeed + 1 << " pair " << i << ' ' << to_string(pair);
+        << "seed " << kPairSeed + 1 << " pair " << i << ' ' << to_string(pair);
   }
 }
 
 TEST(TriangleTriangle, RoundingModeChangesNothing) {
   const int saved = std::fegetround();
   for (std::uint64_t i = 0; i < 50000; ++i) {
-    const TrianglePair pair = hard_triangle_pair(kSeed + 2, i);
+    const TrianglePair pair = hard_triangle_pair(kPairSeed + 2, i);
     const bool expected = meet(pair.a, pair.b);
     for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
       std::fesetround(mode);
       const bool met = meet(pair.a, pair.b);
       std::fesetround(saved);
-      ASSERT_EQ(met, expected) << "mode " << mode << " seed " << kSeed + 2 << " pair " << i << ' ' << to_string(pair);
+      ASSERT_EQ(met, expected) << "mode " << mode << " seed " << kPairSeed + 2 << " pair " << i << ' '
+                               << to_string(pair);
     }
   }
 }
@@ -260,24 +255,25 @@ TEST(TriangleTriangle, RoundingModeChangesNothing) {
 // The first two corners as a segment, the first as a point; the oracle takes them as triangles without area.
 TEST(SegmentTriangle, HardPairsMeetWhereCgalSaysSo) {
   for (std::uint64_t i = 0; i < 20000; ++i) {
-    const TrianglePair pair = hard_triangle_pair(kSeed + 3, i);
+    const TrianglePair pair = hard_triangle_pair(kPairSeed + 3, i);
     const Segment segment{pair.a[0], pair.a[1]};
     PredicateCounts counts;
     ASSERT_EQ(segment_triangle_meet(segment, pair.b, counts), cgal_meet({segment[0], segment[1], segment[1]}, pair.b))
-        << "seed " << kSeed + 3 << " pair " << i << ' ' << to_string(pair);
+        << "seed " << kPairSeed + 3 << " pair " << i << ' ' << to_string(pair);
   }
 }
 
 TEST(SegmentSegment, HardPairsMeetWhereCgalSaysSo) {
   for (std::uint64_t i = 0; i < 20000; ++i) {
-    const TrianglePair pair = hard_triangle_pair(kSeed + 5, i);
+    const TrianglePair pair = hard_triangle_pair(kPairSeed + 5, i);
     const Segment a{pair.a[0], pair.a[1]}, b{pair.b[0], pair.b[1]};
     PredicateCounts counts;
     const bool expected = cgal_meet({a[0], a[1], a[1]}, {b[0], b[1], b[1]});
     ASSERT_EQ(segment_segment_meet(a, b, counts), expected)
-        << "seed " << kSeed + 5 << " pair " << i << ' ' << to_string(pair);
-    ASSERT_EQ(segment_segment_meet({b[1], b[0]}, a, counts), expected) << "seed " << kSeed + 5 << " pair " << i;
+        << "seed " << kPairSeed + 5 << " pair " << i << ' ' << to_string(pair);
+    ASSERT_EQ(segment_segment_meet({b[1], b[0]}, a, counts), expected) << "seed " << kPairSeed + 5 << " pair " << i;
   }
 }
 
 }  // namespace
+}  // namespace tact::narrowphase

@@ -6,9 +6,8 @@
 
 #include "narrowphase/wide_integer.h"
 
+namespace tact::narrowphase {
 namespace {
-
-using tact::narrowphase::WideInteger;
 
 using Integer = WideInteger<33>;
 
@@ -52,3 +51,4 @@ TEST(WideInteger, RandomValuesObeyTheLawsOfArithmetic) {
 }
 
 }  // namespace
+}  // namespace tact::narrowphase

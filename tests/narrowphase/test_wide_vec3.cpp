@@ -6,12 +6,8 @@
 
 #include "narrowphase/wide_vec3.h"
 
+namespace tact::narrowphase {
 namespace {
-
-using tact::base::Vec3;
-using tact::narrowphase::unit_vector;
-using tact::narrowphase::wide_cross;
-using tact::narrowphase::wide_difference;
 
 Vec3 cross_of_sides(Vec3 p, Vec3 q, Vec3 r) { return wide_cross(wide_difference(q, p), wide_difference(r, p)); }
 
@@ -59,3 +55,5 @@ TEST(WideVec3, UnitVectorsOfAnySize) {
     EXPECT_LT(norm(unit_vector(v) - Vec3{0.6, 0.0, -0.8}), 2e-16) << exponent;
   }
 }
+
+}  // namespace tact::narrowphase

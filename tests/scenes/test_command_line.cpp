@@ -21,12 +21,6 @@ struct Outcome {
   std::string error;
 };
 
-std::string contents(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 class CommandLine : public ::testing::Test {
  protected:
   // Runs the program in the folder of the test; `arguments`, which may say where output goes, and variables of the
@@ -35,8 +29,8 @@ class CommandLine : public ::testing::Test {
     const std::string line =
         "cd '" + folder_.path().string() + "' && " + variables + " '" TACT_PROGRAM "' >.out 2>.err " + arguments;
     const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder_.path() / ".out"),
-            contents(folder_.path() / ".err")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, tests::contents(folder_.path() / ".out"),
+            tests::contents(folder_.path() / ".err")};
   }
 
   void expect_refusal(const std::string& arguments, int status, const std::string& message) const {
@@ -78,7 +72,7 @@ TEST_F(CommandLine, JsonGoesToAFileBesideTheTable) {
   const Outcome outcome = run("check --json out.json a.obj b.off");
   EXPECT_EQ(outcome.status, 0);
   EXPECT_NE(outcome.out.find("frame 0"), std::string::npos);
-  EXPECT_EQ(nlohmann::json::parse(contents(folder_.path() / "out.json"))["frames"].size(), 1u);
+  EXPECT_EQ(nlohmann::json::parse(tests::contents(folder_.path() / "out.json"))["frames"].size(), 1u);
 }
 
 TEST_F(CommandLine, BadInputReturnsOne) {
@@ -135,7 +129,7 @@ TEST_F(CommandLine, AnOutputThatFailsAtTheEndOfARunTakesNothingElseWithIt) {
   }
   EXPECT_EQ(outcome.out.find("Blender"), std::string::npos) << outcome.out;
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "pictures" / "sheet.png"));
-  EXPECT_TRUE(nlohmann::json::parse(contents(folder_.path() / "t.json")).contains("traceEvents"));
+  EXPECT_TRUE(nlohmann::json::parse(tests::contents(folder_.path() / "t.json")).contains("traceEvents"));
   EXPECT_EQ(run("replay r").status, 0);
 }
 
@@ -145,7 +139,7 @@ TEST_F(CommandLine, ARunThatFailsInItsMiddleLeavesTheLastReport) {
   const Outcome outcome = run("run pile --size 1 --frames 9 --every 1 --no-pictures --vtk vtk --json r.json");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_EQ(outcome.error, "tact: vtk/pile_00001.vtp: cannot write the file\n");
-  EXPECT_EQ(contents(folder_.path() / "r.json"), "of the last run");
+  EXPECT_EQ(tests::contents(folder_.path() / "r.json"), "of the last run");
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
     EXPECT_NE(entry.path().extension(), ".part") << entry.path();
   }

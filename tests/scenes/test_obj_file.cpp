@@ -8,7 +8,7 @@ namespace {
 using tests::Corners;
 using tests::Point;
 
-std::string refusal(std::string_view bytes) { return tests::refusal(MeshFormat::obj, bytes); }
+std::string obj_refusal(std::string_view bytes) { return tests::refusal(MeshFormat::obj, bytes); }
 
 const std::string kThree = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
@@ -43,7 +43,7 @@ TEST(ObjFile, NegativeIndicesCountFromTheVerticesAbove) {
 
 TEST(ObjFile, FacetsMayComeBeforeTheirVertices) {
   EXPECT_EQ(tests::facets_of(parse_obj("f 1 2 3\n" + kThree, "m")), (std::vector<Corners>{{0, 1, 2}}));
-  EXPECT_EQ(refusal("v 0 0 0\nf 1 2 3\nf 1 2 4\nv 1 1 1\nv 2 2 2\n"),
+  EXPECT_EQ(obj_refusal("v 0 0 0\nf 1 2 3\nf 1 2 4\nv 1 1 1\nv 2 2 2\n"),
             "m:3: facet 1: names vertex 4, counted from 1, but the file has 3 vertices");
 }
 
@@ -56,24 +56,24 @@ TEST(ObjFile, ReadsEveryKindOfLineEnd) {
 }
 
 TEST(ObjFile, RefusesNamingTheLine) {
-  EXPECT_EQ(refusal(""), "m: the file is empty");
-  EXPECT_EQ(refusal("hello\nworld\n"), "m:3: the file ends without a vertex");
-  EXPECT_EQ(refusal("v 0 0 0\nv 1 0\n"), "m:2: vertex 1: expected a number for z, found the end of the line");
-  EXPECT_EQ(refusal("v 0 0"), "m:1: vertex 0: expected a number for z, found the end of the file");
-  EXPECT_EQ(refusal("v 0 abc 0\n"), "m:1: vertex 0: expected a number for y, found 'abc'");
-  EXPECT_EQ(refusal("v 0 0 0 red\n"), "m:1: vertex 0: expected a number or the end of the line, found 'red'");
-  EXPECT_EQ(refusal("\nv 0 nan 0\n"), "m:2: vertex 0: y is nan, not a finite number");
-  EXPECT_EQ(refusal("v 0 0 -inf\n"), "m:1: vertex 0: z is -inf, not a finite number");
-  EXPECT_EQ(refusal("v 1e400 0 0\n"), "m:1: vertex 0: expected a number for x, found '1e400'");
-  EXPECT_EQ(refusal("v 0 0 0\nv 1e200 0 0\n"),
+  EXPECT_EQ(obj_refusal(""), "m: the file is empty");
+  EXPECT_EQ(obj_refusal("hello\nworld\n"), "m:3: the file ends without a vertex");
+  EXPECT_EQ(obj_refusal("v 0 0 0\nv 1 0\n"), "m:2: vertex 1: expected a number for z, found the end of the line");
+  EXPECT_EQ(obj_refusal("v 0 0"), "m:1: vertex 0: expected a number for z, found the end of the file");
+  EXPECT_EQ(obj_refusal("v 0 abc 0\n"), "m:1: vertex 0: expected a number for y, found 'abc'");
+  EXPECT_EQ(obj_refusal("v 0 0 0 red\n"), "m:1: vertex 0: expected a number or the end of the line, found 'red'");
+  EXPECT_EQ(obj_refusal("\nv 0 nan 0\n"), "m:2: vertex 0: y is nan, not a finite number");
+  EXPECT_EQ(obj_refusal("v 0 0 -inf\n"), "m:1: vertex 0: z is -inf, not a finite number");
+  EXPECT_EQ(obj_refusal("v 1e400 0 0\n"), "m:1: vertex 0: expected a number for x, found '1e400'");
+  EXPECT_EQ(obj_refusal("v 0 0 0\nv 1e200 0 0\n"),
             "m:2: vertex 1: x is 1e+200, larger in size than the largest coordinate, 2^300");
-  EXPECT_EQ(refusal(kThree + "f 1 2 3\nf 1 2 9\n"),
+  EXPECT_EQ(obj_refusal(kThree + "f 1 2 3\nf 1 2 9\n"),
             "m:5: facet 1: names vertex 9, counted from 1, but the file has 3 vertices");
-  EXPECT_EQ(refusal(kThree + "f 0 1 2\n"), "m:4: facet 0: names vertex 0, but the format counts from 1");
-  EXPECT_EQ(refusal(kThree + "f -4 1 2\n"), "m:4: facet 0: names vertex -4, but there are 3 vertices above it");
-  EXPECT_EQ(refusal(kThree + "f 1 2\n"), "m:4: facet 0: has 2 of the 3 corners that a polygon needs");
+  EXPECT_EQ(obj_refusal(kThree + "f 0 1 2\n"), "m:4: facet 0: names vertex 0, but the format counts from 1");
+  EXPECT_EQ(obj_refusal(kThree + "f -4 1 2\n"), "m:4: facet 0: names vertex -4, but there are 3 vertices above it");
+  EXPECT_EQ(obj_refusal(kThree + "f 1 2\n"), "m:4: facet 0: has 2 of the 3 corners that a polygon needs");
   for (const std::string corner : {"x", "1.5", "1/x", "1//x", "1/1/1/1", "99999999999999999999"}) {
-    EXPECT_EQ(refusal(kThree + "f 1 2 " + corner + "\n"),
+    EXPECT_EQ(obj_refusal(kThree + "f 1 2 " + corner + "\n"),
               "m:4: facet 0: expected a corner such as 7, 7/1, 7/1/2 or 7//2, found '" + corner + "'");
   }
 }

@@ -13,12 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string contents(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 class OutputFiles : public ::testing::Test {
  protected:
   std::size_t files() const {
@@ -35,7 +29,7 @@ TEST_F(OutputFiles, AppearsWhole) {
   file.stream() << "new" << std::flush;
   EXPECT_FALSE(fs::exists(name_));
   file.finish();
-  EXPECT_EQ(contents(name_), "new");
+  EXPECT_EQ(tests::contents(name_), "new");
   EXPECT_EQ(files(), 1u);
 }
 
@@ -46,12 +40,12 @@ TEST_F(OutputFiles, AnOlderFileStaysUntilThen) {
     file.stream() << "new" << std::flush;
     EXPECT_EQ(files(), 2u);
   }
-  EXPECT_EQ(contents(name_), "old");
+  EXPECT_EQ(tests::contents(name_), "old");
   EXPECT_EQ(files(), 1u);
   OutputFile file(name_, standard_output_);
   file.stream() << "new";
   file.finish();
-  EXPECT_EQ(contents(name_), "new");
+  EXPECT_EQ(tests::contents(name_), "new");
   EXPECT_EQ(files(), 1u);
 }
 
@@ -68,9 +62,9 @@ TEST_F(OutputFiles, WhatIsForProgramsThatDieAppearsAtOnce) {
   {
     OutputFile file(name_, standard_output_, Appears::at_once);
     file.stream() << "new" << std::flush;
-    EXPECT_EQ(contents(name_), "new");
+    EXPECT_EQ(tests::contents(name_), "new");
   }
-  EXPECT_EQ(contents(name_), "new");
+  EXPECT_EQ(tests::contents(name_), "new");
   EXPECT_EQ(files(), 1u);
 }
 
@@ -81,7 +75,7 @@ TEST_F(OutputFiles, LinksDevicesAndPipesAreWrittenDirectly) {
   link.stream() << "new";
   link.finish();
   EXPECT_TRUE(fs::is_symlink(name_));
-  EXPECT_EQ(contents(target), "new");
+  EXPECT_EQ(tests::contents(target), "new");
 
   OutputFile full("/dev/full", standard_output_);
   full.stream() << "lost";
@@ -91,7 +85,7 @@ TEST_F(OutputFiles, LinksDevicesAndPipesAreWrittenDirectly) {
   const std::string pipe = (folder_.path() / "pipe").string();
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   std::string read;
-  std::thread reader([&] { read = contents(pipe); });
+  std::thread reader([&] { read = tests::contents(pipe); });
   {
     OutputFile file(pipe, standard_output_);
     file.stream() << "through";

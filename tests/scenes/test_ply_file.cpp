@@ -12,13 +12,13 @@ using tests::bytes_of;
 using tests::Corners;
 using tests::Point;
 
-std::string refusal(std::string_view bytes) { return tests::refusal(MeshFormat::ply, bytes); }
+std::string ply_refusal(std::string_view bytes) { return tests::refusal(MeshFormat::ply, bytes); }
 
 const std::string kPly = "ply\nformat ascii 1.0\n";
 const std::string kXyz = "property double x\nproperty double y\nproperty double z\n";
 const std::string kList = "property list uchar int vertex_indices\n";
 const std::string kHead = kPly + "element vertex 4\n" + kXyz + "element face 1\n" + kList + "end_header\n";
-const std::string kVertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";  // lines 10 to 13 after kHead
+const std::string kPlyVertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";  // lines 10 to 13 after kHead
 
 TEST(PlyFile, ReadsText) {
   const MeshFile mesh = parse_ply(kHead + "0.1 1e-310 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n\n", "m");
@@ -81,7 +81,7 @@ TEST(PlyFile, ReadsBothByteOrdersAfterEveryLineEnd) {
 TEST(PlyFile, EveryShorterBinaryFileIsRefused) {
   const std::string whole = binary_ply(std::endian::little, "\n");
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    const std::string message = refusal(std::string_view(whole).substr(0, size));
+    const std::string message = ply_refusal(std::string_view(whole).substr(0, size));
     EXPECT_TRUE(message.starts_with("m:")) << size << ": " << message;
   }
 }
@@ -95,70 +95,71 @@ TEST(PlyFile, RefusesBinaryNamingTheByte) {
   const std::string two =
       number(1) + number(2) + number(3) + number(4) + number(std::numeric_limits<double>::quiet_NaN());
   const std::string header = binary_points("2", "");
-  EXPECT_EQ(refusal(binary_points("2", two + number(6))),
+  EXPECT_EQ(ply_refusal(binary_points("2", two + number(6))),
             "m: byte " + std::to_string(header.size() + 40) + ": vertex 1: y is nan, not a finite number");
-  EXPECT_EQ(refusal(binary_points("2", two)), "m: byte " + std::to_string(header.size() + 40) +
-                                                  ": vertex 1: the file ends too early, after " +
-                                                  std::to_string(header.size() + 40) + " bytes");
-  EXPECT_EQ(refusal(binary_points("0", "xy")),
+  EXPECT_EQ(ply_refusal(binary_points("2", two)), "m: byte " + std::to_string(header.size() + 40) +
+                                                      ": vertex 1: the file ends too early, after " +
+                                                      std::to_string(header.size() + 40) + " bytes");
+  EXPECT_EQ(ply_refusal(binary_points("0", "xy")),
             "m: byte " + std::to_string(header.size()) + ": 2 more bytes than the header promises");
 }
 
 TEST(PlyFile, PromisesTakeNoMemory) {
-  EXPECT_EQ(refusal(binary_points("4294967296", "")),
+  EXPECT_EQ(ply_refusal(binary_points("4294967296", "")),
             "m:7: promises 4294967296 vertices, more than 32-bit indices can number");
-  EXPECT_NE(refusal(binary_points("2147483647", bytes_of(1.0))).find("vertex 0: the file ends too early"),
+  EXPECT_NE(ply_refusal(binary_points("2147483647", bytes_of(1.0))).find("vertex 0: the file ends too early"),
             std::string::npos);
   const std::string list = "ply\nformat binary_little_endian 1.0\nelement vertex 0\n" + kXyz +
                            "element face 4294967295\nproperty list uint int vertex_indices\nend_header\n";
-  EXPECT_NE(refusal(list + bytes_of(std::uint32_t{0xffffffff})).find("facet 0: the file ends too early"),
+  EXPECT_NE(ply_refusal(list + bytes_of(std::uint32_t{0xffffffff})).find("facet 0: the file ends too early"),
             std::string::npos);
 }
 
 TEST(PlyFile, RefusesTextNamingTheLine) {
-  EXPECT_EQ(refusal(kHead + "0 0 0\n1 0\n"), "m:12: vertex 1: expected a number for z, found the end of the file");
-  EXPECT_EQ(refusal(kHead + "0 0 0\n1 0 0 5\n"), "m:11: vertex 1: expected the end of the line, found '5'");
-  EXPECT_EQ(refusal(kHead + "0 0 0\n1 nan 0\n"), "m:11: vertex 1: y is nan, not a finite number");
-  EXPECT_EQ(refusal(kHead + kVertices + "3 0 1 4\n"),
+  EXPECT_EQ(ply_refusal(kHead + "0 0 0\n1 0\n"), "m:12: vertex 1: expected a number for z, found the end of the file");
+  EXPECT_EQ(ply_refusal(kHead + "0 0 0\n1 0 0 5\n"), "m:11: vertex 1: expected the end of the line, found '5'");
+  EXPECT_EQ(ply_refusal(kHead + "0 0 0\n1 nan 0\n"), "m:11: vertex 1: y is nan, not a finite number");
+  EXPECT_EQ(ply_refusal(kHead + kPlyVertices + "3 0 1 4\n"),
             "m:14: facet 0: names vertex 4, counted from 0, but the file has 4 vertices");
-  EXPECT_EQ(refusal(kHead + kVertices + "2 0 1\n"), "m:14: facet 0: has 2 of the 3 corners that a polygon needs");
-  EXPECT_EQ(refusal(kHead + kVertices + "-1\n"), "m:14: facet 0: the list vertex_indices has -1 values");
-  EXPECT_EQ(refusal(kHead + kVertices + "3 0 1 1.5\n"),
+  EXPECT_EQ(ply_refusal(kHead + kPlyVertices + "2 0 1\n"),
+            "m:14: facet 0: has 2 of the 3 corners that a polygon needs");
+  EXPECT_EQ(ply_refusal(kHead + kPlyVertices + "-1\n"), "m:14: facet 0: the list vertex_indices has -1 values");
+  EXPECT_EQ(ply_refusal(kHead + kPlyVertices + "3 0 1 1.5\n"),
             "m:14: facet 0: expected an integer for vertex_indices, found '1.5'");
-  EXPECT_EQ(refusal(kHead + kVertices + "3 0 1 2\n9\n"), "m:15: expected the end of the file, found '9'");
+  EXPECT_EQ(ply_refusal(kHead + kPlyVertices + "3 0 1 2\n9\n"), "m:15: expected the end of the file, found '9'");
 }
 
 TEST(PlyFile, MessagesStayShortAndPrintable) {
   const std::string name = "\x90" + std::string(1000, 'n');
-  const std::string message =
-      refusal(kPly + "element vertex 0\n" + kXyz + "element " + name + " 1\nproperty int " + name + "\nend_header\n");
+  const std::string message = ply_refusal(kPly + "element vertex 0\n" + kXyz + "element " + name + " 1\nproperty int " +
+                                          name + "\nend_header\n");
   const std::string cut = "\\x90" + std::string(36, 'n') + "...";
   EXPECT_EQ(message, "m:10: " + cut + " 0: expected a value for " + cut + ", found the end of the file");
 }
 
 TEST(PlyFile, RefusesHeadersNamingTheLine) {
-  EXPECT_EQ(refusal("plyx\n"), "m:1: expected ply, found 'plyx'");
-  EXPECT_EQ(refusal("ply\nformat ascii 2.0\n"), "m:2: expected the version 1.0, found '2.0'");
-  EXPECT_EQ(refusal("ply\nformat utf8 1.0\n"),
+  EXPECT_EQ(ply_refusal("plyx\n"), "m:1: expected ply, found 'plyx'");
+  EXPECT_EQ(ply_refusal("ply\nformat ascii 2.0\n"), "m:2: expected the version 1.0, found '2.0'");
+  EXPECT_EQ(ply_refusal("ply\nformat utf8 1.0\n"),
             "m:2: expected ascii, binary_little_endian or binary_big_endian, found 'utf8'");
-  EXPECT_EQ(refusal(kPly + "element vertex -1\n"), "m:3: the number of elements is -1");
-  EXPECT_EQ(refusal(kPly + "element vertex many\n"), "m:3: expected the number of elements, found 'many'");
-  EXPECT_EQ(refusal(kPly + "element vertex 1\nelement vertex 1\n"), "m:4: a second element 'vertex'");
-  EXPECT_EQ(refusal(kPly + "element vertex 1\nproperty int x\nproperty int x\n"), "m:5: a second property 'x'");
-  EXPECT_EQ(refusal(kPly + "property int x\n"), "m:3: a property before the first element");
-  EXPECT_EQ(refusal(kPly + "element vertex 1\nproperty half x\n"),
+  EXPECT_EQ(ply_refusal(kPly + "element vertex -1\n"), "m:3: the number of elements is -1");
+  EXPECT_EQ(ply_refusal(kPly + "element vertex many\n"), "m:3: expected the number of elements, found 'many'");
+  EXPECT_EQ(ply_refusal(kPly + "element vertex 1\nelement vertex 1\n"), "m:4: a second element 'vertex'");
+  EXPECT_EQ(ply_refusal(kPly + "element vertex 1\nproperty int x\nproperty int x\n"), "m:5: a second property 'x'");
+  EXPECT_EQ(ply_refusal(kPly + "property int x\n"), "m:3: a property before the first element");
+  EXPECT_EQ(ply_refusal(kPly + "element vertex 1\nproperty half x\n"),
             "m:4: expected a type such as float or uchar, found 'half'");
-  EXPECT_EQ(refusal(kPly + "element vertex 1\nproperty list float int x\n"),
+  EXPECT_EQ(ply_refusal(kPly + "element vertex 1\nproperty list float int x\n"),
             "m:4: the length of a list must be an integer");
-  EXPECT_EQ(refusal(kPly + "vertices 8\n"), "m:3: expected a line of the header, or end_header, found 'vertices'");
-  EXPECT_EQ(refusal(kPly + "element vertex 1\n"), "m:4: the file ends before end_header");
-  EXPECT_EQ(refusal(kPly + "end_header\n"), "m:3: the header has no element vertex");
-  EXPECT_EQ(refusal("ply\nend_header\n"), "m:2: the header has no line 'format'");
-  EXPECT_EQ(refusal(kPly + "element vertex 1\nproperty float x\nproperty float y\nend_header\n"),
+  EXPECT_EQ(ply_refusal(kPly + "vertices 8\n"), "m:3: expected a line of the header, or end_header, found 'vertices'");
+  EXPECT_EQ(ply_refusal(kPly + "element vertex 1\n"), "m:4: the file ends before end_header");
+  EXPECT_EQ(ply_refusal(kPly + "end_header\n"), "m:3: the header has no element vertex");
+  EXPECT_EQ(ply_refusal("ply\nend_header\n"), "m:2: the header has no line 'format'");
+  EXPECT_EQ(ply_refusal(kPly + "element vertex 1\nproperty float x\nproperty float y\nend_header\n"),
             "m:6: the element vertex has no number z");
-  EXPECT_EQ(refusal(kPly + "element vertex 0\n" + kXyz + "element face 1\nproperty int n\nend_header\n"),
+  EXPECT_EQ(ply_refusal(kPly + "element vertex 0\n" + kXyz + "element face 1\nproperty int n\nend_header\n"),
             "m:9: the element face has 0 lists vertex_indices or vertex_index, one is needed");
-  EXPECT_EQ(refusal(kPly + "element vertex 0\n" + kXyz + "element tristrips 1\n" + kList + "end_header\n"),
+  EXPECT_EQ(ply_refusal(kPly + "element vertex 0\n" + kXyz + "element tristrips 1\n" + kList + "end_header\n"),
             "m:9: triangle strips are not read");
 }
 

@@ -24,11 +24,6 @@ Picture noise(int width, int height, unsigned seed) {
   return picture;
 }
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 }  // namespace
 
 TEST(PngFile, RoundTrip) {
@@ -45,8 +40,8 @@ TEST(PngFile, EqualPicturesGiveEqualBytesWithoutTime) {
   const Picture picture = noise(40, 30, 1);
   write_png(folder.path() / "a.png", picture);
   write_png(folder.path() / "b.png", picture);
-  const std::string bytes = bytes_of(folder.path() / "a.png");
-  EXPECT_EQ(bytes, bytes_of(folder.path() / "b.png"));
+  const std::string bytes = tact::tests::contents(folder.path() / "a.png");
+  EXPECT_EQ(bytes, tact::tests::contents(folder.path() / "b.png"));
   EXPECT_EQ(bytes.find("tIME"), std::string::npos);
 }
 

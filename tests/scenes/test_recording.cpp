@@ -79,7 +79,7 @@ std::vector<PlayedStep> play(std::string_view bytes, std::optional<int> threads 
 }
 
 // What the player says against `bytes`; "accepted" if it says nothing.
-std::string refusal(std::string_view bytes) {
+std::string recording_refusal(std::string_view bytes) {
   try {
     play(bytes);
   } catch (const FileError& error) {
@@ -162,20 +162,23 @@ TEST(Recording, ChangedHashIsFoundAtItsByte) {
 
 TEST(Recording, SaysWhatIsWrongAndAtWhichByte) {
   const std::string good = recording();
-  ASSERT_EQ(refusal(good), "accepted");
-  EXPECT_EQ(refusal(""), "r: byte 0: not a recording: it does not begin with tactrec");
-  EXPECT_EQ(refusal("solid a"), "r: byte 0: not a recording: it does not begin with tactrec");
-  EXPECT_EQ(refusal(with(good, kVersionAt, bytes_of(2u))),
+  ASSERT_EQ(recording_refusal(good), "accepted");
+  EXPECT_EQ(recording_refusal(""), "r: byte 0: not a recording: it does not begin with tactrec");
+  EXPECT_EQ(recording_refusal("solid a"), "r: byte 0: not a recording: it does not begin with tactrec");
+  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(2u))),
             "r: byte 8: a recording of version 2; only version 1 can be read");
-  EXPECT_EQ(refusal(with(good, kSettingsAt, "\x02")), at_byte(kSettingsAt) + "the first record is not one of settings");
-  EXPECT_EQ(refusal(with(good, kFirstBodyAt, "\x09")), at_byte(kFirstBodyAt) + "step 0: no record is of kind 9");
-  EXPECT_EQ(refusal(with(good, kVerticesAt, bytes_of(~std::uint64_t{0}))),
+  EXPECT_EQ(recording_refusal(with(good, kSettingsAt, "\x02")),
+            at_byte(kSettingsAt) + "the first record is not one of settings");
+  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x09")),
+            at_byte(kFirstBodyAt) + "step 0: no record is of kind 9");
+  EXPECT_EQ(recording_refusal(with(good, kVerticesAt, bytes_of(~std::uint64_t{0}))),
             at_byte(kVerticesAt) +
                 "step 0: promises 18446744073709551615 vertices, which take at least 24 bytes each, but the "
                 "file has " +
                 std::to_string(good.size() - kVerticesAt - 8) + " more");
-  EXPECT_EQ(refusal(with(good, kVerticesAt + 16, bytes_of(std::numeric_limits<double>::quiet_NaN()))).substr(0, 12),
-            at_byte(kFirstBodyAt));
+  EXPECT_EQ(
+      recording_refusal(with(good, kVerticesAt + 16, bytes_of(std::numeric_limits<double>::quiet_NaN()))).substr(0, 12),
+      at_byte(kFirstBodyAt));
 }
 
 // Cut anywhere, the steps before are the same, and only between records there is nothing to say.
@@ -204,7 +207,7 @@ TEST(Recording, AnyBitWrong) {
   for (std::size_t bit = 0; bit < 8 * good.size(); bit += bit < 8 * 256 ? 1 : 7) {
     std::string bytes = good;
     bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << (bit % 8)));
-    const std::string message = refusal(bytes);
+    const std::string message = recording_refusal(bytes);
     EXPECT_TRUE(message == "accepted" || message.starts_with("r: byte ")) << "bit " << bit << ": " << message;
     const bool in_magic_or_version = bit < 8 * 12;
     EXPECT_FALSE(in_magic_or_version && message == "accepted") << "bit " << bit;
@@ -214,7 +217,7 @@ TEST(Recording, AnyBitWrong) {
 TEST(Recording, StepThatWasNeverFinishedIsRefused) {
   const std::string good = recording();
   EXPECT_EQ(
-      refusal(std::string_view(good).substr(0, good.size() - 9)),
+      recording_refusal(std::string_view(good).substr(0, good.size() - 9)),
       "r: byte " + std::to_string(good.size() - 10) + ": step 5: the step has no hash: what recorded it ended in it");
 }
 

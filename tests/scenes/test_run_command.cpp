@@ -22,12 +22,6 @@
 namespace tact::scenes {
 namespace {
 
-std::string contents(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 std::vector<std::string> lines(const std::filesystem::path& file) {
   std::vector<std::string> result;
   std::ifstream in(file);
@@ -61,9 +55,9 @@ TEST_F(RunCommand, SamePicturesForOneAndTwoThreads) {
                .outputs = {.out = out, .every = 40}});
     }
     for (const char* name : {"frame_00000.png", "frame_00001.png", "sheet.png"}) {
-      const std::string one = contents(folder_.path() / scene.scene / "1" / name);
+      const std::string one = tests::contents(folder_.path() / scene.scene / "1" / name);
       EXPECT_GT(one.size(), 10000u) << scene.scene << ' ' << name;
-      EXPECT_TRUE(one == contents(folder_.path() / scene.scene / "2" / name)) << scene.scene << ' ' << name;
+      EXPECT_TRUE(one == tests::contents(folder_.path() / scene.scene / "2" / name)) << scene.scene << ' ' << name;
     }
   }
 }
@@ -75,7 +69,7 @@ TEST_F(RunCommand, ZonesAreShownWhereTheyAreAskedFor) {
     const std::string text =
         printed({.scene = "clamp", .frames = 61, .outputs = {.out = out, .every = 60, .zones = zones}});
     EXPECT_EQ(text.find("\n  zones ") == std::string::npos, zones) << text;  // in the ledger
-    pictures[zones ? 1 : 0] = contents(out / "frame_00001.png");
+    pictures[zones ? 1 : 0] = tests::contents(out / "frame_00001.png");
     EXPECT_GT(pictures[zones ? 1 : 0].size(), 10000u);
   }
   EXPECT_FALSE(pictures[0] == pictures[1]);
@@ -135,13 +129,13 @@ TEST_F(RunCommand, FilesForOtherPrograms) {
                                                 .gltf = file("pile.glb"),
                                                 .vtk = file("vtk")}});
   EXPECT_NE(text.find("pile.glb"), std::string::npos) << text;
-  EXPECT_EQ(nlohmann::json::parse(contents(file("r.json")))["frames"].size(), 41u);
+  EXPECT_EQ(nlohmann::json::parse(tests::contents(file("r.json")))["frames"].size(), 41u);
   const std::vector<std::string> contacts = lines(file("contacts.jsonl"));
   ASSERT_EQ(contacts.size(), 41u);
   const auto last = nlohmann::json::parse(contacts.back());
   EXPECT_EQ(last["frame"], 40);
   EXPECT_FALSE(last["contacts"].empty());
-  EXPECT_TRUE(contents(file("pile.glb")).starts_with("glTF"));
+  EXPECT_TRUE(tests::contents(file("pile.glb")).starts_with("glTF"));
   for (const char* name : {"vtk/pile.pvd", "vtk/pile_00000.vtp", "vtk/pile_00004.vtp"}) {
     EXPECT_TRUE(std::filesystem::exists(file(name))) << name;
   }
@@ -176,7 +170,7 @@ TEST_F(RunCommand, ATraceTellsOfStepsPhasesStagesAndPairs) {
                                     .threads = 2,
                                     .outputs = {.pictures = false, .trace = file.string()}});
   EXPECT_NE(text.find("trace.json"), std::string::npos) << text;
-  const auto events = nlohmann::json::parse(contents(file))["traceEvents"];
+  const auto events = nlohmann::json::parse(tests::contents(file))["traceEvents"];
   std::map<std::string, double> ms;  // by name, steps together
   std::set<std::string> categories;
   for (const auto& event : events) {
@@ -225,12 +219,12 @@ TEST_F(RunCommand, AnInterruptKeepsWhatWasDone) {
   waitpid(child, &status, 0);
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0);
-  const auto report = nlohmann::json::parse(contents(json));
+  const auto report = nlohmann::json::parse(tests::contents(json));
   EXPECT_GT(report["frames"].size(), 1u);
   EXPECT_EQ(report["interrupted"], true);
   EXPECT_FALSE(std::filesystem::exists(part));
-  EXPECT_GT(nlohmann::json::parse(contents(trace))["traceEvents"].size(), 10u);
-  EXPECT_TRUE(contents(out).starts_with("pile, interrupted\n")) << contents(out);
+  EXPECT_GT(nlohmann::json::parse(tests::contents(trace))["traceEvents"].size(), 10u);
+  EXPECT_TRUE(tests::contents(out).starts_with("pile, interrupted\n")) << tests::contents(out);
 }
 
 TEST_F(RunCommand, WrongUsageIsNamed) {

@@ -12,7 +12,7 @@ using tests::Corners;
 using tests::Point;
 using FloatFacet = std::array<float, 9>;
 
-std::string refusal(std::string_view bytes) { return tests::refusal(MeshFormat::stl, bytes); }
+std::string stl_refusal(std::string_view bytes) { return tests::refusal(MeshFormat::stl, bytes); }
 
 std::string binary_stl(const std::vector<FloatFacet>& facets, std::string head = "a part") {
   head.resize(80, ' ');
@@ -72,32 +72,36 @@ TEST(StlFile, BinaryMayBeginLikeText) {
 TEST(StlFile, RefusesBinaryNamingTheByte) {
   FloatFacet bad = kSecond;
   bad[5] = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(refusal(binary_stl({kFirst, bad})), "m: byte 166: facet 1: z is inf, not a finite number");
+  EXPECT_EQ(stl_refusal(binary_stl({kFirst, bad})), "m: byte 166: facet 1: z is inf, not a finite number");
   const std::string whole = binary_stl({kFirst, kSecond});
-  EXPECT_EQ(refusal(whole.substr(0, 183)), "m: byte 80: promises 2 facets, which take 184 bytes, but the file has 183");
-  EXPECT_EQ(refusal(whole + "x"), "m: byte 80: promises 2 facets, which take 184 bytes, but the file has 185");
-  EXPECT_EQ(refusal(std::string(80, ' ') + "\xff\xff\xff\xff"),
+  EXPECT_EQ(stl_refusal(whole.substr(0, 183)),
+            "m: byte 80: promises 2 facets, which take 184 bytes, but the file has 183");
+  EXPECT_EQ(stl_refusal(whole + "x"), "m: byte 80: promises 2 facets, which take 184 bytes, but the file has 185");
+  EXPECT_EQ(stl_refusal(std::string(80, ' ') + "\xff\xff\xff\xff"),
             "m: byte 80: promises 4294967295 facets, which take 214748364834 bytes, but the file has 84");
-  EXPECT_EQ(refusal("junk"), "m: byte 4: neither text that begins with solid nor the 84 bytes that begin binary STL");
+  EXPECT_EQ(stl_refusal("junk"),
+            "m: byte 4: neither text that begins with solid nor the 84 bytes that begin binary STL");
 }
 
 TEST(StlFile, EveryShorterBinaryFileIsRefused) {
   const std::string whole = binary_stl({kFirst, kSecond}, "solid");
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    EXPECT_NE(refusal(std::string_view(whole).substr(0, size)), "accepted") << size;
+    EXPECT_NE(stl_refusal(std::string_view(whole).substr(0, size)), "accepted") << size;
   }
 }
 
 TEST(StlFile, RefusesTextNamingTheLine) {
   const std::string good = "solid s\n" + text_facet("0 0 0", "1 0 0", "0 1 0");  // 8 lines
-  EXPECT_EQ(refusal(good), "m:9: expected facet or endsolid, found the end of the file");
-  EXPECT_EQ(refusal(good + "endsolid\njunk\n"), "m:10: expected solid, found 'junk'");
-  EXPECT_EQ(refusal(good + "face\n"), "m:9: expected facet or endsolid, found 'face'");
-  EXPECT_EQ(refusal(good + text_facet("0 0 0", "1 x 0", "0 1 0")), "m:12: facet 1: expected a number for y, found 'x'");
-  EXPECT_EQ(refusal(good + text_facet("0 0 0", "1 0 0", "0 nan 0")), "m:13: facet 1: y is nan, not a finite number");
-  EXPECT_EQ(refusal(good + text_facet("0 0 0", "1 0 0", "0 1 0\n  vertex 1 1 1")),
+  EXPECT_EQ(stl_refusal(good), "m:9: expected facet or endsolid, found the end of the file");
+  EXPECT_EQ(stl_refusal(good + "endsolid\njunk\n"), "m:10: expected solid, found 'junk'");
+  EXPECT_EQ(stl_refusal(good + "face\n"), "m:9: expected facet or endsolid, found 'face'");
+  EXPECT_EQ(stl_refusal(good + text_facet("0 0 0", "1 x 0", "0 1 0")),
+            "m:12: facet 1: expected a number for y, found 'x'");
+  EXPECT_EQ(stl_refusal(good + text_facet("0 0 0", "1 0 0", "0 nan 0")),
+            "m:13: facet 1: y is nan, not a finite number");
+  EXPECT_EQ(stl_refusal(good + text_facet("0 0 0", "1 0 0", "0 1 0\n  vertex 1 1 1")),
             "m:14: facet 1: expected endloop, found 'vertex'");
-  EXPECT_EQ(refusal(good + "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n"),
+  EXPECT_EQ(stl_refusal(good + "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n"),
             "m:13: facet 1: expected vertex, found 'endloop'");
 }
 

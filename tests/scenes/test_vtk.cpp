@@ -18,11 +18,6 @@ using tact::tests::two_cubes;
 
 namespace {
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 // The values of the named array of a .vtp file with appended raw data.
 template <class T>
 std::vector<T> array_of(const std::string& bytes, const std::string& name) {
@@ -46,7 +41,7 @@ TEST(Vtk, ArraysReadBack) {
   scene.bodies[1].meeting_facets = {0, 11};
   VtkSeries series(folder.path() / "out", "run");
   series.write(scene.bodies, 0.0);
-  const std::string bytes = bytes_of(folder.path() / "out" / "run_00000.vtp");
+  const std::string bytes = tact::tests::contents(folder.path() / "out" / "run_00000.vtp");
   EXPECT_NE(bytes.find("NumberOfPoints=\"16\""), std::string::npos);
   EXPECT_NE(bytes.find("NumberOfPolys=\"24\""), std::string::npos);
   const auto points = array_of<double>(bytes, "Points");
@@ -71,11 +66,11 @@ TEST(Vtk, TheIndexNamesAllFramesAfterEach) {
   VtkSeries series(folder.path(), "a&b");
   for (int frame = 0; frame < 3; ++frame) {
     series.write(two_cubes().bodies, 0.1 * frame);
-    const std::string index = bytes_of(series.index_file());
+    const std::string index = tact::tests::contents(series.index_file());
     EXPECT_NE(index.find("file=\"a&amp;b_0000" + std::to_string(frame) + ".vtp\""), std::string::npos) << index;
     EXPECT_NE(index.find("</VTKFile>"), std::string::npos);
   }
-  EXPECT_NE(bytes_of(series.index_file()).find("timestep=\"0.2\""), std::string::npos);
+  EXPECT_NE(tact::tests::contents(series.index_file()).find("timestep=\"0.2\""), std::string::npos);
 }
 
 TEST(Vtk, FoldersThatCannotBeMadeAreErrors) {

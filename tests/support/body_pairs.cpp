@@ -120,7 +120,7 @@ std::vector<Mesh> single_facets(std::uint64_t seed) {
 
 std::vector<Mesh> nested(std::uint64_t seed) { return {blob(2, 1.0, 0.2, seed), scaled(blob(2, 1.0, 0.2, seed), 0.9)}; }
 
-constexpr BodyPairKind kKinds[] = {
+constexpr BodyPairKind kBodyPairKinds[] = {
     {"blobs", blobs, true},
     {"organ_and_tool", organ_and_tool, true},
     {"tori", tori, true},
@@ -175,7 +175,7 @@ std::vector<Mesh> tip_in_pit(Random& random) {
 
 }  // namespace
 
-std::span<const BodyPairKind> body_pair_kinds() { return kKinds; }
+std::span<const BodyPairKind> body_pair_kinds() { return kBodyPairKinds; }
 
 std::vector<Mesh> kissing_bodies(std::uint64_t seed) {
   Random random(seed);
@@ -214,7 +214,7 @@ std::vector<Mesh> mixed_crowd(int count, std::uint64_t seed) {
   Random random(seed);
   std::vector<Mesh> bodies = {Mesh{}};
   for (int i = 1; i < count; ++i) {
-    const BodyPairKind& kind = kKinds[random.below(static_cast<int>(std::size(kKinds)))];
+    const BodyPairKind& kind = kBodyPairKinds[random.below(static_cast<int>(std::size(kBodyPairKinds)))];
     std::vector<Mesh> pair = kind.make(seed + static_cast<std::uint64_t>(i));
     Mesh& mesh = pair[static_cast<std::size_t>(random.below(2))];
     bodies.push_back(translated(std::move(mesh), random.in_cube(3.0)));

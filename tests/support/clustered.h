@@ -2,6 +2,7 @@
 #pragma once
 
 #include "narrowphase/clustered_mesh.h"
+#include "tests/support/generators.h"
 #include "tests/support/mesh.h"
 
 namespace tact::tests {
@@ -10,6 +11,8 @@ inline narrowphase::ClusteredMesh clustered(const Mesh& mesh) {
   return {{mesh.positions.data(), static_cast<std::size_t>(mesh.positions.size())},
           {mesh.facets.data(), static_cast<std::size_t>(mesh.facets.size())}};
 }
+
+inline narrowphase::ClusteredMesh clustered_box(Vec3 lower, Vec3 upper) { return clustered(box(lower, upper)); }
 
 // The order in which its facets stand in the clusters.
 inline std::vector<int> facet_order_of(const Mesh& mesh) {

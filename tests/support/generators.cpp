@@ -35,12 +35,6 @@ double bump(double distance_squared) {
   return s * s;
 }
 
-template <class Function>
-Mesh mapped(Mesh mesh, const Function& function) {
-  for (int v = 0; v < mesh.vertex_count(); ++v) mesh.set_position(v, function(mesh.position(v)));
-  return mesh;
-}
-
 // Rings of `around` points about the z axis, closed by a point at each end; `profile` gives (radius, z) from below.
 Mesh lathe(Vec3 first, const std::vector<std::pair<double, double>>& profile, Vec3 last, int around) {
   const std::vector<Vec3> unit = circle(around);
@@ -130,6 +124,8 @@ Mesh box(Vec3 lower, Vec3 upper) {
 }
 
 Mesh centered_box(Vec3 half_edges) { return box(-half_edges, half_edges); }
+
+Mesh cube(double edge, Vec3 center) { return translated(centered_box({edge / 2, edge / 2, edge / 2}), center); }
 
 Mesh gridded_box(Vec3 lower, Vec3 upper, int cells) {
   MeshBuilder builder;

@@ -13,6 +13,7 @@ namespace tact::tests {
 Mesh box(Vec3 lower, Vec3 upper);
 // The same with the given half edges about the origin.
 Mesh centered_box(Vec3 half_edges);
+Mesh cube(double edge, Vec3 center);
 // A box whose faces are grids of `cells` x `cells` squares: 12 * cells² facets, vertices at edges shared.
 Mesh gridded_box(Vec3 lower, Vec3 upper, int cells);
 

@@ -124,18 +124,18 @@ struct Kind {
 
 Points some_cloud(Random& random) { return cloud(random, 4, 8); }
 
-constexpr std::array<Kind, 12> kKinds{{{"cloud", some_cloud},
-                                       {"flat", flat_cloud},
-                                       {"needle", needle},
-                                       {"rod", rod},
-                                       {"box", box_of_eighths},
-                                       {"lattice", lattice},
-                                       {"ball", ball},
-                                       {"sheet", sheet_cloud},
-                                       {"segment", segment},
-                                       {"tiny", tiny},
-                                       {"prism", prism},
-                                       {"nearly twice", nearly_twice}}};
+constexpr std::array<Kind, 12> kHullKinds{{{"cloud", some_cloud},
+                                           {"flat", flat_cloud},
+                                           {"needle", needle},
+                                           {"rod", rod},
+                                           {"box", box_of_eighths},
+                                           {"lattice", lattice},
+                                           {"ball", ball},
+                                           {"sheet", sheet_cloud},
+                                           {"segment", segment},
+                                           {"tiny", tiny},
+                                           {"prism", prism},
+                                           {"nearly twice", nearly_twice}}};
 
 Vec3 inside(const Points& points, Random& random) {
   Vec3 sum;
@@ -242,7 +242,7 @@ std::vector<double> coordinates(const Points& points) {
 
 HullPair hostile_hull_pair(std::uint64_t seed) {
   Random random(seed);
-  const auto any_kind = [&] { return kKinds[static_cast<std::size_t>(random.below(kKinds.size()))]; };
+  const auto any_kind = [&] { return kHullKinds[static_cast<std::size_t>(random.below(kHullKinds.size()))]; };
   HullPair pair;
   const Kind kind = any_kind();
   pair.a = kind.make(random);

@@ -7,12 +7,6 @@
 namespace tact::tests {
 namespace {
 
-template <class Function>
-Mesh mapped(Mesh mesh, const Function& function) {
-  for (int v = 0; v < mesh.vertex_count(); ++v) mesh.set_position(v, function(mesh.position(v)));
-  return mesh;
-}
-
 std::vector<char> used_vertices(const Mesh& mesh) {
   std::vector<char> used(static_cast<std::size_t>(mesh.vertex_count()), 0);
   for (int f = 0; f < mesh.facet_count(); ++f) {

@@ -49,6 +49,13 @@ struct Rotation {
 // The rotation of a quaternion that need not be of unit length; not all four numbers may be 0.
 Rotation rotation(double w, double x, double y, double z);
 
+// function(p) for each position p.
+template <class Function>
+Mesh mapped(Mesh mesh, const Function& function) {
+  for (int v = 0; v < mesh.vertex_count(); ++v) mesh.set_position(v, function(mesh.position(v)));
+  return mesh;
+}
+
 Mesh translated(Mesh mesh, Vec3 by);
 // Away from `center` by `factor`; about the origin, a power of two is exact.
 Mesh scaled(Mesh mesh, double factor, Vec3 center = {});

@@ -9,7 +9,7 @@
 namespace tact::tests {
 namespace {
 
-constexpr double kFar = 1e4;  // metres
+constexpr double kFarAway = 1e4;  // metres
 
 class MessySoup {
  public:
@@ -37,11 +37,11 @@ class MessySoup {
   Vec3 new_point() {
     if (points_.size() < 4) return middle_ + random_.in_cube(1.0);
     switch (random_.below(10)) {
-      case 0: return any_point();                            // a vertex that is there
-      case 1: return nudged(any_point());                    // one that nearly is
-      case 2: return middle_of(any_point());                 // the middle of what may be an edge
-      case 3: return in_plane_of(any_point());               // in a plane across an axis
-      case 4: return middle_ + kFar * random_.in_cube(1.0);  // the far end of a needle
+      case 0: return any_point();                                // a vertex that is there
+      case 1: return nudged(any_point());                        // one that nearly is
+      case 2: return middle_of(any_point());                     // the middle of what may be an edge
+      case 3: return in_plane_of(any_point());                   // in a plane across an axis
+      case 4: return middle_ + kFarAway * random_.in_cube(1.0);  // the far end of a needle
       case 5:
       case 6: return rounded(middle_ + random_.in_cube(1.0));  // on a lattice of 1/8 m
       default: return middle_ + random_.in_cube(1.0);
@@ -99,7 +99,7 @@ class MessySoup {
 
 std::vector<Mesh> messy_soups(int facets, std::uint64_t seed) {
   Random random(seed);
-  const Vec3 middle = kFar * random.direction();
+  const Vec3 middle = kFarAway * random.direction();
   const Mesh first = MessySoup(middle, random).make(facets, nullptr);
   return {first, MessySoup(middle + 0.5 * random.in_ball(), random).make(facets, &first)};
 }

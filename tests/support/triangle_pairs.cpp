@@ -171,10 +171,10 @@ Pair of_kind(PairKind kind, Random& random) {
 }
 
 const char* name(PairKind kind) {
-  static constexpr const char* kNames[kPairKinds] = {
+  static constexpr const char* kKindNames[kPairKinds] = {
       "random",   "crossing",  "coplanar", "axis_plane", "shared_vertex", "shared_edge", "identical",
       "touching", "edge_edge", "sliver",   "needle",     "grid",          "tenths",      "collinear"};
-  return kNames[static_cast<int>(kind)];
+  return kKindNames[static_cast<int>(kind)];
 }
 
 template <class Function>
