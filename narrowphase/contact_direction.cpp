@@ -158,16 +158,23 @@ class Search {
   // face: at a distance of r w(n) from the border, w is lower again beyond a turn of 2 r radians.
   double shallow() const { return std::max(tolerance_, kShallow * best_.height); }
 
-  // Finishes if the foot lies well inside the face that n supports, of which `part` is known, or nothing.
+  // Finishes if the foot lies well inside the face that n supports, of which `part` is known, or nothing. A triangle of
+  // the face is kept for the next step: `part`, or a wider one around the foot.
   void settle(const GjkSimplex& part) {
     if (part.count == 3) {
       finished_ = holds_foot(part);
       if (finished_) return;
-      const FacePolygon& polygon = faces_.spanned(m_, part, best_.n);
-      finished_ = polygon.corner.size() > 2 && margin_of_foot(polygon) > shallow();
+      finish_inside(faces_.spanned(m_, part, best_.n));
       if (finished_) return;
     }
-    if (margin_of_face() >= -tolerance_) leave_or_finish();
+    if (margin_of_face() < -tolerance_) return;
+    finish_inside(*polygon_);
+    if (!finished_) leave_or_finish();
+  }
+
+  void finish_inside(const FacePolygon& polygon) {
+    finished_ = polygon.corner.size() > 2 && margin_of_foot(polygon) > shallow();
+    if (finished_) best_.face = faces_.around_foot(m_);
   }
 
   // Does the foot lie well inside the triangle of three vertices of the face? The face may be larger.

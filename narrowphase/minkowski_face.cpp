@@ -1,6 +1,7 @@
 #include "narrowphase/minkowski_face.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,11 @@ namespace tact::narrowphase {
 namespace {
 
 constexpr int kTurnLimit = 1000;
+
+// The directions in which the corners of a triangle around the foot are looked for; being off a direction is worth less
+// than this times being far along it.
+constexpr Point2 kThirds[3] = {{1.0, 0.0}, {-0.5, 0.8660254037844386}, {-0.5, -0.8660254037844386}};
+constexpr double kAside = 0.5;
 
 double cross2(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }
 Point2 minus(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
@@ -75,6 +81,51 @@ const FacePolygon& FaceFinder::supported(const MinkowskiDifference& m, Vec3 n, d
   return polygon_;
 }
 
+GjkSimplex FaceFinder::around_foot(const MinkowskiDifference& m) const {
+  if (polygon_.corner.size() < 3) return {};
+  constexpr std::size_t kMost = 8;
+  const std::size_t count_a = std::min(hull_a_.size(), kMost), count_b = std::min(hull_b_.size(), kMost);
+  const auto place_a = [&](std::size_t i) { return i * hull_a_.size() / count_a; };
+  const auto place_b = [&](std::size_t j) { return j * hull_b_.size() / count_b; };
+  GjkSimplex simplex;
+  for (const Point2 toward : kThirds) {
+    double best = -std::numeric_limits<double>::infinity();
+    std::size_t best_a = 0, best_b = 0;
+    for (std::size_t i = 0; i < count_a; ++i) {
+      for (std::size_t j = 0; j < count_b; ++j) {
+        const Point2 a = hull_a_[place_a(i)], b = hull_b_[place_b(j)];
+        const Point2 p{base_.x + a.x + b.x, base_.y + a.y + b.y};
+        const double reach = toward.x * p.x + toward.y * p.y - kAside * std::abs(cross2(toward, p));
+        if (!(reach > best)) continue;
+        best = reach;
+        best_a = place_a(i);
+        best_b = place_b(j);
+      }
+    }
+    simplex.a[static_cast<std::size_t>(simplex.count)] = vertex_at(m, m.a(), a_, 1.0, hull_a_[best_a]);
+    simplex.b[static_cast<std::size_t>(simplex.count)] = vertex_at(m, m.b(), b_, -1.0, hull_b_[best_b]);
+    ++simplex.count;
+  }
+  return simplex;
+}
+
+// Of the vertices of a face, the one that was projected to `point`.
+int FaceFinder::vertex_at(const MinkowskiDifference& m, const ClusteredMesh& mesh, const std::vector<int>& vertices,
+                          double sign, Point2 point) const {
+  const Vec3 from = mesh.position(vertices.front());
+  const auto found = std::ranges::find_if(vertices, [&](int v) {
+    const Point2 p = flat(m, mesh.position(v), from, sign);
+    return p.x == point.x && p.y == point.y;
+  });
+  return found == vertices.end() ? vertices.front() : *found;
+}
+
+// The difference of two positions, or its opposite, on the plane of the polygon; scaled.
+Point2 FaceFinder::flat(const MinkowskiDifference& m, Vec3 position, Vec3 from, double sign) const {
+  const Vec3 d = m.scale() * (sign * (position - from));
+  return {dot(polygon_.u, d), dot(polygon_.v, d)};
+}
+
 // The vertices of `mesh` within `tolerance` (metres) of the farthest along n.
 void FaceFinder::collect(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double tolerance, int near,
                          std::vector<int>& found) {
@@ -95,20 +146,20 @@ void FaceFinder::collect(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double 
 // Positions are taken relative to one vertex of each body, so that only differences are rounded.
 void FaceFinder::project(const MinkowskiDifference& m, Vec3 n) {
   const Frame frame = frame_across(n);
-  const auto flat = [&](Vec3 d) { return Point2{dot(frame.u, d), dot(frame.v, d)}; };
+  polygon_.u = frame.u;
+  polygon_.v = frame.v;
   const Vec3 a0 = m.a().position(a_[0]), b0 = m.b().position(b_[0]);
   points_a_.clear();
   points_b_.clear();
-  for (const int a : a_) points_a_.push_back(flat(m.scale() * (m.a().position(a) - a0)));
-  for (const int b : b_) points_b_.push_back(flat(m.scale() * (b0 - m.b().position(b))));
+  for (const int a : a_) points_a_.push_back(flat(m, m.a().position(a), a0, 1.0));
+  for (const int b : b_) points_b_.push_back(flat(m, m.b().position(b), b0, -1.0));
   convex_hull(points_a_, hull_a_);
   convex_hull(points_b_, hull_b_);
   minkowski_sum(hull_a_, hull_b_, sum_);
-  polygon_.u = frame.u;
-  polygon_.v = frame.v;
   convex_hull(sum_, polygon_.corner);  // drops corners that rounding made straight or inward
-  const Point2 base = flat(m.vertex(a_[0], b_[0]).point);
-  for (Point2& c : polygon_.corner) c = {c.x + base.x, c.y + base.y};
+  const Vec3 base = m.vertex(a_[0], b_[0]).point;
+  base_ = {dot(frame.u, base), dot(frame.v, base)};
+  for (Point2& c : polygon_.corner) c = {c.x + base_.x, c.y + base_.y};
 }
 
 double distance_from_side(const FacePolygon& polygon, std::size_t side) {

@@ -38,12 +38,19 @@ class FaceFinder {
   // What all vertices of A and of B within `tolerance` (scaled) of their supporting planes across n span. `near`: see
   // MinkowskiDifference::support().
   const FacePolygon& supported(const MinkowskiDifference& m, Vec3 n, double tolerance, const MinkowskiVertex& near);
+  // Three vertices of M in the face that was found last, likely a triangle well around the foot: what the next step
+  // needs of the face. None for an edge or a vertex.
+  GjkSimplex around_foot(const MinkowskiDifference& m) const;
 
  private:
   void collect(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double tolerance, int near, std::vector<int>& found);
   void project(const MinkowskiDifference& m, Vec3 n);
+  Point2 flat(const MinkowskiDifference& m, Vec3 position, Vec3 from, double sign) const;
+  int vertex_at(const MinkowskiDifference& m, const ClusteredMesh& mesh, const std::vector<int>& vertices, double sign,
+                Point2 point) const;
 
   FacePolygon polygon_;
+  Point2 base_{};  // the foot's place from where the hulls have (0, 0), opposite
   std::vector<int> a_, b_;
   std::vector<Point2> points_a_, points_b_, hull_a_, hull_b_, sum_;
   std::vector<std::int32_t> clusters_, inside_;

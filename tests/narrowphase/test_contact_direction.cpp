@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "narrowphase/contact_direction.h"
+#include "narrowphase/face_triangle.h"
 #include "tests/support/clustered.h"
 #include "tests/support/generators.h"
 #include "tests/support/hostile_hulls.h"
@@ -43,6 +44,54 @@ TEST(ContactDirection, LeavesTheDiagonalOfACube) {  // fcl#545: the corner and t
     EXPECT_NEAR(std::abs(found.n.x) + std::abs(found.n.y) + std::abs(found.n.z), 1.0, 1e-15);
     EXPECT_GT(dot(found.n, start), 0.0);
   }
+}
+
+// Boxes right above each other: the foot lies on the diagonal of the face, where GJK ends on two vertices. A triangle
+// around it is kept, and the face found again as the upper box sinks.
+TEST(ContactDirection, KeepsTheFaceOfStackedBoxes) {
+  const ClusteredMesh lower = tests::clustered_box({-0.5, -0.5, -1.0}, {0.5, 0.5, 0.0});
+  const std::vector<Vec3> offsets{{0, 0, 0}, {0.25, 0, 0}, {0.25, 0.25, 0}, {0.1, -0.3, 0}};
+  for (const Vec3 offset : offsets) {
+    Vec3 n = normalized(Vec3{0.1, 0.05, 1.0});
+    GjkSimplex face;
+    for (int step = 0; step < 8; ++step) {
+      const double depth = 0x1p-10 * (step + 1);
+      const ClusteredMesh upper = tests::clustered_box(Vec3{-0.5, -0.5, -depth} + offset, Vec3{0.5, 0.5, 1.0} + offset);
+      const MinkowskiDifference m(lower, upper);
+      FaceFinder faces;
+      const ContactDirection found = contact_direction(m, n, face, {}, faces);
+      EXPECT_EQ(found.n, (Vec3{0, 0, 1})) << step;
+      EXPECT_EQ(found.height / m.scale(), depth) << step;
+      EXPECT_EQ(found.face.count, 3) << step;
+      EXPECT_TRUE(step == 0 || found.iterations == 0) << step;
+      n = found.n;
+      face = found.face;
+    }
+  }
+}
+
+// What is kept of a face: a triangle that holds the foot, of vertices that are there; nothing of an edge or a vertex.
+TEST(FaceFinder, KeepsATriangleAroundTheFoot) {
+  const ClusteredMesh point = tests::mesh_through(std::vector<Vec3>{{0, 0, 0}});
+  const ClusteredMesh edge = tests::mesh_through(std::vector<Vec3>{{-1, 0, 0}, {0, 0, 0}, {2, 0, 0}});
+  const ClusteredMesh cross_edge = tests::mesh_through(std::vector<Vec3>{{0, -1, 0}, {0, 1, 0}});
+  const ClusteredMesh square = tests::clustered(tests::sheet(6, 6, 2.0, 2.0));
+  const ClusteredMesh other = tests::clustered(tests::translated(tests::sheet(3, 3, 2.0, 2.0), {0.25, -0.5, 0}));
+  FaceFinder faces;
+  const Vec3 up{0, 0, 1};
+  const auto margin = [&](const ClusteredMesh& a, const ClusteredMesh& b) {
+    const MinkowskiDifference m(a, b);
+    faces.supported(m, up, 1e-15, m.support(up, m.vertex(0, 0)));
+    const GjkSimplex face = faces.around_foot(m);
+    return face.count == 3 ? FaceTriangle(m, face, up).side_of_foot().distance / m.scale() : -1.0;
+  };
+  EXPECT_EQ(margin(point, point), -1.0);
+  EXPECT_EQ(margin(edge, point), -1.0);
+  EXPECT_EQ(margin(edge, edge), -1.0);
+  EXPECT_GT(margin(edge, cross_edge), 0.1);
+  EXPECT_GT(margin(square, square), 0.5);
+  EXPECT_GT(margin(square, other), 0.3);
+  EXPECT_GT(margin(other, square), 0.3);
 }
 
 // Vertex on vertex along the start, at many depths: the corner repeats, and every tangent is as good as another.

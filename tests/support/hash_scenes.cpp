@@ -67,7 +67,7 @@ constexpr HashScene kScenes[] = {
     {"everything", everything, 0x03c58efb8b3a976d},
     {"surgery", surgery, 0x18802ba7935e1dda},
     {"as_in_the_paper", as_in_the_paper, 0x2a817ee8bb8196f2},
-    {"hulls_alone", hulls_alone, 0x386ca71cf73f68bc},
+    {"hulls_alone", hulls_alone, 0xbbfdee593a8b34f6},
     {"wall", wall, 0x572e99e0490e2ec3},
     {"large", large, 0x0f23493631d252f6},
 };
