@@ -27,7 +27,8 @@ int run_row(const Row& row, Question question, const std::vector<Kind>& kinds, d
   ErrorTable table{row.name, question, {}};
   int faults = 0;
   for (const Kind& kind : kinds) table.results.push_back(judge(row, kind));
-  for (std::size_t i = 0; i < kinds.size(); ++i) table.results[i].microseconds = measure(row, kinds[i], seconds);
+  const std::vector<double> times = measure(row, kinds, seconds);
+  for (std::size_t i = 0; i < kinds.size(); ++i) table.results[i].microseconds = times[i];
   print(table);
   print_verdict(table);
   for (const ErrorResult& r : table.results) {

@@ -65,16 +65,23 @@ int frame_of_step(int step, int frames) {
   return place < frames ? place : steps_there_and_back(frames) - place;
 }
 
-double median_step_time(const std::function<void(int)>& step, int frames, double seconds) {
-  std::vector<double> times;
-  double spent = 0.0;
-  for (int i = 0; spent < 1e3 * seconds || i < 4 * frames; ++i) {
-    base::Timer timer;
-    step(frame_of_step(i, frames));
-    times.push_back(timer.lap());
-    spent += times.back();
+std::vector<double> median_step_times(const std::vector<std::function<void(int)>>& steps, int frames, double seconds) {
+  constexpr int kTurns = 4;
+  std::vector<std::vector<double>> times(steps.size());
+  for (int turn = 0; turn < kTurns; ++turn) {
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      double spent = 0.0;
+      for (int i = 0; spent < 1e3 * seconds / kTurns || i < frames; ++i) {
+        base::Timer timer;
+        steps[k](frame_of_step(static_cast<int>(times[k].size()), frames));
+        times[k].push_back(timer.lap());
+        spent += times[k].back();
+      }
+    }
   }
-  return 1e3 * median(times);
+  std::vector<double> medians;
+  for (const std::vector<double>& of_one : times) medians.push_back(1e3 * median(of_one));
+  return medians;
 }
 
 ErrorResult judge(const HullRow& row, const HullMethodKind& kind) {
@@ -94,10 +101,12 @@ ErrorResult judge(const HullRow& row, const HullMethodKind& kind) {
   return result;
 }
 
-double measure(const HullRow& row, const HullMethodKind& kind, double seconds) {
-  const std::unique_ptr<HullMethod> method = kind.make(row);
-  const double time = median_step_time([&](int frame) { method->step(frame); }, row.frames, seconds);
-  return time / static_cast<double>(row.pairs.size());
+std::vector<double> measure(const HullRow& row, const std::vector<HullMethodKind>& kinds, double seconds) {
+  std::vector<std::unique_ptr<HullMethod>> methods;
+  for (const HullMethodKind& kind : kinds) methods.push_back(kind.make(row));
+  std::vector<double> times = median_step_times(methods, row.frames, seconds);
+  for (double& time : times) time /= static_cast<double>(row.pairs.size());
+  return times;
 }
 
 }  // namespace tact::bench

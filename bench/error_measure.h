@@ -1,7 +1,8 @@
-// Errors of a method against the truth, and its time.
+// Errors of methods against the truth, and their times.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,13 +45,21 @@ class HullErrors {
 int frame_of_step(int step, int frames);
 inline int steps_there_and_back(int frames) { return 2 * frames - 2; }
 
-// The median time of a step in microseconds: `step(frame)` is called for the frames there and back again for about
-// `seconds`, at least twice.
-double median_step_time(const std::function<void(int)>& step, int frames, double seconds);
+// The median time of a step of each method in microseconds: `step(frame)` is called for the frames there and back
+// again, at least twice, for about `seconds` a method. They take turns, so that what disturbs the machine for a while
+// disturbs all.
+std::vector<double> median_step_times(const std::vector<std::function<void(int)>>& steps, int frames, double seconds);
+
+template <class Method>
+std::vector<double> median_step_times(const std::vector<std::unique_ptr<Method>>& methods, int frames, double seconds) {
+  std::vector<std::function<void(int)>> steps;
+  for (const auto& method : methods) steps.emplace_back([&](int frame) { method->step(frame); });
+  return median_step_times(steps, frames, seconds);
+}
 
 // All answers of a method for all frames of a row, there and back again.
 ErrorResult judge(const HullRow& row, const HullMethodKind& kind);
-// The median time of a pair in microseconds.
-double measure(const HullRow& row, const HullMethodKind& kind, double seconds);
+// The median time of a pair in microseconds, of each method.
+std::vector<double> measure(const HullRow& row, const std::vector<HullMethodKind>& kinds, double seconds);
 
 }  // namespace tact::bench

@@ -164,9 +164,10 @@ ErrorResult judge(const MeshRow& row, const MeshMethodKind& kind) {
   return result;
 }
 
-double measure(const MeshRow& row, const MeshMethodKind& kind, double seconds) {
-  const std::unique_ptr<Rival> method = kind.make(row.workload);
-  return median_step_time([&](int frame) { method->step(frame); }, row.workload.frames, seconds);
+std::vector<double> measure(const MeshRow& row, const std::vector<MeshMethodKind>& kinds, double seconds) {
+  std::vector<std::unique_ptr<Rival>> methods;
+  for (const MeshMethodKind& kind : kinds) methods.push_back(kind.make(row.workload));
+  return median_step_times(methods, row.workload.frames, seconds);
 }
 
 }  // namespace tact::bench

@@ -42,7 +42,7 @@ std::vector<MeshMethodKind> mesh_methods();
 
 ErrorResult judge(const MeshRow& row, const MeshMethodKind& kind);
 // The median time of a step in microseconds, from new positions to the list of pairs.
-double measure(const MeshRow& row, const MeshMethodKind& kind, double seconds);
+std::vector<double> measure(const MeshRow& row, const std::vector<MeshMethodKind>& kinds, double seconds);
 
 // A rival that also finds depth and direction.
 class HullRival : public Rival {

@@ -100,7 +100,7 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   if (slots_.size() >= std::numeric_limits<std::uint32_t>::max() || definition.positions.cols() > kLargestCount ||
       definition.facets.cols() > kLargestCount) {
     throw Error(ErrorCode::too_large,
-                quoted(name) + ": more vertices, facets or bodies than 32-bit indices can number");
+                quoted(name) + ": a body has up to 536870911 vertices and facets, a world up to 4294967295 bodies");
   }
   std::vector<double> position_copy;
   std::vector<int> facet_copy;

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "scenes/counted.h"
 #include "scenes/mesh_file.h"
 
 namespace tact::scenes {
@@ -68,8 +69,9 @@ void check_frame_counts(const std::vector<fs::path>& paths, const std::vector<Li
   const auto first = std::find_if(listings.begin(), listings.end(), [](const Listing& l) { return l.is_folder; });
   for (auto other = first; other != listings.end(); ++other) {
     if (!other->is_folder || other->files.size() == first->files.size()) continue;
-    throw FileError(fmt::format("{}: {} mesh files, but {} holds {}: all folders must hold the same number of frames",
-                                paths[static_cast<std::size_t>(other - listings.begin())].string(), other->files.size(),
+    throw FileError(fmt::format("{}: {}, but {} holds {}: all folders must hold the same number of frames",
+                                paths[static_cast<std::size_t>(other - listings.begin())].string(),
+                                counted(static_cast<std::int64_t>(other->files.size()), "mesh file"),
                                 paths[static_cast<std::size_t>(first - listings.begin())].string(),
                                 first->files.size()));
   }

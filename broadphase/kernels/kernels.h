@@ -1,4 +1,4 @@
-// The two loops in which the time goes, compiled for each instruction set and chosen when the program runs. No
+// The three loops in which the time goes, compiled for each instruction set and chosen when the program runs. No
 // instruction set gives another answer: they compare, subtract and convert, and round nowhere but where all round
 // alike.
 #pragma once

@@ -18,6 +18,7 @@
 //          6 range: a part of 6 confirm of a        a, b, facet_pairs
 //            pair so large that all threads share it
 //          small pairs: the others between these    pairs
+//          parted pairs: those that diagonals part  pairs
 #pragma once
 
 #include <tact/trace.h>

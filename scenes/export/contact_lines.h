@@ -4,8 +4,8 @@
 //    "source":"carried","facet_pairs":[[fa,fb],...]},...]}
 //
 // `contacts` are the pairs whose hulls overlap, sorted by (a, b); the direction points from a to b, the depth is in
-// metres, the time in seconds. Numbers read back to the same double. In names, U+FFFD stands for bytes that are not
-// UTF-8.
+// metres, the time in seconds. At Accuracy::hulls, which looks at no facets, all "facet_pairs" are empty. Numbers read
+// back to the same double. In names, U+FFFD stands for bytes that are not UTF-8.
 #pragma once
 
 #include <tact/report.h>

@@ -180,7 +180,7 @@ TEST(Allocation, ThatFailsInABatchOfLargeBodiesMovesNone) {
 }
 
 // Two bodies of so many clusters that Embree's trees find their pairs: its own allocations are among those that fail.
-// Where Embree fails to start is in test_cluster_forest.cpp.
+// Where Embree fails to start is in test_embree_faults.cpp.
 TEST(Allocation, ThatFailsInEmbreeLeavesAUsableWorld) {
   const Mesh a = icosphere(6), b = translated(scaled(a, 0.98), {0.03, 0.01, 0.0});
   const std::vector<FacetPair> expected = facet_pairs_by_oracle(a, b);

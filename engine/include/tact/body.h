@@ -36,7 +36,7 @@ inline constexpr double kLargestCoordinate = 0x1p300;
 struct BodyDefinition {
   Positions positions;  // 3 x V, metres
   // 3 x F, indices of vertices. Any triangle soup is accepted: repeated vertices, facets without area, no facet at all.
-  // A vertex that no facet uses does not count.
+  // A vertex that no facet uses touches nothing; it must be finite and in range as all are.
   Facets facets;
   Surface surface = Surface::closed;
   Motion motion = Motion::moving;

@@ -107,8 +107,9 @@ class TACT_API Report {
   // Filled if Outputs::trace is set; sorted by thread and time, an event before those within it.
   std::span<const TraceEvent> trace() const { return trace_; }
 
-  // A number made from every bit of the candidate pairs and the contacts (bodies by index, facet pairs included;
-  // patches, times and counts not): equal answers have equal hashes, for any number of threads.
+  // A number made from every bit of the candidate pairs and the contacts: bodies by index, directions, depths, zones,
+  // kept facets, iterations, facet pairs; not patches nor statistics. The same calls give the same hash, for any number
+  // of threads. Worlds with another past may differ in kept facets and iterations, and so in it.
   std::uint64_t hash() const;
 
  private:

@@ -5,7 +5,8 @@ namespace tact {
 
 // What a report promises of its pairs.
 enum class Accuracy {
-  hulls,  // do the convex hulls overlap, in which direction, how deep; no facets, so no zones, patches nor events
+  hulls,  // do the convex hulls overlap, in which direction, how deep; no facets, so no zones nor patches, and what
+          // touched has ended
   paper,  // the paper's three criteria, then confirmation; may miss facet pairs on folds, spikes and clamped bodies
   exact,  // every facet pair that meets and no other
 };
@@ -16,7 +17,8 @@ enum class DirectionPolicy {
   smallest,  // the direction of the smallest separation of the hulls, anew in every step
 };
 
-// Outputs beyond direction, depth and facet pairs. What is not asked for is not computed.
+// Outputs beyond direction, depth and facet pairs. What is not asked for is not computed, but zones at Accuracy::paper,
+// which needs them. Where zones are known they drop facets, so fewer are kept.
 struct Outputs {
   bool zones = false;    // Contact::zone_a, zone_b: the smallest disks around the impact zones
   bool patches = false;  // Contact::patches(): connected sets of facet pairs, each with a point, direction and depth

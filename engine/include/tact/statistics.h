@@ -15,7 +15,7 @@ namespace tact {
   X(excluded_pairs, "overlapping boxes, one moved, that layers or two fixed bodies exclude")              \
   X(candidate_pairs, "pairs of bodies whose boxes overlap")                                               \
   X(kept_pairs, "candidate pairs in which neither body moved: the last result was kept")                  \
-  X(parted_pairs, "pairs that were and are apart, along a diagonal of a cube's face")                     \
+  X(parted_pairs, "new pairs, or apart before, that are apart along a diagonal of a cube's face")         \
   X(still_separated_pairs, "pairs that the last separating direction still separates")                    \
   X(still_overlapping_pairs, "pairs whose hulls the last step's vertices still show to overlap")          \
   X(separated_pairs, "other pairs whose hulls GJK found to be apart")                                     \
@@ -57,7 +57,7 @@ namespace tact {
   X(direction_ms, "stage 4: contact direction and depth, summed over threads")                     \
   X(cull_ms, "stage 5: zones and criteria, summed over threads")                                   \
   X(confirm_ms, "stage 6: facet pairs, summed over threads")                                       \
-  X(narrow_phase_ms, "stages 3 to 6 together, wall time")                                          \
+  X(narrow_phase_ms, "stages 3 to 6 together and patches, wall time")                              \
   X(report_ms, "stage 7: the report")                                                              \
   X(total_ms, "the whole step, refresh included")
 

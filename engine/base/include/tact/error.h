@@ -1,4 +1,5 @@
-// What tact throws when it is given bad data. The world is then exactly as it was before the call.
+// What tact throws when it is given bad data. The world is then exactly as it was before the call (of
+// World::detect() see there).
 #pragma once
 
 #include <stdexcept>
@@ -17,7 +18,7 @@ enum class ErrorCode {
   position_out_of_range,  // a coordinate is larger than kLargestCoordinate in size
   facet_out_of_range,     // a facet names a vertex that the body does not have
   wrong_size,             // a matrix is not 3 x N, or the number of positions is not the body's of vertices
-  too_large,              // more vertices, facets or bodies than 32-bit indices can number
+  too_large,              // more than 2^29 - 1 vertices or facets, or 2^32 - 1 bodies
   stale_body,             // the id is of a body that was removed, or was never given out
   foreign_body,           // the id was given out by another world
   fixed_body,             // positions were set on a body whose motion is fixed
