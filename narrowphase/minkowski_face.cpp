@@ -1,7 +1,6 @@
 #include "narrowphase/minkowski_face.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -50,7 +50,7 @@ class FaceFinder {
                 Point2 point) const;
 
   FacePolygon polygon_;
-  Point2 base_{};  // the foot's place from where the hulls have (0, 0), opposite
+  Point2 base_{};  // the vertex of M that the hulls are relative to
   std::vector<int> a_, b_;
   std::vector<Point2> points_a_, points_b_, hull_a_, hull_b_, sum_;
   std::vector<std::int32_t> clusters_, inside_;
