@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/vec3.h"
+#include "narrowphase/predicates.h"
 
 namespace tact::narrowphase {
 
@@ -19,5 +20,8 @@ inline Frame frame_across(base::Vec3 n) {
   const double sign = std::copysign(1.0, n.z), p = -1.0 / (sign + n.z), q = n.x * n.y * p;
   return {{1.0 + sign * n.x * n.x * p, sign * q, -sign * n.x}, {q, sign + n.y * n.y * p, -n.y}};
 }
+
+// Three unit vectors across a direction, a third of a turn apart, as parts of u and of v.
+inline constexpr Point2 kThirds[3] = {{1.0, 0.0}, {-0.5, 0.8660254037844386}, {-0.5, -0.8660254037844386}};
 
 }  // namespace tact::narrowphase

@@ -12,9 +12,8 @@ namespace {
 
 constexpr int kTurnLimit = 1000;
 
-// The directions in which the corners of a triangle around the foot are looked for; being off a direction is worth less
+// The corners of a triangle around the foot are looked for in three directions; being off a direction is worth less
 // than this times being far along it.
-constexpr Point2 kThirds[3] = {{1.0, 0.0}, {-0.5, 0.8660254037844386}, {-0.5, -0.8660254037844386}};
 constexpr double kAside = 0.5;
 
 double cross2(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }

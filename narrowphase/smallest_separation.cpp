@@ -85,7 +85,7 @@ class Search {
     if (along == Vec3{}) return false;
     const Frame frame = frame_across(unit_vector(along));
     std::array<MinkowskiVertex, 3> ring;
-    for (std::size_t i = 0; i < 3; ++i) ring[i] = queried_.query(m_, kThird[i].x * frame.u + kThird[i].y * frame.v);
+    for (std::size_t i = 0; i < 3; ++i) ring[i] = queried_.query(m_, kThirds[i].x * frame.u + kThirds[i].y * frame.v);
     return surface_.start(m_, bipyramid_shape(ring, top, bottom));
   }
 
@@ -211,7 +211,6 @@ class Search {
   }
 
   static constexpr double kAcross = 1.0 - 1e-9;
-  static constexpr Point2 kThird[3] = {{1.0, 0.0}, {-0.5, 0.8660254037844386}, {-0.5, -0.8660254037844386}};
 
   const MinkowskiDifference& m_;
   const SmallestStart& start_;

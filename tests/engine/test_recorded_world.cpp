@@ -3,14 +3,13 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "scenes/recording_player.h"
 #include "tests/support/body_pairs.h"
 #include "tests/support/generators.h"
 #include "tests/support/recorded_world.h"
+#include "tests/support/temporary_folder.h"
 
 namespace tact::tests {
 namespace {
@@ -60,16 +59,13 @@ TEST(RecordedWorld, IsWrittenAfterItsEnd) {
     RecordedWorld world;
     play_steps(world);
   }
-  const std::filesystem::path folder = std::filesystem::path(TACT_BINARY_DIR) / "recordings_of_a_test";
-  const std::vector<std::filesystem::path> paths = write_recordings(folder);
+  const TemporaryFolder folder;
+  const std::vector<std::filesystem::path> paths = write_recordings(folder.path());
   EXPECT_EQ(paths.size(), 3u);
   for (const std::filesystem::path& path : paths) {
-    std::ifstream file(path, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    EXPECT_EQ(steps_with_the_same_hash(bytes), 4) << path;
+    EXPECT_EQ(steps_with_the_same_hash(contents(path)), 4) << path;
     EXPECT_TRUE(path.filename().string().starts_with("RecordedWorld.IsWrittenAfterItsEnd")) << path;
   }
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
+
+#include "tests/support/temporary_folder.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -15,8 +15,7 @@ int main(int count, char** arguments) {
     for (const auto& entry : std::filesystem::directory_iterator(arguments[i])) {
       std::printf("%s\n", entry.path().c_str());
       std::fflush(stdout);  // the file that aborts is the last one named
-      std::ifstream file(entry.path(), std::ios::binary);
-      const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+      const std::string bytes = tact::tests::contents(entry.path());
       // Cut at every byte, and whole: memory of its own, so that a sanitizer sees every read past the end.
       for (std::size_t size = 0; size <= bytes.size(); ++size) {
         const std::string part = bytes.substr(0, size);

@@ -16,7 +16,7 @@ namespace {
 
 using base::Vec3;
 
-// PointSoup as a mesh stores them: coordinates in separate arrays, with room to read past the end.
+// Points as a mesh stores them: coordinates in separate arrays, with room to read past the end.
 struct PointSoup {
   std::array<std::vector<double>, 3> coordinate;
   int count = 0;

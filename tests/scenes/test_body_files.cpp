@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "scenes/body_files.h"
-#include "tests/scenes/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace tact::scenes {
 namespace {

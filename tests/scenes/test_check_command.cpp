@@ -5,22 +5,20 @@
 #include <csignal>
 #include <cstdint>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <utility>
 
 #include "scenes/body_files.h"
 #include "scenes/check_command.h"
+#include "scenes/json_text.h"
 #include "scenes/report_json.h"
 #include "scenes/usage_error.h"
-#include "tests/scenes/temporary_folder.h"
 #include "tests/support/generators.h"
+#include "tests/support/temporary_folder.h"
 
 namespace tact::scenes {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // A tetrahedron with its right angle at (x, y, z), facets outward.
 std::string tetrahedron_at(double x, double y, double z) {

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "scenes/mesh_file.h"
-#include "tests/scenes/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace tact::scenes {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "scenes/file_error.h"
 #include "scenes/output_file.h"
-#include "tests/scenes/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace tact::scenes {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "scenes/file_error.h"
 #include "scenes/pictures/png_file.h"
-#include "tests/scenes/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace tact::scenes;
 using tact::tests::TemporaryFolder;

@@ -7,7 +7,7 @@
 #include "scenes/file_error.h"
 #include "scenes/replay_command.h"
 #include "scenes/run_command.h"
-#include "tests/scenes/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace tact::scenes {
 namespace {

@@ -17,7 +17,7 @@
 #include "scenes/run_command.h"
 #include "scenes/scenes_command.h"
 #include "scenes/usage_error.h"
-#include "tests/scenes/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace tact::scenes {
 namespace {
