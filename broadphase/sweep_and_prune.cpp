@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 #include <utility>
 
+#include "engine/base/fast_paths.h"
 #include "engine/base/floating_point_mode.h"
 
 namespace tact::broadphase {
@@ -16,6 +18,13 @@ constexpr std::size_t kThreadShare = 2048;  // changed boxes for which one more 
 std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std::span<const Filter> filters,
                                                  std::span<const std::uint32_t> changed, int threads) {
   assert(boxes.size() == filters.size());
+  std::vector<std::uint32_t> all;
+  if (base::fast_paths() == base::FastPaths::off) {  // as in the first call
+    *this = {};
+    all.resize(boxes.size());
+    std::iota(all.begin(), all.end(), 0u);
+    changed = all;
+  }
   excluded_ = 0;
   pairs_changed_ = false;
   if (changed.empty() && boxes.size() == box_count_) return pairs_;

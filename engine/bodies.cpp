@@ -6,6 +6,7 @@
 #include <new>
 #include <optional>
 
+#include "engine/base/fast_paths.h"
 #include "engine/base/parallel.h"
 #include "engine/base/text.h"
 #include "engine/check_name.h"
@@ -202,8 +203,8 @@ void Bodies::refresh(std::size_t i, int threads) {
   update.knows_diagonals = changed && wants_diagonals_[update.slot] != 0 && has_diagonals(mesh);
   if (update.knows_diagonals) new_diagonals_[i] = mesh.diagonals();
   const Grouping& grouping = groupings_[update.slot];
-  const bool looks =
-      changed && grouping.moves + 1 == moves_to_look(grouping.tries) && mesh.cluster_count() >= kFewestRegrouped;
+  const bool looks = changed && grouping.moves + 1 == moves_to_look(grouping.tries) &&
+                     mesh.cluster_count() >= kFewestRegrouped && base::fast_paths() != base::FastPaths::off;
   update.looseness = looks ? mesh.looseness() : 0.0;
 }
 

@@ -6,10 +6,10 @@
 
 namespace tact::base {
 
-// Clusters in support queries, what the last step knew of a pair but its direction, diagonals and planes that part
-// hulls, planes of facets, arithmetic on many facets at once, trees, ranges of large pairs, small meshes next to each
-// other. None changes which facets meet. (Others are always taken: the criteria themselves, and that pairs at rest keep
-// their results.)
+// The order of the broad phase, clusters in support queries, what the last step knew of a pair but its direction,
+// diagonals and planes that part hulls, planes of facets, arithmetic on many facets at once, trees, ranges of large
+// pairs, small meshes next to each other, facets grouped anew. None changes which facets meet. (Others are always
+// taken: the criteria themselves, and that pairs at rest keep their results, which is promised to the last bit.)
 enum class FastPaths {
   automatic,  // where they pay
   off,        // none of these
