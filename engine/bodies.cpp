@@ -109,8 +109,8 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   const std::span<const int> facets = packed(definition.facets, facet_copy);
   check_positions(positions.data(), positions.size() / 3, name);
   check_facets(facets, definition.positions.cols(), name);
-  auto body = std::make_unique<Body>(Body{
-      .mesh = {positions, facets}, .id = {}, .name = name, .surface = definition.surface, .motion = definition.motion});
+  auto body =
+      std::make_unique<Body>(Body{.mesh = {positions, facets}, .id = {}, .name = name, .surface = definition.surface});
   // Nothing can fail half-way: all that may allocate comes first.
   const std::size_t slots = std::max<std::size_t>(slots_.size(), slot + 1);
   const auto on_all = [&](const auto& grow) {
@@ -243,8 +243,7 @@ void Bodies::publish(std::size_t i) {
 
 void Bodies::note_change(const Update& update) {
   if (update.refreshed != Refresh::changed) return;
-  if (!moved(update.slot)) moved_vertices_ += slots_[update.slot].vertex_count;
-  mark_changed(update.slot);
+  mark_moved(update.slot);
   if (update.looseness == 0.0) return;  // most often: nothing of the grouping is read
   Grouping& grouping = groupings_[update.slot];
   if (grouping.loose || !is_loose(grouping, update.looseness)) return;
@@ -345,6 +344,22 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
   for (std::size_t i = 0; i < count; ++i) note_change(updates_[i]);
 }
 
+void Bodies::set_layers(BodyId id, std::uint32_t layer, std::uint32_t mask) {
+  set_filter(id, {layer, mask, filter(id).fixed});
+}
+
+void Bodies::set_motion(BodyId id, Motion motion) {
+  check_name(motion, Motion::fixed, quoted(at(id).name) + ": motion");
+  set_filter(id, {filter(id).layer, filter(id).mask, motion == Motion::fixed});
+}
+
+void Bodies::set_filter(BodyId id, const broadphase::Filter& filter) {
+  if (filters_[id.index] == filter) return;
+  filters_[id.index] = filter;
+  slots_[id.index].fixed = filter.fixed;
+  mark_moved(id.index);
+}
+
 void Bodies::check_named_once(std::span<const PositionsUpdate> updates) {
   named_.assign(slots_.size(), 0);
   for (const PositionsUpdate& update : updates) {
@@ -378,6 +393,11 @@ std::vector<BodyId> Bodies::ids() const {
     if (slot.body) ids.push_back(slot.body->id);
   }
   return ids;
+}
+
+void Bodies::mark_moved(std::uint32_t slot) {
+  if (!moved(slot)) moved_vertices_ += slots_[slot].vertex_count;
+  mark_changed(slot);
 }
 
 void Bodies::mark_changed(std::uint32_t slot) {

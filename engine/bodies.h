@@ -22,7 +22,6 @@ struct alignas(64) Body {
   BodyId id;
   std::string name;
   Surface surface = Surface::closed;
-  Motion motion = Motion::moving;
 };
 
 class Bodies {
@@ -33,10 +32,13 @@ class Bodies {
   void remove(BodyId id);
   void set_positions(std::span<const PositionsUpdate> updates, int threads);
   void set_positions(BodyId id, const Positions& positions, int threads);
+  void set_layers(BodyId id, std::uint32_t layer, std::uint32_t mask);
+  void set_motion(BodyId id, Motion motion);
 
   bool contains(BodyId id) const noexcept;
   // Errors: stale_body, foreign_body.
   const Body& at(BodyId id) const;
+  const broadphase::Filter& filter(BodyId id) const { return filters_[at(id).id.index]; }
   const Body& in_slot(std::uint32_t slot) const { return *slots_[slot].body; }
   std::size_t count() const noexcept { return count_; }
   // Vertices of all bodies, and of those that moved.
@@ -58,7 +60,7 @@ class Bodies {
   }
   // Bodies of which it is wanted and that did not know look now.
   void find_diagonals(int threads);
-  // Slots whose body was added, removed or moved since end_step().
+  // Slots whose body was added, removed, moved or given another filter since end_step().
   std::span<const std::uint32_t> changed() const { return changed_; }
   bool moved(std::uint32_t slot) const { return slots_[slot].changed; }
   bool used(std::uint32_t slot) const { return slots_[slot].body != nullptr; }
@@ -122,6 +124,8 @@ class Bodies {
   void check_named_once(std::span<const PositionsUpdate> updates);
   void find_diagonals(std::uint32_t slot, const narrowphase::ClusteredMesh& mesh);
   void mark_changed(std::uint32_t slot);
+  void mark_moved(std::uint32_t slot);
+  void set_filter(BodyId id, const broadphase::Filter& filter);
   static bool is_loose(const Grouping& grouping, double looseness);
 
   std::uint32_t world_;

@@ -129,6 +129,12 @@ void World::set_positions(std::span<const PositionsUpdate> updates) {
   i.set_positions([&] { i.bodies.set_positions(updates, i.settings.threads); });
 }
 
+void World::set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask) {
+  implementation().bodies.set_layers(body, layer, mask);
+}
+
+void World::set_motion(BodyId body, Motion motion) { implementation().bodies.set_motion(body, motion); }
+
 const Report& World::detect() {
   Implementation& i = implementation();
   const base::FloatingPointMode mode;
@@ -152,7 +158,11 @@ std::vector<BodyId> World::bodies() const {
 }
 const std::string& World::name(BodyId body) const { return implementation().bodies.at(body).name; }
 Surface World::surface(BodyId body) const { return implementation().bodies.at(body).surface; }
-Motion World::motion(BodyId body) const { return implementation().bodies.at(body).motion; }
+Motion World::motion(BodyId body) const {
+  return implementation().bodies.filter(body).fixed ? Motion::fixed : Motion::moving;
+}
+std::uint32_t World::layer(BodyId body) const { return implementation().bodies.filter(body).layer; }
+std::uint32_t World::mask(BodyId body) const { return implementation().bodies.filter(body).mask; }
 std::size_t World::vertex_count(BodyId body) const {
   return static_cast<std::size_t>(implementation().bodies.at(body).mesh.source_vertex_count());
 }

@@ -121,6 +121,25 @@ void RecordedWorld::set_positions(std::span<const PositionsUpdate> updates) {
   record([&](std::ostream& out) { put_positions(out, updates); });
 }
 
+void RecordedWorld::set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask) {
+  world_.set_layers(body, layer, mask);
+  record([&](std::ostream& out) {
+    put(out, RecordKind::layers);
+    put_body(out, body);
+    put(out, layer);
+    put(out, mask);
+  });
+}
+
+void RecordedWorld::set_motion(BodyId body, Motion motion) {
+  world_.set_motion(body, motion);
+  record([&](std::ostream& out) {
+    put(out, RecordKind::motion);
+    put_body(out, body);
+    put(out, static_cast<std::uint8_t>(motion));
+  });
+}
+
 const Report& RecordedWorld::detect() {
   record([](std::ostream& out) {
     put(out, RecordKind::detect);

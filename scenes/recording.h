@@ -1,6 +1,6 @@
 // A recording: everything that entered a world, and the hash of what it answered, to run it again later.
 //
-// The file, version 1. Numbers are little-endian, doubles as IEEE 754 has them, without padding between them:
+// The file, version 2. Numbers are little-endian, doubles as IEEE 754 has them, without padding between them:
 //
 //   head      "tactrec\n", u32 version, text: the version of tact that wrote it
 //   settings  u8 1, i32 threads, u8 accuracy, u8 direction policy, f64 gjk_tolerance, i32 iteration_limit, u8 zones,
@@ -11,6 +11,8 @@
 //   positions u8 4, u64 bodies, and for each: body, u64 vertices, 3 f64 a vertex
 //   detect    u8 5
 //   hash      u8 6, u64 Report::hash(); after every detect
+//   layers    u8 7, body, u32 layer, u32 mask; this and the next not in version 1, which had no such calls
+//   motion    u8 8, body, u8 motion
 //
 // A text is u32 bytes and these; a body is u32 index and u32 generation of its BodyId; enumerations are numbered in the
 // order of their values. Outputs::trace is left out: it changes no answer. The records stand in the order of the calls;
@@ -28,9 +30,18 @@
 namespace tact::scenes {
 
 inline constexpr std::string_view kRecordingMagic = "tactrec\n";
-inline constexpr std::uint32_t kRecordingVersion = 1;
+inline constexpr std::uint32_t kRecordingVersion = 2;
 
-enum class RecordKind : std::uint8_t { settings = 1, add = 2, remove = 3, positions = 4, detect = 5, hash = 6 };
+enum class RecordKind : std::uint8_t {
+  settings = 1,
+  add = 2,
+  remove = 3,
+  positions = 4,
+  detect = 5,
+  hash = 6,
+  layers = 7,
+  motion = 8
+};
 
 // A world whose calls are written to a stream, if there is one.
 class RecordedWorld {
@@ -47,6 +58,8 @@ class RecordedWorld {
   void remove_body(BodyId body);
   void set_positions(BodyId body, const Positions& positions);
   void set_positions(std::span<const PositionsUpdate> updates);
+  void set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask);
+  void set_motion(BodyId body, Motion motion);
   const Report& detect();
 
   // What writing took in all, milliseconds.

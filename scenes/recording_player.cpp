@@ -19,8 +19,8 @@ void RecordingPlayer::read_head(std::string_view bytes) {
   if (!bytes.starts_with(kRecordingMagic)) fail_record("not a recording: it does not begin with tactrec");
   reader_.skip(kRecordingMagic.size());
   const auto version = reader_.read<std::uint32_t>();
-  if (version != kRecordingVersion) {
-    reader_.fail(fmt::format("a recording of version {}; only version {} can be read", version, kRecordingVersion));
+  if (version < 1 || version > kRecordingVersion) {
+    reader_.fail(fmt::format("a recording of version {}; versions 1 to {} can be read", version, kRecordingVersion));
   }
   recorded_by_ = read_text();
 }
@@ -38,7 +38,7 @@ std::optional<PlayedStep> RecordingPlayer::next() {
 RecordKind RecordingPlayer::read_kind() {
   record_ = position();
   const auto kind = reader_.read<std::uint8_t>();
-  if (kind < static_cast<std::uint8_t>(RecordKind::settings) || kind > static_cast<std::uint8_t>(RecordKind::hash)) {
+  if (kind < static_cast<std::uint8_t>(RecordKind::settings) || kind > static_cast<std::uint8_t>(RecordKind::motion)) {
     reader_.fail(fmt::format("no record is of kind {}", kind));
   }
   return static_cast<RecordKind>(kind);
@@ -56,6 +56,16 @@ void RecordingPlayer::play(RecordKind kind) {
       return make([&] { world_->remove_body(body); });
     }
     case RecordKind::positions: return set_positions();
+    case RecordKind::layers: {
+      const BodyId body = read_body();
+      const auto layer = reader_.read<std::uint32_t>(), mask = reader_.read<std::uint32_t>();
+      return make([&] { world_->set_layers(body, layer, mask); });
+    }
+    case RecordKind::motion: {
+      const BodyId body = read_body();
+      const auto motion = read_enumeration(Motion::fixed);
+      return make([&] { world_->set_motion(body, motion); });
+    }
     case RecordKind::detect:
     case RecordKind::hash: break;
   }

@@ -33,7 +33,7 @@ class Player {
   explicit Player(std::uint64_t seed) : random_(seed) { settings_.threads = 1; }
 
   void change() {
-    switch (random_.below(10)) {
+    switch (random_.below(11)) {
       case 0:
       case 1: return add();
       case 2: return remove();
@@ -41,6 +41,7 @@ class Player {
       case 4: return move_many();
       case 5: return teleport();
       case 6: return disturb_refused();
+      case 7: return change_filter();
       default: return move();
     }
   }
@@ -64,8 +65,7 @@ class Player {
     body.mesh = translated(random_mesh(), at);
     body.surface = random_.chance(0.3) ? Surface::sheet : Surface::closed;
     body.motion = random_.chance(0.2) ? Motion::fixed : Motion::moving;
-    body.layer = 1u << random_.below(3);
-    body.mask = random_.chance(0.7) ? ~0u : static_cast<std::uint32_t>(random_.below(8));
+    choose_layers(body);
     body.id = world_.add_body({.positions = body.mesh.positions,
                                .facets = body.mesh.facets,
                                .surface = body.surface,
@@ -73,6 +73,23 @@ class Player {
                                .layer = body.layer,
                                .mask = body.mask});
     bodies_.push_back(std::move(body));
+  }
+
+  void choose_layers(ModelBody& body) {
+    body.layer = 1u << random_.below(3);
+    body.mask = random_.chance(0.7) ? ~0u : static_cast<std::uint32_t>(random_.below(8));
+  }
+
+  void change_filter() {
+    if (bodies_.empty()) return;
+    ModelBody& body = bodies_[static_cast<std::size_t>(random_.below(static_cast<int>(bodies_.size())))];
+    if (random_.chance(0.5)) {
+      choose_layers(body);
+      world_.set_layers(body.id, body.layer, body.mask);
+    } else {
+      body.motion = body.motion == Motion::fixed ? Motion::moving : Motion::fixed;
+      world_.set_motion(body.id, body.motion);
+    }
   }
 
   void remove() {

@@ -32,8 +32,15 @@ TEST(Statistics, VerticesOfTheBodiesThatMoved) {
   world.remove_body(ids[0]);
   EXPECT_EQ(counts(), (Counts{204, 0}));
   world.remove_body(ids[1]);
-  add_bodies(world, std::array{kSphere});
+  const BodyId last = add_bodies(world, std::array{kSphere})[0];
   EXPECT_EQ(counts(), (Counts{204, 162}));
+  world.set_layers(last, 2, 2);
+  world.set_positions(last, translated(kSphere, {0.1, 0, 0}).positions);
+  EXPECT_EQ(counts(), (Counts{204, 162}));
+  world.set_motion(last, Motion::fixed);
+  world.set_motion(last, Motion::fixed);  // as it is
+  world.remove_body(last);
+  EXPECT_EQ(counts(), (Counts{42, 0}));
 }
 
 TEST(Statistics, PairsThatLayersOrFixedBodiesExclude) {

@@ -105,6 +105,10 @@ TEST_F(WorldOfThree, RefusesStaleIdInEveryCall) {
     EXPECT_TRUE(throws_error([&] { world_.name(stale); }, ErrorCode::stale_body));
     EXPECT_TRUE(throws_error([&] { world_.surface(stale); }, ErrorCode::stale_body));
     EXPECT_TRUE(throws_error([&] { world_.motion(stale); }, ErrorCode::stale_body));
+    EXPECT_TRUE(throws_error([&] { world_.layer(stale); }, ErrorCode::stale_body));
+    EXPECT_TRUE(throws_error([&] { world_.mask(stale); }, ErrorCode::stale_body));
+    EXPECT_TRUE(throws_error([&] { world_.set_layers(stale, 2, 2); }, ErrorCode::stale_body));
+    EXPECT_TRUE(throws_error([&] { world_.set_motion(stale, Motion::fixed); }, ErrorCode::stale_body));
     EXPECT_TRUE(throws_error([&] { world_.vertex_count(stale); }, ErrorCode::stale_body));
     EXPECT_TRUE(throws_error([&] { world_.facet_count(stale); }, ErrorCode::stale_body));
   }
@@ -131,6 +135,10 @@ TEST_F(WorldOfThree, RefusesForeignIdInEveryCall) {
   EXPECT_TRUE(throws_error([&] { world_.name(foreign); }, ErrorCode::foreign_body));
   EXPECT_TRUE(throws_error([&] { world_.surface(foreign); }, ErrorCode::foreign_body));
   EXPECT_TRUE(throws_error([&] { world_.motion(foreign); }, ErrorCode::foreign_body));
+  EXPECT_TRUE(throws_error([&] { world_.layer(foreign); }, ErrorCode::foreign_body));
+  EXPECT_TRUE(throws_error([&] { world_.mask(foreign); }, ErrorCode::foreign_body));
+  EXPECT_TRUE(throws_error([&] { world_.set_layers(foreign, 2, 2); }, ErrorCode::foreign_body));
+  EXPECT_TRUE(throws_error([&] { world_.set_motion(foreign, Motion::fixed); }, ErrorCode::foreign_body));
   EXPECT_TRUE(throws_error([&] { world_.vertex_count(foreign); }, ErrorCode::foreign_body));
   EXPECT_TRUE(throws_error([&] { world_.facet_count(foreign); }, ErrorCode::foreign_body));
   EXPECT_EQ(world_.body_count(), 3u);
@@ -156,6 +164,8 @@ TEST(World, KeepsIdsAndAnswersWhenMoved) {
   EXPECT_TRUE(throws_error([&] { world.set_positions(a, left.positions); }, ErrorCode::wrong_order));
   EXPECT_TRUE(throws_error([&] { world.set_positions({}); }, ErrorCode::wrong_order));
   EXPECT_TRUE(throws_error([&] { world.detect(); }, ErrorCode::wrong_order));
+  EXPECT_TRUE(throws_error([&] { world.set_layers(a, 1, 1); }, ErrorCode::wrong_order));
+  EXPECT_TRUE(throws_error([&] { world.set_motion(a, Motion::fixed); }, ErrorCode::wrong_order));
   EXPECT_TRUE(throws_error([&] { world.bodies(); }, ErrorCode::wrong_order));
   EXPECT_TRUE(throws_error([&] { world.name(a); }, ErrorCode::wrong_order));
 
@@ -424,7 +434,52 @@ TEST(World, TestsAPairIfEachMaskHoldsTheOthersLayer) {
     world.add_body(b);
     EXPECT_EQ(world.detect().candidate_pairs().size(), c.tested ? 1u : 0u)
         << c.layer_a << " " << c.mask_a << " " << c.layer_b << " " << c.mask_b;
+
+    World later;
+    const BodyId first = later.add_body(definition(mesh)), second = later.add_body(definition(mesh));
+    later.detect();
+    later.set_layers(first, c.layer_a, c.mask_a);
+    later.set_layers(second, c.layer_b, c.mask_b);
+    EXPECT_EQ(later.detect().candidate_pairs().size(), c.tested ? 1u : 0u)
+        << c.layer_a << " " << c.mask_a << " " << c.layer_b << " " << c.mask_b << ", set afterwards";
   }
+}
+
+TEST_F(WorldOfThree, ChangesLayers) {
+  world_.detect();
+  world_.set_layers(right_, 2, 4);
+  EXPECT_EQ(world_.layer(right_), 2u);
+  EXPECT_EQ(world_.mask(right_), 4u);
+  const Report& report = world_.detect();
+  ASSERT_EQ(report.candidate_pairs().size(), 1u);
+  EXPECT_EQ(report.candidate_pairs()[0].b, floor_);
+  const std::vector<ContactEvent> with_right = {{left_, right_}, {right_, floor_}};
+  EXPECT_TRUE(std::ranges::equal(report.ended(), with_right));
+  EXPECT_EQ(report.stats().moved_bodies, 1);
+  EXPECT_EQ(report.stats().excluded_pairs, 2);
+
+  world_.set_layers(right_, 1, ~0u);
+  EXPECT_TRUE(std::ranges::equal(world_.detect().began(), with_right));
+  EXPECT_EQ(report.contacts().size(), 3u);
+  world_.set_layers(right_, 1, ~0u);
+  EXPECT_EQ(world_.detect().stats().moved_bodies, 0);
+}
+
+TEST_F(WorldOfThree, ChangesMotion) {
+  world_.detect();
+  world_.set_motion(left_, Motion::fixed);
+  EXPECT_EQ(world_.motion(left_), Motion::fixed);
+  EXPECT_TRUE(throws_error([&] { world_.set_positions(left_, left_mesh_.positions); }, ErrorCode::fixed_body));
+  const Report& report = world_.detect();
+  EXPECT_EQ(report.candidate_pairs().size(), 2u);
+  EXPECT_TRUE(std::ranges::equal(report.ended(), std::vector<ContactEvent>{{left_, floor_}}));
+
+  world_.set_motion(floor_, Motion::moving);
+  world_.set_positions(floor_, translated(floor_mesh_, {0.0, 0.0, 0.01}).positions);
+  EXPECT_TRUE(std::ranges::equal(world_.detect().began(), std::vector<ContactEvent>{{left_, floor_}}));
+  EXPECT_EQ(report.contacts().size(), 3u);
+  EXPECT_TRUE(throws_error([&] { world_.set_motion(left_, static_cast<Motion>(2)); }, ErrorCode::bad_settings,
+                           {"left", "motion", "2"}));
 }
 
 TEST(World, NeverTestsTwoFixedBodies) {

@@ -28,8 +28,8 @@ Eigen::Matrix3Xi tetrahedron_facets() {
   return facets;
 }
 
-// Every kind of call: a is fixed, b comes in and turns, c goes and d takes its place, e meets only what is on its
-// layer. Returns the hashes of the steps.
+// Every kind of call: a is fixed until the last step, b comes in and turns, c goes and d takes its place, e meets only
+// what is on its layer, and for a step nothing. Returns the hashes of the steps.
 std::vector<std::uint64_t> make_calls(RecordedWorld& world) {
   const Eigen::Matrix3Xi facets = tetrahedron_facets();
   const auto add = [&](const Eigen::Vector3d& corner, Motion motion, std::uint32_t mask) {
@@ -42,7 +42,7 @@ std::vector<std::uint64_t> make_calls(RecordedWorld& world) {
                            .layer = mask == 2 ? 3u : 1u,
                            .mask = mask});
   };
-  add({0, 0, 0}, Motion::fixed, ~0u);
+  const BodyId a = add({0, 0, 0}, Motion::fixed, ~0u);
   const BodyId b = add({2, 0.1, 0.1}, Motion::moving, ~0u);
   const BodyId c = add({0.1, 0.2, 0.1}, Motion::moving, ~0u);
   const BodyId e = add({0.2, 0.1, 0.1}, Motion::moving, 2u);
@@ -58,6 +58,11 @@ std::vector<std::uint64_t> make_calls(RecordedWorld& world) {
       world.remove_body(c);
       add({0.05, 0.05, 0.3}, Motion::moving, ~0u);
       world.set_settings({.threads = 1, .accuracy = Accuracy::paper, .outputs = {.zones = true, .patches = true}});
+    }
+    if (step == 4) world.set_layers(e, 3u, 0u);
+    if (step == 5) {
+      world.set_layers(e, 3u, 2u);
+      world.set_motion(a, Motion::moving);
     }
     hashes.push_back(world.detect().hash());
   }
@@ -136,6 +141,8 @@ TEST(Recording, PlaysTheBodiesAsTheyWere) {
   EXPECT_EQ(player.world().settings().accuracy, Accuracy::paper);
   EXPECT_TRUE(player.world().settings().outputs.patches);
   EXPECT_FALSE(player.world().contains(bodies[2]));
+  EXPECT_EQ(player.world().motion(bodies[0]), Motion::moving);
+  EXPECT_EQ(player.world().mask(bodies[3]), 2u);
 }
 
 TEST(Recording, RefusedCallsAreNotRecorded) {
@@ -165,8 +172,10 @@ TEST(Recording, SaysWhatIsWrongAndAtWhichByte) {
   ASSERT_EQ(recording_refusal(good), "accepted");
   EXPECT_EQ(recording_refusal(""), "r: byte 0: not a recording: it does not begin with tactrec");
   EXPECT_EQ(recording_refusal("solid a"), "r: byte 0: not a recording: it does not begin with tactrec");
-  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(2u))),
-            "r: byte 8: a recording of version 2; only version 1 can be read");
+  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(3u))),
+            "r: byte 8: a recording of version 3; versions 1 to 2 can be read");
+  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(0u))),
+            "r: byte 8: a recording of version 0; versions 1 to 2 can be read");
   EXPECT_EQ(recording_refusal(with(good, kSettingsAt, "\x02")),
             at_byte(kSettingsAt) + "the first record is not one of settings");
   EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x09")),
@@ -196,8 +205,9 @@ TEST(Recording, CutAnywhere) {
     }
     EXPECT_TRUE(all_same(steps)) << "cut at byte " << size;
   }
-  // After the settings, 5 additions, 6 moves, 1 removal, 1 change of settings, 6 hashes; the last is the whole file.
-  EXPECT_EQ(accepted, 1 + 5 + 6 + 1 + 1 + 6 - 1);
+  // After the settings, 5 additions, 6 moves, 1 removal, 1 change of settings, 2 of layers, 1 of motion, 6 hashes; the
+  // last is the whole file.
+  EXPECT_EQ(accepted, 1 + 5 + 6 + 1 + 1 + 2 + 1 + 6 - 1);
 }
 
 // With any bit of the head and the first body wrong, or one of each byte after them, the player ends: it refuses the

@@ -5,6 +5,7 @@
 #include <tact/tact.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -28,6 +29,8 @@ class RecordedWorld {
   void remove_body(BodyId body);
   void set_positions(BodyId body, const Positions& positions);
   void set_positions(std::span<const PositionsUpdate> updates);
+  void set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask) { recorded_.set_layers(body, layer, mask); }
+  void set_motion(BodyId body, Motion motion) { recorded_.set_motion(body, motion); }
   const Report& detect();
 
   bool contains(BodyId body) const noexcept { return world().contains(body); }
@@ -36,6 +39,8 @@ class RecordedWorld {
   const std::string& name(BodyId body) const { return world().name(body); }
   Surface surface(BodyId body) const { return world().surface(body); }
   Motion motion(BodyId body) const { return world().motion(body); }
+  std::uint32_t layer(BodyId body) const { return world().layer(body); }
+  std::uint32_t mask(BodyId body) const { return world().mask(body); }
   std::size_t vertex_count(BodyId body) const { return world().vertex_count(body); }
   std::size_t facet_count(BodyId body) const { return world().facet_count(body); }
 

@@ -26,7 +26,7 @@ enum class Surface {
 
 enum class Motion {
   moving,
-  fixed,  // its positions never change; two fixed bodies are never tested against each other
+  fixed,  // its positions cannot be set; two fixed bodies are never tested against each other
 };
 
 // The largest size of a coordinate, 2^300 metres. Anything smaller, subnormal numbers included, is decided exactly.

@@ -8,7 +8,7 @@ namespace tact {
 // Every count of a step, with a sentence on each: the one list that printing, JSON, CSV and averages are made from.
 #define TACT_STEP_COUNTS(X)                                                                               \
   X(bodies, "bodies in the world")                                                                        \
-  X(moved_bodies, "bodies that were added or whose positions changed")                                    \
+  X(moved_bodies, "bodies that were added or whose positions, layers or motion changed")                  \
   X(vertices, "vertices of the bodies in the world")                                                      \
   X(moved_vertices, "vertices of the moved bodies")                                                       \
   X(regrouped_bodies, "moved bodies whose clusters had lost their shape: their facets were grouped anew") \

@@ -7,6 +7,7 @@
 #include <tact/settings.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -66,6 +67,13 @@ class TACT_API World {
   // The same for many bodies, in parallel; all or none. A body must not be named twice (wrong_order).
   void set_positions(std::span<const PositionsUpdate> updates);
 
+  // The layers that a body is on, and those that it is tested against; see BodyDefinition. Errors: stale_body,
+  // foreign_body.
+  void set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask);
+  // A body that moves from now on, or one that stays where it is. Errors: stale_body, foreign_body, bad_settings (a
+  // motion that is none).
+  void set_motion(BodyId body, Motion motion);
+
   // One step: finds the contacts of the positions as they are now. Never throws for what positions can hold.
   // Errors: out_of_memory, backend_failure. Bodies and positions are then as they were, but the next call starts
   // afresh: it knows of no step before, so directions are not carried on, and all pairs that touch have begun to.
@@ -81,6 +89,8 @@ class TACT_API World {
   const std::string& name(BodyId body) const;
   Surface surface(BodyId body) const;
   Motion motion(BodyId body) const;
+  std::uint32_t layer(BodyId body) const;
+  std::uint32_t mask(BodyId body) const;
   std::size_t vertex_count(BodyId body) const;
   std::size_t facet_count(BodyId body) const;
 
