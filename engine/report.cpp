@@ -1,6 +1,8 @@
 #include <tact/report.h>
 
+#include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace tact {
 
@@ -26,6 +28,14 @@ class Hash {
 };
 
 }  // namespace
+
+const Contact* Report::find_contact(BodyId a, BodyId b) const noexcept {
+  if (b < a) std::swap(a, b);
+  const std::pair wanted(a, b);
+  const auto bodies = [](const Contact& contact) { return std::pair(contact.a, contact.b); };
+  const auto found = std::ranges::lower_bound(contacts_, wanted, {}, bodies);
+  return found != contacts_.end() && bodies(*found) == wanted ? &*found : nullptr;
+}
 
 std::uint64_t Report::hash() const {
   Hash hash;

@@ -80,6 +80,27 @@ TEST_F(WorldOfThree, ReportsContactsInOrder) {
   EXPECT_EQ(report.stats().contacts, 3);
 }
 
+TEST_F(WorldOfThree, FindsTheContactOfTwoBodies) {
+  world_.set_positions(right_, translated(right_mesh_, {0.0, 0.0, 9.0}).positions);
+  const BodyId third = world_.add_body(definition(translated(left_mesh_, {0.0, 0.1, 0.0})));
+  const Report& report = world_.detect();
+  ASSERT_EQ(report.contacts().size(), 3u);
+  for (const Contact& contact : report.contacts()) {
+    EXPECT_EQ(report.find_contact(contact.a, contact.b), &contact);
+    EXPECT_EQ(report.find_contact(contact.b, contact.a), &contact);
+  }
+  EXPECT_EQ(report.find_contact(left_, third)->b, third);
+  EXPECT_EQ(report.find_contact(left_, right_), nullptr);
+  EXPECT_EQ(report.find_contact(third, third), nullptr);
+  EXPECT_EQ(report.find_contact(third, BodyId{}), nullptr);
+  world_.remove_body(third);
+  const BodyId next = world_.add_body(definition(left_mesh_));
+  world_.detect();
+  EXPECT_EQ(next.index, third.index);
+  EXPECT_EQ(report.find_contact(left_, third), nullptr);
+  EXPECT_NE(report.find_contact(next, left_), nullptr);
+}
+
 TEST_F(WorldOfThree, ForgetsRemovedBody) {
   world_.detect();
   world_.remove_body(right_);

@@ -95,6 +95,8 @@ class TACT_API Report {
 
   // Pairs whose hulls overlap, sorted by (a, b).
   std::span<const Contact> contacts() const { return contacts_; }
+  // That of two bodies, in either order, or null if their hulls are apart. Takes the logarithm of how many there are.
+  const Contact* find_contact(BodyId a, BodyId b) const noexcept;
   // Pairs whose boxes overlap, sorted by (a, b).
   std::span<const CandidatePair> candidate_pairs() const { return candidate_pairs_; }
   // Pairs that touch now and did not in the last step, sorted by (a, b). Of a step that starts afresh (see
