@@ -20,11 +20,18 @@ double cross2(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }
 Point2 minus(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
 bool before(Point2 a, Point2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
+bool same(Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; }
+
+// Of corners of a polygon that follow each other and are one point, leaves the first.
+void drop_repeated(std::vector<Point2>& corners) {
+  corners.erase(std::unique(corners.begin(), corners.end(), same), corners.end());
+  while (corners.size() > 1 && same(corners.front(), corners.back())) corners.pop_back();
+}
+
 // The corners of the convex hull of `points`, counter-clockwise from the lowest x (Andrew, 1979). Sorts `points`.
 void convex_hull(std::vector<Point2>& points, std::vector<Point2>& hull) {
   std::sort(points.begin(), points.end(), before);
-  points.erase(std::unique(points.begin(), points.end(), [](Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; }),
-               points.end());
+  points.erase(std::unique(points.begin(), points.end(), same), points.end());
   hull.clear();
   const auto extend = [&](Point2 p, std::size_t least) {
     while (hull.size() > least && cross2(minus(hull.back(), hull[hull.size() - 2]), minus(p, hull.back())) <= 0.0)
@@ -111,10 +118,8 @@ GjkSimplex FaceFinder::around_foot(const MinkowskiDifference& m) const {
 int FaceFinder::vertex_at(const MinkowskiDifference& m, const ClusteredMesh& mesh, const std::vector<int>& vertices,
                           double sign, Point2 point) const {
   const Vec3 from = mesh.position(vertices.front());
-  const auto found = std::ranges::find_if(vertices, [&](int v) {
-    const Point2 p = flat(m, mesh.position(v), from, sign);
-    return p.x == point.x && p.y == point.y;
-  });
+  const auto found =
+      std::ranges::find_if(vertices, [&](int v) { return same(flat(m, mesh.position(v), from, sign), point); });
   return found == vertices.end() ? vertices.front() : *found;
 }
 
@@ -158,6 +163,7 @@ void FaceFinder::project(const MinkowskiDifference& m, Vec3 n) {
   const Vec3 base = m.vertex(a_[0], b_[0]).point;
   base_ = {dot(frame.u, base), dot(frame.v, base)};
   for (Point2& c : polygon_.corner) c = {c.x + base_.x, c.y + base_.y};
+  drop_repeated(polygon_.corner);  // what lies within a rounding of the base: between them is no side
 }
 
 double distance_from_side(const FacePolygon& polygon, std::size_t side) {

@@ -12,10 +12,12 @@ void add_file_option(CLI::App& command, const std::string& option, std::string& 
   const auto check = [what](const std::string& name) {
     return name == "-" ? what + " goes to a file, not to standard output" : std::string();
   };
-  command.add_option(option, file, text)->type_name("FILE")->check(check);
+  command.add_option(option, file, text)->type_name("FILE")->check(refuse_empty_name)->check(check);
 }
 
 }  // namespace
+
+std::string refuse_empty_name(const std::string& name) { return name.empty() ? "the name is empty" : ""; }
 
 void add_accuracy_option(CLI::App& command, Accuracy& accuracy) {
   const std::map<std::string, Accuracy> names = {
@@ -37,7 +39,8 @@ void add_json_option(CLI::App& command, std::string& file) {
   command
       .add_option("--json", file,
                   "Write the report as JSON to this file; - is standard output, and nothing else goes there")
-      ->type_name("FILE|-");
+      ->type_name("FILE|-")
+      ->check(refuse_empty_name);
 }
 
 void add_record_option(CLI::App& command, std::string& file) {

@@ -10,6 +10,9 @@
 
 namespace tact::scenes {
 
+// A check of CLI11 for options that name a file or a folder: what is wrong with "", as a script gives whose variable is
+// not set.
+std::string refuse_empty_name(const std::string& name);
 // --accuracy hulls|paper|exact
 void add_accuracy_option(CLI::App& command, Accuracy& accuracy);
 // --threads N; 0 stands for as many as OpenMP would use

@@ -122,7 +122,8 @@ void add_run_command(CLI::App& program) {
       ->type_name("N")
       ->check(CLI::Range(1, kMost).description(""));
   command->add_option("--out", outputs.out, "Write pictures and their film to this folder; tact-SCENE if not given")
-      ->type_name("FOLDER");
+      ->type_name("FOLDER")
+      ->check(refuse_empty_name);
   command->add_flag("--no-pictures", *no_pictures, "Write no pictures and no film");
   command
       ->add_option("--every", outputs.every, "Steps from one picture to the next; if not given, as many as 1/60 s has")
@@ -131,11 +132,14 @@ void add_run_command(CLI::App& program) {
   command->add_flag("--zones", outputs.zones, "Show the impact zones in pictures; the engine then computes them");
   add_json_option(*command, outputs.json);
   command->add_option("--contacts", outputs.contacts, "Write the contacts as JSON, a line a step; - is standard output")
-      ->type_name("FILE|-");
+      ->type_name("FILE|-")
+      ->check(refuse_empty_name);
   command->add_option("--gltf", outputs.gltf, "Write the bodies, at every picture, as an animated glTF file")
-      ->type_name("FILE.glb");
+      ->type_name("FILE.glb")
+      ->check(refuse_empty_name);
   command->add_option("--vtk", outputs.vtk, "Write the bodies, at every picture, to this folder for ParaView")
-      ->type_name("FOLDER");
+      ->type_name("FOLDER")
+      ->check(refuse_empty_name);
   add_trace_option(*command, outputs.trace);
   add_record_option(*command, options->record);
   command->callback([options, no_pictures] {

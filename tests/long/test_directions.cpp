@@ -27,6 +27,21 @@ TEST(DirectionsLong, HostilePairsEndAtLocalMinima) {
   EXPECT_GT(directions, static_cast<std::int64_t>(pairs));
 }
 
+// Not all: see narrowphase/README.md.
+TEST(DirectionsLong, NearlyAllOfAllSizesEndAtLocalMinima) {
+  const std::uint64_t pairs = from_environment("TACT_LONG_HULL_PAIRS", 5'000);
+  const std::uint64_t seed = from_environment("TACT_LONG_SEED", 1) << 40;
+  std::int64_t directions = 0;
+  std::uint64_t problems = 0;
+  for (std::uint64_t i = 0; i < pairs; ++i) {
+    const std::string problem = problem_of_directions(hull_pair_of_all_sizes(seed + i), directions);
+    if (!problem.empty()) std::printf("pair %llu: %s\n", static_cast<unsigned long long>(i), problem.c_str());
+    problems += problem.empty() ? 0 : 1;
+  }
+  EXPECT_LE(problems, 2 + pairs / 4'000);
+  EXPECT_GT(directions, static_cast<std::int64_t>(pairs));
+}
+
 TEST(DistancesLong, HostilePairsAreAsFarApartAsSaid) {
   const std::uint64_t pairs = from_environment("TACT_LONG_HULL_PAIRS", 5'000);
   const std::uint64_t seed = from_environment("TACT_LONG_SEED", 1) << 40;

@@ -187,6 +187,15 @@ TEST(ContactDirection, HostilePairsEndAtLocalMinima) {
   EXPECT_GT(directions, 600);
 }
 
+// Known from a stress test: corners of a face that are one point once its place is added have no side between them.
+TEST(ContactDirection, CoordinatesOfAllSizesEndAtLocalMinima) {
+  std::int64_t directions = 0;
+  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+    EXPECT_EQ(tests::problem_of_directions(tests::hull_pair_of_all_sizes(seed), directions), "") << "seed " << seed;
+  }
+  EXPECT_GT(directions, 4000);
+}
+
 // Rods up to 1e11 times as long as thick: the difference is rounded with a radius far below its length.
 TEST(ContactDirection, RodsTakeFewIterations) {
   Random random(23);

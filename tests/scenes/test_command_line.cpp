@@ -157,6 +157,8 @@ TEST_F(CommandLine, WrongUsageReturnsTwo) {
   expect_refusal("check a.obj b.off --frames 0", 2, "--frames");
   expect_refusal("check a.obj --json", 2, "--json");
   expect_refusal("run pile --trace -", 2, "a trace goes to a file, not to standard output");
+  for (const std::string option : {"json", "contacts", "out", "gltf", "vtk", "trace", "record"})
+    expect_refusal("run pile --" + option + " ''", 2, "--" + option + ": the name is empty");
 }
 
 TEST_F(CommandLine, HelpOfCheckTellsWhatFramesTake) {

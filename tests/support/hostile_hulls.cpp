@@ -268,6 +268,29 @@ HullPair hostile_hull_pair(std::uint64_t seed) {
   return pair;
 }
 
+HullPair hull_pair_of_all_sizes(std::uint64_t seed) {
+  Random random(seed);
+  const int largest = 10 + random.below(281);
+  const auto coordinate = [&] {
+    return std::ldexp(random.uniform(-1.0, 1.0), random.below(2 * largest + 1) - largest);
+  };
+  HullPair pair;
+  pair.kinds = "all sizes up to 2^" + std::to_string(largest);
+  pair.start = random.direction();
+  for (int i = 0; i < 4; ++i) {
+    Vec3 a, before, now;
+    for (int axis = 0; axis < 3; ++axis) {
+      a[axis] = coordinate();
+      before[axis] = coordinate();
+      now[axis] = random.chance(0.5) ? before[axis] : coordinate();
+    }
+    pair.a.push_back(a);
+    pair.b_before.push_back(before);
+    pair.b.push_back(now);
+  }
+  return pair;
+}
+
 std::string problem_of_directions(const HullPair& pair, std::int64_t& directions) {
   using namespace narrowphase;
   const ClusteredMesh a = mesh_through(pair.a);

@@ -23,6 +23,10 @@ struct HullPair {
 
 HullPair hostile_hull_pair(std::uint64_t seed);
 
+// Hulls of four points, each of whose coordinates has a size of its own, 2^-290 to 2^290 at most: some vertices lie in
+// one place but for rounding, and some do not. Of B, half of the coordinates were others a step ago.
+HullPair hull_pair_of_all_sizes(std::uint64_t seed);
+
 // Finds the contact direction of both steps of a pair: from `start`, then from where the last ended. What is wrong with
 // one of them: it is given up, its depth is not the height of the Minkowski difference, it is no local minimum or above
 // its start. Empty if nothing is. Counts directions that were looked at.

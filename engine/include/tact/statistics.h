@@ -6,6 +6,7 @@
 namespace tact {
 
 // Every count of a step, with a sentence on each: the one list that printing, JSON, CSV and averages are made from.
+// facet_box_pairs, triangle_tests and exact_predicates depend on how a large pair is shared, and so on threads.
 #define TACT_STEP_COUNTS(X)                                                                               \
   X(bodies, "bodies in the world")                                                                        \
   X(moved_bodies, "bodies that were added or whose positions, layers or motion changed")                  \
