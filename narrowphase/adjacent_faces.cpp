@@ -21,39 +21,48 @@ Vec3 away_from_corner(const FacePolygon& polygon) {
   return distance > 0.0 ? (-c.x / distance) * polygon.u - (c.y / distance) * polygon.v : polygon.u;
 }
 
+// A point of the face's plane.
+Vec3 in_space(const SupportedFace& face, Point2 p) {
+  return p.x * face.polygon->u + p.y * face.polygon->v + face.height * face.n;
+}
+
 }  // namespace
 
 std::optional<Vec3> AdjacentFaces::lowest(const SupportedFace& face, double near) {
   const FacePolygon& polygon = *face.polygon;
   const std::size_t sides = polygon.corner.size();
-  const auto in_space = [&](Point2 p) { return p.x * polygon.u + p.y * polygon.v + face.height * face.n; };
   const auto is_near = [&](std::size_t side) {
     return sides == 2 || distance_from_side(polygon, side % sides) <= near;
   };
+  near_ = near;
   lowest_height_ = face.height - tolerance_;
   lowest_.reset();
   limit_reached_ = false;
   std::array<Vec3, kNearCorners> corners;
   std::size_t count = 0;
-  if (sides == 1) corners[count++] = in_space(polygon.corner[0]);
+  if (sides == 1) corners[count++] = in_space(face, polygon.corner[0]);
   for (std::size_t i = 0; sides > 1 && i < sides; ++i) {
     if (!is_near(i)) continue;
-    turn_over_side(face, in_space(polygon.corner[i]), outward_of_side(polygon, i));
+    turn_over_side(face, i);
     if (!is_near(i + 1)) continue;
     if (count < kNearCorners) {
-      corners[count++] = in_space(corner_at(polygon.corner, i + 1));
+      corners[count++] = in_space(face, corner_at(polygon.corner, i + 1));
     } else {
       limit_reached_ = true;
     }
   }
+  // Where the foot is not in the polygon, which may be too small for its sides to have directions, the nearest corner.
+  if (count == 0 && margin_of_foot(polygon) < -tolerance_)
+    corners[count++] = in_space(face, polygon.corner[nearest_corner(polygon, {0.0, 0.0})]);
   for (std::size_t k = 0; k < count && !lowest_; ++k) go_around(face, corners[k]);
   limit_reached_ = limit_reached_ && !lowest_;
   return lowest_;
 }
 
-// Turns about the axis through a point of the side, to the next face; and by small angles where that is not lower, for
+// Turns about the axis along the side, to the next face; and by small angles where that is not lower, for
 // it may be a sliver with a lower face behind it.
-void AdjacentFaces::turn_over_side(const SupportedFace& face, Vec3 axis_point, Vec3 outward) {
+void AdjacentFaces::turn_over_side(const SupportedFace& face, std::size_t side) {
+  const Vec3 axis_point = in_space(face, face.polygon->corner[side]), outward = outward_of_side(*face.polygon, side);
   if (!(norm_squared(outward) > 0.0)) return;
   const double before = lowest_height_;
   try_direction(turned_to_next_face(m_, face.n, axis_point, outward, tolerance_, face.top), face.top);
@@ -71,6 +80,7 @@ void AdjacentFaces::go_around(const SupportedFace& face, Vec3 corner) {
 // Did it come back to where it began?
 bool AdjacentFaces::go_around(const SupportedFace& face, Vec3 corner, Way way) {
   Vec3 n = face.n;
+  double height = face.height;
   std::optional<Vec3> first;
   for (int i = 0; i < kFacesAround; ++i) {
     const FacePolygon& polygon = faces_.supported(m_, n, tolerance_, face.top);
@@ -80,22 +90,29 @@ bool AdjacentFaces::go_around(const SupportedFace& face, Vec3 corner, Way way) {
       if (first && norm(n - *first) <= kSameFace) return true;
       if (!first) first = n;
     }
+    // A face as low as the first, and narrow: its sides are the ones to turn over.
+    for (std::size_t s = 0; i > 0 && sides > 2 && s < sides && height <= face.height + tolerance_; ++s) {
+      if (distance_from_side(polygon, s) <= near_) turn_over_side({n, height, face.top, &polygon}, s);
+    }
     const std::size_t k = nearest_corner(polygon, {dot(polygon.u, corner), dot(polygon.v, corner)});
     const std::size_t side = (way == Way::clockwise ? k + sides - 1 : k) % sides;
     const Vec3 outward = sides == 1 ? away_from_corner(polygon) : outward_of_side(polygon, side);
     n = turned_to_next_face(m_, n, corner, outward, tolerance_, face.top);
-    try_direction(n, face.top);
+    height = try_direction(n, face.top);
     if (!(dot(n, face.n) > 0.0)) return false;
   }
   return false;  // around needles rounding may lead in circles that miss the first face: what is there was looked at
 }
 
-void AdjacentFaces::try_direction(Vec3 n, const MinkowskiVertex& near) {
+// Returns w(n).
+double AdjacentFaces::try_direction(Vec3 n, const MinkowskiVertex& near) {
   ++support_queries_;
   const double w = dot(n, m_.support(n, near).point);
-  if (!(w < lowest_height_)) return;
-  lowest_height_ = w;
-  lowest_ = n;
+  if (w < lowest_height_) {
+    lowest_height_ = w;
+    lowest_ = n;
+  }
+  return w;
 }
 
 }  // namespace tact::narrowphase

@@ -34,14 +34,15 @@ class AdjacentFaces {
  private:
   enum class Way { counter_clockwise, clockwise };
 
-  void turn_over_side(const SupportedFace& face, Vec3 axis_point, Vec3 outward);
+  void turn_over_side(const SupportedFace& face, std::size_t side);
   void go_around(const SupportedFace& face, Vec3 corner);
   bool go_around(const SupportedFace& face, Vec3 corner, Way way);
-  void try_direction(Vec3 n, const MinkowskiVertex& near);
+  double try_direction(Vec3 n, const MinkowskiVertex& near);
 
   const MinkowskiDifference& m_;
   FaceFinder& faces_;
   double tolerance_;
+  double near_ = 0.0;
   double lowest_height_ = 0.0;
   std::optional<Vec3> lowest_;
   int support_queries_ = 0;

@@ -64,7 +64,7 @@ class Player {
     const Vec3 at = random_.in_cube(1.5);  // first: the order of arguments is the compiler's
     body.mesh = translated(random_mesh(), at);
     body.surface = random_.chance(0.3) ? Surface::sheet : Surface::closed;
-    body.motion = random_.chance(0.2) ? Motion::fixed : Motion::moving;
+    body.motion = any_motion();
     choose_layers(body);
     body.id = world_.add_body({.positions = body.mesh.positions,
                                .facets = body.mesh.facets,
@@ -74,6 +74,8 @@ class Player {
                                .mask = body.mask});
     bodies_.push_back(std::move(body));
   }
+
+  Motion any_motion() { return random_.chance(0.2) ? Motion::fixed : Motion::moving; }
 
   void choose_layers(ModelBody& body) {
     body.layer = 1u << random_.below(3);
@@ -87,7 +89,7 @@ class Player {
       choose_layers(body);
       world_.set_layers(body.id, body.layer, body.mask);
     } else {
-      body.motion = body.motion == Motion::fixed ? Motion::moving : Motion::fixed;
+      body.motion = any_motion();
       world_.set_motion(body.id, body.motion);
     }
   }
@@ -183,12 +185,14 @@ const Mesh& mesh_of(const Player& player, BodyId id) {
   return std::ranges::find(player.bodies(), id, &ModelBody::id)->mesh;
 }
 
+constexpr int kSteps = 80;
+
 class RandomSequence : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RandomSequence, AnswersAsFreshWorld) {
   Player player(GetParam());
   int touching = 0;
-  for (int step = 0; step < 40; ++step) {
+  for (int step = 0; step < kSteps; ++step) {
     for (int i = 0; i < 4; ++i) player.change();
     FreshWorld fresh(player);
     const Report& report = player.detect();
@@ -210,7 +214,7 @@ TEST_P(RandomSequence, AnswersAsFreshWorld) {
 TEST_P(RandomSequence, DirectionsAreLocalMinima) {
   Player player(GetParam());
   int checked = 0;
-  for (int step = 0; step < 40; ++step) {
+  for (int step = 0; step < kSteps; ++step) {
     for (int i = 0; i < 4; ++i) player.change();
     for (const Contact& contact : player.detect().contacts()) {
       if (step % 8 != 7) continue;  // brute force is slow
@@ -227,7 +231,7 @@ TEST_P(RandomSequence, DirectionsAreLocalMinima) {
 
 TEST_P(RandomSequence, ReplayHasTheSameBits) {
   Player first(GetParam()), second(GetParam());
-  for (int step = 0; step < 40; ++step) {
+  for (int step = 0; step < kSteps; ++step) {
     for (int i = 0; i < 4; ++i) first.change();
     for (int i = 0; i < 4; ++i) second.change();
     ASSERT_EQ(first.detect().hash(), second.detect().hash()) << "step " << step;
@@ -241,7 +245,7 @@ TEST_P(RandomSequence, EventsTellWhatChanged) {
   const auto less = [](const ContactEvent& x, const ContactEvent& y) {
     return std::tie(x.a, x.b) < std::tie(y.a, y.b);
   };
-  for (int step = 0; step < 40; ++step) {
+  for (int step = 0; step < kSteps; ++step) {
     for (int i = 0; i < 4; ++i) player.change();
     const Report& report = player.detect();
     std::vector<ContactEvent> now, began, ended;
