@@ -12,6 +12,7 @@ namespace {
 constexpr double kProbe = 0.01, kSmallestProbe = 0.5e-6;
 constexpr std::size_t kNearCorners = 8;  // looked at, of a polygon
 constexpr int kFacesAround = 256;        // a corner, each way
+constexpr int kFewestAround = 3;         // fewer are steps within rounding
 constexpr double kSameFace = 1e-13;      // between unit normals
 
 // The tangent along which the height of a polygon's only corner falls fastest; any where the foot is the corner.
@@ -87,7 +88,7 @@ bool AdjacentFaces::go_around(const SupportedFace& face, Vec3 corner, Way way) {
     const std::size_t sides = polygon.corner.size();
     if (sides == 1 && i > 0) return false;
     if (sides > 2) {
-      if (first && norm(n - *first) <= kSameFace) return true;
+      if (i >= kFewestAround && first && norm(n - *first) <= kSameFace) return true;
       if (!first) first = n;
     }
     // A face as low as the first, and narrow: its sides are the ones to turn over.
