@@ -31,6 +31,28 @@ Criteria make_criteria(const Slab& slab, Vec3 outward, double plane, const Impac
   return criteria;
 }
 
+// The clusters of `mesh` whose box meets `other`, ascending. Replaces `found`.
+void select_clusters(const ClusteredMesh& mesh, const Box& other, std::vector<std::int32_t>& found) {
+  constexpr int kBlock = 256;  // groups that are looked at together
+  const BoxBounds bounds = bounds_of(other);
+  const auto select = [&](int begin, int end) {
+    const std::size_t before = found.size();
+    found.resize(before + static_cast<std::size_t>(end - begin));
+    std::int32_t* const chosen = found.data() + before;
+    const int count = kernels().select_overlapping(mesh.cluster_boxes().pointers(begin), end - begin, bounds, chosen);
+    for (int i = 0; i < count; ++i) chosen[i] += begin;
+    found.resize(before + static_cast<std::size_t>(count));
+  };
+  found.clear();
+  if (mesh.group_count() == 1) return select(0, mesh.cluster_count());
+  for (int block = 0; block < mesh.group_count(); block += kBlock) {
+    std::int32_t chosen[kBlock];
+    const int groups = std::min(kBlock, mesh.group_count() - block);
+    const int count = kernels().select_overlapping(mesh.group_boxes().pointers(block), groups, bounds, chosen);
+    for (int i = 0; i < count; ++i) select(mesh.cluster_begin(block + chosen[i]), mesh.cluster_end(block + chosen[i]));
+  }
+}
+
 std::uint64_t lowest_bits(int count) { return count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1; }
 
 double squared(double x) { return x * x; }
@@ -93,17 +115,13 @@ Criteria criteria_for_b(const Slab& slab, const ImpactZone* zone_a, bool facing_
 }
 
 void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Box& other, KeptClusters& kept) {
-  const auto count = static_cast<std::size_t>(mesh.cluster_count());
-  kept.cluster.resize(count);
-  const int met = kernels().select_overlapping(mesh.cluster_boxes().pointers(), mesh.cluster_count(), bounds_of(other),
-                                               kept.cluster.data());
+  select_clusters(mesh, other, kept.cluster);
   const Vec3 n = criteria.outward;
   int found = 0;
-  kept.boxes.resize(static_cast<std::size_t>(met));
+  kept.boxes.resize(kept.cluster.size());
   kept.bounds = Box{};
   kept.outside_slab = 0;
-  for (int i = 0; i < met; ++i) {
-    const std::int32_t cluster = kept.cluster[static_cast<std::size_t>(i)];
+  for (const std::int32_t cluster : kept.cluster) {
     const Box box = mesh.cluster_boxes()[static_cast<std::size_t>(cluster)];
     const Vec3 top{n.x >= 0.0 ? box.upper.x : box.lower.x, n.y >= 0.0 ? box.upper.y : box.lower.y,
                    n.z >= 0.0 ? box.upper.z : box.lower.z};

@@ -30,6 +30,29 @@ std::vector<std::pair<int, int>> as_pairs(const std::vector<ClusterPair>& pairs)
   return result;
 }
 
+// In one group of clusters, in several, and in more than are looked at together.
+TEST(CullClusters, FindsTheClustersWhoseBoxMeets) {
+  Random random(31);
+  KeptClusters kept;
+  for (const int cells : {10, 100, 530}) {
+    const ClusteredMesh mesh = tests::clustered(tests::wrinkled_sheet(cells, 2.0, 0.3, 2));
+    std::size_t most = 0;
+    for (int k = 0; k < 100; ++k) {
+      const Vec3 corner{random.uniform(-1.2, 1.2), random.uniform(-1.2, 1.2), random.uniform(-0.3, 0.3)};
+      const double edge = k % 10 == 0 ? 3.0 : random.uniform(0.0, 0.5);
+      const Box box{corner, corner + Vec3{edge, edge, edge}};
+      cull_clusters(mesh, {.outward = {0, 0, 1}, .lowest = -std::numeric_limits<double>::infinity()}, box, kept);
+      std::vector<std::int32_t> expected;
+      for (std::int32_t c = 0; c < mesh.cluster_count(); ++c) {
+        if (overlaps(mesh.cluster_boxes()[static_cast<std::size_t>(c)], box)) expected.push_back(c);
+      }
+      ASSERT_EQ(kept.cluster, expected) << cells << " cells, box " << k;
+      most = std::max(most, expected.size());
+    }
+    EXPECT_GT(3 * most, static_cast<std::size_t>(mesh.cluster_count()));
+  }
+}
+
 TEST(ClusterPairs, LoopAndForestAgree) {
   ClusterPairWork scratch;
   EmbreeDevice device;
