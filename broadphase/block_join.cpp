@@ -10,9 +10,9 @@
 namespace tact::broadphase {
 namespace {
 
-constexpr std::size_t kParts = 64;     // the work is dealt out in this many parts, whatever the number of threads,
-                                       // so that each keeps its memory from step to step
-constexpr std::size_t kWalkLevel = 1;  // a pair of blocks on this level is walked to its end at once
+constexpr std::size_t kMostParts = 64;  // that the work is dealt out in, whatever the number of threads, so that each
+                                        // keeps its memory from step to step
+constexpr std::size_t kWalkLevel = 1;   // a pair of blocks on this level is walked to its end at once
 
 struct ChildNames {
   explicit ChildNames(std::uint32_t block) {
@@ -48,9 +48,7 @@ constexpr std::size_t kChildRoom = kLanes + kOverlapRoom;
 
 std::span<const PairList> BlockJoin::run(const BlockTree& tree, std::span<const Box> boxes,
                                          std::span<const Filter> filters, int threads) {
-  parts_.resize(kParts);
-  for (PairList& part : parts_) part.clear();
-  counts_.assign(kParts, {});
+  counts_.clear();
   std::size_t level = tree.level_count() - 1;
   if (tree.block_count(level) == 0) return {};
   work_.clear();
@@ -64,14 +62,18 @@ std::span<const PairList> BlockJoin::run(const BlockTree& tree, std::span<const 
     std::swap(work_, next_);
   }
   const std::span<const IndexPair> work = work_.pairs();
-  base::parallel_for(kParts, 1, threads, [&](std::size_t part) {
-    const std::size_t begin = work.size() * part / kParts;
-    const std::size_t end = work.size() * (part + 1) / kParts;
+  const std::size_t part_count = std::min(work.size(), kMostParts);
+  parts_.resize(std::max(parts_.size(), part_count));
+  counts_.resize(part_count);
+  base::parallel_for(part_count, 1, threads, [&](std::size_t part) {
+    const std::size_t begin = work.size() * part / part_count;
+    const std::size_t end = work.size() * (part + 1) / part_count;
     Counts counts;
+    parts_[part].clear();
     for (std::size_t i = begin; i < end; ++i) walk(tree, boxes, filters, level, work[i], parts_[part], counts);
     counts_[part] = counts;
   });
-  return parts_;
+  return std::span(parts_).first(part_count);
 }
 
 std::size_t BlockJoin::visits() const {

@@ -39,8 +39,8 @@ std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std
   excluded_ = join_.excluded();
   const auto fresh = sorter_.sort(parts, boxes.size(), threads);
   if (changed_count == boxes.size()) {
-    pairs_.assign(fresh.begin(), fresh.end());
-    pairs_changed_ = true;
+    pairs_changed_ = !std::ranges::equal(fresh, pairs_);
+    if (pairs_changed_) pairs_.assign(fresh.begin(), fresh.end());
   } else {
     merge(fresh, boxes.size());
   }

@@ -25,7 +25,7 @@ class SweepAndPrune {
                                     std::span<const std::uint32_t> changed, int threads);
 
   std::span<const IndexPair> pairs() const { return pairs_; }
-  // Are the pairs other ones than before the last call? Also true where that would take long to tell.
+  // Are the pairs other ones than before the last call?
   bool pairs_changed() const { return pairs_changed_; }
   // How many overlapping pairs, with a changed box, the filters kept out of the last answer.
   std::size_t excluded() const { return excluded_; }

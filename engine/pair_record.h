@@ -27,7 +27,7 @@ struct PairHistory {
 
 // What happened in the last step that looked at the pair.
 struct PairCounts {
-  TraceEvent::Time begin;
+  TraceEvent::Time begin;  // if Outputs::trace is set
   float hulls_ms = 0.0f, direction_ms = 0.0f, cull_ms = 0.0f, confirm_ms = 0.0f;
   std::int32_t thread = 0;  // that looked at the pair, from `begin` on
   std::int32_t gjk_iterations = 0;

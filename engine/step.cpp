@@ -36,12 +36,14 @@ void Step::regroup(Bodies& bodies, int threads) {
 }
 
 const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh_ms) {
-  Timer total;
-  Timer timer = total;
+  Timer timer(settings.outputs.trace ? 0.0 : base::TickCounter::tick_ms());  // a trace wants times, not durations alone
+  const TraceEvent::Time begin = timer.start();
   if (forgotten_) start_afresh();
   if (bodies.changed().empty() && !all_) {
     keep_report();
-    finish(total, settings, refresh_ms);
+    report_.stats_.refresh_ms = refresh_ms;
+    report_.stats_.total_ms = refresh_ms + timer.lap();
+    make_trace(begin, timer.start(), settings);
     return report_;
   }
   const StepStats last = report_.stats_;
@@ -55,8 +57,8 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   sweep_.update(bodies.boxes(), bodies.filters(), bodies.changed(), settings.threads);
   table_.update(sweep_, bodies, all_);
   stats.sweep_ms = timer.lap();
-  narrow_phase(bodies, settings);
-  stats.narrow_phase_ms = timer.lap();
+  narrow_phase(bodies, settings, timer);
+  stats.narrow_phase_ms = stats.parting_ms + timer.lap();
   count_bodies_and_pairs(bodies);
   if (table_.same_contacts()) {
     update_report(last);
@@ -65,20 +67,18 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   }
   for (const ThreadTally& tally : tallies_) add(stats, tally.stats);
   add_events();
-  stats.report_ms = timer.lap();
   bodies.end_step();
   all_ = false;
-  finish(total, settings, refresh_ms);
+  stats.report_ms = timer.lap();
+  stats.refresh_ms = refresh_ms;
+  stats.total_ms = refresh_ms + stats.sweep_ms + stats.narrow_phase_ms + stats.report_ms;
+  make_trace(begin, timer.start(), settings);
   return report_;
 }
 
-void Step::finish(Timer& total, const Settings& settings, double refresh_ms) {
-  const auto begin = total.start();
-  report_.stats_.refresh_ms = refresh_ms;
-  report_.stats_.total_ms = refresh_ms + total.lap();
+void Step::make_trace(TraceEvent::Time begin, TraceEvent::Time end, const Settings& settings) {
   report_.trace_.clear();
-  if (settings.outputs.trace)
-    trace_.make(begin, total.start(), report_.stats_, table_.moved(), large(), report_.trace_);
+  if (settings.outputs.trace) trace_.make(begin, end, report_.stats_, table_.moved(), large(), report_.trace_);
   trace_.forget_refreshes();
 }
 
@@ -150,13 +150,12 @@ void Step::prefetch_first_bodies(const Bodies& bodies, std::size_t i, std::size_
 }
 
 // Stages 3 to 6, all pairs in parallel, each into its own record; then the large ones, each on all threads.
-void Step::narrow_phase(Bodies& bodies, const Settings& settings) {
-  Timer timer;
+void Step::narrow_phase(Bodies& bodies, const Settings& settings, Timer& timer) {
   table_.take_out_parted(bodies, settings.threads);
   report_.stats_.parting_ms = report_.stats_.hulls_ms = timer.lap();
   const std::span<MovedPair> moved = table_.moved();
   thread_work_.resize(static_cast<std::size_t>(settings.threads));
-  tallies_.assign(static_cast<std::size_t>(settings.threads), {});
+  tallies_.assign(static_cast<std::size_t>(settings.threads), {.timer = timer});
   large_count_ = 0;
   std::mutex mutex;
   const std::size_t grain = base::grain_of(moved.size(), settings.threads, 4, 64);

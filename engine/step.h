@@ -38,13 +38,13 @@ class Step {
  private:
   // What a thread did, and its clock.
   struct alignas(64) ThreadTally {
-    base::Timer timer;  // runs from pair to pair
+    base::Timer timer;  // runs from pair to pair, once the first has begun
     bool begun = false;
-    StepStats stats;
+    StepStats stats = {};
   };
 
   void start_afresh();
-  void narrow_phase(Bodies& bodies, const Settings& settings);
+  void narrow_phase(Bodies& bodies, const Settings& settings, base::Timer& timer);
   void prefetch_first_bodies(const Bodies& bodies, std::size_t i, std::size_t own_end) const;
   void prefetch_pairs(const Bodies& bodies, std::size_t i, std::size_t own_end) const;
   void put_aside(PairWork& work);
@@ -55,7 +55,7 @@ class Step {
   static void fill(Contact& contact, const PairRecord& record);
   void add_events();
   void keep_report();
-  void finish(base::Timer& total, const Settings& settings, double refresh_ms);
+  void make_trace(TraceEvent::Time begin, TraceEvent::Time end, const Settings& settings);
 
   broadphase::SweepAndPrune sweep_;
   PairTable table_;

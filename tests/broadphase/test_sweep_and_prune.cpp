@@ -265,6 +265,27 @@ TEST(SweepAndPrune, NothingChangedLooksAtNoBox) {
   EXPECT_FALSE(sweep.pairs_changed());
 }
 
+TEST(SweepAndPrune, TellsWhetherPairsChanged) {
+  const std::vector<Filter> filters(3);
+  std::vector<Box> boxes{cube({0, 0, 0}, 1), cube({0.5, 0, 0}, 1), cube({9, 0, 0}, 1)};
+  SweepAndPrune sweep;
+  const auto changes = [&](std::span<const std::uint32_t> changed) {
+    sweep.update(boxes, filters, changed, 1);
+    return sweep.pairs_changed();
+  };
+  const std::vector<std::uint32_t> all = all_indices(3), last{2};
+  EXPECT_TRUE(changes(all));
+  for (Box& box : boxes) box.upper.y += 0.1;
+  EXPECT_FALSE(changes(all));
+  boxes[2] = cube({8, 0, 0}, 1);
+  EXPECT_FALSE(changes(last));
+  boxes[2] = cube({1, 0, 0}, 1);
+  EXPECT_TRUE(changes(last));
+  EXPECT_FALSE(changes(all));
+  boxes[0] = cube({-9, 0, 0}, 1);
+  EXPECT_TRUE(changes(all));
+}
+
 TEST(SweepAndPrune, BoxesPastTheEndLeave) {
   const std::vector<Box> boxes(5, cube({0, 0, 0}, 1));
   const std::vector<Filter> filters(5, Filter{.layer = 2, .mask = 2});
