@@ -21,6 +21,11 @@ inline constexpr std::uint32_t kAllLanes = 0xffffu;  // one bit a lane
 inline constexpr double kLargestFloat = std::numeric_limits<float>::max();
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+// Has the box points? One that is empty along any axis overlaps nothing.
+inline bool occupied(const Box& box) {
+  return box.lower.x <= box.upper.x && box.lower.y <= box.upper.y && box.lower.z <= box.upper.z;
+}
+
 struct FloatBox {
   float lower[3];
   float upper[3];

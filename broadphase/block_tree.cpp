@@ -24,10 +24,6 @@ constexpr std::size_t kThin = 12;       // a batch of fewer than 1 / kThin of th
                                         // sixteen of them would span many blocks of the others; break-even at 12
 constexpr std::size_t kSparse = 4;      // the order is made anew when fewer than 1 / kSparse of its boxes are left
 
-bool occupied(const Box& box) {
-  return box.lower.x <= box.upper.x && box.lower.y <= box.upper.y && box.lower.z <= box.upper.z;
-}
-
 constexpr FloatBox kEmpty{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 constexpr FloatBox kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
 

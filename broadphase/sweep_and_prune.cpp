@@ -12,6 +12,13 @@ namespace tact::broadphase {
 namespace {
 
 constexpr std::size_t kThreadShare = 2048;  // changed boxes for which one more thread is worth waking
+constexpr std::size_t kFew = 16;            // boxes of which each is compared with each: break-even at about 20
+
+std::vector<std::uint32_t> all_indices(std::size_t count) {
+  std::vector<std::uint32_t> all(count);
+  std::iota(all.begin(), all.end(), 0u);
+  return all;
+}
 
 }  // namespace
 
@@ -21,8 +28,7 @@ std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std
   std::vector<std::uint32_t> all;
   if (base::fast_paths() == base::FastPaths::off) {  // as in the first call
     *this = {};
-    all.resize(boxes.size());
-    std::iota(all.begin(), all.end(), 0u);
+    all = all_indices(boxes.size());
     changed = all;
   }
   excluded_ = 0;
@@ -31,13 +37,8 @@ std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std
   const base::FloatingPointMode mode;
   box_count_ = boxes.size();
   const std::size_t changed_count = mark(filters, changed);
-  threads = static_cast<int>(
-      std::min<std::size_t>(static_cast<std::size_t>(std::max(threads, 1)), 1 + changed_count / kThreadShare));
-  tree_.update(boxes, changed, is_changed_, threads);
-  const auto parts = join_.run(tree_, boxes, special_count_ == 0 ? std::span<const Filter>{} : filters, threads);
-  tree_.note_cost(join_.visits(), changed_count);
-  excluded_ = join_.excluded();
-  const auto fresh = sorter_.sort(parts, boxes.size(), threads);
+  const bool few = boxes.size() <= kFew && base::fast_paths() == base::FastPaths::automatic;
+  const auto fresh = few ? compare_all(boxes, filters) : join_changed(boxes, filters, changed, changed_count, threads);
   if (changed_count == boxes.size()) {
     pairs_changed_ = !std::ranges::equal(fresh, pairs_);
     if (pairs_changed_) pairs_.assign(fresh.begin(), fresh.end());
@@ -46,6 +47,42 @@ std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std
   }
   for (const std::uint32_t index : changed) is_changed_[index] = 0;
   return pairs_;
+}
+
+// Few boxes need no order.
+std::span<const IndexPair> SweepAndPrune::compare_all(std::span<const Box> boxes, std::span<const Filter> filters) {
+  tree_is_current_ = false;
+  few_.clear();
+  for (std::uint32_t a = 0; a < boxes.size(); ++a) {
+    for (std::uint32_t b = a + 1; b < boxes.size(); ++b) {
+      if ((is_changed_[a] | is_changed_[b]) == 0 || !base::overlaps(boxes[a], boxes[b])) continue;
+      if (!occupied(boxes[a]) || !occupied(boxes[b])) continue;
+      if (tested(filters[a], filters[b])) {
+        few_.push_back({a, b});
+      } else {
+        ++excluded_;
+      }
+    }
+  }
+  return few_;
+}
+
+// The pairs in which a box changed.
+std::span<const IndexPair> SweepAndPrune::join_changed(std::span<const Box> boxes, std::span<const Filter> filters,
+                                                       std::span<const std::uint32_t> changed,
+                                                       std::size_t changed_count, int threads) {
+  threads = static_cast<int>(
+      std::min<std::size_t>(static_cast<std::size_t>(std::max(threads, 1)), 1 + changed_count / kThreadShare));
+  if (std::exchange(tree_is_current_, true)) {
+    tree_.update(boxes, changed, is_changed_, threads);
+  } else {
+    tree_ = BlockTree();
+    tree_.update(boxes, all_indices(boxes.size()), is_changed_, threads);
+  }
+  const auto parts = join_.run(tree_, boxes, special_count_ == 0 ? std::span<const Filter>{} : filters, threads);
+  tree_.note_cost(join_.visits(), changed_count);
+  excluded_ = join_.excluded();
+  return sorter_.sort(parts, boxes.size(), threads);
 }
 
 // Takes over the filters of the changed boxes and marks them; returns how many there are, each counted once.

@@ -31,15 +31,21 @@ class SweepAndPrune {
   std::size_t excluded() const { return excluded_; }
 
   // Whether what is kept between calls agrees with `boxes`, those of the last call. For tests.
-  bool validate(std::span<const Box> boxes) const { return tree_.validate(boxes); }
+  bool validate(std::span<const Box> boxes) const { return !tree_is_current_ || tree_.validate(boxes); }
 
  private:
   std::size_t mark(std::span<const Filter> filters, std::span<const std::uint32_t> changed);
+  std::span<const IndexPair> compare_all(std::span<const Box> boxes, std::span<const Filter> filters);
+  std::span<const IndexPair> join_changed(std::span<const Box> boxes, std::span<const Filter> filters,
+                                          std::span<const std::uint32_t> changed, std::size_t changed_count,
+                                          int threads);
   void merge(std::span<const IndexPair> fresh, std::size_t box_count);
 
   BlockTree tree_;
+  bool tree_is_current_ = true;  // does it hold the boxes of the last call? Of few boxes it does not
   BlockJoin join_;
   PairSorter sorter_;
+  std::vector<IndexPair> few_;            // of few boxes, those in which one changed
   std::vector<std::uint8_t> is_changed_;  // by box
   std::vector<std::uint8_t> is_special_;  // by box: its filter is not the default one
   std::size_t special_count_ = 0;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 #include <ostream>
+#include <set>
 #include <vector>
 
 #include "broadphase/sweep_and_prune.h"
@@ -167,12 +168,14 @@ TEST(SweepAndPrune, ThreadsDoNotMatter) {
 // What a world may do between two calls, at random.
 class RandomHistory {
  public:
-  explicit RandomHistory(std::uint64_t seed) : random_(seed), size_(random_.chance(0.5) ? 1.0 : 0.25) {}
+  // `most` boxes, in a cube where most of them overlap a few others.
+  RandomHistory(std::uint64_t seed, int most)
+      : random_(seed), most_(most), edge_(most < 100 ? 1.5 : 4.0), size_(random_.chance(0.5) ? 1.0 : 0.25) {}
 
   void step() {
     changed_.clear();
     const double busy = random_.uniform() * random_.uniform();
-    if (random_.chance(0.3)) resize(static_cast<std::size_t>(random_.below(400)));
+    if (random_.chance(0.3)) resize(static_cast<std::size_t>(random_.below(most_)));
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
       if (random_.chance(busy)) change(i);
     }
@@ -211,19 +214,31 @@ class RandomHistory {
 
   // Now and then on a lattice, so that faces touch.
   Box random_box() {
-    const Vec3 place = random_.in_cube(4.0);
+    const Vec3 place = random_.in_cube(edge_);
     if (random_.chance(0.3)) return cube({std::round(place.x), std::round(place.y), std::round(place.z)}, 1.0);
     return cube(place, size_ * (random_.chance(0.02) ? 8.0 : 1.0) * random_.uniform());
   }
 
   Random random_;
-  double size_;
+  int most_;
+  double edge_, size_;
   std::vector<std::uint32_t> changed_;
 };
 
+// Of overlapping pairs with a changed box, those that filters keep out.
+std::size_t excluded_pairs(const RandomHistory& history) {
+  const std::vector<Filter> none(history.boxes.size());
+  const std::set<std::uint32_t> changed(history.changed().begin(), history.changed().end());
+  const Pairs all = tests::all_overlapping_pairs(history.boxes, none);
+  return static_cast<std::size_t>(std::ranges::count_if(all, [&](IndexPair pair) {
+    return (changed.contains(pair.a) || changed.contains(pair.b)) &&
+           !tested(history.filters[pair.a], history.filters[pair.b]);
+  }));
+}
+
 TEST(SweepAndPrune, RandomHistoriesEqualBruteForce) {
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    RandomHistory history(seed);
+  for (std::uint64_t seed = 1; seed <= 90; ++seed) {
+    RandomHistory history(seed, seed % 3 == 0 ? 33 : 400);
     SweepAndPrune sweep;
     for (int step = 0; step < 40; ++step) {
       history.step();
@@ -232,6 +247,7 @@ TEST(SweepAndPrune, RandomHistoriesEqualBruteForce) {
       ASSERT_EQ(pairs, tests::all_overlapping_pairs(history.boxes, history.filters))
           << "seed " << seed << ", step " << step;
       ASSERT_EQ(copy(sweep.pairs()), pairs);
+      ASSERT_EQ(sweep.excluded(), excluded_pairs(history)) << "seed " << seed << ", step " << step;
       ASSERT_TRUE(sweep.validate(history.boxes)) << "seed " << seed << ", step " << step;
     }
   }
