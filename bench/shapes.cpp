@@ -86,6 +86,18 @@ class Subdivision {
   std::map<std::vector<std::pair<int, int>>, int> shared_;
 };
 
+// A point of the unit circle after a part of a turn: one of a square's outline, made round. No sine is needed.
+Eigen::Vector2d on_circle(double turn) {
+  const double sides = 4.0 * (turn - std::floor(turn));
+  const int side = static_cast<int>(sides);
+  const double t = 2.0 * (sides - side) - 1.0;
+  const Eigen::Vector2d p = side == 0   ? Eigen::Vector2d(1.0, t)
+                            : side == 1 ? Eigen::Vector2d(-t, 1.0)
+                            : side == 2 ? Eigen::Vector2d(-1.0, -t)
+                                        : Eigen::Vector2d(t, -1.0);
+  return p / std::sqrt(p.squaredNorm());
+}
+
 }  // namespace
 
 Shape geodesic_sphere(int frequency) {
@@ -130,24 +142,13 @@ Shape square_sheet(int cells, double size) {
 }
 
 Shape rod(int around, int bands) {
-  // The directions around are those of a square's outline, made round: no sine is needed.
-  const auto spoke = [&](int k) {
-    const double turn = 4.0 * k / around;
-    const int side = static_cast<int>(turn);
-    const double t = 2.0 * (turn - side) - 1.0;
-    const Eigen::Vector2d p = side == 0   ? Eigen::Vector2d(1.0, t)
-                              : side == 1 ? Eigen::Vector2d(-t, 1.0)
-                              : side == 2 ? Eigen::Vector2d(-1.0, -t)
-                                          : Eigen::Vector2d(t, -1.0);
-    return Eigen::Vector2d(p / std::sqrt(p.squaredNorm()));
-  };
   Shape shape;
   const int rings = bands - 1;
   shape.positions.resize(3, 2 + Eigen::Index{rings} * around);
   shape.positions.col(0).setZero();
   for (int ring = 0; ring < rings; ++ring) {
     for (int k = 0; k < around; ++k) {
-      const Eigen::Vector2d p = spoke(k);
+      const Eigen::Vector2d p = on_circle(static_cast<double>(k) / around);
       shape.positions.col(1 + Eigen::Index{ring} * around + k) << p.x(), p.y(), static_cast<double>(ring) / (rings - 1);
     }
   }
@@ -165,6 +166,23 @@ Shape rod(int around, int bands) {
     facets.push_back({1 + rings * around, vertex(rings - 1, k), vertex(rings - 1, k + 1)});
   shape.facets.resize(3, static_cast<Eigen::Index>(facets.size()));
   for (std::size_t f = 0; f < facets.size(); ++f) shape.facets.col(static_cast<Eigen::Index>(f)) = facets[f];
+  return shape;
+}
+
+Shape ring(double tube_radius, int around, int across) {
+  Shape shape;
+  shape.positions.resize(3, Eigen::Index{around} * across);
+  shape.facets.resize(3, 2 * Eigen::Index{around} * across);
+  const auto vertex = [&](int i, int j) { return i % around * across + j % across; };
+  for (int i = 0; i < around; ++i) {
+    const Eigen::Vector2d spoke = on_circle(static_cast<double>(i) / around);
+    for (int j = 0; j < across; ++j) {
+      const Eigen::Vector2d tube = tube_radius * on_circle(static_cast<double>(j) / across);
+      shape.positions.col(vertex(i, j)) << (1.0 + tube.x()) * spoke.x(), (1.0 + tube.x()) * spoke.y(), tube.y();
+      shape.facets.col(2 * vertex(i, j)) << vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1);
+      shape.facets.col(2 * vertex(i, j) + 1) << vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1);
+    }
+  }
   return shape;
 }
 
@@ -198,6 +216,11 @@ Shape shuffled(const Shape& shape, std::uint64_t seed) {
     }
   }
   return result;
+}
+
+double bump(double cosine) {
+  const double half = 0.5 * (1.0 + cosine), square = half * half, fourth = square * square;
+  return fourth * fourth * square;
 }
 
 double wave(double phase) {

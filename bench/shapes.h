@@ -23,11 +23,17 @@ Shape square_sheet(int cells, double size);
 // A rod of radius 1 from z = 0, its blunt tip, to z = 1, with 2 * around * (bands - 1) facets.
 Shape rod(int around, int bands);
 
+// A ring about the z axis, of radius 1 from its middle to that of its tube, with 2 * around * across facets.
+Shape ring(double tube_radius, int around, int across);
+
 // An axis-aligned box: 8 vertices, 12 facets.
 Shape brick(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper);
 
 // The same shape with its vertices and its facets stored in a random order.
 Shape shuffled(const Shape& shape, std::uint64_t seed);
+
+// Smooth in the cosine of an angle: 1 at 0, a quarter at 40 degrees, 0 at 180.
+double bump(double cosine);
 
 // A smooth wave of period 1 through 0 at 0, between -1 and 1; two parabolas that meet with equal slope.
 double wave(double phase);

@@ -18,103 +18,6 @@ using Eigen::Index;
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 
-double phase_of(int frame, int frames) { return static_cast<double>(frame) / frames; }
-
-// A place on the unit sphere that is pushed in and out as time goes.
-struct Dent {
-  Vector3d center;
-  double depth = 0.0;  // of the unit
-  double delay = 0.0;  // of the period
-};
-
-struct BlobMotion {
-  std::vector<Dent> dents;
-  Vector3d sway;   // metres, amplitudes along the axes
-  Vector3d delay;  // of the period
-};
-
-BlobMotion random_motion(Random& random, double dent_depth, double sway) {
-  BlobMotion motion;
-  for (int k = 0; k < 6; ++k) {
-    motion.dents.push_back({random.direction(), random.uniform(0.3, 1.0) * dent_depth, random.uniform(0.0, 1.0)});
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    motion.sway[axis] = random.uniform(0.3, 1.0) * sway;
-    motion.delay[axis] = random.uniform(0.0, 1.0);
-  }
-  return motion;
-}
-
-Vector3d swayed(const BlobMotion& motion, const Vector3d& center, double phase) {
-  Vector3d p = center;
-  for (int axis = 0; axis < 3; ++axis) p[axis] += motion.sway[axis] * wave(phase + motion.delay[axis]);
-  return p;
-}
-
-// Smooth, 1 at the dent's centre, a quarter at 40 degrees from it, 0 opposite.
-double bump(double cosine) {
-  const double half = 0.5 * (1.0 + cosine), square = half * half, fourth = square * square;
-  return fourth * fourth * square;
-}
-
-Matrix3Xd blob_at(const Matrix3Xd& directions, const BlobMotion& motion, const Vector3d& center, double radius,
-                  double phase) {
-  const Vector3d middle = swayed(motion, center, phase);
-  std::vector<double> depths;
-  for (const Dent& dent : motion.dents) depths.push_back(dent.depth * wave(phase + dent.delay));
-  Matrix3Xd positions(3, directions.cols());
-  for (Index v = 0; v < directions.cols(); ++v) {
-    double r = 1.0;
-    for (std::size_t k = 0; k < depths.size(); ++k)
-      r += depths[k] * bump(motion.dents[k].center.dot(directions.col(v)));
-    positions.col(v) = middle + radius * r * directions.col(v);
-  }
-  return positions;
-}
-
-// The edge of the smallest cube of cells that holds `count`.
-int cube_side(int count) {
-  int side = 1;
-  while (side * side * side < count) ++side;
-  return side;
-}
-
-// The facets of a sphere lie inside it: with this radius they are as often outside of the unit sphere as inside.
-double round_radius(int frequency) { return 1.0 + 0.1 / (frequency * frequency); }
-
-struct Blob {
-  Vector3d center;
-  BlobMotion motion;
-};
-
-// The first `count` places of a grid of `columns` x `rows` x any number.
-std::vector<Blob> packed_blobs(int count, int columns, int rows) {
-  constexpr double kSpacing = 1.94, kJitter = 0.02, kDent = 0.06, kSway = 0.02;  // metres, radius 1
-  Random random(12);
-  std::vector<Blob> all;
-  for (int k = 0; k < count; ++k) {
-    Vector3d center = kSpacing * Vector3d(k % columns, k / columns % rows, k / (columns * rows));
-    for (int axis = 0; axis < 3; ++axis) center[axis] += random.uniform(-kJitter, kJitter);
-    all.push_back({center, random_motion(random, kDent, kSway)});
-  }
-  return all;
-}
-
-Workload blobs(const std::vector<Blob>& blobs, int frequency, double radius, int frames) {
-  const Shape sphere = geodesic_sphere(frequency);
-  Workload workload{frames, {}};
-  workload.bodies.resize(blobs.size());
-  base::parallel_for(blobs.size(), 1, base::default_threads(), [&](std::size_t k) {
-    WorkloadBody& body = workload.bodies[k];
-    body.facets = sphere.facets;
-    for (int frame = 0; frame < frames; ++frame) {
-      body.frames.push_back(
-          blob_at(sphere.positions, blobs[k].motion, blobs[k].center, radius, phase_of(frame, frames)));
-    }
-  });
-  return workload;
-}
-
 // Where the point (x, y) of a flat sheet, 4 m wide, comes to lie when it is draped over the unit sphere about the
 // origin up to `contact`, a distance from the middle in metres, and hangs straight from there: the sphere by
 // stereographic projection, beyond it the tangent cone.
@@ -181,36 +84,6 @@ Workload cloth(int cells, int frames) {
   workload.bodies[1].facets = sphere.facets;
   workload.bodies[1].frames = {sphere.positions};
   return workload;
-}
-
-Workload pile(int count, int frequency, int frames) {
-  const int side = cube_side(count);
-  return blobs(packed_blobs(count, side, side), frequency, round_radius(frequency), frames);
-}
-
-Workload pile_column(int height, int frequency, int frames) {
-  constexpr int kSide = 8;
-  return blobs(packed_blobs(kSide * kSide * height, kSide, kSide), frequency, round_radius(frequency), frames);
-}
-
-Workload scattered(int count, int frames) {
-  constexpr double kSpacing = 9.05;  // metres, radius 1
-  const double half_edge = 0.5 * kSpacing * cube_side(count);
-  Random random(13);
-  std::vector<Blob> all;
-  for (int k = 0; k < count; ++k) {
-    Vector3d center;
-    for (int axis = 0; axis < 3; ++axis) center[axis] = random.uniform(-half_edge, half_edge);
-    all.push_back({center, random_motion(random, 0.1, 0.3)});
-  }
-  return blobs(all, 2, 1.0, frames);
-}
-
-Workload large_pair(int frequency, int frames) {
-  Random random(14);
-  std::vector<Blob> all;
-  for (const double side : {-1.0, 1.0}) all.push_back({{side * 0.981, 0.0, 0.0}, random_motion(random, 0.05, 0.02)});
-  return blobs(all, frequency, 1.0, frames);
 }
 
 Workload organ_and_tool(int frames) {
@@ -285,7 +158,13 @@ std::vector<NamedWorkload> rival_workloads(Size size) {
         {"500 x 80 scattered", "few touch", 4.0, [] { return scattered(500, kFewFrames); }},
         {"two of 8 k", "shallow overlap", 8.0, [] { return large_pair(20, kFewFrames); }},
         {"bricks aligned", "exact contact", 1.5, [] { return brick_wall(4, 4, Pose::aligned, kFewFrames); }},
-        {"bricks rotated", "contact on the last bit", 8.0, [] { return brick_wall(4, 4, Pose::rotated, kFewFrames); }}};
+        {"bricks rotated", "contact on the last bit", 8.0, [] { return brick_wall(4, 4, Pose::rotated, kFewFrames); }},
+        {"terrain", "blobs on a height field", 1.0, [] { return terrain(60, 16, kFewFrames); }},
+        {"sheets in layers", "all near", 1.0, [] { return layers(3, 30, kFewFrames); }},
+        {"shells", "one in the other", 1.0, [] { return shells(12, kFewFrames); }},
+        {"chain", "rings that are linked", 1.0, [] { return chain(10, kFewFrames); }},
+        {"rods", "long and thin", 1.0, [] { return crossed_rods(4, kFewFrames); }},
+        {"two boxes", "24 facets", 1.0, [] { return two_boxes(kFewFrames); }}};
   }
   return {
       {"cloth 13 k", "a sheet of 77² squares over a sphere", 5.0, [] { return cloth(77, kFrames); }},
@@ -300,6 +179,12 @@ std::vector<NamedWorkload> rival_workloads(Size size) {
       {"bricks aligned", "a wall in exact contact", 1.5, [] { return brick_wall(7, 7, Pose::aligned, kFrames); }},
       {"bricks rotated", "the wall turned: contact hangs on the last bit", 8.0,
        [] { return brick_wall(7, 7, Pose::rotated, kFrames); }},
+      {"terrain", "400 blobs on a height field", 1.0, [] { return terrain(300, 400, kFrames); }},
+      {"sheets in layers", "each touches the next", 1.0, [] { return layers(6, 100, kFrames); }},
+      {"shells", "a sphere close inside another", 1.0, [] { return shells(32, kFrames); }},
+      {"chain", "200 rings that are linked", 1.0, [] { return chain(200, kFrames); }},
+      {"rods", "1,000 long and thin ones", 1.0, [] { return crossed_rods(10, kFrames); }},
+      {"two boxes", "the smallest scene", 1.0, [] { return two_boxes(kFrames); }},
   };
 }
 

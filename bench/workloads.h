@@ -16,8 +16,8 @@ namespace tact::bench {
 struct WorkloadBody {
   Eigen::Matrix3Xi facets{3, 0};
   Surface surface = Surface::closed;
-  std::vector<Eigen::Matrix3Xd> frames;  // 3 x V metres, one a frame; a single one: the body is fixed
-  std::uint32_t mask = 0xffffffffu;      // see BodyDefinition
+  std::vector<Eigen::Matrix3Xd> frames = {};  // 3 x V metres, one a frame; a single one: the body is fixed
+  std::uint32_t mask = 0xffffffffu;           // see BodyDefinition
 
   bool fixed() const { return frames.size() == 1; }
   const Eigen::Matrix3Xd& positions(int frame) const { return frames[fixed() ? 0 : static_cast<std::size_t>(frame)]; }
@@ -29,6 +29,9 @@ struct Workload {
 
   std::size_t facet_count() const;
 };
+
+// Where in the period a frame is, 0 <= phase < 1.
+inline double phase_of(int frame, int frames) { return static_cast<double>(frame) / frames; }
 
 // A sheet of `cells` x `cells` squares, 4 m wide, that falls on a fixed sphere of radius 1 m, drapes over it and is
 // lifted off again. Its wrinkles cross the sphere in patches.
@@ -59,11 +62,31 @@ enum class Pose {
 // as a whole.
 Workload brick_wall(int side, int courses, Pose pose, int frames);
 
+// What follows was not tuned on: other kinds of bodies, so that the engine is not fitted to the kinds above.
+
+// `count` blobs of 320 facets, side by side on a fixed height field of 2 * cells² facets, a little sunk in.
+Workload terrain(int cells, int count, int frames);
+
+// `count` wavy sheets of 2 * cells² facets, one on the other so closely that waves in them make neighbours cross.
+Workload layers(int count, int cells, int frames);
+
+// Two spheres of 20 * frequency² facets, one in the other: near everywhere, and nothing meets.
+Workload shells(int frequency, int frames);
+
+// Rings of 1,024 facets that are linked: their hulls overlap deeply, and nothing meets.
+Workload chain(int links, int frames);
+
+// side³ thin rods of 304 facets at random places, in all directions, so densely that each crosses some others.
+Workload crossed_rods(int side, int frames);
+
+// Two boxes that cross: the smallest scene.
+Workload two_boxes(int frames);
+
 // A row of the table: a workload and what has to be reached on it.
 struct NamedWorkload {
   std::string name;
   std::string description;
-  double required_factor = 1.0;  // how many times faster than the fastest rival tact must be
+  double required_factor = 1.0;  // how many times faster than the fastest rival tact is to be
   std::function<Workload()> make;
 };
 
