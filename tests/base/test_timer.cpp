@@ -1,6 +1,6 @@
-#include "engine/base/timer.h"
-
 #include <gtest/gtest.h>
+
+#include "engine/base/timer.h"
 
 namespace tact::base {
 namespace {
