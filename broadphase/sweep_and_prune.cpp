@@ -27,7 +27,7 @@ std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std
   assert(boxes.size() == filters.size());
   std::vector<std::uint32_t> all;
   if (base::fast_paths() == base::FastPaths::off) {  // as in the first call
-    *this = {};
+    tree_is_current_ = false;
     all = all_indices(boxes.size());
     changed = all;
   }
