@@ -179,7 +179,7 @@ std::vector<NamedWorkload> rival_workloads(Size size) {
       {"bricks aligned", "a wall in exact contact", 1.5, [] { return brick_wall(7, 7, Pose::aligned, kFrames); }},
       {"bricks rotated", "the wall turned: contact hangs on the last bit", 8.0,
        [] { return brick_wall(7, 7, Pose::rotated, kFrames); }},
-      {"terrain", "400 blobs on a height field", 1.0, [] { return terrain(300, 400, kFrames); }},
+      {"terrain", "100 blobs on a height field", 1.0, [] { return terrain(150, 100, kFrames); }},
       {"sheets in layers", "each touches the next", 1.0, [] { return layers(6, 100, kFrames); }},
       {"shells", "a sphere close inside another", 1.0, [] { return shells(32, kFrames); }},
       {"chain", "200 rings that are linked", 1.0, [] { return chain(200, kFrames); }},
