@@ -180,7 +180,7 @@ std::vector<NamedWorkload> rival_workloads(Size size) {
       {"bricks rotated", "the wall turned: contact hangs on the last bit", 8.0,
        [] { return brick_wall(7, 7, Pose::rotated, kFrames); }},
       {"terrain", "100 blobs on a height field", 1.0, [] { return terrain(150, 100, kFrames); }},
-      {"sheets in layers", "each touches the next", 1.0, [] { return layers(6, 100, kFrames); }},
+      {"sheets in layers", "each touches the next", 1.0, [] { return layers(4, 60, kFrames); }},
       {"shells", "a sphere close inside another", 1.0, [] { return shells(32, kFrames); }},
       {"chain", "200 rings that are linked", 1.0, [] { return chain(200, kFrames); }},
       {"rods", "1,000 long and thin ones", 1.0, [] { return crossed_rods(10, kFrames); }},
