@@ -1,6 +1,5 @@
 // The workloads that are made of blobs: spheres in which smooth dents come and go while they sway.
-#include <algorithm>
-#include <cmath>
+#include <vector>
 
 #include "bench/random.h"
 #include "bench/shapes.h"
@@ -89,22 +88,19 @@ std::vector<Blob> packed_blobs(int count, int columns, int rows) {
 }
 
 // A body each, of 20 * frequency² facets.
-std::vector<WorkloadBody> blob_bodies(const std::vector<Blob>& blobs, int frequency, double radius, int frames) {
+Workload blob_workload(const std::vector<Blob>& blobs, int frequency, double radius, int frames) {
   const Shape sphere = geodesic_sphere(frequency);
-  std::vector<WorkloadBody> bodies(blobs.size());
+  Workload workload{frames, {}};
+  workload.bodies.resize(blobs.size());
   base::parallel_for(blobs.size(), 1, base::default_threads(), [&](std::size_t k) {
-    WorkloadBody& body = bodies[k];
+    WorkloadBody& body = workload.bodies[k];
     body.facets = sphere.facets;
     for (int frame = 0; frame < frames; ++frame) {
       body.frames.push_back(
           blob_at(sphere.positions, blobs[k].motion, blobs[k].center, radius, phase_of(frame, frames)));
     }
   });
-  return bodies;
-}
-
-Workload blob_workload(const std::vector<Blob>& blobs, int frequency, double radius, int frames) {
-  return {frames, blob_bodies(blobs, frequency, radius, frames)};
+  return workload;
 }
 
 }  // namespace

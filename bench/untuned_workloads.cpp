@@ -1,6 +1,6 @@
-// Workloads that nothing was tuned on, see workloads.h.
+// Workloads of other kinds, see workloads.h.
 #include <Eigen/Geometry>
-#include <cmath>
+#include <utility>
 
 #include "bench/random.h"
 #include "bench/shapes.h"

@@ -1,7 +1,5 @@
 #include "bench/workloads.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

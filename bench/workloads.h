@@ -62,7 +62,7 @@ enum class Pose {
 // as a whole.
 Workload brick_wall(int side, int courses, Pose pose, int frames);
 
-// What follows was not tuned on: other kinds of bodies, so that the engine is not fitted to the kinds above.
+// What follows was made after the engine, of other kinds of bodies: no constant was chosen by it.
 
 // `count` blobs of 320 facets, side by side on a fixed height field of 2 * cells² facets, a little sunk in.
 Workload terrain(int cells, int count, int frames);
