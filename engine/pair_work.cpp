@@ -275,8 +275,10 @@ void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int t
   Timer timer;
   work.ranges_begin = timer.start();
   const std::size_t fewest = fast_paths() == FastPaths::always ? 1 : kFewestInRange;
+  const std::size_t pairs = work.cluster_pairs.size(), at_once = static_cast<std::size_t>(threads);
+  // All threads have equally many.
   work.range_count =
-      std::min(kRangesPerThread * static_cast<std::size_t>(threads), work.cluster_pairs.size() / fewest + 1);
+      std::min(at_once * std::clamp<std::size_t>(pairs / (fewest * at_once), 1, kRangesPerThread), pairs);
   if (work.ranges.size() < work.range_count) work.ranges.resize(work.range_count);
   base::parallel_for(work.range_count, 1, threads, [&](std::size_t i, int thread) {
     ConfirmedRange& range = work.ranges[i];
