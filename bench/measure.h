@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -43,6 +44,19 @@ inline double quantile(std::vector<double> values, double part) {
 }
 
 inline double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
+
+// The sum of `count` doubles, in as many chains as it takes for memory to be the bound.
+inline double sum_of(const double* values, std::size_t count) {
+  std::array<double, 16> lanes{};
+  const std::size_t whole = count - count % lanes.size();
+  for (std::size_t k = 0; k < whole; k += lanes.size()) {
+    for (std::size_t lane = 0; lane < lanes.size(); ++lane) lanes[lane] += values[k + lane];
+  }
+  double sum = 0.0;
+  for (const double lane : lanes) sum += lane;
+  for (std::size_t k = whole; k < count; ++k) sum += values[k];
+  return sum;
+}
 
 // The exponent e of the best fit y = c * x^e: the slope of log y over log x by least squares. At least two points.
 inline double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y) {

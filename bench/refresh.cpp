@@ -4,7 +4,6 @@
 #include <tact/world.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -27,19 +26,6 @@ struct Subject {
   int bodies = 1;
   int frames = 2;  // each in memory of its own, so that large ones come from memory and not from a cache
 };
-
-// The sum of `count` doubles, in as many chains as it takes for memory to be the bound.
-double sum_of(const double* values, std::size_t count) {
-  std::array<double, 16> lanes{};
-  const std::size_t whole = count - count % lanes.size();
-  for (std::size_t k = 0; k < whole; k += lanes.size()) {
-    for (std::size_t lane = 0; lane < lanes.size(); ++lane) lanes[lane] += values[k + lane];
-  }
-  double sum = 0.0;
-  for (const double lane : lanes) sum += lane;
-  for (std::size_t k = whole; k < count; ++k) sum += values[k];
-  return sum;
-}
 
 // frames[frame][body]
 using Frames = std::vector<std::vector<Eigen::Matrix3Xd>>;

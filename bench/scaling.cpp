@@ -19,6 +19,8 @@ namespace tact::bench {
 namespace {
 
 constexpr int kFrames = 12;
+// Of them growth is measured on two, back and forth: they are part of what a cache has to hold.
+constexpr int kPlayed = 2;
 
 // Times of `steps` steps after one round to warm up.
 std::vector<double> step_times(const Workload& workload, int threads, int steps) {
@@ -90,9 +92,10 @@ void weak_scaling(const BenchOptions& options) {
 
 struct GrowthPoint {
   double size = 0.0;   // bodies or facets
-  double bytes = 0.0;  // of the world and of a frame's positions
+  double bytes = 0.0;  // of the world and of the frames that are played
   double pairs = 0.0;
   double ms = 0.0;
+  double copy_ms = 0.0;  // of all positions
 };
 
 GrowthPoint measure_growth(const Workload& workload, double size, double budget_ms) {
@@ -101,18 +104,18 @@ GrowthPoint measure_growth(const Workload& workload, double size, double budget_
   const double before = heap_bytes();
   TactRunner runner(workload, 1);
   std::vector<double> times, pairs;
-  for (int frame = 0; frame < workload.frames; ++frame) {
-    pairs.push_back(static_cast<double>(runner.step(frame).stats().facet_pairs));
-  }
-  point.bytes = frame_bytes(workload) + heap_bytes() - before;
+  for (int k = 0; k < 2 * kPlayed; ++k)
+    pairs.push_back(static_cast<double>(runner.step(k % kPlayed).stats().facet_pairs));
+  point.bytes = kPlayed * frame_bytes(workload) + heap_bytes() - before;
   const double start = wall_ms();
   double expected_ms = 0.0;
-  for (int k = 0; k < workload.frames || wall_ms() - start < budget_ms; ++k) {
-    times.push_back(time_ms(1, expected_ms, [&] { runner.step(k % workload.frames); }));
+  for (int k = 0; k < 2 * kPlayed || wall_ms() - start < budget_ms; ++k) {
+    times.push_back(time_ms(1, expected_ms, [&] { runner.step(k % kPlayed); }));
     expected_ms = times.back();
   }
   point.pairs = median(pairs);
   point.ms = median(times);
+  point.copy_ms = copy_ms(workload, kPlayed, 0.2 * budget_ms);
   return point;
 }
 
@@ -136,28 +139,34 @@ std::vector<Growth> growths(bool quick) {
     return {{"column of blobs of 80", "bodies", {1, 2, 4}, column, body_count},
             {"two blobs", "facets", {10, 20, 40}, pair, facet_count}};
   }
-  return {
-      {"column of blobs of 80", "bodies", {4, 8, 16, 32, 64, 128, 256, 512}, column, body_count},
-      {"blobs of 80, few touch", "bodies", {250, 500, 1000, 2000, 4000, 8000, 16000, 32000, 64000}, thin, body_count},
-      {"two blobs", "facets", {10, 20, 40, 80, 113, 160, 226, 320, 452}, pair, facet_count},
-      {"cloth over a sphere", "facets", {40, 80, 160, 320, 453, 640, 906}, drape, facet_count}};
+  return {{"column of blobs of 80", "bodies", {8, 16, 32, 64, 128, 256, 512, 1024}, column, body_count},
+          // Cubes: then the cells of the grid that tells how densely they lie are as many.
+          {"blobs of 80, few touch",
+           "bodies",
+           {216, 512, 1000, 2197, 4096, 8000, 15625, 32768, 64000, 125000},
+           thin,
+           body_count},
+          {"two blobs", "facets", {10, 20, 40, 80, 113, 160, 226, 320, 452}, pair, facet_count},
+          {"cloth over a sphere", "facets", {40, 80, 160, 320, 453, 640, 906}, drape, facet_count}};
 }
 
-// The exponent over the points of one level of cache, if there are three or more.
-std::optional<double> exponent_of_level(const std::vector<GrowthPoint>& points, std::optional<int> level) {
+// The exponent of a time over the points of one level of cache, if there are three or more.
+std::string exponent_of_level(const std::vector<GrowthPoint>& points, std::optional<int> level,
+                              double GrowthPoint::*time) {
   std::vector<double> x, y;
-  if (!level) return std::nullopt;
+  if (!level) return "";
   for (const GrowthPoint& point : points) {
     if (cache_level(point.bytes) != level) continue;
     x.push_back(point.size);
-    y.push_back(point.ms);
+    y.push_back(point.*time);
   }
-  if (x.size() < 3) return std::nullopt;
-  return fitted_exponent(x, y);
+  return x.size() < 3 ? "" : fmt::format("{:.2f}", fitted_exponent(x, y));
 }
 
 void growth(const BenchOptions& options) {
-  Table table({"growth", "size", "", "Mbyte", "fits in", "facet pairs", "ms", "us each", "exponent there"});
+  fmt::print("{}\n\n", cache_line());
+  Table table({"growth", "size", "", "Mbyte", "fits in", "facet pairs", "ms", "us each", "exponent there", "copy ms",
+               "its exponent"});
   std::string data, plots;
   for (const Growth& kind : growths(options.quick)) {
     std::vector<GrowthPoint> points;
@@ -169,10 +178,10 @@ void growth(const BenchOptions& options) {
     data += block + " << EOD\n";
     for (const GrowthPoint& point : points) {
       const std::optional<int> level = cache_level(point.bytes);
-      const std::optional<double> exponent = exponent_of_level(points, level);
       table.add({kind.name, fmt::format("{:.0f}", point.size), kind.unit, three_digits(1e-6 * point.bytes),
                  level_name(level), fmt::format("{:.0f}", point.pairs), three_digits(point.ms),
-                 three_digits(1e3 * point.ms / point.size), exponent ? fmt::format("{:.2f}", *exponent) : ""});
+                 three_digits(1e3 * point.ms / point.size), exponent_of_level(points, level, &GrowthPoint::ms),
+                 three_digits(point.copy_ms), exponent_of_level(points, level, &GrowthPoint::copy_ms)});
       data += fmt::format("{:.6g} {:.6g}\n", point.size, point.ms);
     }
     data += "EOD\n";

@@ -74,28 +74,11 @@ Costs measure(const Workload& workload, int threads, double budget_ms) {
   return costs;
 }
 
-// The positions of all bodies read and written once, as a refresh must at least: nanoseconds a vertex, on one thread.
-double measure_copy(const Workload& workload, double budget_ms) {
-  std::vector<Eigen::Matrix3Xd> copies;
-  for (const WorkloadBody& body : workload.bodies) copies.push_back(body.positions(0));
-  std::vector<double> times;
-  const double start = wall_ms();
-  for (int k = 0; k < 8 || wall_ms() - start < budget_ms; ++k) {
-    const double begin = wall_ms();
-    for (std::size_t i = 0; i < copies.size(); ++i) {
-      const Eigen::Matrix3Xd& positions = workload.bodies[i].positions(k % kPlayed);
-      std::copy_n(positions.data(), positions.size(), copies[i].data());
-    }
-    times.push_back(wall_ms() - begin);
-  }
-  return 1e6 * median(times) * sizeof(Eigen::Vector3d) / frame_bytes(workload);
-}
-
 }  // namespace
 
 int run_stages(const BenchOptions& options) {
   const int threads = thread_count(options.threads);
-  fmt::print("{}\n\n", machine_line(threads));
+  fmt::print("{}\n{}\n\n", machine_line(threads), cache_line());
   const double budget_ms = options.quick ? 50.0 : 4000.0;
   const std::vector<int> sizes = options.quick ? std::vector{8, 27} : std::vector{27, 343, 8000};
   std::vector<Costs> one;
@@ -105,7 +88,8 @@ int run_stages(const BenchOptions& options) {
   for (const int size : sizes) {
     const Workload workload = pile(size, 4, kFrames);
     one.push_back(measure(workload, 1, budget_ms));
-    copy_ns.push_back(measure_copy(workload, 0.2 * budget_ms));
+    copy_ns.push_back(1e6 * copy_ms(workload, kPlayed, 0.2 * budget_ms) * sizeof(Eigen::Vector3d) /
+                      frame_bytes(workload));
     header.push_back(fmt::format("{} bodies, {}: ns", size, one.back().level));
     if (size == sizes.back()) all_threads = measure(workload, threads, budget_ms);
   }
