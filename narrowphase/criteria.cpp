@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "narrowphase/chosen_groups.h"
+
 namespace tact::narrowphase {
 
 namespace {
@@ -33,24 +35,20 @@ Criteria make_criteria(const Slab& slab, Vec3 outward, double plane, const Impac
 
 // The clusters of `mesh` whose box meets `other`, ascending. Replaces `found`.
 void select_clusters(const ClusteredMesh& mesh, const Box& other, std::vector<std::int32_t>& found) {
-  constexpr int kBlock = 256;  // groups that are looked at together
   const BoxBounds bounds = bounds_of(other);
-  const auto select = [&](int begin, int end) {
+  const auto meeting = [&](int begin, int count, std::int32_t* chosen) {
+    return kernels().select_overlapping(mesh.group_boxes().pointers(begin), count, bounds, chosen);
+  };
+  found.clear();
+  for_chosen_groups(mesh, meeting, [&](int group) {
+    const int begin = mesh.cluster_begin(group), end = mesh.cluster_end(group);
     const std::size_t before = found.size();
     found.resize(before + static_cast<std::size_t>(end - begin));
     std::int32_t* const chosen = found.data() + before;
     const int count = kernels().select_overlapping(mesh.cluster_boxes().pointers(begin), end - begin, bounds, chosen);
     for (int i = 0; i < count; ++i) chosen[i] += begin;
     found.resize(before + static_cast<std::size_t>(count));
-  };
-  found.clear();
-  if (mesh.group_count() == 1) return select(0, mesh.cluster_count());
-  for (int block = 0; block < mesh.group_count(); block += kBlock) {
-    std::int32_t chosen[kBlock];
-    const int groups = std::min(kBlock, mesh.group_count() - block);
-    const int count = kernels().select_overlapping(mesh.group_boxes().pointers(block), groups, bounds, chosen);
-    for (int i = 0; i < count; ++i) select(mesh.cluster_begin(block + chosen[i]), mesh.cluster_end(block + chosen[i]));
-  }
+  });
 }
 
 std::uint64_t lowest_bits(int count) { return count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1; }

@@ -1,17 +1,16 @@
 #include "narrowphase/support.h"
 
-#include <algorithm>
 #include <cassert>
 #include <limits>
 
 #include "engine/base/fast_paths.h"
+#include "narrowphase/chosen_groups.h"
 
 namespace tact::narrowphase {
 
 namespace {
 
-constexpr int kBlock = 256;  // groups that are looked at together
-constexpr int kFew = 8;      // clusters
+constexpr int kFew = 8;  // clusters
 
 PointArrays from(PointArrays points, int first) { return {points.x + first, points.y + first, points.z + first}; }
 
@@ -30,6 +29,16 @@ HighestPoint highest_vertex(const ClusteredMesh& mesh, const std::int32_t* clust
   IndexRange ranges[kGroupSize];
   for (int k = 0; k < count; ++k) ranges[k] = {mesh.vertex_begin(clusters[k]), mesh.vertex_end(clusters[k])};
   return kernels().highest_point(mesh.points(), ranges, count, axis, least);
+}
+
+// Calls work(g) for the groups whose box reaches up to `height`.
+template <class Work>
+void for_reaching_groups(const ClusteredMesh& mesh, const HeightAxis& axis, double height, const Work& work) {
+  const PointArrays groups = far_corners(mesh.group_boxes(), {axis.nx, axis.ny, axis.nz});
+  const auto select = [&](int begin, int count, std::int32_t* chosen) {
+    return kernels().select_heights(from(groups, begin), count, axis, height, chosen);
+  };
+  for_chosen_groups(mesh, select, work);
 }
 
 class Search {
@@ -107,61 +116,43 @@ Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near) {
   }
   if (near >= 0) search.start_at(near);
   const PointArrays groups = far_corners(mesh.group_boxes(), n), clusters = far_corners(mesh.cluster_boxes(), n);
-  if (mesh.group_count() == 1) {
-    search.open_group(0, clusters);
-    return search.best();
+  int first = -1;
+  if (mesh.group_count() > 1) {
+    const IndexRange all{0, mesh.group_count()};
+    first = kernels().highest_point(groups, &all, 1, search.axis(), -std::numeric_limits<double>::infinity()).index;
+    search.open_group(first, clusters);
   }
-  const IndexRange all_groups{0, mesh.group_count()};
-  const int first =
-      kernels().highest_point(groups, &all_groups, 1, search.axis(), -std::numeric_limits<double>::infinity()).index;
-  search.open_group(first, clusters);
-  for (int block = 0; block < mesh.group_count(); block += kBlock) {
-    std::int32_t others[kBlock];
-    const int groups_left = std::min(kBlock, mesh.group_count() - block);
-    const int found =
-        kernels().select_heights(from(groups, block), groups_left, search.axis(), search.best().height, others);
-    for (int k = 0; k < found; ++k) {
-      if (block + others[k] != first) search.open_group(block + others[k], clusters);
-    }
-  }
+  const auto higher = [&](int begin, int count, std::int32_t* chosen) {
+    return kernels().select_heights(from(groups, begin), count, search.axis(), search.best().height, chosen);
+  };
+  for_chosen_groups(mesh, higher, [&](int group) {
+    if (group != first) search.open_group(group, clusters);
+  });
   return search.best();
 }
 
 bool stays_below(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double height) {
   const HeightAxis axis{n.x, n.y, n.z, origin.x, origin.y, origin.z};
-  const PointArrays groups = far_corners(mesh.group_boxes(), n), clusters = far_corners(mesh.cluster_boxes(), n);
-  const auto group_reaches = [&](int group) {
+  const PointArrays clusters = far_corners(mesh.cluster_boxes(), n);
+  bool reached = false;
+  for_reaching_groups(mesh, axis, height, [&](int group) {
+    if (reached) return;
     std::int32_t near[kGroupSize];
     const int found = reaching_clusters(mesh, group, clusters, axis, height, near);
-    return found > 0 && highest_vertex(mesh, near, found, axis, height).index >= 0;
-  };
-  if (mesh.group_count() == 1) return !group_reaches(0);
-  for (int block = 0; block < mesh.group_count(); block += kBlock) {
-    std::int32_t near[kBlock];
-    const int groups_left = std::min(kBlock, mesh.group_count() - block);
-    const int found = kernels().select_heights(from(groups, block), groups_left, axis, height, near);
-    if (std::any_of(near, near + found, [&](std::int32_t k) { return group_reaches(block + k); })) return false;
-  }
-  return true;
+    reached = found > 0 && highest_vertex(mesh, near, found, axis, height).index >= 0;
+  });
+  return !reached;
 }
 
 void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double height,
                      std::vector<std::int32_t>& found) {
-  const Vec3 n{axis.nx, axis.ny, axis.nz};
-  const PointArrays groups = far_corners(mesh.group_boxes(), n), clusters = far_corners(mesh.cluster_boxes(), n);
-  const auto select_in_group = [&](int group) {
+  const PointArrays clusters = far_corners(mesh.cluster_boxes(), {axis.nx, axis.ny, axis.nz});
+  found.clear();
+  for_reaching_groups(mesh, axis, height, [&](int group) {
     std::int32_t inside[kGroupSize];
     const int kept = reaching_clusters(mesh, group, clusters, axis, height, inside);
     found.insert(found.end(), inside, inside + kept);
-  };
-  found.clear();
-  if (mesh.group_count() == 1) return select_in_group(0);
-  for (int block = 0; block < mesh.group_count(); block += kBlock) {
-    std::int32_t chosen[kBlock];
-    const int groups_left = std::min(kBlock, mesh.group_count() - block);
-    const int count = kernels().select_heights(from(groups, block), groups_left, axis, height, chosen);
-    for (int i = 0; i < count; ++i) select_in_group(block + chosen[i]);
-  }
+  });
 }
 
 Support support_by_full_scan(const ClusteredMesh& mesh, Vec3 n, Vec3 origin) {
