@@ -11,6 +11,9 @@ namespace tact::narrowphase {
 
 namespace {
 
+// The memory of so many clusters, some 1.5 kB each, is asked for at once: that of more would not stay in a cache.
+constexpr std::size_t kMostAskedFor = 512;
+
 Criteria make_criteria(const Slab& slab, Vec3 outward, double plane, const ImpactZone* other_zone, bool facing_away) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Criteria criteria{.outward = outward,
@@ -119,6 +122,7 @@ void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Bo
   kept.boxes.resize(kept.cluster.size());
   kept.bounds = Box{};
   kept.outside_slab = 0;
+  const bool asks = kept.cluster.size() <= kMostAskedFor;
   for (const std::int32_t cluster : kept.cluster) {
     const Box box = mesh.cluster_boxes()[static_cast<std::size_t>(cluster)];
     const Vec3 top{n.x >= 0.0 ? box.upper.x : box.lower.x, n.y >= 0.0 ? box.upper.y : box.lower.y,
@@ -127,7 +131,7 @@ void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Bo
       ++kept.outside_slab;
       continue;
     }
-    mesh.prefetch_facets(cluster);
+    if (asks) mesh.prefetch_facets(cluster);
     kept.boxes.set(static_cast<std::size_t>(found), box);
     kept.cluster[static_cast<std::size_t>(found++)] = cluster;
     kept.bounds = merged(kept.bounds, intersection(box, other));
