@@ -21,7 +21,7 @@ using namespace narrowphase;
 
 // A pair of bodies is cut into ranges if it has many pairs of clusters, or if a step has few pairs of bodies to share
 // out. A pair of clusters takes about a microsecond, and at a border between ranges a few clusters are opened twice.
-constexpr std::size_t kLargePair = 4096, kFewestInRanges = 128, kFewestInRange = 64;  // pairs of clusters
+constexpr std::size_t kLargePair = 4096, kFewestInRanges = 128, kFewestInRange = 32;  // pairs of clusters
 constexpr std::size_t kPairsPerThread = 4;                                            // pairs of bodies
 constexpr std::size_t kRangesPerThread = 4;
 
@@ -274,11 +274,11 @@ std::size_t range_begin(const std::vector<ClusterPair>& pairs, std::size_t i, st
 void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int threads) {
   Timer timer;
   work.ranges_begin = timer.start();
+  // Equally many for each thread that has enough to do; of large pairs several, so that threads end together.
+  const std::size_t pairs = work.cluster_pairs.size();
   const std::size_t fewest = fast_paths() == FastPaths::always ? 1 : kFewestInRange;
-  const std::size_t pairs = work.cluster_pairs.size(), at_once = static_cast<std::size_t>(threads);
-  // All threads have equally many.
-  work.range_count =
-      std::min(at_once * std::clamp<std::size_t>(pairs / (fewest * at_once), 1, kRangesPerThread), pairs);
+  const std::size_t at_once = std::clamp<std::size_t>(pairs / fewest, 1, static_cast<std::size_t>(threads));
+  work.range_count = at_once * std::clamp<std::size_t>(pairs / (2 * fewest * at_once), 1, kRangesPerThread);
   if (work.ranges.size() < work.range_count) work.ranges.resize(work.range_count);
   base::parallel_for(work.range_count, 1, threads, [&](std::size_t i, int thread) {
     ConfirmedRange& range = work.ranges[i];
