@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "narrowphase/clustered_mesh.h"
 #include "narrowphase/support.h"
 #include "tests/support/clustered.h"
@@ -168,6 +171,32 @@ TEST(Support, IsThatOfAFullScanBitForBit) {
           EXPECT_LE(clusters.source_vertex(expected.vertex), clusters.source_vertex(v));
         }
       }
+    }
+  }
+}
+
+// In one group of clusters, in several, and in more than are looked at together.
+TEST(Support, LooksAtAllGroups) {
+  tests::Random random(8);
+  std::vector<std::int32_t> reaching;
+  for (const int cells : {10, 100, 530}) {
+    const ClusteredMesh mesh = clustered(tests::wrinkled_sheet(cells, 2.0, 0.3, 3));
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 n = random.direction(), origin = random.in_cube(1.0);
+      const Support top = support_by_full_scan(mesh, n, origin);
+      EXPECT_EQ(support(mesh, n, origin).vertex, top.vertex);
+      EXPECT_FALSE(stays_below(mesh, n, origin, top.height));
+      EXPECT_TRUE(stays_below(mesh, n, origin, std::nextafter(top.height, HUGE_VAL)));
+
+      const double height = top.height - random.uniform(0.0, 1.0);
+      select_clusters(mesh, {n.x, n.y, n.z, origin.x, origin.y, origin.z}, height, reaching);
+      const PointArrays corner = far_corners(mesh.cluster_boxes(), n);
+      std::vector<std::int32_t> expected;
+      for (std::int32_t c = 0; c < mesh.cluster_count(); ++c) {
+        if (dot(n, Vec3{corner.x[c], corner.y[c], corner.z[c]} - origin) >= height) expected.push_back(c);
+      }
+      ASSERT_EQ(reaching, expected) << cells << " cells, direction " << i;
+      EXPECT_FALSE(expected.empty());
     }
   }
 }
