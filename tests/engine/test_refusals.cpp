@@ -17,6 +17,23 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// Every call that takes an id refuses this one.
+void expect_refused(World& world, BodyId id, const Eigen::Matrix3Xd& positions, ErrorCode code) {
+  SCOPED_TRACE("id " + std::to_string(id.index) + ", generation " + std::to_string(id.generation));
+  EXPECT_FALSE(world.contains(id));
+  EXPECT_TRUE(throws_error([&] { world.remove_body(id); }, code));
+  EXPECT_TRUE(throws_error([&] { world.set_positions(id, positions); }, code));
+  EXPECT_TRUE(throws_error([&] { world.name(id); }, code));
+  EXPECT_TRUE(throws_error([&] { world.surface(id); }, code));
+  EXPECT_TRUE(throws_error([&] { world.motion(id); }, code));
+  EXPECT_TRUE(throws_error([&] { world.layer(id); }, code));
+  EXPECT_TRUE(throws_error([&] { world.mask(id); }, code));
+  EXPECT_TRUE(throws_error([&] { world.set_layers(id, 2, 2); }, code));
+  EXPECT_TRUE(throws_error([&] { world.set_motion(id, Motion::fixed); }, code));
+  EXPECT_TRUE(throws_error([&] { world.vertex_count(id); }, code));
+  EXPECT_TRUE(throws_error([&] { world.facet_count(id); }, code));
+}
+
 TEST_F(WorldOfThree, RefusesStaleIdInEveryCall) {
   world_.remove_body(right_);
   const BodyId next = world_.add_body(definition(right_mesh_, "next"));
@@ -25,18 +42,7 @@ TEST_F(WorldOfThree, RefusesStaleIdInEveryCall) {
   const std::array updates = {PositionsUpdate{left_, left_mesh_.positions},
                               PositionsUpdate{right_, right_mesh_.positions}};
   for (const BodyId stale : {right_, BodyId{}, BodyId{99, 1, left_.world}, BodyId{left_.index, 7, left_.world}}) {
-    EXPECT_FALSE(world_.contains(stale));
-    EXPECT_TRUE(throws_error([&] { world_.remove_body(stale); }, ErrorCode::stale_body));
-    EXPECT_TRUE(throws_error([&] { world_.set_positions(stale, right_mesh_.positions); }, ErrorCode::stale_body));
-    EXPECT_TRUE(throws_error([&] { world_.name(stale); }, ErrorCode::stale_body));
-    EXPECT_TRUE(throws_error([&] { world_.surface(stale); }, ErrorCode::stale_body));
-    EXPECT_TRUE(throws_error([&] { world_.motion(stale); }, ErrorCode::stale_body));
-    EXPECT_TRUE(throws_error([&] { world_.layer(stale); }, ErrorCode::stale_body));
-    EXPECT_TRUE(throws_error([&] { world_.mask(stale); }, ErrorCode::stale_body));
-    EXPECT_TRUE(throws_error([&] { world_.set_layers(stale, 2, 2); }, ErrorCode::stale_body));
-    EXPECT_TRUE(throws_error([&] { world_.set_motion(stale, Motion::fixed); }, ErrorCode::stale_body));
-    EXPECT_TRUE(throws_error([&] { world_.vertex_count(stale); }, ErrorCode::stale_body));
-    EXPECT_TRUE(throws_error([&] { world_.facet_count(stale); }, ErrorCode::stale_body));
+    expect_refused(world_, stale, right_mesh_.positions, ErrorCode::stale_body);
   }
   EXPECT_TRUE(throws_error([&] { world_.set_positions(updates); }, ErrorCode::stale_body, {"update 1", "removed"}));
   EXPECT_TRUE(throws_error(
@@ -54,19 +60,8 @@ TEST_F(WorldOfThree, RefusesForeignIdInEveryCall) {
   const std::uint64_t before = hash(), others = other.detect().hash();
   const std::array updates = {PositionsUpdate{left_, right_mesh_.positions},
                               PositionsUpdate{foreign, right_mesh_.positions}};
-  EXPECT_FALSE(world_.contains(foreign));
-  EXPECT_TRUE(throws_error([&] { world_.remove_body(foreign); }, ErrorCode::foreign_body));
-  EXPECT_TRUE(throws_error([&] { world_.set_positions(foreign, right_mesh_.positions); }, ErrorCode::foreign_body));
+  expect_refused(world_, foreign, right_mesh_.positions, ErrorCode::foreign_body);
   EXPECT_TRUE(throws_error([&] { world_.set_positions(updates); }, ErrorCode::foreign_body));
-  EXPECT_TRUE(throws_error([&] { world_.name(foreign); }, ErrorCode::foreign_body));
-  EXPECT_TRUE(throws_error([&] { world_.surface(foreign); }, ErrorCode::foreign_body));
-  EXPECT_TRUE(throws_error([&] { world_.motion(foreign); }, ErrorCode::foreign_body));
-  EXPECT_TRUE(throws_error([&] { world_.layer(foreign); }, ErrorCode::foreign_body));
-  EXPECT_TRUE(throws_error([&] { world_.mask(foreign); }, ErrorCode::foreign_body));
-  EXPECT_TRUE(throws_error([&] { world_.set_layers(foreign, 2, 2); }, ErrorCode::foreign_body));
-  EXPECT_TRUE(throws_error([&] { world_.set_motion(foreign, Motion::fixed); }, ErrorCode::foreign_body));
-  EXPECT_TRUE(throws_error([&] { world_.vertex_count(foreign); }, ErrorCode::foreign_body));
-  EXPECT_TRUE(throws_error([&] { world_.facet_count(foreign); }, ErrorCode::foreign_body));
   EXPECT_EQ(world_.body_count(), 3u);
   EXPECT_EQ(hash(), before);
   EXPECT_EQ(other.detect().hash(), others);
