@@ -74,7 +74,7 @@ void PackedMeshes::pack(std::span<ClusteredMesh* const> meshes, int threads) {
     all = {all.placement + sizes.placement, all.indices + sizes.indices, all.rest + sizes.rest};
   }
   constexpr std::size_t kPadding = narrowphase::kPadding * sizeof(double);
-  const std::size_t size = kLine + 2 * all.placement + kPadding + all.indices + all.rest;
+  const std::size_t size = kLine + 2 * all.placement + kPadding + all.indices + all.rest + kPadding;
   auto memory = std::make_unique<std::byte[]>(size);
   void* line = memory.get();
   std::size_t space = size;

@@ -157,7 +157,8 @@ void ClusteredMesh::take_memory(const Numbering& numbering, std::span<const int>
   stride_ = static_cast<std::size_t>(vertex_count());
   const MemorySize size = memory_size();
   const std::size_t placements = (2 * size.placement + kPadding) * sizeof(double);
-  memory_ = std::make_unique<std::byte[]>(placements + size.indices * sizeof(int) + size.rest);
+  constexpr std::size_t kEnd = kPadding * sizeof(double);
+  memory_ = std::make_unique<std::byte[]>(placements + size.indices * sizeof(int) + size.rest + kEnd);
   double* const first = reinterpret_cast<double*>(memory_.get());
   int* const indices = reinterpret_cast<int*>(memory_.get() + placements);
   lay_out({{first, first + size.placement}, indices, reinterpret_cast<std::byte*>(indices + size.indices)});

@@ -212,7 +212,8 @@ class ClusteredMesh {
     std::size_t rest;       // bytes; begins where an int may
   };
   MemorySize memory_size() const;
-  // Moves there. The memory stays the caller's, until the mesh moves again or is no more, and kPadding doubles follow.
+  // Moves there. The memory stays the caller's, until the mesh moves again or is no more; kPadding doubles, or as many
+  // bytes, follow the last placement and the rest.
   void move_to(const Memory& memory);
   bool has_own_memory() const { return memory_ != nullptr; }
 

@@ -50,6 +50,70 @@ inline void write_places(std::uint64_t set, std::uint8_t* to) {
   compress(set, kPlaces.place, to);
 }
 
+#elif defined(TACT_KERNELS_AVX2_BYTES)
+
+// Sixteen flags at a time stand in both halves of a register. A shuffle takes the low four bits of a place and gives zero
+// where the highest is set: so it is after a saturated sum in all places but those of the sixteen.
+inline CommonFlags common_flags(const std::uint8_t* flags, int flag_count, const std::uint8_t* const (&corner)[3],
+                                int count) {
+  CommonFlags found{0, 0};
+  for (int begin = 0; begin < count; begin += 32) {
+    __m256i place[3], of_corner[3];
+    for (int k = 0; k < 3; ++k) {
+      place[k] = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(corner[k] + begin));
+      of_corner[k] = _mm256_setzero_si256();
+    }
+    for (int first = 0; first < flag_count; first += 16) {
+      const __m256i here = _mm256_broadcastsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(flags + first)));
+      for (int k = 0; k < 3; ++k) {
+        const __m256i one = _mm256_shuffle_epi8(here, _mm256_adds_epu8(place[k], _mm256_set1_epi8(0x70)));
+        of_corner[k] = _mm256_or_si256(of_corner[k], one);
+        place[k] = _mm256_sub_epi8(place[k], _mm256_set1_epi8(16));
+      }
+    }
+    const __m256i common = _mm256_and_si256(_mm256_and_si256(of_corner[0], of_corner[1]), of_corner[2]);
+    const __m256i none = _mm256_cmpeq_epi8(common, _mm256_setzero_si256()), lowest = _mm256_slli_epi16(common, 7);
+    found.none |= std::uint64_t{static_cast<std::uint32_t>(_mm256_movemask_epi8(none))} << begin;
+    found.lowest |= std::uint64_t{static_cast<std::uint32_t>(_mm256_movemask_epi8(lowest))} << begin;
+  }
+  const std::uint64_t all = ~std::uint64_t{0} >> (64 - count);
+  return {found.none & all, found.lowest & all};
+}
+
+// The places of the bits of each byte, ascending, a byte each.
+struct PlacesInByte {
+  std::uint64_t of[256];
+  constexpr PlacesInByte() : of() {
+    for (unsigned byte = 0; byte < 256; ++byte) {
+      int count = 0;
+      for (std::uint64_t place = 0; place < 8; ++place) {
+        if ((byte >> place & 1) != 0) of[byte] |= place << 8 * count++;
+      }
+    }
+  }
+};
+constexpr PlacesInByte kPlacesInByte;
+
+// Copies those of up to 64 bytes that have a bit, one after the other. Reads and writes up to 64 bytes.
+inline void compress(std::uint64_t set, const std::uint8_t* from, std::uint8_t* to) {
+  for (; set != 0; set >>= 8, from += 8) {
+    const std::uint64_t byte = set & 0xff;
+    const __m128i eight = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+    const __m128i places = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kPlacesInByte.of + byte));
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_shuffle_epi8(eight, places));
+    to += __builtin_popcountll(byte);
+  }
+}
+
+// The places of the bits that are set, ascending. Writes up to 64 bytes.
+inline void write_places(std::uint64_t set, std::uint8_t* to) {
+  for (std::uint64_t first = 0; set != 0; set >>= 8, first += 0x0808080808080808) {
+    const std::uint64_t byte = set & 0xff, places = kPlacesInByte.of[byte] + first;
+    __builtin_memcpy(to, &places, sizeof places);
+    to += __builtin_popcountll(byte);
+  }
+}
+
 #else
 
 inline CommonFlags common_flags(const std::uint8_t* flags, int, const std::uint8_t* const (&corner)[3], int count) {

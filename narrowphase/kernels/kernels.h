@@ -60,7 +60,7 @@ inline constexpr double kAbsoluteRounding = 1e-200;
 inline constexpr double kWideRelativeRounding = 0x1p-100;
 
 // A cluster's facets and vertices. Of the vertices, those that it owns stand next to each other in `points`, the others
-// are borrowed; `corner` counts the owned ones first.
+// are borrowed; `corner` counts the owned ones first, and 64 bytes of each of its arrays may be read.
 struct ClusterFacets {
   PointArrays points;  // of all vertices
   std::int32_t owned_begin;

@@ -11,6 +11,7 @@
 namespace tact::narrowphase {
 namespace {
 
+constexpr int kVectorBytes = 32;  // of whole numbers
 constexpr int kWidth = 4;
 using Pack = __m256d;
 using Mask = __m256d;
@@ -54,11 +55,10 @@ inline void store_flags(std::uint8_t* p, const Mask (&mask)[7]) {
   for (int k = 0; k < 7; ++k) {
     flags = _mm256_or_si256(flags, _mm256_and_si256(_mm256_castpd_si256(mask[k]), _mm256_set1_epi64x(1 << k)));
   }
-  const __m128i two = _mm_packus_epi32(_mm256_castsi256_si128(flags), _mm256_extracti128_si256(flags, 1));
-  p[0] = static_cast<std::uint8_t>(_mm_extract_epi8(two, 0));
-  p[1] = static_cast<std::uint8_t>(_mm_extract_epi8(two, 4));
-  p[2] = static_cast<std::uint8_t>(_mm_extract_epi8(two, 8));
-  p[3] = static_cast<std::uint8_t>(_mm_extract_epi8(two, 12));
+  const __m128i low = _mm256_castsi256_si128(flags), high = _mm256_extracti128_si256(flags, 1);
+  const __m128i byte_of = _mm_setr_epi8(0, 8, 2, 10, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1);
+  const int four = _mm_cvtsi128_si32(_mm_shuffle_epi8(_mm_or_si128(low, _mm_slli_epi64(high, 16)), byte_of));
+  __builtin_memcpy(p, &four, sizeof four);
 }
 
 // Eight floats at a time.

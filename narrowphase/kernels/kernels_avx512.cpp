@@ -11,6 +11,7 @@
 namespace tact::narrowphase {
 namespace {
 
+constexpr int kVectorBytes = 64;  // of whole numbers
 constexpr int kWidth = 8;
 using Pack = __m512d;
 using Mask = __mmask8;

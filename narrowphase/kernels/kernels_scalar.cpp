@@ -7,6 +7,7 @@
 namespace tact::narrowphase {
 namespace {
 
+constexpr int kVectorBytes = 16;  // of whole numbers
 constexpr int kWidth = 1;
 using Pack = double;
 using Mask = bool;

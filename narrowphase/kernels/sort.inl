@@ -4,7 +4,7 @@
 // sorting, none of which can be foreseen. Vectors of GCC's: a comparison gives -1 where it holds.
 template <class Key>
 inline void count_lesser(const Key* key, int count, Key* lesser) {
-  using Keys [[gnu::vector_size(64)]] = Key;
+  using Keys [[gnu::vector_size(kVectorBytes)]] = Key;
   constexpr int kKeys = sizeof(Keys) / sizeof(Key);
   for (int i = 0; i < count; i += kKeys) {
     Keys keys, found{};
