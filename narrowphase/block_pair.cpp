@@ -13,12 +13,22 @@ namespace {
 // From so many pairs on it is worth making floats of all corners of two blocks.
 constexpr int kWorthFloats = 32;
 
+// A facet whose box overlaps so many others asks its plane which of them it leaves aside; deciding fewer is as cheap.
+constexpr int kWorthAPlane = 6;
+
 using base::fast_paths;
 using base::FastPaths;
 
-bool worth_floats(int pairs) {
+bool worth_floats(std::int64_t pairs) {
   if (fast_paths() == FastPaths::automatic) return pairs >= kWorthFloats;
   return fast_paths() == FastPaths::always;
+}
+
+// From how many facets on a plane is asked.
+int worth_a_plane() { return fast_paths() == FastPaths::automatic ? kWorthAPlane : 1; }
+
+std::int16_t cell(const Grid& grid, int axis, double x) {
+  return static_cast<std::int16_t>(std::clamp((x - grid.origin[axis]) * grid.scale[axis], 0.0, kLastCell));
 }
 
 Triangle triangle_in(const FacetBlock& block, std::size_t i) {
@@ -38,60 +48,83 @@ Grid grid_over(const BoxBounds& box, double last) {
   return grid;
 }
 
-void BlockPair::begin(const FacetBlock& a, std::uint64_t of_a, const FacetBlock& b, std::uint64_t of_b,
-                      const BoxBounds& bounds, const Grid& grid) {
-  a_ = &a;
-  b_ = &b;
-  of_a_ = of_a;
-  of_b_ = of_b;
-  bounds_ = bounds;
-  grid_ = grid;
-  prepared_ = false;
+CellBox cells_of(const Grid& grid, const BoxBounds& box) {
+  CellBox cells;
+  for (int axis = 0; axis < 3; ++axis) {
+    cells.lower[axis] = cell(grid, axis, box.lower[axis]);
+    cells.upper[axis] = cell(grid, axis, box.upper[axis]);
+  }
+  return cells;
 }
 
-void BlockPair::prepare(int pairs) {
-  prepared_ = true;
-  on_lattice_ = kernels().on_lattice(*a_, bounds_) && kernels().on_lattice(*b_, bounds_);
-  in_floats_ = !on_lattice_ && worth_floats(pairs);
-  if (!in_floats_) return;
+// By the cells of their boxes, by the planes of the fewer facets, then many pairs at a time.
+void BlockPair::find_meeting(const FacetBlock& a, std::uint64_t of_a, const FacetBlock& b, std::uint64_t of_b,
+                             const BoxBounds& bounds, const Grid& grid, std::vector<FacetPair>& found,
+                             ConfirmCounts& counts) {
+  const bool few_are_b = std::popcount(of_b) < std::popcount(of_a);
+  const SharedCells shared =
+      few_are_b ? kernels().share_cells(b, of_b, a, of_a, met_) : kernels().share_cells(a, of_a, b, of_b, met_);
+  counts.facet_box_pairs += shared.pairs;
+  if (shared.pairs == 0) return;
+  a_ = &a;
+  b_ = &b;
+  bounds_ = bounds;
+  on_lattice_ = kernels().on_lattice(a, bounds) && kernels().on_lattice(b, bounds);
+  in_floats_ = !on_lattice_ && worth_floats(shared.pairs);
+  if (in_floats_) {
+    make_floats(of_a, of_b, grid);
+    const FloatCorners &few = few_are_b ? floats_b_ : floats_a_, &many = few_are_b ? floats_a_ : floats_b_;
+    kernels().leave_aside(few, shared.facets, many, gap_, worth_a_plane(), met_);
+  }
+  for (std::uint64_t left = shared.facets; left != 0;) {
+    pairs_.count = 0;
+    left = kernels().list_pairs(left, met_, few_are_b, &pairs_);
+    if (pairs_.count == 0) return;
+    for (std::uint64_t meeting = meeting_of_listed(counts); meeting != 0; meeting &= meeting - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(meeting));
+      found.push_back({pairs_.a[k], pairs_.b[k]});
+    }
+  }
+}
+
+void BlockPair::make_floats(std::uint64_t of_a, std::uint64_t of_b, const Grid& grid) {
   const Grid unit = grid_over(bounds_, 1.0);
-  kernels().float_corners(*a_, of_a_, unit, &floats_a_);
-  kernels().float_corners(*b_, of_b_, unit, &floats_b_);
-  for (int axis = 0; axis < 3; ++axis) gap_[axis] = unit.scale[axis] / grid_.scale[axis];
+  kernels().float_corners(*a_, of_a, unit, &floats_a_);
+  kernels().float_corners(*b_, of_b, unit, &floats_b_);
+  for (int axis = 0; axis < 3; ++axis) gap_[axis] = unit.scale[axis] / grid.scale[axis];
 }
 
 // What can be told of many pairs at once: in floats; of those that these leave open in doubles, then by equal corners,
 // then within a common plane or with twice the digits.
-PairMatches BlockPair::matches_of(const FacetPairList& pairs) const {
+PairMatches BlockPair::matches_of_listed() const {
   const FacetBlock &a = *a_, &b = *b_;
   PairMatches all;
-  all.undecided = ~std::uint64_t{0} >> (FacetPairList::kCapacity - pairs.count);
+  all.undecided = ~std::uint64_t{0} >> (FacetPairList::kCapacity - pairs_.count);
   if (fast_paths() == FastPaths::off) return all;
-  const PairMatches floats = in_floats_ ? kernels().match_float_pairs(floats_a_, floats_b_, pairs, gap_) : all;
+  const PairMatches floats = in_floats_ ? kernels().match_float_pairs(floats_a_, floats_b_, pairs_, gap_) : all;
   if (floats.undecided == 0) return floats;
-  const PairMatches doubles = kernels().match_pairs(a, b, pairs, floats.undecided, bounds_, on_lattice_);
+  const PairMatches doubles = kernels().match_pairs(a, b, pairs_, floats.undecided, bounds_, on_lattice_);
   const std::uint64_t meeting = floats.meeting | doubles.meeting;
   if (doubles.undecided == 0) return {.meeting = meeting};
-  const std::uint64_t sharing = on_lattice_ ? 0 : kernels().sharing_pairs(a, b, pairs, doubles.undecided);
+  const std::uint64_t sharing = on_lattice_ ? 0 : kernels().sharing_pairs(a, b, pairs_, doubles.undecided);
   const std::uint64_t flat = doubles.flat & ~sharing;
-  const PairMatches wide = kernels().match_pairs_wide(a, b, pairs, doubles.undecided & ~(sharing | flat));
+  const PairMatches wide = kernels().match_pairs_wide(a, b, pairs_, doubles.undecided & ~(sharing | flat));
   const std::uint64_t in_plane = flat | (wide.undecided & wide.flat);
-  const PairMatches plane = kernels().match_flat_pairs(a, b, pairs, in_plane, on_lattice_);
+  const PairMatches plane = kernels().match_flat_pairs(a, b, pairs_, in_plane, on_lattice_);
   return {.meeting = meeting | sharing | wide.meeting | plane.meeting,
           .undecided = (wide.undecided & ~in_plane) | plane.undecided,
           .flat = plane.undecided};
 }
 
-std::uint64_t BlockPair::meeting(const FacetPairList& pairs, ConfirmCounts& counts) {
-  if (pairs.count == 0) return 0;
-  if (!prepared_) prepare(pairs.count);
-  const PairMatches matches = matches_of(pairs);
+// A bit for each listed pair that meets: what is left open, exact predicates decide.
+std::uint64_t BlockPair::meeting_of_listed(ConfirmCounts& counts) const {
+  const PairMatches matches = matches_of_listed();
   std::uint64_t meeting = matches.meeting;
   for (std::uint64_t left = matches.undecided; left != 0; left &= left - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(left));
     ++counts.triangle_tests;
-    const Triangle p = triangle_in(*a_, static_cast<std::size_t>(pairs.a[k]));
-    const Triangle q = triangle_in(*b_, static_cast<std::size_t>(pairs.b[k]));
+    const Triangle p = triangle_in(*a_, static_cast<std::size_t>(pairs_.a[k]));
+    const Triangle q = triangle_in(*b_, static_cast<std::size_t>(pairs_.b[k]));
     const bool is_flat = (matches.flat >> k & 1) != 0;
     if (is_flat ? coplanar_triangles_meet(p, q, counts.predicates) : triangle_triangle_meet(p, q, counts.predicates)) {
       meeting |= std::uint64_t{1} << k;

@@ -13,9 +13,6 @@ namespace {
 // asking trees 0.5 to 1.3 us a box; they are equal at one to two million pairs.
 constexpr std::int64_t kLargestLoop = std::int64_t{1} << 20;
 
-// A facet whose box overlaps so many others asks its plane which of them it leaves aside; deciding fewer is as cheap.
-constexpr int kWorthAPlane = 6;
-
 // Two blocks of so many facets are paired at once; of more, those near the other are looked for first.
 constexpr int kFewInBlocks = 48;
 
@@ -30,12 +27,6 @@ bool worth_trees(std::int64_t box_pairs) {
 bool worth_looking_for_near_facets(int facets) {
   if (fast_paths() == FastPaths::automatic) return facets > kFewInBlocks;
   return fast_paths() == FastPaths::always;
-}
-
-// From how many facets on a plane is asked.
-int worth_a_plane() {
-  if (fast_paths() == FastPaths::automatic) return kWorthAPlane;
-  return fast_paths() == FastPaths::always ? 1 : FacetBlock::kCapacity + 1;
 }
 
 }  // namespace
@@ -85,7 +76,7 @@ void FacetPairSearch::run(const ConfirmInput& input, const std::vector<ClusterPa
   opened_b_.clear();
   blocks_of_b_ = 0;
   wanted_.clear();
-  empty_a();
+  a_.clear();
   place_.assign(static_cast<std::size_t>(input.kept_b->count()), {});
   for (std::size_t i = begin; i < end;) {
     const std::int32_t a = pairs[i].a;
@@ -106,7 +97,8 @@ bool FacetPairSearch::reaches_b(const ConfirmInput& input, const ClusterPair& pa
   const Box box = input.kept_a->boxes[static_cast<std::size_t>(pair.a)];
   const Box both = merged(input.kept_b->boxes[static_cast<std::size_t>(pair.b)], box);
   const FacetBlock& block = b_[static_cast<std::size_t>(place.block)]->kept.block;
-  return kernels().any_near(block, place.facets, bounds_of(box), bounds_of(both));
+  const BoxBounds bounds = bounds_of(box);
+  return kernels().any_near(block, place.facets, cells_of(grid_, bounds), bounds, bounds_of(both));
 }
 
 FacetPairSearch::PlaceInB FacetPairSearch::open_b(const ConfirmInput& input, std::int32_t index) {
@@ -126,6 +118,7 @@ FacetPairSearch::PlaceInB FacetPairSearch::open_b(const ConfirmInput& input, std
     before = 0;
     append(fresh.kept);
   }
+  kernels().find_cells(grid_, &b_[blocks_of_b_ - 1]->kept.block);
   place = {static_cast<std::int32_t>(blocks_of_b_ - 1), b_[blocks_of_b_ - 1]->kept.facets & ~before};
   return place;
 }
@@ -156,43 +149,27 @@ void FacetPairSearch::finish_block(const ConfirmInput& input, std::vector<FacetP
     b.wanted = false;
   }
   wanted_.clear();
-  empty_a();
-}
-
-void FacetPairSearch::empty_a() {
   a_.clear();
-  pairs_.count = 0;
 }
 
-// The facets of each block that are near the other's are paired by their boxes; pairs are decided many at a time.
+// Of each block only the facets near the other are looked at.
 void FacetPairSearch::test_blocks(const ConfirmInput& input, KeptFacets& b, std::vector<FacetPair>& found,
                                   ConfirmCounts& counts) {
-  const BoxBounds bounds = bounds_of(merged(a_.bounds, b.bounds));
   std::uint64_t near_a = a_.facets, near_b = b.facets;
-  if (worth_looking_for_near_facets(a_.block.count + b.block.count)) {
-    const BoxBounds common = bounds_of(intersection(a_.bounds, b.bounds));
-    const NearFacets of_b = kernels().near_facets(b.block, b.facets, common, bounds);
-    if (of_b.facets == 0) return;
-    near_a = kernels().near_facets(a_.block, a_.facets, of_b.box, bounds).facets;
-    near_b = of_b.facets;
-  }
   kernels().find_cells(grid_, &a_.block);
-  kernels().find_cells(grid_, &b.block);
-  block_pair_.begin(a_.block, near_a, b.block, near_b, bounds, grid_);
-  const bool few_are_b = std::popcount(near_b) < std::popcount(near_a);
-  const FacetBlock &few = few_are_b ? b.block : a_.block, &many = few_are_b ? a_.block : b.block;
-  const std::uint64_t others = few_are_b ? near_a : near_b;
-  for (std::uint64_t left = few_are_b ? near_b : near_a; left != 0;) {
-    const PairedFacets paired =
-        kernels().pair_facets(few, left, many, others, bounds, few_are_b, worth_a_plane(), &pairs_);
-    left = paired.left_over;
-    counts.facet_box_pairs += paired.box_pairs;
-    for (std::uint64_t meeting = block_pair_.meeting(pairs_, counts); meeting != 0; meeting &= meeting - 1) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(meeting));
-      found.push_back(
-          {input.a->source_facet(a_.block.facet[pairs_.a[k]]), input.b->source_facet(b.block.facet[pairs_.b[k]])});
-    }
-    pairs_.count = 0;
+  if (worth_looking_for_near_facets(a_.block.count + b.block.count)) {
+    const CellBox common = cells_of(grid_, bounds_of(intersection(a_.bounds, b.bounds)));
+    const NearFacets of_b = kernels().near_facets(b.block, near_b, common);
+    if (of_b.facets == 0) return;
+    near_b = of_b.facets;
+    near_a = kernels().near_facets(a_.block, near_a, of_b.cells).facets;
+  }
+  const std::size_t before = found.size();
+  const BoxBounds bounds = bounds_of(merged(a_.bounds, b.bounds));
+  block_pair_.find_meeting(a_.block, near_a, b.block, near_b, bounds, grid_, found, counts);
+  for (std::size_t i = before; i < found.size(); ++i) {
+    FacetPair& pair = found[i];
+    pair = {input.a->source_facet(a_.block.facet[pair.a]), input.b->source_facet(b.block.facet[pair.b])};
   }
 }
 

@@ -80,7 +80,6 @@ class FacetPairSearch {
   PlaceInB open_b(const ConfirmInput& input, std::int32_t index);
   void append_a(const ConfirmInput& input, std::int32_t index, std::vector<FacetPair>& found, ConfirmCounts& counts);
   void finish_block(const ConfirmInput& input, std::vector<FacetPair>& found, ConfirmCounts& counts);
-  void empty_a();
   void test_blocks(const ConfirmInput& input, KeptFacets& b, std::vector<FacetPair>& found, ConfirmCounts& counts);
 
   Grid grid_ = {};  // over what both bodies reach
@@ -91,7 +90,6 @@ class FacetPairSearch {
   std::size_t blocks_of_b_ = 0;  // in use
   std::vector<PlaceInB> place_;  // of each kept cluster of B
   BlockPair block_pair_;         // a_ and a block of B
-  FacetPairList pairs_;          // of their facets, to be decided together
   std::vector<OpenedCluster> opened_a_, opened_b_;
 };
 

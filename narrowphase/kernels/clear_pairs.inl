@@ -127,6 +127,34 @@ inline float float_rounding(const FloatCorners& a, const FloatCorners& b, const 
   return static_cast<float>(0x1p-24 * (12.1 * sides + 48.2 * product) + 1e-30);
 }
 
+void leave_aside(const FloatCorners& few, std::uint64_t some, const FloatCorners& many, const double* gap,
+                 int plane_from, std::uint64_t* met) {
+  const FloatPack error = spread(float_rounding(few, many, gap)), opposite_error = opposite<float>(error);
+  for (; some != 0; some &= some - 1) {
+    const int f = __builtin_ctzll(some);
+    if (__builtin_popcountll(met[f]) < plane_from) continue;
+    VectorOf<float> of_f[3];
+    for (int k = 0; k < 3; ++k) {
+      of_f[k] = {spread(few.corner[k][0][f]), spread(few.corner[k][1][f]), spread(few.corner[k][2][f])};
+    }
+    const ClearPlane<float> plane(of_f[0], of_f[1], of_f[2]);
+    for (std::uint64_t left = met[f]; left != 0;) {
+      const int i = __builtin_ctzll(left) / kFloatWidth * kFloatWidth;
+      FloatMask above[3], below[3];
+      for (int k = 0; k < 3; ++k) {
+        const FloatPack height = plane.height(
+            {load(many.corner[k][0] + i), load(many.corner[k][1] + i), load(many.corner[k][2] + i)});
+        above[k] = less(error, height);
+        below[k] = less(height, opposite_error);
+      }
+      const unsigned aside =
+          bits(either(both(both(above[0], above[1]), above[2]), both(both(below[0], below[1]), below[2])));
+      met[f] &= ~(static_cast<std::uint64_t>(aside) << i);
+      left &= ~(static_cast<std::uint64_t>(kAllFloatLanes) << i);
+    }
+  }
+}
+
 // Where floats leave half of the pairs open, they are asked no more.
 PairMatches match_float_pairs(const FloatCorners& a, const FloatCorners& b, const FacetPairList& pairs,
                               const double* gap) {
@@ -143,7 +171,7 @@ PairMatches match_float_pairs(const FloatCorners& a, const FloatCorners& b, cons
     corners_of(a, FloatPicks(pairs.a + i), corner_a);
     corners_of(b, FloatPicks(pairs.b + i), corner_b);
     const int left = pairs.count - i;
-    const unsigned lanes = left >= kFloatWidth ? (1u << kFloatWidth) - 1u : (1u << left) - 1u;
+    const unsigned lanes = left >= kFloatWidth ? kAllFloatLanes : (1u << left) - 1u;
     const Meeting meeting = match_clear_lanes(corner_a, corner_b, lanes, error);
     yes |= static_cast<std::uint64_t>(meeting.yes) << i;
     no |= static_cast<std::uint64_t>(meeting.no) << i;

@@ -185,90 +185,50 @@ inline unsigned planes_apart(const FacetBlock& block, int i, const BoxPack& box,
   return bits(either(above, below));
 }
 
-// The facets from `i` on that have a bit in `candidates`, whose box overlaps `box` and whose plane does not leave it on
-// one side.
-inline unsigned near_lanes(const FacetBlock& block, int i, std::uint64_t candidates, const BoxPack& box, Pack error) {
-  const double* const lower[3] = {block.lower[0], block.lower[1], block.lower[2]};
-  const double* const upper[3] = {block.upper[0], block.upper[1], block.upper[2]};
-  const unsigned mask = static_cast<unsigned>(candidates >> i) & kAllLanes & box.overlap(lower, upper, i);
-  return mask == 0 ? 0 : mask & ~planes_apart(block, i, box, error);
-}
-
-bool any_near(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box, const BoxBounds& bounds) {
+bool any_near(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells, const BoxBounds& box,
+              const BoxBounds& bounds) {
   const BoxPack pack(box);
   const Pack error = rounding_in(bounds);
-  while (candidates != 0) {
-    const int i = __builtin_ctzll(candidates) / kWidth * kWidth;
-    if (near_lanes(block, i, candidates, pack, error) != 0) return true;
-    candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
+  for (std::uint64_t left = candidates & sharing_cells(cells, block); left != 0;) {
+    const int i = __builtin_ctzll(left) / kWidth * kWidth;
+    if ((static_cast<unsigned>(left >> i) & kAllLanes & ~planes_apart(block, i, pack, error)) != 0) return true;
+    left &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
   }
   return false;
 }
 
-NearFacets near_facets(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box,
-                       const BoxBounds& bounds) {
-  const BoxPack pack(box);
-  const Pack error = rounding_in(bounds);
-  const BoxPointers boxes{{block.lower[0], block.lower[1], block.lower[2]},
-                          {block.upper[0], block.upper[1], block.upper[2]}};
-  LaneBoxes near_boxes;
-  std::uint64_t near = 0;
-  while (candidates != 0) {
-    const int i = __builtin_ctzll(candidates) / kWidth * kWidth;
-    const unsigned mask = near_lanes(block, i, candidates, pack, error);
-    candidates &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
-    if (mask == 0) continue;
-    near |= static_cast<std::uint64_t>(mask) << i;
-    near_boxes.widen(boxes, i, mask_of(mask));
-  }
-  return {near, near_boxes.all()};
+NearFacets near_facets(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells) {
+  const std::uint64_t near = candidates & sharing_cells(cells, block);
+  return {near, cells_of(block, near)};
 }
 
-// The plane of a facet, to be held against many facets.
-struct FacetPlane {
-  HeightPack height;  // over the plane, times the length of the normal, as computed
-  Pack error;         // of the heights of all others
-
-  FacetPlane(const FacetBlock& block, int i, Pack rounding)
-      : height({block.normal[0][i], block.normal[1][i], block.normal[2][i], block.corner[0][0][i], block.corner[0][1][i],
-                block.corner[0][2][i]}),
-        error(rounding) {}
-
-  // The facets from `i` on that certainly lie on one side.
-  unsigned leaves_aside(const FacetBlock& block, int i) const {
-    Pack lowest = height({block.corner[0][0], block.corner[0][1], block.corner[0][2]}, i), highest = lowest;
-    for (int k = 1; k < 3; ++k) {
-      const Pack h = height({block.corner[k][0], block.corner[k][1], block.corner[k][2]}, i);
-      lowest = min(lowest, h);
-      highest = max(highest, h);
-    }
-    return bits(either(less(error, lowest), less(highest, sub(spread(0.0), error))));
-  }
-};
-
-PairedFacets pair_facets(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, std::uint64_t others,
-                         const BoxBounds& bounds, bool few_are_b, int plane_from, FacetPairList* pairs) {
-  std::uint8_t *const of_few = few_are_b ? pairs->b : pairs->a, *const of_many = few_are_b ? pairs->a : pairs->b;
-  const Pack error = rounding_in(bounds);
-  std::int64_t box_pairs = 0;
+SharedCells share_cells(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, std::uint64_t others,
+                        std::uint64_t* met) {
+  SharedCells shared{0, 0};
   for (; some != 0; some &= some - 1) {
     const int f = __builtin_ctzll(some);
-    std::uint64_t met = others & sharing_cells(few, f, many);
-    const int overlapping = __builtin_popcountll(met);
-    if (overlapping >= plane_from) {
-      const FacetPlane plane(few, f, error);
-      for (std::uint64_t left = met; left != 0;) {
-        const int i = __builtin_ctzll(left) / kWidth * kWidth;
-        met &= ~(static_cast<std::uint64_t>(plane.leaves_aside(many, i)) << i);
-        left &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
-      }
-    }
-    const int count = __builtin_popcountll(met);
-    if (pairs->count + count > FacetPairList::kCapacity) break;
-    box_pairs += overlapping;
-    write_places(met, of_many + pairs->count);
-    __builtin_memset(of_few + pairs->count, f, FacetPairList::kCapacity);
-    pairs->count += count;
+    const CellBox cells{{few.lower_cell[0][f], few.lower_cell[1][f], few.lower_cell[2][f]},
+                        {few.upper_cell[0][f], few.upper_cell[1][f], few.upper_cell[2][f]}};
+    met[f] = others & sharing_cells(cells, many);
+    shared.pairs += __builtin_popcountll(met[f]);
+    shared.facets |= static_cast<std::uint64_t>(met[f] != 0) << f;
   }
-  return {some, box_pairs};
+  return shared;
+}
+
+std::uint64_t list_pairs(std::uint64_t some, std::uint64_t* met, bool few_are_b, FacetPairList* pairs) {
+  std::uint8_t *const of_few = few_are_b ? pairs->b : pairs->a, *const of_many = few_are_b ? pairs->a : pairs->b;
+  for (; some != 0; some &= some - 1) {
+    const int f = __builtin_ctzll(some), begin = pairs->count, room = FacetPairList::kCapacity - begin;
+    const int count = __builtin_popcountll(met[f]);
+    const std::uint64_t listed = count <= room ? met[f] : expand((std::uint64_t{1} << room) - 1, met[f]);
+    write_places(listed, of_many + begin);
+    __builtin_memset(of_few + begin, f, FacetPairList::kCapacity);
+    pairs->count = begin + (count <= room ? count : room);
+    if (count > room) {
+      met[f] &= ~listed;
+      break;
+    }
+  }
+  return some;
 }

@@ -80,6 +80,12 @@ struct Grid {
 };
 inline constexpr double kLastCell = 0x7fff;
 
+// The cells that a box reaches, from the lower to the upper along each axis.
+struct CellBox {
+  std::int16_t lower[3];
+  std::int16_t upper[3];
+};
+
 // Facets of one or more clusters in separate arrays, which are longer by what a SIMD loop may write past the end, and
 // start at cache lines.
 struct alignas(64) FacetBlock {
@@ -118,10 +124,10 @@ struct OpenedFacets {
   std::int32_t low;
 };
 
-// Some facets of a block, a bit each, and the box of all of them, which is empty if there is none.
+// Some facets of a block, a bit each, and the cells that they reach; of no meaning if there are none.
 struct NearFacets {
   std::uint64_t facets;
-  BoxBounds box;
+  CellBox cells;
 };
 
 // Pairs of facets of two blocks. Beyond `count` there are indices that may be read, and room for what a SIMD loop may
@@ -133,10 +139,11 @@ struct FacetPairList {
   int count = 0;
 };
 
-// The facets for which there was no room, and how many boxes share cells with those of the others.
-struct PairedFacets {
-  std::uint64_t left_over;
-  std::int64_t box_pairs;
+// The facets of a block whose box shares cells with that of some facet of another block, and how many such pairs there
+// are.
+struct SharedCells {
+  std::uint64_t facets;
+  std::int64_t pairs;
 };
 
 inline constexpr int kMostSorted = 128;
@@ -206,18 +213,24 @@ struct Kernels {
   // A bit for each facet of `block` whose normal is not zero and has axis · normal <= 0.
   std::uint64_t (*facing_away)(const FacetBlock& block, const HeightAxis& axis);
 
-  // The facets of `block` that have a bit in `candidates`, whose box overlaps `box`, and whose plane does not certainly
-  // leave it on one side. Is there one? All of these facets and `box` lie in the box `bounds`.
-  NearFacets (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box,
-                            const BoxBounds& bounds);
-  bool (*any_near)(const FacetBlock& block, std::uint64_t candidates, const BoxBounds& box, const BoxBounds& bounds);
+  // The facets of `block` that have a bit in `candidates` and reach into `cells`.
+  NearFacets (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells);
+  // Is there one whose plane, too, does not certainly leave `box` on one side? All of these facets and `box`, which
+  // reaches `cells`, lie in the box `bounds`.
+  bool (*any_near)(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells, const BoxBounds& box,
+                   const BoxBounds& bounds);
 
-  // Pairs each facet of `few` that has a bit in `some` with those of the facets `others` of `many` whose box shares
-  // cells with its own and, if these are at least `plane_from`, that its plane does not certainly leave on one side.
-  // Appends them to `pairs` as long as there is room for all of a facet's. All of these facets lie in the box `bounds`,
-  // and have cells of the same grid.
-  PairedFacets (*pair_facets)(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, std::uint64_t others,
-                              const BoxBounds& bounds, bool few_are_b, int plane_from, FacetPairList* pairs);
+  // Finds for each facet f of `few` that has a bit in `some` those of the facets `others` of `many` whose box shares
+  // cells with its own, a bit each in met[f].
+  SharedCells (*share_cells)(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, std::uint64_t others,
+                             std::uint64_t* met);
+  // Takes away from each met[f] of at least `plane_from` facets, f having a bit in `some`, those that the plane of f
+  // certainly leaves on one side. See match_float_pairs.
+  void (*leave_aside)(const FloatCorners& few, std::uint64_t some, const FloatCorners& many, const double* gap,
+                      int plane_from, std::uint64_t* met);
+  // Moves pairs of f and met[f], f having a bit in `some`, to the end of `pairs` until it is full; returns which f have
+  // some left.
+  std::uint64_t (*list_pairs)(std::uint64_t some, std::uint64_t* met, bool few_are_b, FacetPairList* pairs);
 
   // Sorts up to kMostSorted pairs, no two of which are equal.
   void (*sort_pairs)(FacetPair* pairs, int count);

@@ -25,6 +25,7 @@ template <class Real>
 using MaskOf = typename Lanes<Real>::Masked;
 
 constexpr unsigned kAllLanes = (1u << kWidth) - 1u;
+constexpr unsigned kAllFloatLanes = (1u << kFloatWidth) - 1u;
 
 inline unsigned lanes_left(int left) { return left >= kWidth ? kAllLanes : (1u << left) - 1u; }
 
@@ -194,7 +195,7 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
 
 extern const Kernels TACT_KERNELS;
 const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, refresh_clusters, bounds, diagonal_bounds, select_heights, highest_point,
-                              select_overlapping, open_cluster, find_cells, facing_away, near_facets, any_near, pair_facets, sort_pairs,
-                              on_lattice, float_corners, match_float_pairs, match_pairs, sharing_pairs, match_pairs_wide, match_flat_pairs};
+                              select_overlapping, open_cluster, find_cells, facing_away, near_facets, any_near, share_cells, leave_aside, list_pairs,
+                              sort_pairs, on_lattice, float_corners, match_float_pairs, match_pairs, sharing_pairs, match_pairs_wide, match_flat_pairs};
 
 }  // namespace tact::narrowphase

@@ -65,6 +65,7 @@ inline void store_flags(std::uint8_t* p, const Mask (&mask)[7]) {
 constexpr int kFloatWidth = 8;
 using FloatPack = __m256;
 using FloatMask = __m256;
+inline FloatPack load(const float* p) { return _mm256_loadu_ps(p); }
 inline void store(float* p, Pack a) { _mm_storeu_ps(p, _mm256_cvtpd_ps(a)); }
 inline FloatPack spread(float a) { return _mm256_set1_ps(a); }
 struct FloatPicks {

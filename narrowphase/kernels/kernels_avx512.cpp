@@ -67,6 +67,7 @@ inline void store_flags(std::uint8_t* p, const Mask (&mask)[7]) {
 constexpr int kFloatWidth = 16;
 using FloatPack = __m512;
 using FloatMask = __mmask16;
+inline FloatPack load(const float* p) { return _mm512_loadu_ps(p); }
 inline void store(float* p, Pack a) { _mm256_storeu_ps(p, _mm512_cvtpd_ps(a)); }
 inline FloatPack spread(float a) { return _mm512_set1_ps(a); }
 struct FloatPicks {

@@ -52,6 +52,7 @@ inline void store_flags(std::uint8_t* p, const Mask (&mask)[7]) {
 constexpr int kFloatWidth = 1;
 using FloatPack = float;
 using FloatMask = bool;
+inline FloatPack load(const float* p) { return *p; }
 inline void store(float* p, Pack a) { *p = static_cast<float>(a); }
 inline FloatPack spread(float a) { return a; }
 struct FloatPicks {

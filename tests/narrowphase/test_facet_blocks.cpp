@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <vector>
@@ -61,14 +62,13 @@ TEST(FacetBlocks, OpenClusterLeavesOutWhatOneSideRulesOut) {
   }
 }
 
+using Met = std::array<std::uint64_t, FacetBlock::kCapacity>;
+
 // The facets of `b` that share cells with one of `a`.
 std::uint64_t sharing_cells(const Kernels& kernels, const FacetBlock& a, int facet, const FacetBlock& b) {
-  FacetPairList pairs;
-  kernels.pair_facets(a, std::uint64_t{1} << facet, b, all_bits(b.count), kEverything, false, FacetBlock::kCapacity + 1,
-                      &pairs);
-  std::uint64_t bits = 0;
-  for (int k = 0; k < pairs.count; ++k) bits |= std::uint64_t{1} << pairs.b[k];
-  return bits;
+  Met met{};
+  kernels.share_cells(a, std::uint64_t{1} << facet, b, all_bits(b.count), met.data());
+  return met[static_cast<std::size_t>(facet)];
 }
 
 // Whatever a grid is over, boxes that overlap share cells, also beyond its ends.
@@ -136,20 +136,29 @@ TEST(FacetBlocks, CellsOfAppendedFacetsAreFound) {
   }
 }
 
-// All pairs that boxes, and planes where they are asked, leave of two blocks, b's facets held against a's if
-// `few_are_b`.
+// The corners of all facets, which lie in kEverything.
+FloatCorners floats_of(const Kernels& kernels, const FacetBlock& block) {
+  FloatCorners corners;
+  kernels.float_corners(block, all_bits(block.count), grid_over(kEverything, 1.0), &corners);
+  return corners;
+}
+
+// All pairs that the cells of kGrid, and planes where they are asked, leave of two blocks, b's facets held against a's
+// if `few_are_b`.
 std::vector<FacetPair> paired(const Kernels& kernels, const FacetBlock& a, const FacetBlock& b, bool few_are_b,
                               int plane_from, std::int64_t& box_pairs) {
   std::vector<FacetPair> all;
   const FacetBlock &few = few_are_b ? b : a, &many = few_are_b ? a : b;
-  const std::uint64_t others = kernels.near_facets(many, all_bits(many.count), kEverything, kEverything).facets;
-  for (std::uint64_t left = all_bits(few.count); left != 0;) {
+  Met met{};
+  const SharedCells shared = kernels.share_cells(few, all_bits(few.count), many, all_bits(many.count), met.data());
+  box_pairs += shared.pairs;
+  constexpr double kGap[3] = {1.0 / kLastCell, 1.0 / kLastCell, 1.0 / kLastCell};
+  kernels.leave_aside(floats_of(kernels, few), shared.facets, floats_of(kernels, many), kGap, plane_from, met.data());
+  for (std::uint64_t left = shared.facets; left != 0;) {
     FacetPairList pairs;
-    const PairedFacets found = kernels.pair_facets(few, left, many, others, kEverything, few_are_b, plane_from, &pairs);
-    EXPECT_LT(std::popcount(found.left_over), std::popcount(left));
-    EXPECT_LE(pairs.count, FacetPairList::kCapacity);
-    left = found.left_over;
-    box_pairs += found.box_pairs;
+    left = kernels.list_pairs(left, met.data(), few_are_b, &pairs);
+    EXPECT_TRUE(left == 0 || pairs.count == FacetPairList::kCapacity) << kernels.name;
+    EXPECT_EQ(left & ~shared.facets, 0u);
     for (int k = 0; k < pairs.count; ++k) all.push_back({pairs.a[k], pairs.b[k]});
   }
   std::sort(all.begin(), all.end());
@@ -168,8 +177,10 @@ TEST(FacetBlocks, FacetsThatMeetAreNearAndPaired) {
       const FacetBlock block_a = block_of(*kernels, a, 0), block_b = block_of(*kernels, b, 0);
       for (const FacetPair& pair : meeting) {
         const BoxBounds box = box_of(block_a, pair.a);
-        EXPECT_NE(kernels->near_facets(block_b, all_bits(block_b.count), box, kEverything).facets >> pair.b & 1, 0u);
-        EXPECT_TRUE(kernels->any_near(block_b, std::uint64_t{1} << pair.b, box, merged(box, box_of(block_b, pair.b))));
+        const CellBox cells = cells_of(kGrid, box);
+        const BoxBounds both = merged(box, box_of(block_b, pair.b));
+        EXPECT_NE(kernels->near_facets(block_b, all_bits(block_b.count), cells).facets >> pair.b & 1, 0u);
+        EXPECT_TRUE(kernels->any_near(block_b, std::uint64_t{1} << pair.b, cells, box, both));
       }
       for (const bool few_are_b : {false, true}) {
         for (const int plane_from : {kAlways, 6, kNever}) {
@@ -231,7 +242,8 @@ TEST(FacetBlocks, EveryInstructionSetGivesTheSameBits) {
     const std::uint64_t away = scalar_kernels()->facing_away(expected, axis);
     const IndexRange all{0, b.vertex_count()};
     const HighestPoint highest = scalar_kernels()->highest_point(b.points(), &all, 1, axis, -1e300);
-    const NearFacets near = scalar_kernels()->near_facets(expected, all_bits(b.facet_end(0)), planes.box, kEverything);
+    const CellBox cells = cells_of(kGrid, planes.box);
+    const NearFacets near = scalar_kernels()->near_facets(expected, all_bits(expected.count), cells);
     for (const Kernels* kernels : tests::available_kernels()) {
       const FacetBlock block = block_of(*kernels, b, 0);
       for (int axis_index = 0; axis_index < 3; ++axis_index) {
@@ -252,11 +264,11 @@ TEST(FacetBlocks, EveryInstructionSetGivesTheSameBits) {
       EXPECT_EQ(top.index, highest.index) << kernels->name;
       const double above = std::nextafter(highest.height, 1e300);
       EXPECT_EQ(kernels->highest_point(b.points(), &all, 1, axis, above).index, -1) << kernels->name;
-      const NearFacets others = kernels->near_facets(block, all_bits(b.facet_end(0)), planes.box, kEverything);
+      const NearFacets others = kernels->near_facets(block, all_bits(block.count), cells);
       EXPECT_EQ(others.facets, near.facets) << kernels->name;
       for (int k = 0; k < 3; ++k) {
-        EXPECT_EQ(others.box.lower[k], near.box.lower[k]) << kernels->name;
-        EXPECT_EQ(others.box.upper[k], near.box.upper[k]) << kernels->name;
+        EXPECT_EQ(others.cells.lower[k], near.cells.lower[k]) << kernels->name;
+        EXPECT_EQ(others.cells.upper[k], near.cells.upper[k]) << kernels->name;
       }
       for (const int plane_from : {kAlways, 6}) {
         std::int64_t box_pairs = 0;

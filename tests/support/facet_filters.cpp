@@ -10,6 +10,7 @@ namespace tact::tests {
 namespace {
 
 using narrowphase::BoxBounds;
+using narrowphase::CellBox;
 using narrowphase::ClusterFacets;
 using narrowphase::CullPlanes;
 using narrowphase::FacetBlock;
@@ -17,7 +18,6 @@ using narrowphase::FacetPairList;
 using narrowphase::FloatCorners;
 using narrowphase::Grid;
 using narrowphase::Kernels;
-using narrowphase::NearFacets;
 using narrowphase::PairMatches;
 
 constexpr double kFar = 0x1p301;
@@ -67,15 +67,28 @@ BoxBounds bounds_of(const FacetBlock& a, const FacetBlock& b, std::size_t i) {
   return merged(box_of(a, i), box_of(b, i));
 }
 
-// Is facet i of `many` left out when facet i of `few` is held against it?
-bool leaves_out(const Kernels& kernels, const FacetBlock& few, const FacetBlock& many, std::size_t i) {
+FloatCorners float_corners(const Kernels& kernels, const FacetBlock& block, std::uint64_t facets, const Grid& unit) {
+  FloatCorners corners;
+  kernels.float_corners(block, facets, unit, &corners);
+  return corners;
+}
+
+// Is facet i of `many` left out when facet i of `few`, whose cells are of the same grid, is held against it?
+bool leaves_out(const Kernels& kernels, const FacetBlock& few, const FacetBlock& many, std::size_t i,
+                const Grid& grid) {
   const std::uint64_t bit = std::uint64_t{1} << i;
-  const BoxBounds bounds = bounds_of(few, many, i);
-  const NearFacets near = kernels.near_facets(many, bit, box_of(few, i), bounds);
-  if (near.facets == 0) return true;
-  FacetPairList pairs;
-  kernels.pair_facets(few, bit, many, near.facets, bounds, false, 1, &pairs);
-  return pairs.count == 0;
+  const BoxBounds box = box_of(few, i), bounds = bounds_of(few, many, i);
+  const CellBox cells = narrowphase::cells_of(grid, box);
+  if (kernels.near_facets(many, bit, cells).facets == 0) return true;
+  if (!kernels.any_near(many, bit, cells, box, bounds)) return true;
+  std::array<std::uint64_t, FacetBlock::kCapacity> met{};
+  if (kernels.share_cells(few, bit, many, bit, met.data()).pairs == 0) return true;
+  const Grid unit = narrowphase::grid_over(bounds, 1.0);
+  double gap[3];
+  for (int axis = 0; axis < 3; ++axis) gap[axis] = unit.scale[axis] / grid.scale[axis];
+  kernels.leave_aside(float_corners(kernels, few, bit, unit), bit, float_corners(kernels, many, bit, unit), gap, 1,
+                      met.data());
+  return met[i] == 0;
 }
 
 Filtered::Decision decision(const PairMatches& matches, std::size_t i) {
@@ -120,15 +133,13 @@ PairMatches match_pairs(const Kernels& kernels, const FacetBlock& a, const Facet
 
 PairMatches match_float_pairs(const Kernels& kernels, const FacetBlock& a, const FacetBlock& b,
                               const FacetPairList& pairs, const BoxBounds& bounds) {
-  FloatCorners floats_a, floats_b;
   std::uint64_t of_a = 0, of_b = 0;
   for (int k = 0; k < pairs.count; ++k) {
     of_a |= std::uint64_t{1} << pairs.a[k];
     of_b |= std::uint64_t{1} << pairs.b[k];
   }
   const Grid unit = narrowphase::grid_over(bounds, 1.0);
-  kernels.float_corners(a, of_a, unit, &floats_a);
-  kernels.float_corners(b, of_b, unit, &floats_b);
+  const FloatCorners floats_a = float_corners(kernels, a, of_a, unit), floats_b = float_corners(kernels, b, of_b, unit);
   double gap[3] = {};
   for (int k = 0; k < pairs.count; ++k) {
     const BoxBounds box_a = box_of(a, pairs.a[k]), box_b = box_of(b, pairs.b[k]);
@@ -168,7 +179,7 @@ std::vector<Filtered> filtered(const Kernels& kernels, std::span<const TriangleP
   in_plane.undecided |= all & ~flat;
   std::vector<Filtered> result(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    result[i] = {.left_out = leaves_out(kernels, a, b, i) || leaves_out(kernels, b, a, i),
+    result[i] = {.left_out = leaves_out(kernels, a, b, i, grid) || leaves_out(kernels, b, a, i, grid),
                  .in_floats = alone_in_floats[i],
                  .in_floats_together = decision(in_floats, i),
                  .simple = alone[i],
