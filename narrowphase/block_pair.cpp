@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "engine/base/fast_paths.h"
+#include "narrowphase/lattice.h"
 #include "narrowphase/triangle_triangle.h"
 
 namespace tact::narrowphase {
@@ -69,10 +70,13 @@ void BlockPair::find_meeting(const FacetBlock& a, std::uint64_t of_a, const Face
   a_ = &a;
   b_ = &b;
   bounds_ = bounds;
-  on_lattice_ = kernels().on_lattice(a, bounds) && kernels().on_lattice(b, bounds);
-  in_floats_ = !on_lattice_ && worth_floats(shared.pairs);
+  const Grid unit = choose_digits(worth_floats(shared.pairs));
   if (in_floats_) {
-    make_floats(of_a, of_b, grid);
+    kernels().float_corners(a, of_a, unit, &floats_a_);
+    kernels().float_corners(b, of_b, unit, &floats_b_);
+    for (int axis = 0; axis < 3; ++axis) gap_[axis] = unit.scale[axis] / grid.scale[axis];
+  }
+  if (in_floats_ && !exact_) {
     const FloatCorners &few = few_are_b ? floats_b_ : floats_a_, &many = few_are_b ? floats_a_ : floats_b_;
     kernels().leave_aside(few, shared.facets, many, gap_, worth_a_plane(), met_);
   }
@@ -87,30 +91,42 @@ void BlockPair::find_meeting(const FacetBlock& a, std::uint64_t of_a, const Face
   }
 }
 
-void BlockPair::make_floats(std::uint64_t of_a, std::uint64_t of_b, const Grid& grid) {
-  const Grid unit = grid_over(bounds_, 1.0);
-  kernels().float_corners(*a_, of_a, unit, &floats_a_);
-  kernels().float_corners(*b_, of_b, unit, &floats_b_);
-  for (int axis = 0; axis < 3; ++axis) gap_[axis] = unit.scale[axis] / grid.scale[axis];
+// What pairs are decided in, and the grid in which floats are made of their corners.
+Grid BlockPair::choose_digits(bool floats_are_worth_it) {
+  const auto on = [&](const Lattice& lattice) {
+    return lattice.step > 0.0 && kernels().on_lattice(*a_, lattice.step) && kernels().on_lattice(*b_, lattice.step);
+  };
+  in_floats_ = floats_are_worth_it;
+  exact_ = on(finest_lattice_in_doubles(bounds_));
+  if (exact_ && in_floats_) {  // that for floats is coarser
+    const Lattice lattice = finest_lattice_in_floats(bounds_);
+    in_floats_ = on(lattice);
+    if (in_floats_) return lattice.grid;
+  }
+  return grid_over(bounds_, 1.0);
 }
 
-// What can be told of many pairs at once: in floats; of those that these leave open in doubles, then by equal corners,
-// then within a common plane or with twice the digits.
+// What can be told of many pairs at once: all if nothing is rounded; else in floats, of those that these leave open in
+// doubles, then by equal corners, then within a common plane or with twice the digits.
 PairMatches BlockPair::matches_of_listed() const {
   const FacetBlock &a = *a_, &b = *b_;
   PairMatches all;
   all.undecided = ~std::uint64_t{0} >> (FacetPairList::kCapacity - pairs_.count);
   if (fast_paths() == FastPaths::off) return all;
+  if (exact_) {
+    return in_floats_ ? kernels().match_exact_float_pairs(floats_a_, floats_b_, pairs_)
+                      : kernels().match_exact_pairs(a, b, pairs_);
+  }
   const PairMatches floats = in_floats_ ? kernels().match_float_pairs(floats_a_, floats_b_, pairs_, gap_) : all;
   if (floats.undecided == 0) return floats;
-  const PairMatches doubles = kernels().match_pairs(a, b, pairs_, floats.undecided, bounds_, on_lattice_);
+  const PairMatches doubles = kernels().match_pairs(a, b, pairs_, floats.undecided, bounds_);
   const std::uint64_t meeting = floats.meeting | doubles.meeting;
   if (doubles.undecided == 0) return {.meeting = meeting};
-  const std::uint64_t sharing = on_lattice_ ? 0 : kernels().sharing_pairs(a, b, pairs_, doubles.undecided);
+  const std::uint64_t sharing = kernels().sharing_pairs(a, b, pairs_, doubles.undecided);
   const std::uint64_t flat = doubles.flat & ~sharing;
   const PairMatches wide = kernels().match_pairs_wide(a, b, pairs_, doubles.undecided & ~(sharing | flat));
   const std::uint64_t in_plane = flat | (wide.undecided & wide.flat);
-  const PairMatches plane = kernels().match_flat_pairs(a, b, pairs_, in_plane, on_lattice_);
+  const PairMatches plane = kernels().match_flat_pairs(a, b, pairs_, in_plane);
   return {.meeting = meeting | sharing | wide.meeting | plane.meeting,
           .undecided = (wide.undecided & ~in_plane) | plane.undecided,
           .flat = plane.undecided};

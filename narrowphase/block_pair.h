@@ -32,7 +32,7 @@ class BlockPair {
                     const BoxBounds& bounds, const Grid& grid, std::vector<FacetPair>& found, ConfirmCounts& counts);
 
  private:
-  void make_floats(std::uint64_t of_a, std::uint64_t of_b, const Grid& grid);
+  Grid choose_digits(bool floats_are_worth_it);
   std::uint64_t meeting_of_listed(ConfirmCounts& counts) const;
   PairMatches matches_of_listed() const;
 
@@ -41,7 +41,7 @@ class BlockPair {
   BoxBounds bounds_ = {};
   std::uint64_t met_[FacetBlock::kCapacity];  // of each facet of the one block, those of the other that it may meet
   FacetPairList pairs_;                       // some of these, to be decided together
-  bool on_lattice_ = false;                   // nothing is rounded
+  bool exact_ = false;                        // nothing is rounded
   bool in_floats_ = false;                    // the corners are here
   FloatCorners floats_a_, floats_b_;
   double gap_[3] = {};  // a cell, in their grid

@@ -80,25 +80,26 @@ void FacetPairSearch::run(const ConfirmInput& input, const std::vector<ClusterPa
   place_.assign(static_cast<std::size_t>(input.kept_b->count()), {});
   for (std::size_t i = begin; i < end;) {
     const std::int32_t a = pairs[i].a;
+    const Box box = input.kept_a->boxes[static_cast<std::size_t>(a)];
+    const CellBox cells = cells_of(grid_, bounds_of(box));
     wanted_by_next_.clear();
     for (; i < end && pairs[i].a == a; ++i) {
-      if (reaches_b(input, pairs[i])) wanted_by_next_.push_back(place_[static_cast<std::size_t>(pairs[i].b)].block);
+      if (reaches_b(input, pairs[i].b, box, cells))
+        wanted_by_next_.push_back(place_[static_cast<std::size_t>(pairs[i].b)].block);
     }
     if (!wanted_by_next_.empty()) append_a(input, a, found, counts);
   }
   finish_block(input, found, counts);
 }
 
-// May some facet of the cluster of B meet the cluster of A? Its box and the facets' planes tell.
-bool FacetPairSearch::reaches_b(const ConfirmInput& input, const ClusterPair& pair) {
-  const PlaceInB place = open_b(input, pair.b);
+// May some facet of a cluster of B meet something in a box, which reaches `cells`? Its box and the facets' planes tell.
+bool FacetPairSearch::reaches_b(const ConfirmInput& input, std::int32_t index, const Box& box, const CellBox& cells) {
+  const PlaceInB place = open_b(input, index);
   if (place.facets == 0) return false;
   if (fast_paths() == FastPaths::off) return true;
-  const Box box = input.kept_a->boxes[static_cast<std::size_t>(pair.a)];
-  const Box both = merged(input.kept_b->boxes[static_cast<std::size_t>(pair.b)], box);
+  const Box both = merged(input.kept_b->boxes[static_cast<std::size_t>(index)], box);
   const FacetBlock& block = b_[static_cast<std::size_t>(place.block)]->kept.block;
-  const BoxBounds bounds = bounds_of(box);
-  return kernels().any_near(block, place.facets, cells_of(grid_, bounds), bounds, bounds_of(both));
+  return kernels().any_near(block, place.facets, cells, bounds_of(box), bounds_of(both));
 }
 
 FacetPairSearch::PlaceInB FacetPairSearch::open_b(const ConfirmInput& input, std::int32_t index) {
@@ -159,10 +160,9 @@ void FacetPairSearch::test_blocks(const ConfirmInput& input, KeptFacets& b, std:
   kernels().find_cells(grid_, &a_.block);
   if (worth_looking_for_near_facets(a_.block.count + b.block.count)) {
     const CellBox common = cells_of(grid_, bounds_of(intersection(a_.bounds, b.bounds)));
-    const NearFacets of_b = kernels().near_facets(b.block, near_b, common);
-    if (of_b.facets == 0) return;
-    near_b = of_b.facets;
-    near_a = kernels().near_facets(a_.block, near_a, of_b.cells).facets;
+    near_b = kernels().near_facets(b.block, near_b, common);
+    if (near_b == 0) return;
+    near_a = kernels().near_facets(a_.block, near_a, kernels().cells_of(b.block, near_b));
   }
   const std::size_t before = found.size();
   const BoxBounds bounds = bounds_of(merged(a_.bounds, b.bounds));

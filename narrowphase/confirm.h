@@ -76,7 +76,7 @@ class FacetPairSearch {
     std::int32_t block = -1;
     std::uint64_t facets = 0;
   };
-  bool reaches_b(const ConfirmInput& input, const ClusterPair& pair);
+  bool reaches_b(const ConfirmInput& input, std::int32_t index, const Box& box, const CellBox& cells);
   PlaceInB open_b(const ConfirmInput& input, std::int32_t index);
   void append_a(const ConfirmInput& input, std::int32_t index, std::vector<FacetPair>& found, ConfirmCounts& counts);
   void finish_block(const ConfirmInput& input, std::vector<FacetPair>& found, ConfirmCounts& counts);

@@ -193,7 +193,7 @@ inline std::int16_t least(__m256i numbers) {
   return static_cast<std::int16_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(eight)));
 }
 
-inline CellBox cells_of(const FacetBlock& block, std::uint64_t facets) {
+CellBox cells_of(const FacetBlock& block, std::uint64_t facets) {
   const __m256i last = _mm256_set1_epi16(0x7fff);
   __m256i lower[3] = {last, last, last}, opposite_upper[3] = {last, last, last};
   const __m256i bit = _mm256_setr_epi16(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, -32768);
@@ -221,7 +221,7 @@ inline CellBox cells_of(const FacetBlock& block, std::uint64_t facets) {
 
 #else
 
-inline CellBox cells_of(const FacetBlock& block, std::uint64_t facets) {
+CellBox cells_of(const FacetBlock& block, std::uint64_t facets) {
   CellBox cells{{0x7fff, 0x7fff, 0x7fff}, {0, 0, 0}};
   for (; facets != 0; facets &= facets - 1) {
     const int i = __builtin_ctzll(facets);

@@ -2,48 +2,6 @@
 // the time and leave few open, and in doubles.
 
 template <class Real>
-inline VectorOf<Real> select(MaskOf<Real> mask, const VectorOf<Real>& yes, const VectorOf<Real>& no) {
-  return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
-}
-
-// A triangle with its corners turned so that the plane of the other parts the first from the other two, which it crosses
-// both edges to. `above` tells on which side the first is.
-template <class Real>
-struct LoneCorner {
-  VectorOf<Real> lone, next, last;
-  MaskOf<Real> above;
-};
-
-// The corners must not be all on one side. Of three sides two are equal: the lone corner is on that which an odd number
-// are on.
-template <class Real>
-inline LoneCorner<Real> lone_corner(const VectorOf<Real>* c, const MaskOf<Real>* above) {
-  const MaskOf<Real> not_first = differ(above[1], above[2]), third = differ(above[0], above[2]);
-  const auto turned = [&](int first) {
-    return select(not_first, select(third, c[(first + 2) % 3], c[(first + 1) % 3]), c[first]);
-  };
-  return {turned(0), turned(1), turned(2), differ(above[0], not_first)};
-}
-
-// Bits of lanes that are certain; of the others, those where `a` lies in the plane of `b`.
-struct Meeting {
-  unsigned yes, no, flat;
-};
-
-// A determinant without a bound of its own: the height of `point` over the plane through three points, times the length of
-// its normal.
-template <class Real>
-struct ClearPlane {
-  VectorOf<Real> origin, normal;
-
-  ClearPlane(const VectorOf<Real>& c0, const VectorOf<Real>& c1, const VectorOf<Real>& c2) : origin(c0) {
-    const VectorOf<Real> e = sub(c1, c0), f = sub(c2, c0);
-    normal = {sub(mul(e.y, f.z), mul(e.z, f.y)), sub(mul(e.z, f.x), mul(e.x, f.z)), sub(mul(e.x, f.y), mul(e.y, f.x))};
-  }
-  PackOf<Real> height(const VectorOf<Real>& point) const { return dot(normal, sub(point, origin)); }
-};
-
-template <class Real>
 inline PackOf<Real> opposite(PackOf<Real> x) {
   return sub(spread(Real{0}), x);
 }
@@ -80,11 +38,8 @@ inline Meeting match_clear_lanes(const VectorOf<Real>* a, const VectorOf<Real>* 
   left &= ~sides_a.apart;
   const unsigned certain = left & sides_a.certain & sides_b.certain;
   if (certain == 0) return {0, mask & ~left, 0};
-  const LoneCorner<Real> lone_a = lone_corner<Real>(a, sides_a.above), lone_b = lone_corner<Real>(b, sides_b.above);
-  const auto b1 = select(lone_a.above, lone_b.next, lone_b.last), b2 = select(lone_a.above, lone_b.last, lone_b.next);
-  const auto a1 = select(lone_b.above, lone_a.next, lone_a.last), a2 = select(lone_b.above, lone_a.last, lone_a.next);
-  const PackOf<Real> p = ClearPlane<Real>(b1, a1, lone_b.lone).height(lone_a.lone);
-  const PackOf<Real> q = ClearPlane<Real>(b2, a2, lone_b.lone).height(lone_a.lone);
+  const CommonLine<Real> line(lone_corner<Real>(a, sides_a.above), lone_corner<Real>(b, sides_b.above));
+  const PackOf<Real> p = line.p(), q = line.q();
   const PackOf<Real> opposite_error = opposite<Real>(error);
   const unsigned yes = bits(both(less(error, p), less(q, opposite_error)));
   const unsigned no = bits(either(less(p, opposite_error), less(error, q)));
@@ -160,19 +115,11 @@ PairMatches match_float_pairs(const FloatCorners& a, const FloatCorners& b, cons
                               const double* gap) {
   const FloatPack error = spread(float_rounding(a, b, gap));
   std::uint64_t yes = 0, no = 0;
-  const auto corners_of = [](const FloatCorners& of, const FloatPicks& at, VectorOf<float>* corner) {
-    for (int k = 0; k < 3; ++k) {
-      corner[k] = {pick(of.corner[k][0], of.count, at), pick(of.corner[k][1], of.count, at),
-                   pick(of.corner[k][2], of.count, at)};
-    }
-  };
   for (int i = 0; i < pairs.count; i += kFloatWidth) {
     VectorOf<float> corner_a[3], corner_b[3];
-    corners_of(a, FloatPicks(pairs.a + i), corner_a);
-    corners_of(b, FloatPicks(pairs.b + i), corner_b);
-    const int left = pairs.count - i;
-    const unsigned lanes = left >= kFloatWidth ? kAllFloatLanes : (1u << left) - 1u;
-    const Meeting meeting = match_clear_lanes(corner_a, corner_b, lanes, error);
+    gather_corners(a, pairs.a + i, corner_a);
+    gather_corners(b, pairs.b + i, corner_b);
+    const Meeting meeting = match_clear_lanes(corner_a, corner_b, lanes_left<kFloatWidth>(pairs.count - i), error);
     yes |= static_cast<std::uint64_t>(meeting.yes) << i;
     no |= static_cast<std::uint64_t>(meeting.no) << i;
     const int seen = i + kFloatWidth;

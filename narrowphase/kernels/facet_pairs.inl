@@ -45,26 +45,12 @@ inline WideVector difference(const VectorPack& a, const VectorPack& b) {
   return {difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z)};
 }
 
-// As Plane, for points on a lattice (see Lattice): nothing is rounded.
-struct ExactPlane {
-  static constexpr bool kRounds = false;
-  ClearPlane<double> plane;
-
-  ExactPlane(const VectorPack& c0, const VectorPack& c1, const VectorPack& c2) : plane(c0, c1, c2) {}
-
-  Determinant height(const VectorPack& point) const {
-    const Pack value = plane.height(point);
-    return {value, spread(0.0), abs(value)};
-  }
-};
-
 // As Plane, with twice the digits. No product may vanish (see nothing_vanishes).
 //
 // With u = 2^-53: a difference has no error, a product one of at most 7u², a sum one of 6u² of the sum of the sizes of
 // what it adds. So each of the three products of three collects at most 20u² of the sum of the sizes of its products, and
 // the two last sums 12u² more; the sizes, which are doubles, may be a few u too low. 64u² leaves room for all of it.
 struct WidePlane {
-  static constexpr bool kRounds = true;
   VectorPack origin, bound;
   WideVector normal;
 
@@ -116,24 +102,12 @@ struct IntervalMeeting {
   unsigned yes, no, by_zero;
 };
 
-// Each triangle crosses or touches the other's plane: their intervals on the common line overlap if and only if two
-// orientations of an edge of each have the right signs (Guigue and Devillers, 2003). As in triangle_triangle.cpp, where
-// above is a negative orientation.
 template <class AnyPlane>
-inline IntervalMeeting intervals_meet(const LoneCorner<double>& a, const LoneCorner<double>& b) {
-  const VectorPack b1 = select(a.above, b.next, b.last), b2 = select(a.above, b.last, b.next);
-  const VectorPack a1 = select(b.above, a.next, a.last), a2 = select(b.above, a.last, a.next);
-  const Determinant p = AnyPlane(b1, a1, b.lone).height(a.lone), q = AnyPlane(b2, a2, b.lone).height(a.lone);
+inline IntervalMeeting intervals_meet(const CommonLine<double>& line) {
+  const Determinant p = AnyPlane(line.b1, line.a1, line.lone_b).height(line.lone_a);
+  const Determinant q = AnyPlane(line.b2, line.a2, line.lone_b).height(line.lone_a);
   return {bits(both(either(p.positive(), p.zero()), either(q.negative(), q.zero()))),
           bits(either(p.negative(), q.positive())), bits(either(p.zero(), q.zero()))};
-}
-
-inline void gather_corners(const FacetBlock& block, const std::uint8_t* facet, VectorPack* corner) {
-  const Picks at(facet);
-  for (int k = 0; k < 3; ++k) {
-    corner[k] = {pick(block.corner[k][0], block.count, at), pick(block.corner[k][1], block.count, at),
-                 pick(block.corner[k][2], block.count, at)};
-  }
 }
 
 // The lanes in which no coordinate is so small that a product of three differences that are not zero could vanish: all
@@ -162,61 +136,16 @@ inline Meeting match_lanes(const VectorPack* a, const VectorPack* b, unsigned ma
   const unsigned known = left & sides_a.known & sides_b.known & ~(sides_a.flat | sides_b.flat);
   const unsigned flat = left & sides_a.flat;
   if (known == 0 && flat == 0) return {0, mask & ~left, 0};
-  if (known == 0 && !AnyPlane::kRounds) return {0, mask & ~left, flat};
-  IntervalMeeting meeting = intervals_meet<AnyPlane>(lone_corner<double>(a, sides_a.above), lone_corner<double>(b, sides_b.above));
+  IntervalMeeting meeting = intervals_meet<AnyPlane>({lone_corner<double>(a, sides_a.above), lone_corner<double>(b, sides_b.above)});
   const unsigned in_plane = known & ~certain, by_zero = in_plane | (known & meeting.by_zero) | flat;
   unsigned vanishing = 0;
-  if (AnyPlane::kRounds && by_zero != 0) {
+  if (by_zero != 0) {
     vanishing = by_zero & ~(nothing_vanishes(a) & nothing_vanishes(b));
     meeting.yes &= ~vanishing;
     meeting.no &= ~(vanishing & in_plane);
   }
   return {meeting.yes & known, (mask & ~left) | (meeting.no & known), flat & ~vanishing};
 }
-
-// Points lie on a lattice if all coordinates are whole numbers of some step, a power of two, and within 2^16 steps of
-// each other. Then nothing of a determinant is rounded: differences are up to 2^16 steps, products of two up to 2^32, and
-// a sum of six products of three up to 3 * 2^49. So it is with bricks, voxels and what was drawn on a grid.
-//
-// x is a whole number of steps if adding 3/2 * 2^52 steps, which leaves no room for parts of one, and taking them away
-// again gives x, which is to be less than 2^51 steps.
-class Lattice {
- public:
-  explicit Lattice(const BoxBounds& bounds) {
-    double extent = 0.0, farthest = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double lower = bounds.lower[axis], upper = bounds.upper[axis];
-      if (upper - lower > extent) extent = upper - lower;
-      if (-lower > farthest) farthest = -lower;
-      if (upper > farthest) farthest = upper;
-    }
-    if (!(extent > 0x1p-150 && extent < 0x1p150)) return;
-    const std::uint64_t exponent = __builtin_bit_cast(std::uint64_t, extent) >> 52;
-    const double step = __builtin_bit_cast(double, (exponent - 15) << 52);  // at most the extent's 2^-15 part
-    if (farthest < 0x1p51 * step) shift_ = 0x1.8p52 * step;
-  }
-
-  bool holds(const FacetBlock& block) const {
-    if (shift_ == 0.0) return false;
-    const Pack shift = spread(shift_);
-    for (int i = 0; i < block.count; i += kWidth) {
-      for (int k = 0; k < 3; ++k) {
-        unsigned off = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-          const Pack x = load(block.corner[k][axis] + i);
-          off |= bits(not_equal(sub(add(x, shift), shift), x));
-        }
-        if ((off & lanes_left(block.count - i)) != 0) return false;
-      }
-    }
-    return true;
-  }
-
- private:
-  double shift_ = 0.0;  // 0: there is no lattice
-};
-
-bool on_lattice(const FacetBlock& block, const BoxBounds& bounds) { return Lattice(bounds).holds(block); }
 
 // The rounding of all pairs together is soon known, and most are clear of it. Where a pair is not, others are likely not.
 inline Meeting match_rounding_lanes(const VectorPack* a, const VectorPack* b, unsigned mask, Pack error, bool* clear) {
@@ -225,38 +154,8 @@ inline Meeting match_rounding_lanes(const VectorPack* a, const VectorPack* b, un
   return *clear ? meeting : match_lanes<Plane>(a, b, mask);
 }
 
-// Those of the pairs that have a bit in `which`, a pack at a time: by judge(corners of a, corners of b, lanes).
-template <class Judge>
-inline PairMatches match_some(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, std::uint64_t which,
-                              const Judge& judge) {
-  FacetPairList some;
-  some.count = __builtin_popcountll(which);
-  compress(which, pairs.a, some.a);
-  compress(which, pairs.b, some.b);
-  std::uint64_t yes = 0, no = 0, flat = 0;
-  for (int i = 0; i < some.count; i += kWidth) {
-    VectorPack corner_a[3], corner_b[3];
-    gather_corners(a, some.a + i, corner_a);
-    gather_corners(b, some.b + i, corner_b);
-    const Meeting meeting = judge(corner_a, corner_b, lanes_left(some.count - i));
-    yes |= static_cast<std::uint64_t>(meeting.yes) << i;
-    no |= static_cast<std::uint64_t>(meeting.no) << i;
-    flat |= static_cast<std::uint64_t>(meeting.flat) << i;
-  }
-  PairMatches matches;
-  matches.meeting = expand(yes, which);
-  matches.undecided = which & ~expand(yes | no, which);
-  matches.flat = expand(flat, which);
-  return matches;
-}
-
 PairMatches match_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, std::uint64_t which,
-                        const BoxBounds& bounds, bool on_lattice) {
-  if (on_lattice) {
-    return match_some(a, b, pairs, which, [](const VectorPack* p, const VectorPack* q, unsigned lanes) {
-      return match_lanes<ExactPlane>(p, q, lanes);
-    });
-  }
+                        const BoxBounds& bounds) {
   const Pack error = rounding_in(bounds);
   bool clear = true;
   return match_some(a, b, pairs, which, [&](const VectorPack* p, const VectorPack* q, unsigned lanes) {
@@ -284,35 +183,12 @@ PairMatches match_pairs_wide(const FacetBlock& a, const FacetBlock& b, const Fac
   });
 }
 
-// A point of a plane, projected along an axis.
-struct PointPack {
-  Pack x, y;
-};
-
-// As coplanar_triangles_meet in triangle_triangle.cpp: along the axis of the largest part of the normal.
-struct Projection {
-  Mask along_x, along_y;
-
-  explicit Projection(const VectorPack& normal) {
-    const Pack x = abs(normal.x), y = abs(normal.y), z = abs(normal.z);
-    along_x = both(less_equal(y, x), less_equal(z, x));
-    along_y = without(less_equal(z, y), along_x);
-  }
-  Pack component(const VectorPack& v) const { return select(along_x, v.x, select(along_y, v.y, v.z)); }
-  PointPack operator()(const VectorPack& p) const {
-    return {select(along_x, p.y, select(along_y, p.z, p.x)), select(along_x, p.z, select(along_y, p.x, p.y))};
-  }
-};
-
 // The turn from a over b to c, which rounds less than a determinant of three rows. A product that vanishes is not zero:
 // see nothing_vanishes.
-template <bool kRounds>
-inline Determinant turn(const PointPack& a, const PointPack& b, const PointPack& c) {
+inline Determinant turn(const PointPack<double>& a, const PointPack<double>& b, const PointPack<double>& c) {
   const Pack left = mul(sub(b.x, a.x), sub(c.y, a.y)), right = mul(sub(b.y, a.y), sub(c.x, a.x));
-  const Pack value = sub(left, right);
-  if (!kRounds) return {value, spread(0.0), abs(value)};
   const Pack size = add(abs(left), abs(right));
-  return {value, rounding_of(size), size};
+  return {sub(left, right), rounding_of(size), size};
 }
 
 // Certainly: does some side of `t`, which turns to the left where `left` is set, have all of `other` strictly beyond it?
@@ -320,12 +196,11 @@ inline Determinant turn(const PointPack& a, const PointPack& b, const PointPack&
 struct SideSeparation {
   Mask some = mask_of(0), none = mask_of(kAllLanes);
 
-  template <bool kRounds>
-  void add_sides(const PointPack* t, Mask left, const PointPack* other) {
+  void add_sides(const PointPack<double>* t, Mask left, const PointPack<double>* other) {
     for (int i = 0; i < 3; ++i) {
       Mask all_beyond = mask_of(kAllLanes), any_not = mask_of(0);
       for (int k = 0; k < 3; ++k) {
-        const Determinant d = turn<kRounds>(t[i], t[(i + 1) % 3], other[k]);
+        const Determinant d = turn(t[i], t[(i + 1) % 3], other[k]);
         const Mask positive = d.positive(), negative = d.negative();
         const Mask inside = either(both(left, positive), without(negative, left));
         all_beyond = both(all_beyond, either(both(left, negative), without(positive, left)));
@@ -338,28 +213,26 @@ struct SideSeparation {
 };
 
 // Triangles of one plane are apart if and only if a side of one has the other beyond it.
-template <class AnyPlane>
 inline Meeting match_flat_lanes(const VectorPack* a, const VectorPack* b, unsigned mask) {
   const Plane plane_a(a[0], a[1], a[2]), plane_b(b[0], b[1], b[2]);
-  const Projection project(plane_b.normal);
+  const Projection<double> project(plane_b.normal);
   const Pack turn_a = project.component(plane_a.normal), turn_b = project.component(plane_b.normal);
-  const Pack zero = spread(0.0);
-  const Pack error_a = AnyPlane::kRounds ? rounding_of(project.component(plane_a.bound)) : zero;
-  const Pack error_b = AnyPlane::kRounds ? rounding_of(project.component(plane_b.bound)) : zero;
+  const Pack error_a = rounding_of(project.component(plane_a.bound));
+  const Pack error_b = rounding_of(project.component(plane_b.bound));
   const unsigned known = mask & bits(both(less(error_a, abs(turn_a)), less(error_b, abs(turn_b))));
   if (known == 0) return {0, 0, 0};
-  const PointPack p[3] = {project(a[0]), project(a[1]), project(a[2])};
-  const PointPack q[3] = {project(b[0]), project(b[1]), project(b[2])};
+  const PointPack<double> p[3] = {project(a[0]), project(a[1]), project(a[2])};
+  const PointPack<double> q[3] = {project(b[0]), project(b[1]), project(b[2])};
+  const Pack zero = spread(0.0);
   SideSeparation separation;
-  separation.template add_sides<AnyPlane::kRounds>(q, less(zero, turn_b), p);
-  separation.template add_sides<AnyPlane::kRounds>(p, less(zero, turn_a), q);
+  separation.add_sides(q, less(zero, turn_b), p);
+  separation.add_sides(p, less(zero, turn_a), q);
   return {known & bits(separation.none), known & bits(separation.some), mask};
 }
 
-PairMatches match_flat_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, std::uint64_t which,
-                             bool on_lattice) {
-  return match_some(a, b, pairs, which, [&](const VectorPack* p, const VectorPack* q, unsigned lanes) {
-    return on_lattice ? match_flat_lanes<ExactPlane>(p, q, lanes)
-                      : match_flat_lanes<Plane>(p, q, lanes & nothing_vanishes(p) & nothing_vanishes(q));
+PairMatches match_flat_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
+                             std::uint64_t which) {
+  return match_some(a, b, pairs, which, [](const VectorPack* p, const VectorPack* q, unsigned lanes) {
+    return match_flat_lanes(p, q, lanes & nothing_vanishes(p) & nothing_vanishes(q));
   });
 }

@@ -197,9 +197,8 @@ bool any_near(const FacetBlock& block, std::uint64_t candidates, const CellBox& 
   return false;
 }
 
-NearFacets near_facets(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells) {
-  const std::uint64_t near = candidates & sharing_cells(cells, block);
-  return {near, cells_of(block, near)};
+std::uint64_t near_facets(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells) {
+  return candidates & sharing_cells(cells, block);
 }
 
 SharedCells share_cells(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, std::uint64_t others,

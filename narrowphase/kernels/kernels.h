@@ -124,12 +124,6 @@ struct OpenedFacets {
   std::int32_t low;
 };
 
-// Some facets of a block, a bit each, and the cells that they reach; of no meaning if there are none.
-struct NearFacets {
-  std::uint64_t facets;
-  CellBox cells;
-};
-
 // Pairs of facets of two blocks. Beyond `count` there are indices that may be read, and room for what a SIMD loop may
 // write past the end.
 struct FacetPairList {
@@ -214,7 +208,9 @@ struct Kernels {
   std::uint64_t (*facing_away)(const FacetBlock& block, const HeightAxis& axis);
 
   // The facets of `block` that have a bit in `candidates` and reach into `cells`.
-  NearFacets (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells);
+  std::uint64_t (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells);
+  // The cells that the facets with a bit reach; of no meaning if there is none.
+  CellBox (*cells_of)(const FacetBlock& block, std::uint64_t facets);
   // Is there one whose plane, too, does not certainly leave `box` on one side? All of these facets and `box`, which
   // reaches `cells`, lie in the box `bounds`.
   bool (*any_near)(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells, const BoxBounds& box,
@@ -235,8 +231,8 @@ struct Kernels {
   // Sorts up to kMostSorted pairs, no two of which are equal.
   void (*sort_pairs)(FacetPair* pairs, int count);
 
-  // Are the corners of all facets, which lie in the box `bounds`, such that nothing is rounded when pairs are decided?
-  bool (*on_lattice)(const FacetBlock& block, const BoxBounds& bounds);
+  // Are the coordinates of all corners, which are less than 2^51 steps, whole numbers of steps, a power of two?
+  bool (*on_lattice)(const FacetBlock& block, double step);
 
   // The corners of the facets that have a bit; those of others are left open.
   void (*float_corners)(const FacetBlock& block, std::uint64_t facets, const Grid& grid, FloatCorners* corners);
@@ -246,10 +242,15 @@ struct Kernels {
   PairMatches (*match_float_pairs)(const FloatCorners& a, const FloatCorners& b, const FacetPairList& pairs,
                                    const double* gap);
 
+  // Decides pairs of facets on a lattice that is not too fine for doubles, or for floats: see lattice.h. Undecided are
+  // only pairs with a facet that has no area.
+  PairMatches (*match_exact_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs);
+  PairMatches (*match_exact_float_pairs)(const FloatCorners& a, const FloatCorners& b, const FacetPairList& pairs);
+
   // Decides those of the pairs that have a bit in `which`, all of them in the box `bounds`. What doubles cannot tell is
   // left undecided.
   PairMatches (*match_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, std::uint64_t which,
-                             const BoxBounds& bounds, bool on_lattice);
+                             const BoxBounds& bounds);
   // Those of the pairs that have a bit in `which` and a corner in common.
   std::uint64_t (*sharing_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
                                  std::uint64_t which);
@@ -258,7 +259,7 @@ struct Kernels {
                                   std::uint64_t which);
   // Decides those of the pairs that have a bit in `which`, all of them of facets in one plane.
   PairMatches (*match_flat_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
-                                  std::uint64_t which, bool on_lattice);
+                                  std::uint64_t which);
 };
 
 // The best for this machine, or the one that the environment variable TACT_INSTRUCTION_SET names: scalar, avx2, avx512.

@@ -1,6 +1,6 @@
 // The loops of kernels.h over the packs that the including file defines: over points and boxes here, over the bytes of a
-// cluster and the cells of boxes in bytes.inl, over facets in facets.inl, over pairs of them in clear_pairs.inl,
-// facet_pairs.inl and sort.inl, over the caller's positions in refresh.inl. A tail of fewer than kWidth elements is read from
+// cluster and the cells of boxes in bytes.inl, over facets in facets.inl, over pairs of them in pair_lanes.inl,
+// clear_pairs.inl, exact_pairs.inl, facet_pairs.inl and sort.inl, over the caller's positions in refresh.inl. A tail of fewer than kWidth elements is read from
 // a padded array where the caller promises padding (points, boxes: see ClusteredMesh) and its lanes are masked off.
 
 namespace tact::narrowphase {
@@ -13,11 +13,13 @@ template <class Real>
 struct Lanes {
   using Packed = Pack;
   using Masked = Mask;
+  static constexpr int kCount = kWidth;
 };
 template <>
 struct Lanes<float> {
   using Packed = FloatPack;
   using Masked = FloatMask;
+  static constexpr int kCount = kFloatWidth;
 };
 template <class Real>
 using PackOf = typename Lanes<Real>::Packed;
@@ -27,7 +29,10 @@ using MaskOf = typename Lanes<Real>::Masked;
 constexpr unsigned kAllLanes = (1u << kWidth) - 1u;
 constexpr unsigned kAllFloatLanes = (1u << kFloatWidth) - 1u;
 
-inline unsigned lanes_left(int left) { return left >= kWidth ? kAllLanes : (1u << left) - 1u; }
+template <int kLanes = kWidth>
+inline unsigned lanes_left(int left) {
+  return left >= kLanes ? (1u << kLanes) - 1u : (1u << left) - 1u;
+}
 
 inline int append(unsigned mask, int first, std::int32_t* indices, int found) {
   while (mask != 0) {
@@ -37,7 +42,10 @@ inline int append(unsigned mask, int first, std::int32_t* indices, int found) {
   return found;
 }
 
-inline Mask without(Mask a, Mask b) { return differ(a, both(a, b)); }
+template <class AnyMask>
+inline AnyMask without(AnyMask a, AnyMask b) {
+  return differ(a, both(a, b));
+}
 
 struct HeightPack {
   Pack nx, ny, nz, ox, oy, oz;
@@ -186,7 +194,9 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
 
 #include "narrowphase/kernels/bytes.inl"
 #include "narrowphase/kernels/facets.inl"
+#include "narrowphase/kernels/pair_lanes.inl"
 #include "narrowphase/kernels/clear_pairs.inl"
+#include "narrowphase/kernels/exact_pairs.inl"
 #include "narrowphase/kernels/facet_pairs.inl"
 #include "narrowphase/kernels/refresh.inl"
 #include "narrowphase/kernels/sort.inl"
@@ -195,7 +205,8 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
 
 extern const Kernels TACT_KERNELS;
 const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, refresh_clusters, bounds, diagonal_bounds, select_heights, highest_point,
-                              select_overlapping, open_cluster, find_cells, facing_away, near_facets, any_near, share_cells, leave_aside, list_pairs,
-                              sort_pairs, on_lattice, float_corners, match_float_pairs, match_pairs, sharing_pairs, match_pairs_wide, match_flat_pairs};
+                              select_overlapping, open_cluster, find_cells, facing_away, near_facets, cells_of, any_near, share_cells, leave_aside, list_pairs,
+                              sort_pairs, on_lattice, float_corners, match_float_pairs, match_exact_pairs, match_exact_float_pairs, match_pairs,
+                              sharing_pairs, match_pairs_wide, match_flat_pairs};
 
 }  // namespace tact::narrowphase

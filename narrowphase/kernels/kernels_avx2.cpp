@@ -79,6 +79,8 @@ inline FloatPack pick(const float* p, int, const FloatPicks& at) {
 inline FloatPack add(FloatPack a, FloatPack b) { return _mm256_add_ps(a, b); }
 inline FloatPack sub(FloatPack a, FloatPack b) { return _mm256_sub_ps(a, b); }
 inline FloatPack mul(FloatPack a, FloatPack b) { return _mm256_mul_ps(a, b); }
+inline FloatPack abs(FloatPack a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
+inline FloatMask less_equal(FloatPack a, FloatPack b) { return _mm256_cmp_ps(a, b, _CMP_LE_OQ); }
 inline FloatMask less(FloatPack a, FloatPack b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
 inline FloatMask both(FloatMask a, FloatMask b) { return _mm256_and_ps(a, b); }
 inline FloatMask either(FloatMask a, FloatMask b) { return _mm256_or_ps(a, b); }

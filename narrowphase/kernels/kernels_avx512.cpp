@@ -86,6 +86,8 @@ inline FloatPack pick(const float* p, int count, const FloatPicks& at) {
 inline FloatPack add(FloatPack a, FloatPack b) { return _mm512_add_ps(a, b); }
 inline FloatPack sub(FloatPack a, FloatPack b) { return _mm512_sub_ps(a, b); }
 inline FloatPack mul(FloatPack a, FloatPack b) { return _mm512_mul_ps(a, b); }
+inline FloatPack abs(FloatPack a) { return _mm512_abs_ps(a); }
+inline FloatMask less_equal(FloatPack a, FloatPack b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
 inline FloatMask less(FloatPack a, FloatPack b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
 inline FloatMask both(FloatMask a, FloatMask b) { return _kand_mask16(a, b); }
 inline FloatMask either(FloatMask a, FloatMask b) { return _kor_mask16(a, b); }

@@ -63,6 +63,8 @@ inline FloatPack pick(const float* p, int, const FloatPicks& at) { return p[*at.
 inline FloatPack add(FloatPack a, FloatPack b) { return a + b; }
 inline FloatPack sub(FloatPack a, FloatPack b) { return a - b; }
 inline FloatPack mul(FloatPack a, FloatPack b) { return a * b; }
+inline FloatPack abs(FloatPack a) { return __builtin_fabsf(a); }
+inline FloatMask less_equal(FloatPack a, FloatPack b) { return a <= b; }
 inline FloatMask less(FloatPack a, FloatPack b) { return a < b; }
 inline FloatPack select(FloatMask mask, FloatPack yes, FloatPack no) { return mask ? yes : no; }
 

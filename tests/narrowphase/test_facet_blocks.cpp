@@ -179,7 +179,7 @@ TEST(FacetBlocks, FacetsThatMeetAreNearAndPaired) {
         const BoxBounds box = box_of(block_a, pair.a);
         const CellBox cells = cells_of(kGrid, box);
         const BoxBounds both = merged(box, box_of(block_b, pair.b));
-        EXPECT_NE(kernels->near_facets(block_b, all_bits(block_b.count), cells).facets >> pair.b & 1, 0u);
+        EXPECT_NE(kernels->near_facets(block_b, all_bits(block_b.count), cells) >> pair.b & 1, 0u);
         EXPECT_TRUE(kernels->any_near(block_b, std::uint64_t{1} << pair.b, cells, box, both));
       }
       for (const bool few_are_b : {false, true}) {
@@ -243,7 +243,8 @@ TEST(FacetBlocks, EveryInstructionSetGivesTheSameBits) {
     const IndexRange all{0, b.vertex_count()};
     const HighestPoint highest = scalar_kernels()->highest_point(b.points(), &all, 1, axis, -1e300);
     const CellBox cells = cells_of(kGrid, planes.box);
-    const NearFacets near = scalar_kernels()->near_facets(expected, all_bits(expected.count), cells);
+    const std::uint64_t near = scalar_kernels()->near_facets(expected, all_bits(expected.count), cells);
+    const CellBox of_near = scalar_kernels()->cells_of(expected, near);
     for (const Kernels* kernels : tests::available_kernels()) {
       const FacetBlock block = block_of(*kernels, b, 0);
       for (int axis_index = 0; axis_index < 3; ++axis_index) {
@@ -264,11 +265,11 @@ TEST(FacetBlocks, EveryInstructionSetGivesTheSameBits) {
       EXPECT_EQ(top.index, highest.index) << kernels->name;
       const double above = std::nextafter(highest.height, 1e300);
       EXPECT_EQ(kernels->highest_point(b.points(), &all, 1, axis, above).index, -1) << kernels->name;
-      const NearFacets others = kernels->near_facets(block, all_bits(block.count), cells);
-      EXPECT_EQ(others.facets, near.facets) << kernels->name;
+      EXPECT_EQ(kernels->near_facets(block, all_bits(block.count), cells), near) << kernels->name;
+      const CellBox others = kernels->cells_of(block, near);
       for (int k = 0; k < 3; ++k) {
-        EXPECT_EQ(others.cells.lower[k], near.cells.lower[k]) << kernels->name;
-        EXPECT_EQ(others.cells.upper[k], near.cells.upper[k]) << kernels->name;
+        EXPECT_EQ(others.lower[k], of_near.lower[k]) << kernels->name;
+        EXPECT_EQ(others.upper[k], of_near.upper[k]) << kernels->name;
       }
       for (const int plane_from : {kAlways, 6}) {
         std::int64_t box_pairs = 0;

@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "narrowphase/lattice.h"
 #include "narrowphase/triangle_triangle.h"
 #include "tests/support/clustered.h"
 #include "tests/support/facet_blocks.h"
@@ -188,9 +190,25 @@ bool has_area(const Triangle& t) {
   return cross(t[1] - t[0], t[2] - t[0]) != Vec3{};  // exact on a lattice
 }
 
+// All pairs but those with a facet that has no area are decided, and rightly. Returns how many.
+int expect_all_decided(const PairMatches& matches, const ClusteredMesh& a, int f, const ClusteredMesh& b) {
+  int decided = 0;
+  for (int g = 0; g < b.facet_end(0); ++g) {
+    if ((matches.undecided >> g & 1) != 0) {
+      EXPECT_FALSE(has_area(a.triangle(f)) && has_area(b.triangle(g))) << f << ' ' << g;
+      continue;
+    }
+    PredicateCounts counts;
+    EXPECT_EQ((matches.meeting >> g & 1) != 0, triangle_triangle_meet(a.triangle(f), b.triangle(g), counts))
+        << f << ' ' << g;
+    ++decided;
+  }
+  return decided;
+}
+
 // All pairs of two lattices, offset and scaled in a way that leaves them lattices.
 TEST(FacetDecisions, PairsOnALatticeAreAllDecided) {
-  std::size_t in_plane = 0;
+  int decided = 0;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     for (const auto& [scale, offset] :
          {std::pair{1.0, 0.0}, {0x1p-6, 0x1p20}, {0x1p-100, -0x1p-80}, {3.0, 0x1p36}, {1000.0, 5e8}}) {
@@ -200,33 +218,69 @@ TEST(FacetDecisions, PairsOnALatticeAreAllDecided) {
         return mesh;
       };
       const ClusteredMesh a = clustered(placed(seed)), b = clustered(placed(seed + 50));
+      const BoxBounds bounds = narrowphase::bounds_of(base::merged(a.box(), b.box()));
       for (const Kernels* kernels : tests::available_kernels()) {
+        SCOPED_TRACE(::testing::Message() << kernels->name << " scale " << scale << " offset " << offset);
         const FacetBlock block_a = block_of(*kernels, a, 0, kAnywhere), block_b = block_of(*kernels, b, 0, kAnywhere);
-        const BoxBounds bounds = narrowphase::bounds_of(base::merged(a.box(), b.box()));
+        ASSERT_TRUE(tests::on_lattice(*kernels, block_a, block_b, bounds));
         for (int f = 0; f < a.facet_end(0); ++f) {
           const FacetPairList pairs = all_with(f, b.facet_end(0));
-          const PairMatches matches = tests::match_pairs(*kernels, block_a, block_b, pairs, bounds);
-          ASSERT_TRUE(tests::on_lattice(*kernels, block_a, block_b, bounds))
-              << kernels->name << " scale " << scale << " offset " << offset;
-          const PairMatches flat = kernels->match_flat_pairs(block_a, block_b, pairs, matches.flat, true);
-          for (int g = 0; g < b.facet_end(0); ++g) {
-            const bool areas = has_area(a.triangle(f)) && has_area(b.triangle(g)),
-                       is_flat = (matches.flat >> g & 1) != 0;
-            const std::uint64_t undecided = is_flat ? flat.undecided : matches.undecided;
-            if ((undecided >> g & 1) != 0) {
-              ASSERT_FALSE(areas) << kernels->name << ": " << f << ' ' << g;
-              continue;
-            }
-            PredicateCounts counts;
-            const bool meet = (((is_flat ? flat : matches).meeting >> g) & 1) != 0;
-            ASSERT_EQ(meet, triangle_triangle_meet(a.triangle(f), b.triangle(g), counts)) << f << ' ' << g;
-            in_plane += is_flat ? 1 : 0;
-          }
+          decided += expect_all_decided(kernels->match_exact_pairs(block_a, block_b, pairs), a, f, b);
+          const auto in_floats = tests::match_exact_float_pairs(*kernels, block_a, block_b, pairs, bounds);
+          ASSERT_EQ(in_floats.has_value(), scale != 1000.0);  // 8, and not 1000, is the largest power of two in it
+          if (in_floats) decided += expect_all_decided(*in_floats, a, f, b);
         }
       }
     }
   }
-  EXPECT_GT(in_plane, 1000u);
+  EXPECT_GT(decided, 100'000);
+}
+
+// Facets as large as a box on the finest lattice for floats, and others with corners next to their planes: no
+// determinant is rounded.
+TEST(FacetDecisions, FloatsRoundNothingOnTheFinestLattice) {
+  tests::Random random(5);
+  int decided = 0, touching = 0;
+  for (int repeat = 0; repeat < 300; ++repeat) {
+    const auto side = [&] { return repeat % 2 == 0 ? 139.0 : random.uniform(1.0, 200.0); };  // 6 * 139³ < 2^24
+    const std::array<double, 3> most{side(), side(), side()};
+    const double step = finest_lattice_in_floats({{0, 0, 0}, {most[0], most[1], most[2]}}).step;
+    const auto rounded = [&](double x) { return std::floor(x / step) * step; };
+    const auto point = [&](Vec3 p) { return Vec3{rounded(p.x), rounded(p.y), rounded(p.z)}; };
+    const auto coordinate = [&](double last) { return random.uniform(-0.3, 1.3) < 0.5 ? 0.0 : last; };
+    const auto corner = [&] {
+      const double x = random.below(3) == 0 ? random.uniform(0.0, most[0]) : coordinate(most[0]);
+      const double y = random.below(3) == 0 ? random.uniform(0.0, most[1]) : coordinate(most[1]);
+      return point({x, y, random.below(3) == 0 ? random.uniform(0.0, most[2]) : coordinate(most[2])});
+    };
+    MeshBuilder a, b;
+    const Vec3 p = corner(), q = corner(), r = corner();
+    a.triangle(p, q, r);
+    a.triangle({}, point({most[0], 0, 0}), point({most[0], most[1], most[2]}));
+    for (int k = 0; k < 60; ++k) {
+      const double s = random.uniform(0.0, 1.0), t = random.uniform(0.0, 1.0 - s);
+      b.triangle(point(p + s * (q - p) + t * (r - p)), corner(), point(p + t * (q - p)));
+    }
+    const ClusteredMesh mesh_a = clustered(a.mesh()), mesh_b = clustered(b.mesh());
+    const BoxBounds bounds = narrowphase::bounds_of(base::merged(mesh_a.box(), mesh_b.box()));
+    for (const Kernels* kernels : tests::available_kernels()) {
+      const FacetBlock block_a = block_of(*kernels, mesh_a, 0, kAnywhere);
+      const FacetBlock block_b = block_of(*kernels, mesh_b, 0, kAnywhere);
+      for (int f = 0; f < mesh_a.facet_end(0); ++f) {
+        const FacetPairList pairs = all_with(f, mesh_b.facet_end(0));
+        const auto matches = tests::match_exact_float_pairs(*kernels, block_a, block_b, pairs, bounds);
+        ASSERT_TRUE(matches.has_value());
+        decided += expect_all_decided(*matches, mesh_a, f, mesh_b);
+      }
+    }
+    PredicateCounts counts;
+    for (int g = 0; g < mesh_b.facet_end(0); ++g) {
+      const std::array<int, 3> sides = sides_of_plane(p, q, r, mesh_b.triangle(g), counts);
+      touching += std::count(sides.begin(), sides.end(), 0) > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(decided, 30'000);
+  EXPECT_GT(touching, 1000);
 }
 
 // A coordinate next to one of a lattice is none.
@@ -238,26 +292,47 @@ TEST(FacetDecisions, ACoordinateBesideALatticeIsNoticed) {
     double& x = other.positions(i % 3, mesh.facets.reshaped()[i / 3]);
     x = x == 0.0 ? 0x1p-1074 : std::nextafter(x, 1e300);
     const ClusteredMesh a = clustered(other);
-    const BoxBounds bounds = narrowphase::bounds_of(base::merged(a.box(), b.box()));
+    const double step = finest_lattice_in_doubles(narrowphase::bounds_of(base::merged(a.box(), b.box()))).step;
+    ASSERT_GT(step, 0.0);
     for (const Kernels* kernels : tests::available_kernels()) {
       const FacetBlock block_a = block_of(*kernels, a, 0, kAnywhere), block_b = block_of(*kernels, b, 0, kAnywhere);
-      EXPECT_FALSE(kernels->on_lattice(block_a, bounds)) << kernels->name << ' ' << i;
-      EXPECT_TRUE(kernels->on_lattice(block_b, bounds)) << kernels->name << ' ' << i;
+      EXPECT_FALSE(kernels->on_lattice(block_a, step)) << kernels->name << ' ' << i;
+      EXPECT_TRUE(kernels->on_lattice(block_b, step)) << kernels->name << ' ' << i;
     }
   }
 }
 
-// Coordinates of more digits than a lattice of 2^16 steps has are none.
+// Coordinates of more digits than a lattice has are none: of 2^16 steps for doubles, and 2^7 for floats in a cube.
 TEST(FacetDecisions, ALatticeHasFewSteps) {
-  for (const double last : {0x1p-15, 0x1p-16, 0x1p-17}) {
+  for (int digits = 1; digits < 20; ++digits) {
     MeshBuilder builder;
-    builder.triangle({0, 0, 0}, {1, 0, last}, {0, 1, 0});
+    builder.triangle({0, 0, 0}, {1, 0, std::ldexp(1.0, -digits)}, {0, 1, 1});
     const ClusteredMesh mesh = clustered(builder.mesh());
+    const BoxBounds bounds = narrowphase::bounds_of(mesh.box());
+    const double in_doubles = finest_lattice_in_doubles(bounds).step, in_floats = finest_lattice_in_floats(bounds).step;
     for (const Kernels* kernels : tests::available_kernels()) {
       const FacetBlock block = block_of(*kernels, mesh, 0, kAnywhere);
-      EXPECT_EQ(kernels->on_lattice(block, narrowphase::bounds_of(mesh.box())), last == 0x1p-15) << kernels->name;
+      EXPECT_EQ(kernels->on_lattice(block, in_doubles), digits <= 15) << kernels->name << ' ' << digits;
+      EXPECT_EQ(kernels->on_lattice(block, in_floats), digits <= 7) << kernels->name << ' ' << digits;
     }
   }
+}
+
+// A flat box has as many steps as floats have room for along its sides.
+TEST(Lattice, IsTheFinestThatRoundsNothing) {
+  const auto step = [](double x, double y, double z) { return finest_lattice_in_floats({{0, 0, 0}, {x, y, z}}).step; };
+  EXPECT_EQ(step(1, 1, 1), 1.0 / 128);
+  EXPECT_EQ(step(1.5, 1.5, 1.5), 1.0 / 64);
+  EXPECT_EQ(step(0.75, 0.75, 0.0), 1.0 / 1024);
+  EXPECT_EQ(step(139, 139, 139), 1.0);
+  EXPECT_EQ(step(141, 141, 141), 2.0);
+  EXPECT_EQ(step(0x1p-100, 0x1p-100, 0x1p-100), 0x1p-107);
+  EXPECT_EQ(step(0, 0, 0), 0.0);
+  EXPECT_EQ(finest_lattice_in_doubles({{0, 0, 0}, {1, 1, 1}}).step, 0x1p-15);
+  // Coordinates that have no room for a part of a step beside them.
+  EXPECT_EQ(finest_lattice_in_doubles({{0x1p40, 0, 0}, {0x1p40 + 1, 1, 1}}).step, 0.0);
+  EXPECT_EQ(finest_lattice_in_floats({{0x1p40, 0, 0}, {0x1p40 + 1, 1, 1}}).step, 1.0 / 128);
+  EXPECT_EQ(finest_lattice_in_floats({{-0x1p45, 0, 0}, {1 - 0x1p45, 1, 1}}).step, 0.0);
 }
 
 // Corners so near to a plane, and edges so near to another, that floats are just about to tell.

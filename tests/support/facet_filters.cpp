@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "narrowphase/confirm.h"
+#include "narrowphase/lattice.h"
 
 namespace tact::tests {
 namespace {
@@ -18,6 +19,7 @@ using narrowphase::FacetPairList;
 using narrowphase::FloatCorners;
 using narrowphase::Grid;
 using narrowphase::Kernels;
+using narrowphase::Lattice;
 using narrowphase::PairMatches;
 
 constexpr double kFar = 0x1p301;
@@ -79,7 +81,7 @@ bool leaves_out(const Kernels& kernels, const FacetBlock& few, const FacetBlock&
   const std::uint64_t bit = std::uint64_t{1} << i;
   const BoxBounds box = box_of(few, i), bounds = bounds_of(few, many, i);
   const CellBox cells = narrowphase::cells_of(grid, box);
-  if (kernels.near_facets(many, bit, cells).facets == 0) return true;
+  if (kernels.near_facets(many, bit, cells) == 0) return true;
   if (!kernels.any_near(many, bit, cells, box, bounds)) return true;
   std::array<std::uint64_t, FacetBlock::kCapacity> met{};
   if (kernels.share_cells(few, bit, many, bit, met.data()).pairs == 0) return true;
@@ -98,6 +100,10 @@ Filtered::Decision decision(const PairMatches& matches, std::size_t i) {
 
 bool is_right(Filtered::Decision decision, bool meet) {
   return decision == Filtered::Decision::undecided || (decision == Filtered::Decision::meeting) == meet;
+}
+
+bool on_lattice(const Kernels& kernels, const Lattice& lattice, const FacetBlock& a, const FacetBlock& b) {
+  return lattice.step > 0.0 && kernels.on_lattice(a, lattice.step) && kernels.on_lattice(b, lattice.step);
 }
 
 }  // namespace
@@ -123,12 +129,21 @@ BoxBounds merged(BoxBounds box, const BoxBounds& other) {
 }
 
 bool on_lattice(const Kernels& kernels, const FacetBlock& a, const FacetBlock& b, const BoxBounds& bounds) {
-  return kernels.on_lattice(a, bounds) && kernels.on_lattice(b, bounds);
+  return on_lattice(kernels, narrowphase::finest_lattice_in_doubles(bounds), a, b);
 }
 
 PairMatches match_pairs(const Kernels& kernels, const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
                         const BoxBounds& bounds) {
-  return kernels.match_pairs(a, b, pairs, all_bits(pairs.count), bounds, on_lattice(kernels, a, b, bounds));
+  if (on_lattice(kernels, a, b, bounds)) return kernels.match_exact_pairs(a, b, pairs);
+  return kernels.match_pairs(a, b, pairs, all_bits(pairs.count), bounds);
+}
+
+std::optional<PairMatches> match_exact_float_pairs(const Kernels& kernels, const FacetBlock& a, const FacetBlock& b,
+                                                   const FacetPairList& pairs, const BoxBounds& bounds) {
+  const Lattice lattice = narrowphase::finest_lattice_in_floats(bounds);
+  if (!on_lattice(kernels, lattice, a, b)) return std::nullopt;
+  return kernels.match_exact_float_pairs(float_corners(kernels, a, all_bits(a.count), lattice.grid),
+                                         float_corners(kernels, b, all_bits(b.count), lattice.grid), pairs);
 }
 
 PairMatches match_float_pairs(const Kernels& kernels, const FacetBlock& a, const FacetBlock& b,
@@ -175,7 +190,7 @@ std::vector<Filtered> filtered(const Kernels& kernels, std::span<const TriangleP
   const PairMatches in_floats = match_float_pairs(kernels, a, b, list, everything);
   const PairMatches wide = kernels.match_pairs_wide(a, b, list, all);
   const std::uint64_t sharing = kernels.sharing_pairs(a, b, list, all), flat = together.flat | wide.flat;
-  PairMatches in_plane = kernels.match_flat_pairs(a, b, list, flat, on_lattice(kernels, a, b, everything));
+  PairMatches in_plane = kernels.match_flat_pairs(a, b, list, flat);
   in_plane.undecided |= all & ~flat;
   std::vector<Filtered> result(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,13 +37,20 @@ std::vector<Filtered> filtered(const narrowphase::Kernels& kernels, std::span<co
 // Is all of it right, where the triangles meet, or do not?
 bool is_right(const Filtered& filtered, const TrianglePair& pair, bool meet);
 
-// All of the pairs in doubles and in floats, which lie in the box `bounds`. Is nothing rounded there?
+// All of the pairs, which lie in the box `bounds`: in doubles, whether or not anything is rounded there, and in floats;
+// in floats if nothing is rounded.
 narrowphase::PairMatches match_pairs(const narrowphase::Kernels& kernels, const narrowphase::FacetBlock& a,
                                      const narrowphase::FacetBlock& b, const narrowphase::FacetPairList& pairs,
                                      const narrowphase::BoxBounds& bounds);
 narrowphase::PairMatches match_float_pairs(const narrowphase::Kernels& kernels, const narrowphase::FacetBlock& a,
                                            const narrowphase::FacetBlock& b, const narrowphase::FacetPairList& pairs,
                                            const narrowphase::BoxBounds& bounds);
+std::optional<narrowphase::PairMatches> match_exact_float_pairs(const narrowphase::Kernels& kernels,
+                                                                const narrowphase::FacetBlock& a,
+                                                                const narrowphase::FacetBlock& b,
+                                                                const narrowphase::FacetPairList& pairs,
+                                                                const narrowphase::BoxBounds& bounds);
+// Is nothing rounded in doubles?
 bool on_lattice(const narrowphase::Kernels& kernels, const narrowphase::FacetBlock& a, const narrowphase::FacetBlock& b,
                 const narrowphase::BoxBounds& bounds);
 
