@@ -1,7 +1,8 @@
 // The loops of kernels.h over the packs that the including file defines: over points and boxes here, over the bytes of a
 // cluster and the cells of boxes in bytes.inl, over facets in facets.inl, over pairs of them in pair_lanes.inl,
-// clear_pairs.inl, exact_pairs.inl, facet_pairs.inl and sort.inl, over the caller's positions in refresh.inl. A tail of fewer than kWidth elements is read from
-// a padded array where the caller promises padding (points, boxes: see ClusteredMesh) and its lanes are masked off.
+// clear_pairs.inl, exact_pairs.inl, facet_pairs.inl and sort.inl, over the caller's positions in refresh.inl. A tail of
+// fewer than kWidth elements is read from a padded array where the caller promises padding (points, boxes: see
+// ClusteredMesh) and its lanes are masked off.
 
 namespace tact::narrowphase {
 namespace {
@@ -204,9 +205,11 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
 }  // namespace
 
 extern const Kernels TACT_KERNELS;
-const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, refresh_clusters, bounds, diagonal_bounds, select_heights, highest_point,
-                              select_overlapping, open_cluster, find_cells, facing_away, near_facets, cells_of, any_near, share_cells, leave_aside, list_pairs,
-                              sort_pairs, on_lattice, float_corners, match_float_pairs, match_exact_pairs, match_exact_float_pairs, match_pairs,
-                              sharing_pairs, match_pairs_wide, match_flat_pairs};
+const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, refresh_clusters, bounds, diagonal_bounds, select_heights,
+                              highest_point, select_overlapping, open_cluster, find_cells, facing_away,
+                              near_facets, cells_of, any_near, share_cells, leave_aside, list_pairs, sort_pairs,
+                              on_lattice, float_corners, match_float_pairs, match_exact_pairs,
+                              match_exact_float_pairs, match_pairs, sharing_pairs, match_pairs_wide,
+                              match_flat_pairs};
 
 }  // namespace tact::narrowphase
