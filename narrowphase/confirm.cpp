@@ -1,7 +1,6 @@
 #include "narrowphase/confirm.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "engine/base/fast_paths.h"
 

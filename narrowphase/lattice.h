@@ -12,9 +12,9 @@ struct Lattice {
   Grid grid = {};  // one step a cell: places of points on the lattice are whole numbers, and nothing of them is rounded
 };
 
-// The finest lattices on which doubles, and floats, round nothing of a determinant of points in a box: differences are
-// up to 2^16 steps, products of two up to 2^32, and a sum of six products of three up to 3 * 2^49; in floats six times
-// the product of the sides is up to 2^24.
+// The finest lattices, of up to 2^16 and 2^10 steps along a side, on which doubles, and floats, round nothing of a
+// determinant of points in a box: differences are up to 2^16 steps, products of two up to 2^32, and a sum of six
+// products of three up to 3 * 2^49; in floats six times the product of the sides is up to 2^24.
 Lattice finest_lattice_in_doubles(const BoxBounds& box);
 Lattice finest_lattice_in_floats(const BoxBounds& box);
 

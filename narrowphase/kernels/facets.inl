@@ -17,8 +17,7 @@ inline PackOf<Real> dot(const VectorOf<Real>& n, const VectorOf<Real>& x) {
 }
 inline VectorPack spread(const double* p) { return {spread(p[0]), spread(p[1]), spread(p[2])}; }
 
-// A determinant as computed, a bound of its rounding, and the sum of the sizes of its products, or, where nothing was
-// rounded, its own size. If that is zero, each
+// A determinant as computed, a bound of its rounding, and the sum of the sizes of its products. If that is zero, each
 // product has a factor that is zero, and was so before rounding: then the determinant is zero (see nothing_vanishes).
 struct Determinant {
   Pack value, error, size;
@@ -42,7 +41,6 @@ inline Determinant determinant(const VectorPack& x, const VectorPack& n, const V
 
 // The plane through the corners of a triangle.
 struct Plane {
-  static constexpr bool kRounds = true;
   VectorPack origin, normal, bound;
 
   Plane(const VectorPack& c0, const VectorPack& c1, const VectorPack& c2) : origin(c0) {

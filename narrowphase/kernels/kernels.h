@@ -211,8 +211,8 @@ struct Kernels {
   std::uint64_t (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells);
   // The cells that the facets with a bit reach; of no meaning if there is none.
   CellBox (*cells_of)(const FacetBlock& block, std::uint64_t facets);
-  // Is there one whose plane, too, does not certainly leave `box` on one side? All of these facets and `box`, which
-  // reaches `cells`, lie in the box `bounds`.
+  // Is there a facet near `cells` whose plane, too, does not certainly leave `box` on one side? All of these facets and
+  // `box`, which reaches `cells`, lie in the box `bounds`.
   bool (*any_near)(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells, const BoxBounds& box,
                    const BoxBounds& bounds);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -245,6 +244,19 @@ TEST(FacetBlocks, EveryInstructionSetGivesTheSameBits) {
     const CellBox cells = cells_of(kGrid, planes.box);
     const std::uint64_t near = scalar_kernels()->near_facets(expected, all_bits(expected.count), cells);
     const CellBox of_near = scalar_kernels()->cells_of(expected, near);
+    ASSERT_NE(near, 0u);
+    for (int k = 0; k < 3; ++k) {
+      std::int16_t first = 0x7fff, last = 0;
+      for (int f = 0; f < expected.count; ++f) {
+        const bool is_near = (near >> f & 1) != 0,
+                   misses = expected.upper_cell[k][f] < cells.lower[k] || cells.upper[k] < expected.lower_cell[k][f];
+        EXPECT_FALSE(is_near && misses);
+        if (is_near)
+          first = std::min(first, expected.lower_cell[k][f]), last = std::max(last, expected.upper_cell[k][f]);
+      }
+      EXPECT_EQ(of_near.lower[k], first);
+      EXPECT_EQ(of_near.upper[k], last);
+    }
     for (const Kernels* kernels : tests::available_kernels()) {
       const FacetBlock block = block_of(*kernels, b, 0);
       for (int axis_index = 0; axis_index < 3; ++axis_index) {

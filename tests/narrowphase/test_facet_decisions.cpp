@@ -174,7 +174,7 @@ TEST(FacetDecisions, SharingPairsHaveACornerInCommon) {
   EXPECT_GT(sharing, 100u);
 }
 
-TEST(FacetDecisions, TouchingPairsOfALatticeAreDecidedUnlessCoplanar) {
+TEST(FacetDecisions, TouchingPairsOfALatticeAreDecided) {
   const ClusteredMesh a = clustered(tests::lattice_soup(60, 2, 1)), b = clustered(tests::lattice_soup(60, 2, 8));
   std::size_t touching_and_decided = 0;
   for (const FacetPair& pair : decide_all(*scalar_kernels(), a, b).meeting) {
@@ -208,7 +208,7 @@ int expect_all_decided(const PairMatches& matches, const ClusteredMesh& a, int f
 
 // All pairs of two lattices, offset and scaled in a way that leaves them lattices.
 TEST(FacetDecisions, PairsOnALatticeAreAllDecided) {
-  int decided = 0;
+  int decided = 0, in_plane = 0;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     for (const auto& [scale, offset] :
          {std::pair{1.0, 0.0}, {0x1p-6, 0x1p20}, {0x1p-100, -0x1p-80}, {3.0, 0x1p36}, {1000.0, 5e8}}) {
@@ -225,6 +225,10 @@ TEST(FacetDecisions, PairsOnALatticeAreAllDecided) {
         ASSERT_TRUE(tests::on_lattice(*kernels, block_a, block_b, bounds));
         for (int f = 0; f < a.facet_end(0); ++f) {
           const FacetPairList pairs = all_with(f, b.facet_end(0));
+          for (int g = 0; g < b.facet_end(0); ++g) {
+            const bool areas = has_area(a.triangle(f)) && has_area(b.triangle(g));
+            in_plane += areas && tests::lies_in_plane(a.triangle(f), b.triangle(g)) ? 1 : 0;
+          }
           decided += expect_all_decided(kernels->match_exact_pairs(block_a, block_b, pairs), a, f, b);
           const auto in_floats = tests::match_exact_float_pairs(*kernels, block_a, block_b, pairs, bounds);
           ASSERT_EQ(in_floats.has_value(), scale != 1000.0);  // 8, and not 1000, is the largest power of two in it
@@ -234,6 +238,7 @@ TEST(FacetDecisions, PairsOnALatticeAreAllDecided) {
     }
   }
   EXPECT_GT(decided, 100'000);
+  EXPECT_GT(in_plane, 1000);
 }
 
 // Facets as large as a box on the finest lattice for floats, and others with corners next to their planes: no
@@ -318,7 +323,7 @@ TEST(FacetDecisions, ALatticeHasFewSteps) {
   }
 }
 
-// A flat box has as many steps as floats have room for along its sides.
+// A flat box has more steps along its sides, up to 2^10.
 TEST(Lattice, IsTheFinestThatRoundsNothing) {
   const auto step = [](double x, double y, double z) { return finest_lattice_in_floats({{0, 0, 0}, {x, y, z}}).step; };
   EXPECT_EQ(step(1, 1, 1), 1.0 / 128);
