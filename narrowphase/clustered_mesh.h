@@ -32,7 +32,7 @@ inline constexpr int kGroupSize = 32;  // clusters in a group, at most: neighbou
 using Corners = std::array<int, 3>;
 using Triangle = std::array<Vec3, 3>;
 
-// The most elements that a SIMD loop reads past the end of an array: arrays are longer by so many.
+// The most doubles, or as many bytes, that a SIMD loop reads past the end of an array: arrays are longer by so many.
 inline constexpr int kPadding = 8;
 
 // Boxes in separate arrays, one entry a cluster (or a facet), for loops that compare many at once: lower x, y, z, upper

@@ -153,7 +153,7 @@ void FacetPairSearch::finish_block(const ConfirmInput& input, std::vector<FacetP
 }
 
 // Of each block only the facets near the other are looked at.
-void FacetPairSearch::test_blocks(const ConfirmInput& input, KeptFacets& b, std::vector<FacetPair>& found,
+void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b, std::vector<FacetPair>& found,
                                   ConfirmCounts& counts) {
   std::uint64_t near_a = a_.facets, near_b = b.facets;
   kernels().find_cells(grid_, &a_.block);

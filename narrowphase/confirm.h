@@ -80,7 +80,8 @@ class FacetPairSearch {
   PlaceInB open_b(const ConfirmInput& input, std::int32_t index);
   void append_a(const ConfirmInput& input, std::int32_t index, std::vector<FacetPair>& found, ConfirmCounts& counts);
   void finish_block(const ConfirmInput& input, std::vector<FacetPair>& found, ConfirmCounts& counts);
-  void test_blocks(const ConfirmInput& input, KeptFacets& b, std::vector<FacetPair>& found, ConfirmCounts& counts);
+  void test_blocks(const ConfirmInput& input, const KeptFacets& b, std::vector<FacetPair>& found,
+                   ConfirmCounts& counts);
 
   Grid grid_ = {};  // over what both bodies reach
   KeptFacets a_;

@@ -84,7 +84,7 @@ inline float float_rounding(const FloatCorners& a, const FloatCorners& b, const 
 
 void leave_aside(const FloatCorners& few, std::uint64_t some, const FloatCorners& many, const double* gap,
                  int plane_from, std::uint64_t* met) {
-  const FloatPack error = spread(float_rounding(few, many, gap)), opposite_error = opposite<float>(error);
+  const FloatPack error = spread(float_rounding(few, many, gap));
   for (; some != 0; some &= some - 1) {
     const int f = __builtin_ctzll(some);
     if (__builtin_popcountll(met[f]) < plane_from) continue;
@@ -95,16 +95,11 @@ void leave_aside(const FloatCorners& few, std::uint64_t some, const FloatCorners
     const ClearPlane<float> plane(of_f[0], of_f[1], of_f[2]);
     for (std::uint64_t left = met[f]; left != 0;) {
       const int i = __builtin_ctzll(left) / kFloatWidth * kFloatWidth;
-      FloatMask above[3], below[3];
+      VectorOf<float> corner[3];
       for (int k = 0; k < 3; ++k) {
-        const FloatPack height = plane.height(
-            {load(many.corner[k][0] + i), load(many.corner[k][1] + i), load(many.corner[k][2] + i)});
-        above[k] = less(error, height);
-        below[k] = less(height, opposite_error);
+        corner[k] = {load(many.corner[k][0] + i), load(many.corner[k][1] + i), load(many.corner[k][2] + i)};
       }
-      const unsigned aside =
-          bits(either(both(both(above[0], above[1]), above[2]), both(both(below[0], below[1]), below[2])));
-      met[f] &= ~(static_cast<std::uint64_t>(aside) << i);
+      met[f] &= ~(static_cast<std::uint64_t>(ClearSides<float>(plane, corner, error).apart) << i);
       left &= ~(static_cast<std::uint64_t>(kAllFloatLanes) << i);
     }
   }
