@@ -23,6 +23,7 @@ namespace tact::bench {
 namespace {
 
 constexpr double kMostIterations = 1.2;  // promised of the mean on coherent motion
+constexpr int kCoherentFrames = 96;      // of a period
 
 // A median each, in microseconds, of the steps of one pair.
 struct PairTimes {
@@ -128,21 +129,22 @@ struct Coherent {
 };
 
 std::vector<Coherent> coherent_workloads(bool quick) {
-  if (quick) return {{"pile of 27 blobs", pile(27, 2, 96)}, {"organ and tool", organ_and_tool(96)}};
-  return {{"pile of 100 blobs of 320", pile(100, 4, 96)},
-          {"organ and tool", organ_and_tool(96)},
-          {"cloth on sphere", cloth(40, 96)},
-          {"two blobs of 20,480", large_pair(32, 96)}};
+  if (quick)
+    return {{"pile of 27 blobs", pile(27, 2, kCoherentFrames)}, {"organ and tool", organ_and_tool(kCoherentFrames)}};
+  return {{"pile of 100 blobs of 320", pile(100, 4, kCoherentFrames)},
+          {"organ and tool", organ_and_tool(kCoherentFrames)},
+          {"cloth on sphere", cloth(40, kCoherentFrames)},
+          {"two blobs of 20,480", large_pair(32, kCoherentFrames)}};
 }
 
 }  // namespace
 
 void print_growth(const BenchOptions& options) {
   const std::vector<int> frequencies = options.quick ? std::vector{5, 9, 16} : std::vector{5, 9, 16, 28, 50, 89, 158};
-  const int frames = options.quick ? 4 : 12;
+  const int frames = options.quick ? 8 : kCoherentFrames;
   std::vector<GrowthRow> rows;
   for (const int frequency : frequencies) {
-    const Workload workload = large_pair(frequency, 2 * frames);
+    const Workload workload = large_pair(frequency, frames);
     const int steps = options.quick ? 20 : frequency < 60 ? 2000 : 200;
     rows.push_back({static_cast<double>(workload.facet_count()), measure_pair(workload, Accuracy::exact, steps),
                     measure_pair(workload, Accuracy::paper, steps), measure_plain_scan(workload, steps),
