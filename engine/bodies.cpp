@@ -197,7 +197,7 @@ void Bodies::prefetch(BodyId id) const {
 void Bodies::refresh(std::size_t i, int threads) {
   Update& update = updates_[i];
   narrowphase::ClusteredMesh& mesh = update.body->mesh;
-  update.refreshed = mesh.refresh(update.positions.data(), kLargestCoordinate, threads);
+  update.refreshed = mesh.refresh(update.positions.data(), kLargestCoordinate, threads, !stay_in_cache());
   const bool changed = update.refreshed == Refresh::changed;
   update.box = mesh.box();
   update.knows_diagonals = changed && wants_diagonals_[update.slot] != 0 && has_diagonals(mesh);
@@ -321,15 +321,18 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
     return threads > 1 && updates_[i].body->mesh.facet_count() >= (few ? kLargeOfFew : kLargeBody);
   };
   const std::size_t grain = base::grain_of(count, threads, 16, 128);
+  const bool asks_ahead = !stay_in_cache();
   base::parallel_for(count, grain, threads, [&](std::size_t i) {
     // Of the bodies that another thread may turn over, only where they are is read.
     const std::size_t own_end = threads == 1 ? count : std::min(count, i - i % grain + grain);
     const auto ask_for = [&](std::size_t k) {
       if (k < own_end) updates_[k].body->mesh.prefetch(updates_[k].positions.data());
     };
-    for (std::size_t k = 1; i % grain == 0 && k < kPrefetchDistance; ++k) ask_for(i + k);
-    ask_for(i + kPrefetchDistance);
-    if (i + 2 * kPrefetchDistance < count) prefetch(updates[i + 2 * kPrefetchDistance].body);
+    if (asks_ahead) {
+      for (std::size_t k = 1; i % grain == 0 && k < kPrefetchDistance; ++k) ask_for(i + k);
+      ask_for(i + kPrefetchDistance);
+      if (i + 2 * kPrefetchDistance < count) prefetch(updates[i + 2 * kPrefetchDistance].body);
+    }
     if (large(i)) {
       any_large = true;
     } else {

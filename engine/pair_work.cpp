@@ -169,7 +169,9 @@ void cull(PairRecord& record, const Body& a, const Body& b, const Slab& slab, co
                 .kept_a = &work.kept_a,
                 .kept_b = &work.kept_b};
   cull_clusters(a.mesh, work.input.criteria_a, b.mesh.box(), work.kept_a);
+  if (work.asks_ahead) ask_for_facets(a.mesh, work.kept_a);
   cull_clusters(b.mesh, work.input.criteria_b, work.kept_a.bounds, work.kept_b);
+  if (work.asks_ahead) ask_for_facets(b.mesh, work.kept_b);
   cull_again(work.kept_b.bounds, work.kept_a);
   count_facets(a, b, work);
   record.facet_counts.used_trees = find_cluster_pairs(work.kept_a, work.kept_b, ClusterPairSource::automatic, device,

@@ -34,6 +34,7 @@ struct PairWork {
   narrowphase::ClusterPairWork cluster_pair_work;
   narrowphase::FaceFinder faces;
   narrowphase::SmallestMemory smallest;
+  bool asks_ahead = true;          // for the memory of facets: see Bodies::stay_in_cache()
   bool surface_is_placed = false;  // smallest.surface is the record's, where the bodies are now
   narrowphase::CullCounts cull_a, cull_b;
   narrowphase::FacetPairSearch search;

@@ -159,12 +159,13 @@ void Step::narrow_phase(Bodies& bodies, const Settings& settings, Timer& timer) 
   large_count_ = 0;
   std::mutex mutex;
   const std::size_t grain = base::grain_of(moved.size(), settings.threads, 4, 64);
-  const bool few_pairs = moved.size() < bodies.count();
+  const bool few_pairs = moved.size() < bodies.count(), asks_ahead = !bodies.stay_in_cache();
   base::parallel_for(moved.size(), grain, settings.threads, [&](std::size_t i, int thread) {
     const std::size_t own_end = settings.threads == 1 ? moved.size() : i - i % grain + grain;
-    if (few_pairs) prefetch_first_bodies(bodies, i, own_end);
-    prefetch_pairs(bodies, i, own_end);
+    if (asks_ahead && few_pairs) prefetch_first_bodies(bodies, i, own_end);
+    if (asks_ahead) prefetch_pairs(bodies, i, own_end);
     PairWork& work = thread_work_[static_cast<std::size_t>(thread)];
+    work.asks_ahead = asks_ahead;
     ThreadTally& tally = tallies_[static_cast<std::size_t>(thread)];
     PairRecord& record = *moved[i].record;
     const Body &a = bodies.in_slot(record.a.index), &b = bodies.in_slot(record.b.index);

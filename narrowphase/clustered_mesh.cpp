@@ -51,8 +51,6 @@ void BoxArrays::resize(std::size_t count) {
   if (bounds_.size() < 6 * count + kPadding) bounds_.resize(6 * count + kPadding);
 }
 
-void BoxArrays::set(std::size_t i, const Box& box) { set_box(bounds_.data(), stride_, i, box); }
-
 PositionProblem find_position_problem(const double* positions, std::size_t count, double largest) {
   const auto is_good = [&](double x) { return std::abs(x) <= largest; };
   const double *end = positions + 3 * count, *bad = std::find_if_not(positions, end, is_good);
@@ -204,18 +202,18 @@ Corners ClusteredMesh::corners(int facet) const {
   return corners;
 }
 
-ClusteredMesh::Refresh ClusteredMesh::refresh(const double* positions, double largest, int threads) {
+ClusteredMesh::Refresh ClusteredMesh::refresh(const double* positions, double largest, int threads, bool asks_ahead) {
   const int per_range = std::clamp(cluster_count() / (4 * threads), kFewestInRange, kMostInRange);
   const int ranges = (cluster_count() + per_range - 1) / per_range;
   const bool in_ranges = threads > 1 && ranges > 1;
   Refreshed all{};
   if (!in_ranges) {
-    all = refresh_range(positions, 0, cluster_count());
+    all = refresh_range(positions, 0, cluster_count(), asks_ahead);
   } else {
     std::atomic<bool> any_changed{false}, any_not_a_number{false};
     base::parallel_for(static_cast<std::size_t>(ranges), 1, threads, [&](std::size_t i) {
       const int begin = static_cast<int>(i) * per_range;
-      const Refreshed range = refresh_range(positions, begin, std::min(begin + per_range, cluster_count()));
+      const Refreshed range = refresh_range(positions, begin, std::min(begin + per_range, cluster_count()), asks_ahead);
       if (range.changed) any_changed = true;
       if (range.not_a_number) any_not_a_number = true;
     });
@@ -260,7 +258,8 @@ Box ClusteredMesh::box_of(const double* placement) const {
   return to_box(kernels().bounds(boxes.pointers(), has_groups ? group_count() : cluster_count()));
 }
 
-Refreshed ClusteredMesh::refresh_range(const double* positions, int cluster_begin, int cluster_end) const {
+Refreshed ClusteredMesh::refresh_range(const double* positions, int cluster_begin, int cluster_end,
+                                       bool asks_ahead) const {
   // Positions are gathered cluster by cluster, in an order that no hardware foresees. A small body was asked for whole.
   const int ahead = std::clamp(vertex_count() / 8, kFewestAhead, kMostAhead);
   return kernels().refresh_clusters({.source = positions,
@@ -269,7 +268,7 @@ Refreshed ClusteredMesh::refresh_range(const double* positions, int cluster_begi
                                      .ranges = ranges_,
                                      .owned = source_vertices(),
                                      .borrowed = borrowed_sources(),
-                                     .ahead = vertex_count() > ahead ? ahead : 0,
+                                     .ahead = asks_ahead && vertex_count() > ahead ? ahead : 0,
                                      .before = {placed_, placed_ + stride_, placed_ + 2 * stride_},
                                      .x = other_,
                                      .y = other_ + stride_,

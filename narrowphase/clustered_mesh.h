@@ -59,10 +59,19 @@ class BoxView {
 class BoxArrays {
  public:
   void resize(std::size_t count);  // what the boxes are then is left open
-  void set(std::size_t i, const Box& box);
+  void set(std::size_t i, const Box& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bounds_[axis * stride_ + i] = box.lower[static_cast<int>(axis)];
+      bounds_[(axis + 3) * stride_ + i] = box.upper[static_cast<int>(axis)];
+    }
+  }
   BoxView view() const { return {bounds_.data(), stride_}; }
   BoxPointers pointers() const { return view().pointers(); }
   Box operator[](std::size_t i) const { return view()[i]; }
+  BoxBounds bounds(std::size_t i) const {
+    const BoxPointers p = pointers();
+    return {{p.lower[0][i], p.lower[1][i], p.lower[2][i]}, {p.upper[0][i], p.upper[1][i], p.upper[2][i]}};
+  }
 
  private:
   std::vector<double> bounds_;  // and kPadding more
@@ -109,9 +118,10 @@ class ClusteredMesh {
 
   // Reads new positions, 3 x V, in one pass: refreshes all boxes, looks whether every coordinate is finite and at most
   // `largest` in size, and whether any of a used vertex changed. The mesh moves if any did and none is bad. Large
-  // meshes are cut into ranges of clusters for up to `threads` threads. Allocates nothing.
+  // meshes are cut into ranges of clusters for up to `threads` threads. Memory is asked for in good time if
+  // `asks_ahead`, which pays unless positions are in the cache. Allocates nothing.
   enum class Refresh { same, changed, bad };
-  Refresh refresh(const double* positions, double largest, int threads);
+  Refresh refresh(const double* positions, double largest, int threads, bool asks_ahead = true);
   // Undoes a refresh() that changed the mesh, right after it: so that of a batch of bodies all move or none.
   void take_back();
   // For positions that were checked; says whether any changed.
@@ -236,7 +246,7 @@ class ClusteredMesh {
     return {cluster_boxes(placement).lower(0) + 6 * cluster_count(), static_cast<std::size_t>(group_count())};
   }
   Box box_of(const double* placement) const;
-  Refreshed refresh_range(const double* positions, int cluster_begin, int cluster_end) const;
+  Refreshed refresh_range(const double* positions, int cluster_begin, int cluster_end, bool asks_ahead) const;
   void refresh_groups() const;
 
   // Where the borrowed vertices of a cluster begin.

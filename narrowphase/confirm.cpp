@@ -41,16 +41,15 @@ bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPai
   if (forest) work.forest.build(device, b.boxes.view(), b.count());
   found.resize(static_cast<std::size_t>(b.count()));
   for (std::int32_t i = 0; i < a.count(); ++i) {
-    const Box box = a.boxes[static_cast<std::size_t>(i)];
     std::size_t count = 0;
     if (forest) {
       found.clear();
-      work.forest.query(box, found);
+      work.forest.query(a.boxes[static_cast<std::size_t>(i)], found);
       std::sort(found.begin(), found.end());
       count = found.size();
     } else {
-      count = static_cast<std::size_t>(
-          kernels().select_overlapping(b.boxes.pointers(), b.count(), bounds_of(box), found.data()));
+      count = static_cast<std::size_t>(kernels().select_overlapping(
+          b.boxes.pointers(), b.count(), a.boxes.bounds(static_cast<std::size_t>(i)), found.data()));
     }
     for (std::size_t k = 0; k < count; ++k) pairs.push_back({i, found[k]});
   }

@@ -89,7 +89,8 @@ class Search {
         const FaceTriangle::Side side = triangle.side_of_foot();
         if (side.distance >= -shallow()) {
           best_.face = part;
-          settle(part);
+          finished_ = side.distance > shallow();
+          if (!finished_) settle_around(part);
           if (finished_ && best_.height <= start_height) return true;
           break;
         }
@@ -161,9 +162,13 @@ class Search {
   // Finishes if the foot lies well inside the face that n supports, of which `part` is known, or nothing. A triangle of
   // the face is kept for the next step: `part`, or a wider one around the foot.
   void settle(const GjkSimplex& part) {
+    finished_ = part.count == 3 && FaceTriangle(m_, part, best_.n).side_of_foot().distance > shallow();
+    if (!finished_) settle_around(part);
+  }
+
+  // The same where `part`, if it is a triangle, does not hold the foot well inside. The face may be larger.
+  void settle_around(const GjkSimplex& part) {
     if (part.count == 3) {
-      finished_ = holds_foot(part);
-      if (finished_) return;
       finish_inside(faces_.spanned(m_, part, best_.n));
       if (finished_) return;
     }
@@ -175,11 +180,6 @@ class Search {
   void finish_inside(const FacePolygon& polygon) {
     finished_ = polygon.corner.size() > 2 && margin_of_foot(polygon) > shallow();
     if (finished_) best_.face = faces_.around_foot(m_);
-  }
-
-  // Does the foot lie well inside the triangle of three vertices of the face? The face may be larger.
-  bool holds_foot(const GjkSimplex& part) const {
-    return FaceTriangle(m_, part, best_.n).side_of_foot().distance > shallow();
   }
 
   double margin_of_face() {

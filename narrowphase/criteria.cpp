@@ -36,22 +36,9 @@ Criteria make_criteria(const Slab& slab, Vec3 outward, double plane, const Impac
   return criteria;
 }
 
-// The clusters of `mesh` whose box meets `other`, ascending. Replaces `found`.
-void select_clusters(const ClusteredMesh& mesh, const Box& other, std::vector<std::int32_t>& found) {
-  const BoxBounds bounds = bounds_of(other);
-  const auto meeting = [&](int begin, int count, std::int32_t* chosen) {
-    return kernels().select_overlapping(mesh.group_boxes().pointers(begin), count, bounds, chosen);
-  };
-  found.clear();
-  for_chosen_groups(mesh, meeting, [&](int group) {
-    const int begin = mesh.cluster_begin(group), end = mesh.cluster_end(group);
-    const std::size_t before = found.size();
-    found.resize(before + static_cast<std::size_t>(end - begin));
-    std::int32_t* const chosen = found.data() + before;
-    const int count = kernels().select_overlapping(mesh.cluster_boxes().pointers(begin), end - begin, bounds, chosen);
-    for (int i = 0; i < count; ++i) chosen[i] += begin;
-    found.resize(before + static_cast<std::size_t>(count));
-  });
+CullPlanes cull_planes(const Criteria& criteria, const Box& box) {
+  const Vec3 n = criteria.outward, o = criteria.origin;
+  return {.axis = {n.x, n.y, n.z, o.x, o.y, o.z}, .lowest = criteria.lowest, .box = bounds_of(box)};
 }
 
 std::uint64_t lowest_bits(int count) { return count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1; }
@@ -116,27 +103,32 @@ Criteria criteria_for_b(const Slab& slab, const ImpactZone* zone_a, bool facing_
 }
 
 void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Box& other, KeptClusters& kept) {
-  select_clusters(mesh, other, kept.cluster);
-  const Vec3 n = criteria.outward;
-  int found = 0;
-  kept.boxes.resize(kept.cluster.size());
-  kept.bounds = Box{};
+  const CullPlanes planes = cull_planes(criteria, other);
+  const auto meeting = [&](int begin, int count, std::int32_t* chosen) {
+    return kernels().select_overlapping(mesh.group_boxes().pointers(begin), count, planes.box, chosen);
+  };
+  kept.cluster.clear();
   kept.outside_slab = 0;
-  const bool asks = kept.cluster.size() <= kMostAskedFor;
-  for (const std::int32_t cluster : kept.cluster) {
-    const Box box = mesh.cluster_boxes()[static_cast<std::size_t>(cluster)];
-    const Vec3 top{n.x >= 0.0 ? box.upper.x : box.lower.x, n.y >= 0.0 ? box.upper.y : box.lower.y,
-                   n.z >= 0.0 ? box.upper.z : box.lower.z};
-    if (dot(n, top - criteria.origin) < criteria.lowest) {
-      ++kept.outside_slab;
-      continue;
-    }
-    if (asks) mesh.prefetch_facets(cluster);
-    kept.boxes.set(static_cast<std::size_t>(found), box);
-    kept.cluster[static_cast<std::size_t>(found++)] = cluster;
-    kept.bounds = merged(kept.bounds, intersection(box, other));
+  for_chosen_groups(mesh, meeting, [&](int group) {
+    const int begin = mesh.cluster_begin(group), count = mesh.cluster_end(group) - begin;
+    std::int32_t chosen[kGroupSize];
+    const Culled culled = kernels().cull_boxes(mesh.cluster_boxes().pointers(begin), count, planes, chosen);
+    for (int i = 0; i < culled.left; ++i) kept.cluster.push_back(begin + chosen[i]);
+    kept.outside_slab += culled.low;
+  });
+  kept.boxes.resize(kept.cluster.size());
+  Box bounds;
+  for (std::size_t i = 0; i < kept.cluster.size(); ++i) {
+    const Box box = mesh.cluster_boxes()[static_cast<std::size_t>(kept.cluster[i])];
+    kept.boxes.set(i, box);
+    bounds = merged(bounds, intersection(box, other));
   }
-  kept.cluster.resize(static_cast<std::size_t>(found));
+  kept.bounds = bounds;
+}
+
+void ask_for_facets(const ClusteredMesh& mesh, const KeptClusters& kept) {
+  if (kept.cluster.size() > kMostAskedFor) return;
+  for (const std::int32_t cluster : kept.cluster) mesh.prefetch_facets(cluster);
 }
 
 void cull_again(const Box& other, KeptClusters& kept) {
@@ -155,13 +147,10 @@ void cull_again(const Box& other, KeptClusters& kept) {
 
 bool append_facets(const ClusteredMesh& mesh, int cluster, const Criteria& criteria, const Box& other, KeptFacets& kept,
                    CullCounts& counts) {
-  const CullPlanes planes{.axis = {criteria.outward.x, criteria.outward.y, criteria.outward.z, criteria.origin.x,
-                                   criteria.origin.y, criteria.origin.z},
-                          .lowest = criteria.lowest,
-                          .box = bounds_of(other)};
+  const CullPlanes planes = cull_planes(criteria, other);
   const ClusterFacets facets = mesh.facets_of(cluster);
   const int before = kept.block.count;
-  const OpenedFacets opened = kernels().open_cluster(facets, planes, &kept.block);
+  const Culled opened = kernels().open_cluster(facets, planes, &kept.block);
   if (before + opened.left > FacetBlock::kCapacity) return false;
   const std::uint64_t appended = lowest_bits(before + opened.left) & ~lowest_bits(before);
   const std::uint64_t away = criteria.facing_away ? appended & kernels().facing_away(kept.block, planes.axis) : 0;

@@ -62,6 +62,8 @@ Criteria criteria_for_b(const Slab& slab, const ImpactZone* zone_a, bool facing_
 // The clusters of `mesh` that reach up to the other's plane and whose box meets `other`. Replaces the contents of
 // `kept`.
 void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Box& other, KeptClusters& kept);
+// Asks for the memory of the facets that are left, in good time.
+void ask_for_facets(const ClusteredMesh& mesh, const KeptClusters& kept);
 // Drops from `kept` the clusters whose box misses `other`.
 void cull_again(const Box& other, KeptClusters& kept);
 

@@ -1,5 +1,6 @@
 #include "narrowphase/support.h"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 
@@ -15,11 +16,11 @@ constexpr int kFew = 8;  // clusters
 PointArrays from(PointArrays points, int first) { return {points.x + first, points.y + first, points.z + first}; }
 
 // The clusters of a group whose box reaches up to `height`, ascending; how many, at most kGroupSize.
-int reaching_clusters(const ClusteredMesh& mesh, int group, PointArrays far_corners, const HeightAxis& axis,
+int reaching_clusters(const ClusteredMesh& mesh, int group, const PointArrays& far_corners, const HeightAxis& axis,
                       double height, std::int32_t* found) {
   const int begin = mesh.cluster_begin(group), count = mesh.cluster_end(group) - begin;
   const int reaching = kernels().select_heights(from(far_corners, begin), count, axis, height, found);
-  for (int k = 0; k < reaching; ++k) found[k] += begin;
+  if (begin > 0) std::for_each_n(found, reaching, [begin](std::int32_t& cluster) { cluster += begin; });
   return reaching;
 }
 
@@ -27,8 +28,16 @@ int reaching_clusters(const ClusteredMesh& mesh, int group, PointArrays far_corn
 HighestPoint highest_vertex(const ClusteredMesh& mesh, const std::int32_t* clusters, int count, const HeightAxis& axis,
                             double least) {
   IndexRange ranges[kGroupSize];
-  for (int k = 0; k < count; ++k) ranges[k] = {mesh.vertex_begin(clusters[k]), mesh.vertex_end(clusters[k])};
-  return kernels().highest_point(mesh.points(), ranges, count, axis, least);
+  int last = -1;
+  for (int k = 0; k < count; ++k) {
+    const int begin = mesh.vertex_begin(clusters[k]), end = mesh.vertex_end(clusters[k]);
+    if (last >= 0 && ranges[last].end == begin) {
+      ranges[last].end = end;
+    } else {
+      ranges[++last] = {begin, end};
+    }
+  }
+  return kernels().highest_point(mesh.points(), ranges, last + 1, axis, least);
 }
 
 // Calls work(g) for the groups whose box reaches up to `height`.
@@ -68,7 +77,7 @@ class Search {
 
   // Looks at the clusters of a group that can hold the highest vertex: all that reach above the best so far if these
   // are few, else the one that reaches farthest first.
-  void open_group(int group, PointArrays far_corners) {
+  void open_group(int group, const PointArrays& far_corners) {
     std::int32_t reaching[kGroupSize];
     const auto select = [&] { return reaching_clusters(mesh_, group, far_corners, axis_, best_.height, reaching); };
     int found = select();

@@ -2,13 +2,21 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace tact::narrowphase {
 
 // The power of two by which a length of `largest` becomes one from 1 to 2, or as near to it as 2^1000 brings it; 1 for
 // no length. Multiplying by it rounds nothing.
 inline double unit_scale(double largest) {
+  constexpr int kDigits = std::numeric_limits<double>::digits - 1,
+                kBias = std::numeric_limits<double>::max_exponent - 1;
+  const auto exponent = static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> kDigits);  // biased
+  if (exponent > kBias - 1000 && exponent < kBias + 1000)                                    // the same, sooner
+    return std::bit_cast<double>(static_cast<std::uint64_t>(2 * kBias - exponent) << kDigits);
   return largest > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000)) : 1.0;
 }
 

@@ -93,14 +93,14 @@ inline void judge_vertices(const CullPlanes& planes, int count, ClusterVertices*
 }
 
 // A facet is left out if one and the same thing rules out all its corners.
-OpenedFacets open_cluster(const ClusterFacets& in, const CullPlanes& planes, FacetBlock* block) {
+Culled open_cluster(const ClusterFacets& in, const CullPlanes& planes, FacetBlock* block) {
   ClusterVertices v;
   load_vertices(in, &v);
   judge_vertices(planes, in.owned_count + in.borrowed_count, &v);
   const CommonFlags flags = common_flags(v.outside, in.owned_count + in.borrowed_count, in.corner, in.facet_count);
   const std::uint64_t left = flags.none;
   const int count = __builtin_popcountll(left), begin = block->count;
-  const OpenedFacets opened{count, __builtin_popcountll(flags.lowest)};
+  const Culled opened{count, __builtin_popcountll(flags.lowest)};
   if (begin + count > FacetBlock::kCapacity) return opened;
   alignas(64) std::uint8_t corner[3][2 * FacetBlock::kCapacity], place[FacetBlock::kCapacity];
   for (int k = 0; k < 3; ++k) {

@@ -118,8 +118,8 @@ struct CullPlanes {
   BoxBounds box;  // so is one whose box misses this
 };
 
-// Facets of a cluster that the planes leave, and those that are too low.
-struct OpenedFacets {
+// Facets or boxes that the planes leave, and those of the others that are too low.
+struct Culled {
   std::int32_t left;
   std::int32_t low;
 };
@@ -196,10 +196,12 @@ struct Kernels {
 
   // Writes the indices i < count of boxes that overlap `box` (closed), ascending; returns how many.
   int (*select_overlapping)(const BoxPointers& boxes, int count, const BoxBounds& box, std::int32_t* indices);
+  // The same of boxes that the planes leave. A box that misses that of the planes does not count as too low.
+  Culled (*cull_boxes)(const BoxPointers& boxes, int count, const CullPlanes& planes, std::int32_t* indices);
 
   // Appends to `block` the facets of a cluster that the planes do not leave out, or does nothing if there is no room
   // for them; returns how many they are.
-  OpenedFacets (*open_cluster)(const ClusterFacets& cluster, const CullPlanes& planes, FacetBlock* block);
+  Culled (*open_cluster)(const ClusterFacets& cluster, const CullPlanes& planes, FacetBlock* block);
 
   // Finds the cells of the facets that have none yet.
   void (*find_cells)(const Grid& grid, FacetBlock* block);

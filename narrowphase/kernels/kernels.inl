@@ -61,7 +61,8 @@ struct HeightPack {
   }
 };
 
-// Each lane keeps the first of its highest points.
+// Each lane keeps the first of its highest points; those that reach `least`, most often one or two, are compared then. A
+// loop that leaves the others aside as it goes is faster where the same few do in every step, and slower in piles.
 HighestPoint highest_point(PointArrays points, const IndexRange* ranges, int range_count, const HeightAxis& axis,
                            double least) {
   const HeightPack height(axis);
@@ -81,19 +82,18 @@ HighestPoint highest_point(PointArrays points, const IndexRange* ranges, int ran
       here = add(here, spread(static_cast<double>(kWidth)));
     }
   }
-  if (bits(both(less(lowest, high), less_equal(spread(least), high))) == 0) return {-__builtin_inf(), -1, false};
-  const double top = largest_lane(high);
-  const Mask at_top = less_equal(spread(top), high);
-  alignas(64) double first_of[kWidth];
+  alignas(64) double high_of[kWidth], first_of[kWidth];
+  store(high_of, high);
   store(first_of, first);
-  std::int32_t index = -1;
-  const unsigned lanes = bits(at_top);
-  for (unsigned left = lanes; left != 0; left &= left - 1) {
+  HighestPoint top{-__builtin_inf(), -1, false};
+  for (unsigned left = bits(both(less(lowest, high), less_equal(spread(least), high))); left != 0; left &= left - 1) {
     const std::int32_t lane = __builtin_ctz(left), i = static_cast<std::int32_t>(first_of[lane]) + lane;
-    if (index < 0 || i < index) index = i;
+    if (high_of[lane] < top.height) continue;
+    const bool as_high = high_of[lane] == top.height, repeats = (bits(again) >> lane & 1) != 0;
+    top = {high_of[lane], as_high && top.index < i ? top.index : i, as_high || repeats};
   }
-  const bool several = (lanes & (lanes - 1)) != 0 || bits(both(again, at_top)) != 0;
-  return {top + 0.0, index, several};  // one zero: which of the two a maximum picks depends on the order
+  top.height += 0.0;  // one zero: which of the two comes first depends on the order
+  return top;
 }
 
 int select_heights(PointArrays points, int count, const HeightAxis& axis, double threshold, std::int32_t* indices) {
@@ -193,6 +193,23 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
   return found;
 }
 
+Culled cull_boxes(const BoxPointers& boxes, int count, const CullPlanes& planes, std::int32_t* indices) {
+  const BoxPack box(planes.box);
+  const HeightPack height(planes.axis);
+  const Pack lowest = spread(planes.lowest);
+  const auto far_corner = [&](double n, int axis) { return n >= 0.0 ? boxes.upper[axis] : boxes.lower[axis]; };
+  const PointArrays far_corners{far_corner(planes.axis.nx, 0), far_corner(planes.axis.ny, 1),
+                                far_corner(planes.axis.nz, 2)};
+  Culled culled{0, 0};
+  for (int i = 0; i < count; i += kWidth) {
+    const unsigned meeting = box.overlap(boxes.lower, boxes.upper, i) & lanes_left(count - i);
+    const unsigned low = meeting & bits(less(height(far_corners, i), lowest));
+    culled.left = append(meeting & ~low, i, indices, culled.left);
+    culled.low += __builtin_popcount(low);
+  }
+  return culled;
+}
+
 #include "narrowphase/kernels/bytes.inl"
 #include "narrowphase/kernels/facets.inl"
 #include "narrowphase/kernels/pair_lanes.inl"
@@ -206,7 +223,7 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
 
 extern const Kernels TACT_KERNELS;
 const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, refresh_clusters, bounds, diagonal_bounds, select_heights,
-                              highest_point, select_overlapping, open_cluster, find_cells, facing_away,
+                              highest_point, select_overlapping, cull_boxes, open_cluster, find_cells, facing_away,
                               near_facets, cells_of, any_near, share_cells, leave_aside, list_pairs, sort_pairs,
                               on_lattice, float_corners, match_float_pairs, match_exact_pairs,
                               match_exact_float_pairs, match_pairs, sharing_pairs, match_pairs_wide,

@@ -45,7 +45,7 @@ TEST(FacetBlocks, OpenClusterLeavesOutWhatOneSideRulesOut) {
       }
       for (const Kernels* kernels : tests::available_kernels()) {
         FacetBlock block{};
-        const OpenedFacets opened = kernels->open_cluster(mesh.facets_of(c), planes, &block);
+        const Culled opened = kernels->open_cluster(mesh.facets_of(c), planes, &block);
         EXPECT_EQ(opened.left, block.count) << kernels->name << " seed " << seed;
         EXPECT_EQ(opened.low, low) << kernels->name << " seed " << seed;
         EXPECT_EQ(std::vector(block.facet, block.facet + block.count), expected) << kernels->name << " seed " << seed;

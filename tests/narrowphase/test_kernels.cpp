@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "narrowphase/clustered_mesh.h"
 #include "narrowphase/kernels/kernels.h"
 #include "tests/support/facet_filters.h"
 #include "tests/support/generators.h"
@@ -14,7 +15,8 @@ namespace {
 
 using tests::Mesh;
 
-// Points of few heights in some ranges: wherever the first of the highest stands, it is found, and whether it is alone.
+// Points of few heights in some ranges: wherever the first of the highest stands, it is found, and whether it is alone,
+// if it is as high as was asked for.
 TEST(Kernels, OfEquallyHighPointsTheFirstIsTheHighest) {
   tests::Random random(4);
   const std::vector<double> zero(60, 0.0);
@@ -30,16 +32,55 @@ TEST(Kernels, OfEquallyHighPointsTheFirstIsTheHighest) {
     }
     for (const int i : inside) x[static_cast<std::size_t>(i)] = random.below(1 + repeat % 40) - 1.0;
     const auto height = [&](int i) { return x[static_cast<std::size_t>(i)]; };
+    const double leasts[] = {-1.0, -std::numeric_limits<double>::infinity(), random.below(1 + repeat % 40) - 1.5};
+    const double least = leasts[repeat % 3];
     const auto first = std::ranges::max_element(inside, {}, height);
-    const int index = first == inside.end() ? -1 : *first;
+    const int index = first == inside.end() || height(*first) < least ? -1 : *first;
     const bool several = index >= 0 && std::ranges::count(inside, height(index), height) > 1;
-    const double least = repeat % 2 == 0 ? -1.0 : -std::numeric_limits<double>::infinity();
     for (const Kernels* kernels : tests::available_kernels()) {
       const HighestPoint top = kernels->highest_point({x.data(), zero.data(), zero.data()}, ranges.data(),
                                                       static_cast<int>(ranges.size()), {1, 0, 0, 0, 0, 0}, least);
       EXPECT_EQ(top.index, index) << kernels->name;
       EXPECT_EQ(top.several, several) << kernels->name;
       EXPECT_EQ(top.height, index < 0 ? -std::numeric_limits<double>::infinity() : height(index)) << kernels->name;
+    }
+  }
+}
+
+// Boxes with corners on a grid, some of them exactly at the planes: which are left, and which of the others were too
+// low.
+TEST(Kernels, BoxesAreCulledByTheirFarCornersAndByABox) {
+  tests::Random random(6);
+  for (int repeat = 0; repeat < 3000; ++repeat) {
+    const int count = random.below(kPadding * 4);
+    BoxArrays boxes;
+    boxes.resize(static_cast<std::size_t>(count));
+    const auto corner = [&] { return Vec3{random.below(9) - 4.0, random.below(9) - 4.0, random.below(9) - 4.0}; };
+    const auto box = [&](Vec3 p, Vec3 q) { return base::extended(Box{p, p}, q); };
+    for (int i = 0; i < count; ++i) boxes.set(static_cast<std::size_t>(i), box(corner(), corner()));
+    const Vec3 n = corner(), o = corner();
+    const Box other = box(corner(), corner());
+    const CullPlanes planes{{n.x, n.y, n.z, o.x, o.y, o.z}, random.below(60) - 10.0, narrowphase::bounds_of(other)};
+    std::vector<std::int32_t> expected;
+    int low = 0;
+    for (int i = 0; i < count; ++i) {
+      const Box one = boxes[static_cast<std::size_t>(i)];
+      if (!overlaps(one, other)) continue;
+      double highest = -std::numeric_limits<double>::infinity();
+      for (const double x : {one.lower.x, one.upper.x}) {
+        for (const double y : {one.lower.y, one.upper.y}) {
+          for (const double z : {one.lower.z, one.upper.z}) highest = std::max(highest, dot(n, Vec3{x, y, z} - o));
+        }
+      }
+      if (highest >= planes.lowest) expected.push_back(i);
+      if (highest < planes.lowest) ++low;
+    }
+    for (const Kernels* kernels : tests::available_kernels()) {
+      std::vector<std::int32_t> left(static_cast<std::size_t>(count));
+      const Culled culled = kernels->cull_boxes(boxes.pointers(), count, planes, left.data());
+      left.resize(static_cast<std::size_t>(culled.left));
+      EXPECT_EQ(left, expected) << kernels->name;
+      EXPECT_EQ(culled.low, low) << kernels->name;
     }
   }
 }
