@@ -73,7 +73,6 @@ class Projection {
 
   double height(int vertex) const { return along(slab_.n, vertex); }
   Point2 point(int vertex) const { return {along(slab_.u, vertex), along(slab_.v, vertex)}; }
-  ProjectedVertex operator()(int vertex) const { return {point(vertex), height(vertex)}; }
 
  private:
   double along(Vec3 axis, int vertex) const {
@@ -85,15 +84,6 @@ class Projection {
   const Slab& slab_;
 };
 
-// The vertices between the planes that a cluster owns.
-void take_vertices(const ClusteredMesh& mesh, int cluster, const Projection& projection, Planes planes,
-                   std::vector<Point2>& points) {
-  for (int v = mesh.vertex_begin(cluster); v < mesh.vertex_end(cluster); ++v) {
-    const double height = projection.height(v);
-    if (planes.low <= height && height <= planes.high) points.push_back(projection.point(v));
-  }
-}
-
 // The point where an edge crosses a plane strictly between its ends. Seen from the lower end, whichever facet asks.
 void take_crossing(const ProjectedVertex& p, const ProjectedVertex& q, double plane, std::vector<Point2>& points) {
   const bool p_is_lower = p.height < q.height;
@@ -104,22 +94,28 @@ void take_crossing(const ProjectedVertex& p, const ProjectedVertex& q, double pl
   points.push_back({low.point.x + t * (high.point.x - low.point.x), low.point.y + t * (high.point.y - low.point.y)});
 }
 
-// The points where edges of a cluster's facets cross the planes.
-void take_crossings(const ClusteredMesh& mesh, int cluster, const Projection& projection, Planes planes,
-                    std::vector<Point2>& points) {
-  const int begin = mesh.facet_begin(cluster);
-  const int count = mesh.facet_end(cluster) - begin;
-  double heights[3][kClusterSize];
-  for (int i = 0; i < count; ++i) {
-    const Corners corners = mesh.corners(begin + i);
-    for (std::size_t k = 0; k < 3; ++k) heights[k][i] = projection.height(corners[k]);
+// The vertices between the planes that a cluster owns, and, if it `crosses` them, the points where edges of its facets
+// do. A borrowed vertex between the planes is taken by its owner, whose box then reaches between them too.
+void take_cluster(const ClusteredMesh& mesh, int cluster, const Projection& projection, Planes planes, bool crosses,
+                  std::vector<Point2>& points) {
+  const ClusterFacets facets = mesh.facets_of(cluster);
+  const auto vertex = [&](int local) {
+    return local < facets.owned_count ? facets.owned_begin + local : facets.borrowed[local - facets.owned_count];
+  };
+  double height[3 * kClusterSize];  // of each vertex of its facets, those that it owns first
+  for (int i = 0; i < facets.owned_count; ++i) height[i] = projection.height(vertex(i));
+  for (int i = 0; i < facets.owned_count; ++i) {
+    if (planes.low <= height[i] && height[i] <= planes.high) points.push_back(projection.point(vertex(i)));
   }
-  for (int i = 0; i < count; ++i) {
-    const double lowest = std::min({heights[0][i], heights[1][i], heights[2][i]});
-    const double highest = std::max({heights[0][i], heights[1][i], heights[2][i]});
+  if (!crosses) return;
+  const int count = facets.owned_count + facets.borrowed_count;
+  for (int i = facets.owned_count; i < count; ++i) height[i] = projection.height(vertex(i));
+  for (int f = 0; f < facets.facet_count; ++f) {
+    const int corner[3] = {facets.corner[0][f], facets.corner[1][f], facets.corner[2][f]};
+    const auto [lowest, highest] = std::minmax({height[corner[0]], height[corner[1]], height[corner[2]]});
     if (lowest > planes.high || highest < planes.low || (lowest >= planes.low && highest <= planes.high)) continue;
-    const Corners corners = mesh.corners(begin + i);
-    const ProjectedVertex p[3] = {projection(corners[0]), projection(corners[1]), projection(corners[2])};
+    ProjectedVertex p[3];
+    for (int k = 0; k < 3; ++k) p[k] = {projection.point(vertex(corner[k])), height[corner[k]]};
     for (int k = 0; k < 3; ++k) {
       take_crossing(p[k], p[(k + 1) % 3], planes.low, points);
       take_crossing(p[k], p[(k + 1) % 3], planes.high, points);
@@ -151,10 +147,8 @@ ImpactZone impact_zone(const ClusteredMesh& mesh, const Slab& slab, std::vector<
   for (int cluster = 0; cluster < mesh.cluster_count(); ++cluster) {
     const Planes heights = heights_of_box(mesh.cluster_boxes(), static_cast<std::size_t>(cluster), slab);
     if (heights.low > planes.high || heights.high < planes.low) continue;
-    // A borrowed vertex between the planes is taken by its owner, whose box then reaches between them too.
-    take_vertices(mesh, cluster, projection, planes, scratch);
-    if (heights.low < planes.low || heights.high > planes.high)
-      take_crossings(mesh, cluster, projection, planes, scratch);
+    const bool crosses = heights.low < planes.low || heights.high > planes.high;
+    take_cluster(mesh, cluster, projection, planes, crosses, scratch);
   }
   if (scratch.empty()) return {};
   constexpr double kUnderflow = 16.0 * std::numeric_limits<double>::denorm_min();  // of coordinates below 1e-290
