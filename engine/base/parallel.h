@@ -5,6 +5,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <type_traits>
@@ -32,8 +33,15 @@ void call_work(const Work& work, std::size_t item, int thread) {
   }
 }
 
+// The blocks that one thread begins with, and takes one by one; the others help when they are done with theirs.
+struct alignas(64) BlockShare {
+  std::atomic<std::size_t> next;
+  std::size_t end;
+};
+
 // Calls work(i), or work(i, thread) with 0 <= thread < threads, for every 0 <= i < count, `grain` neighbouring items at
-// a time, on up to `threads` threads. With one thread, or no more than `grain` items, it runs in the calling thread.
+// a time, on up to `threads` threads. With one thread, or no more than `grain` items, it runs in the calling thread. Of
+// loops over the same items a thread takes the same part, as far as it can, and finds them in its cache.
 template <class Work>
 void parallel_for(std::size_t count, std::size_t grain, int threads, const Work& work) {
   if (threads <= 1 || count <= grain) {
@@ -43,27 +51,36 @@ void parallel_for(std::size_t count, std::size_t grain, int threads, const Work&
   }
   std::exception_ptr first;
   std::size_t first_index = count;
-  const auto blocks = static_cast<std::ptrdiff_t>((count + grain - 1) / grain);
+  const std::size_t blocks = (count + grain - 1) / grain;
+  constexpr std::size_t kMostShares = 16;
+  BlockShare shares[kMostShares];
+  const std::size_t share_count = std::min({static_cast<std::size_t>(threads), blocks, kMostShares});
+  for (std::size_t k = 0; k < share_count; ++k) {
+    shares[k].next.store(blocks * k / share_count, std::memory_order_relaxed);
+    shares[k].end = blocks * (k + 1) / share_count;
+  }
+  const auto run_block = [&](std::size_t block, int thread) {
+    for (std::size_t i = block * grain, end = std::min(i + grain, count); i < end; ++i) {
+      try {
+        call_work(work, i, thread);
+      } catch (...) {
+#pragma omp critical(tact_parallel_for_exception)
+        if (i < first_index) {
+          first_index = i;
+          first = std::current_exception();
+        }
+        return;
+      }
+    }
+  };
 #pragma omp parallel num_threads(threads)
   {
     const FloatingPointMode mode;
     const int thread = omp_get_thread_num();
-#pragma omp for schedule(dynamic, 1)
-    for (std::ptrdiff_t block = 0; block < blocks; ++block) {
-      const std::size_t begin = static_cast<std::size_t>(block) * grain;
-      const std::size_t end = begin + grain < count ? begin + grain : count;
-      for (std::size_t i = begin; i < end; ++i) {
-        try {
-          call_work(work, i, thread);
-        } catch (...) {
-#pragma omp critical(tact_parallel_for_exception)
-          if (i < first_index) {
-            first_index = i;
-            first = std::current_exception();
-          }
-          break;
-        }
-      }
+    for (std::size_t k = 0; k < share_count; ++k) {
+      BlockShare& share = shares[(static_cast<std::size_t>(thread) + k) % share_count];
+      const auto take = [&] { return share.next.fetch_add(1, std::memory_order_relaxed); };
+      for (std::size_t block = take(); block < share.end; block = take()) run_block(block, thread);
     }
   }
   if (first) std::rethrow_exception(first);

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cfenv>
+#include <chrono>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -14,8 +15,16 @@ namespace {
 
 using tact::base::parallel_for;
 
+// Waits, for ten seconds at most.
+template <class Condition>
+bool comes_true(const Condition& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (!condition() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  return condition();
+}
+
 TEST(ParallelFor, VisitsEveryItemOnce) {
-  for (const int threads : {1, 2, 8}) {
+  for (const int threads : {1, 2, 8, 40}) {
     for (const std::size_t count : {0u, 1u, 2u, 63u, 64u, 65u, 1000u}) {
       for (const std::size_t grain : {1u, 7u, 64u}) {
         std::vector<std::atomic<int>> visits(count);
@@ -42,6 +51,32 @@ TEST(ParallelFor, GivesEachThreadANumberOfItsOwn) {
     busy[static_cast<std::size_t>(thread)] = false;
   });
   EXPECT_EQ(failures, 0);
+}
+
+// The first item waits until the second half has begun, which it has at once.
+TEST(ParallelFor, EachThreadBeginsWithAPartOfItsOwn) {
+  std::atomic<int> begun = 0, begun_before_the_second_half = -1;
+  parallel_for(100, 1, 2, [&](std::size_t i) {
+    if (i == 50) begun_before_the_second_half = begun.load();
+    ++begun;
+    if (i == 0) {
+      EXPECT_TRUE(comes_true([&] { return begun_before_the_second_half >= 0; }));
+    }
+  });
+  EXPECT_GE(begun_before_the_second_half, 0);
+  EXPECT_LE(begun_before_the_second_half, 1);
+}
+
+// The first item waits until all others are done: somebody else does those that its thread would have gone on with.
+TEST(ParallelFor, AThreadThatIsDoneHelpsTheOthers) {
+  std::atomic<int> done = 0;
+  parallel_for(100, 1, 2, [&](std::size_t i) {
+    if (i == 0) {
+      EXPECT_TRUE(comes_true([&] { return done == 99; }));
+    }
+    ++done;
+  });
+  EXPECT_EQ(done, 100);
 }
 
 TEST(ParallelFor, RunsInTheCallersThreadWhereThereIsLittleToDo) {
