@@ -43,10 +43,10 @@ class Bodies {
   std::size_t count() const noexcept { return count_; }
   // Vertices of all bodies, and of those that moved.
   std::int64_t vertices() const noexcept { return vertices_; }
+  std::int64_t moved_vertices() const noexcept { return moved_vertices_; }
   // Is what a step reads of the bodies likely in the second level of the cache still, about 100 bytes a vertex? Then
   // nothing of it is asked for in advance.
   bool stay_in_cache() const noexcept { return vertices_ <= 4096; }
-  std::int64_t moved_vertices() const noexcept { return moved_vertices_; }
   std::vector<BodyId> ids() const;
 
   // What the broad phase sees, an entry a slot; the box of an empty slot is empty.

@@ -22,13 +22,6 @@ constexpr int kFirstUse = -1;
 
 Box to_box(const BoxBounds& b) { return {{b.lower[0], b.lower[1], b.lower[2]}, {b.upper[0], b.upper[1], b.upper[2]}}; }
 
-// See BoxView.
-void set_box(double* bounds, std::size_t stride, std::size_t i, const Box& box) {
-  double* bound = bounds + i;
-  for (int axis = 0; axis < 3; ++axis, bound += stride) *bound = box.lower[axis];
-  for (int axis = 0; axis < 3; ++axis, bound += stride) *bound = box.upper[axis];
-}
-
 double spread_of(const Box& box) {
   const Vec3 size = box.upper - box.lower;
   const double extent = size.x + size.y + size.z;

@@ -55,16 +55,19 @@ class BoxView {
   std::size_t stride_;
 };
 
-// The same with memory of its own.
+// Writes an entry of what a BoxView shows.
+inline void set_box(double* bounds, std::size_t stride, std::size_t i, const Box& box) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    bounds[axis * stride + i] = box.lower[static_cast<int>(axis)];
+    bounds[(axis + 3) * stride + i] = box.upper[static_cast<int>(axis)];
+  }
+}
+
+// Boxes with memory of their own.
 class BoxArrays {
  public:
   void resize(std::size_t count);  // what the boxes are then is left open
-  void set(std::size_t i, const Box& box) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      bounds_[axis * stride_ + i] = box.lower[static_cast<int>(axis)];
-      bounds_[(axis + 3) * stride_ + i] = box.upper[static_cast<int>(axis)];
-    }
-  }
+  void set(std::size_t i, const Box& box) { set_box(bounds_.data(), stride_, i, box); }
   BoxView view() const { return {bounds_.data(), stride_}; }
   BoxPointers pointers() const { return view().pointers(); }
   Box operator[](std::size_t i) const { return view()[i]; }
