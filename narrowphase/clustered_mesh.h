@@ -143,6 +143,8 @@ class ClusteredMesh {
   int vertex_reads() const { return vertex_count_ + borrowed_count_; }
 
   int source_vertex(int vertex) const { return source_vertices()[vertex]; }
+  // Of all vertices; after them stand those of the borrowed vertices of all clusters.
+  const int* source_vertices() const { return ranges_ + 2 * cluster_count() + 2; }
   int source_facet(int facet) const { return source_facet_[facet]; }
 
   // The clusters of a group are cluster_begin(g) <= c < cluster_end(g).
@@ -254,8 +256,6 @@ class ClusteredMesh {
 
   // Where the borrowed vertices of a cluster begin.
   int borrowed_begin(int cluster) const { return ranges_[2 * cluster + 1]; }
-  // Of all vertices, and of the borrowed ones of all clusters.
-  const int* source_vertices() const { return ranges_ + 2 * cluster_count() + 2; }
   const int* borrowed_sources() const { return source_vertices() + vertex_count_; }
 
   // What refresh() needs comes first.

@@ -37,7 +37,7 @@ HighestPoint highest_vertex(const ClusteredMesh& mesh, const std::int32_t* clust
       ranges[++last] = {begin, end};
     }
   }
-  return kernels().highest_point(mesh.points(), ranges, last + 1, axis, least);
+  return kernels().highest_point(mesh.points(), mesh.source_vertices(), ranges, last + 1, axis, least);
 }
 
 // Calls work(g) for the groups whose box reaches up to `height`.
@@ -61,18 +61,11 @@ class Search {
     best_ = {vertex, height_of(p.x, p.y, p.z) + 0.0};
   }
 
-  // Looks at the vertices that some clusters own, given in ascending order. Of equal ones in one cluster the first is
-  // the one with the lowest source vertex, as they stand in the caller's order; of several clusters each is asked.
+  // Looks at the vertices that some clusters own, given in ascending order.
   void open(const std::int32_t* clusters, int count) {
     const HighestPoint top = highest_vertex(mesh_, clusters, count, axis_, best_.height);
     if (top.index < 0) return;
-    if (top.several && count > 1) {
-      for (int k = 0; k < count; ++k) open(clusters + k, 1);
-      return;
-    }
-    const Support found{top.index, top.height};
-    if (found.vertex == best_.vertex) return;
-    if (top.height > best_.height || precedes(found)) best_ = found;
+    if (top.height > best_.height || precedes(top.index)) best_ = {top.index, top.height};
   }
 
   // Looks at the clusters of a group that can hold the highest vertex: all that reach above the best so far if these
@@ -83,7 +76,7 @@ class Search {
     int found = select();
     if (found > kFew) {
       const IndexRange clusters{mesh_.cluster_begin(group), mesh_.cluster_end(group)};
-      const std::int32_t first = kernels().highest_point(far_corners, &clusters, 1, axis_, best_.height).index;
+      const std::int32_t first = kernels().highest_point(far_corners, nullptr, &clusters, 1, axis_, best_.height).index;
       open(&first, 1);
       found = select();
     }
@@ -94,8 +87,8 @@ class Search {
   const HeightAxis& axis() const { return axis_; }
 
  private:
-  bool precedes(const Support& other) const {
-    return best_.vertex < 0 || mesh_.source_vertex(other.vertex) < mesh_.source_vertex(best_.vertex);
+  bool precedes(int vertex) const {
+    return best_.vertex < 0 || mesh_.source_vertex(vertex) < mesh_.source_vertex(best_.vertex);
   }
 
   double height_of(double x, double y, double z) const {
@@ -128,7 +121,9 @@ Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near) {
   int first = -1;
   if (mesh.group_count() > 1) {
     const IndexRange all{0, mesh.group_count()};
-    first = kernels().highest_point(groups, &all, 1, search.axis(), -std::numeric_limits<double>::infinity()).index;
+    first = kernels()
+                .highest_point(groups, nullptr, &all, 1, search.axis(), -std::numeric_limits<double>::infinity())
+                .index;
     search.open_group(first, clusters);
   }
   const auto higher = [&](int begin, int count, std::int32_t* chosen) {

@@ -29,8 +29,7 @@ struct IndexRange {
 
 struct HighestPoint {
   double height;
-  std::int32_t index;  // of several that are as high, the first
-  bool several;        // are there?
+  std::int32_t index;
 };
 
 // Lower and upper bounds of boxes in separate arrays.
@@ -190,9 +189,10 @@ struct Kernels {
   // Writes the indices i < count of points whose height is >= threshold, ascending; returns how many.
   int (*select_heights)(PointArrays points, int count, const HeightAxis& axis, double threshold, std::int32_t* indices);
 
-  // The highest of the points in ascending ranges, or the index -1 if it is lower than `least` or there is none.
-  HighestPoint (*highest_point)(PointArrays points, const IndexRange* ranges, int range_count, const HeightAxis& axis,
-                                double least);
+  // The highest of the points in ascending ranges, or the index -1 if it is lower than `least` or there is none. Of
+  // several that are as high, the one with the least `number`, or with the least index if there are no numbers.
+  HighestPoint (*highest_point)(PointArrays points, const std::int32_t* number, const IndexRange* ranges,
+                                int range_count, const HeightAxis& axis, double least);
 
   // Writes the indices i < count of boxes that overlap `box` (closed), ascending; returns how many.
   int (*select_overlapping)(const BoxPointers& boxes, int count, const BoxBounds& box, std::int32_t* indices);

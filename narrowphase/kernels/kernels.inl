@@ -61,36 +61,50 @@ struct HeightPack {
   }
 };
 
-// Each lane keeps the first of its highest points; those that reach `least`, most often one or two, are compared then. A
-// loop that leaves the others aside as it goes is faster where the same few do in every step, and slower in piles.
-HighestPoint highest_point(PointArrays points, const IndexRange* ranges, int range_count, const HeightAxis& axis,
-                           double least) {
-  const HeightPack height(axis);
-  const Pack lowest = spread(-__builtin_inf());
-  Pack high = lowest, first = spread(0.0);
-  Mask again = mask_of(0);
-  for (int range = 0; range < range_count; ++range) {
-    const int end = ranges[range].end;
-    Pack here = spread(static_cast<double>(ranges[range].begin));
-    for (int i = ranges[range].begin; i < end; i += kWidth) {
+// Calls work(i, heights) for the packs of points in some ranges. Lanes beyond the end of a range are lower than
+// any point.
+template <class Work>
+inline void for_heights(PointArrays points, const IndexRange* ranges, int range_count, const HeightPack& height,
+                        const Work& work) {
+  for (const IndexRange* range = ranges; range != ranges + range_count; ++range) {
+    for (int i = range->begin; i < range->end; i += kWidth) {
       Pack h = height(points, i);
-      if (end - i < kWidth) h = select(mask_of(lanes_left(end - i)), h, lowest);
-      const Mask higher = less(high, h);
-      again = without(either(again, less_equal(high, h)), higher);
-      first = select(higher, here, first);
-      high = max(high, h);
-      here = add(here, spread(static_cast<double>(kWidth)));
+      if (range->end - i < kWidth) h = select(mask_of(lanes_left(range->end - i)), h, spread(-__builtin_inf()));
+      work(i, h);
     }
   }
-  alignas(64) double high_of[kWidth], first_of[kWidth];
-  store(high_of, high);
-  store(first_of, first);
-  HighestPoint top{-__builtin_inf(), -1, false};
-  for (unsigned left = bits(both(less(lowest, high), less_equal(spread(least), high))); left != 0; left &= left - 1) {
-    const std::int32_t lane = __builtin_ctz(left), i = static_cast<std::int32_t>(first_of[lane]) + lane;
-    if (high_of[lane] < top.height) continue;
-    const bool as_high = high_of[lane] == top.height, repeats = (bits(again) >> lane & 1) != 0;
-    top = {high_of[lane], as_high && top.index < i ? top.index : i, as_high || repeats};
+}
+
+// Each lane keeps the first and the last of its highest points; where these differ, all points are looked at again. A
+// loop that leaves packs below `least` aside is faster where the same few reach it in every step, and slower in piles.
+HighestPoint highest_point(PointArrays points, const std::int32_t* number, const IndexRange* ranges, int range_count,
+                           const HeightAxis& axis, double least) {
+  const HeightPack height(axis);
+  Pack high = spread(-__builtin_inf()), first = spread(0.0), last = first;
+  for_heights(points, ranges, range_count, height, [&](int i, Pack h) {
+    const Pack here = spread(static_cast<double>(i));
+    first = select(less(high, h), here, first);
+    last = select(less_equal(high, h), here, last);
+    high = max(high, h);
+  });
+  HighestPoint top{largest_lane(high), -1};
+  if (!(top.height > -__builtin_inf() && top.height >= least)) return {-__builtin_inf(), -1};
+  const Pack highest = spread(top.height);
+  const auto precedes = [&](std::int32_t i, std::int32_t j) { return number ? number[i] < number[j] : i < j; };
+  const auto take = [&](int begin, unsigned lanes) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const std::int32_t i = begin + __builtin_ctz(lanes);
+      if (top.index < 0 || precedes(i, top.index)) top.index = i;
+    }
+  };
+  const Mask as_high = less_equal(highest, high);
+  if (bits(both(as_high, not_equal(first, last))) != 0) {
+    for_heights(points, ranges, range_count, height, [&](int i, Pack h) { take(i, bits(less_equal(highest, h))); });
+  } else {
+    alignas(64) double first_of[kWidth];
+    store(first_of, first);
+    for (unsigned left = bits(as_high); left != 0; left &= left - 1)
+      take(static_cast<int>(first_of[__builtin_ctz(left)]), left & -left);
   }
   top.height += 0.0;  // one zero: which of the two comes first depends on the order
   return top;

@@ -240,7 +240,7 @@ TEST(FacetBlocks, EveryInstructionSetGivesTheSameBits) {
     const FacetBlock left = block_of(*scalar_kernels(), b, 0, planes);
     const std::uint64_t away = scalar_kernels()->facing_away(expected, axis);
     const IndexRange all{0, b.vertex_count()};
-    const HighestPoint highest = scalar_kernels()->highest_point(b.points(), &all, 1, axis, -1e300);
+    const HighestPoint highest = scalar_kernels()->highest_point(b.points(), nullptr, &all, 1, axis, -1e300);
     const CellBox cells = cells_of(kGrid, planes.box);
     const std::uint64_t near = scalar_kernels()->near_facets(expected, all_bits(expected.count), cells);
     const CellBox of_near = scalar_kernels()->cells_of(expected, near);
@@ -272,11 +272,11 @@ TEST(FacetBlocks, EveryInstructionSetGivesTheSameBits) {
       EXPECT_EQ(std::vector(others_left.facet, others_left.facet + others_left.count),
                 std::vector(left.facet, left.facet + left.count))
           << kernels->name;
-      const HighestPoint top = kernels->highest_point(b.points(), &all, 1, axis, highest.height);
+      const HighestPoint top = kernels->highest_point(b.points(), nullptr, &all, 1, axis, highest.height);
       EXPECT_EQ(top.height, highest.height) << kernels->name;
       EXPECT_EQ(top.index, highest.index) << kernels->name;
       const double above = std::nextafter(highest.height, 1e300);
-      EXPECT_EQ(kernels->highest_point(b.points(), &all, 1, axis, above).index, -1) << kernels->name;
+      EXPECT_EQ(kernels->highest_point(b.points(), nullptr, &all, 1, axis, above).index, -1) << kernels->name;
       EXPECT_EQ(kernels->near_facets(block, all_bits(block.count), cells), near) << kernels->name;
       const CellBox others = kernels->cells_of(block, near);
       for (int k = 0; k < 3; ++k) {
