@@ -20,7 +20,7 @@ namespace {
 using Meetings = std::vector<FacetMeeting>;
 
 // How much time a contestant gets.
-struct Effort {
+struct RaceEffort {
   double check_ms = 3000.0;  // after which frames are left out of the check, at least two being checked
   double slice_ms = 1200.0;  // after which the next one has its turn, at least two frames being timed
   double least_ms = 100.0;   // for which all frames are played again, where they are short
@@ -77,7 +77,7 @@ std::vector<Meetings> solve(const Workload& workload) {
   return answers;
 }
 
-void check(Contestant& contestant, const std::vector<Meetings>& answers, const Effort& effort) {
+void check(Contestant& contestant, const std::vector<Meetings>& answers, const RaceEffort& effort) {
   std::size_t expected = 0, found = 0, checked = 0;
   double spent = 0.0;
   for (std::size_t frame = 0; frame < answers.size(); ++frame) {
@@ -99,7 +99,7 @@ void check(Contestant& contestant, const std::vector<Meetings>& answers, const E
 
 // All frames, again and again where they are short, so that what a turn begins with, caches full of other contestants'
 // memory, is a small part of it; of long ones as many as fit.
-void run_slice(Contestant& contestant, int frames, int threads, const Effort& effort) {
+void run_slice(Contestant& contestant, int frames, int threads, const RaceEffort& effort) {
   const double start = wall_ms();
   for (int k = 1;; ++k) {
     contestant.times_ms.push_back(
@@ -120,7 +120,8 @@ std::vector<Contestant> contestants(const Workload& workload, int threads) {
 }
 
 // Turns are taken so that what disturbs the machine for a while disturbs all.
-void race(const Workload& workload, const std::vector<Meetings>& answers, int threads, const Effort& effort, Row& row) {
+void race(const Workload& workload, const std::vector<Meetings>& answers, int threads, const RaceEffort& effort,
+          Row& row) {
   std::vector<Contestant> all = contestants(workload, threads);
   for (Contestant& contestant : all) check(contestant, answers, effort);
   for (int round = 0; round < effort.rounds; ++round) {
@@ -236,7 +237,7 @@ void keep_freed_memory() {
 
 int run_rivals(const BenchOptions& options) {
   keep_freed_memory();
-  const Effort effort = options.quick ? Effort{100.0, 20.0, 2.0, 1} : Effort{};
+  const RaceEffort effort = options.quick ? RaceEffort{100.0, 20.0, 2.0, 1} : RaceEffort{};
   std::vector<int> threads{1};
   if (thread_count(options.threads) > 1) threads.push_back(thread_count(options.threads));
   fmt::print("{}\n\n", machine_line(threads.back()));

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t kCases = 1000;
 constexpr std::uint64_t kQuickCases = 24;
 
-struct Row {
+struct KindResult {
   std::uint64_t cases = 0;
   StabilityFailures failures;
   std::uint64_t first_seed = 0;
@@ -25,8 +25,8 @@ std::uint64_t cases_of(const StabilityKind& kind, const BenchOptions& options) {
   return std::max<std::uint64_t>(1, (options.quick ? kQuickCases : kCases) / static_cast<std::uint64_t>(kind.rarity));
 }
 
-Row run_kind(const StabilityKind& kind, std::uint64_t cases) {
-  Row row{.cases = cases, .failures = {}};
+KindResult run_kind(const StabilityKind& kind, std::uint64_t cases) {
+  KindResult row{.cases = cases, .failures = {}};
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     const StabilityFailures failures = check_stability(kind.make(seed));
     if (failures.sum() > 0 && row.failures.sum() == 0) row.first_seed = seed;
@@ -35,7 +35,7 @@ Row run_kind(const StabilityKind& kind, std::uint64_t cases) {
   return row;
 }
 
-void print(const char* name, const Row& row, double seconds) {
+void print(const char* name, const KindResult& row, double seconds) {
   const StabilityFailures& f = row.failures;
   fmt::print("{:<32}{:>7}{:>8}{:>7}{:>8}{:>12}{:>8}{:>12}{:>8}{:>9.1f}\n", name, row.cases, f.facet_sets, f.hulls,
              f.depths, f.directions, f.limits, f.exceptions, f.hashes, seconds);
@@ -53,10 +53,10 @@ int run_stability(const BenchOptions& options) {
   fmt::print("{:<32}{:>7}{:>8}{:>7}{:>8}{:>12}{:>8}{:>12}{:>8}{:>9}\n", "kind", "cases", "facets", "hulls", "depths",
              "directions", "limits", "exceptions", "hashes", "seconds");
   std::string csv = "kind,cases,facets,hulls,depths,directions,limits,exceptions,hashes\n";
-  Row total;
+  KindResult total;
   base::Timer all, timer;
   for (const StabilityKind& kind : stability_kinds()) {
-    const Row row = run_kind(kind, cases_of(kind, options));
+    const KindResult row = run_kind(kind, cases_of(kind, options));
     print(kind.name, row, timer.lap() / 1e3);
     const StabilityFailures& f = row.failures;
     csv += fmt::format("\"{}\",{},{},{},{},{},{},{},{}\n", kind.name, row.cases, f.facet_sets, f.hulls, f.depths,

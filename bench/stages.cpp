@@ -17,7 +17,7 @@ namespace tact::bench {
 namespace {
 
 // Of the frames of a coherent motion two are played, back and forth: they are part of what a cache has to hold.
-constexpr int kFrames = 24, kPlayed = 2;
+constexpr int kPeriod = 24, kRepeated = 2;
 
 struct Stage {
   const char* name;
@@ -54,14 +54,14 @@ struct Costs {
 Costs measure(const Workload& workload, int threads, double budget_ms) {
   const double before = heap_bytes();
   TactRunner runner(workload, threads);
-  for (int k = 0; k < 2 * kPlayed; ++k) runner.step(k % kPlayed);
+  for (int k = 0; k < 2 * kRepeated; ++k) runner.step(k % kRepeated);
   Costs costs;
-  costs.level = level_name(cache_level(kPlayed * frame_bytes(workload) + heap_bytes() - before));
+  costs.level = level_name(cache_level(kRepeated * frame_bytes(workload) + heap_bytes() - before));
 
   std::array<std::vector<double>, kStages.size()> each, ms;
   const double start = wall_ms();
   for (int k = 0; k < 8 || wall_ms() - start < budget_ms; ++k) {
-    const StepStats& s = runner.step(k % kPlayed).stats();
+    const StepStats& s = runner.step(k % kRepeated).stats();
     for (std::size_t i = 0; i < kStages.size(); ++i) {
       ms[i].push_back(kStages[i].ms(s));
       each[i].push_back(1e6 * ms[i].back() / static_cast<double>(std::max<std::int64_t>(kStages[i].count(s), 1)));
@@ -86,9 +86,9 @@ int run_stages(const BenchOptions& options) {
   std::vector<double> copy_ns;
   std::vector<std::string> header{"stage", "each"};
   for (const int size : sizes) {
-    const Workload workload = pile(size, 4, kFrames);
+    const Workload workload = pile(size, 4, kPeriod);
     one.push_back(measure(workload, 1, budget_ms));
-    copy_ns.push_back(1e6 * copy_ms(workload, kPlayed, 0.2 * budget_ms) * sizeof(Eigen::Vector3d) /
+    copy_ns.push_back(1e6 * copy_ms(workload, kRepeated, 0.2 * budget_ms) * sizeof(Eigen::Vector3d) /
                       frame_bytes(workload));
     header.push_back(fmt::format("{} bodies, {}: ns", size, one.back().level));
     if (size == sizes.back()) all_threads = measure(workload, threads, budget_ms);
