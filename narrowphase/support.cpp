@@ -109,13 +109,9 @@ PointArrays far_corners(BoxView boxes, Vec3 n) {
 
 Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near) {
   assert(mesh.facet_count() > 0);
-  if (base::fast_paths() == base::FastPaths::off) return support_by_full_scan(mesh, n, origin);
+  if (base::fast_paths() == base::FastPaths::off || mesh.cluster_count() == 1)
+    return support_by_full_scan(mesh, n, origin);
   Search search(mesh, n, origin);
-  if (mesh.cluster_count() == 1) {
-    const std::int32_t only = 0;
-    search.open(&only, 1);
-    return search.best();
-  }
   if (near >= 0) search.start_at(near);
   const PointArrays groups = far_corners(mesh.group_boxes(), n), clusters = far_corners(mesh.cluster_boxes(), n);
   int first = -1;
@@ -160,9 +156,11 @@ void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double h
 }
 
 Support support_by_full_scan(const ClusteredMesh& mesh, Vec3 n, Vec3 origin) {
-  Search search(mesh, n, origin);
-  for (std::int32_t cluster = 0; cluster < mesh.cluster_count(); ++cluster) search.open(&cluster, 1);
-  return search.best();
+  const HeightAxis axis{n.x, n.y, n.z, origin.x, origin.y, origin.z};
+  const IndexRange all{0, mesh.vertex_count()};
+  const HighestPoint top = kernels().highest_point(mesh.points(), mesh.source_vertices(), &all, 1, axis,
+                                                   -std::numeric_limits<double>::infinity());
+  return {top.index, top.height};
 }
 
 }  // namespace tact::narrowphase

@@ -61,8 +61,8 @@ struct HeightPack {
   }
 };
 
-// Calls work(i, heights) for the packs of points in some ranges. Lanes beyond the end of a range are lower than
-// any point.
+// Calls work(i, heights) for the packs of points in some ranges. Lanes beyond the end of a range are lower than any
+// point.
 template <class Work>
 inline void for_heights(PointArrays points, const IndexRange* ranges, int range_count, const HeightPack& height,
                         const Work& work) {
