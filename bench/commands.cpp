@@ -1,15 +1,15 @@
 #include "bench/commands.h"
 
-#include "bench/broadphase.h"
-#include "bench/clusters.h"
-#include "bench/error.h"
-#include "bench/idle.h"
+#include "bench/error/error.h"
 #include "bench/predicates.h"
-#include "bench/refresh.h"
-#include "bench/rivals.h"
-#include "bench/scaling.h"
-#include "bench/stability.h"
-#include "bench/stages.h"
+#include "bench/rivals/broadphase.h"
+#include "bench/rivals/rivals.h"
+#include "bench/scaling/clusters.h"
+#include "bench/scaling/idle.h"
+#include "bench/scaling/refresh.h"
+#include "bench/scaling/scaling.h"
+#include "bench/scaling/stages.h"
+#include "bench/stability/stability.h"
 
 namespace tact::bench {
 

@@ -10,8 +10,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "bench/rival.h"
-#include "bench/workloads.h"
+#include "bench/rivals/rival.h"
+#include "bench/workloads/workloads.h"
 #include "engine/base/box.h"
 
 namespace tact::bench {

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "bench/measure.h"
-#include "bench/stability_shapes.h"
+#include "bench/stability/shapes.h"
 #include "bench/table.h"
-#include "bench/workloads.h"
+#include "bench/workloads/workloads.h"
 #include "engine/base/box.h"
-#include "narrowphase/triangle_triangle.h"
+#include "narrowphase/triangles/triangle_triangle.h"
 
 namespace tact::bench {
 namespace {

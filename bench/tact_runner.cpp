@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "bench/rival.h"
+#include "bench/rivals/rival.h"
 
 namespace tact::bench {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "bench/workloads.h"
+#include "bench/workloads/workloads.h"
 
 namespace tact::bench {
 

@@ -12,7 +12,7 @@
 
 #include "broadphase/sweep_and_prune.h"
 #include "engine/packed_meshes.h"
-#include "narrowphase/clustered_mesh.h"
+#include "narrowphase/mesh/clustered_mesh.h"
 
 namespace tact {
 

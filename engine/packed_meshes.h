@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "narrowphase/clustered_mesh.h"
+#include "narrowphase/mesh/clustered_mesh.h"
 
 namespace tact {
 

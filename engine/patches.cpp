@@ -4,8 +4,8 @@
 #include <limits>
 #include <numeric>
 
-#include "narrowphase/unit_scale.h"
-#include "narrowphase/wide_vec3.h"
+#include "narrowphase/numeric/double_double.h"
+#include "narrowphase/numeric/unit_scale.h"
 
 namespace tact {
 

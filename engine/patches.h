@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/bodies.h"
-#include "engine/pair_record.h"
+#include "engine/pair/pair_record.h"
 
 namespace tact {
 

@@ -11,8 +11,8 @@
 
 #include "broadphase/sweep_and_prune.h"
 #include "engine/bodies.h"
-#include "engine/pair_table.h"
-#include "engine/pair_work.h"
+#include "engine/pair/pair_table.h"
+#include "engine/pair/pair_work.h"
 #include "engine/step_trace.h"
 
 namespace tact {

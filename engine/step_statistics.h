@@ -4,7 +4,7 @@
 #include <tact/settings.h>
 #include <tact/statistics.h>
 
-#include "engine/pair_record.h"
+#include "engine/pair/pair_record.h"
 
 namespace tact {
 

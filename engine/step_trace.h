@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "engine/base/timer.h"
-#include "engine/pair_table.h"
-#include "engine/pair_work.h"
+#include "engine/pair/pair_table.h"
+#include "engine/pair/pair_work.h"
 
 namespace tact {
 

@@ -1,3 +1,3 @@
-#include "scenes/command_line.h"
+#include "scenes/commands/command_line.h"
 
 int main(int argc, char** argv) { return tact::scenes::run_command_line(argc, argv); }

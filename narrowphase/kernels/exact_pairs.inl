@@ -1,5 +1,5 @@
 // Which of many pairs of facets meet where no determinant is rounded, included by kernels.inl: corners on a lattice (see
-// narrowphase/lattice.h), in doubles or, where they are enough, in floats.
+// narrowphase/triangles/lattice.h), in doubles or, where they are enough, in floats.
 
 bool on_lattice(const FacetBlock& block, double step) {
   // Adding 3/2 * 2^52 steps, which leaves no room for parts of one, and taking them away again.

@@ -11,7 +11,7 @@
 #include "scenes/dynamics/body.h"
 #include "scenes/dynamics/contact_solver.h"
 #include "scenes/dynamics/penetration.h"
-#include "scenes/recording.h"
+#include "scenes/files/recording.h"
 
 namespace tact::scenes {
 

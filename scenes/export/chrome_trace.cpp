@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "scenes/json_text.h"
+#include "scenes/commands/json_text.h"
 
 namespace tact::scenes {
 namespace {

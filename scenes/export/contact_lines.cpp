@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "scenes/json_text.h"
-#include "scenes/report_json.h"
+#include "scenes/commands/json_text.h"
+#include "scenes/commands/report_json.h"
 
 namespace tact::scenes {
 namespace {

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "scenes/json_text.h"
+#include "scenes/commands/json_text.h"
 #include "scenes/pictures/drawn_scene.h"
 
 namespace tact::scenes {

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "scenes/file_error.h"
+#include "scenes/files/file_error.h"
 
 namespace tact::scenes {
 namespace {

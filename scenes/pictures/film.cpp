@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "scenes/file_error.h"
+#include "scenes/files/file_error.h"
 #include "scenes/pictures/program.h"
 
 namespace tact::scenes {

@@ -6,7 +6,7 @@
 #include <string>
 #include <system_error>
 
-#include "scenes/file_error.h"
+#include "scenes/files/file_error.h"
 
 namespace tact::scenes {
 namespace {

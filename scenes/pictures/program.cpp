@@ -12,7 +12,7 @@
 #include <iterator>
 #include <system_error>
 
-#include "scenes/file_error.h"
+#include "scenes/files/file_error.h"
 
 namespace tact::scenes {
 namespace {

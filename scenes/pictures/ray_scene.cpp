@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "narrowphase/embree.h"
+#include "narrowphase/triangles/embree.h"
 
 namespace tact::scenes {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "narrowphase/embree.h"
+#include "narrowphase/triangles/embree.h"
 #include "tests/support/detection.h"
 #include "tests/support/generators.h"
 

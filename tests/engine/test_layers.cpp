@@ -89,7 +89,7 @@ TEST(Layers, IncludeOnlyWhatLiesBelow) {
   for (const Include& include : includes) {
     const std::string from = layer_of(include.file), to = layer_of(include.header);
     if (to.empty() || to == from) continue;
-    const bool draws_with_embree = from == "scenes" && include.header == "narrowphase/embree.h";
+    const bool draws_with_embree = from == "scenes" && include.header == "narrowphase/triangles/embree.h";
     EXPECT_TRUE(kMayInclude.at(from).contains(to) || draws_with_embree)
         << include.file << " includes " << include.header;
   }
@@ -130,7 +130,7 @@ TEST(Layers, OpenMpStandsInOneHeader) {
 }
 
 TEST(Layers, EmbreeIsKnownToTheNarrowPhaseAlone) {
-  const std::string header = "narrowphase/embree.h";
+  const std::string header = "narrowphase/triangles/embree.h";
   int found = 0;
   for (const Include& include : all_includes()) {
     if (!in_engine(include.file)) continue;

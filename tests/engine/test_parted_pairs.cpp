@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "narrowphase/gjk.h"
+#include "narrowphase/hull/gjk.h"
 #include "tests/support/clustered.h"
 #include "tests/support/detection.h"
 #include "tests/support/generators.h"

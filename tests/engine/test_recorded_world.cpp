@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "scenes/recording_player.h"
+#include "scenes/files/recording_player.h"
 #include "tests/support/body_pairs.h"
 #include "tests/support/generators.h"
 #include "tests/support/recorded_world.h"

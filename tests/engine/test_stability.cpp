@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "bench/stability_check.h"
-#include "bench/stability_shapes.h"
+#include "bench/stability/check.h"
+#include "bench/stability/shapes.h"
 
 namespace tact::bench {
 

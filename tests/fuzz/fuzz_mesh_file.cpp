@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "scenes/mesh_file.h"
+#include "scenes/files/mesh_file.h"
 
 namespace {
 

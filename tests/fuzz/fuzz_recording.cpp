@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "scenes/recording_player.h"
+#include "scenes/files/recording_player.h"
 
 namespace {
 

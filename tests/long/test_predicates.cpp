@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
-#include "narrowphase/triangle_triangle.h"
+#include "narrowphase/triangles/triangle_triangle.h"
 #include "tests/support/environment.h"
 #include "tests/support/facet_filters.h"
 #include "tests/support/triangle_oracle.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/mesh_file.h"
+#include "scenes/files/mesh_file.h"
 
 namespace tact::tests {
 

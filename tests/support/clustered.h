@@ -1,7 +1,7 @@
 // A test mesh as the narrow phase takes it.
 #pragma once
 
-#include "narrowphase/clustered_mesh.h"
+#include "narrowphase/mesh/clustered_mesh.h"
 #include "tests/support/generators.h"
 #include "tests/support/mesh.h"
 

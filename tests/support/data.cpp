@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "scenes/mesh_file.h"
+#include "scenes/files/mesh_file.h"
 
 namespace tact::tests {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "narrowphase/triangle_triangle.h"
+#include "narrowphase/triangles/triangle_triangle.h"
 #include "tests/support/generators.h"
 
 namespace tact::tests {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "narrowphase/block_pair.h"
-#include "narrowphase/clustered_mesh.h"
+#include "narrowphase/mesh/clustered_mesh.h"
+#include "narrowphase/triangles/block_pair.h"
 #include "tests/support/facet_filters.h"
 #include "tests/support/mesh.h"
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include "narrowphase/confirm.h"
-#include "narrowphase/lattice.h"
+#include "narrowphase/triangles/confirm.h"
+#include "narrowphase/triangles/lattice.h"
 
 namespace tact::tests {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "narrowphase/contact_direction.h"
+#include "narrowphase/direction/contact_direction.h"
 #include "tests/support/minkowski_oracle.h"
 #include "tests/support/random.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/base/vec3.h"
-#include "narrowphase/clustered_mesh.h"
+#include "narrowphase/mesh/clustered_mesh.h"
 
 namespace tact::tests {
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/recording.h"
+#include "scenes/files/recording.h"
 
 namespace tact::tests {
 
@@ -44,7 +44,7 @@ class RecordedWorld {
   std::size_t vertex_count(BodyId body) const { return world().vertex_count(body); }
   std::size_t facet_count(BodyId body) const { return world().facet_count(body); }
 
-  // The recording so far, as in scenes/recording.h; empty if it grew too long.
+  // The recording so far, as in scenes/files/recording.h; empty if it grew too long.
   std::string recording() const { return recording_->str(); }
 
  private:

@@ -1,8 +1,8 @@
 // The truth about triangles and orientations, from CGAL.
 #pragma once
 
-#include "narrowphase/predicates.h"
-#include "narrowphase/triangle_triangle.h"
+#include "narrowphase/numeric/predicates.h"
+#include "narrowphase/triangles/triangle_triangle.h"
 
 namespace tact::tests {
 

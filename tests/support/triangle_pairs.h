@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "narrowphase/clustered_mesh.h"
+#include "narrowphase/mesh/clustered_mesh.h"
 
 namespace tact::tests {
 

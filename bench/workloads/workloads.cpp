@@ -1,0 +1,189 @@
+#include "bench/workloads/workloads.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "bench/random.h"
+#include "bench/workloads/shapes.h"
+#include "engine/base/parallel.h"
+
+namespace tact::bench {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
+
+// Where the point (x, y) of a flat sheet, 4 m wide, comes to lie when it is draped over the unit sphere about the
+// origin up to `contact`, a distance from the middle in metres, and hangs straight from there: the sphere by
+// stereographic projection, beyond it the tangent cone.
+struct DrapedPoint {
+  Vector3d position;
+  Vector3d normal;
+};
+
+DrapedPoint draped(double x, double y, double contact) {
+  const double distance = std::sqrt(x * x + y * y);
+  const double along = std::min(distance, contact);
+  const double scale = 1.0 / (4.0 + along * along);
+  const double sine = 4.0 * along * scale, cosine = (4.0 - along * along) * scale;
+  const double beyond = distance - along;
+  const double out = sine + beyond * cosine, height = cosine - beyond * sine;
+  const double ux = distance > 0.0 ? x / distance : 0.0, uy = distance > 0.0 ? y / distance : 0.0;
+  return {{ux * out, uy * out, height}, {ux * sine, uy * sine, cosine}};
+}
+
+struct Wrinkle {
+  double x, y;                  // waves a metre
+  double height, delay, speed;  // metres, of the period, whole periods
+};
+
+}  // namespace
+
+std::size_t Workload::facet_count() const {
+  return std::accumulate(bodies.begin(), bodies.end(), std::size_t{0}, [](std::size_t sum, const WorkloadBody& body) {
+    return sum + static_cast<std::size_t>(body.facets.cols());
+  });
+}
+
+Workload cloth(int cells, int frames) {
+  constexpr double kClearance = 0.004;  // metres by which the wrinkles' middle is above the sphere
+  Random random(11);
+  std::vector<Wrinkle> wrinkles;
+  for (int k = 0; k < 5; ++k) {
+    const Vector3d d = random.direction();
+    const double frequency = random.uniform(1.3, 3.9), speed = k % 2 == 0 ? 1.0 : -1.0;
+    wrinkles.push_back({frequency * d.x(), frequency * d.y(), 0.012, random.uniform(0.0, 1.0), speed});
+  }
+  const Shape sheet = square_sheet(cells, 4.0), sphere = geodesic_sphere(8);
+  Workload workload{frames, {}};
+  workload.bodies.resize(2);
+  WorkloadBody& body = workload.bodies[0];
+  body.facets = sheet.facets;
+  body.surface = Surface::sheet;
+  body.frames.resize(static_cast<std::size_t>(frames));
+  base::parallel_for(body.frames.size(), 1, base::default_threads(), [&](std::size_t frame) {
+    const double phase = phase_of(static_cast<int>(frame), frames);
+    const double fall = wave(phase);  // lifted off the sphere for a quarter of the period
+    const double lift = 0.5 * std::max(0.0, -0.75 - fall);
+    const double contact = 0.9 + 0.25 * fall;
+    Matrix3Xd& positions = body.frames[frame];
+    positions.resize(3, sheet.positions.cols());
+    for (Index v = 0; v < positions.cols(); ++v) {
+      const double x = sheet.positions(0, v), y = sheet.positions(1, v);
+      const DrapedPoint p = draped(x, y, contact);
+      double offset = kClearance;
+      for (const Wrinkle& w : wrinkles) offset += w.height * wave(w.x * x + w.y * y + w.delay + w.speed * phase);
+      positions.col(v) = p.position + offset * p.normal + Vector3d(0.0, 0.0, lift);
+    }
+  });
+  workload.bodies[1].facets = sphere.facets;
+  workload.bodies[1].frames = {sphere.positions};
+  return workload;
+}
+
+Workload organ_and_tool(int frames) {
+  const Shape sphere = geodesic_sphere(5);
+  const Shape shaft = rod(10, 6);
+  const Vector3d hollow = Vector3d(0.2, 0.3, 0.93).normalized();
+  Workload workload{frames, {}};
+  workload.bodies.resize(2);
+  workload.bodies[0].facets = sphere.facets;
+  workload.bodies[1].facets = shaft.facets;
+  for (int frame = 0; frame < frames; ++frame) {
+    const double phase = phase_of(frame, frames);
+    Matrix3Xd organ(3, sphere.positions.cols());
+    for (Index v = 0; v < organ.cols(); ++v) {
+      const Vector3d d = sphere.positions.col(v);
+      const double breath = 1.0 + 0.04 * wave(phase) * d.z();
+      const double r = breath * (1.0 - 0.45 * bump(hollow.dot(d)));
+      organ.col(v) << 0.16 * r * d.x(), 0.1 * r * d.y(),
+          0.07 * r * d.z() - 0.8 * (0.16 * r * d.x()) * (0.16 * r * d.x());
+    }
+    Matrix3Xd tool(3, shaft.positions.cols());
+    const double height = 0.0391 + 0.004 * wave(phase + 0.3);
+    for (Index v = 0; v < tool.cols(); ++v) {
+      const Vector3d p = shaft.positions.col(v);
+      tool.col(v) << 0.02 + 0.006 * p.x() + 0.05 * p.z(), 0.02 + 0.006 * p.y(), height + 0.25 * p.z() - 0.004 * p.x();
+    }
+    workload.bodies[0].frames.push_back(organ);
+    workload.bodies[1].frames.push_back(tool);
+  }
+  return workload;
+}
+
+Workload brick_wall(int side, int courses, Pose pose, int frames) {
+  const Vector3d size(0.25, 0.125, 0.0625);
+  std::vector<Shape> bricks;
+  for (int course = 0; course < courses; ++course) {
+    for (int row = 0; row < side; ++row) {
+      for (int k = 0; k < side; ++k) {
+        const double shift = 0.5 * (course % 2), x = k + shift, y = row + shift;
+        const Vector3d lower(x * size.x(), y * size.y(), course * size.z());
+        bricks.push_back(brick(lower, lower + size));
+      }
+    }
+  }
+  Workload workload{frames, {}};
+  workload.bodies.resize(bricks.size());
+  for (int frame = 0; frame < frames; ++frame) {
+    const double w = 0.3 * wave(phase_of(frame, frames));
+    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+    if (pose == Pose::rotated) {
+      const Eigen::Quaterniond q(1.0, 0.3 + w, 0.5 - w, 0.2 + 0.5 * w);
+      rotation = q.normalized().toRotationMatrix();
+    }
+    const Vector3d shift = pose == Pose::aligned ? Vector3d(frame % 2, 0.0, 0.0) / 64.0 : Vector3d::Zero().eval();
+    for (std::size_t k = 0; k < bricks.size(); ++k) {
+      Matrix3Xd positions(3, 8);
+      for (Index v = 0; v < 8; ++v) positions.col(v) = rotation * (bricks[k].positions.col(v) + shift);
+      workload.bodies[k].frames.push_back(positions);
+    }
+  }
+  for (std::size_t k = 0; k < bricks.size(); ++k) workload.bodies[k].facets = bricks[k].facets;
+  return workload;
+}
+
+std::vector<NamedWorkload> rival_workloads(Size size) {
+  constexpr int kFrames = 24, kFewFrames = 6;
+  if (size == Size::small) {
+    return {
+        {"cloth 3 k", "a sheet over a sphere", 5.0, [] { return cloth(40, kFewFrames); }},
+        {"pile 27 x 320", "blobs, six neighbours each", 4.0, [] { return pile(27, 4, kFewFrames); }},
+        {"organ and tool", "600 facets", 1.5, [] { return organ_and_tool(kFewFrames); }},
+        {"500 x 80 scattered", "few touch", 4.0, [] { return scattered(500, kFewFrames); }},
+        {"two of 8 k", "shallow overlap", 8.0, [] { return large_pair(20, kFewFrames); }},
+        {"bricks aligned", "exact contact", 1.5, [] { return brick_wall(4, 4, Pose::aligned, kFewFrames); }},
+        {"bricks rotated", "contact on the last bit", 8.0, [] { return brick_wall(4, 4, Pose::rotated, kFewFrames); }},
+        {"terrain", "blobs on a height field", 1.0, [] { return terrain(60, 16, kFewFrames); }},
+        {"sheets in layers", "all near", 1.0, [] { return layers(3, 30, kFewFrames); }},
+        {"shells", "one in the other", 1.0, [] { return shells(12, kFewFrames); }},
+        {"chain", "rings that are linked", 1.0, [] { return chain(10, kFewFrames); }},
+        {"rods", "long and thin", 1.0, [] { return crossed_rods(4, kFewFrames); }},
+        {"two boxes", "24 facets", 1.0, [] { return two_boxes(kFewFrames); }}};
+  }
+  return {
+      {"cloth 13 k", "a sheet of 77² squares over a sphere", 5.0, [] { return cloth(77, kFrames); }},
+      {"cloth 152 k", "a sheet of 275² squares over a sphere", 5.0, [] { return cloth(275, kFrames); }},
+      {"cloth 606 k", "a sheet of 550² squares over a sphere", 5.0, [] { return cloth(550, kFrames); }},
+      {"pile 100 x 1280", "blobs, six neighbours each", 4.0, [] { return pile(100, 8, kFrames); }},
+      {"pile 1000 x 1280", "blobs, six neighbours each", 4.0, [] { return pile(1000, 8, kFrames); }},
+      {"pile 4000 x 320", "blobs, six neighbours each", 4.0, [] { return pile(4000, 4, kFrames); }},
+      {"organ and tool", "500 and 100 facets", 1.5, [] { return organ_and_tool(kFrames); }},
+      {"10,000 x 80 scattered", "blobs of which few touch", 4.0, [] { return scattered(10000, kFrames); }},
+      {"two of 500 k", "two blobs in shallow overlap", 8.0, [] { return large_pair(158, kFrames); }},
+      {"bricks aligned", "a wall in exact contact", 1.5, [] { return brick_wall(7, 7, Pose::aligned, kFrames); }},
+      {"bricks rotated", "the wall turned: contact hangs on the last bit", 8.0,
+       [] { return brick_wall(7, 7, Pose::rotated, kFrames); }},
+      {"terrain", "100 blobs on a height field", 1.0, [] { return terrain(150, 100, kFrames); }},
+      {"sheets in layers", "each touches the next", 1.0, [] { return layers(4, 60, kFrames); }},
+      {"shells", "a sphere close inside another", 1.0, [] { return shells(32, kFrames); }},
+      {"chain", "200 rings that are linked", 1.0, [] { return chain(200, kFrames); }},
+      {"rods", "1,000 long and thin ones", 1.0, [] { return crossed_rods(10, kFrames); }},
+      {"two boxes", "the smallest scene", 1.0, [] { return two_boxes(kFrames); }},
+  };
+}
+
+}  // namespace tact::bench

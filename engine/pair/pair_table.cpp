@@ -1,0 +1,175 @@
+#include "engine/pair/pair_table.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/fast_paths.h"
+#include "engine/base/parallel.h"
+
+namespace tact {
+
+namespace {
+
+using narrowphase::PartingDiagonal;
+
+constexpr std::size_t kLargestRoom = 512;                      // facet pairs, 4 kB
+constexpr std::size_t kMostSpareRoom = std::size_t{1} << 20;   // facet pairs, 8 MB
+constexpr std::size_t kPartedAtATime = 2048;                   // pairs
+constexpr std::size_t kFewestRecords = 4, kMostRecords = 256;  // taken at once
+
+bool names(const Bodies& bodies, BodyId id) { return bodies.in_slot(id.index).id == id; }
+
+// Of one body, if it has other numbers now. What a record keeps of earlier pairs is left alone.
+template <class InSimplex, class InSurface>
+void renumber_vertices(PairRecord& record, std::span<const int> numbers, InSimplex in_simplex, InSurface in_surface) {
+  if (numbers.empty()) return;
+  const auto renumber = [&](auto& vertices, int count) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+      vertices[k] = numbers[static_cast<std::size_t>(vertices[k])];
+  };
+  renumber(record.history.hulls.*in_simplex, record.history.hulls.count);
+  if (record.hulls_overlap) renumber(record.face.*in_simplex, record.face.count);
+  if (record.history.has_surface && record.surface->face_count > 0)
+    renumber(*record.surface.*in_surface, record.surface->vertex_count);
+}
+
+}  // namespace
+
+void PairTable::update(const broadphase::SweepAndPrune& sweep, const Bodies& bodies, bool all) {
+  gone_.clear();
+  moved_.clear();
+  same_pairs_ = !all && !bodies.removed_any() && !sweep.pairs_changed();
+  if (same_pairs_) {
+    select_moved(bodies);
+  } else {
+    match(sweep.pairs(), bodies, all);
+  }
+}
+
+void PairTable::select_moved(const Bodies& bodies) {
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (bodies.moved(pairs_[i].a) || bodies.moved(pairs_[i].b))
+      moved_.push_back({entries_[i].record, static_cast<std::uint32_t>(i)});
+  }
+}
+
+void PairTable::match(std::span<const broadphase::IndexPair> pairs, const Bodies& bodies, bool all) {
+  std::swap(last_entries_, entries_);
+  std::swap(last_candidates_, candidates_);
+  entries_.clear();
+  candidates_.clear();
+  std::size_t last = 0;
+  for (const broadphase::IndexPair& pair : pairs) {
+    while (last < pairs_.size() && pairs_[last] < pair) retire(*last_entries_[last++].record);
+    Entry entry;
+    CandidatePair candidate;
+    if (last < pairs_.size() && pairs_[last] == pair) {
+      candidate = last_candidates_[last];
+      entry = last_entries_[last++];
+      if (bodies.removed_any() && !(names(bodies, candidate.a) && names(bodies, candidate.b)))
+        retire(*std::exchange(entry, {}).record);
+    }
+    if (entry.record == nullptr) {
+      candidate = {bodies.in_slot(pair.a).id, bodies.in_slot(pair.b).id, false};
+      entry.record = &new_record(candidate.a, candidate.b);
+    }
+    if (all || bodies.moved(pair.a) || bodies.moved(pair.b))
+      moved_.push_back({entry.record, static_cast<std::uint32_t>(entries_.size())});
+    entries_.push_back(entry);
+    candidates_.push_back(candidate);
+  }
+  while (last < pairs_.size()) retire(*last_entries_[last++].record);
+  pairs_.assign(pairs.begin(), pairs.end());
+}
+
+// Many at once, so that pairs that follow each other lie together.
+void PairTable::add_records() {
+  const std::size_t count = std::clamp(record_count_, kFewestRecords, kMostRecords);
+  free_.reserve(record_count_ + count);  // so that retire() cannot fail
+  pool_.push_back(std::make_unique<PairRecord[]>(count));
+  record_count_ += count;
+  for (std::size_t i = count; i-- > 0;) free_.push_back(&pool_.back()[i]);
+}
+
+PairRecord& PairTable::new_record(BodyId a, BodyId b) {
+  if (free_.empty()) add_records();
+  PairRecord& record = *free_.back();
+  free_.pop_back();
+  record.a = a;
+  record.b = b;
+  record.history = {};
+  record.hulls_overlap = false;
+  record.facet_pairs.clear();
+  record.patches.clear();
+  return record;
+}
+
+void PairTable::retire(PairRecord& record) {
+  if (touches(record)) gone_.push_back({record.a, record.b});
+  const std::size_t room = record.facet_pairs.capacity();
+  room_ = std::min(std::max(room_, room), kLargestRoom);
+  // A large pair may leave its room to a small one, and take new room when it comes back. So there is a limit to what
+  // is left in all.
+  spare_room_ -= std::exchange(record.room_left, 0);
+  if (room > kLargestRoom && spare_room_ + room <= kMostSpareRoom) {
+    spare_room_ += record.room_left = room;
+  } else if (room > kLargestRoom) {
+    record.facet_pairs = std::vector<FacetPair>();
+  }
+  free_.push_back(&record);
+}
+
+void PairTable::renumber(std::span<const Bodies::Regrouped> bodies) {
+  if (bodies.empty()) return;
+  // A body that was removed may stand in the records still: another has its slot.
+  const auto numbers_of = [&](BodyId id) -> std::span<const int> {
+    const auto slot_of = [](const Bodies::Regrouped& body) { return body.id.index; };
+    const auto found = std::ranges::lower_bound(bodies, id.index, {}, slot_of);
+    return found != bodies.end() && found->id == id ? std::span(found->numbers) : std::span<const int>();
+  };
+  for (const Entry& entry : entries_) {
+    PairRecord& record = *entry.record;
+    renumber_vertices(record, numbers_of(record.a), &narrowphase::GjkSimplex::a, &narrowphase::SurfaceShape::a);
+    renumber_vertices(record, numbers_of(record.b), &narrowphase::GjkSimplex::b, &narrowphase::SurfaceShape::b);
+  }
+}
+
+void PairTable::take_out_parted(Bodies& bodies, int threads) {
+  if (base::fast_paths() == base::FastPaths::off) return;
+  // Of a pair that was apart, or is new, both bodies know how far they reach, whatever other pairs they have: what is
+  // found of a pair depends on no other. Bodies that moved and have no such pair need not know when they move next.
+  for (const std::uint32_t slot : bodies.changed()) bodies.want_diagonals(slot, false);
+  for (const MovedPair& pair : moved_) {
+    if (candidates_[pair.place].hulls_overlap) continue;
+    bodies.want_diagonals(pairs_[pair.place].a, true);
+    bodies.want_diagonals(pairs_[pair.place].b, true);
+  }
+  bodies.find_diagonals(threads);
+  base::parallel_for(moved_.size(), kPartedAtATime, threads,
+                     [&](std::size_t i) { moved_[i].parted = part(moved_[i], bodies); });
+  parted_ = std::erase_if(moved_, [](const MovedPair& pair) { return pair.parted; });
+}
+
+// Was the pair apart, and does a diagonal part it, the last one or another? Notes which.
+bool PairTable::part(const MovedPair& pair, const Bodies& bodies) {
+  if (candidates_[pair.place].hulls_overlap) return false;
+  const broadphase::IndexPair slots = pairs_[pair.place];
+  const auto *a = bodies.diagonals(slots.a), *b = bodies.diagonals(slots.b);
+  PartingDiagonal& parting = entries_[pair.place].parting;
+  const PartingDiagonal last = parting;
+  const bool known = a != nullptr && b != nullptr;
+  if (known && narrowphase::parts(last, *a, *b)) return true;
+  parting = known ? narrowphase::parting_diagonal(*a, *b) : PartingDiagonal{0};
+  if (parting != 0) return true;
+  if (last != 0) {
+    pair.record->history.kind = PairHistory::Kind::separated;
+    pair.record->history.direction = narrowphase::direction_of(last);
+  }
+  return false;
+}
+
+bool PairTable::same_contacts() const {
+  return same_pairs_ && std::ranges::none_of(moved_, [](const MovedPair& pair) { return pair.changed; });
+}
+
+}  // namespace tact

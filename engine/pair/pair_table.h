@@ -1,0 +1,104 @@
+// The candidate pairs and their records, from step to step.
+#pragma once
+
+#include <tact/report.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "broadphase/sweep_and_prune.h"
+#include "engine/bodies.h"
+#include "engine/pair/pair_record.h"
+#include "narrowphase/hull/kdop.h"
+
+namespace tact {
+
+// A pair that the step looks at.
+struct MovedPair {
+  PairRecord* record = nullptr;
+  std::uint32_t place = 0;  // among the candidates
+  bool touched = false;     // in the step before
+  bool changed = false;     // do the hulls overlap now and did not in the step before, or the other way around?
+  bool parted = false;      // along a diagonal
+};
+
+class PairTable {
+ public:
+  // Takes the pairs of the sweep, sorted: a pair that stays keeps its record, unless a body of it was replaced by
+  // another. Then moved() are those with a body that moved, or all.
+  void update(const broadphase::SweepAndPrune& sweep, const Bodies& bodies, bool all);
+  // Nothing moved.
+  void keep() {
+    moved_.clear();
+    parted_ = 0;
+  }
+  // Vertices have other numbers: so have those that the records name. `bodies` are sorted by slot.
+  void renumber(std::span<const Bodies::Regrouped> bodies);
+  // Takes pairs out of moved() that were apart and still are, along a diagonal: their records are not read. A pair that
+  // is not taken out any more starts from the diagonal that parted it last.
+  void take_out_parted(Bodies& bodies, int threads);
+
+  // Sorted by (a, b). Records of pairs that are not looked at are not read either, as memory is what costs where little
+  // moves.
+  std::span<const CandidatePair> candidates() const { return candidates_; }
+  PairRecord& record(std::size_t place) { return *entries_[place].record; }
+  // Where the last report has the contact; kNowhere if it has none, or if a new one cannot take it from there, as the
+  // step looked at the pair.
+  static constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
+  std::uint32_t& place_in_report(std::size_t place) { return entries_[place].place_in_report; }
+
+  std::span<MovedPair> moved() { return moved_; }
+  std::span<const MovedPair> moved() const { return moved_; }
+  // Records are given out again in any order: one whose facets are looked at gets room for what the largest held.
+  void make_room(PairRecord& record) const { record.facet_pairs.reserve(room_); }
+  // How many were taken out.
+  std::size_t parted() const { return parted_; }
+  // Before and after a step looks at a pair; a thread each.
+  void begin(MovedPair& pair) const { pair.touched = touches(*pair.record); }
+  void end(MovedPair& pair) {
+    bool& overlap = candidates_[pair.place].hulls_overlap;
+    pair.changed = overlap != pair.record->hulls_overlap;
+    overlap = pair.record->hulls_overlap;
+  }
+  // Does it touch, once it was looked at? Pairs that are apart and were are not read.
+  bool touches_now(const MovedPair& pair) const {
+    return candidates_[pair.place].hulls_overlap && touches(*pair.record);
+  }
+  // Are the pairs whose hulls overlap those of the last step?
+  bool same_contacts() const;
+
+  // Pairs that touched and are no candidates any more.
+  std::span<const ContactEvent> gone() const { return gone_; }
+
+ private:
+  struct Entry {
+    PairRecord* record = nullptr;
+    std::uint32_t place_in_report = kNowhere;
+    narrowphase::PartingDiagonal parting = 0;  // in the last step in which a body of the pair moved
+  };
+  bool part(const MovedPair& pair, const Bodies& bodies);
+  void select_moved(const Bodies& bodies);
+  void match(std::span<const broadphase::IndexPair> pairs, const Bodies& bodies, bool all);
+  void add_records();
+  PairRecord& new_record(BodyId a, BodyId b);
+  void retire(PairRecord& record);
+
+  std::vector<std::unique_ptr<PairRecord[]>> pool_;
+  std::size_t record_count_ = 0;  // in the pool
+  std::vector<PairRecord*> free_;
+  std::size_t room_ = 0;                      // facet pairs
+  std::size_t spare_room_ = 0;                // of large pairs that are gone, facet pairs
+  std::vector<broadphase::IndexPair> pairs_;  // slots
+  std::vector<CandidatePair> candidates_;     // the same pairs, of bodies
+  std::vector<Entry> entries_;                // of these
+  std::vector<CandidatePair> last_candidates_;
+  std::vector<Entry> last_entries_;
+  std::vector<MovedPair> moved_;
+  std::size_t parted_ = 0;
+  std::vector<ContactEvent> gone_;
+  bool same_pairs_ = false;
+};
+
+}  // namespace tact

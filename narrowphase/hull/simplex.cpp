@@ -1,0 +1,183 @@
+#include "narrowphase/hull/simplex.h"
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+namespace tact::narrowphase {
+
+namespace {
+
+#if defined(__SIZEOF_FLOAT128__)
+__extension__ typedef __float128 Quad;
+#else
+typedef long double Quad;
+static_assert(std::numeric_limits<Quad>::digits > 110, "twice the digits of a double, and some");
+#endif
+
+template <class Scalar>
+struct Vector {
+  Scalar x, y, z;
+};
+
+template <class Scalar>
+Vector<Scalar> operator-(const Vector<Scalar>& a, const Vector<Scalar>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+template <class Scalar>
+Scalar dot(const Vector<Scalar>& a, const Vector<Scalar>& b) {
+  return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+
+template <class Scalar>
+Vector<Scalar> cross(const Vector<Scalar>& a, const Vector<Scalar>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+// a + s e.
+template <class Scalar>
+Vector<Scalar> along(const Vector<Scalar>& a, Scalar s, const Vector<Scalar>& e) {
+  return {a.x + s * e.x, a.y + s * e.y, a.z + s * e.z};
+}
+
+// `Roundoff` is a bound of the relative error of an operation.
+template <class Scalar>
+class Search {
+ public:
+  Search(const SimplexPoints& simplex, double roundoff) : count_(simplex.count), roundoff_(roundoff) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i)
+      y_[i] = {simplex.point[i].x, simplex.point[i].y, simplex.point[i].z};
+  }
+
+  // Is the origin strictly inside, on the same side of every face as the fourth corner?
+  bool inside_tetrahedron() const {
+    return same_side(0, 1, 2, 3) && same_side(0, 1, 3, 2) && same_side(0, 2, 3, 1) && same_side(1, 2, 3, 0);
+  }
+
+  SimplexClosest run() {
+    if (count_ == 4 && inside_tetrahedron())
+      return {.point = {}, .carrier = {0, 1, 2, 3}, .carrier_count = 4, .weight = {}};
+    return run_on_faces();
+  }
+
+  SimplexClosest run_on_faces() {
+    for (int i = 0; i < count_; ++i) offer(y(i), {i, 0, 0, 0}, 1, {1, 0, 0});
+    for (int i = 0; i < count_; ++i) {
+      for (int j = i + 1; j < count_; ++j) edge(i, j);
+    }
+    for (int i = 0; i < count_; ++i) {
+      for (int j = i + 1; j < count_; ++j) {
+        for (int k = j + 1; k < count_; ++k) triangle(i, j, k);
+      }
+    }
+    return best_;
+  }
+
+  // Each corner's share of the volume is that of the tetrahedron which the origin makes with the face across from it.
+  std::array<double, 4> origin_weights() {
+    std::array<Scalar, 4> share{volume(1, 2, 3), volume(0, 2, 3), volume(0, 1, 3), volume(0, 1, 2)};
+    const Scalar sum = (share[0] + share[1]) + (share[2] + share[3]);
+    Point origin{0, 0, 0};
+    for (int i = 0; i < 4; ++i) {
+      share[static_cast<std::size_t>(i)] /= sum;
+      origin = along(origin, share[static_cast<std::size_t>(i)], y(i));
+    }
+    const SimplexClosest on_faces = run_on_faces();
+    std::array<double, 4> weights{};
+    const bool too_flat = !(dot(origin, origin) < distance_);
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (!too_flat) weights[i] = static_cast<double>(share[i]);
+      if (too_flat && on_faces.weight[i] > 0.0)
+        weights[static_cast<std::size_t>(on_faces.carrier[i])] = on_faces.weight[i];
+    }
+    return weights;
+  }
+
+ private:
+  using Point = Vector<Scalar>;
+
+  const Point& y(int i) const { return y_[static_cast<std::size_t>(i)]; }
+
+  void edge(int i, int j) {
+    const Point e = y(j) - y(i);
+    const Scalar length = dot(e, e), t = -dot(y(i), e);
+    if (!(t > 0 && t < length)) return;
+    const Scalar share = t / length;
+    offer(along(y(i), share, e), {i, j, 0, 0}, 2, {(length - t) / length, share, 0});
+  }
+
+  // The foot of the origin in the triangle's plane has the weights s, t of the second and third corner; it is inside if
+  // neither they nor the first's are negative. A triangle whose normal is noise is left to its edges.
+  void triangle(int i, int j, int k) {
+    const Point e = y(j) - y(i), f = y(k) - y(i), n = cross(e, f), zero{0, 0, 0}, o = zero - y(i);
+    const Scalar area = dot(n, n), sine = 1e3 * roundoff_;
+    if (!(area > sine * sine * dot(e, e) * dot(f, f))) return;
+    const Scalar s = dot(cross(o, f), n), t = dot(cross(e, o), n);
+    if (!(s > 0 && t > 0 && s + t < area)) return;
+    const Scalar of_j = s / area, of_k = t / area;
+    offer(kHasSpareDigits ? along(zero, dot(n, y(i)) / area, n) : along(along(y(i), of_j, e), of_k, f), {i, j, k, 0}, 3,
+          {(area - (s + t)) / area, of_j, of_k});
+  }
+
+  void offer(const Point& point, std::array<int, 4> carrier, int count, const std::array<Scalar, 3>& weight) {
+    const Scalar distance = dot(point, point);
+    if (best_.carrier_count != 0 && !(distance < distance_)) return;
+    distance_ = distance;
+    const auto rounded = static_cast<double>(distance);
+    best_ = {.point = {static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z)},
+             .carrier = carrier,
+             .carrier_count = count,
+             .weight = {static_cast<double>(weight[0]), static_cast<double>(weight[1]), static_cast<double>(weight[2])},
+             .distance_squared = rounded,
+             .distance_squared_tail = static_cast<double>(distance - static_cast<Scalar>(rounded))};
+  }
+
+  // The sides e and f of a face have a rounding a component; a product of two of their components has three, and the
+  // difference of two products one more. With the three of a dot product, n · p is off by at most 7 roundoffs of the
+  // sum of |e_a f_b p_c| over the six orders of the axes, and n · (p - q) by 8: not of |n||p|, which is smaller by the
+  // sine of the angle between e and f. That sum is below the product of the three sums of sizes, and two of 10
+  // roundoffs are for their own rounding. Products that vanish are below `kVanishing`.
+  bool same_side(int i, int j, int k, int opposite) const {
+    const Point e = y(j) - y(i), f = y(k) - y(i), n = cross(e, f);
+    const Scalar origin = -dot(n, y(i)), corner = dot(n, y(opposite) - y(i));
+    const Scalar error = 10 * roundoff_ * (size(e) * size(f)) * (size(y(i)) + size(y(opposite))) + kVanishing;
+    return (origin > error && corner > error) || (origin < -error && corner < -error);
+  }
+
+  // Six times that of the tetrahedron of three points and the origin.
+  Scalar volume(int i, int j, int k) const { return absolute(dot(cross(y(j) - y(i), y(k) - y(i)), y(i))); }
+
+  static Scalar absolute(Scalar a) { return a < 0 ? -a : a; }
+
+  // |x| + |y| + |z|, not below the length.
+  static Scalar size(const Point& p) { return absolute(p.x) + absolute(p.y) + absolute(p.z); }
+
+  static constexpr double kVanishing = 0x1p-1000;
+  // Rounding moves a thin triangle's weighted sum along the triangle, by the roundoff over its sine: far, as against a
+  // triangle that is 1e-14 away. The foot along the normal has the right direction, but need not lie in the triangle;
+  // with digits to spare it does.
+  static constexpr bool kHasSpareDigits = !std::is_same_v<Scalar, double>;
+
+  std::array<Point, 4> y_;
+  int count_;
+  double roundoff_;
+  SimplexClosest best_;
+  Scalar distance_ = 0;
+};
+
+}  // namespace
+
+SimplexClosest simplex_closest(const SimplexPoints& simplex) { return Search<double>(simplex, 0x1p-53).run(); }
+
+bool tetrahedron_holds_origin(const SimplexPoints& simplex) {
+  return Search<double>(simplex, 0x1p-53).inside_tetrahedron();
+}
+
+std::array<double, 4> origin_weights(const SimplexPoints& simplex) {
+  return Search<Quad>(simplex, 0x1p-110).origin_weights();
+}
+
+SimplexClosest simplex_closest_wide(const SimplexPoints& simplex) { return Search<Quad>(simplex, 0x1p-110).run(); }
+
+}  // namespace tact::narrowphase

@@ -1,0 +1,174 @@
+#include "narrowphase/triangles/confirm.h"
+
+#include <algorithm>
+
+#include "engine/base/fast_paths.h"
+
+namespace tact::narrowphase {
+
+namespace {
+
+// Measured (tact-bench clusters): a loop over all pairs of boxes takes half a nanosecond to one each, building and
+// asking trees 0.5 to 1.3 us a box; they are equal at one to two million pairs.
+constexpr std::int64_t kLargestLoop = std::int64_t{1} << 20;
+
+// Two blocks of so many facets are paired at once; of more, those near the other are looked for first.
+constexpr int kFewInBlocks = 48;
+
+using base::fast_paths;
+using base::FastPaths;
+
+bool worth_trees(std::int64_t box_pairs) {
+  if (fast_paths() == FastPaths::automatic) return box_pairs > kLargestLoop;
+  return fast_paths() == FastPaths::always;
+}
+
+bool worth_looking_for_near_facets(int facets) {
+  if (fast_paths() == FastPaths::automatic) return facets > kFewInBlocks;
+  return fast_paths() == FastPaths::always;
+}
+
+}  // namespace
+
+bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPairSource source, EmbreeDevice& device,
+                        std::vector<ClusterPair>& pairs, ClusterPairWork& work) {
+  pairs.clear();
+  const std::int64_t all = static_cast<std::int64_t>(a.count()) * b.count();
+  const bool forest =
+      source == ClusterPairSource::forest || (source == ClusterPairSource::automatic && worth_trees(all));
+  if (all == 0) return false;
+  std::vector<std::int32_t>& found = work.found;
+  if (forest) work.forest.build(device, b.boxes.view(), b.count());
+  found.resize(static_cast<std::size_t>(b.count()));
+  for (std::int32_t i = 0; i < a.count(); ++i) {
+    std::size_t count = 0;
+    if (forest) {
+      found.clear();
+      work.forest.query(a.boxes[static_cast<std::size_t>(i)], found);
+      std::sort(found.begin(), found.end());
+      count = found.size();
+    } else {
+      count = static_cast<std::size_t>(kernels().select_overlapping(
+          b.boxes.pointers(), b.count(), a.boxes.bounds(static_cast<std::size_t>(i)), found.data()));
+    }
+    for (std::size_t k = 0; k < count; ++k) pairs.push_back({i, found[k]});
+  }
+  return forest;
+}
+
+FacetPairSearch::FacetPairSearch() {
+  constexpr std::size_t kClusters = 64, kBlocks = 4;
+  wanted_.reserve(kBlocks);
+  wanted_by_next_.reserve(kClusters);
+  place_.reserve(kClusters);
+  opened_a_.reserve(kClusters);
+  opened_b_.reserve(kClusters);
+  b_.reserve(kClusters);
+  for (std::size_t i = 0; i < kBlocks; ++i) b_.push_back(std::make_unique<BlockOfB>());
+}
+
+void FacetPairSearch::run(const ConfirmInput& input, const std::vector<ClusterPair>& pairs, std::size_t begin,
+                          std::size_t end, std::vector<FacetPair>& found, ConfirmCounts& counts) {
+  grid_ = grid_over(bounds_of(intersection(input.kept_a->bounds, input.kept_b->bounds)), kLastCell);
+  opened_a_.clear();
+  opened_b_.clear();
+  blocks_of_b_ = 0;
+  wanted_.clear();
+  a_.clear();
+  place_.assign(static_cast<std::size_t>(input.kept_b->count()), {});
+  for (std::size_t i = begin; i < end;) {
+    const std::int32_t a = pairs[i].a;
+    const Box box = input.kept_a->boxes[static_cast<std::size_t>(a)];
+    const CellBox cells = cells_of(grid_, bounds_of(box));
+    wanted_by_next_.clear();
+    for (; i < end && pairs[i].a == a; ++i) {
+      if (reaches_b(input, pairs[i].b, box, cells))
+        wanted_by_next_.push_back(place_[static_cast<std::size_t>(pairs[i].b)].block);
+    }
+    if (!wanted_by_next_.empty()) append_a(input, a, found, counts);
+  }
+  finish_block(input, found, counts);
+}
+
+// May some facet of a cluster of B meet something in a box, which reaches `cells`? Its box and the facets' planes tell.
+bool FacetPairSearch::reaches_b(const ConfirmInput& input, std::int32_t index, const Box& box, const CellBox& cells) {
+  const PlaceInB place = open_b(input, index);
+  if (place.facets == 0) return false;
+  if (fast_paths() == FastPaths::off) return true;
+  const Box both = merged(input.kept_b->boxes[static_cast<std::size_t>(index)], box);
+  const FacetBlock& block = b_[static_cast<std::size_t>(place.block)]->kept.block;
+  return kernels().any_near(block, place.facets, cells, bounds_of(box), bounds_of(both));
+}
+
+FacetPairSearch::PlaceInB FacetPairSearch::open_b(const ConfirmInput& input, std::int32_t index) {
+  PlaceInB& place = place_[static_cast<std::size_t>(index)];
+  if (place.block >= 0) return place;
+  const std::int32_t cluster = input.kept_b->cluster[static_cast<std::size_t>(index)];
+  opened_b_.push_back({index, {}});
+  const auto append = [&](KeptFacets& kept) {
+    return append_facets(*input.b, cluster, input.criteria_b, input.kept_a->bounds, kept, opened_b_.back().counts);
+  };
+  std::uint64_t before = blocks_of_b_ > 0 ? b_[blocks_of_b_ - 1]->kept.facets : 0;
+  if (blocks_of_b_ == 0 || !append(b_[blocks_of_b_ - 1]->kept)) {
+    if (b_.size() == blocks_of_b_) b_.push_back(std::make_unique<BlockOfB>());
+    BlockOfB& fresh = *b_[blocks_of_b_++];
+    fresh.kept.clear();
+    fresh.wanted = false;
+    before = 0;
+    append(fresh.kept);
+  }
+  kernels().find_cells(grid_, &b_[blocks_of_b_ - 1]->kept.block);
+  place = {static_cast<std::int32_t>(blocks_of_b_ - 1), b_[blocks_of_b_ - 1]->kept.facets & ~before};
+  return place;
+}
+
+void FacetPairSearch::append_a(const ConfirmInput& input, std::int32_t index, std::vector<FacetPair>& found,
+                               ConfirmCounts& counts) {
+  const std::int32_t cluster = input.kept_a->cluster[static_cast<std::size_t>(index)];
+  opened_a_.push_back({index, {}});
+  const auto append = [&] {
+    return append_facets(*input.a, cluster, input.criteria_a, input.kept_b->bounds, a_, opened_a_.back().counts);
+  };
+  if (!append()) {
+    finish_block(input, found, counts);
+    append();
+  }
+  for (const std::int32_t block : wanted_by_next_) {
+    BlockOfB& b = *b_[static_cast<std::size_t>(block)];
+    if (!b.wanted) wanted_.push_back(block);
+    b.wanted = true;
+  }
+}
+
+// Holds the block of A against those of B that it may touch, and empties it.
+void FacetPairSearch::finish_block(const ConfirmInput& input, std::vector<FacetPair>& found, ConfirmCounts& counts) {
+  for (const std::int32_t block : wanted_) {
+    BlockOfB& b = *b_[static_cast<std::size_t>(block)];
+    test_blocks(input, b.kept, found, counts);
+    b.wanted = false;
+  }
+  wanted_.clear();
+  a_.clear();
+}
+
+// Of each block only the facets near the other are looked at.
+void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b, std::vector<FacetPair>& found,
+                                  ConfirmCounts& counts) {
+  std::uint64_t near_a = a_.facets, near_b = b.facets;
+  kernels().find_cells(grid_, &a_.block);
+  if (worth_looking_for_near_facets(a_.block.count + b.block.count)) {
+    const CellBox common = cells_of(grid_, bounds_of(intersection(a_.bounds, b.bounds)));
+    near_b = kernels().near_facets(b.block, near_b, common);
+    if (near_b == 0) return;
+    near_a = kernels().near_facets(a_.block, near_a, kernels().cells_of(b.block, near_b));
+  }
+  const std::size_t before = found.size();
+  const BoxBounds bounds = bounds_of(merged(a_.bounds, b.bounds));
+  block_pair_.find_meeting(a_.block, near_a, b.block, near_b, bounds, grid_, found, counts);
+  for (std::size_t i = before; i < found.size(); ++i) {
+    FacetPair& pair = found[i];
+    pair = {input.a->source_facet(a_.block.facet[pair.a]), input.b->source_facet(b.block.facet[pair.b])};
+  }
+}
+
+}  // namespace tact::narrowphase

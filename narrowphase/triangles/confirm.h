@@ -1,0 +1,97 @@
+// Which facets meet: cluster pairs, then facet pairs, then exact decisions on the doubles as they are.
+#pragma once
+
+#include <tact/facet_pair.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "narrowphase/criteria/criteria.h"
+#include "narrowphase/triangles/block_pair.h"
+#include "narrowphase/triangles/cluster_forest.h"
+
+namespace tact::narrowphase {
+
+// Two bodies after the criteria.
+struct ConfirmInput {
+  const ClusteredMesh* a = nullptr;
+  const ClusteredMesh* b = nullptr;
+  Criteria criteria_a, criteria_b;
+  const KeptClusters* kept_a = nullptr;
+  const KeptClusters* kept_b = nullptr;
+};
+
+// A cluster of A and one of B whose boxes overlap: indices into kept_a and kept_b.
+struct ClusterPair {
+  std::int32_t a = 0;
+  std::int32_t b = 0;
+};
+
+// What the criteria did to a kept cluster that was opened.
+struct OpenedCluster {
+  std::int32_t index = 0;  // into the kept clusters
+  CullCounts counts;
+};
+
+// Where cluster pairs come from.
+enum class ClusterPairSource { automatic, loop, forest };
+
+// Memory for finding cluster pairs, used again and again.
+struct ClusterPairWork {
+  std::vector<std::int32_t> found;
+  ClusterForest forest;
+};
+
+// The pairs of kept clusters whose boxes overlap, sorted: by a loop over boxes where they are few, by Embree's trees
+// where they are many. Says whether trees were used. `pairs` is replaced, `work` lends its memory.
+bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPairSource source, EmbreeDevice& device,
+                        std::vector<ClusterPair>& pairs, ClusterPairWork& work);
+
+// Tests the facets of cluster pairs; one for each thread, its memory reused.
+//
+// Of most clusters the criteria leave a few facets. So those of several clusters are packed into a block: blocks of A
+// are made one after the other and held against the blocks of B that hold a cluster which one of theirs may touch.
+class FacetPairSearch {
+ public:
+  // Takes room for most pairs at once: which thread looks at which pair is not the same in every step.
+  FacetPairSearch();
+
+  // Appends the facet pairs (as source facets) that meet in pairs[begin, end), in no particular order. The range must
+  // hold all pairs of a cluster of A or none, or a facet pair may be found in two ranges.
+  void run(const ConfirmInput& input, const std::vector<ClusterPair>& pairs, std::size_t begin, std::size_t end,
+           std::vector<FacetPair>& found, ConfirmCounts& counts);
+
+  // The clusters that the last run opened, each once.
+  const std::vector<OpenedCluster>& opened_a() const { return opened_a_; }
+  const std::vector<OpenedCluster>& opened_b() const { return opened_b_; }
+
+ private:
+  struct BlockOfB {
+    KeptFacets kept;
+    bool wanted = false;  // by a cluster in the block of A
+  };
+  // Where the facets of an opened cluster of B are.
+  struct PlaceInB {
+    std::int32_t block = -1;
+    std::uint64_t facets = 0;
+  };
+  bool reaches_b(const ConfirmInput& input, std::int32_t index, const Box& box, const CellBox& cells);
+  PlaceInB open_b(const ConfirmInput& input, std::int32_t index);
+  void append_a(const ConfirmInput& input, std::int32_t index, std::vector<FacetPair>& found, ConfirmCounts& counts);
+  void finish_block(const ConfirmInput& input, std::vector<FacetPair>& found, ConfirmCounts& counts);
+  void test_blocks(const ConfirmInput& input, const KeptFacets& b, std::vector<FacetPair>& found,
+                   ConfirmCounts& counts);
+
+  Grid grid_ = {};  // over what both bodies reach
+  KeptFacets a_;
+  std::vector<std::int32_t> wanted_;          // blocks of B that clusters in a_ may touch
+  std::vector<std::int32_t> wanted_by_next_;  // and those that the cluster does which is about to join them
+  std::vector<std::unique_ptr<BlockOfB>> b_;
+  std::size_t blocks_of_b_ = 0;  // in use
+  std::vector<PlaceInB> place_;  // of each kept cluster of B
+  BlockPair block_pair_;         // a_ and a block of B
+  std::vector<OpenedCluster> opened_a_, opened_b_;
+};
+
+}  // namespace tact::narrowphase

@@ -1,0 +1,175 @@
+#include "scenes/commands/check_command.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <tact/world.h>
+
+#include <CLI/Validators.hpp>
+#include <algorithm>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "engine/base/parallel.h"
+#include "scenes/commands/common_options.h"
+#include "scenes/commands/failures.h"
+#include "scenes/commands/interrupt.h"
+#include "scenes/commands/progress_line.h"
+#include "scenes/commands/report_json.h"
+#include "scenes/commands/report_table.h"
+#include "scenes/commands/usage_error.h"
+#include "scenes/files/body_files.h"
+#include "scenes/files/named_files.h"
+#include "scenes/files/output_file.h"
+#include "scenes/files/recording.h"
+
+namespace tact::scenes {
+namespace {
+
+constexpr const char* kCheckExamples =
+    R"(A folder is one moving body: its mesh files in the order of their names, a file a
+frame; all folders must hold the same number of frames. A single file stands still.
+All files are read before the first step and held in memory: 24 bytes a vertex and frame.
+A body's name is its file's or folder's name; a repeated one gets #2 and so on.
+
+Examples:
+  tact check spot.ply fish.obj
+  tact check sphere.obj cloth_frames/ --sheet cloth_frames --json contacts.json
+  tact check part.stl part.stl --sheet part.stl#2 --accuracy hulls
+  tact check a.off b.off c.off --json - | python3 -m json.tool)";
+
+std::vector<BodyFrames> bodies_of(const CheckOptions& options) {
+  const int most_frames = options.frames > 0 ? options.frames : std::numeric_limits<int>::max();
+  std::optional<ProgressLine> line;
+  return read_bodies(options.meshes, most_frames, [&](int done, int all) {
+    if (!line) line.emplace("reading file", all, ProgressLine::Beside::nothing);
+    line->show(done);
+  });
+}
+
+void mark_sheets(const std::vector<std::string>& sheets, std::vector<BodyFrames>& bodies) {
+  for (const std::string& sheet : sheets) {
+    const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const BodyFrames& b) { return b.name == sheet; });
+    if (found != bodies.end()) {
+      found->surface = Surface::sheet;
+      continue;
+    }
+    std::string names;
+    for (const BodyFrames& body : bodies) names += (names.empty() ? "" : ", ") + body.name;
+    throw UsageError(fmt::format("--sheet {}: no body has this name; the bodies are: {}", sheet, names));
+  }
+}
+
+void check_outputs(const CheckOptions& options, const std::vector<BodyFrames>& bodies) {
+  NamedFiles files;
+  for (const BodyFrames& body : bodies) {
+    for (const std::filesystem::path& file : body.files) files.add_input(file);
+  }
+  files.add_output("--json", options.json);
+  files.add_output("--record", options.record);
+}
+
+// The engine's message names the body; the file tells which frame it is.
+[[noreturn]] void rethrow_for_file(const std::filesystem::path& file, const Error& error) {
+  throw FileError(fmt::format("{}: {}", file.string(), error.what()));
+}
+
+// Bodies that stand still are moving ones that do not move: two of them must still be tested.
+std::vector<BodyId> add_bodies(const std::vector<BodyFrames>& bodies, RecordedWorld& world) {
+  std::vector<BodyId> ids;
+  for (const BodyFrames& body : bodies) {
+    try {
+      ids.push_back(world.add_body(
+          {.positions = body.positions.front(), .facets = body.facets, .surface = body.surface, .name = body.name}));
+    } catch (const Error& error) {
+      rethrow_for_file(body.files.front(), error);
+    }
+  }
+  return ids;
+}
+
+void set_frame(const std::vector<BodyFrames>& bodies, const std::vector<BodyId>& ids, int frame, RecordedWorld& world) {
+  std::vector<PositionsUpdate> updates;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].moves) updates.push_back({ids[i], bodies[i].positions[static_cast<std::size_t>(frame)]});
+  }
+  world.set_positions(updates);
+}
+
+int frames_to_step(const CheckOptions& options, const std::vector<BodyFrames>& bodies) {
+  const int held = frame_count(bodies);
+  return held > 0 ? held : std::max(options.frames, 1);
+}
+
+}  // namespace
+
+void check(const CheckOptions& options, std::ostream& out) {
+  std::vector<BodyFrames> bodies = bodies_of(options);
+  mark_sheets(options.sheets, bodies);
+  check_outputs(options, bodies);
+  const int threads = options.threads > 0 ? options.threads : base::default_threads();
+  const Interrupt interrupt;  // before any file is opened, so that none is left unfinished
+  std::optional<OutputFile> json_file;
+  if (!options.json.empty()) json_file.emplace(options.json, out);
+  std::optional<OutputFile> recording;
+  if (!options.record.empty()) recording.emplace(options.record, out, Appears::at_once);
+  RecordedWorld world({.threads = threads, .accuracy = options.accuracy}, recording ? &recording->stream() : nullptr);
+  const std::vector<BodyId> ids = add_bodies(bodies, world);
+
+  std::optional<JsonReport> json;
+  if (json_file) json.emplace(json_file->stream(), world.world());
+  std::optional<TableReport> table;
+  if (options.json != "-") table.emplace(out, world.world());
+
+  const int frames = frames_to_step(options, bodies);
+  ProgressLine progress("frame", frames, ProgressLine::Beside::output);
+  int frame = 0;
+  for (; frame < frames && !interrupt.requested(); ++frame) {
+    if (frame > 0) set_frame(bodies, ids, frame, world);
+    const Report& report = world.detect();
+    if (json) json->add_frame(frame, report);
+    if (table) table->add_frame(frame, report);
+    progress.show(frame + 1);
+  }
+  progress.clear();
+  const Ending ending = frame < frames ? Ending::interrupted : Ending::complete;
+  if (table && ending == Ending::interrupted) fmt::print(out, "\ninterrupted after {} of {} frames\n", frame, frames);
+  if (table) table->finish();
+  Failures failures;
+  if (json) {
+    failures.attempt([&] {
+      json->finish(ending);
+      json_file->finish();
+    });
+  }
+  if (recording) failures.attempt([&] { recording->finish(); });
+  failures.report();
+}
+
+void add_check_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("check", "Find where the bodies of mesh files touch");
+  const auto options = std::make_shared<CheckOptions>();
+  const auto meshes = std::make_shared<std::vector<std::string>>();
+  command->footer(kCheckExamples);
+  command->add_option("MESH", *meshes, "Mesh files (.obj, .off, .ply, .stl) and folders of them")
+      ->type_name("")
+      ->required();
+  command->add_option("--sheet", options->sheets, "This body is a sheet: cloth, without an inside; may be repeated")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  add_accuracy_option(*command, options->accuracy);
+  add_threads_option(*command, options->threads);
+  command
+      ->add_option("--frames", options->frames, "Step through the first N frames only; without folders, step N times")
+      ->type_name("N")
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()).description(""));
+  add_json_option(*command, options->json);
+  add_record_option(*command, options->record);
+  command->callback([options, meshes] {
+    options->meshes.assign(meshes->begin(), meshes->end());
+    check(*options, std::cout);
+  });
+}
+
+}  // namespace tact::scenes

@@ -1,0 +1,80 @@
+#include "scenes/commands/command_line.h"
+
+#include <fmt/format.h>
+#include <tact/error.h>
+#include <tact/version.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include "scenes/commands/check_command.h"
+#include "scenes/commands/replay_command.h"
+#include "scenes/commands/run_command.h"
+#include "scenes/commands/scenes_command.h"
+#include "scenes/commands/usage_error.h"
+#include "scenes/files/file_error.h"
+
+namespace tact::scenes {
+namespace {
+
+constexpr int kBadInput = 1;
+constexpr int kWrongUsage = 2;
+
+// Names of files may hold ends of lines; a message is one line.
+int fail(int status, std::string message) {
+  std::replace_if(
+      message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+  fmt::print(stderr, "tact: {}\n", message);
+  return status;
+}
+
+int fail_usage(const std::string& message) { return fail(kWrongUsage, message + " (see tact --help)"); }
+
+// To parse a command is to run it.
+int parse(CLI::App& program, int argc, const char* const* argv) {
+  try {
+    program.parse(argc, argv);
+    return program.get_subcommands().empty() ? fail_usage("no command") : 0;
+  } catch (const CLI::Success& success) {  // --help or --version
+    return program.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return fail_usage(error.what());
+  } catch (const UsageError& error) {
+    return fail_usage(error.what());
+  } catch (const FileError& error) {
+    return fail(kBadInput, error.what());
+  } catch (const Error& error) {
+    return error.code() == ErrorCode::bad_settings ? fail_usage(error.what()) : fail(kBadInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kBadInput, "out of memory");
+  } catch (const std::exception& error) {  // such as a file system that fails
+    return fail(kBadInput, error.what());
+  }
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  CLI::App program("Finds where many deformable bodies touch.", "tact");
+  program.set_version_flag("--version", "tact " TACT_VERSION, "Print the version and exit");
+  program.footer(
+      "Exit status: 0 done; 1 the input is bad, or a file or standard output cannot be written; 2 wrong usage.\n"
+      "`tact COMMAND --help` tells about a command.");
+  add_check_command(program);
+  add_run_command(program);
+  add_replay_command(program);
+  add_scenes_command(program);
+  const int status = parse(program, argc, argv);
+  // What was printed may still wait in a buffer.
+  if (status == 0 && !std::cout.flush()) return fail(kBadInput, "standard output: cannot be written to its end");
+  return status;
+}
+
+}  // namespace tact::scenes

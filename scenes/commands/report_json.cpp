@@ -1,0 +1,121 @@
+#include "scenes/commands/report_json.h"
+
+#include <fmt/format.h>
+#include <tact/version.h>
+
+#include <string_view>
+
+#include "scenes/commands/json_text.h"
+
+namespace tact::scenes {
+namespace {
+
+Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Json bodies_json(const World& world) {
+  Json bodies = Json::array();
+  for (const BodyId body : world.bodies()) {
+    bodies.push_back({{"name", world.name(body)},
+                      {"vertices", world.vertex_count(body)},
+                      {"facets", world.facet_count(body)},
+                      {"surface", surface_name(world.surface(body))}});
+  }
+  return bodies;
+}
+
+Json facet_pairs_json(const Contact& contact) {
+  Json pairs = Json::array();
+  for (const FacetPair& pair : contact.facet_pairs()) pairs.push_back(Json::array({pair.a, pair.b}));
+  return pairs;
+}
+
+// `contact` is null if the hulls of the pair are apart.
+Json pair_json(const CandidatePair& pair, const Contact* contact, bool has_facets) {
+  Json json = {{"a", pair.a.index}, {"b", pair.b.index}, {"hulls_overlap", pair.hulls_overlap}};
+  if (contact != nullptr) {
+    json["direction"] = to_json(contact->direction);
+    json["depth"] = contact->depth;
+    json["source"] = direction_source_name(contact->source);
+    json["iterations"] = contact->iterations;
+    json["limit_reached"] = contact->limit_reached;
+    json["kept_facets"] = Json::array({contact->kept_facets_a, contact->kept_facets_b});
+  }
+  if (!has_facets) {
+    json["facet_pairs"] = nullptr;
+  } else {
+    json["facet_pairs"] = contact != nullptr ? facet_pairs_json(*contact) : Json::array();
+  }
+  return json;
+}
+
+Json pairs_json(const Report& report, bool has_facets) {
+  Json pairs = Json::array();
+  auto contact = report.contacts().begin();
+  for (const CandidatePair& pair : report.candidate_pairs()) {
+    const Contact* found = pair.hulls_overlap ? &*contact++ : nullptr;
+    pairs.push_back(pair_json(pair, found, has_facets));
+  }
+  return pairs;
+}
+
+Json stats_json(const StepStats& stats) {
+  Json counts = Json::object();
+  for_each_count(stats, [&](const char* name, const char* /*text*/, std::int64_t count) { counts[name] = count; });
+  return counts;
+}
+
+Json times_json(const StepStats& stats) {
+  Json times = Json::object();
+  for_each_time(stats, [&](std::string_view name, const char* /*text*/, double time) {
+    times[std::string(name.substr(0, name.rfind("_ms")))] = time;
+  });
+  return times;
+}
+
+}  // namespace
+
+std::string accuracy_name(Accuracy accuracy) {
+  switch (accuracy) {
+    case Accuracy::hulls: return "hulls";
+    case Accuracy::paper: return "paper";
+    case Accuracy::exact: return "exact";
+  }
+  return "unknown";
+}
+
+std::string surface_name(Surface surface) { return surface == Surface::closed ? "closed" : "sheet"; }
+
+std::string direction_source_name(DirectionSource source) {
+  switch (source) {
+    case DirectionSource::carried: return "carried";
+    case DirectionSource::fresh: return "fresh";
+    case DirectionSource::smallest: return "smallest";
+  }
+  return "unknown";
+}
+
+std::string hash_text(const Report& report) { return fmt::format("{:016x}", report.hash()); }
+
+JsonReport::JsonReport(std::ostream& out, const World& world)
+    : out_(out), has_facets_(world.settings().accuracy != Accuracy::hulls) {
+  out_ << "{\"tact\":" << json_text(TACT_VERSION)
+       << ",\"accuracy\":" << json_text(accuracy_name(world.settings().accuracy))
+       << ",\"threads\":" << world.settings().threads << ",\n \"bodies\":" << json_text(bodies_json(world))
+       << ",\n \"frames\":[";
+}
+
+void JsonReport::add_frame(int frame, const Report& report) {
+  const Json json = {{"frame", frame},
+                     {"hash", hash_text(report)},
+                     {"pairs", pairs_json(report, has_facets_)},
+                     {"stats", stats_json(report.stats())},
+                     {"times_ms", times_json(report.stats())}};
+  out_ << (first_ ? "\n" : ",\n") << json_text(json);
+  first_ = false;
+}
+
+void JsonReport::finish(Ending ending) {
+  out_ << (ending == Ending::interrupted ? "],\n \"interrupted\":true}\n" : "]}\n");
+}
+
+}  // namespace tact::scenes

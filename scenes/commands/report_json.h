@@ -1,0 +1,54 @@
+// Reports as JSON, of `tact check` and `tact run` alike:
+//
+//   {"tact":"<version>","accuracy":"exact","threads":2,
+//    "bodies":[{"name":"spot.ply","vertices":2930,"facets":5856,"surface":"closed"},...],
+//    "frames":[{"frame":0,"hash":"<16 hexadecimal digits>",
+//      "pairs":[{"a":0,"b":1,"hulls_overlap":true,"direction":[x,y,z],"depth":d,
+//                "source":"carried","iterations":k,"limit_reached":false,"kept_facets":[ka,kb],
+//                "facet_pairs":[[fa,fb],...]},...],
+//      "stats":{"bodies":2,...},"times_ms":{"refresh":0.1,...}}],
+//    "interrupted":true}
+//
+// `a` and `b` are places in `bodies`. `pairs` are the candidate pairs, sorted by (a, b); one whose hulls are apart has
+// only "hulls_overlap":false and an empty "facet_pairs". "source" tells how the direction was found: "carried", "fresh"
+// or "smallest"; "limit_reached" whether it is only the best that was found before a limit. At Accuracy::hulls every
+// "facet_pairs" is null. `stats` and `times_ms` have the names of <tact/statistics.h>, the times without their "_ms".
+// `interrupted` is there only if Ctrl-C ended the frames. Numbers read back to the same double. A name that is not
+// UTF-8 has U+FFFD in the place of each wrong byte.
+#pragma once
+
+#include <tact/report.h>
+#include <tact/settings.h>
+#include <tact/world.h>
+
+#include <ostream>
+#include <string>
+
+#include "scenes/commands/interrupt.h"
+
+namespace tact::scenes {
+
+// "hulls", "paper" or "exact"; "closed" or "sheet"; "carried", "fresh" or "smallest".
+std::string accuracy_name(Accuracy accuracy);
+std::string surface_name(Surface surface);
+std::string direction_source_name(DirectionSource source);
+// The hash of `report` as 16 hexadecimal digits.
+std::string hash_text(const Report& report);
+
+// Writes frame by frame, a line each, so that a long run takes no memory.
+class JsonReport {
+ public:
+  // Writes what comes before the frames. `world` must hold all the bodies of the run, in its settings the number of
+  // threads that is to be told. `out` must outlive the report.
+  JsonReport(std::ostream& out, const World& world);
+  void add_frame(int frame, const Report& report);
+  // Writes what comes after the frames.
+  void finish(Ending ending = Ending::complete);
+
+ private:
+  std::ostream& out_;
+  bool has_facets_;
+  bool first_ = true;
+};
+
+}  // namespace tact::scenes

@@ -1,0 +1,41 @@
+// Bodies from mesh files and folders of them.
+#pragma once
+
+#include <tact/body.h>
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "scenes/files/file_error.h"
+
+namespace tact::scenes {
+
+// A body as files give it: one mesh file stands still, a folder moves, a file a frame.
+struct BodyFrames {
+  std::string name;                               // of the file or folder; "#2", "#3" ... after it if it comes again
+  std::vector<std::filesystem::path> files = {};  // one a frame
+  std::vector<Eigen::Matrix3Xd> positions = {};   // 3 x V, metres, one a frame
+  Eigen::Matrix3Xi facets = {};                   // 3 x F, the same in all frames
+  Surface surface = Surface::closed;
+  bool moves = false;  // was it a folder?
+};
+
+// Is told that `done` of `all` files are read: before the first one, and after each.
+using ReadProgress = std::function<void(int done, int all)>;
+
+// The bodies of `paths`, in their order. Of a folder the mesh files are taken, in the order of their names as bytes, up
+// to `most_frames` of them; other files, and those whose names begin with a dot, are ignored. All frames are held: 24
+// bytes a vertex and frame. Errors: FileError, also for a folder without a mesh file, frames of different topology and
+// folders with different numbers of files.
+std::vector<BodyFrames> read_bodies(
+    const std::vector<std::filesystem::path>& paths, int most_frames = std::numeric_limits<int>::max(),
+    const ReadProgress& progress = [](int, int) {});
+
+// How many frames the folders among `bodies` hold; 0 if none of them moves.
+int frame_count(const std::vector<BodyFrames>& bodies);
+
+}  // namespace tact::scenes

@@ -1,0 +1,159 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "narrowphase/hull/kdop.h"
+#include "tests/support/facet_filters.h"
+#include "tests/support/random.h"
+
+namespace tact::narrowphase {
+namespace {
+
+using base::Vec3;
+
+// Points as a mesh stores them: coordinates in separate arrays, with room to read past the end.
+struct PointSoup {
+  std::array<std::vector<double>, 3> coordinate;
+  int count = 0;
+
+  void add(double x, double y, double z) {
+    coordinate[0].push_back(x);
+    coordinate[1].push_back(y);
+    coordinate[2].push_back(z);
+    ++count;
+  }
+  PointArrays arrays() {
+    for (auto& values : coordinate) {
+      values.resize(static_cast<std::size_t>(count));
+      values.resize(static_cast<std::size_t>(count) + 8, 1e30);  // must not be counted
+    }
+    return {coordinate[0].data(), coordinate[1].data(), coordinate[2].data()};
+  }
+};
+
+// The six sums and differences of two coordinates, of doubles as they round and of integers as they are.
+template <class Number>
+std::array<Number, 6> along_diagonals(Number x, Number y, Number z) {
+  return {y + z, z + x, x + y, y - z, z - x, x - y};
+}
+
+TEST(Diagonals, BoundsAreThoseOfEveryPoint) {
+  tests::Random random(1);
+  for (int count = 1; count <= 70; ++count) {
+    PointSoup points;
+    DiagonalBounds expected;
+    std::ranges::fill(expected.lower, std::numeric_limits<double>::infinity());
+    std::ranges::fill(expected.upper, -std::numeric_limits<double>::infinity());
+    for (int i = 0; i < count; ++i) {
+      const auto coordinate = [&] { return random.chance(0.2) ? 0.0 * (random.below(3) - 1) : random.uniform(-9, 9); };
+      const double x = coordinate(), y = coordinate(), z = coordinate();
+      points.add(x, y, z);
+      const auto reach = along_diagonals(x, y, z);
+      for (std::size_t k = 0; k < kDiagonals; ++k) {
+        expected.lower[k] = std::min(expected.lower[k], reach[k]);
+        expected.upper[k] = std::max(expected.upper[k], reach[k]);
+      }
+    }
+    for (const Kernels* kernels : tests::available_kernels()) {
+      const DiagonalBounds bounds = kernels->diagonal_bounds(points.arrays(), count);
+      for (int k = 0; k < kDiagonals; ++k) {
+        EXPECT_EQ(bounds.lower[k], expected.lower[k]) << kernels->name << " of " << count << " points";
+        EXPECT_EQ(bounds.upper[k], expected.upper[k]) << kernels->name << " of " << count << " points";
+        EXPECT_FALSE(bounds.lower[k] == 0.0 && std::signbit(bounds.lower[k])) << kernels->name;
+        EXPECT_FALSE(bounds.upper[k] == 0.0 && std::signbit(bounds.upper[k])) << kernels->name;
+      }
+    }
+  }
+}
+
+// Coordinates are whole numbers near 2^53, so that every other sum rounds, and integers tell the truth.
+TEST(Diagonals, OneThatPartsDoesSoBeforeRounding) {
+  tests::Random random(2);
+  int parted = 0, touching = 0;
+  for (int repeat = 0; repeat < 20'000; ++repeat) {
+    constexpr std::int64_t kLarge = std::int64_t{1} << 53;
+    std::array<PointSoup, 2> points;
+    std::array<std::array<std::int64_t, 6>, 2> lower, upper;
+    const int diagonal = random.below(6), first = (diagonal % 3 + 1) % 3, second = (diagonal % 3 + 2) % 3;
+    for (std::size_t body = 0; body < 2; ++body) {
+      lower[body].fill(std::numeric_limits<std::int64_t>::max());
+      upper[body].fill(std::numeric_limits<std::int64_t>::min());
+      for (int i = 0; i < 3; ++i) {
+        // In the plane across the diagonal, and the second body a few units beyond, or not.
+        std::array<std::int64_t, 3> p{random.below(9), random.below(9), random.below(9)};
+        const std::int64_t slide = kLarge - 100 - random.below(9);
+        p[static_cast<std::size_t>(first)] = slide + (body == 1 ? random.below(5) : 0);
+        p[static_cast<std::size_t>(second)] = (diagonal < 3 ? 1 : -1) * (kLarge - slide) + slide / 2;
+        points[body].add(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
+        const auto reach = along_diagonals(p[0], p[1], p[2]);
+        for (std::size_t k = 0; k < 6; ++k) {
+          lower[body][k] = std::min(lower[body][k], reach[k]);
+          upper[body][k] = std::max(upper[body][k], reach[k]);
+        }
+      }
+    }
+    const DiagonalBounds a = scalar_kernels()->diagonal_bounds(points[0].arrays(), 3);
+    const DiagonalBounds b = scalar_kernels()->diagonal_bounds(points[1].arrays(), 3);
+    const int parting = parting_diagonal(a, b);
+    EXPECT_EQ(parting_diagonal(b, a) != 0, parting != 0);
+    if (parting == 0) {
+      for (std::size_t k = 0; k < 6; ++k) touching += upper[0][k] == lower[1][k] || upper[1][k] == lower[0][k];
+      continue;
+    }
+    ++parted;
+    const auto k = static_cast<std::size_t>(std::abs(parting) - 1);
+    ASSERT_TRUE(parting > 0 ? upper[0][k] < lower[1][k] : upper[1][k] < lower[0][k]) << "repeat " << repeat;
+    ASSERT_TRUE(parts(static_cast<PartingDiagonal>(parting), a, b));
+    ASSERT_FALSE(parts(static_cast<PartingDiagonal>(-parting), a, b));
+  }
+  EXPECT_GT(parted, 1000);
+  EXPECT_GT(touching, 1000);
+}
+
+// Two bodies of one point each, one beyond the other along a diagonal, turned and told apart by every one of them.
+TEST(Diagonals, TheWidestGapPartsFromAToB) {
+  for (int first = 0; first < 3; ++first) {
+    for (int second = 0; second < 3; ++second) {
+      for (const double sign : {1.0, -1.0}) {
+        for (const double along : {1.0, -1.0}) {
+          if (first == second) continue;
+          Vec3 offset;
+          offset[first] = along;
+          offset[second] = along * sign;
+          PointSoup a, b;
+          a.add(5, 6, 7);
+          b.add(5 + offset.x, 6 + offset.y, 7 + offset.z);
+          const PartingDiagonal parting = parting_diagonal(scalar_kernels()->diagonal_bounds(a.arrays(), 1),
+                                                           scalar_kernels()->diagonal_bounds(b.arrays(), 1));
+          ASSERT_NE(parting, 0);
+          const Vec3 n = direction_of(parting);
+          EXPECT_NEAR(dot(n, n), 1.0, 1e-15);
+          EXPECT_NEAR(dot(n, offset), std::sqrt(2.0), 1e-15);
+        }
+      }
+    }
+  }
+}
+
+TEST(Diagonals, NonePartsBodiesThatTouch) {
+  PointSoup a, b;
+  a.add(0, 0, 0);
+  a.add(1, 0, 0);
+  b.add(1, 0, 0);
+  b.add(2, 0, 0);
+  EXPECT_EQ(parting_diagonal(scalar_kernels()->diagonal_bounds(a.arrays(), 2),
+                             scalar_kernels()->diagonal_bounds(b.arrays(), 2)),
+            0);
+  for (PartingDiagonal parting = -6; parting <= 6; ++parting) {
+    EXPECT_FALSE(parts(parting, scalar_kernels()->diagonal_bounds(a.arrays(), 2),
+                       scalar_kernels()->diagonal_bounds(b.arrays(), 2)));
+  }
+}
+
+}  // namespace
+}  // namespace tact::narrowphase

@@ -1,0 +1,205 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "narrowphase/hull/support.h"
+#include "narrowphase/mesh/clustered_mesh.h"
+#include "tests/support/clustered.h"
+#include "tests/support/generators.h"
+#include "tests/support/random.h"
+
+namespace tact::narrowphase {
+namespace {
+
+using tests::clustered;
+using tests::Mesh;
+
+std::vector<Mesh> many() {
+  return {tests::box({0, 0, 0}, {1, 2, 3}),
+          tests::blob(3, 1.0, 0.3, 1),
+          tests::wrinkled_sheet(40, 2.0, 0.2, 2),
+          tests::lattice_soup(500, 2, 3),
+          tests::wrinkled_sheet(60, 2.0, 0.2, 2),
+          tests::needles(100, 1e9, 4),
+          tests::sheet(1, 1, 1.0, 1.0)};
+}
+
+TEST(ClusteredMesh, IsValidForAnyMesh) {
+  for (const Mesh& mesh : many()) {
+    const ClusteredMesh clusters = clustered(mesh);
+    EXPECT_NO_THROW(clusters.validate());
+    EXPECT_EQ(clusters.facet_count(), mesh.facet_count());
+    for (int f = 0; f < mesh.facet_count(); ++f) {
+      const Triangle triangle = clusters.triangle(clusters.facet_of_source(f));
+      for (int k = 0; k < 3; ++k) EXPECT_EQ(triangle[static_cast<std::size_t>(k)], mesh.position(mesh.facets(k, f)));
+    }
+  }
+}
+
+TEST(ClusteredMesh, ABodyWithoutFacetsHasAnEmptyBox) {
+  const Mesh mesh = tests::box({0, 0, 0}, {1, 1, 1});
+  const ClusteredMesh clusters({mesh.positions.data(), static_cast<std::size_t>(mesh.positions.size())}, {});
+  EXPECT_TRUE(clusters.box().empty());
+  EXPECT_EQ(clusters.cluster_count(), 0);
+}
+
+TEST(ClusteredMesh, AnUnusedVertexDoesNotCount) {
+  Mesh mesh = tests::box({0, 0, 0}, {1, 1, 1});
+  mesh.positions.conservativeResize(3, 9);
+  mesh.positions.col(8) << 100, 100, 100;
+  ClusteredMesh clusters = clustered(mesh);
+  EXPECT_EQ(clusters.box(), (Box{{0, 0, 0}, {1, 1, 1}}));
+  mesh.positions(0, 8) = 200;
+  EXPECT_FALSE(clusters.set_positions(mesh.positions.data(), 1));
+}
+
+TEST(ClusteredMesh, MovesAndSaysSo) {
+  for (const Mesh& mesh : many()) {
+    ClusteredMesh clusters = clustered(mesh);
+    EXPECT_FALSE(clusters.set_positions(mesh.positions.data(), 1));
+    Mesh moved = tests::crumpled(mesh, 11);
+    EXPECT_TRUE(clusters.set_positions(moved.positions.data(), 1));
+    clusters.validate();
+    EXPECT_EQ(clusters.position(0), moved.position(clusters.source_vertex(0)));
+  }
+}
+
+TEST(ClusteredMesh, RefusesBadPositionsAndStaysAsItWas) {
+  constexpr double kLargest = 8.0;
+  Mesh sound = tests::icosphere(2);
+  sound.positions.conservativeResize(3, sound.positions.cols() + 1);
+  sound.positions.rightCols(1).setConstant(1.0);  // no facet uses it
+  Mesh moved = sound;
+  moved.positions.array() += 0.5;
+  for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                             -std::numeric_limits<double>::infinity(), 8.5, -8.5}) {
+    for (Eigen::Index at = 0; at < moved.positions.size(); ++at) {
+      ClusteredMesh clusters = clustered(sound);
+      const Vec3 before = clusters.position(7);
+      const base::Box box = clusters.box();
+      Mesh bad = moved;
+      bad.positions.data()[at] = value;
+      EXPECT_EQ(clusters.refresh(bad.positions.data(), kLargest, 1), ClusteredMesh::Refresh::bad)
+          << value << " at " << at;
+      clusters.validate();
+      EXPECT_EQ(clusters.position(7), before);
+      EXPECT_EQ(clusters.box(), box);
+    }
+  }
+  ClusteredMesh clusters = clustered(sound);
+  EXPECT_EQ(clusters.refresh(sound.positions.data(), kLargest, 1), ClusteredMesh::Refresh::same);
+  EXPECT_EQ(clusters.refresh(moved.positions.data(), kLargest, 1), ClusteredMesh::Refresh::changed);
+  clusters.validate();
+  EXPECT_EQ(clusters.position(7), moved.position(clusters.source_vertex(7)));
+}
+
+TEST(ClusteredMesh, IsTakenBackToWhereItWas) {
+  for (const Mesh& mesh : many()) {
+    ClusteredMesh clusters = clustered(mesh);
+    const base::Box box = clusters.box();
+    EXPECT_TRUE(clusters.set_positions(tests::crumpled(mesh, 11).positions.data(), 1));
+    clusters.take_back();
+    clusters.validate();
+    EXPECT_EQ(clusters.box(), box);
+    EXPECT_FALSE(clusters.set_positions(mesh.positions.data(), 1));
+  }
+}
+
+TEST(ClusteredMesh, BodyOfOnePointAtTheOriginHasABox) {
+  Mesh mesh = tests::box({0, 0, 0}, {1, 1, 1});
+  mesh.positions.setZero();
+  const ClusteredMesh clusters = clustered(mesh);
+  clusters.validate();
+  EXPECT_EQ(clusters.box(), (Box{{0, 0, 0}, {0, 0, 0}}));
+}
+
+TEST(ClusteredMesh, RefusesBadPositionsOnSeveralThreads) {
+  const Mesh mesh = tests::wrinkled_sheet(160, 2.0, 0.2, 2);  // several ranges of clusters
+  for (const int vertex : {0, mesh.vertex_count() / 2, mesh.vertex_count() - 1}) {
+    for (const double value : {std::numeric_limits<double>::quiet_NaN(), 9.0}) {
+      ClusteredMesh clusters = clustered(mesh);
+      Mesh bad = mesh;
+      bad.positions(1, vertex) = value;
+      EXPECT_EQ(clusters.refresh(bad.positions.data(), 8.0, 2), ClusteredMesh::Refresh::bad)
+          << value << " at " << vertex;
+    }
+  }
+}
+
+TEST(ClusteredMesh, ThreadsDoNotChangeBoxes) {
+  const Mesh mesh = tests::wrinkled_sheet(160, 2.0, 0.2, 2);  // several ranges of clusters
+  const Mesh moved = tests::jittered(mesh, 0.01, 3);
+  ClusteredMesh one = clustered(mesh), two = clustered(mesh);
+  EXPECT_TRUE(one.set_positions(moved.positions.data(), 1));
+  EXPECT_TRUE(two.set_positions(moved.positions.data(), 2));
+  two.validate();
+  for (int c = 0; c < one.cluster_count(); ++c) {
+    EXPECT_EQ(one.cluster_boxes()[static_cast<std::size_t>(c)], two.cluster_boxes()[static_cast<std::size_t>(c)]);
+  }
+}
+
+TEST(FindPositionProblem, NamesTheFirst) {
+  Mesh mesh = tests::box({0, 0, 0}, {1, 1, 1});
+  const auto look = [&] { return find_position_problem(mesh.positions.data(), 8, 0x1p300); };
+  EXPECT_EQ(look().kind, PositionProblem::none);
+  mesh.positions(2, 5) = -0x1.1p300;
+  EXPECT_EQ(look().kind, PositionProblem::out_of_range);
+  mesh.positions(1, 5) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(look().kind, PositionProblem::non_finite);
+  EXPECT_EQ(look().source_vertex, 5);
+  EXPECT_EQ(look().axis, 1);
+}
+
+TEST(Support, IsThatOfAFullScanBitForBit) {
+  tests::Random random(7);
+  for (const Mesh& mesh : many()) {
+    const ClusteredMesh clusters = clustered(mesh);
+    for (int i = 0; i < 100; ++i) {
+      // Every tenth direction is an axis or a diagonal: many vertices tie.
+      const auto tie = [&] { return random.below(3) - 1.0; };
+      const Vec3 n = i % 10 == 0 ? Vec3{tie(), tie(), tie()} : random.direction();
+      const Vec3 origin = random.in_cube(1.0);
+      const Support expected = support_by_full_scan(clusters, n, origin);
+      const Support found = support(clusters, n, origin);
+      EXPECT_EQ(found.vertex, expected.vertex);
+      EXPECT_EQ(found.height, expected.height);
+      for (int v = 0; v < clusters.vertex_count(); ++v) {
+        const double height = dot(n, clusters.position(v) - origin);
+        EXPECT_LE(height, expected.height);
+        if (height == expected.height) {
+          EXPECT_LE(clusters.source_vertex(expected.vertex), clusters.source_vertex(v));
+        }
+      }
+    }
+  }
+}
+
+// In one group of clusters, in several, and in more than are looked at together.
+TEST(Support, LooksAtAllGroups) {
+  tests::Random random(8);
+  std::vector<std::int32_t> reaching;
+  for (const int cells : {10, 100, 530}) {
+    const ClusteredMesh mesh = clustered(tests::wrinkled_sheet(cells, 2.0, 0.3, 3));
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 n = random.direction(), origin = random.in_cube(1.0);
+      const Support top = support_by_full_scan(mesh, n, origin);
+      EXPECT_EQ(support(mesh, n, origin).vertex, top.vertex);
+      EXPECT_FALSE(stays_below(mesh, n, origin, top.height));
+      EXPECT_TRUE(stays_below(mesh, n, origin, std::nextafter(top.height, HUGE_VAL)));
+
+      const double height = top.height - random.uniform(0.0, 1.0);
+      select_clusters(mesh, {n.x, n.y, n.z, origin.x, origin.y, origin.z}, height, reaching);
+      const PointArrays corner = far_corners(mesh.cluster_boxes(), n);
+      std::vector<std::int32_t> expected;
+      for (std::int32_t c = 0; c < mesh.cluster_count(); ++c) {
+        if (dot(n, Vec3{corner.x[c], corner.y[c], corner.z[c]} - origin) >= height) expected.push_back(c);
+      }
+      ASSERT_EQ(reaching, expected) << cells << " cells, direction " << i;
+      EXPECT_FALSE(expected.empty());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tact::narrowphase

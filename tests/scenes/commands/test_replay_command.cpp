@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "scenes/commands/check_command.h"
+#include "scenes/commands/replay_command.h"
+#include "scenes/commands/run_command.h"
+#include "scenes/files/file_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace tact::scenes {
+namespace {
+
+class ReplayCommand : public ::testing::Test {
+ protected:
+  // What replay prints, with the message of its refusal after it.
+  static std::string replayed(const ReplayOptions& options) {
+    std::ostringstream out;
+    try {
+      replay(options, out);
+    } catch (const FileError& error) {
+      out << error.what();
+    }
+    return out.str();
+  }
+  static void expect_all_same(const ReplayOptions& options, const std::string& start) {
+    const std::string text = replayed(options);
+    EXPECT_TRUE(text.starts_with(start)) << text;
+    EXPECT_TRUE(text.ends_with(": all hashes are the same\n")) << text;
+  }
+
+  tests::TemporaryFolder folder_;
+  const std::filesystem::path recording_ = folder_.path() / "r";
+};
+
+TEST_F(ReplayCommand, SceneOnTwoThreadsIsTheSameOnOne) {
+  std::ostringstream ignored;
+  run({.scene = "pile",
+       .frames = 12,
+       .size = 8,
+       .threads = 2,
+       .record = recording_.string(),
+       .outputs = {.pictures = false}},
+      ignored);
+  expect_all_same({.recording = recording_}, "12 steps on 2 threads in ");
+  expect_all_same({.recording = recording_, .threads = 1}, "12 steps on 1 thread in ");
+}
+
+TEST_F(ReplayCommand, CheckedFilesPlayAgain) {
+  const auto a = folder_.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto b = folder_.write("b/0.off", "OFF\n3 1 0\n0.2 0.2 1\n0.2 0.2 3\n0.3 0.2 1\n3 0 1 2\n");
+  folder_.write("b/1.off", "OFF\n3 1 0\n0.2 0.2 -1\n0.2 0.2 1\n0.3 0.2 1\n3 0 1 2\n");
+  std::ostringstream ignored;
+  check({.meshes = {a, b.parent_path()}, .threads = 1, .record = recording_.string()}, ignored);
+  expect_all_same({.recording = recording_}, "2 steps on 1 thread in ");
+}
+
+TEST_F(ReplayCommand, FirstDifferenceIsNamed) {
+  const auto a = folder_.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  std::ostringstream ignored;
+  check({.meshes = {a, a}, .threads = 1, .frames = 3, .record = recording_.string()}, ignored);
+  const auto size = std::filesystem::file_size(recording_);
+  std::fstream file(recording_, std::ios::in | std::ios::out | std::ios::binary);
+  const auto second_hash = static_cast<std::streamoff>(size) - 19 - 8;  // a step: no positions, detect, its hash
+  file.seekg(second_hash);
+  const int low = file.get();
+  file.seekp(second_hash);
+  file.put(static_cast<char>(low ^ 1));
+  file.close();
+  const std::string text = replayed({.recording = recording_});
+  EXPECT_TRUE(text.starts_with("step 1: ")) << text;
+  EXPECT_NE(text.find("1 of 3 hashes differ"), std::string::npos) << text;
+  EXPECT_NE(text.find(": byte " + std::to_string(second_hash) + ": step 1 is the first whose hash differs"),
+            std::string::npos)
+      << text;
+}
+
+TEST_F(ReplayCommand, WhatIsNoRecordingIsRefused) {
+  EXPECT_NE(replayed({.recording = folder_.path()}).find("not a file"), std::string::npos);
+  EXPECT_NE(replayed({.recording = folder_.path() / "none"}).find("cannot be opened"), std::string::npos);
+  EXPECT_NE(replayed({.recording = folder_.write("empty", "")}).find("byte 0: not a recording"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tact::scenes

@@ -1,0 +1,235 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "scenes/files/recording.h"
+#include "scenes/files/recording_player.h"
+#include "tests/scenes/mesh_bytes.h"
+
+namespace tact::scenes {
+namespace {
+
+using tests::bytes_of;
+
+// A tetrahedron with its right angle at `corner`, facets outward.
+Eigen::Matrix3Xd tetrahedron_at(const Eigen::Vector3d& corner) {
+  Eigen::Matrix3Xd positions(3, 4);
+  positions << Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity();
+  return positions.colwise() + corner;
+}
+
+Eigen::Matrix3Xi tetrahedron_facets() {
+  Eigen::Matrix3Xi facets(3, 4);
+  facets << 0, 0, 0, 1,  //
+      2, 1, 3, 2,        //
+      1, 3, 2, 3;
+  return facets;
+}
+
+// Every kind of call: a is fixed until the last step, b comes in and turns, c goes and d takes its place, e meets only
+// what is on its layer, and for a step nothing. Returns the hashes of the steps.
+std::vector<std::uint64_t> make_calls(RecordedWorld& world) {
+  const Eigen::Matrix3Xi facets = tetrahedron_facets();
+  const auto add = [&](const Eigen::Vector3d& corner, Motion motion, std::uint32_t mask) {
+    const Eigen::Matrix3Xd positions = tetrahedron_at(corner);
+    return world.add_body({.positions = positions,
+                           .facets = facets,
+                           .surface = mask == 2 ? Surface::sheet : Surface::closed,
+                           .motion = motion,
+                           .name = "body of mask " + std::to_string(mask),
+                           .layer = mask == 2 ? 3u : 1u,
+                           .mask = mask});
+  };
+  const BodyId a = add({0, 0, 0}, Motion::fixed, ~0u);
+  const BodyId b = add({2, 0.1, 0.1}, Motion::moving, ~0u);
+  const BodyId c = add({0.1, 0.2, 0.1}, Motion::moving, ~0u);
+  const BodyId e = add({0.2, 0.1, 0.1}, Motion::moving, 2u);
+  std::vector<std::uint64_t> hashes;
+  for (int step = 0; step < 6; ++step) {
+    // Columns that do not follow each other in memory.
+    Eigen::Matrix<double, 4, Eigen::Dynamic> wide(4, 4);
+    wide.topRows(3) = tetrahedron_at({1.0 - 0.15 * step, 0.1, 0.1 + 0.01 * step});
+    const Eigen::Matrix3Xd other = tetrahedron_at({0.2, 0.1 * step, 0.1});
+    const std::vector<PositionsUpdate> updates = {{b, wide.topRows(3)}, {e, other}};
+    world.set_positions(updates);
+    if (step == 3) {
+      world.remove_body(c);
+      add({0.05, 0.05, 0.3}, Motion::moving, ~0u);
+      world.set_settings({.threads = 1, .accuracy = Accuracy::paper, .outputs = {.zones = true, .patches = true}});
+    }
+    if (step == 4) world.set_layers(e, 3u, 0u);
+    if (step == 5) {
+      world.set_layers(e, 3u, 2u);
+      world.set_motion(a, Motion::moving);
+    }
+    hashes.push_back(world.detect().hash());
+  }
+  return hashes;
+}
+
+std::string recording() {
+  std::ostringstream out;
+  RecordedWorld world({.threads = 2}, &out);
+  make_calls(world);
+  return out.str();
+}
+
+std::vector<PlayedStep> play(std::string_view bytes, std::optional<int> threads = 1) {
+  RecordingPlayer player(bytes, "r", threads);
+  std::vector<PlayedStep> steps;
+  while (const auto step = player.next()) steps.push_back(*step);
+  return steps;
+}
+
+// What the player says against `bytes`; "accepted" if it says nothing.
+std::string recording_refusal(std::string_view bytes) {
+  try {
+    play(bytes);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+bool all_same(const std::vector<PlayedStep>& steps) {
+  return std::all_of(steps.begin(), steps.end(), [](const PlayedStep& step) { return step.same(); });
+}
+
+std::string with(std::string bytes, std::size_t at, std::string_view change) {
+  return bytes.replace(at, change.size(), change);
+}
+
+constexpr std::size_t kVersionAt = 8;
+constexpr std::size_t kSettingsAt = 12 + 4 + std::string_view(TACT_VERSION).size();
+constexpr std::size_t kFirstBodyAt = kSettingsAt + 21;
+constexpr std::size_t kVerticesAt = kFirstBodyAt + 11 + 4 + std::string_view("body of mask 4294967295").size();
+
+std::string at_byte(std::size_t byte) { return "r: byte " + std::to_string(byte) + ": "; }
+
+TEST(Recording, AnyNumberOfThreadsPlaysTheSameHashes) {
+  std::ostringstream out;
+  RecordedWorld world({.threads = 2}, &out);
+  const std::vector<std::uint64_t> hashes = make_calls(world);
+  RecordedWorld silent({.threads = 1}, nullptr);
+  EXPECT_EQ(make_calls(silent), hashes);
+  EXPECT_NE(hashes.front(), hashes.back());
+  for (const std::optional<int> threads : {std::optional<int>(), std::optional(1), std::optional(2)}) {
+    const std::vector<PlayedStep> steps = play(out.str(), threads);
+    ASSERT_EQ(steps.size(), hashes.size());
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      EXPECT_EQ(steps[i].number, static_cast<int>(i));
+      EXPECT_EQ(steps[i].recorded, hashes[i]);
+      EXPECT_EQ(steps[i].now, hashes[i]);
+    }
+  }
+}
+
+TEST(Recording, PlaysTheBodiesAsTheyWere) {
+  const std::string bytes = recording();
+  RecordingPlayer player(bytes, "r");
+  EXPECT_EQ(player.recorded_by(), TACT_VERSION);
+  EXPECT_EQ(player.world().settings().threads, 2);
+  ASSERT_TRUE(player.next());
+  const std::vector<BodyId> bodies = player.world().bodies();
+  ASSERT_EQ(bodies.size(), 4u);
+  EXPECT_EQ(player.world().name(bodies[3]), "body of mask 2");
+  EXPECT_EQ(player.world().surface(bodies[3]), Surface::sheet);
+  EXPECT_EQ(player.world().motion(bodies[0]), Motion::fixed);
+  while (player.next()) continue;
+  EXPECT_EQ(player.world().settings().accuracy, Accuracy::paper);
+  EXPECT_TRUE(player.world().settings().outputs.patches);
+  EXPECT_FALSE(player.world().contains(bodies[2]));
+  EXPECT_EQ(player.world().motion(bodies[0]), Motion::moving);
+  EXPECT_EQ(player.world().mask(bodies[3]), 2u);
+}
+
+TEST(Recording, RefusedCallsAreNotRecorded) {
+  std::ostringstream out;
+  RecordedWorld world({.threads = 1}, &out);
+  const Eigen::Matrix3Xd positions = tetrahedron_at({0, 0, 0});
+  const Eigen::Matrix3Xi facets = Eigen::Matrix3Xi::Constant(3, 1, 4);
+  EXPECT_THROW(world.add_body({.positions = positions, .facets = facets}), Error);
+  EXPECT_THROW(world.remove_body({.index = 0, .generation = 1, .world = 1}), Error);
+  world.detect();
+  EXPECT_TRUE(all_same(play(out.str())));
+}
+
+TEST(Recording, ChangedHashIsFoundAtItsByte) {
+  std::string bytes = recording();
+  const std::size_t at = bytes.size() - 8;
+  bytes[at] = static_cast<char>(bytes[at] ^ 1);
+  const std::vector<PlayedStep> steps = play(bytes);
+  ASSERT_EQ(steps.size(), 6u);
+  EXPECT_FALSE(steps.back().same());
+  EXPECT_EQ(steps.back().byte, at);
+  EXPECT_TRUE(all_same({steps.begin(), steps.end() - 1}));
+}
+
+TEST(Recording, SaysWhatIsWrongAndAtWhichByte) {
+  const std::string good = recording();
+  ASSERT_EQ(recording_refusal(good), "accepted");
+  EXPECT_EQ(recording_refusal(""), "r: byte 0: not a recording: it does not begin with tactrec");
+  EXPECT_EQ(recording_refusal("solid a"), "r: byte 0: not a recording: it does not begin with tactrec");
+  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(3u))),
+            "r: byte 8: a recording of version 3; versions 1 to 2 can be read");
+  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(0u))),
+            "r: byte 8: a recording of version 0; versions 1 to 2 can be read");
+  EXPECT_EQ(recording_refusal(with(good, kSettingsAt, "\x02")),
+            at_byte(kSettingsAt) + "the first record is not one of settings");
+  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x09")),
+            at_byte(kFirstBodyAt) + "step 0: no record is of kind 9");
+  EXPECT_EQ(recording_refusal(with(good, kVerticesAt, bytes_of(~std::uint64_t{0}))),
+            at_byte(kVerticesAt) +
+                "step 0: promises 18446744073709551615 vertices, which take at least 24 bytes each, but the "
+                "file has " +
+                std::to_string(good.size() - kVerticesAt - 8) + " more");
+  EXPECT_EQ(
+      recording_refusal(with(good, kVerticesAt + 16, bytes_of(std::numeric_limits<double>::quiet_NaN()))).substr(0, 12),
+      at_byte(kFirstBodyAt));
+}
+
+// Cut anywhere, the steps before are the same, and only between records there is nothing to say.
+TEST(Recording, CutAnywhere) {
+  const std::string good = recording();
+  int accepted = 0;
+  for (std::size_t size = 0; size < good.size(); ++size) {
+    std::vector<PlayedStep> steps;
+    try {
+      RecordingPlayer player(std::string_view(good).substr(0, size), "r", 1);
+      while (const auto step = player.next()) steps.push_back(*step);
+      ++accepted;
+    } catch (const FileError& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with("r: byte ")) << size << ": " << error.what();
+    }
+    EXPECT_TRUE(all_same(steps)) << "cut at byte " << size;
+  }
+  // After the settings, 5 additions, 6 moves, 1 removal, 1 change of settings, 2 of layers, 1 of motion, 6 hashes; the
+  // last is the whole file.
+  EXPECT_EQ(accepted, 1 + 5 + 6 + 1 + 1 + 2 + 1 + 6 - 1);
+}
+
+// With any bit of the head and the first body wrong, or one of each byte after them, the player ends: it refuses the
+// file or plays it.
+TEST(Recording, AnyBitWrong) {
+  const std::string good = recording();
+  for (std::size_t bit = 0; bit < 8 * good.size(); bit += bit < 8 * 256 ? 1 : 7) {
+    std::string bytes = good;
+    bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << (bit % 8)));
+    const std::string message = recording_refusal(bytes);
+    EXPECT_TRUE(message == "accepted" || message.starts_with("r: byte ")) << "bit " << bit << ": " << message;
+    const bool in_magic_or_version = bit < 8 * 12;
+    EXPECT_FALSE(in_magic_or_version && message == "accepted") << "bit " << bit;
+  }
+}
+
+TEST(Recording, StepThatWasNeverFinishedIsRefused) {
+  const std::string good = recording();
+  EXPECT_EQ(
+      recording_refusal(std::string_view(good).substr(0, good.size() - 9)),
+      "r: byte " + std::to_string(good.size() - 10) + ": step 5: the step has no hash: what recorded it ended in it");
+}
+
+}  // namespace
+}  // namespace tact::scenes

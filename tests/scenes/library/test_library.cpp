@@ -1,0 +1,207 @@
+// Every scene, run for a while on a small size: what its motion must not do, and what its contacts must be.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/base/box.h"
+#include "scenes/commands/lost_pairs.h"
+#include "scenes/dynamics/shape.h"
+#include "scenes/library/catalog.h"
+#include "scenes/library/shapes.h"
+#include "tests/support/oracle.h"
+
+namespace tact::scenes {
+namespace {
+
+Simulation simulation_of(const std::string& name, int size, const Settings& settings = {}) {
+  Scene scene = find_scene(name)->make(size);
+  return Simulation(std::move(scene.bodies), scene.script, scene.dynamics, settings);
+}
+
+base::Box box_of(const std::vector<Vec3>& positions) {
+  base::Box box;
+  for (const Vec3& p : positions) box = base::extended(box, p);
+  return box;
+}
+
+bool inside(const base::Box& box, const base::Box& outer) {
+  return box.lower.x >= outer.lower.x && box.lower.y >= outer.lower.y && box.lower.z >= outer.lower.z &&
+         box.upper.x <= outer.upper.x && box.upper.y <= outer.upper.y && box.upper.z <= outer.upper.z;
+}
+
+Vec3 center(const Body& body) {
+  const base::Box box = box_of(body.positions);
+  return 0.5 * (box.lower + box.upper);
+}
+
+struct Case {
+  const char* scene;
+  int size;
+  int steps;
+  base::Box bounds;  // that no body that moves by forces may leave
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& test) { return out << test.scene << ' ' << test.size; }
+
+class Library : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Library, BodiesStayWholeInTheSceneAndOutOfEachOther) {
+  const Case& test = GetParam();
+  Simulation simulation = simulation_of(test.scene, test.size, {.threads = 1});
+  for (int step = 0; step < test.steps; ++step) {
+    simulation.step();
+    ASSERT_LT(simulation.state().deepest, 0.1) << "step " << step;
+    ASSERT_TRUE(std::isfinite(simulation.state().kinetic_energy)) << "step " << step;
+    for (const Body& body : simulation.bodies()) {
+      if (!body.dynamic) continue;
+      const base::Box box = box_of(body.positions);
+      ASSERT_TRUE(inside(box, test.bounds)) << body.name << ", step " << step;
+      ASSERT_LT(norm(box.upper - box.lower), 1.5 * body.size) << body.name << ", step " << step;
+    }
+  }
+  EXPECT_GT(simulation.state().contact_points, 0);
+}
+
+TEST_P(Library, SameAnswerForOneAndTwoThreads) {
+  const Case& test = GetParam();
+  Simulation one = simulation_of(test.scene, test.size, {.threads = 1});
+  Simulation two = simulation_of(test.scene, test.size, {.threads = 2});
+  for (int step = 0; step < test.steps; ++step) {
+    one.step();
+    two.step();
+    ASSERT_EQ(one.report()->hash(), two.report()->hash()) << "step " << step;
+  }
+  for (std::size_t i = 0; i < one.bodies().size(); ++i) {
+    EXPECT_EQ(as_matrix(one.bodies()[i].positions), as_matrix(two.bodies()[i].positions)) << one.bodies()[i].name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Library,
+                         ::testing::Values(Case{"cloth-over-sphere", 20, 120, {{-1.3, -1.3, 0.0}, {1.3, 1.3, 1.5}}},
+                                           Case{"sphere-into-cloth", 20, 200, {{-0.9, -0.9, 0.0}, {0.9, 0.9, 1.5}}},
+                                           Case{"pile", 20, 110, {{-0.78, -0.78, -0.05}, {0.78, 0.78, 1.5}}},
+                                           Case{"pile", 7, 110, {{-0.6, -0.6, -0.05}, {0.6, 0.6, 1.2}}},
+                                           Case{"clamp", 0, 160, {{-0.3, -0.3, -0.05}, {0.3, 0.3, 0.9}}},
+                                           Case{"liver-and-tool", 0, 160, {{-0.2, -0.2, -0.02}, {0.2, 0.2, 0.2}}},
+                                           Case{"sphere-in-cloth", 24, 60, {{-0.7, -0.7, 0.0}, {0.7, 0.7, 2.0}}},
+                                           Case{"wheel-on-ground", 80, 160, {{-3.0, -0.8, -0.3}, {3.0, 0.8, 1.5}}}));
+
+TEST(Catalog, EverySceneIsMadeAtItsSizes) {
+  for (const SceneEntry& entry : scene_catalog()) {
+    const Scene scene = entry.make(entry.smallest_size);
+    ASSERT_EQ(scene.bodies.size(), scene.looks.size()) << entry.name;
+    EXPECT_EQ(find_scene(entry.name), &entry);
+    EXPECT_LE(entry.smallest_size, entry.default_size) << entry.name;
+    EXPECT_LE(entry.default_size, entry.largest_size) << entry.name;
+    for (const Body& body : scene.bodies) {
+      if (body.surface == Surface::sheet) continue;
+      EXPECT_GT(enclosed_volume(body.positions, body.facets), 0.0) << body.name;
+    }
+  }
+  EXPECT_EQ(find_scene("no-such-scene"), nullptr);
+}
+
+// With 8 substeps the sphere is 20 % deep in a cloth of 256 x 256 vertices, with 16 it is 3 %.
+TEST(Catalog, AFineClothTakesMoreSubsteps) {
+  for (const char* name : {"cloth-over-sphere", "sphere-into-cloth"}) {
+    EXPECT_EQ(find_scene(name)->make(64).dynamics.substeps, 8) << name;
+    EXPECT_EQ(find_scene(name)->make(256).dynamics.substeps, 16) << name;
+  }
+}
+
+TEST(Pile, EnergyFallsToRest) {
+  Simulation simulation = simulation_of("pile", 12, {.threads = 1});
+  double peak = 0.0;
+  for (int step = 0; step < 700; ++step) {
+    simulation.step();
+    peak = std::max(peak, simulation.state().kinetic_energy);
+  }
+  EXPECT_GT(peak, 1.0);
+  EXPECT_LT(simulation.state().kinetic_energy, 0.02 * peak);
+}
+
+// The organ of the paper has 500 facets and is concave.
+TEST(LiverAndTool, TheOrganIsThePapers) {
+  const Scene scene = find_scene("liver-and-tool")->make(0);
+  EXPECT_EQ(scene.bodies[0].facets.cols(), 500);
+}
+
+tests::Mesh seen(const Simulation& simulation, std::size_t body) {
+  return {as_matrix(simulation.seen(body)), simulation.bodies()[body].facets};
+}
+
+TEST(Clamp, ExactFindsWhatTheOracleFindsAndPaperLosesPairs) {
+  Simulation exact = simulation_of("clamp", 0);
+  Simulation paper = simulation_of("clamp", 0, {.accuracy = Accuracy::paper});
+  LostPairs lost(paper, 1);
+  for (int step = 0; step < 100; ++step) {
+    exact.step();
+    paper.step();
+    lost.add_step(paper);
+    if (step % 20 != 19) continue;
+    for (const Contact& contact : exact.report()->contacts()) {
+      const auto pairs = contact.facet_pairs();
+      EXPECT_EQ(std::vector<FacetPair>(pairs.begin(), pairs.end()),
+                tests::facet_pairs_by_oracle(seen(exact, contact.a.index), seen(exact, contact.b.index)))
+          << "step " << step;
+    }
+  }
+  EXPECT_GT(lost.all(), 1000);
+  EXPECT_GT(lost.lost(), lost.all() / 10);
+  EXPECT_LT(lost.lost(), lost.all());
+}
+
+TEST(Clamp, ExactLosesNothing) {
+  Simulation simulation = simulation_of("clamp", 0);
+  LostPairs lost(simulation, 1);
+  for (int step = 0; step < 60; ++step) {
+    simulation.step();
+    lost.add_step(simulation);
+  }
+  EXPECT_GT(lost.all(), 0);
+  EXPECT_EQ(lost.lost(), 0);
+}
+
+TEST(Clamp, LiftsTheBall) {
+  Simulation simulation = simulation_of("clamp", 0);
+  const double before = center(simulation.bodies()[1]).z;
+  for (int step = 0; step < 240; ++step) simulation.step();
+  EXPECT_GT(center(simulation.bodies()[1]).z, before + 0.25);
+}
+
+// The sphere sinks until all of it is in the cloth; the direction that is carried still points down then, though the
+// smallest separation does not; and the sphere leaves through the mouth of the bag.
+TEST(SphereInCloth, IsPushedOutTheWayItCame) {
+  Simulation simulation = simulation_of("sphere-in-cloth", 24);
+  World smallest({.threads = 1, .accuracy = Accuracy::hulls, .direction = DirectionPolicy::smallest});
+  std::vector<BodyId> ids;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Body& body = simulation.bodies()[i];
+    ids.push_back(smallest.add_body(
+        {.positions = as_matrix(simulation.seen(i)), .facets = body.facets, .surface = body.surface}));
+  }
+  const double rim = box_of(simulation.bodies()[1].positions).upper.z;
+  bool wholly_inside = false, through_the_cloth = false;
+  for (int step = 0; step < 280; ++step) {
+    simulation.step();
+    const auto contacts = simulation.report()->contacts();
+    if (contacts.empty()) continue;
+    ASSERT_LT(contacts[0].direction.z(), -0.7) << "step " << step;
+    if (box_of(simulation.bodies()[0].positions).upper.z > rim - 0.05) continue;
+    wholly_inside = true;
+    for (std::size_t i = 0; i < 2; ++i) smallest.set_positions(ids[i], as_matrix(simulation.seen(i)));
+    const auto by_hulls = smallest.detect().contacts();
+    ASSERT_EQ(by_hulls.size(), 1u) << "step " << step;
+    const Contact& shortest = by_hulls[0];
+    EXPECT_LE(shortest.depth, contacts[0].depth + 1e-9) << "step " << step;
+    through_the_cloth = through_the_cloth || shortest.direction.z() > -0.5;
+  }
+  EXPECT_TRUE(wholly_inside);
+  EXPECT_TRUE(through_the_cloth);
+  EXPECT_GT(box_of(simulation.bodies()[0].positions).lower.z, rim - 0.02);
+}
+
+}  // namespace
+}  // namespace tact::scenes
