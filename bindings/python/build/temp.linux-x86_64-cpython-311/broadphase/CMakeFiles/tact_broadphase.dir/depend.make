@@ -1,0 +1,2 @@
+# Empty dependencies file for tact_broadphase.
+# This may be replaced when dependencies are built.

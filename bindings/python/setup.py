@@ -1,0 +1,53 @@
+"""Builds the package with CMake: what `pip install .` runs in this folder, offline with the system's tools."""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+PROJECT = FOLDER.parent.parent
+
+
+class CMakeBuild(build_ext):
+    """Configures and builds the one target, into the place where setuptools looks for the extension."""
+
+    def build_extension(self, extension):
+        target = pathlib.Path(self.get_ext_fullpath(extension.name)).resolve().parent
+        build = pathlib.Path(self.build_temp).resolve()
+        options = [
+            "-DCMAKE_BUILD_TYPE=Release",
+            "-DTACT_BUILD_PYTHON=ON",
+            "-DTACT_BUILD_PROGRAM=OFF",
+            "-DTACT_BUILD_TESTS=OFF",
+            "-DTACT_BUILD_BENCH=OFF",
+            f"-DPython3_EXECUTABLE={sys.executable}",
+        ]
+        subprocess.run(["cmake", "-S", PROJECT, "-B", build, *options], check=True)
+        subprocess.run(["cmake", "--build", build, "--target", "tact_python", "--parallel"], check=True)
+        subprocess.run(["cmake", "-E", "make_directory", target], check=True)
+        for module in (build / "bindings/python/tact").glob("_tact.*.so"):
+            self.copy_file(str(module), str(target / module.name))
+
+
+def version():
+    text = (PROJECT / "engine/include/tact/version.h").read_text()
+    return re.search(r'define TACT_VERSION "(.*)"', text).group(1)
+
+
+setup(
+    name="tact",
+    version=version(),
+    description="Finds where many deformable bodies touch",
+    license="MIT",
+    packages=["tact"],
+    package_data={"tact": ["*.pyi", "py.typed"]},
+    ext_modules=[Extension("tact._tact", sources=[])],
+    cmdclass={"build_ext": CMakeBuild},
+    python_requires=">=3.9",
+    install_requires=["numpy"],
+    zip_safe=False,
+)

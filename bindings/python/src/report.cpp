@@ -1,0 +1,176 @@
+#include <pybind11/stl.h>
+#include <tact/report.h>
+
+#include <string>
+#include <vector>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "shared_world.h"
+
+namespace tact::python {
+
+namespace {
+
+using ReportHandle = OfReport<Report>;
+using ContactHandle = OfReport<Contact>;
+
+py::array_t<int> facet_pair_array(std::span<const FacetPair> pairs) {
+  return rows_of<int>(pairs, 2, [](const FacetPair& pair, int* row) {
+    row[0] = pair.a;
+    row[1] = pair.b;
+  });
+}
+
+py::list events_of(std::span<const ContactEvent> events) {
+  py::list list;
+  for (const ContactEvent& event : events) list.append(py::make_tuple(event.a, event.b));
+  return list;
+}
+
+py::dict stats_of(const Report& report) {
+  py::dict stats;
+  const auto add = [&](const char* name, const auto&, auto value) { stats[py::str(name)] = value; };
+  for_each_count(report.stats(), add);
+  for_each_time(report.stats(), add);
+  return stats;
+}
+
+template <class Member>
+auto contact_field(Member Contact::*member) {
+  return [member](const ContactHandle& contact) { return (*contact).*member; };
+}
+
+std::string contact_text(const ContactHandle& contact) {
+  const Contact& c = *contact;
+  return "<tact.Contact of bodies " + std::to_string(c.a.index) + " and " + std::to_string(c.b.index) + ", depth " +
+         std::string(py::str(py::float_(c.depth))) + ", " + std::to_string(c.facet_pairs().size()) + " facet pairs>";
+}
+
+void define_parts(py::module_& module) {
+  py::class_<ZoneDisk>(module, "ZoneDisk", "The disk around an impact zone, across the contact direction.")
+      .def_property_readonly(
+          "center", [](const ZoneDisk& zone) { return vector_of(zone.center); }, "(3,), metres")
+      .def_readonly("radius", &ZoneDisk::radius, "metres; negative if there is none");
+  py::class_<Patch>(module, "Patch", "A connected set of facet pairs.")
+      .def_property_readonly(
+          "point", [](const Patch& patch) { return vector_of(patch.point); }, "(3,), metres")
+      .def_property_readonly(
+          "direction", [](const Patch& patch) { return vector_of(patch.direction); }, "(3,), unit, from a to b")
+      .def_readonly("depth", &Patch::depth, "metres")
+      .def_property_readonly(
+          "facet_pairs",
+          [](const Patch& patch) {
+            return column_of<int>(std::span(patch.facet_pairs), [](int index) { return index; });
+          },
+          "rows of Contact.facet_pairs");
+}
+
+void define_contact(py::module_& module) {
+  py::class_<ContactHandle>(module, "Contact",
+                            "Two bodies whose convex hulls overlap. Arrays that it gives stay valid.")
+      .def_property_readonly("a", contact_field(&Contact::a))
+      .def_property_readonly("b", contact_field(&Contact::b))
+      .def_property_readonly(
+          "direction", [](const ContactHandle& contact) { return vector_of(contact->direction); },
+          "(3,), unit, from a to b")
+      .def_property_readonly("depth", contact_field(&Contact::depth), "overlap of the hulls along `direction`, metres")
+      .def_property_readonly("source", contact_field(&Contact::source))
+      .def_property_readonly("iterations", contact_field(&Contact::iterations))
+      .def_property_readonly("limit_reached", contact_field(&Contact::limit_reached))
+      .def_property_readonly("plane_a", contact_field(&Contact::plane_a),
+                             "the farthest that a's hull reaches along `direction`, metres")
+      .def_property_readonly("plane_b", contact_field(&Contact::plane_b),
+                             "the nearest that b's hull reaches along `direction`, metres")
+      .def_property_readonly("zone_a", contact_field(&Contact::zone_a))
+      .def_property_readonly("zone_b", contact_field(&Contact::zone_b))
+      .def_property_readonly("kept_facets_a", contact_field(&Contact::kept_facets_a))
+      .def_property_readonly("kept_facets_b", contact_field(&Contact::kept_facets_b))
+      .def_property_readonly(
+          "facet_pairs", [](const ContactHandle& contact) { return facet_pair_array(contact->facet_pairs()); },
+          "(N, 2) int32: the facets that meet, sorted")
+      .def_property_readonly(
+          "touching", [](const ContactHandle& contact) { return contact->touching(); },
+          "does any facet of a meet one of b?")
+      .def_property_readonly(
+          "patches",
+          [](const ContactHandle& contact) {
+            const auto patches = contact->patches();
+            return std::vector<Patch>(patches.begin(), patches.end());
+          },
+          "filled if Settings.patches is set")
+      .def("__repr__", contact_text);
+}
+
+py::list contacts_of(const ReportHandle& report) {
+  py::list list;
+  for (const Contact& contact : report->contacts()) list.append(report.part(contact));
+  return list;
+}
+
+py::object find_contact(const ReportHandle& report, BodyId a, BodyId b) {
+  const Contact* contact = report->find_contact(a, b);
+  return contact == nullptr ? py::object(py::none()) : py::cast(report.part(*contact));
+}
+
+py::list candidates_of(const ReportHandle& report) {
+  py::list list;
+  for (const CandidatePair& pair : report->candidate_pairs())
+    list.append(py::make_tuple(pair.a, pair.b, pair.hulls_overlap));
+  return list;
+}
+
+std::string report_text(const ReportHandle& report) {
+  return "<tact.Report of " + std::to_string(report->contacts().size()) + " contacts, " +
+         std::to_string(report->stats().facet_pairs) + " facet pairs>";
+}
+
+}  // namespace
+
+void define_report(py::module_& module) {
+  define_parts(module);
+  define_contact(module);
+  py::class_<ReportHandle>(module, "Report", "What a step found, until the next one. Arrays that it gives stay valid.")
+      .def_property_readonly("contacts", contacts_of, "pairs whose hulls overlap, sorted by (a, b)")
+      .def("find_contact", find_contact, py::arg("a"), py::arg("b"), "the contact of two bodies, or None")
+      .def_property_readonly(
+          "bodies",
+          [](const ReportHandle& report) {
+            return rows_of<std::int64_t>(report->contacts(), 2, [](const Contact& contact, std::int64_t* row) {
+              row[0] = contact.a.index;
+              row[1] = contact.b.index;
+            });
+          },
+          "(C, 2) int64: BodyId.index of the bodies of each contact")
+      .def_property_readonly(
+          "directions",
+          [](const ReportHandle& report) {
+            return rows_of<double>(report->contacts(), 3, [](const Contact& contact, double* row) {
+              Eigen::Vector3d::Map(row) = contact.direction;
+            });
+          },
+          "(C, 3): the direction of each contact")
+      .def_property_readonly(
+          "depths",
+          [](const ReportHandle& report) {
+            return column_of<double>(report->contacts(), [](const Contact& contact) { return contact.depth; });
+          },
+          "(C,): the depth of each contact, metres")
+      .def_property_readonly("candidate_pairs", candidates_of, "(a, b, hulls_overlap) of the pairs whose boxes overlap")
+      .def_property_readonly(
+          "began", [](const ReportHandle& report) { return events_of(report->began()); },
+          "pairs (a, b) that touch now and did not")
+      .def_property_readonly(
+          "ended", [](const ReportHandle& report) { return events_of(report->ended()); },
+          "pairs (a, b) that touched and do not now")
+      .def_property_readonly(
+          "stats", [](const ReportHandle& report) { return stats_of(*report); },
+          "counts, and times in milliseconds, by name")
+      .def(
+          "hash", [](const ReportHandle& report) { return report->hash(); },
+          "a number made from every bit of the answers")
+      .def("__len__", [](const ReportHandle& report) { return report->contacts().size(); })
+      .def("__repr__", report_text);
+}
+
+}  // namespace tact::python

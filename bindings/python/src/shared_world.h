@@ -1,0 +1,98 @@
+// A world as Python holds it: it is used by one thread at a time, and knows which of its reports is the last.
+#pragma once
+
+#include <pybind11/pybind11.h>
+#include <tact/world.h>
+
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+namespace tact::python {
+
+namespace py = pybind11;
+
+/// Becomes tact.StaleReportError: a report, or a part of it, was asked for after its step.
+class StaleReport : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Every member is read and written by threads that hold the interpreter's lock, but for the world inside compute().
+class SharedWorld {
+ public:
+  explicit SharedWorld(const Settings& settings) : world_(settings) {}
+
+  /// The world, for a call that keeps the lock. @throws Error wrong_order while another thread is in compute().
+  World& use() {
+    if (busy_) throw Error(ErrorCode::wrong_order, "the world is in use by another thread");
+    return world_;
+  }
+  /// Calls work(world) without the lock, so that other threads of Python go on.
+  template <class Work>
+  void compute(const Work& work) {
+    World& world = use();
+    const Busy busy(*this);
+    std::exception_ptr thrown;
+    // Not by a guard: where the interpreter ends meanwhile, taking the lock again ends this thread, by unwinding its
+    // stack, which no destructor lets pass.
+    PyThreadState* const thread = PyEval_SaveThread();
+    try {
+      work(world);
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    PyEval_RestoreThread(thread);
+    if (thrown) std::rethrow_exception(thrown);
+  }
+  /// The report of the step that is made now; those of before are stale from here on.
+  std::uint64_t next_report() { return ++report_; }
+  /// @throws StaleReport if it is not the last, Error wrong_order as use().
+  void check_report(std::uint64_t report) {
+    use();
+    if (report != report_)
+      throw StaleReport(
+          "this report is of an earlier step: what it shows is gone with the next detect() or set_settings()");
+  }
+
+ private:
+  struct Busy {
+    explicit Busy(SharedWorld& shared) : shared_(shared) { shared_.busy_ = true; }
+    ~Busy() { shared_.busy_ = false; }
+    Busy(const Busy&) = delete;
+    Busy& operator=(const Busy&) = delete;
+    SharedWorld& shared_;
+  };
+
+  World world_;
+  std::uint64_t report_ = 0;
+  bool busy_ = false;
+};
+
+/// A report, or something in it, that is asked for only while it is the world's last.
+template <class Shown>
+class OfReport {
+ public:
+  OfReport(std::shared_ptr<SharedWorld> world, std::uint64_t report, const Shown* shown)
+      : world_(std::move(world)), report_(report), shown_(shown) {}
+  /// @throws StaleReport, Error wrong_order.
+  const Shown& operator*() const {
+    world_->check_report(report_);
+    return *shown_;
+  }
+  const Shown* operator->() const { return &**this; }
+  /// Something else in the same report.
+  template <class Part>
+  OfReport<Part> part(const Part& part) const {
+    return {world_, report_, &part};
+  }
+
+ private:
+  std::shared_ptr<SharedWorld> world_;
+  std::uint64_t report_;
+  const Shown* shown_;
+};
+
+}  // namespace tact::python

@@ -1,0 +1,157 @@
+#include <pybind11/stl.h>
+#include <tact/world.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "shared_world.h"
+
+namespace tact::python {
+
+namespace {
+
+using SharedPointer = std::shared_ptr<SharedWorld>;
+
+BodyId add_body(SharedWorld& world, py::handle positions, py::handle facets, Surface surface, Motion motion,
+                const std::string& name, std::uint32_t layer, std::uint32_t mask) {
+  const PositionsArgument x(positions);
+  const FacetsArgument f(facets);
+  const BodyDefinition definition{.positions = x.columns(),
+                                  .facets = f.columns(),
+                                  .surface = surface,
+                                  .motion = motion,
+                                  .name = name,
+                                  .layer = layer,
+                                  .mask = mask};
+  BodyId added;
+  world.compute([&](World& w) { added = w.add_body(definition); });
+  return added;
+}
+
+void set_positions(SharedWorld& world, BodyId body, py::handle positions) {
+  const PositionsArgument x(positions);
+  world.compute([&](World& w) { w.set_positions(body, x.columns()); });
+}
+
+void set_many_positions(SharedWorld& world, const py::dict& positions) {
+  std::vector<PositionsArgument> arguments;
+  std::vector<PositionsUpdate> updates;
+  arguments.reserve(positions.size());
+  for (const auto& [body, array] : positions) {
+    arguments.emplace_back(array);
+    updates.push_back({py::cast<BodyId>(body), arguments.back().columns()});
+  }
+  world.compute([&](World& w) { w.set_positions(updates); });
+}
+
+OfReport<Report> detect(const SharedPointer& world) {
+  world->use();
+  const std::uint64_t report = world->next_report();
+  const Report* made = nullptr;
+  world->compute([&](World& w) { made = &w.detect(); });
+  return {world, report, made};
+}
+
+void set_settings(SharedWorld& world, const Settings& settings) {
+  world.use().set_settings(settings);
+  world.next_report();
+}
+
+std::string settings_text(const Settings& settings) {
+  return "<tact.Settings threads=" + std::to_string(settings.threads) +
+         ", accuracy=" + std::string(py::str(py::cast(settings.accuracy).attr("name"))) + ">";
+}
+
+Settings make_settings(int threads, Accuracy accuracy, DirectionPolicy direction, double gjk_tolerance,
+                       int iteration_limit, bool zones, bool patches) {
+  return {.threads = threads,
+          .accuracy = accuracy,
+          .direction = direction,
+          .gjk_tolerance = gjk_tolerance,
+          .iteration_limit = iteration_limit,
+          .outputs = {.zones = zones, .patches = patches}};
+}
+
+template <bool Outputs::*kMember>
+void output(py::class_<Settings>& settings, const char* name, const char* text) {
+  settings.def_property(
+      name, [](const Settings& s) { return s.outputs.*kMember; },
+      [](Settings& s, bool wanted) { s.outputs.*kMember = wanted; }, text);
+}
+
+void define_settings(py::module_& module) {
+  const Settings defaults;
+  py::class_<Settings> settings(module, "Settings", "What a world promises and how much of the machine it uses.");
+  settings
+      .def(py::init(&make_settings), py::kw_only(), py::arg("threads") = defaults.threads,
+           py::arg("accuracy") = defaults.accuracy, py::arg("direction") = defaults.direction,
+           py::arg("gjk_tolerance") = defaults.gjk_tolerance, py::arg("iteration_limit") = defaults.iteration_limit,
+           py::arg("zones") = false, py::arg("patches") = false)
+      .def_readwrite("threads", &Settings::threads, "0 to 1024; 0: as many as OpenMP would use")
+      .def_readwrite("accuracy", &Settings::accuracy)
+      .def_readwrite("direction", &Settings::direction)
+      .def_readwrite("gjk_tolerance", &Settings::gjk_tolerance, "relative gap at which GJK stops, 1e-15 to 0.1")
+      .def_readwrite("iteration_limit", &Settings::iteration_limit, "shifted calls of GJK a pair and step, at least 1")
+      .def("__repr__", settings_text);
+  output<&Outputs::zones>(settings, "zones", "compute Contact.zone_a and zone_b");
+  output<&Outputs::patches>(settings, "patches", "compute Contact.patches");
+}
+
+// A function of World that takes a body and gives something of it.
+template <auto kFunction>
+auto of_body(SharedWorld& world, BodyId body) {
+  return (world.use().*kFunction)(body);
+}
+
+}  // namespace
+
+void define_world(py::module_& module) {
+  define_settings(module);
+  py::class_<SharedWorld, SharedPointer>(
+      module, "World",
+      "A set of bodies and the contacts among them. One thread uses it at a time; it gives the "
+      "interpreter free while it computes.")
+      .def(py::init<const Settings&>(), py::arg("settings") = Settings{})
+      .def_property_readonly(
+          "settings", [](SharedWorld& world) { return world.use().settings(); }, "a copy; see set_settings()")
+      .def("set_settings", set_settings, py::arg("settings"), "takes effect with the next step")
+      .def("add_body", add_body, py::arg("positions"), py::arg("facets"), py::kw_only(),
+           py::arg("surface") = Surface::closed, py::arg("motion") = Motion::moving, py::arg("name") = "",
+           py::arg("layer") = 1u, py::arg("mask") = 0xffffffffu,
+           "positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside")
+      .def(
+          "remove_body", [](SharedWorld& world, BodyId body) { world.use().remove_body(body); }, py::arg("body"))
+      .def("set_positions", set_positions, py::arg("body"), py::arg("positions"), "positions: (V, 3) in metres")
+      .def("set_positions", set_many_positions, py::arg("positions"),
+           "{body: (V, 3) in metres}: all of them or, after an error, none")
+      .def(
+          "set_layers",
+          [](SharedWorld& world, BodyId body, std::uint32_t layer, std::uint32_t mask) {
+            world.use().set_layers(body, layer, mask);
+          },
+          py::arg("body"), py::arg("layer"), py::arg("mask"))
+      .def(
+          "set_motion", [](SharedWorld& world, BodyId body, Motion motion) { world.use().set_motion(body, motion); },
+          py::arg("body"), py::arg("motion"))
+      .def("detect", detect, "one step: the contacts of the positions as they are now")
+      .def(
+          "contains", [](SharedWorld& world, BodyId body) { return world.use().contains(body); }, py::arg("body"))
+      .def_property_readonly("body_count", [](SharedWorld& world) { return world.use().body_count(); })
+      .def_property_readonly("bodies", [](SharedWorld& world) { return world.use().bodies(); })
+      .def("name", of_body<&World::name>, py::arg("body"))
+      .def("surface", of_body<&World::surface>, py::arg("body"))
+      .def("motion", of_body<&World::motion>, py::arg("body"))
+      .def("layer", of_body<&World::layer>, py::arg("body"))
+      .def("mask", of_body<&World::mask>, py::arg("body"))
+      .def("vertex_count", of_body<&World::vertex_count>, py::arg("body"))
+      .def("facet_count", of_body<&World::facet_count>, py::arg("body"))
+      .def("__len__", [](SharedWorld& world) { return world.use().body_count(); })
+      .def("__repr__", [](SharedWorld& world) {
+        return "<tact.World of " + std::to_string(world.use().body_count()) + " bodies>";
+      });
+}
+
+}  // namespace tact::python

@@ -1,0 +1,269 @@
+"""Finds where many deformable triangle meshes touch."""
+
+from typing import ClassVar, Optional, overload
+
+import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.int32]
+
+__version__: str
+LARGEST_COORDINATE: float
+"""The largest size of a coordinate, metres."""
+
+class Error(RuntimeError):
+    """Data that a world cannot take. The world is as it was."""
+
+    code: ErrorCode
+
+class StaleReportError(RuntimeError):
+    """A report was asked for something after its world's next detect() or set_settings()."""
+
+class ErrorCode:
+    """What is wrong with the data of a call."""
+
+    non_finite_position: ClassVar[ErrorCode]
+    position_out_of_range: ClassVar[ErrorCode]
+    facet_out_of_range: ClassVar[ErrorCode]
+    wrong_size: ClassVar[ErrorCode]
+    too_large: ClassVar[ErrorCode]
+    stale_body: ClassVar[ErrorCode]
+    foreign_body: ClassVar[ErrorCode]
+    fixed_body: ClassVar[ErrorCode]
+    bad_settings: ClassVar[ErrorCode]
+    wrong_order: ClassVar[ErrorCode]
+    out_of_memory: ClassVar[ErrorCode]
+    backend_failure: ClassVar[ErrorCode]
+    name: str
+    value: int
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+
+class Surface:
+    """What a mesh is the surface of."""
+
+    closed: ClassVar[Surface]
+    sheet: ClassVar[Surface]
+    name: str
+    value: int
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+
+class Motion:
+    """Whether a body's positions can be set."""
+
+    moving: ClassVar[Motion]
+    fixed: ClassVar[Motion]
+    name: str
+    value: int
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+
+class Accuracy:
+    """What a report promises of its pairs."""
+
+    hulls: ClassVar[Accuracy]
+    paper: ClassVar[Accuracy]
+    exact: ClassVar[Accuracy]
+    name: str
+    value: int
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+
+class DirectionPolicy:
+    """Where the contact direction of a pair comes from."""
+
+    carried: ClassVar[DirectionPolicy]
+    smallest: ClassVar[DirectionPolicy]
+    name: str
+    value: int
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+
+class DirectionSource:
+    """How a contact direction was found."""
+
+    carried: ClassVar[DirectionSource]
+    fresh: ClassVar[DirectionSource]
+    smallest: ClassVar[DirectionSource]
+    name: str
+    value: int
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+
+class BodyId:
+    """Names a body of one world. It is never given out twice."""
+
+    @property
+    def index(self) -> int: ...
+    @property
+    def generation(self) -> int: ...
+    def __lt__(self, other: BodyId) -> bool: ...
+    def __hash__(self) -> int: ...
+
+class Settings:
+    """What a world promises and how much of the machine it uses."""
+
+    threads: int
+    accuracy: Accuracy
+    direction: DirectionPolicy
+    gjk_tolerance: float
+    iteration_limit: int
+    zones: bool
+    patches: bool
+    def __init__(
+        self,
+        *,
+        threads: int = 0,
+        accuracy: Accuracy = ...,
+        direction: DirectionPolicy = ...,
+        gjk_tolerance: float = 1e-12,
+        iteration_limit: int = 100,
+        zones: bool = False,
+        patches: bool = False,
+    ) -> None: ...
+
+class ZoneDisk:
+    """The disk around an impact zone, across the contact direction."""
+
+    @property
+    def center(self) -> Floats:
+        """(3,), metres"""
+    @property
+    def radius(self) -> float:
+        """metres; negative if there is none"""
+
+class Patch:
+    """A connected set of facet pairs."""
+
+    @property
+    def point(self) -> Floats:
+        """(3,), metres"""
+    @property
+    def direction(self) -> Floats:
+        """(3,), unit, from a to b"""
+    @property
+    def depth(self) -> float:
+        """metres"""
+    @property
+    def facet_pairs(self) -> Ints:
+        """rows of Contact.facet_pairs"""
+
+class Contact:
+    """Two bodies whose convex hulls overlap. Arrays that it gives stay valid."""
+
+    @property
+    def a(self) -> BodyId: ...
+    @property
+    def b(self) -> BodyId: ...
+    @property
+    def direction(self) -> Floats:
+        """(3,), unit, from a to b"""
+    @property
+    def depth(self) -> float:
+        """overlap of the hulls along `direction`, metres"""
+    @property
+    def source(self) -> DirectionSource: ...
+    @property
+    def iterations(self) -> int: ...
+    @property
+    def limit_reached(self) -> bool: ...
+    @property
+    def plane_a(self) -> float: ...
+    @property
+    def plane_b(self) -> float: ...
+    @property
+    def zone_a(self) -> ZoneDisk: ...
+    @property
+    def zone_b(self) -> ZoneDisk: ...
+    @property
+    def kept_facets_a(self) -> int: ...
+    @property
+    def kept_facets_b(self) -> int: ...
+    @property
+    def facet_pairs(self) -> Ints:
+        """(N, 2): the facets that meet, sorted"""
+    @property
+    def touching(self) -> bool:
+        """does any facet of a meet one of b?"""
+    @property
+    def patches(self) -> list[Patch]:
+        """filled if Settings.patches is set"""
+
+class Report:
+    """What a step found, until the next one. Arrays that it gives stay valid."""
+
+    @property
+    def contacts(self) -> list[Contact]:
+        """pairs whose hulls overlap, sorted by (a, b)"""
+    def find_contact(self, a: BodyId, b: BodyId) -> Optional[Contact]: ...
+    @property
+    def bodies(self) -> npt.NDArray[np.int64]:
+        """(C, 2): BodyId.index of the bodies of each contact"""
+    @property
+    def directions(self) -> Floats:
+        """(C, 3): the direction of each contact"""
+    @property
+    def depths(self) -> Floats:
+        """(C,): the depth of each contact, metres"""
+    @property
+    def candidate_pairs(self) -> list[tuple[BodyId, BodyId, bool]]:
+        """(a, b, hulls_overlap) of the pairs whose boxes overlap"""
+    @property
+    def began(self) -> list[tuple[BodyId, BodyId]]: ...
+    @property
+    def ended(self) -> list[tuple[BodyId, BodyId]]: ...
+    @property
+    def stats(self) -> dict[str, float]:
+        """counts, and times in milliseconds, by name"""
+    def hash(self) -> int:
+        """a number made from every bit of the answers"""
+    def __len__(self) -> int: ...
+
+class World:
+    """A set of bodies and the contacts among them."""
+
+    def __init__(self, settings: Settings = ...) -> None: ...
+    @property
+    def settings(self) -> Settings: ...
+    def set_settings(self, settings: Settings) -> None: ...
+    def add_body(
+        self,
+        positions: npt.NDArray[np.floating],
+        facets: npt.NDArray[np.integer],
+        *,
+        surface: Surface = ...,
+        motion: Motion = ...,
+        name: str = "",
+        layer: int = 1,
+        mask: int = 0xFFFFFFFF,
+    ) -> BodyId:
+        """positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside"""
+    def remove_body(self, body: BodyId) -> None: ...
+    @overload
+    def set_positions(self, body: BodyId, positions: npt.NDArray[np.floating]) -> None: ...
+    @overload
+    def set_positions(self, positions: dict[BodyId, npt.NDArray[np.floating]]) -> None: ...
+    def set_layers(self, body: BodyId, layer: int, mask: int) -> None: ...
+    def set_motion(self, body: BodyId, motion: Motion) -> None: ...
+    def detect(self) -> Report: ...
+    def contains(self, body: BodyId) -> bool: ...
+    @property
+    def body_count(self) -> int: ...
+    @property
+    def bodies(self) -> list[BodyId]: ...
+    def name(self, body: BodyId) -> str: ...
+    def surface(self, body: BodyId) -> Surface: ...
+    def motion(self, body: BodyId) -> Motion: ...
+    def layer(self, body: BodyId) -> int: ...
+    def mask(self, body: BodyId) -> int: ...
+    def vertex_count(self, body: BodyId) -> int: ...
+    def facet_count(self, body: BodyId) -> int: ...
+    def __len__(self) -> int: ...

@@ -1,0 +1,139 @@
+"""The package gives what the engine finds."""
+
+import threading
+
+import numpy as np
+import pytest
+import tact
+from shapes import grid, tetrahedron
+
+
+@pytest.fixture
+def two():
+    """A world of two tetrahedra that reach 0.1 m into each other, and their ids."""
+    world = tact.World(tact.Settings(threads=2))
+    ids = [world.add_body(*tetrahedron(x), name=name) for x, name in ((0.0, "left"), (0.9, "right"))]
+    return world, *ids
+
+
+def test_a_contact_has_the_closed_form_of_two_tetrahedra(two):
+    world, left, right = two
+    (contact,) = world.detect().contacts
+    assert (contact.a, contact.b) == (left, right)
+    assert contact.depth == pytest.approx(0.1 / np.sqrt(3.0), abs=1e-15)
+    np.testing.assert_allclose(contact.direction, np.full(3, 1 / np.sqrt(3.0)), atol=1e-15)
+    assert contact.touching and len(contact.facet_pairs) > 0
+    assert contact.facet_pairs.dtype == np.int32 and contact.facet_pairs.shape[1] == 2
+
+
+def test_lists_of_the_report_agree_with_its_contacts(two):
+    world, left, right = two
+    report = world.detect()
+    contact = report.contacts[0]
+    np.testing.assert_array_equal(report.bodies, [[left.index, right.index]])
+    np.testing.assert_array_equal(report.directions, [contact.direction])
+    np.testing.assert_array_equal(report.depths, [contact.depth])
+    assert report.candidate_pairs == [(left, right, True)]
+    assert report.began == [(left, right)] and report.ended == []
+    assert report.find_contact(right, left).depth == contact.depth
+    assert report.stats["contacts"] == 1 and report.stats["total_ms"] > 0
+    assert len(report) == 1
+
+
+def test_arrays_stay_valid_after_the_step(two):
+    world, left, right = two
+    pairs = world.detect().contacts[0].facet_pairs
+    kept = pairs.copy()
+    for step in range(20):
+        world.set_positions(right, tetrahedron(0.9 + step)[0])
+        world.detect()
+    np.testing.assert_array_equal(pairs, kept)
+
+
+def test_arrays_of_the_report_cannot_be_written_to(two):
+    contact = two[0].detect().contacts[0]
+    for array in (contact.facet_pairs, contact.direction):
+        with pytest.raises(ValueError, match="read-only"):
+            array[:] = 0
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3])
+def test_the_hash_does_not_depend_on_threads(threads):
+    def run(count):
+        world = tact.World(tact.Settings(threads=count, zones=True, patches=True))
+        positions, facets = grid(20)
+        sheets = [world.add_body(positions + [0, 0, 0.02 * k], facets, surface=tact.Surface.sheet) for k in range(4)]
+        hashes = []
+        for step in range(5):
+            wave = 0.05 * np.sin(3 * positions[:, :1] + step)
+            world.set_positions({sheet: positions + wave * [0, 0, 1 + k] for k, sheet in enumerate(sheets)})
+            hashes.append(world.detect().hash())
+        return hashes
+
+    assert run(threads) == run(1)
+
+
+def test_float32_and_strided_rows_give_what_float64_gives(two):
+    world, left, right = two
+    positions = tetrahedron(0.875)[0]  # exact in 32 bits
+    wide = np.zeros((4, 5))
+    wide[:, 1:4] = positions
+    hashes = set()
+    for given in (positions, positions.astype(np.float32), wide[:, 1:4]):
+        world.set_positions(right, given)
+        hashes.add(world.detect().hash())
+    assert len(hashes) == 1
+
+
+def test_settings_zones_and_patches():
+    world = tact.World(tact.Settings(zones=True, patches=True, accuracy=tact.Accuracy.paper))
+    world.add_body(*tetrahedron(0.0))
+    world.add_body(*tetrahedron(0.9))
+    (contact,) = world.detect().contacts
+    assert contact.zone_a.radius >= 0 and contact.zone_a.center.shape == (3,)
+    assert sum(len(patch.facet_pairs) for patch in contact.patches) == len(contact.facet_pairs)
+    world.set_settings(tact.Settings(accuracy=tact.Accuracy.hulls))
+    assert world.settings.accuracy == tact.Accuracy.hulls
+    assert not world.detect().contacts[0].touching
+
+
+def test_bodies_and_what_they_are(two):
+    world, left, right = two
+    assert world.bodies == [left, right] and len(world) == world.body_count == 2
+    assert (world.name(left), world.vertex_count(left), world.facet_count(left)) == ("left", 4, 4)
+    assert world.surface(left) == tact.Surface.closed and world.motion(left) == tact.Motion.moving
+    world.set_layers(left, 2, 4)
+    assert (world.layer(left), world.mask(left)) == (2, 4)
+    assert world.detect().contacts == []
+    world.set_motion(left, tact.Motion.fixed)
+    assert world.motion(left) == tact.Motion.fixed
+    world.remove_body(right)
+    assert not world.contains(right) and left != right and len({left, right}) == 2
+
+
+def test_other_threads_run_while_a_step_is_computed():
+    world = tact.World(tact.Settings(threads=1))
+    positions, facets = grid(400)
+    for k in range(6):
+        world.add_body(positions + [0, 0, 0.001 * k], facets, surface=tact.Surface.sheet)
+    step = threading.Thread(target=world.detect)
+    refused = seen = 0
+    step.start()
+    while step.is_alive():
+        seen += 1
+        try:
+            world.detect()
+        except tact.Error as error:
+            assert error.code == tact.ErrorCode.wrong_order
+            refused += 1
+    step.join()
+    assert seen > 0 and refused > 0
+
+
+def test_texts_say_what_a_thing_is(two):
+    world = two[0]
+    report = world.detect()
+    assert repr(world) == "<tact.World of 2 bodies>"
+    assert repr(report).startswith("<tact.Report of 1 contacts")
+    assert repr(report.contacts[0]).startswith("<tact.Contact of bodies 0 and 1")
+    assert "index=0" in repr(two[1]) and "threads=2" in repr(world.settings)
