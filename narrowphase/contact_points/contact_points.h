@@ -1,0 +1,74 @@
+// Contact points: where two surfaces, or two parts of one, are nearest to each other and nearer than a reach. See
+// nearest.h for which points these are.
+#pragma once
+
+#include <tact/feature_pair.h>
+
+#include <array>
+#include <compare>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "narrowphase/contact_points/features.h"
+#include "narrowphase/contact_points/nearest.h"
+#include "narrowphase/triangles/confirm.h"
+
+namespace tact::narrowphase {
+
+/// A point on each surface. Vertices have the caller's numbers; those of an edge ascend, those of a facet stand in its
+/// own order; -1 fills up.
+struct FeaturePoint {
+  FeaturePair kind = FeaturePair::vertex_facet;
+  std::array<int, 3> a{-1, -1, -1};
+  std::array<int, 3> b{-1, -1, -1};
+  std::array<double, 3> weight_a{};  // of the vertices of `a`; their sum is 1
+  std::array<double, 3> weight_b{};
+  Vec3 normal;       // unit, from the point of a to that of b; zero where they are one point in a vertex or an edge
+  double gap = 0.0;  // metres
+
+  /// Which features these are, whatever lies between them.
+  auto features() const { return std::tie(kind, a, b); }
+};
+
+/// A mesh and its features.
+struct FeaturedMesh {
+  const ClusteredMesh* mesh = nullptr;
+  const Features* features = nullptr;
+};
+
+/// The cluster pairs of `a` and `b` that come within `reach` (metres); for one mesh with itself each pair once, the
+/// smaller first.
+class NearClusters {
+ public:
+  std::span<const ClusterPair> find(const FeaturedMesh& a, const FeaturedMesh& b, double reach, EmbreeDevice& device);
+  std::span<const ClusterPair> pairs() const { return pairs_; }
+
+ private:
+  KeptClusters kept_a_, kept_b_;
+  std::vector<ClusterPair> pairs_;  // clusters
+  ClusterPairWork work_;
+};
+
+class ContactPointSearch {
+ public:
+  ContactPointSearch();
+  ~ContactPointSearch();
+  ContactPointSearch(ContactPointSearch&&) noexcept;
+  ContactPointSearch& operator=(ContactPointSearch&&) noexcept;
+
+  /// Appends the points of some cluster pairs of `a` and `b`, which may be one mesh, in no particular order. All pairs
+  /// together give each point once.
+  ///
+  /// Of one mesh, features that share a vertex have none, nor do those that are nearer than pi/2 times `reach` along
+  /// the edges of the mesh: so far apart lie, on a sheet folded as tightly as its thickness lets it, the places that
+  /// are one reach apart.
+  void run(const FeaturedMesh& a, const FeaturedMesh& b, double reach, std::span<const ClusterPair> pairs,
+           std::vector<FeaturePoint>& found);
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
+
+}  // namespace tact::narrowphase

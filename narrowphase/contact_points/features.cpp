@@ -1,0 +1,88 @@
+#include "narrowphase/contact_points/features.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace tact::narrowphase {
+
+namespace {
+
+// A side of a facet: from corner k to the next one.
+struct Side {
+  EdgeVertices vertices;  // the smaller first
+  int facet;
+  int k;
+  friend bool operator<(const Side& x, const Side& y) {
+    return std::tie(x.vertices, x.facet, x.k) < std::tie(y.vertices, y.facet, y.k);
+  }
+};
+
+std::vector<Side> sides_of(const ClusteredMesh& mesh) {
+  std::vector<Side> sides;
+  sides.reserve(3 * static_cast<std::size_t>(mesh.facet_count()));
+  for (int f = 0; f < mesh.facet_count(); ++f) {
+    const Corners c = mesh.corners(f);
+    for (int k = 0; k < 3; ++k) {
+      const int from = c[static_cast<std::size_t>(k)], to = c[static_cast<std::size_t>((k + 1) % 3)];
+      if (from != to) sides.push_back({{std::min(from, to), std::max(from, to)}, f, k});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
+
+}  // namespace
+
+Features::Features(const ClusteredMesh& mesh) {
+  find_edges(mesh);
+  find_neighbors(mesh);
+}
+
+void Features::find_edges(const ClusteredMesh& mesh) {
+  const std::vector<Side> sides = sides_of(mesh);
+  // Where the sides of each edge begin, in the order of the first facets.
+  std::vector<std::size_t> begins;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (i == 0 || sides[i].vertices != sides[i - 1].vertices) begins.push_back(i);
+  }
+  std::ranges::stable_sort(begins, {}, [&](std::size_t i) { return std::pair(sides[i].facet, sides[i].k); });
+  facet_edges_.assign(3 * static_cast<std::size_t>(mesh.facet_count()), -1);
+  edge_begin_.assign(static_cast<std::size_t>(mesh.cluster_count()) + 1, 0);
+  opposite_begin_.push_back(0);
+  for (const std::size_t begin : begins) {
+    const int edge = edge_count();
+    EdgeVertices vertices = sides[begin].vertices;
+    if (mesh.source_vertex(vertices[1]) < mesh.source_vertex(vertices[0])) std::swap(vertices[0], vertices[1]);
+    edges_.push_back(vertices);
+    first_facet_of_edge_.push_back(sides[begin].facet);
+    ++edge_begin_[static_cast<std::size_t>(sides[begin].facet / kClusterSize) + 1];
+    for (std::size_t i = begin; i < sides.size() && sides[i].vertices == sides[begin].vertices; ++i) {
+      const auto [_, f, k] = sides[i];
+      facet_edges_[3 * static_cast<std::size_t>(f) + static_cast<std::size_t>(k)] = edge;
+      opposite_.push_back(mesh.corners(f)[static_cast<std::size_t>((k + 2) % 3)]);
+    }
+    opposite_begin_.push_back(static_cast<int>(opposite_.size()));
+  }
+  for (std::size_t c = 1; c < edge_begin_.size(); ++c) edge_begin_[c] += edge_begin_[c - 1];
+}
+
+void Features::find_neighbors(const ClusteredMesh& mesh) {
+  const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
+  first_facet_of_vertex_.assign(vertices, -1);
+  for (int f = mesh.facet_count() - 1; f >= 0; --f) {
+    for (const int v : mesh.corners(f)) first_facet_of_vertex_[static_cast<std::size_t>(v)] = f;
+  }
+  neighbors_begin_.assign(vertices + 1, 0);
+  for (const EdgeVertices& edge : edges_) {
+    for (const int v : edge) ++neighbors_begin_[static_cast<std::size_t>(v) + 1];
+  }
+  for (std::size_t v = 0; v < vertices; ++v) neighbors_begin_[v + 1] += neighbors_begin_[v];
+  neighbors_.resize(2 * edges_.size());
+  std::vector<int> next(neighbors_begin_.begin(), neighbors_begin_.end() - 1);
+  for (const auto& [v, w] : edges_) {
+    neighbors_[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] = w;
+    neighbors_[static_cast<std::size_t>(next[static_cast<std::size_t>(w)]++)] = v;
+  }
+}
+
+}  // namespace tact::narrowphase

@@ -1,0 +1,54 @@
+// The edges of a mesh and what lies around each edge and vertex: what tells whether a point of a surface is nearest
+// among its neighbours. It depends on facets alone, so it is made once and holds while the mesh moves.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "narrowphase/mesh/clustered_mesh.h"
+
+namespace tact::narrowphase {
+
+using EdgeVertices = std::array<int, 2>;
+
+class Features {
+ public:
+  explicit Features(const ClusteredMesh& mesh);
+
+  /// Edges are ordered by the first facet that has them: those of a cluster follow each other.
+  int edge_count() const { return static_cast<int>(edges_.size()); }
+  int edge_begin(int cluster) const { return edge_begin_[static_cast<std::size_t>(cluster)]; }
+  int edge_end(int cluster) const { return edge_begin(cluster + 1); }
+  /// The two vertices, in the order of the caller's numbers. They differ.
+  EdgeVertices edge(int edge) const { return edges_[static_cast<std::size_t>(edge)]; }
+  /// The third vertex of each facet that has the edge.
+  std::span<const int> opposite(int edge) const { return part(opposite_, opposite_begin_, edge); }
+  /// The edge from corner k of a facet to the next one; negative if these are one vertex.
+  int facet_edge(int facet, int k) const {
+    return facet_edges_[3 * static_cast<std::size_t>(facet) + static_cast<std::size_t>(k)];
+  }
+  /// Among the facets that have an edge or a vertex, the first one.
+  int first_facet_of_edge(int edge) const { return first_facet_of_edge_[static_cast<std::size_t>(edge)]; }
+  int first_facet_of_vertex(int vertex) const { return first_facet_of_vertex_[static_cast<std::size_t>(vertex)]; }
+  /// The vertices that share an edge with a vertex, each once.
+  std::span<const int> neighbors(int vertex) const { return part(neighbors_, neighbors_begin_, vertex); }
+
+ private:
+  static std::span<const int> part(const std::vector<int>& all, const std::vector<int>& begin, int i) {
+    const auto k = static_cast<std::size_t>(i);
+    return std::span(all).subspan(static_cast<std::size_t>(begin[k]),
+                                  static_cast<std::size_t>(begin[k + 1] - begin[k]));
+  }
+  void find_edges(const ClusteredMesh& mesh);
+  void find_neighbors(const ClusteredMesh& mesh);
+
+  std::vector<EdgeVertices> edges_;
+  std::vector<int> edge_begin_;  // by cluster, and one more
+  std::vector<int> opposite_, opposite_begin_;
+  std::vector<int> facet_edges_;
+  std::vector<int> first_facet_of_edge_, first_facet_of_vertex_;
+  std::vector<int> neighbors_, neighbors_begin_;
+};
+
+}  // namespace tact::narrowphase
