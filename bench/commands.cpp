@@ -4,6 +4,7 @@
 #include "bench/predicates.h"
 #include "bench/rivals/broadphase.h"
 #include "bench/rivals/rivals.h"
+#include "bench/scaling/busy.h"
 #include "bench/scaling/clusters.h"
 #include "bench/scaling/idle.h"
 #include "bench/scaling/refresh.h"
@@ -20,6 +21,7 @@ std::vector<Command> commands() {
       {"scaling", "one and more threads, growth with bodies and facets, the slowest of many steps", run_scaling},
       {"stages", "what each stage costs in every level of the cache, and on all threads", run_stages},
       {"idle", "steps in which nothing moved, or few of many", run_idle},
+      {"busy", "steps beside programs that keep the processor busy", run_busy},
       {"broadphase", "boxes alone, in every kind of motion, through tact, Embree and CGAL", run_broadphase},
       {"clusters", "pairs of clusters by a loop and by Embree's trees", run_clusters},
       {"error", "run time against error, of every setting and of other libraries", run_error},

@@ -5,11 +5,13 @@
 #include <limits>
 #include <new>
 #include <optional>
+#include <type_traits>
 
 #include "engine/base/fast_paths.h"
 #include "engine/base/parallel.h"
 #include "engine/base/text.h"
 #include "engine/check_name.h"
+#include "engine/columns.h"
 
 namespace tact {
 
@@ -18,7 +20,7 @@ namespace {
 using narrowphase::PositionProblem;
 using Refresh = narrowphase::ClusteredMesh::Refresh;
 
-constexpr Eigen::Index kLargestCount = std::numeric_limits<int>::max() / 4;
+constexpr std::ptrdiff_t kLargestCount = std::numeric_limits<int>::max() / 4;
 constexpr std::size_t kPrefetchDistance = 8;     // bodies
 constexpr std::size_t kPublishedAtATime = 1024;  // bodies
 constexpr std::size_t kRefreshedBytes = 128;     // of a Body, its first: what stage 1 reads
@@ -47,12 +49,13 @@ void check_positions(const double* positions, std::size_t count, const std::stri
                   (infinite ? ", which is not finite" : ", which is larger than 2^300 in size"));
 }
 
-void check_facets(std::span<const int> corner, Eigen::Index vertices, const std::string& name) {
+void check_facets(std::span<const int> corner, const Facets& given, std::ptrdiff_t vertices, const std::string& name) {
   for (std::size_t i = 0; i < corner.size(); ++i) {
     if (corner[i] >= 0 && corner[i] < vertices) continue;
-    throw Error(ErrorCode::facet_out_of_range, quoted(name) + ": facet " + std::to_string(i / 3) + " names vertex " +
-                                                   std::to_string(corner[i]) + ", but there are " +
-                                                   std::to_string(vertices) + " vertices");
+    throw Error(ErrorCode::facet_out_of_range,
+                quoted(name) + ": facet " + std::to_string(i / 3) + " names vertex " +
+                    std::to_string(index_at(given, static_cast<std::ptrdiff_t>(i / 3), static_cast<int>(i % 3))) +
+                    ", but there are " + std::to_string(vertices) + " vertices");
   }
 }
 
@@ -69,24 +72,23 @@ void make_room(std::vector<T>& vector, std::size_t count) {
 
 template <class Scalar>
 void check_rows(const Columns<Scalar>& m, const char* what, const std::string& name) {
+  constexpr bool kCoordinates = std::is_same_v<Scalar, double>;
+  const bool known = m.kind() <= NumberKind::uint16 && (m.kind() <= NumberKind::float64) == kCoordinates;
+  if (!known || (m.first() == nullptr && m.cols() > 0)) {
+    throw Error(ErrorCode::wrong_size, quoted(name) + ": the array of " + what +
+                                           (known          ? " is null"
+                                            : kCoordinates ? " holds no float32 or float64"
+                                                           : " holds no int32, uint32 or uint16"));
+  }
   if (m.rows() == 3) return;
   throw Error(ErrorCode::wrong_size, quoted(name) + ": the matrix of " + what + " is " + std::to_string(m.rows()) +
                                          " x " + std::to_string(m.cols()) + ", not 3 x N");
 }
 
-// The columns of a matrix, one after the other. There may be gaps between them (the top rows of a taller matrix): they
-// are then copied to `copy`.
+// Makes room for the columns where they are not read where they are.
 template <class Scalar>
-std::span<const Scalar> packed(const Columns<Scalar>& m, std::vector<Scalar>& copy) {
-  const auto size = static_cast<std::size_t>(3 * m.cols());
-  if (m.stride() == 3 || m.cols() <= 1) return {m.data(), size};
-  copy.clear();
-  copy.reserve(size);
-  for (Eigen::Index column = 0; column < m.cols(); ++column) {
-    const Scalar* first = m.data() + column * m.stride();
-    copy.insert(copy.end(), first, first + 3);
-  }
-  return copy;
+void make_copy_room(const Columns<Scalar>& m, std::vector<Scalar>& copy) {
+  if (!is_packed(m)) copy.resize(static_cast<std::size_t>(3 * m.cols()));
 }
 
 }  // namespace
@@ -105,12 +107,17 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   }
   std::vector<double> position_copy;
   std::vector<int> facet_copy;
-  const std::span<const double> positions = packed(definition.positions, position_copy);
-  const std::span<const int> facets = packed(definition.facets, facet_copy);
+  make_copy_room(definition.positions, position_copy);
+  make_copy_room(definition.facets, facet_copy);
+  const std::span<const double> positions = packed(definition.positions, std::span(position_copy));
+  const std::span<const int> facets = packed(definition.facets, std::span(facet_copy));
   check_positions(positions.data(), positions.size() / 3, name);
-  check_facets(facets, definition.positions.cols(), name);
-  auto body =
-      std::make_unique<Body>(Body{.mesh = {positions, facets}, .id = {}, .name = name, .surface = definition.surface});
+  check_facets(facets, definition.facets, definition.positions.cols(), name);
+  auto body = std::make_unique<Body>(Body{.mesh = {positions, facets},
+                                          .id = {},
+                                          .name = name,
+                                          .surface = definition.surface,
+                                          .external_id = definition.external_id});
   // Nothing can fail half-way: all that may allocate comes first.
   const std::size_t slots = std::max<std::size_t>(slots_.size(), slot + 1);
   const auto on_all = [&](const auto& grow) {
@@ -183,7 +190,8 @@ void Bodies::prepare(Update& update, BodyId id, const Positions& positions) {
                                            " vertices, but " + std::to_string(positions.cols()) +
                                            " positions were given");
   }
-  update.positions = packed(positions, update.copy);
+  make_copy_room(positions, update.copy);
+  update.given = &positions;
   update.body = slot.body.get();
   update.slot = id.index;
 }
@@ -197,6 +205,7 @@ void Bodies::prefetch(BodyId id) const {
 void Bodies::refresh(std::size_t i, int threads) {
   Update& update = updates_[i];
   narrowphase::ClusteredMesh& mesh = update.body->mesh;
+  update.positions = packed(*update.given, std::span(update.copy));
   update.refreshed = mesh.refresh(update.positions.data(), kLargestCoordinate, threads, !stay_in_cache());
   const bool changed = update.refreshed == Refresh::changed;
   update.box = mesh.box();
@@ -326,7 +335,7 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
     // Of the bodies that another thread may turn over, only where they are is read.
     const std::size_t own_end = threads == 1 ? count : std::min(count, i - i % grain + grain);
     const auto ask_for = [&](std::size_t k) {
-      if (k < own_end) updates_[k].body->mesh.prefetch(updates_[k].positions.data());
+      if (k < own_end && is_packed(*updates_[k].given)) updates_[k].body->mesh.prefetch(updates_[k].given->data());
     };
     if (asks_ahead) {
       for (std::size_t k = 1; i % grain == 0 && k < kPrefetchDistance; ++k) ask_for(i + k);

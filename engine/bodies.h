@@ -22,6 +22,7 @@ struct alignas(64) Body {
   BodyId id;
   std::string name;
   Surface surface = Surface::closed;
+  std::uint64_t external_id = 0;
 };
 
 class Bodies {
@@ -109,6 +110,7 @@ class Bodies {
   struct Update {
     Body* body = nullptr;
     std::uint32_t slot = 0;
+    const Positions* given = nullptr;  // where the caller has them; packed when it is this body's turn
     std::span<const double> positions;
     std::vector<double> copy;
     narrowphase::ClusteredMesh::Refresh refreshed{};

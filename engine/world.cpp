@@ -59,9 +59,10 @@ decltype(auto) with_memory(const char* what, const Work& work) {
 }  // namespace
 
 struct World::Implementation {
-  explicit Implementation(const Settings& given) : settings(checked(given)) {}
+  explicit Implementation(const Settings& given) : settings(checked(given)), workers(settings.executor) {}
 
   Settings settings;
+  base::Workers workers;
   Bodies bodies{next_world()};
   Step step;
   double refresh_ms = 0.0;  // since the last step
@@ -79,6 +80,7 @@ struct World::Implementation {
 
   template <class Set>
   void set_positions(const Set& set) {
+    const base::Workers::Scope scope(workers);
     with_memory("setting positions ran out of memory", [&] { refresh(set); });
   }
 
@@ -108,8 +110,10 @@ World::Implementation& World::implementation() const {
 const Settings& World::settings() const { return implementation().settings; }
 
 void World::set_settings(const Settings& settings) {
-  implementation().settings = checked(settings);
-  implementation().step.look_at_all();
+  Implementation& i = implementation();
+  i.settings = checked(settings);
+  if (i.workers.executor() != i.settings.executor.get()) i.workers = base::Workers(i.settings.executor);
+  i.step.look_at_all();
 }
 
 BodyId World::add_body(const BodyDefinition& definition) {
@@ -138,6 +142,7 @@ void World::set_motion(BodyId body, Motion motion) { implementation().bodies.set
 const Report& World::detect() {
   Implementation& i = implementation();
   const base::FloatingPointMode mode;
+  const base::Workers::Scope scope(i.workers);
   i.regroup();
   const double refresh_ms = std::exchange(i.refresh_ms, 0.0);
   return with_memory("detect ran out of memory; the next call starts afresh", [&]() -> const Report& {
@@ -163,6 +168,7 @@ Motion World::motion(BodyId body) const {
 }
 std::uint32_t World::layer(BodyId body) const { return implementation().bodies.filter(body).layer; }
 std::uint32_t World::mask(BodyId body) const { return implementation().bodies.filter(body).mask; }
+std::uint64_t World::external_id(BodyId body) const { return implementation().bodies.at(body).external_id; }
 std::size_t World::vertex_count(BodyId body) const {
   return static_cast<std::size_t>(implementation().bodies.at(body).mesh.source_vertex_count());
 }

@@ -1,16 +1,22 @@
-// The one place with OpenMP in it. An item writes only to a slot of its own, so nothing depends on the number of
-// threads; an exception is caught in its item and the one of the lowest index is thrown again after the loop.
+// The one place with OpenMP in it, or with the threads of a program that brings its own (workers.h). An item writes
+// only to a slot of its own, so nothing depends on the number of threads; an exception is caught in its item and the
+// one of the lowest index is thrown again after the loop.
 #pragma once
 
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
+#include <mutex>
 #include <type_traits>
 
 #include "engine/base/floating_point_mode.h"
+#include "engine/base/workers.h"
 
 namespace tact::base {
 
@@ -39,6 +45,116 @@ struct alignas(64) BlockShare {
   std::size_t end;
 };
 
+// The exception of the item with the lowest index among those that failed.
+class FirstException {
+ public:
+  void keep(std::size_t index) {
+    const std::lock_guard lock(mutex_);
+    if (exception_ && index_ <= index) return;
+    index_ = index;
+    exception_ = std::current_exception();
+  }
+  void rethrow() const {
+    if (exception_) std::rethrow_exception(exception_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::size_t index_ = 0;
+  std::exception_ptr exception_;
+};
+
+// A loop that several threads do.
+template <class Work>
+class SharedLoop {
+ public:
+  SharedLoop(std::size_t count, std::size_t grain, int threads, const Work& work)
+      : count_(count), grain_(grain), blocks_((count + grain - 1) / grain), work_(work) {
+    share_count_ = std::min({static_cast<std::size_t>(threads), blocks_, kMostShares});
+    for (std::size_t k = 0; k < share_count_; ++k) {
+      shares_[k].next.store(blocks_ * k / share_count_, std::memory_order_relaxed);
+      shares_[k].end = blocks_ * (k + 1) / share_count_;
+    }
+  }
+
+  // What one of the threads does: its own share, then what others have left.
+  void run(int thread) {
+    const FloatingPointMode mode;
+    for (std::size_t k = 0; k < share_count_; ++k) {
+      BlockShare& share = shares_[(static_cast<std::size_t>(thread) + k) % share_count_];
+      const auto take = [&] { return share.next.fetch_add(1, std::memory_order_relaxed); };
+      for (std::size_t block = take(); block < share.end; block = take()) run_block(block, thread);
+    }
+  }
+  std::size_t blocks() const { return blocks_; }
+  const FirstException& failed() const { return failed_; }
+
+ private:
+  static constexpr std::size_t kMostShares = 16;
+
+  void run_block(std::size_t block, int thread) {
+    for (std::size_t i = block * grain_, end = std::min(i + grain_, count_); i < end; ++i) {
+      try {
+        call_work(work_, i, thread);
+      } catch (...) {
+        failed_.keep(i);
+        return;
+      }
+    }
+  }
+
+  BlockShare shares_[kMostShares];
+  std::size_t share_count_, count_, grain_, blocks_;
+  const Work& work_;
+  FirstException failed_;
+};
+
+// Calls run(thread) on `threads` threads of OpenMP. What it loses by threads that are not allowed to run is noted.
+template <class Run>
+void run_on_openmp(int threads, int wanted, Workers* workers, const Run& run) {
+  using Milliseconds = std::chrono::duration<double, std::milli>;
+  const auto begin = Workers::Clock::now();
+  auto own_end = begin;
+  std::atomic<double> delay_ms = 0.0;
+#pragma omp parallel num_threads(threads)
+  {
+    if (const int thread = omp_get_thread_num(); thread == 0 || workers == nullptr) {
+      run(thread);
+      if (thread == 0) own_end = Workers::Clock::now();
+    } else {
+      const WorkerClock clock;
+      run(thread);
+      const double delay = clock.delay_ms(begin);
+      for (double most = delay_ms; most < delay && !delay_ms.compare_exchange_weak(most, delay);) {
+      }
+    }
+    // By this, as at the end of a work-sharing loop, the thread sanitizer sees that nothing here is read any more.
+#pragma omp barrier
+  }
+  if (workers == nullptr) return;
+  const auto end = Workers::Clock::now();
+  const double waited_ms = Milliseconds(end - own_end).count();
+  workers->note(threads, wanted, Milliseconds(end - begin).count(), std::min(waited_ms, delay_ms.load()));
+}
+
+// Calls run(thread) for each of `threads` on the threads of a program. What it leaves out is done here.
+template <class Run>
+void run_on_executor(int threads, Executor& executor, const Run& run) {
+  struct Call {
+    const Run& run;
+    int threads;
+    std::array<std::atomic<std::uint64_t>, 16> called = {};  // a bit a task: Settings::threads is 1024 at most
+
+    void once(int index) {
+      if (index < 0 || index >= threads) return;
+      const std::uint64_t bit = std::uint64_t{1} << index % 64;
+      if ((called[static_cast<std::size_t>(index) / 64].fetch_or(bit) & bit) == 0) run(index);
+    }
+  } call{run, threads};
+  executor.run(threads, Executor::Task([](void* data, int index) { static_cast<Call*>(data)->once(index); }, &call));
+  for (int index = 0; index < threads; ++index) call.once(index);
+}
+
 // Calls work(i), or work(i, thread) with 0 <= thread < threads, for every 0 <= i < count, `grain` neighbouring items at
 // a time, on up to `threads` threads. With one thread, or no more than `grain` items, it runs in the calling thread. Of
 // loops over the same items a thread takes the same part, as far as it can, and finds them in its cache.
@@ -49,43 +165,21 @@ void parallel_for(std::size_t count, std::size_t grain, int threads, const Work&
     for (std::size_t i = 0; i < count; ++i) call_work(work, i, 0);
     return;
   }
-  std::exception_ptr first;
-  std::size_t first_index = count;
-  const std::size_t blocks = (count + grain - 1) / grain;
-  constexpr std::size_t kMostShares = 16;
-  BlockShare shares[kMostShares];
-  const std::size_t share_count = std::min({static_cast<std::size_t>(threads), blocks, kMostShares});
-  for (std::size_t k = 0; k < share_count; ++k) {
-    shares[k].next.store(blocks * k / share_count, std::memory_order_relaxed);
-    shares[k].end = blocks * (k + 1) / share_count;
+  Workers* const workers = Workers::current();
+  const int allowed = workers != nullptr ? workers->allowed(threads) : threads;
+  SharedLoop<Work> loop(count, grain, allowed, work);
+  const auto run = [&](int thread) { loop.run(thread); };
+  if (workers != nullptr && workers->executor() != nullptr) {
+    const auto tasks = std::min({loop.blocks(), static_cast<std::size_t>(threads), std::size_t{1024}});
+    run_on_executor(static_cast<int>(tasks), *workers->executor(), run);
+  } else if (allowed <= 1) {
+    const auto begin = Workers::Clock::now();
+    run(0);
+    workers->note(1, threads, std::chrono::duration<double, std::milli>(Workers::Clock::now() - begin).count(), 0.0);
+  } else {
+    run_on_openmp(allowed, threads, workers, run);
   }
-  const auto run_block = [&](std::size_t block, int thread) {
-    for (std::size_t i = block * grain, end = std::min(i + grain, count); i < end; ++i) {
-      try {
-        call_work(work, i, thread);
-      } catch (...) {
-#pragma omp critical(tact_parallel_for_exception)
-        if (i < first_index) {
-          first_index = i;
-          first = std::current_exception();
-        }
-        return;
-      }
-    }
-  };
-#pragma omp parallel num_threads(threads)
-  {
-    const FloatingPointMode mode;
-    const int thread = omp_get_thread_num();
-    for (std::size_t k = 0; k < share_count; ++k) {
-      BlockShare& share = shares[(static_cast<std::size_t>(thread) + k) % share_count];
-      const auto take = [&] { return share.next.fetch_add(1, std::memory_order_relaxed); };
-      for (std::size_t block = take(); block < share.end; block = take()) run_block(block, thread);
-    }
-    // By this, as at the end of a work-sharing loop, the thread sanitizer sees that nothing here is read any more.
-#pragma omp barrier
-  }
-  if (first) std::rethrow_exception(first);
+  loop.failed().rethrow();
 }
 
 }  // namespace tact::base

@@ -32,9 +32,9 @@ void put_body(std::ostream& out, BodyId body) {
 // Column by column: the caller's columns need not follow each other.
 template <class Scalar>
 void put_columns(std::ostream& out, const Columns<Scalar>& columns) {
-  constexpr auto kSize = static_cast<std::streamsize>(3 * sizeof(Scalar));
-  for (Eigen::Index i = 0; i < columns.cols(); ++i) {
-    out.write(reinterpret_cast<const char*>(columns.data() + i * columns.stride()), kSize);
+  for (std::ptrdiff_t i = 0; i < columns.cols(); ++i) {
+    const std::array<Scalar, 3> column = columns.column(i);
+    out.write(reinterpret_cast<const char*>(column.data()), sizeof column);
   }
 }
 

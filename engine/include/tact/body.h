@@ -43,6 +43,7 @@ struct BodyDefinition {
   std::string name = {};             // for messages; empty: "body <index>"
   std::uint32_t layer = 1;           // the layers this body is on, a bit each
   std::uint32_t mask = 0xffffffffu;  // the layers it is tested against; a pair needs both masks to agree
+  std::uint64_t external_id = 0;     // the program's own, see World::external_id(); nothing depends on it
 };
 
 }  // namespace tact

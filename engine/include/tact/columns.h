@@ -1,11 +1,26 @@
-// What a program passes as a matrix of three rows.
+// What a program passes as a matrix of three rows: a matrix of Eigen, or arrays of its own. Does not need Eigen unless
+// its matrices are passed.
 #pragma once
 
-#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <type_traits>
 #include <utility>
+
+namespace Eigen {
+template <typename Derived>
+class DenseBase;
+template <typename Derived>
+class PlainObjectBase;
+template <typename PlainObjectType, int Options, typename StrideType>
+class Ref;
+template <typename Scalar, int Rows, int Cols, int Options, int MaxRows, int MaxCols>
+class Matrix;
+}  // namespace Eigen
 
 namespace tact {
 
@@ -16,60 +31,133 @@ template <class Type>
 inline constexpr bool kIsEigenRef = false;
 template <class Matrix, int kOptions, class Stride>
 inline constexpr bool kIsEigenRef<Eigen::Ref<Matrix, kOptions, Stride>> = true;
+inline constexpr int kEigenDynamic = -1;              // Eigen::Dynamic
+inline constexpr unsigned kEigenDirectAccess = 0x40;  // Eigen::DirectAccessBit
 
 // Can every `Number` be written as a `Scalar`?
 template <class Number, class Scalar>
 inline constexpr bool kFits = std::numeric_limits<Number>::digits <= std::numeric_limits<Scalar>::digits &&
                               (std::numeric_limits<Number>::is_integer || !std::numeric_limits<Scalar>::is_integer);
 
-// A 3 x N matrix: a column a vertex, or a facet. Made from any matrix or expression of Eigen. One whose columns lie
-// whole in memory (a Matrix3X, a Map, the top rows of a larger one) is looked at where it is, and must stay there as
-// long as this is used. Anything else, an expression, a temporary matrix or Ref, one that is row-major or of other
-// numbers, is held by this and its copies. (A temporary block or Map is a view too: what it shows must stay.)
+/// The numbers that an array of a program can hold: coordinates are float32 or float64, indices int32, uint32 or
+/// uint16.
+enum class NumberKind : std::uint8_t { float32, float64, int32, uint32, uint16 };
+
+/// Which of them `Number` is; only for `Scalar` = double the first two, for int the others.
+template <class Number, class Scalar>
+constexpr NumberKind number_kind() {
+  if constexpr (std::is_same_v<Scalar, double>) {
+    static_assert(std::is_same_v<Number, float> || std::is_same_v<Number, double>, "coordinates are float or double");
+    return std::is_same_v<Number, float> ? NumberKind::float32 : NumberKind::float64;
+  } else {
+    static_assert(
+        std::is_integral_v<Number> && (sizeof(Number) == 4 || (sizeof(Number) == 2 && std::is_unsigned_v<Number>)),
+        "indices are of 32 bits, or unsigned of 16");
+    if (sizeof(Number) == 2) return NumberKind::uint16;
+    return std::is_unsigned_v<Number> ? NumberKind::uint32 : NumberKind::int32;
+  }
+}
+
+/// A 3 x N matrix: a column a vertex, or a facet. Made from any matrix or expression of Eigen, or by strided(). One
+/// whose columns lie whole in memory (a Matrix3X, a Map, the top rows of a larger one) is looked at where it is, and
+/// must stay there as long as this is used. Anything else, an expression, a temporary matrix or Ref, one that is
+/// row-major or of other numbers, is held by this and its copies. (A temporary block or Map is a view too: what it
+/// shows must stay.)
 template <class Scalar>
 class Columns {
-  using Matrix = Eigen::Matrix<Scalar, 3, Eigen::Dynamic>;
+  using Matrix = Eigen::Matrix<Scalar, 3, kEigenDynamic, 0, 3, kEigenDynamic>;
 
  public:
+  /// Looks at `count` columns of an array, three numbers each, that begin every `stride_bytes` from `first` on: the
+  /// positions in vertices of 32 bytes, say. Coordinates are float or double; floats widen exactly. Indices are of 32
+  /// bits, or unsigned of 16. Nothing is copied, and the array must stay as long as this is used.
+  template <class Number>
+  static Columns strided(const Number* first, std::size_t count, std::size_t stride_bytes = 3 * sizeof(Number)) {
+    return of_kind(number_kind<Number, Scalar>(), first, count, stride_bytes);
+  }
+  /// The same where the kind of the numbers is known when the program runs. It must be one of `Scalar`'s.
+  static Columns of_kind(NumberKind kind, const void* first, std::size_t count, std::size_t stride_bytes) {
+    Columns columns;
+    columns.data_ = first;
+    columns.cols_ = static_cast<std::ptrdiff_t>(count);
+    columns.stride_bytes_ = static_cast<std::ptrdiff_t>(stride_bytes);
+    columns.kind_ = kind;
+    return columns;
+  }
+
   template <class Given>
   requires requires(const Given& given) { eigen_type(given); }
   Columns(Given&& matrix) : rows_(matrix.rows()), cols_(matrix.cols()) {  // NOLINT: implicit
     using Type = typename decltype(eigen_type(matrix))::type;
     using Number = typename Type::Scalar;
-    static_assert(Type::RowsAtCompileTime == 3 || Type::RowsAtCompileTime == Eigen::Dynamic,
+    static_assert(Type::RowsAtCompileTime == 3 || Type::RowsAtCompileTime == kEigenDynamic,
                   "a vertex or a facet is a column of three rows: transpose a matrix that has them in rows");
     static_assert(kFits<Number, Scalar>, "cast<>() the matrix: its numbers need not fit");
     constexpr bool kIsTemporary = !std::is_lvalue_reference_v<Given> &&
                                   (std::is_base_of_v<Eigen::PlainObjectBase<Type>, Type> || kIsEigenRef<Type>);
-    constexpr bool kHasWholeColumns = (Type::Flags & Eigen::DirectAccessBit) != 0 && !Type::IsRowMajor &&
+    constexpr bool kHasWholeColumns = (Type::Flags & kEigenDirectAccess) != 0 && !Type::IsRowMajor &&
                                       Type::InnerStrideAtCompileTime == 1 && std::is_same_v<Number, Scalar>;
     if constexpr (kHasWholeColumns && !kIsTemporary) {
       data_ = matrix.data();
-      stride_ = matrix.outerStride();
+      stride_bytes_ = matrix.outerStride() * static_cast<std::ptrdiff_t>(sizeof(Scalar));
     } else if (rows_ == 3) {
       if constexpr (std::is_same_v<Given, Matrix>) {
-        held_ = std::make_shared<const Matrix>(std::move(matrix));
+        hold(std::make_shared<const Matrix>(std::move(matrix)));
       } else {
-        held_ = std::make_shared<const Matrix>(matrix.template cast<Scalar>());
+        hold(std::make_shared<const Matrix>(matrix.template cast<Scalar>()));
       }
-      data_ = held_->data();
     }
   }
 
-  const Scalar* data() const { return data_; }
-  Eigen::Index rows() const { return rows_; }  // 3, or what was given is refused
-  Eigen::Index cols() const { return cols_; }
-  Eigen::Index stride() const { return stride_; }  // from a column to the next
+  std::ptrdiff_t rows() const { return rows_; }  ///< 3, or what was given is refused
+  std::ptrdiff_t cols() const { return cols_; }
+  NumberKind kind() const { return kind_; }
+  const void* first() const { return data_; }                    ///< the first number
+  std::ptrdiff_t stride_bytes() const { return stride_bytes_; }  ///< from a column to the next
+  /// The first number and the numbers from a column to the next, if they are Scalars; else null.
+  const Scalar* data() const { return kind_ == kOwnKind ? static_cast<const Scalar*>(data_) : nullptr; }
+  std::ptrdiff_t stride() const { return stride_bytes_ / static_cast<std::ptrdiff_t>(sizeof(Scalar)); }
+
+  /// The numbers of a column, from 0 on, whatever they are stored as. Indices of 2^31 and more wrap.
+  std::array<Scalar, 3> column(std::ptrdiff_t i) const {
+    const std::byte* const at = static_cast<const std::byte*>(data_) + i * stride_bytes_;
+    switch (kind_) {
+      case NumberKind::float32: return numbers<float>(at);
+      case NumberKind::float64: return numbers<double>(at);
+      case NumberKind::int32: return numbers<std::int32_t>(at);
+      case NumberKind::uint32: return numbers<std::uint32_t>(at);
+      case NumberKind::uint16: return numbers<std::uint16_t>(at);
+    }
+    return {};
+  }
 
  private:
-  const Scalar* data_ = nullptr;
-  Eigen::Index rows_ = 3;
-  Eigen::Index cols_ = 0;
-  Eigen::Index stride_ = 3;
-  std::shared_ptr<const Matrix> held_;
+  // Copied byte by byte: nothing is known of the alignment.
+  template <class Number>
+  static std::array<Scalar, 3> numbers(const std::byte* at) {
+    std::array<Number, 3> numbers;
+    std::memcpy(numbers.data(), at, sizeof numbers);
+    return {static_cast<Scalar>(numbers[0]), static_cast<Scalar>(numbers[1]), static_cast<Scalar>(numbers[2])};
+  }
+
+  static constexpr NumberKind kOwnKind = number_kind<Scalar, Scalar>();
+
+  Columns() = default;
+  template <class Held>
+  void hold(std::shared_ptr<const Held> matrix) {
+    data_ = matrix->data();
+    held_ = std::move(matrix);
+  }
+
+  const void* data_ = nullptr;
+  std::ptrdiff_t rows_ = 3;
+  std::ptrdiff_t cols_ = 0;
+  std::ptrdiff_t stride_bytes_ = 3 * sizeof(Scalar);
+  NumberKind kind_ = kOwnKind;
+  std::shared_ptr<const void> held_;
 };
 
-using Positions = Columns<double>;  // 3 x V, metres
-using Facets = Columns<int>;        // 3 x F, indices of vertices, counter-clockwise seen from outside
+using Positions = Columns<double>;  ///< 3 x V, metres
+using Facets = Columns<int>;        ///< 3 x F, indices of vertices, counter-clockwise seen from outside
 
 }  // namespace tact

@@ -1,6 +1,10 @@
 // What a world promises and how much of the machine it uses.
 #pragma once
 
+#include <tact/executor.h>
+
+#include <memory>
+
 namespace tact {
 
 // What a report promises of its pairs.
@@ -27,9 +31,9 @@ struct Outputs {
 
 struct Settings {
   // 0 to 1024; 0: as many as OpenMP would use, of which World::settings() then tells the number. They are OpenMP's,
-  // which by default keep spinning for a while after each step: in a program with busy threads of its own, set
-  // OMP_WAIT_POLICY=passive in its environment, or fewer threads here. What holds for OpenMP holds here: GCC's ends the
-  // program if a thread cannot be started, and a child of fork() can use one thread only.
+  // unless there is an executor. While other programs keep the processor busy, fewer are used: a world notices what it
+  // loses by waiting for threads that do not run. What holds for OpenMP holds here: GCC's ends the program if a thread
+  // cannot be started, and a child of fork() can use one thread only.
   int threads = 0;
   Accuracy accuracy = Accuracy::exact;
   DirectionPolicy direction = DirectionPolicy::carried;
@@ -38,6 +42,9 @@ struct Settings {
   double gjk_tolerance = 1e-12;
   int iteration_limit = 100;  // shifted calls of GJK a pair and step, at least 1
   Outputs outputs = {};
+  // Threads of the program's own that do the work, `threads` tasks at a time; null: OpenMP's. The answers are the same.
+  // Held by the world; called only within its functions.
+  std::shared_ptr<Executor> executor = {};
 };
 
 }  // namespace tact

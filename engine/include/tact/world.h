@@ -91,6 +91,7 @@ class TACT_API World {
   Motion motion(BodyId body) const;
   std::uint32_t layer(BodyId body) const;
   std::uint32_t mask(BodyId body) const;
+  std::uint64_t external_id(BodyId body) const;
   std::size_t vertex_count(BodyId body) const;
   std::size_t facet_count(BodyId body) const;
 

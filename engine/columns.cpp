@@ -1,0 +1,77 @@
+#include "engine/columns.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+namespace tact {
+
+static_assert(kEigenDynamic == Eigen::Dynamic && kEigenDirectAccess == Eigen::DirectAccessBit);
+
+namespace {
+
+// Copied byte by byte: nothing is known of the alignment.
+template <class Number>
+Number number_at(const std::byte* first, std::ptrdiff_t i) {
+  Number number;
+  std::memcpy(&number, first + i * static_cast<std::ptrdiff_t>(sizeof(Number)), sizeof(Number));
+  return number;
+}
+
+template <class Number, class Scalar>
+Scalar converted(Number number) {
+  if constexpr (std::is_same_v<Number, std::uint32_t>) {
+    return static_cast<Scalar>(std::min<std::uint32_t>(number, std::numeric_limits<int>::max()));
+  } else {
+    return static_cast<Scalar>(number);
+  }
+}
+
+template <class Number, class Scalar>
+void copy_columns(const Columns<Scalar>& columns, Scalar* to) {
+  const auto* column = static_cast<const std::byte*>(columns.first());
+  for (std::ptrdiff_t i = 0; i < columns.cols(); ++i, column += columns.stride_bytes(), to += 3) {
+    for (int row = 0; row < 3; ++row) to[row] = converted<Number, Scalar>(number_at<Number>(column, row));
+  }
+}
+
+}  // namespace
+
+template <class Scalar>
+bool is_packed(const Columns<Scalar>& columns) {
+  const bool aligned = reinterpret_cast<std::uintptr_t>(columns.first()) % alignof(Scalar) == 0;
+  return columns.data() != nullptr && aligned &&
+         (columns.stride_bytes() == 3 * static_cast<std::ptrdiff_t>(sizeof(Scalar)) || columns.cols() <= 1);
+}
+
+template <class Scalar>
+std::span<const Scalar> packed(const Columns<Scalar>& columns, std::span<Scalar> copy) {
+  const auto size = static_cast<std::size_t>(3 * columns.cols());
+  if (size == 0) return {};
+  if (is_packed(columns)) return {columns.data(), size};
+  switch (columns.kind()) {
+    case NumberKind::float32: copy_columns<float>(columns, copy.data()); break;
+    case NumberKind::float64: copy_columns<double>(columns, copy.data()); break;
+    case NumberKind::int32: copy_columns<std::int32_t>(columns, copy.data()); break;
+    case NumberKind::uint32: copy_columns<std::uint32_t>(columns, copy.data()); break;
+    case NumberKind::uint16: copy_columns<std::uint16_t>(columns, copy.data()); break;
+  }
+  return copy.first(size);
+}
+
+long long index_at(const Facets& facets, std::ptrdiff_t facet, int corner) {
+  const auto* column = static_cast<const std::byte*>(facets.first()) + facet * facets.stride_bytes();
+  switch (facets.kind()) {
+    case NumberKind::uint16: return number_at<std::uint16_t>(column, corner);
+    case NumberKind::uint32: return number_at<std::uint32_t>(column, corner);
+    default: return number_at<std::int32_t>(column, corner);
+  }
+}
+
+template bool is_packed(const Columns<double>&);
+template bool is_packed(const Columns<int>&);
+template std::span<const double> packed(const Columns<double>&, std::span<double>);
+template std::span<const int> packed(const Columns<int>&, std::span<int>);
+
+}  // namespace tact

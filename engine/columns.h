@@ -1,0 +1,23 @@
+// Reads what a program passes as a matrix of three rows.
+#pragma once
+
+#include <tact/columns.h>
+
+#include <span>
+#include <vector>
+
+namespace tact {
+
+// Are the columns doubles, or ints, one after the other, so that they are read where they are?
+template <class Scalar>
+bool is_packed(const Columns<Scalar>& columns);
+
+// The columns one after the other, as `Scalar`s: where they are if they are packed, else in `copy`, which has room for
+// them. An index beyond the ints becomes the largest int.
+template <class Scalar>
+std::span<const Scalar> packed(const Columns<Scalar>& columns, std::span<Scalar> copy);
+
+// The numbers of a column, as they were given.
+long long index_at(const Facets& facets, std::ptrdiff_t facet, int corner);
+
+}  // namespace tact
