@@ -1,0 +1,305 @@
+/* tact for C99: the whole public interface, with the meaning that the headers of C++ give it (world.h, report.h).
+ *
+ *   tact_world world;
+ *   if (tact_world_create(NULL, &world) != TACT_OK) puts(tact_last_error_message());
+ *   tact_body_definition definition = TACT_BODY_DEFINITION_INIT;
+ *   ...
+ *   tact_world_add_body(world, &definition, &body);
+ *   tact_world_set_positions(world, body, &positions);
+ *   tact_world_detect(world);
+ *
+ * Every function returns TACT_OK or an error, of which tact_last_error_message() then tells more; the world is as it
+ * was before. A handle that was destroyed or never given out, a null pointer, a wrong size and calls of one world by
+ * two threads at once are errors as well, not crashes. (Functions that only read may run at the same time.) Pointers
+ * that point to nowhere cannot be told.
+ *
+ * Arrays that come back belong to the world: they are valid until its next tact_world_detect(),
+ * tact_world_set_settings() or tact_world_destroy(). Lengths are metres.
+ *
+ * Structs begin with their size, by which the library knows which version of this header a program was compiled with:
+ * always begin with the TACT_..._INIT of the struct. */
+#ifndef TACT_C_H
+#define TACT_C_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define TACT_C_API __attribute__((visibility("default")))
+#else
+#define TACT_C_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** What a function returns. The numbers never change; new ones may come. */
+typedef enum tact_error {
+  TACT_OK = 0,
+  TACT_ERROR_NON_FINITE_POSITION = 1,   /**< a coordinate is NaN or infinite */
+  TACT_ERROR_POSITION_OUT_OF_RANGE = 2, /**< a coordinate is larger than 2^300 in size */
+  TACT_ERROR_FACET_OUT_OF_RANGE = 3,    /**< a facet names a vertex that the body does not have */
+  TACT_ERROR_WRONG_SIZE = 4,            /**< the number of positions is not the body's of vertices */
+  TACT_ERROR_TOO_LARGE = 5,             /**< more than 2^29 - 1 vertices or facets, or 2^32 - 1 bodies */
+  TACT_ERROR_STALE_BODY = 6,            /**< the body was removed, or was never given out */
+  TACT_ERROR_FOREIGN_BODY = 7,          /**< the body is another world's */
+  TACT_ERROR_FIXED_BODY = 8,            /**< positions were set on a body that is fixed */
+  TACT_ERROR_BAD_SETTINGS = 9,          /**< a setting has no meaning; the message says which */
+  TACT_ERROR_WRONG_ORDER = 10,          /**< a body named twice in one batch, or a report before the first step */
+  TACT_ERROR_OUT_OF_MEMORY = 11,        /**< an allocation failed */
+  TACT_ERROR_BACKEND_FAILURE = 12,      /**< Embree reported an error */
+  TACT_ERROR_INVALID_HANDLE = 100,      /**< the world was destroyed, or is none */
+  TACT_ERROR_NULL_ARGUMENT = 101,       /**< a pointer is null that must not be */
+  TACT_ERROR_WRONG_STRUCT_SIZE = 102,   /**< struct_size is not that of a version of this library */
+  TACT_ERROR_BUSY = 103,                /**< another thread is in a function of the world */
+  TACT_ERROR_INDEX_OUT_OF_RANGE = 104,  /**< an index is not below the count */
+  TACT_ERROR_INTERNAL = 105             /**< anything else; please report it */
+} tact_error;
+
+/** The version of the library, such as "0.1.0". */
+TACT_C_API const char* tact_version(void);
+/** The name of an error, such as "stale_body"; "unknown" for a number that is none. */
+TACT_C_API const char* tact_error_code_name(int error);
+/** What went wrong in the last call of this thread that failed: body, vertex, facet, setting. Never null; valid until
+ *  the thread's next call that fails. */
+TACT_C_API const char* tact_last_error_message(void);
+
+/** A set of bodies and the contacts among them. {0}: none. */
+typedef struct tact_world {
+  uint64_t handle;
+} tact_world;
+
+/** Names a body of one world; never given out twice. {0, 0, 0}: none. */
+typedef struct tact_body {
+  uint32_t index; /**< bodies of a report are ordered by it */
+  uint32_t generation;
+  uint32_t world;
+} tact_body;
+
+typedef enum tact_accuracy { TACT_ACCURACY_HULLS = 0, TACT_ACCURACY_PAPER = 1, TACT_ACCURACY_EXACT = 2 } tact_accuracy;
+typedef enum tact_direction_policy { TACT_DIRECTION_CARRIED = 0, TACT_DIRECTION_SMALLEST = 1 } tact_direction_policy;
+typedef enum tact_surface { TACT_SURFACE_CLOSED = 0, TACT_SURFACE_SHEET = 1 } tact_surface;
+typedef enum tact_motion { TACT_MOTION_MOVING = 0, TACT_MOTION_FIXED = 1 } tact_motion;
+typedef enum tact_number_kind {
+  TACT_FLOAT32 = 0,
+  TACT_FLOAT64 = 1,
+  TACT_INT32 = 2,
+  TACT_UINT32 = 3,
+  TACT_UINT16 = 4
+} tact_number_kind;
+
+/** `task(data, index)` is called once for each 0 <= index < count, on any threads; run() returns when all have
+ * returned. See tact/executor.h. */
+typedef void (*tact_task)(void* data, int index);
+typedef struct tact_executor {
+  void (*run)(void* user, int count, tact_task task, void* data); /**< null: OpenMP's threads */
+  void* user;                                                     /**< outlives the world */
+} tact_executor;
+
+/** See tact::Settings. */
+typedef struct tact_settings {
+  uint32_t struct_size;
+  int32_t threads;         /**< 0 to 1024; 0: as many as OpenMP would use */
+  int32_t accuracy;        /**< tact_accuracy */
+  int32_t direction;       /**< tact_direction_policy */
+  double gjk_tolerance;    /**< 1e-15 to 0.1 */
+  int32_t iteration_limit; /**< at least 1 */
+  bool zones;              /**< outputs that are asked for */
+  bool patches;
+  bool trace;
+  tact_executor executor;
+} tact_settings;
+#define TACT_SETTINGS_INIT                                                                                            \
+  {                                                                                                                   \
+    (uint32_t)sizeof(tact_settings), 0, TACT_ACCURACY_EXACT, TACT_DIRECTION_CARRIED, 1e-12, 100, false, false, false, \
+    {                                                                                                                 \
+      NULL, NULL                                                                                                      \
+    }                                                                                                                 \
+  }
+
+/** `count` vertices or facets, three numbers each, that begin every `stride_bytes` from `first` on. Coordinates are
+ *  float32 or float64, floats widen exactly; indices are int32, uint32 or uint16. Read where they are. */
+typedef struct tact_columns {
+  const void* first;
+  size_t count;
+  size_t stride_bytes;
+  int32_t kind; /**< tact_number_kind */
+} tact_columns;
+
+/** See tact::BodyDefinition. */
+typedef struct tact_body_definition {
+  uint32_t struct_size;
+  int32_t surface;        /**< tact_surface */
+  tact_columns positions; /**< metres */
+  tact_columns facets;    /**< indices of vertices, counter-clockwise seen from outside */
+  int32_t motion;         /**< tact_motion */
+  uint32_t layer;         /**< the layers this body is on, a bit each */
+  uint32_t mask;          /**< the layers it is tested against */
+  const char* name;       /**< for messages; null: "body <index>" */
+  uint64_t external_id;   /**< the program's own; nothing depends on it */
+} tact_body_definition;
+#define TACT_BODY_DEFINITION_INIT                                                             \
+  {                                                                                           \
+    (uint32_t)sizeof(tact_body_definition), TACT_SURFACE_CLOSED, {NULL, 0, 24, TACT_FLOAT64}, \
+        {NULL, 0, 12, TACT_INT32}, TACT_MOTION_MOVING, 1u, 0xffffffffu, NULL, 0               \
+  }
+
+/** New positions of one body. */
+typedef struct tact_positions_update {
+  tact_body body;
+  tact_columns positions;
+} tact_positions_update;
+
+/* The world. */
+
+/** `settings` may be null: the default. */
+TACT_C_API tact_error tact_world_create(const tact_settings* settings, tact_world* world);
+TACT_C_API tact_error tact_world_destroy(tact_world world);
+TACT_C_API tact_error tact_world_settings(tact_world world, tact_settings* settings);
+TACT_C_API tact_error tact_world_set_settings(tact_world world, const tact_settings* settings);
+TACT_C_API tact_error tact_world_add_body(tact_world world, const tact_body_definition* definition, tact_body* body);
+TACT_C_API tact_error tact_world_remove_body(tact_world world, tact_body body);
+TACT_C_API tact_error tact_world_set_positions(tact_world world, tact_body body, const tact_columns* positions);
+/** Of many bodies, in parallel; all or none. */
+TACT_C_API tact_error tact_world_set_positions_of_many(tact_world world, const tact_positions_update* updates,
+                                                       size_t count);
+TACT_C_API tact_error tact_world_set_layers(tact_world world, tact_body body, uint32_t layer, uint32_t mask);
+TACT_C_API tact_error tact_world_set_motion(tact_world world, tact_body body, int32_t motion);
+/** One step. The functions tact_report_... tell what it found. */
+TACT_C_API tact_error tact_world_detect(tact_world world);
+
+TACT_C_API tact_error tact_world_contains(tact_world world, tact_body body, bool* contains);
+TACT_C_API tact_error tact_world_body_count(tact_world world, size_t* count);
+/** Writes up to `capacity` bodies, in the order of their index, and how many there are. */
+TACT_C_API tact_error tact_world_bodies(tact_world world, tact_body* bodies, size_t capacity, size_t* count);
+/** Valid until the body is removed or the world destroyed. */
+TACT_C_API tact_error tact_world_name(tact_world world, tact_body body, const char** name);
+TACT_C_API tact_error tact_world_surface(tact_world world, tact_body body, tact_surface* surface);
+TACT_C_API tact_error tact_world_motion(tact_world world, tact_body body, tact_motion* motion);
+TACT_C_API tact_error tact_world_layer(tact_world world, tact_body body, uint32_t* layer);
+TACT_C_API tact_error tact_world_mask(tact_world world, tact_body body, uint32_t* mask);
+TACT_C_API tact_error tact_world_external_id(tact_world world, tact_body body, uint64_t* external_id);
+TACT_C_API tact_error tact_world_vertex_count(tact_world world, tact_body body, size_t* count);
+TACT_C_API tact_error tact_world_facet_count(tact_world world, tact_body body, size_t* count);
+
+/* The report of the last step. */
+
+typedef enum tact_direction_source {
+  TACT_SOURCE_CARRIED = 0,
+  TACT_SOURCE_FRESH = 1,
+  TACT_SOURCE_SMALLEST = 2
+} tact_direction_source;
+
+/** Facet `a` of the first body meets facet `b` of the second. */
+typedef struct tact_facet_pair {
+  int a;
+  int b;
+} tact_facet_pair;
+
+typedef struct tact_zone_disk {
+  double center[3]; /**< metres */
+  double radius;    /**< metres; negative: none */
+} tact_zone_disk;
+
+/** See tact::Contact. */
+typedef struct tact_contact {
+  uint32_t struct_size;
+  tact_body a; /**< a.index < b.index */
+  tact_body b;
+  double direction[3]; /**< unit, from a to b: move b by depth * direction to part the hulls */
+  double depth;        /**< metres */
+  int32_t source;      /**< tact_direction_source */
+  int32_t iterations;
+  bool limit_reached;
+  bool touching; /**< does any facet of a meet one of b? */
+  double plane_a;
+  double plane_b;
+  tact_zone_disk zone_a;
+  tact_zone_disk zone_b;
+  int64_t kept_facets_a;
+  int64_t kept_facets_b;
+  const tact_facet_pair* facet_pairs; /**< sorted; the world's */
+  size_t facet_pair_count;
+  size_t patch_count; /**< see tact_contact_patch() */
+} tact_contact;
+#define TACT_CONTACT_INIT                                                                                          \
+  {                                                                                                                \
+    (uint32_t)sizeof(tact_contact), {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0, 0, false, false, 0, 0, {{0, 0, 0}, -1}, \
+        {{0, 0, 0}, -1}, 0, 0, NULL, 0, 0                                                                          \
+  }
+
+/** See tact::Patch. */
+typedef struct tact_patch {
+  uint32_t struct_size;
+  double point[3];
+  double direction[3];
+  double depth;           /**< metres */
+  const int* facet_pairs; /**< indices into the contact's, ascending; the world's */
+  size_t facet_pair_count;
+} tact_patch;
+#define TACT_PATCH_INIT \
+  { (uint32_t)sizeof(tact_patch), {0, 0, 0}, {0, 0, 0}, 0, NULL, 0 }
+
+/** Two bodies whose boxes overlap. */
+typedef struct tact_candidate_pair {
+  tact_body a;
+  tact_body b;
+  bool hulls_overlap;
+} tact_candidate_pair;
+
+/** Two bodies whose facets began to meet, or ceased to. */
+typedef struct tact_contact_event {
+  tact_body a;
+  tact_body b;
+} tact_contact_event;
+
+/** A count or a time of the step. */
+typedef struct tact_statistic {
+  const char* name;
+  const char* text;
+  bool is_time;
+  int64_t count; /**< 0 if it is a time */
+  double ms;     /**< 0 if it is a count */
+} tact_statistic;
+
+/** See tact::TraceEvent. Times are nanoseconds of the steady clock. */
+typedef struct tact_trace_event {
+  uint32_t struct_size;
+  int32_t kind; /**< in the order of tact::TraceEvent::Kind */
+  int32_t thread;
+  int64_t begin_ns;
+  int64_t end_ns;
+  tact_body a;
+  tact_body b;
+  int64_t count;
+} tact_trace_event;
+#define TACT_TRACE_EVENT_INIT \
+  { (uint32_t)sizeof(tact_trace_event), 0, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, 0 }
+
+/** How many pairs of bodies have hulls that overlap. */
+TACT_C_API tact_error tact_report_contacts(tact_world world, size_t* count);
+/** The contact `index` of those, sorted by bodies. */
+TACT_C_API tact_error tact_report_contact(tact_world world, size_t index, tact_contact* contact);
+/** The index of the contact of two bodies, in either order; the number of contacts if their hulls are apart. */
+TACT_C_API tact_error tact_report_find_contact(tact_world world, tact_body a, tact_body b, size_t* index);
+/** The patch `patch` of the contact `index`. */
+TACT_C_API tact_error tact_contact_patch(tact_world world, size_t index, size_t patch, tact_patch* result);
+TACT_C_API tact_error tact_report_candidate_pairs(tact_world world, const tact_candidate_pair** pairs, size_t* count);
+/** Pairs that touch now and did not in the last step, and the opposite. */
+TACT_C_API tact_error tact_report_began(tact_world world, const tact_contact_event** events, size_t* count);
+TACT_C_API tact_error tact_report_ended(tact_world world, const tact_contact_event** events, size_t* count);
+/** Writes up to `capacity` statistics, counts and then times, and how many there are. */
+TACT_C_API tact_error tact_report_stats(tact_world world, tact_statistic* statistics, size_t capacity, size_t* count);
+/** How many trace events there are, and each of them. */
+TACT_C_API tact_error tact_report_trace(tact_world world, size_t* count);
+TACT_C_API tact_error tact_report_trace_event(tact_world world, size_t index, tact_trace_event* event);
+/** The number that two equal reports share, in C and C++. */
+TACT_C_API tact_error tact_report_hash(tact_world world, uint64_t* hash);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,103 @@
+#include "handles.h"
+
+#include <array>
+#include <cstring>
+#include <map>
+#include <new>
+
+namespace tact::c {
+namespace {
+
+// The one list of what C programs hold: a handle that is not in it is refused, whatever its bits are. It is never taken
+// down, so that a program may end with worlds left.
+struct Registry {
+  std::shared_mutex mutex;
+  std::map<std::uint64_t, std::shared_ptr<WorldEntry>> entries;
+  std::uint64_t last = 0x7461637400000000;  // "tact": no small number is ever a handle
+};
+
+Registry& registry() {
+  static Registry& only = *new Registry;
+  return only;
+}
+
+// In place, so that there is a message also where there is no memory.
+thread_local std::array<char, 1024> last_message{};
+
+tact_error error_of(ErrorCode code) {
+  const int number = static_cast<int>(code) + 1;
+  return number <= TACT_ERROR_BACKEND_FAILURE ? static_cast<tact_error>(number) : TACT_ERROR_INTERNAL;
+}
+static_assert(static_cast<int>(ErrorCode::non_finite_position) + 1 == TACT_ERROR_NON_FINITE_POSITION);
+static_assert(static_cast<int>(ErrorCode::stale_body) + 1 == TACT_ERROR_STALE_BODY);
+static_assert(static_cast<int>(ErrorCode::bad_settings) + 1 == TACT_ERROR_BAD_SETTINGS);
+static_assert(static_cast<int>(ErrorCode::backend_failure) + 1 == TACT_ERROR_BACKEND_FAILURE);
+
+}  // namespace
+
+std::uint64_t add_entry(std::shared_ptr<WorldEntry> entry) {
+  Registry& all = registry();
+  const std::lock_guard lock(all.mutex);
+  all.entries.emplace(all.last + 1, std::move(entry));
+  return ++all.last;
+}
+
+void remove_entry(std::uint64_t handle) {
+  Registry& all = registry();
+  const std::lock_guard lock(all.mutex);
+  all.entries.erase(handle);
+}
+
+std::shared_ptr<WorldEntry> entry_of(tact_world world) {
+  Registry& all = registry();
+  const std::shared_lock lock(all.mutex);
+  const auto found = all.entries.find(world.handle);
+  if (found == all.entries.end())
+    throw Failure{TACT_ERROR_INVALID_HANDLE, "the world was destroyed, or the handle was never given out"};
+  return found->second;
+}
+
+tact_error failed(tact_error error, const char* message) noexcept {
+  const std::size_t size = std::min(std::strlen(message), last_message.size() - 1);
+  std::memcpy(last_message.data(), message, size);
+  last_message[size] = '\0';
+  return error;
+}
+
+tact_error failed_by_exception() noexcept {
+  try {
+    throw;
+  } catch (const Failure& failure) {
+    return failed(failure.error, failure.message);
+  } catch (const Error& error) {
+    return failed(error_of(error.code()), error.what());
+  } catch (const std::bad_alloc&) {
+    return failed(TACT_ERROR_OUT_OF_MEMORY, "out of memory");
+  } catch (const std::exception& error) {
+    return failed(TACT_ERROR_INTERNAL, error.what());
+  } catch (...) {
+    return failed(TACT_ERROR_INTERNAL, "an exception of an unknown kind");
+  }
+}
+
+}  // namespace tact::c
+
+extern "C" {
+
+const char* tact_version(void) { return TACT_VERSION; }
+
+const char* tact_last_error_message(void) { return tact::c::last_message.data(); }
+
+const char* tact_error_code_name(int error) {
+  switch (error) {
+    case TACT_OK: return "ok";
+    case TACT_ERROR_INVALID_HANDLE: return "invalid_handle";
+    case TACT_ERROR_NULL_ARGUMENT: return "null_argument";
+    case TACT_ERROR_WRONG_STRUCT_SIZE: return "wrong_struct_size";
+    case TACT_ERROR_BUSY: return "busy";
+    case TACT_ERROR_INDEX_OUT_OF_RANGE: return "index_out_of_range";
+    case TACT_ERROR_INTERNAL: return "internal";
+    default: return tact::error_code_name(static_cast<tact::ErrorCode>(error - 1));
+  }
+}
+}

@@ -1,0 +1,109 @@
+// The worlds of C programs: handles that can be checked, and the guard that every function of the interface runs in.
+#pragma once
+
+#include <tact/tact.h>
+#include <tact/tact_c.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <shared_mutex>
+#include <utility>
+#include <vector>
+
+namespace tact::c {
+
+// A failure of the C interface's own kind.
+struct Failure {
+  tact_error error;
+  const char* message;
+};
+
+struct WorldEntry {
+  explicit WorldEntry(const Settings& settings) : world(settings) {}
+  World world;
+  const Report* report = nullptr;        // of the last step; null before the first, or after a change of settings
+  std::vector<PositionsUpdate> updates;  // scratch
+  std::shared_mutex in_use;
+};
+
+std::uint64_t add_entry(std::shared_ptr<WorldEntry> entry);
+void remove_entry(std::uint64_t handle);
+// Throws Failure for a handle that was not given out or is gone.
+std::shared_ptr<WorldEntry> entry_of(tact_world world);
+
+// Keeps the message of the calling thread.
+tact_error failed(tact_error error, const char* message) noexcept;
+// Turns the exception that is being handled into an error.
+tact_error failed_by_exception() noexcept;
+
+// Calls work(); whatever it throws becomes the error that is returned.
+template <class Work>
+tact_error guarded(const Work& work) noexcept {
+  try {
+    work();
+    return TACT_OK;
+  } catch (...) {
+    return failed_by_exception();
+  }
+}
+
+template <class... Pointers>
+void check_not_null(const Pointers*... pointers) {
+  if (((pointers == nullptr) || ...)) throw Failure{TACT_ERROR_NULL_ARGUMENT, "an argument is null"};
+}
+
+inline constexpr Failure kBusy{TACT_ERROR_BUSY, "another thread is in a function of this world"};
+
+// Calls work(entry) while no other thread is in a function of the world.
+template <class Work>
+tact_error changing(tact_world world, const Work& work) noexcept {
+  return guarded([&] {
+    const std::shared_ptr<WorldEntry> entry = entry_of(world);
+    const std::unique_lock lock(entry->in_use, std::try_to_lock);
+    if (!lock) throw kBusy;
+    work(*entry);
+  });
+}
+
+// The same among others that only read.
+template <class Work>
+tact_error reading(tact_world world, const Work& work) noexcept {
+  return guarded([&] {
+    const std::shared_ptr<WorldEntry> entry = entry_of(world);
+    const std::shared_lock lock(entry->in_use, std::try_to_lock);
+    if (!lock) throw kBusy;
+    work(std::as_const(*entry));
+  });
+}
+
+// Version 0.1 is the first: no struct is smaller than it was there.
+template <class Struct>
+void check_struct_size(const Struct& given) {
+  if (given.struct_size == sizeof(Struct)) return;
+  throw Failure{TACT_ERROR_WRONG_STRUCT_SIZE,
+                "struct_size is not that of a version of this library: begin with the TACT_..._INIT of the struct"};
+}
+
+// A caller's struct begins with its size: it may be older than this library, whose later fields then have the values of
+// `defaults`, never newer.
+template <class Struct>
+Struct read_struct(const Struct& given, const Struct& defaults) {
+  Struct result = defaults;
+  check_struct_size(given);
+  std::copy_n(reinterpret_cast<const std::byte*>(&given), given.struct_size, reinterpret_cast<std::byte*>(&result));
+  return result;
+}
+template <class Struct>
+void write_struct(Struct& to, Struct value) {
+  check_struct_size(to);
+  value.struct_size = to.struct_size;
+  std::copy_n(reinterpret_cast<const std::byte*>(&value), to.struct_size, reinterpret_cast<std::byte*>(&to));
+}
+
+inline BodyId id_of(tact_body body) { return {body.index, body.generation, body.world}; }
+inline tact_body body_of(BodyId id) { return {id.index, id.generation, id.world}; }
+
+}  // namespace tact::c

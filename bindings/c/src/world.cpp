@@ -1,0 +1,209 @@
+#include <climits>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "handles.h"
+
+namespace tact::c {
+namespace {
+
+// An executor of C: a function and what it is called with.
+class CExecutor : public Executor {
+ public:
+  explicit CExecutor(const tact_executor& executor) : executor_(executor) {}
+  const tact_executor& given() const { return executor_; }
+  void run(int count, const Task& task) noexcept override {
+    const auto call = [](void* data, int index) { (*static_cast<const Task*>(data))(index); };
+    executor_.run(executor_.user, count, call, const_cast<Task*>(&task));  // C passes no const on
+  }
+
+ private:
+  tact_executor executor_;
+};
+
+Settings settings_of(const tact_settings& given) {
+  const tact_settings s = read_struct(given, tact_settings TACT_SETTINGS_INIT);
+  return {.threads = s.threads,
+          .accuracy = static_cast<Accuracy>(s.accuracy),
+          .direction = static_cast<DirectionPolicy>(s.direction),
+          .gjk_tolerance = s.gjk_tolerance,
+          .iteration_limit = s.iteration_limit,
+          .outputs = {.zones = s.zones, .patches = s.patches, .trace = s.trace},
+          .executor = s.executor.run != nullptr ? std::make_shared<CExecutor>(s.executor) : nullptr};
+}
+
+tact_settings settings_for_c(const Settings& s) {
+  tact_settings result = TACT_SETTINGS_INIT;
+  result.threads = s.threads;
+  result.accuracy = static_cast<int>(s.accuracy);
+  result.direction = static_cast<int>(s.direction);
+  result.gjk_tolerance = s.gjk_tolerance;
+  result.iteration_limit = s.iteration_limit;
+  result.zones = s.outputs.zones;
+  result.patches = s.outputs.patches;
+  result.trace = s.outputs.trace;
+  if (s.executor != nullptr) result.executor = static_cast<const CExecutor&>(*s.executor).given();
+  return result;
+}
+
+NumberKind kind_of(int kind) { return kind >= 0 && kind <= TACT_UINT16 ? NumberKind(kind) : NumberKind{UCHAR_MAX}; }
+
+template <class Columns>
+Columns columns_of(const tact_columns& given) {
+  constexpr std::size_t kMost = std::size_t{1} << 62;  // so that the sign of none is lost
+  if (given.count > kMost || given.stride_bytes > kMost)
+    throw Failure{TACT_ERROR_WRONG_SIZE, "a count or a stride is larger than any memory"};
+  return Columns::of_kind(kind_of(given.kind), given.first, given.count, given.stride_bytes);
+}
+
+// Calls get(world) and hands its result out.
+template <class Value, class Get>
+tact_error get(tact_world world, Value* value, const Get& get_from) noexcept {
+  return reading(world, [&](const WorldEntry& entry) {
+    check_not_null(value);
+    *value = static_cast<Value>(get_from(entry.world));
+  });
+}
+
+}  // namespace
+}  // namespace tact::c
+
+using tact::World;
+using tact::c::body_of, tact::c::changing, tact::c::check_not_null, tact::c::columns_of, tact::c::get, tact::c::guarded,
+    tact::c::id_of, tact::c::reading, tact::c::WorldEntry;
+
+extern "C" {
+
+tact_error tact_world_create(const tact_settings* settings, tact_world* world) {
+  return guarded([&] {
+    check_not_null(world);
+    const tact::Settings given = settings != nullptr ? tact::c::settings_of(*settings) : tact::Settings{};
+    world->handle = tact::c::add_entry(std::make_shared<WorldEntry>(given));
+  });
+}
+
+tact_error tact_world_destroy(tact_world world) {
+  return changing(world, [&](WorldEntry&) { tact::c::remove_entry(world.handle); });
+}
+
+tact_error tact_world_settings(tact_world world, tact_settings* settings) {
+  return reading(world, [&](const WorldEntry& entry) {
+    check_not_null(settings);
+    tact::c::write_struct(*settings, tact::c::settings_for_c(entry.world.settings()));
+  });
+}
+
+tact_error tact_world_set_settings(tact_world world, const tact_settings* settings) {
+  return changing(world, [&](WorldEntry& entry) {
+    check_not_null(settings);
+    entry.world.set_settings(tact::c::settings_of(*settings));
+    entry.report = nullptr;
+  });
+}
+
+tact_error tact_world_add_body(tact_world world, const tact_body_definition* definition, tact_body* body) {
+  return changing(world, [&](WorldEntry& entry) {
+    check_not_null(definition, body);
+    const tact_body_definition d = tact::c::read_struct(*definition, tact_body_definition TACT_BODY_DEFINITION_INIT);
+    *body = body_of(entry.world.add_body({.positions = columns_of<tact::Positions>(d.positions),
+                                          .facets = columns_of<tact::Facets>(d.facets),
+                                          .surface = static_cast<tact::Surface>(d.surface),
+                                          .motion = static_cast<tact::Motion>(d.motion),
+                                          .name = d.name != nullptr ? d.name : "",
+                                          .layer = d.layer,
+                                          .mask = d.mask,
+                                          .external_id = d.external_id}));
+  });
+}
+
+tact_error tact_world_remove_body(tact_world world, tact_body body) {
+  return changing(world, [&](WorldEntry& entry) { entry.world.remove_body(id_of(body)); });
+}
+
+tact_error tact_world_set_positions(tact_world world, tact_body body, const tact_columns* positions) {
+  return changing(world, [&](WorldEntry& entry) {
+    check_not_null(positions);
+    entry.world.set_positions(id_of(body), columns_of<tact::Positions>(*positions));
+  });
+}
+
+tact_error tact_world_set_positions_of_many(tact_world world, const tact_positions_update* updates, size_t count) {
+  return changing(world, [&](WorldEntry& entry) {
+    if (count > 0) check_not_null(updates);
+    std::vector<tact::PositionsUpdate>& all = entry.updates;
+    all.clear();
+    all.reserve(count);
+    for (size_t i = 0; i < count; ++i) {
+      all.push_back({id_of(updates[i].body), columns_of<tact::Positions>(updates[i].positions)});
+    }
+    entry.world.set_positions(all);
+  });
+}
+
+tact_error tact_world_set_layers(tact_world world, tact_body body, uint32_t layer, uint32_t mask) {
+  return changing(world, [&](WorldEntry& entry) { entry.world.set_layers(id_of(body), layer, mask); });
+}
+
+tact_error tact_world_set_motion(tact_world world, tact_body body, int32_t motion) {
+  return changing(world,
+                  [&](WorldEntry& entry) { entry.world.set_motion(id_of(body), static_cast<tact::Motion>(motion)); });
+}
+
+tact_error tact_world_detect(tact_world world) {
+  return changing(world, [&](WorldEntry& entry) {
+    entry.report = nullptr;
+    entry.report = &entry.world.detect();
+  });
+}
+
+tact_error tact_world_contains(tact_world world, tact_body body, bool* contains) {
+  return get(world, contains, [&](const World& w) { return w.contains(id_of(body)); });
+}
+
+tact_error tact_world_body_count(tact_world world, size_t* count) {
+  return get(world, count, [](const World& w) { return w.body_count(); });
+}
+
+tact_error tact_world_bodies(tact_world world, tact_body* bodies, size_t capacity, size_t* count) {
+  return reading(world, [&](const WorldEntry& entry) {
+    check_not_null(count);
+    if (capacity > 0) check_not_null(bodies);
+    const std::vector<tact::BodyId> all = entry.world.bodies();
+    for (size_t i = 0; i < std::min(capacity, all.size()); ++i) bodies[i] = body_of(all[i]);
+    *count = all.size();
+  });
+}
+
+tact_error tact_world_name(tact_world world, tact_body body, const char** name) {
+  return get(world, name, [&](const World& w) { return w.name(id_of(body)).c_str(); });
+}
+
+tact_error tact_world_surface(tact_world world, tact_body body, tact_surface* surface) {
+  return get(world, surface, [&](const World& w) { return w.surface(id_of(body)); });
+}
+
+tact_error tact_world_motion(tact_world world, tact_body body, tact_motion* motion) {
+  return get(world, motion, [&](const World& w) { return w.motion(id_of(body)); });
+}
+
+tact_error tact_world_layer(tact_world world, tact_body body, uint32_t* layer) {
+  return get(world, layer, [&](const World& w) { return w.layer(id_of(body)); });
+}
+
+tact_error tact_world_mask(tact_world world, tact_body body, uint32_t* mask) {
+  return get(world, mask, [&](const World& w) { return w.mask(id_of(body)); });
+}
+
+tact_error tact_world_external_id(tact_world world, tact_body body, uint64_t* external_id) {
+  return get(world, external_id, [&](const World& w) { return w.external_id(id_of(body)); });
+}
+
+tact_error tact_world_vertex_count(tact_world world, tact_body body, size_t* count) {
+  return get(world, count, [&](const World& w) { return w.vertex_count(id_of(body)); });
+}
+
+tact_error tact_world_facet_count(tact_world world, tact_body body, size_t* count) {
+  return get(world, count, [&](const World& w) { return w.facet_count(id_of(body)); });
+}
+}

@@ -1,0 +1,379 @@
+// The interface for C answers as that of C++, and wrong use of it is an error with a message.
+#include <gtest/gtest.h>
+#include <tact/tact.h>
+#include <tact/tact_c.h>
+
+#include <atomic>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/body_pairs.h"
+#include "tests/support/generators.h"
+
+namespace tact::tests {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+tact_columns columns_of(const Eigen::Matrix3Xd& positions) {
+  return {positions.data(), static_cast<size_t>(positions.cols()), 24, TACT_FLOAT64};
+}
+
+tact_body_definition definition_of(const Mesh& mesh) {
+  tact_body_definition definition = TACT_BODY_DEFINITION_INIT;
+  definition.positions = columns_of(mesh.positions);
+  definition.facets = {mesh.facets.data(), static_cast<size_t>(mesh.facets.cols()), 12, TACT_INT32};
+  return definition;
+}
+
+// A world of C that ends with the test.
+struct WorldOfC {
+  explicit WorldOfC(const tact_settings* settings = nullptr) {
+    EXPECT_EQ(tact_world_create(settings, &world), TACT_OK) << tact_last_error_message();
+  }
+  ~WorldOfC() { tact_world_destroy(world); }
+  tact_body add(const Mesh& mesh) {
+    const tact_body_definition definition = definition_of(mesh);
+    tact_body body{};
+    EXPECT_EQ(tact_world_add_body(world, &definition, &body), TACT_OK) << tact_last_error_message();
+    return body;
+  }
+  tact_world world{};
+};
+
+void expect_failure(tact_error error, tact_error expected, const std::string& text) {
+  EXPECT_EQ(error, expected) << tact_error_code_name(error);
+  EXPECT_NE(std::string(tact_last_error_message()).find(text), std::string::npos) << tact_last_error_message();
+}
+
+bool equal(const double* c, const Eigen::Vector3d& cpp) { return std::memcmp(c, cpp.data(), 24) == 0; }
+
+void expect_equal(const tact_contact& c, const Contact& cpp) {
+  EXPECT_EQ(c.a.index, cpp.a.index);
+  EXPECT_EQ(c.b.index, cpp.b.index);
+  EXPECT_TRUE(equal(c.direction, cpp.direction));
+  EXPECT_EQ(c.depth, cpp.depth);
+  EXPECT_EQ(c.source, static_cast<int>(cpp.source));
+  EXPECT_EQ(c.iterations, cpp.iterations);
+  EXPECT_EQ(c.limit_reached, cpp.limit_reached);
+  EXPECT_EQ(c.touching, cpp.touching());
+  EXPECT_EQ(c.plane_a, cpp.plane_a);
+  EXPECT_EQ(c.plane_b, cpp.plane_b);
+  EXPECT_TRUE(equal(c.zone_a.center, cpp.zone_a.center));
+  EXPECT_EQ(c.zone_b.radius, cpp.zone_b.radius);
+  EXPECT_EQ(c.kept_facets_a, cpp.kept_facets_a);
+  EXPECT_EQ(c.kept_facets_b, cpp.kept_facets_b);
+  ASSERT_EQ(c.facet_pair_count, cpp.facet_pairs().size());
+  for (size_t i = 0; i < c.facet_pair_count; ++i) {
+    EXPECT_EQ((FacetPair{c.facet_pairs[i].a, c.facet_pairs[i].b}), cpp.facet_pairs()[i]);
+  }
+  EXPECT_EQ(c.patch_count, cpp.patches().size());
+}
+
+void expect_equal_reports(tact_world c, const Report& cpp) {
+  size_t count = 0;
+  ASSERT_EQ(tact_report_contacts(c, &count), TACT_OK);
+  ASSERT_EQ(count, cpp.contacts().size());
+  for (size_t i = 0; i < count; ++i) {
+    tact_contact contact = TACT_CONTACT_INIT;
+    ASSERT_EQ(tact_report_contact(c, i, &contact), TACT_OK);
+    expect_equal(contact, cpp.contacts()[i]);
+    size_t found = 0;
+    ASSERT_EQ(tact_report_find_contact(c, contact.b, contact.a, &found), TACT_OK);
+    EXPECT_EQ(found, i);
+    for (size_t k = 0; k < contact.patch_count; ++k) {
+      tact_patch patch = TACT_PATCH_INIT;
+      ASSERT_EQ(tact_contact_patch(c, i, k, &patch), TACT_OK);
+      const Patch& expected = cpp.contacts()[i].patches()[k];
+      EXPECT_TRUE(equal(patch.point, expected.point) && equal(patch.direction, expected.direction));
+      EXPECT_EQ(patch.depth, expected.depth);
+      EXPECT_EQ(std::vector<int>(patch.facet_pairs, patch.facet_pairs + patch.facet_pair_count), expected.facet_pairs);
+    }
+  }
+  uint64_t hash = 0;
+  ASSERT_EQ(tact_report_hash(c, &hash), TACT_OK);
+  EXPECT_EQ(hash, cpp.hash());
+}
+
+TEST(C, AnswersAsCpp) {
+  std::vector<Mesh> bodies = crowd_of_blobs(20, 3);
+  tact_settings settings = TACT_SETTINGS_INIT;
+  settings.threads = 2;
+  settings.zones = settings.patches = true;
+  WorldOfC c(&settings);
+  tact::World cpp({.threads = 2, .outputs = {.zones = true, .patches = true}});
+  std::vector<tact_body> c_ids;
+  std::vector<BodyId> cpp_ids;
+  for (const Mesh& body : bodies) {
+    c_ids.push_back(c.add(body));
+    cpp_ids.push_back(cpp.add_body({.positions = body.positions, .facets = body.facets}));
+  }
+  for (int step = 0; step < 3; ++step) {
+    ASSERT_EQ(tact_world_detect(c.world), TACT_OK) << tact_last_error_message();
+    expect_equal_reports(c.world, cpp.detect());
+    std::vector<tact_positions_update> updates;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      bodies[i] = translated(bodies[i], {0.05, 0.0, 0.03 * static_cast<double>(i % 3)});
+      updates.push_back({c_ids[i], columns_of(bodies[i].positions)});
+      cpp.set_positions(cpp_ids[i], bodies[i].positions);
+    }
+    ASSERT_EQ(tact_world_set_positions_of_many(c.world, updates.data(), updates.size()), TACT_OK);
+  }
+}
+
+// Two bodies that touch, and one of which nothing is near.
+struct Three : WorldOfC {
+  explicit Three(const tact_settings* settings = nullptr) : WorldOfC(settings) {
+    a = add(mesh), b = add(translated(mesh, {1.5, 0.1, 0.2})), far = add(translated(mesh, {9.0, 0.0, 0.0}));
+  }
+  Mesh mesh = icosphere(1);
+  tact_body a{}, b{}, far{};
+};
+
+TEST(C, TellsEventsPairsStatisticsAndTraces) {
+  tact_settings settings = TACT_SETTINGS_INIT;
+  settings.trace = true;
+  Three w(&settings);
+  ASSERT_EQ(tact_world_detect(w.world), TACT_OK);
+  const tact_candidate_pair* pairs = nullptr;
+  const tact_contact_event* events = nullptr;
+  size_t count = 0;
+  ASSERT_EQ(tact_report_candidate_pairs(w.world, &pairs, &count), TACT_OK);
+  ASSERT_EQ(count, 1u);
+  EXPECT_TRUE(pairs[0].a.index == 0 && pairs[0].b.index == 1 && pairs[0].hulls_overlap);
+  ASSERT_EQ(tact_report_began(w.world, &events, &count), TACT_OK);
+  ASSERT_EQ(count, 1u);
+  EXPECT_EQ(events[0].b.index, 1u);
+  std::vector<tact_statistic> statistics(200);
+  ASSERT_EQ(tact_report_stats(w.world, statistics.data(), statistics.size(), &count), TACT_OK);
+  ASSERT_LT(count, statistics.size());
+  EXPECT_STREQ(statistics[0].name, "bodies");
+  EXPECT_EQ(statistics[0].count, 3);
+  EXPECT_STREQ(statistics[count - 1].name, "total_ms");
+  EXPECT_TRUE(statistics[count - 1].is_time && statistics[count - 1].ms > 0.0);
+  ASSERT_EQ(tact_report_trace(w.world, &count), TACT_OK);
+  ASSERT_GT(count, 0u);
+  tact_trace_event event = TACT_TRACE_EVENT_INIT;
+  ASSERT_EQ(tact_report_trace_event(w.world, 0, &event), TACT_OK);
+  EXPECT_LE(event.begin_ns, event.end_ns);
+  ASSERT_EQ(tact_world_remove_body(w.world, w.b), TACT_OK);
+  ASSERT_EQ(tact_world_detect(w.world), TACT_OK);
+  ASSERT_EQ(tact_report_ended(w.world, &events, &count), TACT_OK);
+  EXPECT_EQ(count, 1u);
+}
+
+TEST(C, TellsWhatABodyIs) {
+  WorldOfC w;
+  const Mesh mesh = icosphere(1);
+  tact_body_definition definition = definition_of(mesh);
+  definition.surface = TACT_SURFACE_SHEET;
+  definition.name = "cloth";
+  definition.layer = 4;
+  definition.external_id = 0xfeedfacecafebeefu;
+  tact_body body{}, listed[2]{};
+  ASSERT_EQ(tact_world_add_body(w.world, &definition, &body), TACT_OK);
+  ASSERT_EQ(tact_world_set_layers(w.world, body, 4, 6), TACT_OK);
+  ASSERT_EQ(tact_world_set_motion(w.world, body, TACT_MOTION_FIXED), TACT_OK);
+  const char* name = nullptr;
+  tact_surface surface{};
+  tact_motion motion{};
+  uint32_t layer = 0, mask = 0;
+  uint64_t external_id = 0;
+  size_t vertices = 0, facets = 0, count = 0, bodies = 0;
+  bool contains = false;
+  EXPECT_EQ(tact_world_name(w.world, body, &name), TACT_OK);
+  EXPECT_EQ(tact_world_surface(w.world, body, &surface), TACT_OK);
+  EXPECT_EQ(tact_world_motion(w.world, body, &motion), TACT_OK);
+  EXPECT_EQ(tact_world_layer(w.world, body, &layer), TACT_OK);
+  EXPECT_EQ(tact_world_mask(w.world, body, &mask), TACT_OK);
+  EXPECT_EQ(tact_world_external_id(w.world, body, &external_id), TACT_OK);
+  EXPECT_EQ(tact_world_vertex_count(w.world, body, &vertices), TACT_OK);
+  EXPECT_EQ(tact_world_facet_count(w.world, body, &facets), TACT_OK);
+  EXPECT_EQ(tact_world_contains(w.world, body, &contains), TACT_OK);
+  EXPECT_EQ(tact_world_body_count(w.world, &count), TACT_OK);
+  EXPECT_EQ(tact_world_bodies(w.world, listed, 2, &bodies), TACT_OK);
+  EXPECT_STREQ(name, "cloth");
+  EXPECT_EQ(surface, TACT_SURFACE_SHEET);
+  EXPECT_EQ(motion, TACT_MOTION_FIXED);
+  EXPECT_EQ(layer, 4u);
+  EXPECT_EQ(mask, 6u);
+  EXPECT_EQ(external_id, 0xfeedfacecafebeefu);
+  EXPECT_EQ(vertices, static_cast<size_t>(mesh.vertex_count()));
+  EXPECT_EQ(facets, static_cast<size_t>(mesh.facet_count()));
+  EXPECT_TRUE(contains);
+  EXPECT_TRUE(count == 1 && bodies == 1 && listed[0].generation == body.generation);
+}
+
+TEST(C, RunsOnTheThreadsOfAnExecutor) {
+  std::atomic<int> calls = 0;
+  tact_settings settings = TACT_SETTINGS_INIT, shown = TACT_SETTINGS_INIT;
+  settings.threads = 3;
+  settings.executor.user = &calls;
+  settings.executor.run = [](void* user, int count, tact_task task, void* data) {
+    ++*static_cast<std::atomic<int>*>(user);
+    std::vector<std::thread> threads;
+    for (int i = 0; i < count; ++i) threads.emplace_back(task, data, i);
+    for (std::thread& thread : threads) thread.join();
+  };
+  WorldOfC w(&settings), plain;
+  for (const Mesh& body : crowd_of_blobs(20, 3)) w.add(body), plain.add(body);
+  uint64_t hash = 0, expected = 1;
+  ASSERT_EQ(tact_world_detect(w.world), TACT_OK);
+  ASSERT_EQ(tact_world_detect(plain.world), TACT_OK);
+  ASSERT_EQ(tact_report_hash(w.world, &hash), TACT_OK);
+  ASSERT_EQ(tact_report_hash(plain.world, &expected), TACT_OK);
+  EXPECT_EQ(hash, expected);
+  EXPECT_GT(calls, 0);
+  ASSERT_EQ(tact_world_settings(w.world, &shown), TACT_OK);
+  EXPECT_EQ(shown.executor.user, &calls);
+  EXPECT_EQ(shown.threads, 3);
+}
+
+TEST(WrongUseOfC, HandlesThatWereDestroyedOrNeverGivenOut) {
+  tact_world world{};
+  ASSERT_EQ(tact_world_create(nullptr, &world), TACT_OK);
+  ASSERT_EQ(tact_world_destroy(world), TACT_OK);
+  expect_failure(tact_world_destroy(world), TACT_ERROR_INVALID_HANDLE, "destroyed");
+  expect_failure(tact_world_detect(world), TACT_ERROR_INVALID_HANDLE, "destroyed");
+  expect_failure(tact_world_detect({0}), TACT_ERROR_INVALID_HANDLE, "never given out");
+  expect_failure(tact_world_detect({~uint64_t{0}}), TACT_ERROR_INVALID_HANDLE, "never given out");
+}
+
+TEST(WrongUseOfC, BodiesThatAreStaleOrForeign) {
+  Three one, other;
+  const tact_columns positions = columns_of(one.mesh.positions);
+  expect_failure(tact_world_set_positions(other.world, one.a, &positions), TACT_ERROR_FOREIGN_BODY, "another world");
+  ASSERT_EQ(tact_world_remove_body(one.world, one.a), TACT_OK);
+  expect_failure(tact_world_set_positions(one.world, one.a, &positions), TACT_ERROR_STALE_BODY, "removed");
+  expect_failure(tact_world_remove_body(one.world, {0, 0, 0}), TACT_ERROR_STALE_BODY, "names no body");
+  expect_failure(tact_world_set_motion(one.world, one.b, 77), TACT_ERROR_BAD_SETTINGS, "motion");
+}
+
+TEST(WrongUseOfC, NullPointers) {
+  Three w;
+  ASSERT_EQ(tact_world_detect(w.world), TACT_OK);
+  size_t count = 0;
+  const tact_contact_event* events = nullptr;
+  const tact_body_definition definition = definition_of(w.mesh);
+  for (const tact_error error : {
+           tact_world_create(nullptr, nullptr),
+           tact_world_settings(w.world, nullptr),
+           tact_world_set_settings(w.world, nullptr),
+           tact_world_add_body(w.world, nullptr, &w.a),
+           tact_world_add_body(w.world, &definition, nullptr),
+           tact_world_set_positions(w.world, w.a, nullptr),
+           tact_world_set_positions_of_many(w.world, nullptr, 1),
+           tact_world_contains(w.world, w.a, nullptr),
+           tact_world_body_count(w.world, nullptr),
+           tact_world_bodies(w.world, nullptr, 1, &count),
+           tact_world_bodies(w.world, nullptr, 0, nullptr),
+           tact_world_name(w.world, w.a, nullptr),
+           tact_world_vertex_count(w.world, w.a, nullptr),
+           tact_report_contacts(w.world, nullptr),
+           tact_report_contact(w.world, 0, nullptr),
+           tact_report_find_contact(w.world, w.a, w.b, nullptr),
+           tact_report_candidate_pairs(w.world, nullptr, &count),
+           tact_report_began(w.world, &events, nullptr),
+           tact_report_stats(w.world, nullptr, 1, &count),
+           tact_report_trace(w.world, nullptr),
+           tact_report_hash(w.world, nullptr),
+       }) {
+    expect_failure(error, TACT_ERROR_NULL_ARGUMENT, "null");
+  }
+  const tact_columns nothing = {nullptr, static_cast<size_t>(w.mesh.vertex_count()), 24, TACT_FLOAT64};
+  expect_failure(tact_world_set_positions(w.world, w.a, &nothing), TACT_ERROR_WRONG_SIZE, "is null");
+}
+
+TEST(WrongUseOfC, SizesKindsAndNumbers) {
+  Three w;
+  tact_columns positions = columns_of(w.mesh.positions);
+  const auto expect = [&](tact_error error, const std::string& text) {
+    expect_failure(tact_world_set_positions(w.world, w.a, &positions), error, text);
+    positions = columns_of(w.mesh.positions);
+  };
+  --positions.count, expect(TACT_ERROR_WRONG_SIZE, "vertices, but");
+  positions.count = SIZE_MAX, expect(TACT_ERROR_WRONG_SIZE, "larger than any memory");
+  positions.stride_bytes = SIZE_MAX, expect(TACT_ERROR_WRONG_SIZE, "larger than any memory");
+  for (const int kind : {-1, static_cast<int>(TACT_INT32), static_cast<int>(TACT_UINT16), 5, 1 << 30}) {
+    positions.kind = kind, expect(TACT_ERROR_WRONG_SIZE, "float32");
+  }
+  w.mesh.positions(1, 5) = kNan, expect(TACT_ERROR_NON_FINITE_POSITION, "vertex 5 has y");
+  w.mesh.positions(1, 5) = 1e200, expect(TACT_ERROR_POSITION_OUT_OF_RANGE, "vertex 5 has y");
+  w.mesh.positions(1, 5) = 0.0;
+  tact_body_definition definition = definition_of(w.mesh);
+  definition.struct_size = 3;
+  expect_failure(tact_world_add_body(w.world, &definition, &w.a), TACT_ERROR_WRONG_STRUCT_SIZE, "struct_size");
+  definition = definition_of(w.mesh);
+  w.mesh.facets(2, 7) = 1000;
+  expect_failure(tact_world_add_body(w.world, &definition, &w.a), TACT_ERROR_FACET_OUT_OF_RANGE, "facet 7");
+  definition.facets.count = size_t{1} << 40;
+  expect_failure(tact_world_add_body(w.world, &definition, &w.a), TACT_ERROR_TOO_LARGE, "536870911");
+  tact_settings settings = TACT_SETTINGS_INIT;
+  settings.gjk_tolerance = kNan;
+  expect_failure(tact_world_set_settings(w.world, &settings), TACT_ERROR_BAD_SETTINGS, "gjk_tolerance");
+  settings = TACT_SETTINGS_INIT;
+  settings.accuracy = -4;
+  expect_failure(tact_world_create(&settings, &w.world), TACT_ERROR_BAD_SETTINGS, "accuracy");
+  size_t count = 0;
+  EXPECT_EQ(tact_world_body_count(w.world, &count), TACT_OK);
+  EXPECT_EQ(count, 3u);
+}
+
+TEST(WrongUseOfC, ReportsThatAreNotThereAndIndicesBeyondTheEnd) {
+  Three w;
+  size_t count = 0;
+  tact_contact contact = TACT_CONTACT_INIT;
+  tact_patch patch = TACT_PATCH_INIT;
+  tact_trace_event event = TACT_TRACE_EVENT_INIT;
+  expect_failure(tact_report_contacts(w.world, &count), TACT_ERROR_WRONG_ORDER, "no report");
+  ASSERT_EQ(tact_world_detect(w.world), TACT_OK);
+  expect_failure(tact_report_contact(w.world, 1, &contact), TACT_ERROR_INDEX_OUT_OF_RANGE, "index");
+  expect_failure(tact_contact_patch(w.world, 0, 0, &patch), TACT_ERROR_INDEX_OUT_OF_RANGE, "index");
+  expect_failure(tact_report_trace_event(w.world, 0, &event), TACT_ERROR_INDEX_OUT_OF_RANGE, "index");
+  const tact_settings settings = TACT_SETTINGS_INIT;
+  ASSERT_EQ(tact_world_set_settings(w.world, &settings), TACT_OK);
+  expect_failure(tact_report_contacts(w.world, &count), TACT_ERROR_WRONG_ORDER, "no report");
+}
+
+// The executor runs while the world is in detect(): another thread, or the same, that calls it then is told so.
+TEST(WrongUseOfC, CallsFromTwoThreads) {
+  struct Shared {
+    tact_world world{};
+    std::atomic<int> busy = 0;
+  } shared;
+  tact_settings settings = TACT_SETTINGS_INIT;
+  settings.threads = 2;
+  settings.executor.user = &shared;
+  settings.executor.run = [](void* user, int, tact_task, void*) {
+    Shared& s = *static_cast<Shared*>(user);
+    const auto call = [&s] {
+      size_t count = 0;
+      for (const tact_error error :
+           {tact_world_detect(s.world), tact_world_destroy(s.world), tact_world_body_count(s.world, &count)}) {
+        expect_failure(error, TACT_ERROR_BUSY, "another thread");
+        ++s.busy;
+      }
+    };
+    std::thread(call).join();
+    call();
+  };
+  WorldOfC w(&settings);
+  shared.world = w.world;
+  for (const Mesh& body : crowd_of_blobs(20, 3)) w.add(body);
+  EXPECT_EQ(tact_world_detect(w.world), TACT_OK);
+  EXPECT_GT(shared.busy, 0);
+}
+
+TEST(C, KeepsAMessageForEachThread) {
+  expect_failure(tact_world_detect({0}), TACT_ERROR_INVALID_HANDLE, "never given out");
+  std::string of_other;
+  std::thread([&] { of_other = tact_last_error_message(); }).join();
+  EXPECT_EQ(of_other, "");
+  EXPECT_STREQ(tact_version(), TACT_VERSION);
+}
+
+}  // namespace
+}  // namespace tact::tests

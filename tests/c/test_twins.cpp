@@ -1,0 +1,132 @@
+// Walks the headers of C++ and of C: no public function, setting, field or error is without its twin.
+#include <gtest/gtest.h>
+#include <tact/error.h>
+#include <tact/tact_c.h>
+
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+namespace tact::tests {
+namespace {
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(std::filesystem::path(TACT_SOURCE_DIR) / path);
+  EXPECT_TRUE(file) << path;
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  text = std::regex_replace(text, std::regex(R"(/\*[^]*?\*/)"), " ");
+  return std::regex_replace(text, std::regex("//[^\n]*"), " ");
+}
+
+// What stands between the braces after `head`, without its private part.
+std::string body_of(const std::string& text, const std::string& head) {
+  const std::size_t begin = text.find(head);
+  EXPECT_NE(begin, std::string::npos) << head;
+  if (begin == std::string::npos) return {};
+  std::size_t end = text.find('{', begin);
+  const std::size_t open = end;
+  for (int depth = 0; end < text.size(); ++end) {
+    depth += text[end] == '{' ? 1 : text[end] == '}' ? -1 : 0;
+    if (depth == 0) break;
+  }
+  const std::string body = text.substr(open + 1, end - open - 1);
+  return body.substr(0, body.find("private:"));
+}
+
+// The names that are followed by a parenthesis.
+std::set<std::string> functions_in(std::string text) {
+  text = std::regex_replace(text, std::regex(R"(\{[^{}]*\})"), ";");
+  std::set<std::string> names;
+  const std::regex function(R"(\b([a-z][a-z_0-9]*)\()");
+  for (auto at = std::sregex_iterator(text.begin(), text.end(), function); at != std::sregex_iterator(); ++at) {
+    names.insert((*at)[1]);
+  }
+  return names;
+}
+
+// The names that end a declaration that is no function's, whatever their first value.
+std::set<std::string> fields_in(std::string text) {
+  text = std::regex_replace(text, std::regex(R"(friend[^;]*;)"), "");
+  text = std::regex_replace(text, std::regex(R"(=[^;]*;)"), ";");
+  text = std::regex_replace(text, std::regex(R"([^;]*\([^;{]*\)[^;{]*(\{[^{}]*\}|;))"), ";");
+  std::set<std::string> names;
+  const std::regex field(R"(\b([a-z][a-z_0-9]*)\s*(;|\{))");
+  for (auto at = std::sregex_iterator(text.begin(), text.end(), field); at != std::sregex_iterator(); ++at) {
+    names.insert((*at)[1]);
+  }
+  return names;
+}
+
+const std::string kHeader = "bindings/c/include/tact/tact_c.h", kInterface = "engine/include/tact/";
+
+void expect_twins_of_functions(const std::string& header, const std::string& type, const std::string& prefix,
+                               const std::map<std::string, std::string>& renamed) {
+  const std::set<std::string> twins = functions_in(text_of(kHeader));
+  const std::set<std::string> functions = functions_in(body_of(text_of(kInterface + header), type));
+  EXPECT_FALSE(functions.empty());
+  for (const std::string& name : functions) {
+    const auto found = renamed.find(name);
+    const std::string twin = found != renamed.end() ? found->second : prefix + name;
+    EXPECT_TRUE(twin.empty() || twins.contains(twin)) << type << "::" << name << " has no " << twin << " in C";
+  }
+}
+
+void expect_twins_of_fields(const std::string& header, const std::string& type, const std::string& struct_of_c,
+                            const std::set<std::string>& absent) {
+  const std::string c = body_of(text_of(kHeader), "typedef struct " + struct_of_c + " {");
+  const std::set<std::string> fields = fields_in(body_of(text_of(kInterface + header), type));
+  EXPECT_FALSE(fields.empty());
+  for (const std::string& name : fields) {
+    if (absent.contains(name)) continue;
+    EXPECT_TRUE(std::regex_search(c, std::regex("\\b" + name + "(_ns)?\\b")))
+        << type << "::" << name << " has no twin in C";
+  }
+}
+
+TEST(TwinsInC, OfTheFunctionsOfWorldAndReport) {
+  expect_twins_of_functions("world.h", "class TACT_API World {", "tact_world_", {});
+  expect_twins_of_functions("report.h", "class TACT_API Report {", "tact_report_", {});
+  // In C they are fields.
+  expect_twins_of_functions("report.h", "struct Contact {", "tact_contact_",
+                            {{"facet_pairs", ""}, {"touching", ""}, {"patches", "tact_contact_patch"}});
+}
+
+TEST(TwinsInC, OfEachField) {
+  expect_twins_of_fields("settings.h", "struct Settings {", "tact_settings", {"outputs"});
+  expect_twins_of_fields("settings.h", "struct Outputs {", "tact_settings", {});
+  expect_twins_of_fields("body.h", "struct BodyDefinition {", "tact_body_definition", {});
+  expect_twins_of_fields("body.h", "struct BodyId {", "tact_body", {});
+  expect_twins_of_fields("report.h", "struct Contact {", "tact_contact", {});
+  expect_twins_of_fields("report.h", "struct Patch {", "tact_patch", {});
+  expect_twins_of_fields("report.h", "struct ZoneDisk {", "tact_zone_disk", {});
+  expect_twins_of_fields("report.h", "struct CandidatePair {", "tact_candidate_pair", {});
+  expect_twins_of_fields("report.h", "struct ContactEvent {", "tact_contact_event", {});
+}
+
+TEST(TwinsInC, OfEachError) {
+  const std::string c = text_of(kHeader);
+  for (int code = 0; std::string(error_code_name(ErrorCode(code))) != "unknown"; ++code) {
+    const std::string name = error_code_name(ErrorCode(code));
+    std::string twin = "TACT_ERROR_";
+    for (const char letter : name) twin += static_cast<char>(std::toupper(letter));
+    EXPECT_TRUE(std::regex_search(c, std::regex("\\b" + twin + " = " + std::to_string(code + 1) + "\\b"))) << twin;
+    EXPECT_EQ(tact_error_code_name(code + 1), name);
+  }
+}
+
+// A header without twins is found: the test can fail.
+TEST(TwinsInC, AreMissedWhereThereAreNone) {
+  EXPECT_EQ(functions_in("void f(int); int g() const { return h(); }"), (std::set<std::string>{"f", "g"}));
+  EXPECT_EQ(fields_in("double x = 1.0; int y; bool f() const { return x; } Vector z = Vector::Zero();"),
+            (std::set<std::string>{"x", "y", "z"}));
+  EXPECT_EQ(body_of("struct A { int x; struct { int y; } z; private: int w; };", "struct A {"),
+            " int x; struct { int y; } z; ");
+}
+
+}  // namespace
+}  // namespace tact::tests
