@@ -1,15 +1,13 @@
-// Which kinds of features meet.
+// Which features of two surfaces are meant: of a contact point, or of an impact.
 #pragma once
-
-#include <cstdint>
 
 namespace tact {
 
-/// A feature of body a and one of body b between which a contact point or an impact lies.
-enum class FeaturePair : std::uint8_t {
-  vertex_facet,  ///< a vertex of a; a facet of b, an edge of it or a corner of it
-  facet_vertex,  ///< a facet of a, an edge of it or a corner of it; a vertex of b
-  edge_edge,     ///< an edge of a and one of b
+/// The features of bodies a and b that are nearest, or that meet.
+enum class FeaturePair {
+  vertex_facet,  ///< a vertex of a, a facet of b
+  facet_vertex,  ///< a facet of a, a vertex of b
+  edge_edge,     ///< an edge of each
 };
 
 }  // namespace tact
