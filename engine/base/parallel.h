@@ -109,32 +109,50 @@ class SharedLoop {
   FirstException failed_;
 };
 
-// Calls run(thread) on `threads` threads of OpenMP. What it loses by threads that are not allowed to run is noted.
+#if defined(__SANITIZE_THREAD__)
+inline constexpr bool kThreadSanitizer = true;
+#elif defined(__has_feature)
+inline constexpr bool kThreadSanitizer = __has_feature(thread_sanitizer);
+#else
+inline constexpr bool kThreadSanitizer = false;
+#endif
+
+// Keeps the largest of the values given.
+template <class Value>
+void raise_to(std::atomic<Value>& most, Value value) {
+  for (Value known = most; known < value && !most.compare_exchange_weak(known, value);) {
+  }
+}
+
+// Calls run(thread) on `threads` threads of OpenMP. What it loses by threads that are not allowed to run is noted: the
+// wait after the last work has ended, and of that before, as much as some thread did not run.
 template <class Run>
 void run_on_openmp(int threads, int wanted, Workers* workers, const Run& run) {
-  using Milliseconds = std::chrono::duration<double, std::milli>;
   const auto begin = Workers::Clock::now();
-  auto own_end = begin;
-  std::atomic<double> delay_ms = 0.0;
+  const auto since_begin = [&] {
+    return std::chrono::duration<double, std::milli>(Workers::Clock::now() - begin).count();
+  };
+  double own_end_ms = 0.0;
+  std::atomic<double> delay_ms = 0.0, last_end_ms = 0.0;
 #pragma omp parallel num_threads(threads)
   {
     if (const int thread = omp_get_thread_num(); thread == 0 || workers == nullptr) {
       run(thread);
-      if (thread == 0) own_end = Workers::Clock::now();
+      if (thread == 0) own_end_ms = since_begin();
     } else {
       const WorkerClock clock;
       run(thread);
-      const double delay = clock.delay_ms(begin);
-      for (double most = delay_ms; most < delay && !delay_ms.compare_exchange_weak(most, delay);) {
-      }
+      raise_to(delay_ms, clock.delay_ms(begin));
+      raise_to(last_end_ms, since_begin());
     }
-    // By this, as at the end of a work-sharing loop, the thread sanitizer sees that nothing here is read any more.
+    if (kThreadSanitizer) {
+      // By this, as at the end of a work-sharing loop, it sees that nothing here is read any more.
 #pragma omp barrier
+    }
   }
   if (workers == nullptr) return;
-  const auto end = Workers::Clock::now();
-  const double waited_ms = Milliseconds(end - own_end).count();
-  workers->note(threads, wanted, Milliseconds(end - begin).count(), std::min(waited_ms, delay_ms.load()));
+  const double end_ms = since_begin(), after_own_ms = std::max(last_end_ms - own_end_ms, 0.0);
+  workers->note(threads, wanted, end_ms, end_ms - own_end_ms - after_own_ms + std::min(after_own_ms, delay_ms.load()));
 }
 
 // Calls run(thread) for each of `threads` on the threads of a program. What it leaves out is done here.

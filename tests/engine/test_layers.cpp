@@ -23,14 +23,17 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"narrowphase", {"engine/base"}},
     {"engine", {"engine/base", "broadphase", "narrowphase"}},
     {"scenes", {"engine/base", "engine"}},
-    {"bench", {"engine/base", "broadphase", "narrowphase", "engine", "scenes", "tests"}},
-    {"tests", {"engine/base", "broadphase", "narrowphase", "engine", "scenes", "bench"}},
+    {"examples", {"engine/base", "engine"}},
+    {"bench", {"engine/base", "broadphase", "narrowphase", "engine", "scenes", "examples", "tests"}},
+    {"tests", {"engine/base", "broadphase", "narrowphase", "engine", "scenes", "examples", "bench"}},
 };
 
-const std::set<std::string> kHeadersOfBase = {"tact/error.h", "tact/facet_pair.h"};
+bool is_header_of_base(const std::string& path) {
+  return fs::exists(fs::path(TACT_SOURCE_DIR) / "engine/base/include" / path);
+}
 
 std::string layer_of(const std::string& path) {
-  if (path.starts_with("tact/")) return kHeadersOfBase.contains(path) ? "engine/base" : "engine";
+  if (path.starts_with("tact/")) return is_header_of_base(path) ? "engine/base" : "engine";
   if (path.starts_with("engine/base/")) return "engine/base";
   const std::string top = path.substr(0, path.find('/'));
   return kMayInclude.contains(top) && top != path ? top : "";
