@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <new>
+
+#include "scenes/files/mapped_file.h"
 
 namespace tact::scenes {
 namespace {
@@ -18,19 +17,6 @@ void check_is_file(const std::filesystem::path& path) {
     throw FileError(path.string() + ": no such file or folder");
   if (error) throw FileError(fmt::format("{}: {}", path.string(), error.message()));
   if (!std::filesystem::is_regular_file(status)) throw FileError(path.string() + ": not a file");
-}
-
-std::string read_bytes(const std::filesystem::path& path) {
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno)));
-  std::string bytes;
-  std::array<char, 1 << 16> block;
-  while (in.read(block.data(), block.size()) || in.gcount() > 0) {
-    bytes.append(block.data(), static_cast<std::size_t>(in.gcount()));
-  }
-  if (in.bad()) throw FileError(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
-  return bytes;
 }
 
 }  // namespace
@@ -50,7 +36,12 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
   check_is_file(path);
   const auto format = mesh_format(path);
   if (!format) throw FileError(path.string() + ": not a mesh file: its name does not end in .obj, .off, .ply or .stl");
-  return parse_mesh(*format, read_bytes(path), path.string());
+  const MappedFile file(path);  // so that of a file that is none no more is read than shows it
+  try {
+    return parse_mesh(*format, file.bytes(), path.string());
+  } catch (const std::bad_alloc&) {
+    throw FileError(path.string() + ": there is not enough memory for it");
+  }
 }
 
 MeshFile parse_mesh(MeshFormat format, std::string_view bytes, const std::string& file) {

@@ -63,14 +63,15 @@ std::uint64_t binary_size(std::string_view bytes, const std::string& file) {
 // number of facets, promise gigabytes. What fits neither is the one that its first bytes look like.
 bool is_text(std::string_view bytes, const std::string& file) {
   if (bytes.size() >= kHeadSize && binary_size(bytes, file) == bytes.size()) return false;
-  TextReader text(bytes, file, {});
-  const auto first = text.seek_token() ? text.token() : std::nullopt;
   const std::string_view start = bytes.substr(0, 512);
   const bool printable = std::all_of(start.begin(), start.end(), [](char c) {
     const auto byte = static_cast<unsigned char>(c);
     return byte >= 0x20 || (byte >= '\t' && byte <= '\r');
   });
-  return first && same_word(*first, "solid") && printable;
+  if (!printable) return false;  // before a word is looked for, which may be gigabytes of zeros
+  TextReader text(bytes, file, {});
+  const auto first = text.seek_token() ? text.token() : std::nullopt;
+  return first && same_word(*first, "solid");
 }
 
 MeshFile parse_binary(std::string_view bytes, const std::string& file) {

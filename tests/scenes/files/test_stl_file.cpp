@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include "tests/scenes/mesh_bytes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace tact::scenes {
 namespace {
@@ -103,6 +106,21 @@ TEST(StlFile, RefusesTextNamingTheLine) {
             "m:14: facet 1: expected endloop, found 'vertex'");
   EXPECT_EQ(stl_refusal(good + "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n"),
             "m:13: facet 1: expected vertex, found 'endloop'");
+}
+
+// Ten gigabytes of zeros, which take no room on the disk: only the first page is read.
+TEST(StlFile, OfZerosIsRefusedByNameAtOnce) {
+  const tests::TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "zeros.stl";
+  std::ofstream(path).put('\0');
+  std::filesystem::resize_file(path, 10'000'000'000);
+  try {
+    read_mesh_file(path);
+    FAIL() << "it was read";
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("zeros.stl: byte 80: promises 0 facets"), std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace
