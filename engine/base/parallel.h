@@ -125,18 +125,20 @@ void raise_to(std::atomic<Value>& most, Value value) {
 }
 
 // Calls run(thread) on `threads` threads of OpenMP. What it loses by threads that are not allowed to run is noted: the
-// wait after the last work has ended, and of that before, as much as some thread did not run.
+// wait before the caller's own work (for threads that have not left the last loop) and after the last work of all, and
+// of that between, as much as some thread did not run.
 template <class Run>
 void run_on_openmp(int threads, int wanted, Workers* workers, const Run& run) {
   const auto begin = Workers::Clock::now();
   const auto since_begin = [&] {
     return std::chrono::duration<double, std::milli>(Workers::Clock::now() - begin).count();
   };
-  double own_end_ms = 0.0;
+  double own_begin_ms = 0.0, own_end_ms = 0.0;
   std::atomic<double> delay_ms = 0.0, last_end_ms = 0.0;
 #pragma omp parallel num_threads(threads)
   {
     if (const int thread = omp_get_thread_num(); thread == 0 || workers == nullptr) {
+      if (thread == 0) own_begin_ms = since_begin();
       run(thread);
       if (thread == 0) own_end_ms = since_begin();
     } else {
@@ -152,7 +154,8 @@ void run_on_openmp(int threads, int wanted, Workers* workers, const Run& run) {
   }
   if (workers == nullptr) return;
   const double end_ms = since_begin(), after_own_ms = std::max(last_end_ms - own_end_ms, 0.0);
-  workers->note(threads, wanted, end_ms, end_ms - own_end_ms - after_own_ms + std::min(after_own_ms, delay_ms.load()));
+  const double ended_ms = own_end_ms + after_own_ms;  // the last work
+  workers->note(threads, wanted, end_ms, own_begin_ms + end_ms - ended_ms + std::min(after_own_ms, delay_ms.load()));
 }
 
 // Calls run(thread) for each of `threads` on the threads of a program. What it leaves out is done here.
