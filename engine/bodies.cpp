@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <new>
 #include <optional>
@@ -59,6 +60,23 @@ void check_facets(std::span<const int> corner, const Facets& given, std::ptrdiff
   }
 }
 
+void check_margin(double margin, const std::string& name) {
+  if (margin >= 0.0 && margin <= kLargestCoordinate) return;
+  throw Error(ErrorCode::bad_settings, quoted(name) + ": margin is " + base::text_of(margin) + ", not 0 to 2^300");
+}
+
+// A box with all that is at most `margin` away from it, rounded outwards.
+base::Box with_margin(const base::Box& box, double margin) {
+  if (margin == 0.0 || box.empty()) return box;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  base::Box grown;
+  for (int axis = 0; axis < 3; ++axis) {
+    grown.lower[axis] = std::nextafter(box.lower[axis] - margin, -kInfinity);
+    grown.upper[axis] = std::nextafter(box.upper[axis] + margin, kInfinity);
+  }
+  return grown;
+}
+
 int moves_to_look(int tries) { return kMovesToLook << tries; }
 
 bool has_diagonals(const narrowphase::ClusteredMesh& mesh) {
@@ -98,6 +116,7 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   const std::string name = definition.name.empty() ? "body " + std::to_string(slot) : definition.name;
   check_name(definition.surface, Surface::sheet, quoted(name) + ": surface");
   check_name(definition.motion, Motion::fixed, quoted(name) + ": motion");
+  check_margin(definition.margin, name);
   check_rows(definition.positions, "positions", name);
   check_rows(definition.facets, "facets", name);
   if (slots_.size() >= std::numeric_limits<std::uint32_t>::max() || definition.positions.cols() > kLargestCount ||
@@ -117,12 +136,13 @@ BodyId Bodies::add(const BodyDefinition& definition) {
                                           .id = {},
                                           .name = name,
                                           .surface = definition.surface,
-                                          .external_id = definition.external_id});
+                                          .external_id = definition.external_id,
+                                          .self_contact = definition.self_contact});
   // Nothing can fail half-way: all that may allocate comes first.
   const std::size_t slots = std::max<std::size_t>(slots_.size(), slot + 1);
   const auto on_all = [&](const auto& grow) {
-    grow(boxes_), grow(filters_), grow(diagonals_), grow(knows_diagonals_), grow(wants_diagonals_), grow(groupings_),
-        grow(slots_);
+    grow(boxes_), grow(filters_), grow(margins_), grow(diagonals_), grow(knows_diagonals_), grow(wants_diagonals_),
+        grow(groupings_), grow(slots_);
   };
   on_all([&](auto& vector) { make_room(vector, slots); });
   make_room(changed_, slots);
@@ -132,7 +152,8 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   if (slot < slots_.size()) free_.pop_back();
   on_all([&](auto& vector) { vector.resize(slots); });
   body->id = {slot, ++slots_[slot].generation, world_};
-  boxes_[slot] = body->mesh.box();
+  margins_[slot] = definition.margin;
+  boxes_[slot] = with_margin(body->mesh.box(), definition.margin);
   find_diagonals(slot, body->mesh);
   wants_diagonals_[slot] = 1;
   groupings_[slot] = {.looseness = body->mesh.looseness()};
@@ -243,7 +264,7 @@ void Bodies::publish(std::size_t i) {
   const Update& update = updates_[i];
   if (update.refreshed != Refresh::changed) return;
   const std::uint32_t slot = update.slot;
-  boxes_[slot] = update.box;
+  boxes_[slot] = with_margin(update.box, margins_[slot]);
   knows_diagonals_[slot] = update.knows_diagonals ? 1 : 0;
   if (update.knows_diagonals) diagonals_[slot] = new_diagonals_[i];
   Grouping& grouping = groupings_[slot];
@@ -280,6 +301,7 @@ std::vector<Bodies::Regrouped> Bodies::regroup(int threads) {
     if (meshes[i]->spread() <= kWorthRegrouping * body.mesh.spread()) {
       packed_meshes_.remove(body.mesh);
       body.mesh = std::move(*meshes[i]);
+      body.features.reset();
       packed_meshes_.add(body.mesh);
     } else {
       all[i].numbers.clear();
@@ -363,6 +385,28 @@ void Bodies::set_layers(BodyId id, std::uint32_t layer, std::uint32_t mask) {
 void Bodies::set_motion(BodyId id, Motion motion) {
   check_name(motion, Motion::fixed, quoted(at(id).name) + ": motion");
   set_filter(id, {filter(id).layer, filter(id).mask, motion == Motion::fixed});
+}
+
+void Bodies::set_margin(BodyId id, double margin) {
+  const Body& body = at(id);
+  check_margin(margin, body.name);
+  if (margins_[id.index] == margin) return;
+  margins_[id.index] = margin;
+  boxes_[id.index] = with_margin(body.mesh.box(), margin);
+  mark_moved(id.index);
+}
+
+void Bodies::set_self_contact(BodyId id, bool wanted) {
+  if (at(id).self_contact == wanted) return;
+  slots_[id.index].body->self_contact = wanted;
+  mark_moved(id.index);
+}
+
+void Bodies::make_features(std::span<const std::uint32_t> slots, int threads) {
+  base::parallel_for(slots.size(), 1, threads, [&](std::size_t i) {
+    Body& body = *slots_[slots[i]].body;
+    if (body.features == nullptr) body.features = std::make_unique<const narrowphase::Features>(body.mesh);
+  });
 }
 
 void Bodies::set_filter(BodyId id, const broadphase::Filter& filter) {

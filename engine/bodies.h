@@ -12,6 +12,7 @@
 
 #include "broadphase/sweep_and_prune.h"
 #include "engine/packed_meshes.h"
+#include "narrowphase/contact_points/contact_points.h"
 #include "narrowphase/mesh/clustered_mesh.h"
 
 namespace tact {
@@ -23,6 +24,8 @@ struct alignas(64) Body {
   std::string name;
   Surface surface = Surface::closed;
   std::uint64_t external_id = 0;
+  bool self_contact = false;
+  std::unique_ptr<const narrowphase::Features> features = nullptr;  // made when points are first asked for
 };
 
 class Bodies {
@@ -35,6 +38,8 @@ class Bodies {
   void set_positions(BodyId id, const Positions& positions, int threads);
   void set_layers(BodyId id, std::uint32_t layer, std::uint32_t mask);
   void set_motion(BodyId id, Motion motion);
+  void set_margin(BodyId id, double margin);
+  void set_self_contact(BodyId id, bool wanted);
 
   bool contains(BodyId id) const noexcept;
   // Errors: stale_body, foreign_body.
@@ -50,7 +55,17 @@ class Bodies {
   bool stay_in_cache() const noexcept { return vertices_ <= 4096; }
   std::vector<BodyId> ids() const;
 
-  // What the broad phase sees, an entry a slot; the box of an empty slot is empty.
+  double margin(std::uint32_t slot) const { return margins_[slot]; }
+  // How near surfaces of two bodies, or of one, must come to be in contact.
+  double reach(std::uint32_t a, std::uint32_t b) const { return margins_[a] + margins_[b]; }
+  // The mesh of a body with its features, which make_features() made.
+  narrowphase::FeaturedMesh featured(std::uint32_t slot) const {
+    return {&in_slot(slot).mesh, in_slot(slot).features.get()};
+  }
+  // Makes the features of some bodies, in parallel.
+  void make_features(std::span<const std::uint32_t> slots, int threads);
+
+  // What the broad phase sees, an entry a slot: boxes with their margins; the box of an empty slot is empty.
   std::span<const base::Box> boxes() const { return boxes_; }
   std::span<const broadphase::Filter> filters() const { return filters_; }
   // How far a body reaches along diagonals, or null if nobody wanted to know.
@@ -139,6 +154,7 @@ class Bodies {
   std::vector<std::uint32_t> free_;
   std::vector<base::Box> boxes_;
   std::vector<broadphase::Filter> filters_;
+  std::vector<double> margins_;
   std::vector<narrowphase::DiagonalBounds> diagonals_;
   std::vector<char> knows_diagonals_, wants_diagonals_;
   std::vector<std::uint32_t> unknown_;  // slots of bodies that are to look now

@@ -60,6 +60,15 @@ std::uint64_t Report::hash() const {
       hash.add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(pair.a)) << 32 |
                static_cast<std::uint32_t>(pair.b));
     }
+    for (const ContactPoint& point : contact.points()) {
+      hash.add(point.id);
+      hash.add(point.normal);
+      hash.add(point.gap);
+      for (std::size_t k = 0; k < 3; ++k) {
+        hash.add(point.a_weights[k]);
+        hash.add(point.b_weights[k]);
+      }
+    }
   }
   return hash.value();
 }

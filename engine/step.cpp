@@ -58,9 +58,11 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   table_.update(sweep_, bodies, all_);
   stats.sweep_ms = timer.lap();
   narrow_phase(bodies, settings, timer);
+  if (settings.outputs.points) points_.run(table_.moved(), bodies, settings, device_);
+  self_.run(bodies, settings, all_, points_, device_);
   stats.narrow_phase_ms = stats.parting_ms + timer.lap();
   count_bodies_and_pairs(bodies);
-  if (table_.same_contacts()) {
+  if (table_.same_contacts() && self_.same_contacts()) {
     update_report(last);
   } else {
     make_report(settings.threads);
@@ -89,6 +91,8 @@ void Step::start_afresh() {
   large_count_ = 0;
   thread_work_.clear();
   last_contacts_ = {};
+  points_ = {};
+  self_ = {};
   report_ = {};
   all_ = true;
   forgotten_ = false;
@@ -171,7 +175,8 @@ void Step::narrow_phase(Bodies& bodies, const Settings& settings, Timer& timer) 
     const Body &a = bodies.in_slot(record.a.index), &b = bodies.in_slot(record.b.index);
     if (!std::exchange(tally.begun, true)) tally.timer.lap();
     table_.begin(moved[i]);
-    const bool confirms = find_direction_and_cull(record, a, b, settings, device_, work, tally.timer);
+    const bool confirms = find_direction_and_cull(record, a, b, bodies.reach(record.a.index, record.b.index), settings,
+                                                  device_, work, tally.timer);
     record.counts.thread = thread;
     table_.end(moved[i]);
     if (confirms) table_.make_room(record);
@@ -221,37 +226,60 @@ void Step::make_report(int threads) {
   const std::span<const CandidatePair> candidates = table_.candidates();
   if (report_.candidate_pairs_.capacity() < candidates.size()) report_.candidate_pairs_.reserve(2 * candidates.size());
   report_.candidate_pairs_.assign(candidates.begin(), candidates.end());
-  contact_places_.clear();
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (candidates[i].hulls_overlap) contact_places_.push_back(static_cast<std::uint32_t>(i));
-  }
+  list_contacts();
   // Contacts of pairs that were not looked at stand as they are: their records, far apart in memory, are not read.
   for (const MovedPair& pair : table_.moved()) table_.place_in_report(pair.place) = PairTable::kNowhere;
   std::swap(report_.contacts_, last_contacts_);
   for (std::vector<Contact>* contacts : {&report_.contacts_, &last_contacts_}) {
-    if (contacts->capacity() < contact_places_.size())
-      contacts->reserve(contact_places_.size() + contact_places_.size() / 4);
+    if (contacts->capacity() < reported_.size()) contacts->reserve(reported_.size() + reported_.size() / 4);
   }
-  report_.contacts_.resize(contact_places_.size());
-  report_.stats_.contacts = static_cast<std::int64_t>(contact_places_.size());
-  const std::size_t at_a_time = contact_places_.size() <= kFewContacts ? kFewContacts : kContactsAtATime;
-  base::parallel_for(contact_places_.size(), at_a_time, threads, [&](std::size_t i, int thread) {
+  report_.contacts_.resize(reported_.size());
+  report_.stats_.contacts = static_cast<std::int64_t>(reported_.size());
+  const std::size_t at_a_time = reported_.size() <= kFewContacts ? kFewContacts : kContactsAtATime;
+  base::parallel_for(reported_.size(), at_a_time, threads, [&](std::size_t i, int thread) {
     Contact& contact = report_.contacts_[i];
-    std::uint32_t& place = table_.place_in_report(contact_places_[i]);
-    if (place == PairTable::kNowhere) {
-      fill(contact, table_.record(contact_places_[i]));
+    if (reported_[i].self != nullptr) {
+      fill(contact, *reported_[i].self);
     } else {
-      contact = last_contacts_[place];
+      std::uint32_t& place = table_.place_in_report(reported_[i].place);
+      if (place == PairTable::kNowhere) {
+        fill(contact, table_.record(reported_[i].place));
+      } else {
+        contact = last_contacts_[place];
+      }
+      place = static_cast<std::uint32_t>(i);
     }
-    place = static_cast<std::uint32_t>(i);
     StepStats& stats = tallies_[static_cast<std::size_t>(thread)].stats;
     stats.facet_pairs += static_cast<std::int64_t>(contact.facet_pairs().size());
     stats.touching_contacts += contact.touching() ? 1 : 0;
   });
 }
 
+// Candidates in contact and bodies in contact with themselves, both in order, merged.
+void Step::list_contacts() {
+  reported_.clear();
+  auto self = self_.contacts().begin();
+  const auto add_self_before = [&](BodyId body) {
+    for (; self != self_.contacts().end() && !(body < (*self)->body); ++self) reported_.push_back({.self = *self});
+  };
+  for (std::size_t i = 0; i < table_.candidates().size(); ++i) {
+    if (!table_.in_contact(i)) continue;
+    add_self_before(table_.candidates()[i].a);
+    reported_.push_back({.place = static_cast<std::uint32_t>(i)});
+  }
+  for (; self != self_.contacts().end(); ++self) reported_.push_back({.self = *self});
+}
+
+void Step::fill(Contact& contact, const SelfRecord& record) {
+  contact = Contact{};
+  contact.a = contact.b = record.body;
+  contact.facet_pairs_ = record.facet_pairs;
+  contact.points_ = record.points;
+}
+
 void Step::fill(Contact& contact, const PairRecord& record) {
   contact = record.contact;
+  contact.points_ = record.points;
   contact.facet_pairs_ = record.facet_pairs;
   contact.patches_ = record.patches;
 }
@@ -267,10 +295,17 @@ void Step::update_report(const StepStats& last) {
     stats.touching_contacts += contact.touching() ? times : 0;
   };
   for (const MovedPair& pair : table_.moved()) {
-    if (!table_.candidates()[pair.place].hulls_overlap) continue;
+    if (!table_.in_contact(pair.place)) continue;
     Contact& contact = report_.contacts_[table_.place_in_report(pair.place)];
     add(contact, -1);
     fill(contact, *pair.record);
+    add(contact, 1);
+  }
+  for (std::size_t i = 0; i < reported_.size() && !self_.contacts().empty(); ++i) {
+    if (reported_[i].self == nullptr) continue;
+    Contact& contact = report_.contacts_[i];
+    add(contact, -1);
+    fill(contact, *reported_[i].self);
     add(contact, 1);
   }
 }

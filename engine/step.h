@@ -13,6 +13,8 @@
 #include "engine/bodies.h"
 #include "engine/pair/pair_table.h"
 #include "engine/pair/pair_work.h"
+#include "engine/point_stage.h"
+#include "engine/self_stage.h"
 #include "engine/step_trace.h"
 
 namespace tact {
@@ -53,6 +55,8 @@ class Step {
   void make_report(int threads);
   void update_report(const StepStats& last);
   static void fill(Contact& contact, const PairRecord& record);
+  static void fill(Contact& contact, const SelfRecord& record);
+  void list_contacts();
   void add_events();
   void keep_report();
   void make_trace(TraceEvent::Time begin, TraceEvent::Time end, const Settings& settings);
@@ -63,8 +67,15 @@ class Step {
   std::vector<ThreadTally> tallies_;              // a thread each
   std::vector<std::unique_ptr<PairWork>> large_;  // pairs for all threads; large_count_ of them are in use
   std::size_t large_count_ = 0;
-  std::vector<std::uint32_t> contact_places_;  // among the candidates
-  std::vector<Contact> last_contacts_;         // of the last report, while a new one is made
+  // A contact of the report: a candidate, or a body with itself.
+  struct ReportedContact {
+    std::uint32_t place = 0;  // among the candidates
+    const SelfRecord* self = nullptr;
+  };
+  std::vector<ReportedContact> reported_;
+  PointStage points_;
+  SelfStage self_;
+  std::vector<Contact> last_contacts_;  // of the last report, while a new one is made
   narrowphase::EmbreeDevice device_;
   Report report_;
   StepTrace trace_;

@@ -139,6 +139,10 @@ void World::set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask) {
 
 void World::set_motion(BodyId body, Motion motion) { implementation().bodies.set_motion(body, motion); }
 
+void World::set_margin(BodyId body, double margin) { implementation().bodies.set_margin(body, margin); }
+
+void World::set_self_contact(BodyId body, bool wanted) { implementation().bodies.set_self_contact(body, wanted); }
+
 const Report& World::detect() {
   Implementation& i = implementation();
   const base::FloatingPointMode mode;
@@ -169,6 +173,11 @@ Motion World::motion(BodyId body) const {
 std::uint32_t World::layer(BodyId body) const { return implementation().bodies.filter(body).layer; }
 std::uint32_t World::mask(BodyId body) const { return implementation().bodies.filter(body).mask; }
 std::uint64_t World::external_id(BodyId body) const { return implementation().bodies.at(body).external_id; }
+double World::margin(BodyId body) const {
+  const Bodies& bodies = implementation().bodies;
+  return bodies.margin(bodies.at(body).id.index);
+}
+bool World::self_contact(BodyId body) const { return implementation().bodies.at(body).self_contact; }
 std::size_t World::vertex_count(BodyId body) const {
   return static_cast<std::size_t>(implementation().bodies.at(body).mesh.source_vertex_count());
 }

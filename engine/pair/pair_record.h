@@ -55,6 +55,7 @@ struct FacetCounts {
 struct alignas(64) PairRecord {
   BodyId a, b;
   bool hulls_overlap = false;
+  bool near = false;  // the hulls are apart by less than the sum of the margins
   PairHistory history;
   PairCounts counts;
   // Of pairs whose hulls overlap; for others the vectors are empty and the rest is old.
@@ -64,8 +65,11 @@ struct alignas(64) PairRecord {
   std::vector<FacetPair> facet_pairs;  // sorted
   std::size_t room_left = 0;           // for facet pairs, by a large pair that had this record before, see PairTable
   std::vector<Patch> patches;
+  std::vector<ContactPoint> points;                    // of pairs in contact, sorted
   std::unique_ptr<narrowphase::SurfaceShape> surface;  // where the search for the smallest separation ended, once
 };
+
+inline bool in_contact(const PairRecord& record) { return record.hulls_overlap || record.near; }
 
 inline bool touches(const PairRecord& record) { return record.hulls_overlap && !record.facet_pairs.empty(); }
 

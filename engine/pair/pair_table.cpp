@@ -98,9 +98,10 @@ PairRecord& PairTable::new_record(BodyId a, BodyId b) {
   record.a = a;
   record.b = b;
   record.history = {};
-  record.hulls_overlap = false;
+  record.hulls_overlap = record.near = false;
   record.facet_pairs.clear();
   record.patches.clear();
+  record.points.clear();
   return record;
 }
 
@@ -140,7 +141,7 @@ void PairTable::take_out_parted(Bodies& bodies, int threads) {
   // found of a pair depends on no other. Bodies that moved and have no such pair need not know when they move next.
   for (const std::uint32_t slot : bodies.changed()) bodies.want_diagonals(slot, false);
   for (const MovedPair& pair : moved_) {
-    if (candidates_[pair.place].hulls_overlap) continue;
+    if (candidates_[pair.place].hulls_overlap || has_margin(pair, bodies)) continue;
     bodies.want_diagonals(pairs_[pair.place].a, true);
     bodies.want_diagonals(pairs_[pair.place].b, true);
   }
@@ -150,9 +151,14 @@ void PairTable::take_out_parted(Bodies& bodies, int threads) {
   parted_ = std::erase_if(moved_, [](const MovedPair& pair) { return pair.parted; });
 }
 
+// How far apart such bodies are matters.
+bool PairTable::has_margin(const MovedPair& pair, const Bodies& bodies) const {
+  return bodies.reach(pairs_[pair.place].a, pairs_[pair.place].b) > 0.0;
+}
+
 // Was the pair apart, and does a diagonal part it, the last one or another? Notes which.
 bool PairTable::part(const MovedPair& pair, const Bodies& bodies) {
-  if (candidates_[pair.place].hulls_overlap) return false;
+  if (candidates_[pair.place].hulls_overlap || has_margin(pair, bodies)) return false;
   const broadphase::IndexPair slots = pairs_[pair.place];
   const auto *a = bodies.diagonals(slots.a), *b = bodies.diagonals(slots.b);
   PartingDiagonal& parting = entries_[pair.place].parting;

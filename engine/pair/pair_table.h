@@ -20,7 +20,7 @@ struct MovedPair {
   PairRecord* record = nullptr;
   std::uint32_t place = 0;  // among the candidates
   bool touched = false;     // in the step before
-  bool changed = false;     // do the hulls overlap now and did not in the step before, or the other way around?
+  bool changed = false;     // is it in contact now and was not in the step before, or the other way around?
   bool parted = false;      // along a diagonal
 };
 
@@ -58,15 +58,18 @@ class PairTable {
   // Before and after a step looks at a pair; a thread each.
   void begin(MovedPair& pair) const { pair.touched = touches(*pair.record); }
   void end(MovedPair& pair) {
-    bool& overlap = candidates_[pair.place].hulls_overlap;
-    pair.changed = overlap != pair.record->hulls_overlap;
-    overlap = pair.record->hulls_overlap;
+    bool& in_contact = entries_[pair.place].in_contact;
+    pair.changed = in_contact != tact::in_contact(*pair.record);
+    in_contact = tact::in_contact(*pair.record);
+    candidates_[pair.place].hulls_overlap = pair.record->hulls_overlap;
   }
   // Does it touch, once it was looked at? Pairs that are apart and were are not read.
   bool touches_now(const MovedPair& pair) const {
     return candidates_[pair.place].hulls_overlap && touches(*pair.record);
   }
-  // Are the pairs whose hulls overlap those of the last step?
+  // Do its hulls overlap, or are they nearer than their margins?
+  bool in_contact(std::size_t place) const { return entries_[place].in_contact; }
+  // Are the pairs in contact those of the last step?
   bool same_contacts() const;
 
   // Pairs that touched and are no candidates any more.
@@ -76,9 +79,11 @@ class PairTable {
   struct Entry {
     PairRecord* record = nullptr;
     std::uint32_t place_in_report = kNowhere;
+    bool in_contact = false;
     narrowphase::PartingDiagonal parting = 0;  // in the last step in which a body of the pair moved
   };
   bool part(const MovedPair& pair, const Bodies& bodies);
+  bool has_margin(const MovedPair& pair, const Bodies& bodies) const;
   void select_moved(const Bodies& bodies);
   void match(std::span<const broadphase::IndexPair> pairs, const Bodies& bodies, bool all);
   void add_records();

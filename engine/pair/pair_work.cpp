@@ -34,7 +34,7 @@ bool starts_from_last_step() { return fast_paths() != FastPaths::off; }
 Eigen::Vector3d to_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
 
 void set_apart(PairRecord& record, Vec3 direction) {
-  record.hulls_overlap = false;
+  record.hulls_overlap = record.near = false;
   record.history.kind = PairHistory::Kind::separated;
   record.history.direction = direction;
   record.history.has_surface = false;
@@ -49,19 +49,34 @@ bool still_overlap(const PairRecord& record, const MinkowskiDifference& m, PairW
   return history.kind == PairHistory::Kind::overlapping && holds_origin(m, history.hulls);
 }
 
+// The hulls are apart along the history's direction, by less than the bodies' margins.
+void set_near(PairRecord& record, double distance, double plane_a, double plane_b) {
+  record.near = true;
+  Contact& contact = record.contact;
+  contact = Contact{};
+  contact.a = record.a;
+  contact.b = record.b;
+  contact.direction = to_eigen(record.history.direction);
+  contact.depth = -distance;
+  contact.limit_reached = record.counts.limit_reached;
+  contact.plane_a = plane_a;
+  contact.plane_b = plane_b;
+}
+
 // Stage 3. What showed the hulls to overlap in the last step is asked first; or the direction that parted them: a
 // plane, then one support query a body. Leaves the direction that parts the hulls in the history; returns whether they
 // overlap, or nearly do.
-bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, const GjkSettings& settings, PairWork& work) {
+bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, double reach, const GjkSettings& settings,
+                   PairWork& work) {
   PairHistory& history = record.history;
   record.counts.still_overlapping = starts_from_last_step() && still_overlap(record, m, work);
   if (record.counts.still_overlapping) return true;
   if (starts_from_last_step() && history.kind == PairHistory::Kind::separated) {
     const int a = history.hulls.a[0], b = history.hulls.b[0];
-    const bool apart = m.parted_by_plane(history.direction, a, b);
+    const bool apart = reach == 0.0 && m.parted_by_plane(history.direction, a, b);
     record.counts.gjk_iterations += apart ? 0 : 1;
     const auto w = [&] { return dot(history.direction, m.support(history.direction, m.vertex(a, b)).point); };
-    if (apart || w() < -m.height_error()) {
+    if (apart || w() < -(m.height_error() + m.scale() * reach)) {
       record.counts.still_separated = true;
       set_apart(record, history.direction);
       return false;
@@ -73,6 +88,10 @@ bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, const GjkSe
   record.counts.limit_reached = hulls.status == GjkStatus::limit_reached;
   if (hulls.status != GjkStatus::apart) return true;
   set_apart(record, normalized(-hulls.offset));
+  if (hulls.distance < m.scale() * reach) {
+    const ClosestPoints closest = closest_points(m, hulls);
+    set_near(record, hulls.distance / m.scale(), dot(history.direction, closest.a), dot(history.direction, closest.b));
+  }
   return false;
 }
 
@@ -209,16 +228,17 @@ void finish(PairWork& work, const ConfirmCounts& counts, int threads) {
 
 }  // namespace
 
-bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, const Settings& settings,
+bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, double reach, const Settings& settings,
                              EmbreeDevice& device, PairWork& work, Timer& timer) {
   record.counts = {};
   record.counts.begin = timer.start();
-  if (record.hulls_overlap) {
+  if (in_contact(record)) {
     record.facet_pairs.clear();
     record.patches.clear();
+    record.points.clear();
   }
   const MinkowskiDifference m(a.mesh, b.mesh);
-  const bool overlap = hulls_overlap(record, m, {settings.gjk_tolerance}, work);
+  const bool overlap = hulls_overlap(record, m, reach, {settings.gjk_tolerance}, work);
   record.counts.hulls_ms = static_cast<float>(timer.lap());
   if (!overlap) return false;
 
@@ -226,10 +246,16 @@ bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, c
   record.counts.gjk_iterations += direction.found.support_queries;
   if (direction.found.height < -m.height_error()) {  // GJK could not tell, the direction can
     set_apart(record, direction.found.n);
+    if (reach > 0.0) {
+      const Slab slab = slab_of(m, direction.found);
+      const double base = dot(slab.n, slab.origin);
+      set_near(record, -direction.found.height / m.scale(), base + slab.upper, base + slab.lower);
+    }
     record.counts.direction_ms = static_cast<float>(timer.lap());
     return false;
   }
   record.hulls_overlap = true;
+  record.near = false;
   record.facet_counts = {};
   record.history.kind = PairHistory::Kind::overlapping;
   record.history.direction = direction.found.n;

@@ -47,7 +47,8 @@ struct PairWork {
 
 // Stages 3 to 5: do the hulls overlap, in which direction and how deep, which clusters are left, and which pairs of
 // them meet. Returns true if there are cluster pairs to confirm. `timer` is the thread's, and runs from pair to pair.
-bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, const Settings& settings,
+// Hulls that are apart by less than `reach`, the sum of the margins, are near.
+bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, double reach, const Settings& settings,
                              narrowphase::EmbreeDevice& device, PairWork& work, base::Timer& timer);
 
 // Stage 6 in the calling thread: the facet pairs of `work`, into its record.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <tact/body.h>
+#include <tact/contact_point.h>
 #include <tact/error.h>
 #include <tact/facet_pair.h>
 #include <tact/statistics.h>
@@ -39,14 +40,20 @@ struct Patch {
   std::vector<int> facet_pairs;  // indices into Contact::facet_pairs(), ascending
 };
 
-// Two bodies whose convex hulls overlap or touch. Their facets need not: where bodies are not convex, a ball in a bowl
-// say, ask touching() before they are pushed apart by `depth`, or ask for patches, which have depths of their own.
+// Two bodies whose convex hulls overlap, touch, or are nearer than the sum of the bodies' margins. Their facets need
+// not: where bodies are not convex, a ball in a bowl say, ask touching() before they are pushed apart by `depth`, or
+// ask for patches, which have depths of their own, or for points.
+//
+// A body with itself, where BodyDefinition::self_contact asks for it, has a contact with a == b if facets meet that
+// share no vertex, or if there are points. It has facet pairs, with facet a < facet b, and points; all else is empty.
 struct Contact {
-  BodyId a;  // a.index < b.index
+  BodyId a;  // a.index <= b.index
   BodyId b;
   Eigen::Vector3d direction =
       Eigen::Vector3d::Zero();  // unit, from a to b: move b by depth * direction to part the hulls
-  double depth = 0.0;           // overlap of the hulls along `direction`, metres, not negative
+  // Overlap of the hulls along `direction`, metres. Negative where they are apart: their distance, and `direction` is
+  // then that of the distance.
+  double depth = 0.0;
   // Of the last step in which a body of the pair had moved, as all of the contact: nothing is done for pairs at rest.
   DirectionSource source = DirectionSource::fresh;
   int iterations = 0;          // shifted calls of GJK that it took
@@ -63,6 +70,8 @@ struct Contact {
   std::span<const FacetPair> facet_pairs() const { return facet_pairs_; }
   // Does any facet of a meet one of b? At Accuracy::hulls nobody looked: false.
   bool touching() const { return !facet_pairs_.empty(); }
+  // Where surfaces are nearest to each other, if Outputs::points is set; sorted by kind, then by features.
+  std::span<const ContactPoint> points() const { return points_; }
   // Filled if Outputs::patches is set, but at Accuracy::hulls; ordered by their first facet pair.
   std::span<const Patch> patches() const { return patches_; }
 
@@ -70,6 +79,7 @@ struct Contact {
   friend class Step;
   std::span<const FacetPair> facet_pairs_;
   std::span<const Patch> patches_;
+  std::span<const ContactPoint> points_;
 };
 
 // Two bodies whose boxes overlap.
@@ -93,7 +103,7 @@ class TACT_API Report {
   Report(const Report&) = delete;  // what it shows is the world's: take a reference
   Report& operator=(const Report&) = delete;
 
-  // Pairs whose hulls overlap, sorted by (a, b).
+  // Pairs whose hulls overlap or are nearer than their margins, and bodies that touch themselves, sorted by (a, b).
   std::span<const Contact> contacts() const { return contacts_; }
   // That of two bodies, in either order, or null if their hulls are apart. Takes the logarithm of how many there are.
   const Contact* find_contact(BodyId a, BodyId b) const noexcept;
@@ -110,7 +120,7 @@ class TACT_API Report {
   std::span<const TraceEvent> trace() const { return trace_; }
 
   // A number made from every bit of the candidate pairs and the contacts: bodies by index, directions, depths, zones,
-  // kept facets, iterations, facet pairs; not patches nor statistics. The same calls give the same hash, for any number
+  // kept facets, iterations, facet pairs, points; not patches nor statistics. The same calls give the same hash, for any number
   // of threads. Worlds with another past may differ in kept facets and iterations, and so in it.
   std::uint64_t hash() const;
 

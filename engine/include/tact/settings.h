@@ -26,6 +26,7 @@ enum class DirectionPolicy {
 struct Outputs {
   bool zones = false;    // Contact::zone_a, zone_b: the smallest disks around the impact zones
   bool patches = false;  // Contact::patches(): connected sets of facet pairs, each with a point, direction and depth
+  bool points = false;   // Contact::points(): where surfaces come nearer than the sum of their margins
   bool trace = false;    // Report::trace(): which thread did what, and when
 };
 

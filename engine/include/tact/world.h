@@ -74,6 +74,11 @@ class TACT_API World {
   // motion that is none).
   void set_motion(BodyId body, Motion motion);
 
+  // Half the thickness of a body, metres, and whether it is held against itself; see BodyDefinition. Errors:
+  // stale_body, foreign_body, bad_settings (a margin that is negative, not finite or larger than kLargestCoordinate).
+  void set_margin(BodyId body, double margin);
+  void set_self_contact(BodyId body, bool wanted);
+
   // One step: finds the contacts of the positions as they are now. Never throws for what positions can hold.
   // Errors: out_of_memory, backend_failure. Bodies and positions are then as they were, but the next call starts
   // afresh: it knows of no step before, so directions are not carried on, and all pairs that touch have begun to.
@@ -92,6 +97,8 @@ class TACT_API World {
   std::uint32_t layer(BodyId body) const;
   std::uint32_t mask(BodyId body) const;
   std::uint64_t external_id(BodyId body) const;
+  double margin(BodyId body) const;
+  bool self_contact(BodyId body) const;
   std::size_t vertex_count(BodyId body) const;
   std::size_t facet_count(BodyId body) const;
 

@@ -1,0 +1,50 @@
+// Contact points of the pairs that a step looked at, and of bodies with themselves.
+#pragma once
+
+#include <tact/contact_point.h>
+#include <tact/settings.h>
+
+#include <span>
+#include <vector>
+
+#include "engine/bodies.h"
+#include "engine/pair/pair_table.h"
+#include "narrowphase/contact_points/contact_points.h"
+
+namespace tact {
+
+class PointStage {
+ public:
+  /// Finds the points of every pair of `moved` that is in contact and has a margin, each into its record.
+  void run(std::span<const MovedPair> moved, Bodies& bodies, const Settings& settings,
+           narrowphase::EmbreeDevice& device);
+  /// The points of a body with itself, into `points`, on all threads.
+  void run_self(std::uint32_t slot, Bodies& bodies, const Settings& settings, narrowphase::EmbreeDevice& device,
+                std::vector<ContactPoint>& points);
+
+ private:
+  /// Memory of a thread, used again.
+  struct Work {
+    narrowphase::NearClusters near;
+    narrowphase::ContactPointSearch search;
+    std::vector<narrowphase::FeaturePoint> found;
+  };
+  /// Two bodies, or one twice.
+  struct Wanted {
+    std::uint32_t a = 0, b = 0;
+    double reach = 0.0;
+    std::vector<ContactPoint>* points = nullptr;
+  };
+  void select(std::span<const MovedPair> moved, const Bodies& bodies);
+  void make_features(Bodies& bodies, int threads);
+  void search_in_ranges(const Wanted& wanted, const Bodies& bodies, std::span<const narrowphase::ClusterPair> pairs,
+                        int threads);
+
+  std::vector<Wanted> wanted_;
+  std::vector<std::uint32_t> without_features_;  // slots
+  std::vector<Work> work_;                       // a thread each
+  std::vector<char> is_large_;                   // of the wanted ones
+  std::vector<std::vector<narrowphase::FeaturePoint>> ranges_;
+};
+
+}  // namespace tact

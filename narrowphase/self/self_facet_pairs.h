@@ -1,0 +1,30 @@
+// Which facets of one mesh meet that share no vertex.
+#pragma once
+
+#include <tact/facet_pair.h>
+
+#include <span>
+#include <vector>
+
+#include "narrowphase/triangles/confirm.h"
+
+namespace tact::narrowphase {
+
+/// The pairs of clusters of a mesh whose boxes overlap, the smaller first; each cluster with itself is one.
+class SelfClusters {
+ public:
+  std::span<const ClusterPair> find(const ClusteredMesh& mesh, EmbreeDevice& device);
+
+ private:
+  KeptClusters all_;
+  std::vector<ClusterPair> pairs_;
+  ClusterPairWork work_;
+};
+
+/// Appends the facets that meet, of some cluster pairs, in no particular order, by the caller's numbers with a < b. All
+/// pairs together give each once. Closed sets, decided exactly (triangle_triangle.h); facets that name a common vertex
+/// do not count, those that share a place under two numbers do.
+void find_self_facet_pairs(const ClusteredMesh& mesh, std::span<const ClusterPair> pairs,
+                           std::vector<FacetPair>& found);
+
+}  // namespace tact::narrowphase
