@@ -88,7 +88,7 @@ void find_self_facet_pairs(const ClusteredMesh& mesh, std::span<const ClusterPai
         const Triangle at_f = mesh.triangle(f), at_g = mesh.triangle(g);
         if (plane_separates(at_f, at_g) || plane_separates(at_g, at_f)) continue;
         if (!triangle_triangle_meet(at_f, at_g, counts)) continue;
-        const auto [first, second] = std::minmax(mesh.source_facet(f), mesh.source_facet(g));
+        const auto [first, second] = std::minmax({mesh.source_facet(f), mesh.source_facet(g)});
         found.push_back({first, second});
       }
     }

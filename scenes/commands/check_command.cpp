@@ -6,10 +6,13 @@
 
 #include <CLI/Validators.hpp>
 #include <algorithm>
+#include <charconv>
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string_view>
+#include <system_error>
 
 #include "engine/base/parallel.h"
 #include "scenes/commands/common_options.h"
@@ -37,7 +40,8 @@ Examples:
   tact check spot.ply fish.obj
   tact check sphere.obj cloth_frames/ --sheet cloth_frames --json contacts.json
   tact check part.stl part.stl --sheet part.stl#2 --accuracy hulls
-  tact check a.off b.off c.off --json - | python3 -m json.tool)";
+  tact check a.off b.off c.off --json - | python3 -m json.tool
+  tact check cloth/ ball.obj --sheet cloth --self cloth --margin 0.004 --points --json -)";
 
 std::vector<BodyFrames> bodies_of(const CheckOptions& options) {
   const int most_frames = options.frames > 0 ? options.frames : std::numeric_limits<int>::max();
@@ -48,16 +52,48 @@ std::vector<BodyFrames> bodies_of(const CheckOptions& options) {
   });
 }
 
+// The body that an option names.
+BodyFrames& body_named(const std::string& option, const std::string& name, std::vector<BodyFrames>& bodies) {
+  const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const BodyFrames& b) { return b.name == name; });
+  if (found != bodies.end()) return *found;
+  std::string names;
+  for (const BodyFrames& body : bodies) names += (names.empty() ? "" : ", ") + body.name;
+  throw UsageError(fmt::format("{} {}: no body has this name; the bodies are: {}", option, name, names));
+}
+
 void mark_sheets(const std::vector<std::string>& sheets, std::vector<BodyFrames>& bodies) {
-  for (const std::string& sheet : sheets) {
-    const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const BodyFrames& b) { return b.name == sheet; });
-    if (found != bodies.end()) {
-      found->surface = Surface::sheet;
+  for (const std::string& sheet : sheets) body_named("--sheet", sheet, bodies).surface = Surface::sheet;
+}
+
+void mark_selves(const std::vector<std::string>& selves, std::vector<BodyFrames>& bodies) {
+  for (const std::string& self : selves) {
+    if (self != "all") {
+      body_named("--self", self, bodies).self_contact = true;
       continue;
     }
-    std::string names;
-    for (const BodyFrames& body : bodies) names += (names.empty() ? "" : ", ") + body.name;
-    throw UsageError(fmt::format("--sheet {}: no body has this name; the bodies are: {}", sheet, names));
+    for (BodyFrames& body : bodies) body.self_contact = true;
+  }
+}
+
+double margin_from(const std::string& option, std::string_view text) {
+  double margin = 0.0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), margin);
+  if (problem != std::errc() || end != text.data() + text.size() || !(margin >= 0.0 && margin <= kLargestCoordinate))
+    throw UsageError(fmt::format("--margin {}: '{}' is not a length of 0 to 2^300 metres", option, text));
+  return margin;
+}
+
+// A name may hold "=": the margin stands after the last one. A margin of all bodies leaves those named alone.
+void set_margins(const std::vector<std::string>& margins, std::vector<BodyFrames>& bodies) {
+  for (const std::string& option : margins) {
+    if (option.find('=') != std::string::npos) continue;
+    for (BodyFrames& body : bodies) body.margin = margin_from(option, option);
+  }
+  for (const std::string& option : margins) {
+    const std::size_t equals = option.rfind('=');
+    if (equals == std::string::npos) continue;
+    body_named("--margin", option.substr(0, equals), bodies).margin =
+        margin_from(option, std::string_view(option).substr(equals + 1));
   }
 }
 
@@ -80,8 +116,12 @@ std::vector<BodyId> add_bodies(const std::vector<BodyFrames>& bodies, RecordedWo
   std::vector<BodyId> ids;
   for (const BodyFrames& body : bodies) {
     try {
-      ids.push_back(world.add_body(
-          {.positions = body.positions.front(), .facets = body.facets, .surface = body.surface, .name = body.name}));
+      ids.push_back(world.add_body({.positions = body.positions.front(),
+                                    .facets = body.facets,
+                                    .surface = body.surface,
+                                    .name = body.name,
+                                    .margin = body.margin,
+                                    .self_contact = body.self_contact}));
     } catch (const Error& error) {
       rethrow_for_file(body.files.front(), error);
     }
@@ -107,6 +147,8 @@ int frames_to_step(const CheckOptions& options, const std::vector<BodyFrames>& b
 void check(const CheckOptions& options, std::ostream& out) {
   std::vector<BodyFrames> bodies = bodies_of(options);
   mark_sheets(options.sheets, bodies);
+  mark_selves(options.selves, bodies);
+  set_margins(options.margins, bodies);
   check_outputs(options, bodies);
   const int threads = options.threads > 0 ? options.threads : base::default_threads();
   const Interrupt interrupt;  // before any file is opened, so that none is left unfinished
@@ -114,7 +156,8 @@ void check(const CheckOptions& options, std::ostream& out) {
   if (!options.json.empty()) json_file.emplace(options.json, out);
   std::optional<OutputFile> recording;
   if (!options.record.empty()) recording.emplace(options.record, out, Appears::at_once);
-  RecordedWorld world({.threads = threads, .accuracy = options.accuracy}, recording ? &recording->stream() : nullptr);
+  RecordedWorld world({.threads = threads, .accuracy = options.accuracy, .outputs = {.points = options.points}},
+                      recording ? &recording->stream() : nullptr);
   const std::vector<BodyId> ids = add_bodies(bodies, world);
 
   std::optional<JsonReport> json;
@@ -158,6 +201,17 @@ void add_check_command(CLI::App& program) {
   command->add_option("--sheet", options->sheets, "This body is a sheet: cloth, without an inside; may be repeated")
       ->type_name("NAME")
       ->allow_extra_args(false);
+  command
+      ->add_option("--margin", options->margins,
+                   "Half a thickness in metres, of every body or of one; surfaces closer than the sum of two margins "
+                   "are in contact; may be repeated")
+      ->type_name("[NAME=]M")
+      ->allow_extra_args(false);
+  command->add_option("--self", options->selves, "Hold this body against itself, too, or all; may be repeated")
+      ->type_name("NAME|all")
+      ->allow_extra_args(false);
+  command->add_flag("--points", options->points,
+                    "Find the contact points: where surfaces are nearest within their margins (in --json)");
   add_accuracy_option(*command, options->accuracy);
   add_threads_option(*command, options->threads);
   command

@@ -16,6 +16,9 @@ namespace tact::scenes {
 struct CheckOptions {
   std::vector<std::filesystem::path> meshes = {};  // files that stand still and folders that move
   std::vector<std::string> sheets = {};            // names of the bodies that are sheets, the others being closed
+  std::vector<std::string> margins = {};           // "M" for every body, "NAME=M" for one, metres; the last one counts
+  std::vector<std::string> selves = {};            // bodies that are held against themselves; "all": every one
+  bool points = false;                             // contact points
   Accuracy accuracy = Accuracy::exact;
   int threads = 0;          // 0: as many as OpenMP would use
   int frames = 0;           // of folders the first so many; without a folder the number of steps; 0: all, or one

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <tact/version.h>
 
+#include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "scenes/commands/json_text.h"
@@ -29,8 +31,45 @@ Json facet_pairs_json(const Contact& contact) {
   return pairs;
 }
 
-// `contact` is null if the hulls of the pair are apart.
-Json pair_json(const CandidatePair& pair, const Contact* contact, bool has_facets) {
+template <class Number>
+Json first_of(const std::array<Number, 3>& values, std::size_t count) {
+  Json json = Json::array();
+  for (std::size_t k = 0; k < count; ++k) json.push_back(values[k]);
+  return json;
+}
+
+Json point_json(const ContactPoint& point) {
+  const auto count_of = [](const std::array<int, 3>& vertices) {
+    return static_cast<std::size_t>(std::count_if(vertices.begin(), vertices.end(), [](int v) { return v >= 0; }));
+  };
+  const std::size_t of_a = count_of(point.a_vertices), of_b = count_of(point.b_vertices);
+  return {{"kind", feature_pair_name(point.kind)},
+          {"a", first_of(point.a_vertices, of_a)},
+          {"b", first_of(point.b_vertices, of_b)},
+          {"a_weights", first_of(point.a_weights, of_a)},
+          {"b_weights", first_of(point.b_weights, of_b)},
+          {"normal", to_json(point.normal)},
+          {"gap", point.gap},
+          {"patch", point.patch}};
+}
+
+Json points_json(const Contact* contact) {
+  Json points = Json::array();
+  if (contact == nullptr) return points;
+  for (const ContactPoint& point : contact->points()) points.push_back(point_json(point));
+  return points;
+}
+
+// A body with itself has no direction.
+Json self_json(const Contact& contact, bool has_facets, bool has_points) {
+  Json json = {{"a", contact.a.index}, {"b", contact.b.index}};
+  json["facet_pairs"] = has_facets ? facet_pairs_json(contact) : Json(nullptr);
+  if (has_points) json["points"] = points_json(&contact);
+  return json;
+}
+
+// `contact` is null if the pair is not in contact.
+Json pair_json(const CandidatePair& pair, const Contact* contact, bool has_facets, bool has_points) {
   Json json = {{"a", pair.a.index}, {"b", pair.b.index}, {"hulls_overlap", pair.hulls_overlap}};
   if (contact != nullptr) {
     json["direction"] = to_json(contact->direction);
@@ -45,16 +84,25 @@ Json pair_json(const CandidatePair& pair, const Contact* contact, bool has_facet
   } else {
     json["facet_pairs"] = contact != nullptr ? facet_pairs_json(*contact) : Json::array();
   }
+  if (has_points) json["points"] = points_json(contact);
   return json;
 }
 
-Json pairs_json(const Report& report, bool has_facets) {
+// Candidates and bodies in contact with themselves, both sorted, merged.
+Json pairs_json(const Report& report, bool has_facets, bool has_points) {
   Json pairs = Json::array();
   auto contact = report.contacts().begin();
+  const auto end = report.contacts().end();
+  const auto add_selves_to = [&](BodyId body) {
+    for (; contact != end && contact->a == contact->b && !(body < contact->a); ++contact)
+      pairs.push_back(self_json(*contact, has_facets, has_points));
+  };
   for (const CandidatePair& pair : report.candidate_pairs()) {
-    const Contact* found = pair.hulls_overlap ? &*contact++ : nullptr;
-    pairs.push_back(pair_json(pair, found, has_facets));
+    add_selves_to(pair.a);
+    const bool found = contact != end && contact->a == pair.a && contact->b == pair.b;
+    pairs.push_back(pair_json(pair, found ? &*contact++ : nullptr, has_facets, has_points));
   }
+  if (contact != end) add_selves_to(report.contacts().back().a);
   return pairs;
 }
 
@@ -94,10 +142,21 @@ std::string direction_source_name(DirectionSource source) {
   return "unknown";
 }
 
+std::string feature_pair_name(FeaturePair kind) {
+  switch (kind) {
+    case FeaturePair::vertex_facet: return "vertex-facet";
+    case FeaturePair::facet_vertex: return "facet-vertex";
+    case FeaturePair::edge_edge: return "edge-edge";
+  }
+  return "unknown";
+}
+
 std::string hash_text(const Report& report) { return fmt::format("{:016x}", report.hash()); }
 
 JsonReport::JsonReport(std::ostream& out, const World& world)
-    : out_(out), has_facets_(world.settings().accuracy != Accuracy::hulls) {
+    : out_(out),
+      has_facets_(world.settings().accuracy != Accuracy::hulls),
+      has_points_(world.settings().outputs.points) {
   out_ << "{\"tact\":" << json_text(TACT_VERSION)
        << ",\"accuracy\":" << json_text(accuracy_name(world.settings().accuracy))
        << ",\"threads\":" << world.settings().threads << ",\n \"bodies\":" << json_text(bodies_json(world))
@@ -107,7 +166,7 @@ JsonReport::JsonReport(std::ostream& out, const World& world)
 void JsonReport::add_frame(int frame, const Report& report) {
   const Json json = {{"frame", frame},
                      {"hash", hash_text(report)},
-                     {"pairs", pairs_json(report, has_facets_)},
+                     {"pairs", pairs_json(report, has_facets_, has_points_)},
                      {"stats", stats_json(report.stats())},
                      {"times_ms", times_json(report.stats())}};
   out_ << (first_ ? "\n" : ",\n") << json_text(json);

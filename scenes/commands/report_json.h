@@ -32,6 +32,8 @@ namespace tact::scenes {
 std::string accuracy_name(Accuracy accuracy);
 std::string surface_name(Surface surface);
 std::string direction_source_name(DirectionSource source);
+// "vertex-facet", "facet-vertex" or "edge-edge".
+std::string feature_pair_name(FeaturePair kind);
 // The hash of `report` as 16 hexadecimal digits.
 std::string hash_text(const Report& report);
 
@@ -48,6 +50,7 @@ class JsonReport {
  private:
   std::ostream& out_;
   bool has_facets_;
+  bool has_points_;
   bool first_ = true;
 };
 

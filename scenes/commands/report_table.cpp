@@ -54,23 +54,31 @@ std::string TableReport::body_text(std::uint32_t index) const {
 void TableReport::add_frame(int frame, const Report& report) {
   const StepStats& stats = report.stats();
   fmt::print(out_, "{}frame {}: {}", frames_ == 0 ? "\n" : "", frame, counted(stats.candidate_pairs, "candidate pair"));
-  if (stats.candidate_pairs > 0) fmt::print(out_, ", {} with overlapping hulls", stats.contacts);
+  if (stats.candidate_pairs > 0) fmt::print(out_, ", {} in contact", stats.contacts);
   if (stats.contacts > 0 && has_facets_) {
     fmt::print(out_, ", {} touching, {}", stats.touching_contacts, counted(stats.facet_pairs, "facet pair"));
   }
   fmt::print(out_, "; {:.3f} ms\n", stats.total_ms);
-  auto contact = report.contacts().begin();
   int lines = 0;
+  for (const Contact& contact : report.contacts()) {
+    if (contact.a == contact.b && ++lines <= kMostPairLines) print_self(contact);
+  }
   for (const CandidatePair& pair : report.candidate_pairs()) {
-    const Contact* found = pair.hulls_overlap ? &*contact++ : nullptr;
+    const Contact* found = report.find_contact(pair.a, pair.b);
     History& history = histories_[{pair.a.index, pair.b.index}];
     ++history.candidate_frames;
-    if (found != nullptr) note_contact(frame, *found, history);
+    if (pair.hulls_overlap) note_contact(frame, *found, history);
     if (++lines <= kMostPairLines) print_pair(pair, found);
   }
   if (lines > kMostPairLines) fmt::print(out_, "      and {} more pairs (--json has all)\n", lines - kMostPairLines);
   ++frames_;
   total_ms_ += stats.total_ms;
+}
+
+void TableReport::print_self(const Contact& contact) {
+  fmt::print(out_, "  {}  with itself: {}, {}\n", body_text(contact.a.index),
+             counted(static_cast<std::int64_t>(contact.facet_pairs().size()), "facet pair"),
+             counted(static_cast<std::int64_t>(contact.points().size()), "contact point"));
 }
 
 void TableReport::print_pair(const CandidatePair& pair, const Contact* contact) {
@@ -80,11 +88,14 @@ void TableReport::print_pair(const CandidatePair& pair, const Contact* contact) 
     return;
   }
   const Eigen::Vector3d& n = contact->direction;
-  fmt::print(out_, "hulls overlap by {:<11.5g}  direction ({:8.5f}, {:8.5f}, {:8.5f})", contact->depth, n.x(), n.y(),
-             n.z());
+  fmt::print(out_, "hulls {} by {:<11.5g}  direction ({:8.5f}, {:8.5f}, {:8.5f})",
+             pair.hulls_overlap ? "overlap" : "apart", std::abs(contact->depth), n.x(), n.y(), n.z());
   if (has_facets_) {
     fmt::print(out_, "  kept {:>6} + {:<6}  {}", contact->kept_facets_a, contact->kept_facets_b,
                counted(static_cast<std::int64_t>(contact->facet_pairs().size()), "facet pair"));
+  }
+  if (!contact->points().empty()) {
+    fmt::print(out_, "  {}", counted(static_cast<std::int64_t>(contact->points().size()), "contact point"));
   }
   fmt::print(out_, "{}\n", contact->limit_reached ? "  (iteration limit reached)" : "");
 }

@@ -40,6 +40,7 @@ class TableReport {
     Eigen::Vector3d last_direction = Eigen::Vector3d::Zero();
   };
 
+  void print_self(const Contact& contact);
   void print_pair(const CandidatePair& pair, const Contact* contact);
   void note_contact(int frame, const Contact& contact, History& history);
   void print_history(const Pair& pair, const History& history);

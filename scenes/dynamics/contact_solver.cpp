@@ -12,12 +12,12 @@ namespace {
 
 constexpr int kMostGroups = 64;
 
-Vec3 x_point(const ContactPoint& point, const std::vector<Vec3>& positions) {
+Vec3 x_point(const SurfacePoint& point, const std::vector<Vec3>& positions) {
   return point.x_weights[0] * positions[static_cast<std::size_t>(point.x_vertices[0])] +
          point.x_weights[1] * positions[static_cast<std::size_t>(point.x_vertices[1])];
 }
 
-Vec3 y_point(const ContactPoint& point, const std::vector<Vec3>& positions) {
+Vec3 y_point(const SurfacePoint& point, const std::vector<Vec3>& positions) {
   return point.y_weights[0] * positions[static_cast<std::size_t>(point.y_vertices[0])] +
          point.y_weights[1] * positions[static_cast<std::size_t>(point.y_vertices[1])] +
          point.y_weights[2] * positions[static_cast<std::size_t>(point.y_vertices[2])];
@@ -42,16 +42,16 @@ void move(const Vertices& vertices, const Weights& weights, Vec3 impulse, Body& 
   }
 }
 
-double height(const ContactPoint& point, const Body& x, const Body& y) {
+double height(const SurfacePoint& point, const Body& x, const Body& y) {
   return dot(point.normal, x_point(point, x.positions) - y_point(point, y.positions));
 }
 
-void start_points(std::vector<ContactPoint>& points, const Body& x, const Body& y, double slop) {
-  for (ContactPoint& point : points) point.offset = height(point, x, y) + (point.depth - slop);
+void start_points(std::vector<SurfacePoint>& points, const Body& x, const Body& y, double slop) {
+  for (SurfacePoint& point : points) point.offset = height(point, x, y) + (point.depth - slop);
 }
 
-void hold_points(std::vector<ContactPoint>& points, const Body& x, const Body& y) {
-  for (ContactPoint& point : points) point.offset = std::min(point.offset, height(point, x, y));
+void hold_points(std::vector<SurfacePoint>& points, const Body& x, const Body& y) {
+  for (SurfacePoint& point : points) point.offset = std::min(point.offset, height(point, x, y));
 }
 
 struct Sides {
@@ -63,7 +63,7 @@ struct Sides {
   WayOut part;  // most in metres
 };
 
-void solve_point(const ContactPoint& point, const Sides& sides) {
+void solve_point(const SurfacePoint& point, const Sides& sides) {
   const Vec3 between = x_point(point, sides.x.positions) - y_point(point, sides.y.positions);
   const double inside = point.offset - dot(point.normal, between);
   if (!(inside > 0.0)) return;
@@ -145,10 +145,10 @@ void ContactSolver::solve_contact(std::vector<Body>& bodies, const std::vector<s
   const std::vector<Vec3>* before_a = before != nullptr ? &(*before)[a] : nullptr;
   const std::vector<Vec3>* before_b = before != nullptr ? &(*before)[b] : nullptr;
   const WayOut way{part.share, part.most * std::min(bodies[a].size, bodies[b].size)};
-  for (const ContactPoint& point : contact.a_in_b) {
+  for (const SurfacePoint& point : contact.a_in_b) {
     solve_point(point, {bodies[a], bodies[b], before_a, before_b, friction, way});
   }
-  for (const ContactPoint& point : contact.b_in_a) {
+  for (const SurfacePoint& point : contact.b_in_a) {
     solve_point(point, {bodies[b], bodies[a], before_b, before_a, friction, way});
   }
 }

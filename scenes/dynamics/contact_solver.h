@@ -13,8 +13,8 @@ namespace tact::scenes {
 struct BodyContact {
   int a = 0;  // places in the list of bodies
   int b = 0;
-  std::vector<ContactPoint> a_in_b;
-  std::vector<ContactPoint> b_in_a;
+  std::vector<SurfacePoint> a_in_b;
+  std::vector<SurfacePoint> b_in_a;
   double deepest = 0.0;  // of all points, metres
 };
 

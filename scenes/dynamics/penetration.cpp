@@ -72,7 +72,7 @@ std::optional<LineHit> way_out(const SeenBody& body, int facet, Vec3 on_line, Ve
 }  // namespace
 
 void PenetrationFinder::find(const Contact& contact, bool x_is_a, const SeenBody& x, const SeenBody& y,
-                             std::vector<ContactPoint>& points) {
+                             std::vector<SurfacePoint>& points) {
   state_.resize(std::max(state_.size(), x.positions.size()), kUnknown);
   visited_.clear();
   entries_.clear();
@@ -89,7 +89,7 @@ void PenetrationFinder::find(const Contact& contact, bool x_is_a, const SeenBody
   for (const Inside& inside : found_) {
     if (inside.place.depth > 0.0) points.push_back(contact_point(y, inside.vertex, inside.normal, inside.place));
   }
-  for (ContactPoint& point : points) point.depth = std::min(point.depth, contact.depth);
+  for (SurfacePoint& point : points) point.depth = std::min(point.depth, contact.depth);
   for (const int vertex : visited_) state_[static_cast<std::size_t>(vertex)] = kUnknown;
 }
 
@@ -178,7 +178,7 @@ std::optional<PenetrationFinder::Place> PenetrationFinder::locate(const SeenBody
 }
 
 // An end of an edge is inside if the edge leaves y at the crossing that is nearest to it.
-void PenetrationFinder::enter_closed(const SeenBody& x, const SeenBody& y, std::vector<ContactPoint>& points) {
+void PenetrationFinder::enter_closed(const SeenBody& x, const SeenBody& y, std::vector<SurfacePoint>& points) {
   for (std::size_t first = 0; first < crossings_.size();) {
     const Edge& edge = edge_at(x, crossings_[first].edge);
     std::size_t last = first;
@@ -196,7 +196,7 @@ void PenetrationFinder::enter_closed(const SeenBody& x, const SeenBody& y, std::
 }
 
 void PenetrationFinder::add_edge_middle(const SeenBody& x, const SeenBody& y, const Crossing& enter,
-                                        const Crossing& leave, std::vector<ContactPoint>& points) {
+                                        const Crossing& leave, std::vector<SurfacePoint>& points) {
   const Vec3 out = enter.normal + leave.normal;
   const double length = norm(out);
   if (!(length > 0.0)) return;
@@ -206,7 +206,7 @@ void PenetrationFinder::add_edge_middle(const SeenBody& x, const SeenBody& y, co
   const Place place = locate(y, middle, normal, near).value_or(near);
   const double t = 0.5 * (enter.t + leave.t);
   const Edge& edge = edge_at(x, enter.edge);
-  ContactPoint point = contact_point(y, edge.from, normal, place);
+  SurfacePoint point = contact_point(y, edge.from, normal, place);
   point.x_vertices[1] = edge.to;
   point.x_weights = {1.0 - t, t};
   points.push_back(point);
@@ -294,8 +294,8 @@ PenetrationFinder::Inside PenetrationFinder::from_neighbors(const SeenBody& x, c
   return {vertex, normal, locate(y, p, normal, near).value_or(Place{})};
 }
 
-ContactPoint PenetrationFinder::contact_point(const SeenBody& y, int vertex, Vec3 normal, const Place& place) {
-  ContactPoint point;
+SurfacePoint PenetrationFinder::contact_point(const SeenBody& y, int vertex, Vec3 normal, const Place& place) {
+  SurfacePoint point;
   point.x_vertices = {vertex, vertex};
   point.x_weights = {1.0, 0.0};
   for (int k = 0; k < 3; ++k) point.y_vertices[static_cast<std::size_t>(k)] = y.body.facets(k, place.facet);

@@ -13,7 +13,7 @@
 namespace tact::scenes {
 
 // A point of body x on the wrong side of the surface of body y: a vertex, or a point of an edge.
-struct ContactPoint {
+struct SurfacePoint {
   std::array<int, 2> x_vertices{};    // of x; both the same for a vertex
   std::array<double, 2> x_weights{};  // add up to 1
   std::array<int, 3> y_vertices{};    // of y: the facet that takes the counter-force
@@ -43,7 +43,7 @@ class PenetrationFinder {
   // looked at. After B. Heidelberger et al., Consistent Penetration Depth Estimation for Deformable Collision Response,
   // VMV 2004, whose depths, handed on like the normals, are too large under a curved surface.
   void find(const Contact& contact, bool x_is_a, const SeenBody& x, const SeenBody& y,
-            std::vector<ContactPoint>& points);
+            std::vector<SurfacePoint>& points);
 
  private:
   struct Crossing {
@@ -74,9 +74,9 @@ class PenetrationFinder {
   void add_crossing(int edge, int facet, const SeenBody& x, const SeenBody& y);
   void turn_sheet_normals(const Contact& contact, bool x_is_a, const SeenBody& x);
   std::pair<int, int> crossings_of(int edge) const;
-  void enter_closed(const SeenBody& x, const SeenBody& y, std::vector<ContactPoint>& points);
+  void enter_closed(const SeenBody& x, const SeenBody& y, std::vector<SurfacePoint>& points);
   void add_edge_middle(const SeenBody& x, const SeenBody& y, const Crossing& enter, const Crossing& leave,
-                       std::vector<ContactPoint>& points);
+                       std::vector<SurfacePoint>& points);
   void enter_sheet(const SeenBody& x);
   void start_inside(const SeenBody& x, const SeenBody& y);
   void spread_inside(const SeenBody& x, const SeenBody& y);
@@ -84,7 +84,7 @@ class PenetrationFinder {
   Inside from_neighbors(const SeenBody& x, const SeenBody& y, int vertex, int known) const;
   static std::optional<Place> locate(const SeenBody& y, Vec3 p, Vec3 normal, const Place& near);
   static Vec3 point_at(const SeenBody& y, const Place& place);
-  static ContactPoint contact_point(const SeenBody& y, int vertex, Vec3 normal, const Place& place);
+  static SurfacePoint contact_point(const SeenBody& y, int vertex, Vec3 normal, const Place& place);
 
   std::vector<Crossing> crossings_;  // sorted by (edge, t)
   std::vector<Entry> entries_;       // sorted by (vertex, crossing)

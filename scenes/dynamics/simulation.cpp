@@ -28,8 +28,8 @@ void turn_deep_points(const Contact& contact, double size, BodyContact& points) 
   constexpr double kDeep = 0.05;  // shares of the smaller body's size
   if (points.deepest < kDeep * size) return;
   const Vec3 direction{contact.direction.x(), contact.direction.y(), contact.direction.z()};
-  for (ContactPoint& point : points.a_in_b) point.normal = -direction;
-  for (ContactPoint& point : points.b_in_a) point.normal = direction;
+  for (SurfacePoint& point : points.a_in_b) point.normal = -direction;
+  for (SurfacePoint& point : points.b_in_a) point.normal = direction;
 }
 
 double longest_way(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
@@ -169,8 +169,8 @@ void Simulation::find_points(const Contact& contact, PenetrationFinder& finder, 
   finder.find(contact, true, seen_a, seen_b, points.a_in_b);
   finder.find(contact, false, seen_b, seen_a, points.b_in_a);
   const double most = deepest_possible(points);
-  for (std::vector<ContactPoint>* side : {&points.a_in_b, &points.b_in_a}) {
-    for (ContactPoint& point : *side) {
+  for (std::vector<SurfacePoint>* side : {&points.a_in_b, &points.b_in_a}) {
+    for (SurfacePoint& point : *side) {
       point.depth = std::min(point.depth, most);
       points.deepest = std::max(points.deepest, point.depth);
     }

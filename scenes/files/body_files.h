@@ -21,7 +21,9 @@ struct BodyFrames {
   std::vector<Eigen::Matrix3Xd> positions = {};   // 3 x V, metres, one a frame
   Eigen::Matrix3Xi facets = {};                   // 3 x F, the same in all frames
   Surface surface = Surface::closed;
-  bool moves = false;  // was it a folder?
+  bool moves = false;   // was it a folder?
+  double margin = 0.0;  // metres
+  bool self_contact = false;
 };
 
 // Is told that `done` of `all` files are read: before the first one, and after each.

@@ -47,6 +47,7 @@ void put_settings(std::ostream& out, const Settings& settings) {
   put(out, std::int32_t{settings.iteration_limit});
   put(out, std::uint8_t{settings.outputs.zones});
   put(out, std::uint8_t{settings.outputs.patches});
+  if (settings.outputs.points) put(out, RecordKind::points);
 }
 
 void put_addition(std::ostream& out, const BodyDefinition& body) {
@@ -60,6 +61,18 @@ void put_addition(std::ostream& out, const BodyDefinition& body) {
   put(out, static_cast<std::uint64_t>(body.facets.cols()));
   put_columns(out, body.positions);
   put_columns(out, body.facets);
+}
+
+void put_margin(std::ostream& out, BodyId body, double margin) {
+  put(out, RecordKind::margin);
+  put_body(out, body);
+  put(out, margin);
+}
+
+void put_self_contact(std::ostream& out, BodyId body, bool wanted) {
+  put(out, RecordKind::self_contact);
+  put_body(out, body);
+  put(out, std::uint8_t{wanted});
 }
 
 void put_positions(std::ostream& out, std::span<const PositionsUpdate> updates) {
@@ -99,7 +112,11 @@ void RecordedWorld::set_settings(const Settings& settings) {
 
 BodyId RecordedWorld::add_body(const BodyDefinition& definition) {
   const BodyId body = world_.add_body(definition);
-  record([&](std::ostream& out) { put_addition(out, definition); });
+  record([&](std::ostream& out) {
+    put_addition(out, definition);
+    if (definition.margin != 0.0) put_margin(out, body, definition.margin);
+    if (definition.self_contact) put_self_contact(out, body, true);
+  });
   return body;
 }
 
@@ -138,6 +155,16 @@ void RecordedWorld::set_motion(BodyId body, Motion motion) {
     put_body(out, body);
     put(out, static_cast<std::uint8_t>(motion));
   });
+}
+
+void RecordedWorld::set_margin(BodyId body, double margin) {
+  world_.set_margin(body, margin);
+  record([&](std::ostream& out) { put_margin(out, body, margin); });
+}
+
+void RecordedWorld::set_self_contact(BodyId body, bool wanted) {
+  world_.set_self_contact(body, wanted);
+  record([&](std::ostream& out) { put_self_contact(out, body, wanted); });
 }
 
 const Report& RecordedWorld::detect() {

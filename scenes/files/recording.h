@@ -1,6 +1,6 @@
 // A recording: everything that entered a world, and the hash of what it answered, to run it again later.
 //
-// The file, version 2. Numbers are little-endian, doubles as IEEE 754 has them, without padding between them:
+// The file, version 3. Numbers are little-endian, doubles as IEEE 754 has them, without padding between them:
 //
 //   head      "tactrec\n", u32 version, text: the version of tact that wrote it
 //   settings  u8 1, i32 threads, u8 accuracy, u8 direction policy, f64 gjk_tolerance, i32 iteration_limit, u8 zones,
@@ -13,6 +13,10 @@
 //   hash      u8 6, u64 Report::hash(); after every detect
 //   layers    u8 7, body, u32 layer, u32 mask; this and the next not in version 1, which had no such calls
 //   motion    u8 8, body, u8 motion
+//   margin    u8 9, body, f64 metres; this and the next two not in versions 1 and 2. After the body is added, if it is
+//             not 0, and wherever it changed
+//   self      u8 10, body, u8: is it held against itself? Likewise
+//   points    u8 11; after settings whose Outputs::points is set, which a record of settings alone unsets
 //
 // A text is u32 bytes and these; a body is u32 index and u32 generation of its BodyId; enumerations are numbered in the
 // order of their values. Outputs::trace is left out: it changes no answer. The records stand in the order of the calls;
@@ -30,7 +34,7 @@
 namespace tact::scenes {
 
 inline constexpr std::string_view kRecordingMagic = "tactrec\n";
-inline constexpr std::uint32_t kRecordingVersion = 2;
+inline constexpr std::uint32_t kRecordingVersion = 3;
 
 enum class RecordKind : std::uint8_t {
   settings = 1,
@@ -40,7 +44,10 @@ enum class RecordKind : std::uint8_t {
   detect = 5,
   hash = 6,
   layers = 7,
-  motion = 8
+  motion = 8,
+  margin = 9,
+  self_contact = 10,
+  points = 11
 };
 
 // A world whose calls are written to a stream, if there is one.
@@ -60,6 +67,8 @@ class RecordedWorld {
   void set_positions(std::span<const PositionsUpdate> updates);
   void set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask);
   void set_motion(BodyId body, Motion motion);
+  void set_margin(BodyId body, double margin);
+  void set_self_contact(BodyId body, bool wanted);
   const Report& detect();
 
   // What writing took in all, milliseconds.

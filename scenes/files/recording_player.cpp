@@ -38,7 +38,7 @@ std::optional<PlayedStep> RecordingPlayer::next() {
 RecordKind RecordingPlayer::read_kind() {
   record_ = position();
   const auto kind = reader_.read<std::uint8_t>();
-  if (kind < static_cast<std::uint8_t>(RecordKind::settings) || kind > static_cast<std::uint8_t>(RecordKind::motion)) {
+  if (kind < static_cast<std::uint8_t>(RecordKind::settings) || kind > static_cast<std::uint8_t>(RecordKind::points)) {
     reader_.fail(fmt::format("no record is of kind {}", kind));
   }
   return static_cast<RecordKind>(kind);
@@ -65,6 +65,21 @@ void RecordingPlayer::play(RecordKind kind) {
       const BodyId body = read_body();
       const auto motion = read_enumeration(Motion::fixed);
       return make([&] { world_->set_motion(body, motion); });
+    }
+    case RecordKind::margin: {
+      const BodyId body = read_body();
+      const auto margin = reader_.read<double>();
+      return make([&] { world_->set_margin(body, margin); });
+    }
+    case RecordKind::self_contact: {
+      const BodyId body = read_body();
+      const bool wanted = read_flag();
+      return make([&] { world_->set_self_contact(body, wanted); });
+    }
+    case RecordKind::points: {
+      Settings settings = world_->settings();
+      settings.outputs.points = true;
+      return make([&] { world_->set_settings(settings); });
     }
     case RecordKind::detect:
     case RecordKind::hash: break;

@@ -31,6 +31,8 @@ class RecordedWorld {
   void set_positions(std::span<const PositionsUpdate> updates);
   void set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask) { recorded_.set_layers(body, layer, mask); }
   void set_motion(BodyId body, Motion motion) { recorded_.set_motion(body, motion); }
+  void set_margin(BodyId body, double margin) { recorded_.set_margin(body, margin); }
+  void set_self_contact(BodyId body, bool wanted) { recorded_.set_self_contact(body, wanted); }
   const Report& detect();
 
   bool contains(BodyId body) const noexcept { return world().contains(body); }
@@ -41,6 +43,8 @@ class RecordedWorld {
   Motion motion(BodyId body) const { return world().motion(body); }
   std::uint32_t layer(BodyId body) const { return world().layer(body); }
   std::uint32_t mask(BodyId body) const { return world().mask(body); }
+  double margin(BodyId body) const { return world().margin(body); }
+  bool self_contact(BodyId body) const { return world().self_contact(body); }
   std::size_t vertex_count(BodyId body) const { return world().vertex_count(body); }
   std::size_t facet_count(BodyId body) const { return world().facet_count(body); }
 

@@ -172,14 +172,14 @@ TEST(Recording, SaysWhatIsWrongAndAtWhichByte) {
   ASSERT_EQ(recording_refusal(good), "accepted");
   EXPECT_EQ(recording_refusal(""), "r: byte 0: not a recording: it does not begin with tactrec");
   EXPECT_EQ(recording_refusal("solid a"), "r: byte 0: not a recording: it does not begin with tactrec");
-  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(3u))),
-            "r: byte 8: a recording of version 3; versions 1 to 2 can be read");
+  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(4u))),
+            "r: byte 8: a recording of version 4; versions 1 to 3 can be read");
   EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(0u))),
-            "r: byte 8: a recording of version 0; versions 1 to 2 can be read");
+            "r: byte 8: a recording of version 0; versions 1 to 3 can be read");
   EXPECT_EQ(recording_refusal(with(good, kSettingsAt, "\x02")),
             at_byte(kSettingsAt) + "the first record is not one of settings");
-  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x09")),
-            at_byte(kFirstBodyAt) + "step 0: no record is of kind 9");
+  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x0c")),
+            at_byte(kFirstBodyAt) + "step 0: no record is of kind 12");
   EXPECT_EQ(recording_refusal(with(good, kVerticesAt, bytes_of(~std::uint64_t{0}))),
             at_byte(kVerticesAt) +
                 "step 0: promises 18446744073709551615 vertices, which take at least 24 bytes each, but the "
@@ -219,7 +219,8 @@ TEST(Recording, AnyBitWrong) {
     bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << (bit % 8)));
     const std::string message = recording_refusal(bytes);
     EXPECT_TRUE(message == "accepted" || message.starts_with("r: byte ")) << "bit " << bit << ": " << message;
-    const bool in_magic_or_version = bit < 8 * 12;
+    // With one of the first two bits of the version wrong it is an older one, which reads the same.
+    const bool in_magic_or_version = bit < 8 * 12 && bit != 8 * 8 && bit != 8 * 8 + 1;
     EXPECT_FALSE(in_magic_or_version && message == "accepted") << "bit " << bit;
   }
 }
