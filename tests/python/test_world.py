@@ -97,6 +97,25 @@ def test_settings_zones_and_patches():
     assert not world.detect().contacts[0].touching
 
 
+def test_contact_points_of_bodies_with_margins():
+    world = tact.World(tact.Settings(points=True))
+    positions, facets = grid(5, 1.0)
+    floor = world.add_body(positions, facets, surface=tact.Surface.sheet, margin=0.05)
+    corners = np.array([[1.4, 1.6, 0.08], [2, 2, 1], [1, 2, 1], [1.5, 1, 1]])
+    body = world.add_body(corners, np.array([[0, 1, 3], [0, 2, 1], [0, 3, 2], [1, 2, 3]]), margin=0.05, self_contact=True)
+    points = world.detect().find_contact(floor, body).points
+    assert len(points) == 1 and points.kinds[0] == tact.FeaturePair.facet_vertex.value
+    assert points.gaps[0] == pytest.approx(0.08, abs=1e-15)
+    np.testing.assert_allclose(points.normals[0], [0, 0, 1], atol=1e-15)
+    np.testing.assert_allclose(points.a_weights[0] @ positions[points.a_vertices[0]], [1.4, 1.6, 0], atol=1e-14)
+    assert (world.margin(body), world.self_contact(body), world.self_contact(floor)) == (0.05, True, False)
+    world.set_margin(body, 0.0)
+    world.set_self_contact(body, False)
+    assert world.detect().find_contact(floor, body) is None
+    with pytest.raises(tact.Error, match="margin"):
+        world.set_margin(body, -1.0)
+
+
 def test_bodies_and_what_they_are(two):
     world, left, right = two
     assert world.bodies == [left, right] and len(world) == world.body_count == 2

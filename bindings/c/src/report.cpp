@@ -1,6 +1,7 @@
 #include <chrono>
 #include <cstddef>
 #include <span>
+#include <type_traits>
 
 #include "handles.h"
 
@@ -14,6 +15,11 @@ static_assert(sizeof(tact_contact_event) == sizeof(ContactEvent) &&
               offsetof(tact_contact_event, b) == offsetof(ContactEvent, b));
 static_assert(sizeof(tact_candidate_pair) == sizeof(CandidatePair) &&
               offsetof(tact_candidate_pair, hulls_overlap) == offsetof(CandidatePair, hulls_overlap));
+
+static_assert(std::is_standard_layout_v<ContactPoint> && sizeof(tact_contact_point) == sizeof(ContactPoint) &&
+              offsetof(tact_contact_point, b_vertices) == offsetof(ContactPoint, b_vertices) &&
+              offsetof(tact_contact_point, normal) == offsetof(ContactPoint, normal) &&
+              offsetof(tact_contact_point, id) == offsetof(ContactPoint, id));
 
 // Calls work(report) with the report of the last step.
 template <class Work>
@@ -116,6 +122,10 @@ tact_error tact_contact_patch(tact_world world, size_t index, size_t patch, tact
     value.facet_pair_count = found.facet_pairs.size();
     write_struct(*result, value);
   });
+}
+
+tact_error tact_contact_points(tact_world world, size_t index, const tact_contact_point** points, size_t* count) {
+  return with_report(world, [&](const Report& report) { show(at(report.contacts(), index).points(), points, count); });
 }
 
 tact_error tact_report_candidate_pairs(tact_world world, const tact_candidate_pair** pairs, size_t* count) {

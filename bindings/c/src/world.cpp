@@ -29,7 +29,7 @@ Settings settings_of(const tact_settings& given) {
           .direction = static_cast<DirectionPolicy>(s.direction),
           .gjk_tolerance = s.gjk_tolerance,
           .iteration_limit = s.iteration_limit,
-          .outputs = {.zones = s.zones, .patches = s.patches, .trace = s.trace},
+          .outputs = {.zones = s.zones, .patches = s.patches, .points = s.points, .trace = s.trace},
           .executor = s.executor.run != nullptr ? std::make_shared<CExecutor>(s.executor) : nullptr};
 }
 
@@ -43,6 +43,7 @@ tact_settings settings_for_c(const Settings& s) {
   result.zones = s.outputs.zones;
   result.patches = s.outputs.patches;
   result.trace = s.outputs.trace;
+  result.points = s.outputs.points;
   if (s.executor != nullptr) result.executor = static_cast<const CExecutor&>(*s.executor).given();
   return result;
 }
@@ -113,7 +114,9 @@ tact_error tact_world_add_body(tact_world world, const tact_body_definition* def
                                           .name = d.name != nullptr ? d.name : "",
                                           .layer = d.layer,
                                           .mask = d.mask,
-                                          .external_id = d.external_id}));
+                                          .external_id = d.external_id,
+                                          .margin = d.margin,
+                                          .self_contact = d.self_contact}));
   });
 }
 
@@ -148,6 +151,14 @@ tact_error tact_world_set_layers(tact_world world, tact_body body, uint32_t laye
 tact_error tact_world_set_motion(tact_world world, tact_body body, int32_t motion) {
   return changing(world,
                   [&](WorldEntry& entry) { entry.world.set_motion(id_of(body), static_cast<tact::Motion>(motion)); });
+}
+
+tact_error tact_world_set_margin(tact_world world, tact_body body, double margin) {
+  return changing(world, [&](WorldEntry& entry) { entry.world.set_margin(id_of(body), margin); });
+}
+
+tact_error tact_world_set_self_contact(tact_world world, tact_body body, bool wanted) {
+  return changing(world, [&](WorldEntry& entry) { entry.world.set_self_contact(id_of(body), wanted); });
 }
 
 tact_error tact_world_detect(tact_world world) {
@@ -197,6 +208,14 @@ tact_error tact_world_mask(tact_world world, tact_body body, uint32_t* mask) {
 
 tact_error tact_world_external_id(tact_world world, tact_body body, uint64_t* external_id) {
   return get(world, external_id, [&](const World& w) { return w.external_id(id_of(body)); });
+}
+
+tact_error tact_world_margin(tact_world world, tact_body body, double* margin) {
+  return get(world, margin, [&](const World& w) { return w.margin(id_of(body)); });
+}
+
+tact_error tact_world_self_contact(tact_world world, tact_body body, bool* wanted) {
+  return get(world, wanted, [&](const World& w) { return w.self_contact(id_of(body)); });
 }
 
 tact_error tact_world_vertex_count(tact_world world, tact_body body, size_t* count) {

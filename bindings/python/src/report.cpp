@@ -66,6 +66,51 @@ void define_parts(py::module_& module) {
           "rows of Contact.facet_pairs");
 }
 
+// Contact points as arrays, a row a point. They are copies.
+struct PointArrays {
+  py::array_t<std::uint8_t> kinds;
+  py::array_t<int> patches, a_vertices, b_vertices;
+  py::array_t<double> a_weights, b_weights, normals, gaps;
+  py::array_t<std::uint64_t> ids;
+};
+
+template <class Number, class Member>
+py::array_t<Number> point_rows(std::span<const ContactPoint> points, Member member) {
+  return rows_of<Number>(points, 3, [&](const ContactPoint& point, Number* row) {
+    for (std::size_t k = 0; k < 3; ++k) row[k] = (point.*member)[k];
+  });
+}
+
+PointArrays point_arrays(std::span<const ContactPoint> points) {
+  return {column_of<std::uint8_t>(points, [](const ContactPoint& point) { return point.kind; }),
+          column_of<int>(points, [](const ContactPoint& point) { return point.patch; }),
+          point_rows<int>(points, &ContactPoint::a_vertices),
+          point_rows<int>(points, &ContactPoint::b_vertices),
+          point_rows<double>(points, &ContactPoint::a_weights),
+          point_rows<double>(points, &ContactPoint::b_weights),
+          point_rows<double>(points, &ContactPoint::normal),
+          column_of<double>(points, [](const ContactPoint& point) { return point.gap; }),
+          column_of<std::uint64_t>(points, [](const ContactPoint& point) { return point.id; })};
+}
+
+void define_points(py::module_& module) {
+  py::enum_<FeaturePair>(module, "FeaturePair", "Between which features a contact point lies.")
+      .value("vertex_facet", FeaturePair::vertex_facet, "a vertex of a; a facet of b, an edge or a corner of it")
+      .value("facet_vertex", FeaturePair::facet_vertex, "a facet of a, an edge or a corner of it; a vertex of b")
+      .value("edge_edge", FeaturePair::edge_edge, "an edge of a and one of b");
+  py::class_<PointArrays>(module, "ContactPoints", "Where two surfaces are nearest to each other, a row a point.")
+      .def_readonly("kinds", &PointArrays::kinds, "(N,) uint8: values of FeaturePair")
+      .def_readonly("patches", &PointArrays::patches, "(N,) int32: points connected by common vertices")
+      .def_readonly("a_vertices", &PointArrays::a_vertices, "(N, 3) int32: vertices of a; -1 fills up")
+      .def_readonly("b_vertices", &PointArrays::b_vertices, "(N, 3) int32: vertices of b; -1 fills up")
+      .def_readonly("a_weights", &PointArrays::a_weights, "(N, 3): their weights; the sum of a row is 1")
+      .def_readonly("b_weights", &PointArrays::b_weights, "(N, 3): their weights; the sum of a row is 1")
+      .def_readonly("normals", &PointArrays::normals, "(N, 3): unit, from a to b")
+      .def_readonly("gaps", &PointArrays::gaps, "(N,): metres")
+      .def_readonly("ids", &PointArrays::ids, "(N,) uint64: the same while these features are near each other")
+      .def("__len__", [](const PointArrays& points) { return points.gaps.size(); });
+}
+
 void define_contact(py::module_& module) {
   py::class_<ContactHandle>(module, "Contact",
                             "Two bodies whose convex hulls overlap. Arrays that it gives stay valid.")
@@ -89,6 +134,9 @@ void define_contact(py::module_& module) {
       .def_property_readonly(
           "facet_pairs", [](const ContactHandle& contact) { return facet_pair_array(contact->facet_pairs()); },
           "(N, 2) int32: the facets that meet, sorted")
+      .def_property_readonly(
+          "points", [](const ContactHandle& contact) { return point_arrays(contact->points()); },
+          "ContactPoints, filled if Settings.points is set")
       .def_property_readonly(
           "touching", [](const ContactHandle& contact) { return contact->touching(); },
           "does any facet of a meet one of b?")
@@ -129,6 +177,7 @@ std::string report_text(const ReportHandle& report) {
 
 void define_report(py::module_& module) {
   define_parts(module);
+  define_points(module);
   define_contact(module);
   py::class_<ReportHandle>(module, "Report", "What a step found, until the next one. Arrays that it gives stay valid.")
       .def_property_readonly("contacts", contacts_of, "pairs whose hulls overlap, sorted by (a, b)")

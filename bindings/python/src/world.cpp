@@ -16,7 +16,7 @@ namespace {
 using SharedPointer = std::shared_ptr<SharedWorld>;
 
 BodyId add_body(SharedWorld& world, py::handle positions, py::handle facets, Surface surface, Motion motion,
-                const std::string& name, std::uint32_t layer, std::uint32_t mask) {
+                const std::string& name, std::uint32_t layer, std::uint32_t mask, double margin, bool self_contact) {
   const PositionsArgument x(positions);
   const FacetsArgument f(facets);
   const BodyDefinition definition{.positions = x.columns(),
@@ -25,7 +25,9 @@ BodyId add_body(SharedWorld& world, py::handle positions, py::handle facets, Sur
                                   .motion = motion,
                                   .name = name,
                                   .layer = layer,
-                                  .mask = mask};
+                                  .mask = mask,
+                                  .margin = margin,
+                                  .self_contact = self_contact};
   BodyId added;
   world.compute([&](World& w) { added = w.add_body(definition); });
   return added;
@@ -66,13 +68,13 @@ std::string settings_text(const Settings& settings) {
 }
 
 Settings make_settings(int threads, Accuracy accuracy, DirectionPolicy direction, double gjk_tolerance,
-                       int iteration_limit, bool zones, bool patches) {
+                       int iteration_limit, bool zones, bool patches, bool points) {
   return {.threads = threads,
           .accuracy = accuracy,
           .direction = direction,
           .gjk_tolerance = gjk_tolerance,
           .iteration_limit = iteration_limit,
-          .outputs = {.zones = zones, .patches = patches}};
+          .outputs = {.zones = zones, .patches = patches, .points = points}};
 }
 
 template <bool Outputs::*kMember>
@@ -89,7 +91,7 @@ void define_settings(py::module_& module) {
       .def(py::init(&make_settings), py::kw_only(), py::arg("threads") = defaults.threads,
            py::arg("accuracy") = defaults.accuracy, py::arg("direction") = defaults.direction,
            py::arg("gjk_tolerance") = defaults.gjk_tolerance, py::arg("iteration_limit") = defaults.iteration_limit,
-           py::arg("zones") = false, py::arg("patches") = false)
+           py::arg("zones") = false, py::arg("patches") = false, py::arg("points") = false)
       .def_readwrite("threads", &Settings::threads, "0 to 1024; 0: as many as OpenMP would use")
       .def_readwrite("accuracy", &Settings::accuracy)
       .def_readwrite("direction", &Settings::direction)
@@ -97,6 +99,7 @@ void define_settings(py::module_& module) {
       .def_readwrite("iteration_limit", &Settings::iteration_limit, "shifted calls of GJK a pair and step, at least 1")
       .def("__repr__", settings_text);
   output<&Outputs::zones>(settings, "zones", "compute Contact.zone_a and zone_b");
+  output<&Outputs::points>(settings, "points", "compute Contact.points");
   output<&Outputs::patches>(settings, "patches", "compute Contact.patches");
 }
 
@@ -120,7 +123,8 @@ void define_world(py::module_& module) {
       .def("set_settings", set_settings, py::arg("settings"), "takes effect with the next step")
       .def("add_body", add_body, py::arg("positions"), py::arg("facets"), py::kw_only(),
            py::arg("surface") = Surface::closed, py::arg("motion") = Motion::moving, py::arg("name") = "",
-           py::arg("layer") = 1u, py::arg("mask") = 0xffffffffu,
+           py::arg("layer") = 1u, py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0,
+           py::arg("self_contact") = false,
            "positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside")
       .def(
           "remove_body", [](SharedWorld& world, BodyId body) { world.use().remove_body(body); }, py::arg("body"))
@@ -146,6 +150,15 @@ void define_world(py::module_& module) {
       .def("motion", of_body<&World::motion>, py::arg("body"))
       .def("layer", of_body<&World::layer>, py::arg("body"))
       .def("mask", of_body<&World::mask>, py::arg("body"))
+      .def("margin", of_body<&World::margin>, py::arg("body"), "half the body's thickness, metres")
+      .def("self_contact", of_body<&World::self_contact>, py::arg("body"), "is the body held against itself?")
+      .def(
+          "set_margin", [](SharedWorld& world, BodyId body, double margin) { world.use().set_margin(body, margin); },
+          py::arg("body"), py::arg("margin"))
+      .def(
+          "set_self_contact",
+          [](SharedWorld& world, BodyId body, bool wanted) { world.use().set_self_contact(body, wanted); },
+          py::arg("body"), py::arg("wanted"))
       .def("vertex_count", of_body<&World::vertex_count>, py::arg("body"))
       .def("facet_count", of_body<&World::facet_count>, py::arg("body"))
       .def("__len__", [](SharedWorld& world) { return world.use().body_count(); })

@@ -118,6 +118,7 @@ class Settings:
     iteration_limit: int
     zones: bool
     patches: bool
+    points: bool
     def __init__(
         self,
         *,
@@ -128,6 +129,7 @@ class Settings:
         iteration_limit: int = 100,
         zones: bool = False,
         patches: bool = False,
+        points: bool = False,
     ) -> None: ...
 
 class ZoneDisk:
@@ -155,6 +157,50 @@ class Patch:
     @property
     def facet_pairs(self) -> Ints:
         """rows of Contact.facet_pairs"""
+
+class FeaturePair:
+    """Between which features a contact point lies."""
+
+    vertex_facet: ClassVar[FeaturePair]
+    facet_vertex: ClassVar[FeaturePair]
+    edge_edge: ClassVar[FeaturePair]
+    name: str
+    value: int
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+
+class ContactPoints:
+    """Where two surfaces are nearest to each other, a row a point."""
+
+    @property
+    def kinds(self) -> npt.NDArray[np.uint8]:
+        """(N,): values of FeaturePair"""
+    @property
+    def patches(self) -> Ints:
+        """(N,): points connected by common vertices"""
+    @property
+    def a_vertices(self) -> Ints:
+        """(N, 3): vertices of a; -1 fills up"""
+    @property
+    def b_vertices(self) -> Ints:
+        """(N, 3): vertices of b; -1 fills up"""
+    @property
+    def a_weights(self) -> Floats:
+        """(N, 3): their weights; the sum of a row is 1"""
+    @property
+    def b_weights(self) -> Floats:
+        """(N, 3): their weights; the sum of a row is 1"""
+    @property
+    def normals(self) -> Floats:
+        """(N, 3): unit, from a to b"""
+    @property
+    def gaps(self) -> Floats:
+        """(N,): metres"""
+    @property
+    def ids(self) -> npt.NDArray[np.uint64]:
+        """(N,): the same while these features are near each other"""
+    def __len__(self) -> int: ...
 
 class Contact:
     """Two bodies whose convex hulls overlap. Arrays that it gives stay valid."""
@@ -190,6 +236,9 @@ class Contact:
     @property
     def facet_pairs(self) -> Ints:
         """(N, 2): the facets that meet, sorted"""
+    @property
+    def points(self) -> ContactPoints:
+        """filled if Settings.points is set"""
     @property
     def touching(self) -> bool:
         """does any facet of a meet one of b?"""
@@ -244,6 +293,8 @@ class World:
         name: str = "",
         layer: int = 1,
         mask: int = 0xFFFFFFFF,
+        margin: float = 0.0,
+        self_contact: bool = False,
     ) -> BodyId:
         """positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside"""
     def remove_body(self, body: BodyId) -> None: ...
@@ -264,6 +315,11 @@ class World:
     def motion(self, body: BodyId) -> Motion: ...
     def layer(self, body: BodyId) -> int: ...
     def mask(self, body: BodyId) -> int: ...
+    def margin(self, body: BodyId) -> float:
+        """half the body's thickness, metres"""
+    def self_contact(self, body: BodyId) -> bool: ...
+    def set_margin(self, body: BodyId, margin: float) -> None: ...
+    def set_self_contact(self, body: BodyId, wanted: bool) -> None: ...
     def vertex_count(self, body: BodyId) -> int: ...
     def facet_count(self, body: BodyId) -> int: ...
     def __len__(self) -> int: ...

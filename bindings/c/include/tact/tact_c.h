@@ -110,13 +110,12 @@ typedef struct tact_settings {
   bool patches;
   bool trace;
   tact_executor executor;
+  bool points; /**< contact points */
 } tact_settings;
 #define TACT_SETTINGS_INIT                                                                                            \
   {                                                                                                                   \
     (uint32_t)sizeof(tact_settings), 0, TACT_ACCURACY_EXACT, TACT_DIRECTION_CARRIED, 1e-12, 100, false, false, false, \
-    {                                                                                                                 \
-      NULL, NULL                                                                                                      \
-    }                                                                                                                 \
+        {NULL, NULL}, false                                                                                           \
   }
 
 /** `count` vertices or facets, three numbers each, that begin every `stride_bytes` from `first` on. Coordinates are
@@ -139,11 +138,13 @@ typedef struct tact_body_definition {
   uint32_t mask;          /**< the layers it is tested against */
   const char* name;       /**< for messages; null: "body <index>" */
   uint64_t external_id;   /**< the program's own; nothing depends on it */
+  double margin;          /**< half a thickness, metres: surfaces closer than two margins are in contact */
+  bool self_contact;      /**< is the body held against itself, too? */
 } tact_body_definition;
 #define TACT_BODY_DEFINITION_INIT                                                             \
   {                                                                                           \
     (uint32_t)sizeof(tact_body_definition), TACT_SURFACE_CLOSED, {NULL, 0, 24, TACT_FLOAT64}, \
-        {NULL, 0, 12, TACT_INT32}, TACT_MOTION_MOVING, 1u, 0xffffffffu, NULL, 0               \
+        {NULL, 0, 12, TACT_INT32}, TACT_MOTION_MOVING, 1u, 0xffffffffu, NULL, 0, 0.0, false   \
   }
 
 /** New positions of one body. */
@@ -167,6 +168,8 @@ TACT_C_API tact_error tact_world_set_positions_of_many(tact_world world, const t
                                                        size_t count);
 TACT_C_API tact_error tact_world_set_layers(tact_world world, tact_body body, uint32_t layer, uint32_t mask);
 TACT_C_API tact_error tact_world_set_motion(tact_world world, tact_body body, int32_t motion);
+TACT_C_API tact_error tact_world_set_margin(tact_world world, tact_body body, double margin);
+TACT_C_API tact_error tact_world_set_self_contact(tact_world world, tact_body body, bool wanted);
 /** One step. The functions tact_report_... tell what it found. */
 TACT_C_API tact_error tact_world_detect(tact_world world);
 
@@ -181,6 +184,8 @@ TACT_C_API tact_error tact_world_motion(tact_world world, tact_body body, tact_m
 TACT_C_API tact_error tact_world_layer(tact_world world, tact_body body, uint32_t* layer);
 TACT_C_API tact_error tact_world_mask(tact_world world, tact_body body, uint32_t* mask);
 TACT_C_API tact_error tact_world_external_id(tact_world world, tact_body body, uint64_t* external_id);
+TACT_C_API tact_error tact_world_margin(tact_world world, tact_body body, double* margin);
+TACT_C_API tact_error tact_world_self_contact(tact_world world, tact_body body, bool* wanted);
 TACT_C_API tact_error tact_world_vertex_count(tact_world world, tact_body body, size_t* count);
 TACT_C_API tact_error tact_world_facet_count(tact_world world, tact_body body, size_t* count);
 
@@ -242,6 +247,21 @@ typedef struct tact_patch {
 #define TACT_PATCH_INIT \
   { (uint32_t)sizeof(tact_patch), {0, 0, 0}, {0, 0, 0}, 0, NULL, 0 }
 
+typedef enum tact_feature_pair { TACT_VERTEX_FACET = 0, TACT_FACET_VERTEX = 1, TACT_EDGE_EDGE = 2 } tact_feature_pair;
+
+/** See tact::ContactPoint. */
+typedef struct tact_contact_point {
+  uint8_t kind; /**< tact_feature_pair */
+  int patch;
+  int a_vertices[3]; /**< -1 fills up */
+  int b_vertices[3];
+  double a_weights[3]; /**< not negative; the sum is 1 */
+  double b_weights[3];
+  double normal[3]; /**< unit, from a to b */
+  double gap;       /**< metres */
+  uint64_t id;      /**< the same while these features are near each other */
+} tact_contact_point;
+
 /** Two bodies whose boxes overlap. */
 typedef struct tact_candidate_pair {
   tact_body a;
@@ -286,6 +306,9 @@ TACT_C_API tact_error tact_report_contact(tact_world world, size_t index, tact_c
 TACT_C_API tact_error tact_report_find_contact(tact_world world, tact_body a, tact_body b, size_t* index);
 /** The patch `patch` of the contact `index`. */
 TACT_C_API tact_error tact_contact_patch(tact_world world, size_t index, size_t patch, tact_patch* result);
+/** The points of the contact `index`, if they were asked for; the world's. */
+TACT_C_API tact_error tact_contact_points(tact_world world, size_t index, const tact_contact_point** points,
+                                          size_t* count);
 TACT_C_API tact_error tact_report_candidate_pairs(tact_world world, const tact_candidate_pair** pairs, size_t* count);
 /** Pairs that touch now and did not in the last step, and the opposite. */
 TACT_C_API tact_error tact_report_began(tact_world world, const tact_contact_event** events, size_t* count);
