@@ -251,7 +251,7 @@ typedef enum tact_feature_pair { TACT_VERTEX_FACET = 0, TACT_FACET_VERTEX = 1, T
 
 /** See tact::ContactPoint. */
 typedef struct tact_contact_point {
-  uint8_t kind; /**< tact_feature_pair */
+  int32_t kind; /**< tact_feature_pair */
   int patch;
   int a_vertices[3]; /**< -1 fills up */
   int b_vertices[3];

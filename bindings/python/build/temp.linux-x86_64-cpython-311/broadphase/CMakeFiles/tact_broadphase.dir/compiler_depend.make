@@ -1,2 +1,0 @@
-# Empty compiler generated dependencies file for tact_broadphase.
-# This may be replaced when dependencies are built.
