@@ -45,7 +45,7 @@ void Features::find_edges(const ClusteredMesh& mesh) {
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (i == 0 || sides[i].vertices != sides[i - 1].vertices) begins.push_back(i);
   }
-  std::ranges::stable_sort(begins, {}, [&](std::size_t i) { return std::pair(sides[i].facet, sides[i].k); });
+  std::ranges::sort(begins, {}, [&](std::size_t i) { return std::pair(sides[i].facet, sides[i].k); });
   facet_edges_.assign(3 * static_cast<std::size_t>(mesh.facet_count()), -1);
   edge_begin_.assign(static_cast<std::size_t>(mesh.cluster_count()) + 1, 0);
   opposite_begin_.push_back(0);

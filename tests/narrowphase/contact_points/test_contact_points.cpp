@@ -96,16 +96,16 @@ TEST(ContactPoints, OfCrossedBarsIsBetweenTheirEdges) {
 }
 
 TEST(ContactPoints, EqualBruteForceOnSmoothBodies) {
-  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
     const Mesh a = tests::blob(3, 1.0, 0.2, seed),
                b = tests::translated(tests::blob(2, 0.8, 0.3, seed + 50), {1.75, 0.1, 0.05});
-    for (const double reach : {0.02, 0.1, 0.4})
+    for (const double reach : {0.1, 0.4})
       expect_points_of_brute_force(a, b, reach, "blobs " + std::to_string(seed));
   }
 }
 
 TEST(ContactPoints, EqualBruteForceOfSheetsThatLieOnEachOther) {
-  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+  for (std::uint64_t seed = 0; seed < 2; ++seed) {
     const Mesh a = tests::wrinkled_sheet(14, 2.0, 0.2, seed);
     const Mesh b =
         tests::translated(tests::jittered(tests::wrinkled_sheet(11, 1.7, 0.2, seed), 0.01, seed), {0.013, 0.02, 0.05});
@@ -114,7 +114,7 @@ TEST(ContactPoints, EqualBruteForceOfSheetsThatLieOnEachOther) {
 }
 
 TEST(ContactPoints, EqualBruteForceOnSoupsNeedlesAndLattices) {
-  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const std::string which = " " + std::to_string(seed);
     expect_points_of_brute_force(tests::soup(40, 1.0, seed), tests::soup(40, 1.0, seed + 9), 0.1, "soups" + which);
     expect_points_of_brute_force(tests::needles(25, 1e-4, seed), tests::needles(25, 1e-3, seed + 9), 0.1,
@@ -131,7 +131,7 @@ TEST(ContactPoints, EqualBruteForceWhereverAndHoweverLarge) {
   for (const double scale : {0x1p-400, 0x1p-30, 0x1p40, 0x1p290})
     expect_points_of_brute_force(tests::scaled(a, scale), tests::scaled(b, scale), 0.2 * scale,
                                  "scaled by " + std::to_string(std::ilogb(scale)));
-  for (int k = 0; k < 4; ++k) {
+  for (int k = 0; k < 2; ++k) {
     const auto turn = random.rotation();
     const Vec3 by = 1e3 * random.direction();
     expect_points_of_brute_force(tests::translated(tests::rotated(a, turn), by),
