@@ -124,8 +124,7 @@ void PointStage::make_features(Bodies& bodies, int threads) {
     }
   }
   std::ranges::sort(without_features_);
-  const auto repeated = std::ranges::unique(without_features_);
-  without_features_.erase(repeated.begin(), repeated.end());
+  without_features_.erase(std::unique(without_features_.begin(), without_features_.end()), without_features_.end());
   bodies.make_features(without_features_, threads);
 }
 

@@ -52,7 +52,7 @@ tact_error guarded(const Work& work) noexcept {
 
 template <class... Pointers>
 void check_not_null(const Pointers*... pointers) {
-  if (((pointers == nullptr) || ...)) throw Failure{TACT_ERROR_NULL_ARGUMENT, "an argument is null"};
+  if ((!pointers || ...)) throw Failure{TACT_ERROR_NULL_ARGUMENT, "an argument is null"};
 }
 
 inline constexpr Failure kBusy{TACT_ERROR_BUSY, "another thread is in a function of this world"};
