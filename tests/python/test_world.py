@@ -132,21 +132,26 @@ def test_bodies_and_what_they_are(two):
 
 def test_other_threads_run_while_a_step_is_computed():
     world = tact.World(tact.Settings(threads=1))
-    positions, facets = grid(400)
-    for k in range(6):
-        world.add_body(positions + [0, 0, 0.001 * k], facets, surface=tact.Surface.sheet)
-    step = threading.Thread(target=world.detect)
-    refused = seen = 0
-    step.start()
-    while step.is_alive():
-        seen += 1
-        try:
-            world.detect()
-        except tact.Error as error:
-            assert error.code == tact.ErrorCode.wrong_order
-            refused += 1
-    step.join()
-    assert seen > 0 and refused > 0
+    positions, facets = grid(60)
+    bodies = [world.add_body(positions + [0, 0, 0.001 * k], facets, surface=tact.Surface.sheet) for k in range(4)]
+    done, steps = threading.Event(), []
+
+    def step():
+        while not done.is_set():
+            world.set_positions({body: positions + [0, 0, 0.001 * len(steps)] for body in bodies})
+            steps.append(world.detect().stats["total_ms"])
+
+    stepping = threading.Thread(target=step)
+    stepping.start()
+    try:
+        # Sooner or later this thread comes to its turn in the middle of a step, and is refused.
+        with pytest.raises(tact.Error, match="another thread") as raised:
+            while True:
+                world.body_count  # noqa: B018
+    finally:
+        done.set()
+        stepping.join()
+    assert raised.value.code == tact.ErrorCode.wrong_order and steps
 
 
 def test_texts_say_what_a_thing_is(two):
