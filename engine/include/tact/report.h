@@ -120,8 +120,8 @@ class TACT_API Report {
   std::span<const TraceEvent> trace() const { return trace_; }
 
   // A number made from every bit of the candidate pairs and the contacts: bodies by index, directions, depths, zones,
-  // kept facets, iterations, facet pairs, points; not patches nor statistics. The same calls give the same hash, for any number
-  // of threads. Worlds with another past may differ in kept facets and iterations, and so in it.
+  // kept facets, iterations, facet pairs, points; not patches nor statistics. The same calls give the same hash, for
+  // any number of threads. Worlds with another past may differ in kept facets and iterations, and so in it.
   std::uint64_t hash() const;
 
  private:

@@ -99,8 +99,7 @@ TEST(ContactPoints, EqualBruteForceOnSmoothBodies) {
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
     const Mesh a = tests::blob(3, 1.0, 0.2, seed),
                b = tests::translated(tests::blob(2, 0.8, 0.3, seed + 50), {1.75, 0.1, 0.05});
-    for (const double reach : {0.1, 0.4})
-      expect_points_of_brute_force(a, b, reach, "blobs " + std::to_string(seed));
+    for (const double reach : {0.1, 0.4}) expect_points_of_brute_force(a, b, reach, "blobs " + std::to_string(seed));
   }
 }
 
