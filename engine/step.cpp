@@ -295,6 +295,8 @@ void Step::update_report(const StepStats& last) {
     stats.touching_contacts += contact.touching() ? times : 0;
   };
   for (const MovedPair& pair : table_.moved()) {
+    // From near to overlapping the contact stays, but not what the candidate says.
+    report_.candidate_pairs_[pair.place] = table_.candidates()[pair.place];
     if (!table_.in_contact(pair.place)) continue;
     Contact& contact = report_.contacts_[table_.place_in_report(pair.place)];
     add(contact, -1);

@@ -61,6 +61,21 @@ TEST(Margins, AContactGoesThroughNearOnItsWay) {
   EXPECT_GT(last, 0.3);
 }
 
+// The contact stays while the hulls come to overlap and part again; what the candidate says of them does not.
+TEST(Margins, CandidatesTellOverlapFromNear) {
+  World world;
+  world.add_body(definition(cube(1.0, {}), 0.1));
+  const BodyId b = world.add_body(definition(cube(1.0, {1.05, 0, 0}), 0.1));
+  for (const double x : {1.05, 0.95, 0.94, 1.05, 0.9}) {
+    world.set_positions(b, cube(1.0, {x, 0, 0}).positions);
+    const Report& report = world.detect();
+    ASSERT_EQ(report.candidate_pairs().size(), 1u);
+    EXPECT_EQ(report.candidate_pairs()[0].hulls_overlap, x < 1.0) << x;
+    ASSERT_EQ(report.contacts().size(), 1u);
+    EXPECT_EQ(report.contacts()[0].touching(), x < 1.0) << x;
+  }
+}
+
 TEST(Margins, BadOnesAreRefusedByName) {
   World world;
   const Mesh mesh = cube(1.0, {});
