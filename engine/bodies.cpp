@@ -65,18 +65,6 @@ void check_margin(double margin, const std::string& name) {
   throw Error(ErrorCode::bad_settings, quoted(name) + ": margin is " + base::text_of(margin) + ", not 0 to 2^300");
 }
 
-// A box with all that is at most `margin` away from it, rounded outwards.
-base::Box with_margin(const base::Box& box, double margin) {
-  if (margin == 0.0 || box.empty()) return box;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  base::Box grown;
-  for (int axis = 0; axis < 3; ++axis) {
-    grown.lower[axis] = std::nextafter(box.lower[axis] - margin, -kInfinity);
-    grown.upper[axis] = std::nextafter(box.upper[axis] + margin, kInfinity);
-  }
-  return grown;
-}
-
 int moves_to_look(int tries) { return kMovesToLook << tries; }
 
 bool has_diagonals(const narrowphase::ClusteredMesh& mesh) {
@@ -153,13 +141,15 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   on_all([&](auto& vector) { vector.resize(slots); });
   body->id = {slot, ++slots_[slot].generation, world_};
   margins_[slot] = definition.margin;
-  boxes_[slot] = with_margin(body->mesh.box(), definition.margin);
+  boxes_[slot] = base::grown(body->mesh.box(), definition.margin);
   find_diagonals(slot, body->mesh);
   wants_diagonals_[slot] = 1;
   groupings_[slot] = {.looseness = body->mesh.looseness()};
   filters_[slot] = {definition.layer, definition.mask, definition.motion == Motion::fixed};
   slots_[slot].vertex_count = body->mesh.source_vertex_count();
   slots_[slot].fixed = definition.motion == Motion::fixed;
+  slots_[slot].begin = Begin::here;
+  slots_[slot].seen = false;
   slots_[slot].body = std::move(body);
   packed_meshes_.add(slots_[slot].body->mesh);
   mark_changed(slot);
@@ -215,6 +205,23 @@ void Bodies::prepare(Update& update, BodyId id, const Positions& positions) {
   update.given = &positions;
   update.body = slot.body.get();
   update.slot = id.index;
+  if (slot.begin == Begin::before) update.body->begin.resize(body.mesh.placement_size());
+}
+
+// The refresh that follows writes where the positions of the last step are.
+void Bodies::keep_begin(Body& body, Slot& slot) {
+  body.mesh.keep_placement_before(body.begin.data());
+  slot.begin = Begin::kept;
+}
+
+narrowphase::MovingMesh Bodies::moving(std::uint32_t slot) const {
+  const Body& body = in_slot(slot);
+  const narrowphase::ClusteredMesh& mesh = body.mesh;
+  const Begin begin = slots_[slot].begin;
+  return {&mesh, body.features.get(),
+          begin == Begin::here     ? mesh.placement()
+          : begin == Begin::before ? mesh.placement_before()
+                                   : mesh.placement_in(body.begin.data())};
 }
 
 // Asks for the memory of a body that is looked at soon: small bodies are scattered.
@@ -227,6 +234,7 @@ void Bodies::refresh(std::size_t i, int threads) {
   Update& update = updates_[i];
   narrowphase::ClusteredMesh& mesh = update.body->mesh;
   update.positions = packed(*update.given, std::span(update.copy));
+  if (slots_[update.slot].begin == Begin::before) keep_begin(*update.body, slots_[update.slot]);
   update.refreshed = mesh.refresh(update.positions.data(), kLargestCoordinate, threads, !stay_in_cache());
   const bool changed = update.refreshed == Refresh::changed;
   update.box = mesh.box();
@@ -264,7 +272,7 @@ void Bodies::publish(std::size_t i) {
   const Update& update = updates_[i];
   if (update.refreshed != Refresh::changed) return;
   const std::uint32_t slot = update.slot;
-  boxes_[slot] = with_margin(update.box, margins_[slot]);
+  boxes_[slot] = base::grown(update.box, margins_[slot]);
   knows_diagonals_[slot] = update.knows_diagonals ? 1 : 0;
   if (update.knows_diagonals) diagonals_[slot] = new_diagonals_[i];
   Grouping& grouping = groupings_[slot];
@@ -274,6 +282,8 @@ void Bodies::publish(std::size_t i) {
 void Bodies::note_change(const Update& update) {
   if (update.refreshed != Refresh::changed) return;
   mark_moved(update.slot);
+  Slot& slot = slots_[update.slot];
+  if (slot.begin == Begin::here && slot.seen) slot.begin = Begin::before;
   if (update.looseness == 0.0) return;  // most often: nothing of the grouping is read
   Grouping& grouping = groupings_[update.slot];
   if (grouping.loose || !is_loose(grouping, update.looseness)) return;
@@ -302,6 +312,7 @@ std::vector<Bodies::Regrouped> Bodies::regroup(int threads) {
       packed_meshes_.remove(body.mesh);
       body.mesh = std::move(*meshes[i]);
       body.features.reset();
+      slots_[loose_[i]].begin = Begin::here;
       packed_meshes_.add(body.mesh);
     } else {
       all[i].numbers.clear();
@@ -392,7 +403,7 @@ void Bodies::set_margin(BodyId id, double margin) {
   check_margin(margin, body.name);
   if (margins_[id.index] == margin) return;
   margins_[id.index] = margin;
-  boxes_[id.index] = with_margin(body.mesh.box(), margin);
+  boxes_[id.index] = base::grown(body.mesh.box(), margin);
   mark_moved(id.index);
 }
 
@@ -463,7 +474,11 @@ void Bodies::mark_changed(std::uint32_t slot) {
 }
 
 void Bodies::end_step() {
-  for (const std::uint32_t slot : changed_) slots_[slot].changed = false;
+  for (const std::uint32_t slot : changed_) {
+    slots_[slot].changed = false;
+    slots_[slot].begin = Begin::here;
+    slots_[slot].seen = true;
+  }
   changed_.clear();
   removed_any_ = false;
   moved_vertices_ = 0;

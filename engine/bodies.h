@@ -14,6 +14,7 @@
 #include "engine/packed_meshes.h"
 #include "narrowphase/contact_points/contact_points.h"
 #include "narrowphase/mesh/clustered_mesh.h"
+#include "narrowphase/motion/impacts.h"
 
 namespace tact {
 
@@ -26,6 +27,7 @@ struct alignas(64) Body {
   std::uint64_t external_id = 0;
   bool self_contact = false;
   std::unique_ptr<const narrowphase::Features> features = nullptr;  // made when points are first asked for
+  std::vector<double> begin = {};  // where it was in the last step, once it has moved twice since: a placement
 };
 
 class Bodies {
@@ -62,6 +64,9 @@ class Bodies {
   narrowphase::FeaturedMesh featured(std::uint32_t slot) const {
     return {&in_slot(slot).mesh, in_slot(slot).features.get()};
   }
+  // Has a body other positions than in the last step? The body and its way since.
+  bool on_its_way(std::uint32_t slot) const { return slots_[slot].begin != Begin::here; }
+  narrowphase::MovingMesh moving(std::uint32_t slot) const;
   // Makes the features of some bodies, in parallel.
   void make_features(std::span<const std::uint32_t> slots, int threads);
 
@@ -105,12 +110,18 @@ class Bodies {
   void mark_all_changed();
 
  private:
+  // Where the positions of the last step are: those of now, those before the last refresh, or in Body::begin. A body
+  // that the last step did not know begins where it is.
+  enum class Begin : std::uint8_t { here, before, kept };
+
   struct Slot {
     std::unique_ptr<Body> body;
     std::uint32_t generation = 0;
     std::int32_t vertex_count = 0;  // the caller's; with `fixed`, so that a batch can be looked over without the bodies
     bool fixed = false;
     bool changed = false;
+    bool seen = false;  // by a step
+    Begin begin = Begin::here;
   };
 
   // How the clusters keep their shape.
@@ -139,6 +150,7 @@ class Bodies {
   void prefetch(BodyId id) const;
   void refresh(std::size_t i, int threads);
   void take_back_if_bad(std::size_t count);
+  void keep_begin(Body& body, Slot& slot);
   void publish(std::size_t i);
   void note_change(const Update& update);
   void check_named_once(std::span<const PositionsUpdate> updates);

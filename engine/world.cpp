@@ -9,6 +9,7 @@
 #include "engine/base/timer.h"
 #include "engine/bodies.h"
 #include "engine/check_name.h"
+#include "engine/motion_stage.h"
 #include "engine/step.h"
 
 namespace tact {
@@ -65,6 +66,7 @@ struct World::Implementation {
   base::Workers workers;
   Bodies bodies{next_world()};
   Step step;
+  std::unique_ptr<MotionStage> motion = nullptr;  // made when it is first asked for
   double refresh_ms = 0.0;  // since the last step
 
   // Calls work(), which is part of stage 1, and takes its time.
@@ -155,6 +157,22 @@ const Report& World::detect() {
     } catch (...) {
       i.step.forget();
       i.bodies.mark_all_changed();
+      throw;
+    }
+  });
+}
+
+const MotionReport& World::detect_motion(Impacts wanted) {
+  Implementation& i = implementation();
+  check_name(wanted, Impacts::first, "impacts");
+  const base::FloatingPointMode mode;
+  const base::Workers::Scope scope(i.workers);
+  return with_memory("detect_motion ran out of memory", [&]() -> const MotionReport& {
+    if (i.motion == nullptr) i.motion = std::make_unique<MotionStage>();
+    try {
+      return i.motion->run(i.bodies, i.settings, wanted);
+    } catch (...) {
+      i.motion.reset();
       throw;
     }
   });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "engine/base/vec3.h"
@@ -32,6 +33,18 @@ inline Box merged(const Box& a, const Box& b) {
 inline Box intersection(const Box& a, const Box& b) {
   return {{std::max(a.lower.x, b.lower.x), std::max(a.lower.y, b.lower.y), std::max(a.lower.z, b.lower.z)},
           {std::min(a.upper.x, b.upper.x), std::min(a.upper.y, b.upper.y), std::min(a.upper.z, b.upper.z)}};
+}
+
+// The box with all that is at most `by` away from it, rounded outwards.
+inline Box grown(const Box& box, double by) {
+  if (by == 0.0 || box.empty()) return box;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Box result;
+  for (int axis = 0; axis < 3; ++axis) {
+    result.lower[axis] = std::nextafter(box.lower[axis] - by, -kInfinity);
+    result.upper[axis] = std::nextafter(box.upper[axis] + by, kInfinity);
+  }
+  return result;
 }
 
 inline Box extended(const Box& box, Vec3 p) { return merged(box, {p, p}); }

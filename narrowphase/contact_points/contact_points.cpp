@@ -82,12 +82,6 @@ void open(const ScaledMesh& m, int cluster, OpenCluster& opened) {
   }
 }
 
-std::array<int, 3> sources(const ClusteredMesh& mesh, std::span<const int> vertices) {
-  std::array<int, 3> result{-1, -1, -1};
-  std::ranges::transform(vertices, result.begin(), [&](int v) { return mesh.source_vertex(v); });
-  return result;
-}
-
 // The search among the clusters of two meshes.
 class PointFinder {
  public:
@@ -157,8 +151,8 @@ class PointFinder {
     const bool of_a = kind == FeaturePair::vertex_facet;
     auto& own = of_a ? point.a : point.b;
     auto& others = of_a ? point.b : point.a;
-    own = sources(m.mesh, {&vertex, 1});
-    others = sources(surface.mesh, feature);
+    own = source_vertices(m.mesh, {&vertex, 1});
+    others = source_vertices(surface.mesh, feature);
     (of_a ? point.weight_a : point.weight_b) = {1.0, 0.0, 0.0};
     std::ranges::copy(nearest.weight, (of_a ? point.weight_b : point.weight_a).begin());
     const Vec3 normal = nearest.normal == Vec3{} ? -facet_normal(surface, facet) : nearest.normal;
@@ -183,8 +177,8 @@ class PointFinder {
     const Vec3 on_e = nearest.first[0] * at_e.p + nearest.first[1] * at_e.q;
     if (same_ && along_surface(e, on_e, f, on_e + nearest.distance * nearest.normal)) return;
     FeaturePoint point{.kind = FeaturePair::edge_edge,
-                       .a = sources(a_.mesh, e),
-                       .b = sources(b_.mesh, f),
+                       .a = source_vertices(a_.mesh, e),
+                       .b = source_vertices(b_.mesh, f),
                        .weight_a = {nearest.first[0], nearest.first[1], 0.0},
                        .weight_b = {nearest.weight[0], nearest.weight[1], 0.0},
                        .normal = nearest.normal,
@@ -195,10 +189,6 @@ class PointFinder {
       point.normal = -point.normal;
     }
     found_.push_back(point);
-  }
-
-  static bool share_a_vertex(const EdgeVertices& e, const EdgeVertices& f) {
-    return e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1];
   }
 
   static Vec3 facet_normal(const ScaledMesh& m, int facet) {

@@ -85,4 +85,10 @@ void Features::find_neighbors(const ClusteredMesh& mesh) {
   }
 }
 
+std::array<int, 3> source_vertices(const ClusteredMesh& mesh, std::span<const int> vertices) {
+  std::array<int, 3> result{-1, -1, -1};
+  std::ranges::transform(vertices, result.begin(), [&](int v) { return mesh.source_vertex(v); });
+  return result;
+}
+
 }  // namespace tact::narrowphase

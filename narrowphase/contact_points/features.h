@@ -51,4 +51,12 @@ class Features {
   std::vector<int> neighbors_, neighbors_begin_;
 };
 
+/// The caller's numbers of up to three vertices; -1 fills up.
+std::array<int, 3> source_vertices(const ClusteredMesh& mesh, std::span<const int> vertices);
+
+/// Have two edges a vertex in common?
+inline bool share_a_vertex(const EdgeVertices& e, const EdgeVertices& f) {
+  return e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1];
+}
+
 }  // namespace tact::narrowphase

@@ -148,6 +148,16 @@ struct PairMatches {
   std::uint64_t flat = 0;       // the facet of `a` certainly lies in the plane of the facet of `b`, if that has one
 };
 
+// Triangles, or parallelograms in the order of their outlines, whose corners move straight from time 0 to time 1;
+// coordinates are at most 2 in size.
+struct alignas(64) MovingPolygons {
+  static constexpr int kCapacity = 64;
+  static constexpr int kRoom = kCapacity + 8;
+  double corner[2][4][3][kRoom];  // time, corner, axis, polygon
+  int corners = 3;
+  int count = 0;
+};
+
 // Clusters to be refreshed: cluster_begin <= c < cluster_end. Coordinates of source vertex s are source[3 s], source[3
 // s + 1], source[3 s + 2].
 struct RefreshInput {
@@ -262,6 +272,9 @@ struct Kernels {
   // Decides those of the pairs that have a bit in `which`, all of them of facets in one plane.
   PairMatches (*match_flat_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
                                   std::uint64_t which);
+
+  // A bit for each polygon that certainly stays farther than `reach` from the origin.
+  std::uint64_t (*apart_throughout)(const MovingPolygons& polygons, double reach);
 };
 
 // The best for this machine, or the one that the environment variable TACT_INSTRUCTION_SET names: scalar, avx2, avx512.

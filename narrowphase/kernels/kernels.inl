@@ -1,6 +1,6 @@
 // The loops of kernels.h over the packs that the including file defines: over points and boxes here, over the bytes of a
 // cluster and the cells of boxes in bytes.inl, over facets in facets.inl, over pairs of them in pair_lanes.inl,
-// clear_pairs.inl, exact_pairs.inl, facet_pairs.inl and sort.inl, over the caller's positions in refresh.inl. A tail of
+// clear_pairs.inl, exact_pairs.inl, facet_pairs.inl and sort.inl, over moving polygons in motion.inl, over the caller's positions in refresh.inl. A tail of
 // fewer than kWidth elements is read from a padded array where the caller promises padding (points, boxes: see
 // ClusteredMesh) and its lanes are masked off.
 
@@ -230,6 +230,7 @@ Culled cull_boxes(const BoxPointers& boxes, int count, const CullPlanes& planes,
 #include "narrowphase/kernels/clear_pairs.inl"
 #include "narrowphase/kernels/exact_pairs.inl"
 #include "narrowphase/kernels/facet_pairs.inl"
+#include "narrowphase/kernels/motion.inl"
 #include "narrowphase/kernels/refresh.inl"
 #include "narrowphase/kernels/sort.inl"
 
@@ -241,6 +242,6 @@ const Kernels TACT_KERNELS = {TACT_KERNELS_NAME, refresh_clusters, bounds, diago
                               near_facets, cells_of, any_near, share_cells, leave_aside, list_pairs, sort_pairs,
                               on_lattice, float_corners, match_float_pairs, match_exact_pairs,
                               match_exact_float_pairs, match_pairs, sharing_pairs, match_pairs_wide,
-                              match_flat_pairs};
+                              match_flat_pairs, apart_throughout};
 
 }  // namespace tact::narrowphase

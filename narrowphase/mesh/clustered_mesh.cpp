@@ -166,6 +166,7 @@ void ClusteredMesh::take_memory(const Numbering& numbering, std::span<const int>
 void ClusteredMesh::move_to(const Memory& memory) {
   const MemorySize size = memory_size();
   std::copy_n(placed_, size.placement, memory.placement[0]);
+  std::copy_n(other_, size.placement, memory.placement[1]);
   std::copy_n(ranges_, size.indices, memory.indices);
   std::copy_n(reinterpret_cast<const std::byte*>(unused_sources_), size.rest, memory.rest);
   lay_out(memory);
@@ -231,6 +232,10 @@ ClusteredMesh::Refresh ClusteredMesh::refresh(const double* positions, double la
 void ClusteredMesh::take_back() {
   std::swap(placed_, other_);
   box_ = box_of(placed_);
+}
+
+Placement ClusteredMesh::placement_in(const double* memory) const {
+  return {{memory, memory + stride_, memory + 2 * stride_}, cluster_boxes(memory), box_of(memory)};
 }
 
 bool ClusteredMesh::set_positions(const double* positions, int threads) {

@@ -39,6 +39,7 @@ inline constexpr int kPadding = 8;
 // x, y, z, each `stride` long, in one block of memory.
 class BoxView {
  public:
+  BoxView() = default;
   BoxView(const double* bounds, std::size_t stride) : bounds_(bounds), stride_(stride) {}
   const double* lower(int axis) const { return bounds_ + static_cast<std::size_t>(axis) * stride_; }
   const double* upper(int axis) const { return lower(axis + 3); }
@@ -51,8 +52,15 @@ class BoxView {
   }
 
  private:
-  const double* bounds_;
-  std::size_t stride_;
+  const double* bounds_ = nullptr;
+  std::size_t stride_ = 0;
+};
+
+// Where a mesh is, or was: its vertices and the boxes of its clusters and of all.
+struct Placement {
+  PointArrays points{};
+  BoxView cluster_boxes;
+  Box box;
 };
 
 // Writes an entry of what a BoxView shows.
@@ -174,6 +182,13 @@ class ClusteredMesh {
   const Box& box() const { return box_; }
   BoxView cluster_boxes() const { return cluster_boxes(placed_); }
   BoxView group_boxes() const { return group_boxes(placed_); }
+  // Where the mesh is; where it was before the last refresh() that changed it, valid until the next; and where it was
+  // when keep_placement_before() wrote that to memory of the caller, of placement_size() doubles.
+  Placement placement() const { return placement_in(placed_); }
+  Placement placement_before() const { return placement_in(other_); }
+  Placement placement_in(const double* memory) const;
+  std::size_t placement_size() const { return memory_size().placement + kPadding; }
+  void keep_placement_before(double* memory) const { std::copy_n(other_, memory_size().placement, memory); }
   // How large the clusters are: the sum of (length + width + height)² of their boxes, in square metres.
   double spread() const;
   // The same over the spread of the facets, of some hundred of them at most: about 0.6 for a smooth mesh, whatever its

@@ -4,6 +4,7 @@
 #include <tact/body.h>
 #include <tact/error.h>
 #include <tact/executor.h>
+#include <tact/motion.h>
 #include <tact/report.h>
 #include <tact/settings.h>
 #include <tact/statistics.h>

@@ -1,0 +1,69 @@
+// What meets between the last step and now: boxes of whole ways, swept as those of a step are; then clusters, then
+// features.
+#pragma once
+
+#include <tact/motion.h>
+#include <tact/settings.h>
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "broadphase/sweep_and_prune.h"
+#include "engine/bodies.h"
+#include "narrowphase/motion/impacts.h"
+
+namespace tact {
+
+class MotionStage {
+ public:
+  const MotionReport& run(Bodies& bodies, const Settings& settings, Impacts wanted);
+
+ private:
+  /// Some of what a thread found.
+  struct Range {
+    std::size_t thread = 0, begin = 0, end = 0;
+  };
+  /// Two bodies, or one twice, of which one moves.
+  struct Passing {
+    std::uint32_t a = 0, b = 0;
+    double reach = 0.0;
+    Range clusters = {};
+  };
+  /// Some cluster pairs of two bodies, what a thread takes at a time, and where their impacts are.
+  struct Part {
+    std::size_t passing = 0, begin = 0, end = 0;
+    Range impacts = {};
+  };
+  /// Memory of a thread, used again.
+  struct Work {
+    narrowphase::PassingClusters passing;
+    std::vector<narrowphase::ClusterPair> clusters;
+    narrowphase::ImpactFinder finder;
+    std::vector<narrowphase::FeatureImpact> impacts;
+    narrowphase::MotionCounts counts;
+  };
+
+  void sweep(const Bodies& bodies, int threads);
+  void select(const Bodies& bodies);
+  void make_features(Bodies& bodies, int threads);
+  void find_clusters(const Bodies& bodies, int threads);
+  void search(const Bodies& bodies, int threads, Impacts wanted);
+  void make_report(const Bodies& bodies, Impacts wanted);
+  void gather(std::size_t passing, std::size_t& part);
+
+  broadphase::SweepAndPrune sweep_;
+  std::vector<base::Box> boxes_;             // of the ways, a slot each
+  std::vector<broadphase::Filter> filters_;  // with which they were swept
+  std::vector<std::uint32_t> changed_;
+  std::vector<Passing> passing_;
+  std::vector<std::uint32_t> without_features_;
+  std::vector<Part> parts_;
+  std::vector<Work> work_;                  // of each thread
+  std::vector<std::atomic<double>> first_;  // of each pair that passes, or of all
+  std::vector<narrowphase::FeatureImpact> gathered_;
+  narrowphase::EmbreeDevice device_;
+  MotionReport report_;
+};
+
+}  // namespace tact

@@ -1,0 +1,94 @@
+// Impacts: which vertices and facets, and which edges, of two meshes whose vertices move straight come to share a
+// point, and when. See moving_polygon.h for what is proved of each pair of features.
+#pragma once
+
+#include <tact/feature_pair.h>
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "narrowphase/contact_points/features.h"
+#include "narrowphase/motion/moving_polygon.h"
+#include "narrowphase/triangles/confirm.h"
+
+namespace tact::narrowphase {
+
+/// A mesh that moves from a placement of its own to where it is now.
+struct MovingMesh {
+  const ClusteredMesh* mesh = nullptr;
+  const Features* features = nullptr;
+  Placement begin;
+
+  Vec3 begin_of(int vertex) const { return {begin.points.x[vertex], begin.points.y[vertex], begin.points.z[vertex]}; }
+  MovingVertex vertex(int v) const { return {{begin_of(v), mesh->position(v)}}; }
+  /// All places that it, or a cluster, passes.
+  Box box() const { return merged(begin.box, mesh->box()); }
+  Box cluster_box(int cluster) const {
+    const auto c = static_cast<std::size_t>(cluster);
+    return merged(begin.cluster_boxes[c], mesh->cluster_boxes()[c]);
+  }
+};
+
+/// Two features that meet. Vertices have the caller's numbers; those of an edge ascend, those of a facet stand in its
+/// own order; -1 fills up. Of one mesh the vertex, or the lesser edge, is `a`.
+struct FeatureImpact {
+  FeaturePair kind = FeaturePair::vertex_facet;
+  std::array<int, 3> a{-1, -1, -1};
+  std::array<int, 3> b{-1, -1, -1};
+  double time = 0.0;  // in [0, 1]
+
+  /// By time, then by what meets.
+  friend bool operator<(const FeatureImpact& x, const FeatureImpact& y) {
+    return std::tie(x.time, x.kind, x.a, x.b) < std::tie(y.time, y.kind, y.a, y.b);
+  }
+};
+
+struct MotionCounts {
+  std::int64_t candidates = 0;  // pairs of features whose boxes overlap
+  std::int64_t searched = 0;    // of them, those that the filter did not settle
+  std::int64_t spans = 0;       // of time, that were looked at for these
+
+  MotionCounts& operator+=(const MotionCounts& other) {
+    candidates += other.candidates;
+    searched += other.searched;
+    spans += other.spans;
+    return *this;
+  }
+};
+
+/// The cluster pairs of two meshes, or of one twice, that come within `reach` (metres) of each other on their ways.
+class PassingClusters {
+ public:
+  std::span<const ClusterPair> find(const MovingMesh& a, const MovingMesh& b, double reach, EmbreeDevice& device);
+
+ private:
+  KeptClusters kept_a_, kept_b_;
+  std::vector<ClusterPair> pairs_;  // clusters
+  ClusterPairWork work_;
+};
+
+/// One for each thread, its memory used again.
+class ImpactFinder {
+ public:
+  ImpactFinder();
+  ~ImpactFinder();
+  ImpactFinder(ImpactFinder&&) noexcept;
+  ImpactFinder& operator=(ImpactFinder&&) noexcept;
+
+  /// Appends the impacts of some cluster pairs of `a` and `b`, which may be one mesh, in no particular order. All pairs
+  /// together give each once. What comes within `reach` of each other meets. Where only the first is wanted `first` is
+  /// not null: what is later may be left out, and it falls to what is found.
+  void run(const MovingMesh& a, const MovingMesh& b, double reach, std::span<const ClusterPair> pairs,
+           std::atomic<double>* first, std::vector<FeatureImpact>& found, MotionCounts& counts);
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
+
+}  // namespace tact::narrowphase

@@ -1,0 +1,193 @@
+#include "narrowphase/motion/moving_polygon.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "narrowphase/numeric/unit_scale.h"
+
+namespace tact::narrowphase {
+
+namespace {
+
+// Corners are scaled to at most 2 in size. With u = 2^-53, a coordinate of a corner between two times is wrong by at
+// most 12 u: 2 u for the difference of two positions, 4 u for the way, 4 u for a part of it, 2 u for the sum. Its
+// product with a direction, which is longer than 1 by 3 u at most, is then wrong by 21 u + 11 u, and the direction's
+// length adds 12 u to a reach of 4: together less than 48 u.
+constexpr double kDotRounding = 0x1p-46;
+// The volume, if the sides of the polygon are at most e and f along each axis: these are wrong by 28 u, their cross
+// product by 56 u (e + f) + 4 u ef, its product with a corner by 340 u (e + f) + 130 u ef, and a reach of 4 times its
+// length by 390 u (e + f) + 60 u ef: together less than 2^-43 (e + f + ef).
+constexpr double kVolumeRounding = 0x1p-43;
+constexpr double kLargestReach = 4.0;  // no corner is farther away
+// Spans that are looked at. A meeting takes about ten. Only polygons that turn while they stay within 1e-8 of their
+// size come near so many; the span at which the search ends then counts as a meeting.
+constexpr std::int64_t kMostSpans = 1 << 17;
+// Each halving of the step adds two at most.
+constexpr std::size_t kMostMoments = 96;
+
+double largest_size(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+// Perpendicular to `side`: rounding has left a part along it, which counts where the distance is small.
+Vec3 perpendicular(Vec3 direction, Vec3 side) {
+  direction = direction - dot(direction, side) / norm_squared(side) * side;
+  return norm_squared(direction) > 0.0 ? normalized(direction) : Vec3{};
+}
+
+Vec3 unit(Vec3 v) { return largest_size(v) > 0x1p-500 ? normalized(v) : Vec3{}; }
+
+}  // namespace
+
+MovingPolygon facet_seen_from(const MovingVertex& vertex, const MovingVertex (&facet)[3]) {
+  MovingPolygon polygon{.count = 3, .corner = {}};
+  for (int time = 0; time < 2; ++time) {
+    for (int i = 0; i < 3; ++i) polygon.corner[time][i] = facet[i].at[time] - vertex.at[time];
+  }
+  return polygon;
+}
+
+MovingPolygon edge_seen_from(const MovingVertex (&edge)[2], const MovingVertex (&other)[2]) {
+  MovingPolygon polygon{.count = 4, .corner = {}};
+  for (int time = 0; time < 2; ++time) {
+    const Vec3 p = edge[0].at[time], q = edge[1].at[time], r = other[0].at[time], s = other[1].at[time];
+    polygon.corner[time][0] = r - p;
+    polygon.corner[time][1] = s - p;
+    polygon.corner[time][2] = s - q;
+    polygon.corner[time][3] = r - q;
+  }
+  return polygon;
+}
+
+MeetingSearch::MeetingSearch() { waiting_.reserve(kMostMoments); }
+
+Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double latest) {
+  count_ = polygon.count;
+  double largest = 0.0;
+  for (const auto& corners : polygon.corner) {
+    for (int i = 0; i < count_; ++i) largest = std::max(largest, largest_size(corners[i]));
+  }
+  const double scale = unit_scale(largest);
+  for (int time = 0; time < 2; ++time) {
+    for (int i = 0; i < count_; ++i) at_[time][i] = scale * polygon.corner[time][i];
+  }
+  reach_ = std::min(scale * reach, kLargestReach);
+
+  Meeting meeting;
+  Moment from = moment(0.0);
+  if (reach_ > 0.0) reach_ = allowed_reach(from);
+  waiting_.assign(1, moment(1.0));
+  while (!waiting_.empty()) {
+    ++meeting.spans;
+    const Moment& to = waiting_.back();
+    if (to.covered || is_left_out(from, to)) {
+      from = to;
+      waiting_.pop_back();
+      continue;
+    }
+    if (from.time > latest) return meeting;
+    if (to.time - from.time <= kFinestSpan || meeting.spans > kMostSpans) {
+      meeting.time = from.time;
+      return meeting;
+    }
+    add_between(from.time, to.time);
+  }
+  return meeting;
+}
+
+Vec3 MeetingSearch::corner(int i, double time) const { return at_[0][i] + time * (at_[1][i] - at_[0][i]); }
+
+MeetingSearch::Moment MeetingSearch::moment(double time) const {
+  Moment m;
+  m.time = time;
+  for (int i = 0; i < count_; ++i) m.corner[i] = time == 1.0 ? at_[1][i] : corner(i, time);
+  m.direction = direction_to(m);
+  return m;
+}
+
+// One that starts nearer than its reach may come as near as a share of that.
+double MeetingSearch::allowed_reach(const Moment& begin) const {
+  double nearest = dot(begin.direction, begin.corner[0]);
+  for (int i = 1; i < count_; ++i) nearest = std::min(nearest, dot(begin.direction, begin.corner[i]));
+  return nearest > reach_ + kDotRounding ? reach_ : kShareOfGap * std::max(nearest, 0.0);
+}
+
+// Goes on between the two next moments: with their middle, or with the ends of the span around it that its direction
+// leaves out, which comes close to a meeting from both sides as fast as Newton's method.
+void MeetingSearch::add_between(double from, double to) {
+  const Moment middle = moment(from + 0.5 * (to - from));
+  double first = from, last = to;
+  for (int i = 0; i < count_; ++i) {
+    const double begin = dot(middle.direction, at_[0][i]), way = dot(middle.direction, at_[1][i]) - begin;
+    const double crossing = (reach_ + 2.0 * kDotRounding - begin) / way;
+    if (way > 0.0) first = std::max(first, crossing);
+    if (way < 0.0) last = std::min(last, crossing);
+  }
+  const auto is_apart_at = [&](double time) {
+    for (int i = 0; i < count_; ++i) {
+      if (!(dot(middle.direction, corner(i, time)) > reach_ + kDotRounding)) return false;
+    }
+    return true;
+  };
+  if (!(first < middle.time && middle.time < last && is_apart_at(first) && is_apart_at(last))) {
+    waiting_.push_back(middle);
+    return;
+  }
+  const auto add = [&](double time) -> Moment& {
+    Moment& m = waiting_.emplace_back(middle);
+    m.time = time;
+    for (int i = 0; i < count_; ++i) m.corner[i] = corner(i, time);
+    return m;
+  };
+  (last < to ? add(last) : waiting_.back()).covered = true;
+  if (first > from) add(first);
+}
+
+bool MeetingSearch::is_left_out(const Moment& from, const Moment& to) const {
+  return is_left_out_by_direction(from, to) || is_left_out_by_volume(from, to);
+}
+
+// The direction goes straight from the one to the other, and is nowhere longer than 1.
+bool MeetingSearch::is_left_out_by_direction(const Moment& from, const Moment& to) const {
+  const double least = reach_ + kDotRounding;
+  for (int i = 0; i < count_; ++i) {
+    const double mean = 0.5 * (dot(from.direction, to.corner[i]) + dot(to.direction, from.corner[i]));
+    if (!(dot(from.direction, from.corner[i]) > least && dot(to.direction, to.corner[i]) > least && mean > least))
+      return false;
+  }
+  return true;
+}
+
+bool MeetingSearch::is_left_out_by_volume(const Moment& from, const Moment& to) const {
+  const Vec3 e0 = from.corner[1] - from.corner[0], e1 = to.corner[1] - to.corner[0];
+  const Vec3 f0 = from.corner[count_ - 1] - from.corner[0], f1 = to.corner[count_ - 1] - to.corner[0];
+  const Vec3 n0 = cross(e0, f0), n1 = 0.5 * (cross(e0, f1) + cross(e1, f0)), n2 = cross(e1, f1);
+  const Vec3 &d0 = from.corner[0], &d1 = to.corner[0];
+  const double volume[4] = {dot(d0, n0), (dot(d1, n0) + 2.0 * dot(d0, n1)) / 3.0,
+                            (2.0 * dot(d1, n1) + dot(d0, n2)) / 3.0, dot(d1, n2)};
+  const double e = std::max(largest_size(e0), largest_size(e1)), f = std::max(largest_size(f0), largest_size(f1));
+  const double area = reach_ > 0.0 ? std::sqrt(std::max({norm_squared(n0), norm_squared(n1), norm_squared(n2)})) : 0.0;
+  const double least = kVolumeRounding * (e + f + e * f) + reach_ * area;
+  const auto [low, high] = std::ranges::minmax(volume);
+  return low > least || high < -least;
+}
+
+Vec3 MeetingSearch::direction_to(const Moment& m) const {
+  const Vec3* const p = m.corner;
+  const Vec3 normal = unit(cross(p[1] - p[0], p[count_ - 1] - p[0]));
+  bool inside = normal != Vec3{};
+  double least = Meeting::kNever;
+  Vec3 nearest;
+  for (int i = 0; i < count_; ++i) {
+    const Vec3 from = p[i], side = p[(i + 1) % count_] - from;
+    inside = inside && dot(cross(side, from), normal) <= 0.0;
+    const double length2 = norm_squared(side), along = -dot(from, side);
+    const bool between = along > 0.0 && along < length2;
+    const Vec3 point = between ? from + along / length2 * side : along <= 0.0 ? from : from + side;
+    if (norm_squared(point) >= least) continue;
+    least = norm_squared(point);
+    nearest = between ? perpendicular(unit(point), side) : unit(point);
+  }
+  if (!inside) return nearest;
+  return dot(normal, p[0]) < 0.0 ? -normal : normal;
+}
+
+}  // namespace tact::narrowphase

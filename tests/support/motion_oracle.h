@@ -1,0 +1,24 @@
+// When features that move straight first meet, in rational arithmetic: an oracle that has nothing in common with the
+// engine's bounds. It isolates the roots of the polynomials that can vanish at a first meeting, and decides at each, by
+// the signs of other polynomials there, whether the features share a point.
+#pragma once
+
+#include <optional>
+
+#include "narrowphase/motion/moving_polygon.h"
+#include "tests/support/mesh.h"
+
+namespace tact::tests {
+
+/// The first time, enclosed to 2^-60 of the step, at which a vertex and a facet, or two edges, share a point. Exact for
+/// the doubles given: whatever is coplanar, parallel, without area or at rest.
+struct TimeEnclosure {
+  double low = 0.0;   // rounded down
+  double high = 0.0;  // rounded up
+};
+std::optional<TimeEnclosure> first_time_of_vertex_and_facet(const narrowphase::MovingVertex& vertex,
+                                                            const narrowphase::MovingVertex (&facet)[3]);
+std::optional<TimeEnclosure> first_time_of_edges(const narrowphase::MovingVertex (&edge)[2],
+                                                 const narrowphase::MovingVertex (&other)[2]);
+
+}  // namespace tact::tests
