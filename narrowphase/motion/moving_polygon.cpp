@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "narrowphase/motion/finest_span.h"
 #include "narrowphase/numeric/unit_scale.h"
 
 namespace tact::narrowphase {
@@ -18,10 +19,11 @@ constexpr double kDotRounding = 0x1p-46;
 // product by 56 u (e + f) + 4 u ef, its product with a corner by 340 u (e + f) + 130 u ef, and a reach of 4 times its
 // length by 390 u (e + f) + 60 u ef: together less than 2^-43 (e + f + ef).
 constexpr double kVolumeRounding = 0x1p-43;
+constexpr int kMostCloserLooks = 3;    // before a span is as short as it gets: they take some 10 microseconds
 constexpr double kLargestReach = 4.0;  // no corner is farther away
 // Spans that are looked at. A meeting takes about ten. Only polygons that turn while they stay within 1e-8 of their
 // size come near so many; the span at which the search ends then counts as a meeting.
-constexpr std::int64_t kMostSpans = 1 << 17;
+constexpr std::int64_t kMostSpans = 1 << 15;
 // Each halving of the step adds two at most.
 constexpr std::size_t kMostMoments = 96;
 
@@ -40,7 +42,7 @@ Vec3 unit(Vec3 v) { return largest_size(v) > 0x1p-500 ? normalized(v) : Vec3{}; 
 MovingPolygon facet_seen_from(const MovingVertex& vertex, const MovingVertex (&facet)[3]) {
   MovingPolygon polygon{.count = 3, .corner = {}};
   for (int time = 0; time < 2; ++time) {
-    for (int i = 0; i < 3; ++i) polygon.corner[time][i] = facet[i].at[time] - vertex.at[time];
+    for (int i = 0; i < 3; ++i) polygon.corner[time][i] = wide_difference(facet[i].at[time], vertex.at[time]);
   }
   return polygon;
 }
@@ -49,10 +51,10 @@ MovingPolygon edge_seen_from(const MovingVertex (&edge)[2], const MovingVertex (
   MovingPolygon polygon{.count = 4, .corner = {}};
   for (int time = 0; time < 2; ++time) {
     const Vec3 p = edge[0].at[time], q = edge[1].at[time], r = other[0].at[time], s = other[1].at[time];
-    polygon.corner[time][0] = r - p;
-    polygon.corner[time][1] = s - p;
-    polygon.corner[time][2] = s - q;
-    polygon.corner[time][3] = r - q;
+    polygon.corner[time][0] = wide_difference(r, p);
+    polygon.corner[time][1] = wide_difference(s, p);
+    polygon.corner[time][2] = wide_difference(s, q);
+    polygon.corner[time][3] = wide_difference(r, q);
   }
   return polygon;
 }
@@ -63,18 +65,19 @@ Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double 
   count_ = polygon.count;
   double largest = 0.0;
   for (const auto& corners : polygon.corner) {
-    for (int i = 0; i < count_; ++i) largest = std::max(largest, largest_size(corners[i]));
+    for (int i = 0; i < count_; ++i) largest = std::max(largest, largest_size(corners[i].head));
   }
-  const double scale = unit_scale(largest);
+  scale_ = unit_scale(largest);
   for (int time = 0; time < 2; ++time) {
-    for (int i = 0; i < count_; ++i) at_[time][i] = scale * polygon.corner[time][i];
+    for (int i = 0; i < count_; ++i) at_[time][i] = scale_ * polygon.corner[time][i].head;
   }
-  reach_ = std::min(scale * reach, kLargestReach);
+  reach_ = std::min(scale_ * reach, kLargestReach);
 
   Meeting meeting;
   Moment from = moment(0.0);
   if (reach_ > 0.0) reach_ = allowed_reach(from);
   waiting_.assign(1, moment(1.0));
+  int closer_looks = reach_ > 0.0 ? 0 : kMostCloserLooks;
   while (!waiting_.empty()) {
     ++meeting.spans;
     const Moment& to = waiting_.back();
@@ -84,11 +87,29 @@ Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double 
       continue;
     }
     if (from.time > latest) return meeting;
-    if (to.time - from.time <= kFinestSpan || meeting.spans > kMostSpans) {
+    const double length = to.time - from.time;
+    if (meeting.spans > kMostSpans || (length <= kFinestSpan && reach_ > 0.0)) {
       meeting.time = from.time;
       return meeting;
     }
-    add_between(from.time, to.time);
+    const Moment middle = moment(from.time + 0.5 * length);
+    if (length > kFinestSpan && (closer_looks <= 0 || !is_near(middle))) {
+      add_between(from.time, to.time, middle);
+      continue;
+    }
+    --closer_looks;
+    const std::optional<double> begin = first_close_time(polygon, from.time, to.time);
+    if (!begin) {
+      from = to;
+      waiting_.pop_back();
+      continue;
+    }
+    // What stays open may have no area then, and be far away.
+    if (length <= kFinestSpan || is_near(moment(*begin))) {
+      meeting.time = *begin;
+      return meeting;
+    }
+    add_between(from.time, to.time, middle);
   }
   return meeting;
 }
@@ -112,8 +133,7 @@ double MeetingSearch::allowed_reach(const Moment& begin) const {
 
 // Goes on between the two next moments: with their middle, or with the ends of the span around it that its direction
 // leaves out, which comes close to a meeting from both sides as fast as Newton's method.
-void MeetingSearch::add_between(double from, double to) {
-  const Moment middle = moment(from + 0.5 * (to - from));
+void MeetingSearch::add_between(double from, double to, const Moment& middle) {
   double first = from, last = to;
   for (int i = 0; i < count_; ++i) {
     const double begin = dot(middle.direction, at_[0][i]), way = dot(middle.direction, at_[1][i]) - begin;
@@ -139,6 +159,24 @@ void MeetingSearch::add_between(double from, double to) {
   };
   (last < to ? add(last) : waiting_.back()).covered = true;
   if (first > from) add(first);
+}
+
+// Is the polygon, at most, as far away as the bounds of rounding?
+bool MeetingSearch::is_near(const Moment& m) const {
+  for (int i = 0; i < count_; ++i) {
+    if (dot(m.direction, m.corner[i]) < reach_ + 4.0 * kDotRounding) return true;
+  }
+  return false;
+}
+
+// With more digits than a double's.
+std::optional<double> MeetingSearch::first_close_time(const MovingPolygon& polygon, double from, double to) const {
+  if (to - from <= kFinestSpan) {
+    if (certainly_meets_near(polygon, scale_, from, to)) return from;
+    // The directions of its ends may be those of a longer span.
+    if (is_left_out_by_direction(moment(from), moment(to))) return std::nullopt;
+  }
+  return first_open_part(polygon, scale_, from, to);
 }
 
 bool MeetingSearch::is_left_out(const Moment& from, const Moment& to) const {
@@ -187,7 +225,14 @@ Vec3 MeetingSearch::direction_to(const Moment& m) const {
     nearest = between ? perpendicular(unit(point), side) : unit(point);
   }
   if (!inside) return nearest;
-  return dot(normal, p[0]) < 0.0 ? -normal : normal;
+  // Of a polygon with next to no area rounding may say so of any point.
+  const Vec3 above = dot(normal, p[0]) < 0.0 ? -normal : normal;
+  const auto separation = [&](Vec3 direction) {
+    double lowest = dot(direction, p[0]);
+    for (int i = 1; i < count_; ++i) lowest = std::min(lowest, dot(direction, p[i]));
+    return lowest;
+  };
+  return separation(nearest) > separation(above) ? nearest : above;
 }
 
 }  // namespace tact::narrowphase

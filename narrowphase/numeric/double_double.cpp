@@ -6,59 +6,56 @@
 namespace tact::narrowphase {
 namespace {
 
-struct Wide {
-  double head;
-  double tail;
-};
-
 // head + tail == a + b (Knuth).
-Wide two_sum(double a, double b) {
+DoubleDouble two_sum(double a, double b) {
   const double sum = a + b;
   const double b_part = sum - a;
   return {sum, (a - (sum - b_part)) + (b - b_part)};
 }
 
 // The same if |a| >= |b| (Dekker).
-Wide fast_two_sum(double a, double b) {
+DoubleDouble fast_two_sum(double a, double b) {
   const double sum = a + b;
   return {sum, b - (sum - a)};
 }
 
 // The upper 26 bits of a, and the rest (Veltkamp).
-Wide split(double a) {
+DoubleDouble split(double a) {
   const double c = 0x1.0000002p27 * a;
   const double upper = c - (c - a);
   return {upper, a - upper};
 }
 
 // head + tail == a * b (Dekker). std::fma would be a call where the machine may lack the instruction.
-Wide two_product(double a, double b) {
+DoubleDouble two_product(double a, double b) {
   const double product = a * b;
-  const Wide x = split(a);
-  const Wide y = split(b);
+  const DoubleDouble x = split(a);
+  const DoubleDouble y = split(b);
   return {product, ((x.head * y.head - product) + x.head * y.tail + x.tail * y.head) + x.tail * y.tail};
 }
 
-Wide product(Wide a, Wide b) {
-  const Wide p = two_product(a.head, b.head);
-  return fast_two_sum(p.head, p.tail + (a.head * b.tail + a.tail * b.head));
-}
+DoubleDouble component(const WideVec3& v, int axis) { return {v.head[axis], v.tail[axis]}; }
 
-Wide difference(Wide a, Wide b) {
-  const Wide heads = two_sum(a.head, -b.head);
-  const Wide tails = two_sum(a.tail, -b.tail);
-  const Wide sum = fast_two_sum(heads.head, heads.tail + tails.head);
+}  // namespace
+
+DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
+  const DoubleDouble heads = two_sum(a.head, b.head);
+  const DoubleDouble tails = two_sum(a.tail, b.tail);
+  const DoubleDouble sum = fast_two_sum(heads.head, heads.tail + tails.head);
   return fast_two_sum(sum.head, sum.tail + tails.tail);
 }
 
-Wide component(const WideVec3& v, int axis) { return {v.head[axis], v.tail[axis]}; }
+DoubleDouble operator-(DoubleDouble a, DoubleDouble b) { return a + -b; }
 
-}  // namespace
+DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
+  const DoubleDouble p = two_product(a.head, b.head);
+  return fast_two_sum(p.head, p.tail + (a.head * b.tail + a.tail * b.head));
+}
 
 WideVec3 wide_difference(Vec3 p, Vec3 q) {
   WideVec3 d;
   for (int axis = 0; axis < 3; ++axis) {
-    const Wide exact = two_sum(p[axis], -q[axis]);
+    const DoubleDouble exact = two_sum(p[axis], -q[axis]);
     d.head[axis] = exact.head;
     d.tail[axis] = exact.tail;
   }
@@ -68,7 +65,7 @@ WideVec3 wide_difference(Vec3 p, Vec3 q) {
 WideVec3 operator-(const WideVec3& p, const WideVec3& q) {
   WideVec3 d;
   for (int axis = 0; axis < 3; ++axis) {
-    const Wide rounded = difference(component(p, axis), component(q, axis));
+    const DoubleDouble rounded = component(p, axis) - component(q, axis);
     d.head[axis] = rounded.head;
     d.tail[axis] = rounded.tail;
   }
@@ -80,7 +77,7 @@ Vec3 wide_cross(const WideVec3& p, const WideVec3& q) {
   for (int axis = 0; axis < 3; ++axis) {
     const int i = (axis + 1) % 3;
     const int j = (axis + 2) % 3;
-    n[axis] = difference(product(component(p, i), component(q, j)), product(component(p, j), component(q, i))).head;
+    n[axis] = (component(p, i) * component(q, j) - component(p, j) * component(q, i)).head;
   }
   return n;
 }

@@ -10,7 +10,20 @@ namespace tact::narrowphase {
 
 using base::Vec3;
 
-// head + tail, |tail| at most half a unit in the last place of head, component by component.
+// head + tail, |tail| at most half a unit in the last place of head. Sums and differences are right to 2^-104 of their
+// operands, products to 2^-102 of themselves; what is multiplied must be zero or between 2^-450 and 2^450 in size.
+struct DoubleDouble {
+  double head = 0.0;
+  double tail = 0.0;
+};
+DoubleDouble operator+(DoubleDouble a, DoubleDouble b);
+DoubleDouble operator-(DoubleDouble a, DoubleDouble b);
+DoubleDouble operator*(DoubleDouble a, DoubleDouble b);
+inline DoubleDouble operator-(DoubleDouble a) { return {-a.head, -a.tail}; }
+// Exact for a power of two.
+inline DoubleDouble scaled(DoubleDouble a, double by) { return {a.head * by, a.tail * by}; }
+
+// The same, component by component.
 struct WideVec3 {
   Vec3 head;
   Vec3 tail;

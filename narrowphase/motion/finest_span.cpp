@@ -1,0 +1,211 @@
+#include "narrowphase/motion/finest_span.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace tact::narrowphase {
+
+namespace {
+
+// How much is added to a span at either end in doubles.
+constexpr double kMargin = 0x1p-30;
+// Parts are halved down to this much of the step; that ends sooner if so many were looked at.
+constexpr double kShortestPart = 0x1p-64;
+constexpr int kMostParts = 2048;
+
+// Rounding: with coordinates of corners wrong by c (12 u * 2 in doubles, 2^-99 in double_doubles), sides by 2 c, of at
+// most e, f and g along each axis, the volume is wrong by less than 64 c (e + f + ef), and the product for a side by
+// less than 256 c ((e + f) g + ef (g + 2)); the factors 3 and 6 below are in these.
+template <class Number>
+constexpr double kRoundingOf = 0.0;
+template <>
+constexpr double kRoundingOf<double> = 0x1p-40;
+template <>
+constexpr double kRoundingOf<DoubleDouble> = 0x1p-86;
+
+double head_of(double x) { return x; }
+double head_of(DoubleDouble x) { return x.head; }
+double scaled(double x, double by) { return x * by; }
+double number(double head, double, double) { return head; }
+DoubleDouble number(double head, double tail, DoubleDouble) { return {head, tail}; }
+using narrowphase::scaled;
+
+template <class Number>
+struct Vector {
+  Number x, y, z;
+};
+template <class Number>
+Vector<Number> operator+(const Vector<Number>& a, const Vector<Number>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class Number>
+Vector<Number> operator-(const Vector<Number>& a, const Vector<Number>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class Number>
+Vector<Number> scaled(const Vector<Number>& a, double by) {
+  return {scaled(a.x, by), scaled(a.y, by), scaled(a.z, by)};
+}
+template <class Number>
+Number dot(const Vector<Number>& a, const Vector<Number>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class Number>
+Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class Number>
+double size_of(const Vector<Number>& a) {
+  return std::max({std::abs(head_of(a.x)), std::abs(head_of(a.y)), std::abs(head_of(a.z))});
+}
+
+// A vector at the ends of a span between which it is linear.
+template <class Number>
+using Way = std::array<Vector<Number>, 2>;
+template <class Number>
+Way<Number> operator-(const Way<Number>& a, const Way<Number>& b) {
+  return {a[0] - b[0], a[1] - b[1]};
+}
+template <class Number>
+double size_of(const Way<Number>& a) {
+  return std::max(size_of(a[0]), size_of(a[1]));
+}
+
+// Bernstein coefficients on a span.
+template <class Number>
+using Quadratic = std::array<Vector<Number>, 3>;
+template <class Number>
+Quadratic<Number> cross(const Way<Number>& a, const Way<Number>& b) {
+  return {cross(a[0], b[0]), scaled(cross(a[0], b[1]) + cross(a[1], b[0]), 0.5), cross(a[1], b[1])};
+}
+
+template <class Number, std::size_t kCount>
+struct Polynomial {
+  std::array<Number, kCount> coefficient;
+  double rounding = 0.0;
+
+  bool positive() const {
+    return std::ranges::all_of(coefficient, [&](const Number& c) { return head_of(c) > rounding; });
+  }
+  bool negative() const {
+    return std::ranges::all_of(coefficient, [&](const Number& c) { return head_of(c) < -rounding; });
+  }
+  bool vanishes() const {
+    return std::ranges::all_of(coefficient, [&](const Number& c) { return std::abs(head_of(c)) <= rounding; });
+  }
+  bool crosses() const {
+    const double begin = head_of(coefficient.front()), end = head_of(coefficient.back());
+    return (begin > rounding && end < -rounding) || (begin < -rounding && end > rounding);
+  }
+  // Leaves the first half of the span, and returns the second (de Casteljau).
+  Polynomial halve() {
+    Polynomial second = *this;
+    auto& c = second.coefficient;
+    for (std::size_t left = kCount; left-- > 1;) {
+      for (std::size_t i = 0; i < left; ++i) c[i] = scaled(c[i] + c[i + 1], 0.5);
+      coefficient[kCount - left] = c[0];
+    }
+    return second;
+  }
+};
+
+template <class Number>
+struct SpanPolynomials {
+  Polynomial<Number, 4> volume;
+  std::array<Polynomial<Number, 5>, 4> inside;  // of each side: positive where the origin is on its inner side
+  int sides = 0;
+
+  SpanPolynomials(const MovingPolygon& polygon, double scale, double from, double to) : sides(polygon.count) {
+    std::array<Way<Number>, 4> corner;
+    for (int i = 0; i < sides; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const Vector<Number> begin = vector(polygon.corner[0][i], scale),
+                           way = vector(polygon.corner[1][i], scale) - begin;
+      corner[k] = {at(begin, way, from), at(begin, way, to)};
+    }
+    const auto last = static_cast<std::size_t>(sides - 1);
+    const Way<Number> e = corner[1] - corner[0], f = corner[last] - corner[0];
+    const Quadratic<Number> normal = cross(e, f);
+    const auto [d0, d1] = corner[0];
+    volume.coefficient = {times(3.0, dot(d0, normal[0])), dot(d1, normal[0]) + times(2.0, dot(d0, normal[1])),
+                          times(2.0, dot(d1, normal[1])) + dot(d0, normal[2]), times(3.0, dot(d1, normal[2]))};
+    const double e_size = size_of(e), f_size = size_of(f);
+    volume.rounding = kRoundingOf<Number> * (e_size + f_size + e_size * f_size);
+    for (std::size_t i = 0; i <= last; ++i) {
+      const Way<Number> side = corner[i == last ? 0 : i + 1] - corner[i];
+      const Quadratic<Number> n = cross(corner[i], side);
+      const auto mixed = [&](std::size_t k, std::size_t l) { return dot(normal[k], n[l]); };
+      inside[i].coefficient = {times(6.0, mixed(0, 0)), times(3.0, mixed(0, 1) + mixed(1, 0)),
+                               mixed(0, 2) + times(4.0, mixed(1, 1)) + mixed(2, 0),
+                               times(3.0, mixed(1, 2) + mixed(2, 1)), times(6.0, mixed(2, 2))};
+      const double g_size = size_of(side);
+      inside[i].rounding = kRoundingOf<Number> * ((e_size + f_size) * g_size + e_size * f_size * (g_size + 2.0));
+    }
+  }
+
+  bool certainly_holds_origin() const { return volume.crosses() && is_inside(); }
+  // As far as the digits tell, all the time.
+  bool seems_to_hold_origin() const { return volume.vanishes() && is_inside(); }
+  bool is_inside() const {
+    return std::all_of(inside.begin(), inside.begin() + sides, [](const auto& p) { return p.positive(); });
+  }
+  bool certainly_never_holds_origin() const {
+    return volume.positive() || volume.negative() ||
+           std::any_of(inside.begin(), inside.begin() + sides, [](const auto& p) { return p.negative(); });
+  }
+  SpanPolynomials halve() {
+    SpanPolynomials second = *this;
+    second.volume = volume.halve();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(sides); ++i) second.inside[i] = inside[i].halve();
+    return second;
+  }
+
+ private:
+  static Vector<Number> vector(const WideVec3& v, double scale) {
+    return scaled(Vector<Number>{number(v.head.x, v.tail.x, Number{}), number(v.head.y, v.tail.y, Number{}),
+                                 number(v.head.z, v.tail.z, Number{})},
+                  scale);
+  }
+  static Number times(double factor, const Number& x) { return number(factor, 0.0, Number{}) * x; }
+  static Vector<Number> at(const Vector<Number>& begin, const Vector<Number>& way, double time) {
+    return begin + Vector<Number>{times(time, way.x), times(time, way.y), times(time, way.z)};
+  }
+};
+
+}  // namespace
+
+std::optional<double> first_open_part(const MovingPolygon& polygon, double scale, double from, double to) {
+  struct Part {
+    SpanPolynomials<DoubleDouble> polynomials;
+    double begin, length;  // of the span
+  };
+  const double shortest = kShortestPart / (to - from);
+  std::vector<Part> parts{{{polygon, scale, from, to}, 0.0, 1.0}};
+  for (int looked_at = 0; !parts.empty(); ++looked_at) {
+    Part part = parts.back();
+    parts.pop_back();
+    const auto& polynomials = part.polynomials;
+    if (polynomials.certainly_never_holds_origin()) continue;
+    const bool is_open = polynomials.seems_to_hold_origin() || part.length <= shortest || looked_at > kMostParts;
+    // Of a part with a meeting the beginning is near enough.
+    const bool is_short = part.length * (to - from) <= kFinestSpan;
+    if (is_open || (is_short && polynomials.certainly_holds_origin())) {
+      const double begin = from + part.begin * (to - from);  // rounds, perhaps up
+      return part.begin == 0.0 ? from : std::max(from, std::nextafter(begin, 0.0));
+    }
+    part.length *= 0.5;
+    Part second{part.polynomials.halve(), part.begin + part.length, part.length};
+    parts.push_back(second);
+    parts.push_back(part);
+  }
+  return std::nullopt;
+}
+
+bool certainly_meets_near(const MovingPolygon& polygon, double scale, double from, double to) {
+  return SpanPolynomials<double>(polygon, scale, std::max(from - kMargin, 0.0), std::min(to + kMargin, 1.0))
+      .certainly_holds_origin();
+}
+
+}  // namespace tact::narrowphase
