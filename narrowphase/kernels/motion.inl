@@ -1,5 +1,5 @@
 // The filter of moving polygons, included by kernels.inl: a vertex and a facet, or two edges, whose corners move straight,
-// see motion/moving_polygon.h for what is proved there of each. Here the same certificates are tried for the whole step
+// see motion/meeting.h for what is proved there of each. Here the same certificates are tried for the whole step
 // and a few directions, which leaves out nearly all.
 //
 // With u = 2^-53, the corners are wrong by u times their size (one difference each), and are at most `size` along an axis.

@@ -14,6 +14,7 @@ constexpr double kMargin = 0x1p-30;
 // Parts are halved down to this much of the step; that ends sooner if so many were looked at.
 constexpr double kShortestPart = 0x1p-64;
 constexpr int kMostParts = 2048;
+constexpr std::size_t kMostWaiting = 72;  // a half at each halving
 
 // Rounding: with coordinates of corners wrong by c (12 u * 2 in doubles, 2^-99 in double_doubles), sides by 2 c, of at
 // most e, f and g along each axis, the volume is wrong by less than 64 c (e + f + ef), and the product for a side by
@@ -176,16 +177,21 @@ struct SpanPolynomials {
 
 }  // namespace
 
-std::optional<double> first_open_part(const MovingPolygon& polygon, double scale, double from, double to) {
-  struct Part {
-    SpanPolynomials<DoubleDouble> polynomials;
-    double begin, length;  // of the span
-  };
+struct FinestSpan::Part {
+  SpanPolynomials<DoubleDouble> polynomials;
+  double begin, length;  // of the span
+};
+
+FinestSpan::FinestSpan() { parts_.reserve(kMostWaiting); }
+FinestSpan::~FinestSpan() = default;
+
+std::optional<double> FinestSpan::first_open_part(const MovingPolygon& polygon, double scale, double from, double to) {
   const double shortest = kShortestPart / (to - from);
-  std::vector<Part> parts{{{polygon, scale, from, to}, 0.0, 1.0}};
-  for (int looked_at = 0; !parts.empty(); ++looked_at) {
-    Part part = parts.back();
-    parts.pop_back();
+  parts_.clear();
+  parts_.push_back({{polygon, scale, from, to}, 0.0, 1.0});
+  for (int looked_at = 0; !parts_.empty(); ++looked_at) {
+    Part part = parts_.back();
+    parts_.pop_back();
     const auto& polynomials = part.polynomials;
     if (polynomials.certainly_never_holds_origin()) continue;
     const bool is_open = polynomials.seems_to_hold_origin() || part.length <= shortest || looked_at > kMostParts;
@@ -197,8 +203,8 @@ std::optional<double> first_open_part(const MovingPolygon& polygon, double scale
     }
     part.length *= 0.5;
     Part second{part.polynomials.halve(), part.begin + part.length, part.length};
-    parts.push_back(second);
-    parts.push_back(part);
+    parts_.push_back(second);
+    parts_.push_back(part);
   }
   return std::nullopt;
 }

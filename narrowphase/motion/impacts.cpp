@@ -213,7 +213,9 @@ class ImpactSearch {
     };
     if (kind == FeaturePair::vertex_facet) return facet_from(a_, a, b_, b);
     if (kind == FeaturePair::facet_vertex) return facet_from(b_, b, a_, a);
-    const EdgeVertices e = a_.features->edge(a), f = b_.features->edge(b);
+    EdgeVertices e = a_.features->edge(a), f = b_.features->edge(b);
+    // Of one mesh, in an order that no grouping changes.
+    if (same_ && source_vertices(*b_.mesh, f) < source_vertices(*a_.mesh, e)) std::swap(e, f);
     return edge_seen_from({a_.vertex(e[0]), a_.vertex(e[1])}, {b_.vertex(f[0]), b_.vertex(f[1])});
   }
 

@@ -1,5 +1,5 @@
 // Impacts: which vertices and facets, and which edges, of two meshes whose vertices move straight come to share a
-// point, and when. See moving_polygon.h for what is proved of each pair of features.
+// point, and when. See meeting.h for what is proved of each pair of features.
 #pragma once
 
 #include <tact/feature_pair.h>
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "narrowphase/contact_points/features.h"
-#include "narrowphase/motion/moving_polygon.h"
+#include "narrowphase/motion/meeting.h"
 #include "narrowphase/triangles/confirm.h"
 
 namespace tact::narrowphase {

@@ -1,29 +1,9 @@
-// When a vertex meets a facet, or an edge an edge, while their vertices move straight.
+// A vertex and a facet, or two edges, whose vertices move straight.
 //
-// Both are one question. Seen from the vertex, the corners of the facet are three points; seen from the points of one
+// Both are one figure. Seen from the vertex, the corners of the facet are three points; seen from the points of one
 // edge, those of the other fill a parallelogram. So a flat convex polygon of three or four corners moves, each of them
-// straight, and the question is when it first holds the origin (or comes within a reach of it).
-//
-// What is proved. A span of time is left out only with a certificate that the polygon stays away throughout:
-//   - a direction n(t), linear in t, with n(t) · corner(t) > reach for every corner;
-//   - the volume that the corners span with the origin, cubic in t, keeps its sign and stays above reach times area; or
-//   - the origin is beyond one side of the polygon, as a polynomial of degree four says (finest_span.h).
-// Each is a polynomial whose Bernstein coefficients on the span bound it from below (their rounding is added to what
-// they have to exceed), so no root is ever looked for: one that is missed cannot occur. Where n(t) comes from does not
-// matter for that. Spans without a certificate are halved, the earlier half first. Where the polygon is as near as
-// doubles can tell, or the span is as short as kFinestSpan of the step, double_doubles go on; what is left then counts
-// as a meeting, at its beginning. Hence
-//   - a time is never later than the true one;
-//   - a polygon that misses the origin by more than 1e-11 of its size and way never counts, and most often one that
-//     misses it by 1e-25;
-//   - a time is earlier than the true one by more than kFinestSpan only if the polygon comes as near as that before.
-// The idea of bounding instead of solving, for boxes of parameters: Wang, Ferguson, Schneider, Jiang, Attene, Panozzo,
-// "A large-scale benchmark and an inclusion-based algorithm for continuous collision detection", 2021.
+// straight; the two features share a point when it holds the origin.
 #pragma once
-
-#include <cstdint>
-#include <optional>
-#include <vector>
 
 #include "engine/base/vec3.h"
 #include "narrowphase/numeric/double_double.h"
@@ -31,9 +11,6 @@
 namespace tact::narrowphase {
 
 using base::Vec3;
-
-// Of the step. Two corners that move apart by their size and way move by 1e-12 of it in that time.
-inline constexpr double kFinestSpan = 0x1p-42;
 
 /// The corners at time 0 and at time 1, relative to the origin, metres, as exact differences of positions. Four are
 /// those of a parallelogram, in the order of its outline.
@@ -49,49 +26,5 @@ struct MovingVertex {
 
 MovingPolygon facet_seen_from(const MovingVertex& vertex, const MovingVertex (&facet)[3]);
 MovingPolygon edge_seen_from(const MovingVertex (&edge)[2], const MovingVertex (&other)[2]);
-
-struct Meeting {
-  static constexpr double kNever = __builtin_inf();
-  double time = kNever;    // in [0, 1]
-  std::int64_t spans = 0;  // that were looked at
-};
-
-/// Of a polygon that starts nearer than `reach`, the reach is this share of its distance then.
-inline constexpr double kShareOfGap = 0.1;
-
-/// When polygons first come within a reach of the origin; one for each thread, its memory used again.
-class MeetingSearch {
- public:
-  MeetingSearch();
-
-  /// `reach` in metres, zero or more. The search is given up, and the answer is never, once all times up to `latest`
-  /// are left out; it takes the same steps whatever `latest` is.
-  Meeting first(const MovingPolygon& polygon, double reach, double latest = 1.0);
-
- private:
-  // The polygon at a time between 0 and 1.
-  struct Moment {
-    double time = 0.0;
-    Vec3 corner[4];
-    Vec3 direction;        // unit or zero: from the origin to the nearest point of the polygon
-    bool covered = false;  // is all time since the moment before left out?
-  };
-  Moment moment(double time) const;
-  Vec3 corner(int i, double time) const;
-  Vec3 direction_to(const Moment& m) const;
-  double allowed_reach(const Moment& begin) const;
-  void add_between(double from, double to, const Moment& middle);
-  bool is_near(const Moment& m) const;
-  std::optional<double> first_close_time(const MovingPolygon& polygon, double from, double to) const;
-  bool is_left_out(const Moment& from, const Moment& to) const;
-  bool is_left_out_by_direction(const Moment& from, const Moment& to) const;
-  bool is_left_out_by_volume(const Moment& from, const Moment& to) const;
-
-  int count_ = 0;  // of corners
-  Vec3 at_[2][4];  // the corners, scaled
-  double scale_ = 1.0;
-  double reach_ = 0.0;
-  std::vector<Moment> waiting_;  // the next one last
-};
 
 }  // namespace tact::narrowphase

@@ -41,7 +41,8 @@ Examples:
   tact check sphere.obj cloth_frames/ --sheet cloth_frames --json contacts.json
   tact check part.stl part.stl --sheet part.stl#2 --accuracy hulls
   tact check a.off b.off c.off --json - | python3 -m json.tool
-  tact check cloth/ ball.obj --sheet cloth --self cloth --margin 0.004 --points --json -)";
+  tact check cloth/ ball.obj --sheet cloth --self cloth --margin 0.004 --points --json -
+  tact check bullet/ wall.obj --sheet wall --impacts)";
 
 std::vector<BodyFrames> bodies_of(const CheckOptions& options) {
   const int most_frames = options.frames > 0 ? options.frames : std::numeric_limits<int>::max();
@@ -170,9 +171,10 @@ void check(const CheckOptions& options, std::ostream& out) {
   int frame = 0;
   for (; frame < frames && !interrupt.requested(); ++frame) {
     if (frame > 0) set_frame(bodies, ids, frame, world);
+    const MotionReport* const motion = options.impacts && frame > 0 ? &world.detect_motion() : nullptr;
     const Report& report = world.detect();
-    if (json) json->add_frame(frame, report);
-    if (table) table->add_frame(frame, report);
+    if (json) json->add_frame(frame, report, motion);
+    if (table) table->add_frame(frame, report, motion);
     progress.show(frame + 1);
   }
   progress.clear();
@@ -212,6 +214,8 @@ void add_check_command(CLI::App& program) {
       ->allow_extra_args(false);
   command->add_flag("--points", options->points,
                     "Find the contact points: where surfaces are nearest within their margins (in --json)");
+  command->add_flag("--impacts", options->impacts,
+                    "Find what meets between a frame and the next, every vertex moving straight (all in --json)");
   add_accuracy_option(*command, options->accuracy);
   add_threads_option(*command, options->threads);
   command

@@ -19,6 +19,7 @@ struct CheckOptions {
   std::vector<std::string> margins = {};           // "M" for every body, "NAME=M" for one, metres; the last one counts
   std::vector<std::string> selves = {};            // bodies that are held against themselves; "all": every one
   bool points = false;                             // contact points
+  bool impacts = false;                            // what meets between a frame and the next
   Accuracy accuracy = Accuracy::exact;
   int threads = 0;          // 0: as many as OpenMP would use
   int frames = 0;           // of folders the first so many; without a folder the number of steps; 0: all, or one

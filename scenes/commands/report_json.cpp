@@ -38,10 +38,23 @@ Json first_of(const std::array<Number, 3>& values, std::size_t count) {
   return json;
 }
 
+std::size_t count_of(const std::array<int, 3>& vertices) {
+  return static_cast<std::size_t>(std::count_if(vertices.begin(), vertices.end(), [](int v) { return v >= 0; }));
+}
+
+Json impacts_json(const MotionReport& motion) {
+  Json impacts = Json::array();
+  for (const Impact& impact : motion.impacts()) {
+    impacts.push_back({{"bodies", Json::array({impact.a.index, impact.b.index})},
+                       {"kind", feature_pair_name(impact.kind)},
+                       {"a", first_of(impact.a_vertices, count_of(impact.a_vertices))},
+                       {"b", first_of(impact.b_vertices, count_of(impact.b_vertices))},
+                       {"time", impact.time}});
+  }
+  return impacts;
+}
+
 Json point_json(const ContactPoint& point) {
-  const auto count_of = [](const std::array<int, 3>& vertices) {
-    return static_cast<std::size_t>(std::count_if(vertices.begin(), vertices.end(), [](int v) { return v >= 0; }));
-  };
   const std::size_t of_a = count_of(point.a_vertices), of_b = count_of(point.b_vertices);
   return {{"kind", feature_pair_name(point.kind)},
           {"a", first_of(point.a_vertices, of_a)},
@@ -163,12 +176,16 @@ JsonReport::JsonReport(std::ostream& out, const World& world)
        << ",\n \"frames\":[";
 }
 
-void JsonReport::add_frame(int frame, const Report& report) {
-  const Json json = {{"frame", frame},
-                     {"hash", hash_text(report)},
-                     {"pairs", pairs_json(report, has_facets_, has_points_)},
-                     {"stats", stats_json(report.stats())},
-                     {"times_ms", times_json(report.stats())}};
+void JsonReport::add_frame(int frame, const Report& report, const MotionReport* motion) {
+  Json json = {{"frame", frame},
+               {"hash", hash_text(report)},
+               {"pairs", pairs_json(report, has_facets_, has_points_)},
+               {"stats", stats_json(report.stats())},
+               {"times_ms", times_json(report.stats())}};
+  if (motion != nullptr) {
+    json["impacts"] = impacts_json(*motion);
+    json["first_time"] = motion->impacts().empty() ? Json(nullptr) : Json(motion->first_time());
+  }
   out_ << (first_ ? "\n" : ",\n") << json_text(json);
   first_ = false;
 }

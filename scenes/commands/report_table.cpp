@@ -51,7 +51,7 @@ std::string TableReport::body_text(std::uint32_t index) const {
   return fmt::format("{:>4}  {:<{}}", index, names_[index], name_width_);
 }
 
-void TableReport::add_frame(int frame, const Report& report) {
+void TableReport::add_frame(int frame, const Report& report, const MotionReport* motion) {
   const StepStats& stats = report.stats();
   fmt::print(out_, "{}frame {}: {}", frames_ == 0 ? "\n" : "", frame, counted(stats.candidate_pairs, "candidate pair"));
   if (stats.candidate_pairs > 0) fmt::print(out_, ", {} in contact", stats.contacts);
@@ -59,6 +59,7 @@ void TableReport::add_frame(int frame, const Report& report) {
     fmt::print(out_, ", {} touching, {}", stats.touching_contacts, counted(stats.facet_pairs, "facet pair"));
   }
   fmt::print(out_, "; {:.3f} ms\n", stats.total_ms);
+  if (motion != nullptr) print_motion(*motion);
   int lines = 0;
   for (const Contact& contact : report.contacts()) {
     if (contact.a == contact.b && ++lines <= kMostPairLines) print_self(contact);
@@ -73,6 +74,15 @@ void TableReport::add_frame(int frame, const Report& report) {
   if (lines > kMostPairLines) fmt::print(out_, "      and {} more pairs (--json has all)\n", lines - kMostPairLines);
   ++frames_;
   total_ms_ += stats.total_ms;
+}
+
+void TableReport::print_motion(const MotionReport& motion) {
+  int lines = 0;
+  for (const ImpactPair& pair : motion.pairs()) {
+    if (++lines > kMostPairLines) break;
+    fmt::print(out_, "  {}  {}  on the way: {}, first at {:.6f}\n", body_text(pair.a.index), body_text(pair.b.index),
+               counted(static_cast<std::int64_t>(pair.impacts.size()), "impact"), pair.first_time);
+  }
 }
 
 void TableReport::print_self(const Contact& contact) {

@@ -1,6 +1,7 @@
 // Reports as text for people.
 #pragma once
 
+#include <tact/motion.h>
 #include <tact/report.h>
 #include <tact/world.h>
 
@@ -18,7 +19,8 @@ class TableReport {
  public:
   // Prints the bodies. `out` must outlive the report.
   TableReport(std::ostream& out, const World& world);
-  void add_frame(int frame, const Report& report);
+  // `motion` is what met since the frame before, or null.
+  void add_frame(int frame, const Report& report, const MotionReport* motion = nullptr);
   // Prints the summary.
   void finish();
 
@@ -40,6 +42,7 @@ class TableReport {
     Eigen::Vector3d last_direction = Eigen::Vector3d::Zero();
   };
 
+  void print_motion(const MotionReport& motion);
   void print_self(const Contact& contact);
   void print_pair(const CandidatePair& pair, const Contact* contact);
   void note_contact(int frame, const Contact& contact, History& history);

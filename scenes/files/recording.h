@@ -70,6 +70,8 @@ class RecordedWorld {
   void set_margin(BodyId body, double margin);
   void set_self_contact(BodyId body, bool wanted);
   const Report& detect();
+  // Changes nothing, and is not recorded.
+  const MotionReport& detect_motion(Impacts wanted = Impacts::all) { return world_.detect_motion(wanted); }
 
   // What writing took in all, milliseconds.
   double writing_ms() const { return writing_ms_; }

@@ -91,6 +91,7 @@ void expect_twins_of_fields(const std::string& header, const std::string& type, 
 TEST(TwinsInC, OfTheFunctionsOfWorldAndReport) {
   expect_twins_of_functions("world.h", "class TACT_API World {", "tact_world_", {});
   expect_twins_of_functions("report.h", "class TACT_API Report {", "tact_report_", {});
+  expect_twins_of_functions("motion.h", "class TACT_API MotionReport {", "tact_motion_", {});
   // In C they are fields.
   expect_twins_of_functions("report.h", "struct Contact {", "tact_contact_",
                             {{"facet_pairs", ""}, {"touching", ""}, {"patches", "tact_contact_patch"}});
@@ -106,6 +107,9 @@ TEST(TwinsInC, OfEachField) {
   expect_twins_of_fields("report.h", "struct ZoneDisk {", "tact_zone_disk", {});
   expect_twins_of_fields("report.h", "struct CandidatePair {", "tact_candidate_pair", {});
   expect_twins_of_fields("report.h", "struct ContactEvent {", "tact_contact_event", {});
+  expect_twins_of_fields("motion.h", "struct Impact {", "tact_impact", {});
+  expect_twins_of_fields("motion.h", "struct ImpactPair {", "tact_impact_pair", {});
+  expect_twins_of_fields("motion.h", "struct MotionStats {", "tact_motion_statistics", {});
 }
 
 TEST(TwinsInC, OfEachError) {

@@ -25,6 +25,7 @@ struct WorldEntry {
   explicit WorldEntry(const Settings& settings) : world(settings) {}
   World world;
   const Report* report = nullptr;        // of the last step; null before the first, or after a change of settings
+  const MotionReport* motion = nullptr;  // of the last tact_world_detect_motion(); null before
   std::vector<PositionsUpdate> updates;  // scratch
   std::shared_mutex in_use;
 };

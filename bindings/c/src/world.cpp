@@ -168,6 +168,13 @@ tact_error tact_world_detect(tact_world world) {
   });
 }
 
+tact_error tact_world_detect_motion(tact_world world, int32_t wanted) {
+  return changing(world, [&](WorldEntry& entry) {
+    entry.motion = nullptr;
+    entry.motion = &entry.world.detect_motion(static_cast<tact::Impacts>(wanted));
+  });
+}
+
 tact_error tact_world_contains(tact_world world, tact_body body, bool* contains) {
   return get(world, contains, [&](const World& w) { return w.contains(id_of(body)); });
 }

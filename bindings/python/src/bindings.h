@@ -8,6 +8,7 @@ namespace tact::python {
 void define_errors(pybind11::module_& module);
 void define_types(pybind11::module_& module);
 void define_report(pybind11::module_& module);
+void define_motion(pybind11::module_& module);
 void define_world(pybind11::module_& module);
 
 }  // namespace tact::python

@@ -9,5 +9,6 @@ PYBIND11_MODULE(_tact, module) {
   tact::python::define_errors(module);
   tact::python::define_types(module);
   tact::python::define_report(module);
+  tact::python::define_motion(module);
   tact::python::define_world(module);
 }

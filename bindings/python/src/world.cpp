@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "motion.h"
 #include "shared_world.h"
 
 namespace tact::python {
@@ -55,6 +56,12 @@ OfReport<Report> detect(const SharedPointer& world) {
   const Report* made = nullptr;
   world->compute([&](World& w) { made = &w.detect(); });
   return {world, report, made};
+}
+
+MotionArrays detect_motion(SharedWorld& world, Impacts wanted) {
+  const MotionReport* made = nullptr;
+  world.compute([&](World& w) { made = &w.detect_motion(wanted); });
+  return motion_arrays(*made);
 }
 
 void set_settings(SharedWorld& world, const Settings& settings) {
@@ -141,6 +148,10 @@ void define_world(py::module_& module) {
           "set_motion", [](SharedWorld& world, BodyId body, Motion motion) { world.use().set_motion(body, motion); },
           py::arg("body"), py::arg("motion"))
       .def("detect", detect, "one step: the contacts of the positions as they are now")
+      .def(
+          "detect_motion", [](SharedWorld& world, Impacts wanted) { return detect_motion(world, wanted); },
+          py::arg("wanted") = Impacts::all,
+          "what meets between the positions of the last detect() and those set since; it changes nothing")
       .def(
           "contains", [](SharedWorld& world, BodyId body) { return world.use().contains(body); }, py::arg("body"))
       .def_property_readonly("body_count", [](SharedWorld& world) { return world.use().body_count(); })

@@ -276,6 +276,44 @@ class Report:
         """a number made from every bit of the answers"""
     def __len__(self) -> int: ...
 
+class Impacts:
+    """What detect_motion() looks for. Less is faster."""
+
+    all: ClassVar[Impacts]
+    first_of_pair: ClassVar[Impacts]
+    first: ClassVar[Impacts]
+    name: str
+    value: int
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+
+class MotionReport:
+    """What meets between two steps, a row an impact, sorted by bodies and then by time."""
+
+    @property
+    def first_time(self) -> float:
+        """the earliest time, 0 to 1; inf if nothing meets"""
+    @property
+    def bodies(self) -> npt.NDArray[np.int64]:
+        """(N, 2): BodyId.index of the two bodies"""
+    @property
+    def kinds(self) -> npt.NDArray[np.uint8]:
+        """(N,): values of FeaturePair"""
+    @property
+    def times(self) -> Floats:
+        """(N,): when first, 0 to 1; never late"""
+    @property
+    def a_vertices(self) -> Ints:
+        """(N, 3): vertices of a; -1 fills up"""
+    @property
+    def b_vertices(self) -> Ints:
+        """(N, 3): vertices of b; -1 fills up"""
+    @property
+    def stats(self) -> dict[str, float]:
+        """counts, and times in milliseconds, by name"""
+    def __len__(self) -> int: ...
+
 class World:
     """A set of bodies and the contacts among them."""
 
@@ -305,6 +343,8 @@ class World:
     def set_layers(self, body: BodyId, layer: int, mask: int) -> None: ...
     def set_motion(self, body: BodyId, motion: Motion) -> None: ...
     def detect(self) -> Report: ...
+    def detect_motion(self, wanted: Impacts = ...) -> MotionReport:
+        """what meets between the positions of the last detect() and those set since; it changes nothing"""
     def contains(self, body: BodyId) -> bool: ...
     @property
     def body_count(self) -> int: ...

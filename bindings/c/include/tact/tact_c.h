@@ -172,6 +172,9 @@ TACT_C_API tact_error tact_world_set_margin(tact_world world, tact_body body, do
 TACT_C_API tact_error tact_world_set_self_contact(tact_world world, tact_body body, bool wanted);
 /** One step. The functions tact_report_... tell what it found. */
 TACT_C_API tact_error tact_world_detect(tact_world world);
+/** What meets between the positions of the last step and those set since; `wanted` is a tact_impacts. The functions
+ *  tact_motion_... tell what it found. It changes nothing. */
+TACT_C_API tact_error tact_world_detect_motion(tact_world world, int32_t wanted);
 
 TACT_C_API tact_error tact_world_contains(tact_world world, tact_body body, bool* contains);
 TACT_C_API tact_error tact_world_body_count(tact_world world, size_t* count);
@@ -320,6 +323,57 @@ TACT_C_API tact_error tact_report_trace(tact_world world, size_t* count);
 TACT_C_API tact_error tact_report_trace_event(tact_world world, size_t index, tact_trace_event* event);
 /** The number that two equal reports share, in C and C++. */
 TACT_C_API tact_error tact_report_hash(tact_world world, uint64_t* hash);
+
+/* What tact_world_detect_motion() found; valid until it is called again. */
+
+typedef enum tact_impacts { TACT_IMPACTS_ALL = 0, TACT_IMPACTS_FIRST_OF_PAIR = 1, TACT_IMPACTS_FIRST = 2 } tact_impacts;
+
+/** See tact::Impact. */
+typedef struct tact_impact {
+  tact_body a; /**< a.index <= b.index */
+  tact_body b;
+  int32_t kind;      /**< tact_feature_pair */
+  double time;       /**< 0 to 1; never late */
+  int a_vertices[3]; /**< -1 fills up */
+  int b_vertices[3];
+} tact_impact;
+
+/** See tact::ImpactPair. */
+typedef struct tact_impact_pair {
+  uint32_t struct_size;
+  tact_body a;
+  tact_body b;
+  double first_time;
+  const tact_impact* impacts; /**< sorted by time; the world's */
+  size_t impact_count;
+} tact_impact_pair;
+#define TACT_IMPACT_PAIR_INIT \
+  { (uint32_t)sizeof(tact_impact_pair), {0, 0, 0}, {0, 0, 0}, 0, NULL, 0 }
+
+/** See tact::MotionStats. */
+typedef struct tact_motion_statistics {
+  uint32_t struct_size;
+  int64_t moved_bodies;
+  int64_t body_pairs;
+  int64_t cluster_pairs;
+  int64_t candidates;
+  int64_t searched;
+  int64_t spans;
+  int64_t impacts;
+  double sweep_ms;
+  double search_ms;
+} tact_motion_statistics;
+#define TACT_MOTION_STATISTICS_INIT \
+  { (uint32_t)sizeof(tact_motion_statistics), 0, 0, 0, 0, 0, 0, 0, 0, 0 }
+
+/** The earliest time of all; infinity if nothing meets. */
+TACT_C_API tact_error tact_motion_first_time(tact_world world, double* time);
+/** Sorted by bodies, then by time; the world's. */
+TACT_C_API tact_error tact_motion_impacts(tact_world world, const tact_impact** impacts, size_t* count);
+/** How many pairs of bodies meet, and each of them. */
+TACT_C_API tact_error tact_motion_pairs(tact_world world, size_t* count);
+TACT_C_API tact_error tact_motion_pair(tact_world world, size_t index, tact_impact_pair* pair);
+TACT_C_API tact_error tact_motion_stats(tact_world world, tact_motion_statistics* statistics);
 
 #ifdef __cplusplus
 }

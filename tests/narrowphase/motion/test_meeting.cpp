@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "narrowphase/kernels/kernels.h"
-#include "narrowphase/motion/moving_polygon.h"
+#include "narrowphase/motion/meeting.h"
 #include "tests/support/motion_oracle.h"
 #include "tests/support/random.h"
 
@@ -132,7 +132,7 @@ Query random_query(Random& random) {
   return query;
 }
 
-TEST(MovingPolygon, RandomQueriesEqualRationalArithmetic) {
+TEST(Meeting, RandomQueriesEqualRationalArithmetic) {
   Random random(1);
   MeetingSearch search;
   std::int64_t hits = 0;
@@ -141,7 +141,7 @@ TEST(MovingPolygon, RandomQueriesEqualRationalArithmetic) {
 }
 
 // A corner that touches the other feature exactly, or stays apart by the smallest double, at one time.
-TEST(MovingPolygon, GrazingQueriesEqualRationalArithmetic) {
+TEST(Meeting, GrazingQueriesEqualRationalArithmetic) {
   Random random(2);
   MeetingSearch search;
   std::int64_t hits = 0;
@@ -162,7 +162,7 @@ TEST(MovingPolygon, GrazingQueriesEqualRationalArithmetic) {
   EXPECT_GT(hits, 300);
 }
 
-TEST(MovingPolygon, QueriesWithKnownAnswersAreRight) {
+TEST(Meeting, QueriesWithKnownAnswersAreRight) {
   const std::string folder = std::string(TACT_DATA_DIR) + "/ccd_unit_queries/";
   if (!std::ifstream(folder + "edge-edge_0.csv")) GTEST_SKIP() << "no folder of test data at " << folder;
   MeetingSearch search;
@@ -194,7 +194,7 @@ TEST(MovingPolygon, QueriesWithKnownAnswersAreRight) {
 }
 
 // With a reach: never late, and at the time found the distance is what was asked for.
-TEST(MovingPolygon, AReachIsMetWhenItIsReached) {
+TEST(Meeting, AReachIsMetWhenItIsReached) {
   const MovingVertex vertex{{{0.25, 0.25, 1.0}, {0.25, 0.25, -1.0}}};
   const MovingVertex facet[3] = {{{{0, 0, 0}, {0, 0, 0}}}, {{{1, 0, 0}, {1, 0, 0}}}, {{{0, 1, 0}, {0, 1, 0}}}};
   MeetingSearch search;
@@ -205,7 +205,7 @@ TEST(MovingPolygon, AReachIsMetWhenItIsReached) {
   EXPECT_NEAR(search.first(facet_seen_from(vertex, facet), 2.0).time, 0.45, 1e-11);
 }
 
-TEST(MovingPolygon, TheSearchTakesTheSameStepsWhateverIsLatest) {
+TEST(Meeting, TheSearchTakesTheSameStepsWhateverIsLatest) {
   Random random(3);
   MeetingSearch search;
   for (int i = 0; i < 2000; ++i) {
@@ -220,7 +220,7 @@ TEST(MovingPolygon, TheSearchTakesTheSameStepsWhateverIsLatest) {
 }
 
 // The filter leaves out nothing that meets, and every instruction set leaves out the same.
-TEST(MovingPolygon, TheFilterLeavesOutNothingThatMeets) {
+TEST(Meeting, TheFilterLeavesOutNothingThatMeets) {
   Random random(4);
   MeetingSearch search;
   std::int64_t left_out = 0, meeting = 0;

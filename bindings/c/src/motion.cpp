@@ -1,0 +1,92 @@
+#include <cstddef>
+#include <type_traits>
+
+#include "handles.h"
+
+namespace tact::c {
+namespace {
+
+static_assert(std::is_standard_layout_v<Impact> && sizeof(tact_impact) == sizeof(Impact) &&
+              offsetof(tact_impact, kind) == offsetof(Impact, kind) &&
+              offsetof(tact_impact, time) == offsetof(Impact, time) &&
+              offsetof(tact_impact, b_vertices) == offsetof(Impact, b_vertices));
+
+// Calls work(report) with what the last call of tact_world_detect_motion() found.
+template <class Work>
+tact_error with_motion(tact_world world, const Work& work) noexcept {
+  return reading(world, [&](const WorldEntry& entry) {
+    if (entry.motion == nullptr)
+      throw Failure{TACT_ERROR_WRONG_ORDER, "tact_world_detect_motion() was not called, or failed"};
+    work(*entry.motion);
+  });
+}
+
+const tact_impact* for_c(std::span<const Impact> impacts) {
+  return reinterpret_cast<const tact_impact*>(impacts.data());
+}
+
+}  // namespace
+}  // namespace tact::c
+
+using tact::MotionReport;
+using tact::c::body_of, tact::c::check_not_null, tact::c::for_c, tact::c::with_motion, tact::c::write_struct;
+
+extern "C" {
+
+tact_error tact_motion_first_time(tact_world world, double* time) {
+  return with_motion(world, [&](const MotionReport& motion) {
+    check_not_null(time);
+    *time = motion.first_time();
+  });
+}
+
+tact_error tact_motion_impacts(tact_world world, const tact_impact** impacts, size_t* count) {
+  return with_motion(world, [&](const MotionReport& motion) {
+    check_not_null(impacts, count);
+    *impacts = for_c(motion.impacts());
+    *count = motion.impacts().size();
+  });
+}
+
+tact_error tact_motion_pairs(tact_world world, size_t* count) {
+  return with_motion(world, [&](const MotionReport& motion) {
+    check_not_null(count);
+    *count = motion.pairs().size();
+  });
+}
+
+tact_error tact_motion_pair(tact_world world, size_t index, tact_impact_pair* pair) {
+  return with_motion(world, [&](const MotionReport& motion) {
+    check_not_null(pair);
+    if (index >= motion.pairs().size())
+      throw tact::c::Failure{TACT_ERROR_INDEX_OUT_OF_RANGE, "an index is not below the count"};
+    const tact::ImpactPair& found = motion.pairs()[index];
+    tact_impact_pair value = TACT_IMPACT_PAIR_INIT;
+    value.a = body_of(found.a);
+    value.b = body_of(found.b);
+    value.first_time = found.first_time;
+    value.impacts = for_c(found.impacts);
+    value.impact_count = found.impacts.size();
+    write_struct(*pair, value);
+  });
+}
+
+tact_error tact_motion_stats(tact_world world, tact_motion_statistics* statistics) {
+  return with_motion(world, [&](const MotionReport& motion) {
+    check_not_null(statistics);
+    const tact::MotionStats& stats = motion.stats();
+    tact_motion_statistics value = TACT_MOTION_STATISTICS_INIT;
+    value.moved_bodies = stats.moved_bodies;
+    value.body_pairs = stats.body_pairs;
+    value.cluster_pairs = stats.cluster_pairs;
+    value.candidates = stats.candidates;
+    value.searched = stats.searched;
+    value.spans = stats.spans;
+    value.impacts = stats.impacts;
+    value.sweep_ms = stats.sweep_ms;
+    value.search_ms = stats.search_ms;
+    write_struct(*statistics, value);
+  });
+}
+
+}  // extern "C"

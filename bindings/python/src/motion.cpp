@@ -1,0 +1,71 @@
+#include "motion.h"
+
+#include <string>
+
+#include "arrays.h"
+#include "bindings.h"
+
+namespace tact::python {
+
+namespace {
+
+template <class Vertices>
+py::array_t<int> vertex_rows(std::span<const Impact> impacts, Vertices vertices) {
+  return rows_of<int>(impacts, 3, [&](const Impact& impact, int* row) {
+    for (std::size_t k = 0; k < 3; ++k) row[k] = (impact.*vertices)[k];
+  });
+}
+
+py::dict stats_of(const MotionStats& stats) {
+  py::dict dict;
+  dict["moved_bodies"] = stats.moved_bodies;
+  dict["body_pairs"] = stats.body_pairs;
+  dict["cluster_pairs"] = stats.cluster_pairs;
+  dict["candidates"] = stats.candidates;
+  dict["searched"] = stats.searched;
+  dict["spans"] = stats.spans;
+  dict["impacts"] = stats.impacts;
+  dict["sweep_ms"] = stats.sweep_ms;
+  dict["search_ms"] = stats.search_ms;
+  return dict;
+}
+
+}  // namespace
+
+MotionArrays motion_arrays(const MotionReport& report) {
+  const std::span<const Impact> impacts = report.impacts();
+  return {report.first_time(),
+          rows_of<std::int64_t>(impacts, 2,
+                                [](const Impact& impact, std::int64_t* row) {
+                                  row[0] = impact.a.index;
+                                  row[1] = impact.b.index;
+                                }),
+          column_of<std::uint8_t>(impacts, [](const Impact& impact) { return impact.kind; }),
+          column_of<double>(impacts, [](const Impact& impact) { return impact.time; }),
+          vertex_rows(impacts, &Impact::a_vertices),
+          vertex_rows(impacts, &Impact::b_vertices),
+          stats_of(report.stats())};
+}
+
+void define_motion(py::module_& module) {
+  py::enum_<Impacts>(module, "Impacts", "What detect_motion() looks for. Less is faster.")
+      .value("all", Impacts::all, "every pair of features that meets")
+      .value("first_of_pair", Impacts::first_of_pair, "of each pair of bodies the earliest")
+      .value("first", Impacts::first, "the earliest of all");
+  py::class_<MotionArrays>(module, "MotionReport",
+                           "What meets between two steps, a row an impact, sorted by bodies and then by time.")
+      .def_readonly("first_time", &MotionArrays::first_time, "the earliest time, 0 to 1; inf if nothing meets")
+      .def_readonly("bodies", &MotionArrays::bodies, "(N, 2) int64: BodyId.index of the two bodies")
+      .def_readonly("kinds", &MotionArrays::kinds, "(N,) uint8: values of FeaturePair")
+      .def_readonly("times", &MotionArrays::times, "(N,): when first, 0 to 1; never late")
+      .def_readonly("a_vertices", &MotionArrays::a_vertices, "(N, 3) int32: vertices of a; -1 fills up")
+      .def_readonly("b_vertices", &MotionArrays::b_vertices, "(N, 3) int32: vertices of b; -1 fills up")
+      .def_readonly("stats", &MotionArrays::stats, "counts, and times in milliseconds, by name")
+      .def("__len__", [](const MotionArrays& motion) { return motion.times.size(); })
+      .def("__repr__", [](const MotionArrays& motion) {
+        return "<tact.MotionReport of " + std::to_string(motion.times.size()) + " impacts, first at " +
+               std::string(py::str(py::float_(motion.first_time))) + ">";
+      });
+}
+
+}  // namespace tact::python

@@ -1,0 +1,217 @@
+#include "narrowphase/motion/meeting.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "narrowphase/numeric/unit_scale.h"
+
+namespace tact::narrowphase {
+
+namespace {
+
+// Corners are scaled to at most 2 in size. With u = 2^-53, a coordinate of a corner between two times is wrong by at
+// most 12 u: 2 u for the difference of two positions, 4 u for the way, 4 u for a part of it, 2 u for the sum. Its
+// product with a direction, which is longer than 1 by 3 u at most, is then wrong by 21 u + 11 u, and the direction's
+// length adds 12 u to a reach of 4: together less than 48 u.
+constexpr double kDotRounding = 0x1p-46;
+// The volume, if the sides of the polygon are at most e and f along each axis: these are wrong by 28 u, their cross
+// product by 56 u (e + f) + 4 u ef, its product with a corner by 340 u (e + f) + 130 u ef, and a reach of 4 times its
+// length by 390 u (e + f) + 60 u ef: together less than 2^-43 (e + f + ef).
+constexpr double kVolumeRounding = 0x1p-43;
+constexpr int kMostCloserLooks = 3;    // before a span is as short as it gets: they take some 10 microseconds
+constexpr double kLargestReach = 4.0;  // no corner is farther away
+// Spans that are looked at. A meeting takes about ten. Only polygons that turn while they stay within 1e-8 of their
+// size come near so many; the span at which the search ends then counts as a meeting.
+constexpr std::int64_t kMostSpans = 1 << 15;
+// Each halving of the step adds two at most.
+constexpr std::size_t kMostMoments = 96;
+
+double largest_size(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+// Perpendicular to `side`: rounding has left a part along it, which counts where the distance is small.
+Vec3 perpendicular(Vec3 direction, Vec3 side) {
+  direction = direction - dot(direction, side) / norm_squared(side) * side;
+  return norm_squared(direction) > 0.0 ? normalized(direction) : Vec3{};
+}
+
+Vec3 unit(Vec3 v) { return largest_size(v) > 0x1p-500 ? normalized(v) : Vec3{}; }
+
+}  // namespace
+
+MeetingSearch::MeetingSearch() { waiting_.reserve(kMostMoments); }
+
+Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double latest) {
+  count_ = polygon.count;
+  double largest = 0.0;
+  for (const auto& corners : polygon.corner) {
+    for (int i = 0; i < count_; ++i) largest = std::max(largest, largest_size(corners[i].head));
+  }
+  scale_ = unit_scale(largest);
+  for (int time = 0; time < 2; ++time) {
+    for (int i = 0; i < count_; ++i) at_[time][i] = scale_ * polygon.corner[time][i].head;
+  }
+  reach_ = std::min(scale_ * reach, kLargestReach);
+
+  Meeting meeting;
+  Moment from = moment(0.0);
+  if (reach_ > 0.0) reach_ = allowed_reach(from);
+  waiting_.assign(1, moment(1.0));
+  int closer_looks = reach_ > 0.0 ? 0 : kMostCloserLooks;
+  while (!waiting_.empty()) {
+    ++meeting.spans;
+    const Moment& to = waiting_.back();
+    if (to.covered || is_left_out(from, to)) {
+      from = to;
+      waiting_.pop_back();
+      continue;
+    }
+    if (from.time > latest) return meeting;
+    const double length = to.time - from.time;
+    if (meeting.spans > kMostSpans || (length <= kFinestSpan && reach_ > 0.0)) {
+      meeting.time = from.time;
+      return meeting;
+    }
+    const Moment middle = moment(from.time + 0.5 * length);
+    if (length > kFinestSpan && (closer_looks <= 0 || !is_near(middle))) {
+      add_between(from.time, to.time, middle);
+      continue;
+    }
+    --closer_looks;
+    const std::optional<double> begin = first_close_time(polygon, from.time, to.time);
+    if (!begin) {
+      from = to;
+      waiting_.pop_back();
+      continue;
+    }
+    // What stays open may have no area then, and be far away.
+    if (length <= kFinestSpan || is_near(moment(*begin))) {
+      meeting.time = *begin;
+      return meeting;
+    }
+    add_between(from.time, to.time, middle);
+  }
+  return meeting;
+}
+
+Vec3 MeetingSearch::corner(int i, double time) const { return at_[0][i] + time * (at_[1][i] - at_[0][i]); }
+
+MeetingSearch::Moment MeetingSearch::moment(double time) const {
+  Moment m;
+  m.time = time;
+  for (int i = 0; i < count_; ++i) m.corner[i] = time == 1.0 ? at_[1][i] : corner(i, time);
+  m.direction = direction_to(m);
+  return m;
+}
+
+// One that starts nearer than its reach may come as near as a share of that.
+double MeetingSearch::allowed_reach(const Moment& begin) const {
+  double nearest = dot(begin.direction, begin.corner[0]);
+  for (int i = 1; i < count_; ++i) nearest = std::min(nearest, dot(begin.direction, begin.corner[i]));
+  return nearest > reach_ + kDotRounding ? reach_ : kShareOfGap * std::max(nearest, 0.0);
+}
+
+// Goes on between the two next moments: with their middle, or with the ends of the span around it that its direction
+// leaves out, which comes close to a meeting from both sides as fast as Newton's method.
+void MeetingSearch::add_between(double from, double to, const Moment& middle) {
+  double first = from, last = to;
+  for (int i = 0; i < count_; ++i) {
+    const double begin = dot(middle.direction, at_[0][i]), way = dot(middle.direction, at_[1][i]) - begin;
+    const double crossing = (reach_ + 2.0 * kDotRounding - begin) / way;
+    if (way > 0.0) first = std::max(first, crossing);
+    if (way < 0.0) last = std::min(last, crossing);
+  }
+  const auto is_apart_at = [&](double time) {
+    for (int i = 0; i < count_; ++i) {
+      if (!(dot(middle.direction, corner(i, time)) > reach_ + kDotRounding)) return false;
+    }
+    return true;
+  };
+  if (!(first < middle.time && middle.time < last && is_apart_at(first) && is_apart_at(last))) {
+    waiting_.push_back(middle);
+    return;
+  }
+  const auto add = [&](double time) -> Moment& {
+    Moment& m = waiting_.emplace_back(middle);
+    m.time = time;
+    for (int i = 0; i < count_; ++i) m.corner[i] = corner(i, time);
+    return m;
+  };
+  (last < to ? add(last) : waiting_.back()).covered = true;
+  if (first > from) add(first);
+}
+
+// Is the polygon, at most, as far away as the bounds of rounding?
+bool MeetingSearch::is_near(const Moment& m) const {
+  for (int i = 0; i < count_; ++i) {
+    if (dot(m.direction, m.corner[i]) < reach_ + 4.0 * kDotRounding) return true;
+  }
+  return false;
+}
+
+// With more digits than a double's.
+std::optional<double> MeetingSearch::first_close_time(const MovingPolygon& polygon, double from, double to) {
+  if (to - from <= kFinestSpan) {
+    if (certainly_meets_near(polygon, scale_, from, to)) return from;
+    // The directions of its ends may be those of a longer span.
+    if (is_left_out_by_direction(moment(from), moment(to))) return std::nullopt;
+  }
+  return finest_.first_open_part(polygon, scale_, from, to);
+}
+
+bool MeetingSearch::is_left_out(const Moment& from, const Moment& to) const {
+  return is_left_out_by_direction(from, to) || is_left_out_by_volume(from, to);
+}
+
+// The direction goes straight from the one to the other, and is nowhere longer than 1.
+bool MeetingSearch::is_left_out_by_direction(const Moment& from, const Moment& to) const {
+  const double least = reach_ + kDotRounding;
+  for (int i = 0; i < count_; ++i) {
+    const double mean = 0.5 * (dot(from.direction, to.corner[i]) + dot(to.direction, from.corner[i]));
+    if (!(dot(from.direction, from.corner[i]) > least && dot(to.direction, to.corner[i]) > least && mean > least))
+      return false;
+  }
+  return true;
+}
+
+bool MeetingSearch::is_left_out_by_volume(const Moment& from, const Moment& to) const {
+  const Vec3 e0 = from.corner[1] - from.corner[0], e1 = to.corner[1] - to.corner[0];
+  const Vec3 f0 = from.corner[count_ - 1] - from.corner[0], f1 = to.corner[count_ - 1] - to.corner[0];
+  const Vec3 n0 = cross(e0, f0), n1 = 0.5 * (cross(e0, f1) + cross(e1, f0)), n2 = cross(e1, f1);
+  const Vec3 &d0 = from.corner[0], &d1 = to.corner[0];
+  const double volume[4] = {dot(d0, n0), (dot(d1, n0) + 2.0 * dot(d0, n1)) / 3.0,
+                            (2.0 * dot(d1, n1) + dot(d0, n2)) / 3.0, dot(d1, n2)};
+  const double e = std::max(largest_size(e0), largest_size(e1)), f = std::max(largest_size(f0), largest_size(f1));
+  const double area = reach_ > 0.0 ? std::sqrt(std::max({norm_squared(n0), norm_squared(n1), norm_squared(n2)})) : 0.0;
+  const double least = kVolumeRounding * (e + f + e * f) + reach_ * area;
+  const auto [low, high] = std::ranges::minmax(volume);
+  return low > least || high < -least;
+}
+
+Vec3 MeetingSearch::direction_to(const Moment& m) const {
+  const Vec3* const p = m.corner;
+  const Vec3 normal = unit(cross(p[1] - p[0], p[count_ - 1] - p[0]));
+  bool inside = normal != Vec3{};
+  double least = Meeting::kNever;
+  Vec3 nearest;
+  for (int i = 0; i < count_; ++i) {
+    const Vec3 from = p[i], side = p[(i + 1) % count_] - from;
+    inside = inside && dot(cross(side, from), normal) <= 0.0;
+    const double length2 = norm_squared(side), along = -dot(from, side);
+    const bool between = along > 0.0 && along < length2;
+    const Vec3 point = between ? from + along / length2 * side : along <= 0.0 ? from : from + side;
+    if (norm_squared(point) >= least) continue;
+    least = norm_squared(point);
+    nearest = between ? perpendicular(unit(point), side) : unit(point);
+  }
+  if (!inside) return nearest;
+  // Of a polygon with next to no area rounding may say so of any point.
+  const Vec3 above = dot(normal, p[0]) < 0.0 ? -normal : normal;
+  const auto separation = [&](Vec3 direction) {
+    double lowest = dot(direction, p[0]);
+    for (int i = 1; i < count_; ++i) lowest = std::min(lowest, dot(direction, p[i]));
+    return lowest;
+  };
+  return separation(nearest) > separation(above) ? nearest : above;
+}
+
+}  // namespace tact::narrowphase
