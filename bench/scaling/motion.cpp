@@ -1,0 +1,234 @@
+#include "bench/scaling/motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "bench/measure.h"
+#include "bench/rivals/inclusion.h"
+#include "bench/table.h"
+#include "bench/workloads/workloads.h"
+#include "narrowphase/motion/meeting.h"
+
+namespace tact::bench {
+namespace {
+
+// A workload whose bodies go from frame to frame in leaps of several frames, and back.
+struct Leaps {
+  std::string name;
+  std::function<Workload()> make;
+  int frames;  // a leap
+};
+
+struct Measured {
+  double ms = 0.0;
+  MotionStats stats;
+};
+
+// Bodies of a workload at one frame, which a step has seen, on their way to another.
+class MotionRunner {
+ public:
+  MotionRunner(const Workload& workload, int threads) : workload_(workload), world_({.threads = threads}) {
+    for (const WorkloadBody& body : workload.bodies) {
+      ids_.push_back(world_.add_body({.positions = body.frames[0],
+                                      .facets = body.facets,
+                                      .surface = body.surface,
+                                      .motion = body.fixed() ? Motion::fixed : Motion::moving,
+                                      .mask = body.mask}));
+    }
+  }
+  void go(int from, int to) {
+    set(from);
+    world_.detect();
+    set(to);
+  }
+  const MotionReport& detect(Impacts wanted) { return world_.detect_motion(wanted); }
+
+ private:
+  void set(int frame) {
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      if (!workload_.bodies[i].fixed()) world_.set_positions(ids_[i], workload_.bodies[i].positions(frame));
+    }
+  }
+  const Workload& workload_;
+  World world_;
+  std::vector<BodyId> ids_;
+};
+
+Measured measure(MotionRunner& runner, Impacts wanted, int threads, double budget_ms) {
+  std::vector<double> times;
+  Measured result;
+  double expected_ms = 0.0;
+  for (const double start = wall_ms(); times.size() < 3 || wall_ms() - start < budget_ms;) {
+    times.push_back(time_ms(threads, expected_ms, [&] { result.stats = runner.detect(wanted).stats(); }));
+    expected_ms = times.back();
+  }
+  result.ms = median(times);
+  return result;
+}
+
+Table measure_leaps(const std::vector<Leaps>& all, int threads, double budget_ms) {
+  Table table({"workload", "facets", "pairs of bodies", "candidates", "left by the filter %", "impacts", "1 thread ms",
+               fmt::format("{} threads ms", threads), "first only ms", "ns a candidate"});
+  for (const Leaps& leaps : all) {
+    const Workload workload = leaps.make();
+    MotionRunner one(workload, 1), several(workload, threads);
+    one.go(0, leaps.frames);
+    several.go(0, leaps.frames);
+    const auto [ms, stats] = measure(one, Impacts::all, 1, budget_ms);
+    const double first_ms = measure(one, Impacts::first, 1, budget_ms).ms;
+    const double several_ms = measure(several, Impacts::all, threads, budget_ms).ms;
+    const auto candidates = static_cast<double>(std::max<std::int64_t>(stats.candidates, 1));
+    table.add({leaps.name, fmt::to_string(workload.facet_count()), fmt::to_string(stats.body_pairs),
+               fmt::to_string(stats.candidates), three_digits(100.0 * static_cast<double>(stats.searched) / candidates),
+               fmt::to_string(stats.impacts), three_digits(ms), three_digits(several_ms), three_digits(first_ms),
+               three_digits(1e6 * ms / candidates)});
+  }
+  return table;
+}
+
+// Two of a kind that fly at each other.
+struct Couple {
+  MovingShape a, b;
+};
+
+Couple couple_of(int frequency) {
+  const Shape ball = geodesic_sphere(frequency);
+  Couple couple{{ball, ball.positions}, {ball, ball.positions}};
+  couple.b.begin.positions.colwise() += Eigen::Vector3d(2.05, 0.1, 0.2);
+  couple.b.end = couple.b.begin.positions;
+  couple.a.end.colwise() += Eigen::Vector3d(0.3, 0.0, 0.05);
+  for (Eigen::Index v = 0; v < couple.b.end.cols(); ++v)
+    couple.b.end.col(v) +=
+        0.02 * Eigen::Vector3d(wave(0.37 * static_cast<double>(v)), wave(0.11 * static_cast<double>(v)), 0);
+  return couple;
+}
+
+using Key = std::tuple<FeaturePair, std::array<int, 3>, std::array<int, 3>>;
+
+// Are the impacts those of the rival? It tells times to 1e-6 of a unit of length, and may report what comes as near.
+void check_against_rival(const MotionReport& report, const InclusionResult& rival) {
+  std::map<Key, double> times;
+  for (const InclusionImpact& impact : rival.impacts) times[{impact.kind, impact.a, impact.b}] = impact.time;
+  std::size_t missed = 0;
+  for (const Impact& impact : report.impacts()) {
+    const auto found = times.find({impact.kind, impact.a_vertices, impact.b_vertices});
+    if (found == times.end() || std::abs(found->second - impact.time) > 1e-4) ++missed;
+  }
+  const std::size_t more = times.size() - (report.impacts().size() - missed);
+  if (missed > 0 || more > 1 + times.size() / 100)
+    throw std::runtime_error(fmt::format("motion: {} impacts of {} are none of the rival's, which has {} more", missed,
+                                         report.impacts().size(), more));
+}
+
+Table measure_growth(bool quick, double budget_ms) {
+  Table table({"two spheres", "candidates", "impacts", "tact ms", "inclusion ms", "factor", "ns a candidate"});
+  std::vector<double> facets, times;
+  for (const int frequency : quick ? std::vector{4, 8} : std::vector{8, 16, 32, 64, 128}) {
+    const Couple couple = couple_of(frequency);
+    World world({.threads = 1});
+    const BodyId a = world.add_body({.positions = couple.a.begin.positions, .facets = couple.a.begin.facets});
+    const BodyId b = world.add_body({.positions = couple.b.begin.positions, .facets = couple.b.begin.facets});
+    world.detect();
+    world.set_positions(a, couple.a.end);
+    world.set_positions(b, couple.b.end);
+    const bool with_rival = frequency <= 32;
+    double rival_ms = 0.0;
+    if (with_rival) {
+      InclusionResult rival;
+      rival_ms = time_ms(1, 1.0, [&] { rival = find_by_inclusion(couple.a, couple.b); });
+      check_against_rival(world.detect_motion(), rival);
+    }
+    std::vector<double> all;
+    for (const double start = wall_ms(); all.size() < 3 || wall_ms() - start < budget_ms;)
+      all.push_back(time_ms(1, 1.0, [&] { world.detect_motion(); }));
+    const MotionStats stats = world.detect_motion().stats();
+    const double ms = median(all);
+    facets.push_back(static_cast<double>(stats.candidates));
+    times.push_back(ms);
+    table.add({fmt::format("{} facets each", couple.a.begin.facets.cols()), fmt::to_string(stats.candidates),
+               fmt::to_string(stats.impacts), three_digits(ms), with_rival ? three_digits(rival_ms) : "-",
+               with_rival ? three_digits(rival_ms / ms) : "-",
+               three_digits(1e6 * ms / static_cast<double>(stats.candidates))});
+  }
+  fmt::print("time grows as the number of candidates to the power of {:.2f}\n\n", fitted_exponent(facets, times));
+  return table;
+}
+
+// Queries of ../shared/data, one by one and without the filter.
+void measure_queries() {
+  const std::string folder = "../shared/data/ccd_unit_queries/";
+  narrowphase::MeetingSearch search;
+  std::vector<narrowphase::MovingPolygon> polygons;
+  std::size_t right = 0;
+  for (const char* name : {"edge-edge_0", "edge-edge_1", "vertex-face_0", "vertex-face_1"}) {
+    std::ifstream in(folder + name + ".csv");
+    narrowphase::MovingVertex v[4];
+    std::string line;
+    for (std::size_t row = 0; std::getline(in, line); ++row) {
+      std::replace(line.begin(), line.end(), ',', ' ');
+      std::istringstream numbers(line);
+      double x[6];
+      bool answer = false;
+      for (double& number : x) numbers >> number;
+      numbers >> answer;
+      v[row % 4].at[row % 8 / 4] = {x[0] / x[1], x[2] / x[3], x[4] / x[5]};
+      if (row % 8 != 7) continue;
+      polygons.push_back(name[0] == 'e' ? narrowphase::edge_seen_from({v[0], v[1]}, {v[2], v[3]})
+                                        : narrowphase::facet_seen_from(v[0], {v[1], v[2], v[3]}));
+      right += (search.first(polygons.back(), 0.0).time <= 1.0) == answer;
+    }
+  }
+  if (polygons.empty()) {
+    fmt::print("no unit queries at {}: they are left out\n\n", folder);
+    return;
+  }
+  std::vector<double> times;
+  for (int k = 0; k < 20; ++k) {
+    times.push_back(time_ms(1, 1.0, [&] {
+      for (const narrowphase::MovingPolygon& polygon : polygons) search.first(polygon, 0.0);
+    }));
+  }
+  fmt::print("{} unit queries, {} right, {} us each without the filter\n\n", polygons.size(), right,
+             three_digits(1e3 * median(times) / static_cast<double>(polygons.size())));
+}
+
+}  // namespace
+
+int run_motion(const BenchOptions& options) {
+  const int threads = thread_count(options.threads);
+  const double budget_ms = options.quick ? 20.0 : 1000.0;
+  fmt::print("{}\n\n", machine_line(threads));
+  measure_queries();
+  const bool quick = options.quick;
+  const Table leaps = measure_leaps(
+      {
+          {"cloth on a sphere", [=] { return cloth(quick ? 16 : 80, 24); }, 3},
+          {"a pile of blobs of 320", [=] { return pile(quick ? 27 : 500, 4, 24); }, 3},
+          {"layers of cloth", [=] { return layers(quick ? 3 : 20, quick ? 12 : 60, 24); }, 3},
+          {"blobs on a terrain", [=] { return terrain(quick ? 24 : 120, quick ? 20 : 200, 24); }, 3},
+          {"scattered blobs of 80", [=] { return scattered(quick ? 60 : 2000, 24); }, 6},
+          {"two blobs of 20,480", [=] { return large_pair(quick ? 8 : 32, 24); }, 3},
+          {"a chain of rings", [=] { return chain(quick ? 8 : 60, 24); }, 3},
+      },
+      threads, budget_ms);
+  leaps.print();
+  const Table growth = measure_growth(quick, budget_ms);
+  growth.print();
+  if (!options.out.empty()) {
+    leaps.write_csv(options.out / "motion.csv");
+    growth.write_csv(options.out / "motion_growth.csv");
+  }
+  return 0;
+}
+
+}  // namespace tact::bench
