@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace tact::narrowphase {
@@ -13,7 +14,7 @@ namespace {
 constexpr double kMargin = 0x1p-30;
 // Parts are halved down to this much of the step; that ends sooner if so many were looked at.
 constexpr double kShortestPart = 0x1p-64;
-constexpr int kMostParts = 2048;
+constexpr int kMostParts = 2048, kMostSteps = 20;
 constexpr std::size_t kMostWaiting = 72;  // a half at each halving
 
 // Rounding: with coordinates of corners wrong by c (12 u * 2 in doubles, 2^-99 in double_doubles), sides by 2 c, of at
@@ -100,15 +101,21 @@ struct Polynomial {
     const double begin = head_of(coefficient.front()), end = head_of(coefficient.back());
     return (begin > rounding && end < -rounding) || (begin < -rounding && end > rounding);
   }
-  // Leaves the first half of the span, and returns the second (de Casteljau).
-  Polynomial halve() {
+  // Leaves the part of the span before `t`, 0 to 1, and returns that after it (de Casteljau).
+  Polynomial split(double t) {
     Polynomial second = *this;
     auto& c = second.coefficient;
     for (std::size_t left = kCount; left-- > 1;) {
-      for (std::size_t i = 0; i < left; ++i) c[i] = scaled(c[i] + c[i + 1], 0.5);
+      for (std::size_t i = 0; i < left; ++i)
+        c[i] = t == 0.5 ? scaled(c[i] + c[i + 1], 0.5) : c[i] + number(t, 0.0, Number{}) * (c[i + 1] - c[i]);
       coefficient[kCount - left] = c[0];
     }
     return second;
+  }
+  Number at(double t) const {
+    Polynomial before = *this;
+    before.split(t);
+    return before.coefficient.back();
   }
 };
 
@@ -156,10 +163,10 @@ struct SpanPolynomials {
     return volume.positive() || volume.negative() ||
            std::any_of(inside.begin(), inside.begin() + sides, [](const auto& p) { return p.negative(); });
   }
-  SpanPolynomials halve() {
+  SpanPolynomials split(double t) {
     SpanPolynomials second = *this;
-    second.volume = volume.halve();
-    for (std::size_t i = 0; i < static_cast<std::size_t>(sides); ++i) second.inside[i] = inside[i].halve();
+    second.volume = volume.split(t);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(sides); ++i) second.inside[i] = inside[i].split(t);
     return second;
   }
 
@@ -175,6 +182,28 @@ struct SpanPolynomials {
   }
 };
 
+// Where the volume changes its sign, if it does so once and is certainly not zero but within `margin` of there.
+std::optional<std::pair<double, double>> only_crossing(const Polynomial<DoubleDouble, 4>& volume, double margin) {
+  if (!volume.crosses()) return std::nullopt;
+  const double slope = volume.coefficient.back().head - volume.coefficient.front().head;  // nearly: the span is short
+  double low = 0.0, high = 1.0, root = 0.5;
+  for (int k = 0; k < kMostSteps; ++k) {
+    const double value = volume.at(root).head;
+    ((value < 0.0) == (slope > 0.0) ? low : high) = root;
+    const double next = root - value / slope;
+    const double last = std::exchange(root, low < next && next < high ? next : 0.5 * (low + high));
+    if (std::abs(root - last) < 0.25 * margin) break;
+  }
+  const double from = std::max(root - margin, 0.0), to = std::min(root + margin, 1.0);
+  Polynomial<DoubleDouble, 4> before = volume, after = volume;
+  before.split(from);
+  after = after.split(to);
+  const bool rises = slope > 0.0;
+  const bool is_apart =
+      (rises ? before.negative() : before.positive()) && (rises ? after.positive() : after.negative());
+  return is_apart ? std::optional(std::pair(from, to)) : std::nullopt;
+}
+
 }  // namespace
 
 struct FinestSpan::Part {
@@ -187,8 +216,18 @@ FinestSpan::~FinestSpan() = default;
 
 std::optional<double> FinestSpan::first_open_part(const MovingPolygon& polygon, double scale, double from, double to) {
   const double shortest = kShortestPart / (to - from);
+  const auto time_of = [&](double part) {  // which rounds, perhaps up
+    return part == 0.0 ? from : std::max(from, std::nextafter(from + part * (to - from), 0.0));
+  };
   parts_.clear();
   parts_.push_back({{polygon, scale, from, to}, 0.0, 1.0});
+  if (const auto crossing = only_crossing(parts_.back().polynomials.volume, 4.0 * shortest)) {
+    SpanPolynomials<DoubleDouble>& polynomials = parts_.back().polynomials;
+    const auto [begin, end] = *crossing;
+    polynomials.split(end);
+    if (polynomials.split(begin / end).certainly_never_holds_origin()) return std::nullopt;
+    return time_of(begin);
+  }
   for (int looked_at = 0; !parts_.empty(); ++looked_at) {
     Part part = parts_.back();
     parts_.pop_back();
@@ -197,21 +236,19 @@ std::optional<double> FinestSpan::first_open_part(const MovingPolygon& polygon, 
     const bool is_open = polynomials.seems_to_hold_origin() || part.length <= shortest || looked_at > kMostParts;
     // Of a part with a meeting the beginning is near enough.
     const bool is_short = part.length * (to - from) <= kFinestSpan;
-    if (is_open || (is_short && polynomials.certainly_holds_origin())) {
-      const double begin = from + part.begin * (to - from);  // rounds, perhaps up
-      return part.begin == 0.0 ? from : std::max(from, std::nextafter(begin, 0.0));
-    }
+    if (is_open || (is_short && polynomials.certainly_holds_origin())) return time_of(part.begin);
     part.length *= 0.5;
-    Part second{part.polynomials.halve(), part.begin + part.length, part.length};
+    Part second{part.polynomials.split(0.5), part.begin + part.length, part.length};
     parts_.push_back(second);
     parts_.push_back(part);
   }
   return std::nullopt;
 }
 
-bool certainly_meets_near(const MovingPolygon& polygon, double scale, double from, double to) {
-  return SpanPolynomials<double>(polygon, scale, std::max(from - kMargin, 0.0), std::min(to + kMargin, 1.0))
-      .certainly_holds_origin();
+Verdict holds_origin_near(const MovingPolygon& polygon, double scale, double from, double to) {
+  const SpanPolynomials<double> wider(polygon, scale, std::max(from - kMargin, 0.0), std::min(to + kMargin, 1.0));
+  if (wider.certainly_holds_origin()) return Verdict::yes;
+  return wider.certainly_never_holds_origin() ? Verdict::no : Verdict::unknown;
 }
 
 }  // namespace tact::narrowphase

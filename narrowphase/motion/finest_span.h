@@ -31,7 +31,9 @@ class FinestSpan {
   std::vector<Part> parts_;  // the next one last
 };
 
-/// Does it certainly hold the origin at some time between a little before `from` and a little after `to`? In doubles.
-bool certainly_meets_near(const MovingPolygon& polygon, double scale, double from, double to);
+/// Does it hold the origin at some time between a little before `from` and a little after `to`? In doubles, which
+/// cannot always tell.
+enum class Verdict { no, yes, unknown };
+Verdict holds_origin_near(const MovingPolygon& polygon, double scale, double from, double to);
 
 }  // namespace tact::narrowphase

@@ -81,9 +81,18 @@ double least_of(const std::atomic<double>* value) {
 
 constexpr std::size_t kOpened = 16;  // clusters of b that stay open: neighbours come soon again
 
+// Features of a cluster, and their boxes.
+struct BoxList {
+  int count = 0;
+  std::int32_t index[kMostEdges + kPadding];
+  double bounds[6][kMostEdges + kPadding];
+  BoxPointers pointers() const { return {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}}; }
+};
+
 struct SearchMemory {
   MovingCluster a;
   MovingCluster b[kOpened];
+  BoxList near;
   Waiting facets, edges;
   MeetingSearch meeting;
 };
@@ -129,19 +138,27 @@ class ImpactSearch {
 
  private:
   template <class Ones, class Others, class Visit>
-  void for_each_near(const Ones& ones, const MovingCluster& other, const Others& others, const Visit& visit) const {
+  void for_each_near(const MovingCluster& one, const Ones& ones, const MovingCluster& other, const Others& others,
+                     const Visit& visit) {
+    // First the others that are near the whole cluster, next to each other.
+    BoxList& list = memory_.near;
+    list.count = kernels().select_overlapping(others.pointers(), others.count, bounds_of(base::grown(one.box, reach_)),
+                                              list.index);
+    for (int side = 0; side < 6; ++side) {
+      for (int k = 0; k < list.count; ++k) list.bounds[side][k] = others.bounds[side][list.index[k]];
+    }
     std::int32_t near[kMostEdges + kPadding];
-    for (int i = 0; i < ones.count; ++i) {
+    for (int i = 0; i < ones.count && list.count > 0; ++i) {
       const Box box = base::grown(ones.box(i), reach_);
       if (!overlaps(box, other.box)) continue;
-      const int count = kernels().select_overlapping(others.pointers(), others.count, bounds_of(box), near);
-      for (int k = 0; k < count; ++k) visit(i, near[k]);
+      const int count = kernels().select_overlapping(list.pointers(), list.count, bounds_of(box), near);
+      for (int k = 0; k < count; ++k) visit(i, list.index[near[k]]);
     }
   }
 
   void from_vertices(const MovingCluster& vertices, const MovingCluster& facets, FeaturePair kind) {
     const ClusteredMesh& surface = kind == FeaturePair::vertex_facet ? *b_.mesh : *a_.mesh;
-    for_each_near(vertices.vertices, facets, facets.facets, [&](int i, int k) {
+    for_each_near(vertices, vertices.vertices, facets, facets.facets, [&](int i, int k) {
       const int vertex = vertices.vertices.index[i], facet = facets.facets.index[k];
       if (same_) {
         const Corners c = surface.corners(facet);
@@ -163,7 +180,7 @@ class ImpactSearch {
   }
 
   void between_edges(const MovingCluster& a, const MovingCluster& b) {
-    for_each_near(a.edges, b, b.edges, [&](int i, int k) {
+    for_each_near(a, a.edges, b, b.edges, [&](int i, int k) {
       const int e = a.edges.index[i], f = b.edges.index[k];
       if (same_ && ((a.cluster == b.cluster && e >= f) || share_a_vertex(a_.features->edge(e), b_.features->edge(f))))
         return;

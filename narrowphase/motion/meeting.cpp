@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "narrowphase/numeric/unit_scale.h"
 
@@ -23,6 +24,9 @@ constexpr double kLargestReach = 4.0;  // no corner is farther away
 // Spans that are looked at. A meeting takes about ten. Only polygons that turn while they stay within 1e-8 of their
 // size come near so many; the span at which the search ends then counts as a meeting.
 constexpr std::int64_t kMostSpans = 1 << 15;
+// How far around a root of the volume its sign is looked at: as near as most allow, or still less than is promised.
+constexpr double kCrossing = 0x1p-36, kWideCrossing = 0x1p-23;
+constexpr int kMostNewtonSteps = 12;
 // Each halving of the step adds two at most.
 constexpr std::size_t kMostMoments = 96;
 
@@ -53,9 +57,18 @@ Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double 
   reach_ = std::min(scale_ * reach, kLargestReach);
 
   Meeting meeting;
-  Moment from = moment(0.0);
+  Span span{0.0, 1.0};
+  if (reach_ == 0.0) {
+    if (const std::optional<Span> crossing = only_crossing()) {
+      span = *crossing;
+      const Verdict verdict = holds_origin_near(polygon, scale_, span.from, span.to);
+      if (verdict == Verdict::yes) meeting.time = span.from;
+      if (verdict != Verdict::unknown) return meeting;
+    }
+  }
+  Moment from = moment(span.from);
   if (reach_ > 0.0) reach_ = allowed_reach(from);
-  waiting_.assign(1, moment(1.0));
+  waiting_.assign(1, moment(span.to));
   int closer_looks = reach_ > 0.0 ? 0 : kMostCloserLooks;
   while (!waiting_.empty()) {
     ++meeting.spans;
@@ -150,8 +163,8 @@ bool MeetingSearch::is_near(const Moment& m) const {
 
 // With more digits than a double's.
 std::optional<double> MeetingSearch::first_close_time(const MovingPolygon& polygon, double from, double to) {
+  if (to - from <= kWideCrossing && holds_origin_near(polygon, scale_, from, to) == Verdict::yes) return from;
   if (to - from <= kFinestSpan) {
-    if (certainly_meets_near(polygon, scale_, from, to)) return from;
     // The directions of its ends may be those of a longer span.
     if (is_left_out_by_direction(moment(from), moment(to))) return std::nullopt;
   }
@@ -174,17 +187,56 @@ bool MeetingSearch::is_left_out_by_direction(const Moment& from, const Moment& t
 }
 
 bool MeetingSearch::is_left_out_by_volume(const Moment& from, const Moment& to) const {
-  const Vec3 e0 = from.corner[1] - from.corner[0], e1 = to.corner[1] - to.corner[0];
-  const Vec3 f0 = from.corner[count_ - 1] - from.corner[0], f1 = to.corner[count_ - 1] - to.corner[0];
+  const Volume volume = volume_on(from.corner, to.corner);
+  const auto [low, high] = std::ranges::minmax(volume.coefficient);
+  return low > volume.rounding || high < -volume.rounding;
+}
+
+// Its rounding holds what a reach adds.
+MeetingSearch::Volume MeetingSearch::volume_on(const Vec3 (&from)[4], const Vec3 (&to)[4]) const {
+  const Vec3 e0 = from[1] - from[0], e1 = to[1] - to[0];
+  const Vec3 f0 = from[count_ - 1] - from[0], f1 = to[count_ - 1] - to[0];
   const Vec3 n0 = cross(e0, f0), n1 = 0.5 * (cross(e0, f1) + cross(e1, f0)), n2 = cross(e1, f1);
-  const Vec3 &d0 = from.corner[0], &d1 = to.corner[0];
-  const double volume[4] = {dot(d0, n0), (dot(d1, n0) + 2.0 * dot(d0, n1)) / 3.0,
-                            (2.0 * dot(d1, n1) + dot(d0, n2)) / 3.0, dot(d1, n2)};
+  const Vec3 &d0 = from[0], &d1 = to[0];
   const double e = std::max(largest_size(e0), largest_size(e1)), f = std::max(largest_size(f0), largest_size(f1));
   const double area = reach_ > 0.0 ? std::sqrt(std::max({norm_squared(n0), norm_squared(n1), norm_squared(n2)})) : 0.0;
-  const double least = kVolumeRounding * (e + f + e * f) + reach_ * area;
-  const auto [low, high] = std::ranges::minmax(volume);
-  return low > least || high < -least;
+  return {{dot(d0, n0), (dot(d1, n0) + 2.0 * dot(d0, n1)) / 3.0, (2.0 * dot(d1, n1) + dot(d0, n2)) / 3.0, dot(d1, n2)},
+          kVolumeRounding * (e + f + e * f) + reach_ * area};
+}
+
+// Most often the volume changes its sign once, and is far from zero but for a short span. The root may come from
+// anywhere: that nothing meets before and after is proved by coefficients.
+std::optional<MeetingSearch::Span> MeetingSearch::only_crossing() const {
+  const Volume volume = volume_on(at_[0], at_[1]);
+  const auto& c = volume.coefficient;
+  const double sign = c[0] > 0.0 ? 1.0 : -1.0;
+  const bool changes_once =
+      sign * c[0] > volume.rounding && sign * c[3] < -volume.rounding && !(sign * c[1] < 0.0 && sign * c[2] > 0.0);
+  if (!changes_once) return std::nullopt;
+  const auto halves_at = [&](double t) {
+    const auto mix = [&](double x, double y) { return x + t * (y - x); };
+    const double a = mix(c[0], c[1]), b = mix(c[1], c[2]), d = mix(c[2], c[3]), ab = mix(a, b), bd = mix(b, d);
+    return std::array{c[0], a, ab, mix(ab, bd), bd, d, c[3]};
+  };
+  // Newton's method, and halving where that would leave the bracket.
+  double low = 0.0, high = 1.0, root = c[0] / (c[0] - c[3]);
+  for (int k = 0; k < kMostNewtonSteps; ++k) {
+    const auto at = halves_at(root);
+    (sign * at[3] > 0.0 ? low : high) = root;
+    const double next = root - at[3] / (3.0 * (at[4] - at[2]));
+    const double last = std::exchange(root, low < next && next < high ? next : 0.5 * (low + high));
+    if (std::abs(root - last) < 0.1 * kCrossing) break;
+  }
+  for (const double margin : {kCrossing, kWideCrossing}) {
+    const double from = std::max(root - margin, 0.0), to = std::min(root + margin, 1.0);
+    const auto before = halves_at(from), after = halves_at(to);
+    const bool is_apart_before =
+        std::all_of(before.begin(), before.begin() + 4, [&](double x) { return sign * x > volume.rounding; });
+    const bool is_apart_after =
+        std::all_of(after.begin() + 3, after.end(), [&](double x) { return sign * x < -volume.rounding; });
+    if (is_apart_before && is_apart_after) return Span{from, to};
+  }
+  return std::nullopt;
 }
 
 Vec3 MeetingSearch::direction_to(const Moment& m) const {

@@ -17,6 +17,7 @@
 // "A large-scale benchmark and an inclusion-based algorithm for continuous collision detection", 2021.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -52,6 +53,16 @@ class MeetingSearch {
     Vec3 direction;        // unit or zero: from the origin to the nearest point of the polygon
     bool covered = false;  // is all time since the moment before left out?
   };
+  // The volume that the corners span with the origin: Bernstein coefficients on a span, and a bound of their rounding.
+  struct Volume {
+    std::array<double, 4> coefficient;
+    double rounding;
+  };
+  struct Span {
+    double from, to;
+  };
+  Volume volume_on(const Vec3 (&from)[4], const Vec3 (&to)[4]) const;
+  std::optional<Span> only_crossing() const;
   Moment moment(double time) const;
   Vec3 corner(int i, double time) const;
   Vec3 direction_to(const Moment& m) const;

@@ -6,51 +6,9 @@
 namespace tact::narrowphase {
 namespace {
 
-// head + tail == a + b (Knuth).
-DoubleDouble two_sum(double a, double b) {
-  const double sum = a + b;
-  const double b_part = sum - a;
-  return {sum, (a - (sum - b_part)) + (b - b_part)};
-}
-
-// The same if |a| >= |b| (Dekker).
-DoubleDouble fast_two_sum(double a, double b) {
-  const double sum = a + b;
-  return {sum, b - (sum - a)};
-}
-
-// The upper 26 bits of a, and the rest (Veltkamp).
-DoubleDouble split(double a) {
-  const double c = 0x1.0000002p27 * a;
-  const double upper = c - (c - a);
-  return {upper, a - upper};
-}
-
-// head + tail == a * b (Dekker). std::fma would be a call where the machine may lack the instruction.
-DoubleDouble two_product(double a, double b) {
-  const double product = a * b;
-  const DoubleDouble x = split(a);
-  const DoubleDouble y = split(b);
-  return {product, ((x.head * y.head - product) + x.head * y.tail + x.tail * y.head) + x.tail * y.tail};
-}
-
 DoubleDouble component(const WideVec3& v, int axis) { return {v.head[axis], v.tail[axis]}; }
 
 }  // namespace
-
-DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
-  const DoubleDouble heads = two_sum(a.head, b.head);
-  const DoubleDouble tails = two_sum(a.tail, b.tail);
-  const DoubleDouble sum = fast_two_sum(heads.head, heads.tail + tails.head);
-  return fast_two_sum(sum.head, sum.tail + tails.tail);
-}
-
-DoubleDouble operator-(DoubleDouble a, DoubleDouble b) { return a + -b; }
-
-DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
-  const DoubleDouble p = two_product(a.head, b.head);
-  return fast_two_sum(p.head, p.tail + (a.head * b.tail + a.tail * b.head));
-}
 
 WideVec3 wide_difference(Vec3 p, Vec3 q) {
   WideVec3 d;

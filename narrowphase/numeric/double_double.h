@@ -16,10 +16,50 @@ struct DoubleDouble {
   double head = 0.0;
   double tail = 0.0;
 };
-DoubleDouble operator+(DoubleDouble a, DoubleDouble b);
-DoubleDouble operator-(DoubleDouble a, DoubleDouble b);
-DoubleDouble operator*(DoubleDouble a, DoubleDouble b);
+
+// head + tail == a + b (Knuth).
+inline DoubleDouble two_sum(double a, double b) {
+  const double sum = a + b;
+  const double b_part = sum - a;
+  return {sum, (a - (sum - b_part)) + (b - b_part)};
+}
+
+// The same if |a| >= |b| (Dekker).
+inline DoubleDouble fast_two_sum(double a, double b) {
+  const double sum = a + b;
+  return {sum, b - (sum - a)};
+}
+
+// The upper 26 bits of a, and the rest (Veltkamp).
+inline DoubleDouble split(double a) {
+  const double c = 0x1.0000002p27 * a;
+  const double upper = c - (c - a);
+  return {upper, a - upper};
+}
+
+// head + tail == a * b (Dekker). std::fma would be a call where the machine may lack the instruction.
+inline DoubleDouble two_product(double a, double b) {
+  const double product = a * b;
+  const DoubleDouble x = split(a);
+  const DoubleDouble y = split(b);
+  return {product, ((x.head * y.head - product) + x.head * y.tail + x.tail * y.head) + x.tail * y.tail};
+}
+
 inline DoubleDouble operator-(DoubleDouble a) { return {-a.head, -a.tail}; }
+inline DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
+  const DoubleDouble heads = two_sum(a.head, b.head);
+  const DoubleDouble tails = two_sum(a.tail, b.tail);
+  const DoubleDouble sum = fast_two_sum(heads.head, heads.tail + tails.head);
+  return fast_two_sum(sum.head, sum.tail + tails.tail);
+}
+
+inline DoubleDouble operator-(DoubleDouble a, DoubleDouble b) { return a + -b; }
+
+inline DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
+  const DoubleDouble p = two_product(a.head, b.head);
+  return fast_two_sum(p.head, p.tail + (a.head * b.tail + a.tail * b.head));
+}
+
 // Exact for a power of two.
 inline DoubleDouble scaled(DoubleDouble a, double by) { return {a.head * by, a.tail * by}; }
 
