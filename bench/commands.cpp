@@ -23,7 +23,7 @@ std::vector<Command> commands() {
       {"stages", "what each stage costs in every level of the cache, and on all threads", run_stages},
       {"idle", "steps in which nothing moved, or few of many", run_idle},
       {"busy", "steps beside programs that keep the processor busy", run_busy},
-      {"motion", "what meets between two steps, against the inclusion-based method", run_motion},
+      {"motion", "what meets between two steps, against the inclusion-based method", run_motion, true},
       {"broadphase", "boxes alone, in every kind of motion, through tact, Embree and CGAL", run_broadphase},
       {"clusters", "pairs of clusters by a loop and by Embree's trees", run_clusters},
       {"error", "run time against error, of every setting and of other libraries", run_error},

@@ -106,7 +106,10 @@ void MotionStage::search(const Bodies& bodies, int threads, Impacts wanted) {
   const std::size_t firsts = wanted == Impacts::all ? 0 : wanted == Impacts::first ? 1 : passing_.size();
   if (first_.size() < firsts) first_ = std::vector<std::atomic<double>>(2 * firsts);
   for (std::size_t i = 0; i < firsts; ++i) first_[i] = kNever;
+  base::Box all;
+  for (const Passing& one : passing_) all = merged(all, merged(boxes_[one.a], boxes_[one.b]));
   for (Work& work : work_) {
+    work.finder.begin(all);
     work.impacts.clear();
     work.counts = {};
   }

@@ -76,10 +76,11 @@ Measured measure(MotionRunner& runner, Impacts wanted, int threads, double budge
   return result;
 }
 
-Table measure_leaps(const std::vector<Leaps>& all, int threads, double budget_ms) {
+Table measure_leaps(const std::vector<Leaps>& all, const std::string& only, int threads, double budget_ms) {
   Table table({"workload", "facets", "pairs of bodies", "candidates", "left by the filter %", "impacts", "1 thread ms",
                fmt::format("{} threads ms", threads), "first only ms", "ns a candidate"});
   for (const Leaps& leaps : all) {
+    if (leaps.name.find(only) == std::string::npos) continue;
     const Workload workload = leaps.make();
     MotionRunner one(workload, 1), several(workload, threads);
     one.go(0, leaps.frames);
@@ -220,8 +221,9 @@ int run_motion(const BenchOptions& options) {
           {"two blobs of 20,480", [=] { return large_pair(quick ? 8 : 32, 24); }, 3},
           {"a chain of rings", [=] { return chain(quick ? 8 : 60, 24); }, 3},
       },
-      threads, budget_ms);
+      options.only, threads, budget_ms);
   leaps.print();
+  if (!options.only.empty()) return 0;
   const Table growth = measure_growth(quick, budget_ms);
   growth.print();
   if (!options.out.empty()) {

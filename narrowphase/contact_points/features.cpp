@@ -51,9 +51,13 @@ void Features::find_edges(const ClusteredMesh& mesh) {
   opposite_begin_.push_back(0);
   for (const std::size_t begin : begins) {
     const int edge = edge_count();
-    EdgeVertices vertices = sides[begin].vertices;
-    if (mesh.source_vertex(vertices[1]) < mesh.source_vertex(vertices[0])) std::swap(vertices[0], vertices[1]);
-    edges_.push_back(vertices);
+    const Corners corners = mesh.corners(sides[begin].facet);
+    auto from = static_cast<std::size_t>(sides[begin].k), to = (from + 1) % 3;
+    if (mesh.source_vertex(corners[to]) < mesh.source_vertex(corners[from])) std::swap(from, to);
+    edges_.push_back({corners[from], corners[to]});
+    const ClusterFacets cluster = mesh.facets_of(sides[begin].facet / kClusterSize);
+    const int facet = sides[begin].facet % kClusterSize;
+    edges_in_cluster_.push_back({cluster.corner[from][facet], cluster.corner[to][facet]});
     first_facet_of_edge_.push_back(sides[begin].facet);
     ++edge_begin_[static_cast<std::size_t>(sides[begin].facet / kClusterSize) + 1];
     for (std::size_t i = begin; i < sides.size() && sides[i].vertices == sides[begin].vertices; ++i) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,10 @@ class Features {
   int edge_end(int cluster) const { return edge_begin(cluster + 1); }
   /// The two vertices, in the order of the caller's numbers. They differ.
   EdgeVertices edge(int edge) const { return edges_[static_cast<std::size_t>(edge)]; }
+  /// The same in its cluster, whose vertices are counted as ClusterFacets::corner counts them.
+  std::array<std::uint8_t, 2> edge_in_cluster(int edge) const {
+    return edges_in_cluster_[static_cast<std::size_t>(edge)];
+  }
   /// The third vertex of each facet that has the edge.
   std::span<const int> opposite(int edge) const { return part(opposite_, opposite_begin_, edge); }
   /// The edge from corner k of a facet to the next one; negative if these are one vertex.
@@ -44,6 +49,7 @@ class Features {
   void find_neighbors(const ClusteredMesh& mesh);
 
   std::vector<EdgeVertices> edges_;
+  std::vector<std::array<std::uint8_t, 2>> edges_in_cluster_;
   std::vector<int> edge_begin_;  // by cluster, and one more
   std::vector<int> opposite_, opposite_begin_;
   std::vector<int> facet_edges_;

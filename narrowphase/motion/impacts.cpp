@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "narrowphase/numeric/unit_scale.h"
 
@@ -11,29 +12,40 @@ namespace {
 
 constexpr int kMostVertices = 3 * kClusterSize, kMostEdges = 3 * kClusterSize;
 
-// Features of a cluster with up to kCorners corners each: their boxes on the way, and where their corners are, scaled,
-// at time 0 and 1.
+// Features of a cluster with kCorners corners each, numbered in the mesh from `first` on: where their corners are at
+// time 0 and 1, and their boxes on the way. All lengths here are scaled.
 template <int kCorners, int kMost>
 struct MovingFeatures {
+  int first = 0;
   int count = 0;
-  int index[kMost];                    // in the mesh
-  double bounds[6][kMost + kPadding];  // lower x, y, z, upper x, y, z
   double at[2][kCorners][3][kMost];    // time, corner, axis
+  double bounds[6][kMost + kPadding];  // lower x, y, z, upper x, y, z
 
-  void add(int what, const MovingVertex (&corners)[kCorners], double scale) {
-    Box box;
+  // Takes corner number corner(c, i) of `vertices` for corner c of feature i.
+  template <int kVertices, class Corner>
+  void take(int first_of_all, int number_of_all, const double (&vertices)[2][3][kVertices], const Corner& corner) {
+    first = first_of_all;
+    count = number_of_all;
     for (int c = 0; c < kCorners; ++c) {
-      for (int time = 0; time < 2; ++time) {
-        const Vec3 p = corners[c].at[time];
-        box = extended(box, p);
-        for (int axis = 0; axis < 3; ++axis) at[time][c][axis][count] = scale * p[axis];
+      for (int i = 0; i < count; ++i) {
+        const int v = corner(c, i);
+        for (int time = 0; time < 2; ++time) {
+          for (int axis = 0; axis < 3; ++axis) at[time][c][axis][i] = vertices[time][axis][v];
+        }
       }
     }
     for (int axis = 0; axis < 3; ++axis) {
-      bounds[axis][count] = box.lower[axis];
-      bounds[axis + 3][count] = box.upper[axis];
+      for (int i = 0; i < count; ++i) {
+        double low = at[0][0][axis][i], high = low;
+        for (int k = 1; k < 2 * kCorners; ++k) {
+          const double x = at[k / kCorners][k % kCorners][axis][i];
+          low = x < low ? x : low;
+          high = x > high ? x : high;
+        }
+        bounds[axis][i] = low;
+        bounds[axis + 3][i] = high;
+      }
     }
-    index[count++] = what;
   }
   Box box(int i) const {
     return {{bounds[0][i], bounds[1][i], bounds[2][i]}, {bounds[3][i], bounds[4][i], bounds[5][i]}};
@@ -43,27 +55,38 @@ struct MovingFeatures {
 
 // A cluster's facets, and the vertices and edges that it has first.
 struct MovingCluster {
+  const ClusteredMesh* mesh = nullptr;
   int cluster = -1;
   Box box;
+  double at[2][3][kMostVertices];  // all its vertices, owned ones first
   MovingFeatures<1, kMostVertices> vertices;
   MovingFeatures<2, kMostEdges> edges;
   MovingFeatures<3, kClusterSize> facets;
 };
 
 void open(const MovingMesh& m, int cluster, double scale, MovingCluster& opened) {
+  const ClusterFacets facets = m.mesh->facets_of(cluster);
+  opened.mesh = m.mesh;
   opened.cluster = cluster;
-  opened.box = m.cluster_box(cluster);
-  opened.vertices.count = opened.edges.count = opened.facets.count = 0;
-  for (int v = m.mesh->vertex_begin(cluster); v < m.mesh->vertex_end(cluster); ++v)
-    opened.vertices.add(v, {m.vertex(v)}, scale);
-  for (int e = m.features->edge_begin(cluster); e < m.features->edge_end(cluster); ++e) {
-    const auto [v, w] = m.features->edge(e);
-    opened.edges.add(e, {m.vertex(v), m.vertex(w)}, scale);
+  const Box box = m.cluster_box(cluster);
+  opened.box = {scale * box.lower, scale * box.upper};
+  const PointArrays points[2] = {m.begin.points, facets.points};
+  for (int time = 0; time < 2; ++time) {
+    const double* const from[3] = {points[time].x, points[time].y, points[time].z};
+    for (int axis = 0; axis < 3; ++axis) {
+      double* const to = opened.at[time][axis];
+      for (int i = 0; i < facets.owned_count; ++i) to[i] = scale * from[axis][facets.owned_begin + i];
+      for (int i = 0; i < facets.borrowed_count; ++i)
+        to[facets.owned_count + i] = scale * from[axis][facets.borrowed[i]];
+    }
   }
-  for (int f = m.mesh->facet_begin(cluster); f < m.mesh->facet_end(cluster); ++f) {
-    const auto [u, v, w] = m.mesh->corners(f);
-    opened.facets.add(f, {m.vertex(u), m.vertex(v), m.vertex(w)}, scale);
-  }
+  opened.vertices.take(facets.owned_begin, facets.owned_count, opened.at, [](int, int i) { return i; });
+  const int edge_begin = m.features->edge_begin(cluster), edge_end = m.features->edge_end(cluster);
+  opened.edges.take(edge_begin, edge_end - edge_begin, opened.at, [&](int c, int i) {
+    return m.features->edge_in_cluster(edge_begin + i)[static_cast<std::size_t>(c)];
+  });
+  opened.facets.take(facets.facet_begin, facets.facet_count, opened.at,
+                     [&](int c, int i) { return facets.corner[c][i]; });
 }
 
 // Pairs of features that wait for the filter.
@@ -79,7 +102,23 @@ double least_of(const std::atomic<double>* value) {
   return value == nullptr ? 1.0 : value->load(std::memory_order_relaxed);
 }
 
-constexpr std::size_t kOpened = 16;  // clusters of b that stay open: neighbours come soon again
+constexpr std::size_t kOpened = 16;  // clusters of each side that stay open: they come soon again
+
+// Clusters that stay open until others take their place.
+class OpenClusters {
+ public:
+  void close() {
+    for (MovingCluster& one : clusters_) one.mesh = nullptr;
+  }
+  const MovingCluster& get(const MovingMesh& m, int cluster, double scale) {
+    MovingCluster& one = clusters_[static_cast<std::size_t>(cluster) % kOpened];
+    if (one.mesh != m.mesh || one.cluster != cluster) open(m, cluster, scale, one);
+    return one;
+  }
+
+ private:
+  MovingCluster clusters_[kOpened];
+};
 
 // Features of a cluster, and their boxes.
 struct BoxList {
@@ -90,8 +129,8 @@ struct BoxList {
 };
 
 struct SearchMemory {
-  MovingCluster a;
-  MovingCluster b[kOpened];
+  double scale = 1.0;  // to lengths of at most 2
+  OpenClusters a, b;
   BoxList near;
   Waiting facets, edges;
   MeetingSearch meeting;
@@ -110,20 +149,15 @@ class ImpactSearch {
         memory_(memory),
         found_(found),
         counts_(counts) {
-    const Box all = merged(a.box(), b.box());
-    const Vec3 size = all.upper - all.lower;
-    scale_ = unit_scale(std::max({size.x, size.y, size.z}));
-    memory.a.cluster = -1;
-    for (MovingCluster& one : memory.b) one.cluster = -1;
+    scale_ = memory.scale;
+    scaled_reach_ = reach > 0.0 ? std::max(scale_ * reach, std::numeric_limits<double>::denorm_min()) : 0.0;
     memory.facets.polygons.corners = 3;
     memory.edges.polygons.corners = 4;
     memory.facets.polygons.count = memory.edges.polygons.count = 0;
   }
 
   void search(const ClusterPair& pair) {
-    MovingCluster &a = memory_.a, &b = memory_.b[static_cast<std::size_t>(pair.b) % kOpened];
-    if (a.cluster != pair.a) open(a_, pair.a, scale_, a);
-    if (b.cluster != pair.b) open(b_, pair.b, scale_, b);
+    const MovingCluster &a = memory_.a.get(a_, pair.a, scale_), &b = memory_.b.get(b_, pair.b, scale_);
     from_vertices(a, b, FeaturePair::vertex_facet);
     if (!same_) from_vertices(b, a, FeaturePair::facet_vertex);
     if (same_ && a.cluster != b.cluster) from_vertices(b, a, FeaturePair::vertex_facet);
@@ -142,14 +176,14 @@ class ImpactSearch {
                      const Visit& visit) {
     // First the others that are near the whole cluster, next to each other.
     BoxList& list = memory_.near;
-    list.count = kernels().select_overlapping(others.pointers(), others.count, bounds_of(base::grown(one.box, reach_)),
-                                              list.index);
+    list.count = kernels().select_overlapping(others.pointers(), others.count,
+                                              bounds_of(base::grown(one.box, scaled_reach_)), list.index);
     for (int side = 0; side < 6; ++side) {
       for (int k = 0; k < list.count; ++k) list.bounds[side][k] = others.bounds[side][list.index[k]];
     }
     std::int32_t near[kMostEdges + kPadding];
     for (int i = 0; i < ones.count && list.count > 0; ++i) {
-      const Box box = base::grown(ones.box(i), reach_);
+      const Box box = base::grown(ones.box(i), scaled_reach_);
       if (!overlaps(box, other.box)) continue;
       const int count = kernels().select_overlapping(list.pointers(), list.count, bounds_of(box), near);
       for (int k = 0; k < count; ++k) visit(i, list.index[near[k]]);
@@ -159,7 +193,7 @@ class ImpactSearch {
   void from_vertices(const MovingCluster& vertices, const MovingCluster& facets, FeaturePair kind) {
     const ClusteredMesh& surface = kind == FeaturePair::vertex_facet ? *b_.mesh : *a_.mesh;
     for_each_near(vertices, vertices.vertices, facets, facets.facets, [&](int i, int k) {
-      const int vertex = vertices.vertices.index[i], facet = facets.facets.index[k];
+      const int vertex = vertices.vertices.first + i, facet = facets.facets.first + k;
       if (same_) {
         const Corners c = surface.corners(facet);
         if (c[0] == vertex || c[1] == vertex || c[2] == vertex) return;
@@ -181,7 +215,7 @@ class ImpactSearch {
 
   void between_edges(const MovingCluster& a, const MovingCluster& b) {
     for_each_near(a, a.edges, b, b.edges, [&](int i, int k) {
-      const int e = a.edges.index[i], f = b.edges.index[k];
+      const int e = a.edges.first + i, f = b.edges.first + k;
       if (same_ && ((a.cluster == b.cluster && e >= f) || share_a_vertex(a_.features->edge(e), b_.features->edge(f))))
         return;
       Waiting& waiting = memory_.edges;
@@ -211,7 +245,7 @@ class ImpactSearch {
     if (count == 0) return;
     static_assert(MovingPolygons::kCapacity == 64);
     std::uint64_t left =
-        ~std::uint64_t{0} >> (64 - count) & ~kernels().apart_throughout(waiting.polygons, scale_ * reach_);
+        ~std::uint64_t{0} >> (64 - count) & ~kernels().apart_throughout(waiting.polygons, scaled_reach_);
     waiting.polygons.count = 0;
     counts_.candidates += count;
     counts_.searched += std::popcount(left);
@@ -257,7 +291,7 @@ class ImpactSearch {
   const MovingMesh &a_, &b_;
   const bool same_;
   const double reach_;
-  double scale_ = 1.0;
+  double scale_ = 1.0, scaled_reach_ = 0.0;
   std::atomic<double>* const first_;
   SearchMemory& memory_;
   std::vector<FeatureImpact>& found_;
@@ -296,6 +330,13 @@ ImpactFinder::ImpactFinder() : memory_(std::make_unique<Memory>()) {}
 ImpactFinder::~ImpactFinder() = default;
 ImpactFinder::ImpactFinder(ImpactFinder&&) noexcept = default;
 ImpactFinder& ImpactFinder::operator=(ImpactFinder&&) noexcept = default;
+
+void ImpactFinder::begin(const Box& all) {
+  const Vec3 size = all.upper - all.lower;
+  memory_->scale = unit_scale(std::max({size.x, size.y, size.z}));
+  memory_->a.close();
+  memory_->b.close();
+}
 
 void ImpactFinder::run(const MovingMesh& a, const MovingMesh& b, double reach, std::span<const ClusterPair> pairs,
                        std::atomic<double>* first, std::vector<FeatureImpact>& found, MotionCounts& counts) {

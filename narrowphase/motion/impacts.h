@@ -80,6 +80,9 @@ class ImpactFinder {
   ImpactFinder(ImpactFinder&&) noexcept;
   ImpactFinder& operator=(ImpactFinder&&) noexcept;
 
+  /// Before meshes are looked at that have moved: they, on their ways, are all in the box.
+  void begin(const Box& all);
+
   /// Appends the impacts of some cluster pairs of `a` and `b`, which may be one mesh, in no particular order. All pairs
   /// together give each once. What comes within `reach` of each other meets. Where only the first is wanted `first` is
   /// not null: what is later may be left out, and it falls to what is found.
