@@ -28,7 +28,8 @@ namespace {
 constexpr const char* kRunExamples =
     "Examples:\n"
     "  tact run cloth-over-sphere\n"
-    "  tact run pile --size 1000 --frames 100 --no-pictures";
+    "  tact run pile --size 1000 --frames 100 --no-pictures\n"
+    "  tact run bullets --continuous";
 
 const SceneEntry& entry_of(const RunOptions& options) {
   const SceneEntry* entry = find_scene(options.scene);
@@ -65,6 +66,7 @@ void run(const RunOptions& options, std::ostream& out) {
   const SceneEntry& entry = entry_of(options);
   Scene scene = entry.make(options.size > 0 ? options.size : entry.default_size);
   scene.marks.zones = options.outputs.zones;
+  scene.dynamics.continuous = options.continuous;
   const int threads = options.threads > 0 ? options.threads : base::default_threads();
   const Interrupt interrupt;  // before any file is opened, so that none is left unfinished
   std::optional<OutputFile> recording;
@@ -121,6 +123,8 @@ void add_run_command(CLI::App& program) {
   command->add_option("--size", options->size, "How large the scene is; `tact scenes` tells what it counts")
       ->type_name("N")
       ->check(CLI::Range(1, kMost).description(""));
+  command->add_flag("--continuous", options->continuous,
+                    "Stop bodies before they meet on their way from step to step, so that nothing passes through");
   command->add_option("--out", outputs.out, "Write pictures and their film to this folder; tact-SCENE if not given")
       ->type_name("FOLDER")
       ->check(refuse_empty_name);

@@ -19,6 +19,7 @@ struct RunOptions {
   int size = 0;       // 0: the scene's own
   Accuracy accuracy = Accuracy::exact;
   int threads = 0;          // 0: as many as OpenMP would use
+  bool continuous = false;  // stop bodies before they meet
   std::string record = {};  // the file to record what enters the engine; empty: none
   OutputOptions outputs = {};
 };

@@ -37,11 +37,14 @@ void RunTotals::add_step(const Simulation& simulation) {
   for_each_time(stats_, [&](const char*, const char*, double& sum) { sum += *time++; });
   const DynamicsTimes& dynamics = simulation.times();
   times_.move_ms += dynamics.move_ms;
+  times_.impacts_ms += dynamics.impacts_ms;
   times_.surfaces_ms += dynamics.surfaces_ms;
   times_.engine_ms += dynamics.engine_ms;
   times_.contacts_ms += dynamics.contacts_ms;
   times_.settle_ms += dynamics.settle_ms;
   peak_energy_ = std::max(peak_energy_, simulation.state().kinetic_energy);
+  stopped_ += simulation.impacts().impacts();
+  shortest_ = std::min(shortest_, simulation.impacts().part());
   deepest_ = std::max(deepest_, simulation.state().deepest);
 }
 
@@ -55,6 +58,9 @@ void RunTotals::print(std::ostream& out, const Simulation& simulation, double wa
   fmt::print(out, "last step: {}, {}, {}\n", counted(last.touching_contacts, "contact"),
              counted(last.facet_pairs, "facet pair"), counted(state.contact_points, "contact point"));
   fmt::print(out, "deepest penetration found: {:.2f} % of the smaller body's size\n", 100.0 * deepest_);
+  if (simulation.dynamics().continuous) {
+    fmt::print(out, "impacts stopped: {}; the shortest step went {:.3g} of its way\n", stopped_, shortest_);
+  }
   fmt::print(out, "kinetic energy: {:.4g} J now, {:.4g} J at its peak\n", state.kinetic_energy, peak_energy_);
   print_times(out);
   print_work(out);
@@ -69,6 +75,7 @@ void RunTotals::print_times(std::ostream& out) const {
   };
   fmt::print(out, "\nms a step, share of the step\n");
   line("scene: motion", times_.move_ms, "");
+  if (times_.impacts_ms > 0.0) line("scene: impacts", times_.impacts_ms, "motion of the engine, and the response");
   line("scene: surfaces", times_.surfaces_ms, "");
   line("engine", times_.engine_ms, "stages below; 3 to 6 are summed over threads");
   const std::array<std::pair<const char*, double>, 7> stages = {{{"  1 refresh", stats_.refresh_ms},

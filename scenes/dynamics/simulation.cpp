@@ -56,12 +56,13 @@ Simulation::Simulation(std::vector<Body> bodies, Script script, const DynamicsSe
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& body = bodies_[i];
     before_[i] = body.positions;
-    move_out(body, seen_[i]);
+    show_surface(i);
     ids_.push_back(world_.add_body({.positions = as_matrix(seen_[i]),
                                     .facets = body.facets,
                                     .surface = body.surface,
                                     .motion = body.motion,
-                                    .name = body.name}));
+                                    .name = body.name,
+                                    .margin = dynamics_.continuous ? dynamics_.margin : 0.0}));
     if (body.motion == Motion::fixed) continue;
     (body.positions.size() < kLargeBody ? small_ : large_).push_back(i);
   }
@@ -76,24 +77,27 @@ void Simulation::for_each_body(const Work& work) {
 void Simulation::step() {
   base::Timer timer;
   times_.begin = timer.start();
+  if (report_ == nullptr && dynamics_.continuous) report_ = &world_.detect();
   move();
   times_.move_ms = timer.lap();
+  if (dynamics_.continuous) stop_before_impacts();
+  times_.impacts_ms = dynamics_.continuous ? timer.lap() : 0.0;
   show_surfaces();
   times_.surfaces_ms = timer.lap();
   const double written_ms = world_.writing_ms();
   detect();
   times_.recording_ms = world_.writing_ms() - written_ms;
   times_.engine_ms = timer.lap() - times_.recording_ms;
-  find_contacts();
+  if (!dynamics_.continuous) find_contacts();
   times_.contacts_ms = timer.lap();
-  settle();
+  if (!dynamics_.continuous) settle();
   times_.settle_ms = timer.lap();
   measure();
 }
 
 void Simulation::move() {
   const double h = dynamics_.time_step / dynamics_.substeps;
-  if (report_ != nullptr) push_hulls_apart(report_->contacts(), bodies_, dynamics_.time_step);
+  if (report_ != nullptr && !dynamics_.continuous) push_hulls_apart(report_->contacts(), bodies_, dynamics_.time_step);
   for (int substep = 1; substep <= dynamics_.substeps; ++substep) {
     for_each_body([&](std::size_t i, int threads) { begin_substep(i, h, threads); });
     if (script_) script_(state_.time + substep * h, bodies_);
@@ -126,10 +130,21 @@ void Simulation::end_substep(std::size_t i, double h, int threads) {
                      [&](std::size_t v) { body.velocities[v] = (1.0 / h) * (body.positions[v] - before[v]); });
 }
 
+// The last detection saw the bodies where the step began.
+void Simulation::stop_before_impacts() { impacts_.run(seen_, dynamics_.time_step, ids_, bodies_, world_); }
+
+void Simulation::show_surface(std::size_t i) {
+  if (dynamics_.continuous) {
+    seen_[i] = bodies_[i].positions;
+  } else {
+    move_out(bodies_[i], seen_[i]);
+  }
+}
+
 void Simulation::show_surfaces() {
   for_each_body([&](std::size_t i, int /*threads*/) {
     std::swap(seen_[i], last_seen_[i]);
-    move_out(bodies_[i], seen_[i]);
+    show_surface(i);
     moved_[i] = longest_way(last_seen_[i], seen_[i]);
   });
 }

@@ -10,6 +10,7 @@
 
 #include "scenes/dynamics/body.h"
 #include "scenes/dynamics/contact_solver.h"
+#include "scenes/dynamics/impact_response.h"
 #include "scenes/dynamics/penetration.h"
 #include "scenes/files/recording.h"
 
@@ -21,6 +22,9 @@ struct DynamicsSettings {
   int substeps = 4;                // of the motion, between two detections
   int settle_sweeps = 2;           // pushes out of each other after a detection
   double slop = 0.0005;            // metres that bodies at rest stay in each other, so that their contact lasts
+  // Stop bodies before they meet, rather than push them out of each other; skins are left away.
+  bool continuous = false;
+  double margin = 0.001;  // of every body then, metres: two surfaces stay two of these apart
 };
 
 // Moves the bodies that are not dynamic: sets their positions as they are at `time`, seconds. It may change the weight
@@ -30,13 +34,14 @@ using Script = std::function<void(double time, std::vector<Body>& bodies)>;
 // What a step of the simulation took, wall time in milliseconds.
 struct DynamicsTimes {
   double move_ms = 0.0;       // substeps
+  double impacts_ms = 0.0;    // stopping before impacts, tact's part of it included
   double surfaces_ms = 0.0;   // moving surfaces out by their skin
   double engine_ms = 0.0;     // setting positions and detecting: tact
   double contacts_ms = 0.0;   // from facet pairs to contact points
   double settle_ms = 0.0;     // pushing out
   double recording_ms = 0.0;  // writing what entered the engine, between its two calls; in none of the others
   std::chrono::steady_clock::time_point begin = {};  // of the step: these follow in their order
-  double total_ms() const { return move_ms + surfaces_ms + engine_ms + contacts_ms + settle_ms; }
+  double total_ms() const { return move_ms + impacts_ms + surfaces_ms + engine_ms + contacts_ms + settle_ms; }
 };
 
 // How a step of the simulation went.
@@ -52,8 +57,9 @@ struct DynamicsState {
 //
 // Bodies are soft and cloth by XPBD with small substeps (M. Macklin et al., Small Steps in Physics Simulation, SCA
 // 2019). A step moves them, with the contact points of the last detection as the only obstacles; detects; finds the new
-// contact points from the report; and pushes the bodies out of each other, which changes no velocity. There is no
-// contact of a body with itself.
+// contact points from the report; and pushes the bodies out of each other, which changes no velocity. Where it is
+// continuous, it moves them and stops what would meet on the way, before it detects. There is no contact of a body with
+// itself.
 class Simulation {
  public:
   // The bodies keep their order: body i has index i in every report. To `recording`, if not null, goes what enters the
@@ -71,17 +77,20 @@ class Simulation {
   const Report* report() const { return report_; }
   const DynamicsState& state() const { return state_; }
   const DynamicsTimes& times() const { return times_; }
+  const ImpactResponse& impacts() const { return impacts_; }
   const DynamicsSettings& dynamics() const { return dynamics_; }
 
  private:
   void move();
   void begin_substep(std::size_t body, double h, int threads);
   void end_substep(std::size_t body, double h, int threads);
+  void show_surface(std::size_t body);
   void show_surfaces();
   void find_points(const Contact& contact, PenetrationFinder& finder, BodyContact& points) const;
   // How deep the two bodies can be in each other at most, metres.
   double deepest_possible(const BodyContact& contact) const;
   void detect();
+  void stop_before_impacts();
   void find_contacts();
   void settle();
   void measure();
@@ -103,6 +112,7 @@ class Simulation {
   std::vector<BodyContact> contacts_;                // of the last detection, and of the one before
   std::vector<BodyContact> last_contacts_;
   ContactSolver solver_;
+  ImpactResponse impacts_;
   const Report* report_ = nullptr;
   DynamicsState state_;
   DynamicsTimes times_;

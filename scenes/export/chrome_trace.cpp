@@ -94,6 +94,7 @@ void ChromeTrace::add_phases(int step, const DynamicsTimes& times) {
   write({.name = fmt::format("step {}", step), .category = "step", .begin = times.begin, .end = end});
   Time begin = times.begin;
   for (const auto& [name, ms] : {std::pair{"motion", times.move_ms},
+                                 {"impacts", times.impacts_ms},
                                  {"surfaces", times.surfaces_ms},
                                  {"engine", times.engine_ms + times.recording_ms},
                                  {"contact points", times.contacts_ms},

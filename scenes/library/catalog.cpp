@@ -13,6 +13,8 @@ constexpr std::array kScenes = {
                "vertices along a side of the cloth", 64, 8, 512, make_sphere_into_cloth},
     SceneEntry{"pile", "soft bodies of several shapes, some concave, fall into a bin", "soft bodies", 100, 1, 4000,
                make_pile},
+    SceneEntry{"bullets", "small fast bodies hit thin sheets; they pass through unless --continuous is given",
+               "bullets", 6, 1, 100, make_bullets},
     SceneEntry{"clamp", "a ball is held from two opposite sides by one body and lifted", "", 0, 0, 0, make_clamp},
     SceneEntry{"liver-and-tool", "a tool pokes a concave soft organ of 500 facets", "", 0, 0, 0, make_liver_and_tool},
     SceneEntry{"sphere-in-cloth", "a sphere sinks into a slack cloth and is pushed out the way it came",

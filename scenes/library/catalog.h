@@ -27,6 +27,7 @@ const SceneEntry* find_scene(std::string_view name);
 Scene make_cloth_over_sphere(int size);
 Scene make_sphere_into_cloth(int size);
 Scene make_pile(int size);
+Scene make_bullets(int size);
 Scene make_clamp(int size);
 Scene make_liver_and_tool(int size);
 Scene make_sphere_in_cloth(int size);

@@ -1,0 +1,149 @@
+#include "scenes/dynamics/impact_response.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace tact::scenes {
+namespace {
+
+constexpr int kMostRounds = 20;
+// How far bodies go of what is free where impacts are left: a hundredth of a gap stays open at each step.
+constexpr double kPart = 0.99;
+
+// One of the two features of an impact: up to three vertices of a body.
+struct ImpactSide {
+  Body& body;
+  const std::vector<Vec3>& begin;
+  std::array<std::size_t, 3> vertex;
+  std::size_t count;
+  std::array<double, 3> weight;
+
+  Vec3 vertex_at(std::size_t k, double time) const {
+    const Vec3 from = begin[vertex[k]];
+    return from + time * (body.positions[vertex[k]] - from);
+  }
+  Vec3 at(double time) const {
+    Vec3 sum;
+    for (std::size_t k = 0; k < count; ++k) sum = sum + weight[k] * vertex_at(k, time);
+    return sum;
+  }
+  // How much the point moves if a unit of momentum is shared by its vertices.
+  double give() const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < count; ++k) sum += weight[k] * weight[k] * body.inverse_masses[vertex[k]];
+    return sum;
+  }
+  void move(Vec3 momentum) {
+    for (std::size_t k = 0; k < count; ++k)
+      body.positions[vertex[k]] = body.positions[vertex[k]] + weight[k] * body.inverse_masses[vertex[k]] * momentum;
+  }
+};
+
+ImpactSide side_of(Body& body, const std::vector<Vec3>& begin, const std::array<int, 3>& vertices) {
+  ImpactSide side{body, begin, {}, 0, {}};
+  for (const int v : vertices) {
+    if (v >= 0) side.vertex[side.count++] = static_cast<std::size_t>(v);
+  }
+  side.weight.fill(1.0 / static_cast<double>(side.count));
+  return side;
+}
+
+// The weights of the corners for the place of the triangle below `p`, cut off at its border.
+std::array<double, 3> weights_below(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 e = b - a, f = c - a, d = p - a;
+  const double ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), determinant = ee * ff - ef * ef;
+  if (!(determinant > 0.0)) return {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
+  std::array<double, 3> w{0.0, (ff * dot(e, d) - ef * dot(f, d)) / determinant,
+                          (ee * dot(f, d) - ef * dot(e, d)) / determinant};
+  w[0] = 1.0 - w[1] - w[2];
+  double sum = 0.0;
+  for (double& weight : w) sum += weight = std::max(weight, 0.0);
+  for (double& weight : w) weight /= sum;
+  return w;
+}
+
+// Sets the weights to the places of both that are nearest to each other at a time.
+void weigh(ImpactSide& a, ImpactSide& b, double time) {
+  if (a.count == 3 || b.count == 3) {
+    ImpactSide &facet = a.count == 3 ? a : b, &vertex = a.count == 3 ? b : a;
+    facet.weight =
+        weights_below(vertex.at(time), facet.vertex_at(0, time), facet.vertex_at(1, time), facet.vertex_at(2, time));
+    return;
+  }
+  const Vec3 p = a.vertex_at(0, time), e = a.vertex_at(1, time) - p, q = b.vertex_at(0, time),
+             f = b.vertex_at(1, time) - q, d = q - p;
+  const double ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), determinant = ee * ff - ef * ef;
+  double s = determinant > 0.0 ? std::clamp((ff * dot(e, d) - ef * dot(f, d)) / determinant, 0.0, 1.0) : 0.5;
+  const double t = ff > 0.0 ? std::clamp((s * ef - dot(f, d)) / ff, 0.0, 1.0) : 0.5;
+  if (ee > 0.0) s = std::clamp((t * ef + dot(e, d)) / ee, 0.0, 1.0);
+  a.weight = {1.0 - s, s, 0.0};
+  b.weight = {1.0 - t, t, 0.0};
+}
+
+}  // namespace
+
+void ImpactResponse::stop(const Impact& impact, const std::vector<std::vector<Vec3>>& begin,
+                          std::vector<Body>& bodies) const {
+  ImpactSide a = side_of(bodies[impact.a.index], begin[impact.a.index], impact.a_vertices);
+  ImpactSide b = side_of(bodies[impact.b.index], begin[impact.b.index], impact.b_vertices);
+  weigh(a, b, impact.time);
+  const double give = a.give() + b.give();
+  const Vec3 between = b.at(impact.time) - a.at(impact.time);
+  const double gap = norm(between);
+  if (!(give > 0.0) || !(gap > 0.0)) return;
+  const Vec3 normal = (1.0 / gap) * between;
+  // Where the normal is that of the impact the two stay as far apart as they were in it.
+  const double missing = gap - dot(normal, b.at(1.0) - a.at(1.0));
+  if (!(missing > 0.0)) return;
+  const Vec3 slide = (b.at(1.0) - a.at(1.0)) - (b.at(0.0) - a.at(0.0));
+  const Vec3 sideways = slide - dot(slide, normal) * normal;
+  const double friction = std::sqrt(a.body.friction * b.body.friction), length = norm(sideways);
+  const double held = length > 0.0 ? std::min(1.0, friction * missing / length) : 0.0;
+  const Vec3 momentum = (1.0 / give) * (missing * normal - held * sideways);
+  a.move(-momentum);
+  b.move(momentum);
+}
+
+void ImpactResponse::run(const std::vector<std::vector<Vec3>>& begin, double seconds, const std::vector<BodyId>& ids,
+                         std::vector<Body>& bodies, RecordedWorld& world) {
+  wanted_.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) wanted_[i] = bodies[i].positions;
+  std::vector<PositionsUpdate> updates;
+  const auto detect = [&](Impacts wanted) -> const MotionReport& {
+    updates.clear();
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (bodies[i].motion != Motion::fixed) updates.push_back({ids[i], as_matrix(bodies[i].positions)});
+    }
+    world.set_positions(updates);
+    return world.detect_motion(wanted);
+  };
+  impacts_ = 0;
+  part_ = 1.0;
+  bool is_free = false;
+  for (rounds_ = 1; rounds_ <= kMostRounds && !is_free; ++rounds_) {
+    const std::span<const Impact> impacts = detect(Impacts::all).impacts();
+    is_free = impacts.empty();
+    impacts_ += static_cast<std::int64_t>(impacts.size());
+    for (const Impact& impact : impacts) stop(impact, begin, bodies);
+  }
+  while (!is_free) {
+    const double first = detect(Impacts::first).first_time();
+    is_free = first > 1.0;
+    if (is_free) break;
+    part_ *= kPart * first;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      for (std::size_t v = 0; v < begin[i].size(); ++v)
+        bodies[i].positions[v] = begin[i][v] + kPart * first * (bodies[i].positions[v] - begin[i][v]);
+    }
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (std::size_t v = 0; v < begin[i].size(); ++v) {
+      if (bodies[i].inverse_masses[v] > 0.0)
+        bodies[i].velocities[v] = bodies[i].velocities[v] + (1.0 / seconds) * (bodies[i].positions[v] - wanted_[i][v]);
+    }
+  }
+}
+
+}  // namespace tact::scenes
