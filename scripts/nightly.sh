@@ -1,5 +1,5 @@
 #!/bin/bash
-# What is too long for every change: a hundred million hard triangle pairs, a million of hulls, a soak of a million steps,
+# What is too long for every change: a hundred million hard triangle pairs, a million of hulls, ten million of moving features, a soak of a million steps,
 # a thousand cases of every kind of hardship, the tests with assertions on and under the sanitizers, and the fuzzing of the
 # readers.
 # usage: scripts/nightly.sh [SECONDS of fuzzing a format, 600 if not given]
@@ -9,6 +9,7 @@ scripts/setup.sh program tests bench sanitizers
 scripts/build.sh release
 TACT_LONG_CGAL_PAIRS=100000000 TACT_LONG_RATIONAL_PAIRS=1000000 build/release/tests/long/test_predicates_long
 TACT_LONG_HULL_PAIRS=1000000 build/release/tests/long/test_directions_long
+TACT_LONG_MOTION_QUERIES=10000000 build/release/tests/long/test_motion_long
 TACT_SOAK_STEPS=1000000 build/release/tests/long/test_soak_long
 build/release/bench/tact-bench stability
 scripts/build.sh debug

@@ -120,19 +120,37 @@ struct Polynomial {
 };
 
 template <class Number>
+Number times(double factor, const Number& x) {
+  return number(factor, 0.0, Number{}) * x;
+}
+
+// The corners of a polygon at both ends of a span, scaled.
+template <class Number>
+std::array<Way<Number>, 4> corners_on(const MovingPolygon& polygon, double scale, double from, double to) {
+  std::array<Way<Number>, 4> corners;
+  const auto vector = [&](const WideVec3& v) {
+    return scaled(Vector<Number>{number(v.head.x, v.tail.x, Number{}), number(v.head.y, v.tail.y, Number{}),
+                                 number(v.head.z, v.tail.z, Number{})},
+                  scale);
+  };
+  for (int i = 0; i < polygon.count; ++i) {
+    const Vector<Number> begin = vector(polygon.corner[0][i]), way = vector(polygon.corner[1][i]) - begin;
+    const auto at = [&](double time) {
+      return begin + Vector<Number>{times(time, way.x), times(time, way.y), times(time, way.z)};
+    };
+    corners[static_cast<std::size_t>(i)] = {at(from), at(to)};
+  }
+  return corners;
+}
+
+template <class Number>
 struct SpanPolynomials {
   Polynomial<Number, 4> volume;
   std::array<Polynomial<Number, 5>, 4> inside;  // of each side: positive where the origin is on its inner side
   int sides = 0;
 
   SpanPolynomials(const MovingPolygon& polygon, double scale, double from, double to) : sides(polygon.count) {
-    std::array<Way<Number>, 4> corner;
-    for (int i = 0; i < sides; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      const Vector<Number> begin = vector(polygon.corner[0][i], scale),
-                           way = vector(polygon.corner[1][i], scale) - begin;
-      corner[k] = {at(begin, way, from), at(begin, way, to)};
-    }
+    const std::array<Way<Number>, 4> corner = corners_on<Number>(polygon, scale, from, to);
     const auto last = static_cast<std::size_t>(sides - 1);
     const Way<Number> e = corner[1] - corner[0], f = corner[last] - corner[0];
     const Quadratic<Number> normal = cross(e, f);
@@ -169,16 +187,44 @@ struct SpanPolynomials {
     for (std::size_t i = 0; i < static_cast<std::size_t>(sides); ++i) second.inside[i] = inside[i].split(t);
     return second;
   }
+};
 
- private:
-  static Vector<Number> vector(const WideVec3& v, double scale) {
-    return scaled(Vector<Number>{number(v.head.x, v.tail.x, Number{}), number(v.head.y, v.tail.y, Number{}),
-                                 number(v.head.z, v.tail.z, Number{})},
-                  scale);
+// A point or a segment: the origin is not in it while any of these keeps its sign, or while the product of the corners,
+// the last one, is positive.
+struct ThinPolynomials {
+  std::array<Polynomial<DoubleDouble, 3>, 4> all;
+
+  ThinPolynomials(const MovingPolygon& polygon, double scale, double from, double to) {
+    const auto corners = corners_on<DoubleDouble>(polygon, scale, from, to);
+    const Way<DoubleDouble>& p = corners[0];
+    const double rounding = kRoundingOf<DoubleDouble> * size_of(p);
+    if (polygon.count == 1) {
+      const auto linear = [&](DoubleDouble begin, DoubleDouble end) {
+        return Polynomial<DoubleDouble, 3>{{begin, scaled(begin + end, 0.5), end}, kRoundingOf<DoubleDouble>};
+      };
+      all = {linear(p[0].x, p[1].x), linear(p[0].y, p[1].y), linear(p[0].z, p[1].z), {{}, 1.0}};
+      return;
+    }
+    const Way<DoubleDouble>& q = corners[1];
+    const auto [n0, n1, n2] = cross(p, q - p);
+    const double side = size_of(q - p);
+    const double error = rounding + kRoundingOf<DoubleDouble> * side;
+    all = {Polynomial<DoubleDouble, 3>{{n0.x, n1.x, n2.x}, error},
+           {{n0.y, n1.y, n2.y}, error},
+           {{n0.z, n1.z, n2.z}, error},
+           {{dot(p[0], q[0]), scaled(dot(p[0], q[1]) + dot(p[1], q[0]), 0.5), dot(p[1], q[1])}, error}};
   }
-  static Number times(double factor, const Number& x) { return number(factor, 0.0, Number{}) * x; }
-  static Vector<Number> at(const Vector<Number>& begin, const Vector<Number>& way, double time) {
-    return begin + Vector<Number>{times(time, way.x), times(time, way.y), times(time, way.z)};
+
+  bool certainly_never_holds_origin() const {
+    return std::any_of(all.begin(), all.begin() + 3, [](const auto& p) { return p.positive() || p.negative(); }) ||
+           all[3].positive();
+  }
+  bool seems_to_hold_origin() const { return false; }
+  bool certainly_holds_origin() const { return false; }
+  ThinPolynomials split(double t) {
+    ThinPolynomials second = *this;
+    for (std::size_t i = 0; i < all.size(); ++i) second.all[i] = all[i].split(t);
+    return second;
   }
 };
 
@@ -210,39 +256,60 @@ struct FinestSpan::Part {
   SpanPolynomials<DoubleDouble> polynomials;
   double begin, length;  // of the span
 };
+struct FinestSpan::ThinPart {
+  ThinPolynomials polynomials;
+  double begin, length;
+};
 
-FinestSpan::FinestSpan() { parts_.reserve(kMostWaiting); }
+FinestSpan::FinestSpan() {
+  parts_.reserve(kMostWaiting);
+  thin_parts_.reserve(kMostWaiting);
+}
 FinestSpan::~FinestSpan() = default;
 
-std::optional<double> FinestSpan::first_open_part(const MovingPolygon& polygon, double scale, double from, double to) {
-  const double shortest = kShortestPart / (to - from);
-  const auto time_of = [&](double part) {  // which rounds, perhaps up
-    return part == 0.0 ? from : std::max(from, std::nextafter(from + part * (to - from), 0.0));
-  };
-  parts_.clear();
-  parts_.push_back({{polygon, scale, from, to}, 0.0, 1.0});
-  if (const auto crossing = only_crossing(parts_.back().polynomials.volume, 4.0 * shortest)) {
-    SpanPolynomials<DoubleDouble>& polynomials = parts_.back().polynomials;
-    const auto [begin, end] = *crossing;
-    polynomials.split(end);
-    if (polynomials.split(begin / end).certainly_never_holds_origin()) return std::nullopt;
-    return time_of(begin);
-  }
-  for (int looked_at = 0; !parts_.empty(); ++looked_at) {
-    Part part = parts_.back();
-    parts_.pop_back();
+namespace {
+
+// The beginning of the first part that stays open, over the length of the span. `parts` holds the whole.
+template <class Part>
+std::optional<double> first_open(std::vector<Part>& parts, double shortest, double short_enough) {
+  for (int looked_at = 0; !parts.empty(); ++looked_at) {
+    Part part = parts.back();
+    parts.pop_back();
     const auto& polynomials = part.polynomials;
     if (polynomials.certainly_never_holds_origin()) continue;
     const bool is_open = polynomials.seems_to_hold_origin() || part.length <= shortest || looked_at > kMostParts;
     // Of a part with a meeting the beginning is near enough.
-    const bool is_short = part.length * (to - from) <= kFinestSpan;
-    if (is_open || (is_short && polynomials.certainly_holds_origin())) return time_of(part.begin);
+    if (is_open || (part.length <= short_enough && polynomials.certainly_holds_origin())) return part.begin;
     part.length *= 0.5;
     Part second{part.polynomials.split(0.5), part.begin + part.length, part.length};
-    parts_.push_back(second);
-    parts_.push_back(part);
+    parts.push_back(second);
+    parts.push_back(part);
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> FinestSpan::first_open_part(const MovingPolygon& polygon, double scale, double from, double to) {
+  const double shortest = kShortestPart / (to - from), short_enough = kFinestSpan / (to - from);
+  std::optional<double> begin;
+  if (polygon.count < 3) {
+    thin_parts_.clear();
+    thin_parts_.push_back({{polygon, scale, from, to}, 0.0, 1.0});
+    begin = first_open(thin_parts_, shortest, short_enough);
+  } else {
+    parts_.clear();
+    parts_.push_back({{polygon, scale, from, to}, 0.0, 1.0});
+    SpanPolynomials<DoubleDouble>& whole = parts_.back().polynomials;
+    if (const auto crossing = only_crossing(whole.volume, 4.0 * shortest)) {
+      whole.split(crossing->second);
+      if (!whole.split(crossing->first / crossing->second).certainly_never_holds_origin()) begin = crossing->first;
+    } else {
+      begin = first_open(parts_, shortest, short_enough);
+    }
+  }
+  if (!begin || *begin == 0.0) return begin ? std::optional(from) : std::nullopt;
+  return std::max(from, std::nextafter(from + *begin * (to - from), 0.0));  // the sum rounds, perhaps up
 }
 
 Verdict holds_origin_near(const MovingPolygon& polygon, double scale, double from, double to) {

@@ -22,13 +22,16 @@ class FinestSpan {
   ///
   /// At the time when the origin is in its plane, it has to be on the inner side of all sides. The volume that tells
   /// the one, and a product of the normal and each side that tells the other, are polynomials in time; double_doubles
-  /// find their Bernstein coefficients on the span, which is halved until their signs say yes or no. Parts in which the
-  /// polygon has no area, and what is nearer than 1e-25, stay open.
+  /// find their Bernstein coefficients on the span, which is halved until their signs say yes or no. Of a
+  /// point or a segment that passes the origin, coordinates and cross products tell. Parts in which the polygon has no
+  /// area, and what is nearer than 1e-25, stay open.
   std::optional<double> first_open_part(const MovingPolygon& polygon, double scale, double from, double to);
 
  private:
   struct Part;
+  struct ThinPart;
   std::vector<Part> parts_;  // the next one last
+  std::vector<ThinPart> thin_parts_;
 };
 
 /// Does it hold the origin at some time between a little before `from` and a little after `to`? In doubles, which

@@ -58,7 +58,7 @@ Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double 
 
   Meeting meeting;
   Span span{0.0, 1.0};
-  if (reach_ == 0.0) {
+  if (reach_ == 0.0 && count_ > 2) {
     if (const std::optional<Span> crossing = only_crossing()) {
       span = *crossing;
       const Verdict verdict = holds_origin_near(polygon, scale_, span.from, span.to);
@@ -163,7 +163,8 @@ bool MeetingSearch::is_near(const Moment& m) const {
 
 // With more digits than a double's.
 std::optional<double> MeetingSearch::first_close_time(const MovingPolygon& polygon, double from, double to) {
-  if (to - from <= kWideCrossing && holds_origin_near(polygon, scale_, from, to) == Verdict::yes) return from;
+  if (count_ > 2 && to - from <= kWideCrossing && holds_origin_near(polygon, scale_, from, to) == Verdict::yes)
+    return from;
   if (to - from <= kFinestSpan) {
     // The directions of its ends may be those of a longer span.
     if (is_left_out_by_direction(moment(from), moment(to))) return std::nullopt;
@@ -187,6 +188,7 @@ bool MeetingSearch::is_left_out_by_direction(const Moment& from, const Moment& t
 }
 
 bool MeetingSearch::is_left_out_by_volume(const Moment& from, const Moment& to) const {
+  if (count_ < 3) return false;
   const Volume volume = volume_on(from.corner, to.corner);
   const auto [low, high] = std::ranges::minmax(volume.coefficient);
   return low > volume.rounding || high < -volume.rounding;
@@ -241,7 +243,7 @@ std::optional<MeetingSearch::Span> MeetingSearch::only_crossing() const {
 
 Vec3 MeetingSearch::direction_to(const Moment& m) const {
   const Vec3* const p = m.corner;
-  const Vec3 normal = unit(cross(p[1] - p[0], p[count_ - 1] - p[0]));
+  const Vec3 normal = count_ < 3 ? Vec3{} : unit(cross(p[1] - p[0], p[count_ - 1] - p[0]));
   bool inside = normal != Vec3{};
   double least = Meeting::kNever;
   Vec3 nearest;

@@ -2,11 +2,33 @@
 
 namespace tact::narrowphase {
 
+namespace {
+
+bool are_one(const MovingPolygon& polygon, int i, int k) {
+  const auto equal = [](const WideVec3& p, const WideVec3& q) { return p.head == q.head && p.tail == q.tail; };
+  return equal(polygon.corner[0][i], polygon.corner[0][k]) && equal(polygon.corner[1][i], polygon.corner[1][k]);
+}
+
+void take_out_repeated(MovingPolygon& polygon) {
+  int count = 0;
+  for (int i = 0; i < polygon.count; ++i) {
+    bool is_new = true;
+    for (int k = 0; k < count; ++k) is_new = is_new && !are_one(polygon, i, k);
+    if (!is_new) continue;
+    for (auto& corners : polygon.corner) corners[count] = corners[i];
+    ++count;
+  }
+  polygon.count = count;
+}
+
+}  // namespace
+
 MovingPolygon facet_seen_from(const MovingVertex& vertex, const MovingVertex (&facet)[3]) {
   MovingPolygon polygon{.count = 3, .corner = {}};
   for (int time = 0; time < 2; ++time) {
     for (int i = 0; i < 3; ++i) polygon.corner[time][i] = wide_difference(facet[i].at[time], vertex.at[time]);
   }
+  take_out_repeated(polygon);
   return polygon;
 }
 
@@ -19,6 +41,7 @@ MovingPolygon edge_seen_from(const MovingVertex (&edge)[2], const MovingVertex (
     polygon.corner[time][2] = wide_difference(s, q);
     polygon.corner[time][3] = wide_difference(r, q);
   }
+  take_out_repeated(polygon);
   return polygon;
 }
 

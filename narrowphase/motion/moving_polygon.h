@@ -13,7 +13,8 @@ namespace tact::narrowphase {
 using base::Vec3;
 
 /// The corners at time 0 and at time 1, relative to the origin, metres, as exact differences of positions. Four are
-/// those of a parallelogram, in the order of its outline.
+/// those of a parallelogram, in the order of its outline. Corners that are one at both times stand once: of a facet or
+/// an edge without extent one or two are left.
 struct MovingPolygon {
   int count = 0;
   WideVec3 corner[2][4];

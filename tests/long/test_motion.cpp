@@ -1,0 +1,57 @@
+// Millions of moving features against rational numbers. Not part of the ordinary tests: how many is read from the
+// environment.
+//   TACT_LONG_MOTION_QUERIES  2000 if not set
+//   TACT_LONG_SEED            which queries, 1 if not set
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "engine/base/parallel.h"
+#include "tests/support/environment.h"
+#include "tests/support/motion_queries.h"
+
+namespace tact::tests {
+namespace {
+
+constexpr std::uint64_t kBlock = 500;  // queries
+constexpr std::size_t kFailuresShown = 5;
+
+struct BlockResult {
+  std::uint64_t meeting = 0, counted = 0;
+  std::vector<std::string> failures;
+};
+
+TEST(LongMotion, FirstTimesEqualRationalArithmetic) {
+  const std::uint64_t count = from_environment("TACT_LONG_MOTION_QUERIES", 2000);
+  const std::uint64_t seed = from_environment("TACT_LONG_SEED", 1);
+  std::vector<BlockResult> blocks((count + kBlock - 1) / kBlock);
+  base::parallel_for(blocks.size(), 1, base::default_threads(), [&](std::size_t i) {
+    Random random(seed * 1'000'000'007 + i);
+    narrowphase::MeetingSearch search;
+    for (std::uint64_t k = 0; k < kBlock; ++k) {
+      const auto [answer, failure] = check(k % 2 == 0 ? random_query(random) : grazing_query(random), search);
+      blocks[i].meeting += answer == QueryAnswer::meets;
+      blocks[i].counted += answer == QueryAnswer::misses_but_counts;
+      if (!failure.empty()) blocks[i].failures.push_back(failure);
+    }
+  });
+  std::uint64_t meeting = 0, counted = 0;
+  std::size_t failed = 0;
+  for (const BlockResult& block : blocks) {
+    meeting += block.meeting;
+    counted += block.counted;
+    for (const std::string& failure : block.failures) {
+      if (++failed <= kFailuresShown) ADD_FAILURE() << failure;
+    }
+  }
+  std::printf("%llu queries: %llu meet, %llu miss by less than 1e-11 and are reported, %zu failures\n",
+              static_cast<unsigned long long>(blocks.size() * kBlock), static_cast<unsigned long long>(meeting),
+              static_cast<unsigned long long>(counted), failed);
+  EXPECT_EQ(failed, 0u);
+}
+
+}  // namespace
+}  // namespace tact::tests

@@ -1,0 +1,37 @@
+// Moving features, random and hard, and whether the engine is right about them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "narrowphase/motion/meeting.h"
+#include "tests/support/motion_oracle.h"
+#include "tests/support/random.h"
+
+namespace tact::tests {
+
+/// Two edges, or a vertex and a facet.
+struct MotionQuery {
+  bool edges = false;
+  std::array<narrowphase::MovingVertex, 4> vertices;
+
+  narrowphase::MovingPolygon polygon() const;
+  std::optional<TimeEnclosure> exact() const;
+};
+
+/// Coplanar, parallel, equal, at rest and rigid ones among others, of any size, near to zero and far from it.
+MotionQuery random_query(Random& random);
+/// At half-way a vertex lies in a corner, on a side or inside the other feature, but for rounding.
+MotionQuery grazing_query(Random& random);
+
+enum class QueryAnswer { meets, misses, misses_but_counts };  // the last: by next to nothing
+struct CheckedQuery {
+  QueryAnswer answer = QueryAnswer::misses;
+  std::string failure;  // empty: the engine is right
+};
+/// Is what the engine says of the query right? Never missed, never late, at most 1e-6 early; and what misses by more
+/// than 1e-11 of its size and way is never reported.
+CheckedQuery check(const MotionQuery& query, narrowphase::MeetingSearch& search);
+
+}  // namespace tact::tests
