@@ -10,6 +10,7 @@
 #include "engine/bodies.h"
 #include "engine/check_name.h"
 #include "engine/motion_stage.h"
+#include "engine/questions.h"
 #include "engine/step.h"
 
 namespace tact {
@@ -67,7 +68,7 @@ struct World::Implementation {
   Bodies bodies{next_world()};
   Step step;
   std::unique_ptr<MotionStage> motion = nullptr;  // made when it is first asked for
-  double refresh_ms = 0.0;  // since the last step
+  double refresh_ms = 0.0;                        // since the last step
 
   // Calls work(), which is part of stage 1, and takes its time.
   template <class Work>
@@ -176,6 +177,79 @@ const MotionReport& World::detect_motion(Impacts wanted) {
       throw;
     }
   });
+}
+
+namespace {
+
+// Calls answer(question, its answer) for each; the message of an error tells which question it is of.
+template <class Question, class Answer, class Find>
+void answer_all(std::span<const Question> questions, std::span<Answer> answers, int threads, const Find& find) {
+  constexpr std::size_t kAtATime = 16;  // a question takes a microsecond or more
+  if (questions.size() != answers.size()) {
+    throw Error(ErrorCode::wrong_size, std::to_string(questions.size()) + " questions, but room for " +
+                                           std::to_string(answers.size()) + " answers");
+  }
+  for (std::size_t i = 0; i < questions.size(); ++i) {
+    try {
+      check_question(questions[i]);
+    } catch (const Error& error) {
+      throw Error(error.code(), "question " + std::to_string(i) + ": " + error.what());
+    }
+  }
+  base::parallel_for(questions.size(), kAtATime, threads, [&](std::size_t i) { answers[i] = find(questions[i]); });
+}
+
+constexpr const char* kNoMemoryForAnswers = "answering ran out of memory";
+
+}  // namespace
+
+RayHit World::ray(const Ray& ray, RayHits wanted) const {
+  RayHit hit;
+  rays({&ray, 1}, {&hit, 1}, wanted);
+  return hit;
+}
+
+void World::rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted) const {
+  Implementation& i = implementation();
+  check_name(wanted, RayHits::any, "hits");
+  const base::FloatingPointMode mode;
+  const base::Workers::Scope scope(i.workers);
+  answer_all(rays, hits, i.settings.threads, [&](const Ray& ray) { return find_hit(i.bodies, ray, wanted); });
+}
+
+std::vector<RayHit> World::all_hits(const Ray& ray) const {
+  const Implementation& i = implementation();
+  check_question(ray);
+  const base::FloatingPointMode mode;
+  return with_memory(kNoMemoryForAnswers, [&] { return find_all_hits(i.bodies, ray); });
+}
+
+ClosestPoint World::closest_point(const PointQuestion& question) const {
+  ClosestPoint answer;
+  closest_points({&question, 1}, {&answer, 1});
+  return answer;
+}
+
+void World::closest_points(std::span<const PointQuestion> questions, std::span<ClosestPoint> answers) const {
+  Implementation& i = implementation();
+  const base::FloatingPointMode mode;
+  const base::Workers::Scope scope(i.workers);
+  answer_all(questions, answers, i.settings.threads,
+             [&](const PointQuestion& question) { return find_closest_point(i.bodies, question); });
+}
+
+std::vector<FacetOfBody> World::overlap_box(const BoxQuestion& question) const {
+  const Implementation& i = implementation();
+  check_question(question);
+  const base::FloatingPointMode mode;
+  return with_memory(kNoMemoryForAnswers, [&] { return find_in_box(i.bodies, question); });
+}
+
+std::vector<BodyId> World::inside(const PointQuestion& question) const {
+  const Implementation& i = implementation();
+  check_question(question);
+  const base::FloatingPointMode mode;
+  return with_memory(kNoMemoryForAnswers, [&] { return find_around(i.bodies, question); });
 }
 
 bool World::contains(BodyId body) const noexcept { return implementation_ && implementation_->bodies.contains(body); }

@@ -124,6 +124,78 @@ TEST(C, AnswersAsCpp) {
   }
 }
 
+// What meets on the way, and what can be asked: as in C++.
+TEST(C, TellsMotionAndAnswersQuestionsAsCpp) {
+  WorldOfC c;
+  tact::World cpp;
+  const Mesh ball = translated(icosphere(2, 0.2), {0.05, 0.02, 1.0}), wall = sheet(6, 6, 2.0, 2.0);
+  const tact_body flying = c.add(ball), standing = c.add(wall);
+  const BodyId a = cpp.add_body({.positions = ball.positions, .facets = ball.facets});
+  const BodyId b = cpp.add_body({.positions = wall.positions, .facets = wall.facets});
+  size_t count = 0;
+  EXPECT_EQ(tact_motion_pairs(c.world, &count), TACT_ERROR_WRONG_ORDER);
+  ASSERT_EQ(tact_world_detect(c.world), TACT_OK);
+  cpp.detect();
+  const Mesh behind = translated(ball, {0, 0, -3});
+  const tact_columns target = columns_of(behind.positions);
+  ASSERT_EQ(tact_world_set_positions(c.world, flying, &target), TACT_OK);
+  cpp.set_positions(a, behind.positions);
+  ASSERT_EQ(tact_world_detect_motion(c.world, TACT_IMPACTS_ALL), TACT_OK);
+  const MotionReport& motion = cpp.detect_motion();
+  double first = 0.0;
+  ASSERT_EQ(tact_motion_first_time(c.world, &first), TACT_OK);
+  EXPECT_EQ(first, motion.first_time());
+  const tact_impact* impacts = nullptr;
+  ASSERT_EQ(tact_motion_impacts(c.world, &impacts, &count), TACT_OK);
+  ASSERT_EQ(count, motion.impacts().size());
+  EXPECT_GT(count, 10u);
+  for (size_t i = 0; i < count; ++i) {
+    const Impact& expected = motion.impacts()[i];
+    EXPECT_EQ(impacts[i].kind, static_cast<int>(expected.kind));
+    EXPECT_EQ(impacts[i].time, expected.time);
+    EXPECT_TRUE(std::equal(impacts[i].a_vertices, impacts[i].a_vertices + 3, expected.a_vertices.begin()));
+    EXPECT_TRUE(std::equal(impacts[i].b_vertices, impacts[i].b_vertices + 3, expected.b_vertices.begin()));
+  }
+  ASSERT_EQ(tact_motion_pairs(c.world, &count), TACT_OK);
+  EXPECT_EQ(count, 1u);
+  tact_impact_pair pair = TACT_IMPACT_PAIR_INIT;
+  ASSERT_EQ(tact_motion_pair(c.world, 0, &pair), TACT_OK);
+  EXPECT_EQ(pair.impact_count, motion.impacts().size());
+  EXPECT_EQ(tact_motion_pair(c.world, 1, &pair), TACT_ERROR_INDEX_OUT_OF_RANGE);
+  tact_motion_statistics statistics = TACT_MOTION_STATISTICS_INIT;
+  ASSERT_EQ(tact_motion_stats(c.world, &statistics), TACT_OK);
+  EXPECT_EQ(statistics.candidates, motion.stats().candidates);
+
+  tact_ray ray = TACT_RAY_INIT;
+  ray.from[2] = 5.0, ray.to[2] = -5.0;
+  tact_ray_hit hit;
+  ASSERT_EQ(tact_world_ray(c.world, &ray, TACT_RAY_FIRST, &hit), TACT_OK);
+  const RayHit expected = cpp.ray({{0, 0, 5}, {0, 0, -5}});
+  EXPECT_EQ(hit.facet, expected.facet);
+  EXPECT_EQ(hit.time, expected.time);
+  EXPECT_EQ(expected.body, b);
+  EXPECT_EQ(hit.body.index, standing.index);
+  std::vector<tact_ray_hit> hits(2);
+  ASSERT_EQ(tact_world_all_hits(c.world, &ray, hits.data(), hits.size(), &count), TACT_OK);
+  EXPECT_EQ(count, cpp.all_hits({{0, 0, 5}, {0, 0, -5}}).size());
+  EXPECT_EQ(hits[1].time, cpp.all_hits({{0, 0, 5}, {0, 0, -5}})[1].time);
+  tact_point_question point = TACT_POINT_QUESTION_INIT;
+  point.point[0] = 0.05, point.point[1] = 0.02, point.point[2] = -2.0;
+  tact_closest_point closest;
+  ASSERT_EQ(tact_world_closest_point(c.world, &point, &closest), TACT_OK);
+  EXPECT_EQ(closest.distance, cpp.closest_point({.point = {0.05, 0.02, -2.0}}).distance);
+  tact_body body;
+  ASSERT_EQ(tact_world_inside(c.world, &point, &body, 1, &count), TACT_OK);
+  EXPECT_EQ(count, 1u);
+  EXPECT_EQ(body.index, flying.index);
+  tact_box_question box = TACT_BOX_QUESTION_INIT;
+  box.upper[0] = box.upper[1] = box.upper[2] = 0.5;
+  ASSERT_EQ(tact_world_overlap_box(c.world, &box, nullptr, 0, &count), TACT_OK);
+  EXPECT_EQ(count, cpp.overlap_box({.upper = {0.5, 0.5, 0.5}}).size());
+  EXPECT_EQ(tact_world_ray(c.world, nullptr, TACT_RAY_FIRST, &hit), TACT_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(tact_world_ray(c.world, &ray, 7, &hit), TACT_ERROR_BAD_SETTINGS);
+}
+
 // Two bodies that touch, and one of which nothing is near.
 struct Three : WorldOfC {
   explicit Three(const tact_settings* settings = nullptr) : WorldOfC(settings) {

@@ -107,6 +107,12 @@ TEST(TwinsInC, OfEachField) {
   expect_twins_of_fields("report.h", "struct ZoneDisk {", "tact_zone_disk", {});
   expect_twins_of_fields("report.h", "struct CandidatePair {", "tact_candidate_pair", {});
   expect_twins_of_fields("report.h", "struct ContactEvent {", "tact_contact_event", {});
+  expect_twins_of_fields("questions.h", "struct Ray {", "tact_ray", {"asked"});
+  expect_twins_of_fields("questions.h", "struct RayHit {", "tact_ray_hit", {});
+  expect_twins_of_fields("questions.h", "struct PointQuestion {", "tact_point_question", {"asked"});
+  expect_twins_of_fields("questions.h", "struct ClosestPoint {", "tact_closest_point", {});
+  expect_twins_of_fields("questions.h", "struct BoxQuestion {", "tact_box_question", {"asked"});
+  expect_twins_of_fields("questions.h", "struct FacetOfBody {", "tact_facet_of_body", {});
   expect_twins_of_fields("motion.h", "struct Impact {", "tact_impact", {});
   expect_twins_of_fields("motion.h", "struct ImpactPair {", "tact_impact_pair", {});
   expect_twins_of_fields("motion.h", "struct MotionStats {", "tact_motion_statistics", {});

@@ -161,3 +161,42 @@ def test_texts_say_what_a_thing_is(two):
     assert repr(report).startswith("<tact.Report of 1 contacts")
     assert repr(report.contacts[0]).startswith("<tact.Contact of bodies 0 and 1")
     assert "index=0" in repr(two[1]) and "threads=2" in repr(world.settings)
+
+
+def test_motion_tells_when_a_body_passes_through_a_sheet():
+    world = tact.World(tact.Settings(threads=2))
+    positions, facets = tetrahedron(0.0)
+    flying = world.add_body(positions + [0.1, 0.2, 1.0], facets)
+    sheet = world.add_body(*grid(8, 4.0), surface=tact.Surface.sheet)
+    world.detect()
+    target = positions + [0.1, 0.2, -3.0]
+    world.set_positions(flying, target)
+    motion = world.detect_motion()
+    assert len(motion) > 3 and motion.stats["impacts"] == len(motion)
+    assert motion.first_time == motion.times.min()
+    np.testing.assert_array_equal(motion.bodies, np.tile([flying.index, sheet.index], (len(motion), 1)))
+    assert motion.a_vertices.shape == motion.b_vertices.shape == (len(motion), 3)
+    first = world.detect_motion(tact.Impacts.first)
+    assert len(first) == 1 and first.first_time == motion.first_time
+    start = positions + [0.1, 0.2, 1.0]
+    world.set_positions(flying, start + 0.999 * motion.first_time * (target - start))
+    assert world.detect_motion().first_time == np.inf
+    assert len(world.detect()) == 0
+
+
+def test_questions_have_the_answers_of_closed_forms(two):
+    world, left, right = two
+    hits = world.rays(np.array([[0.1, 0.1, 5.0], [9.0, 9.0, 5.0]]), np.array([[0.1, 0.1, -5.0], [9.0, 9.0, -5.0]]))
+    assert hits.bodies[0] == left.index and hits.bodies[1] == hits.facets[1] == -1
+    assert 5.0 - 10.0 * hits.times[0] == pytest.approx(0.8, abs=1e-12)
+    assert len(world.all_hits([0.1, 0.1, 5.0], [0.1, 0.1, -5.0])) == 2
+    closest = world.closest_points(np.array([[0.1, 0.1, -2.0]]))
+    assert closest.distances[0] == pytest.approx(2.0, abs=1e-14) and closest.weights[0].sum() == pytest.approx(1.0)
+    assert closest.bodies[0] == left.index
+    assert world.closest_points(np.array([[0.1, 0.1, -2.0]]), within=1.0).facets[0] == -1
+    assert world.inside([0.1, 0.1, 0.1]) == [left]
+    assert world.inside([0.92, 0.02, 0.02]) == [left, right]
+    assert world.inside([0.92, 0.02, 0.02], mask=0) == []
+    np.testing.assert_array_equal(np.unique(world.overlap_box([-1, -1, -1], [2, 2, 2])[:, 0]), [left.index, right.index])
+    with pytest.raises(tact.Error, match="question 0: the beginning of a ray has x = nan"):
+        world.rays(np.array([[np.nan, 0, 0]]), np.zeros((1, 3)))

@@ -19,9 +19,10 @@ class PositionsArgument {
   explicit PositionsArgument(py::handle given);
   /// Valid as long as this.
   Positions columns() const { return Positions(map_); }
+  using Map = Eigen::Map<const Eigen::Matrix3Xd, 0, Eigen::OuterStride<>>;
+  const Map& matrix() const { return map_; }
 
  private:
-  using Map = Eigen::Map<const Eigen::Matrix3Xd, 0, Eigen::OuterStride<>>;
   py::array array_;
   Map map_;
 };

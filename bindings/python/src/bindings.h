@@ -3,12 +3,17 @@
 
 #include <pybind11/pybind11.h>
 
+#include <memory>
+
 namespace tact::python {
 
 void define_errors(pybind11::module_& module);
 void define_types(pybind11::module_& module);
 void define_report(pybind11::module_& module);
 void define_motion(pybind11::module_& module);
+class SharedWorld;
+using WorldClass = pybind11::class_<SharedWorld, std::shared_ptr<SharedWorld>>;
+void define_questions(pybind11::module_& module, WorldClass& world);
 void define_world(pybind11::module_& module);
 
 }  // namespace tact::python

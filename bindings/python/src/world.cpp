@@ -120,11 +120,10 @@ auto of_body(SharedWorld& world, BodyId body) {
 
 void define_world(py::module_& module) {
   define_settings(module);
-  py::class_<SharedWorld, SharedPointer>(
-      module, "World",
-      "A set of bodies and the contacts among them. One thread uses it at a time; it gives the "
-      "interpreter free while it computes.")
-      .def(py::init<const Settings&>(), py::arg("settings") = Settings{})
+  WorldClass class_of_world(module, "World",
+                   "A set of bodies and the contacts among them. One thread uses it at a time; it gives the "
+                   "interpreter free while it computes.");
+  class_of_world.def(py::init<const Settings&>(), py::arg("settings") = Settings{})
       .def_property_readonly(
           "settings", [](SharedWorld& world) { return world.use().settings(); }, "a copy; see set_settings()")
       .def("set_settings", set_settings, py::arg("settings"), "takes effect with the next step")
@@ -176,6 +175,7 @@ void define_world(py::module_& module) {
       .def("__repr__", [](SharedWorld& world) {
         return "<tact.World of " + std::to_string(world.use().body_count()) + " bodies>";
       });
+  define_questions(module, class_of_world);
 }
 
 }  // namespace tact::python

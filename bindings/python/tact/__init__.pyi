@@ -314,6 +314,40 @@ class MotionReport:
         """counts, and times in milliseconds, by name"""
     def __len__(self) -> int: ...
 
+class RayHits:
+    """Facets that rays meet, a row a hit."""
+
+    @property
+    def bodies(self) -> npt.NDArray[np.int64]:
+        """(N,): BodyId.index; -1 where nothing was hit"""
+    @property
+    def facets(self) -> Ints:
+        """(N,); -1 where nothing was hit"""
+    @property
+    def times(self) -> Floats:
+        """(N,): from_ + time * (to - from_)"""
+    @property
+    def weights(self) -> Floats:
+        """(N, 3): of the facet's corners there"""
+    def __len__(self) -> int: ...
+
+class ClosestPoints:
+    """The nearest places of all surfaces, a row a point."""
+
+    @property
+    def bodies(self) -> npt.NDArray[np.int64]:
+        """(N,): BodyId.index; -1 where nothing is as near"""
+    @property
+    def facets(self) -> Ints:
+        """(N,); -1 where nothing is as near"""
+    @property
+    def distances(self) -> Floats:
+        """(N,): metres; inf where nothing is as near"""
+    @property
+    def weights(self) -> Floats:
+        """(N, 3): of the facet's corners there"""
+    def __len__(self) -> int: ...
+
 class World:
     """A set of bodies and the contacts among them."""
 
@@ -345,6 +379,47 @@ class World:
     def detect(self) -> Report: ...
     def detect_motion(self, wanted: Impacts = ...) -> MotionReport:
         """what meets between the positions of the last detect() and those set since; it changes nothing"""
+    def rays(
+        self,
+        from_: npt.NDArray[np.floating],
+        to: npt.NDArray[np.floating],
+        *,
+        any: bool = False,
+        layer: int = 0xFFFFFFFF,
+        mask: int = 0xFFFFFFFF,
+    ) -> RayHits:
+        """the first facet that each ray meets, or any; (N, 3) both, metres"""
+    def all_hits(
+        self,
+        from_: npt.ArrayLike,
+        to: npt.ArrayLike,
+        *,
+        layer: int = 0xFFFFFFFF,
+        mask: int = 0xFFFFFFFF,
+    ) -> RayHits:
+        """all facets that a ray meets, sorted by time"""
+    def closest_points(
+        self,
+        points: npt.NDArray[np.floating],
+        *,
+        within: float = ...,
+        layer: int = 0xFFFFFFFF,
+        mask: int = 0xFFFFFFFF,
+    ) -> ClosestPoints:
+        """the nearest place of all surfaces to each point; (N, 3), metres"""
+    def overlap_box(
+        self,
+        lower: npt.ArrayLike,
+        upper: npt.ArrayLike,
+        *,
+        layer: int = 0xFFFFFFFF,
+        mask: int = 0xFFFFFFFF,
+    ) -> npt.NDArray[np.int64]:
+        """(N, 2): BodyId.index and facet of what shares a point with the box"""
+    def inside(
+        self, point: npt.ArrayLike, *, layer: int = 0xFFFFFFFF, mask: int = 0xFFFFFFFF
+    ) -> list[BodyId]:
+        """the closed bodies that a point is in"""
     def contains(self, body: BodyId) -> bool: ...
     @property
     def body_count(self) -> int: ...

@@ -5,6 +5,7 @@
 #include <tact/error.h>
 #include <tact/executor.h>
 #include <tact/motion.h>
+#include <tact/questions.h>
 #include <tact/report.h>
 #include <tact/settings.h>
 #include <tact/statistics.h>

@@ -4,6 +4,7 @@
 #include <tact/body.h>
 #include <tact/error.h>
 #include <tact/motion.h>
+#include <tact/questions.h>
 #include <tact/report.h>
 #include <tact/settings.h>
 
@@ -100,6 +101,24 @@ class TACT_API World {
   ///
   /// Errors: bad_settings (`wanted` is none), out_of_memory, backend_failure.
   const MotionReport& detect_motion(Impacts wanted = Impacts::all);
+
+  /// Questions to the surfaces where they are now: at the positions that were set last, whether or not a step has seen
+  /// them. Bodies are asked in no tree, so nothing has to be kept up to date; each costs some nanoseconds a body, and
+  /// then what is near. Many questions at once are shared by all threads; they have the same answers.
+  ///
+  /// Errors: non_finite_position, position_out_of_range, bad_settings (see questions.h; the message tells which of many
+  /// questions), wrong_size (there are not as many answers as questions), out_of_memory. Nothing is answered then.
+  RayHit ray(const Ray& ray, RayHits wanted = RayHits::first) const;
+  void rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted = RayHits::first) const;
+  /// All facets that a ray meets, sorted by time, body and facet.
+  std::vector<RayHit> all_hits(const Ray& ray) const;
+  ClosestPoint closest_point(const PointQuestion& question) const;
+  void closest_points(std::span<const PointQuestion> questions, std::span<ClosestPoint> answers) const;
+  /// The facets that share a point with a box, decided exactly; sorted by body and facet.
+  std::vector<FacetOfBody> overlap_box(const BoxQuestion& question) const;
+  /// The closed bodies that a point is in, or on the surface of, decided exactly by how often each winds around it.
+  /// `within` is not used.
+  std::vector<BodyId> inside(const PointQuestion& question) const;
 
   // Does `body` name a body of this world? Never throws.
   bool contains(BodyId body) const noexcept;

@@ -21,6 +21,7 @@
 #ifndef TACT_C_H
 #define TACT_C_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -374,6 +375,78 @@ TACT_C_API tact_error tact_motion_impacts(tact_world world, const tact_impact** 
 TACT_C_API tact_error tact_motion_pairs(tact_world world, size_t* count);
 TACT_C_API tact_error tact_motion_pair(tact_world world, size_t index, tact_impact_pair* pair);
 TACT_C_API tact_error tact_motion_stats(tact_world world, tact_motion_statistics* statistics);
+
+/* Questions to the surfaces where they are now. */
+
+/** See tact::Ray. */
+typedef struct tact_ray {
+  double from[3]; /**< metres */
+  double to[3];
+  uint32_t layer; /**< bodies whose mask has one of these bits, */
+  uint32_t mask;  /**< and whose layer has one of these */
+} tact_ray;
+#define TACT_RAY_INIT \
+  { {0, 0, 0}, {0, 0, 0}, 0xffffffffu, 0xffffffffu }
+
+typedef enum tact_ray_hits { TACT_RAY_FIRST = 0, TACT_RAY_ANY = 1 } tact_ray_hits;
+
+/** See tact::RayHit. */
+typedef struct tact_ray_hit {
+  tact_body body;
+  int facet;         /**< negative: nothing was hit */
+  double time;       /**< from + time * (to - from) */
+  double weights[3]; /**< of the facet's corners there */
+} tact_ray_hit;
+
+/** See tact::PointQuestion. */
+typedef struct tact_point_question {
+  double point[3]; /**< metres */
+  double within;   /**< metres */
+  uint32_t layer;
+  uint32_t mask;
+} tact_point_question;
+#define TACT_POINT_QUESTION_INIT \
+  { {0, 0, 0}, HUGE_VAL, 0xffffffffu, 0xffffffffu }
+
+/** See tact::ClosestPoint. */
+typedef struct tact_closest_point {
+  tact_body body;
+  int facet;       /**< negative: nothing is as near */
+  double distance; /**< metres */
+  double weights[3];
+} tact_closest_point;
+
+/** See tact::BoxQuestion. */
+typedef struct tact_box_question {
+  double lower[3]; /**< metres */
+  double upper[3];
+  uint32_t layer;
+  uint32_t mask;
+} tact_box_question;
+#define TACT_BOX_QUESTION_INIT TACT_RAY_INIT
+
+/** A facet of a body. */
+typedef struct tact_facet_of_body {
+  tact_body body;
+  int facet;
+} tact_facet_of_body;
+
+/** `wanted` is a tact_ray_hits. */
+TACT_C_API tact_error tact_world_ray(tact_world world, const tact_ray* ray, int32_t wanted, tact_ray_hit* hit);
+/** `count` rays and hits, on all threads. */
+TACT_C_API tact_error tact_world_rays(tact_world world, const tact_ray* rays, size_t count, int32_t wanted,
+                                      tact_ray_hit* hits);
+/** These three write up to `capacity` answers, sorted, and how many there are. */
+TACT_C_API tact_error tact_world_all_hits(tact_world world, const tact_ray* ray, tact_ray_hit* hits, size_t capacity,
+                                          size_t* count);
+TACT_C_API tact_error tact_world_overlap_box(tact_world world, const tact_box_question* question,
+                                             tact_facet_of_body* facets, size_t capacity, size_t* count);
+TACT_C_API tact_error tact_world_inside(tact_world world, const tact_point_question* question, tact_body* bodies,
+                                        size_t capacity, size_t* count);
+TACT_C_API tact_error tact_world_closest_point(tact_world world, const tact_point_question* question,
+                                               tact_closest_point* answer);
+TACT_C_API tact_error tact_world_closest_points(tact_world world, const tact_point_question* questions, size_t count,
+                                                tact_closest_point* answers);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,95 @@
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+
+#include "handles.h"
+
+namespace tact::c {
+namespace {
+
+static_assert(sizeof(tact_ray) == sizeof(Ray) && offsetof(tact_ray, to) == offsetof(Ray, to) &&
+              offsetof(tact_ray, layer) == offsetof(Ray, asked));
+static_assert(sizeof(tact_ray_hit) == sizeof(RayHit) && offsetof(tact_ray_hit, facet) == offsetof(RayHit, facet) &&
+              offsetof(tact_ray_hit, time) == offsetof(RayHit, time) &&
+              offsetof(tact_ray_hit, weights) == offsetof(RayHit, weights));
+static_assert(sizeof(tact_point_question) == sizeof(PointQuestion) &&
+              offsetof(tact_point_question, within) == offsetof(PointQuestion, within) &&
+              offsetof(tact_point_question, layer) == offsetof(PointQuestion, asked));
+static_assert(sizeof(tact_closest_point) == sizeof(ClosestPoint) &&
+              offsetof(tact_closest_point, distance) == offsetof(ClosestPoint, distance) &&
+              offsetof(tact_closest_point, weights) == offsetof(ClosestPoint, weights));
+static_assert(sizeof(tact_box_question) == sizeof(BoxQuestion) &&
+              offsetof(tact_box_question, layer) == offsetof(BoxQuestion, asked));
+static_assert(sizeof(tact_facet_of_body) == sizeof(FacetOfBody) &&
+              offsetof(tact_facet_of_body, facet) == offsetof(FacetOfBody, facet));
+
+// The same bits under the name of C++.
+template <class Cpp, class ForC>
+std::span<Cpp> as_cpp(ForC* first, size_t count) {
+  if (count > 0) check_not_null(first);
+  return {reinterpret_cast<Cpp*>(first), count};
+}
+
+template <class ForC, class Answer>
+void write(const std::vector<Answer>& answers, ForC* to, size_t capacity, size_t* count) {
+  const std::span<Answer> room = as_cpp<Answer>(to, capacity);
+  std::copy_n(answers.begin(), std::min(answers.size(), room.size()), room.begin());
+  *count = answers.size();
+}
+
+}  // namespace
+}  // namespace tact::c
+
+using tact::c::as_cpp, tact::c::body_of, tact::c::changing, tact::c::check_not_null, tact::c::WorldEntry,
+    tact::c::write;
+
+extern "C" {
+
+tact_error tact_world_ray(tact_world world, const tact_ray* ray, int32_t wanted, tact_ray_hit* hit) {
+  return tact_world_rays(world, ray, 1, wanted, hit);
+}
+
+tact_error tact_world_rays(tact_world world, const tact_ray* rays, size_t count, int32_t wanted, tact_ray_hit* hits) {
+  return changing(world, [&](WorldEntry& entry) {
+    entry.world.rays(as_cpp<const tact::Ray>(rays, count), as_cpp<tact::RayHit>(hits, count),
+                     static_cast<tact::RayHits>(wanted));
+  });
+}
+
+tact_error tact_world_all_hits(tact_world world, const tact_ray* ray, tact_ray_hit* hits, size_t capacity,
+                               size_t* count) {
+  return changing(world, [&](WorldEntry& entry) {
+    check_not_null(count);
+    write(entry.world.all_hits(as_cpp<const tact::Ray>(ray, 1)[0]), hits, capacity, count);
+  });
+}
+
+tact_error tact_world_overlap_box(tact_world world, const tact_box_question* question, tact_facet_of_body* facets,
+                                  size_t capacity, size_t* count) {
+  return changing(world, [&](WorldEntry& entry) {
+    check_not_null(count);
+    write(entry.world.overlap_box(as_cpp<const tact::BoxQuestion>(question, 1)[0]), facets, capacity, count);
+  });
+}
+
+tact_error tact_world_inside(tact_world world, const tact_point_question* question, tact_body* bodies, size_t capacity,
+                             size_t* count) {
+  return changing(world, [&](WorldEntry& entry) {
+    check_not_null(count);
+    write(entry.world.inside(as_cpp<const tact::PointQuestion>(question, 1)[0]), bodies, capacity, count);
+  });
+}
+
+tact_error tact_world_closest_point(tact_world world, const tact_point_question* question, tact_closest_point* answer) {
+  return tact_world_closest_points(world, question, 1, answer);
+}
+
+tact_error tact_world_closest_points(tact_world world, const tact_point_question* questions, size_t count,
+                                     tact_closest_point* answers) {
+  return changing(world, [&](WorldEntry& entry) {
+    entry.world.closest_points(as_cpp<const tact::PointQuestion>(questions, count),
+                               as_cpp<tact::ClosestPoint>(answers, count));
+  });
+}
+
+}  // extern "C"

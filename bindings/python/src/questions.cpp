@@ -1,0 +1,137 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <tact/questions.h>
+
+#include <limits>
+#include <vector>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "shared_world.h"
+
+namespace tact::python {
+
+namespace {
+
+// A row an answer. They are copies.
+struct HitArrays {
+  py::array_t<std::int64_t> bodies;
+  py::array_t<int> facets;
+  py::array_t<double> times, weights;
+};
+struct ClosestArrays {
+  py::array_t<std::int64_t> bodies;
+  py::array_t<int> facets;
+  py::array_t<double> distances, weights;
+};
+
+template <class Answer>
+py::array_t<std::int64_t> body_column(std::span<const Answer> answers) {
+  return column_of<std::int64_t>(answers, [](const Answer& answer) {
+    return answer.facet < 0 ? std::int64_t{-1} : std::int64_t{answer.body.index};
+  });
+}
+template <class Answer>
+py::array_t<int> facet_column(std::span<const Answer> answers) {
+  return column_of<int>(answers, [](const Answer& answer) { return answer.facet; });
+}
+template <class Answer>
+py::array_t<double> weight_rows(std::span<const Answer> answers) {
+  return rows_of<double>(answers, 3, [](const Answer& answer, double* row) {
+    for (std::size_t k = 0; k < 3; ++k) row[k] = answer.weights[k];
+  });
+}
+
+HitArrays hit_arrays(std::span<const RayHit> hits) {
+  return {body_column(hits), facet_column(hits), column_of<double>(hits, [](const RayHit& hit) { return hit.time; }),
+          weight_rows(hits)};
+}
+
+std::vector<Eigen::Vector3d> points_of(py::handle given) {
+  const PositionsArgument argument(given);
+  std::vector<Eigen::Vector3d> points;
+  for (const auto& point : argument.matrix().colwise()) points.emplace_back(point);
+  return points;
+}
+
+std::vector<Ray> rays_of(py::handle from, py::handle to, const Asked& asked) {
+  const std::vector<Eigen::Vector3d> begin = points_of(from), end = points_of(to);
+  if (begin.size() != end.size()) throw py::value_error("from_ and to have different lengths");
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < begin.size(); ++i) rays.push_back({begin[i], end[i], asked});
+  return rays;
+}
+
+HitArrays cast_rays(SharedWorld& world, py::handle from, py::handle to, bool any, std::uint32_t layer,
+                    std::uint32_t mask) {
+  const std::vector<Ray> rays = rays_of(from, to, {layer, mask});
+  std::vector<RayHit> hits(rays.size());
+  world.compute([&](World& w) { w.rays(rays, hits, any ? RayHits::any : RayHits::first); });
+  return hit_arrays(hits);
+}
+
+HitArrays all_hits(SharedWorld& world, const Eigen::Vector3d& from, const Eigen::Vector3d& to, std::uint32_t layer,
+                   std::uint32_t mask) {
+  std::vector<RayHit> hits;
+  world.compute([&](World& w) { hits = w.all_hits({from, to, {layer, mask}}); });
+  return hit_arrays(hits);
+}
+
+ClosestArrays closest_points(SharedWorld& world, py::handle points, double within, std::uint32_t layer,
+                             std::uint32_t mask) {
+  std::vector<PointQuestion> questions;
+  for (const Eigen::Vector3d& point : points_of(points)) questions.push_back({point, within, {layer, mask}});
+  std::vector<ClosestPoint> answers(questions.size());
+  world.compute([&](World& w) { w.closest_points(questions, answers); });
+  const std::span<const ClosestPoint> all = answers;
+  return {body_column(all), facet_column(all),
+          column_of<double>(all, [](const ClosestPoint& one) { return one.distance; }), weight_rows(all)};
+}
+
+py::array_t<std::int64_t> overlap_box(SharedWorld& world, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
+                                      std::uint32_t layer, std::uint32_t mask) {
+  std::vector<FacetOfBody> found;
+  world.compute([&](World& w) { found = w.overlap_box({lower, upper, {layer, mask}}); });
+  return rows_of<std::int64_t>(std::span<const FacetOfBody>(found), 2, [](const FacetOfBody& one, std::int64_t* row) {
+    row[0] = one.body.index;
+    row[1] = one.facet;
+  });
+}
+
+std::vector<BodyId> inside(SharedWorld& world, const Eigen::Vector3d& point, std::uint32_t layer, std::uint32_t mask) {
+  std::vector<BodyId> found;
+  world.compute([&](World& w) { found = w.inside({.point = point, .asked = {layer, mask}}); });
+  return found;
+}
+
+}  // namespace
+
+void define_questions(py::module_& module, WorldClass& world) {
+  py::class_<HitArrays>(module, "RayHits", "Facets that rays meet, a row a hit.")
+      .def_readonly("bodies", &HitArrays::bodies, "(N,) int64: BodyId.index; -1 where nothing was hit")
+      .def_readonly("facets", &HitArrays::facets, "(N,) int32; -1 where nothing was hit")
+      .def_readonly("times", &HitArrays::times, "(N,): from_ + time * (to - from_)")
+      .def_readonly("weights", &HitArrays::weights, "(N, 3): of the facet's corners there")
+      .def("__len__", [](const HitArrays& hits) { return hits.facets.size(); });
+  py::class_<ClosestArrays>(module, "ClosestPoints", "The nearest places of all surfaces, a row a point.")
+      .def_readonly("bodies", &ClosestArrays::bodies, "(N,) int64: BodyId.index; -1 where nothing is as near")
+      .def_readonly("facets", &ClosestArrays::facets, "(N,) int32; -1 where nothing is as near")
+      .def_readonly("distances", &ClosestArrays::distances, "(N,): metres; inf where nothing is as near")
+      .def_readonly("weights", &ClosestArrays::weights, "(N, 3): of the facet's corners there")
+      .def("__len__", [](const ClosestArrays& points) { return points.facets.size(); });
+  const auto layer = py::arg("layer") = 0xffffffffu;
+  const auto mask = py::arg("mask") = 0xffffffffu;
+  world
+      .def("rays", cast_rays, py::arg("from_"), py::arg("to"), py::kw_only(), py::arg("any") = false, layer, mask,
+           "the first facet that each ray meets, or any; (N, 3) both, metres")
+      .def("all_hits", all_hits, py::arg("from_"), py::arg("to"), py::kw_only(), layer, mask,
+           "all facets that a ray meets, sorted by time")
+      .def("closest_points", closest_points, py::arg("points"), py::kw_only(),
+           py::arg("within") = std::numeric_limits<double>::infinity(), layer, mask,
+           "the nearest place of all surfaces to each point; (N, 3), metres")
+      .def("overlap_box", overlap_box, py::arg("lower"), py::arg("upper"), py::kw_only(), layer, mask,
+           "(N, 2) int64: BodyId.index and facet of what shares a point with the box")
+      .def("inside", inside, py::arg("point"), py::kw_only(), layer, mask, "the closed bodies that a point is in");
+}
+
+}  // namespace tact::python

@@ -1,0 +1,149 @@
+#include "engine/questions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include "engine/base/text.h"
+#include "narrowphase/questions/mesh_questions.h"
+
+namespace tact {
+
+namespace {
+
+using base::Box;
+using base::Vec3;
+using narrowphase::FacetHit;
+
+void check_point(const Eigen::Vector3d& point, const char* what) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double x = point[axis];
+    if (std::isfinite(x) && std::abs(x) <= kLargestCoordinate) continue;
+    const bool infinite = !std::isfinite(x);
+    throw Error(infinite ? ErrorCode::non_finite_position : ErrorCode::position_out_of_range,
+                std::string(what) + " has " + "xyz"[axis] + " = " + base::text_of(x) +
+                    (infinite ? ", which is not finite" : ", which is larger than 2^300 in size"));
+  }
+}
+
+Vec3 point_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+narrowphase::Segment segment_of(const Ray& ray) { return {point_of(ray.from), point_of(ray.to)}; }
+
+// Calls visit(body) for the bodies that are asked and whose box wants(box), until it returns false.
+template <class Wants, class Visit>
+void for_each_body(const Bodies& bodies, const Asked& asked, const Wants& wants, const Visit& visit) {
+  const broadphase::Filter filter{asked.layer, asked.mask, false};
+  const std::span<const Box> boxes = bodies.boxes();
+  for (std::uint32_t slot = 0; slot < boxes.size(); ++slot) {
+    if (boxes[slot].empty() || !wants(boxes[slot]) || !broadphase::tested(bodies.filters()[slot], filter)) continue;
+    if (!visit(bodies.in_slot(slot))) return;
+  }
+}
+
+RayHit hit_of(const Body& body, const FacetHit& hit) { return {body.id, hit.facet, hit.time, hit.weight}; }
+
+}  // namespace
+
+void check_question(const Ray& ray) {
+  check_point(ray.from, "the beginning of a ray");
+  check_point(ray.to, "the end of a ray");
+}
+
+void check_question(const PointQuestion& question) {
+  check_point(question.point, "a point");
+  if (!(question.within >= 0.0))
+    throw Error(ErrorCode::bad_settings, "within is " + base::text_of(question.within) + ", not at least 0");
+}
+
+void check_question(const BoxQuestion& question) {
+  check_point(question.lower, "the lower corner of a box");
+  check_point(question.upper, "the upper corner of a box");
+  if ((question.lower.array() > question.upper.array()).any())
+    throw Error(ErrorCode::bad_settings, "the lower corner of a box is above its upper one");
+}
+
+RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted) {
+  const narrowphase::Segment segment = segment_of(ray);
+  const Box box = extended({segment[0], segment[0]}, segment[1]);
+  RayHit best;
+  best.time = 1.0;
+  for_each_body(
+      bodies, ray.asked, [&](const Box& one) { return overlaps(one, box); },
+      [&](const Body& body) {
+        const auto hit =
+            wanted == RayHits::any ? any_hit(body.mesh, segment) : first_hit(body.mesh, segment, best.time);
+        if (hit && (best.facet < 0 || hit->time < best.time)) best = hit_of(body, *hit);
+        return !(hit && wanted == RayHits::any);
+      });
+  return best.facet >= 0 ? best : RayHit{};
+}
+
+std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray) {
+  const narrowphase::Segment segment = segment_of(ray);
+  const Box box = extended({segment[0], segment[0]}, segment[1]);
+  std::vector<RayHit> all;
+  std::vector<FacetHit> hits;
+  for_each_body(
+      bodies, ray.asked, [&](const Box& one) { return overlaps(one, box); },
+      [&](const Body& body) {
+        hits.clear();
+        append_hits(body.mesh, segment, hits);
+        for (const FacetHit& hit : hits) all.push_back(hit_of(body, hit));
+        return true;
+      });
+  std::ranges::sort(all, {}, [](const RayHit& hit) { return std::tuple(hit.time, hit.body, hit.facet); });
+  return all;
+}
+
+ClosestPoint find_closest_point(const Bodies& bodies, const PointQuestion& question) {
+  const Vec3 point = point_of(question.point);
+  ClosestPoint best;
+  double within = question.within;
+  const auto wants = [&](const Box& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+      // Rounded towards nearer, so that nothing is left out.
+      const double away = std::max(box.lower[axis] - point[axis], point[axis] - box.upper[axis]);
+      if (away - 0x1p-50 * std::abs(away) > within) return false;
+    }
+    return true;
+  };
+  for_each_body(bodies, question.asked, wants, [&](const Body& body) {
+    const auto nearest = nearest_facet(body.mesh, point, within);
+    if (!nearest || (best.facet >= 0 && nearest->distance >= best.distance)) return true;
+    best = {body.id, nearest->facet, nearest->distance, nearest->weight};
+    within = nearest->distance;
+    return true;
+  });
+  return best;
+}
+
+std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuestion& question) {
+  const Box box{point_of(question.lower), point_of(question.upper)};
+  std::vector<FacetOfBody> found;
+  std::vector<int> facets;
+  for_each_body(
+      bodies, question.asked, [&](const Box& one) { return overlaps(one, box); },
+      [&](const Body& body) {
+        facets.clear();
+        append_facets_in_box(body.mesh, box, facets);
+        std::ranges::sort(facets);
+        for (const int facet : facets) found.push_back({body.id, facet});
+        return true;
+      });
+  return found;
+}
+
+std::vector<BodyId> find_around(const Bodies& bodies, const PointQuestion& question) {
+  const Vec3 point = point_of(question.point);
+  std::vector<BodyId> found;
+  for_each_body(
+      bodies, question.asked, [&](const Box& one) { return contains(one, point); },
+      [&](const Body& body) {
+        if (body.surface == Surface::closed && contains(body.mesh, point)) found.push_back(body.id);
+        return true;
+      });
+  return found;
+}
+
+}  // namespace tact

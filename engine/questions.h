@@ -1,0 +1,24 @@
+// Questions to all bodies: those whose box has to do with it, one after the other.
+#pragma once
+
+#include <tact/questions.h>
+
+#include <vector>
+
+#include "engine/bodies.h"
+
+namespace tact {
+
+/// Errors: non_finite_position, position_out_of_range, bad_settings (a box whose lower corner is above its upper one, a
+/// distance that is negative or not a number).
+void check_question(const Ray& ray);
+void check_question(const PointQuestion& question);
+void check_question(const BoxQuestion& question);
+
+RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted);
+std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray);
+ClosestPoint find_closest_point(const Bodies& bodies, const PointQuestion& question);
+std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuestion& question);
+std::vector<BodyId> find_around(const Bodies& bodies, const PointQuestion& question);
+
+}  // namespace tact

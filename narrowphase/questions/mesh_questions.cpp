@@ -1,0 +1,284 @@
+#include "narrowphase/questions/mesh_questions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "narrowphase/numeric/double_double.h"
+#include "narrowphase/numeric/unit_scale.h"
+
+namespace tact::narrowphase {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// A quotient of two differences is wrong by three roundings at most.
+constexpr double kQuotientRounding = 0x1p-50;
+
+// Calls visit(cluster) for those whose box, and that of whose group, wants(box).
+template <class Wants, class Visit>
+void for_each_cluster(const ClusteredMesh& mesh, const Wants& wants, const Visit& visit) {
+  if (mesh.facet_count() == 0 || !wants(mesh.box())) return;
+  const BoxView groups = mesh.group_boxes(), clusters = mesh.cluster_boxes();
+  for (int g = 0; g < mesh.group_count(); ++g) {
+    if (mesh.group_count() > 1 && !wants(groups[static_cast<std::size_t>(g)])) continue;
+    for (int c = mesh.cluster_begin(g); c < mesh.cluster_end(g); ++c) {
+      if (wants(clusters[static_cast<std::size_t>(c)])) visit(c);
+    }
+  }
+}
+
+Box box_of(const Triangle& triangle) {
+  Box box;
+  for (const Vec3& p : triangle) box = extended(box, p);
+  return box;
+}
+
+// Where a segment is in a box, or before it; infinity if it certainly does not meet it. Never later than it is.
+class SegmentClip {
+ public:
+  explicit SegmentClip(const Segment& segment) : from_(segment[0]), way_(segment[1] - segment[0]) {}
+
+  double first_time(const Box& box) const {
+    double first = 0.0, last = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (way_[axis] == 0.0) {  // then the ends are equal: the difference of two doubles is zero for no others
+        if (from_[axis] < box.lower[axis] || from_[axis] > box.upper[axis]) return kInfinity;
+        continue;
+      }
+      double enter = (box.lower[axis] - from_[axis]) / way_[axis], leave = (box.upper[axis] - from_[axis]) / way_[axis];
+      if (leave < enter) std::swap(enter, leave);
+      first = std::max(first, enter - kQuotientRounding * std::abs(enter));
+      last = std::min(last, leave + kQuotientRounding * std::abs(leave));
+    }
+    return first <= last ? first : kInfinity;
+  }
+
+ private:
+  Vec3 from_, way_;
+};
+
+// The weights of the corners for the place of a triangle that is nearest to `p`, in lengths that are near 1.
+std::array<double, 3> nearest_weights(Vec3 p, const Triangle& t) {
+  const Vec3 normal = wide_cross(wide_difference(t[1], t[0]), wide_difference(t[2], t[0]));
+  const double area2 = norm_squared(normal);
+  if (area2 > 0.0) {
+    std::array<double, 3> w;
+    bool inside = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 a = t[(i + 1) % 3], b = t[(i + 2) % 3];
+      w[i] = dot(cross(a - p, b - p), normal) / area2;
+      inside = inside && w[i] >= 0.0;
+    }
+    if (inside) return w;
+  }
+  std::array<double, 3> best{1.0, 0.0, 0.0};
+  double least = kInfinity;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t k = (i + 1) % 3;
+    const Vec3 side = t[k] - t[i];
+    const double length2 = norm_squared(side);
+    const double s = length2 > 0.0 ? std::clamp(dot(p - t[i], side) / length2, 0.0, 1.0) : 0.0;
+    const double distance2 = norm_squared(t[i] + s * side - p);
+    if (distance2 >= least) continue;
+    least = distance2;
+    best = {0.0, 0.0, 0.0};
+    best[i] = 1.0 - s;
+    best[k] += s;
+  }
+  return best;
+}
+
+Vec3 place(const Triangle& t, const std::array<double, 3>& w) { return w[0] * t[0] + w[1] * t[1] + w[2] * t[2]; }
+
+// Where a segment first is in a triangle that it is known to meet.
+FacetHit hit_at(const Segment& segment, const Triangle& given, int facet) {
+  // About the beginning and near length 1, so that nothing overflows.
+  double largest = 0.0;
+  const auto note = [&](Vec3 p) { largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)}); };
+  const Vec3 whole = segment[1] - segment[0];
+  note(whole);
+  Triangle t;
+  for (std::size_t i = 0; i < 3; ++i) note(t[i] = given[i] - segment[0]);
+  const double scale = unit_scale(largest);
+  for (Vec3& p : t) p = scale * p;
+  const Vec3 way = scale * whole;
+  const Vec3 normal = wide_cross(wide_difference(t[1], t[0]), wide_difference(t[2], t[0]));
+  const double along = dot(normal, way), above = dot(normal, t[0]);
+  double time = 0.0;
+  if (std::abs(along) > 0x1p-40 * norm(normal) * norm(way)) {
+    time = std::clamp(above / along, 0.0, 1.0);
+  } else if (norm_squared(way) > 0.0) {
+    // In the plane: where it enters, which is where it is nearest to a side, or at its beginning.
+    const auto away = [&](double s) {
+      const Vec3 p = s * way;
+      return norm(place(t, nearest_weights(p, t)) - p);
+    };
+    double low = 0.0, high = 1.0;
+    if (away(0.0) > 0x1p-45) {
+      // The distance falls to zero and stays there for a while: thirds find where it is least, halves where it begins.
+      for (int k = 0; k < 100 && high - low > 0x1p-52; ++k) {
+        const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
+        (away(a) > away(b) ? low : high) = away(a) > away(b) ? a : b;
+      }
+      time = high;
+      const double least = away(time) + 0x1p-46;
+      for (double before = 0.0, after = time; after - before > 0x1p-52;) {
+        const double middle = 0.5 * (before + after);
+        (away(middle) > least ? before : after) = middle;
+        time = after;
+      }
+    }
+  }
+  return {facet, time, nearest_weights(time * way, t)};
+}
+
+// Calls visit(hit) for each facet that the segment meets, in clusters that it may reach by `latest`, which visit may
+// lower.
+template <class Visit>
+void for_each_hit(const ClusteredMesh& mesh, const Segment& segment, const double& latest, const Visit& visit) {
+  const SegmentClip clip(segment);
+  const auto wants = [&](const Box& box) { return clip.first_time(box) <= latest; };
+  PredicateCounts counts;
+  for_each_cluster(mesh, wants, [&](int cluster) {
+    for (int f = mesh.facet_begin(cluster); f < mesh.facet_end(cluster); ++f) {
+      const Triangle triangle = mesh.triangle(f);
+      if (!wants(box_of(triangle)) || !segment_triangle_meet(segment, triangle, counts)) continue;
+      visit(hit_at(segment, triangle, mesh.source_facet(f)));
+    }
+  });
+}
+
+double squared_distance(const Box& box, Vec3 p, double scale) {
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double away = scale * std::max({box.lower[axis] - p[axis], p[axis] - box.upper[axis], 0.0});
+    sum += away * away;
+  }
+  return sum;
+}
+
+// The turn of a, b, c in the plane of y and z, where c is moved off all lines.
+int turn(const Vec3& a, const Vec3& b, const Vec3& c, PredicateCounts& counts) {
+  const int sign = orient2d({a.y, a.z}, {b.y, b.z}, {c.y, c.z}, counts);
+  if (sign != 0) return sign;
+  // c moves by more along y than along z: the derivatives of (a - c) × (b - c).
+  if (a.z != b.z) return a.z > b.z ? 1 : -1;
+  if (a.y != b.y) return a.y < b.y ? 1 : -1;
+  return 0;
+}
+
+}  // namespace
+
+std::optional<FacetHit> first_hit(const ClusteredMesh& mesh, const Segment& segment, double latest) {
+  std::optional<FacetHit> first;
+  for_each_hit(mesh, segment, latest, [&](const FacetHit& hit) {
+    if (hit.time > latest || (first && !(hit < *first))) return;
+    first = hit;
+    latest = hit.time;
+  });
+  return first;
+}
+
+std::optional<FacetHit> any_hit(const ClusteredMesh& mesh, const Segment& segment) {
+  std::optional<FacetHit> any;
+  double latest = 1.0;
+  for_each_hit(mesh, segment, latest, [&](const FacetHit& hit) {
+    if (!any) any = hit;
+    latest = -1.0;
+  });
+  return any;
+}
+
+void append_hits(const ClusteredMesh& mesh, const Segment& segment, std::vector<FacetHit>& hits) {
+  const double latest = 1.0;
+  for_each_hit(mesh, segment, latest, [&](const FacetHit& hit) { hits.push_back(hit); });
+}
+
+std::optional<NearestFacet> nearest_facet(const ClusteredMesh& mesh, Vec3 point, double within) {
+  if (mesh.facet_count() == 0) return std::nullopt;
+  // Distances are squared in a unit in which the farthest is near 1.
+  const Box& box = mesh.box();
+  double largest = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+    largest = std::max({largest, std::abs(point[axis] - box.lower[axis]), std::abs(point[axis] - box.upper[axis])});
+  const double scale = unit_scale(largest);
+  double least = scale * within < 16.0 ? (scale * within) * (scale * within) : kInfinity;
+  std::optional<NearestFacet> nearest;
+  const auto wants = [&](const Box& one) { return squared_distance(one, point, scale) <= least; };
+  for_each_cluster(mesh, wants, [&](int cluster) {
+    for (int f = mesh.facet_begin(cluster); f < mesh.facet_end(cluster); ++f) {
+      Triangle triangle = mesh.triangle(f);
+      if (!wants(box_of(triangle))) continue;
+      for (Vec3& p : triangle) p = scale * (p - point);
+      const std::array<double, 3> weight = nearest_weights({}, triangle);
+      const double distance2 = norm_squared(place(triangle, weight));
+      const int facet = mesh.source_facet(f);
+      if (distance2 > least || (nearest && distance2 == least && facet > nearest->facet)) continue;
+      least = distance2;
+      nearest = {facet, std::sqrt(distance2) / scale, weight};
+    }
+  });
+  return nearest;
+}
+
+void append_facets_in_box(const ClusteredMesh& mesh, const Box& box, std::vector<int>& facets) {
+  // The sides of the box, two triangles each.
+  std::array<Triangle, 12> sides;
+  std::size_t count = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const Vec3& from : {box.lower, box.upper}) {
+      Vec3 corner[4];
+      for (int k = 0; k < 4; ++k) {
+        corner[k] = from;
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        corner[k][u] = (k == 1 || k == 2 ? box.upper : box.lower)[u];
+        corner[k][v] = (k >= 2 ? box.upper : box.lower)[v];
+      }
+      sides[count++] = {corner[0], corner[1], corner[2]};
+      sides[count++] = {corner[0], corner[2], corner[3]};
+    }
+  }
+  PredicateCounts counts;
+  const auto wants = [&](const Box& one) { return overlaps(one, box); };
+  for_each_cluster(mesh, wants, [&](int cluster) {
+    for (int f = mesh.facet_begin(cluster); f < mesh.facet_end(cluster); ++f) {
+      const Triangle triangle = mesh.triangle(f);
+      if (!wants(box_of(triangle))) continue;
+      const bool meets = std::ranges::any_of(triangle, [&](const Vec3& p) { return contains(box, p); }) ||
+                         std::ranges::any_of(sides, [&](const Triangle& side) {
+                           return triangle_triangle_meet(triangle, side, counts);
+                         });
+      if (meets) facets.push_back(mesh.source_facet(f));
+    }
+  });
+}
+
+bool contains(const ClusteredMesh& mesh, Vec3 point) {
+  PredicateCounts counts;
+  int winding = 0;
+  bool on_surface = false;
+  const auto wants = [&](const Box& box) {
+    return box.upper.x >= point.x && box.lower.y <= point.y && point.y <= box.upper.y && box.lower.z <= point.z &&
+           point.z <= box.upper.z;
+  };
+  for_each_cluster(mesh, wants, [&](int cluster) {
+    for (int f = mesh.facet_begin(cluster); f < mesh.facet_end(cluster); ++f) {
+      const Triangle t = mesh.triangle(f);
+      const Box box = box_of(t);
+      if (on_surface || !wants(box)) continue;
+      if (contains(box, point) && triangle_triangle_meet(t, {point, point, point}, counts)) {
+        on_surface = true;
+        continue;
+      }
+      const int side = turn(t[0], t[1], point, counts);
+      if (side == 0 || turn(t[1], t[2], point, counts) != side || turn(t[2], t[0], point, counts) != side) continue;
+      // The facet is met if the point is on the side of its plane that lies towards -x.
+      if (orient3d(t[0], t[1], t[2], point, counts) == side) winding += side;
+    }
+  });
+  return on_surface || winding != 0;
+}
+
+}  // namespace tact::narrowphase

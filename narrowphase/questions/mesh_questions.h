@@ -1,0 +1,51 @@
+// Questions to one mesh, as it is now: segments, nearest points, boxes, what is inside. From the boxes of groups to
+// those of clusters to facets; nothing is built.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "narrowphase/mesh/clustered_mesh.h"
+#include "narrowphase/triangles/triangle_triangle.h"
+
+namespace tact::narrowphase {
+
+/// A facet, by the caller's number, that a segment meets, as closed sets; decided exactly (triangle_triangle.h).
+struct FacetHit {
+  int facet = -1;
+  double time = 0.0;               // where first, as a part of the segment; to rounding
+  std::array<double, 3> weight{};  // of the facet's corners there
+
+  /// By time, then by facet.
+  friend bool operator<(const FacetHit& x, const FacetHit& y) {
+    return x.time < y.time || (x.time == y.time && x.facet < y.facet);
+  }
+};
+
+/// The first facet that the segment meets, not later than `latest`.
+std::optional<FacetHit> first_hit(const ClusteredMesh& mesh, const Segment& segment, double latest);
+/// Any of them.
+std::optional<FacetHit> any_hit(const ClusteredMesh& mesh, const Segment& segment);
+/// Appends all of them, in no particular order.
+void append_hits(const ClusteredMesh& mesh, const Segment& segment, std::vector<FacetHit>& hits);
+
+struct NearestFacet {
+  int facet = -1;  // the caller's number; of equally near ones the least
+  double distance = 0.0;
+  std::array<double, 3> weight{};  // of the facet's corners at the nearest point
+};
+
+/// The facet nearest to a point, if it is at most `within` away, metres.
+std::optional<NearestFacet> nearest_facet(const ClusteredMesh& mesh, Vec3 point, double within);
+
+/// Appends the facets, by the caller's numbers, that share a point with a box, as closed sets; decided exactly.
+void append_facets_in_box(const ClusteredMesh& mesh, const Box& box, std::vector<int>& facets);
+
+/// Is the point inside a closed mesh, or on its surface? Decided exactly, by how often the surface winds around it: a
+/// half-line along x, moved off all edges by amounts that are smaller than any number (Edelsbrunner and Mücke,
+/// "Simulation of Simplicity", 1990), counts the facets that it leaves through minus those that it enters through.
+/// Where the mesh has holes the answer is that of some filling.
+bool contains(const ClusteredMesh& mesh, Vec3 point);
+
+}  // namespace tact::narrowphase

@@ -1,0 +1,268 @@
+// Rays, nearest points, boxes and what is inside, against brute force in rational numbers and long doubles.
+#include <gtest/gtest.h>
+#include <tact/tact.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "tests/support/generators.h"
+#include "tests/support/random.h"
+#include "tests/support/triangle_oracle.h"
+
+namespace tact::tests {
+namespace {
+
+Eigen::Vector3d vector_of(Vec3 p) { return {p.x, p.y, p.z}; }
+Vec3 point_of(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+
+Triangle facet_of(const Mesh& mesh, int f) {
+  return {mesh.position(mesh.facets(0, f)), mesh.position(mesh.facets(1, f)), mesh.position(mesh.facets(2, f))};
+}
+
+Vec3 weighted(const Triangle& t, const std::array<double, 3>& w) { return w[0] * t[0] + w[1] * t[1] + w[2] * t[2]; }
+
+std::vector<Mesh> meshes() {
+  return {blob(2, 1.0, 0.3, 1),
+          torus(16, 10, 1.0, 0.4),
+          gridded_box({-1, -1, -1}, {1, 1, 1}, 4),
+          organ(2),
+          soup(200, 2.0, 3),
+          lattice_soup(150, 3, 5),
+          needles(80, 1e4, 7),
+          sheet(12, 12, 2.0, 2.0)};
+}
+
+// Anywhere; along an axis, on a grid; through a vertex; through an edge; in the plane of a facet.
+Ray random_ray(const Mesh& mesh, Random& random) {
+  const auto any = [&] { return 2.5 * random.in_cube(1.0); };
+  const int kind = random.below(5);
+  if (kind == 0) return {vector_of(any()), vector_of(any())};
+  if (kind == 1) {
+    Vec3 p{0.5 * random.below(9) - 2.0, 0.5 * random.below(9) - 2.0, 0.5 * random.below(9) - 2.0}, q = p;
+    q[random.below(3)] = 3.0;
+    return {vector_of(p), vector_of(q)};
+  }
+  const Triangle t = facet_of(mesh, random.below(mesh.facet_count()));
+  if (kind == 4) {
+    const double s = random.uniform(), u = random.uniform();
+    return {vector_of(t[0] + 3.0 * (s * (t[1] - t[0]) + (s - 1.0) * (t[2] - t[0]))),
+            vector_of(t[0] + 2.0 * ((u - 1.0) * (t[1] - t[0]) + u * (t[2] - t[0])))};
+  }
+  const Vec3 target = kind == 2 ? t[0] : 0.5 * (t[0] + t[1]), from = any();
+  return {vector_of(from), vector_of(target + (target - from))};
+}
+
+TEST(Questions, RaysEqualRationalArithmetic) {
+  Random random(1);
+  std::size_t hits = 0;
+  for (const Mesh& mesh : meshes()) {
+    tact::World world({.threads = 2});
+    const BodyId id = world.add_body({.positions = mesh.positions, .facets = mesh.facets});
+    std::vector<Ray> rays;
+    for (int i = 0; i < 150; ++i) rays.push_back(random_ray(mesh, random));
+    std::vector<RayHit> firsts(rays.size());
+    world.rays(rays, firsts);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Vec3 from = point_of(rays[i].from), to = point_of(rays[i].to);
+      std::set<int> expected, found;
+      for (int f = 0; f < mesh.facet_count(); ++f) {
+        if (cgal_meet({from, to, to}, facet_of(mesh, f))) expected.insert(f);
+      }
+      const std::vector<RayHit> all = world.all_hits(rays[i]);
+      for (const RayHit& hit : all) {
+        EXPECT_EQ(hit.body, id);
+        found.insert(hit.facet);
+        const Vec3 on_ray = from + hit.time * (to - from), on_facet = weighted(facet_of(mesh, hit.facet), hit.weights);
+        EXPECT_LT(norm(on_ray - on_facet), 1e-11) << "ray " << i;
+        EXPECT_TRUE(hit.time >= 0.0 && hit.time <= 1.0);
+      }
+      ASSERT_EQ(found, expected) << "ray " << i;
+      hits += all.size();
+      EXPECT_EQ(firsts[i].facet < 0, all.empty());
+      EXPECT_EQ(world.ray(rays[i], RayHits::any).facet < 0, all.empty());
+      if (all.empty()) continue;
+      EXPECT_EQ(firsts[i].facet, all[0].facet);
+      EXPECT_EQ(firsts[i].time, all[0].time);
+    }
+  }
+  EXPECT_GT(hits, 500u);
+}
+
+long double distance_by_brute_force(const Mesh& mesh, Vec3 p) {
+  using Vector = Eigen::Matrix<long double, 3, 1>;
+  long double least = std::numeric_limits<long double>::infinity();
+  for (int f = 0; f < mesh.facet_count(); ++f) {
+    const Triangle t = facet_of(mesh, f);
+    Vector c[3];
+    for (std::size_t k = 0; k < 3; ++k) c[k] = vector_of(t[k]).cast<long double>() - vector_of(p).cast<long double>();
+    for (int k = 0; k < 3; ++k) {
+      const Vector side = c[(k + 1) % 3] - c[k];
+      const long double length = side.squaredNorm();
+      const long double s = length > 0 ? std::clamp(-c[k].dot(side) / length, 0.0L, 1.0L) : 0.0L;
+      least = std::min(least, (c[k] + s * side).norm());
+    }
+    const Vector normal = (c[1] - c[0]).cross(c[2] - c[0]);
+    if (!(normal.squaredNorm() > 0)) continue;
+    bool inside = true;
+    for (int k = 0; k < 3; ++k) inside = inside && c[k].cross(c[(k + 1) % 3]).dot(normal) >= 0;
+    if (inside) least = std::min(least, std::abs(c[0].dot(normal)) / normal.norm());
+  }
+  return least;
+}
+
+TEST(Questions, NearestPointsEqualBruteForce) {
+  Random random(2);
+  for (const Mesh& mesh : meshes()) {
+    tact::World world({.threads = 2});
+    world.add_body({.positions = mesh.positions, .facets = mesh.facets});
+    std::vector<PointQuestion> questions;
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 corner = facet_of(mesh, random.below(mesh.facet_count()))[0];
+      questions.push_back({.point = vector_of(i % 4 == 0 ? corner : 3.0 * random.in_cube(1.0))});
+    }
+    std::vector<ClosestPoint> answers(questions.size());
+    world.closest_points(questions, answers);
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+      const Vec3 p = point_of(questions[i].point);
+      const double expected = static_cast<double>(distance_by_brute_force(mesh, p));
+      EXPECT_NEAR(answers[i].distance, expected, 1e-12);
+      EXPECT_NEAR(norm(weighted(facet_of(mesh, answers[i].facet), answers[i].weights) - p), expected, 1e-12);
+      PointQuestion nearer = questions[i];
+      nearer.within = 0.5 * expected;
+      EXPECT_TRUE(expected == 0.0 || world.closest_point(nearer).facet < 0);
+      nearer.within = 2.0 * expected;
+      EXPECT_EQ(world.closest_point(nearer).facet, answers[i].facet);
+    }
+  }
+}
+
+TEST(Questions, BoxesEqualCgal) {
+  Random random(3);
+  std::size_t hits = 0;
+  for (const Mesh& mesh : meshes()) {
+    tact::World world;
+    const BodyId id = world.add_body({.positions = mesh.positions, .facets = mesh.facets});
+    for (int i = 0; i < 40; ++i) {
+      // On the grid on which some of the meshes have their vertices, too.
+      const Vec3 p = i % 2 == 0
+                         ? 2.0 * random.in_cube(1.0)
+                         : Vec3{0.5 * random.below(6) - 1.5, 0.5 * random.below(6) - 1.5, 0.5 * random.below(6) - 1.5};
+      const Vec3 size = i % 2 == 0 ? Vec3{random.uniform(), random.uniform(), random.uniform()} : Vec3{0.5, 0.5, 0.5};
+      const BoxQuestion question{.lower = vector_of(p), .upper = vector_of(p + size)};
+      const Mesh solid = box(p, p + size);
+      std::vector<FacetOfBody> expected;
+      for (int f = 0; f < mesh.facet_count(); ++f) {
+        const Triangle t = facet_of(mesh, f);
+        bool meets = false;
+        for (const Vec3& q : t) {
+          const Eigen::Vector3d v = vector_of(q);
+          meets = meets || ((v.array() >= question.lower.array()).all() && (v.array() <= question.upper.array()).all());
+        }
+        for (int k = 0; k < solid.facet_count() && !meets; ++k) meets = cgal_meet(t, facet_of(solid, k));
+        if (meets) expected.push_back({id, f});
+      }
+      ASSERT_EQ(world.overlap_box(question), expected);
+      hits += expected.size();
+    }
+  }
+  EXPECT_GT(hits, 1000u);
+}
+
+TEST(Questions, WhatIsInsideIsCountedByItsWinding) {
+  Random random(4);
+  const Mesh grid = gridded_box({-1, -1, -1}, {1, 1, 1}, 4), ring = torus(16, 10, 1.0, 0.4),
+             ball = blob(2, 1.0, 0.3, 1);
+  tact::World world;
+  const BodyId cube_id = world.add_body({.positions = grid.positions, .facets = grid.facets});
+  const BodyId ring_id = world.add_body({.positions = ring.positions, .facets = ring.facets, .layer = 2});
+  const BodyId ball_id = world.add_body({.positions = ball.positions, .facets = ball.facets, .layer = 4});
+  const BodyId open = world.add_body({.positions = grid.positions, .facets = grid.facets, .surface = Surface::sheet});
+  const auto is_in = [&](Vec3 p, BodyId id) {
+    const std::vector<BodyId> found = world.inside({.point = vector_of(p)});
+    EXPECT_FALSE(std::ranges::count(found, open));
+    return std::ranges::count(found, id) == 1;
+  };
+  int inside = 0;
+  for (int i = 0; i < 4000; ++i) {
+    // On planes, edges and corners of the grid, and anywhere.
+    Vec3 p = 1.5 * random.in_cube(1.0);
+    if (i % 2 == 0) p = {0.25 * random.below(13) - 1.5, 0.25 * random.below(13) - 1.5, 0.25 * random.below(13) - 1.5};
+    const bool expected = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= 1.0;
+    EXPECT_EQ(is_in(p, cube_id), expected);
+    inside += expected;
+    if (i % 20 != 1) continue;
+    // By the parity of crossings of a segment in a direction of its own.
+    const Vec3 far = p + 10.0 * random.direction();
+    for (const auto& [mesh, id] : {std::pair(&ring, ring_id), std::pair(&ball, ball_id)}) {
+      int crossings = 0;
+      for (int f = 0; f < mesh->facet_count(); ++f) crossings += cgal_meet({p, far, far}, facet_of(*mesh, f));
+      EXPECT_EQ(is_in(p, id), crossings % 2 == 1);
+    }
+  }
+  EXPECT_GT(inside, 500);
+  // A corner of the ring is on its surface.
+  EXPECT_TRUE(is_in(ring.position(0), ring_id));
+  EXPECT_FALSE(is_in({0, 0, 0}, ring_id));
+}
+
+TEST(Questions, LayersMasksAndPositionsThatWereSet) {
+  tact::World world;
+  const Mesh ball = icosphere(1);
+  const BodyId a = world.add_body({.positions = ball.positions, .facets = ball.facets, .layer = 2});
+  const Ray ray{{0, 0, 5}, {0, 0, -5}};
+  EXPECT_EQ(world.ray(ray).body, a);
+  EXPECT_LT(world.ray({ray.from, ray.to, {.mask = 1}}).facet, 0);
+  EXPECT_EQ(world.ray({ray.from, ray.to, {.mask = 2}}).body, a);
+  world.set_layers(a, 2, 8);
+  EXPECT_LT(world.ray({ray.from, ray.to, {.layer = 4}}).facet, 0);
+  world.set_positions(a, translated(ball, {9, 0, 0}).positions);
+  EXPECT_LT(world.ray(ray).facet, 0);
+  EXPECT_NEAR(world.closest_point({.point = {9, 0, 3}}).distance, 2.0, 0.2);
+  world.remove_body(a);
+  EXPECT_LT(world.closest_point({.point = {9, 0, 3}}).facet, 0);
+}
+
+TEST(Questions, HugeAndTinyBodies) {
+  for (const double unit : {0x1p-900, 0x1p-300, 1.0, 0x1p290}) {
+    tact::World world;
+    Mesh ball = icosphere(2);
+    ball.positions *= unit;
+    world.add_body({.positions = ball.positions, .facets = ball.facets});
+    const RayHit hit = world.ray({{0.1 * unit, 0.2 * unit, 5 * unit}, {0.1 * unit, 0.2 * unit, -5 * unit}});
+    ASSERT_GE(hit.facet, 0) << unit;
+    EXPECT_NEAR(hit.time, 0.4, 0.01) << unit;
+    const ClosestPoint closest = world.closest_point({.point = {0, 0, 3 * unit}});
+    ASSERT_GE(closest.facet, 0) << unit;
+    EXPECT_NEAR(closest.distance / unit, 2.0, 0.01) << unit;
+    EXPECT_EQ(world.inside({.point = {0.1 * unit, 0, 0}}).size(), 1u) << unit;
+  }
+}
+
+TEST(Questions, RefusalsNameTheQuestion) {
+  tact::World world;
+  const auto code_of = [](const auto& call) {
+    try {
+      call();
+    } catch (const Error& error) {
+      return std::string(error_code_name(error.code())) + ": " + error.what();
+    }
+    return std::string();
+  };
+  std::vector<Ray> rays(3);
+  rays[2].to.y() = std::nan("");
+  std::vector<RayHit> hits(3);
+  EXPECT_EQ(code_of([&] { world.rays(rays, hits); }),
+            "non_finite_position: question 2: the end of a ray has y = nan, which is not finite");
+  hits.resize(2);
+  EXPECT_EQ(code_of([&] { world.rays(rays, hits); }), "wrong_size: 3 questions, but room for 2 answers");
+  EXPECT_EQ(code_of([&] { world.closest_point({.within = -1.0}); }).substr(0, 12), "bad_settings");
+  EXPECT_EQ(code_of([&] {
+              world.overlap_box({.lower = {1, 0, 0}, .upper = {0, 0, 0}});
+            }).substr(0, 12),
+            "bad_settings");
+  EXPECT_EQ(code_of([&] { world.inside({.point = {1e300, 0, 0}}); }).substr(0, 21), "position_out_of_range");
+}
+
+}  // namespace
+}  // namespace tact::tests
