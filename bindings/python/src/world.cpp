@@ -121,8 +121,8 @@ auto of_body(SharedWorld& world, BodyId body) {
 void define_world(py::module_& module) {
   define_settings(module);
   WorldClass class_of_world(module, "World",
-                   "A set of bodies and the contacts among them. One thread uses it at a time; it gives the "
-                   "interpreter free while it computes.");
+                            "A set of bodies and the contacts among them. One thread uses it at a time; it gives the "
+                            "interpreter free while it computes.");
   class_of_world.def(py::init<const Settings&>(), py::arg("settings") = Settings{})
       .def_property_readonly(
           "settings", [](SharedWorld& world) { return world.use().settings(); }, "a copy; see set_settings()")
