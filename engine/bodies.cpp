@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <new>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "engine/base/fast_paths.h"
 #include "engine/base/parallel.h"
 #include "engine/base/text.h"
+#include "engine/check_coordinate.h"
 #include "engine/check_name.h"
 #include "engine/columns.h"
 
@@ -34,20 +36,15 @@ constexpr int kMostWithDiagonals = 4096;  // vertices: to look how far more of t
 // the spread falls to this part of what it was.
 constexpr int kFewestRegrouped = 4, kMovesToLook = 32, kMostDoublings = 8;
 constexpr double kLoose = 2.0, kWorthRegrouping = 0.75;
-constexpr char kAxisName[] = {'x', 'y', 'z'};
 
 std::string quoted(const std::string& name) { return "body '" + name + "'"; }
 
 void check_positions(const double* positions, std::size_t count, const std::string& name) {
   const PositionProblem problem = narrowphase::find_position_problem(positions, count, kLargestCoordinate);
   if (problem.kind == PositionProblem::none) return;
-  const bool infinite = problem.kind == PositionProblem::non_finite;
   const double value =
       positions[3 * static_cast<std::size_t>(problem.source_vertex) + static_cast<std::size_t>(problem.axis)];
-  throw Error(infinite ? ErrorCode::non_finite_position : ErrorCode::position_out_of_range,
-              quoted(name) + ": vertex " + std::to_string(problem.source_vertex) + " has " + kAxisName[problem.axis] +
-                  " = " + base::text_of(value) +
-                  (infinite ? ", which is not finite" : ", which is larger than 2^300 in size"));
+  refuse_coordinate(quoted(name) + ": vertex " + std::to_string(problem.source_vertex), problem.axis, value);
 }
 
 void check_facets(std::span<const int> corner, const Facets& given, std::ptrdiff_t vertices, const std::string& name) {
@@ -414,9 +411,14 @@ void Bodies::set_self_contact(BodyId id, bool wanted) {
 }
 
 void Bodies::make_features(std::span<const std::uint32_t> slots, int threads) {
-  base::parallel_for(slots.size(), 1, threads, [&](std::size_t i) {
-    Body& body = *slots_[slots[i]].body;
-    if (body.features == nullptr) body.features = std::make_unique<const narrowphase::Features>(body.mesh);
+  without_features_.clear();
+  std::ranges::copy_if(slots, std::back_inserter(without_features_),
+                       [&](std::uint32_t slot) { return in_slot(slot).features == nullptr; });
+  std::ranges::sort(without_features_);
+  without_features_.erase(std::unique(without_features_.begin(), without_features_.end()), without_features_.end());
+  base::parallel_for(without_features_.size(), 1, threads, [&](std::size_t i) {
+    Body& body = *slots_[without_features_[i]].body;
+    body.features = std::make_unique<const narrowphase::Features>(body.mesh);
   });
 }
 

@@ -67,7 +67,7 @@ class Bodies {
   // Has a body other positions than in the last step? The body and its way since.
   bool on_its_way(std::uint32_t slot) const { return slots_[slot].begin != Begin::here; }
   narrowphase::MovingMesh moving(std::uint32_t slot) const;
-  // Makes the features of some bodies, in parallel.
+  // Makes the features that are missing of some bodies, which may be named more than once, in parallel.
   void make_features(std::span<const std::uint32_t> slots, int threads);
 
   // What the broad phase sees, an entry a slot: boxes with their margins; the box of an empty slot is empty.
@@ -179,6 +179,7 @@ class Bodies {
   std::int64_t moved_vertices_ = 0;
   std::vector<Update> updates_;                             // scratch
   std::vector<narrowphase::DiagonalBounds> new_diagonals_;  // of those that know them
+  std::vector<std::uint32_t> without_features_;             // scratch
   std::vector<char> named_;                                 // scratch, an entry a slot
 };
 

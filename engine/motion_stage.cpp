@@ -71,15 +71,9 @@ void MotionStage::select(const Bodies& bodies) {
 }
 
 void MotionStage::make_features(Bodies& bodies, int threads) {
-  without_features_.clear();
-  for (const Passing& one : passing_) {
-    for (const std::uint32_t slot : {one.a, one.b}) {
-      if (bodies.in_slot(slot).features == nullptr) without_features_.push_back(slot);
-    }
-  }
-  std::ranges::sort(without_features_);
-  without_features_.erase(std::unique(without_features_.begin(), without_features_.end()), without_features_.end());
-  bodies.make_features(without_features_, threads);
+  slots_.clear();
+  for (const auto& one : passing_) slots_.insert(slots_.end(), {one.a, one.b});
+  bodies.make_features(slots_, threads);
 }
 
 void MotionStage::find_clusters(const Bodies& bodies, int threads) {

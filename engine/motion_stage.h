@@ -57,7 +57,7 @@ class MotionStage {
   std::vector<broadphase::Filter> filters_;  // with which they were swept
   std::vector<std::uint32_t> changed_;
   std::vector<Passing> passing_;
-  std::vector<std::uint32_t> without_features_;
+  std::vector<std::uint32_t> slots_;  // scratch
   std::vector<Part> parts_;
   std::vector<Work> work_;                  // of each thread
   std::vector<std::atomic<double>> first_;  // of each pair that passes, or of all

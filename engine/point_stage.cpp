@@ -117,15 +117,9 @@ void PointStage::select(std::span<const MovedPair> moved, const Bodies& bodies) 
 }
 
 void PointStage::make_features(Bodies& bodies, int threads) {
-  without_features_.clear();
-  for (const Wanted& wanted : wanted_) {
-    for (const std::uint32_t slot : {wanted.a, wanted.b}) {
-      if (bodies.featured(slot).features == nullptr) without_features_.push_back(slot);
-    }
-  }
-  std::ranges::sort(without_features_);
-  without_features_.erase(std::unique(without_features_.begin(), without_features_.end()), without_features_.end());
-  bodies.make_features(without_features_, threads);
+  slots_.clear();
+  for (const auto& one : wanted_) slots_.insert(slots_.end(), {one.a, one.b});
+  bodies.make_features(slots_, threads);
 }
 
 void PointStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Settings& settings,

@@ -41,9 +41,9 @@ class PointStage {
                         int threads);
 
   std::vector<Wanted> wanted_;
-  std::vector<std::uint32_t> without_features_;  // slots
-  std::vector<Work> work_;                       // a thread each
-  std::vector<char> is_large_;                   // of the wanted ones
+  std::vector<std::uint32_t> slots_;  // scratch
+  std::vector<Work> work_;            // a thread each
+  std::vector<char> is_large_;        // of the wanted ones
   std::vector<std::vector<narrowphase::FeaturePoint>> ranges_;
 };
 

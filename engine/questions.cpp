@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "engine/base/text.h"
+#include "engine/check_coordinate.h"
 #include "narrowphase/questions/mesh_questions.h"
 
 namespace tact {
@@ -18,12 +19,7 @@ using narrowphase::FacetHit;
 
 void check_point(const Eigen::Vector3d& point, const char* what) {
   for (int axis = 0; axis < 3; ++axis) {
-    const double x = point[axis];
-    if (std::isfinite(x) && std::abs(x) <= kLargestCoordinate) continue;
-    const bool infinite = !std::isfinite(x);
-    throw Error(infinite ? ErrorCode::non_finite_position : ErrorCode::position_out_of_range,
-                std::string(what) + " has " + "xyz"[axis] + " = " + base::text_of(x) +
-                    (infinite ? ", which is not finite" : ", which is larger than 2^300 in size"));
+    if (!(std::abs(point[axis]) <= kLargestCoordinate)) refuse_coordinate(what, axis, point[axis]);
   }
 }
 
@@ -40,6 +36,15 @@ void for_each_body(const Bodies& bodies, const Asked& asked, const Wants& wants,
     if (!visit(bodies.in_slot(slot))) return;
   }
 }
+
+// The same for those whose box overlaps `box`.
+template <class Visit>
+void for_each_body_near(const Bodies& bodies, const Asked& asked, const Box& box, const Visit& visit) {
+  for_each_body(
+      bodies, asked, [&](const Box& one) { return overlaps(one, box); }, visit);
+}
+
+Box box_of(const narrowphase::Segment& segment) { return extended({segment[0], segment[0]}, segment[1]); }
 
 RayHit hit_of(const Body& body, const FacetHit& hit) { return {body.id, hit.facet, hit.time, hit.weight}; }
 
@@ -65,33 +70,26 @@ void check_question(const BoxQuestion& question) {
 
 RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted) {
   const narrowphase::Segment segment = segment_of(ray);
-  const Box box = extended({segment[0], segment[0]}, segment[1]);
   RayHit best;
   best.time = 1.0;
-  for_each_body(
-      bodies, ray.asked, [&](const Box& one) { return overlaps(one, box); },
-      [&](const Body& body) {
-        const auto hit =
-            wanted == RayHits::any ? any_hit(body.mesh, segment) : first_hit(body.mesh, segment, best.time);
-        if (hit && (best.facet < 0 || hit->time < best.time)) best = hit_of(body, *hit);
-        return !(hit && wanted == RayHits::any);
-      });
+  for_each_body_near(bodies, ray.asked, box_of(segment), [&](const Body& body) {
+    const auto hit = wanted == RayHits::any ? any_hit(body.mesh, segment) : first_hit(body.mesh, segment, best.time);
+    if (hit && (best.facet < 0 || hit->time < best.time)) best = hit_of(body, *hit);
+    return !(hit && wanted == RayHits::any);
+  });
   return best.facet >= 0 ? best : RayHit{};
 }
 
 std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray) {
   const narrowphase::Segment segment = segment_of(ray);
-  const Box box = extended({segment[0], segment[0]}, segment[1]);
   std::vector<RayHit> all;
   std::vector<FacetHit> hits;
-  for_each_body(
-      bodies, ray.asked, [&](const Box& one) { return overlaps(one, box); },
-      [&](const Body& body) {
-        hits.clear();
-        append_hits(body.mesh, segment, hits);
-        for (const FacetHit& hit : hits) all.push_back(hit_of(body, hit));
-        return true;
-      });
+  for_each_body_near(bodies, ray.asked, box_of(segment), [&](const Body& body) {
+    hits.clear();
+    append_hits(body.mesh, segment, hits);
+    for (const FacetHit& hit : hits) all.push_back(hit_of(body, hit));
+    return true;
+  });
   std::ranges::sort(all, {}, [](const RayHit& hit) { return std::tuple(hit.time, hit.body, hit.facet); });
   return all;
 }
@@ -122,27 +120,23 @@ std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuestion& qu
   const Box box{point_of(question.lower), point_of(question.upper)};
   std::vector<FacetOfBody> found;
   std::vector<int> facets;
-  for_each_body(
-      bodies, question.asked, [&](const Box& one) { return overlaps(one, box); },
-      [&](const Body& body) {
-        facets.clear();
-        append_facets_in_box(body.mesh, box, facets);
-        std::ranges::sort(facets);
-        for (const int facet : facets) found.push_back({body.id, facet});
-        return true;
-      });
+  for_each_body_near(bodies, question.asked, box, [&](const Body& body) {
+    facets.clear();
+    append_facets_in_box(body.mesh, box, facets);
+    std::ranges::sort(facets);
+    for (const int facet : facets) found.push_back({body.id, facet});
+    return true;
+  });
   return found;
 }
 
 std::vector<BodyId> find_around(const Bodies& bodies, const PointQuestion& question) {
   const Vec3 point = point_of(question.point);
   std::vector<BodyId> found;
-  for_each_body(
-      bodies, question.asked, [&](const Box& one) { return contains(one, point); },
-      [&](const Body& body) {
-        if (body.surface == Surface::closed && contains(body.mesh, point)) found.push_back(body.id);
-        return true;
-      });
+  for_each_body_near(bodies, question.asked, {point, point}, [&](const Body& body) {
+    if (body.surface == Surface::closed && contains(body.mesh, point)) found.push_back(body.id);
+    return true;
+  });
   return found;
 }
 

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -18,6 +16,7 @@
 #include "bench/table.h"
 #include "bench/workloads/workloads.h"
 #include "narrowphase/motion/meeting.h"
+#include "tests/support/unit_queries.h"
 
 namespace tact::bench {
 namespace {
@@ -167,27 +166,13 @@ Table measure_growth(bool quick, double budget_ms) {
 
 // Queries of ../shared/data, one by one and without the filter.
 void measure_queries() {
-  const std::string folder = "../shared/data/ccd_unit_queries/";
+  const std::string folder = "../shared/data/ccd_unit_queries";
   narrowphase::MeetingSearch search;
   std::vector<narrowphase::MovingPolygon> polygons;
   std::size_t right = 0;
-  for (const char* name : {"edge-edge_0", "edge-edge_1", "vertex-face_0", "vertex-face_1"}) {
-    std::ifstream in(folder + name + ".csv");
-    narrowphase::MovingVertex v[4];
-    std::string line;
-    for (std::size_t row = 0; std::getline(in, line); ++row) {
-      std::replace(line.begin(), line.end(), ',', ' ');
-      std::istringstream numbers(line);
-      double x[6];
-      bool answer = false;
-      for (double& number : x) numbers >> number;
-      numbers >> answer;
-      v[row % 4].at[row % 8 / 4] = {x[0] / x[1], x[2] / x[3], x[4] / x[5]};
-      if (row % 8 != 7) continue;
-      polygons.push_back(name[0] == 'e' ? narrowphase::edge_seen_from({v[0], v[1]}, {v[2], v[3]})
-                                        : narrowphase::facet_seen_from(v[0], {v[1], v[2], v[3]}));
-      right += (search.first(polygons.back(), 0.0).time <= 1.0) == answer;
-    }
+  for (const tests::UnitQuery& query : tests::read_unit_queries(folder)) {
+    polygons.push_back(query.polygon());
+    right += (search.first(polygons.back(), 0.0).time <= 1.0) == query.answer;
   }
   if (polygons.empty()) {
     fmt::print("no unit queries at {}: they are left out\n\n", folder);

@@ -124,6 +124,13 @@ void raise_to(std::atomic<Value>& most, Value value) {
   }
 }
 
+// Keeps the smallest of the values given.
+template <class Value>
+void lower_to(std::atomic<Value>& least, Value value) {
+  for (Value known = least; value < known && !least.compare_exchange_weak(known, value);) {
+  }
+}
+
 // Calls run(thread) on `threads` threads of OpenMP. What it loses by threads that are not allowed to run is noted: the
 // wait before the caller's own work (for threads that have not left the last loop) and after the last work of all, and
 // of that between, as much as some thread did not run.

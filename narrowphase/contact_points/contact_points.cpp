@@ -25,25 +25,14 @@ double largest_coordinate(const Box& box) {
 double box_reach(double reach, double largest) { return reach * (1.0 + 0x1p-40) + 0x1p-50 * largest; }
 
 // Boxes in arrays, and what they are the boxes of.
-struct Boxed {
-  static constexpr int kMost = 3 * kClusterSize;
-  int count = 0;
+struct Boxed : FixedBoxes<3 * kClusterSize> {
   int index[kMost] = {};
-  double bounds[6][kMost + kPadding] = {};
 
   void clear() { count = 0; }
   void add(int what, const Box& box) {
     index[count] = what;
-    for (int axis = 0; axis < 3; ++axis) {
-      bounds[axis][count] = box.lower[axis];
-      bounds[axis + 3][count] = box.upper[axis];
-    }
-    ++count;
+    set(count++, box);
   }
-  Box box(int i) const {
-    return {{bounds[0][i], bounds[1][i], bounds[2][i]}, {bounds[3][i], bounds[4][i], bounds[5][i]}};
-  }
-  BoxPointers pointers() const { return {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}}; }
 };
 
 // A cluster's facets, and the vertices and edges that it has first, scaled.
@@ -211,31 +200,17 @@ class PointFinder {
   SurfaceWays ways_;
 };
 
-void keep_near(const ClusteredMesh& mesh, const Box& other, double reach, KeptClusters& kept) {
-  kept.cluster.clear();
-  kept.bounds = {};
-  kept.boxes.resize(static_cast<std::size_t>(mesh.cluster_count()));
-  for (int c = 0; c < mesh.cluster_count(); ++c) {
-    const Box box = inflated(mesh.cluster_boxes()[static_cast<std::size_t>(c)], reach);
-    if (!overlaps(box, other)) continue;
-    kept.boxes.set(kept.cluster.size(), box);
-    kept.cluster.push_back(c);
-    kept.bounds = merged(kept.bounds, box);
-  }
-}
-
 }  // namespace
 
 std::span<const ClusterPair> NearClusters::find(const FeaturedMesh& a, const FeaturedMesh& b, double reach,
                                                 EmbreeDevice& device) {
   const double both = box_reach(reach, std::max(largest_coordinate(a.mesh->box()), largest_coordinate(b.mesh->box())));
-  keep_near(*a.mesh, b.mesh->box(), both, kept_a_);
-  keep_near(*b.mesh, kept_a_.bounds, 0.0, kept_b_);
-  find_cluster_pairs(kept_a_, kept_b_, ClusterPairSource::automatic, device, pairs_, work_);
-  for (ClusterPair& pair : pairs_)
-    pair = {kept_a_.cluster[static_cast<std::size_t>(pair.a)], kept_b_.cluster[static_cast<std::size_t>(pair.b)]};
-  if (a.mesh == b.mesh) std::erase_if(pairs_, [](const ClusterPair& pair) { return pair.b < pair.a; });
-  return pairs_;
+  const auto box_of = [](const ClusteredMesh& mesh, int c) {
+    return mesh.cluster_boxes()[static_cast<std::size_t>(c)];
+  };
+  return finder_.find(
+      *a.mesh, [&](int c) { return inflated(box_of(*a.mesh, c), both); },  //
+      *b.mesh, [&](int c) { return box_of(*b.mesh, c); }, b.mesh->box(), device);
 }
 
 struct ContactPointSearch::Memory {

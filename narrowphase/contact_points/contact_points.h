@@ -12,7 +12,7 @@
 
 #include "narrowphase/contact_points/features.h"
 #include "narrowphase/contact_points/nearest.h"
-#include "narrowphase/triangles/confirm.h"
+#include "narrowphase/triangles/cluster_pairs.h"
 
 namespace tact::narrowphase {
 
@@ -42,12 +42,9 @@ struct FeaturedMesh {
 class NearClusters {
  public:
   std::span<const ClusterPair> find(const FeaturedMesh& a, const FeaturedMesh& b, double reach, EmbreeDevice& device);
-  std::span<const ClusterPair> pairs() const { return pairs_; }
 
  private:
-  KeptClusters kept_a_, kept_b_;
-  std::vector<ClusterPair> pairs_;  // clusters
-  ClusterPairWork work_;
+  ClusterPairFinder finder_;
 };
 
 class ContactPointSearch {

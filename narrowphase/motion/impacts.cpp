@@ -4,6 +4,7 @@
 #include <bit>
 #include <limits>
 
+#include "engine/base/parallel.h"
 #include "narrowphase/numeric/unit_scale.h"
 
 namespace tact::narrowphase {
@@ -14,12 +15,12 @@ constexpr int kMostVertices = 3 * kClusterSize, kMostEdges = 3 * kClusterSize;
 
 // Features of a cluster with kCorners corners each, numbered in the mesh from `first` on: where their corners are at
 // time 0 and 1, and their boxes on the way. All lengths here are scaled.
-template <int kCorners, int kMost>
-struct MovingFeatures {
+template <int kCorners, int kMostFeatures>
+struct MovingFeatures : FixedBoxes<kMostFeatures> {
+  using Boxes = FixedBoxes<kMostFeatures>;
+  using Boxes::bounds, Boxes::count;
   int first = 0;
-  int count = 0;
-  double at[2][kCorners][3][kMost];    // time, corner, axis
-  double bounds[6][kMost + kPadding];  // lower x, y, z, upper x, y, z
+  double at[2][kCorners][3][kMostFeatures];  // time, corner, axis
 
   // Takes corner number corner(c, i) of `vertices` for corner c of feature i.
   template <int kVertices, class Corner>
@@ -47,10 +48,6 @@ struct MovingFeatures {
       }
     }
   }
-  Box box(int i) const {
-    return {{bounds[0][i], bounds[1][i], bounds[2][i]}, {bounds[3][i], bounds[4][i], bounds[5][i]}};
-  }
-  BoxPointers pointers() const { return {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}}; }
 };
 
 // A cluster's facets, and the vertices and edges that it has first.
@@ -98,10 +95,6 @@ struct Waiting {
   } pair[MovingPolygons::kCapacity];
 };
 
-double least_of(const std::atomic<double>* value) {
-  return value == nullptr ? 1.0 : value->load(std::memory_order_relaxed);
-}
-
 constexpr std::size_t kOpened = 16;  // clusters of each side that stay open: they come soon again
 
 // Clusters that stay open until others take their place.
@@ -121,11 +114,8 @@ class OpenClusters {
 };
 
 // Features of a cluster, and their boxes.
-struct BoxList {
-  int count = 0;
+struct BoxList : FixedBoxes<kMostEdges> {
   std::int32_t index[kMostEdges + kPadding];
-  double bounds[6][kMostEdges + kPadding];
-  BoxPointers pointers() const { return {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}}; }
 };
 
 struct SearchMemory {
@@ -250,8 +240,9 @@ class ImpactSearch {
     counts_.candidates += count;
     counts_.searched += std::popcount(left);
     for (; left != 0; left &= left - 1) {
+      const double latest = first_ != nullptr ? first_->load(std::memory_order_relaxed) : 1.0;
       const auto& pair = waiting.pair[std::countr_zero(left)];
-      const Meeting meeting = memory_.meeting.first(polygon(pair.kind, pair.a, pair.b), reach_, least_of(first_));
+      const Meeting meeting = memory_.meeting.first(polygon(pair.kind, pair.a, pair.b), reach_, latest);
       counts_.spans += meeting.spans;
       if (meeting.time <= 1.0) add(pair.kind, pair.a, pair.b, meeting.time);
     }
@@ -283,9 +274,7 @@ class ImpactSearch {
                          .time = time};
     if (same_ && edges && impact.b < impact.a) std::swap(impact.a, impact.b);
     found_.push_back(impact);
-    if (first_ == nullptr) return;
-    for (double known = *first_; time < known && !first_->compare_exchange_weak(known, time);) {
-    }
+    if (first_ != nullptr) base::lower_to(*first_, time);
   }
 
   const MovingMesh &a_, &b_;
@@ -298,30 +287,13 @@ class ImpactSearch {
   MotionCounts& counts_;
 };
 
-void keep_passing(const MovingMesh& mesh, const Box& other, double reach, KeptClusters& kept) {
-  kept.cluster.clear();
-  kept.bounds = {};
-  kept.boxes.resize(static_cast<std::size_t>(mesh.mesh->cluster_count()));
-  for (int c = 0; c < mesh.mesh->cluster_count(); ++c) {
-    const Box box = base::grown(mesh.cluster_box(c), reach);
-    if (!overlaps(box, other)) continue;
-    kept.boxes.set(kept.cluster.size(), box);
-    kept.cluster.push_back(c);
-    kept.bounds = merged(kept.bounds, box);
-  }
-}
-
 }  // namespace
 
 std::span<const ClusterPair> PassingClusters::find(const MovingMesh& a, const MovingMesh& b, double reach,
                                                    EmbreeDevice& device) {
-  keep_passing(a, b.box(), reach, kept_a_);
-  keep_passing(b, kept_a_.bounds, 0.0, kept_b_);
-  find_cluster_pairs(kept_a_, kept_b_, ClusterPairSource::automatic, device, pairs_, work_);
-  for (ClusterPair& pair : pairs_)
-    pair = {kept_a_.cluster[static_cast<std::size_t>(pair.a)], kept_b_.cluster[static_cast<std::size_t>(pair.b)]};
-  if (a.mesh == b.mesh) std::erase_if(pairs_, [](const ClusterPair& pair) { return pair.b < pair.a; });
-  return pairs_;
+  return finder_.find(
+      *a.mesh, [&](int c) { return base::grown(a.cluster_box(c), reach); },  //
+      *b.mesh, [&](int c) { return b.cluster_box(c); }, b.box(), device);
 }
 
 struct ImpactFinder::Memory : SearchMemory {};

@@ -14,7 +14,7 @@
 
 #include "narrowphase/contact_points/features.h"
 #include "narrowphase/motion/meeting.h"
-#include "narrowphase/triangles/confirm.h"
+#include "narrowphase/triangles/cluster_pairs.h"
 
 namespace tact::narrowphase {
 
@@ -67,9 +67,7 @@ class PassingClusters {
   std::span<const ClusterPair> find(const MovingMesh& a, const MovingMesh& b, double reach, EmbreeDevice& device);
 
  private:
-  KeptClusters kept_a_, kept_b_;
-  std::vector<ClusterPair> pairs_;  // clusters
-  ClusterPairWork work_;
+  ClusterPairFinder finder_;
 };
 
 /// One for each thread, its memory used again.

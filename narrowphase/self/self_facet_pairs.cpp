@@ -9,29 +9,20 @@ namespace tact::narrowphase {
 namespace {
 
 // The facets of a cluster: corners, and boxes in arrays.
-struct OpenFacets {
+struct OpenFacets : FixedBoxes<kClusterSize> {
   int cluster = -1;
-  int count = 0;
   Corners corners[kClusterSize];
-  double bounds[6][kClusterSize + kPadding];
 
   void open(const ClusteredMesh& mesh, int wanted) {
     cluster = wanted;
     count = 0;
-    for (int f = mesh.facet_begin(wanted); f < mesh.facet_end(wanted); ++f, ++count) {
+    for (int f = mesh.facet_begin(wanted); f < mesh.facet_end(wanted); ++f) {
       corners[count] = mesh.corners(f);
       Box box;
       for (const int v : corners[count]) box = extended(box, mesh.position(v));
-      for (int axis = 0; axis < 3; ++axis) {
-        bounds[axis][count] = box.lower[axis];
-        bounds[axis + 3][count] = box.upper[axis];
-      }
+      set(count++, box);
     }
   }
-  Box box(int i) const {
-    return {{bounds[0][i], bounds[1][i], bounds[2][i]}, {bounds[3][i], bounds[4][i], bounds[5][i]}};
-  }
-  BoxPointers boxes() const { return {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}}; }
 };
 
 bool share_a_vertex(const Corners& a, const Corners& b) { return std::ranges::find_first_of(a, b) != a.end(); }
@@ -57,16 +48,8 @@ bool plane_separates(const Triangle& plane, const Triangle& other) {
 }  // namespace
 
 std::span<const ClusterPair> SelfClusters::find(const ClusteredMesh& mesh, EmbreeDevice& device) {
-  all_.cluster.resize(static_cast<std::size_t>(mesh.cluster_count()));
-  all_.boxes.resize(all_.cluster.size());
-  all_.bounds = mesh.box();
-  for (int c = 0; c < mesh.cluster_count(); ++c) {
-    all_.cluster[static_cast<std::size_t>(c)] = c;
-    all_.boxes.set(static_cast<std::size_t>(c), mesh.cluster_boxes()[static_cast<std::size_t>(c)]);
-  }
-  find_cluster_pairs(all_, all_, ClusterPairSource::automatic, device, pairs_, work_);
-  std::erase_if(pairs_, [](const ClusterPair& pair) { return pair.b < pair.a; });
-  return pairs_;
+  const auto box_of = [&](int c) { return mesh.cluster_boxes()[static_cast<std::size_t>(c)]; };
+  return finder_.find(mesh, box_of, mesh, box_of, mesh.box(), device);
 }
 
 void find_self_facet_pairs(const ClusteredMesh& mesh, std::span<const ClusterPair> pairs,
@@ -80,7 +63,7 @@ void find_self_facet_pairs(const ClusteredMesh& mesh, std::span<const ClusterPai
     const Box other = mesh.cluster_boxes()[static_cast<std::size_t>(pair.b)];
     for (int i = 0; i < a.count; ++i) {
       if (!overlaps(a.box(i), other)) continue;
-      const int count = kernels().select_overlapping(b.boxes(), b.count, bounds_of(a.box(i)), near);
+      const int count = kernels().select_overlapping(b.pointers(), b.count, bounds_of(a.box(i)), near);
       for (int n = 0; n < count; ++n) {
         const int k = near[n];
         if ((pair.a == pair.b && k <= i) || share_a_vertex(a.corners[i], b.corners[k])) continue;

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "narrowphase/triangles/confirm.h"
+#include "narrowphase/triangles/cluster_pairs.h"
 
 namespace tact::narrowphase {
 
@@ -16,9 +16,7 @@ class SelfClusters {
   std::span<const ClusterPair> find(const ClusteredMesh& mesh, EmbreeDevice& device);
 
  private:
-  KeptClusters all_;
-  std::vector<ClusterPair> pairs_;
-  ClusterPairWork work_;
+  ClusterPairFinder finder_;
 };
 
 /// Appends the facets that meet, of some cluster pairs, in no particular order, by the caller's numbers with a < b. All

@@ -55,16 +55,10 @@ double distance_at(const MovingPolygon& polygon, double time) {
 
 }  // namespace
 
-MovingPolygon MotionQuery::polygon() const {
-  const auto& v = vertices;
-  return edges ? narrowphase::edge_seen_from({v[0], v[1]}, {v[2], v[3]})
-               : narrowphase::facet_seen_from(v[0], {v[1], v[2], v[3]});
-}
-
-std::optional<TimeEnclosure> MotionQuery::exact() const {
-  const auto& v = vertices;
-  return edges ? first_time_of_edges({v[0], v[1]}, {v[2], v[3]})
-               : first_time_of_vertex_and_facet(v[0], {v[1], v[2], v[3]});
+std::optional<TimeEnclosure> exact_time(const MotionQuery& query) {
+  const auto& v = query.vertices;
+  return query.edges ? first_time_of_edges({v[0], v[1]}, {v[2], v[3]})
+                     : first_time_of_vertex_and_facet(v[0], {v[1], v[2], v[3]});
 }
 
 MotionQuery random_query(Random& random) {
@@ -112,7 +106,7 @@ MotionQuery grazing_query(Random& random) {
 CheckedQuery check(const MotionQuery& query, narrowphase::MeetingSearch& search) {
   const MovingPolygon polygon = query.polygon();
   const double time = search.first(polygon, 0.0).time;
-  const auto exact = query.exact();
+  const auto exact = exact_time(query);
   const auto failed = [&](const std::string& what) {
     std::ostringstream text;
     text.precision(17);

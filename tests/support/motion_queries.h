@@ -1,24 +1,19 @@
 // Moving features, random and hard, and whether the engine is right about them.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 
 #include "narrowphase/motion/meeting.h"
 #include "tests/support/motion_oracle.h"
 #include "tests/support/random.h"
+#include "tests/support/unit_queries.h"
 
 namespace tact::tests {
 
-/// Two edges, or a vertex and a facet.
-struct MotionQuery {
-  bool edges = false;
-  std::array<narrowphase::MovingVertex, 4> vertices;
-
-  narrowphase::MovingPolygon polygon() const;
-  std::optional<TimeEnclosure> exact() const;
-};
+using MotionQuery = UnitQuery;
+/// In rational arithmetic.
+std::optional<TimeEnclosure> exact_time(const MotionQuery& query);
 
 /// Coplanar, parallel, equal, at rest and rigid ones among others, of any size, near to zero and far from it.
 MotionQuery random_query(Random& random);

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <shared_mutex>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -54,6 +55,20 @@ tact_error guarded(const Work& work) noexcept {
 template <class... Pointers>
 void check_not_null(const Pointers*... pointers) {
   if ((!pointers || ...)) throw Failure{TACT_ERROR_NULL_ARGUMENT, "an argument is null"};
+}
+
+// A list of a report, with the same bits under the name of C.
+template <class ForC, class Value>
+void show(std::span<const Value> values, const ForC** first, size_t* count) {
+  check_not_null(first, count);
+  *first = reinterpret_cast<const ForC*>(values.data());
+  *count = values.size();
+}
+
+template <class Value>
+const Value& at(std::span<const Value> values, size_t index) {
+  if (index >= values.size()) throw Failure{TACT_ERROR_INDEX_OUT_OF_RANGE, "an index is not below the count"};
+  return values[index];
 }
 
 inline constexpr Failure kBusy{TACT_ERROR_BUSY, "another thread is in a function of this world"};

@@ -21,15 +21,12 @@ tact_error with_motion(tact_world world, const Work& work) noexcept {
   });
 }
 
-const tact_impact* for_c(std::span<const Impact> impacts) {
-  return reinterpret_cast<const tact_impact*>(impacts.data());
-}
-
 }  // namespace
 }  // namespace tact::c
 
 using tact::MotionReport;
-using tact::c::body_of, tact::c::check_not_null, tact::c::for_c, tact::c::with_motion, tact::c::write_struct;
+using tact::c::at, tact::c::body_of, tact::c::check_not_null, tact::c::show, tact::c::with_motion,
+    tact::c::write_struct;
 
 extern "C" {
 
@@ -41,11 +38,7 @@ tact_error tact_motion_first_time(tact_world world, double* time) {
 }
 
 tact_error tact_motion_impacts(tact_world world, const tact_impact** impacts, size_t* count) {
-  return with_motion(world, [&](const MotionReport& motion) {
-    check_not_null(impacts, count);
-    *impacts = for_c(motion.impacts());
-    *count = motion.impacts().size();
-  });
+  return with_motion(world, [&](const MotionReport& motion) { show(motion.impacts(), impacts, count); });
 }
 
 tact_error tact_motion_pairs(tact_world world, size_t* count) {
@@ -58,15 +51,12 @@ tact_error tact_motion_pairs(tact_world world, size_t* count) {
 tact_error tact_motion_pair(tact_world world, size_t index, tact_impact_pair* pair) {
   return with_motion(world, [&](const MotionReport& motion) {
     check_not_null(pair);
-    if (index >= motion.pairs().size())
-      throw tact::c::Failure{TACT_ERROR_INDEX_OUT_OF_RANGE, "an index is not below the count"};
-    const tact::ImpactPair& found = motion.pairs()[index];
+    const tact::ImpactPair& found = at(motion.pairs(), index);
     tact_impact_pair value = TACT_IMPACT_PAIR_INIT;
     value.a = body_of(found.a);
     value.b = body_of(found.b);
     value.first_time = found.first_time;
-    value.impacts = for_c(found.impacts);
-    value.impact_count = found.impacts.size();
+    show(found.impacts, &value.impacts, &value.impact_count);
     write_struct(*pair, value);
   });
 }

@@ -31,20 +31,6 @@ tact_error with_report(tact_world world, const Work& work) noexcept {
   });
 }
 
-// The same bits under the name of C.
-template <class ForC, class Value>
-void show(std::span<const Value> values, const ForC** first, size_t* count) {
-  check_not_null(first, count);
-  *first = reinterpret_cast<const ForC*>(values.data());
-  *count = values.size();
-}
-
-template <class Value>
-const Value& at(std::span<const Value> values, size_t index) {
-  if (index >= values.size()) throw Failure{TACT_ERROR_INDEX_OUT_OF_RANGE, "an index is not below the count"};
-  return values[index];
-}
-
 void put(const Eigen::Vector3d& from, double* to) { std::copy_n(from.data(), 3, to); }
 
 tact_zone_disk disk_of(const ZoneDisk& disk) {

@@ -65,6 +65,14 @@ py::array_t<Number> column_of(std::span<const Item> items, const Value& value) {
   return array;
 }
 
+/// Rows of the three numbers that a member of each of `items` holds, of shape (N, 3).
+template <class Number, class Item, class Member>
+py::array_t<Number> rows_of_three(std::span<const Item> items, Member member) {
+  return rows_of<Number>(items, 3, [&](const Item& item, Number* row) {
+    for (std::size_t k = 0; k < 3; ++k) row[k] = (item.*member)[k];
+  });
+}
+
 /// Three coordinates as an array of shape (3,).
 py::array_t<double> vector_of(const Eigen::Vector3d& vector);
 

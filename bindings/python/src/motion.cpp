@@ -9,13 +9,6 @@ namespace tact::python {
 
 namespace {
 
-template <class Vertices>
-py::array_t<int> vertex_rows(std::span<const Impact> impacts, Vertices vertices) {
-  return rows_of<int>(impacts, 3, [&](const Impact& impact, int* row) {
-    for (std::size_t k = 0; k < 3; ++k) row[k] = (impact.*vertices)[k];
-  });
-}
-
 py::dict stats_of(const MotionStats& stats) {
   py::dict dict;
   dict["moved_bodies"] = stats.moved_bodies;
@@ -42,8 +35,8 @@ MotionArrays motion_arrays(const MotionReport& report) {
                                 }),
           column_of<std::uint8_t>(impacts, [](const Impact& impact) { return impact.kind; }),
           column_of<double>(impacts, [](const Impact& impact) { return impact.time; }),
-          vertex_rows(impacts, &Impact::a_vertices),
-          vertex_rows(impacts, &Impact::b_vertices),
+          rows_of_three<int>(impacts, &Impact::a_vertices),
+          rows_of_three<int>(impacts, &Impact::b_vertices),
           stats_of(report.stats())};
 }
 

@@ -35,16 +35,9 @@ template <class Answer>
 py::array_t<int> facet_column(std::span<const Answer> answers) {
   return column_of<int>(answers, [](const Answer& answer) { return answer.facet; });
 }
-template <class Answer>
-py::array_t<double> weight_rows(std::span<const Answer> answers) {
-  return rows_of<double>(answers, 3, [](const Answer& answer, double* row) {
-    for (std::size_t k = 0; k < 3; ++k) row[k] = answer.weights[k];
-  });
-}
-
 HitArrays hit_arrays(std::span<const RayHit> hits) {
   return {body_column(hits), facet_column(hits), column_of<double>(hits, [](const RayHit& hit) { return hit.time; }),
-          weight_rows(hits)};
+          rows_of_three<double>(hits, &RayHit::weights)};
 }
 
 std::vector<Eigen::Vector3d> points_of(py::handle given) {
@@ -85,7 +78,8 @@ ClosestArrays closest_points(SharedWorld& world, py::handle points, double withi
   world.compute([&](World& w) { w.closest_points(questions, answers); });
   const std::span<const ClosestPoint> all = answers;
   return {body_column(all), facet_column(all),
-          column_of<double>(all, [](const ClosestPoint& one) { return one.distance; }), weight_rows(all)};
+          column_of<double>(all, [](const ClosestPoint& one) { return one.distance; }),
+          rows_of_three<double>(all, &ClosestPoint::weights)};
 }
 
 py::array_t<std::int64_t> overlap_box(SharedWorld& world, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,

@@ -74,21 +74,14 @@ struct PointArrays {
   py::array_t<std::uint64_t> ids;
 };
 
-template <class Number, class Member>
-py::array_t<Number> point_rows(std::span<const ContactPoint> points, Member member) {
-  return rows_of<Number>(points, 3, [&](const ContactPoint& point, Number* row) {
-    for (std::size_t k = 0; k < 3; ++k) row[k] = (point.*member)[k];
-  });
-}
-
 PointArrays point_arrays(std::span<const ContactPoint> points) {
   return {column_of<std::uint8_t>(points, [](const ContactPoint& point) { return point.kind; }),
           column_of<int>(points, [](const ContactPoint& point) { return point.patch; }),
-          point_rows<int>(points, &ContactPoint::a_vertices),
-          point_rows<int>(points, &ContactPoint::b_vertices),
-          point_rows<double>(points, &ContactPoint::a_weights),
-          point_rows<double>(points, &ContactPoint::b_weights),
-          point_rows<double>(points, &ContactPoint::normal),
+          rows_of_three<int>(points, &ContactPoint::a_vertices),
+          rows_of_three<int>(points, &ContactPoint::b_vertices),
+          rows_of_three<double>(points, &ContactPoint::a_weights),
+          rows_of_three<double>(points, &ContactPoint::b_weights),
+          rows_of_three<double>(points, &ContactPoint::normal),
           column_of<double>(points, [](const ContactPoint& point) { return point.gap; }),
           column_of<std::uint64_t>(points, [](const ContactPoint& point) { return point.id; })};
 }

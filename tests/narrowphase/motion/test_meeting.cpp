@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
+#include <string>
+#include <vector>
 
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/motion/meeting.h"
@@ -44,32 +44,16 @@ TEST(Meeting, GrazingQueriesEqualRationalArithmetic) {
 }
 
 TEST(Meeting, QueriesWithKnownAnswersAreRight) {
-  const std::string folder = std::string(TACT_DATA_DIR) + "/ccd_unit_queries/";
-  if (!std::ifstream(folder + "edge-edge_0.csv")) GTEST_SKIP() << "no folder of test data at " << folder;
+  const std::string folder = std::string(TACT_DATA_DIR) + "/ccd_unit_queries";
+  const std::vector<UnitQuery> queries = read_unit_queries(folder);
+  if (queries.empty()) GTEST_SKIP() << "no folder of test data at " << folder;
+  EXPECT_EQ(queries.size(), 324u);
   MeetingSearch search;
-  int count = 0;
-  for (const char* name : {"edge-edge_0", "edge-edge_1", "vertex-face_0", "vertex-face_1"}) {
-    std::ifstream in(folder + name + ".csv");
-    std::string line;
-    MotionQuery query;
-    query.edges = name[0] == 'e';
-    for (std::size_t row = 0; std::getline(in, line); ++row) {
-      std::ranges::replace(line, ',', ' ');
-      std::istringstream numbers(line);
-      double x[6];
-      bool answer = false;
-      for (double& number : x) numbers >> number;
-      numbers >> answer;
-      ASSERT_TRUE(numbers) << name << ", row " << row;
-      query.vertices[row % 4].at[row % 8 / 4] = {x[0] / x[1], x[2] / x[3], x[4] / x[5]};
-      if (row % 8 != 7) continue;
-      ++count;
-      EXPECT_EQ(search.first(query.polygon(), 0.0).time <= 1.0, answer) << name << ", query " << row / 8;
-      EXPECT_EQ(query.exact().has_value(), answer) << name << ", query " << row / 8;
-      EXPECT_EQ(check(query, search).failure, "") << name << ", query " << row / 8;
-    }
+  for (const UnitQuery& query : queries) {
+    EXPECT_EQ(search.first(query.polygon(), 0.0).time <= 1.0, query.answer) << query.name;
+    EXPECT_EQ(exact_time(query).has_value(), query.answer) << query.name;
+    EXPECT_EQ(check(query, search).failure, "") << query.name;
   }
-  EXPECT_EQ(count, 324);
 }
 
 // With a reach: never late, and at the time found the distance is what was asked for.
