@@ -10,6 +10,7 @@
 #include "engine/base/parallel.h"
 #include "narrowphase/depth/smallest_separation.h"
 #include "narrowphase/direction/contact_direction.h"
+#include "narrowphase/hull/hull_verdict.h"
 
 namespace tact {
 
@@ -86,8 +87,16 @@ bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, double reac
   history.hulls = hulls.simplex;
   record.counts.gjk_iterations += hulls.support_queries;
   record.counts.limit_reached = hulls.status == GjkStatus::limit_reached;
-  if (hulls.status != GjkStatus::apart) return true;
-  set_apart(record, normalized(-hulls.offset));
+  if (hulls.status == GjkStatus::overlapping) return true;
+  Vec3 parting = -hulls.offset;
+  if (hulls.status != GjkStatus::apart) {
+    const HullVerdict exact = hull_verdict(m, hulls.simplex);
+    record.counts.gjk_iterations += exact.support_queries;
+    history.hulls = exact.simplex;
+    if (!exact.apart) return true;
+    parting = exact.direction;
+  }
+  set_apart(record, normalized(parting));
   if (hulls.distance < m.scale() * reach) {
     const ClosestPoints closest = closest_points(m, hulls);
     set_near(record, hulls.distance / m.scale(), dot(history.direction, closest.a), dot(history.direction, closest.b));
@@ -244,16 +253,6 @@ bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, d
 
   const Direction direction = find_direction(record, m, settings, work);
   record.counts.gjk_iterations += direction.found.support_queries;
-  if (direction.found.height < -m.height_error()) {  // GJK could not tell, the direction can
-    set_apart(record, direction.found.n);
-    if (reach > 0.0) {
-      const Slab slab = slab_of(m, direction.found);
-      const double base = dot(slab.n, slab.origin);
-      set_near(record, -direction.found.height / m.scale(), base + slab.upper, base + slab.lower);
-    }
-    record.counts.direction_ms = static_cast<float>(timer.lap());
-    return false;
-  }
   record.hulls_overlap = true;
   record.near = false;
   record.facet_counts = {};

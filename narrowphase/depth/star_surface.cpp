@@ -47,6 +47,7 @@ const MinkowskiVertex& StarSurface::corner(int face, int k) const {
 
 bool StarSurface::start(const MinkowskiDifference& m, const SurfaceShape& shape) {
   margin_ = m.height_error();
+  vertex_error_ = kUnitRoundoff * 2.0 * m.size();
   face_count_ = shape.face_count;
   vertices_.clear();
   faces_.clear();
@@ -85,7 +86,7 @@ bool StarSurface::set_plane(int face) {
 
 bool StarSurface::looks_away(int face) const {
   const Face& f = faces_[at(face)];
-  return f.distance > f.error;  // false for what is not a number: there was no normal
+  return f.distance > f.error + vertex_error_;  // false for what is not a number: there was no normal
 }
 
 bool StarSurface::sharpen(int face) {

@@ -3,7 +3,8 @@
 // Every face looks away from the origin: the origin lies strictly behind its plane. So each ray from the origin leaves
 // the surface: the projection of the surface onto a sphere about the origin turns no face over, hence covers every
 // direction equally often, and at least once. All points of the surface belong to M, so M reaches at least as far as
-// the nearest of the planes in every direction. The surface need not be convex for that, and no exact predicate is
+// the nearest of the planes in every direction. That plane is farther than any vertex of M is off by its rounding: so
+// the true M surrounds the origin as well. The surface need not be convex for that, and no exact predicate is
 // needed: which faces a new vertex replaces is a matter of speed, and the planes of the new ones tell whether all is
 // well.
 #pragma once
@@ -71,6 +72,7 @@ class StarSurface {
   bool border_is_one_line(int first_face);
 
   double margin_ = 0.0;
+  double vertex_error_ = 0.0;  // of a vertex of M
   int face_count_ = 0;  // without the removed ones
   std::vector<MinkowskiVertex> vertices_;
   std::vector<Face> faces_;

@@ -132,18 +132,7 @@ Point2 FaceFinder::flat(const MinkowskiDifference& m, Vec3 position, Vec3 from, 
 // The vertices of `mesh` within `tolerance` (metres) of the farthest along n.
 void FaceFinder::collect(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double tolerance, int near,
                          std::vector<int>& found) {
-  const HeightAxis axis{n.x, n.y, n.z, origin.x, origin.y, origin.z};
-  const double height = support(mesh, n, origin, near).height - tolerance;
-  select_clusters(mesh, axis, height, clusters_);
-  found.clear();
-  for (const std::int32_t cluster : clusters_) {
-    const int begin = mesh.vertex_begin(cluster), count = mesh.vertex_end(cluster) - begin;
-    inside_.resize(static_cast<std::size_t>(count));
-    const PointArrays p = mesh.points();
-    const int kept =
-        kernels().select_heights({p.x + begin, p.y + begin, p.z + begin}, count, axis, height, inside_.data());
-    for (int k = 0; k < kept; ++k) found.push_back(begin + inside_[static_cast<std::size_t>(k)]);
-  }
+  select_vertices(mesh, n, origin, support(mesh, n, origin, near).height - tolerance, found);
 }
 
 // Positions are taken relative to one vertex of each body, so that only differences are rounded.

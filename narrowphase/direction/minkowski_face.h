@@ -53,7 +53,6 @@ class FaceFinder {
   Point2 base_{};  // the vertex of M that the hulls are relative to
   std::vector<int> a_, b_;
   std::vector<Point2> points_a_, points_b_, hull_a_, hull_b_, sum_;
-  std::vector<std::int32_t> clusters_, inside_;
 };
 
 // Turns n about the axis through `p`, a point of M in the supporting plane of n, towards `t` (unit, across n and the

@@ -100,7 +100,8 @@ class Search {
     result_.weight = closest_.weight;
     result_.distance = norm(closest_.point);
     const double error = m_.height_error();
-    if (inside_) {
+    // More digits do not know that the vertices of M are rounded.
+    if (inside_ && (!wide_ || tetrahedron_holds_origin(points_))) {
       result_.status = GjkStatus::overlapping;
     } else if (result_.lower_bound > error) {
       result_.status = GjkStatus::apart;

@@ -11,8 +11,8 @@ namespace tact::narrowphase {
 enum class GjkStatus {
   apart,     // certainly: the lower bound of the distance exceeds all rounding
   touching,  // but for rounding, the point lies on a vertex, an edge or a triangle of vertices of M: it touches M, or
-             // is inside
-  overlapping,    // the point lies inside a tetrahedron of vertices of M
+             // is inside, or apart by less than rounding
+  overlapping,    // the point lies inside a tetrahedron of vertices of M: certainly, if it is the origin
   limit_reached,  // none of these was shown, by no input known: the result is the best found
 };
 
@@ -40,8 +40,7 @@ struct GjkSettings {
   int query_limit = 1000;    // reached by no input known; a guard, not a tool
 };
 
-// Do four vertices of M hold the origin strictly inside, for certain? Then the hulls overlap, but for the rounding of
-// these vertices. False for fewer.
+// Do four vertices of M hold the origin strictly inside, for certain? Then the hulls overlap. False for fewer.
 bool holds_origin(const MinkowskiDifference& m, const GjkSimplex& simplex);
 
 // The distance of `point` (scaled) from M. `start` may hold vertices from an earlier search, or nothing.

@@ -52,7 +52,9 @@ class Search {
 
   // Is the origin strictly inside, on the same side of every face as the fourth corner?
   bool inside_tetrahedron() const {
-    return same_side(0, 1, 2, 3) && same_side(0, 1, 3, 2) && same_side(0, 2, 3, 1) && same_side(1, 2, 3, 0);
+    const Scalar sizes = (size(y(0)) + size(y(1))) + (size(y(2)) + size(y(3)));
+    return same_side(0, 1, 2, 3, sizes) && same_side(0, 1, 3, 2, sizes) && same_side(0, 2, 3, 1, sizes) &&
+           same_side(1, 2, 3, 0, sizes);
   }
 
   SimplexClosest run() {
@@ -136,12 +138,17 @@ class Search {
   // The sides e and f of a face have a rounding a component; a product of two of their components has three, and the
   // difference of two products one more. With the three of a dot product, n · p is off by at most 7 roundoffs of the
   // sum of |e_a f_b p_c| over the six orders of the axes, and n · (p - q) by 8: not of |n||p|, which is smaller by the
-  // sine of the angle between e and f. That sum is below the product of the three sums of sizes, and two of 10
-  // roundoffs are for their own rounding. Products that vanish are below `kVanishing`.
-  bool same_side(int i, int j, int k, int opposite) const {
+  // sine of the angle between e and f. That sum is below the product of the three sums of sizes. Products that vanish
+  // are below `kVanishing`.
+  //
+  // The corners have a rounding each themselves. If the origin is farther from every face than any corner is off, it is
+  // inside the true tetrahedron: the convex hull of moved corners holds what is deeper than they moved. That is one
+  // roundoff of the largest corner, times |n| <= |e||f|. Two of the 11 roundoffs are for the rounding of the bound.
+  // `sizes`: of all corners.
+  bool same_side(int i, int j, int k, int opposite, Scalar sizes) const {
     const Point e = y(j) - y(i), f = y(k) - y(i), n = cross(e, f);
     const Scalar origin = -dot(n, y(i)), corner = dot(n, y(opposite) - y(i));
-    const Scalar error = 10 * roundoff_ * (size(e) * size(f)) * (size(y(i)) + size(y(opposite))) + kVanishing;
+    const Scalar error = 11 * roundoff_ * (size(e) * size(f)) * sizes + kVanishing;
     return (origin > error && corner > error) || (origin < -error && corner < -error);
   }
 

@@ -36,7 +36,8 @@ struct SimplexClosest {
 // those without extent are passed over, and the nearest wins (of equals the one with fewer points). count >= 1.
 SimplexClosest simplex_closest(const SimplexPoints& simplex);
 
-// Does the origin lie strictly inside the tetrahedron of four points, for certain? False where rounding could decide.
+// Does the origin lie strictly inside the tetrahedron of four points, for certain, even if each coordinate of a point
+// is off by a rounding? False where rounding could decide.
 bool tetrahedron_holds_origin(const SimplexPoints& simplex);
 
 // simplex_closest() with numbers of twice the digits, some fifty times slower: for simplices so thin that doubles lose

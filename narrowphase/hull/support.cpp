@@ -144,14 +144,22 @@ bool stays_below(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double height) 
   return !reached;
 }
 
-void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double height,
-                     std::vector<std::int32_t>& found) {
-  const PointArrays clusters = far_corners(mesh.cluster_boxes(), {axis.nx, axis.ny, axis.nz});
+void select_vertices(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double height, std::vector<std::int32_t>& found) {
+  const HeightAxis axis{n.x, n.y, n.z, origin.x, origin.y, origin.z};
+  const PointArrays clusters = far_corners(mesh.cluster_boxes(), n);
   found.clear();
   for_reaching_groups(mesh, axis, height, [&](int group) {
     std::int32_t inside[kGroupSize];
     const int kept = reaching_clusters(mesh, group, clusters, axis, height, inside);
-    found.insert(found.end(), inside, inside + kept);
+    for (int k = 0; k < kept; ++k) {
+      const int begin = mesh.vertex_begin(inside[k]), count = mesh.vertex_end(inside[k]) - begin;
+      const std::size_t before = found.size();
+      found.resize(before + static_cast<std::size_t>(count));
+      std::int32_t* const chosen = found.data() + before;
+      const int high = kernels().select_heights(from(mesh.points(), begin), count, axis, height, chosen);
+      std::for_each_n(chosen, high, [begin](std::int32_t& vertex) { vertex += begin; });
+      found.resize(before + static_cast<std::size_t>(high));
+    }
   });
 }
 

@@ -25,8 +25,8 @@ Support support_by_full_scan(const ClusteredMesh& mesh, Vec3 n, Vec3 origin);
 // Is every vertex lower than `height`?
 bool stays_below(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double height);
 
-// The clusters whose box reaches up to `height`, ascending. Replaces the contents of `found`.
-void select_clusters(const ClusteredMesh& mesh, const HeightAxis& axis, double height,
-                     std::vector<std::int32_t>& found);
+// The vertices whose computed height n · (position - origin) is at least `height`, by cluster. Replaces the contents of
+// `found`.
+void select_vertices(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double height, std::vector<std::int32_t>& found);
 
 }  // namespace tact::narrowphase

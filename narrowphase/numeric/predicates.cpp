@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "narrowphase/numeric/double_parts.h"
 #include "narrowphase/numeric/wide_integer.h"
 
 namespace tact::narrowphase {
@@ -35,20 +36,6 @@ int filtered_sign(double determinant, double permanent, double relative) {
   return kUnknown;
 }
 
-// A finite double is (negative ? -1 : 1) * mantissa * 2^(exponent - 1075).
-struct Parts {
-  explicit Parts(double x) {
-    const auto bits = std::bit_cast<std::uint64_t>(x);
-    const auto field = static_cast<int>((bits >> 52) & 0x7ff);
-    negative = (bits >> 63) != 0;
-    exponent = std::max(field, 1);
-    mantissa = (bits & ((std::uint64_t{1} << 52) - 1)) | (static_cast<std::uint64_t>(field != 0) << 52);
-  }
-  bool negative;
-  int exponent;
-  std::uint64_t mantissa;
-};
-
 // The sign of a determinant of differences does not change if all coordinates of one axis are multiplied by a power of
 // two. So each axis gets a unit of its own, and its coordinates and their differences become integers.
 
@@ -60,7 +47,7 @@ bool narrow_integers(const double (&x)[N], std::int64_t (&value)[N]) {
   int exponent[N];
   std::int64_t sign[N];
   for (int i = 0; i < N; ++i) {
-    const Parts parts(x[i]);
+    const DoubleParts parts(x[i]);
     mantissa[i] = parts.mantissa << 8;
     exponent[i] = parts.exponent;
     sign[i] = -static_cast<std::int64_t>(parts.negative);
@@ -77,24 +64,14 @@ bool narrow_integers(const double (&x)[N], std::int64_t (&value)[N]) {
 }
 
 // The integers whatever they are: the bits of a finite double stand between 2^-1074 and 2^1023.
-using Coordinate = WideInteger<33>;
 using Difference = WideInteger<34>;
 
 template <int N>
 void wide_differences(const double (&x)[N], Difference (&difference)[N - 1]) {
   int unit = std::numeric_limits<int>::max();
-  for (int i = 0; i < N; ++i) {
-    const Parts parts(x[i]);
-    if (parts.mantissa != 0) unit = std::min(unit, parts.exponent + std::countr_zero(parts.mantissa));
-  }
-  const auto integer = [&](double coordinate) {
-    const Parts parts(coordinate);
-    if (parts.mantissa == 0) return Coordinate();
-    const int zeros = std::countr_zero(parts.mantissa);
-    return Coordinate(parts.negative, parts.mantissa >> zeros, parts.exponent + zeros - unit);
-  };
-  const Coordinate last = integer(x[N - 1]);
-  for (int i = 0; i + 1 < N; ++i) difference[i] = integer(x[i]) - last;
+  for (int i = 0; i < N; ++i) unit = std::min(unit, lowest_bit(x[i]));
+  const auto last = in_units<33>(x[N - 1], unit);
+  for (int i = 0; i + 1 < N; ++i) difference[i] = in_units<33>(x[i], unit) - last;
 }
 
 // The sign of the sum of p[i] * q[i], where |p[i]| < 2^62 and |q[i]| < 2^125. The sum is kept as high * 2^64 + low.

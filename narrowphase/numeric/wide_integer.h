@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 
 namespace tact::narrowphase {
@@ -32,8 +34,31 @@ class WideInteger {
     trim();
   }
 
+  // The same number with room for larger ones.
+  template <int B>
+  requires(B < kCapacity) WideInteger(const WideInteger<B>& b) : size_(b.size_), negative_(b.negative_) {
+    std::copy(b.limbs_, b.limbs_ + b.size_, limbs_);
+  }
+
   // -1, 0 or 1.
   int sign() const { return size_ == 0 ? 0 : negative_ ? -1 : 1; }
+
+  // Of the magnitude; 0 for zero.
+  int bit_count() const { return size_ == 0 ? 0 : 64 * size_ - std::countl_zero(limbs_[size_ - 1]); }
+
+  // The number times 2^-shift, with a relative error of at most 2^-52 unless that vanishes in a double.
+  double times_power(int shift) const {
+    if (size_ == 0) return 0.0;
+    const UInt128 below = size_ > 1 ? limbs_[size_ - 2] : 0;
+    const auto top = static_cast<double>(static_cast<UInt128>(limbs_[size_ - 1]) << 64 | below);
+    return std::ldexp(negative_ ? -top : top, 64 * (size_ - 2) - shift);
+  }
+
+  WideInteger operator-() const {
+    WideInteger negated = *this;
+    negated.negative_ = !negative_;
+    return negated;
+  }
 
   template <int B>
   WideInteger<std::max(kCapacity, B) + 1> operator+(const WideInteger<B>& b) const {

@@ -1,5 +1,5 @@
-// Contact directions and distances of hostile pairs of hulls against the heights of their Minkowski difference. Not
-// part of the ordinary tests: how many pairs is read from the environment.
+// Verdicts, contact directions and distances of hostile pairs of hulls against linear programs and the heights of their
+// Minkowski difference. Not part of the ordinary tests: how many pairs is read from the environment.
 //   TACT_LONG_HULL_PAIRS  5000 if not set
 //   TACT_LONG_SEED        which pairs, 1 if not set
 #include <gtest/gtest.h>
@@ -8,8 +8,12 @@
 #include <cstdio>
 #include <string>
 
+#include "narrowphase/hull/hull_verdict.h"
 #include "tests/support/environment.h"
 #include "tests/support/hostile_hulls.h"
+#include "tests/support/hull_oracle.h"
+#include "tests/support/minkowski_oracle.h"
+#include "tests/support/touching_hulls.h"
 
 namespace tact::tests {
 namespace {
@@ -54,6 +58,30 @@ TEST(DistancesLong, HostilePairsAreAsFarApartAsSaid) {
   }
   std::printf("%lld apart, %lld touching, %lld overlapping\n", static_cast<long long>(counts.apart),
               static_cast<long long>(counts.touching), static_cast<long long>(counts.overlapping));
+}
+
+TEST(VerdictsLong, TouchingHullsAreAsALinearProgramSays) {
+  using namespace narrowphase;
+  const std::uint64_t pairs = from_environment("TACT_LONG_HULL_PAIRS", 5'000);
+  const std::uint64_t seed = from_environment("TACT_LONG_SEED", 1) << 40;
+  std::int64_t meeting = 0, parted = 0;
+  for (std::uint64_t i = 0; i < pairs; ++i) {
+    const TouchingHulls pair = touching_hulls(seed + i);
+    const bool meet = hulls_meet_by_oracle(pair.a, pair.b);
+    const ClusteredMesh a = mesh_through(pair.a), b = mesh_through(pair.b);
+    for (const bool swapped : {false, true}) {
+      const MinkowskiDifference m(swapped ? b : a, swapped ? a : b);
+      const GjkResult near = gjk(m, {}, {}, {});
+      const bool is_certain = near.status == GjkStatus::apart || near.status == GjkStatus::overlapping;
+      const bool apart = is_certain ? near.status == GjkStatus::apart : hull_verdict(m, near.simplex).apart;
+      EXPECT_EQ(apart, !meet) << pair.kind << ", pair " << i << (swapped ? ", swapped" : "");
+      if (!is_certain) ++(apart ? parted : meeting);
+    }
+  }
+  std::printf("%llu pairs; left to integers: %lld meet, %lld are apart\n", static_cast<unsigned long long>(pairs),
+              static_cast<long long>(meeting), static_cast<long long>(parted));
+  EXPECT_GT(meeting, static_cast<std::int64_t>(pairs / 5));
+  EXPECT_GT(parted, static_cast<std::int64_t>(pairs / 10));
 }
 
 }  // namespace

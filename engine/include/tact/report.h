@@ -40,9 +40,10 @@ struct Patch {
   std::vector<int> facet_pairs;  // indices into Contact::facet_pairs(), ascending
 };
 
-// Two bodies whose convex hulls overlap, touch, or are nearer than the sum of the bodies' margins. Their facets need
-// not: where bodies are not convex, a ball in a bowl say, ask touching() before they are pushed apart by `depth`, or
-// ask for patches, which have depths of their own, or for points.
+// Two bodies whose convex hulls overlap, touch, or are nearer than the sum of the bodies' margins. Whether they overlap
+// or touch is decided exactly, whichever body was added first. Their facets need not: where bodies are not convex, a
+// ball in a bowl say, ask touching() before they are pushed apart by `depth`, or ask for patches, which have depths of
+// their own, or for points.
 //
 // A body with itself, where BodyDefinition::self_contact asks for it, has a contact with a == b if facets meet that
 // share no vertex, or if there are points. It has facet pairs, with facet a < facet b, and points; all else is empty.

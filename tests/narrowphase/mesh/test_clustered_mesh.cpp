@@ -189,11 +189,10 @@ TEST(Support, LooksAtAllGroups) {
       EXPECT_TRUE(stays_below(mesh, n, origin, std::nextafter(top.height, HUGE_VAL)));
 
       const double height = top.height - random.uniform(0.0, 1.0);
-      select_clusters(mesh, {n.x, n.y, n.z, origin.x, origin.y, origin.z}, height, reaching);
-      const PointArrays corner = far_corners(mesh.cluster_boxes(), n);
+      select_vertices(mesh, n, origin, height, reaching);
       std::vector<std::int32_t> expected;
-      for (std::int32_t c = 0; c < mesh.cluster_count(); ++c) {
-        if (dot(n, Vec3{corner.x[c], corner.y[c], corner.z[c]} - origin) >= height) expected.push_back(c);
+      for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+        if (dot(n, mesh.position(v) - origin) >= height) expected.push_back(v);
       }
       ASSERT_EQ(reaching, expected) << cells << " cells, direction " << i;
       EXPECT_FALSE(expected.empty());
