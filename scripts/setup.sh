@@ -6,13 +6,16 @@ set -euo pipefail
 
 packages_of() {
   case $1 in
+    library) echo g++ cmake ninja-build libeigen3-dev libembree-dev pkg-config ;;
+    python) echo pybind11-dev python3-dev python3-numpy python3-pip python3-setuptools python3-venv python3-wheel ;;
     program) echo g++ cmake ninja-build libeigen3-dev libembree-dev \
                   libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev libfreetype-dev fonts-dejavu-core webp ;;
     tests) echo libgtest-dev libcgal-dev librapidcheck-dev pybind11-dev python3-dev python3-numpy python3-pytest ;;
     bullet) echo libbullet-dev pkg-config ;;
+    docs) echo doxygen mkdocs mkdocs-material ;;
     bench) echo libcgal-dev libtbb-dev libfcl-dev libccd-dev libbullet-dev pkg-config gnuplot-nox ;;
     sanitizers) echo clang libclang-rt-14-dev libomp-dev llvm ;;
-    *) echo "setup.sh: no group is called $1; there are program, tests, bullet, bench and sanitizers" >&2; exit 2 ;;
+    *) echo "setup.sh: no group is called $1; there are library, python, program, tests, bullet, docs, bench and sanitizers" >&2; exit 2 ;;
   esac
 }
 

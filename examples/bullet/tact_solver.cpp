@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace example {
 namespace {
 
+constexpr std::uint32_t kSoftLayer = 1, kRigidLayer = 2;
 constexpr double kTiny = 1e-30;  // metres, squared metres and inverse masses below it are none
 
 Eigen::Vector3d as_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
@@ -28,7 +30,7 @@ Eigen::Matrix3Xd moved(const Eigen::Matrix3Xd& local, const btTransform& transfo
 
 }  // namespace
 
-// [side]
+// [part side]
 // A contact point's place on one body: a weighted mean of vertices, of a soft body or a rigid one.
 struct TactSolver::Side {
   Participant& body;
@@ -85,9 +87,9 @@ struct TactSolver::Side {
     transform.setOrigin(transform.getOrigin() + impulse * body.rigid->getInvMass());
   }
 };
-// [side]
+// [part side]
 
-// [add]
+// [part add]
 TactSolver::TactSolver(const TactSolverSettings& settings)
     : settings_(settings), world_(tact::Settings{.outputs = {.points = true}}) {}
 
@@ -99,6 +101,7 @@ void TactSolver::add(btSoftBody& body, tact::Surface surface) {
   const tact::BodyId id = world_.add_body({.positions = node_positions(body, &btSoftBody::Node::m_x),
                                            .facets = facets,
                                            .surface = surface,
+                                           .layer = kSoftLayer,
                                            .external_id = participants_.size(),
                                            .self_contact = surface == tact::Surface::sheet});
   participants_.push_back({.id = id, .soft = &body});
@@ -108,11 +111,13 @@ void TactSolver::add(btRigidBody& body, const Mesh& mesh) {
   const tact::BodyId id = world_.add_body({.positions = moved(mesh.positions, body.getWorldTransform()),
                                            .facets = mesh.facets,
                                            .motion = body.isStaticObject() ? tact::Motion::fixed : tact::Motion::moving,
+                                           .layer = kRigidLayer,
+                                           .mask = kSoftLayer,  // two rigid bodies are Bullet's
                                            .external_id = participants_.size(),
                                            .margin = settings_.thickness / 2});
   participants_.push_back({.id = id, .rigid = &body, .local = mesh.positions});
 }
-// [add]
+// [part add]
 
 void TactSolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool force_update) {
   btDefaultSoftBodySolver::optimize(bodies, force_update);
@@ -121,7 +126,7 @@ void TactSolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool force_
   }
 }
 
-// [step]
+// [part step]
 // Position based dynamics over all bodies at once. Contacts are found where the step began, where nothing has crossed
 // yet, as far around as anything moves in this step: a point then says on which side of each other two surfaces stay.
 void TactSolver::solveConstraints(btScalar step) {
@@ -173,7 +178,7 @@ void TactSolver::keep_apart(const tact::ContactPoint& point, Participant& body_a
   a.move(-impulse);
   b.move(impulse);
 }
-// [step]
+// [part step]
 
 double TactSolver::longest_way(const Participant& participant) const {
   double longest = 0.0;

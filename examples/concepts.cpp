@@ -1,0 +1,165 @@
+// What the manual's page on concepts shows, each part between two marks. Leaves with status 1 if something is not as
+// the page says.
+#include <tact/tact.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace {
+
+int failures = 0;
+
+void expect(bool is_so, const char* what) {
+  if (is_so) return;
+  std::printf("not so: %s\n", what);
+  ++failures;
+}
+
+bool near(double a, double b) { return std::abs(a - b) < 1e-9; }
+
+struct Mesh {
+  Eigen::Matrix3Xd positions;
+  Eigen::Matrix3Xi facets;
+};
+
+Mesh cube(double side, const Eigen::Vector3d& corner) {
+  Mesh mesh{Eigen::Matrix3Xd(3, 8), Eigen::Matrix3Xi(3, 12)};
+  for (int i = 0; i < 8; ++i) mesh.positions.col(i) = corner + side * Eigen::Vector3d(i & 1, i >> 1 & 1, i >> 2);
+  mesh.facets << 0, 0, 4, 4, 0, 0, 2, 2, 0, 0, 1, 1,  //
+      2, 3, 5, 7, 1, 5, 6, 7, 4, 6, 3, 7,             //
+      3, 1, 7, 6, 5, 4, 7, 3, 6, 2, 7, 5;
+  return mesh;
+}
+
+Mesh square(double side, double height) {
+  Mesh mesh{Eigen::Matrix3Xd(3, 4), Eigen::Matrix3Xi(3, 2)};
+  mesh.positions << -side, side, side, -side, -side, -side, side, side, height, height, height, height;
+  mesh.facets << 0, 0, 1, 2, 2, 3;
+  return mesh;
+}
+
+void direction_and_slab() {
+  const Mesh low = cube(1.0, {0, 0, 0}), high = cube(1.0, {0.2, 0.1, 0.75});
+  // [part direction]
+  tact::World world;
+  world.add_body({.positions = low.positions, .facets = low.facets});
+  const tact::BodyId b = world.add_body({.positions = high.positions, .facets = high.facets});
+  const tact::Contact contact = world.detect().contacts()[0];
+
+  // Moving b out: along the direction, by the depth. Then the hulls only touch.
+  const Eigen::Vector3d way = contact.depth * contact.direction;
+  world.set_positions(b, high.positions.colwise() + way);
+  // [part direction]
+  expect(near(contact.depth, 0.25) && near(contact.direction.z(), 1.0), "the cubes part upward by 0.25 m");
+  expect(near(contact.plane_a, 1.0) && near(contact.plane_b, 0.75), "the slab lies from 0.75 m to 1 m");
+  const tact::Report& after = world.detect();
+  expect(after.contacts().empty() || after.contacts()[0].depth < 1e-9, "moved by the depth they only touch");
+}
+
+void zones_and_patches() {
+  const Mesh low = cube(1.0, {0, 0, 0}), high = cube(0.5, {0.2, 0.1, 0.9});
+  // [part zones]
+  tact::Settings settings;
+  settings.outputs.zones = true;
+  settings.outputs.patches = true;
+  tact::World world(settings);
+  // [part zones]
+  world.add_body({.positions = low.positions, .facets = low.facets});
+  world.add_body({.positions = high.positions, .facets = high.facets});
+  const tact::Contact contact = world.detect().contacts()[0];
+  expect(near(contact.zone_b.radius, std::sqrt(0.125)), "the zone of the small cube is its lower face's disk");
+  expect(contact.patches().size() == 1, "they touch in one patch");
+  // [part patches]
+  for (const tact::Patch& patch : contact.patches()) {
+    std::printf("patch at %.2f %.2f %.2f, %.2f m deep\n", patch.point.x(), patch.point.y(), patch.point.z(),
+                patch.depth);
+  }
+  // [part patches]
+}
+
+void points_and_margins() {
+  const Mesh sheet = square(2.0, 1.006), floor = cube(1.0, {0, 0, 0});
+  // [part points]
+  tact::Settings settings;
+  settings.outputs.points = true;
+  tact::World world(settings);
+  world.add_body({.positions = floor.positions, .facets = floor.facets, .margin = 0.005});
+  world.add_body({.positions = sheet.positions,
+                  .facets = sheet.facets,
+                  .surface = tact::Surface::sheet,
+                  .margin = 0.005,  // half a thickness: nearer than 0.01 m to the floor is in contact
+                  .self_contact = true});
+  for (const tact::Contact& contact : world.detect().contacts()) {
+    for (const tact::ContactPoint& point : contact.points()) {
+      std::printf("gap %.4f m along %.1f %.1f %.1f\n", point.gap, point.normal.x(), point.normal.y(), point.normal.z());
+    }
+  }
+  // [part points]
+  const tact::Contact contact = world.detect().contacts()[0];
+  expect(!contact.touching(), "no facets meet: the surfaces are 6 mm apart");
+  expect(contact.points().size() >= 4, "the four upper corners of the cube are near the sheet");
+  for (const tact::ContactPoint& point : contact.points()) expect(near(point.gap, 0.006), "the gap is 6 mm");
+}
+
+void motion() {
+  const Mesh sheet = square(2.0, 0.0);
+  Mesh bullet = cube(0.1, {0, 0, 1.0});
+  // [part motion]
+  tact::World world;
+  world.add_body({.positions = sheet.positions, .facets = sheet.facets, .surface = tact::Surface::sheet});
+  const tact::BodyId body = world.add_body({.positions = bullet.positions, .facets = bullet.facets});
+  world.detect();  // motion is looked at from here
+
+  const Eigen::Matrix3Xd start = bullet.positions;
+  const Eigen::Matrix3Xd target = start.colwise() - Eigen::Vector3d(0, 0, 4);  // through the sheet, in one step
+  world.set_positions(body, target);
+  const double first = world.detect_motion(tact::Impacts::first).first_time();
+  const double free = std::min(1.0, 0.999 * first);  // infinity where nothing meets
+  world.set_positions(body, start + free * (target - start));
+  // [part motion]
+  expect(std::abs(first - 0.25) < 1e-6, "they meet after a quarter of the way");
+  expect(world.detect().stats().facet_pairs == 0, "stopped before, they do not meet");
+}
+
+void questions() {
+  const Mesh mesh = cube(1.0, {0, 0, 0});
+  // [part questions]
+  tact::World world;
+  world.add_body({.positions = mesh.positions, .facets = mesh.facets});
+  const tact::RayHit hit = world.ray({.from = {0.3, 0.4, 5}, .to = {0.3, 0.4, -5}});
+  const tact::ClosestPoint closest = world.closest_point({.point = {0.3, 0.4, 1.2}});
+  const bool is_inside = !world.inside({.point = {0.5, 0.5, 0.5}}).empty();
+  // [part questions]
+  expect(near(hit.time, 0.4), "the ray meets the top after 4 of 10 metres");
+  expect(near(closest.distance, 0.2), "the point is 0.2 m above the cube");
+  expect(is_inside, "the middle is inside");
+}
+
+void errors() {
+  Mesh mesh = cube(1.0, {0, 0, 0});
+  tact::World world;
+  const tact::BodyId body = world.add_body({.positions = mesh.positions, .facets = mesh.facets, .name = "jelly"});
+  mesh.positions(1, 5) = std::nan("");
+  bool refused = false;
+  // [part errors]
+  try {
+    world.set_positions(body, mesh.positions);
+  } catch (const tact::Error& error) {  // the world is as it was before the call
+    std::printf("%s\n", error.what());
+    refused = error.code() == tact::ErrorCode::non_finite_position;
+  }
+  // [part errors]
+  expect(refused, "a position that is no number is refused");
+}
+
+}  // namespace
+
+int main() {
+  direction_and_slab();
+  zones_and_patches();
+  points_and_margins();
+  motion();
+  questions();
+  errors();
+  return failures == 0 ? 0 : 1;
+}
