@@ -86,18 +86,6 @@ class Subdivision {
   std::map<std::vector<std::pair<int, int>>, int> shared_;
 };
 
-// A point of the unit circle after a part of a turn: one of a square's outline, made round. No sine is needed.
-Eigen::Vector2d on_circle(double turn) {
-  const double sides = 4.0 * (turn - std::floor(turn));
-  const int side = static_cast<int>(sides);
-  const double t = 2.0 * (sides - side) - 1.0;
-  const Eigen::Vector2d p = side == 0   ? Eigen::Vector2d(1.0, t)
-                            : side == 1 ? Eigen::Vector2d(-t, 1.0)
-                            : side == 2 ? Eigen::Vector2d(-1.0, -t)
-                                        : Eigen::Vector2d(t, -1.0);
-  return p / std::sqrt(p.squaredNorm());
-}
-
 }  // namespace
 
 Shape geodesic_sphere(int frequency) {
@@ -186,6 +174,44 @@ Shape ring(double tube_radius, int around, int across) {
   return shape;
 }
 
+Shape tube(int around, int bands) {
+  Shape shape;
+  shape.positions.resize(3, Eigen::Index{bands + 1} * around);
+  shape.facets.resize(3, 2 * Eigen::Index{bands} * around);
+  const auto vertex = [&](int row, int k) { return row * around + k % around; };
+  for (int row = 0; row <= bands; ++row) {
+    for (int k = 0; k < around; ++k) {
+      const Eigen::Vector2d p = on_circle(static_cast<double>(k) / around);
+      shape.positions.col(vertex(row, k)) << p.x(), p.y(), static_cast<double>(row) / bands;
+    }
+  }
+  Eigen::Index next = 0;
+  for (int row = 0; row < bands; ++row) {
+    for (int k = 0; k < around; ++k) {
+      shape.facets.col(next++) << vertex(row, k), vertex(row, k + 1), vertex(row + 1, k + 1);
+      shape.facets.col(next++) << vertex(row, k), vertex(row + 1, k + 1), vertex(row + 1, k);
+    }
+  }
+  return shape;
+}
+
+Shape capsule(double length, double edge) {
+  constexpr double kCap = 1.5;  // of the outline, which is cut evenly
+  const double outline = 2.0 * kCap + length;
+  const int bands = std::max(6, static_cast<int>(outline / edge));
+  Shape shape = rod(std::max(6, static_cast<int>(6.3 / edge)), bands);
+  const double end = 0.5 * outline / bands;  // the first ring is not a point
+  for (Eigen::Index v = 0; v < shape.positions.cols(); ++v) {
+    const Eigen::Vector2d out = shape.positions.col(v).head<2>();
+    const bool is_pole = out.squaredNorm() == 0.0;
+    const double along = is_pole ? outline * shape.positions(2, v) : end + (outline - 2.0 * end) * shape.positions(2, v);
+    const double middle = std::clamp(along - kCap, 0.0, length), beyond = along - kCap - middle;
+    const Eigen::Vector2d section = on_circle(0.125 + 0.25 * beyond / kCap);
+    shape.positions.col(v) << section.x() * out.x(), section.x() * out.y(), middle + section.y();
+  }
+  return shape;
+}
+
 Shape brick(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
   Shape shape;
   shape.positions.resize(3, 8);
@@ -199,6 +225,17 @@ Shape brick(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
       2, 3, 5, 7, 1, 5, 6, 7, 4, 6, 3, 7,              //
       3, 1, 7, 6, 5, 4, 7, 3, 6, 2, 7, 5;
   return shape;
+}
+
+Eigen::Vector2d on_circle(double turn) {
+  const double sides = 4.0 * (turn - std::floor(turn));
+  const int side = static_cast<int>(sides);
+  const double t = 2.0 * (sides - side) - 1.0;
+  const Eigen::Vector2d p = side == 0   ? Eigen::Vector2d(1.0, t)
+                            : side == 1 ? Eigen::Vector2d(-t, 1.0)
+                            : side == 2 ? Eigen::Vector2d(-1.0, -t)
+                                        : Eigen::Vector2d(t, -1.0);
+  return p / std::sqrt(p.squaredNorm());
 }
 
 Shape shuffled(const Shape& shape, std::uint64_t seed) {

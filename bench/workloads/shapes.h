@@ -26,8 +26,17 @@ Shape rod(int around, int bands);
 // A ring about the z axis, of radius 1 from its middle to that of its tube, with 2 * around * across facets.
 Shape ring(double tube_radius, int around, int across);
 
+// An open tube of radius 1 about the z axis from z = 0 to 1, with 2 * around * bands facets.
+Shape tube(int around, int bands);
+
+// All that is nearer than 1 to the z axis between 0 and `length`, with edges of about `edge`.
+Shape capsule(double length, double edge);
+
 // An axis-aligned box: 8 vertices, 12 facets.
 Shape brick(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper);
+
+// A point of the unit circle after a part of a turn: one of a square's outline, made round. No sine is needed.
+Eigen::Vector2d on_circle(double turn);
 
 // The same shape with its vertices and its facets stored in a random order.
 Shape shuffled(const Shape& shape, std::uint64_t seed);

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "bench/random.h"
 #include "bench/workloads/shapes.h"
-#include "engine/base/parallel.h"
 
 namespace tact::bench {
 namespace {
@@ -16,72 +14,12 @@ using Eigen::Index;
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 
-// Where the point (x, y) of a flat sheet, 4 m wide, comes to lie when it is draped over the unit sphere about the
-// origin up to `contact`, a distance from the middle in metres, and hangs straight from there: the sphere by
-// stereographic projection, beyond it the tangent cone.
-struct DrapedPoint {
-  Vector3d position;
-  Vector3d normal;
-};
-
-DrapedPoint draped(double x, double y, double contact) {
-  const double distance = std::sqrt(x * x + y * y);
-  const double along = std::min(distance, contact);
-  const double scale = 1.0 / (4.0 + along * along);
-  const double sine = 4.0 * along * scale, cosine = (4.0 - along * along) * scale;
-  const double beyond = distance - along;
-  const double out = sine + beyond * cosine, height = cosine - beyond * sine;
-  const double ux = distance > 0.0 ? x / distance : 0.0, uy = distance > 0.0 ? y / distance : 0.0;
-  return {{ux * out, uy * out, height}, {ux * sine, uy * sine, cosine}};
-}
-
-struct Wrinkle {
-  double x, y;                  // waves a metre
-  double height, delay, speed;  // metres, of the period, whole periods
-};
-
 }  // namespace
 
 std::size_t Workload::facet_count() const {
   return std::accumulate(bodies.begin(), bodies.end(), std::size_t{0}, [](std::size_t sum, const WorkloadBody& body) {
     return sum + static_cast<std::size_t>(body.facets.cols());
   });
-}
-
-Workload cloth(int cells, int frames) {
-  constexpr double kClearance = 0.004;  // metres by which the wrinkles' middle is above the sphere
-  Random random(11);
-  std::vector<Wrinkle> wrinkles;
-  for (int k = 0; k < 5; ++k) {
-    const Vector3d d = random.direction();
-    const double frequency = random.uniform(1.3, 3.9), speed = k % 2 == 0 ? 1.0 : -1.0;
-    wrinkles.push_back({frequency * d.x(), frequency * d.y(), 0.012, random.uniform(0.0, 1.0), speed});
-  }
-  const Shape sheet = square_sheet(cells, 4.0), sphere = geodesic_sphere(8);
-  Workload workload{frames, {}};
-  workload.bodies.resize(2);
-  WorkloadBody& body = workload.bodies[0];
-  body.facets = sheet.facets;
-  body.surface = Surface::sheet;
-  body.frames.resize(static_cast<std::size_t>(frames));
-  base::parallel_for(body.frames.size(), 1, base::default_threads(), [&](std::size_t frame) {
-    const double phase = phase_of(static_cast<int>(frame), frames);
-    const double fall = wave(phase);  // lifted off the sphere for a quarter of the period
-    const double lift = 0.5 * std::max(0.0, -0.75 - fall);
-    const double contact = 0.9 + 0.25 * fall;
-    Matrix3Xd& positions = body.frames[frame];
-    positions.resize(3, sheet.positions.cols());
-    for (Index v = 0; v < positions.cols(); ++v) {
-      const double x = sheet.positions(0, v), y = sheet.positions(1, v);
-      const DrapedPoint p = draped(x, y, contact);
-      double offset = kClearance;
-      for (const Wrinkle& w : wrinkles) offset += w.height * wave(w.x * x + w.y * y + w.delay + w.speed * phase);
-      positions.col(v) = p.position + offset * p.normal + Vector3d(0.0, 0.0, lift);
-    }
-  });
-  workload.bodies[1].facets = sphere.facets;
-  workload.bodies[1].frames = {sphere.positions};
-  return workload;
 }
 
 Workload organ_and_tool(int frames) {
@@ -162,7 +100,16 @@ std::vector<NamedWorkload> rival_workloads(Size size) {
         {"shells", "one in the other", 1.0, [] { return shells(12, kFewFrames); }},
         {"chain", "rings that are linked", 1.0, [] { return chain(10, kFewFrames); }},
         {"rods", "long and thin", 1.0, [] { return crossed_rods(4, kFewFrames); }},
-        {"two boxes", "24 facets", 1.0, [] { return two_boxes(kFewFrames); }}};
+        {"two boxes", "24 facets", 1.0, [] { return two_boxes(kFewFrames); }},
+        {"drape 3 k", "a sheet on a sphere", 4.0, [] { return draped_densely(32, 8, BodyMotion::still, kFewFrames); }},
+        {"drape 4 k, moving", "on a body that breathes", 4.0,
+         [] { return draped_densely(40, 8, BodyMotion::moving, kFewFrames); }},
+        {"drape 4 k, at rest", "jitter", 4.0, [] { return resting_drape(40, 8, kFewFrames); }},
+        {"garment 4 k", "a dress on a walking figure", 4.0, [] { return garment(4000, kFewFrames); }},
+        {"stack of 6", "sheets at rest", 4.0, [] { return sheet_stack(6, 20, kFewFrames); }},
+        {"funnel", "cloth pulled through", 4.0, [] { return funnel(24, kFewFrames); }},
+        {"cloth-over-sphere", "recorded", 4.0, [] { return recorded("cloth-over-sphere", 20, 40, kFewFrames); }},
+        {"pile", "recorded", 4.0, [] { return recorded("pile", 12, 20, kFewFrames); }}};
   }
   return {
       {"cloth 13 k", "a sheet of 77² squares over a sphere", 5.0, [] { return cloth(77, kFrames); }},
@@ -183,6 +130,22 @@ std::vector<NamedWorkload> rival_workloads(Size size) {
       {"chain", "200 rings that are linked", 1.0, [] { return chain(200, kFrames); }},
       {"rods", "1,000 long and thin ones", 1.0, [] { return crossed_rods(10, kFrames); }},
       {"two boxes", "the smallest scene", 1.0, [] { return two_boxes(kFrames); }},
+      {"drape 13 k", "a sheet of 8 k on a body of 5 k", 4.0,
+       [] { return draped_densely(64, 16, BodyMotion::still, kFrames); }},
+      {"drape 151 k, moving", "131 k on 20 k, the body breathes", 4.0,
+       [] { return draped_densely(256, 32, BodyMotion::moving, kFrames); }},
+      {"drape 606 k", "524 k on 82 k, wrinkles cross in patches", 4.0,
+       [] { return draped_densely(512, 64, BodyMotion::still, kFrames); }},
+      {"drape 606 k, at rest", "the same, every vertex moves by less than a thousandth of an edge", 4.0,
+       [] { return resting_drape(512, 64, kFrames); }},
+      {"garment 6 k", "a dress on a walking figure of capsules", 4.0, [] { return garment(6'000, kFrames); }},
+      {"garment 60 k", "a dress on a walking figure of capsules", 4.0, [] { return garment(60'000, kFrames); }},
+      {"garment 600 k", "a dress on a walking figure of capsules", 4.0, [] { return garment(600'000, kFrames); }},
+      {"stack of 20", "sheets at rest, jitter", 4.0, [] { return sheet_stack(20, 50, kFrames); }},
+      {"funnel", "cloth pulled through, nothing meets", 4.0, [] { return funnel(67, kFrames); }},
+      {"cloth-over-sphere", "recorded from the scene", 4.0,
+       [] { return recorded("cloth-over-sphere", 64, 150, kFrames); }},
+      {"pile recorded", "100 bodies, from the scene", 4.0, [] { return recorded("pile", 100, 300, kFrames); }},
   };
 }
 

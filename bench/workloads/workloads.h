@@ -37,6 +37,36 @@ inline double phase_of(int frame, int frames) { return static_cast<double>(frame
 // lifted off again. Its wrinkles cross the sphere in patches.
 Workload cloth(int cells, int frames);
 
+// What follows are surfaces that lie on each other over most of their area.
+
+// `moving`: the body swells and sways, and what lies on it with it.
+enum class BodyMotion { still, moving };
+
+// A sheet of `cells` x `cells` squares, 2.3 m wide, all of it on a sphere of 20 * frequency² facets and radius 1 m. Fine
+// wrinkles wander over it and cross the sphere in patches.
+Workload draped_densely(int cells, int frequency, BodyMotion motion, int frames);
+
+// The same sheet and sphere at rest: every vertex of the sheet moves in every frame, by less than a thousandth of an
+// edge.
+Workload resting_drape(int cells, int frequency, int frames);
+
+// A figure of five capsules that walks, and a dress, a tube of cloth, that is drawn over its torso and thighs; about
+// `facets` facets in all, half of them the dress's.
+Workload garment(int facets, int frames);
+
+// `count` sheets of 2 * cells² facets at rest on each other, 2 mm apart, each crossing the next in places. Every vertex
+// moves in every frame, by less than a thousandth of an edge.
+Workload sheet_stack(int count, int cells, int frames);
+
+// A tube of cloth of 2 * around² facets that is pulled through a funnel of as many: near everywhere, and nothing meets.
+Workload funnel(int around, int frames);
+
+// A scene of the command line program, of this --size: after `settled` steps of its simulation as many as make `frames`
+// frames there and back. Bodies as the engine saw them. The same bits wherever the C library's sines are the same.
+Workload recorded(const std::string& scene, int size, int settled, int frames);
+
+// Bodies of other kinds.
+
 // `count` blobs of 20 * frequency² facets and radius about 1 m, packed on a loose cubic grid so that each overlaps its
 // neighbours, six inside the pile, shallowly; dents wander over them and they jostle.
 Workload pile(int count, int frequency, int frames);
