@@ -104,7 +104,7 @@ void jitter(WorkloadBody& body, const Matrix3Xd& rest, double most, int frames, 
 
 // A limb of the figure: a round bone in heights `lower` to `upper`, whose middle line goes through at(z, phase).
 struct Limb {
-  double lower, upper, radius;                      // metres
+  double lower, upper, radius;                       // metres
   Vector2d (*at)(double z, double phase, int side);  // side: -1 or 1
   int side;
 };
@@ -124,12 +124,15 @@ Vector2d arm_at(double z, double phase, int side) {
 
 constexpr Limb kTorso{1.0, 1.45, 0.15, torso_at, 0};
 constexpr Limb kThighs[2] = {{0.35, 0.74, 0.08, thigh_at, -1}, {0.35, 0.74, 0.08, thigh_at, 1}};
-constexpr Limb kLimbs[5] = {kTorso, kThighs[0], kThighs[1], {1.12, 1.42, 0.045, arm_at, -1}, {1.12, 1.42, 0.045, arm_at, 1}};
+constexpr Limb kLimbs[5] = {
+    kTorso, kThighs[0], kThighs[1], {1.12, 1.42, 0.045, arm_at, -1}, {1.12, 1.42, 0.045, arm_at, 1}};
 
 // How far the dress is from the z axis at height z, towards `out`: tight on the torso, a hull around both thighs, and
 // straight between them.
 double dress_reach(const Vector2d& out, double z, double phase) {
-  const auto of = [&](const Limb& limb, double height) { return limb.at(height, phase, limb.side).dot(out) + limb.radius; };
+  const auto of = [&](const Limb& limb, double height) {
+    return limb.at(height, phase, limb.side).dot(out) + limb.radius;
+  };
   const auto of_thighs = [&](double height) { return std::max(of(kThighs[0], height), of(kThighs[1], height)); };
   const double top = kThighs[0].upper, waist = kTorso.lower;
   if (z >= waist) return of(kTorso, z);
@@ -199,7 +202,7 @@ Workload resting_drape(int cells, int frequency, int frames) {
 
 Workload garment(int facets, int frames) {
   constexpr double kLowest = 0.45, kHighest = 1.42, kGirth = 1.0, kClearance = 0.002;  // metres
-  constexpr double kFigureArea = 1.45;                                               // square metres
+  constexpr double kFigureArea = 1.45;                                                 // square metres
   const double body_edge = std::sqrt(2.0 * kFigureArea / (0.5 * facets));
   const double edge = std::sqrt(2.0 * (kHighest - kLowest) * kGirth / (0.5 * facets));
   const int around = static_cast<int>(kGirth / edge), bands = static_cast<int>((kHighest - kLowest) / edge);
@@ -244,8 +247,8 @@ Workload sheet_stack(int count, int cells, int frames) {
     Matrix3Xd rest = sheet.positions;
     for (Index v = 0; v < rest.cols(); ++v) {
       const double x = rest(0, v), y = rest(1, v);
-      rest(2, v) = kGap * k + 0.1 * wave(0.3 * x) + 0.07 * wave(0.4 * y + 0.1) +
-                   kHeight * wave(1.1 * x + 0.9 * y + 0.37 * k);
+      rest(2, v) =
+          kGap * k + 0.1 * wave(0.3 * x) + 0.07 * wave(0.4 * y + 0.1) + kHeight * wave(1.1 * x + 0.9 * y + 0.37 * k);
     }
     workload.bodies.push_back({.facets = sheet.facets, .surface = Surface::sheet});
     jitter(workload.bodies.back(), rest, 1e-3 * kWidth / cells, frames, random);
@@ -258,7 +261,9 @@ Workload funnel(int around, int frames) {
   // How wide the funnel is at a height from 0 to 1, metres.
   const auto radius = [](double z) { return kThroat + 0.6 * z * z; };
   const Shape wall = tube(around, around), cloth = tube(around, around);
-  Workload workload{frames, {{.facets = cloth.facets, .surface = Surface::sheet}, {.facets = wall.facets, .surface = Surface::sheet}}};
+  Workload workload{
+      frames,
+      {{.facets = cloth.facets, .surface = Surface::sheet}, {.facets = wall.facets, .surface = Surface::sheet}}};
   Matrix3Xd still = wall.positions;
   for (Index v = 0; v < still.cols(); ++v) still.col(v).head<2>() *= radius(still(2, v));
   workload.bodies[1].frames = {still};

@@ -204,7 +204,8 @@ Shape capsule(double length, double edge) {
   for (Eigen::Index v = 0; v < shape.positions.cols(); ++v) {
     const Eigen::Vector2d out = shape.positions.col(v).head<2>();
     const bool is_pole = out.squaredNorm() == 0.0;
-    const double along = is_pole ? outline * shape.positions(2, v) : end + (outline - 2.0 * end) * shape.positions(2, v);
+    const double along =
+        is_pole ? outline * shape.positions(2, v) : end + (outline - 2.0 * end) * shape.positions(2, v);
     const double middle = std::clamp(along - kCap, 0.0, length), beyond = along - kCap - middle;
     const Eigen::Vector2d section = on_circle(0.125 + 0.25 * beyond / kCap);
     shape.positions.col(v) << section.x() * out.x(), section.x() * out.y(), middle + section.y();

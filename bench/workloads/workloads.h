@@ -42,8 +42,8 @@ Workload cloth(int cells, int frames);
 // `moving`: the body swells and sways, and what lies on it with it.
 enum class BodyMotion { still, moving };
 
-// A sheet of `cells` x `cells` squares, 2.3 m wide, all of it on a sphere of 20 * frequency² facets and radius 1 m. Fine
-// wrinkles wander over it and cross the sphere in patches.
+// A sheet of `cells` x `cells` squares, 2.3 m wide, all of it on a sphere of 20 * frequency² facets and radius 1 m.
+// Fine wrinkles wander over it and cross the sphere in patches.
 Workload draped_densely(int cells, int frequency, BodyMotion motion, int frames);
 
 // The same sheet and sphere at rest: every vertex of the sheet moves in every frame, by less than a thousandth of an
