@@ -15,25 +15,29 @@
 #include "engine/check_coordinate.h"
 #include "engine/check_name.h"
 #include "engine/columns.h"
+#include "narrowphase/hull/kdop.h"
+#include "narrowphase/mesh/cluster_quality.h"
+#include "narrowphase/mesh/position_problem.h"
+#include "narrowphase/mesh/prefetch.h"
 
 namespace tact {
 
 namespace {
 
 using narrowphase::PositionProblem;
-using Refresh = narrowphase::ClusteredMesh::Refresh;
+using narrowphase::Refit;
 
 constexpr std::ptrdiff_t kLargestCount = std::numeric_limits<int>::max() / 4;
-constexpr std::size_t kPrefetchDistance = 8;     // bodies
-constexpr std::size_t kPublishedAtATime = 1024;  // bodies
-constexpr std::size_t kRefreshedBytes = 128;     // of a Body, its first: what stage 1 reads
-// A body of so many facets is refreshed by all threads: one among many, or one of a few that would not keep them busy.
+constexpr std::size_t kPrefetchDistance = 8;                                // bodies
+constexpr std::size_t kPublishedAtATime = 1024;                             // bodies
+constexpr std::size_t kRefittedBytes = sizeof(narrowphase::ClusteredMesh);  // of a Body, its first: what stage 1 reads
+// A body of so many facets is refitted by all threads: one among many, or one of a few that would not keep them busy.
 constexpr int kLargeBody = 32768, kLargeOfFew = 8192;  // facets
 constexpr std::size_t kFewPerThread = 4;
 constexpr int kMostWithDiagonals = 4096;  // vertices: to look how far more of them reach takes longer than it saves
 // The clusters of a body, if they are at least so many, are looked at after so many moves, and twice as many after each
-// try to group them anew, up to a limit. Where they are so many times looser than they were, it is tried, and kept if
-// the spread falls to this part of what it was.
+// try to group them anew, up to a limit. It is tried where their quality is less than what it was over kLoose, and kept
+// if their spread falls to this part of what it was.
 constexpr int kFewestRegrouped = 4, kMovesToLook = 32, kMostDoublings = 8;
 constexpr double kLoose = 2.0, kWorthRegrouping = 0.75;
 
@@ -141,7 +145,7 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   boxes_[slot] = base::grown(body->mesh.box(), definition.margin);
   find_diagonals(slot, body->mesh);
   wants_diagonals_[slot] = 1;
-  groupings_[slot] = {.looseness = body->mesh.looseness()};
+  groupings_[slot] = {.quality = cluster_quality(body->mesh)};
   filters_[slot] = {definition.layer, definition.mask, definition.motion == Motion::fixed};
   slots_[slot].vertex_count = body->mesh.source_vertex_count();
   slots_[slot].fixed = definition.motion == Motion::fixed;
@@ -202,29 +206,29 @@ void Bodies::prepare(Update& update, BodyId id, const Positions& positions) {
   update.given = &positions;
   update.body = slot.body.get();
   update.slot = id.index;
-  if (slot.begin == Begin::before) update.body->begin.resize(body.mesh.placement_size());
+  if (slot.begin == Begin::before) update.body->begin.resize(body.mesh.placements().size());
 }
 
 // The refresh that follows writes where the positions of the last step are.
 void Bodies::keep_begin(Body& body, Slot& slot) {
-  body.mesh.keep_placement_before(body.begin.data());
+  body.mesh.placements().keep_before(body.begin.data());
   slot.begin = Begin::kept;
 }
 
 narrowphase::MovingMesh Bodies::moving(std::uint32_t slot) const {
   const Body& body = in_slot(slot);
-  const narrowphase::ClusteredMesh& mesh = body.mesh;
+  const narrowphase::MeshPlacements& placements = body.mesh.placements();
   const Begin begin = slots_[slot].begin;
-  return {&mesh, body.features.get(),
-          begin == Begin::here     ? mesh.placement()
-          : begin == Begin::before ? mesh.placement_before()
-                                   : mesh.placement_in(body.begin.data())};
+  return {&body.mesh, body.features.get(),
+          begin == Begin::here     ? placements.now()
+          : begin == Begin::before ? placements.before()
+                                   : placements.in(body.begin.data())};
 }
 
 // Asks for the memory of a body that is looked at soon: small bodies are scattered.
 void Bodies::prefetch(BodyId id) const {
   if (id.index < slots_.size())
-    narrowphase::prefetch_lines(reinterpret_cast<const char*>(slots_[id.index].body.get()), kRefreshedBytes);
+    narrowphase::prefetch_lines(reinterpret_cast<const char*>(slots_[id.index].body.get()), kRefittedBytes);
 }
 
 void Bodies::refresh(std::size_t i, int threads) {
@@ -232,15 +236,16 @@ void Bodies::refresh(std::size_t i, int threads) {
   narrowphase::ClusteredMesh& mesh = update.body->mesh;
   update.positions = packed(*update.given, std::span(update.copy));
   if (slots_[update.slot].begin == Begin::before) keep_begin(*update.body, slots_[update.slot]);
-  update.refreshed = mesh.refresh(update.positions.data(), kLargestCoordinate, threads, !stay_in_cache());
-  const bool changed = update.refreshed == Refresh::changed;
+  update.refitted = refit(mesh, update.positions.data(),
+                          {.largest = kLargestCoordinate, .threads = threads, .prefetch = !stay_in_cache()});
+  const bool changed = update.refitted == Refit::changed;
   update.box = mesh.box();
   update.knows_diagonals = changed && wants_diagonals_[update.slot] != 0 && has_diagonals(mesh);
-  if (update.knows_diagonals) new_diagonals_[i] = mesh.diagonals();
+  if (update.knows_diagonals) new_diagonals_[i] = narrowphase::kdop_of(mesh);
   const Grouping& grouping = groupings_[update.slot];
   const bool looks = changed && grouping.moves + 1 == moves_to_look(grouping.tries) &&
                      mesh.cluster_count() >= kFewestRegrouped && base::fast_paths() != base::FastPaths::off;
-  update.looseness = looks ? mesh.looseness() : 0.0;
+  update.quality = looks ? cluster_quality(mesh) : 0.0;
 }
 
 void Bodies::find_diagonals(int threads) {
@@ -251,23 +256,23 @@ void Bodies::find_diagonals(int threads) {
 
 void Bodies::find_diagonals(std::uint32_t slot, const narrowphase::ClusteredMesh& mesh) {
   knows_diagonals_[slot] = has_diagonals(mesh) ? 1 : 0;
-  if (has_diagonals(mesh)) diagonals_[slot] = mesh.diagonals();
+  if (has_diagonals(mesh)) diagonals_[slot] = narrowphase::kdop_of(mesh);
 }
 
 // Takes all bodies back and says what is wrong if the positions of any cannot be taken.
 void Bodies::take_back_if_bad(std::size_t count) {
   const std::span<Update> updates = std::span(updates_).first(count);
-  const auto bad = std::ranges::find(updates, Refresh::bad, &Update::refreshed);
+  const auto bad = std::ranges::find(updates, Refit::bad, &Update::refitted);
   if (bad == updates.end()) return;
   for (const Update& update : updates) {
-    if (update.refreshed == Refresh::changed) update.body->mesh.take_back();
+    if (update.refitted == Refit::changed) undo_refit(update.body->mesh);
   }
   check_positions(bad->positions.data(), bad->positions.size() / 3, bad->body->name);
 }
 
 void Bodies::publish(std::size_t i) {
   const Update& update = updates_[i];
-  if (update.refreshed != Refresh::changed) return;
+  if (update.refitted != Refit::changed) return;
   const std::uint32_t slot = update.slot;
   boxes_[slot] = base::grown(update.box, margins_[slot]);
   knows_diagonals_[slot] = update.knows_diagonals ? 1 : 0;
@@ -277,18 +282,18 @@ void Bodies::publish(std::size_t i) {
 }
 
 void Bodies::note_change(const Update& update) {
-  if (update.refreshed != Refresh::changed) return;
+  if (update.refitted != Refit::changed) return;
   mark_moved(update.slot);
   Slot& slot = slots_[update.slot];
   if (slot.begin == Begin::here && slot.seen) slot.begin = Begin::before;
-  if (update.looseness == 0.0) return;  // most often: nothing of the grouping is read
+  if (update.quality == 0.0) return;  // most often: nothing of the grouping is read
   Grouping& grouping = groupings_[update.slot];
-  if (grouping.loose || !is_loose(grouping, update.looseness)) return;
+  if (grouping.loose || !is_loose(grouping, update.quality)) return;
   grouping.loose = true;
   loose_.push_back(update.slot);
 }
 
-bool Bodies::is_loose(const Grouping& grouping, double looseness) { return looseness > kLoose * grouping.looseness; }
+bool Bodies::is_loose(const Grouping& grouping, double quality) { return kLoose * quality < grouping.quality; }
 
 std::vector<Bodies::Regrouped> Bodies::regroup(int threads) {
   std::ranges::sort(loose_);
@@ -296,16 +301,16 @@ std::vector<Bodies::Regrouped> Bodies::regroup(int threads) {
   std::vector<std::optional<narrowphase::ClusteredMesh>> meshes(loose_.size());
   base::parallel_for(loose_.size(), 1, threads, [&](std::size_t i) {
     const narrowphase::ClusteredMesh& mesh = in_slot(loose_[i]).mesh;
-    if (!is_loose(groupings_[loose_[i]], mesh.looseness())) return;  // it was, when it was looked at
-    meshes[i] = mesh.regrouped();
-    all[i] = {in_slot(loose_[i]).id, mesh.numbers_in(*meshes[i])};
+    if (!is_loose(groupings_[loose_[i]], cluster_quality(mesh))) return;  // it was, when it was looked at
+    meshes[i] = clustered_anew(mesh);
+    all[i] = {in_slot(loose_[i]).id, vertex_numbers_in(*meshes[i], mesh)};
   });
   // From here on nothing can fail.
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!meshes[i]) continue;
     Body& body = *slots_[loose_[i]].body;
     Grouping& grouping = groupings_[loose_[i]];
-    if (meshes[i]->spread() <= kWorthRegrouping * body.mesh.spread()) {
+    if (cluster_spread(*meshes[i]) <= kWorthRegrouping * cluster_spread(body.mesh)) {
       packed_meshes_.remove(body.mesh);
       body.mesh = std::move(*meshes[i]);
       body.features.reset();
@@ -314,7 +319,7 @@ std::vector<Bodies::Regrouped> Bodies::regroup(int threads) {
     } else {
       all[i].numbers.clear();
     }
-    grouping.looseness = body.mesh.looseness();
+    grouping.quality = cluster_quality(body.mesh);
     grouping.tries = static_cast<std::uint8_t>(std::min(grouping.tries + 1, kMostDoublings));
   }
   std::erase_if(all, [](const Regrouped& body) { return body.numbers.empty(); });
@@ -365,7 +370,8 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
     // Of the bodies that another thread may turn over, only where they are is read.
     const std::size_t own_end = threads == 1 ? count : std::min(count, i - i % grain + grain);
     const auto ask_for = [&](std::size_t k) {
-      if (k < own_end && is_packed(*updates_[k].given)) updates_[k].body->mesh.prefetch(updates_[k].given->data());
+      if (k < own_end && is_packed(*updates_[k].given))
+        prefetch_refit(updates_[k].body->mesh, updates_[k].given->data());
     };
     if (asks_ahead) {
       for (std::size_t k = 1; i % grain == 0 && k < kPrefetchDistance; ++k) ask_for(i + k);

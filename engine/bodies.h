@@ -14,6 +14,7 @@
 #include "engine/packed_meshes.h"
 #include "narrowphase/contact_points/contact_points.h"
 #include "narrowphase/mesh/clustered_mesh.h"
+#include "narrowphase/mesh/refit.h"
 #include "narrowphase/motion/impacts.h"
 
 namespace tact {
@@ -110,7 +111,7 @@ class Bodies {
   void mark_all_changed();
 
  private:
-  // Where the positions of the last step are: those of now, those before the last refresh, or in Body::begin. A body
+  // Where the positions of the last step are: those of now, those before the last refit, or in Body::begin. A body
   // that the last step did not know begins where it is.
   enum class Begin : std::uint8_t { here, before, kept };
 
@@ -126,23 +127,23 @@ class Bodies {
 
   // How the clusters keep their shape.
   struct Grouping {
-    double looseness = 0.0;   // see ClusteredMesh: when they were made, or could not be made better
+    double quality = 0.0;     // see cluster_quality(): when they were made, or could not be made better
     std::uint16_t moves = 0;  // since it was last looked at
     std::uint8_t tries = 0;   // to group anew: the more there were, the longer until the next look
     bool loose = false;
   };
 
-  // New positions of a body: prepared; its mesh refreshed, and taken back if any of a batch is bad; published.
+  // New positions of a body: prepared; its mesh refitted, and put back if any of a batch is bad; published.
   struct Update {
     Body* body = nullptr;
     std::uint32_t slot = 0;
     const Positions* given = nullptr;  // where the caller has them; packed when it is this body's turn
     std::span<const double> positions;
     std::vector<double> copy;
-    narrowphase::ClusteredMesh::Refresh refreshed{};
+    narrowphase::Refit refitted{};
     base::Box box;
     bool knows_diagonals = false;
-    double looseness = 0.0;  // of the clusters, if it was time to look
+    double quality = 0.0;  // of the clusters, if it was time to look
   };
   void pack_meshes(int threads);
   void make_updates(std::size_t count);
@@ -158,7 +159,7 @@ class Bodies {
   void mark_changed(std::uint32_t slot);
   void mark_moved(std::uint32_t slot);
   void set_filter(BodyId id, const broadphase::Filter& filter);
-  static bool is_loose(const Grouping& grouping, double looseness);
+  static bool is_loose(const Grouping& grouping, double quality);
 
   std::uint32_t world_;
   PackedMeshes packed_meshes_;

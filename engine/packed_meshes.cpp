@@ -31,7 +31,7 @@ struct Sizes {
 };
 
 Sizes sizes_of(const ClusteredMesh& mesh) {
-  const ClusteredMesh::MemorySize size = mesh.memory_size();
+  const narrowphase::MeshMemorySize size = narrowphase::memory_size(mesh.counts());
   return {whole_lines(size.placement * sizeof(double)), whole_lines(size.indices * sizeof(int)),
           whole_lines(size.rest)};
 }

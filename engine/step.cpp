@@ -8,6 +8,7 @@
 #include "engine/base/timer.h"
 #include "engine/patches.h"
 #include "engine/step_statistics.h"
+#include "narrowphase/mesh/prefetch.h"
 
 namespace tact {
 
@@ -133,11 +134,11 @@ void Step::prefetch_pairs(const Bodies& bodies, std::size_t i, std::size_t own_e
   }
   if (i + kBoxes < moved.size()) {
     const PairRecord& record = *moved[i + kBoxes].record;
-    mesh(record.b).prefetch_boxes();
+    prefetch_boxes(mesh(record.b));
     if (i + kBoxes >= own_end || record.history.kind == PairHistory::Kind::none) return;
-    if (record.hulls_overlap) mesh(record.b).prefetch_points();
-    mesh(record.a).prefetch_position(record.history.hulls.a[0]);
-    mesh(record.b).prefetch_position(record.history.hulls.b[0]);
+    if (record.hulls_overlap) prefetch_points(mesh(record.b));
+    prefetch_position(mesh(record.a), record.history.hulls.a[0]);
+    prefetch_position(mesh(record.b), record.history.hulls.b[0]);
   }
 }
 
@@ -149,8 +150,8 @@ void Step::prefetch_first_bodies(const Bodies& bodies, std::size_t i, std::size_
   };
   if (i + kBody < moved.size()) narrowphase::prefetch_lines(&mesh(i + kBody), 1);
   if (i + kBoxes >= moved.size()) return;
-  mesh(i + kBoxes).prefetch_boxes();
-  if (i + kBoxes < own_end && moved[i + kBoxes].record->hulls_overlap) mesh(i + kBoxes).prefetch_points();
+  prefetch_boxes(mesh(i + kBoxes));
+  if (i + kBoxes < own_end && moved[i + kBoxes].record->hulls_overlap) prefetch_points(mesh(i + kBoxes));
 }
 
 // Stages 3 to 6, all pairs in parallel, each into its own record; then the large ones, each on all threads.

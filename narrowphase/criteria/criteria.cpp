@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "narrowphase/mesh/chosen_groups.h"
+#include "narrowphase/mesh/prefetch.h"
 
 namespace tact::narrowphase {
 
@@ -128,7 +129,7 @@ void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Bo
 
 void ask_for_facets(const ClusteredMesh& mesh, const KeptClusters& kept) {
   if (kept.cluster.size() > kMostAskedFor) return;
-  for (const std::int32_t cluster : kept.cluster) mesh.prefetch_facets(cluster);
+  for (const std::int32_t cluster : kept.cluster) prefetch_facets(mesh, cluster);
 }
 
 void cull_again(const Box& other, KeptClusters& kept) {

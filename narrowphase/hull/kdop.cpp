@@ -6,6 +6,10 @@
 
 namespace tact::narrowphase {
 
+DiagonalBounds kdop_of(const ClusteredMesh& mesh) {
+  return kernels().diagonal_bounds(mesh.points(), mesh.vertex_count());
+}
+
 PartingDiagonal parting_diagonal(const DiagonalBounds& a, const DiagonalBounds& b) {
   double widest = 0.0;
   int parting = 0;

@@ -6,9 +6,12 @@
 #pragma once
 
 #include "engine/base/vec3.h"
-#include "narrowphase/kernels/kernels.h"
+#include "narrowphase/mesh/clustered_mesh.h"
 
 namespace tact::narrowphase {
+
+/// How far the vertices, of which there must be one, reach along the diagonals.
+DiagonalBounds kdop_of(const ClusteredMesh& mesh);
 
 // Which diagonal parts two bodies: 1 and up along it, -1 and down against it, 0 if none does.
 using PartingDiagonal = std::int8_t;

@@ -4,6 +4,7 @@
 
 #include "engine/base/fast_paths.h"
 #include "engine/packed_meshes.h"
+#include "narrowphase/mesh/refit.h"
 #include "tests/support/clustered.h"
 #include "tests/support/generators.h"
 
@@ -11,6 +12,7 @@ namespace tact {
 namespace {
 
 using narrowphase::ClusteredMesh;
+using narrowphase::Refit;
 
 // Meshes of several sizes, one of them large, as a world would keep them.
 class Packing : public testing::Test {
@@ -42,7 +44,7 @@ class Packing : public testing::Test {
       ClusteredMesh& mesh = *meshes_[i];
       ASSERT_NO_THROW(mesh.validate()) << i;
       EXPECT_EQ(mesh.has_own_memory(), mesh.facet_count() > 1024) << i;
-      EXPECT_FALSE(mesh.set_positions(sources_[i].positions.data(), 1)) << i;
+      EXPECT_EQ(refit(mesh, sources_[i].positions.data()), Refit::same) << i;
       for (int f = 0; f < mesh.facet_count(); f += 11) {
         const narrowphase::Triangle triangle = mesh.triangle(mesh.facet_of_source(f));
         for (int k = 0; k < 3; ++k)
@@ -64,9 +66,9 @@ TEST_F(Packing, MeshesStayWhatTheyAre) {
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
       const tests::Mesh before = sources_[i];
       sources_[i] = tests::crumpled(before, static_cast<unsigned>(100 * round) + static_cast<unsigned>(i));
-      EXPECT_TRUE(meshes_[i]->set_positions(sources_[i].positions.data(), 1));
+      EXPECT_EQ(refit(*meshes_[i], sources_[i].positions.data()), Refit::changed);
       if (i % 3 != 0) continue;
-      meshes_[i]->take_back();
+      undo_refit(*meshes_[i]);
       sources_[i] = before;
     }
     expect_whole();

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "narrowphase/direction/contact_direction.h"
+#include "narrowphase/mesh/refit.h"
 #include "tests/support/minkowski_oracle.h"
 #include "tests/support/random.h"
 
@@ -300,7 +301,7 @@ std::string problem_of_directions(const HullPair& pair, std::int64_t& directions
   Vec3 start = pair.start;
   std::ostringstream problem;
   for (const Points* now : {&pair.b_before, &pair.b}) {
-    b.set_positions(coordinates(*now).data(), 1);
+    refit(b, coordinates(*now).data());
     const MinkowskiDifference m(a, b);
     if (gjk(m, {}, {}, {}).status == GjkStatus::apart) continue;
     const ContactDirection found = contact_direction(m, start, face, {}, faces);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "narrowphase/depth/smallest_separation.h"
+#include "narrowphase/mesh/refit.h"
 #include "tests/support/minkowski_oracle.h"
 
 namespace tact::narrowphase {
@@ -41,7 +42,7 @@ constexpr Way kWays[] = {Way::exact, Way::fresh, Way::continued};
 void move_to(const Points& points, ClusteredMesh& mesh) {
   std::vector<double> positions;
   for (const Vec3& p : points) positions.insert(positions.end(), {p.x, p.y, p.z});
-  mesh.set_positions(positions.data(), 1);
+  refit(mesh, positions.data());
 }
 
 // `last`: where the bodies were in the last search, if that is the way.

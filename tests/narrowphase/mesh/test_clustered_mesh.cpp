@@ -5,6 +5,8 @@
 
 #include "narrowphase/hull/support.h"
 #include "narrowphase/mesh/clustered_mesh.h"
+#include "narrowphase/mesh/position_problem.h"
+#include "narrowphase/mesh/refit.h"
 #include "tests/support/clustered.h"
 #include "tests/support/generators.h"
 #include "tests/support/random.h"
@@ -51,15 +53,15 @@ TEST(ClusteredMesh, AnUnusedVertexDoesNotCount) {
   ClusteredMesh clusters = clustered(mesh);
   EXPECT_EQ(clusters.box(), (Box{{0, 0, 0}, {1, 1, 1}}));
   mesh.positions(0, 8) = 200;
-  EXPECT_FALSE(clusters.set_positions(mesh.positions.data(), 1));
+  EXPECT_EQ(refit(clusters, mesh.positions.data()), Refit::same);
 }
 
 TEST(ClusteredMesh, MovesAndSaysSo) {
   for (const Mesh& mesh : many()) {
     ClusteredMesh clusters = clustered(mesh);
-    EXPECT_FALSE(clusters.set_positions(mesh.positions.data(), 1));
+    EXPECT_EQ(refit(clusters, mesh.positions.data()), Refit::same);
     Mesh moved = tests::crumpled(mesh, 11);
-    EXPECT_TRUE(clusters.set_positions(moved.positions.data(), 1));
+    EXPECT_EQ(refit(clusters, moved.positions.data()), Refit::changed);
     clusters.validate();
     EXPECT_EQ(clusters.position(0), moved.position(clusters.source_vertex(0)));
   }
@@ -80,7 +82,7 @@ TEST(ClusteredMesh, RefusesBadPositionsAndStaysAsItWas) {
       const base::Box box = clusters.box();
       Mesh bad = moved;
       bad.positions.data()[at] = value;
-      EXPECT_EQ(clusters.refresh(bad.positions.data(), kLargest, 1), ClusteredMesh::Refresh::bad)
+      EXPECT_EQ(refit(clusters, bad.positions.data(), {.largest = kLargest}), Refit::bad)
           << value << " at " << at;
       clusters.validate();
       EXPECT_EQ(clusters.position(7), before);
@@ -88,8 +90,8 @@ TEST(ClusteredMesh, RefusesBadPositionsAndStaysAsItWas) {
     }
   }
   ClusteredMesh clusters = clustered(sound);
-  EXPECT_EQ(clusters.refresh(sound.positions.data(), kLargest, 1), ClusteredMesh::Refresh::same);
-  EXPECT_EQ(clusters.refresh(moved.positions.data(), kLargest, 1), ClusteredMesh::Refresh::changed);
+  EXPECT_EQ(refit(clusters, sound.positions.data(), {.largest = kLargest}), Refit::same);
+  EXPECT_EQ(refit(clusters, moved.positions.data(), {.largest = kLargest}), Refit::changed);
   clusters.validate();
   EXPECT_EQ(clusters.position(7), moved.position(clusters.source_vertex(7)));
 }
@@ -98,11 +100,11 @@ TEST(ClusteredMesh, IsTakenBackToWhereItWas) {
   for (const Mesh& mesh : many()) {
     ClusteredMesh clusters = clustered(mesh);
     const base::Box box = clusters.box();
-    EXPECT_TRUE(clusters.set_positions(tests::crumpled(mesh, 11).positions.data(), 1));
-    clusters.take_back();
+    EXPECT_EQ(refit(clusters, tests::crumpled(mesh, 11).positions.data()), Refit::changed);
+    undo_refit(clusters);
     clusters.validate();
     EXPECT_EQ(clusters.box(), box);
-    EXPECT_FALSE(clusters.set_positions(mesh.positions.data(), 1));
+    EXPECT_EQ(refit(clusters, mesh.positions.data()), Refit::same);
   }
 }
 
@@ -121,7 +123,7 @@ TEST(ClusteredMesh, RefusesBadPositionsOnSeveralThreads) {
       ClusteredMesh clusters = clustered(mesh);
       Mesh bad = mesh;
       bad.positions(1, vertex) = value;
-      EXPECT_EQ(clusters.refresh(bad.positions.data(), 8.0, 2), ClusteredMesh::Refresh::bad)
+      EXPECT_EQ(refit(clusters, bad.positions.data(), {.largest = 8.0, .threads = 2}), Refit::bad)
           << value << " at " << vertex;
     }
   }
@@ -131,8 +133,8 @@ TEST(ClusteredMesh, ThreadsDoNotChangeBoxes) {
   const Mesh mesh = tests::wrinkled_sheet(160, 2.0, 0.2, 2);  // several ranges of clusters
   const Mesh moved = tests::jittered(mesh, 0.01, 3);
   ClusteredMesh one = clustered(mesh), two = clustered(mesh);
-  EXPECT_TRUE(one.set_positions(moved.positions.data(), 1));
-  EXPECT_TRUE(two.set_positions(moved.positions.data(), 2));
+  EXPECT_EQ(refit(one, moved.positions.data()), Refit::changed);
+  EXPECT_EQ(refit(two, moved.positions.data(), {.threads = 2}), Refit::changed);
   two.validate();
   for (int c = 0; c < one.cluster_count(); ++c) {
     EXPECT_EQ(one.cluster_boxes()[static_cast<std::size_t>(c)], two.cluster_boxes()[static_cast<std::size_t>(c)]);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "narrowphase/hull/minkowski_difference.h"
+#include "narrowphase/mesh/refit.h"
 #include "narrowphase/triangles/confirm.h"
 #include "narrowphase/triangles/triangle_triangle.h"
 #include "tests/support/clustered.h"
@@ -150,7 +151,7 @@ TEST(Criteria, LoseNoPairInAnyDirection) {
 void move_to(const std::array<Vec3, 3>& corners, ClusteredMesh& triangle) {
   double positions[9];
   for (std::size_t k = 0; k < 9; ++k) positions[k] = corners[k / 3][static_cast<int>(k % 3)];
-  triangle.set_positions(positions, 1);
+  refit(triangle, positions);
 }
 
 // A vertex of B exactly on the facet of A whose rounded normal is n, inside of it, on an edge or on a corner, moved by
