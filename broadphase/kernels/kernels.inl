@@ -1,4 +1,14 @@
-// Included, inside an unnamed namespace, by one file an instruction set.
+// All loops of kernels.h for one instruction set, and the table of them: included by one source file an instruction set.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "broadphase/kernels/kernels.h"
+#include "broadphase/kernels/vectors.h"
+
+namespace tact::broadphase {
+namespace {
 
 struct LaneOverlap {
   std::uint32_t closed;    // lanes that overlap, or touch
@@ -174,3 +184,10 @@ std::uint32_t refresh_lanes(Block& block, const double* boxes, const std::uint32
   refresh_bounds(block);
   return lanes & ~stays;
 }
+
+constexpr Kernels all_kernels(const char* name) {
+  return {.name = name, .find_rows = find_rows, .find_overlaps = find_overlaps, .refresh_lanes = refresh_lanes};
+}
+
+}  // namespace
+}  // namespace tact::broadphase

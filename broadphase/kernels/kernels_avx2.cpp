@@ -1,14 +1,8 @@
-#include "broadphase/kernels/kernels.h"
-#include "broadphase/kernels/vectors.h"
-
-namespace tact::broadphase {
-namespace {
-
 #include "broadphase/kernels/kernels.inl"
 
-}  // namespace
+namespace tact::broadphase {
 
 extern const Kernels kAvx2Kernels;
-const Kernels kAvx2Kernels{"avx2", find_rows, find_overlaps, refresh_lanes};
+constinit const Kernels kAvx2Kernels = all_kernels("avx2");
 
 }  // namespace tact::broadphase

@@ -1,14 +1,8 @@
-#include "broadphase/kernels/kernels.h"
-#include "broadphase/kernels/vectors.h"
-
-namespace tact::broadphase {
-namespace {
-
 #include "broadphase/kernels/kernels.inl"
 
-}  // namespace
+namespace tact::broadphase {
 
 extern const Kernels kAvx512Kernels;
-const Kernels kAvx512Kernels{"avx512", find_rows, find_overlaps, refresh_lanes};
+constinit const Kernels kAvx512Kernels = all_kernels("avx512");
 
 }  // namespace tact::broadphase

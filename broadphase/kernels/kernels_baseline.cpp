@@ -1,14 +1,8 @@
-#include "broadphase/kernels/kernels.h"
-#include "broadphase/kernels/vectors.h"
-
-namespace tact::broadphase {
-namespace {
-
 #include "broadphase/kernels/kernels.inl"
 
-}  // namespace
+namespace tact::broadphase {
 
 extern const Kernels kBaselineKernels;
-const Kernels kBaselineKernels{"scalar", find_rows, find_overlaps, refresh_lanes};
+constinit const Kernels kBaselineKernels = all_kernels("scalar");
 
 }  // namespace tact::broadphase

@@ -1,5 +1,14 @@
-// Loops over small whole numbers, included by kernels.inl: a byte a vertex of flags, a byte a corner of a facet, cells of
+// Loops over small whole numbers: a byte a vertex of flags, a byte a corner of a facet, cells of
 // boxes.
+#pragma once
+
+#include <cstdint>
+
+#include "narrowphase/kernels/kernels.h"
+#include "narrowphase/kernels/packs.h"
+
+namespace tact::narrowphase {
+namespace {
 
 // Of the i < count, a bit for each: do the flags of its three corners, flags[corner[k][i]], have no bit in common, do
 // they have the lowest?
@@ -17,7 +26,7 @@ inline CommonFlags common_flags_one_by_one(const std::uint8_t* flags, const std:
   return found;
 }
 
-#if defined(TACT_KERNELS_AVX512_BYTES)
+#if defined(TACT_KERNELS_AVX512)
 
 // Up to 128 flags stand in two registers. At least 128 bytes of flags can be read, and 1 <= count <= 64.
 inline CommonFlags common_flags(const std::uint8_t* flags, int flag_count, const std::uint8_t* const (&corner)[3],
@@ -50,7 +59,7 @@ inline void write_places(std::uint64_t set, std::uint8_t* to) {
   compress(set, kPlaces.place, to);
 }
 
-#elif defined(TACT_KERNELS_AVX2_BYTES)
+#elif defined(TACT_KERNELS_AVX2)
 
 // Sixteen flags at a time stand in both halves of a register. A shuffle takes the low four bits of a place and gives zero
 // where the highest is set: so it is after a saturated sum in all places but those of the sixteen.
@@ -131,7 +140,7 @@ inline void write_places(std::uint64_t set, std::uint8_t* to) {
 #endif
 
 // A bit for each facet of `block` that reaches into `cells`, and for some beyond its facets.
-#if defined(TACT_KERNELS_AVX512_BYTES)
+#if defined(TACT_KERNELS_AVX512)
 
 inline std::uint64_t sharing_cells(const CellBox& cells, const FacetBlock& block) {
   const auto half = [&](int begin) {
@@ -146,7 +155,7 @@ inline std::uint64_t sharing_cells(const CellBox& cells, const FacetBlock& block
   return block.count <= 32 ? half(0) : half(0) | half(32) << 32;
 }
 
-#elif defined(TACT_KERNELS_AVX2_BYTES)
+#elif defined(TACT_KERNELS_AVX2)
 
 inline std::uint64_t sharing_cells(const CellBox& cells, const FacetBlock& block) {
   const auto half = [&](int begin) {
@@ -185,7 +194,7 @@ inline std::uint64_t sharing_cells(const CellBox& cells, const FacetBlock& block
 #endif
 
 // The cells that those facets of `block` reach that have a bit.
-#if defined(TACT_KERNELS_AVX512_BYTES) || defined(TACT_KERNELS_AVX2_BYTES)
+#if defined(TACT_KERNELS_AVX512) || defined(TACT_KERNELS_AVX2)
 
 // The least of numbers from 0 to 2^15 - 1.
 inline std::int16_t least(__m256i numbers) {
@@ -245,3 +254,6 @@ inline std::uint64_t expand(std::uint64_t bits, std::uint64_t set) {
   return result;
 #endif
 }
+
+}  // namespace
+}  // namespace tact::narrowphase

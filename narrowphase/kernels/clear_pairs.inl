@@ -1,5 +1,16 @@
-// Which of many pairs of facets meet where no determinant is near zero, included by kernels.inl: in floats, which take half
+// Which of many pairs of facets meet where no determinant is near zero: in floats, which take half
 // the time and leave few open, and in doubles.
+#pragma once
+
+#include <cstdint>
+
+#include "narrowphase/kernels/facets.inl"
+#include "narrowphase/kernels/kernels.h"
+#include "narrowphase/kernels/lanes.inl"
+#include "narrowphase/kernels/pair_lanes.inl"
+
+namespace tact::narrowphase {
+namespace {
 
 template <class Real>
 inline PackOf<Real> opposite(PackOf<Real> x) {
@@ -125,3 +136,6 @@ PairMatches match_float_pairs(const FloatCorners& a, const FloatCorners& b, cons
   matches.undecided = (pairs.count == 0 ? 0 : ~std::uint64_t{0} >> (FacetPairList::kCapacity - pairs.count)) & ~(yes | no);
   return matches;
 }
+
+}  // namespace
+}  // namespace tact::narrowphase

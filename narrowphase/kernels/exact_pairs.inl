@@ -1,5 +1,17 @@
-// Which of many pairs of facets meet where no determinant is rounded, included by kernels.inl: corners on a lattice (see
+// Which of many pairs of facets meet where no determinant is rounded: corners on a lattice (see
 // narrowphase/triangles/lattice.h), in doubles or, where they are enough, in floats.
+#pragma once
+
+#include <cstdint>
+
+#include "narrowphase/kernels/clear_pairs.inl"
+#include "narrowphase/kernels/facets.inl"
+#include "narrowphase/kernels/kernels.h"
+#include "narrowphase/kernels/lanes.inl"
+#include "narrowphase/kernels/pair_lanes.inl"
+
+namespace tact::narrowphase {
+namespace {
 
 bool on_lattice(const FacetBlock& block, double step) {
   // Adding 3/2 * 2^52 steps, which leaves no room for parts of one, and taking them away again.
@@ -110,3 +122,6 @@ PairMatches match_exact_pairs(const FacetBlock& a, const FacetBlock& b, const Fa
 PairMatches match_exact_float_pairs(const FloatCorners& a, const FloatCorners& b, const FacetPairList& pairs) {
   return match_exactly(a, b, pairs);
 }
+
+}  // namespace
+}  // namespace tact::narrowphase

@@ -1,6 +1,18 @@
-// Which of many pairs of facets meet, included by kernels.inl: by the signs of determinants, as in triangle_triangle.cpp.
+// Which of many pairs of facets meet: by the signs of determinants, as in triangle_triangle.cpp.
 // In doubles; where these cannot tell, by equal corners, within the plane that both lie in, and in numbers of twice
 // the digits; what is left is for exact predicates.
+#pragma once
+
+#include <cstdint>
+
+#include "narrowphase/kernels/clear_pairs.inl"
+#include "narrowphase/kernels/facets.inl"
+#include "narrowphase/kernels/kernels.h"
+#include "narrowphase/kernels/lanes.inl"
+#include "narrowphase/kernels/pair_lanes.inl"
+
+namespace tact::narrowphase {
+namespace {
 
 // A number of twice the digits: high + low, where high is the sum rounded. The arithmetic is that of Dekker, "A
 // floating-point technique for extending the available precision", 1971, but for sums, which leave out a step that matters
@@ -236,3 +248,6 @@ PairMatches match_flat_pairs(const FacetBlock& a, const FacetBlock& b, const Fac
     return match_flat_lanes(p, q, lanes & nothing_vanishes(p) & nothing_vanishes(q));
   });
 }
+
+}  // namespace
+}  // namespace tact::narrowphase

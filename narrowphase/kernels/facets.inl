@@ -1,4 +1,16 @@
-// The loops over facets, included by kernels.inl.
+// The loops over facets.
+#pragma once
+
+#include <cstdint>
+
+#include "narrowphase/kernels/boxes.inl"
+#include "narrowphase/kernels/bytes.inl"
+#include "narrowphase/kernels/kernels.h"
+#include "narrowphase/kernels/lanes.inl"
+#include "narrowphase/kernels/points.inl"
+
+namespace tact::narrowphase {
+namespace {
 
 // Vectors of doubles or floats, a lane each.
 template <class Real>
@@ -229,3 +241,6 @@ std::uint64_t list_pairs(std::uint64_t some, std::uint64_t* met, bool few_are_b,
   }
   return some;
 }
+
+}  // namespace
+}  // namespace tact::narrowphase

@@ -1,7 +1,7 @@
-// The few loops in which the time goes, compiled once for each instruction set from kernels.inl and chosen when the
-// program starts. Every instruction set gives the same bits: the same operations in the same order on every element, a
-// fused multiply-add only for the exact error of a product. Plain pointers only: nothing inline may leak from files
-// that are compiled for a newer machine.
+// The few loops in which the time goes, compiled once for each instruction set and chosen when the program starts. The
+// loops stand in the .inl files, over the packs of packs.h; kernels.inl makes the table. Every instruction set gives
+// the same bits: the same operations in the same order on every element, a fused multiply-add only for the exact error
+// of a product. Plain pointers only: nothing inline may leak from files that are compiled for a newer machine.
 #pragma once
 
 #include <tact/facet_pair.h>

@@ -1,4 +1,4 @@
-// The filter of moving polygons, included by kernels.inl: a vertex and a facet, or two edges, whose corners move straight,
+// The filter of moving polygons: a vertex and a facet, or two edges, whose corners move straight,
 // see motion/meeting.h for what is proved there of each. Here the same certificates are tried for the whole step
 // and a few directions, which leaves out nearly all.
 //
@@ -6,6 +6,16 @@
 // A direction is what its doubles say, however it was computed; so its product with a corner is wrong by at most 5 u times
 // its length (the sum of its sizes) times `size`: kRounding leaves room for ten times that, and for what it takes itself.
 // Products below the smallest double lose less than kVanishing.
+#pragma once
+
+#include <cstdint>
+
+#include "narrowphase/kernels/facets.inl"
+#include "narrowphase/kernels/kernels.h"
+#include "narrowphase/kernels/lanes.inl"
+
+namespace tact::narrowphase {
+namespace {
 
 constexpr double kRounding = 0x1p-47;
 constexpr double kVanishing = 1e-250;
@@ -121,3 +131,6 @@ std::uint64_t apart_throughout(const MovingPolygons& polygons, double reach) {
   }
   return apart;
 }
+
+}  // namespace
+}  // namespace tact::narrowphase

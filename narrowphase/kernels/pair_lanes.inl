@@ -1,4 +1,15 @@
-// Pairs of facets, a lane each, included by kernels.inl: what the ways to decide them have in common.
+// Pairs of facets, a lane each: what the ways to decide them have in common.
+#pragma once
+
+#include <cstdint>
+
+#include "narrowphase/kernels/bytes.inl"
+#include "narrowphase/kernels/facets.inl"
+#include "narrowphase/kernels/kernels.h"
+#include "narrowphase/kernels/lanes.inl"
+
+namespace tact::narrowphase {
+namespace {
 
 template <class Real>
 inline VectorOf<Real> select(MaskOf<Real> mask, const VectorOf<Real>& yes, const VectorOf<Real>& no) {
@@ -130,3 +141,6 @@ struct Projection {
     return {select(along_x, p.y, select(along_y, p.z, p.x)), select(along_x, p.z, select(along_y, p.x, p.y))};
   }
 };
+
+}  // namespace
+}  // namespace tact::narrowphase

@@ -1,3 +1,14 @@
+// New positions of a mesh, copied cluster by cluster with the box of each.
+#pragma once
+
+#include <cstdint>
+
+#include "narrowphase/kernels/kernels.h"
+#include "narrowphase/kernels/packs.h"
+
+namespace tact::narrowphase {
+namespace {
+
 // Asks for the positions of `count` owned vertices from the i-th on, in good time and in the second level of the cache:
 // the first has room for few under way, and what is written needs it. Both lines that a vertex may lie in: masked loads
 // touch the next double.
@@ -10,7 +21,7 @@ inline void ask_for(const RefreshInput& in, int i, int count) {
   asm volatile("");  // or GCC 12 may leave it all out
 }
 
-#if defined(TACT_KERNELS_AVX2_REFRESH)
+#if defined(TACT_KERNELS_AVX2) || defined(TACT_KERNELS_AVX512)
 
 // A vertex in the low three lanes, zero in the fourth.
 inline __m256d load_vertex(const double* source, std::int32_t s) {
@@ -180,3 +191,6 @@ Refreshed refresh_clusters(const RefreshInput& in) {
 }
 
 #endif
+
+}  // namespace
+}  // namespace tact::narrowphase

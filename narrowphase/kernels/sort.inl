@@ -1,4 +1,13 @@
-// Sorting pairs of facets, included by kernels.inl.
+// Sorting pairs of facets.
+#pragma once
+
+#include <cstdint>
+
+#include "narrowphase/kernels/kernels.h"
+#include "narrowphase/kernels/packs.h"
+
+namespace tact::narrowphase {
+namespace {
 
 // How many of the keys are less than each. All are compared with all, which for so few is less work than the branches of
 // sorting, none of which can be foreseen. Vectors of GCC's: a comparison gives -1 where it holds.
@@ -38,3 +47,6 @@ void sort_pairs(FacetPair* pairs, int count) {
     sort_by_keys<std::int64_t>(pairs, count, bits_b);
   }
 }
+
+}  // namespace
+}  // namespace tact::narrowphase
