@@ -43,7 +43,7 @@ bool equal(const FloatBox& a, const FloatBox& b) {
   return std::equal(a.lower, a.lower + 3, b.lower) && std::equal(a.upper, a.upper + 3, b.upper);
 }
 
-void refresh_bounds(Block& block) {
+void refit_bounds(Block& block) {
   block.bounds = kEmpty;
   for (int axis = 0; axis < 3; ++axis) {
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
@@ -107,7 +107,7 @@ void BlockTree::update(std::span<const Box> boxes, std::span<const std::uint32_t
   for (Level& level : levels_) std::fill(level.active.begin(), level.active.end(), std::uint16_t{0});
   if (worn_out() || !keep_order(boxes, changed, threads)) start_afresh(boxes);
   const std::size_t first_new = place_arrivals(boxes, is_changed, threads);
-  refresh_upper_levels(first_new, threads);
+  refit_upper_levels(first_new, threads);
 }
 
 // Refreshes the blocks and takes out the boxes that left them; stops and says no if those are so many that placing them
@@ -117,7 +117,7 @@ bool BlockTree::keep_order(std::span<const Box> boxes, std::span<const std::uint
   mark(boxes, changed);
   const std::size_t count = levels_[0].blocks.size();
   const auto refresh = [&](std::size_t index) {
-    if (levels_[0].active[index] != 0) refresh_leaf(boxes, index);
+    if (levels_[0].active[index] != 0) refit_leaf(boxes, index);
   };
   base::parallel_for(blocks_for(count), kBlockGrain, threads, [&](std::size_t group) { refresh(group * kLanes); });
   if (most_left(kLanes)) return false;
@@ -162,7 +162,7 @@ void BlockTree::prefetch_boxes(std::span<const Box> boxes, std::size_t index) co
   }
 }
 
-void BlockTree::refresh_leaf(std::span<const Box> boxes, std::size_t index) {
+void BlockTree::refit_leaf(std::span<const Box> boxes, std::size_t index) {
   Block& block = levels_[0].blocks[index];
   const std::uint32_t* block_members = members(index);
   prefetch_boxes(boxes, index + kPrefetch);
@@ -173,7 +173,7 @@ void BlockTree::refresh_leaf(std::span<const Box> boxes, std::size_t index) {
   });
   for_each_lane(gone, [&](std::uint32_t lane) { set_lane(block, lane, kEmpty); });
   block.exact_lanes |= gone;
-  const std::uint32_t left = kernels_->refresh_lanes(block, doubles_of(boxes), block_members,
+  const std::uint32_t left = kernels_->refit_lanes(block, doubles_of(boxes), block_members,
                                                      levels_[0].active[index] & ~gone, frame_, regions_[index]);
   leavers_[index] = static_cast<std::uint16_t>(gone | left);
 }
@@ -309,13 +309,13 @@ void BlockTree::fill_leaf(std::span<const Box> boxes, std::size_t index) {
     lanes |= static_cast<std::uint32_t>(members(index)[lane] != kNone) << lane;
   }
   Block& block = levels_[0].blocks[index];
-  kernels_->refresh_lanes(block, doubles_of(boxes), members(index), lanes, frame_, kEverywhere);
+  kernels_->refit_lanes(block, doubles_of(boxes), members(index), lanes, frame_, kEverywhere);
   // The bounds of a single box are always tight.
   regions_[index] = widened(block.bounds, std::has_single_bit(lanes) ? kLoneRegionMargin : kRegionMargin);
 }
 
 // Blocks of level 0 from `first_new` on are new, or gone.
-void BlockTree::refresh_upper_levels(std::size_t first_new, int threads) {
+void BlockTree::refit_upper_levels(std::size_t first_new, int threads) {
   std::size_t count = levels_[0].blocks.size();
   std::size_t level = 0;
   while (count > 1) {
@@ -328,12 +328,12 @@ void BlockTree::refresh_upper_levels(std::size_t first_new, int threads) {
     parents.blocks.resize(count);
     parents.active.resize(count, 0);
     base::parallel_for(count, kBlockGrain, threads,
-                       [&](std::size_t index) { refresh_parent(level, index, index >= first_new); });
+                       [&](std::size_t index) { refit_parent(level, index, index >= first_new); });
   }
   level_count_ = level + 1;
 }
 
-void BlockTree::refresh_parent(std::size_t level, std::size_t index, bool is_new) {
+void BlockTree::refit_parent(std::size_t level, std::size_t index, bool is_new) {
   const Level& below = levels_[level - 1];
   Block& block = levels_[level].blocks[index];
   const std::size_t first = index * kLanes;
@@ -348,7 +348,7 @@ void BlockTree::refresh_parent(std::size_t level, std::size_t index, bool is_new
     for (auto lane = static_cast<std::uint32_t>(children); lane < kLanes; ++lane) set_lane(block, lane, kEmpty);
   }
   levels_[level].active[index] = static_cast<std::uint16_t>(active);
-  if (active != 0 || is_new) refresh_bounds(block);
+  if (active != 0 || is_new) refit_bounds(block);
 }
 
 bool BlockTree::validate(std::span<const Box> boxes) const {
@@ -400,7 +400,7 @@ bool BlockTree::validate_level(std::size_t level) const {
       }
     }
     Block fresh = blocks[index];
-    refresh_bounds(fresh);
+    refit_bounds(fresh);
     if (!equal(fresh.bounds, blocks[index].bounds)) return false;
   }
   return true;

@@ -63,7 +63,7 @@ class BlockTree {
   void resize(std::size_t count);
   void mark(std::span<const Box> boxes, std::span<const std::uint32_t> changed);
   void prefetch_boxes(std::span<const Box> boxes, std::size_t index) const;
-  void refresh_leaf(std::span<const Box> boxes, std::size_t index);
+  void refit_leaf(std::span<const Box> boxes, std::size_t index);
   bool worn_out() const;
   bool keep_order(std::span<const Box> boxes, std::span<const std::uint32_t> changed, int threads);
   bool most_left(std::size_t weight) const;
@@ -75,8 +75,8 @@ class BlockTree {
   void resize_leaves(std::size_t count);
   void set_members(std::span<const std::uint8_t> is_changed, std::size_t index, std::span<const OrderItem> items);
   void fill_leaf(std::span<const Box> boxes, std::size_t index);
-  void refresh_upper_levels(std::size_t first_new, int threads);
-  void refresh_parent(std::size_t level, std::size_t index, bool is_new);
+  void refit_upper_levels(std::size_t first_new, int threads);
+  void refit_parent(std::size_t level, std::size_t index, bool is_new);
   bool validate_leaf_lanes(std::span<const Box> boxes) const;
   bool validate_level(std::size_t level) const;
 

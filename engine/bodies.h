@@ -75,7 +75,7 @@ class Bodies {
   std::span<const base::Box> boxes() const { return boxes_; }
   std::span<const broadphase::Filter> filters() const { return filters_; }
   // How far a body reaches along diagonals, or null if nobody wanted to know.
-  const narrowphase::DiagonalBounds* diagonals(std::uint32_t slot) const {
+  const narrowphase::Kdop* diagonals(std::uint32_t slot) const {
     return knows_diagonals_[slot] != 0 ? &diagonals_[slot] : nullptr;
   }
   // Does a body look how far it reaches when it moves next? A new one does, a large one never.
@@ -168,7 +168,7 @@ class Bodies {
   std::vector<base::Box> boxes_;
   std::vector<broadphase::Filter> filters_;
   std::vector<double> margins_;
-  std::vector<narrowphase::DiagonalBounds> diagonals_;
+  std::vector<narrowphase::Kdop> diagonals_;
   std::vector<char> knows_diagonals_, wants_diagonals_;
   std::vector<std::uint32_t> unknown_;  // slots of bodies that are to look now
   std::vector<Grouping> groupings_;
@@ -179,7 +179,7 @@ class Bodies {
   std::int64_t vertices_ = 0;
   std::int64_t moved_vertices_ = 0;
   std::vector<Update> updates_;                             // scratch
-  std::vector<narrowphase::DiagonalBounds> new_diagonals_;  // of those that know them
+  std::vector<narrowphase::Kdop> new_diagonals_;  // of those that know them
   std::vector<std::uint32_t> without_features_;             // scratch
   std::vector<char> named_;                                 // scratch, an entry a slot
 };

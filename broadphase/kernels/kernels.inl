@@ -93,7 +93,7 @@ float largest_of(const float* numbers) {
   return -least_of(opposite);
 }
 
-void refresh_bounds(Block& block) {
+void refit_bounds(Block& block) {
   for (int axis = 0; axis < 3; ++axis) {
     block.bounds.lower[axis] = least_of(block.lower[axis]);
     block.bounds.upper[axis] = largest_of(block.upper[axis]);
@@ -168,7 +168,7 @@ void replace(float* numbers, const float* fresh, float none, std::uint32_t lanes
   }
 }
 
-std::uint32_t refresh_lanes(Block& block, const double* boxes, const std::uint32_t* members, std::uint32_t lanes,
+std::uint32_t refit_lanes(Block& block, const double* boxes, const std::uint32_t* members, std::uint32_t lanes,
                             const Frame& frame, const FloatBox& region) {
   std::uint32_t stays = 0;
   if (lanes != 0) {
@@ -181,12 +181,12 @@ std::uint32_t refresh_lanes(Block& block, const double* boxes, const std::uint32
     }
     block.exact_lanes = (block.exact_lanes & ~lanes) | (lanes & (loaded.exact | ~stays));
   }
-  refresh_bounds(block);
+  refit_bounds(block);
   return lanes & ~stays;
 }
 
 constexpr Kernels all_kernels(const char* name) {
-  return {.name = name, .find_rows = find_rows, .find_overlaps = find_overlaps, .refresh_lanes = refresh_lanes};
+  return {.name = name, .find_rows = find_rows, .find_overlaps = find_overlaps, .refit_lanes = refit_lanes};
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace tact {
 
 namespace {
 
-using narrowphase::PartingDiagonal;
+using narrowphase::SeparatingDiagonal;
 
 constexpr std::size_t kLargestRoom = 512;                      // facet pairs, 4 kB
 constexpr std::size_t kMostSpareRoom = std::size_t{1} << 20;   // facet pairs, 8 MB
@@ -161,11 +161,11 @@ bool PairTable::part(const MovedPair& pair, const Bodies& bodies) {
   if (candidates_[pair.place].hulls_overlap || has_margin(pair, bodies)) return false;
   const broadphase::IndexPair slots = pairs_[pair.place];
   const auto *a = bodies.diagonals(slots.a), *b = bodies.diagonals(slots.b);
-  PartingDiagonal& parting = entries_[pair.place].parting;
-  const PartingDiagonal last = parting;
+  SeparatingDiagonal& parting = entries_[pair.place].parting;
+  const SeparatingDiagonal last = parting;
   const bool known = a != nullptr && b != nullptr;
-  if (known && narrowphase::parts(last, *a, *b)) return true;
-  parting = known ? narrowphase::parting_diagonal(*a, *b) : PartingDiagonal{0};
+  if (known && narrowphase::separates(last, *a, *b)) return true;
+  parting = known ? narrowphase::separating_diagonal(*a, *b) : SeparatingDiagonal{0};
   if (parting != 0) return true;
   if (last != 0) {
     pair.record->history.kind = PairHistory::Kind::separated;

@@ -80,7 +80,7 @@ class PairTable {
     PairRecord* record = nullptr;
     std::uint32_t place_in_report = kNowhere;
     bool in_contact = false;
-    narrowphase::PartingDiagonal parting = 0;  // in the last step in which a body of the pair moved
+    narrowphase::SeparatingDiagonal parting = 0;  // in the last step in which a body of the pair moved
   };
   bool part(const MovedPair& pair, const Bodies& bodies);
   bool has_margin(const MovedPair& pair, const Bodies& bodies) const;

@@ -74,7 +74,7 @@ bool hulls_overlap(PairRecord& record, const MinkowskiDifference& m, double reac
   if (record.counts.still_overlapping) return true;
   if (starts_from_last_step() && history.kind == PairHistory::Kind::separated) {
     const int a = history.hulls.a[0], b = history.hulls.b[0];
-    const bool apart = reach == 0.0 && m.parted_by_plane(history.direction, a, b);
+    const bool apart = reach == 0.0 && m.separated_by_plane(history.direction, a, b);
     record.counts.gjk_iterations += apart ? 0 : 1;
     const auto w = [&] { return dot(history.direction, m.support(history.direction, m.vertex(a, b)).point); };
     if (apart || w() < -(m.height_error() + m.scale() * reach)) {
@@ -197,9 +197,9 @@ void cull(PairRecord& record, const Body& a, const Body& b, const Slab& slab, co
                 .kept_a = &work.kept_a,
                 .kept_b = &work.kept_b};
   cull_clusters(a.mesh, work.input.criteria_a, b.mesh.box(), work.kept_a);
-  if (work.asks_ahead) ask_for_facets(a.mesh, work.kept_a);
+  if (work.asks_ahead) prefetch_facets(a.mesh, work.kept_a);
   cull_clusters(b.mesh, work.input.criteria_b, work.kept_a.bounds, work.kept_b);
-  if (work.asks_ahead) ask_for_facets(b.mesh, work.kept_b);
+  if (work.asks_ahead) prefetch_facets(b.mesh, work.kept_b);
   cull_again(work.kept_b.bounds, work.kept_a);
   count_facets(a, b, work);
   record.facet_counts.used_trees = find_cluster_pairs(work.kept_a, work.kept_b, ClusterPairSource::automatic, device,

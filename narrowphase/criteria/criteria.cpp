@@ -12,8 +12,8 @@ namespace tact::narrowphase {
 
 namespace {
 
-// The memory of so many clusters, some 1.5 kB each, is asked for at once; asking for more costs more than it saves.
-constexpr std::size_t kMostAskedFor = 64;
+// The facets of so many clusters, some 1.5 kB each, are prefetched; to prefetch more costs more than it saves.
+constexpr std::size_t kMostPrefetched = 64;
 
 Criteria make_criteria(const Slab& slab, Vec3 outward, double plane, const ImpactZone* other_zone, bool facing_away) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -127,8 +127,8 @@ void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Bo
   kept.bounds = bounds;
 }
 
-void ask_for_facets(const ClusteredMesh& mesh, const KeptClusters& kept) {
-  if (kept.cluster.size() > kMostAskedFor) return;
+void prefetch_facets(const ClusteredMesh& mesh, const KeptClusters& kept) {
+  if (kept.cluster.size() > kMostPrefetched) return;
   for (const std::int32_t cluster : kept.cluster) prefetch_facets(mesh, cluster);
 }
 

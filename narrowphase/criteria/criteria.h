@@ -4,13 +4,13 @@
 //   1 facing away     n · normal(F) <= 0: dropped. Loses contacts on spikes and folds: Accuracy::paper only, and
 //                     never on a sheet or a facet without area.
 //   2 outside slab    F lies before the plane of B.
-//     outside box     F's box misses the box of what is left of B: costs as little, and is not the paper's.
+//     outside box     F's box misses the box of what is left of B. It is not the paper's, and costs as little.
 //   3 outside zone    the projection of F misses the disk around B's impact zone. Where a zone was computed.
 //
-// Criteria 2 and 3 lose no contact in real arithmetic, and none here: a height computed as n · (x - origin) is off by
-// at most e = Slab::error from the true one, and so is a plane, the extreme of such heights. A facet is dropped if its
-// highest corner lies more than 2 e, rounded downwards, below the plane: then it lies below in truth. Boxes are
-// compared as they are. For the disk see impact_zone.h; the facet's projection is off by at most sqrt(2) e more.
+// Criteria 2 and 3 lose no contact in real arithmetic, and none here. A height computed as n · (x - origin) is off by
+// at most e = Slab::error from the true one; so is a plane, which is the extreme of such heights. A facet is dropped
+// only if its highest corner lies more than 2 e, rounded downwards, below the plane: then it lies below in truth. Boxes
+// are exact. For the disk see impact_zone.h; the facet's projection is off by at most sqrt(2) e more.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +31,8 @@ struct Criteria {
   Disk other_zone = {};      // of the other body, all margins included, in units of that length
 };
 
-// Facets dropped, by the first that drops them, and kept. Criterion 2 and the box come first: they need no facet to be
-// looked at, only its corners.
+// How many facets were kept, and dropped by each criterion. The first that drops a facet counts: criterion 2, the box,
+// 1, 3. The first two need only its corners.
 struct CullCounts {
   std::int64_t opened_clusters = 0;
   std::int64_t facing_away = 0;
@@ -45,7 +45,7 @@ struct CullCounts {
   CullCounts& operator+=(const CullCounts& one);
 };
 
-// The clusters of a body that can hold a facet that touches, ascending, with their boxes.
+// The clusters of a body that can hold a touching facet, ascending, with their boxes.
 struct KeptClusters {
   std::vector<std::int32_t> cluster;
   BoxArrays boxes;                // of the clusters in this list, in its order
@@ -62,8 +62,8 @@ Criteria criteria_for_b(const Slab& slab, const ImpactZone* zone_a, bool facing_
 // The clusters of `mesh` that reach up to the other's plane and whose box meets `other`. Replaces the contents of
 // `kept`.
 void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Box& other, KeptClusters& kept);
-// Asks for the memory of the facets that are left, in good time.
-void ask_for_facets(const ClusteredMesh& mesh, const KeptClusters& kept);
+// Prefetches the facets of the kept clusters.
+void prefetch_facets(const ClusteredMesh& mesh, const KeptClusters& kept);
 // Drops from `kept` the clusters whose box misses `other`.
 void cull_again(const Box& other, KeptClusters& kept);
 

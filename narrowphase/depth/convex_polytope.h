@@ -1,9 +1,8 @@
 // The convex hull of points that arrive one by one, as a closed surface of triangles with their neighbours.
 //
-// What a new point sees is decided by exact predicates, and a face that it lies in the plane of is not seen. So the
-// faces that it sees form one patch without holes, the border of the patch is one closed line, and no new face is
-// without area: the surface is closed and convex at all times, in exact arithmetic, whatever the points. Faces may lie
-// in one plane.
+// Exact predicates decide which faces a new point sees; it does not see a face in whose plane it lies. So the faces
+// that it sees form one patch without holes, the border of the patch is one closed line, and every new face has area.
+// The surface is closed and convex at all times, in exact arithmetic, whatever the points. Faces may lie in one plane.
 #pragma once
 
 #include <array>

@@ -22,7 +22,7 @@ constexpr int kLimit = 2000;
 constexpr int kLimitPerVertex = 4;
 // The bounds have met when they are this near, relative to the size of M, or within twice the error of a height.
 constexpr double kTolerance = 1e-14;
-// A triangle thinner than this has no normal in wide arithmetic. The face across its longest side is as near to the
+// A triangle thinner than this has no normal in double-double. The face across its longest side is as near to the
 // origin.
 constexpr double kSmallestSine = 0x1p-92;
 
@@ -34,17 +34,17 @@ bool collinear(Vec3 p, Vec3 q, Vec3 r) {
 }
 
 // The unit vector along e × f, if that can be told.
-std::optional<Vec3> normal_across(const WideVec3& e, const WideVec3& f) {
-  const Vec3 n = wide_cross(e, f);
+std::optional<Vec3> normal_across(const DoubleDoubleVec3& e, const DoubleDoubleVec3& f) {
+  const Vec3 n = double_double_cross(e, f);
   if (!(norm(n) > kSmallestSine * norm(e.head) * norm(f.head))) return std::nullopt;
   return unit_vector(n);
 }
 
 using Queried = QueriedDirections::Queried;
 
-class Search {
+class PolytopeExpansion {
  public:
-  Search(const MinkowskiDifference& m, Vec3 preferred, PolytopeMemory& memory)
+  PolytopeExpansion(const MinkowskiDifference& m, Vec3 preferred, PolytopeMemory& memory)
       : m_(m),
         preferred_(preferred_direction(preferred)),
         tolerance_(height_tolerance(m)),
@@ -101,7 +101,7 @@ class Search {
   }
 
   // Four vertices of M that do not lie in one plane. Nothing if M is flat, straight or a point, as far as support
-  // queries across it tell; the directions across it have then been asked for, so that the result is complete.
+  // queries across it tell. The directions across it have then been queried, so that the result is complete.
   std::optional<std::array<Vec3, 4>> first_tetrahedron() {
     for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) query_seed(axis);
     const Vec3 p = seeds_[0].point;
@@ -109,7 +109,7 @@ class Search {
     if (!q) return std::nullopt;
     const auto r = seed_off_line(p, *q);
     if (!r) return std::nullopt;
-    const auto normal = normal_across(wide_difference(*q, p), wide_difference(*r, p));
+    const auto normal = normal_across(double_double_difference(*q, p), double_double_difference(*r, p));
     if (!normal) return std::nullopt;
     query_seed(*normal);
     const auto s = best_seed([&](Vec3 x) {
@@ -128,7 +128,7 @@ class Search {
     query_seed(across.u);
     query_seed(across.v);
     const auto distance = [&](Vec3 x) {
-      return collinear(p, q, x) ? 0.0 : norm(wide_cross(wide_difference(x, p), {along, {}}));
+      return collinear(p, q, x) ? 0.0 : norm(double_double_cross(double_double_difference(x, p), {along, {}}));
     };
     const auto r = best_seed(distance);
     const Vec3 preferred_across = preferred_ - dot(preferred_, along) * along;
@@ -175,7 +175,7 @@ class Search {
       if (polytope_.faces()[static_cast<std::size_t>(f)].removed) continue;
       const Vec3 p = polytope_.corner(f, 0);
       const auto normal =
-          normal_across(wide_difference(polytope_.corner(f, 1), p), wide_difference(polytope_.corner(f, 2), p));
+          normal_across(double_double_difference(polytope_.corner(f, 1), p), double_double_difference(polytope_.corner(f, 2), p));
       if (!normal) continue;
       const double distance = dot(*normal, p);
       if (!(distance < height())) continue;
@@ -200,7 +200,7 @@ class Search {
 }  // namespace
 
 SmallestSeparation expanding_polytope(const MinkowskiDifference& m, Vec3 preferred, PolytopeMemory& memory) {
-  return Search(m, preferred, memory).run();
+  return PolytopeExpansion(m, preferred, memory).run();
 }
 
 Vec3 preferred_direction(Vec3 preferred) { return preferred == Vec3{} ? Vec3{0.0, 0.0, 1.0} : unit_vector(preferred); }

@@ -31,31 +31,30 @@ struct PolytopeMemory {
 };
 
 struct SmallestSeparation {
-  Vec3 direction;       // unit, from A to B
-  double height = 0.0;  // w(direction), scaled; above the true minimum by at most rounding, unless limit_reached
-  double lower_bound =
-      0.0;                  // scaled; the true minimum of w over all directions is at least this, if M holds the origin
-  GjkSimplex face = {};     // three vertices of M that probably span the face across the direction, or nothing
-  int support_queries = 0;  // vertices of M that were asked for
-  bool limit_reached = false;  // the bounds did not close: the direction is the best found
+  Vec3 direction;            ///< unit, from A to B
+  double height = 0.0;       ///< w(direction), scaled; above the least w by at most rounding, unless limit_reached
+  double lower_bound = 0.0;  ///< of w over all directions, scaled, if M holds the origin
+  GjkSimplex face = {};      ///< three vertices of M that probably span the face across the direction, or nothing
+  int support_queries = 0;
+  bool limit_reached = false;  ///< the bounds did not close: the direction is the best found
 };
 
-// The direction with the least w(n) over all unit n. M must hold the origin, or nearly: it may lie on the border, or
-// outside by rounding; w is then negative and measures by how much. If M does not hold the origin at all, some
-// direction with w < 0 comes back.
+// The direction with the least w(n) over all unit n. M must hold the origin, but for rounding: the origin may lie on
+// the border, or so little outside that w is negative by rounding. If M does not hold the origin, some direction with w
+// < 0 is returned.
 //
-// Of directions that are equally low but for rounding, the one nearest to `preferred` (any vector, zero included) comes
-// back, as far as the search came across them. M may be flat or nearly: the direction is its normal, on the side of
-// `preferred`. Where M is a segment, it is the direction across it that is nearest to `preferred`; where it is a point,
-// `preferred`.
+// Of the directions that the search met and that are equally low but for rounding, the one nearest to `preferred` (any
+// vector, zero included) is returned. If M is flat or nearly so, the direction is its normal on the side of
+// `preferred`; if it is a segment, the direction across it nearest to `preferred`; if it is a point, `preferred`.
 //
-// Each support query gives an upper bound of the minimum, w of its direction, and the nearest face of the polytope a
-// lower one; it ends when they meet but for rounding. Bodies that are round and concentric have no nearest face until
-// all of M is known: the number of queries grows with its faces, up to a limit that grows with the bodies' vertices.
+// Each support query gives an upper bound of the minimum: w of its direction. The nearest face of the polytope gives a
+// lower bound. The search ends when the bounds meet but for rounding. Round and concentric bodies have no nearest face
+// until all of M is known: the number of queries grows with the faces of M, up to a limit that grows with the bodies'
+// vertices.
 SmallestSeparation expanding_polytope(const MinkowskiDifference& m, Vec3 preferred, PolytopeMemory& memory);
 
-// For any search like this one: `preferred` as a unit vector; how near the bounds of the smallest height come, scaled;
-// and how many support queries it may take.
+// For any search for the smallest height: `preferred` as a unit vector; the distance of the bounds, scaled, at which it
+// ends; the most support queries that it makes.
 Vec3 preferred_direction(Vec3 preferred);
 double height_tolerance(const MinkowskiDifference& m);
 int query_limit(const MinkowskiDifference& m);

@@ -1,4 +1,4 @@
-// The directions in which M's height was asked for, in a search for the smallest.
+// The directions in which M's height was queried, in a search for the smallest.
 #pragma once
 
 #include <limits>

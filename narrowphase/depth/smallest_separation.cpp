@@ -11,14 +11,15 @@
 namespace tact::narrowphase {
 namespace {
 
-// A start that has grown to more than so many faces beyond twice those of a fresh one costs more than it saves.
+// A surface that has grown, from step to step, by more than twice the faces of a fresh one and so many more costs more
+// than it saves.
 constexpr int kFacesToSpare = 32;
 // If the direction found is turned by more than this (a cosine) from the preferred one, a nearer one is looked for.
 constexpr double kTurned = 0.9;
 
-class Search {
+class SurfaceExpansion {
  public:
-  Search(const MinkowskiDifference& m, const SmallestStart& start, SmallestMemory& memory)
+  SurfaceExpansion(const MinkowskiDifference& m, const SmallestStart& start, SmallestMemory& memory)
       : m_(m),
         start_(start),
         preferred_(preferred_direction(start.preferred)),
@@ -34,7 +35,7 @@ class Search {
   std::optional<SmallestSeparation> run() {
     if (!(continues() && expand()) && !(begins() && expand())) return std::nullopt;
     QueriedDirections::Queried best = choose();
-    if (dot(best.direction, preferred_) < kTurned) best = ask_nearer(best);
+    if (dot(best.direction, preferred_) < kTurned) best = query_nearer(best);
     save();
     return SmallestSeparation{.direction = best.direction,
                               .height = best.height,
@@ -72,7 +73,7 @@ class Search {
   // The origin lies in the triangle, but for rounding.
   bool surround_triangle(const std::array<MinkowskiVertex, 3>& ring) {
     const Vec3 p = ring[0].point;
-    const Vec3 n = wide_cross(wide_difference(ring[1].point, p), wide_difference(ring[2].point, p));
+    const Vec3 n = double_double_cross(double_double_difference(ring[1].point, p), double_double_difference(ring[2].point, p));
     if (n == Vec3{}) return false;
     const Vec3 up = unit_vector(n);
     const MinkowskiVertex top = queried_.query(m_, up);
@@ -92,14 +93,14 @@ class Search {
   // Expands the surface over its nearest face until that is a face of M, or as good.
   bool expand() {
     open_.clear();
-    if (!ask(nearest_of_all())) return false;
+    if (!query(nearest_of_all())) return false;
     open_faces(0);
     while (!open_.empty()) {
       const int nearest = take_nearest();
       if (nearest < 0) continue;
       lower_bound_ = surface_.faces()[static_cast<std::size_t>(nearest)].distance;
       if (closed()) return true;
-      if (nearest != asked_ && !ask(nearest)) return false;
+      if (nearest != queried_face_ && !query(nearest)) return false;
       if (closed()) return true;
       const int first = surface_.expand(nearest, top_);
       if (first < 0) return false;
@@ -109,11 +110,11 @@ class Search {
     return true;
   }
 
-  // Asks for the vertex of M that is farthest across a face. False if that makes too many.
-  bool ask(int face) {
+  // Queries the vertex of M that is farthest across a face. False if the limit of queries is reached.
+  bool query(int face) {
     if (queried_.count() >= limit_) return false;
     surface_.sharpen(face);
-    asked_ = face;
+    queried_face_ = face;
     top_ = queried_.query(m_, surface_.faces()[static_cast<std::size_t>(face)].normal);
     return true;
   }
@@ -124,9 +125,9 @@ class Search {
     return static_cast<int>(nearest - surface_.faces().begin());
   }
 
-  // All of the equally low faces are on the surface, as a ball of that radius about the origin is inside. Asks those
+  // All equally low faces are on the surface, as a ball of that radius about the origin is inside of it. Queries those
   // that are nearer to the preferred direction than the one that was found, the nearest first.
-  QueriedDirections::Queried ask_nearer(const QueriedDirections::Queried& found) {
+  QueriedDirections::Queried query_nearer(const QueriedDirections::Queried& found) {
     double most = 2.0;
     while (true) {
       const int f = nearest_to_preferred(dot(found.direction, preferred_), most);
@@ -137,7 +138,7 @@ class Search {
       queried_.query(m_, n);
       const QueriedDirections::Queried best = choose();
       if (best.direction != n) continue;
-      asked_ = f;
+      queried_face_ = f;
       return best;
     }
   }
@@ -191,11 +192,11 @@ class Search {
   // The vertices of the last face, if that lies across the direction: most likely a face of M.
   GjkSimplex face_across(Vec3 direction) const {
     GjkSimplex simplex;
-    if (asked_ < 0 || dot(surface_.faces()[static_cast<std::size_t>(asked_)].normal, direction) < kAcross)
+    if (queried_face_ < 0 || dot(surface_.faces()[static_cast<std::size_t>(queried_face_)].normal, direction) < kAcross)
       return simplex;
     for (int k = 0; k < 3; ++k) {
-      simplex.a[static_cast<std::size_t>(k)] = surface_.corner(asked_, k).a;
-      simplex.b[static_cast<std::size_t>(k)] = surface_.corner(asked_, k).b;
+      simplex.a[static_cast<std::size_t>(k)] = surface_.corner(queried_face_, k).a;
+      simplex.b[static_cast<std::size_t>(k)] = surface_.corner(queried_face_, k).b;
     }
     simplex.count = 3;
     return simplex;
@@ -221,7 +222,7 @@ class Search {
   std::vector<OpenFace>& open_;  // a heap, the nearest on top; removed faces stay in it
   QueriedDirections& queried_;
   double lower_bound_ = 0.0;
-  int asked_ = -1;       // the last face whose farthest vertex was asked for
+  int queried_face_ = -1;       // the last face whose farthest vertex was queried
   MinkowskiVertex top_;  // that vertex
   bool continued_ = false;
   int fresh_face_count_ = 0;
@@ -231,7 +232,7 @@ class Search {
 
 SmallestSeparation smallest_separation(const MinkowskiDifference& m, const SmallestStart& start,
                                        SmallestMemory& memory) {
-  Search search(m, start, memory);
+  SurfaceExpansion search(m, start, memory);
   if (const auto found = search.run()) return *found;
   if (start.shape != nullptr) start.shape->face_count = 0;
   SmallestSeparation exact = expanding_polytope(m, start.preferred, memory.polytope);

@@ -10,12 +10,12 @@ namespace tact::narrowphase {
 namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
-// The normal e x f of two sides is off by less than this times |e||f| roundoffs: each side has one rounding a
-// component, each component of the product three more, of two products of size |e||f| at most.
+// The normal e × f of two sides is off by less than this times |e||f| roundoffs. Each component of a side has one
+// rounding. Each component of the product has three more, of two products of size |e||f| at most.
 constexpr double kNormalRoundings = 16.0;
 // Of n · p, n being of unit length but for rounding.
 constexpr double kDistanceRoundings = 8.0;
-// The least sine of the angle between two sides whose normal twice the digits tell.
+// The least sine of the angle between two sides whose normal double-double can tell.
 constexpr double kSmallestSine = 0x1p-92;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -68,7 +68,7 @@ bool StarSurface::start(const MinkowskiDifference& m, const SurfaceShape& shape)
   return true;
 }
 
-// In plain doubles, and with more digits where these do not tell that the face looks away from the origin.
+// In plain doubles, and in double-double where these do not tell that the face looks away from the origin.
 bool StarSurface::set_plane(int face) {
   Face& f = faces_[at(face)];
   const Vec3 p = vertices_[at(f.corner[0])].point;
@@ -92,9 +92,9 @@ bool StarSurface::looks_away(int face) const {
 bool StarSurface::sharpen(int face) {
   Face& f = faces_[at(face)];
   const Vec3 p = vertices_[at(f.corner[0])].point;
-  const WideVec3 side = wide_difference(vertices_[at(f.corner[1])].point, p);
-  const WideVec3 other = wide_difference(vertices_[at(f.corner[2])].point, p);
-  const Vec3 n = wide_cross(side, other);
+  const DoubleDoubleVec3 side = double_double_difference(vertices_[at(f.corner[1])].point, p);
+  const DoubleDoubleVec3 other = double_double_difference(vertices_[at(f.corner[2])].point, p);
+  const Vec3 n = double_double_cross(side, other);
   if (!(norm(n) > kSmallestSine * norm(side.head) * norm(other.head))) return false;
   f.normal = unit_vector(n);
   f.distance = dot(f.normal, p);

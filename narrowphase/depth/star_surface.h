@@ -1,12 +1,11 @@
 // A closed surface of triangles between vertices of M that surrounds the origin, in plain doubles.
 //
-// Every face looks away from the origin: the origin lies strictly behind its plane. So each ray from the origin leaves
-// the surface: the projection of the surface onto a sphere about the origin turns no face over, hence covers every
-// direction equally often, and at least once. All points of the surface belong to M, so M reaches at least as far as
-// the nearest of the planes in every direction. That plane is farther than any vertex of M is off by its rounding: so
-// the true M surrounds the origin as well. The surface need not be convex for that, and no exact predicate is
-// needed: which faces a new vertex replaces is a matter of speed, and the planes of the new ones tell whether all is
-// well.
+// Every face looks away from the origin: the origin lies strictly behind its plane. So the projection of the surface
+// onto a sphere about the origin turns no face over; it covers every direction equally often, and at least once. All
+// points of the surface belong to M. So M reaches at least as far as the nearest of the planes in every direction. That
+// plane is farther from the origin than the rounding of any vertex of M, so the true M surrounds the origin as well. The
+// surface need not be convex for that, and no exact predicate is needed. Which faces a new vertex replaces is a matter
+// of speed; the planes of the new faces tell whether all is well.
 #pragma once
 
 #include <array>
@@ -17,7 +16,7 @@
 
 namespace tact::narrowphase {
 
-// A surface without coordinates: what a search ended with, and the start of the next, when the bodies have moved on.
+// A surface without coordinates: what a search ended with, and the start of the next one, when the bodies have moved.
 struct SurfaceShape {
   static constexpr int kMostFaces = 252;
   static constexpr int kMostVertices = kMostFaces / 2 + 2;  // of a closed surface of so many triangles
@@ -37,18 +36,19 @@ class StarSurface {
     Vec3 normal;                  // unit, outward
     double distance;              // of the plane from the origin, scaled
     double error;                 // bounds that of `distance`
-    bool sharp;                   // computed with twice the digits: normal and distance are right to the last bits
+    bool sharp;                   // computed in double-double: normal and distance are right to the last bits
     bool removed;
   };
 
   // Places the shape's vertices where the bodies have them now. False if a face does not look away from the origin.
   bool start(const MinkowskiDifference& m, const SurfaceShape& shape);
 
-  // Replaces the faces that `vertex` lies beyond, from `face` on, by faces that have it as their last corner. Returns
-  // the first of them; the others follow. -1 if that is no longer a surface that surrounds the origin: it is lost.
+  // Replaces the faces that `vertex` lies beyond, `face` and its neighbours, by faces whose last corner is the vertex.
+  // Returns the first of these; the others follow. Returns -1 if the surface no longer surrounds the origin: it is
+  // lost.
   int expand(int face, const MinkowskiVertex& vertex);
 
-  // Computes the plane of a face with twice the digits; false if it has no normal.
+  // Computes the plane of a face in double-double; false if it has no normal.
   bool sharpen(int face);
 
   // Writes the surface that is left; writes that there is none if it is too large.

@@ -7,15 +7,15 @@ namespace tact::narrowphase {
 
 namespace {
 
-// Radians. The largest is that up to which no turn is to lead lower, the smallest the one at which a turn about an edge
-// is within rounding.
+// Turns that are tried, in radians: none up to the largest may lead lower; at the smallest, a turn about an edge is
+// within rounding.
 constexpr double kProbe = 0.01, kSmallestProbe = 0.5e-6;
 constexpr std::size_t kNearCorners = 8;  // looked at, of a polygon
 constexpr int kFacesAround = 256;        // a corner, each way
 constexpr int kFewestAround = 3;         // fewer are steps within rounding
 constexpr double kSameFace = 1e-13;      // between unit normals
 
-// The tangent along which the height of a polygon's only corner falls fastest; any where the foot is the corner.
+// The tangent along which the height of a polygon's only corner falls fastest; any if the projection is the corner.
 Vec3 away_from_corner(const FacePolygon& polygon) {
   const Point2 c = polygon.corner[0];
   const double distance = std::hypot(c.x, c.y);
@@ -52,8 +52,9 @@ std::optional<Vec3> AdjacentFaces::lowest(const SupportedFace& face, double near
       limit_reached_ = true;
     }
   }
-  // Where the foot is not in the polygon, which may be too small for its sides to have directions, the nearest corner.
-  if (count == 0 && margin_of_foot(polygon) < -tolerance_)
+  // If the projection is outside of the polygon, which may be too small for its sides to have directions: the nearest
+  // corner.
+  if (count == 0 && margin_of_projection(polygon) < -tolerance_)
     corners[count++] = in_space(face, polygon.corner[nearest_corner(polygon, {0.0, 0.0})]);
   for (std::size_t k = 0; k < count && !lowest_; ++k) go_around(face, corners[k]);
   limit_reached_ = limit_reached_ && !lowest_;

@@ -1,5 +1,5 @@
-// The faces of M next to the one that a direction supports: is one of them lower? So the search for a contact direction
-// leaves an edge, a corner, or a foot too near to the border of its face.
+// The faces of M next to the one that a direction supports: is one of them lower? With this the search for a contact
+// direction leaves an edge or a corner, or a face near whose border the projection of the origin lies.
 #pragma once
 
 #include <optional>
@@ -22,9 +22,9 @@ class AdjacentFaces {
   AdjacentFaces(const MinkowskiDifference& m, FaceFinder& faces, double tolerance)
       : m_(m), faces_(faces), tolerance_(tolerance) {}
 
-  // The lowest of the faces across the sides that the foot lies beyond or nearer to than `near`; both ways from an
-  // edge; around a corner that the foot lies beyond or is near to. Nothing if none is lower. Afterwards the polygon is
-  // gone.
+  // The normal of the lowest face next to `face`, or nothing if none is lower. Looks across each side that the
+  // projection lies beyond or nearer to than `near`; both ways from an edge; and around each corner between two such
+  // sides. Afterwards the polygon is invalid.
   std::optional<Vec3> lowest(const SupportedFace& face, double near);
 
   int support_queries() const { return support_queries_; }

@@ -13,18 +13,19 @@ namespace tact::narrowphase {
 
 namespace {
 
-// The shift beyond w(n), relative to the size of M. Small converges in fewer iterations; tiny makes the gap, and so the
-// direction between the closest points, ill-conditioned. Where M is rounded with a radius far below the shift, as with
-// rods, an iteration turns n by the ratio of the two only: so the shift shrinks with every iteration.
+// The shift beyond w(n), relative to the size of M. A small one converges in fewer iterations. A tiny one leaves a tiny
+// gap, and makes the direction between the closest points ill-conditioned. Where M is rounded with a radius far below
+// the shift, as with rods, an iteration turns n only by the ratio of the two: so the shift shrinks with every
+// iteration.
 constexpr double kShift = 1e-3;
 constexpr double kShrink = 0.25;
 constexpr double kSmallestShift = 1e-12;
 // How far a vertex may lie below the supporting plane and still belong to its face, in roundings of a height.
 constexpr double kFaceTolerance = 4.0;
 
-class Search {
+class DirectionSearch {
  public:
-  Search(const MinkowskiDifference& m, const DirectionSettings& settings, FaceFinder& faces)
+  DirectionSearch(const MinkowskiDifference& m, const DirectionSettings& settings, FaceFinder& faces)
       : m_(m), settings_(settings), faces_(faces), tolerance_(kFaceTolerance * m.height_error()) {}
 
   ContactDirection run(Vec3 start, const GjkSimplex& face) {
@@ -65,8 +66,8 @@ class Search {
     return m_.support(n, top_);
   }
 
-  // Is the foot in the last step's face still, or in one a few steps away? If not, goes on from the lower of `start`
-  // and what was tried.
+  // Is the projection still in the last step's face, or in one a few steps away? If not, the search goes on from the
+  // lower of `start` and what was tried.
   bool stay_near(const GjkSimplex& face, Vec3 start) {
     std::optional<Vec3> n = face_normal(m_, face, start);
     if (!n || !(dot(*n, start) > 0.0)) {
@@ -84,9 +85,9 @@ class Search {
       start_height = std::max(start_height, dot(start, top_.point));
       std::optional<GjkSimplex> next;
       if (!supported_by(part)) {
-        next = triangle.toward_foot(top_);
+        next = triangle.toward_projection(top_);
       } else {
-        const FaceTriangle::Side side = triangle.side_of_foot();
+        const FaceTriangle::Side side = triangle.side_of_projection();
         if (side.distance >= -shallow()) {
           best_.face = part;
           finished_ = side.distance > shallow();
@@ -116,8 +117,8 @@ class Search {
     return finished_;
   }
 
-  // The foot lies beyond a side of a face of M: the side, and the vertex that a plane turned about it by a fixed angle
-  // finds, unless that is an end of the side.
+  // The triangle across a side, beyond which the projection lies: the side, and the vertex that a plane turned about it
+  // by a fixed angle supports. Nothing if that vertex is an end of the side.
   std::optional<GjkSimplex> across(const FaceTriangle& triangle, std::size_t side) {
     const Vec3 outward = triangle.outward(side);
     if (!(norm_squared(outward) > 0.0)) return std::nullopt;  // not a number: rounding has turned the side along n
@@ -155,18 +156,18 @@ class Search {
     return best_.height <= dot(best_.n, m_.vertex(face.a[0], face.b[0]).point) + tolerance_;
   }
 
-  // How near to the border of a face its foot is left alone. Nearer, a small turn over the border may lead to a lower
-  // face: at a distance of r w(n) from the border, w is lower again beyond a turn of 2 r radians.
+  // The distance from the border of a face from which on a projection is well inside. Nearer to it, a small turn across
+  // the border may lead lower: at a distance of r w(n), w is lower again beyond a turn of 2 r radians.
   double shallow() const { return std::max(tolerance_, kShallow * best_.height); }
 
-  // Finishes if the foot lies well inside the face that n supports, of which `part` is known, or nothing. A triangle of
-  // the face is kept for the next step: `part`, or a wider one around the foot.
+  // Finishes if the projection lies well inside the face that n supports. `part` is a triangle of it, if one is known.
+  // A triangle of the face is kept for the next step: `part`, or a wider one around the projection.
   void settle(const GjkSimplex& part) {
-    finished_ = part.count == 3 && FaceTriangle(m_, part, best_.n).side_of_foot().distance > shallow();
+    finished_ = part.count == 3 && FaceTriangle(m_, part, best_.n).side_of_projection().distance > shallow();
     if (!finished_) settle_around(part);
   }
 
-  // The same where `part`, if it is a triangle, does not hold the foot well inside. The face may be larger.
+  // The same where the projection does not lie well inside `part`. The face may be larger.
   void settle_around(const GjkSimplex& part) {
     if (part.count == 3) {
       finish_inside(faces_.spanned(m_, part, best_.n));
@@ -178,18 +179,18 @@ class Search {
   }
 
   void finish_inside(const FacePolygon& polygon) {
-    finished_ = polygon.corner.size() > 2 && margin_of_foot(polygon) > shallow();
-    if (finished_) best_.face = faces_.around_foot(m_);
+    finished_ = polygon.corner.size() > 2 && margin_of_projection(polygon) > shallow();
+    if (finished_) best_.face = faces_.around_projection(m_);
   }
 
   double margin_of_face() {
     polygon_ = &faces_.supported(m_, best_.n, tolerance_, top_);
-    return margin_of_foot(*polygon_);
+    return margin_of_projection(*polygon_);
   }
 
-  // The direction repeats, or the foot lies in a face. Goes over the border of the face where the foot is near it and
-  // the other side is lower, and on from there; finishes where it is not. A foot on an edge or a corner is on the
-  // border of faces. Where w = 0 every direction is a minimum.
+  // The direction repeats, or the projection lies in a face. If the projection is near the border and the other side is
+  // lower, crosses the border and goes on from there; else finishes. On an edge or a corner it is on the border of
+  // faces. Where w = 0 every direction is a minimum.
   void leave_or_finish() {
     for (int i = 0; i < kWalkLimit; ++i) {
       const std::optional<Vec3> lower = best_.height > tolerance_ ? lowest_adjacent() : std::nullopt;
@@ -233,7 +234,7 @@ class Search {
 
 ContactDirection contact_direction(const MinkowskiDifference& m, Vec3 start, const GjkSimplex& face,
                                    const DirectionSettings& settings, FaceFinder& faces) {
-  return Search(m, settings, faces).run(start, face);
+  return DirectionSearch(m, settings, faces).run(start, face);
 }
 
 }  // namespace tact::narrowphase

@@ -11,10 +11,10 @@ std::optional<Vec3> face_normal(const MinkowskiDifference& m, const GjkSimplex& 
   if (s.count < 3) return std::nullopt;
   const auto side = [&](std::size_t i, std::size_t j) {
     const auto point = [&](const ClusteredMesh& mesh, int vertex) { return m.scale() * mesh.position(vertex); };
-    return wide_difference(point(m.a(), s.a[j]), point(m.a(), s.a[i])) -
-           wide_difference(point(m.b(), s.b[j]), point(m.b(), s.b[i]));
+    return double_double_difference(point(m.a(), s.a[j]), point(m.a(), s.a[i])) -
+           double_double_difference(point(m.b(), s.b[j]), point(m.b(), s.b[i]));
   };
-  const Vec3 n = wide_cross(side(0, 1), side(0, 2));
+  const Vec3 n = double_double_cross(side(0, 1), side(0, 2));
   if (n == Vec3{}) return std::nullopt;
   const Vec3 unit = unit_vector(n);
   return dot(unit, toward) < 0.0 ? -unit : unit;
@@ -26,10 +26,10 @@ FaceTriangle::FaceTriangle(const MinkowskiDifference& m, const GjkSimplex& verti
   turn_ = dot(cross(corner_[1] - corner_[0], corner_[2] - corner_[0]), n) < 0.0 ? -1.0 : 1.0;
 }
 
-// Twice the area that a side spans with the foot.
+// Twice the area that a side spans with the projection.
 double FaceTriangle::span(Vec3 from, Vec3 to) const { return turn_ * dot(cross(from, to - from), n_); }
 
-FaceTriangle::Side FaceTriangle::side_of_foot() const {
+FaceTriangle::Side FaceTriangle::side_of_projection() const {
   Side nearest{0, std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 from = corner_[i], to = corner_[(i + 1) % 3];
@@ -54,12 +54,12 @@ GjkSimplex FaceTriangle::side_and(std::size_t side, const MinkowskiVertex& v) co
   return {{vertices_.a[side], vertices_.a[next], v.a}, {vertices_.b[side], vertices_.b[next], v.b}, 3};
 }
 
-std::optional<GjkSimplex> FaceTriangle::toward_foot(const MinkowskiVertex& above) const {
+std::optional<GjkSimplex> FaceTriangle::toward_projection(const MinkowskiVertex& above) const {
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 from = corner_[i], to = corner_[(i + 1) % 3], v = above.point;
     if (span(from, to) >= 0.0 && span(to, v) >= 0.0 && span(v, from) >= 0.0) return side_and(i, above);
   }
-  const Side side = side_of_foot();
+  const Side side = side_of_projection();
   if (side.distance >= 0.0) return std::nullopt;
   return side_and(side.index, above);
 }

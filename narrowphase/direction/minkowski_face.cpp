@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kTurnLimit = 1000;
 
-// The corners of a triangle around the foot are looked for in three directions; being off a direction is worth less
-// than this times being far along it.
+// The corners of a triangle around the projection are chosen in three directions: by the distance along a direction,
+// less this times the distance from its line.
 constexpr double kAside = 0.5;
 
 double cross2(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }
@@ -86,7 +86,7 @@ const FacePolygon& FaceFinder::supported(const MinkowskiDifference& m, Vec3 n, d
   return polygon_;
 }
 
-GjkSimplex FaceFinder::around_foot(const MinkowskiDifference& m) const {
+GjkSimplex FaceFinder::around_projection(const MinkowskiDifference& m) const {
   if (polygon_.corner.size() < 3) return {};
   constexpr std::size_t kMost = 8;
   const std::size_t count_a = std::min(hull_a_.size(), kMost), count_b = std::min(hull_b_.size(), kMost);
@@ -170,12 +170,12 @@ std::size_t nearest_corner(const FacePolygon& polygon, Point2 point) {
   return static_cast<std::size_t>(std::ranges::min_element(polygon.corner, {}, distance) - polygon.corner.begin());
 }
 
-double margin_of_foot(const FacePolygon& polygon) {
+double margin_of_projection(const FacePolygon& polygon) {
   const std::vector<Point2>& c = polygon.corner;
   if (c.size() == 1) return -std::hypot(c[0].x, c[0].y);
   double margin = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < c.size(); ++i) margin = std::min(margin, distance_from_side(polygon, i));
-  if (c.size() == 2) {  // the foot may lie in the line of an edge, but beyond its ends
+  if (c.size() == 2) {  // the projection may lie in the line of an edge, but beyond its ends
     const Point2 side = minus(c[1], c[0]);
     const double length = std::hypot(side.x, side.y), along = -(c[0].x * side.x + c[0].y * side.y) / length;
     margin = std::min({margin, along, length - along});

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kRoundingGap = 16.0 * 0x1p-52;
 
-class Search {
+class GjkSearch {
  public:
-  Search(const MinkowskiDifference& m, Vec3 point) : m_(m), point_(point) {}
+  GjkSearch(const MinkowskiDifference& m, Vec3 point) : m_(m), point_(point) {}
 
   void start(const GjkSimplex& simplex) {
     for (int i = 0; i < simplex.count; ++i) {
@@ -39,12 +39,12 @@ class Search {
       result_.lower_bound = std::max(result_.lower_bound, height);
       const double gap = settings.tolerance * result_.distance + rounding;
       closed_ = result_.distance - result_.lower_bound <= gap;
-      // Not where an earlier direction closed the bounds: the last one is to part M from the point by as much.
+      // Only where the last direction itself closes the bounds: it then separates M from the point by as much.
       if (result_.distance - height <= gap) break;
-      // Where no progress shows, the simplex is thin and doubles have lost the nearest point: go on with more digits.
+      // Without progress the simplex is thin and doubles have lost the nearest point: go on in quadruple precision.
       if (holds(next.a, next.b) || !advance(next)) {
-        if (wide_) break;
-        wide_ = true;
+        if (in_quad_) break;
+        in_quad_ = true;
         reduce();
       }
     }
@@ -83,7 +83,7 @@ class Search {
 
   // Keeps the vertices that carry the nearest point.
   void reduce() {
-    closest_ = wide_ ? simplex_closest_wide(points_) : simplex_closest(points_);
+    closest_ = in_quad_ ? simplex_closest_in_quad(points_) : simplex_closest(points_);
     inside_ = closest_.carrier_count == 4;
     for (std::size_t i = 0; i < static_cast<std::size_t>(closest_.carrier_count); ++i) {
       const auto from = static_cast<std::size_t>(closest_.carrier[i]);
@@ -101,7 +101,7 @@ class Search {
     result_.distance = norm(closest_.point);
     const double error = m_.height_error();
     // More digits do not know that the vertices of M are rounded.
-    if (inside_ && (!wide_ || tetrahedron_holds_origin(points_))) {
+    if (inside_ && (!in_quad_ || tetrahedron_holds_origin(points_))) {
       result_.status = GjkStatus::overlapping;
     } else if (result_.lower_bound > error) {
       result_.status = GjkStatus::apart;
@@ -120,7 +120,7 @@ class Search {
   MinkowskiVertex last_;  // found, or of the start
   bool inside_ = false;
   bool closed_ = false;
-  bool wide_ = false;
+  bool in_quad_ = false;
   GjkResult result_;
 };
 
@@ -149,7 +149,7 @@ ClosestPoints closest_points(const MinkowskiDifference& m, const GjkResult& resu
 }
 
 GjkResult gjk(const MinkowskiDifference& m, Vec3 point, const GjkSimplex& start, const GjkSettings& settings) {
-  Search search(m, point);
+  GjkSearch search(m, point);
   search.start(start);
   return search.run(settings);
 }

@@ -9,11 +9,10 @@
 namespace tact::narrowphase {
 
 enum class GjkStatus {
-  apart,     // certainly: the lower bound of the distance exceeds all rounding
-  touching,  // but for rounding, the point lies on a vertex, an edge or a triangle of vertices of M: it touches M, or
-             // is inside, or apart by less than rounding
-  overlapping,    // the point lies inside a tetrahedron of vertices of M: certainly, if it is the origin
-  limit_reached,  // none of these was shown, by no input known: the result is the best found
+  apart,          ///< certainly: the lower bound of the distance exceeds all rounding
+  touching,       ///< the point lies within rounding of a vertex, an edge or a triangle of vertices of M
+  overlapping,    ///< the point lies inside a tetrahedron of vertices of M: certainly, if it is the origin
+  limit_reached,  ///< none of these was shown: the result is the best found; no known input leads here
 };
 
 // Pairs of vertices that span the part of M nearest to the point: the start of the next search.
@@ -25,30 +24,31 @@ struct GjkSimplex {
 
 struct GjkResult {
   GjkStatus status = GjkStatus::limit_reached;
-  Vec3 offset;               // from the point to the nearest point of M, scaled; its opposite parts the two
-  double distance = 0.0;     // |offset|: an upper bound, but for rounding
-  double lower_bound = 0.0;  // M is at least this far, but for rounding
-  bool closed = false;  // the bounds are as close as GjkSettings says: `apart` is certain without that, `distance` not
-  GjkSimplex simplex;   // the vertices of M around the nearest point
-  // Of up to three vertices of the simplex: their sum, so weighted, is the nearest point. None is negative.
+  Vec3 offset;               ///< from the point to the nearest point of M, scaled; -offset separates the two
+  double distance = 0.0;     ///< |offset|, scaled: an upper bound, but for rounding
+  double lower_bound = 0.0;  ///< scaled: M is at least this far, but for rounding
+  bool closed = false;       ///< the bounds are as close as GjkSettings says; `apart` is certain without that
+  GjkSimplex simplex;        ///< the vertices of M around the nearest point
+  /// Of up to three vertices of the simplex: their weighted sum is the nearest point. No weight is negative.
   std::array<double, 4> weight{};
   int support_queries = 0;
 };
 
 struct GjkSettings {
-  double tolerance = 1e-12;  // stops where distance - lower_bound <= tolerance * distance + 16 roundoffs of M's size
-  int query_limit = 1000;    // reached by no input known; a guard, not a tool
+  double tolerance = 1e-12;  ///< stops where distance - lower_bound <= tolerance * distance + 16 roundoffs of M's size
+  int query_limit = 1000;    ///< support queries; a guard that no known input reaches
 };
 
-// Do four vertices of M hold the origin strictly inside, for certain? Then the hulls overlap. False for fewer.
+// Is the origin certainly strictly inside the tetrahedron of four vertices of M? Then the hulls overlap. False for fewer
+// than four.
 bool holds_origin(const MinkowskiDifference& m, const GjkSimplex& simplex);
 
 // The distance of `point` (scaled) from M. `start` may hold vertices from an earlier search, or nothing.
 GjkResult gjk(const MinkowskiDifference& m, Vec3 point, const GjkSimplex& start, const GjkSettings& settings);
 
-// The points of the hulls, in metres, whose difference is the nearest point of M that a search found, or the origin
-// where it ended `overlapping`: of a search for the origin, those between which the bodies are closest where they are
-// apart. (Others may be as close, where faces are parallel.) Each lies between the vertices that the simplex names.
+// A point of each hull, in metres. Their difference is the nearest point of M that a search found, or the origin if it
+// ended `overlapping`. After a search for the origin between hulls that are apart, they are two closest points; where
+// faces are parallel, others may be as close.
 struct ClosestPoints {
   Vec3 a, b;
 };

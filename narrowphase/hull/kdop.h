@@ -1,8 +1,9 @@
-// Two bodies are apart if they are along some direction. Along the diagonals of a cube's faces that costs a sum of two
-// coordinates a vertex to know and a comparison a pair, and needs no search: the slabs that an 18-DOP has beside those
-// of a box (Klosowski et al., "Efficient collision detection using bounding volume hierarchies of k-DOPs", 1998).
+// Two bodies are separated if they are along some direction. An 18-DOP bounds a body along the three axes and the six
+// diagonals of a cube's faces (Klosowski et al., "Efficient collision detection using bounding volume hierarchies of
+// k-DOPs", 1998). The axes are those of the boxes; here are the diagonals. They cost a sum of two coordinates a vertex
+// and a comparison a pair.
 //
-// It is certain: rounding a sum never changes an order, so sums that differ when rounded differed before.
+// The answer is certain: rounding keeps the order of two sums, so sums that differ when rounded differ in truth.
 #pragma once
 
 #include "engine/base/vec3.h"
@@ -10,22 +11,22 @@
 
 namespace tact::narrowphase {
 
-/// How far the vertices, of which there must be one, reach along the diagonals.
-DiagonalBounds kdop_of(const ClusteredMesh& mesh);
+/// The extent of the vertices, of which there must be one, along the diagonals.
+Kdop kdop_of(const ClusteredMesh& mesh);
 
-// Which diagonal parts two bodies: 1 and up along it, -1 and down against it, 0 if none does.
-using PartingDiagonal = std::int8_t;
+/// A diagonal that separates two bodies, from a to b: k + 1 along diagonal k of Kdop, -k - 1 against it, 0 for none.
+using SeparatingDiagonal = std::int8_t;
 
-// The one along which `a` lies below `b`, with the widest gap; of equal gaps the first.
-PartingDiagonal parting_diagonal(const DiagonalBounds& a, const DiagonalBounds& b);
+/// The diagonal with the widest gap between `a` and `b`; of equal gaps the first.
+SeparatingDiagonal separating_diagonal(const Kdop& a, const Kdop& b);
 
-// Does it part them?
-inline bool parts(PartingDiagonal parting, const DiagonalBounds& a, const DiagonalBounds& b) {
-  return parting > 0 ? a.upper[parting - 1] < b.lower[parting - 1]
-                     : parting < 0 && b.upper[-parting - 1] < a.lower[-parting - 1];
+/// Does the diagonal separate them?
+inline bool separates(SeparatingDiagonal diagonal, const Kdop& a, const Kdop& b) {
+  return diagonal > 0 ? a.upper[diagonal - 1] < b.lower[diagonal - 1]
+                      : diagonal < 0 && b.upper[-diagonal - 1] < a.lower[-diagonal - 1];
 }
 
-// The unit vector along a diagonal that parts: from a to b.
-base::Vec3 direction_of(PartingDiagonal parting);
+/// The unit vector from a to b along a diagonal that separates them.
+base::Vec3 direction_of(SeparatingDiagonal diagonal);
 
 }  // namespace tact::narrowphase

@@ -53,7 +53,7 @@ MinkowskiVertex MinkowskiDifference::support(Vec3 direction, const MinkowskiVert
                 narrowphase::support(*b_, -direction, origin_, near.b).vertex);
 }
 
-bool MinkowskiDifference::parted_by_plane(Vec3 direction, int a, int b) const {
+bool MinkowskiDifference::separated_by_plane(Vec3 direction, int a, int b) const {
   const double height_a = dot(direction, a_->position(a) - origin_);
   const double height_b = dot(-direction, b_->position(b) - origin_);
   const double to_plane = -0.5 * (height_a + height_b) - 2.0 * vertex_height_error_;

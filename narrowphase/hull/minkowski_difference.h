@@ -1,7 +1,7 @@
 // M = C_A ⊖ C_B, the set of all a - b, seen through its support function. The hulls overlap if and only if M holds the
 // origin; their overlap along n is M's height w(n) (paper §4.1).
 //
-// Points of M are scaled by a power of two so that the pair has a size of about 1: nothing overflows or vanishes
+// Points of M are scaled by a power of two so that the pair has a size of about 1. So nothing overflows or vanishes,
 // whatever the unit of length, and the rounding of a - b is the only one between the input and a point of M.
 #pragma once
 
@@ -26,23 +26,23 @@ class MinkowskiDifference {
   MinkowskiVertex support(Vec3 direction) const;
   // The same vertex, found sooner if `near` is close to it.
   MinkowskiVertex support(Vec3 direction, const MinkowskiVertex& near) const;
-  // Does a plane half-way between two vertices, a of A and b of B, have A below and B above, `direction`, of unit
-  // length, being upwards? If so, the hulls are apart, and that was found sooner than by a support query.
-  bool parted_by_plane(Vec3 direction, int a, int b) const;
+  // Does the plane across `direction` (unit) half-way between vertex a of A and vertex b of B have all of A below it
+  // and all of B above? If so, the hulls are separated. Cheaper than a support query.
+  bool separated_by_plane(Vec3 direction, int a, int b) const;
   // The point of M that vertices `a` and `b` make.
   MinkowskiVertex vertex(int a, int b) const { return {scale_ * (a_->position(a) - b_->position(b)), a, b}; }
 
   // Scaled length = scale() * metres.
   double scale() const { return scale_; }
-  // An upper bound of the size (scaled) of any vertex of M less any other, and of the boxes of A and of B about
+  // An upper bound (scaled) of the distance between two vertices of M, and of the size of the boxes of A and of B about
   // origin().
   double size() const { return size_; }
-  // Bounds the error of w(n) = n · support(n).point for unit n, as against the true height of M (scaled): the rounding
-  // of two dot products that choose the vertices and of the one that measures.
+  // Bounds the error of w(n) = n · support(n).point for unit n against the true height of M (scaled). It covers the
+  // rounding of the two dot products that choose the vertices and of the one that measures.
   double height_error() const { return height_error_; }
   // Bounds the error of n · (x - origin()) as computed, for unit n and any vertex x of A or B. Metres.
   double vertex_height_error() const { return vertex_height_error_; }
-  // The point that heights are measured from, near both bodies, so that coordinates far from zero do no harm.
+  // The point from which heights are measured. It is near both bodies, so that coordinates far from zero do no harm.
   Vec3 origin() const { return origin_; }
 
   const ClusteredMesh& a() const { return *a_; }

@@ -12,7 +12,7 @@ namespace {
 __extension__ typedef __float128 Quad;
 #else
 typedef long double Quad;
-static_assert(std::numeric_limits<Quad>::digits > 110, "twice the digits of a double, and some");
+static_assert(std::numeric_limits<Quad>::digits > 110, "a quadruple has more than twice the digits of a double");
 #endif
 
 template <class Scalar>
@@ -41,11 +41,11 @@ Vector<Scalar> along(const Vector<Scalar>& a, Scalar s, const Vector<Scalar>& e)
   return {a.x + s * e.x, a.y + s * e.y, a.z + s * e.z};
 }
 
-// `Roundoff` is a bound of the relative error of an operation.
+// Looks for the face of a simplex that is nearest to the origin. `roundoff` bounds the relative error of an operation.
 template <class Scalar>
-class Search {
+class ClosestFace {
  public:
-  Search(const SimplexPoints& simplex, double roundoff) : count_(simplex.count), roundoff_(roundoff) {
+  ClosestFace(const SimplexPoints& simplex, double roundoff) : count_(simplex.count), roundoff_(roundoff) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i)
       y_[i] = {simplex.point[i].x, simplex.point[i].y, simplex.point[i].z};
   }
@@ -109,8 +109,8 @@ class Search {
     offer(along(y(i), share, e), {i, j, 0, 0}, 2, {(length - t) / length, share, 0});
   }
 
-  // The foot of the origin in the triangle's plane has the weights s, t of the second and third corner; it is inside if
-  // neither they nor the first's are negative. A triangle whose normal is noise is left to its edges.
+  // The projection of the origin on the triangle's plane has the weights s and t of the second and third corner over
+  // the area. It lies inside if all three weights are positive. A triangle whose normal is noise is left to its edges.
   void triangle(int i, int j, int k) {
     const Point e = y(j) - y(i), f = y(k) - y(i), n = cross(e, f), zero{0, 0, 0}, o = zero - y(i);
     const Scalar area = dot(n, n), sine = 1e3 * roundoff_;
@@ -135,16 +135,16 @@ class Search {
              .distance_squared_tail = static_cast<double>(distance - static_cast<Scalar>(rounded))};
   }
 
-  // The sides e and f of a face have a rounding a component; a product of two of their components has three, and the
-  // difference of two products one more. With the three of a dot product, n · p is off by at most 7 roundoffs of the
-  // sum of |e_a f_b p_c| over the six orders of the axes, and n · (p - q) by 8: not of |n||p|, which is smaller by the
-  // sine of the angle between e and f. That sum is below the product of the three sums of sizes. Products that vanish
-  // are below `kVanishing`.
+  // The bound. Each component of the sides e and f has one rounding, a product of two of them three, the difference of
+  // two products four. A dot product adds three: n · p is off by at most 7 roundoffs of the sum of |e_a f_b p_c| over
+  // the six orders of the axes, and n · (p - q) by 8. (That sum is not |n||p|, which is smaller by the sine of the
+  // angle between e and f.) It is below the product of the three sums of sizes. Products that vanish are below
+  // `kVanishing`.
   //
   // The corners have a rounding each themselves. If the origin is farther from every face than any corner is off, it is
   // inside the true tetrahedron: the convex hull of moved corners holds what is deeper than they moved. That is one
-  // roundoff of the largest corner, times |n| <= |e||f|. Two of the 11 roundoffs are for the rounding of the bound.
-  // `sizes`: of all corners.
+  // roundoff of the largest corner, times |n| <= |e||f|. Two of the 11 roundoffs are for computing the bound. `sizes`:
+  // of all corners.
   bool same_side(int i, int j, int k, int opposite, Scalar sizes) const {
     const Point e = y(j) - y(i), f = y(k) - y(i), n = cross(e, f);
     const Scalar origin = -dot(n, y(i)), corner = dot(n, y(opposite) - y(i));
@@ -161,9 +161,9 @@ class Search {
   static Scalar size(const Point& p) { return absolute(p.x) + absolute(p.y) + absolute(p.z); }
 
   static constexpr double kVanishing = 0x1p-1000;
-  // Rounding moves a thin triangle's weighted sum along the triangle, by the roundoff over its sine: far, as against a
-  // triangle that is 1e-14 away. The foot along the normal has the right direction, but need not lie in the triangle;
-  // with digits to spare it does.
+  // Rounding moves a thin triangle's weighted sum along the triangle, by the roundoff over its sine: too far for a
+  // triangle that is 1e-14 away. The projection along the normal has the right direction; in doubles it may lie outside
+  // of the triangle, in quadruple precision it does not.
   static constexpr bool kHasSpareDigits = !std::is_same_v<Scalar, double>;
 
   std::array<Point, 4> y_;
@@ -175,16 +175,16 @@ class Search {
 
 }  // namespace
 
-SimplexClosest simplex_closest(const SimplexPoints& simplex) { return Search<double>(simplex, 0x1p-53).run(); }
+SimplexClosest simplex_closest(const SimplexPoints& simplex) { return ClosestFace<double>(simplex, 0x1p-53).run(); }
 
 bool tetrahedron_holds_origin(const SimplexPoints& simplex) {
-  return Search<double>(simplex, 0x1p-53).inside_tetrahedron();
+  return ClosestFace<double>(simplex, 0x1p-53).inside_tetrahedron();
 }
 
 std::array<double, 4> origin_weights(const SimplexPoints& simplex) {
-  return Search<Quad>(simplex, 0x1p-110).origin_weights();
+  return ClosestFace<Quad>(simplex, 0x1p-110).origin_weights();
 }
 
-SimplexClosest simplex_closest_wide(const SimplexPoints& simplex) { return Search<Quad>(simplex, 0x1p-110).run(); }
+SimplexClosest simplex_closest_in_quad(const SimplexPoints& simplex) { return ClosestFace<Quad>(simplex, 0x1p-110).run(); }
 
 }  // namespace tact::narrowphase

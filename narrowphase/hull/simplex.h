@@ -22,7 +22,8 @@ struct SimplexClosest {
   int carrier_count = 0;         // 4: the origin lies inside the tetrahedron
   // Of up to three points of the carrier in `point`: none is negative, and they sum to 1 but for rounding.
   std::array<double, 4> weight{};
-  // |point|², and what rounding took from it: twice the digits, where the search had them. For comparisons.
+  // |point|², and what rounding took from it where the search computed in quadruple precision, else zero. For
+  // comparisons.
   double distance_squared = 0.0;
   double distance_squared_tail = 0.0;
 
@@ -32,20 +33,19 @@ struct SimplexClosest {
   }
 };
 
-// The point of the simplex nearest to the origin. Points may coincide or lie in a line or plane: every face is tried,
-// those without extent are passed over, and the nearest wins (of equals the one with fewer points). count >= 1.
+// The point of the simplex nearest to the origin. Points may coincide or lie on a line or in a plane. Every face is
+// tried but those without extent; the nearest wins, of equals the one with fewer points. count >= 1.
 SimplexClosest simplex_closest(const SimplexPoints& simplex);
 
-// Does the origin lie strictly inside the tetrahedron of four points, for certain, even if each coordinate of a point
-// is off by a rounding? False where rounding could decide.
+// Does the origin certainly lie strictly inside the tetrahedron of four points, even if each coordinate of a point is
+// off by a rounding? False where rounding could decide.
 bool tetrahedron_holds_origin(const SimplexPoints& simplex);
 
-// simplex_closest() with numbers of twice the digits, some fifty times slower: for simplices so thin that doubles lose
-// the point.
-SimplexClosest simplex_closest_wide(const SimplexPoints& simplex);
+// simplex_closest() in quadruple precision, some fifty times slower: for simplices so thin that doubles lose the point.
+SimplexClosest simplex_closest_in_quad(const SimplexPoints& simplex);
 
-// The weights of four points around the origin, with twice the digits: their sum, so weighted, is the origin but for
-// rounding. Where the tetrahedron is too flat to tell, the weights of the point of its faces that is nearest.
+// The weights of four points around the origin, in quadruple precision: the weighted sum of the points is the origin,
+// but for rounding. Where the tetrahedron is too flat to tell, the weights of the nearest point of its faces.
 std::array<double, 4> origin_weights(const SimplexPoints& simplex);
 
 }  // namespace tact::narrowphase

@@ -50,9 +50,9 @@ void for_reaching_groups(const ClusteredMesh& mesh, const HeightAxis& axis, doub
   for_chosen_groups(mesh, select, work);
 }
 
-class Search {
+class SupportSearch {
  public:
-  Search(const ClusteredMesh& mesh, Vec3 n, Vec3 origin)
+  SupportSearch(const ClusteredMesh& mesh, Vec3 n, Vec3 origin)
       : mesh_(mesh), axis_{n.x, n.y, n.z, origin.x, origin.y, origin.z} {}
 
   // Looks at one vertex.
@@ -111,7 +111,7 @@ Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near) {
   assert(mesh.facet_count() > 0);
   if (base::fast_paths() == base::FastPaths::off || mesh.cluster_count() == 1)
     return support_by_full_scan(mesh, n, origin);
-  Search search(mesh, n, origin);
+  SupportSearch search(mesh, n, origin);
   if (near >= 0) search.start_at(near);
   const PointArrays groups = far_corners(mesh.group_boxes(), n), clusters = far_corners(mesh.cluster_boxes(), n);
   int first = -1;

@@ -15,10 +15,10 @@ struct Support {
 // The corner of each box that lies farthest along n.
 PointArrays far_corners(BoxView boxes, Vec3 n);
 
-// The vertex of `mesh` with the largest n · (position - origin). The mesh must have a facet. Bit for bit the answer of
-// support_by_full_scan: rounding is monotone, so the bound from a box, computed in the same order of operations, is
-// never below the height of a vertex in it. `near`, a vertex or -1, makes the search shorter if it is high itself, and
-// changes nothing else.
+// The vertex of `mesh` with the largest n · (position - origin). The mesh must have a facet. `near`, a vertex or -1,
+// shortens the search if it is high itself, and changes nothing else. The answer is that of support_by_full_scan bit
+// for bit: rounding is monotone, and the bound from a box is computed in the same order of operations, so it is never
+// below the height of a vertex in the box.
 Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near = -1);
 Support support_by_full_scan(const ClusteredMesh& mesh, Vec3 n, Vec3 origin);
 

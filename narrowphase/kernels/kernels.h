@@ -46,7 +46,7 @@ struct BoxBounds {
 
 // How far points reach along the diagonals of a cube's faces: y + z, z + x, x + y, y - z, z - x, x - y.
 inline constexpr int kDiagonals = 6;
-struct DiagonalBounds {
+struct Kdop {
   double lower[kDiagonals];
   double upper[kDiagonals];
 };
@@ -160,7 +160,7 @@ struct alignas(64) MovingPolygons {
 
 // Clusters to be refreshed: cluster_begin <= c < cluster_end. Coordinates of source vertex s are source[3 s], source[3
 // s + 1], source[3 s + 2].
-struct RefreshInput {
+struct RefitInput {
   const double* source;
   std::int32_t cluster_begin, cluster_end;
   // Where the vertices begin that a cluster owns and that it borrows, one after the other; and for one cluster more.
@@ -178,7 +178,7 @@ struct RefreshInput {
 
 // The box of all these clusters; is any owned coordinate another one than before; is any not a number? The boxes are of
 // no use then.
-struct Refreshed {
+struct Refitted {
   BoxBounds box;
   bool changed;
   bool not_a_number;
@@ -188,13 +188,13 @@ struct Kernels {
   const char* name;
 
   // Copies the owned vertices and finds the box of each cluster, owned and borrowed vertices in it.
-  Refreshed (*refresh_clusters)(const RefreshInput& input);
+  Refitted (*refit_clusters)(const RefitInput& input);
 
   // The box of `count` boxes.
   BoxBounds (*bounds)(const BoxPointers& boxes, int count);
 
   // The bounds of `count` points, at least one.
-  DiagonalBounds (*diagonal_bounds)(PointArrays points, int count);
+  Kdop (*kdop)(PointArrays points, int count);
 
   // Writes the indices i < count of points whose height is >= threshold, ascending; returns how many.
   int (*select_heights)(PointArrays points, int count, const HeightAxis& axis, double threshold, std::int32_t* indices);

@@ -11,7 +11,7 @@
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/kernels/motion.inl"
 #include "narrowphase/kernels/points.inl"
-#include "narrowphase/kernels/refresh.inl"
+#include "narrowphase/kernels/refit.inl"
 #include "narrowphase/kernels/sort.inl"
 
 namespace tact::narrowphase {
@@ -19,9 +19,9 @@ namespace {
 
 constexpr Kernels all_kernels(const char* name) {
   return {.name = name,
-          .refresh_clusters = refresh_clusters,
+          .refit_clusters = refit_clusters,
           .bounds = bounds,
-          .diagonal_bounds = diagonal_bounds,
+          .kdop = kdop,
           .select_heights = select_heights,
           .highest_point = highest_point,
           .select_overlapping = select_overlapping,

@@ -79,7 +79,7 @@ int select_heights(PointArrays points, int count, const HeightAxis& axis, double
   return found;
 }
 
-DiagonalBounds diagonal_bounds(PointArrays points, int count) {
+Kdop kdop(PointArrays points, int count) {
   Pack lower[kDiagonals], upper[kDiagonals];
   for (int k = 0; k < kDiagonals; ++k) {
     lower[k] = spread(__builtin_inf());
@@ -99,7 +99,7 @@ DiagonalBounds diagonal_bounds(PointArrays points, int count) {
       upper[k] = max(upper[k], reach[k]);
     }
   }
-  DiagonalBounds all;
+  Kdop all;
   for (int k = 0; k < kDiagonals; ++k) {
     // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
     all.lower[k] = -largest_lane(sub(spread(0.0), lower[k])) + 0.0;

@@ -25,11 +25,11 @@ bool is_within(const Box& box, double largest) {
 }
 
 // Positions are gathered cluster by cluster, in an order that no hardware foresees. A small body was prefetched whole.
-Refreshed refit_range(const ClusteredMesh& mesh, const double* positions, int cluster_begin, int cluster_end,
+Refitted refit_range(const ClusteredMesh& mesh, const double* positions, int cluster_begin, int cluster_end,
                       bool prefetch) {
   const int ahead = std::clamp(mesh.vertex_count() / 8, kFewestAhead, kMostAhead);
   const PlacementArrays to = arrays_in(mesh.placements().spare_memory(), mesh.counts());
-  return kernels().refresh_clusters({.source = positions,
+  return kernels().refit_clusters({.source = positions,
                                      .cluster_begin = cluster_begin,
                                      .cluster_end = cluster_end,
                                      .ranges = mesh.refit_indices().data(),
@@ -44,13 +44,13 @@ Refreshed refit_range(const ClusteredMesh& mesh, const double* positions, int cl
                                      .box_stride = mesh.cluster_count()});
 }
 
-Refreshed refit_in_ranges(const ClusteredMesh& mesh, const double* positions, int per_range,
+Refitted refit_in_ranges(const ClusteredMesh& mesh, const double* positions, int per_range,
                           const RefitOptions& options) {
   std::atomic<bool> any_changed{false}, any_not_a_number{false};
   const int ranges = (mesh.cluster_count() + per_range - 1) / per_range;
   base::parallel_for(static_cast<std::size_t>(ranges), 1, options.threads, [&](std::size_t i) {
     const int begin = static_cast<int>(i) * per_range, end = std::min(begin + per_range, mesh.cluster_count());
-    const Refreshed range = refit_range(mesh, positions, begin, end, options.prefetch);
+    const Refitted range = refit_range(mesh, positions, begin, end, options.prefetch);
     if (range.changed) any_changed = true;
     if (range.not_a_number) any_not_a_number = true;
   });
@@ -73,7 +73,7 @@ void refit_groups(const ClusteredMesh& mesh) {
 Refit refit(ClusteredMesh& mesh, const double* positions, const RefitOptions& options) {
   const int per_range = std::clamp(mesh.cluster_count() / (4 * options.threads), kFewestInRange, kMostInRange);
   const bool in_ranges = options.threads > 1 && mesh.cluster_count() > per_range;
-  const Refreshed all = in_ranges ? refit_in_ranges(mesh, positions, per_range, options)
+  const Refitted all = in_ranges ? refit_in_ranges(mesh, positions, per_range, options)
                                   : refit_range(mesh, positions, 0, mesh.cluster_count(), options.prefetch);
   refit_groups(mesh);
   const Box box = in_ranges ? mesh.placements().spare_box() : to_box(all.box);

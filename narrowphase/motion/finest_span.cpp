@@ -128,7 +128,7 @@ Number times(double factor, const Number& x) {
 template <class Number>
 std::array<Way<Number>, 4> corners_on(const MovingPolygon& polygon, double scale, double from, double to) {
   std::array<Way<Number>, 4> corners;
-  const auto vector = [&](const WideVec3& v) {
+  const auto vector = [&](const DoubleDoubleVec3& v) {
     return scaled(Vector<Number>{number(v.head.x, v.tail.x, Number{}), number(v.head.y, v.tail.y, Number{}),
                                  number(v.head.z, v.tail.z, Number{})},
                   scale);

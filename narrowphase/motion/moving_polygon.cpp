@@ -5,7 +5,7 @@ namespace tact::narrowphase {
 namespace {
 
 bool are_one(const MovingPolygon& polygon, int i, int k) {
-  const auto equal = [](const WideVec3& p, const WideVec3& q) { return p.head == q.head && p.tail == q.tail; };
+  const auto equal = [](const DoubleDoubleVec3& p, const DoubleDoubleVec3& q) { return p.head == q.head && p.tail == q.tail; };
   return equal(polygon.corner[0][i], polygon.corner[0][k]) && equal(polygon.corner[1][i], polygon.corner[1][k]);
 }
 
@@ -26,7 +26,7 @@ void take_out_repeated(MovingPolygon& polygon) {
 MovingPolygon facet_seen_from(const MovingVertex& vertex, const MovingVertex (&facet)[3]) {
   MovingPolygon polygon{.count = 3, .corner = {}};
   for (int time = 0; time < 2; ++time) {
-    for (int i = 0; i < 3; ++i) polygon.corner[time][i] = wide_difference(facet[i].at[time], vertex.at[time]);
+    for (int i = 0; i < 3; ++i) polygon.corner[time][i] = double_double_difference(facet[i].at[time], vertex.at[time]);
   }
   take_out_repeated(polygon);
   return polygon;
@@ -36,10 +36,10 @@ MovingPolygon edge_seen_from(const MovingVertex (&edge)[2], const MovingVertex (
   MovingPolygon polygon{.count = 4, .corner = {}};
   for (int time = 0; time < 2; ++time) {
     const Vec3 p = edge[0].at[time], q = edge[1].at[time], r = other[0].at[time], s = other[1].at[time];
-    polygon.corner[time][0] = wide_difference(r, p);
-    polygon.corner[time][1] = wide_difference(s, p);
-    polygon.corner[time][2] = wide_difference(s, q);
-    polygon.corner[time][3] = wide_difference(r, q);
+    polygon.corner[time][0] = double_double_difference(r, p);
+    polygon.corner[time][1] = double_double_difference(s, p);
+    polygon.corner[time][2] = double_double_difference(s, q);
+    polygon.corner[time][3] = double_double_difference(r, q);
   }
   take_out_repeated(polygon);
   return polygon;

@@ -17,7 +17,7 @@ using base::Vec3;
 /// an edge without extent one or two are left.
 struct MovingPolygon {
   int count = 0;
-  WideVec3 corner[2][4];
+  DoubleDoubleVec3 corner[2][4];
 };
 
 /// Positions at time 0 and at time 1.

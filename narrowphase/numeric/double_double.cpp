@@ -6,12 +6,12 @@
 namespace tact::narrowphase {
 namespace {
 
-DoubleDouble component(const WideVec3& v, int axis) { return {v.head[axis], v.tail[axis]}; }
+DoubleDouble component(const DoubleDoubleVec3& v, int axis) { return {v.head[axis], v.tail[axis]}; }
 
 }  // namespace
 
-WideVec3 wide_difference(Vec3 p, Vec3 q) {
-  WideVec3 d;
+DoubleDoubleVec3 double_double_difference(Vec3 p, Vec3 q) {
+  DoubleDoubleVec3 d;
   for (int axis = 0; axis < 3; ++axis) {
     const DoubleDouble exact = two_sum(p[axis], -q[axis]);
     d.head[axis] = exact.head;
@@ -20,8 +20,8 @@ WideVec3 wide_difference(Vec3 p, Vec3 q) {
   return d;
 }
 
-WideVec3 operator-(const WideVec3& p, const WideVec3& q) {
-  WideVec3 d;
+DoubleDoubleVec3 operator-(const DoubleDoubleVec3& p, const DoubleDoubleVec3& q) {
+  DoubleDoubleVec3 d;
   for (int axis = 0; axis < 3; ++axis) {
     const DoubleDouble rounded = component(p, axis) - component(q, axis);
     d.head[axis] = rounded.head;
@@ -30,7 +30,7 @@ WideVec3 operator-(const WideVec3& p, const WideVec3& q) {
   return d;
 }
 
-Vec3 wide_cross(const WideVec3& p, const WideVec3& q) {
+Vec3 double_double_cross(const DoubleDoubleVec3& p, const DoubleDoubleVec3& q) {
   Vec3 n;
   for (int axis = 0; axis < 3; ++axis) {
     const int i = (axis + 1) % 3;

@@ -1,4 +1,5 @@
-// Differences and cross products of points with twice the digits of a double, for the normals of thin triangles.
+// Double-double arithmetic, a number as the sum of two doubles, for the normals of thin triangles: differences and
+// cross products of points.
 //
 // The normal of a triangle whose corners nearly lie on a line is a difference of nearly equal products: in plain
 // doubles its direction is off by the aspect of the triangle times the rounding. Here it is right to the last bits.
@@ -64,20 +65,20 @@ inline DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
 inline DoubleDouble scaled(DoubleDouble a, double by) { return {a.head * by, a.tail * by}; }
 
 // The same, component by component.
-struct WideVec3 {
+struct DoubleDoubleVec3 {
   Vec3 head;
   Vec3 tail;
 };
 
 // p - q, exactly.
-WideVec3 wide_difference(Vec3 p, Vec3 q);
+DoubleDoubleVec3 double_double_difference(Vec3 p, Vec3 q);
 
-// p - q, each component to 2^-104 of itself and of what it was the difference of.
-WideVec3 operator-(const WideVec3& p, const WideVec3& q);
+// p - q, each component to 2^-104 of itself and of its operands.
+DoubleDoubleVec3 operator-(const DoubleDoubleVec3& p, const DoubleDoubleVec3& q);
 
 // p × q, each component to 2^-52 of itself and 2^-100 of |p||q|. Components must be zero or between 2^-450 and 2^450 in
 // size.
-Vec3 wide_cross(const WideVec3& p, const WideVec3& q);
+Vec3 double_double_cross(const DoubleDoubleVec3& p, const DoubleDoubleVec3& q);
 
 // v / |v| for any finite v but zero, however large or small.
 Vec3 unit_vector(Vec3 v);

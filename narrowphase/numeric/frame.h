@@ -21,7 +21,7 @@ inline Frame frame_across(base::Vec3 n) {
   return {{1.0 + sign * n.x * n.x * p, sign * q, -sign * n.x}, {q, sign + n.y * n.y * p, -n.y}};
 }
 
-// Three unit vectors across a direction, a third of a turn apart, as parts of u and of v.
+// Three unit vectors across a direction, a third of a turn apart, in coordinates u and v.
 inline constexpr Point2 kThirds[3] = {{1.0, 0.0}, {-0.5, 0.8660254037844386}, {-0.5, -0.8660254037844386}};
 
 }  // namespace tact::narrowphase

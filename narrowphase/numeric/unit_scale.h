@@ -9,8 +9,8 @@
 
 namespace tact::narrowphase {
 
-// The power of two by which a length of `largest` becomes one from 1 to 2, or as near to it as 2^1000 brings it; 1 for
-// no length. Multiplying by it rounds nothing.
+// The power of two, between 2^-1000 and 2^1000, that scales a length of `largest` to between 1 and 2, or as near as it
+// can; 1 for a length of zero. Multiplying by it rounds nothing.
 inline double unit_scale(double largest) {
   constexpr int kDigits = std::numeric_limits<double>::digits - 1,
                 kBias = std::numeric_limits<double>::max_exponent - 1;

@@ -61,7 +61,7 @@ class SegmentClip {
 
 // The weights of the corners for the place of a triangle that is nearest to `p`, in lengths that are near 1.
 std::array<double, 3> nearest_weights(Vec3 p, const Triangle& t) {
-  const Vec3 normal = wide_cross(wide_difference(t[1], t[0]), wide_difference(t[2], t[0]));
+  const Vec3 normal = double_double_cross(double_double_difference(t[1], t[0]), double_double_difference(t[2], t[0]));
   const double area2 = norm_squared(normal);
   if (area2 > 0.0) {
     std::array<double, 3> w;
@@ -104,7 +104,7 @@ FacetHit hit_at(const Segment& segment, const Triangle& given, int facet) {
   const double scale = unit_scale(largest);
   for (Vec3& p : t) p = scale * p;
   const Vec3 way = scale * whole;
-  const Vec3 normal = wide_cross(wide_difference(t[1], t[0]), wide_difference(t[2], t[0]));
+  const Vec3 normal = double_double_cross(double_double_difference(t[1], t[0]), double_double_difference(t[2], t[0]));
   const double along = dot(normal, way), above = dot(normal, t[0]);
   double time = 0.0;
   if (std::abs(along) > 0x1p-40 * norm(normal) * norm(way)) {

@@ -48,7 +48,7 @@ Sample random_sample(const Kernels& kernels, Random& random, const FloatBox& reg
     sample.members.push_back(i);
   }
   std::memset(static_cast<void*>(&sample.block), 0, sizeof sample.block);
-  sample.left = kernels.refresh_lanes(sample.block, &sample.boxes[0].lower.x, sample.members.data(), kAllLanes,
+  sample.left = kernels.refit_lanes(sample.block, &sample.boxes[0].lower.x, sample.members.data(), kAllLanes,
                                       Frame{{0.25, 0.0, 1.0 / 3.0}}, region);
   return sample;
 }
@@ -73,7 +73,7 @@ TEST(BroadphaseKernels, RefreshLeavesOtherLanesAlone) {
     Sample sample = random_sample(*kernels, random, kEverywhere);
     const Block before = sample.block;
     for (Box& box : sample.boxes) box = {{9, 9, 9}, {10, 10, 10}};
-    EXPECT_EQ(kernels->refresh_lanes(sample.block, &sample.boxes[0].lower.x, sample.members.data(), 1u << 3 | 1u << 14,
+    EXPECT_EQ(kernels->refit_lanes(sample.block, &sample.boxes[0].lower.x, sample.members.data(), 1u << 3 | 1u << 14,
                                      Frame{}, kEverywhere),
               0u);
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
@@ -148,7 +148,7 @@ TEST(BroadphaseKernels, EqualFloatsAreDoubtful) {
       Block block{};
       std::vector<std::uint32_t> members(kLanes);
       for (std::uint32_t i = 0; i < kLanes; ++i) members[i] = i;
-      kernels->refresh_lanes(block, &boxes[0].lower.x, members.data(), kAllLanes, Frame{}, kEverywhere);
+      kernels->refit_lanes(block, &boxes[0].lower.x, members.data(), kAllLanes, Frame{}, kEverywhere);
       const BlockSide side{&block, members.data(), kAllLanes};
       const Found found = found_pairs(*kernels, side, side);
       EXPECT_EQ(found.pairs.size(), gap < 0.25 ? 1u : 0u) << gap;

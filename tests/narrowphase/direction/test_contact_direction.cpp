@@ -82,8 +82,8 @@ TEST(FaceFinder, KeepsATriangleAroundTheFoot) {
   const auto margin = [&](const ClusteredMesh& a, const ClusteredMesh& b) {
     const MinkowskiDifference m(a, b);
     faces.supported(m, up, 1e-15, m.support(up, m.vertex(0, 0)));
-    const GjkSimplex face = faces.around_foot(m);
-    return face.count == 3 ? FaceTriangle(m, face, up).side_of_foot().distance / m.scale() : -1.0;
+    const GjkSimplex face = faces.around_projection(m);
+    return face.count == 3 ? FaceTriangle(m, face, up).side_of_projection().distance / m.scale() : -1.0;
   };
   EXPECT_EQ(margin(point, point), -1.0);
   EXPECT_EQ(margin(edge, point), -1.0);

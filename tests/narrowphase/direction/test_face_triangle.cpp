@@ -41,7 +41,7 @@ class FaceTriangles : public ::testing::TestWithParam<std::array<int, 3>> {
 
 TEST_P(FaceTriangles, KnowsTheSideThatTheFootIsNearest) {
   const FaceTriangle triangle(m_, simplex(GetParam()), {0, 0, 1});
-  const FaceTriangle::Side side = triangle.side_of_foot();
+  const FaceTriangle::Side side = triangle.side_of_projection();
   // The sides x = -1 and y = -1 are a metre away, x + y = 2 is farther.
   EXPECT_NEAR(in_metres(side.distance), 1.0, 1e-15);
   const Vec3 outward = triangle.outward(side.index);
@@ -51,7 +51,7 @@ TEST_P(FaceTriangles, KnowsTheSideThatTheFootIsNearest) {
 
 TEST_P(FaceTriangles, GoesToAVertexAboveIt) {
   const FaceTriangle triangle(m_, simplex(GetParam()), {0, 0, 1});
-  const auto next = triangle.toward_foot(vertex(3));  // above (0.5, 0.5): the foot lies between it and (-1, -1)
+  const auto next = triangle.toward_projection(vertex(3));  // above (0.5, 0.5): the foot lies between it and (-1, -1)
   ASSERT_TRUE(next);
   EXPECT_EQ(next->a[2], vertex(3).a);
   const auto holds = [&](int point) { return next->a[0] == vertex(point).a || next->a[1] == vertex(point).a; };
@@ -69,12 +69,12 @@ TEST_P(FootOutside, IsBeyondASide) {
       tests::mesh_through(std::vector<Vec3>{{-2, 0, 0}});  // M moves by +2: the foot is at x = -2 of A
   const MinkowskiDifference m(a_, far);
   const FaceTriangle triangle(m, simplex(GetParam()), {0, 0, 1});
-  const FaceTriangle::Side side = triangle.side_of_foot();
+  const FaceTriangle::Side side = triangle.side_of_projection();
   EXPECT_NEAR(side.distance / m.scale(), -1.0, 1e-15);
   EXPECT_NEAR(triangle.outward(side.index).x, -1.0, 1e-15);
   EXPECT_TRUE(triangle.is_end_of(side.index, vertex(0)));
   EXPECT_FALSE(triangle.is_end_of(side.index, vertex(1)));
-  const auto next = triangle.toward_foot(m.vertex(vertex(4).a, 0));  // beyond that side and beyond the foot
+  const auto next = triangle.toward_projection(m.vertex(vertex(4).a, 0));  // beyond that side and beyond the foot
   ASSERT_TRUE(next);
   EXPECT_EQ(next->a[2], vertex(4).a);
   const auto corner = [&](std::size_t i) { return m.vertex(next->a[i], next->b[i]).point; };
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(EitherWayAround, FootOutside,
 
 TEST_F(FaceTriangles, OfASideWithoutLengthNothingIsNotANumber) {
   const FaceTriangle triangle(m_, simplex({0, 5, 1}), {0, 0, 1});
-  EXPECT_LE(triangle.side_of_foot().distance, 0.0);
+  EXPECT_LE(triangle.side_of_projection().distance, 0.0);
   EXPECT_FALSE(face_normal(m_, simplex({0, 5, 1}), {0, 0, 1}));
 }
 

@@ -46,7 +46,7 @@ TEST(Diagonals, BoundsAreThoseOfEveryPoint) {
   tests::Random random(1);
   for (int count = 1; count <= 70; ++count) {
     PointSoup points;
-    DiagonalBounds expected;
+    Kdop expected;
     std::ranges::fill(expected.lower, std::numeric_limits<double>::infinity());
     std::ranges::fill(expected.upper, -std::numeric_limits<double>::infinity());
     for (int i = 0; i < count; ++i) {
@@ -60,7 +60,7 @@ TEST(Diagonals, BoundsAreThoseOfEveryPoint) {
       }
     }
     for (const Kernels* kernels : tests::available_kernels()) {
-      const DiagonalBounds bounds = kernels->diagonal_bounds(points.arrays(), count);
+      const Kdop bounds = kernels->kdop(points.arrays(), count);
       for (int k = 0; k < kDiagonals; ++k) {
         EXPECT_EQ(bounds.lower[k], expected.lower[k]) << kernels->name << " of " << count << " points";
         EXPECT_EQ(bounds.upper[k], expected.upper[k]) << kernels->name << " of " << count << " points";
@@ -97,19 +97,19 @@ TEST(Diagonals, OneThatPartsDoesSoBeforeRounding) {
         }
       }
     }
-    const DiagonalBounds a = scalar_kernels()->diagonal_bounds(points[0].arrays(), 3);
-    const DiagonalBounds b = scalar_kernels()->diagonal_bounds(points[1].arrays(), 3);
-    const int parting = parting_diagonal(a, b);
-    EXPECT_EQ(parting_diagonal(b, a) != 0, parting != 0);
-    if (parting == 0) {
+    const Kdop a = scalar_kernels()->kdop(points[0].arrays(), 3);
+    const Kdop b = scalar_kernels()->kdop(points[1].arrays(), 3);
+    const int diagonal = separating_diagonal(a, b);
+    EXPECT_EQ(separating_diagonal(b, a) != 0, diagonal != 0);
+    if (diagonal == 0) {
       for (std::size_t k = 0; k < 6; ++k) touching += upper[0][k] == lower[1][k] || upper[1][k] == lower[0][k];
       continue;
     }
     ++parted;
-    const auto k = static_cast<std::size_t>(std::abs(parting) - 1);
-    ASSERT_TRUE(parting > 0 ? upper[0][k] < lower[1][k] : upper[1][k] < lower[0][k]) << "repeat " << repeat;
-    ASSERT_TRUE(parts(static_cast<PartingDiagonal>(parting), a, b));
-    ASSERT_FALSE(parts(static_cast<PartingDiagonal>(-parting), a, b));
+    const auto k = static_cast<std::size_t>(std::abs(diagonal) - 1);
+    ASSERT_TRUE(diagonal > 0 ? upper[0][k] < lower[1][k] : upper[1][k] < lower[0][k]) << "repeat " << repeat;
+    ASSERT_TRUE(separates(static_cast<SeparatingDiagonal>(diagonal), a, b));
+    ASSERT_FALSE(separates(static_cast<SeparatingDiagonal>(-diagonal), a, b));
   }
   EXPECT_GT(parted, 1000);
   EXPECT_GT(touching, 1000);
@@ -128,10 +128,10 @@ TEST(Diagonals, TheWidestGapPartsFromAToB) {
           PointSoup a, b;
           a.add(5, 6, 7);
           b.add(5 + offset.x, 6 + offset.y, 7 + offset.z);
-          const PartingDiagonal parting = parting_diagonal(scalar_kernels()->diagonal_bounds(a.arrays(), 1),
-                                                           scalar_kernels()->diagonal_bounds(b.arrays(), 1));
-          ASSERT_NE(parting, 0);
-          const Vec3 n = direction_of(parting);
+          const SeparatingDiagonal diagonal = separating_diagonal(scalar_kernels()->kdop(a.arrays(), 1),
+                                                           scalar_kernels()->kdop(b.arrays(), 1));
+          ASSERT_NE(diagonal, 0);
+          const Vec3 n = direction_of(diagonal);
           EXPECT_NEAR(dot(n, n), 1.0, 1e-15);
           EXPECT_NEAR(dot(n, offset), std::sqrt(2.0), 1e-15);
         }
@@ -146,12 +146,12 @@ TEST(Diagonals, NonePartsBodiesThatTouch) {
   a.add(1, 0, 0);
   b.add(1, 0, 0);
   b.add(2, 0, 0);
-  EXPECT_EQ(parting_diagonal(scalar_kernels()->diagonal_bounds(a.arrays(), 2),
-                             scalar_kernels()->diagonal_bounds(b.arrays(), 2)),
+  EXPECT_EQ(separating_diagonal(scalar_kernels()->kdop(a.arrays(), 2),
+                             scalar_kernels()->kdop(b.arrays(), 2)),
             0);
-  for (PartingDiagonal parting = -6; parting <= 6; ++parting) {
-    EXPECT_FALSE(parts(parting, scalar_kernels()->diagonal_bounds(a.arrays(), 2),
-                       scalar_kernels()->diagonal_bounds(b.arrays(), 2)));
+  for (SeparatingDiagonal diagonal = -6; diagonal <= 6; ++diagonal) {
+    EXPECT_FALSE(separates(diagonal, scalar_kernels()->kdop(a.arrays(), 2),
+                       scalar_kernels()->kdop(b.arrays(), 2)));
   }
 }
 

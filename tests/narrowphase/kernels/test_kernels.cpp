@@ -107,9 +107,9 @@ TEST(Kernels, SortsPairs) {
 }
 
 // Clusters that own and borrow a few vertices or many: the shortest, which no loop of four fits, and none among them.
-class RefreshClusters : public testing::Test {
+class RefitClusters : public testing::Test {
  protected:
-  RefreshClusters() {
+  RefitClusters() {
     std::vector<std::int32_t> vertices;
     for (int v = 0; v < mesh_.vertex_count(); ++v) vertices.push_back(v * 5 % mesh_.vertex_count());
     auto next = vertices.begin();
@@ -128,9 +128,9 @@ class RefreshClusters : public testing::Test {
 
   std::size_t cluster_count() const { return ranges_.size() / 2 - 1; }
 
-  Refreshed refresh(const Kernels& kernels, std::int32_t ahead = 0) {
+  Refitted refresh(const Kernels& kernels, std::int32_t ahead = 0) {
     bounds_.assign(6 * cluster_count(), 0.0);
-    return kernels.refresh_clusters({.source = mesh_.positions.data(),
+    return kernels.refit_clusters({.source = mesh_.positions.data(),
                                      .cluster_begin = 0,
                                      .cluster_end = static_cast<std::int32_t>(cluster_count()),
                                      .ranges = ranges_.data(),
@@ -173,11 +173,11 @@ class RefreshClusters : public testing::Test {
   std::vector<double> bounds_;
 };
 
-TEST_F(RefreshClusters, CopiesAndFindsBoxes) {
+TEST_F(RefitClusters, CopiesAndFindsBoxes) {
   for (const Kernels* kernels : tests::available_kernels()) {
     for (const std::int32_t ahead : {0, 3, 8}) {
       for (std::vector<double>* axis : {&x_, &y_, &z_}) axis->assign(owned_.size(), -77.0);
-      const Refreshed seen = refresh(*kernels, ahead);
+      const Refitted seen = refresh(*kernels, ahead);
       EXPECT_FALSE(seen.not_a_number);
       for (std::size_t i = 0; i < owned_.size(); ++i)
         EXPECT_EQ((Vec3{x_[i], y_[i], z_[i]}), mesh_.position(owned_[i])) << kernels->name;
@@ -193,7 +193,7 @@ TEST_F(RefreshClusters, CopiesAndFindsBoxes) {
   }
 }
 
-TEST_F(RefreshClusters, NoticesEveryOwnedCoordinateThatChanged) {
+TEST_F(RefitClusters, NoticesEveryOwnedCoordinateThatChanged) {
   for (const Kernels* kernels : tests::available_kernels()) {
     EXPECT_TRUE(refresh(*kernels).changed);
     keep();
@@ -209,7 +209,7 @@ TEST_F(RefreshClusters, NoticesEveryOwnedCoordinateThatChanged) {
   }
 }
 
-TEST_F(RefreshClusters, NoticesEveryOwnedCoordinateThatIsNoNumber) {
+TEST_F(RefitClusters, NoticesEveryOwnedCoordinateThatIsNoNumber) {
   for (const Kernels* kernels : tests::available_kernels()) {
     for (const std::int32_t v : owned_) {
       for (int axis = 0; axis < 3; ++axis) {

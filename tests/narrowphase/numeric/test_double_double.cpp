@@ -9,18 +9,18 @@
 namespace tact::narrowphase {
 namespace {
 
-Vec3 cross_of_sides(Vec3 p, Vec3 q, Vec3 r) { return wide_cross(wide_difference(q, p), wide_difference(r, p)); }
+Vec3 cross_of_sides(Vec3 p, Vec3 q, Vec3 r) { return double_double_cross(double_double_difference(q, p), double_double_difference(r, p)); }
 
 }  // namespace
 
-TEST(WideVec3, DifferenceLosesNothing) {
-  const auto d = wide_difference({1.0, 1e16, 0x1p-60}, {0x1p-80, 1.0, 1.0});
+TEST(DoubleDoubleVec3, DifferenceLosesNothing) {
+  const auto d = double_double_difference({1.0, 1e16, 0x1p-60}, {0x1p-80, 1.0, 1.0});
   EXPECT_EQ(d.head, (Vec3{1.0, 1e16, -1.0}));
   EXPECT_EQ(d.tail, (Vec3{-0x1p-80, -1.0, 0x1p-60}));
 }
 
 // Coordinates of 50 bits on a grid: 128-bit integers tell the cross product exactly.
-TEST(WideVec3, CrossOfNearlyParallelSidesHasRightDigits) {
+TEST(DoubleDoubleVec3, CrossOfNearlyParallelSidesHasRightDigits) {
   __extension__ using Integer = __int128;
   std::mt19937_64 random(1);
   std::uniform_int_distribution<std::int64_t> coordinate(-(std::int64_t{1} << 50), std::int64_t{1} << 50), nudge(-3, 3);
@@ -44,12 +44,12 @@ TEST(WideVec3, CrossOfNearlyParallelSidesHasRightDigits) {
   }
 }
 
-TEST(WideVec3, CollinearPointsHaveNoCross) {
+TEST(DoubleDoubleVec3, CollinearPointsHaveNoCross) {
   EXPECT_EQ(cross_of_sides({0.1, 0.2, 0.3}, {0.1, 0.2, 0.3}, {4, 5, 6}), (Vec3{}));
   EXPECT_EQ(cross_of_sides({1, 2, 3}, {2, 4, 6}, {-5, -10, -15}), (Vec3{}));
 }
 
-TEST(WideVec3, UnitVectorsOfAnySize) {
+TEST(DoubleDoubleVec3, UnitVectorsOfAnySize) {
   for (const int exponent : {-1070, -600, 0, 600, 1020}) {
     const Vec3 v{std::ldexp(3.0, exponent), 0.0, std::ldexp(-4.0, exponent)};
     EXPECT_LT(norm(unit_vector(v) - Vec3{0.6, 0.0, -0.8}), 2e-16) << exponent;

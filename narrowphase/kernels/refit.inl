@@ -12,7 +12,7 @@ namespace {
 // Asks for the positions of `count` owned vertices from the i-th on, in good time and in the second level of the cache:
 // the first has room for few under way, and what is written needs it. Both lines that a vertex may lie in: masked loads
 // touch the next double.
-inline void ask_for(const RefreshInput& in, int i, int count) {
+inline void ask_for(const RefitInput& in, int i, int count) {
   for (int k = 0; k < count; ++k) {
     const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i + k]);
     __builtin_prefetch(p, 0, 2);
@@ -55,10 +55,10 @@ inline bool differs(const double* before, __m256d after) {
 // Lanes in which a or b is not a number.
 inline __m256d not_numbers(__m256d a, __m256d b) { return _mm256_cmp_pd(a, b, _CMP_UNORD_Q); }
 
-struct RefreshLoop {
-  explicit RefreshLoop(const RefreshInput& input) : in(input) {}
+struct RefitLoop {
+  explicit RefitLoop(const RefitInput& input) : in(input) {}
 
-  const RefreshInput& in;
+  const RefitInput& in;
   Bounds even, odd;  // two, so that one need not wait for the other
   __m256d bad = _mm256_setzero_pd();
   bool changed = false;
@@ -117,9 +117,9 @@ struct RefreshLoop {
   }
 };
 
-Refreshed refresh_clusters(const RefreshInput& in) {
+Refitted refit_clusters(const RefitInput& in) {
   const __m256d zero = _mm256_setzero_pd();
-  RefreshLoop loop(in);
+  RefitLoop loop(in);
   Bounds all;
   const int ask_until = in.ahead == 0 ? 0 : in.ranges[2 * in.cluster_end] - in.ahead;
   for (int c = in.cluster_begin; c < in.cluster_end; ++c) {
@@ -135,7 +135,7 @@ Refreshed refresh_clusters(const RefreshInput& in) {
     store_three(box.upper, in.boxes + c + 3 * static_cast<std::int64_t>(in.box_stride), in.box_stride);
     all.widen(box);
   }
-  Refreshed seen{.box = {}, .changed = loop.changed, .not_a_number = _mm256_movemask_pd(loop.bad) != 0};
+  Refitted seen{.box = {}, .changed = loop.changed, .not_a_number = _mm256_movemask_pd(loop.bad) != 0};
   store_three(all.lower, seen.box.lower, 1);
   store_three(all.upper, seen.box.upper, 1);
   return seen;
@@ -154,8 +154,8 @@ struct Bounds {
   }
 };
 
-Refreshed refresh_clusters(const RefreshInput& in) {
-  Refreshed seen{.box = {}, .changed = false, .not_a_number = false};
+Refitted refit_clusters(const RefitInput& in) {
+  Refitted seen{.box = {}, .changed = false, .not_a_number = false};
   Bounds all;
   const int ask_until = in.ahead == 0 ? 0 : in.ranges[2 * in.cluster_end] - in.ahead;
   for (int c = in.cluster_begin; c < in.cluster_end; ++c) {
