@@ -1,9 +1,9 @@
 // Sixteen boxes side by side: what the hierarchy is made of, on every level, and what one SIMD loop compares.
 //
-// Bounds are floats, but nothing is rounded outward. The map from doubles to floats is monotone, so a <= b among
-// doubles makes f(a) <= f(b), and f(a) < f(b) makes a < b: boxes that are apart as floats are apart, boxes whose floats
-// overlap with room to spare overlap, and only where two floats are equal do the doubles have to be looked at. Not even
-// there, if both were exact.
+// Bounds are floats, but nothing is rounded outward. The map f from doubles to floats is monotone: a <= b makes f(a) <=
+// f(b), and f(a) < f(b) makes a < b. So boxes that are separated as floats are separated, and boxes that overlap by
+// more than touching as floats overlap. Only if two floats are equal are the doubles compared, and not even then if
+// both floats are exact.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +50,7 @@ inline float to_float(double x, double origin) {
   return static_cast<float>(offset < -kLargestFloat ? -kLargestFloat : kLargestFloat < offset ? kLargestFloat : offset);
 }
 
-// Whether equal floats mean equal doubles: those that this holds for are given back by one and the same function.
+// Does the float give back the double? Equal floats of which both do mean equal doubles.
 inline bool is_exact(float value, double x, double origin) { return static_cast<double>(value) + origin == x; }
 
 }  // namespace tact::broadphase

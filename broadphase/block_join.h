@@ -17,9 +17,9 @@ class BlockJoin {
  public:
   explicit BlockJoin(const Kernels& kernels = broadphase::kernels()) : kernels_(&kernels) {}
 
-  // Every pair of `boxes`, those of `tree`, that overlap, of which the tree's last update changed at least one, and
-  // whose filters agree; once each, with a < b, in parts whose order and number mean nothing. `filters` may be empty:
-  // then all agree. The answer is valid until the next call.
+  // The pairs of `boxes`, those of `tree`, that overlap and whose filters agree, and of which the tree's last update
+  // changed at least one box. Each pair comes once, a < b. The number and the order of the lists mean nothing. If
+  // `filters` is empty, all agree. The answer is valid until the next call.
   std::span<const PairList> run(const BlockTree& tree, std::span<const Box> boxes, std::span<const Filter> filters,
                                 int threads);
 

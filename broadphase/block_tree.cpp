@@ -110,19 +110,19 @@ void BlockTree::update(std::span<const Box> boxes, std::span<const std::uint32_t
   refit_upper_levels(first_new, threads);
 }
 
-// Refreshes the blocks and takes out the boxes that left them; stops and says no if those are so many that placing them
-// would come to a new order of all boxes. A sixteenth of the blocks tells that early.
+// Refits the blocks and takes out the boxes that left them. Stops and returns false if so many left that placing them
+// would cost as much as a new order of all boxes; a sixteenth of the blocks tells that early.
 bool BlockTree::keep_order(std::span<const Box> boxes, std::span<const std::uint32_t> changed, int threads) {
   resize(boxes.size());
   mark(boxes, changed);
   const std::size_t count = levels_[0].blocks.size();
-  const auto refresh = [&](std::size_t index) {
+  const auto refit = [&](std::size_t index) {
     if (levels_[0].active[index] != 0) refit_leaf(boxes, index);
   };
-  base::parallel_for(blocks_for(count), kBlockGrain, threads, [&](std::size_t group) { refresh(group * kLanes); });
+  base::parallel_for(blocks_for(count), kBlockGrain, threads, [&](std::size_t group) { refit(group * kLanes); });
   if (most_left(kLanes)) return false;
   base::parallel_for(count, kBlockGrain, threads, [&](std::size_t index) {
-    if (index % kLanes != 0) refresh(index);
+    if (index % kLanes != 0) refit(index);
   });
   if (most_left(1)) return false;
   collect_leavers(boxes);
@@ -188,7 +188,7 @@ void BlockTree::note_cost(std::size_t block_pairs, std::size_t changed_count) {
 
 bool BlockTree::worn_out() const { return excess_ > kOrderCost * static_cast<double>(levels_[0].blocks.size()); }
 
-// Whether most boxes have left, if `weight` times the known leavers have.
+// Have most boxes left, if `weight` times the known leavers have?
 bool BlockTree::most_left(std::size_t weight) const {
   std::size_t leavers = 0;
   std::size_t count = 0;

@@ -22,14 +22,14 @@ class BlockTree {
  public:
   explicit BlockTree(const Kernels& kernels = broadphase::kernels()) : kernels_(&kernels) {}
 
-  // Takes over all boxes whose index is in `changed` or is new. `is_changed` has a byte for each box, nonzero for
-  // those. Boxes of indices past the end of `boxes` are taken out.
+  // Takes over the boxes whose index is in `changed` or is new. `is_changed` has a byte for each box, nonzero for
+  // these. Boxes with indices past the end of `boxes` are taken out.
   void update(std::span<const Box> boxes, std::span<const std::uint32_t> changed,
               std::span<const std::uint8_t> is_changed, int threads);
 
-  // Tells what it cost to find the pairs of the last update, in pairs of blocks. Once the excess over the first such
-  // cost since the order was made adds up to that of making it, it is made anew: at worst twice the cost of knowing the
-  // future.
+  // Tells the tree what it cost to find the pairs of the last update, in pairs of blocks. The excess over the first
+  // such cost since the order was made is added up. When the sum reaches the cost of making an order, the order is made
+  // anew: in the worst case twice the cost of an order made at the best moments.
   void note_cost(std::size_t block_pairs, std::size_t changed_count);
 
   std::size_t level_count() const { return level_count_; }
@@ -42,8 +42,7 @@ class BlockTree {
   // The index of the box in each lane of a block of level 0; kNone where there is none.
   const std::uint32_t* members(std::size_t block) const { return &members_[block * kLanes]; }
 
-  // Whether each box that is not empty stands in exactly one lane, unaltered, and all bounds are those of what is
-  // below.
+  // Does each box that is not empty stand in exactly one lane, unaltered, and are all bounds those of what is below?
   bool validate(std::span<const Box> boxes) const;
 
   static constexpr std::uint32_t kNone = 0xffffffffu;

@@ -1,5 +1,5 @@
 // Which boxes overlap, carried from step to step as in sweep and prune: what moves little is not sorted again. The
-// order is along all three axes, that of a tree of blocks of sixteen boxes which is joined with itself: see README.md.
+// order is along all three axes: a tree of blocks of sixteen boxes, which is joined with itself. See README.md.
 #pragma once
 
 #include <cstddef>
@@ -25,12 +25,12 @@ class SweepAndPrune {
                                     std::span<const std::uint32_t> changed, int threads);
 
   std::span<const IndexPair> pairs() const { return pairs_; }
-  // Are the pairs other ones than before the last call?
+  // Did the last call change the pairs?
   bool pairs_changed() const { return pairs_changed_; }
-  // How many overlapping pairs, with a changed box, the filters kept out of the last answer.
+  // How many overlapping pairs with a changed box the filters kept out of the last answer.
   std::size_t excluded() const { return excluded_; }
 
-  // Whether what is kept between calls agrees with `boxes`, those of the last call. For tests.
+  // Does what is kept between calls agree with `boxes`, those of the last call? For tests.
   bool validate(std::span<const Box> boxes) const { return !tree_is_current_ || tree_.validate(boxes); }
 
  private:

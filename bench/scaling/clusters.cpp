@@ -41,7 +41,7 @@ KeptClusters all_clusters(const ClusteredMesh& mesh) {
   return kept;
 }
 
-struct Search {
+struct ClusterPairSearch {
   const KeptClusters& a;
   const KeptClusters& b;
   narrowphase::EmbreeDevice& device;
@@ -57,7 +57,7 @@ struct Search {
   }
 };
 
-double median_us(Search& search, ClusterPairSource source, double budget_ms) {
+double median_us(ClusterPairSearch& search, ClusterPairSource source, double budget_ms) {
   std::vector<double> times;
   double expected_ms = 0.0;
   const double start = wall_ms();
@@ -80,7 +80,7 @@ int run_clusters(const BenchOptions& options) {
        options.quick ? std::vector<int>{32, 64} : std::vector<int>{64, 128, 181, 256, 362, 512, 724}) {
     const ClusteredMesh mesh_a = wavy_sheet(cells, 0.0), mesh_b = wavy_sheet(cells, 0.3);
     const KeptClusters a = all_clusters(mesh_a), b = all_clusters(mesh_b);
-    Search search{a, b, device, {}, {}};
+    ClusterPairSearch search{a, b, device, {}, {}};
     search.run(ClusterPairSource::loop);
     const std::vector<std::int64_t> by_loop = search.found();
     search.run(ClusterPairSource::forest);

@@ -1,6 +1,5 @@
-// The three loops in which the time goes, compiled for each instruction set and chosen when the program runs. No
-// instruction set gives another answer: they compare, subtract and convert, and round nowhere but where all round
-// alike.
+// The three loops in which the time goes, compiled for each instruction set and chosen when the program runs. All
+// instruction sets give the same answer: they compare, subtract and convert, and round alike.
 #pragma once
 
 #include <cstddef>
@@ -26,17 +25,17 @@ struct Overlaps {
 struct Kernels {
   const char* name;
 
-  // For each of `count` pairs of different blocks, or of a block with itself, the lanes of the first that overlap the
-  // second as a whole. To know them in advance keeps the loops over lanes from waiting for comparisons.
+  // For each of `count` pairs of different blocks, or of a block with itself, writes the lanes of the first that
+  // overlap the bounds of the second. Known in advance, they keep the loops over lanes from waiting for comparisons.
   void (*find_rows)(const Block* blocks, const IndexPair* pairs, std::size_t count, std::uint16_t* rows);
 
-  // Writes the names (smaller first) of each pair of overlapping boxes, one of `a`, one of `b`, of which at least one
-  // is active; in any order; `rows` are those of find_rows(). A block against itself gives each pair once. `pairs` must
-  // have room for kOverlapRoom; what lies behind those written may be overwritten.
+  // Writes the names (smaller first) of each pair of overlapping boxes, one of `a` and one of `b`, of which at least
+  // one is active, in any order. `rows` are those of find_rows(). A block against itself gives each pair once. `pairs`
+  // must have room for kOverlapRoom; the room behind the pairs written may be overwritten.
   Overlaps (*find_overlaps)(const BlockSide& a, const BlockSide& b, std::uint32_t rows, IndexPair* pairs);
 
-  // Sets the boxes of `lanes`, each of which has a member, and the bounds. `boxes` is an array of six doubles a box,
-  // lower then upper. A box that is empty or not within `region` is left out; returns a bit for each of these.
+  // Sets the boxes of `lanes`, each of which has a member, and the bounds. `boxes` has six doubles a box, lower then
+  // upper. A box that is empty or not within `region` is left out; returns a bit for each of these.
   std::uint32_t (*refit_lanes)(Block& block, const double* boxes, const std::uint32_t* members, std::uint32_t lanes,
                                  const Frame& frame, const FloatBox& region);
 };

@@ -1,6 +1,5 @@
-// Vectors of the width that a file is compiled for, in the vector types of GCC and Clang. Wider ones they would take
-// apart into single numbers, and so they do with plain loops of sixteen. Everything is static: each file has its own
-// copy.
+// Vectors of the width for which a file is compiled, in the vector types of GCC and Clang. (Wider ones the compilers
+// take apart into single numbers, as they do plain loops of sixteen.) Everything is static: each file has its own copy.
 #pragma once
 
 #include <cstdint>

@@ -10,8 +10,8 @@
 namespace tact::narrowphase {
 namespace {
 
-// Of the i < count, a bit for each: do the flags of its three corners, flags[corner[k][i]], have no bit in common, do
-// they have the lowest?
+// For each facet i < count: have the flags of its three corners, flags[corner[k][i]], no bit in common (a bit in
+// `none`), or the lowest bit (a bit in `lowest`)?
 struct CommonFlags {
   std::uint64_t none, lowest;
 };

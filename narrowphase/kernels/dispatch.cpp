@@ -13,7 +13,7 @@ const Kernels* scalar_kernels() { return &kScalarKernels; }
 
 #if defined(__x86_64__)
 namespace {
-// All that a file is compiled for is asked for: a virtual machine may hide any of it.
+// Checks for every extension that a file is compiled for: a virtual machine may hide any of them.
 bool has_bit_operations() {
   return __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt");
 }

@@ -44,22 +44,23 @@ struct BoxBounds {
   double upper[3];
 };
 
-// How far points reach along the diagonals of a cube's faces: y + z, z + x, x + y, y - z, z - x, x - y.
+// The extent of points along the diagonals of a cube's faces: y + z, z + x, x + y, y - z, z - x, x - y. See
+// hull/kdop.h.
 inline constexpr int kDiagonals = 6;
 struct Kdop {
   double lower[kDiagonals];
   double upper[kDiagonals];
 };
 
-// The rounding of a determinant of differences of coordinates up to 2^300: at most this times the sum of its products'
-// sizes, and this besides. See facets.inl.
+// A determinant of differences of coordinates up to 2^300 is rounded by at most kRelativeRounding times the sum of the
+// sizes of its products, and kAbsoluteRounding. See facets.inl.
 inline constexpr double kRelativeRounding = 1e-15;
 inline constexpr double kAbsoluteRounding = 1e-200;
-// The former where all is computed with twice the digits. See facet_pairs.inl.
+// The relative rounding in double-double. See facet_pairs.inl.
 inline constexpr double kWideRelativeRounding = 0x1p-100;
 
-// A cluster's facets and vertices. Of the vertices, those that it owns stand next to each other in `points`, the others
-// are borrowed; `corner` counts the owned ones first, and 64 bytes of each of its arrays may be read.
+// A cluster's facets and vertices. The vertices that it owns stand next to each other in `points`; the others are
+// borrowed. `corner` counts the owned ones first; 64 bytes of each of its arrays may be read.
 struct ClusterFacets {
   PointArrays points;  // of all vertices
   std::int32_t owned_begin;
@@ -85,8 +86,8 @@ struct CellBox {
   std::int16_t upper[3];
 };
 
-// Facets of one or more clusters in separate arrays, which are longer by what a SIMD loop may write past the end, and
-// start at cache lines.
+// Facets of one or more clusters in separate arrays. Each starts at a cache line, and is longer by what a SIMD loop may
+// write past the end.
 struct alignas(64) FacetBlock {
   static constexpr int kCapacity = 64;
   static constexpr int kRoom = kCapacity + 8;
@@ -117,7 +118,7 @@ struct CullPlanes {
   BoxBounds box;  // so is one whose box misses this
 };
 
-// Facets or boxes that the planes leave, and those of the others that are too low.
+// How many facets or boxes the planes leave, and how many of the others are too low.
 struct Culled {
   std::int32_t left;
   std::int32_t low;
@@ -132,8 +133,7 @@ struct FacetPairList {
   int count = 0;
 };
 
-// The facets of a block whose box shares cells with that of some facet of another block, and how many such pairs there
-// are.
+// Which facets of a block share cells with some facet of another block, a bit each, and how many such pairs there are.
 struct SharedCells {
   std::uint64_t facets;
   std::int64_t pairs;
@@ -158,16 +158,16 @@ struct alignas(64) MovingPolygons {
   int count = 0;
 };
 
-// Clusters to be refreshed: cluster_begin <= c < cluster_end. Coordinates of source vertex s are source[3 s], source[3
-// s + 1], source[3 s + 2].
+// New positions for the clusters cluster_begin <= c < cluster_end. Those of source vertex s are source[3 s], source[3 s
+// + 1], source[3 s + 2].
 struct RefitInput {
   const double* source;
   std::int32_t cluster_begin, cluster_end;
-  // Where the vertices begin that a cluster owns and that it borrows, one after the other; and for one cluster more.
+  // For each cluster, and one more: the first vertex that it owns, the first that it borrows.
   const std::int32_t* ranges;
   const std::int32_t* owned;     // source vertices, copied to x, y, z in this order
   const std::int32_t* borrowed;  // source vertices that only widen the box
-  std::int32_t ahead;            // how many owned vertices ahead positions are asked for; 0 for none
+  std::int32_t ahead;            // how many owned vertices ahead positions are prefetched; 0: they are not
   PointArrays before;            // where the owned ones were
   double* x;
   double* y;
@@ -176,12 +176,11 @@ struct RefitInput {
   std::int32_t box_stride;
 };
 
-// The box of all these clusters; is any owned coordinate another one than before; is any not a number? The boxes are of
-// no use then.
+// What a refit saw.
 struct Refitted {
-  BoxBounds box;
-  bool changed;
-  bool not_a_number;
+  BoxBounds box;      // of all these clusters
+  bool changed;       // some owned coordinate is not what it was
+  bool not_a_number;  // some owned coordinate is not a number: the boxes are of no use
 };
 
 struct Kernels {
@@ -193,14 +192,14 @@ struct Kernels {
   // The box of `count` boxes.
   BoxBounds (*bounds)(const BoxPointers& boxes, int count);
 
-  // The bounds of `count` points, at least one.
+  // The k-DOP of `count` points, at least one.
   Kdop (*kdop)(PointArrays points, int count);
 
   // Writes the indices i < count of points whose height is >= threshold, ascending; returns how many.
   int (*select_heights)(PointArrays points, int count, const HeightAxis& axis, double threshold, std::int32_t* indices);
 
-  // The highest of the points in ascending ranges, or the index -1 if it is lower than `least` or there is none. Of
-  // several that are as high, the one with the least `number`, or with the least index if there are no numbers.
+  // The highest of the points in ascending ranges; index -1 if there is none or it is lower than `least`. Of several
+  // that are as high, the one with the least number[i], or with the least index if `number` is null.
   HighestPoint (*highest_point)(PointArrays points, const std::int32_t* number, const IndexRange* ranges,
                                 int range_count, const HeightAxis& axis, double least);
 
@@ -209,8 +208,8 @@ struct Kernels {
   // The same of boxes that the planes leave. A box that misses that of the planes does not count as too low.
   Culled (*cull_boxes)(const BoxPointers& boxes, int count, const CullPlanes& planes, std::int32_t* indices);
 
-  // Appends to `block` the facets of a cluster that the planes do not leave out, or does nothing if there is no room
-  // for them; returns how many they are.
+  // Appends to `block` the facets of a cluster that the planes leave; if it has no room for all, appends none. Returns
+  // how many they are.
   Culled (*open_cluster)(const ClusterFacets& cluster, const CullPlanes& planes, FacetBlock* block);
 
   // Finds the cells of the facets that have none yet.
@@ -223,30 +222,31 @@ struct Kernels {
   std::uint64_t (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells);
   // The cells that the facets with a bit reach; of no meaning if there is none.
   CellBox (*cells_of)(const FacetBlock& block, std::uint64_t facets);
-  // Is there a facet near `cells` whose plane, too, does not certainly leave `box` on one side? All of these facets and
-  // `box`, which reaches `cells`, lie in the box `bounds`.
+  // Is there a facet of `block` with a bit in `candidates` that reaches into `cells` and whose plane may cut `box`?
+  // `box` reaches `cells`; these facets and `box` lie in the box `bounds`.
   bool (*any_near)(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells, const BoxBounds& box,
                    const BoxBounds& bounds);
 
-  // Finds for each facet f of `few` that has a bit in `some` those of the facets `others` of `many` whose box shares
-  // cells with its own, a bit each in met[f].
+  // For each facet f of `few` with a bit in `some`, writes to met[f] which of the facets `others` of `many` share cells
+  // with it.
   SharedCells (*share_cells)(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, std::uint64_t others,
                              std::uint64_t* met);
-  // Takes away from each met[f] of at least `plane_from` facets, f having a bit in `some`, those that the plane of f
-  // certainly leaves on one side. See match_float_pairs.
+  // For each facet f with a bit in `some` whose met[f] holds at least `plane_from` facets: removes those from met[f]
+  // that certainly lie on one side of the plane of f. For `gap` see match_float_pairs.
   void (*leave_aside)(const FloatCorners& few, std::uint64_t some, const FloatCorners& many, const double* gap,
                       int plane_from, std::uint64_t* met);
-  // Moves pairs of f and met[f], f having a bit in `some`, to the end of `pairs` until it is full; returns which f have
-  // some left.
+  // For each facet f with a bit in `some`: moves the pairs of f with the facets in met[f] to the end of `pairs`, until
+  // that is full. Returns which f have pairs left.
   std::uint64_t (*list_pairs)(std::uint64_t some, std::uint64_t* met, bool few_are_b, FacetPairList* pairs);
 
-  // Sorts up to kMostSorted pairs, no two of which are equal.
+  // Sorts up to kMostSorted pairs, all different.
   void (*sort_pairs)(FacetPair* pairs, int count);
 
-  // Are the coordinates of all corners, which are less than 2^51 steps, whole numbers of steps, a power of two?
+  // Is every coordinate of every corner a whole number of steps? A step is a power of two; coordinates are below 2^51
+  // steps.
   bool (*on_lattice)(const FacetBlock& block, double step);
 
-  // The corners of the facets that have a bit; those of others are left open.
+  // The corners of the facets that have a bit; those of the others are undefined.
   void (*float_corners)(const FacetBlock& block, std::uint64_t facets, const Grid& grid, FloatCorners* corners);
 
   // Decides pairs of a facet of `a` and one of `b`, in the same grid, whose boxes are at most `gap` apart along each of
@@ -266,14 +266,14 @@ struct Kernels {
   // Those of the pairs that have a bit in `which` and a corner in common.
   std::uint64_t (*sharing_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
                                  std::uint64_t which);
-  // Decides those of the pairs that have a bit in `which`, with twice the digits.
+  // Decides those of the pairs that have a bit in `which`, in double-double.
   PairMatches (*match_pairs_wide)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
                                   std::uint64_t which);
   // Decides those of the pairs that have a bit in `which`, all of them of facets in one plane.
   PairMatches (*match_flat_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
                                   std::uint64_t which);
 
-  // A bit for each polygon that certainly stays farther than `reach` from the origin.
+  // A bit for each polygon that certainly stays farther than `reach` from the origin, all the time.
   std::uint64_t (*apart_throughout)(const MovingPolygons& polygons, double reach);
 };
 

@@ -9,10 +9,10 @@
 namespace tact::narrowphase {
 namespace {
 
-// Asks for the positions of `count` owned vertices from the i-th on, in good time and in the second level of the cache:
-// the first has room for few under way, and what is written needs it. Both lines that a vertex may lie in: masked loads
-// touch the next double.
-inline void ask_for(const RefitInput& in, int i, int count) {
+// Prefetches the positions of `count` owned vertices from the i-th on, to the second level of the cache: the first has
+// room for few lines under way, and what is written needs it. Both lines in which a vertex may lie: masked loads touch
+// the next double.
+inline void prefetch_positions(const RefitInput& in, int i, int count) {
   for (int k = 0; k < count; ++k) {
     const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i + k]);
     __builtin_prefetch(p, 0, 2);
@@ -95,14 +95,14 @@ struct RefitLoop {
   }
 
   // The last four may have been copied in part already.
-  void copy(int begin, int end, int ask_until) {
+  void copy(int begin, int end, int prefetch_until) {
     int i = begin;
     for (; i + 4 <= end; i += 4) {
-      if (i + 4 <= ask_until) ask_for(in, i + in.ahead, 4);
+      if (i + 4 <= prefetch_until) prefetch_positions(in, i + in.ahead, 4);
       copy_four(i);
     }
     if (i == end) return;
-    if (i < ask_until) ask_for(in, i + in.ahead, (end < ask_until ? end : ask_until) - i);
+    if (i < prefetch_until) prefetch_positions(in, i + in.ahead, (end < prefetch_until ? end : prefetch_until) - i);
     if (end - begin >= 4) return copy_four(end - 4);
     for (; i < end; ++i) copy_one(i);
   }
@@ -121,11 +121,11 @@ Refitted refit_clusters(const RefitInput& in) {
   const __m256d zero = _mm256_setzero_pd();
   RefitLoop loop(in);
   Bounds all;
-  const int ask_until = in.ahead == 0 ? 0 : in.ranges[2 * in.cluster_end] - in.ahead;
+  const int prefetch_until = in.ahead == 0 ? 0 : in.ranges[2 * in.cluster_end] - in.ahead;
   for (int c = in.cluster_begin; c < in.cluster_end; ++c) {
     const std::int32_t* range = in.ranges + 2 * c;
     loop.even = loop.odd = Bounds{};
-    loop.copy(range[0], range[2], ask_until);
+    loop.copy(range[0], range[2], prefetch_until);
     loop.borrow(range[1], range[3]);
     Bounds box = loop.even;
     box.widen(loop.odd);
@@ -157,12 +157,12 @@ struct Bounds {
 Refitted refit_clusters(const RefitInput& in) {
   Refitted seen{.box = {}, .changed = false, .not_a_number = false};
   Bounds all;
-  const int ask_until = in.ahead == 0 ? 0 : in.ranges[2 * in.cluster_end] - in.ahead;
+  const int prefetch_until = in.ahead == 0 ? 0 : in.ranges[2 * in.cluster_end] - in.ahead;
   for (int c = in.cluster_begin; c < in.cluster_end; ++c) {
     const std::int32_t* range = in.ranges + 2 * c;
     Bounds box;
     for (int i = range[0]; i < range[2]; ++i) {
-      if (i < ask_until) ask_for(in, i + in.ahead, 1);
+      if (i < prefetch_until) prefetch_positions(in, i + in.ahead, 1);
       const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i]);
       seen.changed = seen.changed || in.before.x[i] != p[0] || in.before.y[i] != p[1] || in.before.z[i] != p[2];
       seen.not_a_number = seen.not_a_number || p[0] != p[0] || p[1] != p[1] || p[2] != p[2];

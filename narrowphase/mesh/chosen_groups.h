@@ -1,4 +1,4 @@
-// How what is looked for in a large mesh is looked for in groups of clusters first.
+// A query of a large mesh chooses among its groups of clusters first.
 #pragma once
 
 #include <algorithm>
@@ -8,9 +8,10 @@
 
 namespace tact::narrowphase {
 
-// Calls work(g) for every group g that `select` chooses, ascending; if there is only one group, for that. `select`
-// looks at `count` groups from `begin` on, writes which of them are chosen, counted from `begin`, and returns how many:
-// select(int begin, int count, std::int32_t* chosen). It is asked for some groups after work() on those before.
+// Calls work(g) for every group g that `select` chooses, ascending; if there is only one group, for that one.
+// select(int begin, int count, std::int32_t* chosen) looks at `count` groups from `begin` on, writes those that it
+// chooses, counted from `begin`, and returns how many. It is called for 256 groups at a time, after work() on the
+// groups before.
 template <class Select, class Work>
 void for_chosen_groups(const ClusteredMesh& mesh, const Select& select, const Work& work) {
   constexpr int kAtATime = 256;

@@ -11,20 +11,20 @@ namespace tact::narrowphase {
 // Of the step. Two corners that move apart by their size and way move by 1e-12 of it in that time.
 inline constexpr double kFinestSpan = 0x1p-42;
 
-/// One for each thread, its memory used again.
+/// One for each thread; its memory is reused.
 class FinestSpan {
  public:
   FinestSpan();
   ~FinestSpan();
 
-  /// Of a polygon, scaled to coordinates of at most 2, that comes next to the origin between `from` and `to`: the
+  /// A polygon, scaled to coordinates of at most 2, comes next to the origin between `from` and `to`. Returns the
   /// beginning of the first part of that span in which it may hold the origin, or nothing if it certainly never does.
   ///
-  /// At the time when the origin is in its plane, it has to be on the inner side of all sides. The volume that tells
-  /// the one, and a product of the normal and each side that tells the other, are polynomials in time; double_doubles
-  /// find their Bernstein coefficients on the span, which is halved until their signs say yes or no. Of a
-  /// point or a segment that passes the origin, coordinates and cross products tell. Parts in which the polygon has no
-  /// area, and what is nearer than 1e-25, stay open.
+  /// The polygon holds the origin when the origin is in its plane and on the inner side of all sides. A volume tells
+  /// the first, a product of the normal and each side the second. Both are polynomials in time; their Bernstein
+  /// coefficients on the span are computed in double-double, and the span is halved until the signs say yes or no. For
+  /// a point or a segment, coordinates and cross products tell. Parts in which the polygon has no area, or is nearer
+  /// than 1e-25, stay open.
   std::optional<double> first_open_part(const MovingPolygon& polygon, double scale, double from, double to);
 
  private:

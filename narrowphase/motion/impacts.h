@@ -26,7 +26,7 @@ struct MovingMesh {
 
   Vec3 begin_of(int vertex) const { return {begin.points.x[vertex], begin.points.y[vertex], begin.points.z[vertex]}; }
   MovingVertex vertex(int v) const { return {{begin_of(v), mesh->position(v)}}; }
-  /// All places that it, or a cluster, passes.
+  /// The box of all places that it, or a cluster, passes.
   Box box() const { return merged(begin.box, mesh->box()); }
   Box cluster_box(int cluster) const {
     const auto c = static_cast<std::size_t>(cluster);
@@ -34,8 +34,8 @@ struct MovingMesh {
   }
 };
 
-/// Two features that meet. Vertices have the caller's numbers; those of an edge ascend, those of a facet stand in its
-/// own order; -1 fills up. Of one mesh the vertex, or the lesser edge, is `a`.
+/// Two features that meet. Vertices have the caller's numbers: those of an edge ascend, those of a facet stand in its
+/// own order; unused entries are -1. In one mesh, `a` is the vertex or the lesser edge.
 struct FeatureImpact {
   FeaturePair kind = FeaturePair::vertex_facet;
   std::array<int, 3> a{-1, -1, -1};
@@ -70,7 +70,7 @@ class PassingClusters {
   ClusterPairFinder finder_;
 };
 
-/// One for each thread, its memory used again.
+/// One for each thread; its memory is reused.
 class ImpactFinder {
  public:
   ImpactFinder();
@@ -78,12 +78,13 @@ class ImpactFinder {
   ImpactFinder(ImpactFinder&&) noexcept;
   ImpactFinder& operator=(ImpactFinder&&) noexcept;
 
-  /// Before meshes are looked at that have moved: they, on their ways, are all in the box.
+  /// Call it before meshes that have moved: on their ways they are all in the box.
   void begin(const Box& all);
 
-  /// Appends the impacts of some cluster pairs of `a` and `b`, which may be one mesh, in no particular order. All pairs
-  /// together give each once. What comes within `reach` of each other meets. Where only the first is wanted `first` is
-  /// not null: what is later may be left out, and it falls to what is found.
+  /// Appends the impacts of some cluster pairs of `a` and `b`, which may be one mesh, in no particular order. All
+  /// cluster pairs together give each impact once. Features meet that come within `reach` of each other. If only the
+  /// first impact is wanted, `first` is not null: it falls to the time of what is found, and later impacts may be left
+  /// out.
   void run(const MovingMesh& a, const MovingMesh& b, double reach, std::span<const ClusterPair> pairs,
            std::atomic<double>* first, std::vector<FeatureImpact>& found, MotionCounts& counts);
 

@@ -33,16 +33,16 @@ struct Meeting {
   std::int64_t spans = 0;  // that were looked at
 };
 
-/// Of a polygon that starts nearer than `reach`, the reach is this share of its distance then.
+/// For a polygon that starts nearer than `reach`, the reach is this share of its distance at the start.
 inline constexpr double kShareOfGap = 0.1;
 
-/// When polygons first come within a reach of the origin; one for each thread, its memory used again.
+/// When polygons first come within a reach of the origin. One for each thread; its memory is reused.
 class MeetingSearch {
  public:
   MeetingSearch();
 
-  /// `reach` in metres, zero or more. The search is given up, and the answer is never, once all times up to `latest`
-  /// are left out; it takes the same steps whatever `latest` is.
+  /// `reach` in metres, zero or more. Once all times up to `latest` are left out, the search ends and the answer is
+  /// never. It takes the same steps whatever `latest` is.
   Meeting first(const MovingPolygon& polygon, double reach, double latest = 1.0);
 
  private:

@@ -1,8 +1,8 @@
 // A vertex and a facet, or two edges, whose vertices move straight.
 //
-// Both are one figure. Seen from the vertex, the corners of the facet are three points; seen from the points of one
-// edge, those of the other fill a parallelogram. So a flat convex polygon of three or four corners moves, each of them
-// straight; the two features share a point when it holds the origin.
+// Both are one figure: the differences of their points form a flat convex polygon. For a vertex and a facet it has
+// three corners; for two edges it is a parallelogram. Each corner moves straight. The two features share a point when
+// the polygon holds the origin.
 #pragma once
 
 #include "engine/base/vec3.h"
@@ -12,9 +12,9 @@ namespace tact::narrowphase {
 
 using base::Vec3;
 
-/// The corners at time 0 and at time 1, relative to the origin, metres, as exact differences of positions. Four are
-/// those of a parallelogram, in the order of its outline. Corners that are one at both times stand once: of a facet or
-/// an edge without extent one or two are left.
+/// The corners at time 0 and at time 1, in metres, as exact differences of positions. The four of a parallelogram stand
+/// in the order of its outline. Corners that coincide at both times stand once: a facet or an edge without extent
+/// leaves one or two.
 struct MovingPolygon {
   int count = 0;
   DoubleDoubleVec3 corner[2][4];

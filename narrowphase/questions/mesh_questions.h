@@ -1,5 +1,5 @@
-// Questions to one mesh, as it is now: segments, nearest points, boxes, what is inside. From the boxes of groups to
-// those of clusters to facets; nothing is built.
+// Questions to one mesh, as it is now: segments, nearest points, boxes, what is inside. They descend from the boxes of
+// groups to those of clusters to facets; nothing is built.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace tact::narrowphase {
 /// A facet, by the caller's number, that a segment meets, as closed sets; decided exactly (triangle_triangle.h).
 struct FacetHit {
   int facet = -1;
-  double time = 0.0;               // where first, as a part of the segment; to rounding
+  double time = 0.0;               // of the first common point, as a part of the segment; to rounding
   std::array<double, 3> weight{};  // of the facet's corners there
 
   /// By time, then by facet.

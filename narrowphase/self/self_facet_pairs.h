@@ -19,9 +19,9 @@ class SelfClusters {
   ClusterPairFinder finder_;
 };
 
-/// Appends the facets that meet, of some cluster pairs, in no particular order, by the caller's numbers with a < b. All
-/// pairs together give each once. Closed sets, decided exactly (triangle_triangle.h); facets that name a common vertex
-/// do not count, those that share a place under two numbers do.
+/// Appends the facet pairs of some cluster pairs, in no particular order, by the caller's numbers with a < b. All
+/// cluster pairs together give each facet pair once. Facets meet as closed sets, decided exactly (triangle_triangle.h).
+/// Facets that name a common vertex do not count; facets whose vertices have different numbers and the same place do.
 void find_self_facet_pairs(const ClusteredMesh& mesh, std::span<const ClusterPair> pairs,
                            std::vector<FacetPair>& found);
 

@@ -74,7 +74,7 @@ TEST(Diagonals, BoundsAreThoseOfEveryPoint) {
 // Coordinates are whole numbers near 2^53, so that every other sum rounds, and integers tell the truth.
 TEST(Diagonals, OneThatPartsDoesSoBeforeRounding) {
   tests::Random random(2);
-  int parted = 0, touching = 0;
+  int separated = 0, touching = 0;
   for (int repeat = 0; repeat < 20'000; ++repeat) {
     constexpr std::int64_t kLarge = std::int64_t{1} << 53;
     std::array<PointSoup, 2> points;
@@ -99,19 +99,19 @@ TEST(Diagonals, OneThatPartsDoesSoBeforeRounding) {
     }
     const Kdop a = scalar_kernels()->kdop(points[0].arrays(), 3);
     const Kdop b = scalar_kernels()->kdop(points[1].arrays(), 3);
-    const int diagonal = separating_diagonal(a, b);
-    EXPECT_EQ(separating_diagonal(b, a) != 0, diagonal != 0);
-    if (diagonal == 0) {
+    const int found = separating_diagonal(a, b);
+    EXPECT_EQ(separating_diagonal(b, a) != 0, found != 0);
+    if (found == 0) {
       for (std::size_t k = 0; k < 6; ++k) touching += upper[0][k] == lower[1][k] || upper[1][k] == lower[0][k];
       continue;
     }
-    ++parted;
-    const auto k = static_cast<std::size_t>(std::abs(diagonal) - 1);
-    ASSERT_TRUE(diagonal > 0 ? upper[0][k] < lower[1][k] : upper[1][k] < lower[0][k]) << "repeat " << repeat;
-    ASSERT_TRUE(separates(static_cast<SeparatingDiagonal>(diagonal), a, b));
-    ASSERT_FALSE(separates(static_cast<SeparatingDiagonal>(-diagonal), a, b));
+    ++separated;
+    const auto k = static_cast<std::size_t>(std::abs(found) - 1);
+    ASSERT_TRUE(found > 0 ? upper[0][k] < lower[1][k] : upper[1][k] < lower[0][k]) << "repeat " << repeat;
+    ASSERT_TRUE(separates(static_cast<SeparatingDiagonal>(found), a, b));
+    ASSERT_FALSE(separates(static_cast<SeparatingDiagonal>(-found), a, b));
   }
-  EXPECT_GT(parted, 1000);
+  EXPECT_GT(separated, 1000);
   EXPECT_GT(touching, 1000);
 }
 
