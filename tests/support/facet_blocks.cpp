@@ -44,6 +44,32 @@ base::Box facet_box(const ClusteredMesh& mesh, int facet) {
   return box;
 }
 
+narrowphase::FloatCorners floats_of(const Kernels& kernels, const FacetBlock& block) {
+  narrowphase::FloatCorners corners;
+  kernels.float_corners(block, all_bits(block.count), grid_over(kEverything, 1.0), &corners);
+  return corners;
+}
+
+std::vector<FacetPair> paired(const Kernels& kernels, const FacetBlock& a, const FacetBlock& b, bool few_are_b,
+                              int plane_from, std::int64_t& box_pairs) {
+  std::vector<FacetPair> all;
+  const FacetBlock &few = few_are_b ? b : a, &many = few_are_b ? a : b;
+  Met met{};
+  const narrowphase::SharedCells shared = kernels.share_cells(few, all_bits(few.count), many, all_bits(many.count), met.data());
+  box_pairs += shared.pairs;
+  constexpr double kGap[3] = {1.0 / narrowphase::kLastCell, 1.0 / narrowphase::kLastCell, 1.0 / narrowphase::kLastCell};
+  kernels.leave_aside(floats_of(kernels, few), shared.facets, floats_of(kernels, many), kGap, plane_from, met.data());
+  for (std::uint64_t left = shared.facets; left != 0;) {
+    FacetPairList pairs;
+    left = kernels.list_pairs(left, met.data(), few_are_b, &pairs);
+    EXPECT_TRUE(left == 0 || pairs.count == FacetPairList::kCapacity) << kernels.name;
+    EXPECT_EQ(left & ~shared.facets, 0u);
+    for (int k = 0; k < pairs.count; ++k) all.push_back({pairs.a[k], pairs.b[k]});
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
 BoxBounds bounds_of(const FacetPairList& pairs, const FacetBlock& a, const FacetBlock& b) {
   BoxBounds bounds = box_of(a, pairs.a[0]);
   for (int k = 0; k < pairs.count; ++k) bounds = merged(merged(bounds, box_of(a, pairs.a[k])), box_of(b, pairs.b[k]));

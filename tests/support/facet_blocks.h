@@ -1,6 +1,7 @@
 // Blocks of the facets of two bodies, and what the kernels make of all their pairs.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -38,6 +39,18 @@ narrowphase::BoxBounds bounds_of(const narrowphase::FacetPairList& pairs, const 
 
 // A facet with each of `count`.
 narrowphase::FacetPairList all_with(int facet, int count);
+
+// Of each facet of a block, a bit for each facet of another.
+using Met = std::array<std::uint64_t, narrowphase::FacetBlock::kCapacity>;
+
+// The corners of all facets, which lie in kEverything.
+narrowphase::FloatCorners floats_of(const narrowphase::Kernels& kernels, const narrowphase::FacetBlock& block);
+
+// The pairs that leave_aside() leaves of those that share cells of kGrid: planes are asked from `plane_from` facets on.
+inline constexpr int kAlways = 0, kNever = 65;
+std::vector<FacetPair> paired(const narrowphase::Kernels& kernels, const narrowphase::FacetBlock& a,
+                              const narrowphase::FacetBlock& b, bool few_are_b, int plane_from,
+                              std::int64_t& box_pairs);
 
 // What becomes of all pairs of a facet of the first cluster of `a` and one of `b`.
 struct Decisions {

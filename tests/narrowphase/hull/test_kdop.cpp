@@ -8,71 +8,18 @@
 #include <vector>
 
 #include "narrowphase/hull/kdop.h"
-#include "tests/support/facet_filters.h"
+#include "tests/support/point_soup.h"
 #include "tests/support/random.h"
 
 namespace tact::narrowphase {
 namespace {
 
 using base::Vec3;
-
-// Points as a mesh stores them: coordinates in separate arrays, with room to read past the end.
-struct PointSoup {
-  std::array<std::vector<double>, 3> coordinate;
-  int count = 0;
-
-  void add(double x, double y, double z) {
-    coordinate[0].push_back(x);
-    coordinate[1].push_back(y);
-    coordinate[2].push_back(z);
-    ++count;
-  }
-  PointArrays arrays() {
-    for (auto& values : coordinate) {
-      values.resize(static_cast<std::size_t>(count));
-      values.resize(static_cast<std::size_t>(count) + 8, 1e30);  // must not be counted
-    }
-    return {coordinate[0].data(), coordinate[1].data(), coordinate[2].data()};
-  }
-};
-
-// The six sums and differences of two coordinates, of doubles as they round and of integers as they are.
-template <class Number>
-std::array<Number, 6> along_diagonals(Number x, Number y, Number z) {
-  return {y + z, z + x, x + y, y - z, z - x, x - y};
-}
-
-TEST(Diagonals, BoundsAreThoseOfEveryPoint) {
-  tests::Random random(1);
-  for (int count = 1; count <= 70; ++count) {
-    PointSoup points;
-    Kdop expected;
-    std::ranges::fill(expected.lower, std::numeric_limits<double>::infinity());
-    std::ranges::fill(expected.upper, -std::numeric_limits<double>::infinity());
-    for (int i = 0; i < count; ++i) {
-      const auto coordinate = [&] { return random.chance(0.2) ? 0.0 * (random.below(3) - 1) : random.uniform(-9, 9); };
-      const double x = coordinate(), y = coordinate(), z = coordinate();
-      points.add(x, y, z);
-      const auto reach = along_diagonals(x, y, z);
-      for (std::size_t k = 0; k < kDiagonals; ++k) {
-        expected.lower[k] = std::min(expected.lower[k], reach[k]);
-        expected.upper[k] = std::max(expected.upper[k], reach[k]);
-      }
-    }
-    for (const Kernels* kernels : tests::available_kernels()) {
-      const Kdop bounds = kernels->kdop(points.arrays(), count);
-      for (int k = 0; k < kDiagonals; ++k) {
-        EXPECT_EQ(bounds.lower[k], expected.lower[k]) << kernels->name << " of " << count << " points";
-        EXPECT_EQ(bounds.upper[k], expected.upper[k]) << kernels->name << " of " << count << " points";
-        EXPECT_FALSE(bounds.lower[k] == 0.0 && std::signbit(bounds.lower[k])) << kernels->name;
-        EXPECT_FALSE(bounds.upper[k] == 0.0 && std::signbit(bounds.upper[k])) << kernels->name;
-      }
-    }
-  }
-}
+using tests::along_diagonals;
+using tests::PointSoup;
 
 // Coordinates are whole numbers near 2^53, so that every other sum rounds, and integers tell the truth.
-TEST(Diagonals, OneThatPartsDoesSoBeforeRounding) {
+TEST(SeparatingDiagonal, SeparatesBeforeRounding) {
   tests::Random random(2);
   int separated = 0, touching = 0;
   for (int repeat = 0; repeat < 20'000; ++repeat) {
@@ -116,7 +63,7 @@ TEST(Diagonals, OneThatPartsDoesSoBeforeRounding) {
 }
 
 // Two bodies of one point each, one beyond the other along a diagonal, turned and told apart by every one of them.
-TEST(Diagonals, TheWidestGapPartsFromAToB) {
+TEST(SeparatingDiagonal, TheWidestGapPartsFromAToB) {
   for (int first = 0; first < 3; ++first) {
     for (int second = 0; second < 3; ++second) {
       for (const double sign : {1.0, -1.0}) {
@@ -140,7 +87,7 @@ TEST(Diagonals, TheWidestGapPartsFromAToB) {
   }
 }
 
-TEST(Diagonals, NonePartsBodiesThatTouch) {
+TEST(SeparatingDiagonal, IsNoneForBodiesThatTouch) {
   PointSoup a, b;
   a.add(0, 0, 0);
   a.add(1, 0, 0);

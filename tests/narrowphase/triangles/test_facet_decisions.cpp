@@ -454,5 +454,20 @@ TEST(FacetDecisions, PairsOfSmoothBodiesAreDecided) {
   }
 }
 
+TEST(FacetDecisions, EveryInstructionSetGivesTheSameBits) {
+  for (int seed = 0; seed < 12; ++seed) {
+    const auto [mesh_a, mesh_b] = bodies(seed);
+    const ClusteredMesh a = clustered(mesh_a), b = clustered(mesh_b);
+    for (const Kernels* kernels : tests::available_kernels()) {
+      for (const Digits digits : {Digits::few, Digits::simple, Digits::wide}) {
+        const Decisions one = decide_all(*kernels, a, b, digits), other = decide_all(*scalar_kernels(), a, b, digits);
+        EXPECT_EQ(one.meeting, other.meeting) << kernels->name;
+        EXPECT_EQ(one.undecided, other.undecided) << kernels->name;
+        EXPECT_EQ(one.flat, other.flat) << kernels->name;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tact::narrowphase
