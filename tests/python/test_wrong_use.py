@@ -2,11 +2,12 @@
 
 import subprocess
 import sys
+import threading
 
 import numpy as np
 import pytest
 import tact
-from shapes import tetrahedron
+from shapes import grid, tetrahedron
 
 POSITIONS, FACETS = tetrahedron()
 
@@ -124,3 +125,149 @@ def test_the_interpreter_ends_with_worlds_alive():
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+
+
+def test_a_removed_body_is_refused_by_every_call(world):
+    body = world.add_body(POSITIONS, FACETS)
+    world.remove_body(body)
+    kept = world.add_body(POSITIONS, FACETS)
+    calls = [
+        lambda: world.remove_body(body),
+        lambda: world.set_positions(body, POSITIONS),
+        lambda: world.set_positions({kept: POSITIONS + 9, body: POSITIONS}),
+        lambda: world.set_layers(body, 1, 1),
+        lambda: world.set_motion(body, tact.Motion.fixed),
+        lambda: world.set_margin(body, 0.1),
+        lambda: world.set_self_contact(body, True),
+    ]
+    calls += [lambda ask=ask: getattr(world, ask)(body) for ask in ("name", "surface", "motion", "layer", "mask", "margin", "vertex_count")]
+    for call in calls:
+        with pytest.raises(tact.Error) as raised:
+            call()
+        assert raised.value.code == tact.ErrorCode.stale_body
+    assert not world.contains(body) and world.bodies == [kept]
+    assert len(world.overlap_box([-1, -1, -1], [2, 2, 2])) == len(FACETS)  # the other has not moved
+
+
+@pytest.mark.parametrize(
+    "call, exception, says",
+    [
+        (lambda w, b: w.set_positions(7, POSITIONS), TypeError, "incompatible"),
+        (lambda w, b: w.set_positions(b), TypeError, "incompatible"),
+        (lambda w, b: w.set_positions({b: None}), TypeError, "NoneType"),
+        (lambda w, b: w.set_margin(b, float("nan")), tact.Error, "margin"),
+        (lambda w, b: w.set_margin(b, -1.0), tact.Error, "margin"),
+        (lambda w, b: w.add_body(POSITIONS, FACETS, surface="sheet"), TypeError, "incompatible"),
+        (lambda w, b: w.add_body(POSITIONS, FACETS, layer=-1), TypeError, "incompatible"),
+        (lambda w, b: w.add_body(np.empty((0, 3)), FACETS), tact.Error, "facet 0 names vertex"),
+        (lambda w, b: w.rays(POSITIONS, POSITIONS[:2]), (ValueError, tact.Error), ""),
+        (lambda w, b: w.rays(POSITIONS[:, :2], POSITIONS[:, :2]), ValueError, "shape"),
+        (lambda w, b: w.closest_points(POSITIONS + np.inf), tact.Error, "question 0"),
+        (lambda w, b: w.overlap_box([0, 0], [1, 1]), (TypeError, ValueError), ""),
+        (lambda w, b: tact.Settings(threads="two"), TypeError, "incompatible"),
+        (lambda w, b: w.find_contact, AttributeError, "find_contact"),
+    ],
+)
+def test_wrong_arguments_are_refused(world, call, exception, says):
+    body = world.add_body(POSITIONS, FACETS)
+    world.add_body(POSITIONS + [0.5, 0, 0], FACETS)
+    before = world.detect().hash()
+    with pytest.raises(exception, match=says):
+        call(world, body)
+    assert world.detect().hash() == before
+
+
+def test_positions_anywhere_in_memory_are_read(world):
+    bytes_ = np.zeros(POSITIONS.nbytes + 1, dtype=np.uint8)
+    odd = bytes_[1:].view(np.float64).reshape(-1, 3)  # no number stands where a processor would like it
+    odd[:] = POSITIONS
+    rows = np.zeros((4, 8))
+    rows[:, :3] = POSITIONS
+    hashes = set()
+    for given in (POSITIONS, odd, rows[:, :3]):
+        of_one = tact.World()
+        of_one.add_body(given, FACETS)
+        of_one.add_body(POSITIONS + [0.5, 0, 0], FACETS)
+        hashes.add(of_one.detect().hash())
+    assert len(hashes) == 1
+    with pytest.raises(ValueError, match="ascontiguousarray"):  # one row, shown four times
+        world.add_body(np.broadcast_to(POSITIONS[:1], (4, 3)), FACETS)
+
+
+def test_an_array_that_another_thread_writes_to_is_taken_or_refused(world):
+    positions, facets = grid(200)
+    body = world.add_body(positions, facets, surface=tact.Surface.sheet)
+    done = threading.Event()
+
+    def write():
+        while not done.is_set():
+            positions[::2, 2] = np.nan
+            positions[::2, 2] = 0.0
+
+    writing = threading.Thread(target=write)
+    writing.start()
+    try:
+        for _ in range(100):
+            try:
+                world.set_positions(body, positions)
+            except tact.Error as error:
+                assert error.code == tact.ErrorCode.non_finite_position
+    finally:
+        done.set()
+        writing.join()
+    world.set_positions(body, grid(200)[0])
+    assert len(world.detect()) == 0
+
+
+def test_two_threads_in_one_world_are_refused_and_harm_nothing():
+    world = tact.World(tact.Settings(threads=2))
+    sheets = [grid(40) for _ in range(4)]
+    for k, (positions, _) in enumerate(sheets):  # each tilted, so that all cross along one line
+        positions[:, 2] = 0.1 * k * (positions[:, 0] - 1.95)
+    bodies = [world.add_body(*sheet, surface=tact.Surface.sheet) for sheet in sheets]
+    wrong, other = [], []
+
+    def use(k):
+        for step in range(200):
+            try:
+                world.set_positions(bodies[k], sheets[k][0] + [0, 0, 1e-3 * (step % 7)])
+                world.detect().contacts
+            except tact.Error as error:
+                wrong.append(error.code)
+            except tact.StaleReportError:  # the other has stepped in between
+                pass
+            except BaseException as error:  # noqa: BLE001: whatever it is, the test shows it
+                other.append(error)
+
+    threads = [threading.Thread(target=use, args=(k,)) for k in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not other and set(wrong) <= {tact.ErrorCode.wrong_order}
+    world.set_positions({body: sheet[0] for body, sheet in zip(bodies, sheets)})
+    fresh = tact.World(tact.Settings(threads=1))
+    for sheet in sheets:
+        fresh.add_body(*sheet, surface=tact.Surface.sheet)
+    found, expected = world.detect().contacts, fresh.detect().contacts
+    assert len(found) == len(expected) == 6
+    for contact, same in zip(found, expected):
+        assert len(contact.facet_pairs) > 0
+        np.testing.assert_array_equal(contact.facet_pairs, same.facet_pairs)
+
+
+def test_a_motion_report_kept_over_the_next_says_so_or_is_whole(world):
+    body = world.add_body(POSITIONS, FACETS)
+    world.add_body(POSITIONS + [3, 0, 0], FACETS)
+    world.detect()
+    world.set_positions(body, POSITIONS + [6, 0, 0])
+    motion = world.detect_motion()
+    times, first = motion.times.copy(), motion.first_time
+    world.set_positions(body, POSITIONS)
+    world.detect_motion()
+    world.detect()
+    try:
+        np.testing.assert_array_equal(motion.times, times)
+        assert motion.first_time == first
+    except tact.StaleReportError:
+        pass
