@@ -13,8 +13,8 @@ install(FILES ${PROJECT_BINARY_DIR}/tact.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/
 add_custom_target(uninstall COMMENT "Removing what was installed"
   COMMAND ${CMAKE_COMMAND} -DMANIFEST_FOLDER=${PROJECT_BINARY_DIR} -P ${PROJECT_SOURCE_DIR}/cmake/uninstall.cmake)
 
-# Debian: libtact0, the shared library; libtact-dev, headers and how to find them; tact-tools, the program. From a shared
-# build, as any library of Debian: `cmake --preset packages && cmake --build --preset packages && cpack --config
+# Debian: libtact0, the shared library; libtact-dev, headers and how to find them; tact-tools, the program;
+# python3-tact, the package for Python. From a shared build, as any library of Debian: `cmake --preset packages && cmake --build --preset packages && cpack --config
 # build/packages/CPackConfig.cmake`.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tact)
@@ -36,5 +36,14 @@ if(TARGET tact_program)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME tact-tools)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libtact${PROJECT_VERSION_MAJOR} (= ${PROJECT_VERSION})")
+endif()
+if(TARGET tact_python)
+  find_package(Python3 COMPONENTS Interpreter)
+  math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-tact)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "libtact${PROJECT_VERSION_MAJOR} (= ${PROJECT_VERSION}), python3-numpy, \
+python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor})")
 endif()
 include(CPack)
