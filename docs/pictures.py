@@ -177,9 +177,9 @@ def points(file):
     picture.arrow((-0.45, foot[1]), (-0.45 + 0.9 * n[0], foot[1] + 0.9 * n[1]))
     picture.text((-0.95, 0.45), "normal", GOLD, "end")
     picture.text((2.0, 0.55), "margin of b", INK)
-    picture.text((2.0, -1.15), "margin of a", INK)
+    picture.text((2.1, -1.15), "margin of a", INK)
     picture.text((tip[0] + 0.15, 0.62), "vertex", INK)
-    picture.text((foot[0] + 0.12, -0.62), f"on the edge: weights {1 - t:.2f}, {t:.2f}", INK)
+    picture.text((foot[0] - 0.6, -0.92), f"on the edge: weights {1 - t:.2f}, {t:.2f}", INK)
     picture.save(file)
 
 

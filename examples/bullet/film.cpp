@@ -16,7 +16,7 @@ namespace {
 
 namespace pictures = tact::scenes;
 
-constexpr int kEvery = 12;     // steps from a frame to the next: 20 frames a second
+constexpr int kEvery = 20;     // steps from a frame to the next: 12 frames a second
 constexpr int kTile = 400;     // pixels
 constexpr int kSheetRows = 3;  // of the sheet, times of the film
 
@@ -99,7 +99,7 @@ void Film::end() {
   for (int i = 0; i < frames; ++i) pictures::write_png(pictures::frame_file(folder, i), beside_each_other({i}));
   pictures::write_png(folder / "sheet.png", beside_each_other(pictures::sheet_frames(frames, kSheetRows)));
   try {
-    std::printf("%s\n", pictures::make_film(folder, frames, folder / "film", {.frames_per_second = 20}).c_str());
+    std::printf("%s\n", pictures::make_film(folder, frames, folder / "film", {.frames_per_second = 12}).c_str());
   } catch (const pictures::NoEncoder& error) {
     std::fprintf(stderr, "%s\n", error.what());
   }
