@@ -56,4 +56,7 @@ def rivals(match):
 
 
 def on_page_markdown(markdown, page, config, files):
-    return RIVALS.sub(rivals, LINE.sub(shown, markdown))
+    markdown = RIVALS.sub(rivals, LINE.sub(shown, markdown))
+    if left := re.search(r"^ *\{\{ .*$", markdown, re.MULTILINE):
+        raise ValueError(f"{page.file.src_path}: nobody knows what to show for {left.group()}")
+    return markdown
