@@ -2,6 +2,7 @@
 
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -26,6 +27,8 @@ class CMakeBuild(build_ext):
             "-DTACT_BUILD_BENCH=OFF",
             f"-DPython3_EXECUTABLE={sys.executable}",
         ]
+        if shutil.which("ninja"):  # a machine with Ninja need not have make
+            options += ["-G", "Ninja"]
         subprocess.run(["cmake", "-S", PROJECT, "-B", build, *options], check=True)
         subprocess.run(["cmake", "--build", build, "--target", "tact_python", "--parallel"], check=True)
         subprocess.run(["cmake", "-E", "make_directory", target], check=True)

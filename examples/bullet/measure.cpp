@@ -55,7 +55,7 @@ void Measure::look(const Scene& scene, double milliseconds) {
   so_far_.gained = std::max(so_far_.gained, now.moving + now.lifted - energy_at_start_);
   if (times_.size() % kEvery != 0) return;
   for (std::size_t i = 0; i < ids_.size(); ++i) world_.set_positions(ids_[i], scene.positions(scene.bodies()[i]));
-  crossings_ = world_.detect().stats().facet_pairs;
+  so_far_.crossings = std::max(so_far_.crossings, world_.detect().stats().facet_pairs);
   so_far_.deepest = std::max(so_far_.deepest, deepest(scene));
 }
 
@@ -77,7 +77,6 @@ double Measure::deepest(const Scene& scene) const {
 
 Measured Measure::result(const Scene& scene) const {
   Measured measured = so_far_;
-  measured.crossings = crossings_;
   measured.moving = energy(scene).moving;
   for (const SceneBody& body : scene.bodies()) {
     const Eigen::Matrix3Xd positions = scene.positions(body);

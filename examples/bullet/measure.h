@@ -9,7 +9,7 @@ namespace example {
 
 struct Measured {
   double deepest = 0.0;        // how far a vertex was in another body, of every fourth step, metres
-  std::int64_t crossings = 0;  // facet pairs that cross at the end
+  std::int64_t crossings = 0;  // the most facet pairs that ever crossed
   double box_height = 0.0;     // of the rigid box's middle at the end, metres
   double cloth_height = 0.0;   // of the cloth's middle at the end, metres
   double moving = 0.0;         // kinetic energy at the end, joules
@@ -30,7 +30,6 @@ class Measure {
 
   tact::World world_;
   std::vector<tact::BodyId> ids_;
-  std::int64_t crossings_ = 0;
   Measured so_far_;
   double energy_at_start_ = 0.0;
   std::vector<double> times_;
