@@ -28,6 +28,8 @@ class SelfStage {
  public:
   /// Looks at every body that wants it and has changed since the last step, or at all of them.
   void run(Bodies& bodies, const Settings& settings, bool all, PointStage& points, narrowphase::EmbreeDevice& device);
+  /// Nothing has changed.
+  void keep() { same_ = true; }
   /// The bodies in contact with themselves, ascending by slot.
   std::span<const SelfRecord* const> contacts() const { return contacts_; }
   /// Are these the bodies of the step before?

@@ -1,16 +1,17 @@
-// The statistics of a step, put together from what its pairs and threads did.
+// The statistics of a step, from what its stages counted.
 #pragma once
 
-#include <tact/settings.h>
 #include <tact/statistics.h>
 
-#include "engine/pair/pair_record.h"
+#include "engine/bodies.h"
+#include "engine/narrow_phase.h"
+#include "engine/pair/pair_table.h"
 
 namespace tact {
 
-// Adds what the pair cost in this step, and how it was found.
-void add_work(const PairRecord& record, const Settings& settings, StepStats& stats);
-
-void add(StepStats& sum, const StepStats& one);
+void count_bodies(const Bodies& bodies, StepStats& stats);
+void count_pairs(const PairTable& table, StepStats& stats);
+/// What stages 3 to 6 cost.
+void count_work(const NarrowPhase& narrow_phase, StepStats& stats);
 
 }  // namespace tact

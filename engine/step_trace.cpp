@@ -20,36 +20,36 @@ Time::duration duration_of(double ms) {
 }
 
 // What one thread took for all stages of the pair; a large pair's stage 6 comes later.
-Time::duration pair_duration(const PairCounts& counts) {
-  return duration_of(counts.hulls_ms) + duration_of(counts.direction_ms) + duration_of(counts.cull_ms) +
-         (counts.in_ranges ? Time::duration(0) : duration_of(counts.confirm_ms));
+Time::duration pair_duration(const PairTimes& times) {
+  return duration_of(times.hulls_ms) + duration_of(times.direction_ms) + duration_of(times.cull_ms) +
+         (times.in_ranges ? Time::duration(0) : duration_of(times.confirm_ms));
 }
 
 std::int64_t facet_pairs_of(const PairRecord& record) { return static_cast<std::int64_t>(record.facet_pairs.size()); }
 
 // Durations are rounded: none ends after `latest`, when the thread went on to the next pair.
 void add_pair(const PairRecord& record, Time latest, std::vector<TraceEvent>& events) {
-  const PairCounts& counts = record.counts;
-  const Time end = std::min(counts.begin + pair_duration(counts), latest);
-  events.push_back({Kind::pair, counts.thread, counts.begin, end, record.a, record.b, facet_pairs_of(record)});
-  Time begin = counts.begin;
-  for (const auto& [kind, ms] : {std::pair{Kind::hulls, counts.hulls_ms},
-                                 {Kind::direction, counts.direction_ms},
-                                 {Kind::cull, counts.cull_ms},
-                                 {Kind::confirm, counts.confirm_ms}}) {
-    if (ms == 0.0 || (kind == Kind::confirm && counts.in_ranges)) continue;
+  const PairTimes& times = record.times;
+  const Time end = std::min(times.begin + pair_duration(times), latest);
+  events.push_back({Kind::pair, times.thread, times.begin, end, record.a, record.b, facet_pairs_of(record)});
+  Time begin = times.begin;
+  for (const auto& [kind, ms] : {std::pair{Kind::hulls, times.hulls_ms},
+                                 {Kind::direction, times.direction_ms},
+                                 {Kind::cull, times.cull_ms},
+                                 {Kind::confirm, times.confirm_ms}}) {
+    if (ms == 0.0 || (kind == Kind::confirm && times.in_ranges)) continue;
     const Time stage_end = std::min(begin + duration_of(ms), latest);
     const std::int64_t count = kind == Kind::confirm ? facet_pairs_of(record) : 0;
-    events.push_back({kind, counts.thread, begin, stage_end, record.a, record.b, count});
+    events.push_back({kind, times.thread, begin, stage_end, record.a, record.b, count});
     begin = stage_end;
   }
 }
 
-void add_ranges(const PairWork& large, std::vector<TraceEvent>& events) {
-  const PairRecord& record = *large.record;
-  const Time end = large.ranges_begin + duration_of(record.counts.confirm_ms);
-  events.push_back({Kind::confirm, 0, large.ranges_begin, end, record.a, record.b, facet_pairs_of(record)});
-  for (const ConfirmedRange& range : std::span(large.ranges).first(large.range_count)) {
+void add_ranges(const LargePair& large, std::vector<TraceEvent>& events) {
+  const PairRecord& record = *large.culled.record;
+  const Time end = large.begin + duration_of(record.times.confirm_ms);
+  events.push_back({Kind::confirm, 0, large.begin, end, record.a, record.b, facet_pairs_of(record)});
+  for (const ConfirmedRange& range : large.used_ranges()) {
     events.push_back({Kind::range, range.thread, range.begin, range.end, record.a, record.b,
                       static_cast<std::int64_t>(range.found.size())});
   }
@@ -74,7 +74,7 @@ bool before(const TraceEvent& x, const TraceEvent& y) {
 }  // namespace
 
 void StepTrace::make(Time begin, Time end, const StepStats& stats, std::span<const MovedPair> pairs,
-                     std::span<const std::unique_ptr<PairWork>> large, std::vector<TraceEvent>& events) {
+                     std::span<const std::unique_ptr<LargePair>> large, std::vector<TraceEvent>& events) {
   std::size_t most = refreshes_.size() + kEventsOfStep + kEventsOfPair * pairs.size();
   for (const auto& work : large) most += work->range_count + 1;
   events.reserve(most);
@@ -89,7 +89,7 @@ void StepTrace::make(Time begin, Time end, const StepStats& stats, std::span<con
 // On the thread that called, before all other pairs; these are in order by now.
 void StepTrace::add_parted(Time begin, const StepStats& stats, std::vector<TraceEvent>& events) {
   Time end = begin + std::min(duration_of(stats.parting_ms), duration_of(stats.narrow_phase_ms));
-  if (!by_thread_.empty() && by_thread_[0]->counts.thread == 0) end = std::min(end, by_thread_[0]->counts.begin);
+  if (!by_thread_.empty() && by_thread_[0]->times.thread == 0) end = std::min(end, by_thread_[0]->times.begin);
   events.push_back({.kind = Kind::parted_pairs, .begin = begin, .end = end, .count = stats.parted_pairs});
 }
 
@@ -97,7 +97,7 @@ void StepTrace::add_pairs(std::span<const MovedPair> pairs, std::vector<TraceEve
   by_thread_.clear();
   for (const MovedPair& pair : pairs) by_thread_.push_back(pair.record);
   std::sort(by_thread_.begin(), by_thread_.end(), [](const PairRecord* x, const PairRecord* y) {
-    return std::tie(x->counts.thread, x->counts.begin) < std::tie(y->counts.thread, y->counts.begin);
+    return std::tie(x->times.thread, x->times.begin) < std::tie(y->times.thread, y->times.begin);
   });
   TraceEvent small{.kind = Kind::small_pairs};
   const auto flush = [&] {
@@ -106,19 +106,19 @@ void StepTrace::add_pairs(std::span<const MovedPair> pairs, std::vector<TraceEve
   };
   for (std::size_t i = 0; i < by_thread_.size(); ++i) {
     const PairRecord& record = *by_thread_[i];
-    const PairCounts& counts = record.counts;
-    const bool last = i + 1 == by_thread_.size() || by_thread_[i + 1]->counts.thread != counts.thread;
-    const Time latest = last ? Time::max() : by_thread_[i + 1]->counts.begin;
-    const Time::duration duration = pair_duration(counts);
-    const bool is_long = counts.in_ranges || duration >= kLongPair;
-    if (is_long || counts.thread != small.thread) flush();
+    const PairTimes& times = record.times;
+    const bool last = i + 1 == by_thread_.size() || by_thread_[i + 1]->times.thread != times.thread;
+    const Time latest = last ? Time::max() : by_thread_[i + 1]->times.begin;
+    const Time::duration duration = pair_duration(times);
+    const bool is_long = times.in_ranges || duration >= kLongPair;
+    if (is_long || times.thread != small.thread) flush();
     if (is_long) {
       add_pair(record, latest, events);
       continue;
     }
-    if (small.count == 0) small.begin = counts.begin;
-    small.thread = counts.thread;
-    small.end = std::min(counts.begin + duration, latest);
+    if (small.count == 0) small.begin = times.begin;
+    small.thread = times.thread;
+    small.end = std::min(times.begin + duration, latest);
     ++small.count;
   }
   flush();

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "engine/base/timer.h"
+#include "engine/pair/confirm.h"
 #include "engine/pair/pair_table.h"
-#include "engine/pair/pair_work.h"
 
 namespace tact {
 
@@ -29,7 +29,7 @@ class StepTrace {
   // time; an event stands before those within it. `pairs` are those that the step looked at and no diagonal parts,
   // `large` those cut into ranges.
   void make(Time begin, Time end, const StepStats& stats, std::span<const MovedPair> pairs,
-            std::span<const std::unique_ptr<PairWork>> large, std::vector<TraceEvent>& events);
+            std::span<const std::unique_ptr<LargePair>> large, std::vector<TraceEvent>& events);
 
  private:
   void add_pairs(std::span<const MovedPair> pairs, std::vector<TraceEvent>& events);

@@ -6,67 +6,49 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "narrowphase/criteria/criteria.h"
 #include "narrowphase/depth/star_surface.h"
 #include "narrowphase/hull/gjk.h"
 
 namespace tact {
 
-// What the last step that looked at the pair says about the direction: where the next one starts. It looks at no pair
-// that a diagonal parts, see PairTable.
+/// What the last step that looked at the pair says about the direction: where the next one starts. Pairs that
+/// separate_by_kdop() settles are not looked at.
 struct PairHistory {
   enum class Kind : std::uint8_t { none, separated, overlapping };
-  base::Vec3 direction;           // unit, from a to b: separates the hulls, or is their contact direction
-  narrowphase::GjkSimplex hulls;  // where GJK on the hulls ended
+  base::Vec3 direction;           ///< unit, from a to b: separates the hulls, or is their contact direction
+  narrowphase::GjkSimplex hulls;  ///< where GJK on the hulls ended
   Kind kind = Kind::none;
-  bool has_surface = false;  // PairRecord::surface is of the last step
+  bool has_surface = false;  ///< PairRecord::surface is of the last step
 };
 
-// What happened in the last step that looked at the pair.
-struct PairCounts {
-  TraceEvent::Time begin;  // if Outputs::trace is set
-  float hulls_ms = 0.0f, direction_ms = 0.0f, cull_ms = 0.0f, confirm_ms = 0.0f;
-  std::int32_t thread = 0;  // that looked at the pair, from `begin` on
-  std::int32_t gjk_iterations = 0;
-  bool still_separated = false;
-  bool still_overlapping = false;
-  bool limit_reached = false;
-  bool in_ranges = false;  // stage 6 was cut into ranges, for all threads
+/// When the last step looked at the pair, and for how long: for the trace.
+struct PairTimes {
+  TraceEvent::Time begin;  ///< if Outputs::trace is set
+  float hulls_ms = 0.0f;
+  float direction_ms = 0.0f;
+  float cull_ms = 0.0f;
+  float confirm_ms = 0.0f;
+  std::int32_t thread = 0;  ///< that looked at the pair, from `begin` on
+  bool in_ranges = false;   ///< stage 6 was cut into ranges, for all threads
 };
 
-// The same of stages 5 and 6, of pairs whose hulls overlap.
-struct FacetCounts {
-  std::int64_t facets = 0;    // of both bodies
-  std::int64_t clusters = 0;  // likewise
-  std::int64_t clusters_outside_box = 0;
-  std::int64_t clusters_outside_slab = 0;
-  narrowphase::CullCounts cull;  // of both bodies
-  std::int64_t cluster_pairs = 0;
-  std::int64_t facet_box_pairs = 0;
-  std::int64_t triangle_tests = 0;
-  std::int64_t exact_predicates = 0;
-  bool used_trees = false;
-};
-
-// Most pairs are apart: what these need comes first, in few lines of memory.
+/// Most pairs are apart: what these need comes first, in few lines of memory.
 struct alignas(64) PairRecord {
   BodyId a, b;
   bool hulls_overlap = false;
-  bool near = false;  // the hulls are apart by less than the sum of the margins
+  bool near = false;  ///< the hulls are apart by less than the sum of the margins
   PairHistory history;
-  PairCounts counts;
+  PairTimes times;
   // Of pairs whose hulls overlap; for others the vectors are empty and the rest is old.
-  narrowphase::GjkSimplex face;  // the face of the Minkowski difference that held the foot in the last step
-  FacetCounts facet_counts;
+  narrowphase::GjkSimplex face;  ///< of the Minkowski difference, which the contact direction ended on in the last step
   Contact contact;
-  std::vector<FacetPair> facet_pairs;  // sorted
-  std::size_t room_left = 0;           // for facet pairs, by a large pair that had this record before, see PairTable
+  std::vector<FacetPair> facet_pairs;  ///< sorted
+  std::size_t room_left = 0;           ///< for facet pairs, by a large pair that had this record before, see PairTable
   std::vector<Patch> patches;
-  std::vector<ContactPoint> points;                    // of pairs in contact, sorted
-  std::unique_ptr<narrowphase::SurfaceShape> surface;  // where the search for the smallest separation ended, once
+  std::vector<ContactPoint> points;                    ///< of pairs in contact, sorted
+  std::unique_ptr<narrowphase::SurfaceShape> surface;  ///< where the search for the smallest separation ended, once
 };
 
 inline bool in_contact(const PairRecord& record) { return record.hulls_overlap || record.near; }

@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/base/fast_paths.h"
-#include "engine/base/parallel.h"
-
 namespace tact {
 
 namespace {
 
-using narrowphase::SeparatingDiagonal;
-
 constexpr std::size_t kLargestRoom = 512;                      // facet pairs, 4 kB
 constexpr std::size_t kMostSpareRoom = std::size_t{1} << 20;   // facet pairs, 8 MB
-constexpr std::size_t kPartedAtATime = 2048;                   // pairs
 constexpr std::size_t kFewestRecords = 4, kMostRecords = 256;  // taken at once
 
 bool names(const Bodies& bodies, BodyId id) { return bodies.in_slot(id.index).id == id; }
@@ -38,6 +32,7 @@ void renumber_vertices(PairRecord& record, std::span<const int> numbers, InSimpl
 void PairTable::update(const broadphase::SweepAndPrune& sweep, const Bodies& bodies, bool all) {
   gone_.clear();
   moved_.clear();
+  separated_ = 0;
   same_pairs_ = !all && !bodies.removed_any() && !sweep.pairs_changed();
   if (same_pairs_) {
     select_moved(bodies);
@@ -135,43 +130,21 @@ void PairTable::renumber(std::span<const Bodies::Regrouped> bodies) {
   }
 }
 
-void PairTable::take_out_parted(Bodies& bodies, int threads) {
-  if (base::fast_paths() == base::FastPaths::off) return;
-  // Of a pair that was apart, or is new, both bodies know how far they reach, whatever other pairs they have: what is
-  // found of a pair depends on no other. Bodies that moved and have no such pair need not know when they move next.
-  for (const std::uint32_t slot : bodies.changed()) bodies.want_diagonals(slot, false);
-  for (const MovedPair& pair : moved_) {
-    if (candidates_[pair.place].hulls_overlap || has_margin(pair, bodies)) continue;
-    bodies.want_diagonals(pairs_[pair.place].a, true);
-    bodies.want_diagonals(pairs_[pair.place].b, true);
-  }
-  bodies.find_diagonals(threads);
-  base::parallel_for(moved_.size(), kPartedAtATime, threads,
-                     [&](std::size_t i) { moved_[i].parted = part(moved_[i], bodies); });
-  parted_ = std::erase_if(moved_, [](const MovedPair& pair) { return pair.parted; });
+void PairTable::keep() {
+  moved_.clear();
+  gone_.clear();
+  separated_ = 0;
+  same_pairs_ = true;
 }
 
-// How far apart such bodies are matters.
-bool PairTable::has_margin(const MovedPair& pair, const Bodies& bodies) const {
-  return bodies.reach(pairs_[pair.place].a, pairs_[pair.place].b) > 0.0;
+void PairTable::drop_separated() {
+  separated_ = std::erase_if(moved_, [](const MovedPair& pair) { return pair.separated; });
 }
 
-// Was the pair apart, and does a diagonal part it, the last one or another? Notes which.
-bool PairTable::part(const MovedPair& pair, const Bodies& bodies) {
-  if (candidates_[pair.place].hulls_overlap || has_margin(pair, bodies)) return false;
-  const broadphase::IndexPair slots = pairs_[pair.place];
-  const auto *a = bodies.diagonals(slots.a), *b = bodies.diagonals(slots.b);
-  SeparatingDiagonal& parting = entries_[pair.place].parting;
-  const SeparatingDiagonal last = parting;
-  const bool known = a != nullptr && b != nullptr;
-  if (known && narrowphase::separates(last, *a, *b)) return true;
-  parting = known ? narrowphase::separating_diagonal(*a, *b) : SeparatingDiagonal{0};
-  if (parting != 0) return true;
-  if (last != 0) {
-    pair.record->history.kind = PairHistory::Kind::separated;
-    pair.record->history.direction = narrowphase::direction_of(last);
-  }
-  return false;
+void PairTable::note_result(MovedPair& pair) {
+  const bool in_contact = tact::in_contact(*pair.record);
+  pair.changed = std::exchange(entries_[pair.place].in_contact, in_contact) != in_contact;
+  candidates_[pair.place].hulls_overlap = pair.record->hulls_overlap;
 }
 
 bool PairTable::same_contacts() const {

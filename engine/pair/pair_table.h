@@ -15,35 +15,34 @@
 
 namespace tact {
 
-// A pair that the step looks at.
+/// A pair that the step looks at.
 struct MovedPair {
   PairRecord* record = nullptr;
-  std::uint32_t place = 0;  // among the candidates
-  bool touched = false;     // in the step before
-  bool changed = false;     // is it in contact now and was not in the step before, or the other way around?
-  bool parted = false;      // along a diagonal
+  std::uint32_t place = 0;  ///< among the candidates
+  bool touched = false;     ///< in the step before
+  bool changed = false;     ///< is it in contact now and was not in the step before, or the other way around?
+  bool separated = false;   ///< by an axis of the k-DOPs
 };
 
+/// Matches the pairs of the sweep with those of the last step, and owns their records. Runs no geometry.
 class PairTable {
  public:
   // Takes the pairs of the sweep, sorted: a pair that stays keeps its record, unless a body of it was replaced by
   // another. Then moved() are those with a body that moved, or all.
   void update(const broadphase::SweepAndPrune& sweep, const Bodies& bodies, bool all);
-  // Nothing moved.
-  void keep() {
-    moved_.clear();
-    parted_ = 0;
-  }
+  // Nothing moved: the pairs and the contacts are those of the last step.
+  void keep();
   // Vertices have other numbers: so have those that the records name. `bodies` are sorted by slot.
   void renumber(std::span<const Bodies::Regrouped> bodies);
-  // Takes pairs out of moved() that were apart and still are, along a diagonal: their records are not read. A pair that
-  // is not taken out any more starts from the diagonal that parted it last.
-  void take_out_parted(Bodies& bodies, int threads);
+  // Drops from moved() the pairs that are marked as separated.
+  void drop_separated();
 
   // Sorted by (a, b). Records of pairs that are not looked at are not read either, as memory is what costs where little
   // moves.
   std::span<const CandidatePair> candidates() const { return candidates_; }
   PairRecord& record(std::size_t place) { return *entries_[place].record; }
+  // The axis of the k-DOPs that separated the pair in the last step in which a body of it moved; 0 if none did.
+  narrowphase::SeparatingDiagonal& separating_axis(std::size_t place) { return entries_[place].separating_axis; }
   // Where the last report has the contact; kNowhere if it has none, or if a new one cannot take it from there, as the
   // step looked at the pair.
   static constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
@@ -53,16 +52,10 @@ class PairTable {
   std::span<const MovedPair> moved() const { return moved_; }
   // Records are given out again in any order: one whose facets are looked at gets room for what the largest held.
   void make_room(PairRecord& record) const { record.facet_pairs.reserve(room_); }
-  // How many were taken out.
-  std::size_t parted() const { return parted_; }
-  // Before and after a step looks at a pair; a thread each.
-  void begin(MovedPair& pair) const { pair.touched = touches(*pair.record); }
-  void end(MovedPair& pair) {
-    bool& in_contact = entries_[pair.place].in_contact;
-    pair.changed = in_contact != tact::in_contact(*pair.record);
-    in_contact = tact::in_contact(*pair.record);
-    candidates_[pair.place].hulls_overlap = pair.record->hulls_overlap;
-  }
+  // How many were dropped.
+  std::size_t separated() const { return separated_; }
+  // Takes over what a step found of a pair. Different pairs may be noted by different threads.
+  void note_result(MovedPair& pair);
   // Does it touch, once it was looked at? Pairs that are apart and were are not read.
   bool touches_now(const MovedPair& pair) const {
     return candidates_[pair.place].hulls_overlap && touches(*pair.record);
@@ -80,10 +73,8 @@ class PairTable {
     PairRecord* record = nullptr;
     std::uint32_t place_in_report = kNowhere;
     bool in_contact = false;
-    narrowphase::SeparatingDiagonal parting = 0;  // in the last step in which a body of the pair moved
+    narrowphase::SeparatingDiagonal separating_axis = 0;
   };
-  bool part(const MovedPair& pair, const Bodies& bodies);
-  bool has_margin(const MovedPair& pair, const Bodies& bodies) const;
   void select_moved(const Bodies& bodies);
   void match(std::span<const broadphase::IndexPair> pairs, const Bodies& bodies, bool all);
   void add_records();
@@ -101,7 +92,7 @@ class PairTable {
   std::vector<CandidatePair> last_candidates_;
   std::vector<Entry> last_entries_;
   std::vector<MovedPair> moved_;
-  std::size_t parted_ = 0;
+  std::size_t separated_ = 0;
   std::vector<ContactEvent> gone_;
   bool same_pairs_ = false;
 };

@@ -1,12 +1,13 @@
-// Stages 3 to 6 for one pair of bodies. Reads the two bodies, writes the pair's record and nothing else.
+// What the stages of a pair hand to each other: the two bodies, what the criteria leave of them, a thread's memory.
 #pragma once
 
-#include <memory>
+#include <tact/settings.h>
+
 #include <vector>
 
 #include "engine/base/key_sort.h"
-#include "engine/base/timer.h"
 #include "engine/bodies.h"
+#include "engine/pair/pair_counts.h"
 #include "engine/pair/pair_record.h"
 #include "narrowphase/depth/smallest_separation.h"
 #include "narrowphase/direction/minkowski_face.h"
@@ -15,49 +16,41 @@
 
 namespace tact {
 
-// A part of stage 6 of a large pair: when and by which thread, and what was found.
-struct ConfirmedRange {
-  int thread = 0;
-  TraceEvent::Time begin, end;
-  std::vector<FacetPair> found;
-  narrowphase::ConfirmCounts counts;
-  std::vector<narrowphase::OpenedCluster> opened_a, opened_b;
+/// Two bodies as the stages of a pair see them.
+struct PairInput {
+  PairInput(const Body& body_a, const Body& body_b, double sum_of_margins, const Settings& of_world)
+      : a(body_a), b(body_b), difference(body_a.mesh, body_b.mesh), reach(sum_of_margins), settings(of_world) {}
+
+  const Body& a;
+  const Body& b;
+  narrowphase::MinkowskiDifference difference;  ///< of their hulls
+  double reach;                                 ///< the sum of their margins, metres: hulls nearer than this are near
+  const Settings& settings;
 };
 
-// A pair between the criteria and the confirmation, and the memory for both; reused from pair to pair.
-struct PairWork {
+/// What stage 5 leaves of a pair for stage 6.
+struct CulledPair {
   PairRecord* record = nullptr;
-  narrowphase::ConfirmInput input;
+  const narrowphase::ClusteredMesh* a = nullptr;
+  const narrowphase::ClusteredMesh* b = nullptr;
+  narrowphase::Criteria criteria_a, criteria_b;
   narrowphase::KeptClusters kept_a, kept_b;
   std::vector<narrowphase::ClusterPair> cluster_pairs;
-  std::vector<narrowphase::Point2> zone_points;
-  narrowphase::ClusterPairWork cluster_pair_work;
-  narrowphase::FaceFinder faces;
-  narrowphase::SmallestMemory smallest;
-  bool asks_ahead = true;          // for the memory of facets: see Bodies::stay_in_cache()
-  bool surface_is_placed = false;  // smallest.surface is the record's, where the bodies are now
-  narrowphase::CullCounts cull_a, cull_b;
-  narrowphase::FacetPairSearch search;
-  base::KeySorter sorter;
-  std::vector<ConfirmedRange> ranges;  // of a large pair, from `ranges_begin` on; `range_count` of them are in use
-  std::size_t range_count = 0;
-  std::vector<char> seen_b;  // by cluster of kept_b
-  TraceEvent::Time ranges_begin;
+
+  narrowphase::ConfirmInput confirm_input() const { return {a, b, criteria_a, criteria_b, &kept_a, &kept_b}; }
 };
 
-// Stages 3 to 5: do the hulls overlap, in which direction and how deep, which clusters are left, and which pairs of
-// them meet. Returns true if there are cluster pairs to confirm. `timer` is the thread's, and runs from pair to pair.
-// Hulls that are apart by less than `reach`, the sum of the margins, are near.
-bool find_direction_and_cull(PairRecord& record, const Body& a, const Body& b, double reach, const Settings& settings,
-                             narrowphase::EmbreeDevice& device, PairWork& work, base::Timer& timer);
-
-// Stage 6 in the calling thread: the facet pairs of `work`, into its record.
-void confirm(PairWork& work, base::Timer& timer);
-
-// Stage 6 with the cluster pairs cut into ranges, for a pair too large for one thread.
-void confirm_in_ranges(PairWork& work, std::vector<PairWork>& thread_work, int threads);
-
-// Does it pay to cut the pair into ranges, one of `pairs` that a step looks at?
-bool is_large(const PairWork& work, std::size_t pairs, int threads);
+/// A thread's memory for the stages, used again from pair to pair, and its counts of all pairs in a step.
+struct PairWork {
+  PairCounts counts;
+  narrowphase::FaceFinder faces;
+  narrowphase::SmallestMemory smallest;
+  std::vector<narrowphase::Point2> zone_points;
+  narrowphase::ClusterPairWork cluster_pair_work;
+  bool prefetches = true;  ///< the memory of facets, see Bodies::stay_in_cache()
+  CulledPair culled;
+  narrowphase::FacetPairSearch search;
+  base::KeySorter sorter;
+};
 
 }  // namespace tact

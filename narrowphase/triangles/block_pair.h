@@ -15,6 +15,13 @@ struct ConfirmCounts {
   std::int64_t facet_box_pairs = 0;
   std::int64_t triangle_tests = 0;
   PredicateCounts predicates;
+
+  ConfirmCounts& operator+=(const ConfirmCounts& other) {
+    facet_box_pairs += other.facet_box_pairs;
+    triangle_tests += other.triangle_tests;
+    predicates.exact += other.predicates.exact;
+    return *this;
+  }
 };
 
 // A grid over a box, which ends where cell `last` begins.

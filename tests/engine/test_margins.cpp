@@ -37,6 +37,21 @@ TEST(Margins, HullsNearerThanTheirSumAreInContact) {
   EXPECT_EQ(world.margin(b), 0.25);
 }
 
+// An axis of the k-DOPs separates the bodies, but is asked only of pairs that are not in contact.
+TEST(Margins, AContactOfNearBodiesEndsWithTheirMargins) {
+  World world;
+  const Mesh ball = icosphere(2);
+  const BodyId a = world.add_body(definition(ball, 0.2));
+  const BodyId b = world.add_body(definition(translated(ball, {-1.6, -1.6, 0.0}), 0.2));
+  ASSERT_EQ(world.detect().contacts().size(), 1u);
+  world.set_margin(a, 0.0);
+  world.set_margin(b, 0.0);
+  const Report& report = world.detect();
+  EXPECT_EQ(report.candidate_pairs().size(), 1u);
+  EXPECT_EQ(report.contacts().size(), 0u);
+  EXPECT_EQ(report.stats().contacts, 0);
+}
+
 // From apart through near to deep and back: no step in which the contact is lost.
 TEST(Margins, AContactGoesThroughNearOnItsWay) {
   World world({.outputs = {.points = true}});

@@ -77,7 +77,7 @@ struct Contact {
   std::span<const Patch> patches() const { return patches_; }
 
  private:
-  friend class Step;
+  friend class ReportWriter;
   std::span<const FacetPair> facet_pairs_;
   std::span<const Patch> patches_;
   std::span<const ContactPoint> points_;
@@ -126,7 +126,7 @@ class TACT_API Report {
   std::uint64_t hash() const;
 
  private:
-  friend class Step;
+  friend class ReportWriter;
   Report(Report&&) = default;
   Report& operator=(Report&&) = default;
   std::vector<Contact> contacts_;

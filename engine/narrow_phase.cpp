@@ -1,0 +1,113 @@
+#include "engine/narrow_phase.h"
+
+#include <utility>
+
+#include "engine/base/parallel.h"
+#include "engine/pair/cull.h"
+#include "engine/pair/find_direction.h"
+#include "engine/pair/prefetch.h"
+#include "engine/pair/separate_by_kdop.h"
+#include "engine/pair/test_hulls.h"
+
+namespace tact {
+
+namespace {
+
+constexpr std::size_t kFewestAtATime = 4, kMostAtATime = 64;  // pairs
+
+void clear_answers(PairRecord& record) {
+  record.facet_pairs.clear();
+  record.patches.clear();
+  record.points.clear();
+}
+
+}  // namespace
+
+void NarrowPhase::run(PairTable& table, Bodies& bodies, const Settings& settings, narrowphase::EmbreeDevice& device,
+                      const base::Timer& timer) {
+  base::Timer own_timer = timer;
+  own_timer.lap();
+  separate_by_kdop(table, bodies, settings.threads);
+  kdop_ms_ = own_timer.lap();
+
+  const auto threads = static_cast<std::size_t>(settings.threads);
+  work_.resize(threads);
+  for (PairWork& work : work_) {
+    work.counts = {};
+    work.prefetches = !bodies.stay_in_cache();
+  }
+  clocks_.assign(threads, {.timer = own_timer});
+  large_count_ = 0;
+  const std::span<MovedPair> moved = table.moved();
+  const std::size_t grain = base::grain_of(moved.size(), settings.threads, kFewestAtATime, kMostAtATime);
+  const PairPrefetch prefetch(bodies, moved, grain, settings.threads);
+  base::parallel_for(moved.size(), grain, settings.threads, [&](std::size_t i, int thread) {
+    if (prefetch.pays()) prefetch.ask_ahead_of(i);
+    PairRecord& record = *moved[i].record;
+    moved[i].touched = touches(record);
+    const PairInput pair(bodies.in_slot(record.a.index), bodies.in_slot(record.b.index),
+                         bodies.reach(record.a.index, record.b.index), settings);
+    look_at(pair, record, table, device, thread);
+    table.note_result(moved[i]);
+  });
+  for (const auto& large : this->large()) confirm_in_ranges(*large, work_, settings.threads);
+}
+
+// One pair through stages 3 to 6. A large one is put aside before the last.
+void NarrowPhase::look_at(const PairInput& pair, PairRecord& record, PairTable& table,
+                          narrowphase::EmbreeDevice& device, int thread) {
+  PairWork& work = work_[static_cast<std::size_t>(thread)];
+  ThreadClock& clock = clocks_[static_cast<std::size_t>(thread)];
+  if (!std::exchange(clock.begun, true)) clock.timer.lap();
+  const auto note = [&](float PairTimes::*of_pair, double PairCounts::*sum) {
+    const double ms = clock.timer.lap();
+    record.times.*of_pair = static_cast<float>(ms);
+    work.counts.*sum += ms;
+    return ms;
+  };
+  record.times = {.begin = clock.timer.start(), .thread = thread};
+  if (in_contact(record)) clear_answers(record);
+
+  const HullTest hulls = test_hulls(pair, record, work);
+  const double hulls_ms = note(&PairTimes::hulls_ms, &PairCounts::hulls_ms);
+  if (hulls.took_gjk) work.counts.gjk_ms += hulls_ms;
+  if (!hulls.overlap) return;
+
+  const narrowphase::Slab slab = find_direction(pair, hulls, record, work);
+  note(&PairTimes::direction_ms, &PairCounts::direction_ms);
+  if (pair.settings.accuracy == Accuracy::hulls) return;
+
+  cull(pair, slab, record, device, work);
+  note(&PairTimes::cull_ms, &PairCounts::cull_ms);
+  if (work.culled.cluster_pairs.empty()) return;
+
+  table.make_room(record);
+  if (is_large(work.culled, table.moved().size(), pair.settings.threads)) {
+    record.times.in_ranges = true;
+    put_aside(work.culled);
+    return;
+  }
+  confirm(work);
+  note(&PairTimes::confirm_ms, &PairCounts::confirm_ms);
+}
+
+// Takes a large pair and gives other memory for it.
+void NarrowPhase::put_aside(CulledPair& culled) {
+  const std::lock_guard lock(large_mutex_);
+  if (large_.size() == large_count_) large_.push_back(std::make_unique<LargePair>());
+  std::swap(culled, large_[large_count_++]->culled);
+}
+
+void NarrowPhase::forget() {
+  large_count_ = 0;
+  large_.clear();
+  work_.clear();
+}
+
+PairCounts NarrowPhase::counts() const {
+  PairCounts sum;
+  for (const PairWork& work : work_) sum += work.counts;
+  return sum;
+}
+
+}  // namespace tact

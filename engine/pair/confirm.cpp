@@ -1,0 +1,136 @@
+#include "engine/pair/confirm.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "engine/base/fast_paths.h"
+#include "engine/base/parallel.h"
+#include "engine/base/timer.h"
+
+namespace tact {
+
+namespace {
+
+using namespace narrowphase;
+using base::fast_paths;
+using base::FastPaths;
+
+// A pair of bodies is cut into ranges if it has many pairs of clusters, or if a step has few pairs of bodies to share
+// out. A pair of clusters takes about a microsecond, and at a border between ranges a few clusters are opened twice.
+constexpr std::size_t kLargePair = 4096, kFewestInRanges = 128, kFewestInRange = 32;  // pairs of clusters
+constexpr std::size_t kPairsPerThread = 4;                                            // pairs of bodies
+constexpr std::size_t kRangesPerThread = 4;
+
+void sort_facet_pairs(const CulledPair& culled, base::KeySorter& sorter, int threads) {
+  std::vector<FacetPair>& pairs = culled.record->facet_pairs;
+  if (pairs.size() <= kMostSorted) return kernels().sort_pairs(pairs.data(), static_cast<int>(pairs.size()));
+  const auto bits_of = [](const ClusteredMesh& mesh) {
+    return std::bit_width(static_cast<unsigned>(mesh.facet_count()));
+  };
+  const auto bits_a = bits_of(*culled.a), bits_b = bits_of(*culled.b);
+  const std::span<std::uint64_t> keys = sorter.keys(pairs.size());
+  std::ranges::transform(pairs, keys.begin(), [&](const FacetPair& pair) {
+    return static_cast<std::uint64_t>(pair.a) << bits_b | static_cast<std::uint64_t>(pair.b);
+  });
+  std::ranges::transform(sorter.sort(bits_a + bits_b, threads), pairs.begin(), [&](std::uint64_t key) {
+    return FacetPair{static_cast<int>(key >> bits_b), static_cast<int>(key & ((std::uint64_t{1} << bits_b) - 1))};
+  });
+}
+
+// What the criteria did to the facets of the clusters of either body that were opened.
+struct OpenedFacets {
+  CullCounts a, b;
+};
+
+void finish(const CulledPair& culled, const OpenedFacets& opened, const ConfirmCounts& confirmed, int threads,
+            PairWork& work) {
+  sort_facet_pairs(culled, work.sorter, threads);
+  culled.record->contact.kept_facets_a = opened.a.kept;
+  culled.record->contact.kept_facets_b = opened.b.kept;
+  work.counts.cull += opened.a;
+  work.counts.cull += opened.b;
+  work.counts.confirm += confirmed;
+}
+
+// Where the i-th of `count` ranges begins: between two clusters of A.
+std::size_t range_begin(const std::vector<ClusterPair>& pairs, std::size_t i, std::size_t count) {
+  std::size_t begin = pairs.size() * i / count;
+  while (begin > 0 && begin < pairs.size() && pairs[begin].a == pairs[begin - 1].a) ++begin;
+  return begin;
+}
+
+// Equally many for each thread that has enough to do; of large pairs several, so that threads end together.
+std::size_t count_of_ranges(std::size_t pairs, int threads) {
+  const std::size_t fewest = fast_paths() == FastPaths::always ? 1 : kFewestInRange;
+  const std::size_t at_once = std::clamp<std::size_t>(pairs / fewest, 1, static_cast<std::size_t>(threads));
+  return at_once * std::clamp<std::size_t>(pairs / (2 * fewest * at_once), 1, kRangesPerThread);
+}
+
+void confirm_range(const LargePair& large, std::size_t i, FacetPairSearch& search, ConfirmedRange& range) {
+  const std::vector<ClusterPair>& pairs = large.culled.cluster_pairs;
+  range.begin = base::Timer::Clock::now();
+  range.found.clear();
+  range.counts = {};
+  search.run(large.culled.confirm_input(), pairs, range_begin(pairs, i, large.range_count),
+             range_begin(pairs, i + 1, large.range_count), range.found, range.counts);
+  range.opened_a = search.opened_a();
+  range.opened_b = search.opened_b();
+  range.end = base::Timer::Clock::now();
+}
+
+// A cluster of B that several ranges opened counts once.
+OpenedFacets opened_in_ranges(LargePair& large) {
+  OpenedFacets opened;
+  large.seen_b.assign(static_cast<std::size_t>(large.culled.kept_b.count()), false);
+  for (const ConfirmedRange& range : large.used_ranges()) {
+    for (const OpenedCluster& one : range.opened_a) opened.a += one.counts;
+    for (const OpenedCluster& one : range.opened_b) {
+      if (!std::exchange(large.seen_b[static_cast<std::size_t>(one.index)], true)) opened.b += one.counts;
+    }
+  }
+  return opened;
+}
+
+}  // namespace
+
+void confirm(PairWork& work) {
+  const CulledPair& culled = work.culled;
+  ConfirmCounts confirmed;
+  work.search.run(culled.confirm_input(), culled.cluster_pairs, 0, culled.cluster_pairs.size(),
+                  culled.record->facet_pairs, confirmed);
+  OpenedFacets opened;
+  for (const OpenedCluster& one : work.search.opened_a()) opened.a += one.counts;
+  for (const OpenedCluster& one : work.search.opened_b()) opened.b += one.counts;
+  finish(culled, opened, confirmed, 1, work);
+}
+
+bool is_large(const CulledPair& culled, std::size_t pairs, int threads) {
+  if (threads == 1 || fast_paths() == FastPaths::off) return false;
+  const std::size_t size = culled.cluster_pairs.size();
+  return fast_paths() == FastPaths::always || size > kLargePair ||
+         (size > kFewestInRanges && pairs < kPairsPerThread * static_cast<std::size_t>(threads));
+}
+
+void confirm_in_ranges(LargePair& large, std::span<PairWork> thread_work, int threads) {
+  base::Timer timer;
+  large.begin = timer.start();
+  large.range_count = count_of_ranges(large.culled.cluster_pairs.size(), threads);
+  if (large.ranges.size() < large.range_count) large.ranges.resize(large.range_count);
+  base::parallel_for(large.range_count, 1, threads, [&](std::size_t i, int thread) {
+    large.ranges[i].thread = thread;
+    confirm_range(large, i, thread_work[static_cast<std::size_t>(thread)].search, large.ranges[i]);
+  });
+  PairRecord& record = *large.culled.record;
+  ConfirmCounts confirmed;
+  for (const ConfirmedRange& range : large.used_ranges()) {
+    record.facet_pairs.insert(record.facet_pairs.end(), range.found.begin(), range.found.end());
+    confirmed += range.counts;
+  }
+  finish(large.culled, opened_in_ranges(large), confirmed, threads, thread_work[0]);
+  const double confirm_ms = timer.lap();
+  record.times.confirm_ms = static_cast<float>(confirm_ms);
+  thread_work[0].counts.confirm_ms += confirm_ms;
+}
+
+}  // namespace tact

@@ -1,0 +1,59 @@
+#include "engine/pair/cull.h"
+
+namespace tact {
+
+namespace {
+
+using namespace narrowphase;
+
+ZoneDisk zone_disk(const Slab& slab, const ImpactZone& zone, double height) {
+  if (zone.disk.radius < 0.0) return {};
+  const base::Vec3 center = slab.origin + zone.disk.center.x * slab.u + zone.disk.center.y * slab.v + height * slab.n;
+  return {{center.x, center.y, center.z}, zone.disk.radius};
+}
+
+void find_criteria(const PairInput& pair, const Slab& slab, PairRecord& record, PairWork& work) {
+  const bool paper = pair.settings.accuracy == Accuracy::paper;
+  const bool zones = paper || pair.settings.outputs.zones;
+  ImpactZone zone_a, zone_b;
+  if (zones) {
+    zone_a = impact_zone(pair.a.mesh, slab, work.zone_points);
+    zone_b = impact_zone(pair.b.mesh, slab, work.zone_points);
+    record.contact.zone_a = zone_disk(slab, zone_a, slab.lower);
+    record.contact.zone_b = zone_disk(slab, zone_b, slab.upper);
+  }
+  work.culled.criteria_a = criteria_for_a(slab, zones ? &zone_b : nullptr, paper && pair.a.surface == Surface::closed);
+  work.culled.criteria_b = criteria_for_b(slab, zones ? &zone_a : nullptr, paper && pair.b.surface == Surface::closed);
+}
+
+void count_clusters(const CulledPair& culled, PairCounts& counts) {
+  const std::int64_t clusters = culled.a->cluster_count() + culled.b->cluster_count();
+  const std::int64_t outside_slab = culled.kept_a.outside_slab + culled.kept_b.outside_slab;
+  counts.facets += culled.a->facet_count() + culled.b->facet_count();
+  counts.clusters += clusters;
+  counts.clusters_outside_slab += outside_slab;
+  counts.clusters_outside_box += clusters - outside_slab - culled.kept_a.count() - culled.kept_b.count();
+  counts.cluster_pairs += static_cast<std::int64_t>(culled.cluster_pairs.size());
+}
+
+}  // namespace
+
+void cull(const PairInput& pair, const Slab& slab, PairRecord& record, EmbreeDevice& device, PairWork& work) {
+  const ClusteredMesh &a = pair.a.mesh, &b = pair.b.mesh;
+  CulledPair& culled = work.culled;
+  culled.record = &record;
+  culled.a = &a;
+  culled.b = &b;
+  find_criteria(pair, slab, record, work);
+  cull_clusters(a, culled.criteria_a, b.box(), culled.kept_a);
+  if (work.prefetches) prefetch_facets(a, culled.kept_a);
+  cull_clusters(b, culled.criteria_b, culled.kept_a.bounds, culled.kept_b);
+  if (work.prefetches) prefetch_facets(b, culled.kept_b);
+  cull_again(culled.kept_b.bounds, culled.kept_a);
+  const bool trees = find_cluster_pairs(culled.kept_a, culled.kept_b, ClusterPairSource::automatic, device,
+                                        culled.cluster_pairs, work.cluster_pair_work);
+  work.counts.tree_pairs += trees ? 1 : 0;
+  count_clusters(culled, work.counts);
+}
+
+}  // namespace tact

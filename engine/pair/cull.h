@@ -1,0 +1,13 @@
+// Stage 5: which clusters of a pair can hold facets that meet, and which pairs of them.
+#pragma once
+
+#include "engine/pair/pair_work.h"
+
+namespace tact {
+
+/// Replaces what `work.culled` holds by what the criteria leave of the pair. At Accuracy::paper, or where zones are
+/// asked for, also fills the zones of the record's contact. Errors: backend_failure, out_of_memory.
+void cull(const PairInput& pair, const narrowphase::Slab& slab, PairRecord& record, narrowphase::EmbreeDevice& device,
+          PairWork& work);
+
+}  // namespace tact

@@ -1,0 +1,103 @@
+#include "engine/pair/test_hulls.h"
+
+#include "engine/base/fast_paths.h"
+#include "narrowphase/hull/hull_verdict.h"
+
+namespace tact {
+
+namespace {
+
+using namespace narrowphase;
+
+// Do the vertices that showed the hulls to overlap in the last step show it still? No support query.
+bool still_overlap(const PairInput& pair, const PairRecord& record, PairWork& work, HullTest& test) {
+  const PairHistory& history = record.history;
+  test.surface_is_placed = history.has_surface && record.surface->face_count > 0 &&
+                           work.smallest.surface.start(pair.difference, *record.surface);
+  if (test.surface_is_placed) return true;
+  return history.kind == PairHistory::Kind::overlapping && holds_origin(pair.difference, history.hulls);
+}
+
+// Does the direction of the last step separate the hulls still, by more than the margins and what rounding may be?
+bool still_separated(const PairInput& pair, const PairHistory& history, PairCounts& counts) {
+  const MinkowskiDifference& m = pair.difference;
+  const int a = history.hulls.a[0], b = history.hulls.b[0];
+  if (pair.reach == 0.0 && m.separated_by_plane(history.direction, a, b)) return true;
+  ++counts.gjk_iterations;
+  const double height = dot(history.direction, m.support(history.direction, m.vertex(a, b)).point);
+  return height < -(m.height_error() + m.scale() * pair.reach);
+}
+
+void set_apart(PairRecord& record, base::Vec3 direction) {
+  record.hulls_overlap = record.near = false;
+  record.history.kind = PairHistory::Kind::separated;
+  record.history.direction = direction;
+  record.history.has_surface = false;
+}
+
+// The hulls are apart along the history's direction, by less than the margins: `distance` and the planes in metres.
+void set_near(PairRecord& record, double distance, double plane_a, double plane_b, bool limit_reached) {
+  const base::Vec3 direction = record.history.direction;
+  record.near = true;
+  Contact& contact = record.contact;
+  contact = Contact{};
+  contact.a = record.a;
+  contact.b = record.b;
+  contact.direction = {direction.x, direction.y, direction.z};
+  contact.depth = -distance;
+  contact.limit_reached = limit_reached;
+  contact.plane_a = plane_a;
+  contact.plane_b = plane_b;
+}
+
+// In doubles, and in integers where these cannot tell.
+HullTest test_by_gjk(const PairInput& pair, bool carries, PairRecord& record, PairCounts& counts) {
+  const MinkowskiDifference& m = pair.difference;
+  PairHistory& history = record.history;
+  const GjkResult hulls = gjk(m, {}, carries ? history.hulls : GjkSimplex{}, {pair.settings.gjk_tolerance});
+  history.hulls = hulls.simplex;
+  counts.gjk_iterations += hulls.support_queries;
+  HullTest test{.overlap = hulls.status != GjkStatus::apart,
+                .limit_reached = hulls.status == GjkStatus::limit_reached,
+                .took_gjk = true};
+  base::Vec3 direction = -hulls.offset;
+  if (hulls.status != GjkStatus::apart && hulls.status != GjkStatus::overlapping) {
+    const HullVerdict exact = hull_verdict(m, hulls.simplex);
+    counts.gjk_iterations += exact.support_queries;
+    history.hulls = exact.simplex;
+    test.overlap = !exact.apart;
+    direction = exact.direction;
+  }
+  if (test.overlap) return test;
+  ++counts.separated;
+  counts.limits_reached += test.limit_reached ? 1 : 0;
+  set_apart(record, normalized(direction));
+  if (hulls.distance < m.scale() * pair.reach) {
+    const ClosestPoints closest = closest_points(m, hulls);
+    set_near(record, hulls.distance / m.scale(), dot(history.direction, closest.a), dot(history.direction, closest.b),
+             test.limit_reached);
+  }
+  return test;
+}
+
+}  // namespace
+
+HullTest test_hulls(const PairInput& pair, PairRecord& record, PairWork& work) {
+  // What the last step knew of a pair is a start from which less is to be done; its direction is more than that.
+  const bool carries = base::fast_paths() != base::FastPaths::off;
+  HullTest test;
+  if (carries && still_overlap(pair, record, work, test)) {
+    ++work.counts.still_overlapping;
+    test.overlap = true;
+    return test;
+  }
+  if (carries && record.history.kind == PairHistory::Kind::separated &&
+      still_separated(pair, record.history, work.counts)) {
+    ++work.counts.still_separated;
+    set_apart(record, record.history.direction);
+    return test;
+  }
+  return test_by_gjk(pair, carries, record, work.counts);
+}
+
+}  // namespace tact

@@ -1,0 +1,154 @@
+#include "engine/report_writer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/parallel.h"
+
+namespace tact {
+
+namespace {
+
+// So many contacts are written by one thread: it takes less than to wake another.
+constexpr std::size_t kFewContacts = 1024, kContactsAtATime = 64;
+
+std::size_t contacts_at_a_time(std::size_t count) { return count <= kFewContacts ? kFewContacts : kContactsAtATime; }
+
+bool before(const ContactEvent& x, const ContactEvent& y) { return x.a < y.a || (x.a == y.a && x.b < y.b); }
+
+template <class T>
+void make_room(std::vector<T>& vector, std::size_t count, std::size_t spare) {
+  if (vector.capacity() < count) vector.reserve(count + spare);
+}
+
+}  // namespace
+
+void ReportWriter::Totals::add(const Contact& contact, std::int64_t times) {
+  facet_pairs += times * static_cast<std::int64_t>(contact.facet_pairs().size());
+  touching += contact.touching() ? times : 0;
+}
+
+void ReportWriter::Totals::add(const Totals& other) {
+  facet_pairs += other.facet_pairs;
+  touching += other.touching;
+}
+
+void ReportWriter::fill(Contact& contact, const PairRecord& record) {
+  contact = record.contact;
+  contact.points_ = record.points;
+  contact.facet_pairs_ = record.facet_pairs;
+  contact.patches_ = record.patches;
+}
+
+void ReportWriter::fill(Contact& contact, const SelfRecord& record) {
+  contact = Contact{};
+  contact.a = contact.b = record.body;
+  contact.facet_pairs_ = record.facet_pairs;
+  contact.points_ = record.points;
+}
+
+template <class Record>
+void ReportWriter::replace(Contact& contact, const Record& by, Totals& totals) {
+  totals.add(contact, -1);
+  fill(contact, by);
+  totals.add(contact, 1);
+}
+
+void ReportWriter::add_thread_totals() {
+  for (Totals& totals : thread_totals_) totals_.add(std::exchange(totals, {}));
+}
+
+void ReportWriter::write(PairTable& table, const SelfStage& self, int threads) {
+  thread_totals_.resize(static_cast<std::size_t>(threads));
+  const bool same = table.same_contacts() && self.same_contacts();
+  write_candidates(table, same);
+  if (!same) {
+    list_contacts(table, self);
+    carry_contacts(table, threads);
+  }
+  write_contacts(table, threads);
+  write_events(table);
+  StepStats& stats = report_.stats_;
+  stats.contacts = static_cast<std::int64_t>(report_.contacts_.size());
+  stats.facet_pairs = totals_.facet_pairs;
+  stats.touching_contacts = totals_.touching;
+}
+
+void ReportWriter::write_candidates(const PairTable& table, bool same) {
+  const std::span<const CandidatePair> candidates = table.candidates();
+  if (same) {  // from near to overlapping the contact stays, but not what the candidate says
+    for (const MovedPair& pair : table.moved()) report_.candidate_pairs_[pair.place] = candidates[pair.place];
+    return;
+  }
+  make_room(report_.candidate_pairs_, candidates.size(), candidates.size());
+  report_.candidate_pairs_.assign(candidates.begin(), candidates.end());
+}
+
+// Candidates in contact and bodies in contact with themselves, both in order, merged.
+void ReportWriter::list_contacts(const PairTable& table, const SelfStage& self) {
+  reported_.clear();
+  has_self_ = !self.contacts().empty();
+  auto next = self.contacts().begin();
+  const auto add_self_before = [&](BodyId body) {
+    for (; next != self.contacts().end() && !(body < (*next)->body); ++next) reported_.push_back({.self = *next});
+  };
+  for (std::size_t i = 0; i < table.candidates().size(); ++i) {
+    if (!table.in_contact(i)) continue;
+    add_self_before(table.candidates()[i].a);
+    reported_.push_back({.place = static_cast<std::uint32_t>(i)});
+  }
+  for (; next != self.contacts().end(); ++next) reported_.push_back({.self = *next});
+}
+
+// Puts each contact of the last report that the step did not look at where it belongs now; the others are empty.
+void ReportWriter::carry_contacts(PairTable& table, int threads) {
+  for (const MovedPair& pair : table.moved()) table.place_in_report(pair.place) = PairTable::kNowhere;
+  std::swap(report_.contacts_, last_contacts_);
+  const std::size_t count = reported_.size();
+  make_room(report_.contacts_, count, count / 4);
+  make_room(last_contacts_, count, count / 4);
+  report_.contacts_.resize(count);
+  base::parallel_for(count, contacts_at_a_time(count), threads, [&](std::size_t i, int thread) {
+    Contact& contact = report_.contacts_[i];
+    std::uint32_t place = PairTable::kNowhere;
+    if (reported_[i].self == nullptr)
+      place = std::exchange(table.place_in_report(reported_[i].place), static_cast<std::uint32_t>(i));
+    if (place == PairTable::kNowhere) {
+      contact.facet_pairs_ = {};
+    } else {
+      contact = last_contacts_[place];
+      thread_totals_[static_cast<std::size_t>(thread)].add(contact, 1);
+    }
+  });
+  totals_ = {};
+  add_thread_totals();
+}
+
+// Those that the step looked at.
+void ReportWriter::write_contacts(PairTable& table, int threads) {
+  const std::span<const MovedPair> moved = table.moved();
+  base::parallel_for(moved.size(), contacts_at_a_time(moved.size()), threads, [&](std::size_t i, int thread) {
+    if (!table.in_contact(moved[i].place)) return;
+    Contact& contact = report_.contacts_[table.place_in_report(moved[i].place)];
+    replace(contact, *moved[i].record, thread_totals_[static_cast<std::size_t>(thread)]);
+  });
+  add_thread_totals();
+  for (std::size_t i = 0; i < reported_.size() && has_self_; ++i) {
+    if (reported_[i].self != nullptr) replace(report_.contacts_[i], *reported_[i].self, totals_);
+  }
+}
+
+// Only pairs that this step looked at can begin or cease to touch, and those that are no candidates any more.
+void ReportWriter::write_events(const PairTable& table) {
+  const auto event_of = [](const PairRecord& record) { return ContactEvent{record.a, record.b}; };
+  report_.began_.clear();
+  report_.ended_.assign(table.gone().begin(), table.gone().end());
+  for (const MovedPair& pair : table.moved()) {
+    const bool touches = table.touches_now(pair);
+    if (touches && !pair.touched) report_.began_.push_back(event_of(*pair.record));
+    if (!touches && pair.touched) report_.ended_.push_back(event_of(*pair.record));
+  }
+  std::sort(report_.ended_.begin(), report_.ended_.end(), before);
+}
+
+}  // namespace tact

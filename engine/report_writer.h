@@ -1,0 +1,60 @@
+// Stage 7: the one place where a report is written, from the records of the pairs.
+#pragma once
+
+#include <tact/report.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/pair/pair_table.h"
+#include "engine/self_stage.h"
+
+namespace tact {
+
+/// Holds the report of a world. What a step did not look at stays as it is: those records, far apart in memory, are not
+/// read.
+class ReportWriter {
+ public:
+  const Report& report() const { return report_; }
+  StepStats& stats() { return report_.stats_; }
+  std::vector<TraceEvent>& trace() { return report_.trace_; }
+
+  /// Candidate pairs, contacts and events as the records have them now, and the counts of contacts.
+  void write(PairTable& table, const SelfStage& self, int threads);
+  /// The next report is the first.
+  void forget() { *this = {}; }
+
+ private:
+  /// A contact of the report: a candidate, or a body with itself.
+  struct Reported {
+    std::uint32_t place = 0;  // among the candidates
+    const SelfRecord* self = nullptr;
+  };
+  /// Of contacts, added up.
+  struct alignas(64) Totals {
+    std::int64_t facet_pairs = 0;
+    std::int64_t touching = 0;
+    void add(const Contact& contact, std::int64_t times);
+    void add(const Totals& other);
+  };
+
+  static void fill(Contact& contact, const PairRecord& record);
+  static void fill(Contact& contact, const SelfRecord& record);
+  template <class Record>
+  static void replace(Contact& contact, const Record& by, Totals& totals);
+  void list_contacts(const PairTable& table, const SelfStage& self);
+  void carry_contacts(PairTable& table, int threads);
+  void write_candidates(const PairTable& table, bool same);
+  void write_contacts(PairTable& table, int threads);
+  void write_events(const PairTable& table);
+  void add_thread_totals();
+
+  Report report_;
+  std::vector<Reported> reported_;      // the contacts of the report, in its order
+  bool has_self_ = false;               // is any of a body with itself?
+  std::vector<Contact> last_contacts_;  // of the last report, while a new one is made
+  Totals totals_;                       // of the contacts of the report
+  std::vector<Totals> thread_totals_;   // scratch
+};
+
+}  // namespace tact
