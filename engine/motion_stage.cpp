@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <numeric>
+#include <span>
+#include <tuple>
 
 #include "engine/base/parallel.h"
 #include "engine/base/timer.h"
@@ -26,7 +29,7 @@ const MotionReport& MotionStage::run(Bodies& bodies, const Settings& settings, I
   select(bodies);
   report_.stats_.sweep_ms = timer.lap();
   make_features(bodies, settings.threads);
-  find_clusters(bodies, settings.threads);
+  find_clusters(bodies, settings.threads, wanted);
   search(bodies, settings.threads, wanted);
   make_report(bodies, wanted);
   report_.stats_.search_ms = timer.lap();
@@ -76,24 +79,59 @@ void MotionStage::make_features(Bodies& bodies, int threads) {
   bodies.make_features(slots_, threads);
 }
 
-void MotionStage::find_clusters(const Bodies& bodies, int threads) {
+// Sorts the cluster pairs of a thread from `begin` on by the time from which they may meet, and leaves out those that
+// never do.
+void MotionStage::sort_by_time(const Passing& passing, const Bodies& bodies, std::size_t begin, Work& work) {
+  work.timed.clear();
+  for (const narrowphase::ClusterPair& pair : std::span(work.clusters).subspan(begin)) {
+    const double earliest =
+        narrowphase::earliest_time(bodies.moving(passing.a), pair.a, bodies.moving(passing.b), pair.b, passing.reach);
+    if (earliest <= 1.0) work.timed.push_back({earliest, pair});
+  }
+  std::ranges::sort(work.timed, {}, [](const TimedPair& t) { return std::tuple(t.earliest, t.pair.a, t.pair.b); });
+  work.clusters.resize(begin);
+  for (const TimedPair& one : work.timed) work.clusters.push_back(one.pair);
+}
+
+void MotionStage::find_clusters(const Bodies& bodies, int threads, Impacts wanted) {
   work_.resize(static_cast<std::size_t>(threads));
-  for (Work& work : work_) work.clusters.clear();
+  for (Work& work : work_) {
+    work.clusters.clear();
+    work.cluster_pairs = 0;
+  }
   base::parallel_for(passing_.size(), kBodyPairsAtATime, threads, [&](std::size_t i, int thread) {
     Passing& one = passing_[i];
     Work& work = work_[static_cast<std::size_t>(thread)];
     const auto pairs = work.passing.find(bodies.moving(one.a), bodies.moving(one.b), one.reach, device_);
     const std::size_t begin = work.clusters.size();
     work.clusters.insert(work.clusters.end(), pairs.begin(), pairs.end());
+    work.cluster_pairs += static_cast<std::int64_t>(pairs.size());
+    if (wanted != Impacts::all) sort_by_time(one, bodies, begin, work);
     one.clusters = {static_cast<std::size_t>(thread), begin, work.clusters.size()};
   });
+  cut_into_parts(bodies, wanted);
+}
+
+// Where only the first impact counts, parts that may meet early are searched first: what is found leaves out most
+// others.
+void MotionStage::cut_into_parts(const Bodies& bodies, Impacts wanted) {
   parts_.clear();
   for (std::size_t i = 0; i < passing_.size(); ++i) {
-    const Range& all = passing_[i].clusters;
-    report_.stats_.cluster_pairs += static_cast<std::int64_t>(all.end - all.begin);
-    for (std::size_t at = all.begin; at < all.end; at += kClusterPairsAtATime)
-      parts_.push_back({i, at, std::min(at + kClusterPairsAtATime, all.end)});
+    const Passing& one = passing_[i];
+    const Range& all = one.clusters;
+    for (std::size_t at = all.begin; at < all.end; at += kClusterPairsAtATime) {
+      double earliest = 0.0;
+      if (wanted != Impacts::all) {
+        const narrowphase::ClusterPair& first = work_[all.thread].clusters[at];
+        earliest = narrowphase::earliest_time(bodies.moving(one.a), first.a, bodies.moving(one.b), first.b, one.reach);
+      }
+      parts_.push_back({i, at, std::min(at + kClusterPairsAtATime, all.end), earliest});
+    }
   }
+  order_.resize(parts_.size());
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  if (wanted != Impacts::all)
+    std::ranges::sort(order_, {}, [&](std::size_t i) { return std::pair(parts_[i].earliest, i); });
 }
 
 void MotionStage::search(const Bodies& bodies, int threads, Impacts wanted) {
@@ -107,16 +145,24 @@ void MotionStage::search(const Bodies& bodies, int threads, Impacts wanted) {
     work.impacts.clear();
     work.counts = {};
   }
+  // Of bodies that meet at the very beginning the first pair is reported: what comes after it need not be searched.
+  std::atomic<std::size_t> meets_at_once = passing_.size();
   base::parallel_for(parts_.size(), 1, threads, [&](std::size_t i, int thread) {
-    Part& part = parts_[i];
+    Part& part = parts_[order_[i]];
     const Passing& one = passing_[part.passing];
     Work& work = work_[static_cast<std::size_t>(thread)];
     const std::span<const narrowphase::ClusterPair> clusters = work_[one.clusters.thread].clusters;
     std::atomic<double>* const first = firsts == 0 ? nullptr : &first_[firsts == 1 ? 0 : part.passing];
     const std::size_t begin = work.impacts.size();
+    part.impacts = {static_cast<std::size_t>(thread), begin, begin};
+    if (wanted == Impacts::first && part.passing > meets_at_once.load(std::memory_order_relaxed)) return;
     work.finder.run(bodies.moving(one.a), bodies.moving(one.b), one.reach,
                     clusters.subspan(part.begin, part.end - part.begin), first, work.impacts, work.counts);
-    part.impacts = {static_cast<std::size_t>(thread), begin, work.impacts.size()};
+    part.impacts.end = work.impacts.size();
+    const auto found = std::span(work.impacts).subspan(begin);
+    if (wanted == Impacts::first &&
+        std::ranges::any_of(found, [](const FeatureImpact& impact) { return impact.time == 0.0; }))
+      base::lower_to(meets_at_once, part.passing);
   });
 }
 
@@ -160,6 +206,7 @@ void MotionStage::make_report(const Bodies& bodies, Impacts wanted) {
   }
   report_.stats_.impacts = static_cast<std::int64_t>(report_.impacts_.size());
   for (const Work& work : work_) {
+    report_.stats_.cluster_pairs += work.cluster_pairs;
     report_.stats_.candidates += work.counts.candidates;
     report_.stats_.searched += work.counts.searched;
     report_.stats_.spans += work.counts.spans;

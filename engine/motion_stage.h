@@ -33,12 +33,20 @@ class MotionStage {
   /// Some cluster pairs of two bodies, what a thread takes at a time, and where their impacts are.
   struct Part {
     std::size_t passing = 0, begin = 0, end = 0;
+    double earliest = 0.0;  // no impact in it is earlier
     Range impacts = {};
+  };
+  /// A cluster pair and the time before which nothing meets in it.
+  struct TimedPair {
+    double earliest;
+    narrowphase::ClusterPair pair;
   };
   /// Memory of a thread, used again.
   struct Work {
     narrowphase::PassingClusters passing;
     std::vector<narrowphase::ClusterPair> clusters;
+    std::vector<TimedPair> timed;  // scratch
+    std::int64_t cluster_pairs = 0;
     narrowphase::ImpactFinder finder;
     std::vector<narrowphase::FeatureImpact> impacts;
     narrowphase::MotionCounts counts;
@@ -47,7 +55,9 @@ class MotionStage {
   void sweep(const Bodies& bodies, int threads);
   void select(const Bodies& bodies);
   void make_features(Bodies& bodies, int threads);
-  void find_clusters(const Bodies& bodies, int threads);
+  void find_clusters(const Bodies& bodies, int threads, Impacts wanted);
+  static void sort_by_time(const Passing& passing, const Bodies& bodies, std::size_t begin, Work& work);
+  void cut_into_parts(const Bodies& bodies, Impacts wanted);
   void search(const Bodies& bodies, int threads, Impacts wanted);
   void make_report(const Bodies& bodies, Impacts wanted);
   void gather(std::size_t passing, std::size_t& part);
@@ -59,6 +69,7 @@ class MotionStage {
   std::vector<Passing> passing_;
   std::vector<std::uint32_t> slots_;  // scratch
   std::vector<Part> parts_;
+  std::vector<std::size_t> order_;          // in which parts are searched
   std::vector<Work> work_;                  // of each thread
   std::vector<std::atomic<double>> first_;  // of each pair that passes, or of all
   std::vector<narrowphase::FeatureImpact> gathered_;

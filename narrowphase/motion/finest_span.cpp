@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,9 @@ constexpr double kMargin = 0x1p-30;
 // Parts are halved down to this much of the step; that ends sooner if so many were looked at.
 constexpr double kShortestPart = 0x1p-64;
 constexpr int kMostParts = 2048, kMostSteps = 20;
+// How far around the time at which a side turns to the origin that is proved: as near as most allow, or still less than
+// is promised.
+constexpr double kNarrowOpening = 0x1p-36, kWideOpening = 0x1p-23;
 constexpr std::size_t kMostWaiting = 72;  // a half at each halving
 
 // Rounding: with coordinates of corners wrong by c (12 u * 2 in doubles, 2^-99 in double_doubles), sides by 2 c, of at
@@ -143,6 +147,17 @@ std::array<Way<Number>, 4> corners_on(const MovingPolygon& polygon, double scale
   return corners;
 }
 
+// The volume of the pyramid over a polygon's first corner and the sides that leave it; six times that.
+template <class Number>
+Polynomial<Number, 4> volume_of(const Way<Number>& corner, const Way<Number>& e, const Way<Number>& f,
+                                const Quadratic<Number>& normal) {
+  const auto& [d0, d1] = corner;
+  const double e_size = size_of(e), f_size = size_of(f);
+  return {{times(3.0, dot(d0, normal[0])), dot(d1, normal[0]) + times(2.0, dot(d0, normal[1])),
+           times(2.0, dot(d1, normal[1])) + dot(d0, normal[2]), times(3.0, dot(d1, normal[2]))},
+          kRoundingOf<Number> * (e_size + f_size + e_size * f_size)};
+}
+
 template <class Number>
 struct SpanPolynomials {
   Polynomial<Number, 4> volume;
@@ -154,11 +169,8 @@ struct SpanPolynomials {
     const auto last = static_cast<std::size_t>(sides - 1);
     const Way<Number> e = corner[1] - corner[0], f = corner[last] - corner[0];
     const Quadratic<Number> normal = cross(e, f);
-    const auto [d0, d1] = corner[0];
-    volume.coefficient = {times(3.0, dot(d0, normal[0])), dot(d1, normal[0]) + times(2.0, dot(d0, normal[1])),
-                          times(2.0, dot(d1, normal[1])) + dot(d0, normal[2]), times(3.0, dot(d1, normal[2]))};
+    volume = volume_of(corner[0], e, f, normal);
     const double e_size = size_of(e), f_size = size_of(f);
-    volume.rounding = kRoundingOf<Number> * (e_size + f_size + e_size * f_size);
     for (std::size_t i = 0; i <= last; ++i) {
       const Way<Number> side = corner[i == last ? 0 : i + 1] - corner[i];
       const Quadratic<Number> n = cross(corner[i], side);
@@ -250,6 +262,96 @@ std::optional<std::pair<double, double>> only_crossing(const Polynomial<DoubleDo
   return is_apart ? std::optional(std::pair(from, to)) : std::nullopt;
 }
 
+// The root of a polynomial whose ends have different signs, in doubles: by Newton's method, and halving where that
+// would leave the bracket.
+double root_of(const Polynomial<double, 5>& p) {
+  const double sign = p.coefficient.back() > 0.0 ? 1.0 : -1.0;
+  double low = 0.0, high = 1.0, root = p.coefficient.front() / (p.coefficient.front() - p.coefficient.back());
+  for (int k = 0; k < kMostSteps; ++k) {
+    Polynomial<double, 5> before = p;
+    const auto c = before.split(root).coefficient;
+    (sign * c[0] < 0.0 ? low : high) = root;
+    const double next = root - c[0] * (1.0 - root) / (4.0 * (c[1] - c[0]));
+    const double last = std::exchange(root, low < next && next < high ? next : 0.5 * (low + high));
+    if (std::abs(root - last) < 0.01 * kNarrowOpening) break;
+  }
+  return root;
+}
+
+// The same to the last bits: one step of Newton's method more.
+double root_of(const Polynomial<DoubleDouble, 5>& p) {
+  Polynomial<double, 5> rounded;
+  for (std::size_t i = 0; i < 5; ++i) rounded.coefficient[i] = p.coefficient[i].head;
+  double root = std::clamp(root_of(rounded), 0.0, 1.0 - 0x1p-20);
+  for (int k = 0; k < 2; ++k) {
+    Polynomial<DoubleDouble, 5> before = p;
+    const auto c = before.split(root).coefficient;
+    root = std::clamp(root - c[0].head * (1.0 - root) / (4.0 * (c[1] - c[0]).head), 0.0, 1.0);
+    if (root == 1.0) break;
+  }
+  return root;
+}
+
+template <class Number, std::size_t kCount>
+Polynomial<Number, kCount> part_before(Polynomial<Number, kCount> p, double t) {
+  p.split(t);
+  return p;
+}
+template <class Number, std::size_t kCount>
+Polynomial<Number, kCount> part_after(Polynomial<Number, kCount> p, double t) {
+  return p.split(t);
+}
+
+// Which side turns to the origin last, and which turns away first, and when; null if none does. Unclear if a side does
+// neither, nor has the origin inside throughout.
+template <class Number>
+struct Turns {
+  const Polynomial<Number, 5>* last_to_open = nullptr;
+  const Polynomial<Number, 5>* first_to_close = nullptr;
+  double opens = 0.0, closes = 1.0;
+  bool is_unclear = false;
+};
+
+template <class Number>
+Turns<Number> turns_of(const SpanPolynomials<Number>& span) {
+  Turns<Number> turns;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(span.sides); ++i) {
+    const Polynomial<Number, 5>& side = span.inside[i];
+    if (side.positive()) continue;
+    if (!side.crosses()) {
+      turns.is_unclear = true;
+      return turns;
+    }
+    const double root = root_of(side);
+    if (head_of(side.coefficient.back()) > 0.0) {
+      if (turns.last_to_open == nullptr || root > turns.opens) {
+        turns.last_to_open = &side;
+        turns.opens = root;
+      }
+    } else if (turns.first_to_close == nullptr || root < turns.closes) {
+      turns.first_to_close = &side;
+      turns.closes = root;
+    }
+  }
+  return turns;
+}
+
+// Of a span in which the volume vanishes and a side turns to the origin: the beginning of the part in which the polygon
+// may first hold the origin. Nothing if that is not so simple; the end, 1, if it certainly never does.
+std::optional<double> first_opening(const SpanPolynomials<DoubleDouble>& whole, double margin) {
+  if (!whole.volume.vanishes()) return std::nullopt;
+  const Turns<DoubleDouble> turns = turns_of(whole);
+  if (turns.is_unclear || turns.last_to_open == nullptr) return std::nullopt;
+  const double from = std::max(turns.opens - margin, 0.0), to = std::min(turns.opens + margin, 1.0);
+  if (!part_before(*turns.last_to_open, from).negative()) return std::nullopt;
+  SpanPolynomials<DoubleDouble> middle = whole;
+  middle.split(to);
+  middle = middle.split(from / to);
+  if (!middle.certainly_never_holds_origin()) return from;
+  if (turns.first_to_close == nullptr || !part_after(*turns.first_to_close, to).negative()) return std::nullopt;
+  return 1.0;
+}
+
 }  // namespace
 
 struct FinestSpan::Part {
@@ -304,12 +406,48 @@ std::optional<double> FinestSpan::first_open_part(const MovingPolygon& polygon, 
     if (const auto crossing = only_crossing(whole.volume, 4.0 * shortest)) {
       whole.split(crossing->second);
       if (!whole.split(crossing->first / crossing->second).certainly_never_holds_origin()) begin = crossing->first;
+    } else if (const auto opening = first_opening(whole, 4.0 * shortest)) {
+      if (*opening < 1.0) begin = opening;
     } else {
       begin = first_open(parts_, shortest, short_enough);
     }
   }
   if (!begin || *begin == 0.0) return begin ? std::optional(from) : std::nullopt;
   return std::max(from, std::nextafter(from + *begin * (to - from), 0.0));  // the sum rounds, perhaps up
+}
+
+namespace {
+
+// Do double_doubles see the origin in the plane of the polygon all the time between two?
+bool stays_in_plane(const MovingPolygon& polygon, double scale, double from, double to) {
+  const auto corner = corners_on<DoubleDouble>(polygon, scale, from, to);
+  const Way<DoubleDouble> e = corner[1] - corner[0],
+                          f = corner[static_cast<std::size_t>(polygon.count - 1)] - corner[0];
+  return volume_of(corner[0], e, f, cross(e, f)).vanishes();
+}
+
+}  // namespace
+
+MeetingInPlane meeting_in_plane(const MovingPolygon& polygon, double scale) {
+  const SpanPolynomials<double> whole(polygon, scale, 0.0, 1.0);
+  if (whole.certainly_never_holds_origin()) return {Verdict::no};
+  const Turns<double> turns = turns_of(whole);
+  if (turns.is_unclear) return {};
+  for (const double margin : {kNarrowOpening, kWideOpening}) {
+    const double from = std::max(turns.opens - margin, 0.0);
+    if (turns.last_to_open != nullptr && !part_before(*turns.last_to_open, from).negative()) continue;
+    const double to = std::min(turns.opens + margin, 1.0);
+    const bool is_inside = std::all_of(whole.inside.begin(), whole.inside.begin() + whole.sides,
+                                       [&](const auto& side) { return side.at(to) > side.rounding; });
+    if (is_inside && stays_in_plane(polygon, scale, from, to))
+      return {margin == kNarrowOpening ? Verdict::yes : Verdict::unknown, from, to};
+    if (is_inside || turns.first_to_close == nullptr) continue;
+    const double end = std::min(turns.closes + margin, 1.0);
+    if (!part_after(*turns.first_to_close, end).negative()) continue;
+    if (end <= from) return {Verdict::no};
+    return {Verdict::unknown, from, end};
+  }
+  return {};
 }
 
 Verdict holds_origin_near(const MovingPolygon& polygon, double scale, double from, double to) {

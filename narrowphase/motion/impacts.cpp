@@ -11,54 +11,27 @@ namespace tact::narrowphase {
 
 namespace {
 
+// Polygons that come within 1e-11 of their size and way may count; that of their clusters is not smaller.
+constexpr double kNearly = 0x1p-36;
+constexpr double kEarlier = 0x1p-19;  // by less is the time of an impact earlier than the true one: see meeting.h
+
 constexpr int kMostVertices = 3 * kClusterSize, kMostEdges = 3 * kClusterSize;
 
-// Features of a cluster with kCorners corners each, numbered in the mesh from `first` on: where their corners are at
-// time 0 and 1, and their boxes on the way. All lengths here are scaled.
-template <int kCorners, int kMostFeatures>
-struct MovingFeatures : FixedBoxes<kMostFeatures> {
-  using Boxes = FixedBoxes<kMostFeatures>;
-  using Boxes::bounds, Boxes::count;
-  int first = 0;
-  double at[2][kCorners][3][kMostFeatures];  // time, corner, axis
-
-  // Takes corner number corner(c, i) of `vertices` for corner c of feature i.
-  template <int kVertices, class Corner>
-  void take(int first_of_all, int number_of_all, const double (&vertices)[2][3][kVertices], const Corner& corner) {
-    first = first_of_all;
-    count = number_of_all;
-    for (int c = 0; c < kCorners; ++c) {
-      for (int i = 0; i < count; ++i) {
-        const int v = corner(c, i);
-        for (int time = 0; time < 2; ++time) {
-          for (int axis = 0; axis < 3; ++axis) at[time][c][axis][i] = vertices[time][axis][v];
-        }
-      }
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-      for (int i = 0; i < count; ++i) {
-        double low = at[0][0][axis][i], high = low;
-        for (int k = 1; k < 2 * kCorners; ++k) {
-          const double x = at[k / kCorners][k % kCorners][axis][i];
-          low = x < low ? x : low;
-          high = x > high ? x : high;
-        }
-        bounds[axis][i] = low;
-        bounds[axis + 3][i] = high;
-      }
-    }
-  }
-};
-
-// A cluster's facets, and the vertices and edges that it has first.
+// A cluster that stays open: where its vertices are at time 0 and 1, owned ones first. All lengths here are scaled.
 struct MovingCluster {
   const ClusteredMesh* mesh = nullptr;
   int cluster = -1;
-  Box box;
-  double at[2][3][kMostVertices];  // all its vertices, owned ones first
-  MovingFeatures<1, kMostVertices> vertices;
-  MovingFeatures<2, kMostEdges> edges;
-  MovingFeatures<3, kClusterSize> facets;
+  Box box;        // on the way
+  Box at_end[2];  // at time 0 and 1
+  int vertex_count = 0;
+  double at[2][3][kMostVertices];  // time, axis
+
+  // On the way up to a time.
+  Box box_until(double time) const {
+    if (time == 1.0) return box;
+    const auto at_time = [&](Vec3 begin, Vec3 end) { return begin + time * (end - begin); };
+    return merged(at_end[0], {at_time(at_end[0].lower, at_end[1].lower), at_time(at_end[0].upper, at_end[1].upper)});
+  }
 };
 
 void open(const MovingMesh& m, int cluster, double scale, MovingCluster& opened) {
@@ -67,6 +40,11 @@ void open(const MovingMesh& m, int cluster, double scale, MovingCluster& opened)
   opened.cluster = cluster;
   const Box box = m.cluster_box(cluster);
   opened.box = {scale * box.lower, scale * box.upper};
+  const auto c = static_cast<std::size_t>(cluster);
+  const Box begin = m.begin.cluster_boxes[c], end = m.mesh->cluster_boxes()[c];
+  opened.at_end[0] = {scale * begin.lower, scale * begin.upper};
+  opened.at_end[1] = {scale * end.lower, scale * end.upper};
+  opened.vertex_count = facets.owned_count + facets.borrowed_count;
   const PointArrays points[2] = {m.begin.points, facets.points};
   for (int time = 0; time < 2; ++time) {
     const double* const from[3] = {points[time].x, points[time].y, points[time].z};
@@ -77,13 +55,116 @@ void open(const MovingMesh& m, int cluster, double scale, MovingCluster& opened)
         to[facets.owned_count + i] = scale * from[axis][facets.borrowed[i]];
     }
   }
-  opened.vertices.take(facets.owned_begin, facets.owned_count, opened.at, [](int, int i) { return i; });
-  const int edge_begin = m.features->edge_begin(cluster), edge_end = m.features->edge_end(cluster);
-  opened.edges.take(edge_begin, edge_end - edge_begin, opened.at, [&](int c, int i) {
-    return m.features->edge_in_cluster(edge_begin + i)[static_cast<std::size_t>(c)];
-  });
-  opened.facets.take(facets.facet_begin, facets.facet_count, opened.at,
-                     [&](int c, int i) { return facets.corner[c][i]; });
+}
+
+// The part of the way that counts, and how much wider than the features their boxes are.
+struct Cut {
+  double until = 1.0;
+  double wider = 0.0;
+};
+
+// Between which coordinates the vertices of a cluster stay.
+struct VertexBounds {
+  double low[3][kMostVertices], high[3][kMostVertices];
+
+  void take(const MovingCluster& cluster, const Cut& cut) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double *const from = cluster.at[0][axis], *const to = cluster.at[1][axis];
+      const auto set = [&](int i, double begin, double end) {
+        low[axis][i] = (begin < end ? begin : end) - cut.wider;
+        high[axis][i] = (begin < end ? end : begin) + cut.wider;
+      };
+      if (cut.until == 1.0) {
+        for (int i = 0; i < cluster.vertex_count; ++i) set(i, from[i], to[i]);
+      } else {
+        for (int i = 0; i < cluster.vertex_count; ++i) set(i, from[i], from[i] + cut.until * (to[i] - from[i]));
+      }
+    }
+  }
+};
+
+// Some features of a cluster, of kCorners corners each: their numbers in the mesh, where their corners are at time 0
+// and 1, and their boxes on the way.
+template <int kCorners, int kMostFeatures>
+struct MovingFeatures : FixedBoxes<kMostFeatures> {
+  using Boxes = FixedBoxes<kMostFeatures>;
+  using Boxes::bounds, Boxes::count;
+  int number[kMostFeatures];
+  double at[2][kCorners][3][kMostFeatures];  // time, corner, axis
+
+  void clear() { count = 0; }
+  void add(int feature, const MovingCluster& cluster, const VertexBounds& vertex,
+           const std::array<int, kCorners>& corners) {
+    const int i = count++;
+    number[i] = feature;
+    for (int axis = 0; axis < 3; ++axis) {
+      double low = vertex.low[axis][corners[0]], high = vertex.high[axis][corners[0]];
+      for (int c = 0; c < kCorners; ++c) {
+        const int v = corners[static_cast<std::size_t>(c)];
+        at[0][c][axis][i] = cluster.at[0][axis][v];
+        at[1][c][axis][i] = cluster.at[1][axis][v];
+        low = vertex.low[axis][v] < low ? vertex.low[axis][v] : low;
+        high = vertex.high[axis][v] > high ? vertex.high[axis][v] : high;
+      }
+      bounds[axis][i] = low;
+      bounds[axis + 3][i] = high;
+    }
+  }
+};
+
+// The features of a cluster that come near the box of another one: its facets, and the vertices and edges that it has
+// first.
+struct NearFeatures {
+  VertexBounds bounds;
+  MovingFeatures<1, kMostVertices> vertices;
+  MovingFeatures<2, kMostEdges> edges;
+  MovingFeatures<3, kClusterSize> facets;
+
+  // Is there any? Where no facet is near, no vertex nor edge of one is.
+  bool take(const MovingMesh& m, const MovingCluster& cluster, const Cut& cut, const Box& near);
+};
+
+// A feature is beyond a side of the box if all its corners are: a bit for each side that a vertex is beyond.
+bool NearFeatures::take(const MovingMesh& m, const MovingCluster& cluster, const Cut& cut, const Box& near) {
+  bounds.take(cluster, cut);
+  std::int64_t beyond[kMostVertices];  // as wide as a double, for the sake of the loops
+  std::fill_n(beyond, cluster.vertex_count, 0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double lower = near.lower[axis], upper = near.upper[axis];
+    const std::int64_t below = 1 << (2 * axis), above = 2 << (2 * axis);
+    for (int i = 0; i < cluster.vertex_count; ++i)
+      beyond[i] |= (bounds.high[axis][i] < lower ? below : 0) | (bounds.low[axis][i] > upper ? above : 0);
+  }
+  const ClusterFacets all = m.mesh->facets_of(cluster.cluster);
+  facets.clear();
+  for (int i = 0; i < all.facet_count; ++i) {
+    const int u = all.corner[0][i], v = all.corner[1][i], w = all.corner[2][i];
+    if ((beyond[u] & beyond[v] & beyond[w]) == 0) facets.add(all.facet_begin + i, cluster, bounds, {u, v, w});
+  }
+  if (facets.count == 0) return false;
+  vertices.clear();
+  for (int i = 0; i < all.owned_count; ++i) {
+    if (beyond[i] == 0) vertices.add(all.owned_begin + i, cluster, bounds, {i});
+  }
+  edges.clear();
+  const int edge_end = m.features->edge_end(cluster.cluster);
+  for (int e = m.features->edge_begin(cluster.cluster); e < edge_end; ++e) {
+    const auto [u, v] = m.features->edge_in_cluster(e);
+    if ((beyond[u] & beyond[v]) == 0) edges.add(e, cluster, bounds, {u, v});
+  }
+  return true;
+}
+
+double largest_coordinate(const Box& box) {
+  double largest = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+    largest = std::max({largest, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
+  return largest;
+}
+
+// Grown so far that no rounding of a sum with `reach` matters.
+Box grown_generously(const Box& box, double reach) {
+  return reach == 0.0 ? box : base::grown(box, reach + 0x1p-50 * (largest_coordinate(box) + reach));
 }
 
 // Pairs of features that wait for the filter.
@@ -113,15 +194,10 @@ class OpenClusters {
   MovingCluster clusters_[kOpened];
 };
 
-// Features of a cluster, and their boxes.
-struct BoxList : FixedBoxes<kMostEdges> {
-  std::int32_t index[kMostEdges + kPadding];
-};
-
 struct SearchMemory {
   double scale = 1.0;  // to lengths of at most 2
   OpenClusters a, b;
-  BoxList near;
+  NearFeatures near_a, near_b;
   Waiting facets, edges;
   MeetingSearch meeting;
 };
@@ -147,11 +223,17 @@ class ImpactSearch {
   }
 
   void search(const ClusterPair& pair) {
-    const MovingCluster &a = memory_.a.get(a_, pair.a, scale_), &b = memory_.b.get(b_, pair.b, scale_);
+    const MovingCluster &of_a = memory_.a.get(a_, pair.a, scale_), &of_b = memory_.b.get(b_, pair.b, scale_);
+    NearFeatures &a = memory_.near_a, &b = memory_.near_b;
+    const Cut cut = cut_of(merged(of_a.box, of_b.box));
+    const auto near = [&](const MovingCluster& cluster) {
+      return grown_generously(cluster.box_until(cut.until), scaled_reach_ + cut.wider);
+    };
+    if (!a.take(a_, of_a, cut, near(of_b)) || !b.take(b_, of_b, cut, near(of_a))) return;
     from_vertices(a, b, FeaturePair::vertex_facet);
     if (!same_) from_vertices(b, a, FeaturePair::facet_vertex);
-    if (same_ && a.cluster != b.cluster) from_vertices(b, a, FeaturePair::vertex_facet);
-    between_edges(a, b);
+    if (same_ && pair.a != pair.b) from_vertices(b, a, FeaturePair::vertex_facet);
+    between_edges(a, b, pair.a == pair.b);
   }
 
   // Decides what still waits.
@@ -162,28 +244,20 @@ class ImpactSearch {
 
  private:
   template <class Ones, class Others, class Visit>
-  void for_each_near(const MovingCluster& one, const Ones& ones, const MovingCluster& other, const Others& others,
-                     const Visit& visit) {
-    // First the others that are near the whole cluster, next to each other.
-    BoxList& list = memory_.near;
-    list.count = kernels().select_overlapping(others.pointers(), others.count,
-                                              bounds_of(base::grown(one.box, scaled_reach_)), list.index);
-    for (int side = 0; side < 6; ++side) {
-      for (int k = 0; k < list.count; ++k) list.bounds[side][k] = others.bounds[side][list.index[k]];
-    }
-    std::int32_t near[kMostEdges + kPadding];
-    for (int i = 0; i < ones.count && list.count > 0; ++i) {
-      const Box box = base::grown(ones.box(i), scaled_reach_);
-      if (!overlaps(box, other.box)) continue;
-      const int count = kernels().select_overlapping(list.pointers(), list.count, bounds_of(box), near);
-      for (int k = 0; k < count; ++k) visit(i, list.index[near[k]]);
+  void for_each_near(const Ones& ones, const Others& others, const Visit& visit) {
+    if (others.count == 0) return;
+    std::int32_t near[Others::kMost + kPadding];
+    for (int i = 0; i < ones.count; ++i) {
+      const BoxBounds box = bounds_of(base::grown(ones.box(i), scaled_reach_));
+      const int count = kernels().select_overlapping(others.pointers(), others.count, box, near);
+      for (int k = 0; k < count; ++k) visit(i, near[k]);
     }
   }
 
-  void from_vertices(const MovingCluster& vertices, const MovingCluster& facets, FeaturePair kind) {
+  void from_vertices(const NearFeatures& vertices, const NearFeatures& facets, FeaturePair kind) {
     const ClusteredMesh& surface = kind == FeaturePair::vertex_facet ? *b_.mesh : *a_.mesh;
-    for_each_near(vertices, vertices.vertices, facets, facets.facets, [&](int i, int k) {
-      const int vertex = vertices.vertices.first + i, facet = facets.facets.first + k;
+    for_each_near(vertices.vertices, facets.facets, [&](int i, int k) {
+      const int vertex = vertices.vertices.number[i], facet = facets.facets.number[k];
       if (same_) {
         const Corners c = surface.corners(facet);
         if (c[0] == vertex || c[1] == vertex || c[2] == vertex) return;
@@ -203,11 +277,10 @@ class ImpactSearch {
     });
   }
 
-  void between_edges(const MovingCluster& a, const MovingCluster& b) {
-    for_each_near(a, a.edges, b, b.edges, [&](int i, int k) {
-      const int e = a.edges.first + i, f = b.edges.first + k;
-      if (same_ && ((a.cluster == b.cluster && e >= f) || share_a_vertex(a_.features->edge(e), b_.features->edge(f))))
-        return;
+  void between_edges(const NearFeatures& a, const NearFeatures& b, bool one_cluster) {
+    for_each_near(a.edges, b.edges, [&](int i, int k) {
+      const int e = a.edges.number[i], f = b.edges.number[k];
+      if (same_ && ((one_cluster && e >= f) || share_a_vertex(a_.features->edge(e), b_.features->edge(f)))) return;
       Waiting& waiting = memory_.edges;
       const int lane = waiting.polygons.count;
       waiting.pair[lane] = {FeaturePair::edge_edge, e, f};
@@ -224,6 +297,15 @@ class ImpactSearch {
       }
       added(waiting);
     });
+  }
+
+  // What is later than the first impact so far does not count. A time found may be a little too early.
+  Cut cut_of(const Box& all) const {
+    if (first_ == nullptr) return {};
+    const double until = first_->load(std::memory_order_relaxed) + kEarlier;
+    if (!(until < 1.0)) return {};
+    const Vec3 size = all.upper - all.lower;
+    return {until, kNearly * std::max({size.x, size.y, size.z}) + 0x1p-50 * largest_coordinate(all)};
   }
 
   void added(Waiting& waiting) {
@@ -289,6 +371,32 @@ class ImpactSearch {
 
 }  // namespace
 
+double earliest_time(const MovingMesh& a, int cluster_a, const MovingMesh& b, int cluster_b, double reach) {
+  const auto boxes = [](const MovingMesh& m, int cluster) {
+    const auto c = static_cast<std::size_t>(cluster);
+    return std::array<Box, 2>{m.begin.cluster_boxes[c], m.mesh->cluster_boxes()[c]};
+  };
+  const auto box_a = boxes(a, cluster_a), box_b = boxes(b, cluster_b);
+  const Box all = merged(merged(box_a[0], box_a[1]), merged(box_b[0], box_b[1]));
+  const Vec3 size = all.upper - all.lower;
+  const double nearly = kNearly * std::max({size.x, size.y, size.z}) + reach;
+  double latest = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool a_is_lower : {true, false}) {
+      const auto gap = [&](std::size_t time) {
+        return (a_is_lower ? box_b[time].lower[axis] - box_a[time].upper[axis]
+                           : box_a[time].lower[axis] - box_b[time].upper[axis]) -
+               nearly;
+      };
+      const double begin = gap(0), end = gap(1);
+      if (!(begin > 0.0)) continue;
+      if (end > 0.0) return std::numeric_limits<double>::infinity();
+      latest = std::max(latest, begin / (begin - end));
+    }
+  }
+  return std::max(latest - kEarlier, 0.0);
+}
+
 std::span<const ClusterPair> PassingClusters::find(const MovingMesh& a, const MovingMesh& b, double reach,
                                                    EmbreeDevice& device) {
   return finder_.find(
@@ -313,7 +421,11 @@ void ImpactFinder::begin(const Box& all) {
 void ImpactFinder::run(const MovingMesh& a, const MovingMesh& b, double reach, std::span<const ClusterPair> pairs,
                        std::atomic<double>* first, std::vector<FeatureImpact>& found, MotionCounts& counts) {
   ImpactSearch search(a, b, reach, first, *memory_, found, counts);
-  for (const ClusterPair& pair : pairs) search.search(pair);
+  for (const ClusterPair& pair : pairs) {
+    if (first != nullptr && earliest_time(a, pair.a, b, pair.b, reach) > first->load(std::memory_order_relaxed))
+      continue;
+    search.search(pair);
+  }
   search.finish();
 }
 

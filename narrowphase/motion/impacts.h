@@ -61,6 +61,11 @@ struct MotionCounts {
   }
 };
 
+/// No features of two clusters, of two meshes or of one, have an impact earlier than this; infinity: never. `reach` in
+/// metres. Their boxes go straight: the time at which these come within reach of each other, less what rounding and the
+/// search for a meeting may make an impact earlier (meeting.h).
+double earliest_time(const MovingMesh& a, int cluster_a, const MovingMesh& b, int cluster_b, double reach);
+
 /// The cluster pairs of two meshes, or of one twice, that come within `reach` (metres) of each other on their ways.
 class PassingClusters {
  public:
@@ -84,7 +89,7 @@ class ImpactFinder {
   /// Appends the impacts of some cluster pairs of `a` and `b`, which may be one mesh, in no particular order. All
   /// cluster pairs together give each impact once. Features meet that come within `reach` of each other. If only the
   /// first impact is wanted, `first` is not null: it falls to the time of what is found, and later impacts may be left
-  /// out.
+  /// out. Give the cluster pairs that come first first.
   void run(const MovingMesh& a, const MovingMesh& b, double reach, std::span<const ClusterPair> pairs,
            std::atomic<double>* first, std::vector<FeatureImpact>& found, MotionCounts& counts);
 

@@ -26,6 +26,7 @@ constexpr double kLargestReach = 4.0;  // no corner is farther away
 constexpr std::int64_t kMostSpans = 1 << 15;
 // How far around a root of the volume its sign is looked at: as near as most allow, or still less than is promised.
 constexpr double kCrossing = 0x1p-36, kWideCrossing = 0x1p-23;
+constexpr double kShortInPlane = 0x1p-20;  // twice the margin in meeting_in_plane(), and some
 constexpr int kMostNewtonSteps = 12;
 // Each halving of the step adds two at most.
 constexpr std::size_t kMostMoments = 96;
@@ -59,11 +60,25 @@ Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double 
   Meeting meeting;
   Span span{0.0, 1.0};
   if (reach_ == 0.0 && count_ > 2) {
-    if (const std::optional<Span> crossing = only_crossing()) {
+    const Volume volume = volume_on(at_[0], at_[1]);
+    if (const std::optional<Span> crossing = only_crossing(volume)) {
       span = *crossing;
       const Verdict verdict = holds_origin_near(polygon, scale_, span.from, span.to);
       if (verdict == Verdict::yes) meeting.time = span.from;
       if (verdict != Verdict::unknown) return meeting;
+    } else if (std::ranges::all_of(volume.coefficient, [&](double c) { return std::abs(c) <= volume.rounding; })) {
+      const MeetingInPlane flat = meeting_in_plane(polygon, scale_);
+      if (flat.verdict == Verdict::yes) meeting.time = flat.from;
+      if (flat.verdict != Verdict::unknown) return meeting;
+      span = {flat.from, flat.to};
+      if (span.to - span.from <= kShortInPlane) {
+        const std::optional<double> begin = finest_.first_open_part(polygon, scale_, span.from, span.to);
+        if (!begin) return meeting;
+        if (is_near(moment(*begin))) {
+          meeting.time = *begin;
+          return meeting;
+        }
+      }
     }
   }
   Moment from = moment(span.from);
@@ -208,8 +223,7 @@ MeetingSearch::Volume MeetingSearch::volume_on(const Vec3 (&from)[4], const Vec3
 
 // Most often the volume changes its sign once, and is far from zero but for a short span. The root may come from
 // anywhere: that nothing meets before and after is proved by coefficients.
-std::optional<MeetingSearch::Span> MeetingSearch::only_crossing() const {
-  const Volume volume = volume_on(at_[0], at_[1]);
+std::optional<MeetingSearch::Span> MeetingSearch::only_crossing(const Volume& volume) const {
   const auto& c = volume.coefficient;
   const double sign = c[0] > 0.0 ? 1.0 : -1.0;
   const bool changes_once =

@@ -62,7 +62,7 @@ class MeetingSearch {
     double from, to;
   };
   Volume volume_on(const Vec3 (&from)[4], const Vec3 (&to)[4]) const;
-  std::optional<Span> only_crossing() const;
+  std::optional<Span> only_crossing(const Volume& volume) const;
   Moment moment(double time) const;
   Vec3 corner(int i, double time) const;
   Vec3 direction_to(const Moment& m) const;

@@ -230,6 +230,9 @@ TEST(DetectMotion, TheFirstIsTheFirstOfAll) {
       ASSERT_EQ(report.impacts().size(), 1u);
       EXPECT_TRUE(equal(report.impacts()[0], *first));
       EXPECT_EQ(report.first_time(), first->time);
+      const MotionStats alone = report.stats(), every = world.detect_motion().stats();
+      EXPECT_LT(2 * alone.candidates, every.candidates);
+      EXPECT_EQ(alone.cluster_pairs, every.cluster_pairs);
     }
   }
 }

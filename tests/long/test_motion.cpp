@@ -32,7 +32,10 @@ TEST(LongMotion, FirstTimesEqualRationalArithmetic) {
     Random random(seed * 1'000'000'007 + i);
     narrowphase::MeetingSearch search;
     for (std::uint64_t k = 0; k < kBlock; ++k) {
-      const auto [answer, failure] = check(k % 2 == 0 ? random_query(random) : grazing_query(random), search);
+      const auto [answer, failure] = check(k % 5 == 0   ? query_in_plane(random)
+                                           : k % 2 == 0 ? random_query(random)
+                                                        : grazing_query(random),
+                                           search);
       blocks[i].meeting += answer == QueryAnswer::meets;
       blocks[i].counted += answer == QueryAnswer::misses_but_counts;
       if (!failure.empty()) blocks[i].failures.push_back(failure);

@@ -1,10 +1,15 @@
 #include "tests/support/motion_oracle.h"
 
-#include <CGAL/Exact_rational.h>
+#include <CGAL/gmpxx.h>
 #include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,93 +17,202 @@ namespace tact::tests {
 namespace {
 
 using narrowphase::MovingVertex;
-using Rational = CGAL::Exact_rational;
+using Integer = mpz_class;
 
-// Coefficients of powers of time, from the lowest; none on top is zero.
-using Polynomial = std::vector<Rational>;
+int sign_of(const Integer& x) { return static_cast<int>(CGAL::sign(x)); }
+
+// Coefficients of powers of time, from the lowest; none on top is zero. Only signs are asked for, so that a positive
+// factor may be anything.
+using Polynomial = std::vector<Integer>;
 
 Polynomial trimmed(Polynomial p) {
-  while (!p.empty() && p.back() == 0) p.pop_back();
+  while (!p.empty() && sign_of(p.back()) == 0) p.pop_back();
   return p;
 }
 
-Polynomial operator+(const Polynomial& p, const Polynomial& q) {
-  Polynomial sum(std::max(p.size(), q.size()), Rational(0));
-  for (std::size_t i = 0; i < p.size(); ++i) sum[i] += p[i];
-  for (std::size_t i = 0; i < q.size(); ++i) sum[i] += q[i];
-  return trimmed(sum);
+Polynomial operator+(Polynomial p, const Polynomial& q) {
+  if (p.size() < q.size()) p.resize(q.size());
+  for (std::size_t i = 0; i < q.size(); ++i) p[i] += q[i];
+  return trimmed(std::move(p));
+}
+
+Polynomial operator-(Polynomial p, const Polynomial& q) {
+  if (p.size() < q.size()) p.resize(q.size());
+  for (std::size_t i = 0; i < q.size(); ++i) p[i] -= q[i];
+  return trimmed(std::move(p));
 }
 
 Polynomial operator*(const Polynomial& p, const Polynomial& q) {
   if (p.empty() || q.empty()) return {};
-  Polynomial product(p.size() + q.size() - 1, Rational(0));
+  Polynomial product(p.size() + q.size() - 1);
   for (std::size_t i = 0; i < p.size(); ++i) {
     for (std::size_t k = 0; k < q.size(); ++k) product[i + k] += p[i] * q[k];
   }
-  return trimmed(product);
+  return trimmed(std::move(product));
 }
 
 Polynomial negative(Polynomial p) {
-  for (Rational& c : p) c = -c;
+  for (Integer& c : p) c = -c;
   return p;
 }
-
-Polynomial operator-(const Polynomial& p, const Polynomial& q) { return p + negative(q); }
-
-Rational value(const Polynomial& p, const Rational& t) {
-  Rational sum(0);
-  for (std::size_t i = p.size(); i-- > 0;) sum = sum * t + p[i];
-  return sum;
-}
-
-int sign_of(const Rational& x) { return static_cast<int>(CGAL::sign(x)); }
 
 Polynomial derivative(const Polynomial& p) {
   Polynomial d;
-  for (std::size_t i = 1; i < p.size(); ++i) d.push_back(Rational(static_cast<int>(i)) * p[i]);
+  for (std::size_t i = 1; i < p.size(); ++i) d.push_back(Integer(static_cast<int>(i)) * p[i]);
   return d;
 }
 
-// p = q * quotient + rest.
-std::pair<Polynomial, Polynomial> divided(Polynomial p, const Polynomial& q) {
-  if (p.size() < q.size()) return {{}, p};
-  Polynomial quotient(p.size() - q.size() + 1, Rational(0));
-  for (std::size_t i = quotient.size(); i-- > 0;) {
-    quotient[i] = p[i + q.size() - 1] / q.back();
-    for (std::size_t k = 0; k < q.size(); ++k) p[i + k] -= quotient[i] * q[k];
-  }
-  return {trimmed(quotient), trimmed(p)};
+// numerator / 2^bits, from 0 to 1.
+struct Time {
+  Integer numerator;
+  unsigned bits = 0;
+};
+
+Time middle_of(const Time& low, const Time& high) {
+  const unsigned bits = std::max(low.bits, high.bits);
+  return {(low.numerator << (bits - low.bits)) + (high.numerator << (bits - high.bits)), bits + 1};
 }
 
-Polynomial common_divisor(Polynomial p, Polynomial q) {
-  while (!q.empty()) p = std::exchange(q, divided(p, q).second);
+bool is_before(const Time& s, const Time& t) {
+  const unsigned bits = std::max(s.bits, t.bits);
+  return s.numerator << (bits - s.bits) < t.numerator << (bits - t.bits);
+}
+
+// p at a time, times a power of two: 2^(bits * degree), `degree` not less than that of p.
+Integer value(const Polynomial& p, const Time& t, std::size_t degree) {
+  Integer sum(0);
+  for (std::size_t i = p.size(); i-- > 0;)
+    sum = sum * t.numerator + (p[i] << (t.bits * static_cast<unsigned>(p.size() - 1 - i)));
+  return sum << (t.bits * static_cast<unsigned>(degree + 1 - p.size()));
+}
+
+int sign_at(const Polynomial& p, const Time& t) { return p.empty() ? 0 : sign_of(value(p, t, p.size() - 1)); }
+
+// c p = q * quotient + rest for some positive c.
+std::pair<Polynomial, Polynomial> divided(Polynomial p, const Polynomial& q) {
+  if (p.size() < q.size()) return {{}, p};
+  Polynomial quotient(p.size() - q.size() + 1);
+  const Integer top = CGAL::abs(q.back());
+  for (std::size_t i = quotient.size(); i-- > 0;) {
+    const Integer factor = sign_of(q.back()) < 0 ? Integer(-p[i + q.size() - 1]) : p[i + q.size() - 1];
+    for (Integer& c : p) c *= top;
+    for (Integer& c : quotient) c *= top;
+    quotient[i] = factor;
+    for (std::size_t k = 0; k < q.size(); ++k) p[i + k] -= factor * q[k];
+  }
+  return {trimmed(std::move(quotient)), trimmed(std::move(p))};
+}
+
+// Without the common divisor of the coefficients, which would double its digits at each division.
+Polynomial primitive(Polynomial p) {
+  Integer content(0);
+  for (const Integer& c : p) content = CGAL::gcd(content, c);
+  for (Integer& c : p) c = CGAL::integral_division(c, content);
   return p;
 }
 
-// A root of `f`, which has no double one: its only one in (low, high], and if low = high it is that.
+Polynomial common_divisor(Polynomial p, Polynomial q) {
+  while (!q.empty()) p = std::exchange(q, primitive(divided(p, q).second));
+  return primitive(std::move(p));
+}
+
+double to_double(const Time& t) { return std::ldexp(CGAL::to_double(t.numerator), -static_cast<int>(t.bits)); }
+
+constexpr unsigned kGuessed = 44;  // bits of a root that doubles mostly get right
+constexpr unsigned kSimple = 10;   // bits of a root that is looked for exactly: many are a half
+
+// A root of `f`, at which f changes its sign: the only one in (low, high], and if the two are one time it is that.
 struct Root {
   Polynomial f;
-  Rational low, high;
+  Time low, high;
+  bool is_known = false;  // low and high are one time
 
+  void set(const Time& t) {
+    low = high = t;
+    is_known = true;
+  }
+  // Takes the bracket around the root that doubles find, if f changes its sign in it.
+  void jump() {
+    std::size_t digits = 0;
+    for (const Integer& c : f) digits = std::max(digits, mpz_sizeinbase(c.get_mpz_t(), 2));
+    std::vector<double> c;
+    for (const Integer& exact : f) {
+      long exponent = 0;
+      const double mantissa = mpz_get_d_2exp(&exponent, exact.get_mpz_t());
+      c.push_back(std::ldexp(mantissa, static_cast<int>(exponent - static_cast<long>(digits))));
+    }
+    const auto at = [&](double t) {
+      double sum = 0.0;
+      for (std::size_t i = c.size(); i-- > 0;) sum = sum * t + c[i];
+      return sum;
+    };
+    double from = to_double(low), to = to_double(high);
+    const bool rises = sign_at(f, low) < 0;
+    for (int i = 0; i < 50; ++i) {
+      const double middle = 0.5 * (from + to);
+      ((at(middle) < 0.0) == rises ? from : to) = middle;
+    }
+    const Time simple{Integer(std::round(std::ldexp(from, kSimple))), kSimple};
+    if (is_before(low, simple) && is_before(simple, high) && sign_at(f, simple) == 0) return set(simple);
+    const Integer place(std::floor(std::ldexp(from, kGuessed)));
+    const Time before{place - 1, kGuessed}, after{place + 2, kGuessed};
+    if (!is_before(low, before) || !is_before(after, high)) return;
+    const int sign = rises ? -1 : 1;
+    if (sign_at(f, before) != sign || sign_at(f, after) != -sign) return;
+    low = before;
+    high = after;
+  }
   void halve() {
-    if (low == high) return;
-    const Rational middle = (low + high) / 2;
-    const int sign = sign_of(value(f, middle));
+    if (is_known) return;
+    const Time middle = middle_of(low, high);
+    const int sign = sign_at(f, middle);
     if (sign == 0) {
-      low = high = middle;
-    } else if (sign == sign_of(value(f, low))) {
+      set(middle);
+    } else if (sign == sign_at(f, low)) {
       low = middle;
     } else {
       high = middle;
     }
   }
+  // To a width of 2^-bits or less. Doubles guess where, signs decide.
+  void narrow(unsigned bits) {
+    if (!is_known && std::max(low.bits, high.bits) < kGuessed) jump();
+    while (!is_known && high.numerator << (std::max(low.bits, high.bits) - high.bits) >
+                            (low.numerator << (std::max(low.bits, high.bits) - low.bits)) +
+                                (Integer(1) << std::max(low.bits, high.bits)) / (Integer(1) << bits))
+      halve();
+  }
 };
 
+const Time kBegin{Integer(0), 0}, kEnd{Integer(1), 0};
+
 // How often the signs of a Sturm chain change.
-int sign_changes(const std::vector<Polynomial>& chain, const Rational& t) {
+int sign_changes(const std::vector<Polynomial>& chain, const Time& t) {
   int changes = 0, last = 0;
   for (const Polynomial& p : chain) {
-    const int sign = sign_of(value(p, t));
+    const int sign = sign_at(p, t);
+    if (sign != 0 && last != 0 && sign != last) ++changes;
+    if (sign != 0) last = sign;
+  }
+  return changes;
+}
+
+// How often the signs of the Bernstein coefficients on [0, 1] change: no root in (0, 1) if never, one, a single one, if
+// once (Descartes' rule). -1 where an end is a root.
+int bernstein_sign_changes(const Polynomial& p) {
+  int changes = 0, last = 0;
+  Polynomial c = p;
+  // Of degree n: the sum over k of C(i, k) / C(n, k) c[k]; times n!, that is the sum of C(i, k) k! (n - k)! c[k].
+  const auto factorial = [](std::size_t k) { return k < 2 ? 1 : k == 2 ? 2 : k == 3 ? 6 : k == 4 ? 24 : 120; };
+  const std::size_t n = p.size() - 1;
+  for (std::size_t i = 0; i <= n; ++i) {
+    Integer sum(0);
+    for (std::size_t k = 0; k <= i; ++k) {
+      const int ways = factorial(i) / (factorial(k) * factorial(i - k));
+      sum += Integer(ways * factorial(k) * factorial(n - k)) * p[k];
+    }
+    const int sign = sign_of(sum);
+    if (sign == 0 && (i == 0 || i == n)) return -1;
     if (sign != 0 && last != 0 && sign != last) ++changes;
     if (sign != 0) last = sign;
   }
@@ -107,37 +221,42 @@ int sign_changes(const std::vector<Polynomial>& chain, const Rational& t) {
 
 // The roots in [0, 1] of a polynomial that is not zero.
 std::vector<Root> roots_of(const Polynomial& p) {
+  const int changes = bernstein_sign_changes(p);
+  if (changes == 0) return {};
+  if (changes == 1) return {{p, kBegin, kEnd}};
   std::vector<Root> roots;
-  Polynomial f = divided(p, common_divisor(p, derivative(p))).first;
+  Polynomial f = primitive(divided(p, common_divisor(p, derivative(p))).first);
   for (const int end : {0, 1}) {
-    if (f.empty() || value(f, Rational(end)) != 0) continue;
-    roots.push_back({f, Rational(end), Rational(end)});
-    f = divided(f, {Rational(-end), Rational(1)}).first;
+    const Time& at = end == 0 ? kBegin : kEnd;
+    if (f.empty() || sign_at(f, at) != 0) continue;
+    roots.push_back({f, at, at, true});
+    f = divided(f, {Integer(-end), Integer(1)}).first;
   }
   if (f.size() < 2) return roots;
   std::vector<Polynomial> chain{f, derivative(f)};
-  while (chain.back().size() > 1) chain.push_back(negative(divided(chain[chain.size() - 2], chain.back()).second));
-  std::vector<std::pair<Rational, Rational>> spans{{Rational(0), Rational(1)}};
+  while (chain.back().size() > 1)
+    chain.push_back(negative(primitive(divided(chain[chain.size() - 2], chain.back()).second)));
+  std::vector<std::pair<Time, Time>> spans{{kBegin, kEnd}};
   while (!spans.empty()) {
     const auto [low, high] = spans.back();
     spans.pop_back();
     const int count = sign_changes(chain, low) - sign_changes(chain, high);
     if (count == 0) continue;
     if (count == 1) {
-      const bool at_end = value(f, high) == 0;
-      roots.push_back({f, at_end ? high : low, high});
+      roots.push_back({f, low, high});
+      if (sign_at(f, high) == 0) roots.back().set(high);
       continue;
     }
-    const Rational middle = (low + high) / 2;
+    const Time middle = middle_of(low, high);
     spans.emplace_back(low, middle);
     spans.emplace_back(middle, high);
   }
   // The lower end of a span may be the root of another one: move it off.
   for (Root& root : roots) {
-    while (root.low != root.high && value(root.f, root.low) == 0) {
-      const Rational middle = (root.low + root.high) / 2;
-      if (value(root.f, middle) == 0) {
-        root.low = root.high = middle;
+    while (!root.is_known && sign_at(root.f, root.low) == 0) {
+      const Time middle = middle_of(root.low, root.high);
+      if (sign_at(root.f, middle) == 0) {
+        root.set(middle);
       } else if (sign_changes(chain, middle) - sign_changes(chain, root.high) == 1) {
         root.low = middle;
       } else {
@@ -148,21 +267,33 @@ std::vector<Root> roots_of(const Polynomial& p) {
   return roots;
 }
 
-// The sign of g at a root.
-int sign_at(const Polynomial& g, Root root) {
+// Does g keep away from zero between two times, of which it is known at the first? In [0, 1] it is nowhere steeper than
+// the sum of the sizes of its derivative's coefficients.
+bool keeps_sign(const Polynomial& g, const Root& root) {
+  Integer slope(0);
+  for (const Integer& c : derivative(g)) slope += CGAL::abs(c);
+  const unsigned bits = std::max(root.low.bits, root.high.bits);
+  const Integer width =
+      (root.high.numerator << (bits - root.high.bits)) - (root.low.numerator << (bits - root.low.bits));
+  const Time low{root.low.numerator << (bits - root.low.bits), bits};
+  const std::size_t degree = g.size() - 1;
+  return degree == 0 ||
+         CGAL::abs(value(g, low, degree)) > slope * (width << (bits * static_cast<unsigned>(degree - 1)));
+}
+
+constexpr unsigned kNarrow = 40;  // bits: nearly all signs are plain then, without a common divisor
+
+// The sign of g at a root, which is narrowed.
+int sign_at(const Polynomial& g, Root& root) {
   if (g.empty()) return 0;
-  if (root.low == root.high) return sign_of(value(g, root.low));
-  const Polynomial both = common_divisor(root.f, g);
-  if (both.size() > 1 && sign_of(value(both, root.low)) * sign_of(value(both, root.high)) <= 0) return 0;
-  // In [0, 1] g is nowhere steeper than this.
-  Rational slope(0);
-  for (const Rational& c : derivative(g)) slope += CGAL::abs(c);
-  while (root.low != root.high) {
-    const Rational at = value(g, root.low);
-    if (CGAL::abs(at) > slope * (root.high - root.low)) return sign_of(at);
-    root.halve();
+  if (root.is_known) return sign_at(g, root.low);
+  root.narrow(kNarrow);
+  if (!root.is_known && !keeps_sign(g, root)) {
+    const Polynomial both = common_divisor(root.f, g);
+    if (both.size() > 1 && sign_at(both, root.low) * sign_at(both, root.high) <= 0) return 0;
+    while (!root.is_known && !keeps_sign(g, root)) root.halve();
   }
-  return sign_of(value(g, root.low));
+  return sign_at(g, root.low);
 }
 
 using PolynomialVector = std::array<Polynomial, 3>;
@@ -175,49 +306,94 @@ PolynomialVector cross(const PolynomialVector& a, const PolynomialVector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-PolynomialVector way_of(const MovingVertex& vertex) {
+// The exponent of the lowest bit of any coordinate.
+int lowest_bit(std::span<const MovingVertex> vertices) {
+  int lowest = std::numeric_limits<int>::max();
+  for (const MovingVertex& vertex : vertices) {
+    for (const Vec3& p : vertex.at) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (p[axis] == 0.0) continue;
+        int exponent = 0;
+        const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(p[axis], &exponent), 53));
+        lowest = std::min(lowest, exponent - 53 + std::countr_zero(static_cast<std::uint64_t>(mantissa)));
+      }
+    }
+  }
+  return lowest;
+}
+
+// x / 2^unit, which is an integer.
+Integer in_units(double x, int unit) {
+  if (x == 0.0) return Integer(0);
+  int exponent = 0;
+  const double mantissa = std::ldexp(std::frexp(x, &exponent), 53);  // an integer
+  const int shift = exponent - 53 - unit;
+  Integer result(mantissa);
+  if (shift > 0) result <<= static_cast<unsigned>(shift);
+  if (shift < 0) result >>= static_cast<unsigned>(-shift);
+  return result;
+}
+
+PolynomialVector way_of(const MovingVertex& vertex, int unit) {
   PolynomialVector way;
   for (int axis = 0; axis < 3; ++axis) {
-    const Rational begin(vertex.at[0][axis]), end(vertex.at[1][axis]);
+    const Integer begin = in_units(vertex.at[0][axis], unit), end = in_units(vertex.at[1][axis], unit);
     way[static_cast<std::size_t>(axis)] = trimmed({begin, end - begin});
   }
   return way;
+}
+
+double rounded(const Time& t, bool up) {
+  const auto interval = CGAL::to_interval(t.numerator);  // 2^-bits is exact
+  return std::ldexp(up ? interval.second : interval.first, -static_cast<int>(t.bits));
 }
 
 // A triangle, or a parallelogram in the order of its outline: when does it hold the origin?
 class ExactPolygon {
  public:
   explicit ExactPolygon(std::vector<PolynomialVector> corners) : corners_(std::move(corners)) {
-    const std::size_t count = corners_.size();
-    normal_ = cross(corners_[1] - corners_[0], corners_[count - 1] - corners_[0]);
+    normal_ = cross(corners_[1] - corners_[0], corners_.back() - corners_[0]);
     volume_ = dot(normal_, corners_[0]);
-    for (std::size_t i = 0; i < count; ++i) {
-      const PolynomialVector& from = corners_[i];
-      inside_.push_back(negative(dot(normal_, cross(corners_[(i + 1) % count] - from, from))));
-      for (std::size_t k = 0; k < i; ++k) {
-        line_.push_back(cross(from, corners_[k]));
-        between_.push_back(dot(from, corners_[k]));
-      }
-    }
   }
 
-  std::optional<TimeEnclosure> first_time() const {
-    const Root begin{{}, Rational(0), Rational(0)};
+  std::optional<TimeEnclosure> first_time() {
+    Root begin{{}, kBegin, kBegin, true};
     if (holds_origin(begin)) return TimeEnclosure{0.0, 0.0};
     std::optional<Root> first;
     for (Root& root : candidates()) {
       if (!holds_origin(root)) continue;
-      while (root.high - root.low > Rational(0x1p-60)) root.halve();
-      if (!first || root.high < first->high) first = root;
+      root.narrow(60);
+      if (!first || is_before(root.high, first->high)) first = root;
     }
     if (!first) return std::nullopt;
-    return TimeEnclosure{CGAL::to_interval(first->low).first, CGAL::to_interval(first->high).second};
+    return TimeEnclosure{rounded(first->low, false), rounded(first->high, true)};
   }
 
  private:
+  // What is needed only where the volume vanishes.
+  void make_sides() {
+    if (!inside_.empty()) return;
+    const std::size_t count = corners_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const PolynomialVector& from = corners_[i];
+      inside_.push_back(negative(dot(normal_, cross(corners_[(i + 1) % count] - from, from))));
+    }
+  }
+  void make_lines() {
+    if (!line_.empty()) return;
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        line_.push_back(cross(corners_[i], corners_[k]));
+        between_.push_back(dot(corners_[i], corners_[k]));
+      }
+    }
+  }
+
   // Times at which it may begin to hold the origin.
-  std::vector<Root> candidates() const {
+  std::vector<Root> candidates() {
     if (!volume_.empty()) return roots_of(volume_);
+    make_sides();
+    make_lines();
     std::vector<Root> all;
     const auto add = [&](const Polynomial& p) {
       if (p.empty()) return;
@@ -232,13 +408,17 @@ class ExactPolygon {
     return all;
   }
 
-  bool holds_origin(const Root& at) const {
-    if (sign_at(volume_, at) != 0) return false;
+  bool holds_origin(Root& at) {
+    const bool is_root = !at.f.empty() && !volume_.empty();  // candidates are the volume's roots, then
+    if (!is_root && sign_at(volume_, at) != 0) return false;
     const auto vanishes = [&](const PolynomialVector& v) {
       return std::ranges::all_of(v, [&](const Polynomial& p) { return sign_at(p, at) == 0; });
     };
-    if (!vanishes(normal_))
+    if (!vanishes(normal_)) {
+      make_sides();
       return std::ranges::all_of(inside_, [&](const Polynomial& p) { return sign_at(p, at) >= 0; });
+    }
+    make_lines();
     for (std::size_t i = 0; i < line_.size(); ++i) {
       if (vanishes(line_[i]) && sign_at(between_[i], at) <= 0) return true;
     }
@@ -257,13 +437,16 @@ class ExactPolygon {
 
 std::optional<TimeEnclosure> first_time_of_vertex_and_facet(const MovingVertex& vertex,
                                                             const MovingVertex (&facet)[3]) {
+  const int unit = std::min(lowest_bit({&vertex, 1}), lowest_bit(facet));
   std::vector<PolynomialVector> corners;
-  for (const MovingVertex& corner : facet) corners.push_back(way_of(corner) - way_of(vertex));
+  for (const MovingVertex& corner : facet) corners.push_back(way_of(corner, unit) - way_of(vertex, unit));
   return ExactPolygon(corners).first_time();
 }
 
 std::optional<TimeEnclosure> first_time_of_edges(const MovingVertex (&edge)[2], const MovingVertex (&other)[2]) {
-  const auto p = way_of(edge[0]), q = way_of(edge[1]), r = way_of(other[0]), s = way_of(other[1]);
+  const int unit = std::min(lowest_bit(edge), lowest_bit(other));
+  const auto way = [&](const MovingVertex& vertex) { return way_of(vertex, unit); };
+  const auto p = way(edge[0]), q = way(edge[1]), r = way(other[0]), s = way(other[1]);
   return ExactPolygon({r - p, s - p, s - q, r - q}).first_time();
 }
 

@@ -19,14 +19,16 @@ std::optional<TimeEnclosure> exact_time(const MotionQuery& query);
 MotionQuery random_query(Random& random);
 /// At half-way a vertex lies in a corner, on a side or inside the other feature, but for rounding.
 MotionQuery grazing_query(Random& random);
+/// Edges of two layers of cloth on one grid, that move along the vertical: they stay in one plane.
+MotionQuery query_in_plane(Random& random);
 
 enum class QueryAnswer { meets, misses, misses_but_counts };  // the last: by next to nothing
 struct CheckedQuery {
   QueryAnswer answer = QueryAnswer::misses;
   std::string failure;  // empty: the engine is right
 };
-/// Is what the engine says of the query right? Never missed, never late, at most 1e-6 early; and what misses by more
-/// than 1e-11 of its size and way is never reported.
+/// Is what the engine says of the query right? Never missed, never late, at most 1e-6 early unless the two come within
+/// 1e-11 of their size and way then; and what misses by more than that is never reported.
 CheckedQuery check(const MotionQuery& query, narrowphase::MeetingSearch& search);
 
 }  // namespace tact::tests

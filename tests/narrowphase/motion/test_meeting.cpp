@@ -68,6 +68,23 @@ TEST(Meeting, AReachIsMetWhenItIsReached) {
   EXPECT_NEAR(search.first(facet_seen_from(vertex, facet), 2.0).time, 0.45, 1e-10);
 }
 
+// Their volume is zero throughout.
+TEST(Meeting, EdgesThatStayInOnePlaneAreRightMostlyAtOnce) {
+  Random random(5);
+  MeetingSearch search;
+  int meeting = 0, at_once = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const MotionQuery query = query_in_plane(random);
+    const CheckedQuery checked = check(query, search);
+    EXPECT_EQ(checked.failure, "");
+    const bool meets = checked.answer == QueryAnswer::meets;
+    meeting += meets ? 1 : 0;
+    at_once += meets && search.first(query.polygon(), 0.0).spans == 0 ? 1 : 0;
+  }
+  EXPECT_GT(meeting, 500);
+  EXPECT_GT(at_once, meeting / 3);
+}
+
 TEST(Meeting, TheSearchTakesTheSameStepsWhateverIsLatest) {
   Random random(3);
   MeetingSearch search;
