@@ -45,6 +45,8 @@ class Bodies {
   void set_self_contact(BodyId id, bool wanted);
 
   bool contains(BodyId id) const noexcept;
+  // Was a body ever added, one that is gone included?
+  bool ever_held_any() const noexcept { return !slots_.empty(); }
   // Errors: stale_body, foreign_body.
   const Body& at(BodyId id) const;
   const broadphase::Filter& filter(BodyId id) const { return filters_[at(id).id.index]; }

@@ -1,6 +1,9 @@
 #include <tact/world.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -9,6 +12,7 @@
 #include "engine/base/timer.h"
 #include "engine/bodies.h"
 #include "engine/check_name.h"
+#include "engine/messages.h"
 #include "engine/motion_stage.h"
 #include "engine/questions.h"
 #include "engine/step.h"
@@ -69,6 +73,13 @@ struct World::Implementation {
   Step step;
   std::unique_ptr<MotionStage> motion = nullptr;  // made when it is first asked for
   double refresh_ms = 0.0;                        // since the last step
+  WorldObserver* observer = nullptr;
+
+  // Calls tell(observer), if there is one.
+  template <class Tell>
+  void observe(const Tell& tell) {
+    if (observer != nullptr) tell(*observer);
+  }
 
   // Calls work(), which is part of stage 1, and takes its time.
   template <class Work>
@@ -117,42 +128,75 @@ void World::set_settings(const Settings& settings) {
   i.settings = checked(settings);
   if (i.workers.executor() != i.settings.executor.get()) i.workers = base::Workers(i.settings.executor);
   i.step.look_at_all();
+  i.observe([&](WorldObserver& observer) { observer.settings_changed(i.settings); });
 }
 
 BodyId World::add_body(const BodyDefinition& definition) {
   const base::FloatingPointMode mode;
-  return with_memory("adding a body ran out of memory", [&] { return implementation().bodies.add(definition); });
+  Implementation& i = implementation();
+  const BodyId body = with_memory("adding a body ran out of memory", [&] { return i.bodies.add(definition); });
+  i.observe([&](WorldObserver& observer) { observer.body_added(body, definition); });
+  return body;
 }
 
-void World::remove_body(BodyId body) { implementation().bodies.remove(body); }
+void World::remove_body(BodyId body) {
+  Implementation& i = implementation();
+  i.bodies.remove(body);
+  i.observe([&](WorldObserver& observer) { observer.body_removed(body); });
+}
 
 void World::set_positions(BodyId body, const Positions& positions) {
   Implementation& i = implementation();
   i.set_positions([&] { i.bodies.set_positions(body, positions, i.settings.threads); });
+  i.observe([&](WorldObserver& observer) { observer.positions_set(std::array{PositionsUpdate{body, positions}}); });
 }
 
 void World::set_positions(std::span<const PositionsUpdate> updates) {
   Implementation& i = implementation();
   i.set_positions([&] { i.bodies.set_positions(updates, i.settings.threads); });
+  i.observe([&](WorldObserver& observer) { observer.positions_set(updates); });
 }
 
 void World::set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask) {
-  implementation().bodies.set_layers(body, layer, mask);
+  Implementation& i = implementation();
+  i.bodies.set_layers(body, layer, mask);
+  i.observe([&](WorldObserver& observer) { observer.layers_set(body, layer, mask); });
 }
 
-void World::set_motion(BodyId body, Motion motion) { implementation().bodies.set_motion(body, motion); }
+void World::set_motion(BodyId body, Motion motion) {
+  Implementation& i = implementation();
+  i.bodies.set_motion(body, motion);
+  i.observe([&](WorldObserver& observer) { observer.motion_set(body, motion); });
+}
 
-void World::set_margin(BodyId body, double margin) { implementation().bodies.set_margin(body, margin); }
+void World::set_margin(BodyId body, double margin) {
+  Implementation& i = implementation();
+  i.bodies.set_margin(body, margin);
+  i.observe([&](WorldObserver& observer) { observer.margin_set(body, margin); });
+}
 
-void World::set_self_contact(BodyId body, bool wanted) { implementation().bodies.set_self_contact(body, wanted); }
+void World::set_self_contact(BodyId body, bool wanted) {
+  Implementation& i = implementation();
+  i.bodies.set_self_contact(body, wanted);
+  i.observe([&](WorldObserver& observer) { observer.self_contact_set(body, wanted); });
+}
+
+void World::set_observer(WorldObserver* observer) {
+  Implementation& i = implementation();
+  if (observer != nullptr && i.bodies.ever_held_any())
+    throw Error(ErrorCode::wrong_order, "an observer is set before the first body is added");
+  i.observer = observer;
+  i.observe([&](WorldObserver& told) { told.settings_changed(i.settings); });
+}
 
 const Report& World::detect() {
   Implementation& i = implementation();
+  i.observe([](WorldObserver& observer) { observer.step_begins(); });
   const base::FloatingPointMode mode;
   const base::Workers::Scope scope(i.workers);
   i.regroup();
   const double refresh_ms = std::exchange(i.refresh_ms, 0.0);
-  return with_memory("detect ran out of memory; the next call starts afresh", [&]() -> const Report& {
+  const Report& report = with_memory("detect ran out of memory; the next call starts afresh", [&]() -> const Report& {
     try {
       return i.step.run(i.bodies, i.settings, refresh_ms);
     } catch (...) {
@@ -161,6 +205,9 @@ const Report& World::detect() {
       throw;
     }
   });
+  i.observe([&](WorldObserver& observer) { observer.step_ended(report); });
+  tell_limits(report, i.bodies, i.settings.on_message);
+  return report;
 }
 
 const MotionReport& World::detect_motion(Impacts wanted) {
@@ -276,5 +323,55 @@ std::size_t World::vertex_count(BodyId body) const {
 std::size_t World::facet_count(BodyId body) const {
   return static_cast<std::size_t>(implementation().bodies.at(body).mesh.facet_count());
 }
+
+namespace {
+
+template <class Number>
+void check_room(std::span<Number> room, std::size_t needed, const std::string& name) {
+  if (room.size() == needed) return;
+  throw Error(ErrorCode::wrong_size, "body '" + name + "': room for " + std::to_string(room.size()) + " numbers, not " +
+                                         std::to_string(needed));
+}
+
+}  // namespace
+
+void World::copy_positions(BodyId body, std::span<double> coordinates) const {
+  const Body& asked = implementation().bodies.at(body);
+  check_room(coordinates, 3 * static_cast<std::size_t>(asked.mesh.source_vertex_count()), asked.name);
+  std::ranges::fill(coordinates, std::numeric_limits<double>::quiet_NaN());
+  for (int vertex = 0; vertex < asked.mesh.vertex_count(); ++vertex) {
+    const base::Vec3 position = asked.mesh.position(vertex);
+    double* const to = &coordinates[3 * static_cast<std::size_t>(asked.mesh.source_vertex(vertex))];
+    to[0] = position.x, to[1] = position.y, to[2] = position.z;
+  }
+}
+
+void World::copy_facets(BodyId body, std::span<int> corners) const {
+  const Body& asked = implementation().bodies.at(body);
+  check_room(corners, 3 * static_cast<std::size_t>(asked.mesh.facet_count()), asked.name);
+  for (int facet = 0; facet < asked.mesh.facet_count(); ++facet) {
+    const narrowphase::Corners of_facet = asked.mesh.corners(facet);
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[3 * static_cast<std::size_t>(asked.mesh.source_facet(facet)) + k] = asked.mesh.source_vertex(of_facet[k]);
+  }
+}
+
+Bounds World::bounds(BodyId body) const {
+  const Bodies& bodies = implementation().bodies;
+  const base::Box& box = bodies.boxes()[bodies.at(body).id.index];
+  return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
+}
+
+WorldObserver::~WorldObserver() = default;
+void WorldObserver::settings_changed(const Settings&) noexcept {}
+void WorldObserver::body_added(BodyId, const BodyDefinition&) noexcept {}
+void WorldObserver::body_removed(BodyId) noexcept {}
+void WorldObserver::positions_set(std::span<const PositionsUpdate>) noexcept {}
+void WorldObserver::layers_set(BodyId, std::uint32_t, std::uint32_t) noexcept {}
+void WorldObserver::motion_set(BodyId, Motion) noexcept {}
+void WorldObserver::margin_set(BodyId, double) noexcept {}
+void WorldObserver::self_contact_set(BodyId, bool) noexcept {}
+void WorldObserver::step_begins() noexcept {}
+void WorldObserver::step_ended(const Report&) noexcept {}
 
 }  // namespace tact

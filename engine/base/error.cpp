@@ -16,6 +16,7 @@ const char* error_code_name(ErrorCode code) {
     case ErrorCode::wrong_order: return "wrong_order";
     case ErrorCode::out_of_memory: return "out_of_memory";
     case ErrorCode::backend_failure: return "backend_failure";
+    case ErrorCode::bad_recording: return "bad_recording";
   }
   return "unknown";
 }

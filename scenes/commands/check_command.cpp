@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <tact/recording.h>
 #include <tact/world.h>
 
 #include <CLI/Validators.hpp>
@@ -25,7 +26,6 @@
 #include "scenes/files/body_files.h"
 #include "scenes/files/named_files.h"
 #include "scenes/files/output_file.h"
-#include "scenes/files/recording.h"
 
 namespace tact::scenes {
 namespace {
@@ -113,7 +113,7 @@ void check_outputs(const CheckOptions& options, const std::vector<BodyFrames>& b
 }
 
 // Bodies that stand still are moving ones that do not move: two of them must still be tested.
-std::vector<BodyId> add_bodies(const std::vector<BodyFrames>& bodies, RecordedWorld& world) {
+std::vector<BodyId> add_bodies(const std::vector<BodyFrames>& bodies, World& world) {
   std::vector<BodyId> ids;
   for (const BodyFrames& body : bodies) {
     try {
@@ -130,7 +130,7 @@ std::vector<BodyId> add_bodies(const std::vector<BodyFrames>& bodies, RecordedWo
   return ids;
 }
 
-void set_frame(const std::vector<BodyFrames>& bodies, const std::vector<BodyId>& ids, int frame, RecordedWorld& world) {
+void set_frame(const std::vector<BodyFrames>& bodies, const std::vector<BodyId>& ids, int frame, World& world) {
   std::vector<PositionsUpdate> updates;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (bodies[i].moves) updates.push_back({ids[i], bodies[i].positions[static_cast<std::size_t>(frame)]});
@@ -157,14 +157,15 @@ void check(const CheckOptions& options, std::ostream& out) {
   if (!options.json.empty()) json_file.emplace(options.json, out);
   std::optional<OutputFile> recording;
   if (!options.record.empty()) recording.emplace(options.record, out, Appears::at_once);
-  RecordedWorld world({.threads = threads, .accuracy = options.accuracy, .outputs = {.points = options.points}},
-                      recording ? &recording->stream() : nullptr);
+  std::optional<Recorder> recorder;
+  World world({.threads = threads, .accuracy = options.accuracy, .outputs = {.points = options.points}});
+  if (recording) world.set_observer(&recorder.emplace(recording->stream()));
   const std::vector<BodyId> ids = add_bodies(bodies, world);
 
   std::optional<JsonReport> json;
-  if (json_file) json.emplace(json_file->stream(), world.world());
+  if (json_file) json.emplace(json_file->stream(), world);
   std::optional<TableReport> table;
-  if (options.json != "-") table.emplace(out, world.world());
+  if (options.json != "-") table.emplace(out, world);
 
   const int frames = frames_to_step(options, bodies);
   ProgressLine progress("frame", frames, ProgressLine::Beside::output);

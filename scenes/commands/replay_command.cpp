@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <tact/recording.h>
 
 #include <CLI/Validators.hpp>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "engine/base/timer.h"
@@ -13,7 +15,7 @@
 #include "scenes/commands/counted.h"
 #include "scenes/commands/interrupt.h"
 #include "scenes/files/mapped_file.h"
-#include "scenes/files/recording_player.h"
+#include "scenes/files/source.h"
 
 namespace tact::scenes {
 namespace {
@@ -27,23 +29,46 @@ constexpr const char* kReplayExamples =
 
 }  // namespace
 
+namespace {
+
+// Calls call(); what is wrong with the recording becomes an error of the file.
+template <class Call>
+auto of_file(const std::string& name, const Call& call) {
+  try {
+    return call();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::bad_recording) throw;
+    constexpr std::size_t kLongest = 300;
+    throw FileError(fmt::format("{}: {}", name, printable(error.what(), kLongest)));  // it may hold the name of a body
+  }
+}
+
+}  // namespace
+
 void replay(const ReplayOptions& options, std::ostream& out) {
   const MappedFile file(options.recording);
   const std::string name = options.recording.string();
   base::Timer timer;
-  RecordingPlayer player(file.bytes(), name, options.threads);
+  RecordingPlayer player = of_file(name, [&] { return RecordingPlayer(file.bytes(), options.threads); });
   int steps = 0;
   int different = 0;
   std::optional<PlayedStep> first;
   const Interrupt interrupt;
   while (!interrupt.requested()) {
-    const std::optional<PlayedStep> step = player.next();
+    const std::optional<PlayedStep> step = of_file(name, [&] { return player.next(); });
     if (!step) break;
+    if (!step->recorded) {
+      fmt::print(out, "step {} had no answer when it was recorded; now {:016x}\n", step->number, step->now);
+      continue;
+    }
     ++steps;
     if (step->same()) continue;
     ++different;
     if (!first) first = step;
-    fmt::print(out, "step {}: {:016x} in the recording, {:016x} now\n", step->number, step->recorded, step->now);
+    fmt::print(out, "step {}: {:016x} in the recording, {:016x} now\n", step->number, *step->recorded, step->now);
+  }
+  if (const std::optional<std::size_t> cut = player.cut_at()) {
+    fmt::print(out, "the recording is cut off in the record at byte {}: all before it was played\n", *cut);
   }
   fmt::print(out, "{} on {} in {:.2f} s{}: {}\n", counted(steps, "step"),
              counted(player.world().settings().threads, "thread"), 1e-3 * timer.lap(),

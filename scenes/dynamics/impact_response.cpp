@@ -107,7 +107,7 @@ void ImpactResponse::stop(const Impact& impact, const std::vector<std::vector<Ve
 }
 
 void ImpactResponse::run(const std::vector<std::vector<Vec3>>& begin, double seconds, const std::vector<BodyId>& ids,
-                         std::vector<Body>& bodies, RecordedWorld& world) {
+                         std::vector<Body>& bodies, World& world) {
   wanted_.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) wanted_[i] = bodies[i].positions;
   std::vector<PositionsUpdate> updates;

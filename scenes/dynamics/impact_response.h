@@ -1,13 +1,12 @@
 // Ends a step before anything passes through anything: by the impacts between its beginning and its end.
 #pragma once
 
-#include <tact/motion.h>
+#include <tact/tact.h>
 
 #include <cstdint>
 #include <vector>
 
 #include "scenes/dynamics/body.h"
-#include "scenes/files/recording.h"
 
 namespace tact::scenes {
 
@@ -21,7 +20,7 @@ class ImpactResponse {
   // makes new impacts it is done some times; if any are left then, all bodies go only so far as nothing meets. A body
   // that no force moves stops, too, then; its script sets it where it should be in the next step.
   void run(const std::vector<std::vector<Vec3>>& begin, double seconds, const std::vector<BodyId>& ids,
-           std::vector<Body>& bodies, RecordedWorld& world);
+           std::vector<Body>& bodies, World& world);
 
   // Of the last step: how often impacts were looked for, how many were stopped, and the part of the way that was gone.
   int rounds() const { return rounds_; }

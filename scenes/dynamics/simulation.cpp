@@ -46,12 +46,13 @@ Simulation::Simulation(std::vector<Body> bodies, Script script, const DynamicsSe
       script_(std::move(script)),
       threads_(settings.threads > 0 ? settings.threads : base::default_threads()),
       bodies_(std::move(bodies)),
-      world_(settings, recording),
+      world_(settings),
       before_(bodies_.size()),
       seen_(bodies_.size()),
       last_seen_(bodies_.size()),
       moved_(bodies_.size(), 0.0),
       finders_(static_cast<std::size_t>(threads_)) {
+  if (recording != nullptr) world_.set_observer(&recorder_.emplace(*recording));
   if (script_) script_(0.0, bodies_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& body = bodies_[i];
@@ -84,9 +85,9 @@ void Simulation::step() {
   times_.impacts_ms = dynamics_.continuous ? timer.lap() : 0.0;
   show_surfaces();
   times_.surfaces_ms = timer.lap();
-  const double written_ms = world_.writing_ms();
+  const double written_ms = writing_ms();
   detect();
-  times_.recording_ms = world_.writing_ms() - written_ms;
+  times_.recording_ms = writing_ms() - written_ms;
   times_.engine_ms = timer.lap() - times_.recording_ms;
   if (!dynamics_.continuous) find_contacts();
   times_.contacts_ms = timer.lap();

@@ -1,10 +1,12 @@
 // A small dynamics that lives on what tact reports: set positions, detect, respond.
 #pragma once
 
+#include <tact/recording.h>
 #include <tact/tact.h>
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <ostream>
 #include <vector>
 
@@ -12,7 +14,6 @@
 #include "scenes/dynamics/contact_solver.h"
 #include "scenes/dynamics/impact_response.h"
 #include "scenes/dynamics/penetration.h"
-#include "scenes/files/recording.h"
 
 namespace tact::scenes {
 
@@ -72,7 +73,7 @@ class Simulation {
   const std::vector<Body>& bodies() const { return bodies_; }
   // The positions of body i that tact saw in the last step: moved out by its skin, before the pushes that followed.
   const std::vector<Vec3>& seen(std::size_t i) const { return seen_[i]; }
-  const World& world() const { return world_.world(); }
+  const World& world() const { return world_; }
   // Of the last step; null before the first.
   const Report* report() const { return report_; }
   const DynamicsState& state() const { return state_; }
@@ -81,6 +82,8 @@ class Simulation {
   const DynamicsSettings& dynamics() const { return dynamics_; }
 
  private:
+  // What recording took so far.
+  double writing_ms() const { return recorder_ ? recorder_->writing_ms() : 0.0; }
   void move();
   void begin_substep(std::size_t body, double h, int threads);
   void end_substep(std::size_t body, double h, int threads);
@@ -102,7 +105,8 @@ class Simulation {
   Script script_;
   int threads_;
   std::vector<Body> bodies_;
-  RecordedWorld world_;
+  std::optional<Recorder> recorder_;  // outlives the world
+  World world_;
   std::vector<BodyId> ids_;
   std::vector<std::size_t> small_, large_;           // bodies that can move
   std::vector<std::vector<Vec3>> before_;            // positions at the start of the substep, by body

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/c/mesh_for_c.h"
 #include "tests/support/body_pairs.h"
 #include "tests/support/generators.h"
 
@@ -17,17 +18,6 @@ namespace tact::tests {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-tact_columns columns_of(const Eigen::Matrix3Xd& positions) {
-  return {positions.data(), static_cast<size_t>(positions.cols()), 24, TACT_FLOAT64};
-}
-
-tact_body_definition definition_of(const Mesh& mesh) {
-  tact_body_definition definition = TACT_BODY_DEFINITION_INIT;
-  definition.positions = columns_of(mesh.positions);
-  definition.facets = {mesh.facets.data(), static_cast<size_t>(mesh.facets.cols()), 12, TACT_INT32};
-  return definition;
-}
 
 // A world of C that ends with the test.
 struct WorldOfC {

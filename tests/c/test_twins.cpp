@@ -89,8 +89,10 @@ void expect_twins_of_fields(const std::string& header, const std::string& type, 
 }
 
 TEST(TwinsInC, OfTheFunctionsOfWorldAndReport) {
-  expect_twins_of_functions("world.h", "class TACT_API World {", "tact_world_", {});
+  expect_twins_of_functions("world.h", "class TACT_API World {", "tact_world_",
+                            {{"set_observer", "tact_world_record"}});
   expect_twins_of_functions("report.h", "class TACT_API Report {", "tact_report_", {});
+  expect_twins_of_functions("recording.h", "class TACT_API RecordingPlayer {", "tact_player_", {{"report", ""}});
   expect_twins_of_functions("motion.h", "class TACT_API MotionReport {", "tact_motion_", {});
   // In C they are fields.
   expect_twins_of_functions("report.h", "struct Contact {", "tact_contact_",
@@ -107,6 +109,11 @@ TEST(TwinsInC, OfEachField) {
   expect_twins_of_fields("report.h", "struct ZoneDisk {", "tact_zone_disk", {});
   expect_twins_of_fields("report.h", "struct CandidatePair {", "tact_candidate_pair", {});
   expect_twins_of_fields("report.h", "struct ContactEvent {", "tact_contact_event", {});
+  expect_twins_of_fields("world.h", "struct Bounds {", "tact_bounds", {});
+  expect_twins_of_fields("message.h", "struct Message {", "tact_message", {});
+  expect_twins_of_fields("recording.h", "struct PlayedStep {", "tact_played_step", {});
+  expect_twins_of_fields("debug_draw.h", "struct DebugDrawOptions {", "tact_debug_draw_options", {});
+  expect_twins_of_fields("debug_draw.h", "struct DebugColor {", "tact_debug_color", {});
   expect_twins_of_fields("questions.h", "struct Ray {", "tact_ray", {"asked"});
   expect_twins_of_fields("questions.h", "struct RayHit {", "tact_ray_hit", {});
   expect_twins_of_fields("questions.h", "struct PointQuestion {", "tact_point_question", {"asked"});

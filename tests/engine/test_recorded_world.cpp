@@ -1,11 +1,11 @@
 // The recordings that failing tests leave.
 #include <gtest/gtest.h>
+#include <tact/recording.h>
 
 #include <array>
 #include <filesystem>
 #include <string>
 
-#include "scenes/files/recording_player.h"
 #include "tests/support/body_pairs.h"
 #include "tests/support/generators.h"
 #include "tests/support/recorded_world.h"
@@ -34,7 +34,7 @@ void play_steps(RecordedWorld& world) {
 }
 
 int steps_with_the_same_hash(const std::string& recording) {
-  scenes::RecordingPlayer player(recording, "recording");
+  RecordingPlayer player(recording);
   int same = 0;
   while (const auto step = player.next()) same += step->same() ? 1 : 0;
   return same;

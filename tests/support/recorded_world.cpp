@@ -87,39 +87,20 @@ class LatestWorlds : public ::testing::EmptyTestEventListener {
 }  // namespace
 
 RecordedWorld::RecordedWorld(const Settings& settings)
-    : recording_(std::make_shared<std::ostringstream>()), recorded_(settings, recording_.get()) {
+    : World(settings),
+      recording_(std::make_shared<std::ostringstream>()),
+      recorder_(std::make_unique<Recorder>(*recording_)) {
+  set_observer(recorder_.get());
   LatestWorlds::instance().note(recording_);
-}
-
-void RecordedWorld::set_settings(const Settings& settings) { recorded_.set_settings(settings); }
-
-BodyId RecordedWorld::add_body(const BodyDefinition& definition) {
-  const BodyId body = recorded_.add_body(definition);
-  limit_length();
-  return body;
-}
-
-void RecordedWorld::remove_body(BodyId body) { recorded_.remove_body(body); }
-
-void RecordedWorld::set_positions(BodyId body, const Positions& positions) {
-  recorded_.set_positions(body, positions);
-  limit_length();
-}
-
-void RecordedWorld::set_positions(std::span<const PositionsUpdate> updates) {
-  recorded_.set_positions(updates);
-  limit_length();
 }
 
 const Report& RecordedWorld::detect() {
   LatestWorlds::instance().note(recording_);
-  return recorded_.detect();
-}
-
-void RecordedWorld::limit_length() {
-  if (recording_->tellp() <= kLongest) return;
-  recording_->str({});
-  recording_->setstate(std::ios::badbit);  // nothing more is written
+  if (recording_->tellp() > kLongest) {  // longer than a file for looking at a failure should be
+    recording_->str({});
+    recording_->setstate(std::ios::badbit);  // nothing more is written
+  }
+  return World::detect();
 }
 
 std::vector<std::filesystem::path> write_recordings(const std::filesystem::path& folder) {

@@ -13,6 +13,7 @@ namespace {
 struct Registry {
   std::shared_mutex mutex;
   std::map<std::uint64_t, std::shared_ptr<WorldEntry>> entries;
+  std::map<std::uint64_t, std::shared_ptr<PlayerEntry>> players;
   std::uint64_t last = 0x7461637400000000;  // "tact": no small number is ever a handle
 };
 
@@ -26,12 +27,12 @@ thread_local std::array<char, 1024> last_message{};
 
 tact_error error_of(ErrorCode code) {
   const int number = static_cast<int>(code) + 1;
-  return number <= TACT_ERROR_BACKEND_FAILURE ? static_cast<tact_error>(number) : TACT_ERROR_INTERNAL;
+  return number <= TACT_ERROR_BAD_RECORDING ? static_cast<tact_error>(number) : TACT_ERROR_INTERNAL;
 }
 static_assert(static_cast<int>(ErrorCode::non_finite_position) + 1 == TACT_ERROR_NON_FINITE_POSITION);
 static_assert(static_cast<int>(ErrorCode::stale_body) + 1 == TACT_ERROR_STALE_BODY);
 static_assert(static_cast<int>(ErrorCode::bad_settings) + 1 == TACT_ERROR_BAD_SETTINGS);
-static_assert(static_cast<int>(ErrorCode::backend_failure) + 1 == TACT_ERROR_BACKEND_FAILURE);
+static_assert(static_cast<int>(ErrorCode::bad_recording) + 1 == TACT_ERROR_BAD_RECORDING);
 
 }  // namespace
 
@@ -54,6 +55,28 @@ std::shared_ptr<WorldEntry> entry_of(tact_world world) {
   const auto found = all.entries.find(world.handle);
   if (found == all.entries.end())
     throw Failure{TACT_ERROR_INVALID_HANDLE, "the world was destroyed, or the handle was never given out"};
+  return found->second;
+}
+
+std::uint64_t add_player(std::shared_ptr<PlayerEntry> player) {
+  Registry& all = registry();
+  const std::lock_guard lock(all.mutex);
+  all.players.emplace(all.last + 1, std::move(player));
+  return ++all.last;
+}
+
+void remove_player(std::uint64_t handle) {
+  Registry& all = registry();
+  const std::lock_guard lock(all.mutex);
+  all.players.erase(handle);
+}
+
+std::shared_ptr<PlayerEntry> player_of(tact_player player) {
+  Registry& all = registry();
+  const std::shared_lock lock(all.mutex);
+  const auto found = all.players.find(player.handle);
+  if (found == all.players.end())
+    throw Failure{TACT_ERROR_INVALID_HANDLE, "the player was closed, or the handle was never given out"};
   return found->second;
 }
 
@@ -97,6 +120,7 @@ const char* tact_error_code_name(int error) {
     case TACT_ERROR_BUSY: return "busy";
     case TACT_ERROR_INDEX_OUT_OF_RANGE: return "index_out_of_range";
     case TACT_ERROR_INTERNAL: return "internal";
+    case TACT_ERROR_FILE: return "file";
     default: return tact::error_code_name(static_cast<tact::ErrorCode>(error - 1));
   }
 }

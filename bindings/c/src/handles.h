@@ -1,16 +1,20 @@
 // The worlds of C programs: handles that can be checked, and the guard that every function of the interface runs in.
 #pragma once
 
+#include <tact/recording.h>
 #include <tact/tact.h>
 #include <tact/tact_c.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <fstream>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <shared_mutex>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,19 +26,41 @@ struct Failure {
   const char* message;
 };
 
+// A file that a world is recorded to.
+struct FileRecording {
+  std::ofstream file;
+  Recorder recorder{file};
+};
+
 struct WorldEntry {
-  explicit WorldEntry(const Settings& settings) : world(settings) {}
-  World world;
+  explicit WorldEntry(std::shared_ptr<World> given) : held(std::move(given)), world(*held) {}
+  std::unique_ptr<FileRecording> recording = nullptr;  // outlives the world
+  std::shared_ptr<World> held;                         // a player's, or its own
+  World& world;
   const Report* report = nullptr;        // of the last step; null before the first, or after a change of settings
   const MotionReport* motion = nullptr;  // of the last tact_world_detect_motion(); null before
   std::vector<PositionsUpdate> updates;  // scratch
   std::shared_mutex in_use;
 };
 
+// A recording that is played. Its world is among the worlds, too.
+struct PlayerEntry {
+  PlayerEntry(std::string given, std::optional<int> threads) : bytes(std::move(given)), player(bytes, threads) {}
+  std::string bytes;
+  RecordingPlayer player;
+  std::uint64_t world = 0;  // its handle
+  std::mutex in_use;
+};
+
 std::uint64_t add_entry(std::shared_ptr<WorldEntry> entry);
 void remove_entry(std::uint64_t handle);
 // Throws Failure for a handle that was not given out or is gone.
 std::shared_ptr<WorldEntry> entry_of(tact_world world);
+
+std::uint64_t add_player(std::shared_ptr<PlayerEntry> player);
+void remove_player(std::uint64_t handle);
+// Throws Failure for a handle that was not given out or is closed.
+std::shared_ptr<PlayerEntry> player_of(tact_player player);
 
 // Keeps the message of the calling thread.
 tact_error failed(tact_error error, const char* message) noexcept;

@@ -22,6 +22,23 @@ class CExecutor : public Executor {
   tact_executor executor_;
 };
 
+// A function of C that is told of messages.
+struct CMessages {
+  tact_message_function function;
+  void* user;
+
+  void operator()(const Message& message) const {
+    const std::string text(message.text);
+    const tact_message told{static_cast<int>(message.kind), body_of(message.a), body_of(message.b), text.c_str()};
+    function(user, &told);
+  }
+};
+
+MessageFunction messages_of(const tact_settings& s) {
+  if (s.on_message == nullptr) return {};
+  return CMessages{s.on_message, s.message_user};
+}
+
 Settings settings_of(const tact_settings& given) {
   const tact_settings s = read_struct(given, tact_settings TACT_SETTINGS_INIT);
   return {.threads = s.threads,
@@ -30,7 +47,8 @@ Settings settings_of(const tact_settings& given) {
           .gjk_tolerance = s.gjk_tolerance,
           .iteration_limit = s.iteration_limit,
           .outputs = {.zones = s.zones, .patches = s.patches, .points = s.points, .trace = s.trace},
-          .executor = s.executor.run != nullptr ? std::make_shared<CExecutor>(s.executor) : nullptr};
+          .executor = s.executor.run != nullptr ? std::make_shared<CExecutor>(s.executor) : nullptr,
+          .on_message = messages_of(s)};
 }
 
 tact_settings settings_for_c(const Settings& s) {
@@ -45,6 +63,10 @@ tact_settings settings_for_c(const Settings& s) {
   result.trace = s.outputs.trace;
   result.points = s.outputs.points;
   if (s.executor != nullptr) result.executor = static_cast<const CExecutor&>(*s.executor).given();
+  if (const CMessages* const messages = s.on_message.target<CMessages>()) {
+    result.on_message = messages->function;
+    result.message_user = messages->user;
+  }
   return result;
 }
 
@@ -80,7 +102,7 @@ tact_error tact_world_create(const tact_settings* settings, tact_world* world) {
   return guarded([&] {
     check_not_null(world);
     const tact::Settings given = settings != nullptr ? tact::c::settings_of(*settings) : tact::Settings{};
-    world->handle = tact::c::add_entry(std::make_shared<WorldEntry>(given));
+    world->handle = tact::c::add_entry(std::make_shared<WorldEntry>(std::make_shared<World>(given)));
   });
 }
 
@@ -231,5 +253,28 @@ tact_error tact_world_vertex_count(tact_world world, tact_body body, size_t* cou
 
 tact_error tact_world_facet_count(tact_world world, tact_body body, size_t* count) {
   return get(world, count, [&](const World& w) { return w.facet_count(id_of(body)); });
+}
+
+tact_error tact_world_copy_positions(tact_world world, tact_body body, double* coordinates, size_t room) {
+  return reading(world, [&](const WorldEntry& entry) {
+    if (room > 0) check_not_null(coordinates);
+    entry.world.copy_positions(id_of(body), {coordinates, room});
+  });
+}
+
+tact_error tact_world_copy_facets(tact_world world, tact_body body, int* corners, size_t room) {
+  return reading(world, [&](const WorldEntry& entry) {
+    if (room > 0) check_not_null(corners);
+    entry.world.copy_facets(id_of(body), {corners, room});
+  });
+}
+
+tact_error tact_world_bounds(tact_world world, tact_body body, tact_bounds* bounds) {
+  return reading(world, [&](const WorldEntry& entry) {
+    check_not_null(bounds);
+    const tact::Bounds found = entry.world.bounds(id_of(body));
+    std::ranges::copy(found.lower, bounds->lower);
+    std::ranges::copy(found.upper, bounds->upper);
+  });
 }
 }

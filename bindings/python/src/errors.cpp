@@ -36,7 +36,8 @@ void define_errors(py::module_& module) {
       .value("bad_settings", ErrorCode::bad_settings, "a setting has no meaning; the message says which")
       .value("wrong_order", ErrorCode::wrong_order, "the world is in use by another thread, or a body is named twice")
       .value("out_of_memory", ErrorCode::out_of_memory, "an allocation failed")
-      .value("backend_failure", ErrorCode::backend_failure, "Embree reported an error");
+      .value("backend_failure", ErrorCode::backend_failure, "Embree reported an error")
+      .value("bad_recording", ErrorCode::bad_recording, "bytes that are no recording, or one that does not play");
   g_error = PyErr_NewExceptionWithDoc("tact.Error",
                                       "Data that a world cannot take; `code` is an ErrorCode. The world is as it was.",
                                       PyExc_RuntimeError, nullptr);

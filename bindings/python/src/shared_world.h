@@ -2,12 +2,15 @@
 #pragma once
 
 #include <pybind11/pybind11.h>
+#include <tact/recording.h>
 #include <tact/world.h>
 
 #include <cstdint>
 #include <exception>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace tact::python {
@@ -20,15 +23,23 @@ class StaleReport : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A file that a world is recorded to.
+struct FileRecording {
+  explicit FileRecording(const std::string& path) : file(path, std::ios::binary), recorder(file) {}
+  std::ofstream file;
+  Recorder recorder;
+};
+
 /// Every member is read and written by threads that hold the interpreter's lock, but for the world inside compute().
 class SharedWorld {
  public:
-  explicit SharedWorld(const Settings& settings) : world_(settings) {}
+  explicit SharedWorld(const Settings& settings) : SharedWorld(std::make_shared<World>(settings)) {}
+  explicit SharedWorld(std::shared_ptr<World> world) : world_(std::move(world)) {}
 
   /// The world, for a call that keeps the lock. @throws Error wrong_order while another thread is in compute().
   World& use() {
     if (busy_) throw Error(ErrorCode::wrong_order, "the world is in use by another thread");
-    return world_;
+    return *world_;
   }
   /// Calls work(world) without the lock, so that other threads of Python go on.
   template <class Work>
@@ -57,6 +68,11 @@ class SharedWorld {
           "this report is of an earlier step: what it shows is gone with the next detect() or set_settings()");
   }
 
+  /// Records the world to a file from now on, or no more.
+  /// @throws OSError if the file cannot be written, Error wrong_order as World::set_observer().
+  void record(const std::string& path);
+  void stop_recording();
+
  private:
   struct Busy {
     explicit Busy(SharedWorld& shared) : shared_(shared) { shared_.busy_ = true; }
@@ -66,7 +82,8 @@ class SharedWorld {
     SharedWorld& shared_;
   };
 
-  World world_;
+  std::unique_ptr<FileRecording> recording_;  // outlives the world
+  std::shared_ptr<World> world_;
   std::uint64_t report_ = 0;
   bool busy_ = false;
 };

@@ -1,8 +1,10 @@
+#include <pybind11/functional.h>
 #include <pybind11/stl.h>
 #include <tact/world.h>
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arrays.h"
@@ -75,13 +77,14 @@ std::string settings_text(const Settings& settings) {
 }
 
 Settings make_settings(int threads, Accuracy accuracy, DirectionPolicy direction, double gjk_tolerance,
-                       int iteration_limit, bool zones, bool patches, bool points) {
+                       int iteration_limit, bool zones, bool patches, bool points, MessageFunction on_message) {
   return {.threads = threads,
           .accuracy = accuracy,
           .direction = direction,
           .gjk_tolerance = gjk_tolerance,
           .iteration_limit = iteration_limit,
-          .outputs = {.zones = zones, .patches = patches, .points = points}};
+          .outputs = {.zones = zones, .patches = patches, .points = points},
+          .on_message = std::move(on_message)};
 }
 
 template <bool Outputs::*kMember>
@@ -91,6 +94,39 @@ void output(py::class_<Settings>& settings, const char* name, const char* text) 
       [](Settings& s, bool wanted) { s.outputs.*kMember = wanted; }, text);
 }
 
+void define_messages(py::module_& module) {
+  py::enum_<MessageKind>(module, "MessageKind", "What a message is about.")
+      .value("direction_limit", MessageKind::direction_limit, "the search for a contact's direction stopped at a limit")
+      .value("gjk_limit", MessageKind::gjk_limit, "GJK stopped at its limit for pairs that are no contacts");
+  py::class_<Message>(module, "Message", "What a world says while it works. Valid during the call.")
+      .def_readonly("kind", &Message::kind)
+      .def_readonly("a", &Message::a, "the pair, where it is about one; else no body")
+      .def_readonly("b", &Message::b)
+      .def_property_readonly(
+          "text", [](const Message& message) { return std::string(message.text); }, "one sentence")
+      .def("__repr__", [](const Message& message) { return "<tact.Message: " + std::string(message.text) + ">"; });
+}
+
+// The mesh of a body as arrays of its own.
+py::array_t<double> positions_of(SharedWorld& world, BodyId body) {
+  const World& asked = world.use();
+  py::array_t<double> rows({static_cast<py::ssize_t>(asked.vertex_count(body)), py::ssize_t{3}});
+  asked.copy_positions(body, {rows.mutable_data(), static_cast<std::size_t>(rows.size())});
+  return rows;
+}
+
+py::array_t<int> facets_of(SharedWorld& world, BodyId body) {
+  const World& asked = world.use();
+  py::array_t<int> rows({static_cast<py::ssize_t>(asked.facet_count(body)), py::ssize_t{3}});
+  asked.copy_facets(body, {rows.mutable_data(), static_cast<std::size_t>(rows.size())});
+  return rows;
+}
+
+std::pair<py::array_t<double>, py::array_t<double>> bounds_of(SharedWorld& world, BodyId body) {
+  const Bounds bounds = world.use().bounds(body);
+  return {py::array_t<double>(3, bounds.lower.data()), py::array_t<double>(3, bounds.upper.data())};
+}
+
 void define_settings(py::module_& module) {
   const Settings defaults;
   py::class_<Settings> settings(module, "Settings", "What a world promises and how much of the machine it uses.");
@@ -98,12 +134,15 @@ void define_settings(py::module_& module) {
       .def(py::init(&make_settings), py::kw_only(), py::arg("threads") = defaults.threads,
            py::arg("accuracy") = defaults.accuracy, py::arg("direction") = defaults.direction,
            py::arg("gjk_tolerance") = defaults.gjk_tolerance, py::arg("iteration_limit") = defaults.iteration_limit,
-           py::arg("zones") = false, py::arg("patches") = false, py::arg("points") = false)
+           py::arg("zones") = false, py::arg("patches") = false, py::arg("points") = false,
+           py::arg("on_message") = py::none())
       .def_readwrite("threads", &Settings::threads, "0 to 1024; 0: as many as OpenMP would use")
       .def_readwrite("accuracy", &Settings::accuracy)
       .def_readwrite("direction", &Settings::direction)
       .def_readwrite("gjk_tolerance", &Settings::gjk_tolerance, "relative gap at which GJK stops, 1e-15 to 0.1")
       .def_readwrite("iteration_limit", &Settings::iteration_limit, "shifted calls of GJK a pair and step, at least 1")
+      .def_readwrite("on_message", &Settings::on_message,
+                     "called by detect() with a Message for each limit that it reached; must not use the world")
       .def("__repr__", settings_text);
   output<&Outputs::zones>(settings, "zones", "compute Contact.zone_a and zone_b");
   output<&Outputs::points>(settings, "points", "compute Contact.points");
@@ -119,6 +158,7 @@ auto of_body(SharedWorld& world, BodyId body) {
 }  // namespace
 
 void define_world(py::module_& module) {
+  define_messages(module);
   define_settings(module);
   WorldClass class_of_world(module, "World",
                             "A set of bodies and the contacts among them. One thread uses it at a time; it gives the "
@@ -171,11 +211,17 @@ void define_world(py::module_& module) {
           py::arg("body"), py::arg("wanted"))
       .def("vertex_count", of_body<&World::vertex_count>, py::arg("body"))
       .def("facet_count", of_body<&World::facet_count>, py::arg("body"))
+      .def("positions", positions_of, py::arg("body"),
+           "a copy, (V, 3) in metres, as they were set last; NaN for a vertex that no facet uses")
+      .def("facets", facets_of, py::arg("body"), "a copy, (F, 3), as it was given")
+      .def("bounds", bounds_of, py::arg("body"), "lower and upper corner of the body's box with its margin, metres")
       .def("__len__", [](SharedWorld& world) { return world.use().body_count(); })
       .def("__repr__", [](SharedWorld& world) {
         return "<tact.World of " + std::to_string(world.use().body_count()) + " bodies>";
       });
   define_questions(module, class_of_world);
+  define_recording(module, class_of_world);
+  define_debug_draw(module, class_of_world);
 }
 
 }  // namespace tact::python

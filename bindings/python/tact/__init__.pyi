@@ -1,6 +1,7 @@
 """Finds where many deformable triangle meshes touch."""
 
-from typing import ClassVar, Optional, overload
+import os
+from typing import Callable, ClassVar, Iterator, Optional, Protocol, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -35,6 +36,7 @@ class ErrorCode:
     wrong_order: ClassVar[ErrorCode]
     out_of_memory: ClassVar[ErrorCode]
     backend_failure: ClassVar[ErrorCode]
+    bad_recording: ClassVar[ErrorCode]
     name: str
     value: int
     def __init__(self, value: int) -> None: ...
@@ -108,6 +110,29 @@ class BodyId:
     def __lt__(self, other: BodyId) -> bool: ...
     def __hash__(self) -> int: ...
 
+class MessageKind:
+    """What a message is about."""
+
+    direction_limit: ClassVar[MessageKind]
+    gjk_limit: ClassVar[MessageKind]
+    name: str
+    value: int
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+
+class Message:
+    """What a world says while it works. Valid during the call."""
+
+    @property
+    def kind(self) -> MessageKind: ...
+    @property
+    def a(self) -> BodyId:
+        """the pair, where it is about one; else no body"""
+    @property
+    def b(self) -> BodyId: ...
+    @property
+    def text(self) -> str: ...
+
 class Settings:
     """What a world promises and how much of the machine it uses."""
 
@@ -119,6 +144,8 @@ class Settings:
     zones: bool
     patches: bool
     points: bool
+    on_message: Optional[Callable[[Message], None]]
+    """called by detect() for each limit that it reached; must not use the world"""
     def __init__(
         self,
         *,
@@ -130,6 +157,7 @@ class Settings:
         zones: bool = False,
         patches: bool = False,
         points: bool = False,
+        on_message: Optional[Callable[[Message], None]] = None,
     ) -> None: ...
 
 class ZoneDisk:
@@ -348,6 +376,75 @@ class ClosestPoints:
         """(N, 3): of the facet's corners there"""
     def __len__(self) -> int: ...
 
+class PlayedStep:
+    """A step that was run again."""
+
+    @property
+    def number(self) -> int: ...
+    @property
+    def byte(self) -> int: ...
+    @property
+    def recorded(self) -> Optional[int]:
+        """hash of the report then; None if the step had no answer"""
+    @property
+    def now(self) -> int: ...
+    @property
+    def same(self) -> bool: ...
+
+class RecordingPlayer:
+    """Runs a recording again: iterate over its steps."""
+
+    def __init__(self, path: str | os.PathLike[str], *, threads: Optional[int] = None) -> None: ...
+    def __iter__(self) -> Iterator[PlayedStep]: ...
+    def __next__(self) -> PlayedStep: ...
+    @property
+    def world(self) -> World: ...
+    @property
+    def cut_at(self) -> Optional[int]:
+        """the byte of the record that is cut off; None if the recording is whole, or not yet played"""
+    @property
+    def recorded_by(self) -> str: ...
+
+class _DebugDrawer(Protocol):
+    def line(self, p: Floats, q: Floats, color: tuple[float, float, float, float]) -> None: ...
+    def triangle(self, p: Floats, q: Floats, r: Floats, color: tuple[float, float, float, float]) -> None: ...
+    def text(self, at: Floats, words: str, color: tuple[float, float, float, float]) -> None: ...
+
+class DebugColor:
+    """Each 0 to 1; alpha 1 covers what is behind."""
+
+    red: float
+    green: float
+    blue: float
+    alpha: float
+    def __init__(self, red: float = 0.0, green: float = 0.0, blue: float = 0.0, alpha: float = 1.0) -> None: ...
+
+class DebugDrawOptions:
+    """What World.debug_draw() draws, and in which colour: see tact/debug_draw.h."""
+
+    surfaces: bool
+    boxes: bool
+    candidate_pairs: bool
+    directions: bool
+    planes: bool
+    zones: bool
+    facet_pairs: bool
+    patches: bool
+    points: bool
+    names: bool
+    surface: DebugColor
+    box: DebugColor
+    moved_box: DebugColor
+    candidate: DebugColor
+    direction: DebugColor
+    plane: DebugColor
+    zone: DebugColor
+    meeting: DebugColor
+    patch: DebugColor
+    point: DebugColor
+    word: DebugColor
+    def __init__(self, **options: bool | DebugColor) -> None: ...
+
 class World:
     """A set of bodies and the contacts among them."""
 
@@ -437,4 +534,16 @@ class World:
     def set_self_contact(self, body: BodyId, wanted: bool) -> None: ...
     def vertex_count(self, body: BodyId) -> int: ...
     def facet_count(self, body: BodyId) -> int: ...
+    def positions(self, body: BodyId) -> Floats:
+        """a copy, (V, 3) in metres, as they were set last; NaN for a vertex that no facet uses"""
+    def facets(self, body: BodyId) -> Ints:
+        """a copy, (F, 3), as it was given"""
+    def bounds(self, body: BodyId) -> tuple[Floats, Floats]:
+        """lower and upper corner of the body's box with its margin, metres"""
+    def record(self, path: str | os.PathLike[str]) -> None:
+        """writes all that enters the world to a file that `tact replay` runs again; before the first body is added"""
+    def stop_recording(self) -> None:
+        """closes the file; OSError if it does not hold all"""
+    def debug_draw(self, report: Report, drawer: _DebugDrawer, options: DebugDrawOptions = ...) -> None:
+        """draws a report of this world"""
     def __len__(self) -> int: ...

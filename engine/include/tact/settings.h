@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tact/executor.h>
+#include <tact/message.h>
 
 #include <memory>
 
@@ -46,6 +47,8 @@ struct Settings {
   // Threads of the program's own that do the work, `threads` tasks at a time; null: OpenMP's. The answers are the same.
   // Held by the world; called only within its functions.
   std::shared_ptr<Executor> executor = {};
+  /// Is told of each limit that a step reached; the report has the same as flags and counts. Null: nobody.
+  MessageFunction on_message = {};
 };
 
 }  // namespace tact

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <tact/body.h>
+#include <tact/debug_draw.h>
 #include <tact/error.h>
 #include <tact/executor.h>
+#include <tact/message.h>
 #include <tact/motion.h>
 #include <tact/questions.h>
+#include <tact/recording.h>
 #include <tact/report.h>
 #include <tact/settings.h>
 #include <tact/statistics.h>
 #include <tact/version.h>
 #include <tact/world.h>
+#include <tact/world_observer.h>

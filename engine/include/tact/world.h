@@ -7,7 +7,9 @@
 #include <tact/questions.h>
 #include <tact/report.h>
 #include <tact/settings.h>
+#include <tact/world_observer.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -25,6 +27,12 @@ namespace tact {
 struct PositionsUpdate {
   BodyId body;
   Positions positions;  // 3 x V, metres
+};
+
+/// A box, metres.
+struct Bounds {
+  std::array<double, 3> lower;
+  std::array<double, 3> upper;
 };
 
 // A set of bodies and the contacts among them.
@@ -120,6 +128,11 @@ class TACT_API World {
   /// `within` is not used.
   std::vector<BodyId> inside(const PointQuestion& question) const;
 
+  /// Who is told of every call that changes the world from now on, a Recorder say; null: nobody. The observer outlives
+  /// the world, also one that this world is moved to, or is taken away before. It sees the world whole: it is set
+  /// before the first body is added. Errors: wrong_order (bodies were added, and `observer` is not null).
+  void set_observer(WorldObserver* observer);
+
   // Does `body` name a body of this world? Never throws.
   bool contains(BodyId body) const noexcept;
   std::size_t body_count() const noexcept;
@@ -137,6 +150,15 @@ class TACT_API World {
   bool self_contact(BodyId body) const;
   std::size_t vertex_count(BodyId body) const;
   std::size_t facet_count(BodyId body) const;
+
+  /// The mesh of a body as it was given, at the positions that were set last: 3 x V metres and 3 x F indices of
+  /// vertices, column by column. A vertex that no facet uses is not kept: its coordinates are NaN.
+  /// Errors: stale_body, foreign_body, wrong_size (there is not as much room as there are numbers).
+  void copy_positions(BodyId body, std::span<double> coordinates) const;
+  void copy_facets(BodyId body, std::span<int> corners) const;
+  /// The box of a body with its margin, metres; where it has no facet, lower is above upper.
+  /// Errors: stale_body, foreign_body.
+  Bounds bounds(BodyId body) const;
 
  private:
   struct Implementation;

@@ -76,6 +76,24 @@ TEST_F(ReplayCommand, FirstDifferenceIsNamed) {
       << text;
 }
 
+// What a program leaves that is killed while it writes, or in a step: all that is whole plays.
+TEST_F(ReplayCommand, CutRecordingPlaysUpToItsLastWholeStep) {
+  const auto a = folder_.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  std::ostringstream ignored;
+  check({.meshes = {a, a}, .threads = 1, .frames = 3, .record = recording_.string()}, ignored);
+  const auto size = std::filesystem::file_size(recording_);
+  std::filesystem::resize_file(recording_, size - 3);  // in the hash of the last step
+  const std::string in_hash = replayed({.recording = recording_});
+  EXPECT_NE(in_hash.find("step 2 had no answer when it was recorded"), std::string::npos) << in_hash;
+  EXPECT_NE(in_hash.find("cut off in the record at byte " + std::to_string(size - 9)), std::string::npos) << in_hash;
+  EXPECT_NE(in_hash.find("\n2 steps on 1 thread in "), std::string::npos) << in_hash;
+  EXPECT_TRUE(in_hash.ends_with(": all hashes are the same\n")) << in_hash;
+  std::filesystem::resize_file(recording_, size - 15);  // in the positions before that step
+  const std::string in_positions = replayed({.recording = recording_});
+  EXPECT_NE(in_positions.find("cut off in the record at byte "), std::string::npos) << in_positions;
+  EXPECT_NE(in_positions.find("\n2 steps on 1 thread in "), std::string::npos) << in_positions;
+}
+
 TEST_F(ReplayCommand, WhatIsNoRecordingIsRefused) {
   EXPECT_NE(replayed({.recording = folder_.path()}).find("not a file"), std::string::npos);
   EXPECT_NE(replayed({.recording = folder_.path() / "none"}).find("cannot be opened"), std::string::npos);

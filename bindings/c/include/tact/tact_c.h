@@ -51,12 +51,14 @@ typedef enum tact_error {
   TACT_ERROR_WRONG_ORDER = 10,          /**< a body named twice in one batch, or a report before the first step */
   TACT_ERROR_OUT_OF_MEMORY = 11,        /**< an allocation failed */
   TACT_ERROR_BACKEND_FAILURE = 12,      /**< Embree reported an error */
+  TACT_ERROR_BAD_RECORDING = 13,        /**< bytes that are no recording, or one that does not play */
   TACT_ERROR_INVALID_HANDLE = 100,      /**< the world was destroyed, or is none */
   TACT_ERROR_NULL_ARGUMENT = 101,       /**< a pointer is null that must not be */
   TACT_ERROR_WRONG_STRUCT_SIZE = 102,   /**< struct_size is not that of a version of this library */
   TACT_ERROR_BUSY = 103,                /**< another thread is in a function of the world */
   TACT_ERROR_INDEX_OUT_OF_RANGE = 104,  /**< an index is not below the count */
-  TACT_ERROR_INTERNAL = 105             /**< anything else; please report it */
+  TACT_ERROR_INTERNAL = 105,            /**< anything else; please report it */
+  TACT_ERROR_FILE = 106                 /**< a file cannot be opened, read or written */
 } tact_error;
 
 /** The version of the library, such as "0.1.0". */
@@ -99,6 +101,19 @@ typedef struct tact_executor {
   void* user;                                                     /**< outlives the world */
 } tact_executor;
 
+typedef enum tact_message_kind { TACT_MESSAGE_DIRECTION_LIMIT = 0, TACT_MESSAGE_GJK_LIMIT = 1 } tact_message_kind;
+
+/** See tact::Message. */
+typedef struct tact_message {
+  int32_t kind; /**< tact_message_kind */
+  tact_body a;  /**< the pair, where it is about one; else no body */
+  tact_body b;
+  const char* text; /**< valid during the call */
+} tact_message;
+
+/** Called at the end of tact_world_detect(), by its thread; must not call the world. */
+typedef void (*tact_message_function)(void* user, const tact_message* message);
+
 /** See tact::Settings. */
 typedef struct tact_settings {
   uint32_t struct_size;
@@ -111,12 +126,14 @@ typedef struct tact_settings {
   bool patches;
   bool trace;
   tact_executor executor;
-  bool points; /**< contact points */
+  bool points;                      /**< contact points */
+  tact_message_function on_message; /**< is told of each limit that a step reached; null: nobody */
+  void* message_user;               /**< what it is called with */
 } tact_settings;
 #define TACT_SETTINGS_INIT                                                                                            \
   {                                                                                                                   \
     (uint32_t)sizeof(tact_settings), 0, TACT_ACCURACY_EXACT, TACT_DIRECTION_CARRIED, 1e-12, 100, false, false, false, \
-        {NULL, NULL}, false                                                                                           \
+        {NULL, NULL}, false, NULL, NULL                                                                               \
   }
 
 /** `count` vertices or facets, three numbers each, that begin every `stride_bytes` from `first` on. Coordinates are
@@ -192,6 +209,54 @@ TACT_C_API tact_error tact_world_margin(tact_world world, tact_body body, double
 TACT_C_API tact_error tact_world_self_contact(tact_world world, tact_body body, bool* wanted);
 TACT_C_API tact_error tact_world_vertex_count(tact_world world, tact_body body, size_t* count);
 TACT_C_API tact_error tact_world_facet_count(tact_world world, tact_body body, size_t* count);
+
+/** A box, metres. */
+typedef struct tact_bounds {
+  double lower[3];
+  double upper[3];
+} tact_bounds;
+
+/** The mesh as it was given, at the positions that were set last: three numbers a vertex or facet, into `room` numbers
+ *  of the caller, as many as there are. A vertex that no facet uses has NaN for coordinates. */
+TACT_C_API tact_error tact_world_copy_positions(tact_world world, tact_body body, double* coordinates, size_t room);
+TACT_C_API tact_error tact_world_copy_facets(tact_world world, tact_body body, int* corners, size_t room);
+/** With its margin; where the body has no facet, lower is above upper. */
+TACT_C_API tact_error tact_world_bounds(tact_world world, tact_body body, tact_bounds* bounds);
+
+/* Recordings: see tact/recording.h. */
+
+/** Records everything that enters the world to the file `path`, from before its first body on; null ends it and tells
+ *  whether the file holds all (TACT_ERROR_FILE). It also ends with the world. */
+TACT_C_API tact_error tact_world_record(tact_world world, const char* path);
+
+/** Runs a recording again. {0}: none. */
+typedef struct tact_player {
+  uint64_t handle;
+} tact_player;
+
+/** See tact::PlayedStep. */
+typedef struct tact_played_step {
+  uint32_t struct_size;
+  int32_t number; /**< from 0 */
+  size_t byte;    /**< where its hash stands in the recording */
+  bool answered;  /**< did the step have an answer when it was recorded? */
+  uint64_t recorded;
+  uint64_t now; /**< hash of the report now */
+} tact_played_step;
+#define TACT_PLAYED_STEP_INIT \
+  { (uint32_t)sizeof(tact_played_step), 0, 0, false, 0, 0 }
+
+/** `threads` of -1: as many as the recording had. */
+TACT_C_API tact_error tact_player_open(const char* path, int32_t threads, tact_player* player);
+TACT_C_API tact_error tact_player_close(tact_player player);
+/** Runs the next step; `played` is false at the end. */
+TACT_C_API tact_error tact_player_next(tact_player player, tact_played_step* step, bool* played);
+/** Was the recording cut off, and in the record that begins at which byte? Known at the end. */
+TACT_C_API tact_error tact_player_cut_at(tact_player player, bool* cut, size_t* byte);
+/** The world that the steps are made in, with the report of the last; valid until the player is closed. */
+TACT_C_API tact_error tact_player_world(tact_player player, tact_world* world);
+/** The version of tact that wrote the recording; valid until the player is closed. */
+TACT_C_API tact_error tact_player_recorded_by(tact_player player, const char** version);
 
 /* The report of the last step. */
 
@@ -447,6 +512,56 @@ TACT_C_API tact_error tact_world_closest_point(tact_world world, const tact_poin
                                                tact_closest_point* answer);
 TACT_C_API tact_error tact_world_closest_points(tact_world world, const tact_point_question* questions, size_t count,
                                                 tact_closest_point* answers);
+
+/* Drawing what a step found: see tact/debug_draw.h. */
+
+/** Each 0 to 1. */
+typedef struct tact_debug_color {
+  float red;
+  float green;
+  float blue;
+  float alpha;
+} tact_debug_color;
+
+/** Where it is drawn; positions are three metres each. */
+typedef struct tact_debug_drawer {
+  void (*line)(void* user, const double* from, const double* to, tact_debug_color color);
+  void (*triangle)(void* user, const double* p, const double* q, const double* r, tact_debug_color color);
+  void (*text)(void* user, const double* at, const char* words, tact_debug_color color);
+  void* user;
+} tact_debug_drawer;
+
+/** See tact::DebugDrawOptions. */
+typedef struct tact_debug_draw_options {
+  uint32_t struct_size;
+  bool surfaces;
+  bool boxes;
+  bool candidate_pairs;
+  bool directions;
+  bool planes;
+  bool zones;
+  bool facet_pairs;
+  bool patches;
+  bool points;
+  bool names;
+  tact_debug_color surface;
+  tact_debug_color box;
+  tact_debug_color moved_box;
+  tact_debug_color candidate;
+  tact_debug_color direction;
+  tact_debug_color plane;
+  tact_debug_color zone;
+  tact_debug_color meeting;
+  tact_debug_color patch;
+  tact_debug_color point;
+  tact_debug_color word;
+} tact_debug_draw_options;
+
+/** Fills in what is drawn, and in which colours, if nobody says otherwise; struct_size included. */
+TACT_C_API tact_error tact_debug_draw_defaults(tact_debug_draw_options* options);
+/** Draws what the last step found; `options` may be null: the default. */
+TACT_C_API tact_error tact_world_debug_draw(tact_world world, const tact_debug_drawer* drawer,
+                                            const tact_debug_draw_options* options);
 
 #ifdef __cplusplus
 }

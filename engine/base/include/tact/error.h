@@ -26,6 +26,7 @@ enum class ErrorCode {
   wrong_order,            // a call of a world that was moved from, or a body named twice in one batch
   out_of_memory,          // an allocation failed, ours or Embree's
   backend_failure,        // Embree reported an error; the message holds its code
+  bad_recording,          // bytes that are no recording, or one that does not play; the message says at which byte
 };
 
 // The name of `code` as it stands in the enumeration, such as "stale_body".

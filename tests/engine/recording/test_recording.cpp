@@ -1,17 +1,26 @@
 #include <gtest/gtest.h>
+#include <tact/recording.h>
+#include <tact/tact.h>
 
 #include <algorithm>
 #include <limits>
 #include <sstream>
 
-#include "scenes/files/recording.h"
-#include "scenes/files/recording_player.h"
-#include "tests/scenes/mesh_bytes.h"
-
-namespace tact::scenes {
+namespace tact::tests {
 namespace {
 
-using tests::bytes_of;
+template <class Number>
+std::string bytes_of(Number value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+// A world that is recorded, and its recording.
+struct Recorded {
+  std::ostringstream out;
+  Recorder recorder{out};
+  World world;
+  explicit Recorded(int threads) : world({.threads = threads}) { world.set_observer(&recorder); }
+};
 
 // A tetrahedron with its right angle at `corner`, facets outward.
 Eigen::Matrix3Xd tetrahedron_at(const Eigen::Vector3d& corner) {
@@ -30,7 +39,7 @@ Eigen::Matrix3Xi tetrahedron_facets() {
 
 // Every kind of call: a is fixed until the last step, b comes in and turns, c goes and d takes its place, e meets only
 // what is on its layer, and for a step nothing. Returns the hashes of the steps.
-std::vector<std::uint64_t> make_calls(RecordedWorld& world) {
+std::vector<std::uint64_t> make_calls(World& world) {
   const Eigen::Matrix3Xi facets = tetrahedron_facets();
   const auto add = [&](const Eigen::Vector3d& corner, Motion motion, std::uint32_t mask) {
     const Eigen::Matrix3Xd positions = tetrahedron_at(corner);
@@ -70,14 +79,13 @@ std::vector<std::uint64_t> make_calls(RecordedWorld& world) {
 }
 
 std::string recording() {
-  std::ostringstream out;
-  RecordedWorld world({.threads = 2}, &out);
-  make_calls(world);
-  return out.str();
+  Recorded recorded(2);
+  make_calls(recorded.world);
+  return recorded.out.str();
 }
 
 std::vector<PlayedStep> play(std::string_view bytes, std::optional<int> threads = 1) {
-  RecordingPlayer player(bytes, "r", threads);
+  RecordingPlayer player(bytes, threads);
   std::vector<PlayedStep> steps;
   while (const auto step = player.next()) steps.push_back(*step);
   return steps;
@@ -87,7 +95,7 @@ std::vector<PlayedStep> play(std::string_view bytes, std::optional<int> threads 
 std::string recording_refusal(std::string_view bytes) {
   try {
     play(bytes);
-  } catch (const FileError& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   return "accepted";
@@ -104,19 +112,19 @@ std::string with(std::string bytes, std::size_t at, std::string_view change) {
 constexpr std::size_t kVersionAt = 8;
 constexpr std::size_t kSettingsAt = 12 + 4 + std::string_view(TACT_VERSION).size();
 constexpr std::size_t kFirstBodyAt = kSettingsAt + 21;
-constexpr std::size_t kVerticesAt = kFirstBodyAt + 11 + 4 + std::string_view("body of mask 4294967295").size();
+constexpr std::size_t kExternalIdAt = kFirstBodyAt + 11;
+constexpr std::size_t kVerticesAt = kFirstBodyAt + 19 + 4 + std::string_view("body of mask 4294967295").size();
 
-std::string at_byte(std::size_t byte) { return "r: byte " + std::to_string(byte) + ": "; }
+std::string at_byte(std::size_t byte) { return "byte " + std::to_string(byte) + ": "; }
 
 TEST(Recording, AnyNumberOfThreadsPlaysTheSameHashes) {
-  std::ostringstream out;
-  RecordedWorld world({.threads = 2}, &out);
-  const std::vector<std::uint64_t> hashes = make_calls(world);
-  RecordedWorld silent({.threads = 1}, nullptr);
+  Recorded recorded(2);
+  const std::vector<std::uint64_t> hashes = make_calls(recorded.world);
+  World silent({.threads = 1});
   EXPECT_EQ(make_calls(silent), hashes);
   EXPECT_NE(hashes.front(), hashes.back());
   for (const std::optional<int> threads : {std::optional<int>(), std::optional(1), std::optional(2)}) {
-    const std::vector<PlayedStep> steps = play(out.str(), threads);
+    const std::vector<PlayedStep> steps = play(recorded.out.str(), threads);
     ASSERT_EQ(steps.size(), hashes.size());
     for (std::size_t i = 0; i < steps.size(); ++i) {
       EXPECT_EQ(steps[i].number, static_cast<int>(i));
@@ -128,7 +136,7 @@ TEST(Recording, AnyNumberOfThreadsPlaysTheSameHashes) {
 
 TEST(Recording, PlaysTheBodiesAsTheyWere) {
   const std::string bytes = recording();
-  RecordingPlayer player(bytes, "r");
+  RecordingPlayer player(bytes);
   EXPECT_EQ(player.recorded_by(), TACT_VERSION);
   EXPECT_EQ(player.world().settings().threads, 2);
   ASSERT_TRUE(player.next());
@@ -146,14 +154,14 @@ TEST(Recording, PlaysTheBodiesAsTheyWere) {
 }
 
 TEST(Recording, RefusedCallsAreNotRecorded) {
-  std::ostringstream out;
-  RecordedWorld world({.threads = 1}, &out);
+  Recorded recorded(1);
+  World& world = recorded.world;
   const Eigen::Matrix3Xd positions = tetrahedron_at({0, 0, 0});
   const Eigen::Matrix3Xi facets = Eigen::Matrix3Xi::Constant(3, 1, 4);
   EXPECT_THROW(world.add_body({.positions = positions, .facets = facets}), Error);
   EXPECT_THROW(world.remove_body({.index = 0, .generation = 1, .world = 1}), Error);
   world.detect();
-  EXPECT_TRUE(all_same(play(out.str())));
+  EXPECT_TRUE(all_same(play(recorded.out.str())));
 }
 
 TEST(Recording, ChangedHashIsFoundAtItsByte) {
@@ -170,44 +178,56 @@ TEST(Recording, ChangedHashIsFoundAtItsByte) {
 TEST(Recording, SaysWhatIsWrongAndAtWhichByte) {
   const std::string good = recording();
   ASSERT_EQ(recording_refusal(good), "accepted");
-  EXPECT_EQ(recording_refusal(""), "r: byte 0: not a recording: it does not begin with tactrec");
-  EXPECT_EQ(recording_refusal("solid a"), "r: byte 0: not a recording: it does not begin with tactrec");
-  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(4u))),
-            "r: byte 8: a recording of version 4; versions 1 to 3 can be read");
+  EXPECT_EQ(recording_refusal(""), "byte 0: not a recording: it does not begin with tactrec");
+  EXPECT_EQ(recording_refusal("solid a"), "byte 0: not a recording: it does not begin with tactrec");
+  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(5u))),
+            "byte 8: a recording of version 5; versions 1 to 4 can be read");
   EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(0u))),
-            "r: byte 8: a recording of version 0; versions 1 to 3 can be read");
+            "byte 8: a recording of version 0; versions 1 to 4 can be read");
   EXPECT_EQ(recording_refusal(with(good, kSettingsAt, "\x02")),
             at_byte(kSettingsAt) + "the first record is not one of settings");
   EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x0c")),
             at_byte(kFirstBodyAt) + "step 0: no record is of kind 12");
-  EXPECT_EQ(recording_refusal(with(good, kVerticesAt, bytes_of(~std::uint64_t{0}))),
-            at_byte(kVerticesAt) +
-                "step 0: promises 18446744073709551615 vertices, which take at least 24 bytes each, but the "
-                "file has " +
-                std::to_string(good.size() - kVerticesAt - 8) + " more");
-  EXPECT_EQ(
-      recording_refusal(with(good, kVerticesAt + 16, bytes_of(std::numeric_limits<double>::quiet_NaN()))).substr(0, 12),
-      at_byte(kFirstBodyAt));
+  EXPECT_EQ(recording_refusal(with(good, kVerticesAt + 16, bytes_of(std::numeric_limits<double>::quiet_NaN())))
+                .substr(0, at_byte(kFirstBodyAt).size()),
+            at_byte(kFirstBodyAt));
 }
 
-// Cut anywhere, the steps before are the same, and only between records there is nothing to say.
-TEST(Recording, CutAnywhere) {
+// Cut anywhere behind the settings, what is whole plays, and only between records is nothing said to be cut.
+TEST(Recording, CutAnywherePlaysWhatIsWhole) {
   const std::string good = recording();
-  int accepted = 0;
-  for (std::size_t size = 0; size < good.size(); ++size) {
+  const std::size_t whole_steps = play(good).size();
+  int between_records = 0;
+  for (std::size_t size = kFirstBodyAt; size < good.size(); ++size) {
+    RecordingPlayer player(std::string_view(good).substr(0, size), 1);
     std::vector<PlayedStep> steps;
-    try {
-      RecordingPlayer player(std::string_view(good).substr(0, size), "r", 1);
-      while (const auto step = player.next()) steps.push_back(*step);
-      ++accepted;
-    } catch (const FileError& error) {
-      EXPECT_TRUE(std::string(error.what()).starts_with("r: byte ")) << size << ": " << error.what();
+    while (const auto step = player.next()) {
+      if (step->recorded) steps.push_back(*step);
     }
     EXPECT_TRUE(all_same(steps)) << "cut at byte " << size;
+    EXPECT_LT(steps.size(), whole_steps);
+    if (!player.cut_at()) ++between_records;
+    EXPECT_LE(player.cut_at().value_or(0), size);
   }
-  // After the settings, 5 additions, 6 moves, 1 removal, 1 change of settings, 2 of layers, 1 of motion, 6 hashes; the
-  // last is the whole file.
-  EXPECT_EQ(accepted, 1 + 5 + 6 + 1 + 1 + 2 + 1 + 6 - 1);
+  // Behind the settings, 5 additions, 6 moves, 1 removal, 1 change of settings, 2 of layers, 1 of motion, 6 detects and
+  // 6 hashes, of which the last is the whole file.
+  EXPECT_EQ(between_records, 1 + 5 + 6 + 1 + 1 + 2 + 1 + 6 + 6 - 1);
+}
+
+TEST(Recording, CutInItsHeadIsRefused) {
+  const std::string good = recording();
+  for (std::size_t size = 8; size < kFirstBodyAt; ++size) {
+    EXPECT_NE(recording_refusal(std::string_view(good).substr(0, size)).find("ends in its head"), std::string::npos)
+        << size;
+  }
+}
+
+// A count that no recording could hold takes no memory: it reads as one that was cut.
+TEST(Recording, PromisesAreNotBelieved) {
+  const std::string bytes = with(recording(), kVerticesAt, bytes_of(~std::uint64_t{0}));
+  RecordingPlayer player(bytes, 1);
+  EXPECT_FALSE(player.next());
+  EXPECT_EQ(player.cut_at(), kFirstBodyAt);
 }
 
 // With any bit of the head and the first body wrong, or one of each byte after them, the player ends: it refuses the
@@ -218,19 +238,72 @@ TEST(Recording, AnyBitWrong) {
     std::string bytes = good;
     bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << (bit % 8)));
     const std::string message = recording_refusal(bytes);
-    EXPECT_TRUE(message == "accepted" || message.starts_with("r: byte ")) << "bit " << bit << ": " << message;
-    // With one of the first two bits of the version wrong it is an older one, which reads the same.
-    const bool in_magic_or_version = bit < 8 * 12 && bit != 8 * 8 && bit != 8 * 8 + 1;
+    EXPECT_TRUE(message == "accepted" || message.starts_with("byte ")) << "bit " << bit << ": " << message;
+    const bool in_magic_or_version = bit < 8 * 12;
     EXPECT_FALSE(in_magic_or_version && message == "accepted") << "bit " << bit;
   }
 }
 
-TEST(Recording, StepThatWasNeverFinishedIsRefused) {
+// The step that a program died in is run, as it is what one wants to see.
+TEST(Recording, StepWithoutAnAnswerIsPlayed) {
   const std::string good = recording();
-  EXPECT_EQ(
-      recording_refusal(std::string_view(good).substr(0, good.size() - 9)),
-      "r: byte " + std::to_string(good.size() - 10) + ": step 5: the step has no hash: what recorded it ended in it");
+  const std::vector<PlayedStep> steps = play(std::string_view(good).substr(0, good.size() - 9));
+  ASSERT_EQ(steps.size(), 6u);
+  EXPECT_FALSE(steps.back().recorded);
+  EXPECT_EQ(steps.back().now, play(good).back().now);
+}
+
+// Version 3 kept no external id.
+TEST(Recording, OlderVersionIsRead) {
+  Recorded recorded(1);
+  const Eigen::Matrix3Xd positions = tetrahedron_at({0, 0, 0});
+  const BodyId body = recorded.world.add_body(
+      {.positions = positions, .facets = tetrahedron_facets(), .name = "body of mask 4294967295", .external_id = 77});
+  recorded.world.detect();
+  const std::string now = recorded.out.str();
+  RecordingPlayer player(now, 1);
+  ASSERT_TRUE(player.next());
+  EXPECT_EQ(player.world().external_id(player.world().bodies().at(body.index)), 77u);
+  const std::string old = with(std::string(now).erase(kExternalIdAt, 8), kVersionAt, bytes_of(3u));
+  EXPECT_TRUE(all_same(play(old)));
+}
+
+TEST(Recorder, AnObserverSeesAWorldWhole) {
+  World world;
+  std::ostringstream out;
+  Recorder recorder(out);
+  const Eigen::Matrix3Xd positions = tetrahedron_at({0, 0, 0});
+  world.remove_body(world.add_body({.positions = positions, .facets = tetrahedron_facets()}));
+  try {
+    world.set_observer(&recorder);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::wrong_order);
+  }
+  world.set_observer(nullptr);
+}
+
+// A disk that is full: the world goes on.
+TEST(Recorder, StreamThatFailsStopsNobody) {
+  std::ostringstream out;
+  out.exceptions(std::ios::badbit);
+  Recorder recorder(out);
+  World world;
+  world.set_observer(&recorder);
+  out.exceptions(std::ios::goodbit);
+  out.setstate(std::ios::badbit);
+  const std::vector<std::uint64_t> hashes = make_calls(world);
+  World silent;
+  EXPECT_EQ(hashes, make_calls(silent));
+  EXPECT_FALSE(out.good());
+}
+
+TEST(Recorder, GoesWithAWorldThatIsMoved) {
+  Recorded recorded(1);
+  World moved = std::move(recorded.world);
+  make_calls(moved);
+  EXPECT_EQ(play(recorded.out.str()).size(), 6u);
 }
 
 }  // namespace
-}  // namespace tact::scenes
+}  // namespace tact::tests

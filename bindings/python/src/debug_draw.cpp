@@ -1,0 +1,91 @@
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <tact/debug_draw.h>
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "shared_world.h"
+
+namespace tact::python {
+namespace {
+
+// An object of Python with the methods line, triangle and text.
+class PythonDrawer : public DebugDrawer {
+ public:
+  explicit PythonDrawer(py::object object) : object_(std::move(object)) {}
+  void line(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const DebugColor& color) override {
+    object_.attr("line")(vector_of(from), vector_of(to), color_of(color));
+  }
+  void triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r,
+                const DebugColor& color) override {
+    object_.attr("triangle")(vector_of(p), vector_of(q), vector_of(r), color_of(color));
+  }
+  void text(const Eigen::Vector3d& at, std::string_view words, const DebugColor& color) override {
+    object_.attr("text")(vector_of(at), std::string(words), color_of(color));
+  }
+
+ private:
+  static py::tuple color_of(const DebugColor& c) { return py::make_tuple(c.red, c.green, c.blue, c.alpha); }
+  py::object object_;
+};
+
+void define_options(py::module_& module) {
+  py::class_<DebugColor>(module, "DebugColor", "Each 0 to 1; alpha 1 covers what is behind.")
+      .def(py::init([](float red, float green, float blue, float alpha) {
+             return DebugColor{red, green, blue, alpha};
+           }),
+           py::arg("red") = 0.0f, py::arg("green") = 0.0f, py::arg("blue") = 0.0f, py::arg("alpha") = 1.0f)
+      .def_readwrite("red", &DebugColor::red)
+      .def_readwrite("green", &DebugColor::green)
+      .def_readwrite("blue", &DebugColor::blue)
+      .def_readwrite("alpha", &DebugColor::alpha);
+  using Options = DebugDrawOptions;
+  py::class_<Options>(module, "DebugDrawOptions", "What World.debug_draw() draws, and in which colour.")
+      .def(py::init([](const py::kwargs& given) {
+        py::object options = py::cast(Options{});
+        for (const auto& [name, value] : given) options.attr(name) = value;  // AttributeError for what is none
+        return py::cast<Options>(options);
+      }))
+      .def_readwrite("surfaces", &Options::surfaces)
+      .def_readwrite("boxes", &Options::boxes)
+      .def_readwrite("candidate_pairs", &Options::candidate_pairs)
+      .def_readwrite("directions", &Options::directions)
+      .def_readwrite("planes", &Options::planes)
+      .def_readwrite("zones", &Options::zones)
+      .def_readwrite("facet_pairs", &Options::facet_pairs)
+      .def_readwrite("patches", &Options::patches)
+      .def_readwrite("points", &Options::points)
+      .def_readwrite("names", &Options::names)
+      .def_readwrite("surface", &Options::surface)
+      .def_readwrite("box", &Options::box)
+      .def_readwrite("moved_box", &Options::moved_box)
+      .def_readwrite("candidate", &Options::candidate)
+      .def_readwrite("direction", &Options::direction)
+      .def_readwrite("plane", &Options::plane)
+      .def_readwrite("zone", &Options::zone)
+      .def_readwrite("meeting", &Options::meeting)
+      .def_readwrite("patch", &Options::patch)
+      .def_readwrite("point", &Options::point)
+      .def_readwrite("word", &Options::word);
+}
+
+}  // namespace
+
+void define_debug_draw(py::module_& module, WorldClass& world) {
+  define_options(module);
+  world.def(
+      "debug_draw",
+      [](SharedWorld& shared, const OfReport<Report>& report, py::object drawer, const DebugDrawOptions& options) {
+        PythonDrawer to(std::move(drawer));
+        debug_draw(shared.use(), *report, to, options);
+      },
+      py::arg("report"), py::arg("drawer"), py::arg("options") = DebugDrawOptions{},
+      "draws a report of this world with drawer.line(p, q, color), drawer.triangle(p, q, r, color) and "
+      "drawer.text(p, words, color)");
+}
+
+}  // namespace tact::python

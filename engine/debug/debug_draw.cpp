@@ -1,0 +1,230 @@
+// Made from the public interface alone: whatever is drawn here, a program can draw in its own way.
+#include <tact/debug_draw.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <new>
+#include <numbers>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace tact {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kCircleSides = 24;
+constexpr double kArrowHead = 0.15;  // of the arrow's length
+
+struct Mesh {
+  std::vector<double> coordinates;
+  std::vector<int> corners;
+
+  Vector3d vertex(int v) const { return Eigen::Map<const Vector3d>(&coordinates[3 * static_cast<std::size_t>(v)]); }
+  std::array<Vector3d, 3> facet(int f) const {
+    const int* const corner = &corners[3 * static_cast<std::size_t>(f)];
+    return {vertex(corner[0]), vertex(corner[1]), vertex(corner[2])};
+  }
+  int facet_count() const { return static_cast<int>(corners.size() / 3); }
+};
+
+bool is_empty(const Bounds& bounds) { return bounds.lower[0] > bounds.upper[0]; }
+Vector3d lower(const Bounds& bounds) { return Eigen::Map<const Vector3d>(bounds.lower.data()); }
+Vector3d upper(const Bounds& bounds) { return Eigen::Map<const Vector3d>(bounds.upper.data()); }
+// Halved first: the sum of two coordinates is in range so, too.
+Vector3d middle(const Bounds& bounds) { return 0.5 * lower(bounds) + 0.5 * upper(bounds); }
+double size(const Bounds& bounds) { return (upper(bounds) - lower(bounds)).norm(); }
+
+std::string words_of(const char* format, double value) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+class Drawing {
+ public:
+  Drawing(const World& world, const Report& report, DebugDrawer& drawer, const DebugDrawOptions& options)
+      : world_(world), report_(report), drawer_(drawer), options_(options) {}
+
+  void draw() {
+    draw_bodies();
+    for (const CandidatePair& pair : report_.candidate_pairs()) draw_candidate(pair);
+    for (const Contact& contact : report_.contacts()) draw_contact(contact);
+  }
+
+ private:
+  void draw_bodies() {
+    std::vector<BodyId> paired;
+    for (const CandidatePair& pair : report_.candidate_pairs()) paired.insert(paired.end(), {pair.a, pair.b});
+    std::ranges::sort(paired);
+    for (const BodyId body : world_.bodies()) {
+      const Bounds bounds = world_.bounds(body);
+      if (is_empty(bounds)) continue;
+      const bool has_pair = std::ranges::binary_search(paired, body);
+      if (options_.boxes) draw_box(bounds, has_pair ? options_.moved_box : options_.box);
+      if (options_.surfaces) draw_surface(mesh_of(body));
+      if (options_.names) {
+        Vector3d top = middle(bounds);
+        top.z() = bounds.upper[2];
+        drawer_.text(top, world_.name(body), options_.word);
+      }
+    }
+  }
+
+  void draw_candidate(const CandidatePair& pair) {
+    if (!options_.candidate_pairs) return;
+    drawer_.line(middle(world_.bounds(pair.a)), middle(world_.bounds(pair.b)), options_.candidate);
+  }
+
+  void draw_contact(const Contact& contact) {
+    const bool with_itself = contact.a == contact.b;
+    if (!with_itself) draw_hulls(contact);
+    if (options_.facet_pairs) draw_facet_pairs(contact);
+    if (options_.patches) {
+      for (const Patch& patch : contact.patches())
+        draw_arrow(patch.point, patch.depth * patch.direction, options_.patch);
+    }
+    if (options_.points) {
+      for (const ContactPoint& point : contact.points()) draw_point(contact, point);
+    }
+  }
+
+  // The direction begins in the middle of what the two boxes have in common.
+  void draw_hulls(const Contact& contact) {
+    const Bounds a = world_.bounds(contact.a), b = world_.bounds(contact.b);
+    const Vector3d at = 0.5 * lower(a).cwiseMax(lower(b)) + 0.5 * upper(a).cwiseMin(upper(b));
+    const Vector3d n = contact.direction;
+    if (options_.directions) {
+      draw_arrow(at, contact.depth * n, options_.direction);
+      drawer_.text(at, words_of("%.3g m", contact.depth), options_.word);
+    }
+    if (options_.planes) {
+      const double width = 0.5 * std::min(size(a), size(b));
+      draw_plane(at + (contact.plane_a - n.dot(at)) * n, n, width);
+      draw_plane(at + (contact.plane_b - n.dot(at)) * n, n, width);
+    }
+    if (options_.zones) {
+      draw_disk(contact.zone_a, n);
+      draw_disk(contact.zone_b, n);
+    }
+  }
+
+  // Each facet once, however many it meets.
+  void draw_facet_pairs(const Contact& contact) {
+    std::vector<int> a, b;
+    for (const FacetPair& pair : contact.facet_pairs()) a.push_back(pair.a), b.push_back(pair.b);
+    if (contact.a == contact.b) a.insert(a.end(), b.begin(), b.end()), b.clear();
+    for (auto [body, facets] : {std::pair{contact.a, &a}, std::pair{contact.b, &b}}) {
+      std::ranges::sort(*facets);
+      facets->erase(std::unique(facets->begin(), facets->end()), facets->end());
+      for (const int f : *facets) draw_triangle(mesh_of(body), f, options_.meeting);
+    }
+  }
+
+  void draw_point(const Contact& contact, const ContactPoint& point) {
+    const auto place = [](const Mesh& mesh, const std::array<int, 3>& vertices, const std::array<double, 3>& weights) {
+      Vector3d sum = Vector3d::Zero();
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (vertices[k] >= 0) sum += weights[k] * mesh.vertex(vertices[k]);
+      }
+      return sum;
+    };
+    const Vector3d on_a = place(mesh_of(contact.a), point.a_vertices, point.a_weights);
+    const Vector3d on_b = place(mesh_of(contact.b), point.b_vertices, point.b_weights);
+    const double reach = world_.margin(contact.a) + world_.margin(contact.b);
+    drawer_.line(on_a, on_b, options_.point);
+    draw_arrow(on_a, std::max(reach, std::abs(point.gap)) * point.normal, options_.point);
+  }
+
+  void draw_surface(const Mesh& mesh) {
+    for (int f = 0; f < mesh.facet_count(); ++f) {
+      const auto [p, q, r] = mesh.facet(f);
+      drawer_.line(p, q, options_.surface);
+      drawer_.line(q, r, options_.surface);
+      drawer_.line(r, p, options_.surface);
+    }
+  }
+
+  void draw_triangle(const Mesh& mesh, int f, const DebugColor& color) {
+    const auto [p, q, r] = mesh.facet(f);
+    drawer_.triangle(p, q, r, color);
+  }
+
+  void draw_box(const Bounds& bounds, const DebugColor& color) {
+    const auto corner = [&](int bits) {
+      Vector3d at;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        at[axis] = bits >> axis & 1 ? bounds.upper[k] : bounds.lower[k];
+      }
+      return at;
+    };
+    for (int bits = 0; bits < 8; ++bits) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if ((bits >> axis & 1) == 0) drawer_.line(corner(bits), corner(bits | 1 << axis), color);
+      }
+    }
+  }
+
+  void draw_arrow(const Vector3d& from, const Vector3d& way, const DebugColor& color) {
+    const Vector3d tip = from + way;
+    drawer_.line(from, tip, color);
+    const Vector3d across = kArrowHead * way.norm() * way.unitOrthogonal();
+    if (!across.allFinite()) return;  // no way at all
+    drawer_.line(tip, tip - kArrowHead * way + across, color);
+    drawer_.line(tip, tip - kArrowHead * way - across, color);
+  }
+
+  void draw_plane(const Vector3d& at, const Vector3d& n, double width) {
+    const Vector3d u = width * n.unitOrthogonal(), v = n.cross(u);
+    drawer_.triangle(at - u - v, at + u - v, at + u + v, options_.plane);
+    drawer_.triangle(at - u - v, at + u + v, at - u + v, options_.plane);
+  }
+
+  void draw_disk(const ZoneDisk& disk, const Vector3d& n) {
+    if (disk.radius < 0.0) return;
+    const Vector3d u = disk.radius * n.unitOrthogonal(), v = n.cross(u);
+    const auto rim = [&](int side) -> Vector3d {
+      const double angle = 2.0 * std::numbers::pi * side / kCircleSides;
+      return disk.center + std::cos(angle) * u + std::sin(angle) * v;
+    };
+    for (int side = 0; side < kCircleSides; ++side) drawer_.line(rim(side), rim(side + 1), options_.zone);
+  }
+
+  // Read once a body.
+  const Mesh& mesh_of(BodyId body) {
+    const auto [at, fresh] = meshes_.try_emplace(body);
+    if (fresh) {
+      at->second.coordinates.resize(3 * world_.vertex_count(body));
+      at->second.corners.resize(3 * world_.facet_count(body));
+      world_.copy_positions(body, at->second.coordinates);
+      world_.copy_facets(body, at->second.corners);
+    }
+    return at->second;
+  }
+
+  const World& world_;
+  const Report& report_;
+  DebugDrawer& drawer_;
+  const DebugDrawOptions& options_;
+  std::unordered_map<BodyId, Mesh> meshes_;
+};
+
+}  // namespace
+
+DebugDrawer::~DebugDrawer() = default;
+
+void debug_draw(const World& world, const Report& report, DebugDrawer& drawer, const DebugDrawOptions& options) {
+  try {
+    Drawing(world, report, drawer, options).draw();
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::out_of_memory, "drawing ran out of memory");
+  }
+}
+
+}  // namespace tact

@@ -1,0 +1,49 @@
+// What a recording is made of.
+//
+// The file, version 4. Numbers are little-endian, doubles as IEEE 754 has them, without padding between them:
+//
+//   head      "tactrec\n", u32 version, text: the version of tact that wrote it
+//   settings  u8 1, i32 threads, u8 accuracy, u8 direction policy, f64 gjk_tolerance, i32 iteration_limit, u8 zones,
+//             u8 patches; the first record, and wherever the settings changed
+//   add       u8 2, u8 surface, u8 motion, u32 layer, u32 mask, u64 external id (since version 4), text name,
+//             u64 vertices, u64 facets, 3 f64 a vertex, 3 i32 a facet
+//   remove    u8 3, body
+//   positions u8 4, u64 bodies, and for each: body, u64 vertices, 3 f64 a vertex
+//   detect    u8 5
+//   hash      u8 6, u64 Report::hash(); after every detect that had an answer
+//   layers    u8 7, body, u32 layer, u32 mask; this and the next since version 2
+//   motion    u8 8, body, u8 motion
+//   margin    u8 9, body, f64 metres; this and the next two since version 3. After the body is added, if it is not 0,
+//             and wherever it changed
+//   self      u8 10, body, u8: is it held against itself? Likewise
+//   points    u8 11; after settings whose Outputs::points is set, which a record of settings alone unsets
+//
+// A text is u32 bytes and these; a body is u32 index and u32 generation of its BodyId; enumerations are numbered in the
+// order of their values. Outputs::trace is left out: it changes no answer. The records stand in the order of the calls;
+// a call that was refused is not there. There is no end mark: a program that dies leaves what it did.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace tact::recording {
+
+inline constexpr std::string_view kMagic = "tactrec\n";
+inline constexpr std::uint32_t kVersion = 4;
+
+enum class RecordKind : std::uint8_t {
+  settings = 1,
+  add = 2,
+  remove = 3,
+  positions = 4,
+  detect = 5,
+  hash = 6,
+  layers = 7,
+  motion = 8,
+  margin = 9,
+  self_contact = 10,
+  points = 11
+};
+inline constexpr RecordKind kLastRecordKind = RecordKind::points;
+
+}  // namespace tact::recording

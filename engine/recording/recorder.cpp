@@ -1,0 +1,161 @@
+#include <tact/recording.h>
+#include <tact/version.h>
+
+#include <array>
+#include <bit>
+#include <ostream>
+#include <type_traits>
+
+#include "engine/base/timer.h"
+#include "engine/recording/format.h"
+
+namespace tact {
+namespace {
+
+using recording::RecordKind;
+
+static_assert(std::endian::native == std::endian::little, "recordings are little-endian");
+
+template <class Number>
+void put(std::ostream& out, Number value) {
+  static_assert(std::is_arithmetic_v<Number>);
+  out.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+void put(std::ostream& out, RecordKind kind) { put(out, static_cast<std::uint8_t>(kind)); }
+
+void put_text(std::ostream& out, std::string_view text) {
+  put(out, static_cast<std::uint32_t>(text.size()));
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+}
+
+void put_body(std::ostream& out, BodyId body) {
+  put(out, body.index);
+  put(out, body.generation);
+}
+
+// Column by column: the caller's columns need not follow each other.
+template <class Scalar>
+void put_columns(std::ostream& out, const Columns<Scalar>& columns) {
+  for (std::ptrdiff_t i = 0; i < columns.cols(); ++i) {
+    const std::array<Scalar, 3> column = columns.column(i);
+    out.write(reinterpret_cast<const char*>(column.data()), sizeof column);
+  }
+}
+
+// A record of one value of a body.
+template <class Number>
+void put_value(std::ostream& out, RecordKind kind, BodyId body, Number value) {
+  put(out, kind);
+  put_body(out, body);
+  put(out, value);
+}
+
+void put_addition(std::ostream& out, BodyId body, const BodyDefinition& definition) {
+  put(out, RecordKind::add);
+  put(out, static_cast<std::uint8_t>(definition.surface));
+  put(out, static_cast<std::uint8_t>(definition.motion));
+  put(out, definition.layer);
+  put(out, definition.mask);
+  put(out, definition.external_id);
+  put_text(out, definition.name);
+  put(out, static_cast<std::uint64_t>(definition.positions.cols()));
+  put(out, static_cast<std::uint64_t>(definition.facets.cols()));
+  put_columns(out, definition.positions);
+  put_columns(out, definition.facets);
+  if (definition.margin != 0.0) put_value(out, RecordKind::margin, body, definition.margin);
+  if (definition.self_contact) put_value(out, RecordKind::self_contact, body, std::uint8_t{1});
+}
+
+}  // namespace
+
+template <class Write>
+void Recorder::write(const Write& write) noexcept {
+  base::Timer timer;
+  try {
+    write(out_);
+  } catch (...) {  // a stream that throws; its owner finds it bad
+  }
+  writing_ms_ += timer.lap();
+}
+
+Recorder::Recorder(std::ostream& out) : out_(out) {
+  write([](std::ostream& to) {
+    to.write(recording::kMagic.data(), static_cast<std::streamsize>(recording::kMagic.size()));
+    put(to, recording::kVersion);
+    put_text(to, TACT_VERSION);
+  });
+}
+
+void Recorder::settings_changed(const Settings& settings) noexcept {
+  write([&](std::ostream& out) {
+    put(out, RecordKind::settings);
+    put(out, std::int32_t{settings.threads});
+    put(out, static_cast<std::uint8_t>(settings.accuracy));
+    put(out, static_cast<std::uint8_t>(settings.direction));
+    put(out, settings.gjk_tolerance);
+    put(out, std::int32_t{settings.iteration_limit});
+    put(out, std::uint8_t{settings.outputs.zones});
+    put(out, std::uint8_t{settings.outputs.patches});
+    if (settings.outputs.points) put(out, RecordKind::points);
+  });
+}
+
+void Recorder::body_added(BodyId body, const BodyDefinition& definition) noexcept {
+  write([&](std::ostream& out) { put_addition(out, body, definition); });
+}
+
+void Recorder::body_removed(BodyId body) noexcept {
+  write([&](std::ostream& out) {
+    put(out, RecordKind::remove);
+    put_body(out, body);
+  });
+}
+
+void Recorder::positions_set(std::span<const PositionsUpdate> updates) noexcept {
+  write([&](std::ostream& out) {
+    put(out, RecordKind::positions);
+    put(out, std::uint64_t{updates.size()});
+    for (const PositionsUpdate& update : updates) {
+      put_body(out, update.body);
+      put(out, static_cast<std::uint64_t>(update.positions.cols()));
+      put_columns(out, update.positions);
+    }
+  });
+}
+
+void Recorder::layers_set(BodyId body, std::uint32_t layer, std::uint32_t mask) noexcept {
+  write([&](std::ostream& out) {
+    put_value(out, RecordKind::layers, body, layer);
+    put(out, mask);
+  });
+}
+
+void Recorder::motion_set(BodyId body, Motion motion) noexcept {
+  write([&](std::ostream& out) { put_value(out, RecordKind::motion, body, static_cast<std::uint8_t>(motion)); });
+}
+
+void Recorder::margin_set(BodyId body, double margin) noexcept {
+  write([&](std::ostream& out) { put_value(out, RecordKind::margin, body, margin); });
+}
+
+void Recorder::self_contact_set(BodyId body, bool wanted) noexcept {
+  write([&](std::ostream& out) { put_value(out, RecordKind::self_contact, body, std::uint8_t{wanted}); });
+}
+
+void Recorder::step_begins() noexcept {
+  write([](std::ostream& out) {
+    put(out, RecordKind::detect);
+    out.flush();
+  });
+}
+
+void Recorder::step_ended(const Report& report) noexcept {
+  write([&](std::ostream& out) {
+    put(out, RecordKind::hash);
+    put(out, report.hash());
+    out.flush();
+  });
+}
+
+}  // namespace tact

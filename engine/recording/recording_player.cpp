@@ -1,0 +1,246 @@
+#include <tact/recording.h>
+
+#include <Eigen/Core>
+#include <utility>
+#include <vector>
+
+#include "engine/recording/byte_reader.h"
+#include "engine/recording/format.h"
+
+namespace tact {
+
+using recording::ByteReader, recording::EndOfBytes, recording::RecordKind;
+
+struct RecordingPlayer::Implementation {
+  Implementation(std::string_view bytes, std::optional<int> given_threads) : reader(bytes), threads(given_threads) {
+    try {
+      read_head(bytes);
+      if (read_kind() != RecordKind::settings) fail("the first record is not one of settings");
+      const Settings settings = read_settings();
+      make([&] { world.emplace(settings); });
+    } catch (const EndOfBytes&) {
+      fail("the recording ends in its head");
+    }
+  }
+
+  void read_head(std::string_view bytes) {
+    if (!bytes.starts_with(recording::kMagic)) fail("not a recording: it does not begin with tactrec");
+    reader.read_bytes(recording::kMagic.size());
+    record = reader.position();
+    version = reader.read<std::uint32_t>();
+    if (version < 1 || version > recording::kVersion) {
+      fail("a recording of version " + std::to_string(version) + "; versions 1 to " +
+           std::to_string(recording::kVersion) + " can be read");
+    }
+    recorded_by = read_text();
+  }
+
+  std::optional<PlayedStep> next() {
+    try {
+      while (reader.bytes_left() > 0 && !cut_at) {
+        const RecordKind kind = read_kind();
+        if (kind == RecordKind::detect) return detect();
+        play(kind);
+      }
+    } catch (const EndOfBytes&) {
+      cut_at = record;
+    }
+    return std::nullopt;
+  }
+
+  RecordKind read_kind() {
+    record = reader.position();
+    const auto kind = reader.read<std::uint8_t>();
+    if (kind < 1 || kind > static_cast<std::uint8_t>(recording::kLastRecordKind))
+      fail("no record is of kind " + std::to_string(kind));
+    return static_cast<RecordKind>(kind);
+  }
+
+  // Makes the call of a record that is neither detect nor hash.
+  void play(RecordKind kind) {
+    switch (kind) {
+      case RecordKind::settings: {
+        const Settings settings = read_settings();
+        return make([&] { world->set_settings(settings); });
+      }
+      case RecordKind::add: return add_body();
+      case RecordKind::remove: {
+        const BodyId body = read_body();
+        return make([&] { world->remove_body(body); });
+      }
+      case RecordKind::positions: return set_positions();
+      case RecordKind::layers: {
+        const BodyId body = read_body();
+        const auto layer = reader.read<std::uint32_t>(), mask = reader.read<std::uint32_t>();
+        return make([&] { world->set_layers(body, layer, mask); });
+      }
+      case RecordKind::motion: {
+        const BodyId body = read_body();
+        const auto motion = read_enumeration(Motion::fixed);
+        return make([&] { world->set_motion(body, motion); });
+      }
+      case RecordKind::margin: {
+        const BodyId body = read_body();
+        const auto margin = reader.read<double>();
+        return make([&] { world->set_margin(body, margin); });
+      }
+      case RecordKind::self_contact: {
+        const BodyId body = read_body();
+        const bool wanted = read_flag();
+        return make([&] { world->set_self_contact(body, wanted); });
+      }
+      case RecordKind::points: {
+        Settings settings = world->settings();
+        settings.outputs.points = true;
+        return make([&] { world->set_settings(settings); });
+      }
+      case RecordKind::detect:
+      case RecordKind::hash: break;
+    }
+    fail("a hash that follows no step");
+  }
+
+  // A step without a hash behind it had no answer.
+  PlayedStep detect() {
+    report = &world->detect();
+    PlayedStep step{.number = steps, .byte = reader.position(), .recorded = {}, .now = report->hash()};
+    ++steps;
+    ByteReader ahead = reader;
+    if (ahead.bytes_left() < 1 + sizeof(std::uint64_t)) {
+      if (ahead.bytes_left() > 0) cut_at = ahead.position();
+      return step;
+    }
+    if (ahead.read<std::uint8_t>() != static_cast<std::uint8_t>(RecordKind::hash)) return step;
+    step.byte = ahead.position();
+    step.recorded = ahead.read<std::uint64_t>();
+    reader = ahead;
+    return step;
+  }
+
+  void add_body() {
+    const auto surface = read_enumeration(Surface::sheet);
+    const auto motion = read_enumeration(Motion::fixed);
+    const auto layer = reader.read<std::uint32_t>();
+    const auto mask = reader.read<std::uint32_t>();
+    const auto external_id = version < 4 ? std::uint64_t{0} : reader.read<std::uint64_t>();
+    std::string name = read_text();
+    const auto vertices = reader.read<std::uint64_t>();
+    const auto facets = reader.read<std::uint64_t>();
+    const Eigen::Matrix3Xd positions = read_columns<double>(vertices);
+    const Eigen::Matrix3Xi corners = read_columns<std::int32_t>(facets);
+    make([&] {
+      world_number = world
+                         ->add_body({.positions = positions,
+                                     .facets = corners,
+                                     .surface = surface,
+                                     .motion = motion,
+                                     .name = std::move(name),
+                                     .layer = layer,
+                                     .mask = mask,
+                                     .external_id = external_id})
+                         .world;
+    });
+  }
+
+  void set_positions() {
+    constexpr std::size_t kSmallest = 16;  // bytes of a body without vertices
+    const auto count = reader.read<std::uint64_t>();
+    reader.require(count, kSmallest);
+    std::vector<BodyId> bodies;
+    std::vector<Eigen::Matrix3Xd> positions;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      bodies.push_back(read_body());
+      positions.push_back(read_columns<double>(reader.read<std::uint64_t>()));
+    }
+    std::vector<PositionsUpdate> updates;
+    for (std::size_t i = 0; i < bodies.size(); ++i) updates.push_back({bodies[i], positions[i]});
+    make([&] { world->set_positions(updates); });
+  }
+
+  Settings read_settings() {
+    Settings settings;
+    settings.threads = reader.read<std::int32_t>();
+    if (threads) settings.threads = *threads;
+    settings.accuracy = read_enumeration(Accuracy::exact);
+    settings.direction = read_enumeration(DirectionPolicy::smallest);
+    settings.gjk_tolerance = reader.read<double>();
+    settings.iteration_limit = reader.read<std::int32_t>();
+    settings.outputs.zones = read_flag();
+    settings.outputs.patches = read_flag();
+    return settings;
+  }
+
+  std::string read_text() { return std::string(reader.read_bytes(reader.read<std::uint32_t>())); }
+
+  BodyId read_body() {
+    const auto index = reader.read<std::uint32_t>();
+    const auto generation = reader.read<std::uint32_t>();
+    return {.index = index, .generation = generation, .world = world_number};
+  }
+
+  bool read_flag() {
+    const auto value = reader.read<std::uint8_t>();
+    if (value > 1) fail(std::to_string(value) + " is neither 0 nor 1");
+    return value == 1;
+  }
+
+  template <class Enumeration>
+  Enumeration read_enumeration(Enumeration last) {
+    const auto value = reader.read<std::uint8_t>();
+    if (value > static_cast<std::uint8_t>(last))
+      fail(std::to_string(value) + " is not 0 to " + std::to_string(static_cast<int>(last)));
+    return static_cast<Enumeration>(value);
+  }
+
+  template <class Number>
+  Eigen::Matrix<Number, 3, Eigen::Dynamic> read_columns(std::uint64_t count) {
+    reader.require(count, 3 * sizeof(Number));
+    Eigen::Matrix<Number, 3, Eigen::Dynamic> columns(3, static_cast<Eigen::Index>(count));
+    for (Number& value : columns.reshaped()) value = reader.read<Number>();
+    return columns;
+  }
+
+  // Calls call(); data that the world refuses are the recording's fault.
+  template <class Call>
+  void make(const Call& call) {
+    try {
+      call();
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::out_of_memory || error.code() == ErrorCode::backend_failure) throw;
+      fail(error.what());
+    }
+  }
+
+  // Something is wrong with the record.
+  [[noreturn]] void fail(const std::string& message) const {
+    throw Error(ErrorCode::bad_recording, "byte " + std::to_string(record) + ": " +
+                                              (world ? "step " + std::to_string(steps) + ": " : std::string()) +
+                                              message);
+  }
+
+  ByteReader reader;
+  std::optional<int> threads;
+  std::uint32_t version = 0;
+  std::size_t record = 0;  // the byte at which the record begins that is being read
+  std::optional<std::size_t> cut_at = {};
+  std::string recorded_by = {};
+  std::optional<World> world = {};
+  std::uint32_t world_number = 0;  // that ids carry; known from the first body
+  int steps = 0;
+  const Report nothing = {};
+  const Report* report = &nothing;
+};
+
+RecordingPlayer::RecordingPlayer(std::string_view bytes, std::optional<int> threads)
+    : implementation_(std::make_unique<Implementation>(bytes, threads)) {}
+RecordingPlayer::~RecordingPlayer() = default;
+RecordingPlayer::RecordingPlayer(RecordingPlayer&&) noexcept = default;
+RecordingPlayer& RecordingPlayer::operator=(RecordingPlayer&&) noexcept = default;
+
+std::optional<PlayedStep> RecordingPlayer::next() { return implementation_->next(); }
+std::optional<std::size_t> RecordingPlayer::cut_at() const { return implementation_->cut_at; }
+World& RecordingPlayer::world() { return *implementation_->world; }
+const Report& RecordingPlayer::report() const { return *implementation_->report; }
+const std::string& RecordingPlayer::recorded_by() const { return implementation_->recorded_by; }
+
+}  // namespace tact
