@@ -12,7 +12,7 @@ namespace tact {
 using recording::ByteReader, recording::EndOfBytes, recording::RecordKind;
 
 struct RecordingPlayer::Implementation {
-  Implementation(std::string_view bytes, std::optional<int> given_threads) : reader(bytes), threads(given_threads) {
+  Implementation(std::string_view bytes, const PlayOptions& given) : reader(bytes), options(given) {
     try {
       read_head(bytes);
       if (read_kind() != RecordKind::settings) fail("the first record is not one of settings");
@@ -160,13 +160,14 @@ struct RecordingPlayer::Implementation {
   Settings read_settings() {
     Settings settings;
     settings.threads = reader.read<std::int32_t>();
-    if (threads) settings.threads = *threads;
+    if (options.threads) settings.threads = *options.threads;
     settings.accuracy = read_enumeration(Accuracy::exact);
     settings.direction = read_enumeration(DirectionPolicy::smallest);
     settings.gjk_tolerance = reader.read<double>();
     settings.iteration_limit = reader.read<std::int32_t>();
-    settings.outputs.zones = read_flag();
-    settings.outputs.patches = read_flag();
+    settings.outputs = options.outputs;
+    settings.outputs.zones |= read_flag();
+    settings.outputs.patches |= read_flag();
     return settings;
   }
 
@@ -219,7 +220,7 @@ struct RecordingPlayer::Implementation {
   }
 
   ByteReader reader;
-  std::optional<int> threads;
+  PlayOptions options;
   std::uint32_t version = 0;
   std::size_t record = 0;  // the byte at which the record begins that is being read
   std::optional<std::size_t> cut_at = {};
@@ -231,8 +232,8 @@ struct RecordingPlayer::Implementation {
   const Report* report = &nothing;
 };
 
-RecordingPlayer::RecordingPlayer(std::string_view bytes, std::optional<int> threads)
-    : implementation_(std::make_unique<Implementation>(bytes, threads)) {}
+RecordingPlayer::RecordingPlayer(std::string_view bytes, const PlayOptions& options)
+    : implementation_(std::make_unique<Implementation>(bytes, options)) {}
 RecordingPlayer::~RecordingPlayer() = default;
 RecordingPlayer::RecordingPlayer(RecordingPlayer&&) noexcept = default;
 RecordingPlayer& RecordingPlayer::operator=(RecordingPlayer&&) noexcept = default;

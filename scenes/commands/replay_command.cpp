@@ -49,7 +49,8 @@ void replay(const ReplayOptions& options, std::ostream& out) {
   const MappedFile file(options.recording);
   const std::string name = options.recording.string();
   base::Timer timer;
-  RecordingPlayer player = of_file(name, [&] { return RecordingPlayer(file.bytes(), options.threads); });
+  RecordingPlayer player =
+      of_file(name, [&] { return RecordingPlayer(file.bytes(), {.threads = options.threads, .outputs = {}}); });
   int steps = 0;
   int different = 0;
   std::optional<PlayedStep> first;

@@ -24,7 +24,7 @@ void check_message(const std::string& message) { require(message.starts_with("by
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   try {
-    tact::RecordingPlayer player(bytes, 1);
+    tact::RecordingPlayer player(bytes, {.threads = 1, .outputs = {}});
     while (player.next()) {
     }
   } catch (const tact::Error& error) {

@@ -45,7 +45,8 @@ struct WorldEntry {
 
 // A recording that is played. Its world is among the worlds, too.
 struct PlayerEntry {
-  PlayerEntry(std::string given, std::optional<int> threads) : bytes(std::move(given)), player(bytes, threads) {}
+  PlayerEntry(std::string given, std::optional<int> threads)
+      : bytes(std::move(given)), player(bytes, {.threads = threads, .outputs = {}}) {}
   std::string bytes;
   RecordingPlayer player;
   std::uint64_t world = 0;  // its handle

@@ -60,12 +60,17 @@ struct PlayedStep {
   bool same() const { return recorded == now; }
 };
 
+/// How a recording is run again.
+struct PlayOptions {
+  std::optional<int> threads = {};  ///< in place of those of the recording
+  Outputs outputs = {};             ///< besides those of the recording; zones and points change the hashes
+};
+
 /// Runs a recording again, step by step. It takes memory for what the recording holds, never for what it promises.
 class TACT_API RecordingPlayer {
  public:
-  /// Reads the head of `bytes`, which must outlive the player. `threads`, if given, replaces those of the recording.
-  /// Errors: bad_recording, with the byte.
-  explicit RecordingPlayer(std::string_view bytes, std::optional<int> threads = {});
+  /// Reads the head of `bytes`, which must outlive the player. Errors: bad_recording, with the byte.
+  explicit RecordingPlayer(std::string_view bytes, const PlayOptions& options = {});
   ~RecordingPlayer();
   RecordingPlayer(RecordingPlayer&&) noexcept;
   RecordingPlayer& operator=(RecordingPlayer&&) noexcept;
@@ -81,7 +86,7 @@ class TACT_API RecordingPlayer {
   std::optional<std::size_t> cut_at() const;
 
   /// The world that the calls are made in: to look at, or to ask for more than the recording's program did. Calls that
-  /// change it change what the steps find.
+  /// change it change what the steps find. An observer that is set before the first next() is told of every body.
   World& world();
   /// The report of the step that next() made last; before it has, an empty one.
   const Report& report() const;

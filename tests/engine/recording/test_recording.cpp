@@ -85,7 +85,7 @@ std::string recording() {
 }
 
 std::vector<PlayedStep> play(std::string_view bytes, std::optional<int> threads = 1) {
-  RecordingPlayer player(bytes, threads);
+  RecordingPlayer player(bytes, {.threads = threads, .outputs = {}});
   std::vector<PlayedStep> steps;
   while (const auto step = player.next()) steps.push_back(*step);
   return steps;
@@ -199,7 +199,7 @@ TEST(Recording, CutAnywherePlaysWhatIsWhole) {
   const std::size_t whole_steps = play(good).size();
   int between_records = 0;
   for (std::size_t size = kFirstBodyAt; size < good.size(); ++size) {
-    RecordingPlayer player(std::string_view(good).substr(0, size), 1);
+    RecordingPlayer player(std::string_view(good).substr(0, size), {.threads = 1, .outputs = {}});
     std::vector<PlayedStep> steps;
     while (const auto step = player.next()) {
       if (step->recorded) steps.push_back(*step);
@@ -225,7 +225,7 @@ TEST(Recording, CutInItsHeadIsRefused) {
 // A count that no recording could hold takes no memory: it reads as one that was cut.
 TEST(Recording, PromisesAreNotBelieved) {
   const std::string bytes = with(recording(), kVerticesAt, bytes_of(~std::uint64_t{0}));
-  RecordingPlayer player(bytes, 1);
+  RecordingPlayer player(bytes, {.threads = 1, .outputs = {}});
   EXPECT_FALSE(player.next());
   EXPECT_EQ(player.cut_at(), kFirstBodyAt);
 }
@@ -261,11 +261,23 @@ TEST(Recording, OlderVersionIsRead) {
       {.positions = positions, .facets = tetrahedron_facets(), .name = "body of mask 4294967295", .external_id = 77});
   recorded.world.detect();
   const std::string now = recorded.out.str();
-  RecordingPlayer player(now, 1);
+  RecordingPlayer player(now, {.threads = 1, .outputs = {}});
   ASSERT_TRUE(player.next());
   EXPECT_EQ(player.world().external_id(player.world().bodies().at(body.index)), 77u);
   const std::string old = with(std::string(now).erase(kExternalIdAt, 8), kVersionAt, bytes_of(3u));
   EXPECT_TRUE(all_same(play(old)));
+}
+
+// What was not asked for when it was recorded can be asked for when it is played.
+TEST(Recording, PlaysWithMoreOutputs) {
+  const std::string bytes = recording();
+  RecordingPlayer player(bytes, {.threads = 1, .outputs = {.patches = true}});
+  std::size_t patches = 0;
+  while (const auto step = player.next()) {
+    EXPECT_TRUE(step->same());
+    for (const Contact& contact : player.report().contacts()) patches += contact.patches().size();
+  }
+  EXPECT_GT(patches, 0u);
 }
 
 TEST(Recorder, AnObserverSeesAWorldWhole) {
