@@ -14,8 +14,8 @@ add_custom_target(uninstall COMMENT "Removing what was installed"
   COMMAND ${CMAKE_COMMAND} -DMANIFEST_FOLDER=${PROJECT_BINARY_DIR} -P ${PROJECT_SOURCE_DIR}/cmake/uninstall.cmake)
 
 # Debian: libtact0, the shared library; libtact-dev, headers and how to find them; tact-tools, the program;
-# python3-tact, the package for Python. From a shared build, as any library of Debian: `cmake --preset packages && cmake --build --preset packages && cpack --config
-# build/packages/CPackConfig.cmake`.
+# python3-tact, the package for Python. From a shared build, as any library of Debian: `cmake --preset packages &&
+# cmake --build --preset packages && cpack --config build/packages/CPackConfig.cmake`.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tact)
 set(CPACK_PACKAGE_CONTACT "The maintainers of tact <maintainers@tact.invalid>")
