@@ -3,6 +3,11 @@
 # -ffp-contract=off: GCC would fuse a*b+c where the machine can, and the bits of an answer would depend on the machine.
 # -fno-math-errno, -fno-trapping-math: let loops with sqrt and comparisons use SIMD; they change no result.
 
+# -Wconversion and -Wsign-conversion stay off: meshes count in int, containers in std::size_t, and an index that is known
+# not to be negative would need a cast at each of some four hundred accesses, which hides the expression and finds nothing.
+# -Wsign-compare, which finds loops that never end, is on with -Wall. A cast is written where a value may change: before a
+# product that may leave int, from floating-point numbers, in braces.
+
 function(tact_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES

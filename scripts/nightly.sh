@@ -1,7 +1,7 @@
 #!/bin/bash
-# What is too long for every change: a hundred million hard triangle pairs, a million of hulls, ten million of moving features, a soak of a million steps,
-# a thousand cases of every kind of hardship, the tests with assertions on and under the sanitizers, and the fuzzing of the
-# readers.
+# What is too long for every change: a hundred million hard triangle pairs, a million of hulls, ten million of moving
+# features, a soak of a million steps, a thousand cases of every kind of hardship, clang-tidy over the whole library, the
+# tests with assertions on and under the sanitizers, and the fuzzing of the readers.
 # usage: scripts/nightly.sh [SECONDS of fuzzing a format, 600 if not given]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -12,6 +12,7 @@ TACT_LONG_HULL_PAIRS=1000000 build/release/tests/long/test_directions_long
 TACT_LONG_MOTION_QUERIES=10000000 build/release/tests/long/test_motion_long
 TACT_SOAK_STEPS=1000000 build/release/tests/long/test_soak_long
 build/release/bench/tact-bench stability
+scripts/lint.sh all
 scripts/build.sh debug
 ctest --preset debug -j 2
 scripts/sanitize.sh all

@@ -14,8 +14,9 @@ packages_of() {
     bullet) echo libbullet-dev pkg-config ;;
     docs) echo doxygen mkdocs mkdocs-material ;;
     bench) echo libcgal-dev libtbb-dev libfcl-dev libccd-dev libbullet-dev pkg-config gnuplot-nox ;;
+    lint) echo clang-format clang-tidy clang libomp-dev ;;
     sanitizers) echo clang libclang-rt-14-dev libomp-dev llvm ;;
-    *) echo "setup.sh: no group is called $1; there are library, python, program, tests, bullet, docs, bench and sanitizers" >&2; exit 2 ;;
+    *) echo "setup.sh: no group is called $1; there are library, python, program, tests, bullet, docs, bench, lint and sanitizers" >&2; exit 2 ;;
   esac
 }
 

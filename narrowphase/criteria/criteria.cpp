@@ -26,7 +26,7 @@ Criteria make_criteria(const Slab& slab, Vec3 outward, double plane, const Impac
                     .v = {},
                     .other_zone = {}};
   if (other_zone != nullptr) {
-    // In a unit, a power of two, in which the slab's error is about 1 and no square vanishes nor overflows.
+    // The unit is a power of two in which the slab's error is about 1: no square vanishes nor overflows.
     const double scale = std::ldexp(1.0, -std::clamp(std::ilogb(slab.error), -1000, 1000));
     const Disk& disk = other_zone->disk;
     const double radius = disk.radius >= 0.0 ? disk.radius + (other_zone->error + 2.0 * slab.error) : disk.radius;
@@ -54,9 +54,9 @@ double distance_squared(Point2 p, Point2 a, Point2 b) {
 
 double turn(Point2 a, Point2 b, Point2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-// Does the disk reach the triangle? Distances from its centre round by less than 1e-14 of what is compared, by which
-// the disk is widened. A point of a side, a.x + t * ex, also rounds by a roundoff of |a.x|, which the slab's error is
-// four times of: the disk is wider by 2 of these errors, of which the facet's projection takes sqrt(2).
+// Does the disk reach the triangle? Distances from its centre round by less than 1e-14 of themselves; the disk is
+// widened by that. A point of a side, a.x + t * ex, also rounds by a roundoff of |a.x|, a quarter of the slab's error.
+// That fits: the disk is wider by 2 such errors, of which the facet's projection needs sqrt(2).
 bool meets(const Disk& disk, Point2 a, Point2 b, Point2 c) {
   if (disk.radius < 0.0) return false;
   const double reach =

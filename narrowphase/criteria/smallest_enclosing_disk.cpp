@@ -27,7 +27,7 @@ Point2 operator-(Point2 p, Point2 q) { return {p.x - q.x, p.y - q.y}; }
 double dot(Point2 p, Point2 q) { return p.x * q.x + p.y * q.y; }
 double distance_squared(Point2 p, Point2 q) { return dot(p - q, p - q); }
 
-// The points that decide a disk: up to three, and a fourth while a step is made; each once, in lexicographic order.
+// The points that decide a disk: up to three, and a fourth during a step. Each stands once, in lexicographic order.
 struct Basis {
   std::array<Point2, 4> points{};
   std::size_t count = 0;
@@ -61,8 +61,8 @@ void keep_smaller(BasisDisk& best, Point2 center, const Basis& all, std::initial
   for (const Point2 p : deciding) best.basis.insert(p);
 }
 
-// The circumcircle of p, q, r, if their triangle is acute: that of any other is larger than a disk around two of them,
-// and a basis that does not decide its own disk could make the steps go round in circles.
+// The circumcircle of p, q, r, if their triangle is acute. Any other circumcircle is larger than a disk around two of
+// the points; then the basis would not decide its own disk, and the steps could go round in circles.
 void keep_smaller_circumcircle(BasisDisk& best, Point2 p, Point2 q, Point2 r, const Basis& all) {
   // Seen from the corner opposite the longest side: the largest angle is there, and the two sides that meet there
   // include the shortest, which keeps the rounding relative to it.
@@ -143,8 +143,8 @@ LocalFrame local_frame(const Box2& box) {
 }
 
 // The center of the smallest disk, in local coordinates. The radius of a basis bounds the answer from below, the
-// farthest point from its center from above; the steps end where the bounds meet, or where rounding stops them from
-// getting closer.
+// distance of the farthest point from its center bounds it from above. The steps end when the bounds meet, or when
+// rounding stops them from getting closer.
 Point2 best_center(std::span<const Point2> points, const LocalFrame& frame) {
   constexpr int kPatience = 16;  // steps without a better bound; rounding costs one or two
   Basis start;

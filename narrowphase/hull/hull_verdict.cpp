@@ -158,9 +158,9 @@ class ExactSimplex {
   Direction toward_origin_;
 };
 
-class Search {
+class VerdictSearch {
  public:
-  Search(const MinkowskiDifference& m, const GjkSimplex& start) : m_(m) {
+  VerdictSearch(const MinkowskiDifference& m, const GjkSimplex& start) : m_(m) {
     verdict_.simplex = start;
     if (start.count > 0) return;
     const MinkowskiVertex any = m.support({1.0, 0.0, 0.0});
@@ -227,6 +227,6 @@ class Search {
 
 }  // namespace
 
-HullVerdict hull_verdict(const MinkowskiDifference& m, const GjkSimplex& start) { return Search(m, start).run(); }
+HullVerdict hull_verdict(const MinkowskiDifference& m, const GjkSimplex& start) { return VerdictSearch(m, start).run(); }
 
 }  // namespace tact::narrowphase

@@ -1,8 +1,8 @@
-// Do two hulls share a point? Exactly, for all coordinates up to 2^300 in size: GJK once more, its signs those of
+// Do two hulls share a point? Exactly, for all coordinates up to 2^300 in size: GJK once more, with signs from
 // integers.
 //
-// Doubles decide wherever the bounds of their rounding allow it, see gjk.h. This is for the rest: hulls that touch, or
-// that are apart or overlap by some 1e-15 of their size.
+// Doubles decide wherever the bounds of their rounding allow it, see gjk.h. This is for the rest: hulls that touch, and
+// hulls that overlap or are apart by some 1e-15 of their size.
 #pragma once
 
 #include "narrowphase/hull/gjk.h"
@@ -12,15 +12,15 @@ namespace tact::narrowphase {
 
 struct HullVerdict {
   bool apart = false;  // false: they share a point; touching counts
-  // Of hulls that are apart: unit, from A to B. Parts them but for its own rounding, which may be more than the gap.
+  // Of hulls that are apart: unit, from A to B. It separates them but for its own rounding, which may exceed the gap.
   Vec3 direction;
-  // Vertices of M that hold the origin, in them or on their border; or, of hulls that are apart, those around the
-  // point that `direction` leads to.
+  // Vertices of M whose hull holds the origin, inside or on its border. Of hulls that are apart, the vertices of M
+  // around its point nearest to the origin.
   GjkSimplex simplex;
   int support_queries = 0;
 };
 
-// `start` is where GJK ended, or nothing. It makes the search short and changes no verdict.
+// `start` is where GJK ended, or nothing. It shortens the search and changes no verdict.
 HullVerdict hull_verdict(const MinkowskiDifference& m, const GjkSimplex& start);
 
 }  // namespace tact::narrowphase

@@ -13,7 +13,7 @@ namespace {
 
 // How much is added to a span at either end in doubles.
 constexpr double kMargin = 0x1p-30;
-// Parts are halved down to this much of the step; that ends sooner if so many were looked at.
+// Parts are halved down to this part of the step, until this many were looked at.
 constexpr double kShortestPart = 0x1p-64;
 constexpr int kMostParts = 2048, kMostSteps = 20;
 // How far around the time at which a side turns to the origin that is proved: as near as most allow, or still less than
@@ -21,9 +21,9 @@ constexpr int kMostParts = 2048, kMostSteps = 20;
 constexpr double kNarrowOpening = 0x1p-36, kWideOpening = 0x1p-23;
 constexpr std::size_t kMostWaiting = 72;  // a half at each halving
 
-// Rounding: with coordinates of corners wrong by c (12 u * 2 in doubles, 2^-99 in double_doubles), sides by 2 c, of at
-// most e, f and g along each axis, the volume is wrong by less than 64 c (e + f + ef), and the product for a side by
-// less than 256 c ((e + f) g + ef (g + 2)); the factors 3 and 6 below are in these.
+// Rounding. Coordinates of corners are wrong by at most c: 12 u * 2 in doubles, 2^-99 in double-double. Sides, of at
+// most e, f and g along each axis, are wrong by 2 c. Then the volume is wrong by less than 64 c (e + f + ef), and the
+// product for a side by less than 256 c ((e + f) g + ef (g + 2)). The factors 3 and 6 below are included.
 template <class Number>
 constexpr double kRoundingOf = 0.0;
 template <>
@@ -105,7 +105,7 @@ struct Polynomial {
     const double begin = head_of(coefficient.front()), end = head_of(coefficient.back());
     return (begin > rounding && end < -rounding) || (begin < -rounding && end > rounding);
   }
-  // Leaves the part of the span before `t`, 0 to 1, and returns that after it (de Casteljau).
+  // Keeps the part of the span before `t`, 0 to 1, and returns the part after it (de Casteljau).
   Polynomial split(double t) {
     Polynomial second = *this;
     auto& c = second.coefficient;
@@ -184,7 +184,7 @@ struct SpanPolynomials {
   }
 
   bool certainly_holds_origin() const { return volume.crosses() && is_inside(); }
-  // As far as the digits tell, all the time.
+  // All the time, as far as these digits tell.
   bool seems_to_hold_origin() const { return volume.vanishes() && is_inside(); }
   bool is_inside() const {
     return std::all_of(inside.begin(), inside.begin() + sides, [](const auto& p) { return p.positive(); });
@@ -201,8 +201,8 @@ struct SpanPolynomials {
   }
 };
 
-// A point or a segment: the origin is not in it while any of these keeps its sign, or while the product of the corners,
-// the last one, is positive.
+// A point or a segment: it does not hold the origin while any of these keeps its sign, or while the last one, the
+// product of the corners, is positive.
 struct ThinPolynomials {
   std::array<Polynomial<DoubleDouble, 3>, 4> all;
 
@@ -240,7 +240,8 @@ struct ThinPolynomials {
   }
 };
 
-// Where the volume changes its sign, if it does so once and is certainly not zero but within `margin` of there.
+// The time at which the volume changes its sign, if it does so once and is certainly not zero outside of `margin`
+// around it.
 std::optional<std::pair<double, double>> only_crossing(const Polynomial<DoubleDouble, 4>& volume, double margin) {
   if (!volume.crosses()) return std::nullopt;
   const double slope = volume.coefficient.back().head - volume.coefficient.front().head;  // nearly: the span is short
@@ -380,7 +381,7 @@ std::optional<double> first_open(std::vector<Part>& parts, double shortest, doub
     const auto& polynomials = part.polynomials;
     if (polynomials.certainly_never_holds_origin()) continue;
     const bool is_open = polynomials.seems_to_hold_origin() || part.length <= shortest || looked_at > kMostParts;
-    // Of a part with a meeting the beginning is near enough.
+    // The beginning of a part with a meeting is near enough.
     if (is_open || (part.length <= short_enough && polynomials.certainly_holds_origin())) return part.begin;
     part.length *= 0.5;
     Part second{part.polynomials.split(0.5), part.begin + part.length, part.length};

@@ -24,7 +24,8 @@ constexpr double kLargestReach = 4.0;  // no corner is farther away
 // Spans that are looked at. A meeting takes about ten. Only polygons that turn while they stay within 1e-8 of their
 // size come near so many; the span at which the search ends then counts as a meeting.
 constexpr std::int64_t kMostSpans = 1 << 15;
-// How far around a root of the volume its sign is looked at: as near as most allow, or still less than is promised.
+// How far from a root of the volume its sign is looked at: as near as most polygons allow, or still less than is
+// promised.
 constexpr double kCrossing = 0x1p-36, kWideCrossing = 0x1p-23;
 constexpr double kShortInPlane = 0x1p-20;  // twice the margin in meeting_in_plane(), and some
 constexpr int kMostNewtonSteps = 12;
@@ -111,7 +112,7 @@ Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double 
       waiting_.pop_back();
       continue;
     }
-    // What stays open may have no area then, and be far away.
+    // What stays open may have no area at that time, and be far away.
     if (length <= kFinestSpan || is_near(moment(*begin))) {
       meeting.time = *begin;
       return meeting;
@@ -131,15 +132,15 @@ MeetingSearch::Moment MeetingSearch::moment(double time) const {
   return m;
 }
 
-// One that starts nearer than its reach may come as near as a share of that.
+// A polygon that starts nearer than its reach may come as near as a share of its distance at the start.
 double MeetingSearch::allowed_reach(const Moment& begin) const {
   double nearest = dot(begin.direction, begin.corner[0]);
   for (int i = 1; i < count_; ++i) nearest = std::min(nearest, dot(begin.direction, begin.corner[i]));
   return nearest > reach_ + kDotRounding ? reach_ : kShareOfGap * std::max(nearest, 0.0);
 }
 
-// Goes on between the two next moments: with their middle, or with the ends of the span around it that its direction
-// leaves out, which comes close to a meeting from both sides as fast as Newton's method.
+// Goes on between the two next moments: at their middle, or at the ends of the span around the middle that its
+// direction leaves out. That approaches a meeting from both sides as fast as Newton's method.
 void MeetingSearch::add_between(double from, double to, const Moment& middle) {
   double first = from, last = to;
   for (int i = 0; i < count_; ++i) {
@@ -168,7 +169,7 @@ void MeetingSearch::add_between(double from, double to, const Moment& middle) {
   if (first > from) add(first);
 }
 
-// Is the polygon, at most, as far away as the bounds of rounding?
+// Is the polygon no farther away than the bounds of rounding?
 bool MeetingSearch::is_near(const Moment& m) const {
   for (int i = 0; i < count_; ++i) {
     if (dot(m.direction, m.corner[i]) < reach_ + 4.0 * kDotRounding) return true;
@@ -176,7 +177,7 @@ bool MeetingSearch::is_near(const Moment& m) const {
   return false;
 }
 
-// With more digits than a double's.
+// In double-double.
 std::optional<double> MeetingSearch::first_close_time(const MovingPolygon& polygon, double from, double to) {
   if (count_ > 2 && to - from <= kWideCrossing && holds_origin_near(polygon, scale_, from, to) == Verdict::yes)
     return from;
@@ -272,7 +273,7 @@ Vec3 MeetingSearch::direction_to(const Moment& m) const {
     nearest = between ? perpendicular(unit(point), side) : unit(point);
   }
   if (!inside) return nearest;
-  // Of a polygon with next to no area rounding may say so of any point.
+  // For a polygon with next to no area, rounding may say so of any point.
   const Vec3 above = dot(normal, p[0]) < 0.0 ? -normal : normal;
   const auto separation = [&](Vec3 direction) {
     double lowest = dot(direction, p[0]);

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "narrowphase/kernels/kernels.h"
 #include "narrowphase/motion/meeting.h"
 #include "tests/support/motion_queries.h"
 #include "tests/support/random.h"
@@ -97,56 +96,6 @@ TEST(Meeting, TheSearchTakesTheSameStepsWhateverIsLatest) {
     }
     EXPECT_EQ(search.first(polygon, 0.0, std::min(time, 1.0)).time, time);
   }
-}
-
-// The filter leaves out nothing that meets, and every instruction set leaves out the same.
-TEST(Meeting, TheFilterLeavesOutNothingThatMeets) {
-  Random random(4);
-  MeetingSearch search;
-  std::int64_t left_out = 0, meeting = 0;
-  for (int block = 0; block < 400; ++block) {
-    for (const double reach : {0.0, 0.01}) {
-      narrowphase::MovingPolygons polygons;
-      polygons.corners = 3 + block % 2;
-      std::vector<MovingPolygon> all;
-      const int wanted = 1 + random.below(64);
-      while (polygons.count < wanted) {
-        MotionQuery query = random_query(random);
-        if (query.edges != (polygons.corners == 4)) continue;
-        for (MovingVertex& vertex : query.vertices) {
-          for (Vec3& p : vertex.at) p = 1e-3 * p;
-        }
-        const MovingPolygon polygon = query.polygon();
-        double size = 0.0;
-        for (const auto& corners : polygon.corner) {
-          for (int i = 0; i < polygon.count; ++i) size = std::max(size, norm(corners[i].head));
-        }
-        if (size > 2.0) continue;
-        for (int time = 0; time < 2; ++time) {
-          for (int i = 0; i < polygon.count; ++i) {
-            for (int axis = 0; axis < 3; ++axis)
-              polygons.corner[time][i][axis][polygons.count] = polygon.corner[time][i].head[axis];
-          }
-        }
-        ++polygons.count;
-        all.push_back(polygon);
-      }
-      const std::uint64_t apart = narrowphase::scalar_kernels()->apart_throughout(polygons, reach);
-      for (const auto* other : {narrowphase::avx2_kernels(), narrowphase::avx512_kernels()}) {
-        if (other == nullptr) continue;
-        EXPECT_EQ(other->apart_throughout(polygons, reach), apart) << other->name;
-      }
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        const bool meets = search.first(all[i], reach).time <= 1.0;
-        meeting += meets;
-        if ((apart >> i & 1) == 0) continue;
-        ++left_out;
-        EXPECT_FALSE(meets);
-      }
-    }
-  }
-  EXPECT_GT(left_out, 5000);
-  EXPECT_GT(meeting, 2000);
 }
 
 }  // namespace
