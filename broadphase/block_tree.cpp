@@ -174,7 +174,7 @@ void BlockTree::refit_leaf(std::span<const Box> boxes, std::size_t index) {
   for_each_lane(gone, [&](std::uint32_t lane) { set_lane(block, lane, kEmpty); });
   block.exact_lanes |= gone;
   const std::uint32_t left = kernels_->refit_lanes(block, doubles_of(boxes), block_members,
-                                                     levels_[0].active[index] & ~gone, frame_, regions_[index]);
+                                                   levels_[0].active[index] & ~gone, frame_, regions_[index]);
   leavers_[index] = static_cast<std::uint16_t>(gone | left);
 }
 

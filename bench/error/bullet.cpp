@@ -85,7 +85,7 @@ class BulletHulls : public HullMethod {
 
   void step(int frame) override {
     for (std::size_t i = 0; i < a_.size(); ++i) {
-      b_[i].transform.setOrigin(to_bullet(row_.pairs[i].path[static_cast<std::size_t>(frame)]));
+      b_[i].transform.setOrigin(to_bullet(row_.pairs[i].path[frame]));
       answers_[i] = query_(a_[i], b_[i]);
     }
   }

@@ -32,7 +32,7 @@ class FclHulls : public HullMethod {
 
   void step(int frame) override {
     for (std::size_t i = 0; i < a_.size(); ++i) {
-      b_[i].setTranslation(row_.pairs[i].path[static_cast<std::size_t>(frame)]);
+      b_[i].setTranslation(row_.pairs[i].path[frame]);
       results_[i].clear();
       failed_[i] = false;
       try {

@@ -100,8 +100,7 @@ double measure_scan(const Workload& workload, int steps) {
   std::vector<double> times;
   for (int step = 0; step < steps; ++step) {
     const int frame = frame_of_step(step, workload.frames);
-    for (std::size_t i = 0; i < meshes.size(); ++i)
-      refit(meshes[i], workload.bodies[i].positions(frame).data());
+    for (std::size_t i = 0; i < meshes.size(); ++i) refit(meshes[i], workload.bodies[i].positions(frame).data());
     const double start = wall_ms();
     for (const narrowphase::ClusteredMesh& mesh : meshes) narrowphase::support_by_full_scan(mesh, kScanned, {});
     times.push_back(1e3 * (wall_ms() - start));

@@ -57,7 +57,7 @@ class LibccdHulls : public HullMethod {
   void step(int frame) override {
     const auto penetration = algorithm_ == Algorithm::epa ? ccdGJKPenetration : ccdMPRPenetration;
     for (std::size_t i = 0; i < a_.size(); ++i) {
-      b_[i].shift = row_.pairs[i].path[static_cast<std::size_t>(frame)];
+      b_[i].shift = row_.pairs[i].path[frame];
       ccd_vec3_t direction, position;
       HullAnswer& answer = answers_[i];
       const int status = penetration(&a_[i], &b_[i], &settings_, &answer.depth, &direction, &position);

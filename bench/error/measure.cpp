@@ -88,7 +88,7 @@ ErrorResult judge(const HullRow& row, const HullMethodKind& kind) {
     method->step(frame);
     for (std::size_t i = 0; i < row.pairs.size(); ++i) {
       const HullPair& pair = row.pairs[i];
-      const Eigen::Vector3d& shift = pair.path[static_cast<std::size_t>(frame)];
+      const Eigen::Vector3d& shift = pair.path[frame];
       errors.judge(method->answer(i), kind.minimum, pair.faces, pair.height, shift, result);
     }
   }

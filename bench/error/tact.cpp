@@ -27,8 +27,7 @@ class TactHulls : public HullMethod {
 
   void step(int frame) override {
     updates_.clear();
-    for (std::size_t i = 0; i < moving_.size(); ++i)
-      updates_.push_back({moving_[i], positions_[i][static_cast<std::size_t>(frame)]});
+    for (std::size_t i = 0; i < moving_.size(); ++i) updates_.push_back({moving_[i], positions_[i][frame]});
     world_.set_positions(updates_);
     report_ = &world_.detect();
   }

@@ -77,11 +77,11 @@ std::vector<FacetBox> boxes_of(const std::vector<Facet>& facets) {
 
 Eigen::Matrix<long double, 3, Eigen::Dynamic> used_points(const TruthMesh& mesh, const Wide3& origin) {
   std::vector<bool> used(static_cast<std::size_t>(mesh.positions.cols()), false);
-  for (const int v : mesh.facets.reshaped()) used[static_cast<std::size_t>(v)] = true;
+  for (const int v : mesh.facets.reshaped()) used[v] = true;
   Eigen::Matrix<long double, 3, Eigen::Dynamic> points(3, std::count(used.begin(), used.end(), true));
   Eigen::Index next = 0;
   for (Eigen::Index v = 0; v < mesh.positions.cols(); ++v) {
-    if (used[static_cast<std::size_t>(v)]) points.col(next++) = mesh.positions.col(v).cast<long double>() - origin;
+    if (used[v]) points.col(next++) = mesh.positions.col(v).cast<long double>() - origin;
   }
   return points;
 }
@@ -95,7 +95,7 @@ std::vector<FacetPair> true_facet_pairs(const TruthMesh& a, const TruthMesh& b) 
   CGAL::box_intersection_d(boxes_a.begin(), boxes_a.end(), boxes_b.begin(), boxes_b.end(),
                            [&](const FacetBox& p, const FacetBox& q) {
                              const int i = p.info(), j = q.info();
-                             if (meet(facets_a[static_cast<std::size_t>(i)], facets_b[static_cast<std::size_t>(j)])) {
+                             if (meet(facets_a[i], facets_b[j])) {
                                pairs.push_back({i, j});
                              }
                            });
@@ -147,8 +147,8 @@ TruthMesh convex_hull(const TruthMesh& mesh) {
   std::vector<Filtered::Point_3> points;
   std::vector<bool> used(static_cast<std::size_t>(mesh.positions.cols()), false);
   for (const int v : mesh.facets.reshaped()) {
-    if (used[static_cast<std::size_t>(v)]) continue;
-    used[static_cast<std::size_t>(v)] = true;
+    if (used[v]) continue;
+    used[v] = true;
     points.emplace_back(mesh.positions(0, v), mesh.positions(1, v), mesh.positions(2, v));
   }
   CGAL::Surface_mesh<Filtered::Point_3> hull;

@@ -67,7 +67,7 @@ Times measure(const BoxRivalKind& kind, BoxWorkload workload, int threads, const
     if (step > 0) workload.step();
     const double expected_ms = all_ms.empty() ? 1.0 : all_ms.back();
     const double ms = time_ms(threads, expected_ms, [&] { rival->step({workload.boxes(), workload.changed()}); });
-    if (step < effort.checked_steps && rival->pairs() != truths[static_cast<std::size_t>(step)]) times.correct = false;
+    if (step < effort.checked_steps && rival->pairs() != truths[step]) times.correct = false;
     if (step == 0) continue;
     all_ms.push_back(ms);
     spent_ms += ms;

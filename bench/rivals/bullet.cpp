@@ -94,11 +94,11 @@ class Bullet : public Rival {
       return static_cast<int>(reinterpret_cast<std::size_t>(proxy->m_clientObject));
     };
     const auto [a, b] = std::minmax({number(pair.m_pProxy0), number(pair.m_pProxy1)});
-    Body& first = *bodies_[static_cast<std::size_t>(a)];
-    Body& second = *bodies_[static_cast<std::size_t>(b)];
+    Body& first = *bodies_[a];
+    Body& second = *bodies_[b];
     // The pair cache holds fattened boxes, and pairs that have parted.
     if (!first.boxes.getGlobalBox().has_collision(second.boxes.getGlobalBox())) return;
-    btPairSet& candidates = *candidates_[static_cast<std::size_t>(thread)];
+    btPairSet& candidates = *candidates_[thread];
     candidates.resizeNoInitialize(0);
     const btTransform still = btTransform::getIdentity();
     btGImpactBvh::find_collision(&first.boxes, still, &second.boxes, still, candidates);

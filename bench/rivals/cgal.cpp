@@ -113,15 +113,15 @@ class Cgal : public Rival {
               std::vector<unsigned char>& outside) const {
     boxes.boxes.clear();
     if (clipping_ == Clipping::on) {
-      outside.resize(static_cast<std::size_t>(mesh.vertex_count));
+      outside.resize(mesh.vertex_count);
       for (int v = 0; v < mesh.vertex_count; ++v) {
-        outside[static_cast<std::size_t>(v)] = sides_outside(common, mesh.vertex(v));
+        outside[v] = sides_outside(common, mesh.vertex(v));
       }
     }
     for (int f = 0; f < mesh.facet_count; ++f) {
       if (clipping_ == Clipping::on) {
         const int* corner = mesh.facets + 3 * static_cast<std::ptrdiff_t>(f);
-        const auto side = [&](int k) { return outside[static_cast<std::size_t>(corner[k])]; };
+        const auto side = [&](int k) { return outside[corner[k]]; };
         if ((side(0) & side(1) & side(2)) != 0) continue;
       }
       boxes.boxes.push_back({box_of(mesh.corners(f)), first_number + static_cast<std::size_t>(f)});
@@ -131,11 +131,10 @@ class Cgal : public Rival {
 
   template <class Concurrency>
   void collide(int body_a, int body_b, int frame, int thread) {
-    const MeshView a = view_of(workload_.bodies[static_cast<std::size_t>(body_a)], frame);
-    const MeshView b = view_of(workload_.bodies[static_cast<std::size_t>(body_b)], frame);
-    const base::Box common = base::intersection(body_boxes_[static_cast<std::size_t>(body_a)],
-                                                body_boxes_[static_cast<std::size_t>(body_b)]);
-    Scratch& scratch = scratch_[static_cast<std::size_t>(thread)];
+    const MeshView a = view_of(workload_.bodies[body_a], frame);
+    const MeshView b = view_of(workload_.bodies[body_b], frame);
+    const base::Box common = base::intersection(body_boxes_[body_a], body_boxes_[body_b]);
+    Scratch& scratch = scratch_[thread];
     const std::size_t first_of_b = static_cast<std::size_t>(a.facet_count);
     constexpr bool kParallel = std::is_same_v<Concurrency, CGAL::Parallel_tag>;
     base::parallel_for(2, 1, kParallel ? threads_ : 1, [&](std::size_t which) {

@@ -104,8 +104,8 @@ class Answers {
     return all;
   }
   void decide(int body_a, int facet_a, int body_b, int facet_b, std::vector<FacetMeeting>& list) const {
-    const MeshView& a = meshes_[static_cast<std::size_t>(body_a)];
-    const MeshView& b = meshes_[static_cast<std::size_t>(body_b)];
+    const MeshView& a = meshes_[body_a];
+    const MeshView& b = meshes_[body_b];
     if (facets_meet(a, facet_a, b, facet_b, test_)) list.push_back({body_a, body_b, facet_a, facet_b});
   }
   std::vector<FacetMeeting>& of_this_thread() { return lists_.local(); }
@@ -210,8 +210,7 @@ class SceneABody : public Rival {
     answers_.clear();
     tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
       Query query{&answers_, pairs[k].first, pairs[k].second};
-      rtcCollide(*scenes_[static_cast<std::size_t>(query.a)], *scenes_[static_cast<std::size_t>(query.b)], decide,
-                 &query);
+      rtcCollide(*scenes_[query.a], *scenes_[query.b], decide, &query);
     });
     check(device_);
   }

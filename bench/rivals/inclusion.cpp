@@ -88,7 +88,7 @@ Feature feature_of(const MovingShape& shape, std::initializer_list<int> vertices
   feature.low.setConstant(std::numeric_limits<double>::infinity());
   feature.high = -feature.low;
   for (const int v : vertices) {
-    feature.vertices[static_cast<std::size_t>(feature.count++)] = v;
+    feature.vertices[feature.count++] = v;
     feature.low = feature.low.cwiseMin(shape.begin.positions.col(v)).cwiseMin(shape.end.col(v));
     feature.high = feature.high.cwiseMax(shape.begin.positions.col(v)).cwiseMax(shape.end.col(v));
   }
@@ -142,7 +142,7 @@ InclusionResult find_by_inclusion(const MovingShape& a, const MovingShape& b) {
     for (const auto& [shape, feature] :
          {std::pair(swap ? &b : &a, swap ? &y : &x), std::pair(swap ? &a : &b, swap ? &x : &y)}) {
       for (int i = 0; i < feature->count; ++i, ++k) {
-        const int v = feature->vertices[static_cast<std::size_t>(i)];
+        const int v = feature->vertices[i];
         q.at[0][k] = shape->begin.positions.col(v);
         q.at[1][k] = shape->end.col(v);
       }

@@ -32,10 +32,10 @@ ClusteredMesh wavy_sheet(int cells, double delay) {
 
 KeptClusters all_clusters(const ClusteredMesh& mesh) {
   KeptClusters kept;
-  kept.boxes.resize(static_cast<std::size_t>(mesh.cluster_count()));
+  kept.boxes.resize(mesh.cluster_count());
   for (int c = 0; c < mesh.cluster_count(); ++c) {
     kept.cluster.push_back(c);
-    kept.boxes.set(static_cast<std::size_t>(c), mesh.cluster_boxes()[static_cast<std::size_t>(c)]);
+    kept.boxes.set(static_cast<std::size_t>(c), mesh.cluster_boxes()[c]);
   }
   kept.bounds = mesh.box();
   return kept;

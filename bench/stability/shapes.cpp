@@ -67,8 +67,7 @@ TruthMesh ball_shape(int subdivisions) {
     std::map<std::pair<int, int>, int> middles;
     const auto middle = [&](int i, int j) {
       const auto [place, is_new] = middles.try_emplace(std::minmax(i, j), static_cast<int>(points.size()));
-      if (is_new)
-        points.push_back((points[static_cast<std::size_t>(i)] + points[static_cast<std::size_t>(j)]).normalized());
+      if (is_new) points.push_back((points[i] + points[j]).normalized());
       return place->second;
     };
     std::vector<Eigen::Vector3i> finer;

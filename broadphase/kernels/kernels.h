@@ -37,7 +37,7 @@ struct Kernels {
   // Sets the boxes of `lanes`, each of which has a member, and the bounds. `boxes` has six doubles a box, lower then
   // upper. A box that is empty or not within `region` is left out; returns a bit for each of these.
   std::uint32_t (*refit_lanes)(Block& block, const double* boxes, const std::uint32_t* members, std::uint32_t lanes,
-                                 const Frame& frame, const FloatBox& region);
+                               const Frame& frame, const FloatBox& region);
 };
 
 inline constexpr std::size_t kOverlapRoom = kLanes * (kLanes + 1);

@@ -1,4 +1,5 @@
-// All loops of kernels.h for one instruction set, and the table of them: included by one source file an instruction set.
+// All loops of kernels.h for one instruction set, and the table of them: included by one source file an instruction
+// set.
 #pragma once
 
 #include <cstddef>
@@ -89,7 +90,8 @@ float least_of(const float* numbers) {
 
 float largest_of(const float* numbers) {
   float opposite[kLanes];
-  for (std::uint32_t first = 0; first < kLanes; first += kFloats) store(opposite + first, -load<Floats>(numbers + first));
+  for (std::uint32_t first = 0; first < kLanes; first += kFloats)
+    store(opposite + first, -load<Floats>(numbers + first));
   return -least_of(opposite);
 }
 
@@ -100,8 +102,8 @@ void refit_bounds(Block& block) {
   }
 }
 
-// to_float of block.h, in as many lanes as doubles fit; `exact` is cleared where is_exact does not hold. These functions
-// themselves may not be shared among files that are compiled for different machines.
+// to_float of block.h, in as many lanes as doubles fit; `exact` is cleared where is_exact does not hold. These
+// functions themselves may not be shared among files that are compiled for different machines.
 HalfFloats convert(Doubles values, double origin, DoubleMask& exact) {
   Doubles offsets = values - origin;
   offsets = offsets < -kLargestFloat ? Doubles{} - kLargestFloat : offsets;
@@ -119,7 +121,8 @@ struct Loaded {
   std::uint32_t exact;
 };
 
-void load_boxes(const double* boxes, const std::uint32_t* members, std::uint32_t lanes, const Frame& frame, Loaded& loaded) {
+void load_boxes(const double* boxes, const std::uint32_t* members, std::uint32_t lanes, const Frame& frame,
+                Loaded& loaded) {
   alignas(64) double lower[3][kLanes];
   alignas(64) double upper[3][kLanes];
   const std::uint32_t any_member = members[__builtin_ctz(lanes)];
@@ -169,7 +172,7 @@ void replace(float* numbers, const float* fresh, float none, std::uint32_t lanes
 }
 
 std::uint32_t refit_lanes(Block& block, const double* boxes, const std::uint32_t* members, std::uint32_t lanes,
-                            const Frame& frame, const FloatBox& region) {
+                          const Frame& frame, const FloatBox& region) {
   std::uint32_t stays = 0;
   if (lanes != 0) {
     Loaded loaded;

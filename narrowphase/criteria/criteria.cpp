@@ -120,7 +120,7 @@ void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Bo
   kept.boxes.resize(kept.cluster.size());
   Box bounds;
   for (std::size_t i = 0; i < kept.cluster.size(); ++i) {
-    const Box box = mesh.cluster_boxes()[static_cast<std::size_t>(kept.cluster[i])];
+    const Box box = mesh.cluster_boxes()[kept.cluster[i]];
     kept.boxes.set(i, box);
     bounds = merged(bounds, intersection(box, other));
   }
@@ -164,7 +164,7 @@ bool append_facets(const ClusteredMesh& mesh, int cluster, const Criteria& crite
   counts.outside_zone += std::popcount(left & ~inside);
   counts.kept += std::popcount(inside);
   kept.facets |= inside;
-  kept.bounds = merged(kept.bounds, mesh.cluster_boxes()[static_cast<std::size_t>(cluster)]);
+  kept.bounds = merged(kept.bounds, mesh.cluster_boxes()[cluster]);
   return true;
 }
 

@@ -7,8 +7,6 @@
 namespace tact::narrowphase {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 // The side of `face` that runs from point `from`; a corner each.
 std::size_t side_from(const ConvexPolytope::Face& face, int from) {
   return face.corner[0] == from ? 0 : face.corner[1] == from ? 1 : 2;
@@ -22,7 +20,7 @@ void ConvexPolytope::restart(const std::array<Vec3, 4>& points) {
   faces_ = {{{0, 1, 2}, {1, 2, 3}}, {{0, 3, 1}, {3, 2, 0}}, {{1, 3, 2}, {1, 3, 0}}, {{2, 3, 0}, {2, 1, 0}}};
 }
 
-Vec3 ConvexPolytope::corner(int face, int k) const { return points_[at(faces_[at(face)].corner[at(k)])]; }
+Vec3 ConvexPolytope::corner(int face, int k) const { return points_[faces_[face].corner[k]]; }
 
 bool ConvexPolytope::is_beyond(int face, Vec3 p) const {
   return orient3d(corner(face, 0), corner(face, 1), corner(face, 2), p, counts_) < 0;
@@ -30,7 +28,7 @@ bool ConvexPolytope::is_beyond(int face, Vec3 p) const {
 
 int ConvexPolytope::face_below(Vec3 p) const {
   for (int f = 0; f < static_cast<int>(faces_.size()); ++f) {
-    if (!faces_[at(f)].removed && is_beyond(f, p)) return f;
+    if (!faces_[f].removed && is_beyond(f, p)) return f;
   }
   return -1;
 }
@@ -39,15 +37,15 @@ int ConvexPolytope::face_below(Vec3 p) const {
 void ConvexPolytope::remove_seen_from(Vec3 p, int face) {
   border_.clear();
   stack_.assign(1, face);
-  faces_[at(face)].removed = true;
+  faces_[face].removed = true;
   while (!stack_.empty()) {
-    const Face seen = faces_[at(stack_.back())];
+    const Face seen = faces_[stack_.back()];
     stack_.pop_back();
     for (std::size_t k = 0; k < 3; ++k) {
       const int neighbor = seen.neighbor[k];
-      if (faces_[at(neighbor)].removed) continue;
+      if (faces_[neighbor].removed) continue;
       if (is_beyond(neighbor, p)) {
-        faces_[at(neighbor)].removed = true;
+        faces_[neighbor].removed = true;
         stack_.push_back(neighbor);
       } else {
         border_.push_back({seen.corner[k], seen.corner[(k + 1) % 3], neighbor});
@@ -63,14 +61,14 @@ int ConvexPolytope::expand(int face, Vec3 p) {
   points_.push_back(p);
   face_from_.resize(points_.size());
   // The border is one closed line, so each of its points starts one side and ends one.
-  for (std::size_t i = 0; i < border_.size(); ++i) face_from_[at(border_[i].from)] = first + static_cast<int>(i);
+  for (std::size_t i = 0; i < border_.size(); ++i) face_from_[border_[i].from] = first + static_cast<int>(i);
   for (const BorderSide& side : border_) {
     const int added = static_cast<int>(faces_.size());
-    Face& outside = faces_[at(side.outside)];
+    Face& outside = faces_[side.outside];
     outside.neighbor[side_from(outside, side.to)] = added;
-    faces_.push_back({{side.from, side.to, apex}, {side.outside, face_from_[at(side.to)], -1}});
+    faces_.push_back({{side.from, side.to, apex}, {side.outside, face_from_[side.to], -1}});
   }
-  for (int f = first; f < static_cast<int>(faces_.size()); ++f) faces_[at(faces_[at(f)].neighbor[1])].neighbor[2] = f;
+  for (int f = first; f < static_cast<int>(faces_.size()); ++f) faces_[faces_[f].neighbor[1]].neighbor[2] = f;
   return first;
 }
 
@@ -81,12 +79,12 @@ void ConvexPolytope::validate() const {
   int faces = 0;
   std::vector<char> used(points_.size(), 0);
   for (int f = 0; f < static_cast<int>(faces_.size()); ++f) {
-    const Face& face = faces_[at(f)];
+    const Face& face = faces_[f];
     if (face.removed) continue;
     ++faces;
     for (std::size_t k = 0; k < 3; ++k) {
-      used[at(face.corner[k])] = 1;
-      const Face& neighbor = faces_[at(face.neighbor[k])];
+      used[face.corner[k]] = 1;
+      const Face& neighbor = faces_[face.neighbor[k]];
       const std::size_t side = side_from(neighbor, face.corner[(k + 1) % 3]);
       require(!neighbor.removed, f, "a neighbour is removed");
       require(neighbor.corner[side] == face.corner[(k + 1) % 3], f, "a neighbour does not have the side");

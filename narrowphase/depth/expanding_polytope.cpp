@@ -152,10 +152,10 @@ class PolytopeExpansion {
       std::pop_heap(open_.begin(), open_.end(), std::greater<>());
       const OpenFace nearest = open_.back();
       open_.pop_back();
-      if (polytope_.faces()[static_cast<std::size_t>(nearest.face)].removed) continue;
+      if (polytope_.faces()[nearest.face].removed) continue;
       lower_bound_ = std::min(nearest.distance, closed);
       if (height() - nearest.distance <= tolerance_ || queried_.count() >= limit) break;
-      const MinkowskiVertex vertex = query(normals_[static_cast<std::size_t>(nearest.face)]);
+      const MinkowskiVertex vertex = query(normals_[nearest.face]);
       if (height() - nearest.distance <= tolerance_) break;
       // By rounding, the vertex may lie higher than the face and yet not beyond it: such a face stays as it is.
       if (polytope_.is_beyond(nearest.face, vertex.point)) {
@@ -172,14 +172,14 @@ class PolytopeExpansion {
   void add_open_faces(int first) {
     normals_.resize(polytope_.faces().size());
     for (int f = first; f < static_cast<int>(polytope_.faces().size()); ++f) {
-      if (polytope_.faces()[static_cast<std::size_t>(f)].removed) continue;
+      if (polytope_.faces()[f].removed) continue;
       const Vec3 p = polytope_.corner(f, 0);
-      const auto normal =
-          normal_across(double_double_difference(polytope_.corner(f, 1), p), double_double_difference(polytope_.corner(f, 2), p));
+      const auto normal = normal_across(double_double_difference(polytope_.corner(f, 1), p),
+                                        double_double_difference(polytope_.corner(f, 2), p));
       if (!normal) continue;
       const double distance = dot(*normal, p);
       if (!(distance < height())) continue;
-      normals_[static_cast<std::size_t>(f)] = *normal;
+      normals_[f] = *normal;
       open_.push_back({distance, f});
       std::push_heap(open_.begin(), open_.end(), std::greater<>());
     }

@@ -73,7 +73,8 @@ class SurfaceExpansion {
   // The origin lies in the triangle, but for rounding.
   bool surround_triangle(const std::array<MinkowskiVertex, 3>& ring) {
     const Vec3 p = ring[0].point;
-    const Vec3 n = double_double_cross(double_double_difference(ring[1].point, p), double_double_difference(ring[2].point, p));
+    const Vec3 n =
+        double_double_cross(double_double_difference(ring[1].point, p), double_double_difference(ring[2].point, p));
     if (n == Vec3{}) return false;
     const Vec3 up = unit_vector(n);
     const MinkowskiVertex top = queried_.query(m_, up);
@@ -98,7 +99,7 @@ class SurfaceExpansion {
     while (!open_.empty()) {
       const int nearest = take_nearest();
       if (nearest < 0) continue;
-      lower_bound_ = surface_.faces()[static_cast<std::size_t>(nearest)].distance;
+      lower_bound_ = surface_.faces()[nearest].distance;
       if (closed()) return true;
       if (nearest != queried_face_ && !query(nearest)) return false;
       if (closed()) return true;
@@ -115,7 +116,7 @@ class SurfaceExpansion {
     if (queried_.count() >= limit_) return false;
     surface_.sharpen(face);
     queried_face_ = face;
-    top_ = queried_.query(m_, surface_.faces()[static_cast<std::size_t>(face)].normal);
+    top_ = queried_.query(m_, surface_.faces()[face].normal);
     return true;
   }
 
@@ -133,7 +134,7 @@ class SurfaceExpansion {
       const int f = nearest_to_preferred(dot(found.direction, preferred_), most);
       if (f < 0) return found;
       surface_.sharpen(f);
-      const Vec3 n = surface_.faces()[static_cast<std::size_t>(f)].normal;
+      const Vec3 n = surface_.faces()[f].normal;
       most = dot(n, preferred_);
       queried_.query(m_, n);
       const QueriedDirections::Queried best = choose();
@@ -148,7 +149,7 @@ class SurfaceExpansion {
   int nearest_to_preferred(double least, double most) const {
     int nearest = -1;
     for (int f = 0; f < static_cast<int>(surface_.faces().size()); ++f) {
-      const StarSurface::Face& face = surface_.faces()[static_cast<std::size_t>(f)];
+      const StarSurface::Face& face = surface_.faces()[f];
       if (face.removed || face.distance - face.error > queried_.least() + m_.height_error()) continue;
       const double cosine = dot(face.normal, preferred_);
       if (!(cosine > least && cosine < most)) continue;
@@ -166,7 +167,7 @@ class SurfaceExpansion {
     std::pop_heap(open_.begin(), open_.end(), std::greater<>());
     const int f = open_.back().face;
     open_.pop_back();
-    const StarSurface::Face& face = surface_.faces()[static_cast<std::size_t>(f)];
+    const StarSurface::Face& face = surface_.faces()[f];
     if (face.removed) return -1;
     if (!face.sharp && surface_.sharpen(f) && !open_.empty() && face.distance > open_.front().distance) {
       open(f, face.distance);
@@ -183,7 +184,7 @@ class SurfaceExpansion {
   // A face whose plane is as far as the least height is never the nearest, nor does it have to be expanded.
   void open_faces(int first) {
     for (int f = first; f < static_cast<int>(surface_.faces().size()); ++f) {
-      const StarSurface::Face& face = surface_.faces()[static_cast<std::size_t>(f)];
+      const StarSurface::Face& face = surface_.faces()[f];
       const double least = face.sharp ? face.distance : face.distance - face.error;
       if (least < queried_.least()) open(f, least);
     }
@@ -192,11 +193,10 @@ class SurfaceExpansion {
   // The vertices of the last face, if that lies across the direction: most likely a face of M.
   GjkSimplex face_across(Vec3 direction) const {
     GjkSimplex simplex;
-    if (queried_face_ < 0 || dot(surface_.faces()[static_cast<std::size_t>(queried_face_)].normal, direction) < kAcross)
-      return simplex;
+    if (queried_face_ < 0 || dot(surface_.faces()[queried_face_].normal, direction) < kAcross) return simplex;
     for (int k = 0; k < 3; ++k) {
-      simplex.a[static_cast<std::size_t>(k)] = surface_.corner(queried_face_, k).a;
-      simplex.b[static_cast<std::size_t>(k)] = surface_.corner(queried_face_, k).b;
+      simplex.a[k] = surface_.corner(queried_face_, k).a;
+      simplex.b[k] = surface_.corner(queried_face_, k).b;
     }
     simplex.count = 3;
     return simplex;
@@ -222,8 +222,8 @@ class SurfaceExpansion {
   std::vector<OpenFace>& open_;  // a heap, the nearest on top; removed faces stay in it
   QueriedDirections& queried_;
   double lower_bound_ = 0.0;
-  int queried_face_ = -1;       // the last face whose farthest vertex was queried
-  MinkowskiVertex top_;  // that vertex
+  int queried_face_ = -1;  // the last face whose farthest vertex was queried
+  MinkowskiVertex top_;    // that vertex
   bool continued_ = false;
   int fresh_face_count_ = 0;
 };

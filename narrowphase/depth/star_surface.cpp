@@ -18,8 +18,6 @@ constexpr double kDistanceRoundings = 8.0;
 // The least sine of the angle between two sides whose normal double-double can tell.
 constexpr double kSmallestSine = 0x1p-92;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 double sum_of_sizes(Vec3 v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 // The side of `face` that runs from vertex `from`; a corner each.
@@ -28,22 +26,20 @@ std::size_t side_from(const StarSurface::Face& face, int from) {
 }
 
 void put(SurfaceShape& shape, const MinkowskiVertex& vertex) {
-  shape.a[at(shape.vertex_count)] = vertex.a;
-  shape.b[at(shape.vertex_count)] = vertex.b;
+  shape.a[shape.vertex_count] = vertex.a;
+  shape.b[shape.vertex_count] = vertex.b;
   ++shape.vertex_count;
 }
 
 void put(SurfaceShape& shape, std::array<std::uint8_t, 3> corner, std::array<std::uint8_t, 3> neighbor) {
-  shape.corner[at(shape.face_count)] = corner;
-  shape.neighbor[at(shape.face_count)] = neighbor;
+  shape.corner[shape.face_count] = corner;
+  shape.neighbor[shape.face_count] = neighbor;
   ++shape.face_count;
 }
 
 }  // namespace
 
-const MinkowskiVertex& StarSurface::corner(int face, int k) const {
-  return vertices_[at(faces_[at(face)].corner[at(k)])];
-}
+const MinkowskiVertex& StarSurface::corner(int face, int k) const { return vertices_[faces_[face].corner[k]]; }
 
 bool StarSurface::start(const MinkowskiDifference& m, const SurfaceShape& shape) {
   margin_ = m.height_error();
@@ -51,11 +47,11 @@ bool StarSurface::start(const MinkowskiDifference& m, const SurfaceShape& shape)
   face_count_ = shape.face_count;
   vertices_.clear();
   faces_.clear();
-  for (int v = 0; v < shape.vertex_count; ++v) vertices_.push_back(m.vertex(shape.a[at(v)], shape.b[at(v)]));
+  for (int v = 0; v < shape.vertex_count; ++v) vertices_.push_back(m.vertex(shape.a[v], shape.b[v]));
   face_from_.assign(vertices_.size(), -1);
   for (int f = 0; f < shape.face_count; ++f) {
-    const auto& c = shape.corner[at(f)];
-    const auto& n = shape.neighbor[at(f)];
+    const auto& c = shape.corner[f];
+    const auto& n = shape.neighbor[f];
     faces_.push_back({.corner = {c[0], c[1], c[2]},
                       .neighbor = {n[0], n[1], n[2]},
                       .normal = {},
@@ -70,10 +66,10 @@ bool StarSurface::start(const MinkowskiDifference& m, const SurfaceShape& shape)
 
 // In plain doubles, and in double-double where these do not tell that the face looks away from the origin.
 bool StarSurface::set_plane(int face) {
-  Face& f = faces_[at(face)];
-  const Vec3 p = vertices_[at(f.corner[0])].point;
-  const Vec3 side = vertices_[at(f.corner[1])].point - p;
-  const Vec3 other = vertices_[at(f.corner[2])].point - p;
+  Face& f = faces_[face];
+  const Vec3 p = vertices_[f.corner[0]].point;
+  const Vec3 side = vertices_[f.corner[1]].point - p;
+  const Vec3 other = vertices_[f.corner[2]].point - p;
   const Vec3 n = cross(side, other);
   const double per_length = 1.0 / norm(n);
   f.normal = per_length * n;
@@ -85,15 +81,15 @@ bool StarSurface::set_plane(int face) {
 }
 
 bool StarSurface::looks_away(int face) const {
-  const Face& f = faces_[at(face)];
+  const Face& f = faces_[face];
   return f.distance > f.error + vertex_error_;  // false for what is not a number: there was no normal
 }
 
 bool StarSurface::sharpen(int face) {
-  Face& f = faces_[at(face)];
-  const Vec3 p = vertices_[at(f.corner[0])].point;
-  const DoubleDoubleVec3 side = double_double_difference(vertices_[at(f.corner[1])].point, p);
-  const DoubleDoubleVec3 other = double_double_difference(vertices_[at(f.corner[2])].point, p);
+  Face& f = faces_[face];
+  const Vec3 p = vertices_[f.corner[0]].point;
+  const DoubleDoubleVec3 side = double_double_difference(vertices_[f.corner[1]].point, p);
+  const DoubleDoubleVec3 other = double_double_difference(vertices_[f.corner[2]].point, p);
   const Vec3 n = double_double_cross(side, other);
   if (!(norm(n) > kSmallestSine * norm(side.head) * norm(other.head))) return false;
   f.normal = unit_vector(n);
@@ -108,14 +104,14 @@ bool StarSurface::sharpen(int face) {
 void StarSurface::remove_seen_from(Vec3 p, int face) {
   border_.clear();
   stack_.assign(1, face);
-  faces_[at(face)].removed = true;
+  faces_[face].removed = true;
   --face_count_;
   while (!stack_.empty()) {
-    const Face& seen = faces_[at(stack_.back())];
+    const Face& seen = faces_[stack_.back()];
     stack_.pop_back();
     for (std::size_t k = 0; k < 3; ++k) {
       const int neighbor = seen.neighbor[k];
-      Face& next = faces_[at(neighbor)];
+      Face& next = faces_[neighbor];
       if (next.removed) continue;
       if (dot(next.normal, p) - next.distance > margin_) {
         next.removed = true;
@@ -131,15 +127,15 @@ void StarSurface::remove_seen_from(Vec3 p, int face) {
 // Only if the replaced patch is a disk is the new surface closed. Notes where the new faces' sides start.
 bool StarSurface::border_is_one_line(int first_face) {
   for (std::size_t i = 0; i < border_.size(); ++i) {
-    int& start = face_from_[at(border_[i].from)];
+    int& start = face_from_[border_[i].from];
     if (start >= first_face) return false;
     start = first_face + static_cast<int>(i);
   }
   std::size_t i = 0, steps = 0;
   do {
-    const int next = face_from_[at(border_[i].to)];
+    const int next = face_from_[border_[i].to];
     if (next < first_face) return false;
-    i = at(next - first_face);
+    i = static_cast<std::size_t>(next - first_face);
     ++steps;
   } while (i != 0 && steps <= border_.size());
   return steps == border_.size();
@@ -154,10 +150,10 @@ int StarSurface::expand(int face, const MinkowskiVertex& vertex) {
   face_from_.push_back(-1);
   for (const BorderSide& side : border_) {
     const int added = static_cast<int>(faces_.size());
-    Face& outside = faces_[at(side.outside)];
+    Face& outside = faces_[side.outside];
     outside.neighbor[side_from(outside, side.to)] = added;
     faces_.push_back({.corner = {side.from, side.to, apex},
-                      .neighbor = {side.outside, face_from_[at(side.to)], -1},
+                      .neighbor = {side.outside, face_from_[side.to], -1},
                       .normal = {},
                       .distance = 0.0,
                       .error = 0.0,
@@ -166,7 +162,7 @@ int StarSurface::expand(int face, const MinkowskiVertex& vertex) {
     ++face_count_;
     if (!set_plane(added)) return -1;
   }
-  for (int f = first; f < static_cast<int>(faces_.size()); ++f) faces_[at(faces_[at(f)].neighbor[1])].neighbor[2] = f;
+  for (int f = first; f < static_cast<int>(faces_.size()); ++f) faces_[faces_[f].neighbor[1]].neighbor[2] = f;
   return first;
 }
 
@@ -183,13 +179,13 @@ void StarSurface::save(SurfaceShape& shape) {
     if (face.removed) continue;
     std::array<std::uint8_t, 3> corner, neighbor;
     for (std::size_t k = 0; k < 3; ++k) {
-      int& number = face_from_[at(face.corner[k])];
+      int& number = face_from_[face.corner[k]];
       if (number < 0) {
         number = shape.vertex_count;
-        put(shape, vertices_[at(face.corner[k])]);
+        put(shape, vertices_[face.corner[k]]);
       }
       corner[k] = static_cast<std::uint8_t>(number);
-      neighbor[k] = static_cast<std::uint8_t>(stack_[at(face.neighbor[k])]);
+      neighbor[k] = static_cast<std::uint8_t>(stack_[face.neighbor[k]]);
     }
     put(shape, corner, neighbor);
   }

@@ -3,9 +3,9 @@
 // Every face looks away from the origin: the origin lies strictly behind its plane. So the projection of the surface
 // onto a sphere about the origin turns no face over; it covers every direction equally often, and at least once. All
 // points of the surface belong to M. So M reaches at least as far as the nearest of the planes in every direction. That
-// plane is farther from the origin than the rounding of any vertex of M, so the true M surrounds the origin as well. The
-// surface need not be convex for that, and no exact predicate is needed. Which faces a new vertex replaces is a matter
-// of speed; the planes of the new faces tell whether all is well.
+// plane is farther from the origin than the rounding of any vertex of M, so the true M surrounds the origin as well.
+// The surface need not be convex for that, and no exact predicate is needed. Which faces a new vertex replaces is a
+// matter of speed; the planes of the new faces tell whether all is well.
 #pragma once
 
 #include <array>
@@ -73,7 +73,7 @@ class StarSurface {
 
   double margin_ = 0.0;
   double vertex_error_ = 0.0;  // of a vertex of M
-  int face_count_ = 0;  // without the removed ones
+  int face_count_ = 0;         // without the removed ones
   std::vector<MinkowskiVertex> vertices_;
   std::vector<Face> faces_;
   std::vector<BorderSide> border_;  // of the patch that is being replaced

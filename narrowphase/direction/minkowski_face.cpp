@@ -107,8 +107,8 @@ GjkSimplex FaceFinder::around_projection(const MinkowskiDifference& m) const {
         best_b = place_b(j);
       }
     }
-    simplex.a[static_cast<std::size_t>(simplex.count)] = vertex_at(m, m.a(), a_, 1.0, hull_a_[best_a]);
-    simplex.b[static_cast<std::size_t>(simplex.count)] = vertex_at(m, m.b(), b_, -1.0, hull_b_[best_b]);
+    simplex.a[simplex.count] = vertex_at(m, m.a(), a_, 1.0, hull_a_[best_a]);
+    simplex.b[simplex.count] = vertex_at(m, m.b(), b_, -1.0, hull_b_[best_b]);
     ++simplex.count;
   }
   return simplex;

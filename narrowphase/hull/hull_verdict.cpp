@@ -95,7 +95,7 @@ class ExactSimplex {
   const Direction& toward_origin() const { return toward_origin_; }
 
  private:
-  const Point& y(int i) const { return y_[static_cast<std::size_t>(i)]; }
+  const Point& y(int i) const { return y_[i]; }
 
   void keep(std::array<int, 4> carrier, int count) {
     carrier_ = carrier;
@@ -227,6 +227,8 @@ class VerdictSearch {
 
 }  // namespace
 
-HullVerdict hull_verdict(const MinkowskiDifference& m, const GjkSimplex& start) { return VerdictSearch(m, start).run(); }
+HullVerdict hull_verdict(const MinkowskiDifference& m, const GjkSimplex& start) {
+  return VerdictSearch(m, start).run();
+}
 
 }  // namespace tact::narrowphase

@@ -6,9 +6,7 @@
 
 namespace tact::narrowphase {
 
-Kdop kdop_of(const ClusteredMesh& mesh) {
-  return kernels().kdop(mesh.points(), mesh.vertex_count());
-}
+Kdop kdop_of(const ClusteredMesh& mesh) { return kernels().kdop(mesh.points(), mesh.vertex_count()); }
 
 SeparatingDiagonal separating_diagonal(const Kdop& a, const Kdop& b) {
   double widest = 0.0;

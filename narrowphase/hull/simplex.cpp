@@ -82,16 +82,15 @@ class ClosestFace {
     const Scalar sum = (share[0] + share[1]) + (share[2] + share[3]);
     Point origin{0, 0, 0};
     for (int i = 0; i < 4; ++i) {
-      share[static_cast<std::size_t>(i)] /= sum;
-      origin = along(origin, share[static_cast<std::size_t>(i)], y(i));
+      share[i] /= sum;
+      origin = along(origin, share[i], y(i));
     }
     const SimplexClosest on_faces = run_on_faces();
     std::array<double, 4> weights{};
     const bool too_flat = !(dot(origin, origin) < distance_);
     for (std::size_t i = 0; i < 4; ++i) {
       if (!too_flat) weights[i] = static_cast<double>(share[i]);
-      if (too_flat && on_faces.weight[i] > 0.0)
-        weights[static_cast<std::size_t>(on_faces.carrier[i])] = on_faces.weight[i];
+      if (too_flat && on_faces.weight[i] > 0.0) weights[on_faces.carrier[i]] = on_faces.weight[i];
     }
     return weights;
   }
@@ -99,7 +98,7 @@ class ClosestFace {
  private:
   using Point = Vector<Scalar>;
 
-  const Point& y(int i) const { return y_[static_cast<std::size_t>(i)]; }
+  const Point& y(int i) const { return y_[i]; }
 
   void edge(int i, int j) {
     const Point e = y(j) - y(i);
@@ -185,6 +184,8 @@ std::array<double, 4> origin_weights(const SimplexPoints& simplex) {
   return ClosestFace<Quad>(simplex, 0x1p-110).origin_weights();
 }
 
-SimplexClosest simplex_closest_in_quad(const SimplexPoints& simplex) { return ClosestFace<Quad>(simplex, 0x1p-110).run(); }
+SimplexClosest simplex_closest_in_quad(const SimplexPoints& simplex) {
+  return ClosestFace<Quad>(simplex, 0x1p-110).run();
+}
 
 }  // namespace tact::narrowphase

@@ -51,7 +51,8 @@ struct BoxPack {
   unsigned overlap(const double* const* low, const double* const* high, int i) const {
     Mask all = both(less_equal(load(low[0] + i), upper[0]), less_equal(lower[0], load(high[0] + i)));
     for (int axis = 1; axis < 3; ++axis) {
-      all = both(all, both(less_equal(load(low[axis] + i), upper[axis]), less_equal(lower[axis], load(high[axis] + i))));
+      all =
+          both(all, both(less_equal(load(low[axis] + i), upper[axis]), less_equal(lower[axis], load(high[axis] + i))));
     }
     return bits(all);
   }

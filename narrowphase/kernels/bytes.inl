@@ -16,7 +16,8 @@ struct CommonFlags {
   std::uint64_t none, lowest;
 };
 
-inline CommonFlags common_flags_one_by_one(const std::uint8_t* flags, const std::uint8_t* const (&corner)[3], int count) {
+inline CommonFlags common_flags_one_by_one(const std::uint8_t* flags, const std::uint8_t* const (&corner)[3],
+                                           int count) {
   CommonFlags found{0, 0};
   for (int i = 0; i < count; ++i) {
     const unsigned common = flags[corner[0][i]] & flags[corner[1][i]] & flags[corner[2][i]];
@@ -38,7 +39,8 @@ inline CommonFlags common_flags(const std::uint8_t* flags, int flag_count, const
     return _mm512_permutex2var_epi8(low, _mm512_maskz_loadu_epi8(all, corner[k]), high);
   };
   const __m512i common = _mm512_and_si512(_mm512_and_si512(of_corner(0), of_corner(1)), of_corner(2));
-  return {_mm512_mask_testn_epi8_mask(all, common, common), _mm512_mask_test_epi8_mask(all, common, _mm512_set1_epi8(1))};
+  return {_mm512_mask_testn_epi8_mask(all, common, common),
+          _mm512_mask_test_epi8_mask(all, common, _mm512_set1_epi8(1))};
 }
 
 // Copies those of up to 64 bytes that have a bit, one after the other. Writes 64 bytes.
@@ -61,8 +63,8 @@ inline void write_places(std::uint64_t set, std::uint8_t* to) {
 
 #elif defined(TACT_KERNELS_AVX2)
 
-// Sixteen flags at a time stand in both halves of a register. A shuffle takes the low four bits of a place and gives zero
-// where the highest is set: so it is after a saturated sum in all places but those of the sixteen.
+// Sixteen flags at a time stand in both halves of a register. A shuffle takes the low four bits of a place and gives
+// zero where the highest is set: so it is after a saturated sum in all places but those of the sixteen.
 inline CommonFlags common_flags(const std::uint8_t* flags, int flag_count, const std::uint8_t* const (&corner)[3],
                                 int count) {
   CommonFlags found{0, 0};
@@ -73,7 +75,8 @@ inline CommonFlags common_flags(const std::uint8_t* flags, int flag_count, const
       of_corner[k] = _mm256_setzero_si256();
     }
     for (int first = 0; first < flag_count; first += 16) {
-      const __m256i here = _mm256_broadcastsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(flags + first)));
+      const __m256i here =
+          _mm256_broadcastsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(flags + first)));
       for (int k = 0; k < 3; ++k) {
         const __m256i one = _mm256_shuffle_epi8(here, _mm256_adds_epu8(place[k], _mm256_set1_epi8(0x70)));
         of_corner[k] = _mm256_or_si256(of_corner[k], one);

@@ -2,10 +2,10 @@
 // see motion/meeting.h for what is proved there of each. Here the same certificates are tried for the whole step
 // and a few directions, which leaves out nearly all.
 //
-// With u = 2^-53, the corners are wrong by u times their size (one difference each), and are at most `size` along an axis.
-// A direction is what its doubles say, however it was computed; so its product with a corner is wrong by at most 5 u times
-// its length (the sum of its sizes) times `size`: kRounding leaves room for ten times that, and for what it takes itself.
-// Products below the smallest double lose less than kVanishing.
+// With u = 2^-53, the corners are wrong by u times their size (one difference each), and are at most `size` along an
+// axis. A direction is what its doubles say, however it was computed; so its product with a corner is wrong by at most
+// 5 u times its length (the sum of its sizes) times `size`: kRounding leaves room for ten times that, and for what it
+// takes itself. Products below the smallest double lose less than kVanishing.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,9 @@ constexpr double kVanishing = 1e-250;
 // times size (size (e + f) + ef).
 constexpr double kVolumeRounding = 0x1p-46;
 
-inline VectorPack add(const VectorPack& a, const VectorPack& b) { return {add(a.x, b.x), add(a.y, b.y), add(a.z, b.z)}; }
+inline VectorPack add(const VectorPack& a, const VectorPack& b) {
+  return {add(a.x, b.x), add(a.y, b.y), add(a.z, b.z)};
+}
 inline VectorPack cross(const VectorPack& a, const VectorPack& b) {
   return {sub(mul(a.y, b.z), mul(a.z, b.y)), sub(mul(a.z, b.x), mul(a.x, b.z)), sub(mul(a.x, b.y), mul(a.y, b.x))};
 }
@@ -81,7 +83,8 @@ struct PolygonLanes {
   Mask apart_by_volume() const {
     const VectorPack e0 = sub(corner[0][1], corner[0][0]), e1 = sub(corner[1][1], corner[1][0]);
     const VectorPack f0 = sub(corner[0][kCorners - 1], corner[0][0]), f1 = sub(corner[1][kCorners - 1], corner[1][0]);
-    const VectorPack n0 = cross(e0, f0), n2 = cross(e1, f1), n1 = add(cross(e0, f1), cross(e1, f0));  // twice the middle
+    const VectorPack n0 = cross(e0, f0), n2 = cross(e1, f1),
+                     n1 = add(cross(e0, f1), cross(e1, f0));  // twice the middle
     const VectorPack &d0 = corner[0][0], &d1 = corner[1][0];
     const Pack third = spread(1.0 / 3.0);
     const Pack v0 = dot(d0, n0), v3 = dot(d1, n2);
@@ -90,7 +93,8 @@ struct PolygonLanes {
     const Pack e = max(size_of(e0), size_of(e1)), f = max(size_of(f0), size_of(f1));
     const Pack rounding = mul(mul(size_, spread(kVolumeRounding)), add(mul(size_, add(e, f)), mul(e, f)));
     const Pack normal = max(max(length_bound(n0), length_bound(n2)), length_bound(n1));
-    return is_outside(low, high, add(add(mul(mul(reach_, spread(1.0 + 0x1p-40)), normal), rounding), spread(kVanishing)));
+    return is_outside(low, high,
+                      add(add(mul(mul(reach_, spread(1.0 + 0x1p-40)), normal), rounding), spread(kVanishing)));
   }
 
  private:

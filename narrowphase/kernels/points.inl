@@ -10,8 +10,12 @@ namespace {
 struct HeightPack {
   Pack nx, ny, nz, ox, oy, oz;
   explicit HeightPack(const HeightAxis& axis)
-      : nx(spread(axis.nx)), ny(spread(axis.ny)), nz(spread(axis.nz)),
-        ox(spread(axis.ox)), oy(spread(axis.oy)), oz(spread(axis.oz)) {}
+      : nx(spread(axis.nx)),
+        ny(spread(axis.ny)),
+        nz(spread(axis.nz)),
+        ox(spread(axis.ox)),
+        oy(spread(axis.oy)),
+        oz(spread(axis.oz)) {}
   Pack operator()(PointArrays points, int i) const {
     const Pack x = mul(nx, sub(load(points.x + i), ox));
     const Pack y = mul(ny, sub(load(points.y + i), oy));

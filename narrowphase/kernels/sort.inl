@@ -9,8 +9,8 @@
 namespace tact::narrowphase {
 namespace {
 
-// How many of the keys are less than each. All are compared with all, which for so few is less work than the branches of
-// sorting, none of which can be foreseen. Vectors of GCC's: a comparison gives -1 where it holds.
+// How many of the keys are less than each. All are compared with all, which for so few is less work than the branches
+// of sorting, none of which can be foreseen. Vectors of GCC's: a comparison gives -1 where it holds.
 template <class Key>
 inline void count_lesser(const Key* key, int count, Key* lesser) {
   using Keys [[gnu::vector_size(kVectorBytes)]] = Key;

@@ -20,7 +20,7 @@ double spread_of(const Box& box) {
 double cluster_spread(const ClusteredMesh& mesh) {
   const BoxView boxes = mesh.cluster_boxes();
   double sum = 0.0;
-  for (int c = 0; c < mesh.cluster_count(); ++c) sum += spread_of(boxes[static_cast<std::size_t>(c)]);
+  for (int c = 0; c < mesh.cluster_count(); ++c) sum += spread_of(boxes[c]);
   return sum;
 }
 
@@ -56,10 +56,9 @@ ClusteredMesh clustered_anew(const ClusteredMesh& mesh) {
 
 std::vector<int> vertex_numbers_in(const ClusteredMesh& other, const ClusteredMesh& mesh) {
   std::vector<int> of_source(static_cast<std::size_t>(mesh.source_vertex_count())), numbers;
-  for (int v = 0; v < other.vertex_count(); ++v) of_source[static_cast<std::size_t>(other.source_vertex(v))] = v;
-  numbers.reserve(static_cast<std::size_t>(mesh.vertex_count()));
-  for (int v = 0; v < mesh.vertex_count(); ++v)
-    numbers.push_back(of_source[static_cast<std::size_t>(mesh.source_vertex(v))]);
+  for (int v = 0; v < other.vertex_count(); ++v) of_source[other.source_vertex(v)] = v;
+  numbers.reserve(mesh.vertex_count());
+  for (int v = 0; v < mesh.vertex_count(); ++v) numbers.push_back(of_source[mesh.source_vertex(v)]);
   return numbers;
 }
 

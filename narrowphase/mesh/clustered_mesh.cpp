@@ -80,13 +80,12 @@ void ClusteredMesh::validate_numbers() const {
   std::vector<char> seen(static_cast<std::size_t>(facet_count()), 0);
   for (int facet = 0; facet < facet_count(); ++facet) {
     const int f = source_facet(facet);
-    if (f < 0 || f >= facet_count() || seen[static_cast<std::size_t>(f)]++) broken("source facet " + std::to_string(f));
+    if (f < 0 || f >= facet_count() || seen[f]++) broken("source facet " + std::to_string(f));
     if (facet_of_source(f) != facet) broken("the place of source facet " + std::to_string(f));
   }
   std::vector<char> owned(static_cast<std::size_t>(source_vertex_count()), 0);
   for (int v = 0; v < vertex_count(); ++v) {
-    if (owned[static_cast<std::size_t>(source_vertex(v))]++)
-      broken("source vertex " + std::to_string(source_vertex(v)) + " has two owners");
+    if (owned[source_vertex(v)]++) broken("source vertex " + std::to_string(source_vertex(v)) + " has two owners");
   }
   for (int c = 0; c < cluster_count(); ++c) {
     if (!std::is_sorted(source_vertices() + vertex_begin(c), source_vertices() + vertex_end(c)))
@@ -106,15 +105,14 @@ void ClusteredMesh::validate_boxes() const {
     for (int f = facet_begin(c); f < facet_end(c); ++f) {
       for (const int v : corners(f)) box = extended(box, position(v));
     }
-    if (!(box == cluster_boxes()[static_cast<std::size_t>(c)])) broken("box of cluster " + std::to_string(c));
+    if (!(box == cluster_boxes()[c])) broken("box of cluster " + std::to_string(c));
     whole = merged(whole, box);
   }
   if (!(whole == box())) broken("box of the mesh");
   for (int g = 0; g < group_count() && group_count() > 1; ++g) {
     Box box;
-    for (int c = cluster_begin(g); c < cluster_end(g); ++c)
-      box = merged(box, cluster_boxes()[static_cast<std::size_t>(c)]);
-    if (!(box == group_boxes()[static_cast<std::size_t>(g)])) broken("box of group " + std::to_string(g));
+    for (int c = cluster_begin(g); c < cluster_end(g); ++c) box = merged(box, cluster_boxes()[c]);
+    if (!(box == group_boxes()[g])) broken("box of group " + std::to_string(g));
   }
 }
 

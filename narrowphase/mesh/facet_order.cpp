@@ -79,8 +79,7 @@ class FacetOrder {
   };
   Axes axes_of(const Cut& cut) const {
     Box box;
-    for (std::size_t i = cut.begin; i < cut.end; ++i)
-      box = extended(box, centers_[static_cast<std::size_t>(order_[i])]);
+    for (std::size_t i = cut.begin; i < cut.end; ++i) box = extended(box, centers_[order_[i]]);
     const auto length = [&](int axis) {
       const double size = box.upper[axis] - box.lower[axis];
       return size > 0.0 && facet_lengths_[axis] > 0.0 ? size / facet_lengths_[axis] : 0.0;
@@ -95,7 +94,7 @@ class FacetOrder {
   // Ties break by facet number.
   void halve(const Cut& cut, int axis) {
     std::nth_element(place(cut.begin), place(cut.middle), place(cut.end), [&](int a, int b) {
-      const double x = centers_[static_cast<std::size_t>(a)][axis], y = centers_[static_cast<std::size_t>(b)][axis];
+      const double x = centers_[a][axis], y = centers_[b][axis];
       return x < y || (x == y && a < b);
     });
   }
@@ -122,13 +121,13 @@ class FacetOrder {
   // Counts how many facets of each half use a vertex; returns how many vertices both use.
   int count_uses(const Cut& cut) {
     for (std::size_t i = cut.begin; i < cut.end; ++i) {
-      for (const int v : corners(order_[i])) uses_[static_cast<std::size_t>(v)] = {0, 0};
+      for (const int v : corners(order_[i])) uses_[v] = {0, 0};
     }
     int shared = 0;
     for (std::size_t i = cut.begin; i < cut.end; ++i) {
       const std::size_t half = i < cut.middle ? 0 : 1;
       for (const int v : corners(order_[i])) {
-        auto& uses = uses_[static_cast<std::size_t>(v)];
+        auto& uses = uses_[v];
         if (uses[half]++ == 0 && half == 1 && uses[0] > 0) ++shared;
       }
     }
@@ -139,7 +138,7 @@ class FacetOrder {
   std::optional<int> gain(int facet, std::size_t half) const {
     int shared = 0, lone = 0;
     for (const int v : corners(facet)) {
-      const auto& uses = uses_[static_cast<std::size_t>(v)];
+      const auto& uses = uses_[v];
       shared += uses[1 - half] > 0 ? 1 : 0;
       lone += uses[half] > 1 ? 0 : 1;
     }
@@ -148,7 +147,7 @@ class FacetOrder {
   }
   void leave(int facet, std::size_t half) {
     for (const int v : corners(facet)) {
-      auto& uses = uses_[static_cast<std::size_t>(v)];
+      auto& uses = uses_[v];
       --uses[half];
       ++uses[1 - half];
     }

@@ -26,26 +26,26 @@ bool is_within(const Box& box, double largest) {
 
 // Positions are gathered cluster by cluster, in an order that no hardware foresees. A small body was prefetched whole.
 Refitted refit_range(const ClusteredMesh& mesh, const double* positions, int cluster_begin, int cluster_end,
-                      bool prefetch) {
+                     bool prefetch) {
   const int ahead = std::clamp(mesh.vertex_count() / 8, kFewestAhead, kMostAhead);
   const PlacementArrays to = arrays_in(mesh.placements().spare_memory(), mesh.counts());
   return kernels().refit_clusters({.source = positions,
-                                     .cluster_begin = cluster_begin,
-                                     .cluster_end = cluster_end,
-                                     .ranges = mesh.refit_indices().data(),
-                                     .owned = mesh.source_vertices(),
-                                     .borrowed = mesh.borrowed_source_vertices(),
-                                     .ahead = prefetch && mesh.vertex_count() > ahead ? ahead : 0,
-                                     .before = mesh.points(),
-                                     .x = to.x,
-                                     .y = to.y,
-                                     .z = to.z,
-                                     .boxes = to.cluster_boxes,
-                                     .box_stride = mesh.cluster_count()});
+                                   .cluster_begin = cluster_begin,
+                                   .cluster_end = cluster_end,
+                                   .ranges = mesh.refit_indices().data(),
+                                   .owned = mesh.source_vertices(),
+                                   .borrowed = mesh.borrowed_source_vertices(),
+                                   .ahead = prefetch && mesh.vertex_count() > ahead ? ahead : 0,
+                                   .before = mesh.points(),
+                                   .x = to.x,
+                                   .y = to.y,
+                                   .z = to.z,
+                                   .boxes = to.cluster_boxes,
+                                   .box_stride = mesh.cluster_count()});
 }
 
 Refitted refit_in_ranges(const ClusteredMesh& mesh, const double* positions, int per_range,
-                          const RefitOptions& options) {
+                         const RefitOptions& options) {
   std::atomic<bool> any_changed{false}, any_not_a_number{false};
   const int ranges = (mesh.cluster_count() + per_range - 1) / per_range;
   base::parallel_for(static_cast<std::size_t>(ranges), 1, options.threads, [&](std::size_t i) {
@@ -74,7 +74,7 @@ Refit refit(ClusteredMesh& mesh, const double* positions, const RefitOptions& op
   const int per_range = std::clamp(mesh.cluster_count() / (4 * options.threads), kFewestInRange, kMostInRange);
   const bool in_ranges = options.threads > 1 && mesh.cluster_count() > per_range;
   const Refitted all = in_ranges ? refit_in_ranges(mesh, positions, per_range, options)
-                                  : refit_range(mesh, positions, 0, mesh.cluster_count(), options.prefetch);
+                                 : refit_range(mesh, positions, 0, mesh.cluster_count(), options.prefetch);
   refit_groups(mesh);
   const Box box = in_ranges ? mesh.placements().spare_box() : to_box(all.box);
   const auto is_bad = [&](int source_vertex) {

@@ -45,12 +45,12 @@ class Numberer {
     made_.ranges.insert(made_.ranges.end(), {first, first_borrowed});
     find_sources(cluster, cluster_facets);
     for (const int source : owned_here_) {
-      number_[static_cast<std::size_t>(source)] = vertices();
+      number_[source] = vertices();
       made_.source_vertices.push_back(source);
     }
     for (const int source : borrowed_here_) {
-      place_[static_cast<std::size_t>(source)] = borrowed() - first_borrowed;
-      made_.borrowed.push_back(number_[static_cast<std::size_t>(source)]);
+      place_[source] = borrowed() - first_borrowed;
+      made_.borrowed.push_back(number_[source]);
       made_.borrowed_sources.push_back(source);
     }
     const int owned = vertices() - first;

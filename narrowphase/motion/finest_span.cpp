@@ -142,7 +142,7 @@ std::array<Way<Number>, 4> corners_on(const MovingPolygon& polygon, double scale
     const auto at = [&](double time) {
       return begin + Vector<Number>{times(time, way.x), times(time, way.y), times(time, way.z)};
     };
-    corners[static_cast<std::size_t>(i)] = {at(from), at(to)};
+    corners[i] = {at(from), at(to)};
   }
   return corners;
 }

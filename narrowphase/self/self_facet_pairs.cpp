@@ -48,7 +48,7 @@ bool plane_separates(const Triangle& plane, const Triangle& other) {
 }  // namespace
 
 std::span<const ClusterPair> SelfClusters::find(const ClusteredMesh& mesh, EmbreeDevice& device) {
-  const auto box_of = [&](int c) { return mesh.cluster_boxes()[static_cast<std::size_t>(c)]; };
+  const auto box_of = [&](int c) { return mesh.cluster_boxes()[c]; };
   return finder_.find(mesh, box_of, mesh, box_of, mesh.box(), device);
 }
 
@@ -60,7 +60,7 @@ void find_self_facet_pairs(const ClusteredMesh& mesh, std::span<const ClusterPai
   for (const ClusterPair& pair : pairs) {
     if (a.cluster != pair.a) a.open(mesh, pair.a);
     if (b.cluster != pair.b) b.open(mesh, pair.b);
-    const Box other = mesh.cluster_boxes()[static_cast<std::size_t>(pair.b)];
+    const Box other = mesh.cluster_boxes()[pair.b];
     for (int i = 0; i < a.count; ++i) {
       if (!overlaps(a.box(i), other)) continue;
       const int count = kernels().select_overlapping(b.pointers(), b.count, bounds_of(a.box(i)), near);

@@ -140,8 +140,8 @@ void ClusterForest::build(EmbreeDevice& device, BoxView boxes, int count) {
   }
   // Embree makes a node before its children: in reverse order, every child is ready.
   const auto box_of = [&](std::int32_t child) {
-    if (child < 0) return boxes[static_cast<std::size_t>(~child)];
-    const Node& node = nodes_[static_cast<std::size_t>(child)];
+    if (child < 0) return boxes[~child];
+    const Node& node = nodes_[child];
     return merged(node.box[0], node.box[1]);
   };
   for (std::size_t i = nodes_.size(); i-- > 0;) {

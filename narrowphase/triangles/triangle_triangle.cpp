@@ -116,7 +116,7 @@ constexpr LoneCorner find_lone_corner(const Signs& s) {
   return {0, 0};
 }
 
-constexpr std::size_t signs_index(const Signs& s) { return static_cast<std::size_t>(9 * s[0] + 3 * s[1] + s[2] + 13); }
+constexpr int signs_index(const Signs& s) { return 9 * s[0] + 3 * s[1] + s[2] + 13; }
 
 // A table, as the branches of the search are not predictable.
 constexpr std::array<LoneCorner, 27> kLoneCorners = [] {
@@ -137,8 +137,8 @@ bool intervals_meet(const Triangle& a, const Signs& a_sides, const Triangle& b, 
                     PredicateCounts& counts) {
   const LoneCorner lone_a = kLoneCorners[signs_index(a_sides)];
   const LoneCorner lone_b = kLoneCorners[signs_index(b_sides)];
-  const auto i = static_cast<std::size_t>(lone_a.corner);
-  const auto j = static_cast<std::size_t>(lone_b.corner);
+  const int i = lone_a.corner;
+  const int j = lone_b.corner;
   const Vec3* a1 = &a[(i + 1) % 3];
   const Vec3* a2 = &a[(i + 2) % 3];
   const Vec3* b1 = &b[(j + 1) % 3];

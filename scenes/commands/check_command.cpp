@@ -133,7 +133,7 @@ std::vector<BodyId> add_bodies(const std::vector<BodyFrames>& bodies, World& wor
 void set_frame(const std::vector<BodyFrames>& bodies, const std::vector<BodyId>& ids, int frame, World& world) {
   std::vector<PositionsUpdate> updates;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i].moves) updates.push_back({ids[i], bodies[i].positions[static_cast<std::size_t>(frame)]});
+    if (bodies[i].moves) updates.push_back({ids[i], bodies[i].positions[frame]});
   }
   world.set_positions(updates);
 }

@@ -70,10 +70,9 @@ void check_frame_counts(const std::vector<fs::path>& paths, const std::vector<Li
   for (auto other = first; other != listings.end(); ++other) {
     if (!other->is_folder || other->files.size() == first->files.size()) continue;
     throw FileError(fmt::format("{}: {}, but {} holds {}: all folders must hold the same number of frames",
-                                paths[static_cast<std::size_t>(other - listings.begin())].string(),
+                                paths[other - listings.begin()].string(),
                                 counted(static_cast<std::int64_t>(other->files.size()), "mesh file"),
-                                paths[static_cast<std::size_t>(first - listings.begin())].string(),
-                                first->files.size()));
+                                paths[first - listings.begin()].string(), first->files.size()));
   }
 }
 

@@ -16,7 +16,7 @@ constexpr std::size_t kMost = std::numeric_limits<int>::max();
 void MeshBuilder::add_vertex(const std::array<double, 3>& position) {
   if (positions_.size() / 3 >= kMost) source_.fail("more vertices than 32-bit indices can number");
   for (int axis = 0; axis < 3; ++axis) {
-    const double value = position[static_cast<std::size_t>(axis)];
+    const double value = position[axis];
     if (!std::isfinite(value)) source_.fail(fmt::format("{} is {}, not a finite number", "xyz"[axis], value));
     if (std::abs(value) > kLargestCoordinate) {
       source_.fail(fmt::format("{} is {}, larger in size than the largest coordinate, 2^300", "xyz"[axis], value));

@@ -24,10 +24,10 @@ VertexCorners corners_around(const Eigen::Matrix3Xi& facets, Eigen::Index vertic
   for (const int vertex : facets.reshaped()) ++result.first[static_cast<std::size_t>(vertex) + 1];
   for (std::size_t v = 1; v < result.first.size(); ++v) result.first[v] += result.first[v - 1];
   std::vector<int> next(result.first.begin(), result.first.end() - 1);
-  result.corners.resize(static_cast<std::size_t>(facets.size()));
+  result.corners.resize(facets.size());
   int corner = 0;
   for (const int vertex : facets.reshaped()) {
-    result.corners[static_cast<std::size_t>(next[static_cast<std::size_t>(vertex)]++)] = corner++;
+    result.corners[next[vertex]++] = corner++;
   }
   return result;
 }
@@ -59,7 +59,7 @@ Eigen::Matrix3Xf corner_normals(const Eigen::Matrix3Xf& positions, const Eigen::
       const auto vertex = static_cast<std::size_t>(facets(k, f));
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       for (int i = around.first[vertex]; i < around.first[vertex + 1]; ++i) {
-        const int corner = around.corners[static_cast<std::size_t>(i)];
+        const int corner = around.corners[i];
         const auto normal = normals.col(corner / 3);
         if (normal.dot(normals.col(f)) >= least_cosine) sum += angles[corner] * normal;
       }

@@ -124,7 +124,7 @@ Painter::Met Painter::met(const DrawnMesh& mesh, const RayHit& hit, const Ray& r
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3f corner_normal = side * mesh.corner_normals.col(3 * facet + k);
       const Eigen::Vector3f corner = mesh.positions.col(mesh.facets(k, facet));
-      const float weight = hit.weights[static_cast<std::size_t>(k)];
+      const float weight = hit.weights[k];
       normal += weight * corner_normal;
       lift -= weight * std::min(0.0f, (point.place - corner).dot(corner_normal)) * corner_normal;
     }
@@ -145,7 +145,7 @@ float Painter::edge_seen(const DrawnMesh& mesh, const RayHit& hit) const {
   float smallest_height = to_edge;
   for (int k = 0; k < 3; ++k) {
     const float height = twice_area / (pixel * (corner(k + 2) - corner(k + 1)).norm());
-    to_edge = std::min(to_edge, hit.weights[static_cast<std::size_t>(k)] * height);
+    to_edge = std::min(to_edge, hit.weights[k] * height);
     smallest_height = std::min(smallest_height, height);
   }
   return (1.0f - smoothstep(0.3f, 1.0f, to_edge)) * smoothstep(7.0f, 22.0f, smallest_height);

@@ -132,7 +132,7 @@ unsigned RayScene::hits(const RayBundle& bundle) const {
     rays.org_x[i] = bundle.origin.x();
     rays.org_y[i] = bundle.origin.y();
     rays.org_z[i] = bundle.origin.z();
-    const Eigen::Vector3f& direction = bundle.directions[static_cast<std::size_t>(i)];
+    const Eigen::Vector3f& direction = bundle.directions[i];
     rays.dir_x[i] = direction.x();
     rays.dir_y[i] = direction.y();
     rays.dir_z[i] = direction.z();

@@ -35,9 +35,7 @@ class DiskPattern {
     }
   }
 
-  const DiskPoints& of_pixel(int x, int y) const {
-    return sets_[static_cast<std::size_t>(y % kTile * kTile + x % kTile)];
-  }
+  const DiskPoints& of_pixel(int x, int y) const { return sets_[y % kTile * kTile + x % kTile]; }
 
  private:
   std::array<DiskPoints, std::size_t{kTile} * kTile> sets_;

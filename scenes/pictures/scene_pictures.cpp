@@ -102,7 +102,7 @@ std::optional<std::filesystem::path> ScenePictures::write_sheet() {
   std::vector<std::string> captions;
   for (const int frame : sheet_frames(count())) {
     pictures.push_back(read_png(frame_file(folder_, frame)));
-    captions.push_back(captions_[static_cast<std::size_t>(frame)]);
+    captions.push_back(captions_[frame]);
   }
   Font font;
   const std::filesystem::path file = folder_ / "sheet.png";

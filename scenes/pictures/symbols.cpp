@@ -28,7 +28,7 @@ SymbolMesh revolve(const Eigen::Vector3d& start, const Eigen::Vector3d& axis, st
   const auto count = static_cast<int>(rings.size());
   SymbolMesh mesh{Eigen::Matrix3Xd(3, kSides * count), Eigen::Matrix3Xi(3, 2 * kSides * (count - 1))};
   for (int ring = 0; ring < count; ++ring) {
-    const auto [along, radius] = rings[static_cast<std::size_t>(ring)];
+    const auto [along, radius] = rings[ring];
     for (int side = 0; side < kSides; ++side) {
       const double angle = turn(side, kSides);
       mesh.positions.col(ring * kSides + side) =

@@ -29,7 +29,7 @@ char32_t take_character(std::string_view& text) {
   if (more == 0 || text.size() < static_cast<std::size_t>(more)) return kUnreadable;
   char32_t character = first & (0x3fu >> more);
   for (int i = 0; i < more; ++i) {
-    const auto byte = static_cast<unsigned char>(text[static_cast<std::size_t>(i)]);
+    const auto byte = static_cast<unsigned char>(text[i]);
     if ((byte & 0xc0u) != 0x80u) return kUnreadable;
     character = character << 6 | (byte & 0x3fu);
   }

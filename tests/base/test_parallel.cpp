@@ -43,12 +43,12 @@ TEST(ParallelFor, GivesEachThreadANumberOfItsOwn) {
   std::vector<std::atomic<bool>> busy(kThreads);
   std::atomic<int> failures = 0;
   parallel_for(2000, 3, kThreads, [&](std::size_t, int thread) {
-    if (thread < 0 || thread >= kThreads || busy[static_cast<std::size_t>(thread)].exchange(true)) {
+    if (thread < 0 || thread >= kThreads || busy[thread].exchange(true)) {
       ++failures;
       return;
     }
     std::this_thread::yield();
-    busy[static_cast<std::size_t>(thread)] = false;
+    busy[thread] = false;
   });
   EXPECT_EQ(failures, 0);
 }

@@ -49,7 +49,7 @@ Sample random_sample(const Kernels& kernels, Random& random, const FloatBox& reg
   }
   std::memset(static_cast<void*>(&sample.block), 0, sizeof sample.block);
   sample.left = kernels.refit_lanes(sample.block, &sample.boxes[0].lower.x, sample.members.data(), kAllLanes,
-                                      Frame{{0.25, 0.0, 1.0 / 3.0}}, region);
+                                    Frame{{0.25, 0.0, 1.0 / 3.0}}, region);
   return sample;
 }
 
@@ -74,7 +74,7 @@ TEST(BroadphaseKernels, RefreshLeavesOtherLanesAlone) {
     const Block before = sample.block;
     for (Box& box : sample.boxes) box = {{9, 9, 9}, {10, 10, 10}};
     EXPECT_EQ(kernels->refit_lanes(sample.block, &sample.boxes[0].lower.x, sample.members.data(), 1u << 3 | 1u << 14,
-                                     Frame{}, kEverywhere),
+                                   Frame{}, kEverywhere),
               0u);
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
       const bool set = lane == 3 || lane == 14;

@@ -216,7 +216,7 @@ std::vector<Mesh> mixed_crowd(int count, std::uint64_t seed) {
   for (int i = 1; i < count; ++i) {
     const BodyPairKind& kind = kBodyPairKinds[random.below(static_cast<int>(std::size(kBodyPairKinds)))];
     std::vector<Mesh> pair = kind.make(seed + static_cast<std::uint64_t>(i));
-    Mesh& mesh = pair[static_cast<std::size_t>(random.below(2))];
+    Mesh& mesh = pair[random.below(2)];
     bodies.push_back(translated(std::move(mesh), random.in_cube(3.0)));
   }
   return bodies;

@@ -55,7 +55,8 @@ std::vector<FacetPair> paired(const Kernels& kernels, const FacetBlock& a, const
   std::vector<FacetPair> all;
   const FacetBlock &few = few_are_b ? b : a, &many = few_are_b ? a : b;
   Met met{};
-  const narrowphase::SharedCells shared = kernels.share_cells(few, all_bits(few.count), many, all_bits(many.count), met.data());
+  const narrowphase::SharedCells shared =
+      kernels.share_cells(few, all_bits(few.count), many, all_bits(many.count), met.data());
   box_pairs += shared.pairs;
   constexpr double kGap[3] = {1.0 / narrowphase::kLastCell, 1.0 / narrowphase::kLastCell, 1.0 / narrowphase::kLastCell};
   kernels.leave_aside(floats_of(kernels, few), shared.facets, floats_of(kernels, many), kGap, plane_from, met.data());

@@ -135,7 +135,7 @@ Mesh gridded_box(Vec3 lower, Vec3 upper, int cells) {
     if (is_new) {
       Vec3 p;
       for (int axis = 0; axis < 3; ++axis) {
-        const int i = cell[static_cast<std::size_t>(axis)];
+        const int i = cell[axis];
         p[axis] = i == cells ? upper[axis] : lower[axis] + (upper[axis] - lower[axis]) * i / cells;
       }
       place->second = builder.vertex(p);
@@ -239,18 +239,18 @@ Mesh random_hull(int points, std::uint64_t seed) {
   std::map<int, int> number;
   const auto vertex = [&](int i) {
     const auto [place, is_new] = number.try_emplace(i, 0);
-    if (is_new) place->second = builder.vertex(cloud[static_cast<std::size_t>(i)]);
+    if (is_new) place->second = builder.vertex(cloud[i]);
     return place->second;
   };
   for (int i = 0; i < points; ++i) {
     for (int j = i + 1; j < points; ++j) {
       for (int k = j + 1; k < points; ++k) {
-        const Vec3 p = cloud[static_cast<std::size_t>(i)];
-        const Vec3 n = cross(cloud[static_cast<std::size_t>(j)] - p, cloud[static_cast<std::size_t>(k)] - p);
+        const Vec3 p = cloud[i];
+        const Vec3 n = cross(cloud[j] - p, cloud[k] - p);
         int above = 0, below = 0;
         for (int l = 0; l < points; ++l) {
           if (l == i || l == j || l == k) continue;
-          ++(dot(n, cloud[static_cast<std::size_t>(l)] - p) > 0.0 ? above : below);
+          ++(dot(n, cloud[l] - p) > 0.0 ? above : below);
         }
         if (above != 0 && below != 0) continue;
         const int u = vertex(i), v = vertex(j), w = vertex(k);
@@ -366,8 +366,7 @@ Mesh crumpled(Mesh mesh, std::uint64_t seed) {
 Mesh scrambled(const Mesh& mesh, std::uint64_t seed) {
   const std::vector<int> places = Random(seed).permutation(mesh.vertex_count());
   Mesh other = mesh;
-  for (int v = 0; v < mesh.vertex_count(); ++v)
-    other.positions.col(v) = mesh.positions.col(places[static_cast<std::size_t>(v)]);
+  for (int v = 0; v < mesh.vertex_count(); ++v) other.positions.col(v) = mesh.positions.col(places[v]);
   return other;
 }
 

@@ -149,9 +149,7 @@ Vec3 inside(const Points& points, Random& random) {
   return (1.0 / weights) * sum;
 }
 
-Vec3 any_of(const Points& points, Random& random) {
-  return points[static_cast<std::size_t>(random.below(static_cast<int>(points.size())))];
-}
+Vec3 any_of(const Points& points, Random& random) { return points[random.below(static_cast<int>(points.size()))]; }
 
 // Points inside each other, the same drawn apart until they touch, or two vertices in one place.
 void place(const Points& a, Points& b, Random& random) {
@@ -219,7 +217,7 @@ std::string problem_of_points(std::span<const Vec3> a, std::span<const Vec3> b,
   const auto named = [&](std::span<const Vec3> hull, const std::array<int, 4>& vertices) {
     Points points;
     for (std::size_t i = 0; i < static_cast<std::size_t>(result.simplex.count); ++i)
-      points.push_back(hull[static_cast<std::size_t>(vertices[i])] - a[0]);
+      points.push_back(hull[vertices[i]] - a[0]);
     return points;
   };
   const double beyond_a = beyond(named(a, result.simplex.a), closest.a - a[0]),
@@ -243,7 +241,7 @@ std::vector<double> coordinates(const Points& points) {
 
 HullPair hostile_hull_pair(std::uint64_t seed) {
   Random random(seed);
-  const auto any_kind = [&] { return kHullKinds[static_cast<std::size_t>(random.below(kHullKinds.size()))]; };
+  const auto any_kind = [&] { return kHullKinds[random.below(kHullKinds.size())]; };
   HullPair pair;
   const Kind kind = any_kind();
   pair.a = kind.make(random);

@@ -10,7 +10,7 @@ namespace {
 std::vector<char> used_vertices(const Mesh& mesh) {
   std::vector<char> used(static_cast<std::size_t>(mesh.vertex_count()), 0);
   for (int f = 0; f < mesh.facet_count(); ++f) {
-    for (int corner = 0; corner < 3; ++corner) used[static_cast<std::size_t>(mesh.facets(corner, f))] = 1;
+    for (int corner = 0; corner < 3; ++corner) used[mesh.facets(corner, f)] = 1;
   }
   return used;
 }
@@ -32,7 +32,7 @@ class UnionFind {
   }
 
  private:
-  int& parent(int i) { return parent_[static_cast<std::size_t>(i)]; }
+  int& parent(int i) { return parent_[i]; }
   std::vector<int> parent_;
 };
 
@@ -78,7 +78,7 @@ void MeshBuilder::triangle(Vec3 p, Vec3 q, Vec3 r) {
 Mesh MeshBuilder::mesh() const {
   Mesh mesh{Eigen::Matrix3Xd(3, static_cast<Eigen::Index>(vertices_.size())),
             Eigen::Matrix3Xi(3, static_cast<Eigen::Index>(corners_.size() / 3))};
-  for (int v = 0; v < mesh.vertex_count(); ++v) mesh.set_position(v, vertices_[static_cast<std::size_t>(v)]);
+  for (int v = 0; v < mesh.vertex_count(); ++v) mesh.set_position(v, vertices_[v]);
   std::copy(corners_.begin(), corners_.end(), mesh.facets.data());
   return mesh;
 }
@@ -140,12 +140,12 @@ std::vector<Mesh> components(const Mesh& mesh) {
   std::vector<int> number(static_cast<std::size_t>(mesh.vertex_count()), -1);  // of a representative
   std::vector<std::vector<int>> facets;                                        // of each component
   for (int f = 0; f < mesh.facet_count(); ++f) {
-    int& component = number[static_cast<std::size_t>(sets.find(mesh.facets(0, f)))];
+    int& component = number[sets.find(mesh.facets(0, f))];
     if (component < 0) {
       component = static_cast<int>(facets.size());
       facets.emplace_back();
     }
-    facets[static_cast<std::size_t>(component)].push_back(f);
+    facets[component].push_back(f);
   }
   std::vector<Mesh> parts;
   for (const std::vector<int>& chosen : facets) parts.push_back(submesh(mesh, chosen));
@@ -155,8 +155,8 @@ std::vector<Mesh> components(const Mesh& mesh) {
 Mesh permuted(const Mesh& mesh, std::span<const int> vertices, std::span<const int> facets) {
   std::vector<int> new_number(vertices.size());
   MeshBuilder builder;
-  for (const int v : vertices) new_number[static_cast<std::size_t>(v)] = builder.vertex(mesh.position(v));
-  const auto corner = [&](int row, int f) { return new_number[static_cast<std::size_t>(mesh.facets(row, f))]; };
+  for (const int v : vertices) new_number[v] = builder.vertex(mesh.position(v));
+  const auto corner = [&](int row, int f) { return new_number[mesh.facets(row, f)]; };
   for (const int f : facets) builder.facet(corner(0, f), corner(1, f), corner(2, f));
   return builder.mesh();
 }
@@ -180,7 +180,7 @@ std::vector<Vec3> used_points(const Mesh& mesh) {
   const std::vector<char> used = used_vertices(mesh);
   std::vector<Vec3> points;
   for (int v = 0; v < mesh.vertex_count(); ++v) {
-    if (used[static_cast<std::size_t>(v)] != 0) points.push_back(mesh.position(v));
+    if (used[v] != 0) points.push_back(mesh.position(v));
   }
   return points;
 }

@@ -26,7 +26,7 @@ class MessySoup {
 
  private:
   int any_vertex() { return random_.below(builder_.vertex_count()); }
-  Vec3 any_point() { return points_[static_cast<std::size_t>(any_vertex())]; }
+  Vec3 any_point() { return points_[any_vertex()]; }
 
   void add_vertex(const Mesh* other) {
     points_.push_back(other && random_.chance(0.4) ? other->position(random_.below(other->vertex_count()))
@@ -73,7 +73,7 @@ class MessySoup {
   void add_facet() {
     int i = any_vertex(), j = any_vertex(), k = any_vertex();
     if (!facets_.empty()) {
-      const auto& last = facets_[static_cast<std::size_t>(random_.below(static_cast<int>(facets_.size())))];
+      const auto& last = facets_[random_.below(static_cast<int>(facets_.size()))];
       switch (random_.below(8)) {
         case 0: i = last[0], j = last[1], k = last[2]; break;  // again
         case 1: i = last[2], j = last[1], k = last[0]; break;  // reversed

@@ -200,7 +200,7 @@ narrowphase::ClusteredMesh mesh_through(std::span<const Vec3> points) {
   std::vector<int> facets;
   const int count = static_cast<int>(points.size());
   for (int i = 0; i < count; ++i) {
-    const Vec3& p = points[static_cast<std::size_t>(i)];
+    const Vec3& p = points[i];
     positions.insert(positions.end(), {p.x, p.y, p.z});
     facets.insert(facets.end(), {i, (i + 1) % count, (i + 2) % count});
   }

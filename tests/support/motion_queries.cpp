@@ -27,7 +27,7 @@ double distance_at(const MovingPolygon& polygon, double time) {
   for (int i = 0; i < polygon.count; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       const long double begin = polygon.corner[0][i].head[axis], end = polygon.corner[1][i].head[axis];
-      p[static_cast<std::size_t>(i)][static_cast<std::size_t>(axis)] = begin + time * (end - begin);
+      p[i][axis] = begin + time * (end - begin);
       size = std::max({size, std::abs(begin), std::abs(end)});
     }
   }

@@ -83,7 +83,7 @@ std::vector<FacetPair> facet_pairs_by_oracle(const Mesh& a, const Mesh& b) {
   std::vector<FacetPair> pairs;
   const auto test = [&](const FacetBox& box_a, const FacetBox& box_b) {
     const int f = box_a.info().facet, g = box_b.info().facet;
-    if (meet(shapes_a[static_cast<std::size_t>(f)], shapes_b[static_cast<std::size_t>(g)])) pairs.push_back({f, g});
+    if (meet(shapes_a[f], shapes_b[g])) pairs.push_back({f, g});
   };
   CGAL::box_intersection_d(boxes_a.begin(), boxes_a.end(), boxes_b.begin(), boxes_b.end(), test);
   std::sort(pairs.begin(), pairs.end());
@@ -112,9 +112,7 @@ std::vector<MeetingBodies> meeting_bodies_by_oracle(std::span<const Mesh> bodies
     boxes.insert(boxes.end(), more.begin(), more.end());
     shapes.push_back(shapes_of(body));
   }
-  const auto shape = [&](FacetOfBody f) -> const Shape& {
-    return shapes[static_cast<std::size_t>(f.body)][static_cast<std::size_t>(f.facet)];
-  };
+  const auto shape = [&](FacetOfBody f) -> const Shape& { return shapes[f.body][f.facet]; };
   std::map<std::pair<int, int>, std::vector<FacetPair>> found;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const FacetBox& one, const FacetBox& other) {
     const bool ordered = one.info().body < other.info().body;

@@ -64,10 +64,8 @@ class PointOracle {
       : a_(long_mesh(a)), b_(long_mesh(b)), reach_(reach), band_(band) {}
 
   std::map<PointKey, ExpectedPoint> run() {
-    for (const auto& [v, _] : a_.vertices)
-      from_vertex(a_.x[static_cast<std::size_t>(v)], v, b_, FeaturePair::vertex_facet);
-    for (const auto& [v, _] : b_.vertices)
-      from_vertex(b_.x[static_cast<std::size_t>(v)], v, a_, FeaturePair::facet_vertex);
+    for (const auto& [v, _] : a_.vertices) from_vertex(a_.x[v], v, b_, FeaturePair::vertex_facet);
+    for (const auto& [v, _] : b_.vertices) from_vertex(b_.x[v], v, a_, FeaturePair::facet_vertex);
     for (const auto& [e, third_e] : a_.edges) {
       for (const auto& [f, third_f] : b_.edges) between(e, third_e, f, third_f);
     }
@@ -75,7 +73,7 @@ class PointOracle {
   }
 
  private:
-  static const Long3& at(const LongMesh& s, int v) { return s.x[static_cast<std::size_t>(v)]; }
+  static const Long3& at(const LongMesh& s, int v) { return s.x[v]; }
 
   void add(FeaturePair kind, std::array<int, 3> a, std::array<int, 3> b, const Long3& p, const Long3& q,
            Conditions conditions) {

@@ -23,7 +23,7 @@ struct PointSoup {
   }
   narrowphase::PointArrays arrays() {
     for (auto& values : coordinate) {
-      values.resize(static_cast<std::size_t>(count));
+      values.resize(count);
       values.resize(static_cast<std::size_t>(count) + narrowphase::kPadding, 1e30);  // must not be counted
     }
     return {coordinate[0].data(), coordinate[1].data(), coordinate[2].data()};

@@ -47,7 +47,7 @@ std::vector<int> Random::permutation(int count) {
   std::vector<int> numbers(static_cast<std::size_t>(count));
   std::iota(numbers.begin(), numbers.end(), 0);
   for (int i = count - 1; i > 0; --i) {
-    std::swap(numbers[static_cast<std::size_t>(i)], numbers[static_cast<std::size_t>(below(i + 1))]);
+    std::swap(numbers[i], numbers[below(i + 1)]);
   }
   return numbers;
 }

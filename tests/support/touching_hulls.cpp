@@ -71,7 +71,7 @@ void shear(TouchingHulls& pair, Random& random) {
 // Moves one coordinate of one vertex by up to three units in the last place.
 void nudge(TouchingHulls& pair, Random& random) {
   Points& points = random.chance(0.5) ? pair.a : pair.b;
-  double& x = points[static_cast<std::size_t>(random.below(static_cast<int>(points.size())))][random.below(3)];
+  double& x = points[random.below(static_cast<int>(points.size()))][random.below(3)];
   const double toward = random.chance(0.5) ? HUGE_VAL : -HUGE_VAL;
   for (int i = 1 + random.below(3); i > 0; --i) x = std::nextafter(x, toward);
 }

@@ -210,7 +210,7 @@ void disturb(TrianglePair& pair, Random& random) {
   const int how = integer(random, 0, 2);
   if (how == 1) {
     Triangle& t = one_in(random, 2) ? pair.a : pair.b;
-    Vec3& p = t[static_cast<std::size_t>(integer(random, 0, 2))];
+    Vec3& p = t[integer(random, 0, 2)];
     const int axis = integer(random, 0, 2);
     p[axis] = moved_by_ulps(p[axis], one_in(random, 2) ? 1 : -1);
   }
@@ -226,7 +226,7 @@ void shuffle(TrianglePair& pair, Random& random) {
   const int second = (first + integer(random, 1, 2)) % 3;
   const int third = 3 - first - second;
   for_each_point(pair, [&](Vec3& p) { p = {p[first], p[second], p[third]}; });
-  pair = all_orders(pair)[static_cast<std::size_t>(integer(random, 0, 71))];
+  pair = all_orders(pair)[integer(random, 0, 71)];
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ ConvexPolytope hull_of(const std::vector<Vec3>& points, const std::array<Vec3, 4
     const int below = polytope.face_below(p);
     if (below < 0) continue;
     const int first = polytope.expand(below, p);
-    EXPECT_TRUE(polytope.faces()[static_cast<std::size_t>(below)].removed);
+    EXPECT_TRUE(polytope.faces()[below].removed);
     for (int f = first; f < static_cast<int>(polytope.faces().size()); ++f) EXPECT_EQ(polytope.corner(f, 2), p);
     polytope.validate();
   }
@@ -42,7 +42,7 @@ TEST(ConvexPolytope, TetrahedronInAnyOrder) {
   std::array<int, 4> order{0, 1, 2, 3};
   do {
     std::array<Vec3, 4> points;
-    for (std::size_t i = 0; i < 4; ++i) points[i] = kTetrahedron[static_cast<std::size_t>(order[i])];
+    for (std::size_t i = 0; i < 4; ++i) points[i] = kTetrahedron[order[i]];
     const ConvexPolytope polytope(points);
     polytope.validate();
     EXPECT_EQ(polytope.face_below({0.1, 0.1, 0.1}), -1);

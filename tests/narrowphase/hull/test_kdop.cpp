@@ -34,8 +34,8 @@ TEST(SeparatingDiagonal, SeparatesBeforeRounding) {
         // In the plane across the diagonal, and the second body a few units beyond, or not.
         std::array<std::int64_t, 3> p{random.below(9), random.below(9), random.below(9)};
         const std::int64_t slide = kLarge - 100 - random.below(9);
-        p[static_cast<std::size_t>(first)] = slide + (body == 1 ? random.below(5) : 0);
-        p[static_cast<std::size_t>(second)] = (diagonal < 3 ? 1 : -1) * (kLarge - slide) + slide / 2;
+        p[first] = slide + (body == 1 ? random.below(5) : 0);
+        p[second] = (diagonal < 3 ? 1 : -1) * (kLarge - slide) + slide / 2;
         points[body].add(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
         const auto reach = along_diagonals(p[0], p[1], p[2]);
         for (std::size_t k = 0; k < 6; ++k) {
@@ -75,8 +75,8 @@ TEST(SeparatingDiagonal, TheWidestGapPartsFromAToB) {
           PointSoup a, b;
           a.add(5, 6, 7);
           b.add(5 + offset.x, 6 + offset.y, 7 + offset.z);
-          const SeparatingDiagonal diagonal = separating_diagonal(scalar_kernels()->kdop(a.arrays(), 1),
-                                                           scalar_kernels()->kdop(b.arrays(), 1));
+          const SeparatingDiagonal diagonal =
+              separating_diagonal(scalar_kernels()->kdop(a.arrays(), 1), scalar_kernels()->kdop(b.arrays(), 1));
           ASSERT_NE(diagonal, 0);
           const Vec3 n = direction_of(diagonal);
           EXPECT_NEAR(dot(n, n), 1.0, 1e-15);
@@ -93,12 +93,9 @@ TEST(SeparatingDiagonal, IsNoneForBodiesThatTouch) {
   a.add(1, 0, 0);
   b.add(1, 0, 0);
   b.add(2, 0, 0);
-  EXPECT_EQ(separating_diagonal(scalar_kernels()->kdop(a.arrays(), 2),
-                             scalar_kernels()->kdop(b.arrays(), 2)),
-            0);
+  EXPECT_EQ(separating_diagonal(scalar_kernels()->kdop(a.arrays(), 2), scalar_kernels()->kdop(b.arrays(), 2)), 0);
   for (SeparatingDiagonal diagonal = -6; diagonal <= 6; ++diagonal) {
-    EXPECT_FALSE(separates(diagonal, scalar_kernels()->kdop(a.arrays(), 2),
-                       scalar_kernels()->kdop(b.arrays(), 2)));
+    EXPECT_FALSE(separates(diagonal, scalar_kernels()->kdop(a.arrays(), 2), scalar_kernels()->kdop(b.arrays(), 2)));
   }
 }
 

@@ -18,7 +18,7 @@ double power_of_ten(Random& random, double low, double high) { return std::pow(1
 
 double size_of(const SimplexPoints& simplex) {
   double size = 0.0;
-  for (int i = 0; i < simplex.count; ++i) size = std::max(size, norm(simplex.point[static_cast<std::size_t>(i)]));
+  for (int i = 0; i < simplex.count; ++i) size = std::max(size, norm(simplex.point[i]));
   return size;
 }
 
@@ -75,10 +75,10 @@ SimplexPoints degenerate_simplex(Random& random, int count, double width) {
   const Vec3 base = power_of_ten(random, -8, 0) * random.direction(), e = random.direction(), f = random.direction();
   SimplexPoints points{.point = {}, .count = count};
   for (int i = 0; i < count; ++i) {
-    Vec3& p = points.point[static_cast<std::size_t>(i)];
+    Vec3& p = points.point[i];
     p = base + random.uniform(-1.0, 1.0) * e + width * random.in_ball();
     if (random.chance(0.3)) p = p + random.uniform(-1.0, 1.0) * f;
-    if (i > 0 && random.chance(0.1)) p = points.point[static_cast<std::size_t>(random.below(i))];
+    if (i > 0 && random.chance(0.1)) p = points.point[random.below(i)];
   }
   return points;
 }
@@ -106,14 +106,14 @@ TEST(Simplex, WeightsGiveTheNearestPoint) {
         }
         EXPECT_GE(closest.weight[k], 0.0) << "case " << i;
         weights += closest.weight[k];
-        sum = sum + closest.weight[k] * points.point[static_cast<std::size_t>(closest.carrier[k])];
+        sum = sum + closest.weight[k] * points.point[closest.carrier[k]];
       }
       EXPECT_NEAR(weights, 1.0, 8.0 * kUnitRoundoff) << "case " << i;
       EXPECT_LE(norm(sum - closest.point), 16.0 * kUnitRoundoff * size) << "case " << i << ", wide " << wide;
       if (!wide) continue;  // plain doubles may lose the point of a thin simplex
       const double squared = norm_squared(closest.point);
       for (int k = 0; k < points.count; ++k) {
-        EXPECT_GE(dot(closest.point, points.point[static_cast<std::size_t>(k)]),
+        EXPECT_GE(dot(closest.point, points.point[k]),
                   squared - 8.0 * kUnitRoundoff * size * norm(closest.point) - 1e-28 * size * size)
             << "case " << i;
       }

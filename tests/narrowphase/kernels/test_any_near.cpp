@@ -34,8 +34,7 @@ TEST(AnyNear, HoldsForEveryFacetThatMeetsOne) {
       for (const FacetPair& pair : meeting) {
         const BoxBounds box = box_of(block_a, static_cast<std::size_t>(pair.a));
         const BoxBounds both = merged(box, box_of(block_b, static_cast<std::size_t>(pair.b)));
-        EXPECT_TRUE(
-            kernels->any_near(block_b, std::uint64_t{1} << pair.b, cells_of(kGrid, box), box, both))
+        EXPECT_TRUE(kernels->any_near(block_b, std::uint64_t{1} << pair.b, cells_of(kGrid, box), box, both))
             << kernels->name << " seed " << seed;
       }
     }
@@ -59,7 +58,8 @@ TEST(AnyNear, APlaneLeavesABoxOnOneSide) {
     EXPECT_TRUE(kernels->any_near(block, 1, cells, {{0.2, 0.2, 0.3}, {0.3, 0.3, 0.5}}, all)) << kernels->name;
     EXPECT_FALSE(kernels->any_near(block, 1, cells, {{0.6, 0.6, 0.0}, {0.7, 0.7, 1.0}}, all)) << kernels->name;
     EXPECT_FALSE(kernels->any_near(block, 1, cells, {{0.0, 0.0, 0.5}, {0.1, 0.1, 0.6}}, all)) << kernels->name;
-    EXPECT_TRUE(kernels->any_near(block, 1, cells, {{0.0, 0.5, 0.5}, {0.0, 0.6, 0.7}}, all)) << kernels->name;  // touches
+    EXPECT_TRUE(kernels->any_near(block, 1, cells, {{0.0, 0.5, 0.5}, {0.0, 0.6, 0.7}}, all))
+        << kernels->name;  // touches
     EXPECT_FALSE(kernels->any_near(block, 1, {{11, 0, 0}, {12, 10, 10}}, all, all)) << kernels->name;
     EXPECT_FALSE(kernels->any_near(block, 0, cells, all, all)) << kernels->name;
   }

@@ -20,7 +20,7 @@ TEST(CullBoxes, ByTheirFarCornersAndByABox) {
   for (int repeat = 0; repeat < 3000; ++repeat) {
     const int count = random.below(kPadding * 4);
     BoxArrays boxes;
-    boxes.resize(static_cast<std::size_t>(count));
+    boxes.resize(count);
     const auto corner = [&] { return Vec3{random.below(9) - 4.0, random.below(9) - 4.0, random.below(9) - 4.0}; };
     const auto box = [&](Vec3 p, Vec3 q) { return base::extended(Box{p, p}, q); };
     for (int i = 0; i < count; ++i) boxes.set(static_cast<std::size_t>(i), box(corner(), corner()));
@@ -30,7 +30,7 @@ TEST(CullBoxes, ByTheirFarCornersAndByABox) {
     std::vector<std::int32_t> expected;
     int low = 0;
     for (int i = 0; i < count; ++i) {
-      const Box one = boxes[static_cast<std::size_t>(i)];
+      const Box one = boxes[i];
       if (!overlaps(one, other)) continue;
       double highest = -std::numeric_limits<double>::infinity();
       for (const double x : {one.lower.x, one.upper.x}) {
@@ -44,7 +44,7 @@ TEST(CullBoxes, ByTheirFarCornersAndByABox) {
     for (const Kernels* kernels : tests::available_kernels()) {
       std::vector<std::int32_t> left(static_cast<std::size_t>(count));
       const Culled culled = kernels->cull_boxes(boxes.pointers(), count, planes, left.data());
-      left.resize(static_cast<std::size_t>(culled.left));
+      left.resize(culled.left);
       EXPECT_EQ(left, expected) << kernels->name;
       EXPECT_EQ(culled.low, low) << kernels->name;
     }

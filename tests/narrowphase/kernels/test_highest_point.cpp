@@ -31,13 +31,13 @@ TEST(HighestPoint, OfEquallyHighPointsIsTheFirst) {
       for (int i = begin; i < end; ++i) inside.push_back(i);
       begin = end + random.below(5);
     }
-    for (const int i : inside) x[static_cast<std::size_t>(i)] = random.below(1 + repeat % 40) - 1.0;
-    const auto height = [&](int i) { return x[static_cast<std::size_t>(i)]; };
+    for (const int i : inside) x[i] = random.below(1 + repeat % 40) - 1.0;
+    const auto height = [&](int i) { return x[i]; };
     const double leasts[] = {-1.0, -std::numeric_limits<double>::infinity(), random.below(1 + repeat % 40) - 1.5};
     const double least = leasts[repeat % 3];
     const bool numbered = random.chance(0.5);
     const std::vector<int> number = random.permutation(60);
-    const auto rank = [&](int i) { return std::pair(-height(i), numbered ? number[static_cast<std::size_t>(i)] : i); };
+    const auto rank = [&](int i) { return std::pair(-height(i), numbered ? number[i] : i); };
     const auto first = std::ranges::min_element(inside, {}, rank);
     const int index = first == inside.end() || height(*first) < least ? -1 : *first;
     for (const Kernels* kernels : tests::available_kernels()) {

@@ -40,8 +40,9 @@ TEST(LeaveAside, LosesNoPairThatMeets) {
         EXPECT_TRUE(std::includes(expected.begin(), expected.end(), meeting.begin(), meeting.end())) << "seed " << seed;
         left_aside += all.size() - expected.size();
         for (const Kernels* kernels : tests::available_kernels()) {
-          EXPECT_EQ(paired(*kernels, block_of(*kernels, a, 0), block_of(*kernels, b, 0), few_are_b, plane_from, box_pairs),
-                    expected)
+          EXPECT_EQ(
+              paired(*kernels, block_of(*kernels, a, 0), block_of(*kernels, b, 0), few_are_b, plane_from, box_pairs),
+              expected)
               << kernels->name << " seed " << seed << " plane from " << plane_from;
         }
       }

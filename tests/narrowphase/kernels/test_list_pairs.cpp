@@ -21,9 +21,9 @@ TEST(ListPairs, ListsEveryPairOnce) {
     Met met{};
     std::vector<FacetPair> expected;
     for (int f = 0; f < 64; ++f) {
-      met[static_cast<std::size_t>(f)] = repeat % 7 == 0 ? ~std::uint64_t{0} : random.bits() & random.bits() & random.bits();
+      met[f] = repeat % 7 == 0 ? ~std::uint64_t{0} : random.bits() & random.bits() & random.bits();
       for (int g = 0; g < 64; ++g) {
-        if ((some >> f & 1) != 0 && (met[static_cast<std::size_t>(f)] >> g & 1) != 0) expected.push_back({f, g});
+        if ((some >> f & 1) != 0 && (met[f] >> g & 1) != 0) expected.push_back({f, g});
       }
     }
     for (const Kernels* kernels : tests::available_kernels()) {

@@ -33,11 +33,11 @@ TEST(NearFacets, AreTheCandidatesThatReachTheCells) {
     const ClusteredMesh mesh = clustered(bodies(seed).second);
     for (const Kernels* kernels : tests::available_kernels()) {
       const FacetBlock block = block_of(*kernels, mesh, 0);
-      for (const std::uint64_t candidates : {all_bits(block.count), std::uint64_t{0x5a5a5a5a5a5a5a5a}, std::uint64_t{0}}) {
+      for (const std::uint64_t candidates :
+           {all_bits(block.count), std::uint64_t{0x5a5a5a5a5a5a5a5a}, std::uint64_t{0}}) {
         std::uint64_t expected = 0;
         for (int f = 0; f < block.count; ++f) expected |= std::uint64_t{reaches(block, f, cells)} << f;
-        EXPECT_EQ(kernels->near_facets(block, candidates & all_bits(block.count), cells),
-                  expected & candidates)
+        EXPECT_EQ(kernels->near_facets(block, candidates & all_bits(block.count), cells), expected & candidates)
             << kernels->name << " seed " << seed;
       }
     }

@@ -40,25 +40,25 @@ class RefitClusters : public testing::Test {
   Refitted refit(const Kernels& kernels, std::int32_t ahead = 0) {
     bounds_.assign(6 * cluster_count(), 0.0);
     return kernels.refit_clusters({.source = mesh_.positions.data(),
-                                     .cluster_begin = 0,
-                                     .cluster_end = static_cast<std::int32_t>(cluster_count()),
-                                     .ranges = ranges_.data(),
-                                     .owned = owned_.data(),
-                                     .borrowed = borrowed_.data(),
-                                     .ahead = ahead,
-                                     .before = {before_x_.data(), before_y_.data(), before_z_.data()},
-                                     .x = x_.data(),
-                                     .y = y_.data(),
-                                     .z = z_.data(),
-                                     .boxes = bounds_.data(),
-                                     .box_stride = static_cast<std::int32_t>(cluster_count())});
+                                   .cluster_begin = 0,
+                                   .cluster_end = static_cast<std::int32_t>(cluster_count()),
+                                   .ranges = ranges_.data(),
+                                   .owned = owned_.data(),
+                                   .borrowed = borrowed_.data(),
+                                   .ahead = ahead,
+                                   .before = {before_x_.data(), before_y_.data(), before_z_.data()},
+                                   .x = x_.data(),
+                                   .y = y_.data(),
+                                   .z = z_.data(),
+                                   .boxes = bounds_.data(),
+                                   .box_stride = static_cast<std::int32_t>(cluster_count())});
   }
   Box box(std::size_t cluster) const { return BoxView(bounds_.data(), cluster_count())[cluster]; }
   Box expected_box(std::size_t cluster) const {
     Box box;
     const auto widen = [&](const std::vector<std::int32_t>& vertices, std::size_t which) {
       for (std::int32_t i = ranges_[2 * cluster + which]; i < ranges_[2 * cluster + 2 + which]; ++i)
-        box = base::extended(box, mesh_.position(vertices[static_cast<std::size_t>(i)]));
+        box = base::extended(box, mesh_.position(vertices[i]));
     };
     widen(owned_, 0);
     widen(borrowed_, 1);

@@ -31,7 +31,7 @@ TEST(SelectHeights, SelectsThoseAtOrAboveTheThreshold) {
     }
     for (const Kernels* kernels : tests::available_kernels()) {
       std::vector<std::int32_t> selected(static_cast<std::size_t>(count));
-      selected.resize(static_cast<std::size_t>(kernels->select_heights(p, count, axis, threshold, selected.data())));
+      selected.resize(kernels->select_heights(p, count, axis, threshold, selected.data()));
       EXPECT_EQ(selected, expected) << kernels->name << " of " << count;
     }
   }

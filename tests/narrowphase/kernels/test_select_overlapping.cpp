@@ -17,7 +17,7 @@ TEST(SelectOverlapping, SelectsClosedBoxesThatOverlap) {
   for (int repeat = 0; repeat < 1000; ++repeat) {
     const int count = random.below(40);
     BoxArrays boxes;
-    boxes.resize(static_cast<std::size_t>(count));
+    boxes.resize(count);
     const auto corner = [&] { return Vec3{random.below(7) - 3.0, random.below(7) - 3.0, random.below(7) - 3.0}; };
     const auto box = [&] {
       const Vec3 p = corner();
@@ -33,7 +33,7 @@ TEST(SelectOverlapping, SelectsClosedBoxesThatOverlap) {
     for (const Kernels* kernels : tests::available_kernels()) {
       std::vector<std::int32_t> found(static_cast<std::size_t>(count) + kPadding);
       const int selected = kernels->select_overlapping(boxes.pointers(), count, bounds_of(other), found.data());
-      found.resize(static_cast<std::size_t>(selected));
+      found.resize(selected);
       EXPECT_EQ(found, expected) << kernels->name;
     }
   }

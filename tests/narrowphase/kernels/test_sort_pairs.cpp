@@ -19,7 +19,7 @@ TEST(SortPairs, SortsAnyNumberOfThem) {
     std::sort(sorted.begin(), sorted.end());
     shuffled = sorted;
     for (std::size_t i = shuffled.size(); i > 1; --i) {
-      std::swap(shuffled[i - 1], shuffled[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+      std::swap(shuffled[i - 1], shuffled[random.below(static_cast<int>(i))]);
     }
     for (const Kernels* kernels : tests::available_kernels()) {
       std::vector<FacetPair> pairs = shuffled;

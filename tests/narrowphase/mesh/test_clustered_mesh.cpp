@@ -34,7 +34,7 @@ TEST(ClusteredMesh, IsValidForAnyMesh) {
     EXPECT_EQ(clusters.facet_count(), mesh.facet_count());
     for (int f = 0; f < mesh.facet_count(); ++f) {
       const Triangle triangle = clusters.triangle(clusters.facet_of_source(f));
-      for (int k = 0; k < 3; ++k) EXPECT_EQ(triangle[static_cast<std::size_t>(k)], mesh.position(mesh.facets(k, f)));
+      for (int k = 0; k < 3; ++k) EXPECT_EQ(triangle[k], mesh.position(mesh.facets(k, f)));
     }
   }
 }
@@ -82,8 +82,7 @@ TEST(ClusteredMesh, RefusesBadPositionsAndStaysAsItWas) {
       const base::Box box = clusters.box();
       Mesh bad = moved;
       bad.positions.data()[at] = value;
-      EXPECT_EQ(refit(clusters, bad.positions.data(), {.largest = kLargest}), Refit::bad)
-          << value << " at " << at;
+      EXPECT_EQ(refit(clusters, bad.positions.data(), {.largest = kLargest}), Refit::bad) << value << " at " << at;
       clusters.validate();
       EXPECT_EQ(clusters.position(7), before);
       EXPECT_EQ(clusters.box(), box);
@@ -137,7 +136,7 @@ TEST(ClusteredMesh, ThreadsDoNotChangeBoxes) {
   EXPECT_EQ(refit(two, moved.positions.data(), {.threads = 2}), Refit::changed);
   two.validate();
   for (int c = 0; c < one.cluster_count(); ++c) {
-    EXPECT_EQ(one.cluster_boxes()[static_cast<std::size_t>(c)], two.cluster_boxes()[static_cast<std::size_t>(c)]);
+    EXPECT_EQ(one.cluster_boxes()[c], two.cluster_boxes()[c]);
   }
 }
 

@@ -9,7 +9,9 @@
 namespace tact::narrowphase {
 namespace {
 
-Vec3 cross_of_sides(Vec3 p, Vec3 q, Vec3 r) { return double_double_cross(double_double_difference(q, p), double_double_difference(r, p)); }
+Vec3 cross_of_sides(Vec3 p, Vec3 q, Vec3 r) {
+  return double_double_cross(double_double_difference(q, p), double_double_difference(r, p));
+}
 
 }  // namespace
 

@@ -31,7 +31,7 @@ struct BoxList {
 BoxList random_boxes(int count, double size) {
   tests::Random random(7);
   BoxList list{.boxes = {}, .count = count};
-  list.boxes.resize(static_cast<std::size_t>(count));
+  list.boxes.resize(count);
   for (int i = 0; i < count; ++i) {
     const Vec3 lower = size * random.in_cube(1.0), edges = random.in_cube(0.1);
     const Vec3 upper = lower + size * Vec3{std::abs(edges.x), std::abs(edges.y), std::abs(edges.z)};
@@ -44,13 +44,13 @@ BoxList random_boxes(int count, double size) {
 ::testing::AssertionResult finds_all_overlaps(const ClusterForest& forest, const BoxList& list) {
   std::vector<std::int32_t> found;
   for (int i = 0; i < list.count; ++i) {
-    const Box box = list.boxes[static_cast<std::size_t>(i)];
+    const Box box = list.boxes[i];
     found.clear();
     forest.query(box, found);
     std::sort(found.begin(), found.end());
     std::vector<std::int32_t> expected;
     for (int k = 0; k < list.count; ++k) {
-      if (overlaps(list.boxes[static_cast<std::size_t>(k)], box)) expected.push_back(k);
+      if (overlaps(list.boxes[k], box)) expected.push_back(k);
     }
     if (found != expected) {
       return ::testing::AssertionFailure()
@@ -98,7 +98,7 @@ TEST(ClusterForest, FindsAllOverlapsWhereBoxesGatherAboutAPoint) {
   EmbreeDevice device;
   for (const int ratio : {1, 2, 5, 8}) {
     BoxList list{.boxes = {}, .count = 600};
-    list.boxes.resize(static_cast<std::size_t>(list.count));
+    list.boxes.resize(list.count);
     for (int i = 0; i < list.count; ++i) {
       Vec3 lower{};
       if (i < 3) {

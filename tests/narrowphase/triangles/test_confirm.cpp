@@ -45,7 +45,7 @@ TEST(CullClusters, FindsTheClustersWhoseBoxMeets) {
       cull_clusters(mesh, {.outward = {0, 0, 1}, .lowest = -std::numeric_limits<double>::infinity()}, box, kept);
       std::vector<std::int32_t> expected;
       for (std::int32_t c = 0; c < mesh.cluster_count(); ++c) {
-        if (overlaps(mesh.cluster_boxes()[static_cast<std::size_t>(c)], box)) expected.push_back(c);
+        if (overlaps(mesh.cluster_boxes()[c], box)) expected.push_back(c);
       }
       ASSERT_EQ(kept.cluster, expected) << cells << " cells, box " << k;
       most = std::max(most, expected.size());

@@ -25,7 +25,7 @@ struct Glb {
   // The values of an accessor, `components` an item.
   template <class T>
   std::vector<T> values(int accessor, std::size_t components) const {
-    const json& a = root["accessors"][static_cast<std::size_t>(accessor)];
+    const json& a = root["accessors"][accessor];
     const json& view = root["bufferViews"][a["bufferView"].get<std::size_t>()];
     std::vector<T> result(components * a["count"].get<std::size_t>());
     const std::size_t from = view["byteOffset"].get<std::size_t>() + a["byteOffset"].get<std::size_t>();
@@ -96,9 +96,9 @@ TEST(Gltf, MeshesReadBackWithTheirBounds) {
   const int accessor = primitive["attributes"]["POSITION"];
   const auto positions = glb.values<float>(accessor, 3);
   for (Eigen::Index i = 0; i < expected.positions.size(); ++i) {
-    EXPECT_EQ(positions[static_cast<std::size_t>(i)], static_cast<float>(expected.positions.reshaped()[i])) << i;
+    EXPECT_EQ(positions[i], static_cast<float>(expected.positions.reshaped()[i])) << i;
   }
-  const json& a = glb.root["accessors"][static_cast<std::size_t>(accessor)];
+  const json& a = glb.root["accessors"][accessor];
   EXPECT_EQ(a["min"], (json{5.0, 0.0, 0.0}));
   EXPECT_EQ(a["max"], (json{7.0, 2.0, 2.0}));
   const auto indices = glb.values<std::uint32_t>(primitive["indices"], 1);
