@@ -180,10 +180,10 @@ class Bodies {
   bool removed_any_ = false;
   std::int64_t vertices_ = 0;
   std::int64_t moved_vertices_ = 0;
-  std::vector<Update> updates_;                             // scratch
+  std::vector<Update> updates_;                   // scratch
   std::vector<narrowphase::Kdop> new_diagonals_;  // of those that know them
-  std::vector<std::uint32_t> without_features_;             // scratch
-  std::vector<char> named_;                                 // scratch, an entry a slot
+  std::vector<std::uint32_t> without_features_;   // scratch
+  std::vector<char> named_;                       // scratch, an entry a slot
 };
 
 }  // namespace tact

@@ -115,7 +115,7 @@ class GltfAnimation::Writer {
   // Appends `count` items to a view and returns the number of their accessor. The view's own number is filled in when
   // it is known which views have any bytes.
   int add_accessor(Section section, const void* data, std::size_t bytes, Json accessor) {
-    std::string& target = views_[section];
+    std::string& target = views_[static_cast<std::size_t>(section)];
     accessor["bufferView"] = static_cast<std::size_t>(section);
     accessor["byteOffset"] = target.size();
     target.append(static_cast<const char*>(data), bytes);
