@@ -422,8 +422,7 @@ namespace {
 // Do double_doubles see the origin in the plane of the polygon all the time between two?
 bool stays_in_plane(const MovingPolygon& polygon, double scale, double from, double to) {
   const auto corner = corners_on<DoubleDouble>(polygon, scale, from, to);
-  const Way<DoubleDouble> e = corner[1] - corner[0],
-                          f = corner[static_cast<std::size_t>(polygon.count - 1)] - corner[0];
+  const Way<DoubleDouble> e = corner[1] - corner[0], f = corner[polygon.count - 1] - corner[0];
   return volume_of(corner[0], e, f, cross(e, f)).vanishes();
 }
 

@@ -100,7 +100,7 @@ struct MovingFeatures : FixedBoxes<kMostFeatures> {
     for (int axis = 0; axis < 3; ++axis) {
       double low = vertex.low[axis][corners[0]], high = vertex.high[axis][corners[0]];
       for (int c = 0; c < kCorners; ++c) {
-        const int v = corners[static_cast<std::size_t>(c)];
+        const int v = corners[c];
         at[0][c][axis][i] = cluster.at[0][axis][v];
         at[1][c][axis][i] = cluster.at[1][axis][v];
         low = vertex.low[axis][v] < low ? vertex.low[axis][v] : low;

@@ -66,7 +66,8 @@ class Player {
 
  private:
   struct Held {
-    Held(std::string given, std::optional<int> threads) : bytes(std::move(given)), player(bytes, {.threads = threads, .outputs = {}}) {}
+    Held(std::string given, std::optional<int> threads)
+        : bytes(std::move(given)), player(bytes, {.threads = threads, .outputs = {}}) {}
     std::string bytes;
     RecordingPlayer player;
   };
