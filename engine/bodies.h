@@ -87,6 +87,8 @@ class Bodies {
   }
   // Bodies of which it is wanted and that did not know look now.
   void find_diagonals(int threads);
+  // From now on the body's mesh keeps how far it goes.
+  void keep_travel(std::uint32_t slot) { slots_[slot].body->mesh.keep_travel(true); }
   // Slots whose body was added, removed, moved or given another filter since end_step().
   std::span<const std::uint32_t> changed() const { return changed_; }
   bool moved(std::uint32_t slot) const { return slots_[slot].changed; }

@@ -34,6 +34,7 @@ void NarrowPhase::run(PairTable& table, Bodies& bodies, const Settings& settings
   work_.resize(threads);
   for (PairWork& work : work_) {
     work.counts = {};
+    work.keep_travel.clear();
     work.prefetches = !bodies.stay_in_cache();
   }
   clocks_.assign(threads, {.timer = own_timer});
@@ -51,6 +52,9 @@ void NarrowPhase::run(PairTable& table, Bodies& bodies, const Settings& settings
     table.note_result(moved[i]);
   });
   for (const auto& large : this->large()) confirm_in_ranges(*large, work_, settings.threads);
+  for (const PairWork& work : work_) {
+    for (const BodyId body : work.keep_travel) bodies.keep_travel(body.index);
+  }
 }
 
 // One pair through stages 3 to 6. A large one is put aside before the last.

@@ -43,8 +43,12 @@ struct OpenedFacets {
   CullCounts a, b;
 };
 
-void finish(const CulledPair& culled, const OpenedFacets& opened, const ConfirmCounts& confirmed, int threads,
+void finish(const CulledPair& culled, OpenedFacets opened, const ConfirmCounts& confirmed, int threads,
             PairWork& work) {
+  if (culled.turned) {
+    std::swap(opened.a, opened.b);
+    for (FacetPair& pair : culled.record->facet_pairs) std::swap(pair.a, pair.b);
+  }
   sort_facet_pairs(culled, work.sorter, threads);
   culled.record->contact.kept_facets_a = opened.a.kept;
   culled.record->contact.kept_facets_b = opened.b.kept;
@@ -82,7 +86,7 @@ void confirm_range(const LargePair& large, std::size_t i, FacetPairSearch& searc
 // A cluster of B that several ranges opened counts once.
 OpenedFacets opened_in_ranges(LargePair& large) {
   OpenedFacets opened;
-  large.seen_b.assign(static_cast<std::size_t>(large.culled.kept_b.count()), false);
+  large.seen_b.assign(static_cast<std::size_t>(large.culled.confirm_input().kept_b->count()), false);
   for (const ConfirmedRange& range : large.used_ranges()) {
     for (const OpenedCluster& one : range.opened_a) opened.a += one.counts;
     for (const OpenedCluster& one : range.opened_b) {

@@ -23,7 +23,7 @@ struct LargePair {
   TraceEvent::Time begin;
   std::vector<ConfirmedRange> ranges;  ///< memory of earlier pairs; `range_count` of them are this one's
   std::size_t range_count = 0;
-  std::vector<char> seen_b;  ///< scratch, by cluster of culled.kept_b
+  std::vector<char> seen_b;  ///< scratch, by kept cluster of B
 
   std::span<const ConfirmedRange> used_ranges() const { return std::span(ranges).first(range_count); }
 };

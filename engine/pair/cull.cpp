@@ -1,5 +1,7 @@
 #include "engine/pair/cull.h"
 
+#include "engine/base/fast_paths.h"
+
 namespace tact {
 
 namespace {
@@ -36,6 +38,24 @@ void count_clusters(const CulledPair& culled, PairCounts& counts) {
   counts.cluster_pairs += static_cast<std::int64_t>(culled.cluster_pairs.size());
 }
 
+// Surfaces that lie on each other: that with more clusters is A, whose clusters are looked at one after the other.
+void prepare_surfaces(const PairInput& pair, PairRecord& record, PairWork& work) {
+  CulledPair& culled = work.culled;
+  culled.turned = false;
+  culled.history = nullptr;
+  const bool zones = pair.settings.accuracy == Accuracy::paper || pair.settings.outputs.zones;
+  culled.as_surfaces = !zones && worth_as_surfaces(culled.confirm_input(), culled.cluster_pairs.size());
+  if (!culled.as_surfaces) return;
+  culled.turned = culled.kept_a.count() < culled.kept_b.count();
+  if (culled.turned) turn(culled.cluster_pairs, culled.kept_b.count(), work.cluster_pair_work);
+  if (base::fast_paths() == base::FastPaths::off) return;
+  if (record.surfaces == nullptr) record.surfaces = std::make_unique<SurfaceHistory>();
+  SurfaceHistory& history = *record.surfaces;
+  if (history.start(culled.confirm_input(), culled.cluster_pairs)) culled.history = &history;
+  if (history.wants_travel_of_a()) work.keep_travel.push_back(culled.turned ? record.b : record.a);
+  if (history.wants_travel_of_b()) work.keep_travel.push_back(culled.turned ? record.a : record.b);
+}
+
 }  // namespace
 
 void cull(const PairInput& pair, const Slab& slab, PairRecord& record, EmbreeDevice& device, PairWork& work) {
@@ -54,6 +74,7 @@ void cull(const PairInput& pair, const Slab& slab, PairRecord& record, EmbreeDev
                                         culled.cluster_pairs, work.cluster_pair_work);
   work.counts.tree_pairs += trees ? 1 : 0;
   count_clusters(culled, work.counts);
+  prepare_surfaces(pair, record, work);
 }
 
 }  // namespace tact

@@ -10,6 +10,7 @@
 
 #include "narrowphase/depth/star_surface.h"
 #include "narrowphase/hull/gjk.h"
+#include "narrowphase/triangles/surface_history.h"
 
 namespace tact {
 
@@ -47,8 +48,9 @@ struct alignas(64) PairRecord {
   std::vector<FacetPair> facet_pairs;  ///< sorted
   std::size_t room_left = 0;           ///< for facet pairs, by a large pair that had this record before, see PairTable
   std::vector<Patch> patches;
-  std::vector<ContactPoint> points;                    ///< of pairs in contact, sorted
-  std::unique_ptr<narrowphase::SurfaceShape> surface;  ///< where the search for the smallest separation ended, once
+  std::vector<ContactPoint> points;                       ///< of pairs in contact, sorted
+  std::unique_ptr<narrowphase::SurfaceHistory> surfaces;  ///< of bodies that lie on each other, once
+  std::unique_ptr<narrowphase::SurfaceShape> surface;     ///< where the search for the smallest separation ended, once
 };
 
 inline bool in_contact(const PairRecord& record) { return record.hulls_overlap || record.near; }

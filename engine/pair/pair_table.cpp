@@ -97,6 +97,7 @@ PairRecord& PairTable::new_record(BodyId a, BodyId b) {
   record.facet_pairs.clear();
   record.patches.clear();
   record.points.clear();
+  record.surfaces.reset();
   return record;
 }
 

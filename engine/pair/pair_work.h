@@ -36,13 +36,20 @@ struct CulledPair {
   narrowphase::Criteria criteria_a, criteria_b;
   narrowphase::KeptClusters kept_a, kept_b;
   std::vector<narrowphase::ClusterPair> cluster_pairs;
+  bool as_surfaces = false;  ///< see surface_pairs.h
+  bool turned = false;       ///< for stage 6 the second body is A, and the first is B: so in cluster_pairs
+  narrowphase::SurfaceHistory* history = nullptr;  ///< of the record, if it is of use in this step
 
-  narrowphase::ConfirmInput confirm_input() const { return {a, b, criteria_a, criteria_b, &kept_a, &kept_b}; }
+  narrowphase::ConfirmInput confirm_input() const {
+    if (turned) return {b, a, criteria_b, criteria_a, &kept_b, &kept_a, as_surfaces, history};
+    return {a, b, criteria_a, criteria_b, &kept_a, &kept_b, as_surfaces, history};
+  }
 };
 
 /// A thread's memory for the stages, used again from pair to pair, and its counts of all pairs in a step.
 struct PairWork {
   PairCounts counts;
+  std::vector<BodyId> keep_travel;  ///< bodies that lie on others and would do well to keep how far they go
   narrowphase::FaceFinder faces;
   narrowphase::SmallestMemory smallest;
   std::vector<narrowphase::Point2> zone_points;

@@ -74,7 +74,7 @@ struct KeptFacets {
   Box bounds;                // of their clusters
 
   void clear() {
-    block.count = block.in_cells = 0;
+    block.count = block.cells.count = 0;
     facets = 0;
     bounds = {};
   }

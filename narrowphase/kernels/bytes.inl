@@ -142,25 +142,25 @@ inline void write_places(std::uint64_t set, std::uint8_t* to) {
 
 #endif
 
-// A bit for each facet of `block` that reaches into `cells`, and for some beyond its facets.
+// A bit for each of the facets that reaches into `cells`, and for some beyond them.
 #if defined(TACT_KERNELS_AVX512)
 
-inline std::uint64_t sharing_cells(const CellBox& cells, const FacetBlock& block) {
+inline std::uint64_t sharing_cells(const CellBox& cells, const FacetCells& facets) {
   const auto half = [&](int begin) {
     __mmask32 shared = ~__mmask32{0};
     for (int axis = 0; axis < 3; ++axis) {
       const __m512i lower = _mm512_set1_epi16(cells.lower[axis]), upper = _mm512_set1_epi16(cells.upper[axis]);
-      shared = _mm512_mask_cmple_epi16_mask(shared, _mm512_load_si512(block.lower_cell[axis] + begin), upper);
-      shared = _mm512_mask_cmple_epi16_mask(shared, lower, _mm512_load_si512(block.upper_cell[axis] + begin));
+      shared = _mm512_mask_cmple_epi16_mask(shared, _mm512_load_si512(facets.lower[axis] + begin), upper);
+      shared = _mm512_mask_cmple_epi16_mask(shared, lower, _mm512_load_si512(facets.upper[axis] + begin));
     }
     return std::uint64_t{shared};
   };
-  return block.count <= 32 ? half(0) : half(0) | half(32) << 32;
+  return facets.count <= 32 ? half(0) : half(0) | half(32) << 32;
 }
 
 #elif defined(TACT_KERNELS_AVX2)
 
-inline std::uint64_t sharing_cells(const CellBox& cells, const FacetBlock& block) {
+inline std::uint64_t sharing_cells(const CellBox& cells, const FacetCells& facets) {
   const auto half = [&](int begin) {
     __m256i apart[2] = {_mm256_setzero_si256(), _mm256_setzero_si256()};
     for (int axis = 0; axis < 3; ++axis) {
@@ -169,25 +169,25 @@ inline std::uint64_t sharing_cells(const CellBox& cells, const FacetBlock& block
         const auto at = [&](const std::int16_t* cell) {
           return _mm256_load_si256(reinterpret_cast<const __m256i*>(cell + begin + 16 * k));
         };
-        const __m256i above = _mm256_cmpgt_epi16(at(block.lower_cell[axis]), upper);
-        const __m256i below = _mm256_cmpgt_epi16(lower, at(block.upper_cell[axis]));
+        const __m256i above = _mm256_cmpgt_epi16(at(facets.lower[axis]), upper);
+        const __m256i below = _mm256_cmpgt_epi16(lower, at(facets.upper[axis]));
         apart[k] = _mm256_or_si256(apart[k], _mm256_or_si256(above, below));
       }
     }
     const __m256i bytes = _mm256_permute4x64_epi64(_mm256_packs_epi16(apart[0], apart[1]), 0b11011000);
     return std::uint64_t{~static_cast<std::uint32_t>(_mm256_movemask_epi8(bytes))};
   };
-  return block.count <= 32 ? half(0) : half(0) | half(32) << 32;
+  return facets.count <= 32 ? half(0) : half(0) | half(32) << 32;
 }
 
 #else
 
-inline std::uint64_t sharing_cells(const CellBox& cells, const FacetBlock& block) {
+inline std::uint64_t sharing_cells(const CellBox& cells, const FacetCells& facets) {
   std::uint64_t shared = 0;
-  for (int i = 0; i < block.count; ++i) {
+  for (int i = 0; i < facets.count; ++i) {
     bool all = true;
     for (int axis = 0; axis < 3; ++axis) {
-      all &= block.lower_cell[axis][i] <= cells.upper[axis] && cells.lower[axis] <= block.upper_cell[axis][i];
+      all &= facets.lower[axis][i] <= cells.upper[axis] && cells.lower[axis] <= facets.upper[axis][i];
     }
     shared |= std::uint64_t{all} << i;
   }
@@ -196,7 +196,7 @@ inline std::uint64_t sharing_cells(const CellBox& cells, const FacetBlock& block
 
 #endif
 
-// The cells that those facets of `block` reach that have a bit.
+// The cells that those facets reach that have a bit.
 #if defined(TACT_KERNELS_AVX512) || defined(TACT_KERNELS_AVX2)
 
 // The least of numbers from 0 to 2^15 - 1.
@@ -205,12 +205,12 @@ inline std::int16_t least(__m256i numbers) {
   return static_cast<std::int16_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(eight)));
 }
 
-CellBox cells_of(const FacetBlock& block, std::uint64_t facets) {
+CellBox cells_of(const FacetCells& facets, std::uint64_t some) {
   const __m256i last = _mm256_set1_epi16(0x7fff);
   __m256i lower[3] = {last, last, last}, opposite_upper[3] = {last, last, last};
   const __m256i bit = _mm256_setr_epi16(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, -32768);
-  for (int i = 0; i < block.count; i += 16) {
-    const __m256i bits = _mm256_set1_epi16(static_cast<std::int16_t>(facets >> i));
+  for (int i = 0; i < facets.count; i += 16) {
+    const __m256i bits = _mm256_set1_epi16(static_cast<std::int16_t>(some >> i));
     const __m256i out = _mm256_cmpeq_epi16(_mm256_and_si256(bits, bit), _mm256_setzero_si256());
     const auto widen = [&](__m256i* least, __m256i cells) {
       *least = _mm256_min_epi16(*least, _mm256_blendv_epi8(cells, last, out));
@@ -219,8 +219,8 @@ CellBox cells_of(const FacetBlock& block, std::uint64_t facets) {
       const auto at = [&](const std::int16_t* cell) {
         return _mm256_load_si256(reinterpret_cast<const __m256i*>(cell + i));
       };
-      widen(&lower[axis], at(block.lower_cell[axis]));
-      widen(&opposite_upper[axis], _mm256_sub_epi16(last, at(block.upper_cell[axis])));
+      widen(&lower[axis], at(facets.lower[axis]));
+      widen(&opposite_upper[axis], _mm256_sub_epi16(last, at(facets.upper[axis])));
     }
   }
   CellBox cells;
@@ -233,13 +233,13 @@ CellBox cells_of(const FacetBlock& block, std::uint64_t facets) {
 
 #else
 
-CellBox cells_of(const FacetBlock& block, std::uint64_t facets) {
+CellBox cells_of(const FacetCells& facets, std::uint64_t some) {
   CellBox cells{{0x7fff, 0x7fff, 0x7fff}, {0, 0, 0}};
-  for (; facets != 0; facets &= facets - 1) {
-    const int i = __builtin_ctzll(facets);
+  for (; some != 0; some &= some - 1) {
+    const int i = __builtin_ctzll(some);
     for (int axis = 0; axis < 3; ++axis) {
-      if (block.lower_cell[axis][i] < cells.lower[axis]) cells.lower[axis] = block.lower_cell[axis][i];
-      if (cells.upper[axis] < block.upper_cell[axis][i]) cells.upper[axis] = block.upper_cell[axis][i];
+      if (facets.lower[axis][i] < cells.lower[axis]) cells.lower[axis] = facets.lower[axis][i];
+      if (cells.upper[axis] < facets.upper[axis][i]) cells.upper[axis] = facets.upper[axis][i];
     }
   }
   return cells;

@@ -29,42 +29,35 @@ bool on_lattice(const FacetBlock& block, double step) {
   return true;
 }
 
-// On which side of a plane the corners of a triangle lie.
-template <class Real>
-struct ExactSides {
-  MaskOf<Real> above[3];  // where some corners lie in the plane, these count as below if any lies above, else as above
-  unsigned apart, flat;   // bits: all three strictly on one side; all three in the plane
+// The policy for signs where nothing is rounded.
+template <class Number>
+struct ExactSigns {
+  using Real = Number;
+  static constexpr bool kTrustsZero = true;
 
-  ExactSides(const ClearPlane<Real>& plane, const VectorOf<Real>* corner) {
+  PlaneSides<Real> sides(const VectorOf<Real>* plane, const VectorOf<Real>* corner) const {
+    const ClearPlane<Real> of(plane[0], plane[1], plane[2]);
     const PackOf<Real> zero = spread(Real{0});
+    PlaneSides<Real> sides;
     MaskOf<Real> not_below[3];
     for (int k = 0; k < 3; ++k) {
-      const PackOf<Real> height = plane.height(corner[k]);
-      above[k] = less(zero, height);
+      const PackOf<Real> height = of.height(corner[k]);
+      sides.above[k] = less(zero, height);
       not_below[k] = less_equal(zero, height);
     }
-    const auto any_above = either(either(above[0], above[1]), above[2]);
-    apart = bits(both(both(above[0], above[1]), above[2])) | ~bits(either(either(not_below[0], not_below[1]), not_below[2]));
-    flat = bits(without(both(both(not_below[0], not_below[1]), not_below[2]), any_above));
-    for (int k = 0; k < 3; ++k) above[k] = either(above[k], without(not_below[k], any_above));
+    const auto any_above = any_of(sides.above);
+    sides.apart = bits(all_of(sides.above)) | ~bits(any_of(not_below));
+    sides.flat = bits(without(all_of(not_below), any_above));
+    sides.strict = sides.known = ~0u;
+    for (int k = 0; k < 3; ++k) sides.above[k] = either(sides.above[k], without(not_below[k], any_above));
+    return sides;
+  }
+  PiecesMeet pieces(const CommonLine<Real>& line) const {
+    const PackOf<Real> zero = spread(Real{0});
+    const unsigned meet = bits(both(less_equal(zero, line.p()), less_equal(line.q(), zero)));
+    return {meet, ~meet, 0};
   }
 };
-
-// By the sides of the planes, then by the intervals on their common line: see match_clear_lanes and match_lanes.
-template <class Real>
-inline Meeting match_exact_lanes(const VectorOf<Real>* a, const VectorOf<Real>* b, unsigned mask) {
-  const ExactSides<Real> sides_b({a[0], a[1], a[2]}, b);
-  unsigned left = mask & ~sides_b.apart;
-  if (left == 0) return {0, mask, 0};
-  const ExactSides<Real> sides_a({b[0], b[1], b[2]}, a);
-  left &= ~sides_a.apart;
-  const unsigned flat = left & sides_a.flat, crossing = left & ~(sides_a.flat | sides_b.flat);
-  if (crossing == 0) return {0, mask & ~left, flat};
-  const CommonLine<Real> line(lone_corner<Real>(a, sides_a.above), lone_corner<Real>(b, sides_b.above));
-  const PackOf<Real> zero = spread(Real{0});
-  const unsigned meet = crossing & bits(both(less_equal(zero, line.p()), less_equal(line.q(), zero)));
-  return {meet, (mask & ~left) | (crossing & ~meet), flat};
-}
 
 // Does a side of `t`, which turns to the left where `left` is set, have all of `other` strictly beyond it?
 template <class Real>
@@ -103,7 +96,9 @@ inline Meeting match_exact_flat_lanes(const VectorOf<Real>* a, const VectorOf<Re
 template <class Block>
 inline PairMatches match_exactly(const Block& a, const Block& b, const FacetPairList& pairs) {
   using Corner = const VectorOf<RealIn<Block>>*;
-  const auto decide = [](Corner p, Corner q, unsigned lanes) { return match_exact_lanes(p, q, lanes); };
+  const auto decide = [](Corner p, Corner q, unsigned lanes) {
+    return match_lanes(ExactSigns<RealIn<Block>>{}, p, q, lanes);
+  };
   const auto decide_flat = [](Corner p, Corner q, unsigned lanes) { return match_exact_flat_lanes(p, q, lanes); };
   const std::uint64_t all = ~std::uint64_t{0} >> (FacetPairList::kCapacity - pairs.count);
   PairMatches matches = match_some(a, b, pairs, all, decide);

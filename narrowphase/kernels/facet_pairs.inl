@@ -80,48 +80,6 @@ struct WidePlane {
   }
 };
 
-// On which side of a plane the corners of a triangle certainly lie.
-struct Sides {
-  Mask above[3];     // where some corners lie in the plane, these count as below if any lies above, else as above
-  unsigned apart;    // bits: all three strictly on one side
-  unsigned certain;  // all three strictly on a side
-  unsigned known;    // all three on a side or in the plane
-  unsigned flat;     // all three in the plane
-
-  template <class AnyPlane>
-  Sides(const AnyPlane& plane, const VectorPack* corner) {
-    Mask below[3], zero[3], strict[3], on_any[3];
-    for (int k = 0; k < 3; ++k) {
-      const Determinant height = plane.height(corner[k]);
-      above[k] = height.positive();
-      below[k] = height.negative();
-      zero[k] = height.zero();
-      strict[k] = either(above[k], below[k]);
-      on_any[k] = either(strict[k], zero[k]);
-    }
-    const auto all = [](const Mask* m) { return bits(both(both(m[0], m[1]), m[2])); };
-    apart = all(above) | all(below);
-    certain = all(strict);
-    known = all(on_any);
-    flat = all(zero);
-    const Mask any_above = either(either(above[0], above[1]), above[2]);
-    for (int k = 0; k < 3; ++k) above[k] = either(above[k], without(zero[k], any_above));
-  }
-};
-
-// Bits of lanes that are certain, and of those that hang on a determinant being zero.
-struct IntervalMeeting {
-  unsigned yes, no, by_zero;
-};
-
-template <class AnyPlane>
-inline IntervalMeeting intervals_meet(const CommonLine<double>& line) {
-  const Determinant p = AnyPlane(line.b1, line.a1, line.lone_b).height(line.lone_a);
-  const Determinant q = AnyPlane(line.b2, line.a2, line.lone_b).height(line.lone_a);
-  return {bits(both(either(p.positive(), p.zero()), either(q.negative(), q.zero()))),
-          bits(either(p.negative(), q.positive())), bits(either(p.zero(), q.zero()))};
-}
-
 // The lanes in which no coordinate is so small that a product of three differences that are not zero could vanish: all
 // are zero or at least 2^-200, so differences are at least 2^-252 and products 2^-756.
 inline unsigned nothing_vanishes(const VectorPack* corner) {
@@ -136,42 +94,58 @@ inline unsigned nothing_vanishes(const VectorPack* corner) {
   return ~tiny;
 }
 
-// By the sides of the planes, then by the intervals on their common line.
+// The policy for signs where each determinant has a bound of its own: tight with Plane, wide with WidePlane.
 template <class AnyPlane>
-inline Meeting match_lanes(const VectorPack* a, const VectorPack* b, unsigned mask) {
-  const Sides sides_b(AnyPlane(a[0], a[1], a[2]), b);
-  unsigned left = mask & ~sides_b.apart;
-  if (left == 0) return {0, mask, 0};
-  const Sides sides_a(AnyPlane(b[0], b[1], b[2]), a);
-  left &= ~sides_a.apart;
-  const unsigned certain = left & sides_a.certain & sides_b.certain;
-  const unsigned known = left & sides_a.known & sides_b.known & ~(sides_a.flat | sides_b.flat);
-  const unsigned flat = left & sides_a.flat;
-  if (known == 0 && flat == 0) return {0, mask & ~left, 0};
-  IntervalMeeting meeting = intervals_meet<AnyPlane>({lone_corner<double>(a, sides_a.above), lone_corner<double>(b, sides_b.above)});
-  const unsigned in_plane = known & ~certain, by_zero = in_plane | (known & meeting.by_zero) | flat;
-  unsigned vanishing = 0;
-  if (by_zero != 0) {
-    vanishing = by_zero & ~(nothing_vanishes(a) & nothing_vanishes(b));
-    meeting.yes &= ~vanishing;
-    meeting.no &= ~(vanishing & in_plane);
-  }
-  return {meeting.yes & known, (mask & ~left) | (meeting.no & known), flat & ~vanishing};
-}
+struct BoundedSigns {
+  using Real = double;
+  static constexpr bool kTrustsZero = false;
 
-// The rounding of all pairs together is soon known, and most are clear of it. Where a pair is not, others are likely not.
-inline Meeting match_rounding_lanes(const VectorPack* a, const VectorPack* b, unsigned mask, Pack error, bool* clear) {
-  const Meeting meeting = *clear ? match_clear_lanes(a, b, mask, error) : Meeting{0, 0, 0};
+  PlaneSides<double> sides(const VectorPack* plane, const VectorPack* corner) const {
+    const AnyPlane of(plane[0], plane[1], plane[2]);
+    PlaneSides<double> sides;
+    Mask below[3], zero[3], strict[3], on_any[3];
+    for (int k = 0; k < 3; ++k) {
+      const Determinant height = of.height(corner[k]);
+      sides.above[k] = height.positive();
+      below[k] = height.negative();
+      zero[k] = height.zero();
+      strict[k] = either(sides.above[k], below[k]);
+      on_any[k] = either(strict[k], zero[k]);
+    }
+    sides.apart = bits(all_of(sides.above)) | bits(all_of(below));
+    sides.strict = bits(all_of(strict));
+    sides.known = bits(all_of(on_any));
+    sides.flat = bits(all_of(zero));
+    const Mask any_above = any_of(sides.above);
+    for (int k = 0; k < 3; ++k) sides.above[k] = either(sides.above[k], without(zero[k], any_above));
+    return sides;
+  }
+  PiecesMeet pieces(const CommonLine<double>& line) const {
+    const Determinant p = AnyPlane(line.b1, line.a1, line.lone_b).height(line.lone_a);
+    const Determinant q = AnyPlane(line.b2, line.a2, line.lone_b).height(line.lone_a);
+    return {bits(both(either(p.positive(), p.zero()), either(q.negative(), q.zero()))),
+            bits(either(p.negative(), q.positive())), bits(either(p.zero(), q.zero()))};
+  }
+  unsigned trusts_zero(const VectorPack* corner) const { return nothing_vanishes(corner); }
+};
+using TightSigns = BoundedSigns<Plane>;
+using WideSigns = BoundedSigns<WidePlane>;
+
+// The rounding of all pairs together is soon known, and most are clear of it. Where a pair is not, others are likely
+// not.
+inline Meeting match_rounding_lanes(const VectorPack* a, const VectorPack* b, unsigned mask,
+                                    const LooseSigns<double>& loose, bool* clear) {
+  const Meeting meeting = *clear ? match_lanes(loose, a, b, mask) : Meeting{0, 0, 0};
   *clear = (meeting.yes | meeting.no) == mask;
-  return *clear ? meeting : match_lanes<Plane>(a, b, mask);
+  return *clear ? meeting : match_lanes(TightSigns{}, a, b, mask);
 }
 
 PairMatches match_pairs(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, std::uint64_t which,
                         const BoxBounds& bounds) {
-  const Pack error = rounding_in(bounds);
+  const LooseSigns<double> loose(rounding_in(bounds));
   bool clear = true;
   return match_some(a, b, pairs, which, [&](const VectorPack* p, const VectorPack* q, unsigned lanes) {
-    return match_rounding_lanes(p, q, lanes, error, &clear);
+    return match_rounding_lanes(p, q, lanes, loose, &clear);
   });
 }
 
@@ -191,7 +165,7 @@ std::uint64_t sharing_pairs(const FacetBlock& a, const FacetBlock& b, const Face
 
 PairMatches match_pairs_wide(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, std::uint64_t which) {
   return match_some(a, b, pairs, which, [](const VectorPack* p, const VectorPack* q, unsigned lanes) {
-    return match_lanes<WidePlane>(p, q, lanes & nothing_vanishes(p) & nothing_vanishes(q));
+    return match_lanes(WideSigns{}, p, q, lanes & nothing_vanishes(p) & nothing_vanishes(q));
   });
 }
 

@@ -150,13 +150,13 @@ inline Pack cell(const Grid& grid, int axis, Pack x) {
 }
 
 void find_cells(const Grid& grid, FacetBlock* block) {
-  for (int i = block->in_cells; i < block->count; i += kWidth) {
+  for (int i = block->cells.count; i < block->count; i += kWidth) {
     for (int axis = 0; axis < 3; ++axis) {
-      store_cells(block->lower_cell[axis] + i, cell(grid, axis, load(block->lower[axis] + i)));
-      store_cells(block->upper_cell[axis] + i, cell(grid, axis, load(block->upper[axis] + i)));
+      store_cells(block->cells.lower[axis] + i, cell(grid, axis, load(block->lower[axis] + i)));
+      store_cells(block->cells.upper[axis] + i, cell(grid, axis, load(block->upper[axis] + i)));
     }
   }
-  block->in_cells = block->count;
+  block->cells.count = block->count;
 }
 
 std::uint64_t facing_away(const FacetBlock& block, const HeightAxis& axis) {
@@ -199,7 +199,7 @@ bool any_near(const FacetBlock& block, std::uint64_t candidates, const CellBox& 
               const BoxBounds& bounds) {
   const BoxPack pack(box);
   const Pack error = rounding_in(bounds);
-  for (std::uint64_t left = candidates & sharing_cells(cells, block); left != 0;) {
+  for (std::uint64_t left = candidates & sharing_cells(cells, block.cells); left != 0;) {
     const int i = __builtin_ctzll(left) / kWidth * kWidth;
     if ((static_cast<unsigned>(left >> i) & kAllLanes & ~planes_apart(block, i, pack, error)) != 0) return true;
     left &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
@@ -207,17 +207,17 @@ bool any_near(const FacetBlock& block, std::uint64_t candidates, const CellBox& 
   return false;
 }
 
-std::uint64_t near_facets(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells) {
-  return candidates & sharing_cells(cells, block);
+std::uint64_t near_facets(const FacetCells& facets, std::uint64_t candidates, const CellBox& cells) {
+  return candidates & sharing_cells(cells, facets);
 }
 
-SharedCells share_cells(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, std::uint64_t others,
+SharedCells share_cells(const FacetCells& few, std::uint64_t some, const FacetCells& many, std::uint64_t others,
                         std::uint64_t* met) {
   SharedCells shared{0, 0};
   for (; some != 0; some &= some - 1) {
     const int f = __builtin_ctzll(some);
-    const CellBox cells{{few.lower_cell[0][f], few.lower_cell[1][f], few.lower_cell[2][f]},
-                        {few.upper_cell[0][f], few.upper_cell[1][f], few.upper_cell[2][f]}};
+    const CellBox cells{{few.lower[0][f], few.lower[1][f], few.lower[2][f]},
+                        {few.upper[0][f], few.upper[1][f], few.upper[2][f]}};
     met[f] = others & sharing_cells(cells, many);
     shared.pairs += __builtin_popcountll(met[f]);
     shared.facets |= static_cast<std::uint64_t>(met[f] != 0) << f;

@@ -86,29 +86,59 @@ struct CellBox {
   std::int16_t upper[3];
 };
 
+// The cells that the boxes of facets reach.
+struct alignas(64) FacetCells {
+  static constexpr int kRoom = 64 + 32;
+  std::int16_t lower[3][kRoom];  // cut off at 0 and kLastCell
+  std::int16_t upper[3][kRoom];
+  int count = 0;
+};
+
 // Facets of one or more clusters in separate arrays. Each starts at a cache line, and is longer by what a SIMD loop may
 // write past the end.
 struct alignas(64) FacetBlock {
   static constexpr int kCapacity = 64;
   static constexpr int kRoom = kCapacity + 8;
-  static constexpr int kCellRoom = kCapacity + 32;
-  std::int16_t lower_cell[3][kCellRoom];  // of the first `in_cells` facets, cut off at 0 and kLastCell
-  std::int16_t upper_cell[3][kCellRoom];
+  FacetCells cells;  // of the first facets
   double lower[3][kRoom];
   double upper[3][kRoom];
   double corner[3][3][kRoom];  // corner, axis, facet
   double normal[3][kRoom];     // (c1 - c0) × (c2 - c0), as computed
   std::int32_t facet[kRoom];   // its number in the mesh
   int count = 0;
-  int in_cells = 0;
 };
 
-// The corners of a block's facets in a grid of a single cell that holds them all, rounded to floats.
+// The corners of facets along three axes, rounded to floats.
 struct alignas(64) FloatCorners {
   static constexpr int kRoom = FacetBlock::kCapacity + 16;
   float corner[3][3][kRoom];  // corner, axis, facet
-  double extent[3];           // of the largest facet, in the grid
+  double extent[3];           // of the largest facet
+  double error;               // of any coordinate, at most
   int count;
+};
+
+// The vertices of a cluster as floats about a point near them: those that it owns, then those that it borrows. Each
+// array is a whole number of runs, filled up with the first vertex, and 64 floats of it may be read.
+struct LocalVertices {
+  static constexpr int kRun = 16;
+  static constexpr int kMost = 192 + kRun;
+  float* x;
+  float* y;
+  float* z;
+};
+
+struct LocalRange {
+  float lower, upper;
+};
+
+// Three axes, at most 1 in length each, and a grid along them. A vertex x is at axis · x + offset.
+struct LocalFrame {
+  float axis[3][3];
+  float offset[3];
+  float margin;          // by which boxes of facets are widened before they are put into cells
+  float cell_origin[3];  // cells are cut off at 0 and kLastCell
+  float cell_scale[3];
+  double error;  // of any coordinate, at most
 };
 
 // What facets are judged by.
@@ -174,6 +204,7 @@ struct RefitInput {
   double* z;
   double* boxes;  // of the clusters, see BoxPointers: one array after the other, each box_stride long
   std::int32_t box_stride;
+  double* steps_squared;  // of each cluster, how far an owned vertex goes at most, squared; null: not asked for
 };
 
 // What a refit saw.
@@ -212,16 +243,27 @@ struct Kernels {
   // how many they are.
   Culled (*open_cluster)(const ClusterFacets& cluster, const CullPlanes& planes, FacetBlock* block);
 
+  // The vertices of a cluster: (x - origin) scale, rounded to floats.
+  void (*localize)(const ClusterFacets& cluster, const double* origin, double scale, const LocalVertices& vertices);
+  // A normal of the cluster's surface: of every fourth facet twice the area times the normal, added up.
+  void (*mean_normal)(const LocalVertices& vertices, const ClusterFacets& cluster, float* normal);
+  // How far `count` vertices reach along an axis.
+  LocalRange (*range_along)(const LocalVertices& vertices, int count, const float* axis);
+  // The corners of a cluster's facets in a frame, and the cells of their boxes, of those that reach into the cells
+  // `reached`; of the others both are undefined. Returns which these are.
+  std::uint64_t (*place_facets)(const LocalVertices& vertices, const ClusterFacets& cluster, const LocalFrame& frame,
+                                const CellBox& reached, FloatCorners* corners, FacetCells* cells);
+
   // Finds the cells of the facets that have none yet.
   void (*find_cells)(const Grid& grid, FacetBlock* block);
 
   // A bit for each facet of `block` whose normal is not zero and has axis · normal <= 0.
   std::uint64_t (*facing_away)(const FacetBlock& block, const HeightAxis& axis);
 
-  // The facets of `block` that have a bit in `candidates` and reach into `cells`.
-  std::uint64_t (*near_facets)(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells);
-  // The cells that the facets with a bit reach; of no meaning if there is none.
-  CellBox (*cells_of)(const FacetBlock& block, std::uint64_t facets);
+  // The facets that have a bit in `candidates` and reach into `cells`.
+  std::uint64_t (*near_facets)(const FacetCells& facets, std::uint64_t candidates, const CellBox& cells);
+  // The cells that the facets with a bit in `some` reach; of no meaning if there is none.
+  CellBox (*cells_of)(const FacetCells& facets, std::uint64_t some);
   // Is there a facet of `block` with a bit in `candidates` that reaches into `cells` and whose plane may cut `box`?
   // `box` reaches `cells`; these facets and `box` lie in the box `bounds`.
   bool (*any_near)(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells, const BoxBounds& box,
@@ -229,12 +271,12 @@ struct Kernels {
 
   // For each facet f of `few` with a bit in `some`, writes to met[f] which of the facets `others` of `many` share cells
   // with it.
-  SharedCells (*share_cells)(const FacetBlock& few, std::uint64_t some, const FacetBlock& many, std::uint64_t others,
+  SharedCells (*share_cells)(const FacetCells& few, std::uint64_t some, const FacetCells& many, std::uint64_t others,
                              std::uint64_t* met);
   // For each facet f with a bit in `some` whose met[f] holds at least `plane_from` facets: removes those from met[f]
-  // that certainly lie on one side of the plane of f. For `gap` see match_float_pairs.
+  // that certainly lie on one side of the plane of f, farther away than `slack`. For `gap` see match_float_pairs.
   void (*leave_aside)(const FloatCorners& few, std::uint64_t some, const FloatCorners& many, const double* gap,
-                      int plane_from, std::uint64_t* met);
+                      float slack, int plane_from, std::uint64_t* met);
   // For each facet f with a bit in `some`: moves the pairs of f with the facets in met[f] to the end of `pairs`, until
   // that is full. Returns which f have pairs left.
   std::uint64_t (*list_pairs)(std::uint64_t some, std::uint64_t* met, bool few_are_b, FacetPairList* pairs);

@@ -13,6 +13,7 @@
 #include "narrowphase/kernels/points.inl"
 #include "narrowphase/kernels/refit.inl"
 #include "narrowphase/kernels/sort.inl"
+#include "narrowphase/kernels/surfaces.inl"
 
 namespace tact::narrowphase {
 namespace {
@@ -27,6 +28,10 @@ constexpr Kernels all_kernels(const char* name) {
           .select_overlapping = select_overlapping,
           .cull_boxes = cull_boxes,
           .open_cluster = open_cluster,
+          .localize = localize,
+          .mean_normal = mean_normal,
+          .range_along = range_along,
+          .place_facets = place_facets,
           .find_cells = find_cells,
           .facing_away = facing_away,
           .near_facets = near_facets,

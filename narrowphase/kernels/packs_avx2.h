@@ -85,10 +85,24 @@ inline FloatMask differ(FloatMask a, FloatMask b) { return _mm256_xor_ps(a, b); 
 inline unsigned bits(FloatMask a) { return static_cast<unsigned>(_mm256_movemask_ps(a)); }
 inline FloatPack select(FloatMask mask, FloatPack yes, FloatPack no) { return _mm256_blendv_ps(no, yes, mask); }
 
+inline void store_floats(float* p, FloatPack a) { _mm256_storeu_ps(p, a); }
+inline FloatPack min(FloatPack a, FloatPack b) { return _mm256_min_ps(a, b); }
+inline FloatPack max(FloatPack a, FloatPack b) { return _mm256_max_ps(a, b); }
+
 // Numbers from 0 to 2^15 - 1, without what follows the point.
 inline void store_cells(std::int16_t* p, Pack a) {
   const __m128i numbers = _mm256_cvttpd_epi32(a);
   _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_packs_epi32(numbers, numbers));
+}
+inline void store_cells(std::int16_t* p, FloatPack a) {
+  const __m256i numbers = _mm256_cvttps_epi32(a);
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(p),
+                   _mm_packs_epi32(_mm256_castsi256_si128(numbers), _mm256_extracti128_si256(numbers, 1)));
+}
+inline float largest_lane(FloatPack a) {
+  const __m128 four = _mm_max_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
+  const __m128 two = _mm_max_ps(four, _mm_movehl_ps(four, four));
+  return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
 }
 inline double largest_lane(Pack a) {
   const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1));

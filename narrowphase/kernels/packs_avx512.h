@@ -92,10 +92,18 @@ inline FloatMask differ(FloatMask a, FloatMask b) { return _kxor_mask16(a, b); }
 inline unsigned bits(FloatMask a) { return a; }
 inline FloatPack select(FloatMask mask, FloatPack yes, FloatPack no) { return _mm512_mask_blend_ps(mask, no, yes); }
 
+inline void store_floats(float* p, FloatPack a) { _mm512_storeu_ps(p, a); }
+inline FloatPack min(FloatPack a, FloatPack b) { return _mm512_min_ps(a, b); }
+inline FloatPack max(FloatPack a, FloatPack b) { return _mm512_max_ps(a, b); }
+
 // Numbers from 0 to 2^15 - 1, without what follows the point.
 inline void store_cells(std::int16_t* p, Pack a) {
   _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_cvtepi32_epi16(_mm512_cvttpd_epi32(a)));
 }
+inline void store_cells(std::int16_t* p, FloatPack a) {
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm512_cvtepi32_epi16(_mm512_cvttps_epi32(a)));
+}
+inline float largest_lane(FloatPack a) { return _mm512_reduce_max_ps(a); }
 inline double largest_lane(Pack a) { return _mm512_reduce_max_pd(a); }
 
 }  // namespace

@@ -67,8 +67,14 @@ inline FloatMask less_equal(FloatPack a, FloatPack b) { return a <= b; }
 inline FloatMask less(FloatPack a, FloatPack b) { return a < b; }
 inline FloatPack select(FloatMask mask, FloatPack yes, FloatPack no) { return mask ? yes : no; }
 
+inline void store_floats(float* p, FloatPack a) { *p = a; }
+inline FloatPack min(FloatPack a, FloatPack b) { return a < b ? a : b; }
+inline FloatPack max(FloatPack a, FloatPack b) { return a > b ? a : b; }
+
 // Numbers from 0 to 2^15 - 1, without what follows the point.
 inline void store_cells(std::int16_t* p, Pack a) { *p = static_cast<std::int16_t>(a); }
+inline void store_cells(std::int16_t* p, FloatPack a) { *p = static_cast<std::int16_t>(a); }
+inline float largest_lane(FloatPack a) { return a; }
 inline double largest_lane(Pack a) { return a; }
 
 }  // namespace

@@ -68,6 +68,66 @@ struct Meeting {
   unsigned yes, no, flat;
 };
 
+// On which side of a plane the corners of a triangle lie, as far as a policy for signs tells; bits of lanes.
+template <class Real>
+struct PlaneSides {
+  MaskOf<Real> above[3];  // where some corners lie in the plane, these count as below if any lies above, else as above
+  unsigned apart;         // all three strictly on one side
+  unsigned strict;        // each strictly on a side
+  unsigned known;         // each on a side or in the plane
+  unsigned flat;          // all three in the plane
+};
+
+template <class AnyMask>
+inline AnyMask all_of(const AnyMask (&masks)[3]) {
+  return both(both(masks[0], masks[1]), masks[2]);
+}
+template <class AnyMask>
+inline AnyMask any_of(const AnyMask (&masks)[3]) {
+  return either(either(masks[0], masks[1]), masks[2]);
+}
+
+// Whether the pieces of the common line overlap: bits of lanes, and of those where that hangs on a determinant that is
+// zero.
+struct PiecesMeet {
+  unsigned yes, no, by_zero;
+};
+
+// Do triangles meet? By the sides of their planes, then by their pieces of the common line. A policy says what is known
+// of the signs of determinants:
+//   loose  each is off by the same, at most (clear_pairs.inl)
+//   exact  nothing is rounded (exact_pairs.inl)
+//   tight  each by a bound of its own (facet_pairs.inl)
+//   wide   the same in double-double
+// It has Real; sides(plane of three corners, corners) and pieces(common line); and kTrustsZero: a determinant that
+// comes out as zero is. Otherwise trusts_zero(corners) tells the lanes in which it is.
+template <class Signs>
+inline Meeting match_lanes(const Signs& signs, const VectorOf<typename Signs::Real>* a,
+                           const VectorOf<typename Signs::Real>* b, unsigned mask) {
+  using Real = typename Signs::Real;
+  const PlaneSides<Real> sides_b = signs.sides(a, b);
+  unsigned left = mask & ~sides_b.apart;
+  if (left == 0) return {0, mask, 0};
+  const PlaneSides<Real> sides_a = signs.sides(b, a);
+  left &= ~sides_a.apart;
+  const unsigned known = left & sides_a.known & sides_b.known & ~(sides_a.flat | sides_b.flat);
+  unsigned flat = left & sides_a.flat;
+  if (known == 0 && (Signs::kTrustsZero || flat == 0)) return {0, mask & ~left, flat};
+  PiecesMeet pieces =
+      signs.pieces(CommonLine<Real>(lone_corner<Real>(a, sides_a.above), lone_corner<Real>(b, sides_b.above)));
+  if constexpr (!Signs::kTrustsZero) {
+    const unsigned in_plane = known & ~(sides_a.strict & sides_b.strict);
+    const unsigned by_zero = in_plane | (known & pieces.by_zero) | flat;
+    if (by_zero != 0) {
+      const unsigned vanishing = by_zero & ~(signs.trusts_zero(a) & signs.trusts_zero(b));
+      pieces.yes &= ~vanishing;
+      pieces.no &= ~(vanishing & in_plane);
+      flat &= ~vanishing;
+    }
+  }
+  return {pieces.yes & known, (mask & ~left) | (pieces.no & known), flat};
+}
+
 // What corners are stored in, and how they are picked.
 template <class Block>
 struct CornersIn;

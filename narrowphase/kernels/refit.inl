@@ -21,6 +21,12 @@ inline void prefetch_positions(const RefitInput& in, int i, int count) {
   asm volatile("");  // or GCC 12 may leave it all out
 }
 
+// How far owned vertex i goes to p, squared.
+inline double step_squared(const RefitInput& in, int i, const double* p) {
+  const double dx = p[0] - in.before.x[i], dy = p[1] - in.before.y[i], dz = p[2] - in.before.z[i];
+  return (dx * dx + dy * dy) + dz * dz;
+}
+
 #if defined(TACT_KERNELS_AVX2) || defined(TACT_KERNELS_AVX512)
 
 // A vertex in the low three lanes, zero in the fourth.
@@ -61,6 +67,7 @@ struct RefitLoop {
   const RefitInput& in;
   Bounds even, odd;  // two, so that one need not wait for the other
   __m256d bad = _mm256_setzero_pd();
+  __m256d step = _mm256_setzero_pd();  // squared
   bool changed = false;
 
   __m256d load(const std::int32_t* s) const { return load_vertex(in.source, *s); }
@@ -78,6 +85,13 @@ struct RefitLoop {
     const __m256d x = _mm256_permute2f128_pd(xz02, xz13, 0x20), y = _mm256_permute2f128_pd(y02, y13, 0x20);
     const __m256d z = _mm256_permute2f128_pd(xz02, xz13, 0x31);
     changed = changed || differs(in.before.x + i, x) || differs(in.before.y + i, y) || differs(in.before.z + i, z);
+    if (in.steps_squared != nullptr) {
+      const __m256d dx = _mm256_sub_pd(x, _mm256_loadu_pd(in.before.x + i));
+      const __m256d dy = _mm256_sub_pd(y, _mm256_loadu_pd(in.before.y + i));
+      const __m256d dz = _mm256_sub_pd(z, _mm256_loadu_pd(in.before.z + i));
+      const __m256d flat = _mm256_add_pd(_mm256_mul_pd(dx, dx), _mm256_mul_pd(dy, dy));
+      step = _mm256_max_pd(step, _mm256_add_pd(flat, _mm256_mul_pd(dz, dz)));
+    }
     _mm256_storeu_pd(in.x + i, x);
     _mm256_storeu_pd(in.y + i, y);
     _mm256_storeu_pd(in.z + i, z);
@@ -86,6 +100,7 @@ struct RefitLoop {
   void copy_one(int i) {
     const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i]);
     changed = changed || in.before.x[i] != p[0] || in.before.y[i] != p[1] || in.before.z[i] != p[2];
+    step = _mm256_max_pd(step, _mm256_set1_pd(step_squared(in, i, p)));
     in.x[i] = p[0];
     in.y[i] = p[1];
     in.z[i] = p[2];
@@ -105,6 +120,12 @@ struct RefitLoop {
     if (i < prefetch_until) prefetch_positions(in, i + in.ahead, (end < prefetch_until ? end : prefetch_until) - i);
     if (end - begin >= 4) return copy_four(end - 4);
     for (; i < end; ++i) copy_one(i);
+  }
+
+  double take_step() {
+    const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(step), _mm256_extractf128_pd(step, 1));
+    step = _mm256_setzero_pd();
+    return _mm_cvtsd_f64(_mm_max_sd(two, _mm_unpackhi_pd(two, two)));
   }
 
   void borrow(int begin, int end) {
@@ -131,6 +152,7 @@ Refitted refit_clusters(const RefitInput& in) {
     box.widen(loop.odd);
     // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
     box = {_mm256_add_pd(box.lower, zero), _mm256_add_pd(box.upper, zero)};
+    if (in.steps_squared != nullptr) in.steps_squared[c] = loop.take_step();
     store_three(box.lower, in.boxes + c, in.box_stride);
     store_three(box.upper, in.boxes + c + 3 * static_cast<std::int64_t>(in.box_stride), in.box_stride);
     all.widen(box);
@@ -161,11 +183,13 @@ Refitted refit_clusters(const RefitInput& in) {
   for (int c = in.cluster_begin; c < in.cluster_end; ++c) {
     const std::int32_t* range = in.ranges + 2 * c;
     Bounds box;
+    double step = 0.0;
     for (int i = range[0]; i < range[2]; ++i) {
       if (i < prefetch_until) prefetch_positions(in, i + in.ahead, 1);
       const double* p = in.source + 3 * static_cast<std::int64_t>(in.owned[i]);
       seen.changed = seen.changed || in.before.x[i] != p[0] || in.before.y[i] != p[1] || in.before.z[i] != p[2];
       seen.not_a_number = seen.not_a_number || p[0] != p[0] || p[1] != p[1] || p[2] != p[2];
+      step = max(step, step_squared(in, i, p));
       in.x[i] = p[0];
       in.y[i] = p[1];
       in.z[i] = p[2];
@@ -175,6 +199,7 @@ Refitted refit_clusters(const RefitInput& in) {
       const double* p = in.source + 3 * static_cast<std::int64_t>(in.borrowed[k]);
       box.widen(p, p);
     }
+    if (in.steps_squared != nullptr) in.steps_squared[c] = step;
     // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
     for (int axis = 0; axis < 3; ++axis) {
       const std::int64_t stride = in.box_stride;

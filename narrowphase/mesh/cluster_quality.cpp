@@ -51,7 +51,9 @@ ClusteredMesh clustered_anew(const ClusteredMesh& mesh) {
     for (std::size_t k = 0; k < 3; ++k)
       facets[3 * static_cast<std::size_t>(mesh.source_facet(f)) + k] = mesh.source_vertex(c[k]);
   }
-  return {positions, facets};
+  ClusteredMesh anew(positions, facets);
+  anew.begin_travel_after(mesh);
+  return anew;
 }
 
 std::vector<int> vertex_numbers_in(const ClusteredMesh& other, const ClusteredMesh& mesh) {

@@ -71,6 +71,20 @@ Triangle ClusteredMesh::triangle(int facet) const {
   return {position(c[0]), position(c[1]), position(c[2])};
 }
 
+void ClusteredMesh::keep_travel(bool keep) {
+  if (keep == (travel_ != nullptr)) return;
+  travel_ = keep ? std::make_unique<MeshTravel>(*this) : nullptr;
+  ++travel_epoch_;
+}
+
+void ClusteredMesh::count_travel() {
+  if (travel_ == nullptr) {
+    ++travel_epoch_;
+  } else {
+    travel_->add_steps();
+  }
+}
+
 void ClusteredMesh::validate() const {
   validate_numbers();
   validate_boxes();

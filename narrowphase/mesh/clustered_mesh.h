@@ -8,12 +8,14 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 
 #include "narrowphase/mesh/mesh_memory.h"
 #include "narrowphase/mesh/mesh_placements.h"
 #include "narrowphase/mesh/mesh_topology.h"
+#include "narrowphase/mesh/mesh_travel.h"
 
 namespace tact::narrowphase {
 
@@ -43,6 +45,17 @@ class ClusteredMesh : public MeshTopology {
   void move_to(const MeshMemory& memory);
   bool has_own_memory() const { return own_memory_ != nullptr; }
 
+  /// How far the vertices have gone, if that is kept: from keep_travel(true) on.
+  const MeshTravel* travel() const { return travel_.get(); }
+  MeshTravel* travel() { return travel_.get(); }
+  void keep_travel(bool keep);
+  /// Another number as soon as the mesh has moved and travel() does not tell how far.
+  std::uint64_t travel_epoch() const { return travel_epoch_; }
+  /// This one, with other clusters, stands for `earlier` from now on.
+  void begin_travel_after(const ClusteredMesh& earlier) { travel_epoch_ = earlier.travel_epoch_ + 1; }
+  /// After a refit that changed the mesh.
+  void count_travel();
+
   /// Throws std::logic_error that says what is broken: every source facet stands in one cluster, every used source
   /// vertex has one owner, those of a cluster stand in the caller's order, boxes are the boxes of their vertices. For
   /// tests.
@@ -57,6 +70,8 @@ class ClusteredMesh : public MeshTopology {
 
   MeshPlacements placements_;
   std::unique_ptr<std::byte[]> own_memory_;  // unless move_to() was called
+  std::unique_ptr<MeshTravel> travel_;
+  std::uint64_t travel_epoch_ = 0;
 };
 
 }  // namespace tact::narrowphase

@@ -26,7 +26,7 @@ bool is_within(const Box& box, double largest) {
 
 // Positions are gathered cluster by cluster, in an order that no hardware foresees. A small body was prefetched whole.
 Refitted refit_range(const ClusteredMesh& mesh, const double* positions, int cluster_begin, int cluster_end,
-                     bool prefetch) {
+                     bool prefetch, double* steps_squared) {
   const int ahead = std::clamp(mesh.vertex_count() / 8, kFewestAhead, kMostAhead);
   const PlacementArrays to = arrays_in(mesh.placements().spare_memory(), mesh.counts());
   return kernels().refit_clusters({.source = positions,
@@ -41,16 +41,17 @@ Refitted refit_range(const ClusteredMesh& mesh, const double* positions, int clu
                                    .y = to.y,
                                    .z = to.z,
                                    .boxes = to.cluster_boxes,
-                                   .box_stride = mesh.cluster_count()});
+                                   .box_stride = mesh.cluster_count(),
+                                   .steps_squared = steps_squared});
 }
 
-Refitted refit_in_ranges(const ClusteredMesh& mesh, const double* positions, int per_range,
-                         const RefitOptions& options) {
+Refitted refit_in_ranges(const ClusteredMesh& mesh, const double* positions, int per_range, const RefitOptions& options,
+                         double* steps_squared) {
   std::atomic<bool> any_changed{false}, any_not_a_number{false};
   const int ranges = (mesh.cluster_count() + per_range - 1) / per_range;
   base::parallel_for(static_cast<std::size_t>(ranges), 1, options.threads, [&](std::size_t i) {
     const int begin = static_cast<int>(i) * per_range, end = std::min(begin + per_range, mesh.cluster_count());
-    const Refitted range = refit_range(mesh, positions, begin, end, options.prefetch);
+    const Refitted range = refit_range(mesh, positions, begin, end, options.prefetch, steps_squared);
     if (range.changed) any_changed = true;
     if (range.not_a_number) any_not_a_number = true;
   });
@@ -73,8 +74,9 @@ void refit_groups(const ClusteredMesh& mesh) {
 Refit refit(ClusteredMesh& mesh, const double* positions, const RefitOptions& options) {
   const int per_range = std::clamp(mesh.cluster_count() / (4 * options.threads), kFewestInRange, kMostInRange);
   const bool in_ranges = options.threads > 1 && mesh.cluster_count() > per_range;
-  const Refitted all = in_ranges ? refit_in_ranges(mesh, positions, per_range, options)
-                                 : refit_range(mesh, positions, 0, mesh.cluster_count(), options.prefetch);
+  double* const steps = mesh.travel() == nullptr ? nullptr : mesh.travel()->steps_squared();
+  const Refitted all = in_ranges ? refit_in_ranges(mesh, positions, per_range, options, steps)
+                                 : refit_range(mesh, positions, 0, mesh.cluster_count(), options.prefetch, steps);
   refit_groups(mesh);
   const Box box = in_ranges ? mesh.placements().spare_box() : to_box(all.box);
   const auto is_bad = [&](int source_vertex) {
@@ -86,10 +88,14 @@ Refit refit(ClusteredMesh& mesh, const double* positions, const RefitOptions& op
     return Refit::bad;
   if (!all.changed) return Refit::same;
   mesh.placements().exchange(box);
+  mesh.count_travel();
   return Refit::changed;
 }
 
-void undo_refit(ClusteredMesh& mesh) { mesh.placements().exchange(mesh.placements().spare_box()); }
+void undo_refit(ClusteredMesh& mesh) {
+  mesh.placements().exchange(mesh.placements().spare_box());
+  if (mesh.travel() != nullptr) mesh.travel()->undo();
+}
 
 void prefetch_refit(const ClusteredMesh& mesh, const double* positions) {
   const MeshPlacements& placements = mesh.placements();

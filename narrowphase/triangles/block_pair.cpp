@@ -63,8 +63,8 @@ void BlockPair::find_meeting(const FacetBlock& a, std::uint64_t of_a, const Face
                              const BoxBounds& bounds, const Grid& grid, std::vector<FacetPair>& found,
                              ConfirmCounts& counts) {
   const bool few_are_b = std::popcount(of_b) < std::popcount(of_a);
-  const SharedCells shared =
-      few_are_b ? kernels().share_cells(b, of_b, a, of_a, met_) : kernels().share_cells(a, of_a, b, of_b, met_);
+  const SharedCells shared = few_are_b ? kernels().share_cells(b.cells, of_b, a.cells, of_a, met_)
+                                       : kernels().share_cells(a.cells, of_a, b.cells, of_b, met_);
   counts.facet_box_pairs += shared.pairs;
   if (shared.pairs == 0) return;
   a_ = &a;
@@ -78,7 +78,7 @@ void BlockPair::find_meeting(const FacetBlock& a, std::uint64_t of_a, const Face
   }
   if (in_floats_ && !exact_) {
     const FloatCorners &few = few_are_b ? floats_b_ : floats_a_, &many = few_are_b ? floats_a_ : floats_b_;
-    kernels().leave_aside(few, shared.facets, many, gap_, worth_a_plane(), met_);
+    kernels().leave_aside(few, shared.facets, many, gap_, 0.0f, worth_a_plane(), met_);
   }
   for (std::uint64_t left = shared.facets; left != 0;) {
     pairs_.count = 0;
@@ -89,6 +89,16 @@ void BlockPair::find_meeting(const FacetBlock& a, std::uint64_t of_a, const Face
       found.push_back({pairs_.a[k], pairs_.b[k]});
     }
   }
+}
+
+std::uint64_t BlockPair::meeting_of(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
+                                    const BoxBounds& bounds, ConfirmCounts& counts) {
+  a_ = &a;
+  b_ = &b;
+  bounds_ = bounds;
+  pairs_ = pairs;
+  choose_digits(false);
+  return meeting_of_listed(counts);
 }
 
 // What pairs are decided in, and the grid in which floats are made of their corners.

@@ -38,6 +38,10 @@ class BlockPair {
   void find_meeting(const FacetBlock& a, std::uint64_t of_a, const FacetBlock& b, std::uint64_t of_b,
                     const BoxBounds& bounds, const Grid& grid, std::vector<FacetPair>& found, ConfirmCounts& counts);
 
+  // A bit for each of the listed pairs that meets, all of them in the box `bounds`: in doubles, then exactly.
+  std::uint64_t meeting_of(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
+                           const BoxBounds& bounds, ConfirmCounts& counts);
+
  private:
   Grid choose_digits(bool floats_are_worth_it);
   std::uint64_t meeting_of_listed(ConfirmCounts& counts) const;

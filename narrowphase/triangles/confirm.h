@@ -10,29 +10,11 @@
 #include "narrowphase/criteria/criteria.h"
 #include "narrowphase/triangles/block_pair.h"
 #include "narrowphase/triangles/cluster_forest.h"
+#include "narrowphase/triangles/confirm_input.h"
+#include "narrowphase/triangles/run_join.h"
+#include "narrowphase/triangles/surface_pairs.h"
 
 namespace tact::narrowphase {
-
-// Two bodies after the criteria.
-struct ConfirmInput {
-  const ClusteredMesh* a = nullptr;
-  const ClusteredMesh* b = nullptr;
-  Criteria criteria_a, criteria_b;
-  const KeptClusters* kept_a = nullptr;
-  const KeptClusters* kept_b = nullptr;
-};
-
-// A cluster of A and one of B whose boxes overlap: indices into kept_a and kept_b.
-struct ClusterPair {
-  std::int32_t a = 0;
-  std::int32_t b = 0;
-};
-
-// What the criteria did to a kept cluster that was opened.
-struct OpenedCluster {
-  std::int32_t index = 0;  // into the kept clusters
-  CullCounts counts;
-};
 
 // Where cluster pairs come from.
 enum class ClusterPairSource { automatic, loop, forest };
@@ -40,13 +22,21 @@ enum class ClusterPairSource { automatic, loop, forest };
 // Memory for finding cluster pairs, used again and again.
 struct ClusterPairWork {
   std::vector<std::int32_t> found;
-  ClusterForest forest;
+  std::vector<ClusterPair> pairs;
+  RunJoin join;
 };
 
 // The pairs of kept clusters whose boxes overlap, sorted: by a loop over boxes where they are few, by Embree's trees
 // where they are many. Says whether trees were used. `pairs` is replaced, `work` lends its memory.
 bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPairSource source, EmbreeDevice& device,
                         std::vector<ClusterPair>& pairs, ClusterPairWork& work);
+
+// The same pairs with A and B exchanged, sorted again. There are `clusters` kept clusters of B.
+void turn(std::vector<ClusterPair>& pairs, int clusters, ClusterPairWork& work);
+
+// Do so many cluster pairs show that surfaces lie on each other? Where bodies meet in a small part, the criteria leave
+// few facets of each cluster.
+bool worth_as_surfaces(const ConfirmInput& input, std::size_t cluster_pairs);
 
 // Tests the facets of cluster pairs; one for each thread, its memory reused.
 //
@@ -63,8 +53,8 @@ class FacetPairSearch {
            std::vector<FacetPair>& found, ConfirmCounts& counts);
 
   // The clusters that the last run opened, each once.
-  const std::vector<OpenedCluster>& opened_a() const { return opened_a_; }
-  const std::vector<OpenedCluster>& opened_b() const { return opened_b_; }
+  const std::vector<OpenedCluster>& opened_a() const { return as_surfaces_ ? surfaces_.opened_a() : opened_a_; }
+  const std::vector<OpenedCluster>& opened_b() const { return as_surfaces_ ? surfaces_.opened_b() : opened_b_; }
 
  private:
   struct BlockOfB {
@@ -92,6 +82,8 @@ class FacetPairSearch {
   std::vector<PlaceInB> place_;  // of each kept cluster of B
   BlockPair block_pair_;         // a_ and a block of B
   std::vector<OpenedCluster> opened_a_, opened_b_;
+  SurfacePairSearch surfaces_;
+  bool as_surfaces_ = false;  // in the last run
 };
 
 }  // namespace tact::narrowphase

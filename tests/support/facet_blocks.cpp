@@ -56,10 +56,11 @@ std::vector<FacetPair> paired(const Kernels& kernels, const FacetBlock& a, const
   const FacetBlock &few = few_are_b ? b : a, &many = few_are_b ? a : b;
   Met met{};
   const narrowphase::SharedCells shared =
-      kernels.share_cells(few, all_bits(few.count), many, all_bits(many.count), met.data());
+      kernels.share_cells(few.cells, all_bits(few.count), many.cells, all_bits(many.count), met.data());
   box_pairs += shared.pairs;
   constexpr double kGap[3] = {1.0 / narrowphase::kLastCell, 1.0 / narrowphase::kLastCell, 1.0 / narrowphase::kLastCell};
-  kernels.leave_aside(floats_of(kernels, few), shared.facets, floats_of(kernels, many), kGap, plane_from, met.data());
+  kernels.leave_aside(floats_of(kernels, few), shared.facets, floats_of(kernels, many), kGap, 0.0f, plane_from,
+                      met.data());
   for (std::uint64_t left = shared.facets; left != 0;) {
     FacetPairList pairs;
     left = kernels.list_pairs(left, met.data(), few_are_b, &pairs);

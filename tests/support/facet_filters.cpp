@@ -81,15 +81,15 @@ bool leaves_out(const Kernels& kernels, const FacetBlock& few, const FacetBlock&
   const std::uint64_t bit = std::uint64_t{1} << i;
   const BoxBounds box = box_of(few, i), bounds = bounds_of(few, many, i);
   const CellBox cells = narrowphase::cells_of(grid, box);
-  if (kernels.near_facets(many, bit, cells) == 0) return true;
+  if (kernels.near_facets(many.cells, bit, cells) == 0) return true;
   if (!kernels.any_near(many, bit, cells, box, bounds)) return true;
   std::array<std::uint64_t, FacetBlock::kCapacity> met{};
-  if (kernels.share_cells(few, bit, many, bit, met.data()).pairs == 0) return true;
+  if (kernels.share_cells(few.cells, bit, many.cells, bit, met.data()).pairs == 0) return true;
   const Grid unit = narrowphase::grid_over(bounds, 1.0);
   double gap[3];
   for (int axis = 0; axis < 3; ++axis) gap[axis] = unit.scale[axis] / grid.scale[axis];
-  kernels.leave_aside(float_corners(kernels, few, bit, unit), bit, float_corners(kernels, many, bit, unit), gap, 1,
-                      met.data());
+  kernels.leave_aside(float_corners(kernels, few, bit, unit), bit, float_corners(kernels, many, bit, unit), gap, 0.0f,
+                      1, met.data());
   return met[i] == 0;
 }
 

@@ -44,14 +44,14 @@ TEST(AnyNear, HoldsForEveryFacetThatMeetsOne) {
 // The square z = 0 of a block against boxes beside it in the same cells: its plane tells.
 TEST(AnyNear, APlaneLeavesABoxOnOneSide) {
   FacetBlock block{};
-  block.count = block.in_cells = 1;
+  block.count = block.cells.count = 1;
   const double corner[3][3] = {{0, 0, 0}, {1, 0, 1}, {0, 1, 1}};  // the plane z = x + y
   for (int k = 0; k < 3; ++k) {
     for (int axis = 0; axis < 3; ++axis) block.corner[k][axis][0] = corner[k][axis];
   }
   block.normal[0][0] = block.normal[1][0] = -1.0;
   block.normal[2][0] = 1.0;
-  for (int axis = 0; axis < 3; ++axis) block.upper_cell[axis][0] = 10;
+  for (int axis = 0; axis < 3; ++axis) block.cells.upper[axis][0] = 10;
   const CellBox cells{{0, 0, 0}, {10, 10, 10}};
   const BoxBounds all{{0, 0, 0}, {1, 1, 1}};
   for (const Kernels* kernels : tests::available_kernels()) {

@@ -26,13 +26,13 @@ TEST(CellsOf, AreThoseThatTheFacetsReach) {
       for (const std::uint64_t wanted : {all_bits(64), std::uint64_t{1}, std::uint64_t{0x8421084210842108}}) {
         const std::uint64_t facets = wanted & all_bits(block.count);
         if (facets == 0) continue;
-        const CellBox cells = kernels->cells_of(block, facets);
+        const CellBox cells = kernels->cells_of(block.cells, facets);
         for (int axis = 0; axis < 3; ++axis) {
           std::int16_t first = 0x7fff, last = 0;
           for (int f = 0; f < block.count; ++f) {
             if ((facets >> f & 1) == 0) continue;
-            first = std::min(first, block.lower_cell[axis][f]);
-            last = std::max(last, block.upper_cell[axis][f]);
+            first = std::min(first, block.cells.lower[axis][f]);
+            last = std::max(last, block.cells.upper[axis][f]);
           }
           EXPECT_EQ(cells.lower[axis], first) << kernels->name << " seed " << seed;
           EXPECT_EQ(cells.upper[axis], last) << kernels->name << " seed " << seed;

@@ -27,8 +27,8 @@ using Met = std::array<std::uint64_t, FacetBlock::kCapacity>;
 // The facets of `b` that share cells with one of `a`.
 std::uint64_t facets_sharing_cells(const Kernels& kernels, const FacetBlock& a, int facet, const FacetBlock& b) {
   Met met{};
-  kernels.share_cells(a, std::uint64_t{1} << facet, b, all_bits(b.count), met.data());
-  return met[facet];
+  kernels.share_cells(a.cells, std::uint64_t{1} << facet, b.cells, all_bits(b.count), met.data());
+  return met[static_cast<std::size_t>(facet)];
 }
 
 // Whatever a grid is over, boxes that overlap share cells, also beyond its ends.
@@ -87,9 +87,9 @@ TEST(FindCells, FindsThoseOfAppendedFacets) {
       ASSERT_EQ(one_by_one.count, at_once.count);
       for (int axis = 0; axis < 3; ++axis) {
         for (int f = 0; f < at_once.count; ++f) {
-          EXPECT_EQ(one_by_one.lower_cell[axis][f], at_once.lower_cell[axis][f]) << kernels->name << ' ' << f;
-          EXPECT_EQ(one_by_one.upper_cell[axis][f], at_once.upper_cell[axis][f]) << kernels->name << ' ' << f;
-          EXPECT_GE(at_once.upper_cell[axis][f], at_once.lower_cell[axis][f]);
+          EXPECT_EQ(one_by_one.cells.lower[axis][f], at_once.cells.lower[axis][f]) << kernels->name << ' ' << f;
+          EXPECT_EQ(one_by_one.cells.upper[axis][f], at_once.cells.upper[axis][f]) << kernels->name << ' ' << f;
+          EXPECT_GE(at_once.cells.upper[axis][f], at_once.cells.lower[axis][f]);
         }
       }
     }
@@ -104,8 +104,8 @@ TEST(FindCells, EveryInstructionSetFindsTheSame) {
       const FacetBlock block = block_of(*kernels, mesh, 0);
       for (int axis = 0; axis < 3; ++axis) {
         for (int f = 0; f < expected.count; ++f) {
-          EXPECT_EQ(block.lower_cell[axis][f], expected.lower_cell[axis][f]) << kernels->name;
-          EXPECT_EQ(block.upper_cell[axis][f], expected.upper_cell[axis][f]) << kernels->name;
+          EXPECT_EQ(block.cells.lower[axis][f], expected.cells.lower[axis][f]) << kernels->name;
+          EXPECT_EQ(block.cells.upper[axis][f], expected.cells.upper[axis][f]) << kernels->name;
         }
       }
     }

@@ -22,7 +22,7 @@ constexpr BoxBounds kBox{{-0.4, -0.3, -0.5}, {0.5, 0.4, 0.6}};
 
 bool reaches(const FacetBlock& block, int f, const CellBox& cells) {
   for (int axis = 0; axis < 3; ++axis) {
-    if (block.upper_cell[axis][f] < cells.lower[axis] || cells.upper[axis] < block.lower_cell[axis][f]) return false;
+    if (block.cells.upper[axis][f] < cells.lower[axis] || cells.upper[axis] < block.cells.lower[axis][f]) return false;
   }
   return true;
 }
@@ -37,7 +37,7 @@ TEST(NearFacets, AreTheCandidatesThatReachTheCells) {
            {all_bits(block.count), std::uint64_t{0x5a5a5a5a5a5a5a5a}, std::uint64_t{0}}) {
         std::uint64_t expected = 0;
         for (int f = 0; f < block.count; ++f) expected |= std::uint64_t{reaches(block, f, cells)} << f;
-        EXPECT_EQ(kernels->near_facets(block, candidates & all_bits(block.count), cells), expected & candidates)
+        EXPECT_EQ(kernels->near_facets(block.cells, candidates & all_bits(block.count), cells), expected & candidates)
             << kernels->name << " seed " << seed;
       }
     }

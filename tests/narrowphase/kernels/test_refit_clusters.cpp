@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -51,14 +52,15 @@ class RefitClusters : public testing::Test {
                                    .y = y_.data(),
                                    .z = z_.data(),
                                    .boxes = bounds_.data(),
-                                   .box_stride = static_cast<std::int32_t>(cluster_count())});
+                                   .box_stride = static_cast<std::int32_t>(cluster_count()),
+                                   .steps_squared = steps_.empty() ? nullptr : steps_.data()});
   }
   Box box(std::size_t cluster) const { return BoxView(bounds_.data(), cluster_count())[cluster]; }
   Box expected_box(std::size_t cluster) const {
     Box box;
     const auto widen = [&](const std::vector<std::int32_t>& vertices, std::size_t which) {
       for (std::int32_t i = ranges_[2 * cluster + which]; i < ranges_[2 * cluster + 2 + which]; ++i)
-        box = base::extended(box, mesh_.position(vertices[i]));
+        box = base::extended(box, mesh_.position(vertices[static_cast<std::size_t>(i)]));
     };
     widen(owned_, 0);
     widen(borrowed_, 1);
@@ -73,6 +75,7 @@ class RefitClusters : public testing::Test {
   Mesh mesh_ = tests::blob(1, 1.0, 0.3, 5);
   std::vector<std::int32_t> ranges_, owned_, borrowed_;
   std::vector<double> x_, y_, z_, before_x_, before_y_, before_z_;
+  std::vector<double> steps_;  // empty: nobody asks
 
  private:
   void begin_cluster() {
@@ -127,6 +130,24 @@ TEST_F(RefitClusters, NoticesEveryOwnedCoordinateThatIsNoNumber) {
         EXPECT_TRUE(refit(*kernels).not_a_number) << kernels->name << " vertex " << v;
         mesh_ = sound;
       }
+    }
+  }
+}
+
+TEST_F(RefitClusters, TellsHowFarOwnedVerticesGo) {
+  refit(*scalar_kernels());
+  keep();
+  mesh_ = tests::jittered(mesh_, 0.1, 1);
+  for (const Kernels* kernels : tests::available_kernels()) {
+    steps_.assign(cluster_count(), -1.0);
+    refit(*kernels);
+    for (std::size_t c = 0; c < cluster_count(); ++c) {
+      double longest = 0.0;
+      for (auto i = static_cast<std::size_t>(ranges_[2 * c]); i < static_cast<std::size_t>(ranges_[2 * c + 2]); ++i) {
+        const Vec3 step = mesh_.position(owned_[i]) - Vec3{before_x_[i], before_y_[i], before_z_[i]};
+        longest = std::max(longest, norm_squared(step));
+      }
+      EXPECT_EQ(steps_[c], longest) << kernels->name << " cluster " << c;
     }
   }
 }

@@ -1,0 +1,35 @@
+// What is held against each other to find facet pairs.
+#pragma once
+
+#include <cstdint>
+
+#include "narrowphase/criteria/criteria.h"
+
+namespace tact::narrowphase {
+
+class SurfaceHistory;
+
+// Two bodies after the criteria.
+struct ConfirmInput {
+  const ClusteredMesh* a = nullptr;
+  const ClusteredMesh* b = nullptr;
+  Criteria criteria_a, criteria_b;
+  const KeptClusters* kept_a = nullptr;
+  const KeptClusters* kept_b = nullptr;
+  bool as_surfaces = false;           // see surface_pairs.h; without criterion 1 and zones only
+  SurfaceHistory* history = nullptr;  // of the pair, if it is kept: it has started
+};
+
+// A cluster of A and one of B whose boxes overlap: indices into kept_a and kept_b.
+struct ClusterPair {
+  std::int32_t a = 0;
+  std::int32_t b = 0;
+};
+
+// What the criteria did to a kept cluster that was opened.
+struct OpenedCluster {
+  std::int32_t index = 0;  // into the kept clusters
+  CullCounts counts;
+};
+
+}  // namespace tact::narrowphase

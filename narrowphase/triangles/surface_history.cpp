@@ -1,0 +1,67 @@
+#include "narrowphase/triangles/surface_history.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tact::narrowphase {
+
+namespace {
+
+// A step of less than this part of a cluster's side, a tenth of an edge, is little: a gap of an edge then lasts for
+// some steps. Of a mesh without travel so many vertices are looked at.
+constexpr double kLittle = 1.0 / 128.0;
+constexpr int kLookedAt = 16;
+
+double side_of(const ClusteredMesh& mesh) {
+  constexpr int kMeasured = 16;
+  const int step = (mesh.cluster_count() + kMeasured - 1) / kMeasured;
+  double sum = 0.0;
+  int count = 0;
+  for (int c = 0; c < mesh.cluster_count(); c += step, ++count) {
+    const Box box = mesh.cluster_boxes()[static_cast<std::size_t>(c)];
+    const Vec3 size = box.upper - box.lower;
+    sum += std::max({size.x, size.y, size.z});
+  }
+  return sum / count;
+}
+
+double longest_step(const ClusteredMesh& mesh) {
+  double longest = 0.0;
+  if (mesh.travel() != nullptr) {
+    for (int c = 0; c < mesh.cluster_count(); ++c) longest = std::max(longest, mesh.travel()->last_of(c));
+    return longest;
+  }
+  const PointArrays now = mesh.points(), before = mesh.placements().before().points;
+  const int step = (mesh.vertex_count() + kLookedAt - 1) / kLookedAt;
+  for (int v = 0; v < mesh.vertex_count(); v += step)
+    longest = std::max(longest, norm(Vec3{now.x[v], now.y[v], now.z[v]} - Vec3{before.x[v], before.y[v], before.z[v]}));
+  return longest;
+}
+
+bool moves_little(const ClusteredMesh& mesh) { return longest_step(mesh) < kLittle * side_of(mesh); }
+
+}  // namespace
+
+bool SurfaceHistory::OfBody::start(const ClusteredMesh& now, bool& same) {
+  const bool stands = mesh == &now && epoch == now.travel_epoch();
+  same = same && stands;
+  mesh = &now;
+  epoch = now.travel_epoch();
+  if (stands && now.travel() == nullptr) return true;
+  wants_travel = moves_little(now);
+  return wants_travel && now.travel() != nullptr;
+}
+
+bool SurfaceHistory::start(const ConfirmInput& input, const std::vector<ClusterPair>& pairs) {
+  std::swap(last_, now_);
+  now_.clear();
+  bool same = true;
+  of_a_.wants_travel = of_b_.wants_travel = false;
+  const bool use_a = of_a_.start(*input.a, same), use_b = of_b_.start(*input.b, same);
+  if (!same) last_.clear();
+  if (!use_a || !use_b) return false;
+  now_.resize(pairs.size());
+  return true;
+}
+
+}  // namespace tact::narrowphase
