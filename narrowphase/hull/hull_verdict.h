@@ -2,7 +2,9 @@
 // integers.
 //
 // Doubles decide wherever the bounds of their rounding allow it, see gjk.h. This is for the rest: hulls that touch, and
-// hulls that overlap or are apart by some 1e-15 of their size.
+// hulls that overlap or are apart by some 1e-15 of their size. A pair takes some 0.3 us where the origin lies in GJK's
+// simplex exactly, and some 2.5 us where it does not. A step of a wall of bricks on a lattice takes 1.2 times as long
+// with it, one of a wall turned by any angle, where every contact depends on the last bit, twice as long.
 #pragma once
 
 #include "narrowphase/hull/gjk.h"

@@ -136,7 +136,8 @@ MeetingSearch::Moment MeetingSearch::moment(double time) const {
 double MeetingSearch::allowed_reach(const Moment& begin) const {
   double nearest = dot(begin.direction, begin.corner[0]);
   for (int i = 1; i < count_; ++i) nearest = std::min(nearest, dot(begin.direction, begin.corner[i]));
-  return nearest > reach_ + kDotRounding ? reach_ : kShareOfGap * std::max(nearest, 0.0);
+  const bool is_above = nearest > (1.0 + kJustAbove) * reach_ + kDotRounding;
+  return is_above ? reach_ : kShareOfGap * std::max(nearest, 0.0);
 }
 
 // Goes on between the two next moments: at their middle, or at the ends of the span around the middle that its

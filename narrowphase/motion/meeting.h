@@ -33,8 +33,11 @@ struct Meeting {
   std::int64_t spans = 0;  // that were looked at
 };
 
-/// For a polygon that starts nearer than `reach`, the reach is this share of its distance at the start.
+/// For a polygon that starts nearer than `reach`, or by less than kJustAbove of it above, the reach is this share of
+/// its distance at the start. Who stops before each meeting comes to lie just above the reach, and is not stopped there
+/// again.
 inline constexpr double kShareOfGap = 0.1;
+inline constexpr double kJustAbove = 0x1p-10;
 
 /// When polygons first come within a reach of the origin. One for each thread; its memory is reused.
 class MeetingSearch {

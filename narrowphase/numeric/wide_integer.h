@@ -40,6 +40,17 @@ class WideInteger {
     std::copy(b.limbs_, b.limbs_ + b.size_, limbs_);
   }
 
+  // Only limbs in use are copied.
+  WideInteger(const WideInteger& b) : size_(b.size_), negative_(b.negative_) {
+    std::copy(b.limbs_, b.limbs_ + b.size_, limbs_);
+  }
+  WideInteger& operator=(const WideInteger& b) {
+    size_ = b.size_;
+    negative_ = b.negative_;
+    std::copy(b.limbs_, b.limbs_ + b.size_, limbs_);
+    return *this;
+  }
+
   // -1, 0 or 1.
   int sign() const { return size_ == 0 ? 0 : negative_ ? -1 : 1; }
 

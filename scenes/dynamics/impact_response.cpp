@@ -84,7 +84,7 @@ void weigh(ImpactSide& a, ImpactSide& b, double time) {
 
 }  // namespace
 
-void ImpactResponse::stop(const Impact& impact, const std::vector<std::vector<Vec3>>& begin,
+void ImpactResponse::stop(const Impact& impact, double margins, const std::vector<std::vector<Vec3>>& begin,
                           std::vector<Body>& bodies) const {
   ImpactSide a = side_of(bodies[impact.a.index], begin[impact.a.index], impact.a_vertices);
   ImpactSide b = side_of(bodies[impact.b.index], begin[impact.b.index], impact.b_vertices);
@@ -94,8 +94,9 @@ void ImpactResponse::stop(const Impact& impact, const std::vector<std::vector<Ve
   const double gap = norm(between);
   if (!(give > 0.0) || !(gap > 0.0)) return;
   const Vec3 normal = (1.0 / gap) * between;
-  // Where the normal is that of the impact the two stay as far apart as they were in it.
-  const double missing = gap - dot(normal, b.at(1.0) - a.at(1.0));
+  // Where the normal is that of the impact the two stay as far apart as they were in it, or as they begin.
+  const double kept = std::max(gap, std::min(dot(normal, b.at(0.0) - a.at(0.0)), margins));
+  const double missing = kept - dot(normal, b.at(1.0) - a.at(1.0));
   if (!(missing > 0.0)) return;
   const Vec3 slide = (b.at(1.0) - a.at(1.0)) - (b.at(0.0) - a.at(0.0));
   const Vec3 sideways = slide - dot(slide, normal) * normal;
@@ -126,7 +127,8 @@ void ImpactResponse::run(const std::vector<std::vector<Vec3>>& begin, double sec
     const std::span<const Impact> impacts = detect(Impacts::all).impacts();
     is_free = impacts.empty();
     impacts_ += static_cast<std::int64_t>(impacts.size());
-    for (const Impact& impact : impacts) stop(impact, begin, bodies);
+    for (const Impact& impact : impacts)
+      stop(impact, world.world().margin(impact.a) + world.world().margin(impact.b), begin, bodies);
   }
   while (!is_free) {
     const double first = detect(Impacts::first).first_time();

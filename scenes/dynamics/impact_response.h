@@ -28,7 +28,9 @@ class ImpactResponse {
   double part() const { return part_; }
 
  private:
-  void stop(const Impact& impact, const std::vector<std::vector<Vec3>>& begin, std::vector<Body>& bodies) const;
+  // Two that begin within `margins`, the sum of theirs, stay as far apart as they begin.
+  void stop(const Impact& impact, double margins, const std::vector<std::vector<Vec3>>& begin,
+            std::vector<Body>& bodies) const;
 
   int rounds_ = 0;
   std::int64_t impacts_ = 0;

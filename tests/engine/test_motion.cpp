@@ -269,6 +269,34 @@ TEST(DetectMotion, AWorldThatMovesByTheFirstTimeNeverCrosses) {
   EXPECT_GT(stopped, 100);
 }
 
+// A ball falls on a wall. Each step it goes as far as nothing meets; where detect() finds it within the margins, it is
+// pushed to half their sum. It gets on at every step, comes to rest there, and never comes through.
+TEST(DetectMotion, ASolverThatStopsBeforeImpactsSettlesWithinTheMargins) {
+  constexpr double kStep = 1.0 / 60.0, kMargin = 0.01;
+  BallAndWall scene;
+  scene.world.set_margin(scene.flying, kMargin);
+  scene.world.set_margin(scene.standing, kMargin);
+  scene.world.detect();
+  double z = 1.0, velocity = 0.0, gap = 1.0;
+  int stalled = 0, in_contact = 0;
+  for (int step = 0; step < 300; ++step) {
+    velocity -= 9.81 * kStep;
+    if (gap < 2 * kMargin) velocity = std::max(velocity, 0.2 * (kMargin - gap) / kStep);
+    scene.put(z + kStep * velocity);
+    const double part = std::min(1.0, 0.99 * scene.world.detect_motion(Impacts::first).first_time());
+    stalled += part < 0.1 ? 1 : 0;
+    z += part * kStep * velocity;
+    scene.put(z);
+    const Report& report = scene.world.detect();
+    ASSERT_EQ(report.stats().facet_pairs, 0) << step;
+    gap = report.contacts().empty() ? 1.0 : -report.contacts()[0].depth;
+    in_contact += report.contacts().empty() ? 0 : 1;
+  }
+  EXPECT_LE(stalled, 3);
+  EXPECT_GT(in_contact, 200);
+  EXPECT_NEAR(gap, kMargin, 1e-6);
+}
+
 TEST(DetectMotion, SteadyStepsAllocateNothing) {
   if (base::fast_paths() != base::FastPaths::automatic) GTEST_SKIP() << "decided by TACT_FAST_PATHS";
   const Couple couple = couples()[0];

@@ -21,8 +21,9 @@ enum class Impacts {
 };
 
 /// A vertex and a facet, or two edges, that share a point at some time between the last step and now. Where bodies have
-/// margins: that come as near as the sum of these; or, where they begin nearer, that come to a tenth of the distance
-/// with which they begin, so that a solver that stops before each impact still gets on.
+/// margins: that come as near as the sum of these; or, where they begin nearer, or by less than a thousandth above it,
+/// that come to a tenth of the distance with which they begin. So a solver that stops before each impact still gets on:
+/// what it has stopped at the sum of the margins goes below it next, where detect() reports a contact.
 struct Impact {
   BodyId a;  ///< a.index <= b.index; of a body with itself a == b, and the vertex, or the lesser edge, is that of a
   BodyId b;

@@ -65,6 +65,9 @@ TEST(Meeting, AReachIsMetWhenItIsReached) {
   EXPECT_LE(search.first(facet_seen_from(vertex, facet), 0.25).time, 0.375);
   // It begins nearer than 2, at 1: a tenth of that is allowed.
   EXPECT_NEAR(search.first(facet_seen_from(vertex, facet), 2.0).time, 0.45, 1e-10);
+  // Just above the reach it is not stopped at once; a little more above it is.
+  EXPECT_NEAR(search.first(facet_seen_from(vertex, facet), 0.9995).time, 0.45, 1e-10);
+  EXPECT_NEAR(search.first(facet_seen_from(vertex, facet), 0.998).time, 0.001, 1e-10);
 }
 
 // Their volume is zero throughout.
