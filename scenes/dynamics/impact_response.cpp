@@ -127,8 +127,7 @@ void ImpactResponse::run(const std::vector<std::vector<Vec3>>& begin, double sec
     const std::span<const Impact> impacts = detect(Impacts::all).impacts();
     is_free = impacts.empty();
     impacts_ += static_cast<std::int64_t>(impacts.size());
-    for (const Impact& impact : impacts)
-      stop(impact, world.world().margin(impact.a) + world.world().margin(impact.b), begin, bodies);
+    for (const Impact& impact : impacts) stop(impact, world.margin(impact.a) + world.margin(impact.b), begin, bodies);
   }
   while (!is_free) {
     const double first = detect(Impacts::first).first_time();
