@@ -8,6 +8,7 @@
 #include "bench/scaling/clusters.h"
 #include "bench/scaling/idle.h"
 #include "bench/scaling/motion.h"
+#include "bench/scaling/points.h"
 #include "bench/scaling/refresh.h"
 #include "bench/scaling/scaling.h"
 #include "bench/scaling/stages.h"
@@ -24,6 +25,7 @@ std::vector<Command> commands() {
       {"idle", "steps in which nothing moved, or few of many", run_idle},
       {"busy", "steps beside programs that keep the processor busy", run_busy},
       {"motion", "what meets between two steps, against the inclusion-based method", run_motion, true},
+      {"points", "contact points, against the same step without, and with Embree's and CGAL's boxes", run_points, true},
       {"broadphase", "boxes alone, in every kind of motion, through tact, Embree and CGAL", run_broadphase},
       {"clusters", "pairs of clusters by a loop and by Embree's trees", run_clusters},
       {"error", "run time against error, of every setting and of other libraries", run_error},

@@ -146,7 +146,7 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   find_diagonals(slot, body->mesh);
   wants_diagonals_[slot] = 1;
   groupings_[slot] = {.quality = cluster_quality(body->mesh)};
-  filters_[slot] = {definition.layer, definition.mask, definition.motion == Motion::fixed};
+  filters_[slot] = {definition.layer, definition.mask, definition.motion == Motion::fixed, definition.group};
   slots_[slot].vertex_count = body->mesh.source_vertex_count();
   slots_[slot].fixed = definition.motion == Motion::fixed;
   slots_[slot].begin = Begin::here;
@@ -167,6 +167,7 @@ void Bodies::remove(BodyId id) {
   packed_meshes_.remove(slots_[id.index].body->mesh);
   slots_[id.index].body.reset();
   boxes_[id.index] = base::Box{};
+  std::erase_if(excluded_, [&](const broadphase::IndexPair& pair) { return pair.a == id.index || pair.b == id.index; });
   // No id is given out twice: a slot whose generations are used up stays empty.
   if (id.generation < std::numeric_limits<std::uint32_t>::max()) free_.push_back(id.index);
   std::erase(loose_, id.index);
@@ -393,12 +394,42 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
 }
 
 void Bodies::set_layers(BodyId id, std::uint32_t layer, std::uint32_t mask) {
-  set_filter(id, {layer, mask, filter(id).fixed});
+  broadphase::Filter changed = filter(id);
+  changed.layer = layer;
+  changed.mask = mask;
+  set_filter(id, changed);
 }
 
 void Bodies::set_motion(BodyId id, Motion motion) {
   check_name(motion, Motion::fixed, quoted(at(id).name) + ": motion");
-  set_filter(id, {filter(id).layer, filter(id).mask, motion == Motion::fixed});
+  broadphase::Filter changed = filter(id);
+  changed.fixed = motion == Motion::fixed;
+  set_filter(id, changed);
+}
+
+void Bodies::set_group(BodyId id, std::uint32_t group) {
+  broadphase::Filter changed = filter(id);
+  changed.group = group;
+  set_filter(id, changed);
+}
+
+void Bodies::set_excluded(BodyId a, BodyId b, bool excluded) {
+  if (this->excluded(a, b) == excluded) return;
+  const broadphase::IndexPair pair = slots_of(a, b);
+  if (excluded) {
+    excluded_.insert(std::ranges::upper_bound(excluded_, pair), pair);
+  } else {
+    excluded_.erase(std::ranges::lower_bound(excluded_, pair));
+  }
+  exclusions_changed_ = true;
+  mark_moved(pair.a);
+  mark_moved(pair.b);
+}
+
+bool Bodies::excluded(BodyId a, BodyId b) const {
+  at(a), at(b);
+  if (a == b) throw Error(ErrorCode::bad_settings, quoted(at(a).name) + ": a pair is of two bodies; see self_contact");
+  return excludes(slots_of(a, b));
 }
 
 void Bodies::set_margin(BodyId id, double margin) {
@@ -488,6 +519,7 @@ void Bodies::end_step() {
     slots_[slot].seen = true;
   }
   changed_.clear();
+  exclusions_changed_ = false;
   removed_any_ = false;
   moved_vertices_ = 0;
 }

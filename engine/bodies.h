@@ -4,6 +4,7 @@
 #include <tact/body.h>
 #include <tact/world.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -41,6 +42,10 @@ class Bodies {
   void set_positions(BodyId id, const Positions& positions, int threads);
   void set_layers(BodyId id, std::uint32_t layer, std::uint32_t mask);
   void set_motion(BodyId id, Motion motion);
+  void set_group(BodyId id, std::uint32_t group);
+  void set_excluded(BodyId a, BodyId b, bool excluded);
+  // Errors: stale_body, foreign_body, bad_settings (one body twice).
+  bool excluded(BodyId a, BodyId b) const;
   void set_margin(BodyId id, double margin);
   void set_self_contact(BodyId id, bool wanted);
 
@@ -72,6 +77,11 @@ class Bodies {
   narrowphase::MovingMesh moving(std::uint32_t slot) const;
   // Makes the features that are missing of some bodies, which may be named more than once, in parallel.
   void make_features(std::span<const std::uint32_t> slots, int threads);
+
+  // Pairs of slots that are not tested, sorted; were others before end_step()?
+  bool excludes_any() const { return !excluded_.empty(); }
+  bool excludes(const broadphase::IndexPair& slots) const { return std::ranges::binary_search(excluded_, slots); }
+  bool exclusions_changed() const { return exclusions_changed_; }
 
   // What the broad phase sees, an entry a slot: boxes with their margins; the box of an empty slot is empty.
   std::span<const base::Box> boxes() const { return boxes_; }
@@ -162,6 +172,9 @@ class Bodies {
   void find_diagonals(std::uint32_t slot, const narrowphase::ClusteredMesh& mesh);
   void mark_changed(std::uint32_t slot);
   void mark_moved(std::uint32_t slot);
+  static broadphase::IndexPair slots_of(BodyId a, BodyId b) {
+    return {std::min(a.index, b.index), std::max(a.index, b.index)};
+  }
   void set_filter(BodyId id, const broadphase::Filter& filter);
   static bool is_loose(const Grouping& grouping, double quality);
 
@@ -180,6 +193,8 @@ class Bodies {
   std::vector<std::uint32_t> changed_;
   std::size_t count_ = 0;
   bool removed_any_ = false;
+  std::vector<broadphase::IndexPair> excluded_;
+  bool exclusions_changed_ = false;
   std::int64_t vertices_ = 0;
   std::int64_t moved_vertices_ = 0;
   std::vector<Update> updates_;                   // scratch

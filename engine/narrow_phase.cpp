@@ -15,9 +15,10 @@ namespace {
 
 constexpr std::size_t kFewestAtATime = 4, kMostAtATime = 64;  // pairs
 
+// What it found in the last step, points are remembered.
 void clear_answers(PairRecord& record) {
   record.facet_pairs.clear();
-  record.patches.clear();
+  std::swap(record.points, record.last_points);
   record.points.clear();
 }
 
@@ -70,7 +71,8 @@ void NarrowPhase::look_at(const PairInput& pair, PairRecord& record, PairTable& 
     return ms;
   };
   record.times = {.begin = clock.timer.start(), .thread = thread};
-  if (in_contact(record)) clear_answers(record);
+  record.was_in_contact = in_contact(record);
+  if (record.was_in_contact) clear_answers(record);
 
   const HullTest hulls = test_hulls(pair, record, work);
   const double hulls_ms = note(&PairTimes::hulls_ms, &PairCounts::hulls_ms);

@@ -1,8 +1,10 @@
 #include "engine/patches.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "narrowphase/numeric/double_double.h"
 #include "narrowphase/numeric/unit_scale.h"
@@ -15,23 +17,8 @@ using base::Box;
 using base::Vec3;
 using narrowphase::Triangle;
 
-// Sets of facet pairs, joined by shared facets. The root of a set is its lowest member.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int i) {
-    while (parent(i) != i) i = parent(i) = parent(parent(i));
-    return i;
-  }
-  void join(int i, int j) {
-    i = root(i), j = root(j);
-    parent(std::max(i, j)) = std::min(i, j);
-  }
-
- private:
-  int& parent(int i) { return parent_[static_cast<std::size_t>(i)]; }
-  std::vector<int> parent_;
-};
+// Points of a patch that span less than this part of its size span nothing more.
+constexpr double kSpansNothing = 1e-9;
 
 Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Eigen::Vector3d to_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
@@ -41,6 +28,12 @@ Triangle triangle_of(const Body& body, int source_facet) {
 }
 
 Box box_of(const Triangle& t) { return extended(extended(Box{t[0], t[0]}, t[1]), t[2]); }
+
+Box common_box(const PatchInput& input, const FacetPair& pair) {
+  return intersection(box_of(triangle_of(input.a, pair.a)), box_of(triangle_of(input.b, pair.b)));
+}
+
+Vec3 center_of(const Box& box) { return 0.5 * box.lower + 0.5 * box.upper; }
 
 double longest(const Box& box) {
   const Vec3 size = box.upper - box.lower;
@@ -59,67 +52,275 @@ double highest(const Triangle& t, Vec3 n, Vec3 origin) {
   return std::max({dot(n, t[0] - origin), dot(n, t[1] - origin), dot(n, t[2] - origin)});
 }
 
-std::vector<std::vector<int>> connected(const std::vector<FacetPair>& pairs) {
-  Sets sets(pairs.size());
-  std::vector<int> by_b(pairs.size());
-  std::iota(by_b.begin(), by_b.end(), 0);
-  const auto b_of = [&](int i) { return pairs[static_cast<std::size_t>(i)].b; };
-  std::sort(by_b.begin(), by_b.end(), [&](int i, int j) { return b_of(i) != b_of(j) ? b_of(i) < b_of(j) : i < j; });
-  for (std::size_t i = 1; i < pairs.size(); ++i) {
-    if (pairs[i - 1].a == pairs[i].a) sets.join(static_cast<int>(i) - 1, static_cast<int>(i));
-    if (b_of(by_b[i - 1]) == b_of(by_b[i])) sets.join(by_b[i - 1], by_b[i]);
+Vec3 place(const Body& body, const std::array<int, 3>& vertices, const std::array<double, 3>& weights) {
+  Vec3 p;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (vertices[k] >= 0) p = p + weights[k] * body.mesh.position(body.features->vertex_of_source(vertices[k]));
   }
-  std::vector<std::vector<int>> groups;
-  std::vector<int> group_of(pairs.size(), -1);
-  for (int i = 0; i < static_cast<int>(pairs.size()); ++i) {
-    int& group = group_of[static_cast<std::size_t>(sets.root(i))];
-    if (group < 0) {
-      group = static_cast<int>(groups.size());
-      groups.emplace_back();
-    }
-    groups[static_cast<std::size_t>(group)].push_back(i);
-  }
-  return groups;
+  return p;
 }
 
-Patch make_patch(const Body& a, const Body& b, const PairRecord& record, std::vector<int> members) {
-  const Vec3 contact_direction = from_eigen(record.contact.direction);
+Vec3 place(const PatchInput& input, const ContactPoint& point) {
+  return 0.5 * place(input.a, point.a_vertices, point.a_weights) +
+         0.5 * place(input.b, point.b_vertices, point.b_weights);
+}
+
+// Of a patch without points: the mean normal of its facets, and how far they reach beyond each other along it.
+void shape_by_facets(const PatchInput& input, Patch& patch) {
   Vec3 normal, center;
-  const auto pair = [&](int i) { return record.facet_pairs[static_cast<std::size_t>(i)]; };
   double largest = 0.0;
-  for (const int i : members)
-    largest =
-        std::max({largest, longest(box_of(triangle_of(a, pair(i).a))), longest(box_of(triangle_of(b, pair(i).b)))});
+  const auto pair = [&](int i) { return input.facet_pairs[static_cast<std::size_t>(i)]; };
+  for (const int i : patch.facet_pairs)
+    largest = std::max(
+        {largest, longest(box_of(triangle_of(input.a, pair(i).a))), longest(box_of(triangle_of(input.b, pair(i).b)))});
   const double scale = narrowphase::unit_scale(largest);
-  for (const int i : members) {
-    normal = normal + (area_normal(a, pair(i).a, contact_direction, scale) -
-                       area_normal(b, pair(i).b, -contact_direction, scale));
-    const Box common = intersection(box_of(triangle_of(a, pair(i).a)), box_of(triangle_of(b, pair(i).b)));
-    center = center + (0.5 * common.lower + 0.5 * common.upper);
+  for (const int i : patch.facet_pairs) {
+    normal = normal + (area_normal(input.a, pair(i).a, input.direction, scale) -
+                       area_normal(input.b, pair(i).b, -input.direction, scale));
+    center = center + center_of(common_box(input, pair(i)));
   }
-  const Vec3 point = (1.0 / static_cast<double>(members.size())) * center;
-  const Vec3 n = normal != Vec3{} ? narrowphase::unit_vector(normal) : contact_direction;
+  const Vec3 point = (1.0 / static_cast<double>(patch.facet_pairs.size())) * center;
+  const Vec3 n = normal != Vec3{} ? narrowphase::unit_vector(normal) : input.direction;
   double depth = -std::numeric_limits<double>::infinity();
-  for (const int i : members) {
-    const double reach = highest(triangle_of(a, pair(i).a), n, point) + highest(triangle_of(b, pair(i).b), -n, point);
+  for (const int i : patch.facet_pairs) {
+    const double reach =
+        highest(triangle_of(input.a, pair(i).a), n, point) + highest(triangle_of(input.b, pair(i).b), -n, point);
     depth = std::max(depth, reach);
   }
-  Patch patch;
   patch.point = to_eigen(point);
   patch.direction = to_eigen(n);
   patch.depth = std::max(0.0, depth);
-  patch.facet_pairs = std::move(members);
-  return patch;
+}
+
+// Two unit vectors across n, which is one.
+std::pair<Vec3, Vec3> across(Vec3 n) {
+  const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
+  const Vec3 axis = x <= y && x <= z ? Vec3{1.0, 0.0, 0.0} : y <= z ? Vec3{0.0, 1.0, 0.0} : Vec3{0.0, 0.0, 1.0};
+  const Vec3 u = normalized(cross(n, axis));
+  return {u, cross(n, u)};
 }
 
 }  // namespace
 
-std::vector<Patch> find_patches(const Body& a, const Body& b, const PairRecord& record) {
-  std::vector<Patch> patches;
-  for (std::vector<int>& members : connected(record.facet_pairs)) {
-    patches.push_back(make_patch(a, b, record, std::move(members)));
+int PatchFinder::root(int i) {
+  for (auto at = static_cast<std::size_t>(i); parent_[at] != i; at = static_cast<std::size_t>(i))
+    i = parent_[at] = parent_[static_cast<std::size_t>(parent_[at])];
+  return i;
+}
+
+// The root of a set is its lowest member.
+void PatchFinder::join(int i, int k) {
+  const auto [first, second] = std::minmax({root(i), root(k)});
+  parent_[static_cast<std::size_t>(second)] = first;
+}
+
+void PatchFinder::join_facet_pairs(std::span<const FacetPair> pairs) {
+  by_b_.resize(pairs.size());
+  std::iota(by_b_.begin(), by_b_.end(), 0);
+  const auto b_of = [&](int i) { return pairs[static_cast<std::size_t>(i)].b; };
+  std::sort(by_b_.begin(), by_b_.end(), [&](int i, int j) { return b_of(i) != b_of(j) ? b_of(i) < b_of(j) : i < j; });
+  for (std::size_t i = 1; i < pairs.size(); ++i) {
+    if (pairs[i - 1].a == pairs[i].a) join(static_cast<int>(i) - 1, static_cast<int>(i));
+    if (b_of(by_b_[i - 1]) == b_of(by_b_[i])) join(by_b_[i - 1], by_b_[i]);
   }
-  return patches;
+}
+
+void PatchFinder::collect_corners(std::span<const FacetPair> pairs, std::span<const ContactPoint> points, const Body* a,
+                                  const Body* b) {
+  corners_.clear();
+  const int b_side = a == b ? 0 : 1;  // a body with itself has one kind of vertices
+  const auto add_facet = [&](const Body& body, int source_facet, int side, std::size_t item) {
+    for (const int v : body.mesh.corners(body.mesh.facet_of_source(source_facet)))
+      corners_.push_back({2 * std::int64_t{body.mesh.source_vertex(v)} + side, static_cast<int>(item)});
+  };
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    add_facet(*a, pairs[i].a, 0, i);
+    add_facet(*b, pairs[i].b, b_side, i);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (const int v : points[i].a_vertices) {
+      if (v >= 0) corners_.push_back({2 * std::int64_t{v}, static_cast<int>(pairs.size() + i)});
+    }
+    for (const int v : points[i].b_vertices) {
+      if (v >= 0) corners_.push_back({2 * std::int64_t{v} + b_side, static_cast<int>(pairs.size() + i)});
+    }
+  }
+  std::ranges::sort(corners_);
+}
+
+// Vertex by vertex: its points are held against one for each way that normals point there, facet pairs join the first.
+// Of a body with itself a normal may point either way.
+void PatchFinder::join_points(std::span<const ContactPoint> points, int first_point, bool by_normal) {
+  for (std::size_t begin = 0, end = 0; begin < corners_.size(); begin = end) {
+    while (end < corners_.size() && corners_[end].vertex == corners_[begin].vertex) ++end;
+    ones_.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      if (corners_[i].item < first_point) continue;
+      const auto normal = [&](int item) { return points[static_cast<std::size_t>(item - first_point)].normal; };
+      bool alone = true;
+      for (const int one : ones_) {
+        if (by_normal && !(normal(one).dot(normal(corners_[i].item)) >= 0.0)) continue;
+        join(one, corners_[i].item);
+        alone = false;
+      }
+      if (alone) ones_.push_back(corners_[i].item);
+    }
+    if (ones_.empty()) continue;
+    for (std::size_t i = begin; i < end && corners_[i].item < first_point; ++i) join(corners_[i].item, ones_[0]);
+  }
+}
+
+int PatchFinder::number(std::span<const FacetPair> facet_pairs, std::span<ContactPoint> points, const Body* a,
+                        const Body* b) {
+  parent_.resize(facet_pairs.size() + points.size());
+  std::iota(parent_.begin(), parent_.end(), 0);
+  join_facet_pairs(facet_pairs);
+  collect_corners(facet_pairs, points, a, b);
+  join_points(points, static_cast<int>(facet_pairs.size()), a != b);
+  number_.resize(parent_.size());
+  int count = 0;
+  for (std::size_t i = 0; i < parent_.size(); ++i) {
+    const auto own = static_cast<std::size_t>(root(static_cast<int>(i)));
+    number_[i] = own == i ? count++ : number_[own];
+    if (i >= facet_pairs.size()) points[i - facet_pairs.size()].patch = number_[i];
+  }
+  return count;
+}
+
+// Members of a patch stand together, ascending.
+void PatchFinder::list_members(const PatchInput& input, int count, PatchSet& set) {
+  const std::size_t pairs = input.facet_pairs.size();
+  const auto list = [&](std::size_t first, std::size_t last, std::vector<int>& members,
+                        std::span<const int> Patch::*shown) {
+    begin_.assign(static_cast<std::size_t>(count) + 1, 0);
+    for (std::size_t i = first; i < last; ++i) ++begin_[static_cast<std::size_t>(number_[i]) + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    members.resize(last - first);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+      set.patches[k].*shown = std::span(members).subspan(static_cast<std::size_t>(begin_[k]),
+                                                         static_cast<std::size_t>(begin_[k + 1] - begin_[k]));
+    for (std::size_t i = first; i < last; ++i)
+      members[static_cast<std::size_t>(begin_[static_cast<std::size_t>(number_[i])]++)] = static_cast<int>(i - first);
+  };
+  list(0, pairs, set.facet_pairs, &Patch::facet_pairs);
+  list(pairs, number_.size(), set.points, &Patch::points);
+  set.vertices.clear();
+  for (const Corner& corner : corners_)
+    set.vertices.push_back({corner.vertex, number_[static_cast<std::size_t>(corner.item)]});
+  std::ranges::sort(set.vertices);
+  const auto rest = std::ranges::unique(set.vertices);
+  set.vertices.erase(rest.begin(), rest.end());
+}
+
+void PatchFinder::find(const PatchInput& input, PatchSet& set) {
+  const int count = number(input.facet_pairs, input.points, &input.a, &input.b);
+  set.patches.assign(static_cast<std::size_t>(count), Patch{});
+  list_members(input, count, set);
+  for (Patch& patch : set.patches) {
+    places_.clear();
+    if (patch.points.empty()) {
+      shape_by_facets(input, patch);
+      for (const int i : patch.facet_pairs)
+        places_.push_back(center_of(common_box(input, input.facet_pairs[static_cast<std::size_t>(i)])));
+    } else {
+      shape_by_points(input, patch);
+    }
+    Box all;
+    for (const Vec3& p : places_) all = extended(all, p);
+    const double scale = narrowphase::unit_scale(longest(all));
+    const auto [u, v] = across(from_eigen(patch.direction));
+    const Vec3 center = from_eigen(patch.point);
+    flat_.clear();
+    for (const Vec3& p : places_) flat_.push_back({scale * dot(u, p - center), scale * dot(v, p - center)});
+    if (!patch.points.empty()) span(input, patch, scale);
+    patch.area = area_of_hull(scale);
+  }
+}
+
+// A point weighs as much as it is nearer than the margins: one that comes or goes weighs nothing.
+void PatchFinder::shape_by_points(const PatchInput& input, Patch& patch) {
+  const auto point = [&](int i) -> const ContactPoint& { return input.points[static_cast<std::size_t>(i)]; };
+  double least = std::numeric_limits<double>::infinity();
+  for (const int i : patch.points) least = std::min(least, point(i).gap);
+  const double most = input.reach - least;
+  Vec3 normal, center;
+  double sum = 0.0;
+  for (const int i : patch.points) {
+    const double weight = most > 0.0 ? std::max(0.0, (input.reach - point(i).gap) / most) : 1.0;
+    const Vec3 at = place(input, point(i));
+    places_.push_back(at);
+    const double side = &input.a == &input.b && dot(normal, from_eigen(point(i).normal)) < 0.0 ? -1.0 : 1.0;
+    normal = normal + (side * weight) * from_eigen(point(i).normal);
+    center = center + weight * (at - places_[0]);
+    sum += weight;
+  }
+  const double length = norm(normal);
+  patch.direction = length > 0.0 ? to_eigen((1.0 / length) * normal) : to_eigen(input.direction);
+  patch.point = to_eigen(places_[0] + (1.0 / sum) * center);
+  patch.depth = -least;
+}
+
+// The deepest, the one farthest from it, the one farthest from the line of both, the one that adds most to the three.
+void PatchFinder::span(const PatchInput& input, Patch& patch, double scale) {
+  const auto farthest = [&](const auto& distance) {
+    std::size_t best = 0;
+    double most = -1.0;
+    for (std::size_t i = 0; i < flat_.size(); ++i) {
+      const double one = distance(flat_[i]);
+      if (one > most) best = i, most = one;
+    }
+    return std::pair(best, most);
+  };
+  const auto turn = [](PlanePoint p, PlanePoint q, PlanePoint r) {
+    return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+  };
+  std::array<std::size_t, 4> chosen{};
+  // Of those that are the deepest but for rounding, the one farthest out.
+  double farthest_out = -1.0;
+  for (std::size_t i = 0; i < patch.points.size(); ++i) {
+    const double above = patch.depth + input.points[static_cast<std::size_t>(patch.points[i])].gap;
+    const double out = std::hypot(flat_[i].x, flat_[i].y);
+    if (scale * above <= kSpansNothing && out > farthest_out) chosen[0] = i, farthest_out = out;
+  }
+  const PlanePoint p = flat_[chosen[0]];
+  std::size_t count = 1;
+  const auto [second, length] = farthest([&](PlanePoint r) { return std::hypot(r.x - p.x, r.y - p.y); });
+  if (length > kSpansNothing) {
+    chosen[count++] = second;
+    const PlanePoint q = flat_[second];
+    const auto [third, area] = farthest([&](PlanePoint r) { return std::abs(turn(p, q, r)); });
+    if (area > kSpansNothing) {
+      chosen[count++] = third;
+      const PlanePoint r = flat_[third];
+      const double side = turn(p, q, r) > 0.0 ? 1.0 : -1.0;
+      const auto [fourth, added] = farthest([&](PlanePoint s) {
+        return std::max({-side * turn(p, q, s), -side * turn(q, r, s), -side * turn(r, p, s)});
+      });
+      if (added > kSpansNothing) chosen[count++] = fourth;
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k) patch.spanning[k] = patch.points[chosen[k]];
+}
+
+// That of the convex hull of flat_ (Andrew's monotone chain, 1979).
+double PatchFinder::area_of_hull(double scale) {
+  std::ranges::sort(flat_);
+  const auto turn = [](PlanePoint p, PlanePoint q, PlanePoint r) {
+    return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+  };
+  hull_.clear();
+  for (int half = 0; half < 2; ++half) {
+    const std::size_t first = hull_.size();
+    for (const PlanePoint& p : flat_) {
+      while (hull_.size() >= first + 2 && turn(hull_[hull_.size() - 2], hull_.back(), p) <= 0.0) hull_.pop_back();
+      hull_.push_back(p);
+    }
+    hull_.pop_back();
+    std::ranges::reverse(flat_);
+  }
+  double twice = 0.0;
+  for (std::size_t i = 1; i + 1 < hull_.size(); ++i) twice += turn(hull_[0], hull_[i], hull_[i + 1]);
+  return 0.5 * std::max(0.0, twice) / scale / scale;
 }
 
 }  // namespace tact

@@ -1,16 +1,62 @@
-// The patches of a contact: where two bodies touch in several places, each with a direction and depth of its own.
+// Where two bodies touch in several places, each place with a direction and depth of its own.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "engine/bodies.h"
-#include "engine/pair/pair_record.h"
+#include "engine/patch_set.h"
 
 namespace tact {
 
-// The connected sets of the record's facet pairs, ordered by their first. The direction of a patch is the mean of the
-// normals of its facets, weighted by area, turned to the side of the contact direction where a body is a sheet; without
-// a mean, it is the contact direction.
-std::vector<Patch> find_patches(const Body& a, const Body& b, const PairRecord& record);
+/// Two bodies, or one twice, and what was found between them.
+struct PatchInput {
+  const Body& a;
+  const Body& b;
+  base::Vec3 direction;                    // of the contact, for a patch that has no other
+  double reach = 0.0;                      // the sum of the margins
+  std::span<const FacetPair> facet_pairs;  // sorted
+  std::span<ContactPoint> points;          // sorted
+};
+
+/// Memory of a thread, used again.
+class PatchFinder {
+ public:
+  /// Writes the number of its patch into each point. Facet pairs are neighbours if they share a facet; points if they
+  /// share a vertex of either body and their normals are not opposite; a point and a facet pair if a vertex of the
+  /// point is a corner of the facet of the same body. Patches are numbered by their first facet pair, then by their
+  /// first point. Returns how many there are.
+  int number(std::span<const FacetPair> facet_pairs, std::span<ContactPoint> points, const Body* a, const Body* b);
+
+  /// All but the ids.
+  void find(const PatchInput& input, PatchSet& set);
+
+ private:
+  struct Corner {
+    std::int64_t vertex;  // as in PatchVertex
+    int item;
+    friend auto operator<=>(const Corner&, const Corner&) = default;
+  };
+  struct PlanePoint {
+    double x, y;
+    friend auto operator<=>(const PlanePoint&, const PlanePoint&) = default;
+  };
+  int root(int i);
+  void join(int i, int k);
+  void join_facet_pairs(std::span<const FacetPair> pairs);
+  void join_points(std::span<const ContactPoint> points, int first_point, bool by_normal);
+  void collect_corners(std::span<const FacetPair> pairs, std::span<const ContactPoint> points, const Body* a,
+                       const Body* b);
+  void list_members(const PatchInput& input, int count, PatchSet& set);
+  void shape_by_points(const PatchInput& input, Patch& patch);
+  void span(const PatchInput& input, Patch& patch, double scale);
+  double area_of_hull(double scale);
+
+  std::vector<int> parent_, number_, by_b_, begin_;
+  std::vector<Corner> corners_;
+  std::vector<int> ones_;           // of the points at a vertex, one for each way that normals point
+  std::vector<base::Vec3> places_;  // of the members of a patch
+  std::vector<PlanePoint> flat_, hull_;
+};
 
 }  // namespace tact

@@ -1,8 +1,9 @@
 #include "engine/point_stage.h"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
+#include <tuple>
+#include <utility>
 
 #include "engine/base/parallel.h"
 
@@ -48,71 +49,79 @@ ContactPoint to_point(const FeaturePoint& found, BodyId a, BodyId b) {
   return point;
 }
 
-// Sets of points that are connected by common vertices of either body.
-class PointPatches {
- public:
-  explicit PointPatches(std::span<ContactPoint> points) : points_(points), parent_(points.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0);
+// Do surfaces cross, or touch, of which nobody knows how near they are? Where hulls only touch, nothing has crossed.
+bool cross_each_other(const PairRecord& record, double reach) {
+  return record.hulls_overlap && (!record.facet_pairs.empty() || record.contact.containment != Containment::none) &&
+         (record.contact.depth > 0.0 || reach == 0.0);
+}
+
+// What the vertices of one body remember of the last step, those of its points that were nearest.
+void carry(const PairRecord& record, FeaturePair kind, std::vector<narrowphase::CarriedNormal>& carried) {
+  carried.clear();
+  if (!record.was_in_contact) return;
+  const auto vertex_of = [&](const ContactPoint& point) {
+    return kind == FeaturePair::vertex_facet ? point.a_vertices[0] : point.b_vertices[0];
+  };
+  for (const ContactPoint& point : record.last_points) {
+    if (point.kind == kind)
+      carried.push_back({vertex_of(point), {point.normal.x(), point.normal.y(), point.normal.z()}, point.gap});
   }
+  std::ranges::sort(carried, {}, [](const narrowphase::CarriedNormal& one) {
+    return std::tuple(one.vertex, one.gap, one.normal.x, one.normal.y, one.normal.z);
+  });
+  const auto rest = std::ranges::unique(carried, {}, &narrowphase::CarriedNormal::vertex);
+  carried.erase(rest.begin(), rest.end());
+}
 
-  // Numbers the patches by their first point.
-  void number() {
-    join_by(&ContactPoint::a_vertices);
-    join_by(&ContactPoint::b_vertices);
-    int count = 0;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const std::size_t root = root_of(i);
-      points_[i].patch = root == i ? count++ : points_[root].patch;
-    }
-  }
-
- private:
-  std::size_t root_of(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
-  // The root of a set is its first point.
-  void join(std::size_t i, std::size_t k) {
-    const auto [first, second] = std::minmax({root_of(i), root_of(k)});
-    parent_[second] = first;
-  }
-
-  void join_by(std::array<int, 3> ContactPoint::*vertices) {
-    at_.clear();
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      for (const int v : points_[i].*vertices) {
-        if (v >= 0) at_.emplace_back(v, i);
-      }
-    }
-    std::ranges::sort(at_);
-    for (std::size_t k = 1; k < at_.size(); ++k) {
-      if (at_[k].first == at_[k - 1].first) join(at_[k].second, at_[k - 1].second);
-    }
-  }
-
-  std::span<ContactPoint> points_;
-  std::vector<std::size_t> parent_;
-  std::vector<std::pair<int, std::size_t>> at_;  // vertex, point
-};
-
-// In an order that depends on features alone.
-void publish(std::span<FeaturePoint> found, BodyId a, BodyId b, std::vector<ContactPoint>& points) {
-  std::ranges::sort(found, {}, &FeaturePoint::features);
-  points.clear();
-  points.reserve(found.size());
-  for (const FeaturePoint& one : found) points.push_back(to_point(one, a, b));
-  PointPatches(points).number();
+narrowphase::SurfaceKind kind_of(const Body& body) {
+  return body.surface == Surface::closed ? narrowphase::SurfaceKind::closed : narrowphase::SurfaceKind::sheet;
 }
 
 }  // namespace
+
+void PointStage::cross(const Wanted& wanted, const Bodies& bodies, Work& work) {
+  const PairRecord& record = *wanted.record;
+  const Eigen::Vector3d& direction = record.contact.direction;
+  const base::Vec3 contact{direction.x(), direction.y(), direction.z()};
+  if (!cross_each_other(record, wanted.reach)) {
+    // What touches in a vertex or an edge has no side of its own.
+    for (FeaturePoint& point : work.found) {
+      if (point.gap == 0.0 && dot(point.normal, contact) < 0.0) point.normal = -point.normal;
+    }
+    return;
+  }
+  carry(record, FeaturePair::vertex_facet, work.carried_a);
+  carry(record, FeaturePair::facet_vertex, work.carried_b);
+  work.crossing.run({.a = bodies.featured(wanted.a),
+                     .b = bodies.featured(wanted.b),
+                     .surface_a = kind_of(bodies.in_slot(wanted.a)),
+                     .surface_b = kind_of(bodies.in_slot(wanted.b)),
+                     .direction = contact,
+                     .depth = record.contact.depth,
+                     .facet_pairs = record.facet_pairs,
+                     .carried_a = work.carried_a,
+                     .carried_b = work.carried_b},
+                    work.found);
+}
+
+// In an order that depends on features alone.
+void PointStage::publish(const Wanted& wanted, const Bodies& bodies, Work& work) const {
+  std::ranges::sort(work.found, {}, &FeaturePoint::features);
+  const Body &a = bodies.in_slot(wanted.a), &b = bodies.in_slot(wanted.b);
+  std::vector<ContactPoint>& points = *wanted.points;
+  points.clear();
+  if (points.capacity() < work.found.size()) points.reserve(work.found.size() + work.found.size() / 4);
+  for (const FeaturePoint& one : work.found) points.push_back(to_point(one, a.id, b.id));
+  if (numbers_patches_) work.patches.number({}, points, &a, &b);
+}
 
 void PointStage::select(std::span<const MovedPair> moved, const Bodies& bodies) {
   wanted_.clear();
   for (const MovedPair& pair : moved) {
     PairRecord& record = *pair.record;
     const double reach = bodies.reach(record.a.index, record.b.index);
-    if (in_contact(record) && reach > 0.0) wanted_.push_back({record.a.index, record.b.index, reach, &record.points});
+    if ((in_contact(record) && reach > 0.0) || cross_each_other(record, reach))
+      wanted_.push_back({record.a.index, record.b.index, reach, &record.points, &record});
   }
 }
 
@@ -124,6 +133,7 @@ void PointStage::make_features(Bodies& bodies, int threads) {
 
 void PointStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Settings& settings,
                      narrowphase::EmbreeDevice& device) {
+  numbers_patches_ = !settings.outputs.patches;  // or that is done with the facet pairs
   select(moved, bodies);
   make_features(bodies, settings.threads);
   work_.resize(static_cast<std::size_t>(settings.threads));
@@ -132,12 +142,15 @@ void PointStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Set
     Work& work = work_[static_cast<std::size_t>(thread)];
     const Wanted& wanted = wanted_[i];
     const auto a = bodies.featured(wanted.a), b = bodies.featured(wanted.b);
-    const auto pairs = work.near.find(a, b, wanted.reach, device);
-    is_large_[i] = settings.threads > 1 && pairs.size() > kLargePair;
-    if (is_large_[i]) return;
     work.found.clear();
-    work.search.run(a, b, wanted.reach, pairs, work.found);
-    publish(work.found, bodies.in_slot(wanted.a).id, bodies.in_slot(wanted.b).id, *wanted.points);
+    if (wanted.reach > 0.0) {
+      const auto pairs = work.near.find(a, b, wanted.reach, device);
+      is_large_[i] = settings.threads > 1 && pairs.size() > kLargePair;
+      if (is_large_[i]) return;
+      work.search.run(a, b, wanted.reach, pairs, work.found);
+    }
+    cross(wanted, bodies, work);
+    publish(wanted, bodies, work);
   });
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     if (!is_large_[i]) continue;
@@ -153,7 +166,8 @@ void PointStage::run_self(std::uint32_t slot, Bodies& bodies, const Settings& se
   points.clear();
   const double reach = bodies.reach(slot, slot);
   if (reach == 0.0) return;
-  wanted_.assign(1, {slot, slot, reach, &points});
+  numbers_patches_ = !settings.outputs.patches;
+  wanted_.assign(1, {slot, slot, reach, &points, nullptr});
   make_features(bodies, settings.threads);
   work_.resize(static_cast<std::size_t>(settings.threads));
   const auto mesh = bodies.featured(slot);
@@ -175,7 +189,8 @@ void PointStage::search_in_ranges(const Wanted& wanted, const Bodies& bodies, st
   std::vector<FeaturePoint>& found = work_[0].found;
   found.clear();
   for (std::size_t i = 0; i < ranges; ++i) found.insert(found.end(), ranges_[i].begin(), ranges_[i].end());
-  publish(found, bodies.in_slot(wanted.a).id, bodies.in_slot(wanted.b).id, *wanted.points);
+  if (wanted.record != nullptr) cross(wanted, bodies, work_[0]);
+  publish(wanted, bodies, work_[0]);
 }
 
 }  // namespace tact

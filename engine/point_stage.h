@@ -9,13 +9,16 @@
 
 #include "engine/bodies.h"
 #include "engine/pair/pair_table.h"
+#include "engine/patches.h"
 #include "narrowphase/contact_points/contact_points.h"
+#include "narrowphase/contact_points/crossing.h"
 
 namespace tact {
 
 class PointStage {
  public:
-  /// Finds the points of every pair of `moved` that is in contact and has a margin, each into its record.
+  /// Finds the points of every pair of `moved` that is in contact and has a margin, or facets that meet, or of which
+  /// one body is inside the other; each into its record.
   void run(std::span<const MovedPair> moved, Bodies& bodies, const Settings& settings,
            narrowphase::EmbreeDevice& device);
   /// The points of a body with itself, into `points`, on all threads.
@@ -27,23 +30,30 @@ class PointStage {
   struct Work {
     narrowphase::NearClusters near;
     narrowphase::ContactPointSearch search;
+    narrowphase::CrossingSearch crossing;
+    std::vector<narrowphase::CarriedNormal> carried_a, carried_b;
     std::vector<narrowphase::FeaturePoint> found;
+    PatchFinder patches;
   };
   /// Two bodies, or one twice.
   struct Wanted {
     std::uint32_t a = 0, b = 0;
     double reach = 0.0;
     std::vector<ContactPoint>* points = nullptr;
+    const PairRecord* record = nullptr;  // of two bodies
   };
   void select(std::span<const MovedPair> moved, const Bodies& bodies);
   void make_features(Bodies& bodies, int threads);
+  void publish(const Wanted& wanted, const Bodies& bodies, Work& work) const;
+  static void cross(const Wanted& wanted, const Bodies& bodies, Work& work);
   void search_in_ranges(const Wanted& wanted, const Bodies& bodies, std::span<const narrowphase::ClusterPair> pairs,
                         int threads);
 
   std::vector<Wanted> wanted_;
   std::vector<std::uint32_t> slots_;  // scratch
   std::vector<Work> work_;            // a thread each
-  std::vector<char> is_large_;        // of the wanted ones
+  bool numbers_patches_ = true;
+  std::vector<char> is_large_;  // of the wanted ones
   std::vector<std::vector<narrowphase::FeaturePoint>> ranges_;
 };
 

@@ -56,6 +56,7 @@ std::uint64_t Report::hash() const {
     hash.add(static_cast<std::uint64_t>(contact.limit_reached));
     hash.add(static_cast<std::uint64_t>(contact.kept_facets_a));
     hash.add(static_cast<std::uint64_t>(contact.kept_facets_b));
+    if (contact.containment != Containment::none) hash.add(static_cast<std::uint64_t>(contact.containment));
     for (const FacetPair pair : contact.facet_pairs()) {
       hash.add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(pair.a)) << 32 |
                static_cast<std::uint32_t>(pair.b));

@@ -37,7 +37,7 @@ void ReportWriter::fill(Contact& contact, const PairRecord& record) {
   contact = record.contact;
   contact.points_ = record.points;
   contact.facet_pairs_ = record.facet_pairs;
-  contact.patches_ = record.patches;
+  if (record.patches != nullptr) contact.patches_ = record.patches->now.patches;
 }
 
 void ReportWriter::fill(Contact& contact, const SelfRecord& record) {
@@ -45,6 +45,7 @@ void ReportWriter::fill(Contact& contact, const SelfRecord& record) {
   contact.a = contact.b = record.body;
   contact.facet_pairs_ = record.facet_pairs;
   contact.points_ = record.points;
+  contact.patches_ = record.patches.now.patches;
 }
 
 template <class Record>
@@ -67,7 +68,7 @@ void ReportWriter::write(PairTable& table, const SelfStage& self, int threads) {
     carry_contacts(table, threads);
   }
   write_contacts(table, threads);
-  write_events(table);
+  write_events(table, self);
   StepStats& stats = report_.stats_;
   stats.contacts = static_cast<std::int64_t>(report_.contacts_.size());
   stats.facet_pairs = totals_.facet_pairs;
@@ -139,15 +140,17 @@ void ReportWriter::write_contacts(PairTable& table, int threads) {
 }
 
 // Only pairs that this step looked at can begin or cease to touch, and those that are no candidates any more.
-void ReportWriter::write_events(const PairTable& table) {
+void ReportWriter::write_events(const PairTable& table, const SelfStage& self) {
   const auto event_of = [](const PairRecord& record) { return ContactEvent{record.a, record.b}; };
-  report_.began_.clear();
+  report_.began_.assign(self.began().begin(), self.began().end());
   report_.ended_.assign(table.gone().begin(), table.gone().end());
+  report_.ended_.insert(report_.ended_.end(), self.ended().begin(), self.ended().end());
   for (const MovedPair& pair : table.moved()) {
     const bool touches = table.touches_now(pair);
     if (touches && !pair.touched) report_.began_.push_back(event_of(*pair.record));
     if (!touches && pair.touched) report_.ended_.push_back(event_of(*pair.record));
   }
+  std::sort(report_.began_.begin(), report_.began_.end(), before);
   std::sort(report_.ended_.begin(), report_.ended_.end(), before);
 }
 

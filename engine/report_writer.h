@@ -18,6 +18,7 @@ class ReportWriter {
   const Report& report() const { return report_; }
   StepStats& stats() { return report_.stats_; }
   std::vector<TraceEvent>& trace() { return report_.trace_; }
+  std::vector<PatchEvent>& patch_events() { return report_.patch_events_; }
 
   /// Candidate pairs, contacts and events as the records have them now, and the counts of contacts.
   void write(PairTable& table, const SelfStage& self, int threads);
@@ -46,7 +47,7 @@ class ReportWriter {
   void carry_contacts(PairTable& table, int threads);
   void write_candidates(const PairTable& table, bool same);
   void write_contacts(PairTable& table, int threads);
-  void write_events(const PairTable& table);
+  void write_events(const PairTable& table, const SelfStage& self);
   void add_thread_totals();
 
   Report report_;

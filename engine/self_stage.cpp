@@ -1,6 +1,7 @@
 #include "engine/self_stage.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/base/parallel.h"
 
@@ -15,14 +16,24 @@ constexpr std::size_t kPairsAtATime = 32;
 
 void SelfStage::run(Bodies& bodies, const Settings& settings, bool all, PointStage& points,
                     narrowphase::EmbreeDevice& device) {
+  gone_patches_.clear();
+  began_.clear();
+  ended_.clear();
   const auto look_at = [&](std::uint32_t slot) {
-    if (slot < records_.size() && (!bodies.used(slot) || !bodies.in_slot(slot).self_contact)) records_[slot].reset();
-    if (!bodies.used(slot) || !bodies.in_slot(slot).self_contact) return;
+    const bool is_wanted = bodies.used(slot) && bodies.in_slot(slot).self_contact;
+    if (slot < records_.size() && records_[slot] != nullptr &&
+        (!is_wanted || records_[slot]->body != bodies.in_slot(slot).id)) {
+      SelfRecord& gone = *records_[slot];
+      gone.patches.end_all(gone.body, gone.body, gone_patches_);
+      records_[slot].reset();
+    }
+    if (!is_wanted) return;
     any_ = true;
     SelfRecord& one = record(slot);
     one.body = bodies.in_slot(slot).id;
     one.facet_pairs.clear();
     one.points.clear();
+    one.looked_at = true;
     if (settings.accuracy != Accuracy::hulls) find_facet_pairs(one, bodies, settings.threads, device);
     if (settings.outputs.points) points.run_self(slot, bodies, settings, device, one.points);
   };
@@ -70,6 +81,34 @@ void SelfStage::select() {
     if (one != nullptr && one->in_contact()) contacts_.push_back(one.get());
   }
   same_ = contacts_ == last_contacts_;
+  std::swap(touching_, last_touching_);
+  touching_.clear();
+  for (const SelfRecord* one : contacts_) touching_.push_back(one->body);
+  // Both ascend by slot, which comes first in an id.
+  const auto without = [](const std::vector<BodyId>& those, const std::vector<BodyId>& others,
+                          std::vector<ContactEvent>& events) {
+    for (const BodyId body : those) {
+      if (!std::ranges::binary_search(others, body)) events.push_back({body, body});
+    }
+  };
+  without(touching_, last_touching_, began_);
+  without(last_touching_, touching_, ended_);
+}
+
+void SelfStage::find_patches(const Bodies& bodies, PatchStage& stage, std::vector<PatchEvent>& events) {
+  events.insert(events.end(), gone_patches_.begin(), gone_patches_.end());
+  for (const std::unique_ptr<SelfRecord>& one : records_) {
+    if (one == nullptr || !std::exchange(one->looked_at, false)) continue;
+    const std::uint32_t slot = one->body.index;
+    stage.find_self(bodies.in_slot(slot), bodies.reach(slot, slot), one->facet_pairs, one->points, one->patches);
+    stage.name(one->body, one->body, one->patches, events);
+  }
+}
+
+void SelfStage::forget_patches() {
+  for (const std::unique_ptr<SelfRecord>& one : records_) {
+    if (one != nullptr) one->patches = {};
+  }
 }
 
 }  // namespace tact

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/bodies.h"
+#include "engine/patch_stage.h"
 #include "engine/point_stage.h"
 #include "narrowphase/self/self_facet_pairs.h"
 
@@ -21,6 +22,8 @@ struct SelfRecord {
   BodyId body;
   std::vector<FacetPair> facet_pairs;  // sorted, a < b
   std::vector<ContactPoint> points;
+  PatchMemory patches;
+  bool looked_at = false;  // in this step
   bool in_contact() const { return !facet_pairs.empty() || !points.empty(); }
 };
 
@@ -29,9 +32,19 @@ class SelfStage {
   /// Looks at every body that wants it and has changed since the last step, or at all of them.
   void run(Bodies& bodies, const Settings& settings, bool all, PointStage& points, narrowphase::EmbreeDevice& device);
   /// Nothing has changed.
-  void keep() { same_ = true; }
+  void keep() {
+    same_ = true;
+    began_.clear();
+    ended_.clear();
+  }
   /// The bodies in contact with themselves, ascending by slot.
   std::span<const SelfRecord* const> contacts() const { return contacts_; }
+  /// Finds and names the patches of the bodies that were looked at.
+  void find_patches(const Bodies& bodies, PatchStage& stage, std::vector<PatchEvent>& events);
+  void forget_patches();
+  /// Bodies that began to touch themselves in the last run(), or ceased to; those that are no more among them.
+  std::span<const ContactEvent> began() const { return began_; }
+  std::span<const ContactEvent> ended() const { return ended_; }
   /// Are these the bodies of the step before?
   bool same_contacts() const { return same_; }
 
@@ -42,6 +55,9 @@ class SelfStage {
 
   std::vector<std::unique_ptr<SelfRecord>> records_;  // by slot; null where none is wanted
   std::vector<const SelfRecord*> contacts_, last_contacts_;
+  std::vector<BodyId> touching_, last_touching_;
+  std::vector<ContactEvent> began_, ended_;
+  std::vector<PatchEvent> gone_patches_;
   bool same_ = true;
   bool any_ = false;
   narrowphase::SelfClusters clusters_;

@@ -1,10 +1,12 @@
 #include "engine/step.h"
 
+#include <algorithm>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "engine/base/parallel.h"
 #include "engine/base/timer.h"
-#include "engine/patches.h"
 #include "engine/step_statistics.h"
 
 namespace tact {
@@ -39,6 +41,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   writer_.write(table_, self_, settings.threads);
   count_bodies(bodies, stats);
   count_pairs(table_, stats);
+  stats.named_excluded_pairs = static_cast<std::int64_t>(table_.excluded());
   bodies.end_step();
   all_ = false;
   const double report_ms = timer.lap();
@@ -57,9 +60,10 @@ void Step::look_at_pairs(Bodies& bodies, const Settings& settings, Timer& timer,
   stats.sweep_ms = timer.lap();
 
   narrow_phase_.run(table_, bodies, settings, device_, timer);
-  if (settings.outputs.patches && settings.accuracy != Accuracy::hulls) find_all_patches(bodies, settings.threads);
+  containment_.run(table_.moved(), bodies, settings);
   if (settings.outputs.points) points_.run(table_.moved(), bodies, settings, device_);
   self_.run(bodies, settings, all_, points_, device_);
+  find_patches(bodies, settings);
   count_work(narrow_phase_, stats);
   stats.narrow_phase_ms = timer.lap();
 }
@@ -69,15 +73,25 @@ void Step::keep_last_answers() {
   table_.keep();
   self_.keep();
   narrow_phase_.forget_large();
+  writer_.patch_events().clear();
 }
 
-void Step::find_all_patches(const Bodies& bodies, int threads) {
-  const std::span<const MovedPair> moved = table_.moved();
-  base::parallel_for(moved.size(), 4, threads, [&](std::size_t i) {
-    if (!table_.touches_now(moved[i])) return;
-    PairRecord& record = *moved[i].record;
-    record.patches = find_patches(bodies.in_slot(record.a.index), bodies.in_slot(record.b.index), record);
-  });
+void Step::find_patches(const Bodies& bodies, const Settings& settings) {
+  std::vector<PatchEvent>& events = writer_.patch_events();
+  events.assign(table_.gone_patches().begin(), table_.gone_patches().end());
+  if (settings.outputs.patches) {
+    patches_.find(table_.moved(), bodies, settings);
+    patches_.name(table_.moved(), events);
+    self_.find_patches(bodies, patches_, events);
+  } else if (all_) {
+    for (const MovedPair& pair : table_.moved()) pair.record->patches.reset();
+    self_.forget_patches();
+  }
+  const auto order = [](const PatchEvent& event) {
+    const bool is_new = event.kind == PatchEvent::Kind::began || event.kind == PatchEvent::Kind::split;
+    return std::tuple(event.a, event.b, is_new, event.patch);
+  };
+  std::ranges::sort(events, {}, order);
 }
 
 void Step::make_trace(TraceEvent::Time begin, TraceEvent::Time end, const Settings& settings) {
@@ -92,6 +106,7 @@ void Step::start_afresh() {
   table_ = {};
   narrow_phase_.forget();
   points_ = {};
+  containment_ = {};
   self_ = {};
   writer_.forget();
   all_ = true;

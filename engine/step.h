@@ -8,8 +8,10 @@
 
 #include "broadphase/sweep_and_prune.h"
 #include "engine/bodies.h"
+#include "engine/containment.h"
 #include "engine/narrow_phase.h"
 #include "engine/pair/pair_table.h"
+#include "engine/patch_stage.h"
 #include "engine/point_stage.h"
 #include "engine/report_writer.h"
 #include "engine/self_stage.h"
@@ -39,14 +41,16 @@ class Step {
   void start_afresh();
   void keep_last_answers();
   void look_at_pairs(Bodies& bodies, const Settings& settings, base::Timer& timer, StepStats& stats);
-  void find_all_patches(const Bodies& bodies, int threads);
+  void find_patches(const Bodies& bodies, const Settings& settings);
   void make_trace(TraceEvent::Time begin, TraceEvent::Time end, const Settings& settings);
 
   broadphase::SweepAndPrune sweep_;
   PairTable table_;
   NarrowPhase narrow_phase_;
+  ContainmentStage containment_;
   PointStage points_;
   SelfStage self_;
+  PatchStage patches_;
   ReportWriter writer_;
   StepTrace trace_;
   narrowphase::EmbreeDevice device_;

@@ -163,6 +163,18 @@ void World::set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask) {
   i.observe([&](WorldObserver& observer) { observer.layers_set(body, layer, mask); });
 }
 
+void World::set_group(BodyId body, std::uint32_t group) {
+  Implementation& i = implementation();
+  i.bodies.set_group(body, group);
+  i.observe([&](WorldObserver& observer) { observer.group_set(body, group); });
+}
+
+void World::set_excluded(BodyId a, BodyId b, bool excluded) {
+  Implementation& i = implementation();
+  i.bodies.set_excluded(a, b, excluded);
+  i.observe([&](WorldObserver& observer) { observer.excluded_set(a, b, excluded); });
+}
+
 void World::set_motion(BodyId body, Motion motion) {
   Implementation& i = implementation();
   i.bodies.set_motion(body, motion);
@@ -309,6 +321,10 @@ Surface World::surface(BodyId body) const { return implementation().bodies.at(bo
 Motion World::motion(BodyId body) const {
   return implementation().bodies.filter(body).fixed ? Motion::fixed : Motion::moving;
 }
+std::uint32_t World::group(BodyId body) const { return implementation().bodies.filter(body).group; }
+
+bool World::excluded(BodyId a, BodyId b) const { return implementation().bodies.excluded(a, b); }
+
 std::uint32_t World::layer(BodyId body) const { return implementation().bodies.filter(body).layer; }
 std::uint32_t World::mask(BodyId body) const { return implementation().bodies.filter(body).mask; }
 std::uint64_t World::external_id(BodyId body) const { return implementation().bodies.at(body).external_id; }
@@ -368,6 +384,8 @@ void WorldObserver::body_added(BodyId, const BodyDefinition&) noexcept {}
 void WorldObserver::body_removed(BodyId) noexcept {}
 void WorldObserver::positions_set(std::span<const PositionsUpdate>) noexcept {}
 void WorldObserver::layers_set(BodyId, std::uint32_t, std::uint32_t) noexcept {}
+void WorldObserver::group_set(BodyId, std::uint32_t) noexcept {}
+void WorldObserver::excluded_set(BodyId, BodyId, bool) noexcept {}
 void WorldObserver::motion_set(BodyId, Motion) noexcept {}
 void WorldObserver::margin_set(BodyId, double) noexcept {}
 void WorldObserver::self_contact_set(BodyId, bool) noexcept {}

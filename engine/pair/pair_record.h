@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/patch_set.h"
 #include "narrowphase/depth/star_surface.h"
 #include "narrowphase/hull/gjk.h"
 #include "narrowphase/triangles/surface_history.h"
@@ -39,7 +40,8 @@ struct PairTimes {
 struct alignas(64) PairRecord {
   BodyId a, b;
   bool hulls_overlap = false;
-  bool near = false;  ///< the hulls are apart by less than the sum of the margins
+  bool near = false;            ///< the hulls are apart by less than the sum of the margins
+  bool was_in_contact = false;  ///< in the step before: last_points are of that
   PairHistory history;
   PairTimes times;
   // Of pairs whose hulls overlap; for others the vectors are empty and the rest is old.
@@ -47,14 +49,18 @@ struct alignas(64) PairRecord {
   Contact contact;
   std::vector<FacetPair> facet_pairs;  ///< sorted
   std::size_t room_left = 0;           ///< for facet pairs, by a large pair that had this record before, see PairTable
-  std::vector<Patch> patches;
   std::vector<ContactPoint> points;                       ///< of pairs in contact, sorted
+  std::vector<ContactPoint> last_points;                  ///< of the step before
+  std::unique_ptr<PatchMemory> patches;                   ///< made when there are any
   std::unique_ptr<narrowphase::SurfaceHistory> surfaces;  ///< of bodies that lie on each other, once
   std::unique_ptr<narrowphase::SurfaceShape> surface;     ///< where the search for the smallest separation ended, once
 };
 
 inline bool in_contact(const PairRecord& record) { return record.hulls_overlap || record.near; }
 
-inline bool touches(const PairRecord& record) { return record.hulls_overlap && !record.facet_pairs.empty(); }
+/// By facets or by points.
+inline bool touches(const PairRecord& record) {
+  return in_contact(record) && (!record.facet_pairs.empty() || !record.points.empty());
+}
 
 }  // namespace tact

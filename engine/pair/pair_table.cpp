@@ -1,6 +1,7 @@
 #include "engine/pair/pair_table.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace tact {
@@ -31,14 +32,26 @@ void renumber_vertices(PairRecord& record, std::span<const int> numbers, InSimpl
 
 void PairTable::update(const broadphase::SweepAndPrune& sweep, const Bodies& bodies, bool all) {
   gone_.clear();
+  gone_patches_.clear();
   moved_.clear();
   separated_ = 0;
-  same_pairs_ = !all && !bodies.removed_any() && !sweep.pairs_changed();
+  same_pairs_ = !all && !bodies.removed_any() && !bodies.exclusions_changed() && !sweep.pairs_changed();
   if (same_pairs_) {
     select_moved(bodies);
   } else {
-    match(sweep.pairs(), bodies, all);
+    match(without_excluded(sweep.pairs(), bodies), bodies, all);
   }
+}
+
+std::span<const broadphase::IndexPair> PairTable::without_excluded(std::span<const broadphase::IndexPair> pairs,
+                                                                   const Bodies& bodies) {
+  excluded_ = 0;
+  if (!bodies.excludes_any()) return pairs;
+  tested_.clear();
+  std::ranges::copy_if(pairs, std::back_inserter(tested_),
+                       [&](const broadphase::IndexPair& pair) { return !bodies.excludes(pair); });
+  excluded_ = pairs.size() - tested_.size();
+  return tested_;
 }
 
 void PairTable::select_moved(const Bodies& bodies) {
@@ -95,7 +108,6 @@ PairRecord& PairTable::new_record(BodyId a, BodyId b) {
   record.history = {};
   record.hulls_overlap = record.near = false;
   record.facet_pairs.clear();
-  record.patches.clear();
   record.points.clear();
   record.surfaces.reset();
   return record;
@@ -103,6 +115,7 @@ PairRecord& PairTable::new_record(BodyId a, BodyId b) {
 
 void PairTable::retire(PairRecord& record) {
   if (touches(record)) gone_.push_back({record.a, record.b});
+  if (record.patches != nullptr) record.patches->end_all(record.a, record.b, gone_patches_);
   const std::size_t room = record.facet_pairs.capacity();
   room_ = std::min(std::max(room_, room), kLargestRoom);
   // A large pair may leave its room to a small one, and take new room when it comes back. So there is a limit to what

@@ -54,12 +54,12 @@ class PairTable {
   void make_room(PairRecord& record) const { record.facet_pairs.reserve(room_); }
   // How many were dropped.
   std::size_t separated() const { return separated_; }
+  // How many pairs with overlapping boxes are excluded by name.
+  std::size_t excluded() const { return excluded_; }
   // Takes over what a step found of a pair. Different pairs may be noted by different threads.
   void note_result(MovedPair& pair);
   // Does it touch, once it was looked at? Pairs that are apart and were are not read.
-  bool touches_now(const MovedPair& pair) const {
-    return candidates_[pair.place].hulls_overlap && touches(*pair.record);
-  }
+  bool touches_now(const MovedPair& pair) const { return entries_[pair.place].in_contact && touches(*pair.record); }
   // Do its hulls overlap, or are they nearer than their margins?
   bool in_contact(std::size_t place) const { return entries_[place].in_contact; }
   // Are the pairs in contact those of the last step?
@@ -67,6 +67,8 @@ class PairTable {
 
   // Pairs that touched and are no candidates any more.
   std::span<const ContactEvent> gone() const { return gone_; }
+  // And what patches they had.
+  std::span<const PatchEvent> gone_patches() const { return gone_patches_; }
 
  private:
   struct Entry {
@@ -75,6 +77,8 @@ class PairTable {
     bool in_contact = false;
     narrowphase::SeparatingDiagonal separating_axis = 0;
   };
+  std::span<const broadphase::IndexPair> without_excluded(std::span<const broadphase::IndexPair> pairs,
+                                                          const Bodies& bodies);
   void select_moved(const Bodies& bodies);
   void match(std::span<const broadphase::IndexPair> pairs, const Bodies& bodies, bool all);
   void add_records();
@@ -84,16 +88,19 @@ class PairTable {
   std::vector<std::unique_ptr<PairRecord[]>> pool_;
   std::size_t record_count_ = 0;  // in the pool
   std::vector<PairRecord*> free_;
-  std::size_t room_ = 0;                      // facet pairs
-  std::size_t spare_room_ = 0;                // of large pairs that are gone, facet pairs
-  std::vector<broadphase::IndexPair> pairs_;  // slots
-  std::vector<CandidatePair> candidates_;     // the same pairs, of bodies
-  std::vector<Entry> entries_;                // of these
+  std::size_t room_ = 0;                       // facet pairs
+  std::size_t spare_room_ = 0;                 // of large pairs that are gone, facet pairs
+  std::vector<broadphase::IndexPair> pairs_;   // slots
+  std::vector<broadphase::IndexPair> tested_;  // scratch: those of the sweep that are not excluded
+  std::size_t excluded_ = 0;
+  std::vector<CandidatePair> candidates_;  // the same pairs, of bodies
+  std::vector<Entry> entries_;             // of these
   std::vector<CandidatePair> last_candidates_;
   std::vector<Entry> last_entries_;
   std::vector<MovedPair> moved_;
   std::size_t separated_ = 0;
   std::vector<ContactEvent> gone_;
+  std::vector<PatchEvent> gone_patches_;
   bool same_pairs_ = false;
 };
 

@@ -17,6 +17,9 @@
 //             and wherever it changed
 //   self      u8 10, body, u8: is it held against itself? Likewise
 //   points    u8 11; after settings whose Outputs::points is set, which a record of settings alone unsets
+//   group     u8 12, body, u32 group; this and the next since version 4. After the body is added, if it is in one, and
+//             wherever it changed
+//   excluded  u8 13, body, body, u8: are they?
 //
 // A text is u32 bytes and these; a body is u32 index and u32 generation of its BodyId; enumerations are numbered in the
 // order of their values. Outputs::trace is left out: it changes no answer. The records stand in the order of the calls;
@@ -42,8 +45,10 @@ enum class RecordKind : std::uint8_t {
   motion = 8,
   margin = 9,
   self_contact = 10,
-  points = 11
+  points = 11,
+  group = 12,
+  excluded = 13
 };
-inline constexpr RecordKind kLastRecordKind = RecordKind::points;
+inline constexpr RecordKind kLastRecordKind = RecordKind::excluded;
 
 }  // namespace tact::recording

@@ -63,6 +63,7 @@ void put_addition(std::ostream& out, BodyId body, const BodyDefinition& definiti
   put(out, static_cast<std::uint64_t>(definition.facets.cols()));
   put_columns(out, definition.positions);
   put_columns(out, definition.facets);
+  if (definition.group != 0) put_value(out, RecordKind::group, body, definition.group);
   if (definition.margin != 0.0) put_value(out, RecordKind::margin, body, definition.margin);
   if (definition.self_contact) put_value(out, RecordKind::self_contact, body, std::uint8_t{1});
 }
@@ -128,6 +129,19 @@ void Recorder::layers_set(BodyId body, std::uint32_t layer, std::uint32_t mask) 
   write([&](std::ostream& out) {
     put_value(out, RecordKind::layers, body, layer);
     put(out, mask);
+  });
+}
+
+void Recorder::group_set(BodyId body, std::uint32_t group) noexcept {
+  write([&](std::ostream& out) { put_value(out, RecordKind::group, body, group); });
+}
+
+void Recorder::excluded_set(BodyId a, BodyId b, bool excluded) noexcept {
+  write([&](std::ostream& out) {
+    put(out, RecordKind::excluded);
+    put_body(out, a);
+    put_body(out, b);
+    put(out, std::uint8_t{excluded});
   });
 }
 

@@ -74,6 +74,16 @@ struct RecordingPlayer::Implementation {
         const auto layer = reader.read<std::uint32_t>(), mask = reader.read<std::uint32_t>();
         return make([&] { world->set_layers(body, layer, mask); });
       }
+      case RecordKind::group: {
+        const BodyId body = read_body();
+        const auto group = reader.read<std::uint32_t>();
+        return make([&] { world->set_group(body, group); });
+      }
+      case RecordKind::excluded: {
+        const BodyId a = read_body(), b = read_body();
+        const bool excluded = read_flag();
+        return make([&] { world->set_excluded(a, b, excluded); });
+      }
       case RecordKind::motion: {
         const BodyId body = read_body();
         const auto motion = read_enumeration(Motion::fixed);

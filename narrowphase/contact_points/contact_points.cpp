@@ -5,14 +5,13 @@
 #include <numbers>
 #include <utility>
 
+#include "narrowphase/contact_points/open_cluster.h"
 #include "narrowphase/contact_points/surface_distance.h"
 #include "narrowphase/numeric/unit_scale.h"
 
 namespace tact::narrowphase {
 
 namespace {
-
-Box inflated(const Box& box, double by) { return {box.lower - Vec3{by, by, by}, box.upper + Vec3{by, by, by}}; }
 
 double largest_coordinate(const Box& box) {
   double largest = 0.0;
@@ -24,58 +23,53 @@ double largest_coordinate(const Box& box) {
 // A reach that box tests, which round, can take.
 double box_reach(double reach, double largest) { return reach * (1.0 + 0x1p-40) + 0x1p-50 * largest; }
 
-// Boxes in arrays, and what they are the boxes of.
-struct Boxed : FixedBoxes<3 * kClusterSize> {
-  int index[kMost] = {};
-
-  void clear() { count = 0; }
-  void add(int what, const Box& box) {
-    index[count] = what;
-    set(count++, box);
-  }
-};
+constexpr int kMostFeatures = 3 * kClusterSize;
 
 // A cluster's facets, and the vertices and edges that it has first, scaled.
 struct OpenCluster {
   int cluster = -1;
   Box box;
-  Boxed vertices, edges, facets;
-};
-
-struct ScaledMesh {
-  const ClusteredMesh& mesh;
-  const Features& features;
-  double scale;
-
-  Vec3 position(int vertex) const { return scale * mesh.position(vertex); }
-  ScaledVertices around(std::span<const int> vertices) const { return {mesh.points(), vertices, scale}; }
+  ClusterFacets source;
+  ClusterVertices at;
+  PlacedFeatures<1, kMostFeatures> vertices;
+  PlacedFeatures<2, kMostFeatures> edges;
+  PlacedFacets facets;
 };
 
 void open(const ScaledMesh& m, int cluster, OpenCluster& opened) {
+  const ClusterFacets facets = m.mesh.facets_of(cluster);
   opened.cluster = cluster;
-  opened.box = {};
-  opened.vertices.clear();
-  opened.edges.clear();
-  opened.facets.clear();
-  for (int f = m.mesh.facet_begin(cluster); f < m.mesh.facet_end(cluster); ++f) {
-    Box box;
-    for (const int v : m.mesh.corners(f)) box = extended(box, m.position(v));
-    opened.facets.add(f, box);
-    opened.box = merged(opened.box, box);
-  }
-  for (int v = m.mesh.vertex_begin(cluster); v < m.mesh.vertex_end(cluster); ++v)
-    opened.vertices.add(v, {m.position(v), m.position(v)});
-  for (int e = m.features.edge_begin(cluster); e < m.features.edge_end(cluster); ++e) {
-    const auto [v, w] = m.features.edge(e);
-    opened.edges.add(e, extended({m.position(v), m.position(v)}, m.position(w)));
-  }
+  opened.source = facets;
+  const Box box = m.mesh.cluster_boxes()[static_cast<std::size_t>(cluster)];
+  opened.box = {m.scale * box.lower, m.scale * box.upper};
+  opened.at.take(facets, m.scale);
+  take_facets(facets, opened.at, opened.facets);
+  opened.vertices.take(facets.owned_begin, facets.owned_count, opened.at.at, [](int, int i) { return i; });
+  const int begin = m.features.edge_begin(cluster), end = m.features.edge_end(cluster);
+  opened.edges.take(begin, end - begin, opened.at.at,
+                    [&](int c, int i) { return m.features.edge_in_cluster(begin + i)[static_cast<std::size_t>(c)]; });
 }
+
+// As ClusteredMesh::corners(), of facet i of the cluster.
+Corners corners_of(const ClusterFacets& facets, int i) {
+  const auto vertex = [&](int c) {
+    const int v = facets.corner[c][i];
+    return v < facets.owned_count ? facets.owned_begin + v : facets.borrowed[v - facets.owned_count];
+  };
+  return {vertex(0), vertex(1), vertex(2)};
+}
+
+// Features that are near another cluster, and their boxes.
+struct NearFeatures : FixedBoxes<kMostFeatures> {
+  std::int32_t index[kMostFeatures + kPadding];
+};
 
 // The search among the clusters of two meshes.
 class PointFinder {
  public:
-  PointFinder(const ScaledMesh& a, const ScaledMesh& b, double reach, std::vector<FeaturePoint>& found)
-      : a_(a), b_(b), same_(&a.mesh == &b.mesh), reach_(reach), found_(found) {
+  PointFinder(const ScaledMesh& a, const ScaledMesh& b, double reach, NearFeatures& near, SurfaceWays& ways,
+              std::vector<FeaturePoint>& found)
+      : a_(a), b_(b), same_(&a.mesh == &b.mesh), reach_(reach), near_(near), found_(found), ways_(ways) {
     const double largest = a.scale * std::max(largest_coordinate(a.mesh.box()), largest_coordinate(b.mesh.box()));
     box_reach_ = box_reach(reach, largest);
   }
@@ -88,40 +82,49 @@ class PointFinder {
   }
 
  private:
-  template <class Visit>
-  void for_each_near(const Boxed& ones, const OpenCluster& other, const Boxed& others, const Visit& visit) const {
-    std::int32_t near[Boxed::kMost + kPadding];
-    const Box whole = inflated(other.box, box_reach_);
-    for (int i = 0; i < ones.count; ++i) {
-      const Box box = ones.box(i);
-      if (!overlaps(box, whole)) continue;
-      const int count =
-          kernels().select_overlapping(others.pointers(), others.count, bounds_of(inflated(box, box_reach_)), near);
-      for (int k = 0; k < count; ++k) visit(i, near[k]);
+  // First what of either is near the other's whole cluster.
+  template <class Ones, class Others, class Visit>
+  void for_each_near(const OpenCluster& one, const Ones& ones, const OpenCluster& other, const Others& others,
+                     const Visit& visit) {
+    std::int32_t mine[kMostFeatures + kPadding], near[kMostFeatures + kPadding];
+    const int count =
+        kernels().select_overlapping(ones.pointers(), ones.count, bounds_of(inflated(other.box, box_reach_)), mine);
+    if (count == 0) return;
+    near_.count = kernels().select_overlapping(others.pointers(), others.count,
+                                               bounds_of(inflated(one.box, box_reach_)), near_.index);
+    for (int side = 0; side < 6; ++side) {
+      for (int k = 0; k < near_.count; ++k) near_.bounds[side][k] = others.bounds[side][near_.index[k]];
+    }
+    for (int i = 0; i < count && near_.count > 0; ++i) {
+      const Box box = inflated(ones.box(mine[i]), box_reach_);
+      const int found = kernels().select_overlapping(near_.pointers(), near_.count, bounds_of(box), near);
+      for (int k = 0; k < found; ++k) visit(mine[i], near_.index[near[k]]);
     }
   }
 
   // Vertices of `m`, facets of `surface`.
   void from_vertices(const ScaledMesh& m, const OpenCluster& vertices, const ScaledMesh& surface,
                      const OpenCluster& facets, FeaturePair kind) {
-    for_each_near(vertices.vertices, facets, facets.facets, [&](int i, int k) {
-      const int vertex = vertices.vertices.index[i], facet = facets.facets.index[k];
-      const Vec3 v{vertices.vertices.bounds[0][i], vertices.vertices.bounds[1][i], vertices.vertices.bounds[2][i]};
+    for_each_near(vertices, vertices.vertices, facets, facets.facets, [&](int i, int k) {
+      const int vertex = vertices.vertices.first + i, facet = facets.facets.first + k;
+      const Vec3 v = vertices.vertices.corner(0, i);
       const auto add = [&](const std::optional<Nearest>& nearest, std::span<const int> feature) {
         if (nearest) add_vertex_point(m, vertex, surface, facet, feature, *nearest, kind);
       };
-      const Corners corners = surface.mesh.corners(facet);
-      const Vec3 corner[3] = {surface.position(corners[0]), surface.position(corners[1]), surface.position(corners[2])};
+      const Corners corners = corners_of(facets.source, k);
+      const Vec3 corner[3] = {facets.facets.corner(0, k), facets.facets.corner(1, k), facets.facets.corner(2, k)};
       add(nearest_inside_facet(v, corner, reach_), corners);
-      for (int c = 0; c < 3; ++c) {
-        const int edge = surface.features.facet_edge(facet, c);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t next = (c + 1) % 3;
+        const int edge = surface.features.facet_edge(facet, static_cast<int>(c));
         if (edge >= 0 && surface.features.first_facet_of_edge(edge) == facet) {
           const EdgeVertices ends = surface.features.edge(edge);
-          add(nearest_inside_edge(v, surface.position(ends[0]), surface.position(ends[1]),
+          const bool forward = ends[0] == corners[c];
+          add(nearest_inside_edge(v, corner[forward ? c : next], corner[forward ? next : c],
                                   surface.around(surface.features.opposite(edge)), reach_),
               ends);
         }
-        const int w = corners[static_cast<std::size_t>(c)];
+        const int w = corners[c];
         const bool repeated = w == corners[0] ? c > 0 : c == 2 && w == corners[1];
         if (!repeated && surface.features.first_facet_of_vertex(w) == facet && !(same_ && w == vertex))
           add(nearest_in_vertex(v, corner[c], surface.around(surface.features.neighbors(w)), reach_), {&w, 1});
@@ -150,19 +153,19 @@ class PointFinder {
   }
 
   void between_edges(const OpenCluster& a, const OpenCluster& b) {
-    for_each_near(a.edges, b, b.edges, [&](int i, int k) {
-      const int e = a.edges.index[i], f = b.edges.index[k];
+    for_each_near(a, a.edges, b, b.edges, [&](int i, int k) {
+      const int e = a.edges.first + i, f = b.edges.first + k;
       const EdgeVertices ends_e = a_.features.edge(e), ends_f = b_.features.edge(f);
       if (same_ && (share_a_vertex(ends_e, ends_f) || (a.cluster == b.cluster && e > f))) return;
-      const EdgeEnds at_e{a_.position(ends_e[0]), a_.position(ends_e[1])},
-          at_f{b_.position(ends_f[0]), b_.position(ends_f[1])};
+      const EdgeEnds at_e{a.edges.corner(0, i), a.edges.corner(1, i)}, at_f{b.edges.corner(0, k), b.edges.corner(1, k)};
       const auto nearest = nearest_between_edges(at_e, a_.around(a_.features.opposite(e)), at_f,
                                                  b_.around(b_.features.opposite(f)), reach_);
-      if (nearest) add_edge_point(ends_e, at_e, ends_f, *nearest);
+      if (nearest) add_edge_point(e, at_e, f, *nearest);
     });
   }
 
-  void add_edge_point(const EdgeVertices& e, const EdgeEnds& at_e, const EdgeVertices& f, const Nearest& nearest) {
+  void add_edge_point(int edge_e, const EdgeEnds& at_e, int edge_f, const Nearest& nearest) {
+    const EdgeVertices e = a_.features.edge(edge_e), f = b_.features.edge(edge_f);
     const Vec3 on_e = nearest.first[0] * at_e.p + nearest.first[1] * at_e.q;
     if (same_ && along_surface(e, on_e, f, on_e + nearest.distance * nearest.normal)) return;
     FeaturePoint point{.kind = FeaturePair::edge_edge,
@@ -171,10 +174,13 @@ class PointFinder {
                        .weight_a = {nearest.first[0], nearest.first[1], 0.0},
                        .weight_b = {nearest.weight[0], nearest.weight[1], 0.0},
                        .normal = nearest.normal,
-                       .gap = nearest.distance / a_.scale};
+                       .gap = nearest.distance / a_.scale,
+                       .edge_a = edge_e,
+                       .edge_b = edge_f};
     if (same_ && point.b < point.a) {
       std::swap(point.a, point.b);
       std::swap(point.weight_a, point.weight_b);
+      std::swap(point.edge_a, point.edge_b);
       point.normal = -point.normal;
     }
     found_.push_back(point);
@@ -196,8 +202,9 @@ class PointFinder {
   const bool same_;
   const double reach_;
   double box_reach_ = 0.0;
+  NearFeatures& near_;
   std::vector<FeaturePoint>& found_;
-  SurfaceWays ways_;
+  SurfaceWays& ways_;
 };
 
 }  // namespace
@@ -217,6 +224,8 @@ struct ContactPointSearch::Memory {
   static constexpr std::size_t kOpened = 16;  // clusters of b that stay open: neighbours come soon again
   OpenCluster a;
   OpenCluster b[kOpened];
+  NearFeatures near;
+  SurfaceWays ways;
 };
 
 ContactPointSearch::ContactPointSearch() : memory_(std::make_unique<Memory>()) {}
@@ -230,7 +239,7 @@ void ContactPointSearch::run(const FeaturedMesh& a, const FeaturedMesh& b, doubl
   const Vec3 size = whole.upper - whole.lower;
   const double scale = unit_scale(std::max({size.x, size.y, size.z}));
   const ScaledMesh scaled_a{*a.mesh, *a.features, scale}, scaled_b{*b.mesh, *b.features, scale};
-  PointFinder finder(scaled_a, scaled_b, scale * reach, found);
+  PointFinder finder(scaled_a, scaled_b, scale * reach, memory_->near, memory_->ways, found);
   memory_->a.cluster = -1;
   for (OpenCluster& one : memory_->b) one.cluster = -1;
   for (const ClusterPair& pair : pairs) {

@@ -26,15 +26,10 @@ struct FeaturePoint {
   std::array<double, 3> weight_b{};
   Vec3 normal;       // unit, from the point of a to that of b; zero where they are one point in a vertex or an edge
   double gap = 0.0;  // metres
+  int edge_a = -1, edge_b = -1;  // between two edges: these, as Features counts them
 
   /// Which features these are, whatever lies between them.
   auto features() const { return std::tie(kind, a, b); }
-};
-
-/// A mesh and its features.
-struct FeaturedMesh {
-  const ClusteredMesh* mesh = nullptr;
-  const Features* features = nullptr;
 };
 
 /// The cluster pairs of `a` and `b` that come within `reach` (metres); for one mesh with itself each pair once, the

@@ -36,6 +36,9 @@ std::vector<Side> sides_of(const ClusteredMesh& mesh) {
 Features::Features(const ClusteredMesh& mesh) {
   find_edges(mesh);
   find_neighbors(mesh);
+  find_parts();
+  vertex_of_source_.assign(static_cast<std::size_t>(mesh.source_vertex_count()), -1);
+  for (int v = 0; v < mesh.vertex_count(); ++v) vertex_of_source_[static_cast<std::size_t>(mesh.source_vertex(v))] = v;
 }
 
 void Features::find_edges(const ClusteredMesh& mesh) {
@@ -86,6 +89,25 @@ void Features::find_neighbors(const ClusteredMesh& mesh) {
   for (const auto& [v, w] : edges_) {
     neighbors_[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] = w;
     neighbors_[static_cast<std::size_t>(next[static_cast<std::size_t>(w)]++)] = v;
+  }
+}
+
+void Features::find_parts() {
+  std::vector<bool> reached(first_facet_of_vertex_.size());
+  std::vector<int> next;
+  for (std::size_t v = 0; v < reached.size(); ++v) {
+    if (reached[v]) continue;
+    one_of_each_part_.push_back(static_cast<int>(v));
+    reached[v] = true;
+    for (next.assign(1, static_cast<int>(v)); !next.empty();) {
+      const int from = next.back();
+      next.pop_back();
+      for (const int to : neighbors(from)) {
+        if (reached[static_cast<std::size_t>(to)]) continue;
+        reached[static_cast<std::size_t>(to)] = true;
+        next.push_back(to);
+      }
+    }
   }
 }
 

@@ -38,6 +38,10 @@ class Features {
   int first_facet_of_vertex(int vertex) const { return first_facet_of_vertex_[static_cast<std::size_t>(vertex)]; }
   /// The vertices that share an edge with a vertex, each once.
   std::span<const int> neighbors(int vertex) const { return part(neighbors_, neighbors_begin_, vertex); }
+  /// The vertex that has a number of the caller's; -1 if no facet uses it.
+  int vertex_of_source(int source_vertex) const { return vertex_of_source_[static_cast<std::size_t>(source_vertex)]; }
+  /// A vertex of each part that hangs together by edges.
+  std::span<const int> one_of_each_part() const { return one_of_each_part_; }
 
  private:
   static std::span<const int> part(const std::vector<int>& all, const std::vector<int>& begin, int i) {
@@ -47,6 +51,7 @@ class Features {
   }
   void find_edges(const ClusteredMesh& mesh);
   void find_neighbors(const ClusteredMesh& mesh);
+  void find_parts();
 
   std::vector<EdgeVertices> edges_;
   std::vector<std::array<std::uint8_t, 2>> edges_in_cluster_;
@@ -55,6 +60,14 @@ class Features {
   std::vector<int> facet_edges_;
   std::vector<int> first_facet_of_edge_, first_facet_of_vertex_;
   std::vector<int> neighbors_, neighbors_begin_;
+  std::vector<int> one_of_each_part_;
+  std::vector<int> vertex_of_source_;
+};
+
+/// A mesh and its features.
+struct FeaturedMesh {
+  const ClusteredMesh* mesh = nullptr;
+  const Features* features = nullptr;
 };
 
 /// The caller's numbers of up to three vertices; -1 fills up.

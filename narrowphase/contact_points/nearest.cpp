@@ -49,8 +49,18 @@ int sign(const Measure& measure) {
   return sign_of(static_cast<double>(fine.value), kWideRounding * static_cast<double>(fine.size));
 }
 
+// The sign of a value that is certain beyond kRounding times a size whose square is given: without a root.
+int certain_sign(double value, double size_squared) {
+  return value * value > kRounding * kRounding * size_squared ? (value > 0.0 ? 1 : -1) : 0;
+}
+
 // On which side of the edge from p to q is v, seen across the plane of the edge and `third`? 1 on that of `third`.
 int side_of_edge(Vec3 v, Vec3 p, Vec3 q, Vec3 third) {
+  const Vec3 along = q - p, away = v - p, across = third - p;
+  const double square = norm_squared(along);
+  const int certain = certain_sign(dot(away, across) * square - dot(across, along) * dot(away, along),
+                                   square * square * (norm_squared(away) * norm_squared(across)));
+  if (certain != 0) return certain;
   return sign([&]<class Real>(Real) -> Measured<Real> {
     const Vec<Real> from(p), edge = Vec<Real>(q) - from, to_v = Vec<Real>(v) - from, to_third = Vec<Real>(third) - from;
     const Real length = dot(edge, edge), x = dot(to_v, to_third), y = dot(to_third, edge), z = dot(to_v, edge);
@@ -60,6 +70,8 @@ int side_of_edge(Vec3 v, Vec3 p, Vec3 q, Vec3 third) {
 
 // The sign of the dot product of b - a and d - c.
 int along(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const int certain = certain_sign(dot(b - a, d - c), norm_squared(b - a) * norm_squared(d - c));
+  if (certain != 0) return certain;
   return sign([&]<class Real>(Real) -> Measured<Real> {
     const Vec<Real> ab = Vec<Real>(b) - Vec<Real>(a), cd = Vec<Real>(d) - Vec<Real>(c);
     return {dot(ab, cd), std::sqrt(dot(ab, ab) * dot(cd, cd))};
@@ -97,14 +109,16 @@ bool leads_along(const Vec<Real>& way, Vec3 end, const ScaledVertices& third) {
   return false;
 }
 
+enum class Passed { no, yes };
+
 template <class Real>
 std::optional<Nearest> between(const LinePair<Real>& lines, const EdgeEnds& e, const ScaledVertices& third_e,
-                               const EdgeEnds& f, const ScaledVertices& third_f, double limit) {
+                               const EdgeEnds& f, const ScaledVertices& third_f, double limit, Passed passed) {
   if (!lines.inside_both()) return {};
   const Real length = std::sqrt(lines.square), height = dot(lines.across, lines.r) / length;
   const auto distance = static_cast<double>(std::abs(height));
   if (!(distance < limit)) return {};
-  const Real flip = height < 0 ? -1 : 1;
+  const Real flip = (height < 0) == (passed == Passed::no) ? -1 : 1;
   for (const Real turn : {flip, -flip}) {
     const Vec<Real> way(turn * lines.across.x, turn * lines.across.y, turn * lines.across.z);
     const Vec<Real> back(-way.x, -way.y, -way.z);
@@ -123,15 +137,18 @@ std::optional<Nearest> between(const LinePair<Real>& lines, const EdgeEnds& e, c
 
 std::optional<Nearest> nearest_inside_facet(Vec3 v, const Vec3 (&corner)[3], double limit) {
   const Vec3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
-  const double length = norm(normal);
-  if (length == 0.0) return {};
-  const double height = dot(normal, v - corner[0]) / length;
+  const double square = norm_squared(normal), along = dot(normal, v - corner[0]);
+  // Most vertices are too far, or beside the facet: that needs no root.
+  if (square == 0.0 || along * along > limit * limit * square * (1.0 + 0x1p-40)) return {};
+  for (int k = 0; k < 3; ++k) {
+    if (side_of_edge(v, corner[(k + 1) % 3], corner[(k + 2) % 3], corner[k]) <= 0) return {};
+  }
+  const double length = std::sqrt(square), height = along / length;
   if (!(std::abs(height) < limit)) return {};
   Nearest nearest{.normal = (height < 0.0 ? 1.0 / length : -1.0 / length) * normal, .distance = std::abs(height)};
   double sum = 0.0;
   for (int k = 0; k < 3; ++k) {
     const Vec3 p = corner[(k + 1) % 3], q = corner[(k + 2) % 3];
-    if (side_of_edge(v, p, q, corner[k]) <= 0) return {};
     nearest.weight[k] = std::max(0.0, dot(normal, cross(q - p, v - p)));
     sum += nearest.weight[k];
   }
@@ -163,14 +180,28 @@ std::optional<Nearest> nearest_in_vertex(Vec3 v, Vec3 w, const ScaledVertices& n
   return Nearest{.normal = direction_or_zero(w - v, distance), .distance = distance, .weight = {1.0}};
 }
 
-std::optional<Nearest> nearest_between_edges(const EdgeEnds& e, const ScaledVertices& third_e, const EdgeEnds& f,
-                                             const ScaledVertices& third_f, double limit) {
+namespace {
+
+std::optional<Nearest> between_edges(const EdgeEnds& e, const ScaledVertices& third_e, const EdgeEnds& f,
+                                     const ScaledVertices& third_f, double limit, Passed passed) {
   const LinePair<double> rough(e, f);
   if (rough.square > kNearlyParallel * dot(rough.u, rough.u) * dot(rough.w, rough.w))
-    return between(rough, e, third_e, f, third_f, limit);
+    return between(rough, e, third_e, f, third_f, limit, passed);
   const LinePair<long double> fine(e, f);
   if (!(fine.square > 0)) return {};
-  return between(fine, e, third_e, f, third_f, limit);
+  return between(fine, e, third_e, f, third_f, limit, passed);
+}
+
+}  // namespace
+
+std::optional<Nearest> nearest_between_edges(const EdgeEnds& e, const ScaledVertices& third_e, const EdgeEnds& f,
+                                             const ScaledVertices& third_f, double limit) {
+  return between_edges(e, third_e, f, third_f, limit, Passed::no);
+}
+
+std::optional<Nearest> crossing_between_edges(const EdgeEnds& e, const ScaledVertices& third_e, const EdgeEnds& f,
+                                              const ScaledVertices& third_f, double limit) {
+  return between_edges(e, third_e, f, third_f, limit, Passed::yes);
 }
 
 }  // namespace tact::narrowphase

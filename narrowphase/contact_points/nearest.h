@@ -60,4 +60,9 @@ struct EdgeEnds {
 std::optional<Nearest> nearest_between_edges(const EdgeEnds& e, const ScaledVertices& third_e, const EdgeEnds& f,
                                              const ScaledVertices& third_f, double limit);
 
+/// The same of two edges that have passed each other: `normal` points from the second to the first, back along the way,
+/// and the facets at the edges lie as they did before: those at e against `normal`, those at f along it.
+std::optional<Nearest> crossing_between_edges(const EdgeEnds& e, const ScaledVertices& third_e, const EdgeEnds& f,
+                                              const ScaledVertices& third_f, double limit);
+
 }  // namespace tact::narrowphase

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "narrowphase/mesh/for_each_cluster.h"
 #include "narrowphase/numeric/double_double.h"
 #include "narrowphase/numeric/unit_scale.h"
 
@@ -15,19 +16,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A quotient of two differences is wrong by three roundings at most.
 constexpr double kQuotientRounding = 0x1p-50;
-
-// Calls visit(cluster) for those whose box, and that of whose group, wants(box).
-template <class Wants, class Visit>
-void for_each_cluster(const ClusteredMesh& mesh, const Wants& wants, const Visit& visit) {
-  if (mesh.facet_count() == 0 || !wants(mesh.box())) return;
-  const BoxView groups = mesh.group_boxes(), clusters = mesh.cluster_boxes();
-  for (int g = 0; g < mesh.group_count(); ++g) {
-    if (mesh.group_count() > 1 && !wants(groups[g])) continue;
-    for (int c = mesh.cluster_begin(g); c < mesh.cluster_end(g); ++c) {
-      if (wants(clusters[c])) visit(c);
-    }
-  }
-}
 
 Box box_of(const Triangle& triangle) {
   Box box;
@@ -58,37 +46,6 @@ class SegmentClip {
  private:
   Vec3 from_, way_;
 };
-
-// The weights of the corners for the place of a triangle that is nearest to `p`, in lengths that are near 1.
-std::array<double, 3> nearest_weights(Vec3 p, const Triangle& t) {
-  const Vec3 normal = double_double_cross(double_double_difference(t[1], t[0]), double_double_difference(t[2], t[0]));
-  const double area2 = norm_squared(normal);
-  if (area2 > 0.0) {
-    std::array<double, 3> w;
-    bool inside = true;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 a = t[(i + 1) % 3], b = t[(i + 2) % 3];
-      w[i] = dot(cross(a - p, b - p), normal) / area2;
-      inside = inside && w[i] >= 0.0;
-    }
-    if (inside) return w;
-  }
-  std::array<double, 3> best{1.0, 0.0, 0.0};
-  double least = kInfinity;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t k = (i + 1) % 3;
-    const Vec3 side = t[k] - t[i];
-    const double length2 = norm_squared(side);
-    const double s = length2 > 0.0 ? std::clamp(dot(p - t[i], side) / length2, 0.0, 1.0) : 0.0;
-    const double distance2 = norm_squared(t[i] + s * side - p);
-    if (distance2 >= least) continue;
-    least = distance2;
-    best = {0.0, 0.0, 0.0};
-    best[i] = 1.0 - s;
-    best[k] += s;
-  }
-  return best;
-}
 
 Vec3 place(const Triangle& t, const std::array<double, 3>& w) { return w[0] * t[0] + w[1] * t[1] + w[2] * t[2]; }
 
@@ -170,6 +127,40 @@ int turn(const Vec3& a, const Vec3& b, const Vec3& c, PredicateCounts& counts) {
 }
 
 }  // namespace
+
+std::array<double, 3> nearest_weights(Vec3 p, const Triangle& t) {
+  const Vec3 normal = double_double_cross(double_double_difference(t[1], t[0]), double_double_difference(t[2], t[0]));
+  const double area2 = norm_squared(normal);
+  if (area2 > 0.0) {
+    std::array<double, 3> w;
+    bool inside = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 a = t[(i + 1) % 3], b = t[(i + 2) % 3];
+      w[i] = dot(cross(a - p, b - p), normal) / area2;
+      inside = inside && w[i] >= 0.0;
+    }
+    if (inside) return w;
+  }
+  return nearest_weights_on_sides(p, t);
+}
+
+std::array<double, 3> nearest_weights_on_sides(Vec3 p, const Triangle& t) {
+  std::array<double, 3> best{1.0, 0.0, 0.0};
+  double least = kInfinity;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t k = (i + 1) % 3;
+    const Vec3 side = t[k] - t[i];
+    const double length2 = norm_squared(side);
+    const double s = length2 > 0.0 ? std::clamp(dot(p - t[i], side) / length2, 0.0, 1.0) : 0.0;
+    const double distance2 = norm_squared(t[i] + s * side - p);
+    if (distance2 >= least) continue;
+    least = distance2;
+    best = {0.0, 0.0, 0.0};
+    best[i] = 1.0 - s;
+    best[k] += s;
+  }
+  return best;
+}
 
 std::optional<FacetHit> first_hit(const ClusteredMesh& mesh, const Segment& segment, double latest) {
   std::optional<FacetHit> first;

@@ -30,6 +30,11 @@ std::optional<FacetHit> any_hit(const ClusteredMesh& mesh, const Segment& segmen
 /// Appends all of them, in no particular order.
 void append_hits(const ClusteredMesh& mesh, const Segment& segment, std::vector<FacetHit>& hits);
 
+/// The weights of the corners for the place of a triangle that is nearest to `p`; lengths are near 1.
+std::array<double, 3> nearest_weights(Vec3 p, const Triangle& t);
+/// The same for the place of its sides that is nearest.
+std::array<double, 3> nearest_weights_on_sides(Vec3 p, const Triangle& t);
+
 struct NearestFacet {
   int facet = -1;  // the caller's number; of equally near ones the least
   double distance = 0.0;

@@ -73,11 +73,33 @@ Json points_json(const Contact* contact) {
   return points;
 }
 
+Json patches_json(const Contact* contact) {
+  Json patches = Json::array();
+  if (contact == nullptr) return patches;
+  for (const Patch& patch : contact->patches()) {
+    Json spanning = Json::array();
+    for (const int i : patch.spanning) {
+      if (i >= 0) spanning.push_back(i);
+    }
+    patches.push_back({{"id", patch.id},
+                       {"point", to_json(patch.point)},
+                       {"direction", to_json(patch.direction)},
+                       {"depth", patch.depth},
+                       {"area", patch.area},
+                       {"points", patch.points},
+                       {"spanning", spanning}});
+  }
+  return patches;
+}
+
 // A body with itself has no direction.
 Json self_json(const Contact& contact, bool has_facets, bool has_points) {
   Json json = {{"a", contact.a.index}, {"b", contact.b.index}};
   json["facet_pairs"] = has_facets ? facet_pairs_json(contact) : Json(nullptr);
-  if (has_points) json["points"] = points_json(&contact);
+  if (has_points) {
+    json["points"] = points_json(&contact);
+    json["patches"] = patches_json(&contact);
+  }
   return json;
 }
 
@@ -91,13 +113,18 @@ Json pair_json(const CandidatePair& pair, const Contact* contact, bool has_facet
     json["iterations"] = contact->iterations;
     json["limit_reached"] = contact->limit_reached;
     json["kept_facets"] = Json::array({contact->kept_facets_a, contact->kept_facets_b});
+    if (contact->containment != Containment::none)
+      json["contained"] = contact->containment == Containment::a_in_b ? "a" : "b";
   }
   if (!has_facets) {
     json["facet_pairs"] = nullptr;
   } else {
     json["facet_pairs"] = contact != nullptr ? facet_pairs_json(*contact) : Json::array();
   }
-  if (has_points) json["points"] = points_json(contact);
+  if (has_points) {
+    json["points"] = points_json(contact);
+    json["patches"] = patches_json(contact);
+  }
   return json;
 }
 

@@ -61,6 +61,7 @@ void expect_equal(const tact_contact& c, const Contact& cpp) {
     EXPECT_EQ((FacetPair{c.facet_pairs[i].a, c.facet_pairs[i].b}), cpp.facet_pairs()[i]);
   }
   EXPECT_EQ(c.patch_count, cpp.patches().size());
+  EXPECT_EQ(c.containment, static_cast<int>(cpp.containment));
 }
 
 void expect_equal_reports(tact_world c, const Report& cpp) {

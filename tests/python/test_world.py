@@ -26,6 +26,18 @@ def test_a_contact_has_the_closed_form_of_two_tetrahedra(two):
     assert contact.facet_pairs.dtype == np.int32 and contact.facet_pairs.shape[1] == 2
 
 
+def test_a_body_inside_another_is_contained_and_has_negative_gaps():
+    world = tact.World(tact.Settings(points=True))
+    positions, facets = tetrahedron(0.0)
+    middle = positions.mean(axis=0)
+    inner = middle + 0.1 * (positions - middle)
+    world.add_body(positions, facets), world.add_body(inner, facets)
+    (contact,) = world.detect().contacts
+    assert contact.containment == tact.Containment.b_in_a and not contact.touching
+    assert len(contact.points) == 4 and np.all(contact.points.gaps < 0)
+    assert -contact.points.gaps.min() == pytest.approx(contact.depth)
+
+
 def test_lists_of_the_report_agree_with_its_contacts(two):
     world, left, right = two
     report = world.detect()

@@ -13,6 +13,9 @@ static_assert(sizeof(tact_body) == sizeof(BodyId) && offsetof(tact_body, generat
 static_assert(sizeof(tact_facet_pair) == sizeof(FacetPair) && offsetof(tact_facet_pair, b) == offsetof(FacetPair, b));
 static_assert(sizeof(tact_contact_event) == sizeof(ContactEvent) &&
               offsetof(tact_contact_event, b) == offsetof(ContactEvent, b));
+static_assert(sizeof(tact_patch_event) == sizeof(PatchEvent) &&
+              offsetof(tact_patch_event, kind) == offsetof(PatchEvent, kind) &&
+              offsetof(tact_patch_event, other) == offsetof(PatchEvent, other));
 static_assert(sizeof(tact_candidate_pair) == sizeof(CandidatePair) &&
               offsetof(tact_candidate_pair, hulls_overlap) == offsetof(CandidatePair, hulls_overlap));
 
@@ -58,6 +61,7 @@ tact_contact contact_of(const Contact& contact) {
   result.kept_facets_b = contact.kept_facets_b;
   show(contact.facet_pairs(), &result.facet_pairs, &result.facet_pair_count);
   result.patch_count = contact.patches().size();
+  result.containment = static_cast<int>(contact.containment);
   return result;
 }
 
@@ -106,6 +110,11 @@ tact_error tact_contact_patch(tact_world world, size_t index, size_t patch, tact
     value.depth = found.depth;
     value.facet_pairs = found.facet_pairs.data();
     value.facet_pair_count = found.facet_pairs.size();
+    value.id = found.id;
+    value.area = found.area;
+    value.points = found.points.data();
+    value.point_count = found.points.size();
+    std::ranges::copy(found.spanning, value.spanning);
     write_struct(*result, value);
   });
 }
@@ -124,6 +133,10 @@ tact_error tact_report_began(tact_world world, const tact_contact_event** events
 
 tact_error tact_report_ended(tact_world world, const tact_contact_event** events, size_t* count) {
   return with_report(world, [&](const Report& report) { show(report.ended(), events, count); });
+}
+
+tact_error tact_report_patch_events(tact_world world, const tact_patch_event** events, size_t* count) {
+  return with_report(world, [&](const Report& report) { show(report.patch_events(), events, count); });
 }
 
 tact_error tact_report_stats(tact_world world, tact_statistic* statistics, size_t capacity, size_t* count) {

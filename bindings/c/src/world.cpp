@@ -136,6 +136,7 @@ tact_error tact_world_add_body(tact_world world, const tact_body_definition* def
                                           .name = d.name != nullptr ? d.name : "",
                                           .layer = d.layer,
                                           .mask = d.mask,
+                                          .group = d.group,
                                           .external_id = d.external_id,
                                           .margin = d.margin,
                                           .self_contact = d.self_contact}));
@@ -168,6 +169,14 @@ tact_error tact_world_set_positions_of_many(tact_world world, const tact_positio
 
 tact_error tact_world_set_layers(tact_world world, tact_body body, uint32_t layer, uint32_t mask) {
   return changing(world, [&](WorldEntry& entry) { entry.world.set_layers(id_of(body), layer, mask); });
+}
+
+tact_error tact_world_set_group(tact_world world, tact_body body, uint32_t group) {
+  return changing(world, [&](WorldEntry& entry) { entry.world.set_group(id_of(body), group); });
+}
+
+tact_error tact_world_set_excluded(tact_world world, tact_body a, tact_body b, bool excluded) {
+  return changing(world, [&](WorldEntry& entry) { entry.world.set_excluded(id_of(a), id_of(b), excluded); });
 }
 
 tact_error tact_world_set_motion(tact_world world, tact_body body, int32_t motion) {
@@ -233,6 +242,14 @@ tact_error tact_world_layer(tact_world world, tact_body body, uint32_t* layer) {
 
 tact_error tact_world_mask(tact_world world, tact_body body, uint32_t* mask) {
   return get(world, mask, [&](const World& w) { return w.mask(id_of(body)); });
+}
+
+tact_error tact_world_group(tact_world world, tact_body body, uint32_t* group) {
+  return get(world, group, [&](const World& w) { return w.group(id_of(body)); });
+}
+
+tact_error tact_world_excluded(tact_world world, tact_body a, tact_body b, bool* excluded) {
+  return get(world, excluded, [&](const World& w) { return w.excluded(id_of(a), id_of(b)); });
 }
 
 tact_error tact_world_external_id(tact_world world, tact_body body, uint64_t* external_id) {

@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 #include <tact/report.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -47,23 +48,54 @@ std::string contact_text(const ContactHandle& contact) {
          std::string(py::str(py::float_(c.depth))) + ", " + std::to_string(c.facet_pairs().size()) + " facet pairs>";
 }
 
+// A patch as copies.
+struct PatchArrays {
+  std::uint64_t id;
+  py::array_t<double> point, direction;
+  double depth, area;
+  py::array_t<int> facet_pairs, points, spanning;
+};
+
+PatchArrays patch_arrays(const Patch& patch) {
+  const auto column = [](std::span<const int> indices) {
+    return column_of<int>(indices, [](int index) { return index; });
+  };
+  const auto spanning = static_cast<std::size_t>(std::ranges::count_if(patch.spanning, [](int i) { return i >= 0; }));
+  return {patch.id,
+          vector_of(patch.point),
+          vector_of(patch.direction),
+          patch.depth,
+          patch.area,
+          column(patch.facet_pairs),
+          column(patch.points),
+          column(std::span(patch.spanning).first(spanning))};
+}
+
 void define_parts(py::module_& module) {
   py::class_<ZoneDisk>(module, "ZoneDisk", "The disk around an impact zone, across the contact direction.")
       .def_property_readonly(
           "center", [](const ZoneDisk& zone) { return vector_of(zone.center); }, "(3,), metres")
       .def_readonly("radius", &ZoneDisk::radius, "metres; negative if there is none");
-  py::class_<Patch>(module, "Patch", "A connected set of facet pairs.")
-      .def_property_readonly(
-          "point", [](const Patch& patch) { return vector_of(patch.point); }, "(3,), metres")
-      .def_property_readonly(
-          "direction", [](const Patch& patch) { return vector_of(patch.direction); }, "(3,), unit, from a to b")
-      .def_readonly("depth", &Patch::depth, "metres")
-      .def_property_readonly(
-          "facet_pairs",
-          [](const Patch& patch) {
-            return column_of<int>(std::span(patch.facet_pairs), [](int index) { return index; });
-          },
-          "rows of Contact.facet_pairs");
+  py::class_<PatchArrays>(module, "Patch", "A connected set of facet pairs and contact points.")
+      .def_readonly("id", &PatchArrays::id, "lasts from step to step")
+      .def_readonly("point", &PatchArrays::point, "(3,), metres")
+      .def_readonly("direction", &PatchArrays::direction, "(3,), unit, from a to b")
+      .def_readonly("depth", &PatchArrays::depth, "metres")
+      .def_readonly("area", &PatchArrays::area, "square metres")
+      .def_readonly("facet_pairs", &PatchArrays::facet_pairs, "rows of Contact.facet_pairs")
+      .def_readonly("points", &PatchArrays::points, "rows of Contact.points")
+      .def_readonly("spanning", &PatchArrays::spanning, "at most four of the points, the deepest first");
+  py::enum_<PatchEvent::Kind>(module, "PatchEventKind", "What became of a patch.")
+      .value("began", PatchEvent::Kind::began)
+      .value("split", PatchEvent::Kind::split, "it came off another, which persists")
+      .value("merged", PatchEvent::Kind::merged, "it went into another")
+      .value("ended", PatchEvent::Kind::ended);
+  py::class_<PatchEvent>(module, "PatchEvent", "What became of a patch in this step.")
+      .def_readonly("a", &PatchEvent::a)
+      .def_readonly("b", &PatchEvent::b)
+      .def_readonly("kind", &PatchEvent::kind)
+      .def_readonly("patch", &PatchEvent::patch, "its id")
+      .def_readonly("other", &PatchEvent::other, "the patch that it came off, or went into; or 0");
 }
 
 // Contact points as arrays, a row a point. They are copies.
@@ -99,7 +131,7 @@ void define_points(py::module_& module) {
       .def_readonly("a_weights", &PointArrays::a_weights, "(N, 3): their weights; the sum of a row is 1")
       .def_readonly("b_weights", &PointArrays::b_weights, "(N, 3): their weights; the sum of a row is 1")
       .def_readonly("normals", &PointArrays::normals, "(N, 3): unit, from a to b")
-      .def_readonly("gaps", &PointArrays::gaps, "(N,): metres")
+      .def_readonly("gaps", &PointArrays::gaps, "(N,): metres; negative where surfaces have crossed")
       .def_readonly("ids", &PointArrays::ids, "(N,) uint64: the same while these features are near each other")
       .def("__len__", [](const PointArrays& points) { return points.gaps.size(); });
 }
@@ -113,6 +145,8 @@ void define_contact(py::module_& module) {
           "direction", [](const ContactHandle& contact) { return vector_of(contact->direction); },
           "(3,), unit, from a to b")
       .def_property_readonly("depth", contact_field(&Contact::depth), "overlap of the hulls along `direction`, metres")
+      .def_property_readonly("containment", contact_field(&Contact::containment),
+                             "is one body wholly inside the other, so that no facets meet?")
       .def_property_readonly("source", contact_field(&Contact::source))
       .def_property_readonly("iterations", contact_field(&Contact::iterations))
       .def_property_readonly("limit_reached", contact_field(&Contact::limit_reached))
@@ -136,8 +170,9 @@ void define_contact(py::module_& module) {
       .def_property_readonly(
           "patches",
           [](const ContactHandle& contact) {
-            const auto patches = contact->patches();
-            return std::vector<Patch>(patches.begin(), patches.end());
+            py::list list;
+            for (const Patch& patch : contact->patches()) list.append(patch_arrays(patch));
+            return list;
           },
           "filled if Settings.patches is set")
       .def("__repr__", contact_text);
@@ -205,6 +240,13 @@ void define_report(py::module_& module) {
       .def_property_readonly(
           "ended", [](const ReportHandle& report) { return events_of(report->ended()); },
           "pairs (a, b) that touched and do not now")
+      .def_property_readonly(
+          "patch_events",
+          [](const ReportHandle& report) {
+            const auto events = report->patch_events();
+            return std::vector<PatchEvent>(events.begin(), events.end());
+          },
+          "what became of patches, if Settings.patches is set")
       .def_property_readonly(
           "stats", [](const ReportHandle& report) { return stats_of(*report); },
           "counts, and times in milliseconds, by name")

@@ -30,6 +30,10 @@ void define_enums(py::module_& module) {
   py::enum_<DirectionPolicy>(module, "DirectionPolicy", "Where the contact direction of a pair comes from.")
       .value("carried", DirectionPolicy::carried, "from the pair's direction of the last step")
       .value("smallest", DirectionPolicy::smallest, "the smallest separation of the hulls, anew in every step");
+  py::enum_<Containment>(module, "Containment", "Is one of two bodies wholly inside the other?")
+      .value("none", Containment::none)
+      .value("a_in_b", Containment::a_in_b)
+      .value("b_in_a", Containment::b_in_a);
   py::enum_<DirectionSource>(module, "DirectionSource", "How a contact direction was found.")
       .value("carried", DirectionSource::carried, "from the direction of the last step")
       .value("fresh", DirectionSource::fresh, "from the direction that separated the hulls before")

@@ -19,7 +19,8 @@ namespace {
 using SharedPointer = std::shared_ptr<SharedWorld>;
 
 BodyId add_body(SharedWorld& world, py::handle positions, py::handle facets, Surface surface, Motion motion,
-                const std::string& name, std::uint32_t layer, std::uint32_t mask, double margin, bool self_contact) {
+                const std::string& name, std::uint32_t layer, std::uint32_t mask, double margin, bool self_contact,
+                std::uint32_t group) {
   const PositionsArgument x(positions);
   const FacetsArgument f(facets);
   const BodyDefinition definition{.positions = x.columns(),
@@ -29,6 +30,7 @@ BodyId add_body(SharedWorld& world, py::handle positions, py::handle facets, Sur
                                   .name = name,
                                   .layer = layer,
                                   .mask = mask,
+                                  .group = group,
                                   .margin = margin,
                                   .self_contact = self_contact};
   BodyId added;
@@ -170,7 +172,7 @@ void define_world(py::module_& module) {
       .def("add_body", add_body, py::arg("positions"), py::arg("facets"), py::kw_only(),
            py::arg("surface") = Surface::closed, py::arg("motion") = Motion::moving, py::arg("name") = "",
            py::arg("layer") = 1u, py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0,
-           py::arg("self_contact") = false,
+           py::arg("self_contact") = false, py::arg("group") = 0u,
            "positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside")
       .def(
           "remove_body", [](SharedWorld& world, BodyId body) { world.use().remove_body(body); }, py::arg("body"))
@@ -183,6 +185,16 @@ void define_world(py::module_& module) {
             world.use().set_layers(body, layer, mask);
           },
           py::arg("body"), py::arg("layer"), py::arg("mask"))
+      .def(
+          "set_group", [](SharedWorld& world, BodyId body, std::uint32_t group) { world.use().set_group(body, group); },
+          py::arg("body"), py::arg("group"), "bodies of one group are not tested against each other; 0: in none")
+      .def(
+          "set_excluded",
+          [](SharedWorld& world, BodyId a, BodyId b, bool excluded) { world.use().set_excluded(a, b, excluded); },
+          py::arg("a"), py::arg("b"), py::arg("excluded"), "are the two bodies left out, whatever their layers?")
+      .def(
+          "excluded", [](SharedWorld& world, BodyId a, BodyId b) { return world.use().excluded(a, b); }, py::arg("a"),
+          py::arg("b"))
       .def(
           "set_motion", [](SharedWorld& world, BodyId body, Motion motion) { world.use().set_motion(body, motion); },
           py::arg("body"), py::arg("motion"))
@@ -200,6 +212,7 @@ void define_world(py::module_& module) {
       .def("motion", of_body<&World::motion>, py::arg("body"))
       .def("layer", of_body<&World::layer>, py::arg("body"))
       .def("mask", of_body<&World::mask>, py::arg("body"))
+      .def("group", of_body<&World::group>, py::arg("body"))
       .def("margin", of_body<&World::margin>, py::arg("body"), "half the body's thickness, metres")
       .def("self_contact", of_body<&World::self_contact>, py::arg("body"), "is the body held against itself?")
       .def(

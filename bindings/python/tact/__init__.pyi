@@ -88,6 +88,18 @@ class DirectionPolicy:
     def __int__(self) -> int: ...
     def __hash__(self) -> int: ...
 
+class Containment:
+    """Is one of two bodies wholly inside the other?"""
+
+    none: ClassVar[Containment]
+    a_in_b: ClassVar[Containment]
+    b_in_a: ClassVar[Containment]
+    name: str
+    value: int
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+
 class DirectionSource:
     """How a contact direction was found."""
 
@@ -171,8 +183,11 @@ class ZoneDisk:
         """metres; negative if there is none"""
 
 class Patch:
-    """A connected set of facet pairs."""
+    """A connected set of facet pairs and contact points."""
 
+    @property
+    def id(self) -> int:
+        """lasts from step to step"""
     @property
     def point(self) -> Floats:
         """(3,), metres"""
@@ -183,8 +198,46 @@ class Patch:
     def depth(self) -> float:
         """metres"""
     @property
+    def area(self) -> float:
+        """square metres"""
+    @property
     def facet_pairs(self) -> Ints:
         """rows of Contact.facet_pairs"""
+    @property
+    def points(self) -> Ints:
+        """rows of Contact.points"""
+    @property
+    def spanning(self) -> Ints:
+        """at most four of the points, the deepest first"""
+
+class PatchEventKind:
+    """What became of a patch."""
+
+    began: ClassVar[PatchEventKind]
+    split: ClassVar[PatchEventKind]
+    merged: ClassVar[PatchEventKind]
+    ended: ClassVar[PatchEventKind]
+    name: str
+    value: int
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+
+class PatchEvent:
+    """What became of a patch in this step."""
+
+    @property
+    def a(self) -> BodyId: ...
+    @property
+    def b(self) -> BodyId: ...
+    @property
+    def kind(self) -> PatchEventKind: ...
+    @property
+    def patch(self) -> int:
+        """its id"""
+    @property
+    def other(self) -> int:
+        """the patch that it came off, or went into; or 0"""
 
 class FeaturePair:
     """Between which features a contact point lies."""
@@ -244,6 +297,9 @@ class Contact:
     def depth(self) -> float:
         """overlap of the hulls along `direction`, metres"""
     @property
+    def containment(self) -> Containment:
+        """is one body wholly inside the other, so that no facets meet?"""
+    @property
     def source(self) -> DirectionSource: ...
     @property
     def iterations(self) -> int: ...
@@ -297,6 +353,9 @@ class Report:
     def began(self) -> list[tuple[BodyId, BodyId]]: ...
     @property
     def ended(self) -> list[tuple[BodyId, BodyId]]: ...
+    @property
+    def patch_events(self) -> list[PatchEvent]:
+        """what became of patches, if Settings.patches is set"""
     @property
     def stats(self) -> dict[str, float]:
         """counts, and times in milliseconds, by name"""
@@ -464,6 +523,7 @@ class World:
         mask: int = 0xFFFFFFFF,
         margin: float = 0.0,
         self_contact: bool = False,
+        group: int = 0,
     ) -> BodyId:
         """positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside"""
     def remove_body(self, body: BodyId) -> None: ...
@@ -472,6 +532,11 @@ class World:
     @overload
     def set_positions(self, positions: dict[BodyId, npt.NDArray[np.floating]]) -> None: ...
     def set_layers(self, body: BodyId, layer: int, mask: int) -> None: ...
+    def set_group(self, body: BodyId, group: int) -> None:
+        """bodies of one group are not tested against each other; 0: in none"""
+    def set_excluded(self, a: BodyId, b: BodyId, excluded: bool) -> None:
+        """are the two bodies left out, whatever their layers?"""
+    def excluded(self, a: BodyId, b: BodyId) -> bool: ...
     def set_motion(self, body: BodyId, motion: Motion) -> None: ...
     def detect(self) -> Report: ...
     def detect_motion(self, wanted: Impacts = ...) -> MotionReport:
@@ -527,6 +592,7 @@ class World:
     def motion(self, body: BodyId) -> Motion: ...
     def layer(self, body: BodyId) -> int: ...
     def mask(self, body: BodyId) -> int: ...
+    def group(self, body: BodyId) -> int: ...
     def margin(self, body: BodyId) -> float:
         """half the body's thickness, metres"""
     def self_contact(self, body: BodyId) -> bool: ...

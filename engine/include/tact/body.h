@@ -43,7 +43,9 @@ struct BodyDefinition {
   std::string name = {};             // for messages; empty: "body <index>"
   std::uint32_t layer = 1;           // the layers this body is on, a bit each
   std::uint32_t mask = 0xffffffffu;  // the layers it is tested against; a pair needs both masks to agree
-  std::uint64_t external_id = 0;     // the program's own, see World::external_id(); nothing depends on it
+  /// Bodies of one group are not tested against each other: the parts of a machine, say. 0: in no group.
+  std::uint32_t group = 0;
+  std::uint64_t external_id = 0;  // the program's own, see World::external_id(); nothing depends on it
   // Half a thickness, metres, 0 to kLargestCoordinate: surfaces closer than the sum of two margins are in contact.
   double margin = 0.0;
   bool self_contact = false;  // is the body held against itself, too? See Contact

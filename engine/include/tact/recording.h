@@ -35,6 +35,8 @@ class TACT_API Recorder final : public WorldObserver {
   void body_removed(BodyId body) noexcept override;
   void positions_set(std::span<const PositionsUpdate> updates) noexcept override;
   void layers_set(BodyId body, std::uint32_t layer, std::uint32_t mask) noexcept override;
+  void group_set(BodyId body, std::uint32_t group) noexcept override;
+  void excluded_set(BodyId a, BodyId b, bool excluded) noexcept override;
   void motion_set(BodyId body, Motion motion) noexcept override;
   void margin_set(BodyId body, double margin) noexcept override;
   void self_contact_set(BodyId body, bool wanted) noexcept override;

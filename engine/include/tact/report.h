@@ -1,6 +1,6 @@
 // What a step found. A report and everything in it is valid until the world's next detect(), set_settings() or
 // destruction, and may be read by many threads at once. To keep something for longer, copy it: a Contact's numbers, and
-// what its facet_pairs() and patches() show by itself, as a copied Contact still points to the world's.
+// what its facet_pairs() and patches() show by itself, as a copied Contact or Patch still points to the world's.
 #pragma once
 
 #include <tact/body.h>
@@ -11,6 +11,7 @@
 #include <tact/trace.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,6 +25,13 @@ enum class DirectionSource {
   smallest,  // as the smallest separation of the hulls
 };
 
+/// Is one of two bodies wholly inside the other, a closed one, so that no facets meet?
+enum class Containment {
+  none,
+  a_in_b,
+  b_in_a,
+};
+
 // The disk around an impact zone, in the plane through `center` across the contact direction.
 struct ZoneDisk {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // metres
@@ -31,13 +39,46 @@ struct ZoneDisk {
                          // Accuracy::paper zones are computed whether they are asked for or not
 };
 
-// A connected set of facet pairs: two that share a facet are neighbours.
+/// A place where two bodies touch, or come nearer than their margins: a connected set of facet pairs and contact
+/// points. Facet pairs are neighbours if they share a facet; points, if they share a vertex of either body and their
+/// normals are not opposite; a point and a facet pair, if a vertex of the point is a corner of the facet. A body in a
+/// clamp has two.
 struct Patch {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // mean of the centres of its facet pairs' common boxes, metres
-  // Unit, from a to b: the mean normal of its facets, weighted by area; the contact's direction if that is zero.
+  /// The same in the next step, if most of the vertices that it shares with patches of that step are shared with this
+  /// one, and the other way around. Never given out twice by a world. See Report::patch_events().
+  std::uint64_t id = 0;
+  /// The middle of its points, of those of facet pairs without points the centres of their common boxes; metres.
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  /// Unit, from a to b. With points: the mean of their normals, each weighted by how much its gap is below the margins;
+  /// as points keep their side from step to step, so does it. Without: the mean normal of the facets, weighted by area.
+  /// The contact's direction if the mean is zero.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  double depth = 0.0;            // moving b by depth * direction parts every facet pair of the patch, metres
-  std::vector<int> facet_pairs;  // indices into Contact::facet_pairs(), ascending
+  /// With points: minus the smallest gap, so negative where the surfaces are apart. Without: moving b by
+  /// depth * direction parts every facet pair of the patch. Metres.
+  double depth = 0.0;
+  /// Of the convex hull of its points, or of the centres as above, seen along `direction`; square metres.
+  double area = 0.0;
+  std::span<const int> facet_pairs;  ///< indices into Contact::facet_pairs(), ascending; the world's
+  std::span<const int> points;       ///< indices into Contact::points(), ascending; the world's
+  /// At most four of the points, for solvers of rigid bodies: the deepest first, then those that span the most area.
+  /// Indices into Contact::points(); -1 fills up.
+  std::array<int, 4> spanning{-1, -1, -1, -1};
+};
+
+/// What became of a patch in this step. One that is in Contact::patches() and in no event persists.
+struct PatchEvent {
+  enum class Kind {
+    began,   // where there was none
+    split,   // it is new, and came off the patch `other`, which persists
+    merged,  // it is no more, and went into the patch `other`
+    ended,   // it is no more
+  };
+  BodyId a;
+  BodyId b;
+  Kind kind = Kind::began;
+  std::uint64_t patch = 0;
+  std::uint64_t other = 0;
+  friend bool operator==(const PatchEvent&, const PatchEvent&) = default;
 };
 
 // Two bodies whose convex hulls overlap, touch, or are nearer than the sum of the bodies' margins. Whether they overlap
@@ -46,7 +87,8 @@ struct Patch {
 // their own, or for points.
 //
 // A body with itself, where BodyDefinition::self_contact asks for it, has a contact with a == b if facets meet that
-// share no vertex, or if there are points. It has facet pairs, with facet a < facet b, and points; all else is empty.
+// share no vertex, or if there are points. It has facet pairs, with facet a < facet b, points and patches; all else is
+// empty.
 struct Contact {
   BodyId a;  // a.index <= b.index
   BodyId b;
@@ -55,6 +97,10 @@ struct Contact {
   // Overlap of the hulls along `direction`, metres. Negative where they are apart: their distance, and `direction` is
   // then that of the distance.
   double depth = 0.0;
+  /// Decided exactly, by a vertex of each part of the inner body's mesh, where no facets meet; none at Accuracy::hulls.
+  /// `direction` and `depth` then show the way out. A ball in a bowl is not contained, nor are linked rings: their
+  /// hulls overlap, and if they do not touch() they need no push.
+  Containment containment = Containment::none;
   // Of the last step in which a body of the pair had moved, as all of the contact: nothing is done for pairs at rest.
   DirectionSource source = DirectionSource::fresh;
   int iterations = 0;          // shifted calls of GJK that it took
@@ -73,7 +119,7 @@ struct Contact {
   bool touching() const { return !facet_pairs_.empty(); }
   // Where surfaces are nearest to each other, if Outputs::points is set; sorted by kind, then by features.
   std::span<const ContactPoint> points() const { return points_; }
-  // Filled if Outputs::patches is set, but at Accuracy::hulls; ordered by their first facet pair.
+  // Filled if Outputs::patches is set; ordered by their first facet pair, those without by their first point.
   std::span<const Patch> patches() const { return patches_; }
 
  private:
@@ -91,7 +137,8 @@ struct CandidatePair {
   friend bool operator==(const CandidatePair&, const CandidatePair&) = default;
 };
 
-// Two bodies whose facets began to meet, or ceased to, in this step.
+/// Two bodies, or one twice, that began to touch, or ceased to, in this step: their facets meet, or they have points.
+/// One of Report::contacts() that touches, and is in no event, persists.
 struct ContactEvent {
   BodyId a;
   BodyId b;
@@ -110,12 +157,14 @@ class TACT_API Report {
   const Contact* find_contact(BodyId a, BodyId b) const noexcept;
   // Pairs whose boxes overlap, sorted by (a, b).
   std::span<const CandidatePair> candidate_pairs() const { return candidate_pairs_; }
-  // Pairs that touch now and did not in the last step, sorted by (a, b). Of a step that starts afresh (see
-  // World::detect), all that touch. At Accuracy::hulls none touch.
+  /// Pairs that touch now, by facets or by points, and did not in the last step, sorted by (a, b); bodies with
+  /// themselves among them. Of a step that starts afresh (see World::detect), all that touch.
   std::span<const ContactEvent> began() const { return began_; }
   // Pairs that touched in the last step and do not now, or of which a body was removed, sorted by (a, b). Ask
   // World::contains() before the ids are used: those of removed bodies are stale.
   std::span<const ContactEvent> ended() const { return ended_; }
+  /// What became of patches, if Outputs::patches is set: sorted by (a, b), what ended before what began.
+  std::span<const PatchEvent> patch_events() const { return patch_events_; }
   const StepStats& stats() const { return stats_; }
   // Filled if Outputs::trace is set; sorted by thread and time, an event before those within it.
   std::span<const TraceEvent> trace() const { return trace_; }
@@ -133,6 +182,7 @@ class TACT_API Report {
   std::vector<CandidatePair> candidate_pairs_;
   std::vector<ContactEvent> began_;
   std::vector<ContactEvent> ended_;
+  std::vector<PatchEvent> patch_events_;
   StepStats stats_;
   std::vector<TraceEvent> trace_;
 };

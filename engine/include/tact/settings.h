@@ -26,8 +26,8 @@ enum class DirectionPolicy {
 // which needs them. Where zones are known they drop facets, so fewer are kept.
 struct Outputs {
   bool zones = false;    // Contact::zone_a, zone_b: the smallest disks around the impact zones
-  bool patches = false;  // Contact::patches(): connected sets of facet pairs, each with a point, direction and depth
-  bool points = false;   // Contact::points(): where surfaces come nearer than the sum of their margins
+  bool patches = false;  // Contact::patches(): connected sets of facet pairs and points, with names that last
+  bool points = false;   // Contact::points(): where surfaces come nearer than the sum of their margins, or have crossed
   bool trace = false;    // Report::trace(): which thread did what, and when
 };
 

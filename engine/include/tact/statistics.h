@@ -13,7 +13,8 @@ namespace tact {
   X(vertices, "vertices of the bodies in the world")                                                      \
   X(moved_vertices, "vertices of the moved bodies")                                                       \
   X(regrouped_bodies, "moved bodies whose clusters had lost their shape: their facets were grouped anew") \
-  X(excluded_pairs, "overlapping boxes, one moved, that layers or two fixed bodies exclude")              \
+  X(excluded_pairs, "overlapping boxes, one moved, that layers, groups or two fixed bodies exclude")      \
+  X(named_excluded_pairs, "overlapping boxes of pairs that World::set_excluded() excludes")               \
   X(candidate_pairs, "pairs of bodies whose boxes overlap")                                               \
   X(kept_pairs, "candidate pairs in which neither body moved: the last result was kept")                  \
   X(parted_pairs, "new pairs, or apart before, that are apart along a diagonal of a cube's face")         \

@@ -80,6 +80,12 @@ class TACT_API World {
   // The layers that a body is on, and those that it is tested against; see BodyDefinition. Errors: stale_body,
   // foreign_body.
   void set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask);
+  /// The group that a body is in; see BodyDefinition. Errors: stale_body, foreign_body.
+  void set_group(BodyId body, std::uint32_t group);
+  /// Are two bodies, in either order, left out whatever their layers: the two sides of a joint, say? They are tested
+  /// again if they are excluded no more, and forgotten when one of them is removed. Errors: stale_body, foreign_body,
+  /// bad_settings (one body twice).
+  void set_excluded(BodyId a, BodyId b, bool excluded);
   // A body that moves from now on, or one that stays where it is. Errors: stale_body, foreign_body, bad_settings (a
   // motion that is none).
   void set_motion(BodyId body, Motion motion);
@@ -145,6 +151,8 @@ class TACT_API World {
   Motion motion(BodyId body) const;
   std::uint32_t layer(BodyId body) const;
   std::uint32_t mask(BodyId body) const;
+  std::uint32_t group(BodyId body) const;
+  bool excluded(BodyId a, BodyId b) const;  ///< and bad_settings: one body twice
   std::uint64_t external_id(BodyId body) const;
   double margin(BodyId body) const;
   bool self_contact(BodyId body) const;

@@ -24,6 +24,8 @@ class TACT_API WorldObserver {
   virtual void body_removed(BodyId body) noexcept;
   virtual void positions_set(std::span<const PositionsUpdate> updates) noexcept;
   virtual void layers_set(BodyId body, std::uint32_t layer, std::uint32_t mask) noexcept;
+  virtual void group_set(BodyId body, std::uint32_t group) noexcept;
+  virtual void excluded_set(BodyId a, BodyId b, bool excluded) noexcept;
   virtual void motion_set(BodyId body, Motion motion) noexcept;
   virtual void margin_set(BodyId body, double margin) noexcept;
   virtual void self_contact_set(BodyId body, bool wanted) noexcept;

@@ -186,8 +186,8 @@ TEST(Recording, SaysWhatIsWrongAndAtWhichByte) {
             "byte 8: a recording of version 0; versions 1 to 4 can be read");
   EXPECT_EQ(recording_refusal(with(good, kSettingsAt, "\x02")),
             at_byte(kSettingsAt) + "the first record is not one of settings");
-  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x0c")),
-            at_byte(kFirstBodyAt) + "step 0: no record is of kind 12");
+  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x0e")),
+            at_byte(kFirstBodyAt) + "step 0: no record is of kind 14");
   EXPECT_EQ(recording_refusal(with(good, kVerticesAt + 16, bytes_of(std::numeric_limits<double>::quiet_NaN())))
                 .substr(0, at_byte(kFirstBodyAt).size()),
             at_byte(kFirstBodyAt));

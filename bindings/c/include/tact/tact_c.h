@@ -158,11 +158,13 @@ typedef struct tact_body_definition {
   uint64_t external_id;   /**< the program's own; nothing depends on it */
   double margin;          /**< half a thickness, metres: surfaces closer than two margins are in contact */
   bool self_contact;      /**< is the body held against itself, too? */
+  uint32_t group;         /**< bodies of one group are not tested against each other; 0: in none */
 } tact_body_definition;
 #define TACT_BODY_DEFINITION_INIT                                                             \
   {                                                                                           \
     (uint32_t)sizeof(tact_body_definition), TACT_SURFACE_CLOSED, {NULL, 0, 24, TACT_FLOAT64}, \
-        {NULL, 0, 12, TACT_INT32}, TACT_MOTION_MOVING, 1u, 0xffffffffu, NULL, 0, 0.0, false   \
+        {NULL, 0, 12, TACT_INT32}, TACT_MOTION_MOVING, 1u, 0xffffffffu, NULL, 0, 0.0, false,  \
+        0                                                                                     \
   }
 
 /** New positions of one body. */
@@ -185,6 +187,9 @@ TACT_C_API tact_error tact_world_set_positions(tact_world world, tact_body body,
 TACT_C_API tact_error tact_world_set_positions_of_many(tact_world world, const tact_positions_update* updates,
                                                        size_t count);
 TACT_C_API tact_error tact_world_set_layers(tact_world world, tact_body body, uint32_t layer, uint32_t mask);
+TACT_C_API tact_error tact_world_set_group(tact_world world, tact_body body, uint32_t group);
+/** Are two bodies left out, whatever their layers: the two sides of a joint, say? */
+TACT_C_API tact_error tact_world_set_excluded(tact_world world, tact_body a, tact_body b, bool excluded);
 TACT_C_API tact_error tact_world_set_motion(tact_world world, tact_body body, int32_t motion);
 TACT_C_API tact_error tact_world_set_margin(tact_world world, tact_body body, double margin);
 TACT_C_API tact_error tact_world_set_self_contact(tact_world world, tact_body body, bool wanted);
@@ -202,6 +207,8 @@ TACT_C_API tact_error tact_world_bodies(tact_world world, tact_body* bodies, siz
 TACT_C_API tact_error tact_world_name(tact_world world, tact_body body, const char** name);
 TACT_C_API tact_error tact_world_surface(tact_world world, tact_body body, tact_surface* surface);
 TACT_C_API tact_error tact_world_motion(tact_world world, tact_body body, tact_motion* motion);
+TACT_C_API tact_error tact_world_group(tact_world world, tact_body body, uint32_t* group);
+TACT_C_API tact_error tact_world_excluded(tact_world world, tact_body a, tact_body b, bool* excluded);
 TACT_C_API tact_error tact_world_layer(tact_world world, tact_body body, uint32_t* layer);
 TACT_C_API tact_error tact_world_mask(tact_world world, tact_body body, uint32_t* mask);
 TACT_C_API tact_error tact_world_external_id(tact_world world, tact_body body, uint64_t* external_id);
@@ -266,6 +273,13 @@ typedef enum tact_direction_source {
   TACT_SOURCE_SMALLEST = 2
 } tact_direction_source;
 
+/** See tact::Containment. */
+typedef enum tact_containment {
+  TACT_CONTAINMENT_NONE = 0,
+  TACT_CONTAINMENT_A_IN_B = 1,
+  TACT_CONTAINMENT_B_IN_A = 2
+} tact_containment;
+
 /** Facet `a` of the first body meets facet `b` of the second. */
 typedef struct tact_facet_pair {
   int a;
@@ -296,12 +310,13 @@ typedef struct tact_contact {
   int64_t kept_facets_b;
   const tact_facet_pair* facet_pairs; /**< sorted; the world's */
   size_t facet_pair_count;
-  size_t patch_count; /**< see tact_contact_patch() */
+  size_t patch_count;  /**< see tact_contact_patch() */
+  int32_t containment; /**< tact_containment: is one body wholly inside the other? */
 } tact_contact;
 #define TACT_CONTACT_INIT                                                                                          \
   {                                                                                                                \
     (uint32_t)sizeof(tact_contact), {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0, 0, false, false, 0, 0, {{0, 0, 0}, -1}, \
-        {{0, 0, 0}, -1}, 0, 0, NULL, 0, 0                                                                          \
+        {{0, 0, 0}, -1}, 0, 0, NULL, 0, 0, 0                                                                       \
   }
 
 /** See tact::Patch. */
@@ -312,9 +327,14 @@ typedef struct tact_patch {
   double depth;           /**< metres */
   const int* facet_pairs; /**< indices into the contact's, ascending; the world's */
   size_t facet_pair_count;
+  uint64_t id;       /**< lasts from step to step */
+  double area;       /**< square metres */
+  const int* points; /**< indices into the contact's, ascending; the world's */
+  size_t point_count;
+  int spanning[4]; /**< at most four of the points, the deepest first; -1 fills up */
 } tact_patch;
 #define TACT_PATCH_INIT \
-  { (uint32_t)sizeof(tact_patch), {0, 0, 0}, {0, 0, 0}, 0, NULL, 0 }
+  { (uint32_t)sizeof(tact_patch), {0, 0, 0}, {0, 0, 0}, 0, NULL, 0, 0, 0, NULL, 0, {-1, -1, -1, -1} }
 
 typedef enum tact_feature_pair { TACT_VERTEX_FACET = 0, TACT_FACET_VERTEX = 1, TACT_EDGE_EDGE = 2 } tact_feature_pair;
 
@@ -327,7 +347,7 @@ typedef struct tact_contact_point {
   double a_weights[3]; /**< not negative; the sum is 1 */
   double b_weights[3];
   double normal[3]; /**< unit, from a to b */
-  double gap;       /**< metres */
+  double gap;       /**< metres; negative where surfaces have crossed */
   uint64_t id;      /**< the same while these features are near each other */
 } tact_contact_point;
 
@@ -338,11 +358,27 @@ typedef struct tact_candidate_pair {
   bool hulls_overlap;
 } tact_candidate_pair;
 
-/** Two bodies whose facets began to meet, or ceased to. */
+/** Two bodies, or one twice, that began to touch, or ceased to. */
 typedef struct tact_contact_event {
   tact_body a;
   tact_body b;
 } tact_contact_event;
+
+typedef enum tact_patch_event_kind {
+  TACT_PATCH_BEGAN = 0,
+  TACT_PATCH_SPLIT = 1,
+  TACT_PATCH_MERGED = 2,
+  TACT_PATCH_ENDED = 3
+} tact_patch_event_kind;
+
+/** See tact::PatchEvent. */
+typedef struct tact_patch_event {
+  tact_body a;
+  tact_body b;
+  int32_t kind; /**< tact_patch_event_kind */
+  uint64_t patch;
+  uint64_t other;
+} tact_patch_event;
 
 /** A count or a time of the step. */
 typedef struct tact_statistic {
@@ -382,6 +418,8 @@ TACT_C_API tact_error tact_report_candidate_pairs(tact_world world, const tact_c
 /** Pairs that touch now and did not in the last step, and the opposite. */
 TACT_C_API tact_error tact_report_began(tact_world world, const tact_contact_event** events, size_t* count);
 TACT_C_API tact_error tact_report_ended(tact_world world, const tact_contact_event** events, size_t* count);
+/** What became of patches, if they are asked for; the world's. */
+TACT_C_API tact_error tact_report_patch_events(tact_world world, const tact_patch_event** events, size_t* count);
 /** Writes up to `capacity` statistics, counts and then times, and how many there are. */
 TACT_C_API tact_error tact_report_stats(tact_world world, tact_statistic* statistics, size_t capacity, size_t* count);
 /** How many trace events there are, and each of them. */

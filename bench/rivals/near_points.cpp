@@ -1,0 +1,309 @@
+#include "bench/rivals/near_points.h"
+
+#include <CGAL/box_intersection_d.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "broadphase/sweep_and_prune.h"
+#include "narrowphase/contact_points/features.h"
+#include "narrowphase/contact_points/nearest.h"
+#include "narrowphase/mesh/refit.h"
+#include "narrowphase/triangles/embree.h"
+
+namespace tact::bench {
+namespace {
+
+using base::Box;
+using base::Vec3;
+using narrowphase::ClusteredMesh;
+using narrowphase::Features;
+using narrowphase::Nearest;
+using narrowphase::ScaledVertices;
+
+// A body: what does not change, the boxes of its facets, grown by its margin, and where they are.
+struct NearBody {
+  NearBody(const WorkloadBody& body, double margin_of_it)
+      : mesh({body.positions(0).data(), static_cast<std::size_t>(body.positions(0).size())},
+             {body.facets.data(), static_cast<std::size_t>(body.facets.size())}),
+        features(mesh),
+        margin(margin_of_it),
+        boxes(static_cast<std::size_t>(mesh.facet_count())) {
+    find_boxes();
+  }
+
+  void set(const WorkloadBody& body, int frame) {
+    narrowphase::refit(mesh, body.positions(frame).data(), {.largest = kLargestCoordinate, .threads = 1});
+    find_boxes();
+  }
+  void find_boxes() {
+    all = {};
+    for (int f = 0; f < mesh.facet_count(); ++f) {
+      Box box;
+      for (const Vec3& p : mesh.triangle(f)) box = base::extended(box, p);
+      box = base::grown(box, margin);
+      boxes[static_cast<std::size_t>(f)] = box;
+      all = base::merged(all, box);
+    }
+  }
+  ScaledVertices around(std::span<const int> vertices) const { return {mesh.points(), vertices, 1.0}; }
+
+  ClusteredMesh mesh;
+  Features features;
+  double margin;
+  std::vector<Box> boxes;
+  Box all;
+};
+
+// The points of a pair of facets: those of the vertices and edges that either has first.
+class FacetPoints {
+ public:
+  FacetPoints(const NearBody& a, const NearBody& b, int body_a, int body_b, std::vector<NearPoint>& found)
+      : a_(a), b_(b), body_a_(body_a), body_b_(body_b), reach_(a.margin + b.margin), found_(found) {}
+
+  void find(int facet_a, int facet_b) {
+    from_vertices(a_, facet_a, b_, facet_b, FeaturePair::vertex_facet);
+    from_vertices(b_, facet_b, a_, facet_a, FeaturePair::facet_vertex);
+    for (int i = 0; i < 3; ++i) {
+      const int e = own_edge(a_, facet_a, i);
+      if (e < 0) continue;
+      for (int k = 0; k < 3; ++k) {
+        const int f = own_edge(b_, facet_b, k);
+        if (f >= 0) between(e, f);
+      }
+    }
+  }
+
+ private:
+  static int own_edge(const NearBody& body, int facet, int k) {
+    const int edge = body.features.facet_edge(facet, k);
+    return edge >= 0 && body.features.first_facet_of_edge(edge) == facet ? edge : -1;
+  }
+  void from_vertices(const NearBody& own, int own_facet, const NearBody& other, int facet, FeaturePair kind) {
+    const narrowphase::Corners corners = other.mesh.corners(facet);
+    const narrowphase::Triangle t = other.mesh.triangle(facet);
+    const Vec3 corner[3] = {t[0], t[1], t[2]};
+    for (const int vertex : own.mesh.corners(own_facet)) {
+      if (own.features.first_facet_of_vertex(vertex) != own_facet) continue;
+      const Vec3 v = own.mesh.position(vertex);
+      const auto add = [&](const std::optional<Nearest>& nearest, std::span<const int> feature) {
+        if (!nearest) return;
+        NearPoint point{body_a_, body_b_, kind, {}, {}, nearest->distance};
+        const std::array<int, 3> one = narrowphase::source_vertices(own.mesh, {&vertex, 1});
+        const std::array<int, 3> two = narrowphase::source_vertices(other.mesh, feature);
+        point.a = kind == FeaturePair::vertex_facet ? one : two;
+        point.b = kind == FeaturePair::vertex_facet ? two : one;
+        found_.push_back(point);
+      };
+      add(narrowphase::nearest_inside_facet(v, corner, reach_), corners);
+      for (int k = 0; k < 3; ++k) {
+        if (const int edge = own_edge(other, facet, k); edge >= 0) {
+          const auto ends = other.features.edge(edge);
+          add(narrowphase::nearest_inside_edge(v, other.mesh.position(ends[0]), other.mesh.position(ends[1]),
+                                               other.around(other.features.opposite(edge)), reach_),
+              ends);
+        }
+        const int w = corners[static_cast<std::size_t>(k)];
+        if (other.features.first_facet_of_vertex(w) == facet)
+          add(narrowphase::nearest_in_vertex(v, corner[k], other.around(other.features.neighbors(w)), reach_), {&w, 1});
+      }
+    }
+  }
+  void between(int e, int f) {
+    const auto ends_e = a_.features.edge(e), ends_f = b_.features.edge(f);
+    const auto nearest = narrowphase::nearest_between_edges(
+        {a_.mesh.position(ends_e[0]), a_.mesh.position(ends_e[1])}, a_.around(a_.features.opposite(e)),
+        {b_.mesh.position(ends_f[0]), b_.mesh.position(ends_f[1])}, b_.around(b_.features.opposite(f)), reach_);
+    if (nearest)
+      found_.push_back({body_a_, body_b_, FeaturePair::edge_edge, narrowphase::source_vertices(a_.mesh, ends_e),
+                        narrowphase::source_vertices(b_.mesh, ends_f), nearest->distance});
+  }
+
+  const NearBody &a_, &b_;
+  int body_a_, body_b_;
+  double reach_;
+  std::vector<NearPoint>& found_;
+};
+
+// What both have in common: bodies, pairs of them, the list.
+class NearBase : public NearRival {
+ public:
+  NearBase(const Workload& workload, const std::vector<double>& margins) : workload_(workload) {
+    for (std::size_t k = 0; k < workload.bodies.size(); ++k) {
+      const WorkloadBody& body = workload.bodies[k];
+      bodies_.push_back(std::make_unique<NearBody>(body, margins[k]));
+      all_.push_back(static_cast<std::uint32_t>(k));
+      filters_.push_back({.layer = 1, .mask = body.mask, .fixed = body.fixed(), .group = 0});
+    }
+    boxes_.resize(bodies_.size());
+  }
+
+  void step(int frame) override {
+    found_.clear();
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      if (!workload_.bodies[k].fixed()) {
+        bodies_[k]->set(workload_.bodies[k], frame);
+        moved(k);
+      }
+      boxes_[k] = bodies_[k]->all;
+    }
+    for (const auto& [a, b] : sweep_.update(boxes_, filters_, all_, 1)) {
+      FacetPoints points(*bodies_[a], *bodies_[b], static_cast<int>(a), static_cast<int>(b), found_);
+      propose(a, b, points);
+    }
+  }
+
+  std::vector<NearPoint> points() const override {
+    std::vector<NearPoint> all = found_;
+    std::ranges::sort(all, {}, &NearPoint::key);
+    return all;
+  }
+
+ protected:
+  virtual void moved(std::size_t body) = 0;
+  virtual void propose(std::size_t a, std::size_t b, FacetPoints& points) = 0;
+
+  const Workload& workload_;
+  std::vector<std::unique_ptr<NearBody>> bodies_;
+
+ private:
+  broadphase::SweepAndPrune sweep_;
+  std::vector<std::uint32_t> all_;
+  std::vector<broadphase::Filter> filters_;
+  std::vector<Box> boxes_;
+  std::vector<NearPoint> found_;
+};
+
+void store_outward(const Box& box, RTCBounds& bounds) {
+  const auto out = [](double x, double sign) {
+    const auto f = static_cast<float>(x);
+    return static_cast<float>(f + sign * (std::abs(f) * 0x1p-23 + 0x1p-126));
+  };
+  bounds.lower_x = out(box.lower.x, -1.0), bounds.upper_x = out(box.upper.x, 1.0);
+  bounds.lower_y = out(box.lower.y, -1.0), bounds.upper_y = out(box.upper.y, 1.0);
+  bounds.lower_z = out(box.lower.z, -1.0), bounds.upper_z = out(box.upper.z, 1.0);
+}
+
+// A tree a body, refitted in every frame.
+class EmbreeNear : public NearBase {
+ public:
+  EmbreeNear(const Workload& workload, const std::vector<double>& margins)
+      : NearBase(workload, margins), device_(rtcNewDevice("threads=1")) {
+    for (const auto& body : bodies_) {
+      const RTCScene scene = rtcNewScene(device_);
+      rtcSetSceneFlags(scene, RTC_SCENE_FLAG_DYNAMIC);
+      rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
+      const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
+      rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(body->mesh.facet_count()));
+      rtcSetGeometryUserData(geometry, body.get());
+      rtcSetGeometryBoundsFunction(
+          geometry,
+          [](const RTCBoundsFunctionArguments* arguments) {
+            store_outward(static_cast<const NearBody*>(arguments->geometryUserPtr)->boxes[arguments->primID],
+                          *arguments->bounds_o);
+          },
+          nullptr);
+      rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
+      rtcCommitGeometry(geometry);
+      rtcAttachGeometry(scene, geometry);
+      rtcReleaseGeometry(geometry);  // the scene holds it
+      rtcCommitScene(scene);
+      scenes_.push_back(scene);
+      geometries_.push_back(geometry);
+    }
+    check();
+  }
+  ~EmbreeNear() override {
+    for (const RTCScene scene : scenes_) rtcReleaseScene(scene);
+    rtcReleaseDevice(device_);
+  }
+
+ private:
+  void check() const {
+    const RTCError error = rtcGetDeviceError(device_);
+    if (error != RTC_ERROR_NONE) throw std::runtime_error("Embree reports error " + std::to_string(error));
+  }
+  void moved(std::size_t body) override {
+    rtcCommitGeometry(geometries_[body]);
+    rtcCommitScene(scenes_[body]);
+  }
+  void propose(std::size_t a, std::size_t b, FacetPoints& points) override {
+    struct Query {
+      const NearBody &a, &b;
+      FacetPoints& points;
+    } query{*bodies_[a], *bodies_[b], points};
+    rtcCollide(
+        scenes_[a], scenes_[b],
+        [](void* data, RTCCollision* collisions, unsigned count) {
+          const Query& q = *static_cast<const Query*>(data);
+          for (unsigned k = 0; k < count; ++k) {
+            const unsigned i = collisions[k].primID0, j = collisions[k].primID1;
+            if (base::overlaps(q.a.boxes[i], q.b.boxes[j])) q.points.find(static_cast<int>(i), static_cast<int>(j));
+          }
+        },
+        &query);
+    check();
+  }
+
+  RTCDevice device_;
+  std::vector<RTCScene> scenes_;
+  std::vector<RTCGeometry> geometries_;
+};
+
+// A model of CGAL's BoxIntersectionBox_d.
+struct CgalFacet {
+  using NT = double;
+  using ID = std::size_t;
+  static int dimension() { return 3; }
+  double min_coord(int axis) const { return box->lower[axis]; }
+  double max_coord(int axis) const { return box->upper[axis]; }
+  ID id() const { return number; }
+
+  const Box* box = nullptr;
+  std::size_t number = 0;
+};
+
+// Only facets that reach into the box that both bodies share are given to it.
+class CgalNear : public NearBase {
+ public:
+  using NearBase::NearBase;
+
+ private:
+  void moved(std::size_t) override {}
+  void gather(const NearBody& body, const Box& common, std::size_t first, std::vector<CgalFacet>& facets,
+              std::vector<const CgalFacet*>& pointers) {
+    facets.clear();
+    pointers.clear();
+    for (std::size_t f = 0; f < body.boxes.size(); ++f) {
+      if (base::overlaps(body.boxes[f], common)) facets.push_back({&body.boxes[f], first + f});
+    }
+    for (const CgalFacet& facet : facets) pointers.push_back(&facet);
+  }
+  void propose(std::size_t a, std::size_t b, FacetPoints& points) override {
+    const Box common = base::intersection(bodies_[a]->all, bodies_[b]->all);
+    const std::size_t first_of_b = bodies_[a]->boxes.size();
+    gather(*bodies_[a], common, 0, facets_a_, pointers_a_);
+    gather(*bodies_[b], common, first_of_b, facets_b_, pointers_b_);
+    CGAL::box_intersection_d(pointers_a_.begin(), pointers_a_.end(), pointers_b_.begin(), pointers_b_.end(),
+                             [&](const CgalFacet* p, const CgalFacet* q) {
+                               points.find(static_cast<int>(p->number), static_cast<int>(q->number - first_of_b));
+                             });
+  }
+
+  std::vector<CgalFacet> facets_a_, facets_b_;
+  std::vector<const CgalFacet*> pointers_a_, pointers_b_;
+};
+
+}  // namespace
+
+std::unique_ptr<NearRival> make_near_rival(NearBoxes boxes, const Workload& workload,
+                                           const std::vector<double>& margins) {
+  if (boxes == NearBoxes::embree) return std::make_unique<EmbreeNear>(workload, margins);
+  return std::make_unique<CgalNear>(workload, margins);
+}
+
+}  // namespace tact::bench

@@ -1,0 +1,161 @@
+#include "bench/scaling/points.h"
+
+#include <fmt/format.h>
+#include <tact/world.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/measure.h"
+#include "bench/rivals/near_points.h"
+#include "bench/table.h"
+#include "bench/workloads/workloads.h"
+
+namespace tact::bench {
+namespace {
+
+constexpr double kMargin = 0.005;  // of a body's size
+
+std::vector<double> margins_of(const Workload& workload) {
+  std::vector<double> margins;
+  for (const WorkloadBody& body : workload.bodies) {
+    const Eigen::Matrix3Xd& x = body.positions(0);
+    margins.push_back(kMargin * (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff());
+  }
+  return margins;
+}
+
+// A workload with margins through tact.
+class PointRunner {
+ public:
+  PointRunner(const Workload& workload, const std::vector<double>& margins, Outputs outputs)
+      : workload_(workload), world_({.threads = 1, .outputs = outputs}) {
+    for (std::size_t k = 0; k < workload.bodies.size(); ++k) {
+      const WorkloadBody& body = workload.bodies[k];
+      ids_.push_back(world_.add_body({.positions = body.positions(0),
+                                      .facets = body.facets,
+                                      .surface = body.surface,
+                                      .motion = body.fixed() ? Motion::fixed : Motion::moving,
+                                      .mask = body.mask,
+                                      .margin = margins[k]}));
+    }
+  }
+  const Report& step(int frame) {
+    updates_.clear();
+    for (std::size_t k = 0; k < ids_.size(); ++k) {
+      if (!workload_.bodies[k].fixed()) updates_.push_back({ids_[k], workload_.bodies[k].positions(frame)});
+    }
+    world_.set_positions(updates_);
+    return world_.detect();
+  }
+
+ private:
+  const Workload& workload_;
+  World world_;
+  std::vector<BodyId> ids_;
+  std::vector<PositionsUpdate> updates_;
+};
+
+std::size_t count_points(const Report& report) {
+  std::size_t count = 0;
+  for (const Contact& contact : report.contacts()) count += contact.points().size();
+  return count;
+}
+
+// Of bodies that do not cross, the points are the rival's. Where they cross, tact has signs besides: those of its
+// points that have not crossed are the rival's.
+void check_against_rival(const Report& report, const std::vector<NearPoint>& rival, const std::string& name) {
+  std::vector<NearPoint> own;
+  std::set<std::pair<int, int>> crossing;
+  for (const Contact& contact : report.contacts()) {
+    const std::pair bodies(static_cast<int>(contact.a.index), static_cast<int>(contact.b.index));
+    if (contact.touching() || contact.containment != Containment::none) crossing.insert(bodies);
+    for (const ContactPoint& point : contact.points()) {
+      if (point.gap > 0.0)
+        own.push_back({bodies.first, bodies.second, point.kind, point.a_vertices, point.b_vertices, point.gap});
+    }
+  }
+  std::ranges::sort(own, {}, &NearPoint::key);
+  std::size_t place = 0;
+  for (const NearPoint& point : rival) {
+    if (place < own.size() && own[place].key() == point.key()) {
+      if (std::abs(own[place].gap - point.gap) > 1e-9)
+        throw std::runtime_error(fmt::format("points of {}: gap {} instead of {}", name, own[place].gap, point.gap));
+      ++place;
+    } else if (point.gap > 1e-12 && !crossing.contains({point.body_a, point.body_b})) {
+      throw std::runtime_error(
+          fmt::format("points of {}: bodies {} and {} lack one of the rival's", name, point.body_a, point.body_b));
+    }
+  }
+  if (place != own.size())
+    throw std::runtime_error(fmt::format("points of {}: {} are none of the rival's", name, own.size() - place));
+}
+
+// Medians over the frames, all contestants taking turns, so that what disturbs one disturbs all.
+struct Measured {
+  double without = 0.0, with = 0.0, with_patches = 0.0, embree = 0.0, cgal = 0.0;  // ms
+  double points = 0.0;
+};
+
+Measured measure(const Workload& workload, const std::string& name, double budget_ms, int checked_frames) {
+  const std::vector<double> margins = margins_of(workload);
+  PointRunner without(workload, margins, {}), with(workload, margins, {.points = true}),
+      with_patches(workload, margins, {.patches = true, .points = true});
+  const auto embree = make_near_rival(NearBoxes::embree, workload, margins),
+             cgal = make_near_rival(NearBoxes::cgal, workload, margins);
+  for (int frame = 0; frame < std::min(checked_frames, workload.frames); ++frame) {
+    const Report& report = with.step(frame);
+    embree->step(frame);
+    cgal->step(frame);
+    check_against_rival(report, embree->points(), name + " by Embree");
+    check_against_rival(report, cgal->points(), name + " by CGAL");
+    without.step(frame);
+    with_patches.step(frame);
+  }
+  std::vector<double> times[5], points;
+  int frame = 0;
+  double expected_ms = 1.0;
+  for (const double start = wall_ms(); times[0].size() < 3 || wall_ms() - start < budget_ms;
+       frame = (frame + 1) % workload.frames) {
+    const auto time = [&](std::size_t k, const auto& work) {
+      times[k].push_back(time_ms(1, expected_ms, work));
+      expected_ms = times[k].back();
+    };
+    time(0, [&] { without.step(frame); });
+    time(1, [&] { points.push_back(static_cast<double>(count_points(with.step(frame)))); });
+    time(2, [&] { with_patches.step(frame); });
+    time(3, [&] { embree->step(frame); });
+    time(4, [&] { cgal->step(frame); });
+  }
+  return {median(times[0]), median(times[1]), median(times[2]), median(times[3]), median(times[4]), median(points)};
+}
+
+}  // namespace
+
+int run_points(const BenchOptions& options) {
+  const double budget_ms = options.quick ? 20.0 : 3000.0;
+  fmt::print("{}\nmargins of {} % of a body's size, one thread, medians over the frames\n\n", machine_line(1),
+             100.0 * kMargin);
+  Table table({"workload", "points", "without ms", "with ms", "ratio", "and patches ms", "Embree's boxes ms",
+               "CGAL's boxes ms", "factor"});
+  bool any = false;
+  for (const NamedWorkload& named : rival_workloads(options.quick ? Size::small : Size::full)) {
+    if (named.name.find(options.only) == std::string::npos) continue;
+    any = true;
+    const Measured m = measure(named.make(), named.name, budget_ms, options.quick ? 4 : 2);
+    table.add({named.name, fmt::format("{:.0f}", m.points), three_digits(m.without), three_digits(m.with),
+               three_digits(m.with / m.without), three_digits(m.with_patches), three_digits(m.embree),
+               three_digits(m.cgal), three_digits(std::min(m.embree, m.cgal) / m.with)});
+  }
+  if (!any) throw std::runtime_error("no workload's name holds '" + options.only + "'");
+  table.print();
+  if (!options.out.empty()) table.write_csv(options.out / "points.csv");
+  return 0;
+}
+
+}  // namespace tact::bench

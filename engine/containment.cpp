@@ -1,0 +1,48 @@
+#include "engine/containment.h"
+
+#include "engine/base/parallel.h"
+#include "narrowphase/contact_points/crossing.h"
+
+namespace tact {
+
+namespace {
+
+bool is_in_box(const Body& inner, const Body& outer) {
+  const base::Box &in = inner.mesh.box(), &out = outer.mesh.box();
+  return !in.empty() && contains(out, in.lower) && contains(out, in.upper);
+}
+
+}  // namespace
+
+void ContainmentStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Settings& settings) {
+  if (settings.accuracy == Accuracy::hulls) return;
+  wanted_.clear();
+  slots_.clear();
+  for (const MovedPair& pair : moved) {
+    if (!pair.record->hulls_overlap || !pair.record->facet_pairs.empty()) continue;
+    const std::uint32_t a = pair.record->a.index, b = pair.record->b.index;
+    const auto want = [&](std::uint32_t inner, std::uint32_t outer, Containment containment) {
+      if (bodies.in_slot(outer).surface != Surface::closed) return;
+      if (!is_in_box(bodies.in_slot(inner), bodies.in_slot(outer))) return;
+      wanted_.push_back({pair.record, inner, outer, containment});
+      slots_.push_back(inner);
+    };
+    want(a, b, Containment::a_in_b);
+    want(b, a, Containment::b_in_a);
+  }
+  if (wanted_.empty()) return;
+  bodies.make_features(slots_, settings.threads);
+  // A pair may stand here twice only if the boxes are equal, and then one after the other in one task.
+  base::parallel_for(wanted_.size(), 8, settings.threads, [&](std::size_t i, int) {
+    const Wanted& one = wanted_[i];
+    if (i > 0 && wanted_[i - 1].record == one.record) return;
+    for (std::size_t k = i; k < wanted_.size() && wanted_[k].record == one.record; ++k) {
+      if (!narrowphase::is_contained(bodies.featured(wanted_[k].inner), bodies.in_slot(wanted_[k].outer).mesh))
+        continue;
+      one.record->contact.containment = wanted_[k].containment;
+      return;
+    }
+  });
+}
+
+}  // namespace tact

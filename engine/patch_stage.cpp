@@ -1,0 +1,124 @@
+#include "engine/patch_stage.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "engine/base/parallel.h"
+
+namespace tact {
+
+namespace {
+
+base::Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+// Those of this step become those of the last.
+PatchSet& begin(PatchMemory& memory) {
+  std::swap(memory.now, memory.last);
+  memory.now.clear();
+  return memory.now;
+}
+
+}  // namespace
+
+void PatchStage::find(std::span<const MovedPair> moved, const Bodies& bodies, const Settings& settings) {
+  finders_.resize(static_cast<std::size_t>(settings.threads));
+  base::parallel_for(moved.size(), 4, settings.threads, [&](std::size_t i, int thread) {
+    PairRecord& record = *moved[i].record;
+    const bool any = in_contact(record) && (!record.facet_pairs.empty() || !record.points.empty());
+    if (record.patches == nullptr) {
+      if (!any) return;
+      record.patches = std::make_unique<PatchMemory>();
+    }
+    PatchSet& set = begin(*record.patches);
+    if (!any) return;
+    finders_[static_cast<std::size_t>(thread)].find({.a = bodies.in_slot(record.a.index),
+                                                     .b = bodies.in_slot(record.b.index),
+                                                     .direction = from_eigen(record.contact.direction),
+                                                     .reach = bodies.reach(record.a.index, record.b.index),
+                                                     .facet_pairs = record.facet_pairs,
+                                                     .points = record.points},
+                                                    set);
+  });
+}
+
+void PatchStage::find_self(const Body& body, double reach, std::span<const FacetPair> facet_pairs,
+                           std::span<ContactPoint> points, PatchMemory& memory) {
+  if (finders_.empty()) finders_.resize(1);
+  PatchSet& set = begin(memory);
+  if (!facet_pairs.empty() || !points.empty())
+    finders_[0].find(
+        {.a = body, .b = body, .direction = {0, 0, 1}, .reach = reach, .facet_pairs = facet_pairs, .points = points},
+        set);
+}
+
+void PatchStage::count_shared(const PatchMemory& memory) {
+  matches_.clear();
+  auto now = memory.now.vertices.begin();
+  auto last = memory.last.vertices.begin();
+  while (now != memory.now.vertices.end() && last != memory.last.vertices.end()) {
+    if (now->vertex != last->vertex) {
+      ++(now->vertex < last->vertex ? now : last);
+      continue;
+    }
+    for (auto one = last; one != memory.last.vertices.end() && one->vertex == now->vertex; ++one)
+      matches_.push_back({1, now->patch, one->patch});
+    ++now;
+  }
+  const auto pair_of = [](const Match& match) { return std::pair(match.now, match.last); };
+  std::ranges::sort(matches_, {}, pair_of);
+  std::size_t count = 0;
+  for (const Match& match : matches_) {
+    if (count > 0 && pair_of(matches_[count - 1]) == pair_of(match)) {
+      ++matches_[count - 1].shared;
+    } else {
+      matches_[count++] = match;
+    }
+  }
+  matches_.resize(count);
+  std::ranges::sort(matches_, {}, [](const Match& match) { return std::tuple(-match.shared, match.now, match.last); });
+}
+
+void PatchStage::name(BodyId a, BodyId b, PatchMemory& memory, std::vector<PatchEvent>& events) {
+  std::vector<Patch>&now = memory.now.patches, &last = memory.last.patches;
+  if (now.empty() && last.empty()) return;
+  count_shared(memory);
+  now_is_.assign(now.size(), -1);
+  last_is_.assign(last.size(), -1);
+  const auto in = [](auto& list, int i) -> auto& { return list[static_cast<std::size_t>(i)]; };
+  for (const Match& match : matches_) {
+    if (in(now_is_, match.now) >= 0 || in(last_is_, match.last) >= 0) continue;
+    in(now_is_, match.now) = match.last;
+    in(last_is_, match.last) = match.now;
+    in(now, match.now).id = in(last, match.last).id;
+  }
+  // Of the others, the partner with which they share most.
+  const auto most = [&](int Match::*own, int i) {
+    return std::ranges::find_if(matches_, [&](const Match& match) { return match.*own == i; });
+  };
+  for (int i = 0; i < static_cast<int>(last.size()); ++i) {
+    if (in(last_is_, i) >= 0) continue;
+    const auto into = most(&Match::last, i);
+    if (into == matches_.end()) {
+      events.push_back({a, b, PatchEvent::Kind::ended, in(last, i).id, 0});
+    } else if (in(now_is_, into->now) >= 0) {
+      events.push_back({a, b, PatchEvent::Kind::merged, in(last, i).id, in(now, into->now).id});
+    }
+  }
+  for (int i = 0; i < static_cast<int>(now.size()); ++i) {
+    if (in(now_is_, i) >= 0) continue;
+    in(now, i).id = ++last_id_;
+    const auto from = most(&Match::now, i);
+    const bool is_split = from != matches_.end();
+    events.push_back({a, b, is_split ? PatchEvent::Kind::split : PatchEvent::Kind::began, in(now, i).id,
+                      is_split ? in(last, from->last).id : 0});
+  }
+}
+
+void PatchStage::name(std::span<const MovedPair> moved, std::vector<PatchEvent>& events) {
+  for (const MovedPair& pair : moved) {
+    if (pair.record->patches != nullptr) name(pair.record->a, pair.record->b, *pair.record->patches, events);
+  }
+}
+
+}  // namespace tact

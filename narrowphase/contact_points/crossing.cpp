@@ -1,0 +1,387 @@
+#include "narrowphase/contact_points/crossing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "narrowphase/mesh/for_each_cluster.h"
+#include "narrowphase/numeric/unit_scale.h"
+#include "narrowphase/questions/mesh_questions.h"
+
+namespace tact::narrowphase {
+
+namespace {
+
+// A vertex keeps to facets within 60 degrees of its last normal: a wall at a right angle to them stays another side
+// however the body turns in a step.
+constexpr double kSameSide = 0.5;
+// Facets that stand along a part's direction to 3 degrees do not face it: rounding would choose between them.
+constexpr double kFaces = 0.05;
+// The facets through which a part comes in agree on a direction if their mean normal is so long: those of a cap of 37
+// degrees do, two walls at a right angle do not.
+constexpr double kAgree = 0.8;
+// How far beyond the hulls' depth a way may seem to be by rounding; lengths are near 1.
+constexpr double kDepthRounding = 1e-12;
+constexpr double kAnywhere = 16.0;  // beyond both meshes, whose lengths are at most 2
+
+Vec3 unit_normal(const ScaledMesh& m, int facet) {
+  const Corners c = m.mesh.corners(facet);
+  const Vec3 normal = cross(m.position(c[1]) - m.position(c[0]), m.position(c[2]) - m.position(c[0]));
+  const double length = norm(normal);
+  return length > 0.0 ? (1.0 / length) * normal : Vec3{};
+}
+
+Vec3 unit_or(Vec3 v, Vec3 otherwise) {
+  const double length = norm(v);
+  return length > 0.0 ? (1.0 / length) * v : otherwise;
+}
+
+EdgeEnds ends_of(const ScaledMesh& m, int edge) {
+  const EdgeVertices ends = m.features.edge(edge);
+  return {m.position(ends[0]), m.position(ends[1])};
+}
+
+EdgeVertices source_ends(const FeaturedMesh& m, int edge) {
+  const EdgeVertices ends = m.features->edge(edge);
+  return {m.mesh->source_vertex(ends[0]), m.mesh->source_vertex(ends[1])};
+}
+
+std::span<const int> used(const std::array<int, 3>& feature) {
+  return std::span(feature).first(static_cast<std::size_t>(std::ranges::find(feature, -1) - feature.begin()));
+}
+
+double negative(double distance) { return distance > 0.0 ? -distance : 0.0; }
+
+}  // namespace
+
+bool is_contained(const FeaturedMesh& inner, const ClusteredMesh& outer) {
+  const Box &in = inner.mesh->box(), &out = outer.box();
+  if (in.empty() || !contains(out, in.lower) || !contains(out, in.upper)) return false;
+  return std::ranges::all_of(inner.features->one_of_each_part(),
+                             [&](int v) { return contains(outer, inner.mesh->position(v)); });
+}
+
+const CarriedNormal* CrossingSearch::Side::carried_normal(int source_vertex) const {
+  const auto found = std::ranges::lower_bound(carried, source_vertex, {}, &CarriedNormal::vertex);
+  return found != carried.end() && found->vertex == source_vertex ? &*found : nullptr;
+}
+
+const CrossingSearch::Crossed* CrossingSearch::Side::find(int source_vertex) const {
+  const auto found = std::ranges::lower_bound(crossed, source_vertex, {}, &Crossed::source_vertex);
+  return found != crossed.end() && found->source_vertex == source_vertex ? &*found : nullptr;
+}
+
+void CrossingSearch::run(const CrossingInput& input, std::vector<FeaturePoint>& found) {
+  const Box whole = merged(input.a.mesh->box(), input.b.mesh->box());
+  const Vec3 size = whole.upper - whole.lower;
+  scale_ = unit_scale(std::max({size.x, size.y, size.z}));
+  limit_ = scale_ * input.depth + kDepthRounding;
+  direction_ = input.direction;
+  const auto set = [](Side& side, const FeaturedMesh& mesh, SurfaceKind surface, auto carried, double sign) {
+    side.mesh = mesh;
+    side.surface = surface;
+    side.carried = carried;
+    side.sign = sign;
+    side.crossed.clear();
+  };
+  set(a_, input.a, input.surface_a, input.carried_a, -1.0);
+  set(b_, input.b, input.surface_b, input.carried_b, 1.0);
+  a_.cut.find_hits(a_.mesh, *b_.mesh.mesh, input.facet_pairs, Cut::Which::a);
+  b_.cut.find_hits(b_.mesh, *a_.mesh.mesh, input.facet_pairs, Cut::Which::b);
+  find_crossed(a_, b_);
+  find_crossed(b_, a_);
+  std::erase_if(found, [&](const FeaturePoint& point) { return is_crossed_vertex(point); });
+  sign_edges(found);
+  append_edge_points(found);
+  append_running_edges(a_, b_, found);
+  append_running_edges(b_, a_, found);
+  append_vertex_points(a_, b_, found);
+  append_vertex_points(b_, a_, found);
+}
+
+void CrossingSearch::find_crossed(Side& own, const Side& other) {
+  if (other.surface == SurfaceKind::closed) {
+    find_ways_out(own, other);
+  } else {
+    find_ways_through(own, other);
+  }
+  std::ranges::sort(own.crossed, {}, &Crossed::source_vertex);
+}
+
+// In the order of the caller's numbers, so that sums do not depend on how facets are grouped.
+void CrossingSearch::find_patch_directions(Side& own, const Side& other) {
+  own.cut.number_patches();
+  patches_.assign(static_cast<std::size_t>(own.cut.patch_count()), {});
+  for (const CarriedNormal& one : own.carried) {
+    const int patch = own.cut.patch_of(one.vertex);
+    if (patch < 0) continue;
+    PatchDirection& direction = patches_[static_cast<std::size_t>(patch)];
+    Vec3& sum = one.gap < 0.0 ? direction.of_crossed : direction.of_others;
+    sum = sum + own.sign * one.normal;
+  }
+  for (const EdgeHit& hit : own.cut.hits()) {
+    PatchDirection& one = patches_[static_cast<std::size_t>(own.cut.patch_of(hit.vertices[0]))];
+    one.entered = one.entered + unit_normal(other.scaled(scale_), other.mesh.mesh->facet_of_source(hit.facet));
+    ++one.entries;
+  }
+  for (PatchDirection& one : patches_) {
+    const bool agree = one.entries > 0 && norm(one.entered) > kAgree * one.entries;
+    one.facing = one.of_crossed != Vec3{}                        ? one.of_crossed
+                 : one.of_others != Vec3{}                       ? one.of_others
+                 : agree && other.surface == SurfaceKind::closed ? one.entered
+                                                                 : own.sign * direction_;
+    one.facing = normalized(one.facing);
+  }
+}
+
+Vec3 CrossingSearch::facing_of_patch(const Side& own, int source_vertex) const {
+  const int patch = own.cut.patch_of(source_vertex);
+  return patch < 0 ? own.sign * direction_ : patches_[static_cast<std::size_t>(patch)].facing;
+}
+
+std::optional<Vec3> CrossingSearch::facing_of_vertex(const Side& own, int source_vertex) const {
+  const CarriedNormal* carried = own.carried_normal(source_vertex);
+  if (carried == nullptr) return {};
+  const Vec3 facing = own.sign * carried->normal;
+  if (carried->gap >= 0.0 && dot(facing, facing_of_patch(own, source_vertex)) < 0.0) return {};
+  return facing;
+}
+
+void CrossingSearch::find_ways_out(Side& own, const Side& other) {
+  own.cut.find_inside(own.mesh, *other.mesh.mesh);
+  find_patch_directions(own, other);
+  const ScaledMesh surface = other.scaled(scale_), from = own.scaled(scale_);
+  const Vec3 contact = own.sign * direction_;
+  ways_.begin(surface);
+  int hint = -1;
+  for (const int vertex : own.cut.inside()) {
+    const int source = own.mesh.mesh->source_vertex(vertex);
+    const Vec3 v = from.position(vertex), facing = facing_of_patch(own, source);
+    std::optional<WayOut> way;
+    if (const auto carried = facing_of_vertex(own, source))
+      way = ways_.nearest_out(v, *carried, kSameSide, limit_, hint);
+    if (!way) way = ways_.nearest_out(v, facing, kFaces, limit_, hint);
+    if (!way) way = way_out_along(surface, v, contact, limit_);
+    // A surface with holes may not be met.
+    if (!way) way = ways_.nearest_out(v, facing, -2.0, kAnywhere, hint);
+    if (!way) continue;
+    hint = way->facet;
+    own.crossed.push_back({source, *way});
+  }
+}
+
+void CrossingSearch::find_ways_through(Side& own, const Side& sheet) {
+  reached_.clear();
+  find_patch_directions(own, sheet);
+  const ScaledMesh surface = sheet.scaled(scale_);
+  PredicateCounts counts;
+  for (const EdgeHit& hit : own.cut.hits()) {
+    const int facet = sheet.mesh.mesh->facet_of_source(hit.facet);
+    const Triangle t = sheet.mesh.mesh->triangle(facet);
+    const Vec3 normal = unit_normal(surface, facet);
+    const EdgeVertices ends = own.mesh.features->edge(hit.edge);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Vec3 facing = facing_of_vertex(own, hit.vertices[k]).value_or(facing_of_patch(own, hit.vertices[k]));
+      const double along = dot(normal, facing);
+      const int below = orient3d(t[0], t[1], t[2], own.mesh.mesh->position(ends[k]), counts);
+      if (along != 0.0 && below == (along > 0.0 ? 1 : -1)) reached_.push_back({hit.vertices[k], ends[k], -1, facing});
+    }
+  }
+  while (!reached_.empty()) {
+    reach_through(own, sheet);
+    spread_through(own);
+  }
+}
+
+// Looks at what was reached, in the order of the caller's numbers; keeps what is beyond the sheet.
+void CrossingSearch::reach_through(Side& own, const Side& sheet) {
+  // Of those that reach a vertex, the first in that order.
+  std::ranges::sort(reached_, {}, [](const Reached& one) {
+    return std::tuple(one.source_vertex, one.from, one.facing.x, one.facing.y, one.facing.z);
+  });
+  const ScaledMesh from = own.scaled(scale_);
+  ways_.begin(sheet.scaled(scale_));
+  next_.clear();
+  int hint = -1, last = -1;
+  for (const Reached& one : reached_) {
+    if (one.source_vertex == last || own.cut.is_inside(one.source_vertex)) continue;
+    const auto way = ways_.nearest_through(from.position(one.vertex), one.facing, limit_, hint);
+    if (!way) continue;
+    hint = way->facet;
+    last = one.source_vertex;
+    own.cut.add_inside(own.mesh, one.vertex, one.from);
+    own.crossed.push_back({one.source_vertex, *way});
+    next_.push_back({one.source_vertex, one.vertex, one.from, way->out});
+  }
+}
+
+void CrossingSearch::spread_through(Side& own) {
+  reached_.clear();
+  for (const Reached& one : next_) {
+    for (const int to : own.mesh.features->neighbors(one.vertex)) {
+      const int source = own.mesh.mesh->source_vertex(to);
+      if (own.cut.is_inside(source)) continue;
+      const auto [first, second] = std::minmax(one.source_vertex, source);
+      if (!own.cut.is_cut({first, second})) reached_.push_back({source, to, one.source_vertex, one.facing});
+    }
+  }
+}
+
+bool CrossingSearch::is_crossed_vertex(const FeaturePoint& point) const {
+  return (point.kind == FeaturePair::vertex_facet && a_.find(point.a[0]) != nullptr) ||
+         (point.kind == FeaturePair::facet_vertex && b_.find(point.b[0]) != nullptr);
+}
+
+void CrossingSearch::append_vertex_points(const Side& own, const Side& other, std::vector<FeaturePoint>& found) const {
+  const bool of_a = &own == &a_;
+  for (const Crossed& one : own.crossed) {
+    FeaturePoint point;
+    point.kind = of_a ? FeaturePair::vertex_facet : FeaturePair::facet_vertex;
+    (of_a ? point.a : point.b) = {one.source_vertex, -1, -1};
+    (of_a ? point.weight_a : point.weight_b) = {1.0, 0.0, 0.0};
+    (of_a ? point.b : point.a) = source_vertices(*other.mesh.mesh, used(one.way.feature));
+    (of_a ? point.weight_b : point.weight_a) = one.way.feature_weight;
+    point.normal = own.sign * one.way.out;
+    point.gap = negative(one.way.distance / scale_);
+    found.push_back(point);
+  }
+}
+
+// Both ends inside, or beyond a sheet, and cut by nothing between.
+bool CrossingSearch::goes_on_inside(const Side& own, int edge) const {
+  const EdgeVertices ends = source_ends(own.mesh, edge);
+  return own.cut.is_inside(ends[0]) && own.cut.is_inside(ends[1]) && !own.cut.is_cut(ends);
+}
+
+// Does an edge meet a facet that has the other edge?
+bool CrossingSearch::meets_beside(const Side& own, int edge, const Side& other, int other_edge) const {
+  const EdgeVertices ends = other.mesh.features->edge(other_edge);
+  return std::ranges::any_of(own.cut.hits_of(source_ends(own.mesh, edge)), [&](const EdgeHit& hit) {
+    const Corners corners = other.mesh.mesh->corners(other.mesh.mesh->facet_of_source(hit.facet));
+    return std::ranges::all_of(ends, [&](int v) { return std::ranges::find(corners, v) != corners.end(); });
+  });
+}
+
+bool CrossingSearch::have_passed(int edge_a, int edge_b, const FeaturePoint& point) const {
+  if (goes_on_inside(a_, edge_a) || goes_on_inside(b_, edge_b)) return true;
+  const EdgeVertices ends_a = source_ends(a_.mesh, edge_a), ends_b = source_ends(b_.mesh, edge_b);
+  const bool cut_a = a_.cut.is_cut(ends_a), cut_b = b_.cut.is_cut(ends_b);
+  if ((cut_a && meets_beside(a_, edge_a, b_, edge_b)) || (cut_b && meets_beside(b_, edge_b, a_, edge_a))) return true;
+  // An edge that is cut somewhere: is its point inside?
+  return (cut_a && is_inside(a_, edge_a, point.weight_a, b_)) || (cut_b && is_inside(b_, edge_b, point.weight_b, a_));
+}
+
+bool CrossingSearch::is_inside(const Side& own, int edge, const std::array<double, 3>& weight,
+                               const Side& other) const {
+  if (other.surface != SurfaceKind::closed) return false;
+  const EdgeVertices ends = own.mesh.features->edge(edge);
+  return contains(*other.mesh.mesh,
+                  weight[0] * own.mesh.mesh->position(ends[0]) + weight[1] * own.mesh.mesh->position(ends[1]));
+}
+
+Vec3 CrossingSearch::facing_of_edges(int edge_a, int edge_b) const {
+  Vec3 sum;
+  for (const auto& [side, edge] : {std::pair(&a_, edge_a), std::pair(&b_, edge_b)}) {
+    for (const int v : source_ends(side->mesh, edge)) {
+      if (const Crossed* one = side->find(v)) sum = sum + side->sign * one->way.out;
+    }
+  }
+  return unit_or(sum, direction_);
+}
+
+bool CrossingSearch::passed_point(int edge_a, int edge_b, FeaturePoint& point) const {
+  const ScaledMesh a = a_.scaled(scale_), b = b_.scaled(scale_);
+  const auto nearest = crossing_between_edges(ends_of(a, edge_a), a.around(a.features.opposite(edge_a)),
+                                              ends_of(b, edge_b), b.around(b.features.opposite(edge_b)), limit_);
+  if (!nearest || dot(nearest->normal, facing_of_edges(edge_a, edge_b)) <= kFaces) return false;
+  const EdgeVertices ends_a = source_ends(a_.mesh, edge_a), ends_b = source_ends(b_.mesh, edge_b);
+  point = {.kind = FeaturePair::edge_edge,
+           .a = {ends_a[0], ends_a[1], -1},
+           .b = {ends_b[0], ends_b[1], -1},
+           .weight_a = {nearest->first[0], nearest->first[1], 0.0},
+           .weight_b = {nearest->weight[0], nearest->weight[1], 0.0},
+           .normal = nearest->normal,
+           .gap = negative(nearest->distance / scale_),
+           .edge_a = edge_a,
+           .edge_b = edge_b};
+  return true;
+}
+
+void CrossingSearch::sign_edges(std::vector<FeaturePoint>& found) {
+  known_edges_.clear();
+  std::size_t kept = 0;
+  for (FeaturePoint& point : found) {
+    if (point.kind == FeaturePair::edge_edge) {
+      const auto [edge_a, edge_b] = std::pair(point.edge_a, point.edge_b);
+      known_edges_.emplace_back(edge_a, edge_b);
+      if (have_passed(edge_a, edge_b, point) && !passed_point(edge_a, edge_b, point)) continue;
+    }
+    found[kept++] = point;
+  }
+  found.resize(kept);
+  std::ranges::sort(known_edges_);
+}
+
+// Edges that are cut, and those of the facets that they meet.
+void CrossingSearch::append_edge_points(std::vector<FeaturePoint>& found) {
+  candidates_.clear();
+  for (const Side* own : {&a_, &b_}) {
+    const Side& other = own == &a_ ? b_ : a_;
+    for (const EdgeHit& hit : own->cut.hits()) {
+      const int facet = other.mesh.mesh->facet_of_source(hit.facet);
+      for (int k = 0; k < 3; ++k) {
+        const int edge = other.mesh.features->facet_edge(facet, k);
+        if (edge < 0) continue;
+        candidates_.push_back(own == &a_ ? std::pair(hit.edge, edge) : std::pair(edge, hit.edge));
+      }
+    }
+  }
+  std::ranges::sort(candidates_);
+  const auto rest = std::ranges::unique(candidates_);
+  candidates_.erase(rest.begin(), rest.end());
+  FeaturePoint point;
+  for (const auto& [edge_a, edge_b] : candidates_) {
+    if (std::ranges::binary_search(known_edges_, std::pair(edge_a, edge_b))) continue;
+    if (passed_point(edge_a, edge_b, point)) found.push_back(point);
+  }
+}
+
+void CrossingSearch::append_running_edges(const Side& own, const Side& other, std::vector<FeaturePoint>& found) {
+  if (other.surface != SurfaceKind::closed) return;
+  with_point_.clear();
+  for (const FeaturePoint& point : found) {
+    if (point.kind == FeaturePair::edge_edge && point.gap < 0.0)
+      with_point_.push_back(&own == &a_ ? point.edge_a : point.edge_b);
+  }
+  std::ranges::sort(with_point_);
+  const auto hits = own.cut.hits();
+  for (std::size_t i = 0; i + 1 < hits.size(); ++i) {
+    const bool first_of_several = (i == 0 || hits[i - 1].edge != hits[i].edge) && hits[i + 1].edge == hits[i].edge;
+    if (!first_of_several || std::ranges::binary_search(with_point_, hits[i].edge)) continue;
+    if (own.cut.is_inside(hits[i].vertices[0]) || own.cut.is_inside(hits[i].vertices[1])) continue;
+    if (const auto point = nearest_passed(own, hits[i].edge, other)) found.push_back(*point);
+  }
+}
+
+std::optional<FeaturePoint> CrossingSearch::nearest_passed(const Side& own, int edge, const Side& other) const {
+  const EdgeVertices ends = own.mesh.features->edge(edge);
+  const Vec3 from = own.mesh.mesh->position(ends[0]);
+  const Box near = grown(extended(Box{from, from}, own.mesh.mesh->position(ends[1])), limit_ / scale_);
+  std::optional<FeaturePoint> best;
+  for_each_cluster(
+      *other.mesh.mesh, [&](const Box& box) { return overlaps(box, near); },
+      [&](int cluster) {
+        for (int f = other.mesh.features->edge_begin(cluster); f < other.mesh.features->edge_end(cluster); ++f) {
+          FeaturePoint point;
+          if (!(&own == &a_ ? passed_point(edge, f, point) : passed_point(f, edge, point))) continue;
+          const bool better =
+              !best || point.gap > best->gap || (point.gap == best->gap && point.features() < best->features());
+          if (better && is_inside(own, edge, &own == &a_ ? point.weight_a : point.weight_b, other)) best = point;
+        }
+      });
+  return best;
+}
+
+}  // namespace tact::narrowphase

@@ -1,0 +1,166 @@
+#include "narrowphase/contact_points/cut.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "narrowphase/questions/mesh_questions.h"
+#include "narrowphase/triangles/triangle_triangle.h"
+
+namespace tact::narrowphase {
+
+void Cut::find_hits(const FeaturedMesh& own, const ClusteredMesh& other, std::span<const FacetPair> pairs,
+                    Which which) {
+  hits_.clear();
+  clear_state(own);
+  const ClusteredMesh& mesh = *own.mesh;
+  for (const FacetPair& pair : pairs) {
+    const int facet = mesh.facet_of_source(which == Which::a ? pair.a : pair.b);
+    const int met_source = which == Which::a ? pair.b : pair.a;
+    const Triangle met = other.triangle(other.facet_of_source(met_source));
+    const Box met_box = extended(extended(Box{met[0], met[0]}, met[1]), met[2]);
+    for (const int v : mesh.corners(facet)) {
+      if (state(mesh, v) == kUnknown) {
+        touch(mesh.source_vertex(v));
+        state(mesh, v) = kRing;
+        ring_.push_back(v);
+      }
+      join(mesh.source_vertex(v), mesh.source_vertex(mesh.corners(facet)[0]));
+    }
+    for (int k = 0; k < 3; ++k) {
+      const int edge = own.features->facet_edge(facet, k);
+      if (edge < 0) continue;
+      const EdgeVertices ends = own.features->edge(edge);
+      const Segment segment{mesh.position(ends[0]), mesh.position(ends[1])};
+      if (!overlaps(extended(Box{segment[0], segment[0]}, segment[1]), met_box)) continue;
+      if (!segment_triangle_meet(segment, met, counts_)) continue;
+      hits_.push_back({{mesh.source_vertex(ends[0]), mesh.source_vertex(ends[1])}, met_source, edge});
+    }
+  }
+  std::ranges::sort(hits_);
+  const auto rest = std::ranges::unique(hits_);
+  hits_.erase(rest.begin(), rest.end());
+}
+
+std::span<const EdgeHit> Cut::hits_of(const EdgeVertices& vertices) const {
+  const auto found = std::ranges::equal_range(hits_, vertices, {}, &EdgeHit::vertices);
+  return {found.begin(), found.end()};
+}
+
+bool Cut::is_cut_between(const ClusteredMesh& mesh, int v, int w) const {
+  const auto [first, second] = std::minmax({mesh.source_vertex(v), mesh.source_vertex(w)});
+  return is_cut({first, second});
+}
+
+Cut::State& Cut::state(const ClusteredMesh& mesh, int vertex) {
+  return state_[static_cast<std::size_t>(mesh.source_vertex(vertex))];
+}
+
+void Cut::touch(int source_vertex) {
+  touched_.push_back(source_vertex);
+  parent_[static_cast<std::size_t>(source_vertex)] = source_vertex;
+}
+
+int Cut::root_of(int source_vertex) const {
+  const auto parent = [&](int v) { return parent_[static_cast<std::size_t>(v)]; };
+  while (parent(source_vertex) != source_vertex) source_vertex = parent(source_vertex);
+  return source_vertex;
+}
+
+// The root of a set is its least number; the way there is halved.
+void Cut::join(int source_vertex, int other_source_vertex) {
+  const auto root = [&](int v) {
+    for (auto at = static_cast<std::size_t>(v); parent_[at] != v; at = static_cast<std::size_t>(v))
+      v = parent_[at] = parent_[static_cast<std::size_t>(parent_[at])];
+    return v;
+  };
+  const auto [first, second] = std::minmax({root(source_vertex), root(other_source_vertex)});
+  parent_[static_cast<std::size_t>(second)] = first;
+}
+
+void Cut::number_patches() {
+  patch_count_ = 0;
+  for (const int v : touched_) {
+    if (parent_[static_cast<std::size_t>(v)] == v) patch_[static_cast<std::size_t>(v)] = patch_count_++;
+  }
+}
+
+int Cut::patch_of(int source_vertex) const {
+  if (parent_[static_cast<std::size_t>(source_vertex)] < 0) return -1;
+  return patch_[static_cast<std::size_t>(root_of(source_vertex))];
+}
+
+void Cut::clear_state(const FeaturedMesh& own) {
+  for (const int v : touched_) {
+    state_[static_cast<std::size_t>(v)] = kUnknown;
+    parent_[static_cast<std::size_t>(v)] = -1;
+  }
+  const auto count = static_cast<std::size_t>(own.mesh->source_vertex_count());
+  if (state_.size() < count) {
+    state_.resize(count, kUnknown);
+    parent_.resize(count, -1);
+    patch_.resize(count, -1);
+  }
+  touched_.clear();
+  ring_.clear();
+  inside_.clear();
+  patch_count_ = 0;
+}
+
+void Cut::find_inside(const FeaturedMesh& own, const ClusteredMesh& other) {
+  const ClusteredMesh& mesh = *own.mesh;
+  for (const int v : ring_) {
+    if (state(mesh, v) != kRing) continue;
+    if (contains(other, mesh.position(v))) {
+      flood_inside(own, v);
+    } else {
+      flood_outside(own, v);
+    }
+  }
+  // Parts of the mesh of which no edge is cut.
+  const auto parts = own.features->one_of_each_part();
+  if (parts.size() == 1 && !ring_.empty()) return;
+  for (const int v : parts) {
+    if (state(mesh, v) != kUnknown || !base::contains(other.box(), mesh.position(v))) continue;
+    if (contains(other, mesh.position(v))) flood_inside(own, v);
+  }
+}
+
+void Cut::add_inside(const FeaturedMesh& own, int vertex, int from_source_vertex) {
+  const int source = own.mesh->source_vertex(vertex);
+  State& one = state(*own.mesh, vertex);
+  if (one == kUnknown) touch(source);
+  one = kInside;
+  inside_.push_back(vertex);
+  if (from_source_vertex >= 0) join(source, from_source_vertex);
+}
+
+void Cut::flood_inside(const FeaturedMesh& own, int vertex) {
+  const std::size_t first = inside_.size();
+  add_inside(own, vertex, -1);
+  for (std::size_t i = first; i < inside_.size(); ++i) {
+    const int from = inside_[i];
+    for (const int to : own.features->neighbors(from)) {
+      const State known = state(*own.mesh, to);
+      if (known != kUnknown && known != kRing) continue;
+      // An edge that is cut has both ends in the ring.
+      if (known == kRing && is_cut_between(*own.mesh, from, to)) continue;
+      add_inside(own, to, own.mesh->source_vertex(from));
+    }
+  }
+}
+
+void Cut::flood_outside(const FeaturedMesh& own, int vertex) {
+  state(*own.mesh, vertex) = kOutside;
+  for (next_.assign(1, vertex); !next_.empty();) {
+    const int from = next_.back();
+    next_.pop_back();
+    for (const int to : own.features->neighbors(from)) {
+      State& known = state(*own.mesh, to);
+      if (known != kRing || is_cut_between(*own.mesh, from, to)) continue;
+      known = kOutside;
+      next_.push_back(to);
+    }
+  }
+}
+
+}  // namespace tact::narrowphase

@@ -1,0 +1,217 @@
+#include "narrowphase/contact_points/way_out.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "narrowphase/contact_points/open_cluster.h"
+#include "narrowphase/questions/mesh_questions.h"
+
+namespace tact::narrowphase {
+
+namespace {
+
+// How far a vertex may seem to be before a plane that it is behind: lengths are near 1, so some thousand roundings.
+constexpr double kFlat = 1e-12;
+
+// A facet as a vertex sees it.
+struct SeenFacet {
+  Triangle t;  // from the vertex
+  Vec3 normal;
+  double length = 0.0;  // of the normal, which need not be 1
+  double height = 0.0;  // of the vertex above the facet's plane
+
+  SeenFacet(const ScaledMesh& m, int facet, Vec3 v) {
+    const Corners c = m.mesh.corners(facet);
+    see({m.position(c[0]), m.position(c[1]), m.position(c[2])}, v);
+  }
+  SeenFacet(const Triangle& facet, Vec3 v) { see(facet, v); }
+
+ private:
+  void see(const Triangle& facet, Vec3 v) {
+    for (std::size_t k = 0; k < 3; ++k) t[k] = facet[k] - v;
+    normal = cross(t[1] - t[0], t[2] - t[0]);
+    length = norm(normal);
+    if (length > 0.0) height = -dot(normal, t[0]) / length;
+  }
+};
+
+// Facets whose angles have such a sine, or a smaller one, are left to nearest_weights(), which is exact enough for
+// them.
+constexpr double kSliver = 1e-4;
+
+// The weights of the corners for the place that is nearest to the vertex.
+std::array<double, 3> weights_of(const SeenFacet& seen) {
+  const Vec3 p = seen.t[1] - seen.t[0], q = seen.t[2] - seen.t[0];
+  const double square = seen.length * seen.length;
+  if (square <= kSliver * kSliver * norm_squared(p) * norm_squared(q)) return nearest_weights({}, seen.t);
+  std::array<double, 3> weight;
+  for (std::size_t i = 0; i < 3; ++i) {
+    weight[i] = dot(cross(seen.t[(i + 1) % 3], seen.t[(i + 2) % 3]), seen.normal) / square;
+    if (!(weight[i] > 0.0)) return nearest_weights_on_sides({}, seen.t);
+  }
+  return weight;
+}
+
+WayOut way_to(const SeenFacet& seen, int facet) {
+  WayOut way;
+  way.facet = facet;
+  way.weight = weights_of(seen);
+  const Vec3 unit = (1.0 / seen.length) * seen.normal;
+  const Vec3 to = way.weight[0] * seen.t[0] + way.weight[1] * seen.t[1] + way.weight[2] * seen.t[2];
+  const bool within = std::ranges::all_of(way.weight, [](double w) { return w > 0.0; });
+  way.distance = within ? std::abs(seen.height) : norm(to);
+  way.out = within ? (seen.height > 0.0 ? -unit : unit) : way.distance > 0.0 ? (1.0 / way.distance) * to : unit;
+  return way;
+}
+
+// The smallest feature with the place: corners without weight are left out, those of an edge in the caller's order.
+void name_feature(const ScaledMesh& m, WayOut& way) {
+  const Corners c = m.mesh.corners(way.facet);
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (way.weight[k] <= 0.0) continue;
+    way.feature[count] = c[k];
+    way.feature_weight[count++] = way.weight[k];
+  }
+  if (count == 2 && m.mesh.source_vertex(way.feature[1]) < m.mesh.source_vertex(way.feature[0])) {
+    std::swap(way.feature[0], way.feature[1]);
+    std::swap(way.feature_weight[0], way.feature_weight[1]);
+  }
+}
+
+// Facets that are about as near as the nearest are looked at, too: boxes round otherwise than facets.
+double with_rounding(double distance) { return distance * (1.0 + 0x1p-40) + 0x1p-49; }
+
+double largest_of(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+// Which side of an edge's facets is `v` on that is nearest to the edge? The facet that sees it from more above or below
+// tells: v is beyond the other's edge, where its plane says little. Zero at the border.
+double height_at_edge(const ScaledMesh& m, int facet, int side, Vec3 v, double own_height) {
+  const int edge = m.features.facet_edge(facet, side);
+  if (edge < 0) return own_height;
+  const auto third = m.features.opposite(edge);
+  if (third.size() == 1) return 0.0;
+  const Corners c = m.mesh.corners(facet);
+  const auto k = static_cast<std::size_t>(side);
+  const Vec3 p = m.position(c[k]), q = m.position(c[(k + 1) % 3]);
+  double height = own_height;
+  for (const int other : third) {
+    if (other == c[(k + 2) % 3]) continue;
+    const Vec3 normal = cross(p - q, m.position(other) - q);  // the neighbour has the edge the other way around
+    const double length = norm(normal);
+    const double above = length > 0.0 ? dot(normal, v - q) / length : 0.0;
+    if (std::abs(above) > std::abs(height)) height = above;
+  }
+  return height;
+}
+
+}  // namespace
+
+struct WayFinder::Memory {
+  static constexpr std::size_t kOpened = 16;
+  std::optional<ScaledMesh> surface;
+  struct Opened {
+    int cluster = -1;
+    PlacedFacets facets;
+  };
+  Opened opened[kOpened];
+  ClusterVertices vertices;
+  std::vector<std::int32_t> clusters;
+
+  const PlacedFacets& facets_of(const ScaledMesh& m, int cluster) {
+    Opened& one = opened[static_cast<std::size_t>(cluster) % kOpened];
+    if (one.cluster != cluster) {
+      one.cluster = cluster;
+      const ClusterFacets facets = m.mesh.facets_of(cluster);
+      vertices.take(facets, m.scale);
+      take_facets(facets, vertices, one.facets);
+    }
+    return one.facets;
+  }
+};
+
+WayFinder::WayFinder() : memory_(std::make_unique<Memory>()) {}
+WayFinder::~WayFinder() = default;
+WayFinder::WayFinder(WayFinder&&) noexcept = default;
+WayFinder& WayFinder::operator=(WayFinder&&) noexcept = default;
+
+void WayFinder::begin(const ScaledMesh& surface) {
+  memory_->surface.emplace(surface);
+  for (Memory::Opened& one : memory_->opened) one.cluster = -1;
+  memory_->clusters.resize(static_cast<std::size_t>(surface.mesh.cluster_count() + kPadding));
+}
+
+template <class Counts>
+std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const Counts& counts) {
+  const ScaledMesh& m = *memory_->surface;
+  std::optional<WayOut> best;
+  double least = within;
+  const auto look_at = [&](int facet, const SeenFacet& seen) {
+    if (seen.length == 0.0 || std::abs(seen.height) > with_rounding(least) || !counts(seen)) return;
+    const WayOut way = way_to(seen, facet);
+    if (way.distance > least) return;
+    if (best && way.distance == best->distance && m.mesh.source_facet(facet) > m.mesh.source_facet(best->facet)) return;
+    best = way;
+    least = way.distance;
+  };
+  if (hint >= 0) look_at(hint, SeenFacet(m, hint, v));
+  const auto around = [&] { return inflated({v, v}, with_rounding(least) + 0x1p-50 * largest_of(v)); };
+  const Box wanted = around();
+  const int clusters = kernels().select_overlapping(
+      m.mesh.cluster_boxes().pointers(), m.mesh.cluster_count(),
+      bounds_of({(1.0 / m.scale) * wanted.lower, (1.0 / m.scale) * wanted.upper}), memory_->clusters.data());
+  for (int c = 0; c < clusters; ++c) {
+    const PlacedFacets& facets = memory_->facets_of(m, memory_->clusters[static_cast<std::size_t>(c)]);
+    std::int32_t near[kClusterSize + kPadding];
+    const int count = kernels().select_overlapping(facets.pointers(), facets.count, bounds_of(around()), near);
+    for (int k = 0; k < count; ++k) {
+      const int i = near[k], facet = facets.first + i;
+      if (facet == hint) continue;
+      look_at(facet, SeenFacet({facets.corner(0, i), facets.corner(1, i), facets.corner(2, i)}, v));
+    }
+  }
+  return best;
+}
+
+std::optional<WayOut> WayFinder::nearest_out(Vec3 v, Vec3 facing, double cosine, double within, int hint) {
+  auto way = nearest(v, within, hint, [&](const SeenFacet& seen) {
+    return seen.height <= kFlat && dot(seen.normal, facing) > cosine * seen.length;
+  });
+  if (way) name_feature(*memory_->surface, *way);
+  return way;
+}
+
+std::optional<WayOut> WayFinder::nearest_through(Vec3 v, Vec3 facing, double within, int hint) {
+  const ScaledMesh& sheet = *memory_->surface;
+  auto way = nearest(v, within, hint, [](const SeenFacet&) { return true; });
+  if (!way) return way;
+  name_feature(sheet, *way);
+  const SeenFacet seen(sheet, way->facet, v);
+  double height = seen.height;
+  // Corner k has no weight: the place is on the side across, from k + 1 to k + 2.
+  for (int k = 0; k < 3; ++k) {
+    if (way->weight[static_cast<std::size_t>(k)] > 0.0) continue;
+    height = height_at_edge(sheet, way->facet, (k + 1) % 3, v, height);
+    if (height == 0.0) return {};
+  }
+  const double along = dot(seen.normal, facing);
+  const bool beyond = (along > 0.0 && height < 0.0) || (along < 0.0 && height > 0.0);
+  return beyond ? way : std::nullopt;
+}
+
+std::optional<WayOut> way_out_along(const ScaledMesh& surface, Vec3 v, Vec3 direction, double within) {
+  const Vec3 from = (1.0 / surface.scale) * v;
+  const Vec3 way = (within / surface.scale) * direction;
+  const auto hit = first_hit(surface.mesh, {from, from + way}, 1.0);
+  if (!hit) return {};
+  WayOut out;
+  out.facet = surface.mesh.facet_of_source(hit->facet);
+  out.distance = hit->time * within;
+  out.weight = hit->weight;
+  out.out = direction;
+  name_feature(surface, out);
+  return out;
+}
+
+}  // namespace tact::narrowphase
