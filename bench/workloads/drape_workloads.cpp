@@ -60,7 +60,7 @@ double height_at(const std::vector<Wrinkle>& wrinkles, double x, double y, doubl
 // The frames of a body, each made alone: position(phase) gives 3 x V.
 template <class Positions>
 void make_frames(WorkloadBody& body, int frames, const Positions& positions) {
-  body.frames.resize(static_cast<std::size_t>(frames));
+  body.frames.resize(frames);
   base::parallel_for(body.frames.size(), 1, base::default_threads(), [&](std::size_t frame) {
     body.frames[frame] = positions(phase_of(static_cast<int>(frame), frames));
   });
@@ -153,7 +153,7 @@ Workload cloth(int cells, int frames) {
   WorkloadBody& body = workload.bodies[0];
   body.facets = sheet.facets;
   body.surface = Surface::sheet;
-  body.frames.resize(static_cast<std::size_t>(frames));
+  body.frames.resize(frames);
   base::parallel_for(body.frames.size(), 1, base::default_threads(), [&](std::size_t frame) {
     const double phase = phase_of(static_cast<int>(frame), frames);
     const double fall = wave(phase);  // lifted off the sphere for a quarter of the period

@@ -28,7 +28,7 @@ Workload recorded(const std::string& scene, int size, int settled, int frames) {
   for (WorkloadBody& body : workload.bodies) {
     if (body.fixed()) continue;
     for (int frame = steps; frame < frames; ++frame) {
-      const Eigen::Matrix3Xd back = body.frames[static_cast<std::size_t>(frames - frame)];
+      const Eigen::Matrix3Xd back = body.frames[frames - frame];
       body.frames.push_back(back);
     }
   }

@@ -75,7 +75,7 @@ class Subdivision {
 
   int add(const std::vector<std::pair<int, int>>& key) {
     Eigen::Vector3d p = Eigen::Vector3d::Zero();
-    for (const auto& [corner, weight] : key) p += weight * corners_[static_cast<std::size_t>(corner)];
+    for (const auto& [corner, weight] : key) p += weight * corners_[corner];
     points_.push_back(p);
     return static_cast<int>(points_.size()) - 1;
   }
@@ -92,13 +92,13 @@ Shape geodesic_sphere(int frequency) {
   Subdivision subdivision(frequency);
   const std::vector<Eigen::Vector3d>& p = subdivision.corners();
   const auto near = [&](int a, int b) {  // ends of an edge, whose length is 2
-    return (p[static_cast<std::size_t>(a)] - p[static_cast<std::size_t>(b)]).squaredNorm() < 5.0;
+    return (p[a] - p[b]).squaredNorm() < 5.0;
   };
   for (int a = 0; a < 12; ++a) {
     for (int b = a + 1; b < 12; ++b) {
       for (int c = b + 1; c < 12; ++c) {
         if (!near(a, b) || !near(b, c) || !near(c, a)) continue;
-        const auto at = [&](int k) { return p[static_cast<std::size_t>(k)]; };
+        const auto at = [&](int k) { return p[k]; };
         const bool outward = at(a).dot(Eigen::Vector3d((at(b) - at(a)).cross(at(c) - at(a)))) > 0.0;
         outward ? subdivision.divide(a, b, c) : subdivision.divide(a, c, b);
       }
@@ -250,7 +250,7 @@ Shape shuffled(const Shape& shape, std::uint64_t seed) {
   for (std::size_t f = 0; f < facet_place.size(); ++f) {
     for (int k = 0; k < 3; ++k) {
       const int vertex = shape.facets(k, static_cast<Eigen::Index>(f));
-      result.facets(k, facet_place[f]) = place[static_cast<std::size_t>(vertex)];
+      result.facets(k, facet_place[f]) = place[vertex];
     }
   }
   return result;

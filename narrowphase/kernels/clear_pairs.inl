@@ -17,7 +17,8 @@ inline PackOf<Real> opposite(PackOf<Real> x) {
   return sub(spread(Real{0}), x);
 }
 
-// The policy for signs where every determinant is off by `error` at most: nothing is known of one that is nearer to zero.
+// The policy for signs where every determinant is off by `error` at most: nothing is known of one that is nearer to
+// zero.
 template <class Number>
 struct LooseSigns {
   using Real = Number;
@@ -47,8 +48,8 @@ struct LooseSigns {
   }
   PiecesMeet pieces(const CommonLine<Real>& line) const {
     const PackOf<Real> p = line.p(), q = line.q();
-    return {bits(both(less(error, p), less(q, opposite_error))),
-            bits(either(less(p, opposite_error), less(error, q))), 0};
+    return {bits(both(less(error, p), less(q, opposite_error))), bits(either(less(p, opposite_error), less(error, q))),
+            0};
   }
 };
 
@@ -73,11 +74,11 @@ void float_corners(const FacetBlock& block, std::uint64_t facets, const Grid& gr
   for (int axis = 0; axis < 3; ++axis) corners->extent[axis] = largest_lane(extent[axis]) * grid.scale[axis];
 }
 
-// Bounds the rounding of every determinant of a pair of facets whose boxes are at most `gap` apart along each axis. With
-// u = 2^-24: coordinates are off by at most e; differences, which are up to m, the extents of two facets and the gap, by
-// 2 e + 1.001 (m + 2 e) u, so up to m' = 1.0001 (m + 2 e) as computed; each of the six products of three is rounded five
-// times, sums included. So with S = m'x m'y + m'y m'z + m'z m'x a determinant is off by at most
-// 6 * 2 e S + 6 * (3.003 + 5.001) u m'x m'y m'z, and by what products lose that vanish.
+// Bounds the rounding of every determinant of a pair of facets whose boxes are at most `gap` apart along each axis.
+// With u = 2^-24: coordinates are off by at most e; differences, which are up to m, the extents of two facets and the
+// gap, by 2 e + 1.001 (m + 2 e) u, so up to m' = 1.0001 (m + 2 e) as computed; each of the six products of three is
+// rounded five times, sums included. So with S = m'x m'y + m'y m'z + m'z m'x a determinant is off by at most 6 * 2 e S
+// + 6 * (3.003 + 5.001) u m'x m'y m'z, and by what products lose that vanish.
 inline float float_rounding(const FloatCorners& a, const FloatCorners& b, const double* gap) {
   const double error = a.error > b.error ? a.error : b.error;
   double m[3];
@@ -88,8 +89,8 @@ inline float float_rounding(const FloatCorners& a, const FloatCorners& b, const 
   return static_cast<float>(12.1 * error * sides + 0x1p-24 * 48.2 * product + 1e-30);
 }
 
-void leave_aside(const FloatCorners& few, std::uint64_t some, const FloatCorners& many, const double* gap,
-                 float slack, int plane_from, std::uint64_t* met) {
+void leave_aside(const FloatCorners& few, std::uint64_t some, const FloatCorners& many, const double* gap, float slack,
+                 int plane_from, std::uint64_t* met) {
   const FloatPack rounding = spread(float_rounding(few, many, gap));
   for (; some != 0; some &= some - 1) {
     const int f = __builtin_ctzll(some);
@@ -130,7 +131,8 @@ PairMatches match_float_pairs(const FloatCorners& a, const FloatCorners& b, cons
   }
   PairMatches matches;
   matches.meeting = yes;
-  matches.undecided = (pairs.count == 0 ? 0 : ~std::uint64_t{0} >> (FacetPairList::kCapacity - pairs.count)) & ~(yes | no);
+  matches.undecided =
+      (pairs.count == 0 ? 0 : ~std::uint64_t{0} >> (FacetPairList::kCapacity - pairs.count)) & ~(yes | no);
   return matches;
 }
 

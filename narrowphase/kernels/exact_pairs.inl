@@ -72,13 +72,15 @@ inline MaskOf<Real> has_side_before(const PointPack<Real>* t, MaskOf<Real> left,
       right[k] = less(one, two);
       wrong[k] = less(two, one);
     }
-    const auto all_right = both(both(right[0], right[1]), right[2]), all_wrong = both(both(wrong[0], wrong[1]), wrong[2]);
+    const auto all_right = both(both(right[0], right[1]), right[2]),
+               all_wrong = both(both(wrong[0], wrong[1]), wrong[2]);
     beyond_any = either(beyond_any, either(both(left, all_right), without(all_wrong, left)));
   }
   return beyond_any;
 }
 
-// Triangles of one plane are apart if and only if a side of one has the other beyond it. Those without area are left open.
+// Triangles of one plane are apart if and only if a side of one has the other beyond it. Those without area are left
+// open.
 template <class Real>
 inline Meeting match_exact_flat_lanes(const VectorOf<Real>* a, const VectorOf<Real>* b, unsigned mask) {
   const ClearPlane<Real> plane_a(a[0], a[1], a[2]), plane_b(b[0], b[1], b[2]);

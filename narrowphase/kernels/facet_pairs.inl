@@ -14,10 +14,10 @@
 namespace tact::narrowphase {
 namespace {
 
-// A number of twice the digits: high + low, where high is the sum rounded. The arithmetic is that of Dekker, "A
-// floating-point technique for extending the available precision", 1971, but for sums, which leave out a step that matters
-// only to the relative error of what cancels (Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic
-// building blocks of double-word arithmetic", 2017).
+// A double-double: high + low, where high is the sum rounded. The arithmetic is that of Dekker, "A floating-point
+// technique for extending the available precision", 1971, but for sums, which leave out a step that matters only to the
+// relative error of what cancels (Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic building
+// blocks of double-word arithmetic", 2017).
 struct WidePack {
   Pack high, low;
 };
@@ -57,11 +57,12 @@ inline WideVector difference(const VectorPack& a, const VectorPack& b) {
   return {difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z)};
 }
 
-// As Plane, with twice the digits. No product may vanish (see nothing_vanishes).
+// As Plane, in double-double. No product may vanish (see nothing_vanishes).
 //
 // With u = 2^-53: a difference has no error, a product one of at most 7u², a sum one of 6u² of the sum of the sizes of
-// what it adds. So each of the three products of three collects at most 20u² of the sum of the sizes of its products, and
-// the two last sums 12u² more; the sizes, which are doubles, may be a few u too low. 64u² leaves room for all of it.
+// what it adds. So each of the three products of three collects at most 20u² of the sum of the sizes of its products,
+// and the two last sums 12u² more; the sizes, which are doubles, may be a few u too low. 64u² leaves room for all of
+// it.
 struct WidePlane {
   VectorPack origin, bound;
   WideVector normal;
@@ -163,7 +164,8 @@ std::uint64_t sharing_pairs(const FacetBlock& a, const FacetBlock& b, const Face
   return match_some(a, b, pairs, which, share).meeting;
 }
 
-PairMatches match_pairs_wide(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs, std::uint64_t which) {
+PairMatches match_pairs_wide(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
+                             std::uint64_t which) {
   return match_some(a, b, pairs, which, [](const VectorPack* p, const VectorPack* q, unsigned lanes) {
     return match_lanes(WideSigns{}, p, q, lanes & nothing_vanishes(p) & nothing_vanishes(q));
   });
@@ -177,8 +179,8 @@ inline Determinant turn(const PointPack<double>& a, const PointPack<double>& b, 
   return {sub(left, right), rounding_of(size), size};
 }
 
-// Certainly: does some side of `t`, which turns to the left where `left` is set, have all of `other` strictly beyond it?
-// Has every side something of it that is not?
+// Certainly: does some side of `t`, which turns to the left where `left` is set, have all of `other` strictly beyond
+// it? Has every side something of it that is not?
 struct SideSeparation {
   Mask some = mask_of(0), none = mask_of(kAllLanes);
 

@@ -39,10 +39,10 @@ struct Determinant {
   Mask zero() const { return less_equal(size, spread(0.0)); }
 };
 
-// A 3 x 3 determinant of differences, x · n with n = e × f, rounds by at most (7 + 56 eps) eps times the same sum of absolute
-// products, eps = 2^-53 (Shewchuk, "Adaptive precision floating-point arithmetic", 1997, §4.4), so by less than 1e-15 times
-// it. Where products vanish below the smallest double, each of the nine loses at most 2^-1075 times a difference;
-// differences of coordinates <= 2^300 make that less than the added 1e-200.
+// A 3 x 3 determinant of differences, x · n with n = e × f, rounds by at most (7 + 56 eps) eps times the same sum of
+// absolute products, eps = 2^-53 (Shewchuk, "Adaptive precision floating-point arithmetic", 1997, §4.4), so by less
+// than 1e-15 times it. Where products vanish below the smallest double, each of the nine loses at most 2^-1075 times a
+// difference; differences of coordinates <= 2^300 make that less than the added 1e-200.
 inline Pack rounding_of(Pack size) { return add(mul(size, spread(kRelativeRounding)), spread(kAbsoluteRounding)); }
 
 inline Determinant determinant(const VectorPack& x, const VectorPack& n, const VectorPack& n_bound) {
@@ -67,8 +67,8 @@ struct Plane {
   Determinant height(const VectorPack& point) const { return determinant(sub(point, origin), normal, bound); }
 };
 
-// The vertices of a cluster, owned ones first, and what rules each out: the lowest bit for the plane, one for each side of
-// the box.
+// The vertices of a cluster, owned ones first, and what rules each out: the lowest bit for the plane, one for each side
+// of the box.
 struct alignas(64) ClusterVertices {
   static constexpr int kCapacity = 192 + 8;
   double x[kCapacity], y[kCapacity], z[kCapacity];
@@ -97,9 +97,12 @@ inline void judge_vertices(const CullPlanes& planes, int count, ClusterVertices*
   for (int i = 0; i < count; i += kWidth) {
     const Pack x = load(v->x + i), y = load(v->y + i), z = load(v->z + i);
     const Mask out[7] = {less(height({v->x, v->y, v->z}, i), lowest),
-                         less(x, box.lower[0]), less(box.upper[0], x),
-                         less(y, box.lower[1]), less(box.upper[1], y),
-                         less(z, box.lower[2]), less(box.upper[2], z)};
+                         less(x, box.lower[0]),
+                         less(box.upper[0], x),
+                         less(y, box.lower[1]),
+                         less(box.upper[1], y),
+                         less(z, box.lower[2]),
+                         less(box.upper[2], z)};
     store_flags(v->outside + i, out);
   }
 }
@@ -179,8 +182,9 @@ inline Pack rounding_in(const BoxBounds& box) {
   return rounding_of(spread(product));
 }
 
-// The lanes whose plane certainly leaves the whole box on one side. Where x runs over the box, the determinant is lowest
-// and highest at corners of it, and as computed no higher and no lower than at any corner, since rounding keeps order.
+// The lanes whose plane certainly leaves the whole box on one side. Where x runs over the box, the determinant is
+// lowest and highest at corners of it, and as computed no higher and no lower than at any corner, since rounding keeps
+// order.
 inline unsigned planes_apart(const FacetBlock& block, int i, const BoxPack& box, Pack error) {
   Pack lowest[3], highest[3];
   for (int axis = 0; axis < 3; ++axis) {

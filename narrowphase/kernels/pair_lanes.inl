@@ -16,8 +16,8 @@ inline VectorOf<Real> select(MaskOf<Real> mask, const VectorOf<Real>& yes, const
   return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
 }
 
-// A triangle with its corners turned so that the plane of the other parts the first from the other two, which it crosses
-// both edges to. `above` tells on which side the first is.
+// A triangle with its corners turned so that the plane of the other parts the first from the other two, which it
+// crosses both edges to. `above` tells on which side the first is.
 template <class Real>
 struct LoneCorner {
   VectorOf<Real> lone, next, last;
@@ -35,8 +35,8 @@ inline LoneCorner<Real> lone_corner(const VectorOf<Real>* c, const MaskOf<Real>*
   return {turned(0), turned(1), turned(2), differ(above[0], not_first)};
 }
 
-// A determinant without a bound of its own: the height of `point` over the plane through three points, times the length of
-// its normal.
+// A determinant without a bound of its own: the height of `point` over the plane through three points, times the length
+// of its normal.
 template <class Real>
 struct ClearPlane {
   VectorOf<Real> origin, normal;
@@ -56,8 +56,12 @@ struct CommonLine {
   VectorOf<Real> a1, a2, b1, b2, lone_a, lone_b;
 
   CommonLine(const LoneCorner<Real>& a, const LoneCorner<Real>& b)
-      : a1(select(b.above, a.next, a.last)), a2(select(b.above, a.last, a.next)),
-        b1(select(a.above, b.next, b.last)), b2(select(a.above, b.last, b.next)), lone_a(a.lone), lone_b(b.lone) {}
+      : a1(select(b.above, a.next, a.last)),
+        a2(select(b.above, a.last, a.next)),
+        b1(select(a.above, b.next, b.last)),
+        b2(select(a.above, b.last, b.next)),
+        lone_a(a.lone),
+        lone_b(b.lone) {}
 
   PackOf<Real> p() const { return ClearPlane<Real>(b1, a1, lone_b).height(lone_a); }
   PackOf<Real> q() const { return ClearPlane<Real>(b2, a2, lone_b).height(lone_a); }

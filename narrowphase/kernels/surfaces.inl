@@ -37,9 +37,7 @@ void localize(const ClusterFacets& in, const double* origin, double scale, const
     for (int i = 0; i < in.owned_count; i += kWidth)
       store(to[axis] + i, mul(sub(load(from[axis] + in.owned_begin + i), o), s));
     float* const borrowed = to[axis] + in.owned_count;
-    const auto copy_pack = [&](int i) {
-      store(borrowed + i, mul(sub(gather(from[axis], in.borrowed + i), o), s));
-    };
+    const auto copy_pack = [&](int i) { store(borrowed + i, mul(sub(gather(from[axis], in.borrowed + i), o), s)); };
     int i = 0;
     for (; i + kWidth <= in.borrowed_count; i += kWidth) copy_pack(i);
     if (i < in.borrowed_count && in.borrowed_count >= kWidth) {

@@ -117,7 +117,7 @@ Grid BlockPair::choose_digits(bool floats_are_worth_it) {
 }
 
 // What can be told of many pairs at once: all if nothing is rounded; else in floats, of those that these leave open in
-// doubles, then by equal corners, then within a common plane or with twice the digits.
+// doubles, then by equal corners, then within a common plane or in double-double.
 PairMatches BlockPair::matches_of_listed() const {
   const FacetBlock &a = *a_, &b = *b_;
   PairMatches all;

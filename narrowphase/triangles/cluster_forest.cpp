@@ -72,7 +72,7 @@ struct ClusterForest::Builder {
     return pointer_of(static_cast<std::int32_t>(nodes.size() - 1));
   }
   static void set_children(void* node, void** children, unsigned count, void* user) {
-    Node& n = static_cast<Builder*>(user)->forest.nodes_[static_cast<std::size_t>(child_of(node))];
+    Node& n = static_cast<Builder*>(user)->forest.nodes_[child_of(node)];
     for (unsigned i = 0; i < count; ++i) n.child[i] = child_of(children[i]);
   }
   static void set_bounds(void*, const RTCBounds**, unsigned, void*) {}  // ours are computed from doubles
@@ -85,9 +85,9 @@ void ClusterForest::build(EmbreeDevice& device, BoxView boxes, int count) {
   nodes_.clear();
   roots_.clear();
   root_boxes_.clear();
-  nodes_.reserve(static_cast<std::size_t>(count));
+  nodes_.reserve(count);
   Box whole;
-  for (int i = 0; i < count; ++i) whole = merged(whole, boxes[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < count; ++i) whole = merged(whole, boxes[i]);
   const Vec3 origin = 0.5 * whole.lower + 0.5 * whole.upper, size = whole.upper - whole.lower;
   const double largest = std::max({size.x, size.y, size.z});
   const double scale = unit_scale(largest);
@@ -97,9 +97,9 @@ void ClusterForest::build(EmbreeDevice& device, BoxView boxes, int count) {
   for (int begin = 0; begin < count; begin += kBoxesPerTree) {
     const int tree_size = std::min(kBoxesPerTree, count - begin);
     for (int i = begin; i < begin + tree_size; ++i) {
-      const Box box = boxes[static_cast<std::size_t>(i)];
+      const Box box = boxes[i];
       const Vec3 low = scale * (box.lower - origin), high = scale * (box.upper - origin);
-      RTCBuildPrimitive& p = primitives[static_cast<std::size_t>(i - begin)] = {};
+      RTCBuildPrimitive& p = primitives[i - begin] = {};
       p.lower_x = static_cast<float>(low.x), p.lower_y = static_cast<float>(low.y),
       p.lower_z = static_cast<float>(low.z);
       p.upper_x = static_cast<float>(high.x), p.upper_y = static_cast<float>(high.y),
@@ -158,8 +158,8 @@ std::int32_t ClusterForest::halve(int begin, int end) {
   nodes_.emplace_back();
   const int middle = begin + (end - begin) / 2;
   const std::int32_t first = halve(begin, middle), second = halve(middle, end);
-  nodes_[static_cast<std::size_t>(node)].child[0] = first;
-  nodes_[static_cast<std::size_t>(node)].child[1] = second;
+  nodes_[node].child[0] = first;
+  nodes_[node].child[1] = second;
   return node;
 }
 
@@ -175,7 +175,7 @@ void ClusterForest::query(const Box& box, std::vector<std::int32_t>& found) cons
       found.push_back(~child);
       continue;
     }
-    const Node& node = nodes_[static_cast<std::size_t>(child)];
+    const Node& node = nodes_[child];
     for (int k = 0; k < 2; ++k) {
       if (overlaps(node.box[k], box)) stack_.push_back(node.child[k]);
     }

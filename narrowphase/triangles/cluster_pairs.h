@@ -19,8 +19,7 @@ class ClusterPairFinder {
     keep(a, box_of_a, all_of_b, kept_a_);
     keep(b, box_of_b, kept_a_.bounds, kept_b_);
     find_cluster_pairs(kept_a_, kept_b_, ClusterPairSource::automatic, device, pairs_, work_);
-    for (ClusterPair& pair : pairs_)
-      pair = {kept_a_.cluster[static_cast<std::size_t>(pair.a)], kept_b_.cluster[static_cast<std::size_t>(pair.b)]};
+    for (ClusterPair& pair : pairs_) pair = {kept_a_.cluster[pair.a], kept_b_.cluster[pair.b]};
     if (&a == &b) std::erase_if(pairs_, [](const ClusterPair& pair) { return pair.b < pair.a; });
     return pairs_;
   }
@@ -30,7 +29,7 @@ class ClusterPairFinder {
   static void keep(const ClusteredMesh& mesh, const BoxOf& box_of, const Box& other, KeptClusters& kept) {
     kept.cluster.clear();
     kept.bounds = {};
-    kept.boxes.resize(static_cast<std::size_t>(mesh.cluster_count()));
+    kept.boxes.resize(mesh.cluster_count());
     for (int c = 0; c < mesh.cluster_count(); ++c) {
       const Box box = box_of(c);
       if (!overlaps(box, other)) continue;

@@ -53,7 +53,7 @@ bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPai
     return forest;
   }
   std::vector<std::int32_t>& found = work.found;
-  found.resize(static_cast<std::size_t>(b.count()));
+  found.resize(b.count());
   for (std::int32_t i = 0; i < a.count(); ++i) {
     const auto count = static_cast<std::size_t>(kernels().select_overlapping(
         b.boxes.pointers(), b.count(), a.boxes.bounds(static_cast<std::size_t>(i)), found.data()));
@@ -68,8 +68,7 @@ void turn(std::vector<ClusterPair>& pairs, int clusters, ClusterPairWork& work) 
   for (const ClusterPair& pair : pairs) ++place[static_cast<std::size_t>(pair.b) + 1];
   std::partial_sum(place.begin(), place.end(), place.begin());
   work.pairs.resize(pairs.size());
-  for (const ClusterPair& pair : pairs)
-    work.pairs[static_cast<std::size_t>(place[static_cast<std::size_t>(pair.b)]++)] = {pair.b, pair.a};
+  for (const ClusterPair& pair : pairs) work.pairs[place[pair.b]++] = {pair.b, pair.a};
   std::swap(work.pairs, pairs);
 }
 
@@ -104,12 +103,11 @@ void FacetPairSearch::run(const ConfirmInput& input, const std::vector<ClusterPa
   place_.assign(static_cast<std::size_t>(input.kept_b->count()), {});
   for (std::size_t i = begin; i < end;) {
     const std::int32_t a = pairs[i].a;
-    const Box box = input.kept_a->boxes[static_cast<std::size_t>(a)];
+    const Box box = input.kept_a->boxes[a];
     const CellBox cells = cells_of(grid_, bounds_of(box));
     wanted_by_next_.clear();
     for (; i < end && pairs[i].a == a; ++i) {
-      if (reaches_b(input, pairs[i].b, box, cells))
-        wanted_by_next_.push_back(place_[static_cast<std::size_t>(pairs[i].b)].block);
+      if (reaches_b(input, pairs[i].b, box, cells)) wanted_by_next_.push_back(place_[pairs[i].b].block);
     }
     if (!wanted_by_next_.empty()) append_a(input, a, found, counts);
   }
@@ -121,15 +119,15 @@ bool FacetPairSearch::reaches_b(const ConfirmInput& input, std::int32_t index, c
   const PlaceInB place = open_b(input, index);
   if (place.facets == 0) return false;
   if (fast_paths() == FastPaths::off) return true;
-  const Box both = merged(input.kept_b->boxes[static_cast<std::size_t>(index)], box);
-  const FacetBlock& block = b_[static_cast<std::size_t>(place.block)]->kept.block;
+  const Box both = merged(input.kept_b->boxes[index], box);
+  const FacetBlock& block = b_[place.block]->kept.block;
   return kernels().any_near(block, place.facets, cells, bounds_of(box), bounds_of(both));
 }
 
 FacetPairSearch::PlaceInB FacetPairSearch::open_b(const ConfirmInput& input, std::int32_t index) {
-  PlaceInB& place = place_[static_cast<std::size_t>(index)];
+  PlaceInB& place = place_[index];
   if (place.block >= 0) return place;
-  const std::int32_t cluster = input.kept_b->cluster[static_cast<std::size_t>(index)];
+  const std::int32_t cluster = input.kept_b->cluster[index];
   opened_b_.push_back({index, {}});
   const auto append = [&](KeptFacets& kept) {
     return append_facets(*input.b, cluster, input.criteria_b, input.kept_a->bounds, kept, opened_b_.back().counts);
@@ -150,7 +148,7 @@ FacetPairSearch::PlaceInB FacetPairSearch::open_b(const ConfirmInput& input, std
 
 void FacetPairSearch::append_a(const ConfirmInput& input, std::int32_t index, std::vector<FacetPair>& found,
                                ConfirmCounts& counts) {
-  const std::int32_t cluster = input.kept_a->cluster[static_cast<std::size_t>(index)];
+  const std::int32_t cluster = input.kept_a->cluster[index];
   opened_a_.push_back({index, {}});
   const auto append = [&] {
     return append_facets(*input.a, cluster, input.criteria_a, input.kept_b->bounds, a_, opened_a_.back().counts);
@@ -160,7 +158,7 @@ void FacetPairSearch::append_a(const ConfirmInput& input, std::int32_t index, st
     append();
   }
   for (const std::int32_t block : wanted_by_next_) {
-    BlockOfB& b = *b_[static_cast<std::size_t>(block)];
+    BlockOfB& b = *b_[block];
     if (!b.wanted) wanted_.push_back(block);
     b.wanted = true;
   }
@@ -169,7 +167,7 @@ void FacetPairSearch::append_a(const ConfirmInput& input, std::int32_t index, st
 // Holds the block of A against those of B that it may touch, and empties it.
 void FacetPairSearch::finish_block(const ConfirmInput& input, std::vector<FacetPair>& found, ConfirmCounts& counts) {
   for (const std::int32_t block : wanted_) {
-    BlockOfB& b = *b_[static_cast<std::size_t>(block)];
+    BlockOfB& b = *b_[block];
     test_blocks(input, b.kept, found, counts);
     b.wanted = false;
   }

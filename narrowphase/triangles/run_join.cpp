@@ -34,8 +34,7 @@ void RunJoin::run(const BoxArrays& a, int count_a, const BoxArrays& b, int count
     for (int i = r * kRun; i < std::min((r + 1) * kRun, count_a); ++i) {
       const int found = kernels().select_overlapping(near_.pointers(), static_cast<int>(place_.size()),
                                                      a.bounds(static_cast<std::size_t>(i)), found_.data());
-      for (int k = 0; k < found; ++k)
-        pairs.push_back({i, place_[static_cast<std::size_t>(found_[static_cast<std::size_t>(k)])]});
+      for (int k = 0; k < found; ++k) pairs.push_back({i, place_[found_[k]]});
     }
   }
 }
@@ -60,8 +59,8 @@ void RunJoin::find_near(const BoxArrays& b, int count_b, const BoxBounds& run) {
     const int found =
         kernels().select_overlapping(b.view().pointers(begin), std::min(kRun, count_b - begin), run, found_.data());
     for (int i = 0; i < found; ++i) {
-      const std::int32_t place = begin + found_[static_cast<std::size_t>(i)];
-      near_.set(place_.size(), b[static_cast<std::size_t>(place)]);
+      const std::int32_t place = begin + found_[i];
+      near_.set(place_.size(), b[place]);
       place_.push_back(place);
     }
   }

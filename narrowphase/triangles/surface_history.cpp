@@ -18,7 +18,7 @@ double side_of(const ClusteredMesh& mesh) {
   double sum = 0.0;
   int count = 0;
   for (int c = 0; c < mesh.cluster_count(); c += step, ++count) {
-    const Box box = mesh.cluster_boxes()[static_cast<std::size_t>(c)];
+    const Box box = mesh.cluster_boxes()[c];
     const Vec3 size = box.upper - box.lower;
     sum += std::max({size.x, size.y, size.z});
   }

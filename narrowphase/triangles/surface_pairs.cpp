@@ -118,7 +118,7 @@ LocalVertices SurfacePairSearch::vertices_of(const LocalCluster& cluster) {
 
 // Returns where its floats end.
 std::size_t SurfacePairSearch::take(const ClusteredMesh& mesh, int cluster, std::size_t floats, LocalCluster& local) {
-  const Box box = mesh.cluster_boxes()[static_cast<std::size_t>(cluster)];
+  const Box box = mesh.cluster_boxes()[cluster];
   const ClusterFacets facets = mesh.facets_of(cluster);
   const Vec3 origin = 0.5 * box.lower + 0.5 * box.upper;
   const Vec3 below = origin - box.lower, above = box.upper - origin;
@@ -138,7 +138,7 @@ std::size_t SurfacePairSearch::take(const ClusteredMesh& mesh, int cluster, std:
 bool SurfacePairSearch::still_apart(const ConfirmInput& input, std::span<const ClusterPair> pairs, std::size_t first) {
   const std::span<const SurfaceHistory::Certificate> last = input.history->last();
   const std::span<SurfaceHistory::Certificate> now = input.history->now().subspan(first, pairs.size());
-  const int cluster_a = input.kept_a->cluster[static_cast<std::size_t>(pairs[0].a)];
+  const int cluster_a = input.kept_a->cluster[pairs[0].a];
   if (next_certificate_ == 0) {
     const auto before = [](const SurfaceHistory::Certificate& c, int cluster) { return c.a < cluster; };
     next_certificate_ =
@@ -148,7 +148,7 @@ bool SurfacePairSearch::still_apart(const ConfirmInput& input, std::span<const C
   bool all = true;
   std::size_t next = next_certificate_;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const int cluster_b = input.kept_b->cluster[static_cast<std::size_t>(pairs[i].b)];
+    const int cluster_b = input.kept_b->cluster[pairs[i].b];
     now[i] = {cluster_a, cluster_b, 0.0};
     while (next < last.size() && last[next].a == cluster_a && last[next].b < cluster_b) ++next;
     if (next < last.size() && last[next].a == cluster_a && last[next].b == cluster_b &&
@@ -162,20 +162,20 @@ bool SurfacePairSearch::still_apart(const ConfirmInput& input, std::span<const C
 // The pairs of one cluster of A, from the first-th of all. Those that a plane separates need no more.
 void SurfacePairSearch::look_at(const ConfirmInput& input, std::span<const ClusterPair> pairs, std::size_t first,
                                 std::vector<FacetPair>& found, ConfirmCounts& counts) {
-  const std::int32_t index_a = pairs[0].a, cluster_a = input.kept_a->cluster[static_cast<std::size_t>(index_a)];
+  const std::int32_t index_a = pairs[0].a, cluster_a = input.kept_a->cluster[index_a];
   take(*input.a, cluster_a, 0, a_);
   const ClusterFacets facets_a = input.a->facets_of(cluster_a);
   float normal[3];
   kernels().mean_normal(vertices_of(a_), facets_a, normal);
-  set_axis(frame_.axis[2], direction_of(normal, input.kept_a->boxes[static_cast<std::size_t>(index_a)]));
+  set_axis(frame_.axis[2], direction_of(normal, input.kept_a->boxes[index_a]));
   const LocalRange range_a = kernels().range_along(vertices_of(a_), a_.vertices, frame_.axis[2]);
   bool placed = false;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const std::int32_t index_b = pairs[i].b, cluster_b = input.kept_b->cluster[static_cast<std::size_t>(index_b)];
+    const std::int32_t index_b = pairs[i].b, cluster_b = input.kept_b->cluster[index_b];
     SurfaceHistory::Certificate* const certificate =
         input.history == nullptr ? nullptr : &input.history->now()[first + i];
     if (certificate != nullptr && certificate->until > 0.0) continue;
-    LocalCluster& b = b_[static_cast<std::size_t>(index_b)];
+    LocalCluster& b = b_[index_b];
     if (!b.taken) floats_used_ = take(*input.b, cluster_b, floats_used_, b);
     const auto certify = [&](double gap) {
       if (certificate == nullptr) return;
