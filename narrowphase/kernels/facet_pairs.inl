@@ -1,6 +1,6 @@
 // Which of many pairs of facets meet: by the signs of determinants, as in triangle_triangle.cpp.
-// In doubles; where these cannot tell, by equal corners, within the plane that both lie in, and in numbers of twice
-// the digits; what is left is for exact predicates.
+// In doubles; where these cannot tell, by equal corners, within the plane that both lie in, and in double-double; what
+// is left is for exact predicates.
 #pragma once
 
 #include <cstdint>

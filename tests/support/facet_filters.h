@@ -19,7 +19,7 @@ struct Filtered {
   Decision in_floats = Decision::undecided, in_floats_together = Decision::undecided;
   Decision simple = Decision::undecided;    // by itself, within its own box
   Decision together = Decision::undecided;  // beside the others, within the box of all
-  Decision wide = Decision::undecided;      // with twice the digits
+  Decision wide = Decision::undecided;      // in double-double
   Decision in_plane = Decision::undecided;  // within the plane that both lie in, if they do
   bool sharing = false;                     // the triangles have a corner in common
   bool flat = false;                        // the first lies in the plane of the second

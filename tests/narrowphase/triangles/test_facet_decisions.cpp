@@ -136,7 +136,7 @@ bool share_a_corner(const Triangle& a, const Triangle& b) {
   return false;
 }
 
-// Twice the digits tell on which side a corner lies that rounding alone keeps from a plane.
+// Double-double tells on which side a corner lies that rounding alone keeps from a plane.
 TEST(FacetDecisions, WideDecidesWhatRoundingPutsNextToAPlane) {
   for (const int seed : {3, 7, 11, 15}) {
     const auto [mesh_a, mesh_b] = bodies(seed);
