@@ -95,14 +95,14 @@ void MotionStage::sort_by_time(const Passing& passing, const Bodies& bodies, std
 }
 
 void MotionStage::find_clusters(const Bodies& bodies, int threads, Impacts wanted) {
-  work_.resize(static_cast<std::size_t>(threads));
+  work_.resize(threads);
   for (Work& work : work_) {
     work.clusters.clear();
     work.cluster_pairs = 0;
   }
   base::parallel_for(passing_.size(), kBodyPairsAtATime, threads, [&](std::size_t i, int thread) {
     Passing& one = passing_[i];
-    Work& work = work_[static_cast<std::size_t>(thread)];
+    Work& work = work_[thread];
     const auto pairs = work.passing.find(bodies.moving(one.a), bodies.moving(one.b), one.reach, device_);
     const std::size_t begin = work.clusters.size();
     work.clusters.insert(work.clusters.end(), pairs.begin(), pairs.end());
@@ -151,7 +151,7 @@ void MotionStage::search(const Bodies& bodies, int threads, Impacts wanted) {
   base::parallel_for(parts_.size(), 1, threads, [&](std::size_t i, int thread) {
     Part& part = parts_[order_[i]];
     const Passing& one = passing_[part.passing];
-    Work& work = work_[static_cast<std::size_t>(thread)];
+    Work& work = work_[thread];
     const std::span<const narrowphase::ClusterPair> clusters = work_[one.clusters.thread].clusters;
     std::atomic<double>* const first = firsts == 0 ? nullptr : &first_[firsts == 1 ? 0 : part.passing];
     const std::size_t begin = work.impacts.size();

@@ -61,8 +61,8 @@ void NarrowPhase::run(PairTable& table, Bodies& bodies, const Settings& settings
 // One pair through stages 3 to 6. A large one is put aside before the last.
 void NarrowPhase::look_at(const PairInput& pair, PairRecord& record, PairTable& table,
                           narrowphase::EmbreeDevice& device, int thread) {
-  PairWork& work = work_[static_cast<std::size_t>(thread)];
-  ThreadClock& clock = clocks_[static_cast<std::size_t>(thread)];
+  PairWork& work = work_[thread];
+  ThreadClock& clock = clocks_[thread];
   if (!std::exchange(clock.begun, true)) clock.timer.lap();
   const auto note = [&](float PairTimes::*of_pair, double PairCounts::*sum) {
     const double ms = clock.timer.lap();

@@ -22,7 +22,7 @@ PatchSet& begin(PatchMemory& memory) {
 }  // namespace
 
 void PatchStage::find(std::span<const MovedPair> moved, const Bodies& bodies, const Settings& settings) {
-  finders_.resize(static_cast<std::size_t>(settings.threads));
+  finders_.resize(settings.threads);
   base::parallel_for(moved.size(), 4, settings.threads, [&](std::size_t i, int thread) {
     PairRecord& record = *moved[i].record;
     const bool any = in_contact(record) && (!record.facet_pairs.empty() || !record.points.empty());
@@ -32,13 +32,13 @@ void PatchStage::find(std::span<const MovedPair> moved, const Bodies& bodies, co
     }
     PatchSet& set = begin(*record.patches);
     if (!any) return;
-    finders_[static_cast<std::size_t>(thread)].find({.a = bodies.in_slot(record.a.index),
-                                                     .b = bodies.in_slot(record.b.index),
-                                                     .direction = from_eigen(record.contact.direction),
-                                                     .reach = bodies.reach(record.a.index, record.b.index),
-                                                     .facet_pairs = record.facet_pairs,
-                                                     .points = record.points},
-                                                    set);
+    finders_[thread].find({.a = bodies.in_slot(record.a.index),
+                           .b = bodies.in_slot(record.b.index),
+                           .direction = from_eigen(record.contact.direction),
+                           .reach = bodies.reach(record.a.index, record.b.index),
+                           .facet_pairs = record.facet_pairs,
+                           .points = record.points},
+                          set);
   });
 }
 
@@ -85,7 +85,7 @@ void PatchStage::name(BodyId a, BodyId b, PatchMemory& memory, std::vector<Patch
   count_shared(memory);
   now_is_.assign(now.size(), -1);
   last_is_.assign(last.size(), -1);
-  const auto in = [](auto& list, int i) -> auto& { return list[static_cast<std::size_t>(i)]; };
+  const auto in = [](auto& list, int i) -> auto& { return list[i]; };
   for (const Match& match : matches_) {
     if (in(now_is_, match.now) >= 0 || in(last_is_, match.last) >= 0) continue;
     in(now_is_, match.now) = match.last;

@@ -69,7 +69,7 @@ Vec3 place(const PatchInput& input, const ContactPoint& point) {
 void shape_by_facets(const PatchInput& input, Patch& patch) {
   Vec3 normal, center;
   double largest = 0.0;
-  const auto pair = [&](int i) { return input.facet_pairs[static_cast<std::size_t>(i)]; };
+  const auto pair = [&](int i) { return input.facet_pairs[i]; };
   for (const int i : patch.facet_pairs)
     largest = std::max(
         {largest, longest(box_of(triangle_of(input.a, pair(i).a))), longest(box_of(triangle_of(input.b, pair(i).b)))});
@@ -104,20 +104,20 @@ std::pair<Vec3, Vec3> across(Vec3 n) {
 
 int PatchFinder::root(int i) {
   for (auto at = static_cast<std::size_t>(i); parent_[at] != i; at = static_cast<std::size_t>(i))
-    i = parent_[at] = parent_[static_cast<std::size_t>(parent_[at])];
+    i = parent_[at] = parent_[parent_[at]];
   return i;
 }
 
 // The root of a set is its lowest member.
 void PatchFinder::join(int i, int k) {
   const auto [first, second] = std::minmax({root(i), root(k)});
-  parent_[static_cast<std::size_t>(second)] = first;
+  parent_[second] = first;
 }
 
 void PatchFinder::join_facet_pairs(std::span<const FacetPair> pairs) {
   by_b_.resize(pairs.size());
   std::iota(by_b_.begin(), by_b_.end(), 0);
-  const auto b_of = [&](int i) { return pairs[static_cast<std::size_t>(i)].b; };
+  const auto b_of = [&](int i) { return pairs[i].b; };
   std::sort(by_b_.begin(), by_b_.end(), [&](int i, int j) { return b_of(i) != b_of(j) ? b_of(i) < b_of(j) : i < j; });
   for (std::size_t i = 1; i < pairs.size(); ++i) {
     if (pairs[i - 1].a == pairs[i].a) join(static_cast<int>(i) - 1, static_cast<int>(i));
@@ -156,7 +156,7 @@ void PatchFinder::join_points(std::span<const ContactPoint> points, int first_po
     ones_.clear();
     for (std::size_t i = begin; i < end; ++i) {
       if (corners_[i].item < first_point) continue;
-      const auto normal = [&](int item) { return points[static_cast<std::size_t>(item - first_point)].normal; };
+      const auto normal = [&](int item) { return points[item - first_point].normal; };
       bool alone = true;
       for (const int one : ones_) {
         if (by_normal && !(normal(one).dot(normal(corners_[i].item)) >= 0.0)) continue;
@@ -197,16 +197,14 @@ void PatchFinder::list_members(const PatchInput& input, int count, PatchSet& set
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     members.resize(last - first);
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
-      set.patches[k].*shown = std::span(members).subspan(static_cast<std::size_t>(begin_[k]),
-                                                         static_cast<std::size_t>(begin_[k + 1] - begin_[k]));
-    for (std::size_t i = first; i < last; ++i)
-      members[static_cast<std::size_t>(begin_[static_cast<std::size_t>(number_[i])]++)] = static_cast<int>(i - first);
+      set.patches[k].*shown =
+          std::span(members).subspan(begin_[k], static_cast<std::size_t>(begin_[k + 1] - begin_[k]));
+    for (std::size_t i = first; i < last; ++i) members[begin_[number_[i]]++] = static_cast<int>(i - first);
   };
   list(0, pairs, set.facet_pairs, &Patch::facet_pairs);
   list(pairs, number_.size(), set.points, &Patch::points);
   set.vertices.clear();
-  for (const Corner& corner : corners_)
-    set.vertices.push_back({corner.vertex, number_[static_cast<std::size_t>(corner.item)]});
+  for (const Corner& corner : corners_) set.vertices.push_back({corner.vertex, number_[corner.item]});
   std::ranges::sort(set.vertices);
   const auto rest = std::ranges::unique(set.vertices);
   set.vertices.erase(rest.begin(), rest.end());
@@ -220,8 +218,7 @@ void PatchFinder::find(const PatchInput& input, PatchSet& set) {
     places_.clear();
     if (patch.points.empty()) {
       shape_by_facets(input, patch);
-      for (const int i : patch.facet_pairs)
-        places_.push_back(center_of(common_box(input, input.facet_pairs[static_cast<std::size_t>(i)])));
+      for (const int i : patch.facet_pairs) places_.push_back(center_of(common_box(input, input.facet_pairs[i])));
     } else {
       shape_by_points(input, patch);
     }
@@ -239,7 +236,7 @@ void PatchFinder::find(const PatchInput& input, PatchSet& set) {
 
 // A point weighs as much as it is nearer than the margins: one that comes or goes weighs nothing.
 void PatchFinder::shape_by_points(const PatchInput& input, Patch& patch) {
-  const auto point = [&](int i) -> const ContactPoint& { return input.points[static_cast<std::size_t>(i)]; };
+  const auto point = [&](int i) -> const ContactPoint& { return input.points[i]; };
   double least = std::numeric_limits<double>::infinity();
   for (const int i : patch.points) least = std::min(least, point(i).gap);
   const double most = input.reach - least;
@@ -278,7 +275,7 @@ void PatchFinder::span(const PatchInput& input, Patch& patch, double scale) {
   // Of those that are the deepest but for rounding, the one farthest out.
   double farthest_out = -1.0;
   for (std::size_t i = 0; i < patch.points.size(); ++i) {
-    const double above = patch.depth + input.points[static_cast<std::size_t>(patch.points[i])].gap;
+    const double above = patch.depth + input.points[patch.points[i]].gap;
     const double out = std::hypot(flat_[i].x, flat_[i].y);
     if (scale * above <= kSpansNothing && out > farthest_out) chosen[0] = i, farthest_out = out;
   }

@@ -136,10 +136,10 @@ void PointStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Set
   numbers_patches_ = !settings.outputs.patches;  // or that is done with the facet pairs
   select(moved, bodies);
   make_features(bodies, settings.threads);
-  work_.resize(static_cast<std::size_t>(settings.threads));
+  work_.resize(settings.threads);
   is_large_.assign(wanted_.size(), false);
   base::parallel_for(wanted_.size(), 1, settings.threads, [&](std::size_t i, int thread) {
-    Work& work = work_[static_cast<std::size_t>(thread)];
+    Work& work = work_[thread];
     const Wanted& wanted = wanted_[i];
     const auto a = bodies.featured(wanted.a), b = bodies.featured(wanted.b);
     work.found.clear();
@@ -169,7 +169,7 @@ void PointStage::run_self(std::uint32_t slot, Bodies& bodies, const Settings& se
   numbers_patches_ = !settings.outputs.patches;
   wanted_.assign(1, {slot, slot, reach, &points, nullptr});
   make_features(bodies, settings.threads);
-  work_.resize(static_cast<std::size_t>(settings.threads));
+  work_.resize(settings.threads);
   const auto mesh = bodies.featured(slot);
   search_in_ranges(wanted_[0], bodies, work_[0].near.find(mesh, mesh, reach, device), settings.threads);
 }
@@ -183,8 +183,7 @@ void PointStage::search_in_ranges(const Wanted& wanted, const Bodies& bodies, st
   base::parallel_for(ranges, 1, threads, [&](std::size_t i, int thread) {
     const std::size_t begin = pairs.size() * i / ranges, end = pairs.size() * (i + 1) / ranges;
     ranges_[i].clear();
-    work_[static_cast<std::size_t>(thread)].search.run(a, b, wanted.reach, pairs.subspan(begin, end - begin),
-                                                       ranges_[i]);
+    work_[thread].search.run(a, b, wanted.reach, pairs.subspan(begin, end - begin), ranges_[i]);
   });
   std::vector<FeaturePoint>& found = work_[0].found;
   found.clear();

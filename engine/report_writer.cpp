@@ -60,7 +60,7 @@ void ReportWriter::add_thread_totals() {
 }
 
 void ReportWriter::write(PairTable& table, const SelfStage& self, int threads) {
-  thread_totals_.resize(static_cast<std::size_t>(threads));
+  thread_totals_.resize(threads);
   const bool same = table.same_contacts() && self.same_contacts();
   write_candidates(table, same);
   if (!same) {
@@ -118,7 +118,7 @@ void ReportWriter::carry_contacts(PairTable& table, int threads) {
       contact.facet_pairs_ = {};
     } else {
       contact = last_contacts_[place];
-      thread_totals_[static_cast<std::size_t>(thread)].add(contact, 1);
+      thread_totals_[thread].add(contact, 1);
     }
   });
   totals_ = {};
@@ -131,7 +131,7 @@ void ReportWriter::write_contacts(PairTable& table, int threads) {
   base::parallel_for(moved.size(), contacts_at_a_time(moved.size()), threads, [&](std::size_t i, int thread) {
     if (!table.in_contact(moved[i].place)) return;
     Contact& contact = report_.contacts_[table.place_in_report(moved[i].place)];
-    replace(contact, *moved[i].record, thread_totals_[static_cast<std::size_t>(thread)]);
+    replace(contact, *moved[i].record, thread_totals_[thread]);
   });
   add_thread_totals();
   for (std::size_t i = 0; i < reported_.size() && has_self_; ++i) {

@@ -90,7 +90,7 @@ OpenedFacets opened_in_ranges(LargePair& large) {
   for (const ConfirmedRange& range : large.used_ranges()) {
     for (const OpenedCluster& one : range.opened_a) opened.a += one.counts;
     for (const OpenedCluster& one : range.opened_b) {
-      if (!std::exchange(large.seen_b[static_cast<std::size_t>(one.index)], true)) opened.b += one.counts;
+      if (!std::exchange(large.seen_b[one.index], true)) opened.b += one.counts;
     }
   }
   return opened;
@@ -123,7 +123,7 @@ void confirm_in_ranges(LargePair& large, std::span<PairWork> thread_work, int th
   if (large.ranges.size() < large.range_count) large.ranges.resize(large.range_count);
   base::parallel_for(large.range_count, 1, threads, [&](std::size_t i, int thread) {
     large.ranges[i].thread = thread;
-    confirm_range(large, i, thread_work[static_cast<std::size_t>(thread)].search, large.ranges[i]);
+    confirm_range(large, i, thread_work[thread].search, large.ranges[i]);
   });
   PairRecord& record = *large.culled.record;
   ConfirmCounts confirmed;

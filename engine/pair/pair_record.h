@@ -49,7 +49,7 @@ struct alignas(64) PairRecord {
   Contact contact;
   std::vector<FacetPair> facet_pairs;  ///< sorted
   std::size_t room_left = 0;           ///< for facet pairs, by a large pair that had this record before, see PairTable
-  std::vector<ContactPoint> points;                       ///< of pairs in contact, sorted
+  std::vector<ContactPoint> points;    ///< of pairs in contact, sorted
   std::vector<ContactPoint> last_points;                  ///< of the step before
   std::unique_ptr<PatchMemory> patches;                   ///< made when there are any
   std::unique_ptr<narrowphase::SurfaceHistory> surfaces;  ///< of bodies that lie on each other, once

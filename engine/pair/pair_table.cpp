@@ -19,8 +19,7 @@ template <class InSimplex, class InSurface>
 void renumber_vertices(PairRecord& record, std::span<const int> numbers, InSimplex in_simplex, InSurface in_surface) {
   if (numbers.empty()) return;
   const auto renumber = [&](auto& vertices, int count) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
-      vertices[k] = numbers[static_cast<std::size_t>(vertices[k])];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) vertices[k] = numbers[vertices[k]];
   };
   renumber(record.history.hulls.*in_simplex, record.history.hulls.count);
   if (record.hulls_overlap) renumber(record.face.*in_simplex, record.face.count);

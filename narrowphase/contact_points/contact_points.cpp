@@ -40,14 +40,14 @@ void open(const ScaledMesh& m, int cluster, OpenCluster& opened) {
   const ClusterFacets facets = m.mesh.facets_of(cluster);
   opened.cluster = cluster;
   opened.source = facets;
-  const Box box = m.mesh.cluster_boxes()[static_cast<std::size_t>(cluster)];
+  const Box box = m.mesh.cluster_boxes()[cluster];
   opened.box = {m.scale * box.lower, m.scale * box.upper};
   opened.at.take(facets, m.scale);
   take_facets(facets, opened.at, opened.facets);
   opened.vertices.take(facets.owned_begin, facets.owned_count, opened.at.at, [](int, int i) { return i; });
   const int begin = m.features.edge_begin(cluster), end = m.features.edge_end(cluster);
   opened.edges.take(begin, end - begin, opened.at.at,
-                    [&](int c, int i) { return m.features.edge_in_cluster(begin + i)[static_cast<std::size_t>(c)]; });
+                    [&](int c, int i) { return m.features.edge_in_cluster(begin + i)[c]; });
 }
 
 // As ClusteredMesh::corners(), of facet i of the cluster.
@@ -212,9 +212,7 @@ class PointFinder {
 std::span<const ClusterPair> NearClusters::find(const FeaturedMesh& a, const FeaturedMesh& b, double reach,
                                                 EmbreeDevice& device) {
   const double both = box_reach(reach, std::max(largest_coordinate(a.mesh->box()), largest_coordinate(b.mesh->box())));
-  const auto box_of = [](const ClusteredMesh& mesh, int c) {
-    return mesh.cluster_boxes()[static_cast<std::size_t>(c)];
-  };
+  const auto box_of = [](const ClusteredMesh& mesh, int c) { return mesh.cluster_boxes()[c]; };
   return finder_.find(
       *a.mesh, [&](int c) { return inflated(box_of(*a.mesh, c), both); },  //
       *b.mesh, [&](int c) { return box_of(*b.mesh, c); }, b.mesh->box(), device);

@@ -49,7 +49,7 @@ EdgeVertices source_ends(const FeaturedMesh& m, int edge) {
 }
 
 std::span<const int> used(const std::array<int, 3>& feature) {
-  return std::span(feature).first(static_cast<std::size_t>(std::ranges::find(feature, -1) - feature.begin()));
+  return std::span(feature).first(std::ranges::find(feature, -1) - feature.begin());
 }
 
 double negative(double distance) { return distance > 0.0 ? -distance : 0.0; }
@@ -117,12 +117,12 @@ void CrossingSearch::find_patch_directions(Side& own, const Side& other) {
   for (const CarriedNormal& one : own.carried) {
     const int patch = own.cut.patch_of(one.vertex);
     if (patch < 0) continue;
-    PatchDirection& direction = patches_[static_cast<std::size_t>(patch)];
+    PatchDirection& direction = patches_[patch];
     Vec3& sum = one.gap < 0.0 ? direction.of_crossed : direction.of_others;
     sum = sum + own.sign * one.normal;
   }
   for (const EdgeHit& hit : own.cut.hits()) {
-    PatchDirection& one = patches_[static_cast<std::size_t>(own.cut.patch_of(hit.vertices[0]))];
+    PatchDirection& one = patches_[own.cut.patch_of(hit.vertices[0])];
     one.entered = one.entered + unit_normal(other.scaled(scale_), other.mesh.mesh->facet_of_source(hit.facet));
     ++one.entries;
   }
@@ -138,7 +138,7 @@ void CrossingSearch::find_patch_directions(Side& own, const Side& other) {
 
 Vec3 CrossingSearch::facing_of_patch(const Side& own, int source_vertex) const {
   const int patch = own.cut.patch_of(source_vertex);
-  return patch < 0 ? own.sign * direction_ : patches_[static_cast<std::size_t>(patch)].facing;
+  return patch < 0 ? own.sign * direction_ : patches_[patch].facing;
 }
 
 std::optional<Vec3> CrossingSearch::facing_of_vertex(const Side& own, int source_vertex) const {

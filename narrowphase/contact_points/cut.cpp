@@ -51,17 +51,15 @@ bool Cut::is_cut_between(const ClusteredMesh& mesh, int v, int w) const {
   return is_cut({first, second});
 }
 
-Cut::State& Cut::state(const ClusteredMesh& mesh, int vertex) {
-  return state_[static_cast<std::size_t>(mesh.source_vertex(vertex))];
-}
+Cut::State& Cut::state(const ClusteredMesh& mesh, int vertex) { return state_[mesh.source_vertex(vertex)]; }
 
 void Cut::touch(int source_vertex) {
   touched_.push_back(source_vertex);
-  parent_[static_cast<std::size_t>(source_vertex)] = source_vertex;
+  parent_[source_vertex] = source_vertex;
 }
 
 int Cut::root_of(int source_vertex) const {
-  const auto parent = [&](int v) { return parent_[static_cast<std::size_t>(v)]; };
+  const auto parent = [&](int v) { return parent_[v]; };
   while (parent(source_vertex) != source_vertex) source_vertex = parent(source_vertex);
   return source_vertex;
 }
@@ -70,29 +68,29 @@ int Cut::root_of(int source_vertex) const {
 void Cut::join(int source_vertex, int other_source_vertex) {
   const auto root = [&](int v) {
     for (auto at = static_cast<std::size_t>(v); parent_[at] != v; at = static_cast<std::size_t>(v))
-      v = parent_[at] = parent_[static_cast<std::size_t>(parent_[at])];
+      v = parent_[at] = parent_[parent_[at]];
     return v;
   };
   const auto [first, second] = std::minmax({root(source_vertex), root(other_source_vertex)});
-  parent_[static_cast<std::size_t>(second)] = first;
+  parent_[second] = first;
 }
 
 void Cut::number_patches() {
   patch_count_ = 0;
   for (const int v : touched_) {
-    if (parent_[static_cast<std::size_t>(v)] == v) patch_[static_cast<std::size_t>(v)] = patch_count_++;
+    if (parent_[v] == v) patch_[v] = patch_count_++;
   }
 }
 
 int Cut::patch_of(int source_vertex) const {
-  if (parent_[static_cast<std::size_t>(source_vertex)] < 0) return -1;
-  return patch_[static_cast<std::size_t>(root_of(source_vertex))];
+  if (parent_[source_vertex] < 0) return -1;
+  return patch_[root_of(source_vertex)];
 }
 
 void Cut::clear_state(const FeaturedMesh& own) {
   for (const int v : touched_) {
-    state_[static_cast<std::size_t>(v)] = kUnknown;
-    parent_[static_cast<std::size_t>(v)] = -1;
+    state_[v] = kUnknown;
+    parent_[v] = -1;
   }
   const auto count = static_cast<std::size_t>(own.mesh->source_vertex_count());
   if (state_.size() < count) {

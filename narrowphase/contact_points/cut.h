@@ -45,7 +45,7 @@ class Cut {
   std::span<const EdgeHit> hits_of(const EdgeVertices& vertices) const;
   bool is_cut(const EdgeVertices& vertices) const { return !hits_of(vertices).empty(); }
   /// Is a vertex, by the caller's number, among inside()?
-  bool is_inside(int source_vertex) const { return state_[static_cast<std::size_t>(source_vertex)] == kInside; }
+  bool is_inside(int source_vertex) const { return state_[source_vertex] == kInside; }
   /// What is inside, by the mesh's numbers: what hangs together stands together.
   std::span<const int> inside() const { return inside_; }
   /// The corners of the facets that meet, by the mesh's numbers.

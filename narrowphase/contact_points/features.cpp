@@ -23,7 +23,7 @@ std::vector<Side> sides_of(const ClusteredMesh& mesh) {
   for (int f = 0; f < mesh.facet_count(); ++f) {
     const Corners c = mesh.corners(f);
     for (int k = 0; k < 3; ++k) {
-      const int from = c[static_cast<std::size_t>(k)], to = c[static_cast<std::size_t>((k + 1) % 3)];
+      const int from = c[k], to = c[(k + 1) % 3];
       if (from != to) sides.push_back({{std::min(from, to), std::max(from, to)}, f, k});
     }
   }
@@ -38,7 +38,7 @@ Features::Features(const ClusteredMesh& mesh) {
   find_neighbors(mesh);
   find_parts();
   vertex_of_source_.assign(static_cast<std::size_t>(mesh.source_vertex_count()), -1);
-  for (int v = 0; v < mesh.vertex_count(); ++v) vertex_of_source_[static_cast<std::size_t>(mesh.source_vertex(v))] = v;
+  for (int v = 0; v < mesh.vertex_count(); ++v) vertex_of_source_[mesh.source_vertex(v)] = v;
 }
 
 void Features::find_edges(const ClusteredMesh& mesh) {
@@ -66,7 +66,7 @@ void Features::find_edges(const ClusteredMesh& mesh) {
     for (std::size_t i = begin; i < sides.size() && sides[i].vertices == sides[begin].vertices; ++i) {
       const auto [_, f, k] = sides[i];
       facet_edges_[3 * static_cast<std::size_t>(f) + static_cast<std::size_t>(k)] = edge;
-      opposite_.push_back(mesh.corners(f)[static_cast<std::size_t>((k + 2) % 3)]);
+      opposite_.push_back(mesh.corners(f)[(k + 2) % 3]);
     }
     opposite_begin_.push_back(static_cast<int>(opposite_.size()));
   }
@@ -77,7 +77,7 @@ void Features::find_neighbors(const ClusteredMesh& mesh) {
   const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
   first_facet_of_vertex_.assign(vertices, -1);
   for (int f = mesh.facet_count() - 1; f >= 0; --f) {
-    for (const int v : mesh.corners(f)) first_facet_of_vertex_[static_cast<std::size_t>(v)] = f;
+    for (const int v : mesh.corners(f)) first_facet_of_vertex_[v] = f;
   }
   neighbors_begin_.assign(vertices + 1, 0);
   for (const EdgeVertices& edge : edges_) {
@@ -87,8 +87,8 @@ void Features::find_neighbors(const ClusteredMesh& mesh) {
   neighbors_.resize(2 * edges_.size());
   std::vector<int> next(neighbors_begin_.begin(), neighbors_begin_.end() - 1);
   for (const auto& [v, w] : edges_) {
-    neighbors_[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] = w;
-    neighbors_[static_cast<std::size_t>(next[static_cast<std::size_t>(w)]++)] = v;
+    neighbors_[next[v]++] = w;
+    neighbors_[next[w]++] = v;
   }
 }
 
@@ -103,8 +103,8 @@ void Features::find_parts() {
       const int from = next.back();
       next.pop_back();
       for (const int to : neighbors(from)) {
-        if (reached[static_cast<std::size_t>(to)]) continue;
-        reached[static_cast<std::size_t>(to)] = true;
+        if (reached[to]) continue;
+        reached[to] = true;
         next.push_back(to);
       }
     }

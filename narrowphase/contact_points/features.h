@@ -19,14 +19,12 @@ class Features {
 
   /// Edges are ordered by the first facet that has them: those of a cluster follow each other.
   int edge_count() const { return static_cast<int>(edges_.size()); }
-  int edge_begin(int cluster) const { return edge_begin_[static_cast<std::size_t>(cluster)]; }
+  int edge_begin(int cluster) const { return edge_begin_[cluster]; }
   int edge_end(int cluster) const { return edge_begin(cluster + 1); }
   /// The two vertices, in the order of the caller's numbers. They differ.
-  EdgeVertices edge(int edge) const { return edges_[static_cast<std::size_t>(edge)]; }
+  EdgeVertices edge(int edge) const { return edges_[edge]; }
   /// The same in its cluster, whose vertices are counted as ClusterFacets::corner counts them.
-  std::array<std::uint8_t, 2> edge_in_cluster(int edge) const {
-    return edges_in_cluster_[static_cast<std::size_t>(edge)];
-  }
+  std::array<std::uint8_t, 2> edge_in_cluster(int edge) const { return edges_in_cluster_[edge]; }
   /// The third vertex of each facet that has the edge.
   std::span<const int> opposite(int edge) const { return part(opposite_, opposite_begin_, edge); }
   /// The edge from corner k of a facet to the next one; negative if these are one vertex.
@@ -34,20 +32,19 @@ class Features {
     return facet_edges_[3 * static_cast<std::size_t>(facet) + static_cast<std::size_t>(k)];
   }
   /// Among the facets that have an edge or a vertex, the first one.
-  int first_facet_of_edge(int edge) const { return first_facet_of_edge_[static_cast<std::size_t>(edge)]; }
-  int first_facet_of_vertex(int vertex) const { return first_facet_of_vertex_[static_cast<std::size_t>(vertex)]; }
+  int first_facet_of_edge(int edge) const { return first_facet_of_edge_[edge]; }
+  int first_facet_of_vertex(int vertex) const { return first_facet_of_vertex_[vertex]; }
   /// The vertices that share an edge with a vertex, each once.
   std::span<const int> neighbors(int vertex) const { return part(neighbors_, neighbors_begin_, vertex); }
   /// The vertex that has a number of the caller's; -1 if no facet uses it.
-  int vertex_of_source(int source_vertex) const { return vertex_of_source_[static_cast<std::size_t>(source_vertex)]; }
+  int vertex_of_source(int source_vertex) const { return vertex_of_source_[source_vertex]; }
   /// A vertex of each part that hangs together by edges.
   std::span<const int> one_of_each_part() const { return one_of_each_part_; }
 
  private:
   static std::span<const int> part(const std::vector<int>& all, const std::vector<int>& begin, int i) {
     const auto k = static_cast<std::size_t>(i);
-    return std::span(all).subspan(static_cast<std::size_t>(begin[k]),
-                                  static_cast<std::size_t>(begin[k + 1] - begin[k]));
+    return std::span(all).subspan(begin[k], static_cast<std::size_t>(begin[k + 1] - begin[k]));
   }
   void find_edges(const ClusteredMesh& mesh);
   void find_neighbors(const ClusteredMesh& mesh);

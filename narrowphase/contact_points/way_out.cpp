@@ -139,7 +139,7 @@ WayFinder& WayFinder::operator=(WayFinder&&) noexcept = default;
 void WayFinder::begin(const ScaledMesh& surface) {
   memory_->surface.emplace(surface);
   for (Memory::Opened& one : memory_->opened) one.cluster = -1;
-  memory_->clusters.resize(static_cast<std::size_t>(surface.mesh.cluster_count() + kPadding));
+  memory_->clusters.resize(surface.mesh.cluster_count() + kPadding);
 }
 
 template <class Counts>
@@ -162,7 +162,7 @@ std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const 
       m.mesh.cluster_boxes().pointers(), m.mesh.cluster_count(),
       bounds_of({(1.0 / m.scale) * wanted.lower, (1.0 / m.scale) * wanted.upper}), memory_->clusters.data());
   for (int c = 0; c < clusters; ++c) {
-    const PlacedFacets& facets = memory_->facets_of(m, memory_->clusters[static_cast<std::size_t>(c)]);
+    const PlacedFacets& facets = memory_->facets_of(m, memory_->clusters[c]);
     std::int32_t near[kClusterSize + kPadding];
     const int count = kernels().select_overlapping(facets.pointers(), facets.count, bounds_of(around()), near);
     for (int k = 0; k < count; ++k) {
@@ -191,7 +191,7 @@ std::optional<WayOut> WayFinder::nearest_through(Vec3 v, Vec3 facing, double wit
   double height = seen.height;
   // Corner k has no weight: the place is on the side across, from k + 1 to k + 2.
   for (int k = 0; k < 3; ++k) {
-    if (way->weight[static_cast<std::size_t>(k)] > 0.0) continue;
+    if (way->weight[k] > 0.0) continue;
     height = height_at_edge(sheet, way->facet, (k + 1) % 3, v, height);
     if (height == 0.0) return {};
   }

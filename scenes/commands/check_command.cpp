@@ -158,7 +158,9 @@ void check(const CheckOptions& options, std::ostream& out) {
   std::optional<OutputFile> recording;
   if (!options.record.empty()) recording.emplace(options.record, out, Appears::at_once);
   std::optional<Recorder> recorder;
-  World world({.threads = threads, .accuracy = options.accuracy, .outputs = {.patches = options.points, .points = options.points}});
+  World world({.threads = threads,
+               .accuracy = options.accuracy,
+               .outputs = {.patches = options.points, .points = options.points}});
   if (recording) world.set_observer(&recorder.emplace(recording->stream()));
   const std::vector<BodyId> ids = add_bodies(bodies, world);
 

@@ -160,11 +160,10 @@ typedef struct tact_body_definition {
   bool self_contact;      /**< is the body held against itself, too? */
   uint32_t group;         /**< bodies of one group are not tested against each other; 0: in none */
 } tact_body_definition;
-#define TACT_BODY_DEFINITION_INIT                                                             \
-  {                                                                                           \
-    (uint32_t)sizeof(tact_body_definition), TACT_SURFACE_CLOSED, {NULL, 0, 24, TACT_FLOAT64}, \
-        {NULL, 0, 12, TACT_INT32}, TACT_MOTION_MOVING, 1u, 0xffffffffu, NULL, 0, 0.0, false,  \
-        0                                                                                     \
+#define TACT_BODY_DEFINITION_INIT                                                              \
+  {                                                                                            \
+    (uint32_t)sizeof(tact_body_definition), TACT_SURFACE_CLOSED, {NULL, 0, 24, TACT_FLOAT64},  \
+        {NULL, 0, 12, TACT_INT32}, TACT_MOTION_MOVING, 1u, 0xffffffffu, NULL, 0, 0.0, false, 0 \
   }
 
 /** New positions of one body. */
@@ -333,8 +332,10 @@ typedef struct tact_patch {
   size_t point_count;
   int spanning[4]; /**< at most four of the points, the deepest first; -1 fills up */
 } tact_patch;
-#define TACT_PATCH_INIT \
-  { (uint32_t)sizeof(tact_patch), {0, 0, 0}, {0, 0, 0}, 0, NULL, 0, 0, 0, NULL, 0, {-1, -1, -1, -1} }
+#define TACT_PATCH_INIT                                                                               \
+  {                                                                                                   \
+    (uint32_t)sizeof(tact_patch), {0, 0, 0}, {0, 0, 0}, 0, NULL, 0, 0, 0, NULL, 0, { -1, -1, -1, -1 } \
+  }
 
 typedef enum tact_feature_pair { TACT_VERTEX_FACET = 0, TACT_FACET_VERTEX = 1, TACT_EDGE_EDGE = 2 } tact_feature_pair;
 
