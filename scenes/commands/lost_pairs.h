@@ -1,36 +1,43 @@
-// How many facet pairs a level of accuracy loses in a scene, against the exact answer on the same positions.
+// What the paper's criteria lose of a scene.
 #pragma once
 
 #include <tact/tact.h>
 
 #include <cstdint>
 #include <ostream>
+#include <vector>
 
 #include "scenes/dynamics/simulation.h"
 
 namespace tact::scenes {
 
-// Detects beside a simulation, exactly, and compares. It is in none of the simulation's times.
+// Two worlds beside that of a simulation, one at Accuracy::exact and one at Accuracy::paper. They see the bodies of
+// each step thickened, so that what is in contact crosses: closed bodies moved out by twice their thickness, along the
+// mean normal of each vertex.
 class LostPairs {
  public:
-  // Of a simulation before its first step.
+  // Bodies must be those of all later steps. Errors: those of World.
   LostPairs(const Simulation& simulation, int threads);
 
-  // After every step.
   void add_step(const Simulation& simulation);
-
-  std::int64_t all() const { return all_; }    // facet pairs that meet, over all steps
-  std::int64_t lost() const { return lost_; }  // those of them that the simulation was not told
-  // "facet pairs lost: 120 of 400 (30.0 %)", and how many contacts lost all of theirs.
+  std::int64_t all() const { return all_; }
+  std::int64_t lost() const { return lost_; }
+  // The bodies as the two worlds saw them in the last step, and what they found.
+  const std::vector<Vec3>& seen(std::size_t body) const { return seen_[body]; }
+  const Report& exact() const { return *exact_report_; }
   void print(std::ostream& out) const;
 
  private:
-  World exact_;
-  std::vector<BodyId> ids_;
-  std::int64_t all_ = 0;
-  std::int64_t lost_ = 0;
+  void show(const Simulation& simulation);
+
+  World exact_, paper_;
+  std::vector<BodyId> exact_ids_, paper_ids_;
+  std::vector<std::vector<Vec3>> seen_;
+  const Report* exact_report_ = nullptr;
+  std::int64_t all_ = 0;   // facet pairs
+  std::int64_t lost_ = 0;  // of them, not found
   std::int64_t contacts_ = 0;
-  std::int64_t lost_contacts_ = 0;
+  std::int64_t lost_contacts_ = 0;  // of which all were lost
 };
 
 }  // namespace tact::scenes

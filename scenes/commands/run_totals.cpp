@@ -26,9 +26,10 @@ double share(double part, double whole) { return whole > 0.0 ? 100.0 * part / wh
 
 void RunTotals::add_step(const Simulation& simulation) {
   ++steps_;
+  detections_ += simulation.state().detections;
   std::vector<std::int64_t> counts;
   std::vector<double> times;
-  const StepStats& step = simulation.report()->stats();
+  const StepStats& step = simulation.stats();
   for_each_count(step, [&](const char*, const char*, std::int64_t count) { counts.push_back(count); });
   for_each_time(step, [&](const char*, const char*, double time) { times.push_back(time); });
   auto count = counts.begin();
@@ -38,14 +39,14 @@ void RunTotals::add_step(const Simulation& simulation) {
   const DynamicsTimes& dynamics = simulation.times();
   times_.move_ms += dynamics.move_ms;
   times_.impacts_ms += dynamics.impacts_ms;
-  times_.surfaces_ms += dynamics.surfaces_ms;
   times_.engine_ms += dynamics.engine_ms;
   times_.contacts_ms += dynamics.contacts_ms;
-  times_.settle_ms += dynamics.settle_ms;
+  times_.sleep_ms += dynamics.sleep_ms;
   peak_energy_ = std::max(peak_energy_, simulation.state().kinetic_energy);
   stopped_ += simulation.impacts().impacts();
   shortest_ = std::min(shortest_, simulation.impacts().part());
-  deepest_ = std::max(deepest_, simulation.state().deepest);
+  squeezed_ = std::max(squeezed_, simulation.state().squeezed);
+  crossed_ = std::max(crossed_, simulation.state().crossed);
 }
 
 void RunTotals::print(std::ostream& out, const Simulation& simulation, double wall_seconds,
@@ -55,9 +56,13 @@ void RunTotals::print(std::ostream& out, const Simulation& simulation, double wa
   fmt::print(out, "{} steps, {:.3f} s simulated in {:.2f} s; without pictures and files {:.1f} steps a second\n",
              steps_, state.time, wall_seconds, times_.total_ms() > 0.0 ? 1e3 * steps_ / times_.total_ms() : 0.0);
   const StepStats last = steps_ > 0 ? simulation.report()->stats() : StepStats{};
-  fmt::print(out, "last step: {}, {}, {}\n", counted(last.touching_contacts, "contact"),
-             counted(last.facet_pairs, "facet pair"), counted(state.contact_points, "contact point"));
-  fmt::print(out, "deepest penetration found: {:.2f} % of the smaller body's size\n", 100.0 * deepest_);
+  fmt::print(out, "last step: {}, {}, {}; bodies that forces move and that are awake: {}\n",
+             counted(last.contacts, "contact"), counted(state.contact_points, "contact point"),
+             counted(last.facet_pairs, "facet pair"), state.awake);
+  fmt::print(out,
+             "facet pairs that ever crossed: {}; thicknesses squeezed by up to {:.2f} % of the smaller body's size, by "
+             "{:.2f} % in the last step\n",
+             stats_.facet_pairs, 100.0 * squeezed_, 100.0 * state.squeezed);
   if (simulation.dynamics().continuous) {
     fmt::print(out, "impacts stopped: {}; the shortest step went {:.3g} of its way\n", stopped_, shortest_);
   }
@@ -70,14 +75,16 @@ void RunTotals::print(std::ostream& out, const Simulation& simulation, double wa
 
 void RunTotals::print_times(std::ostream& out) const {
   const double total = times_.total_ms();
-  const auto line = [&](const char* name, double ms, const char* note) {
+  const auto line = [&](const char* name, double ms, const std::string& note) {
     fmt::print(out, "  {:<26} {:>9.3f} {:>6.1f} %  {}\n", name, per_step(ms), share(ms, total), note);
   };
   fmt::print(out, "\nms a step, share of the step\n");
   line("scene: motion", times_.move_ms, "");
+  line("scene: contact points", times_.contacts_ms, "");
   if (times_.impacts_ms > 0.0) line("scene: impacts", times_.impacts_ms, "motion of the engine, and the response");
-  line("scene: surfaces", times_.surfaces_ms, "");
-  line("engine", times_.engine_ms, "stages below; 3 to 6 are summed over threads");
+  line("engine", times_.engine_ms,
+       fmt::format("{:.2f} detections; stages below, 3 to 6 are summed over threads",
+                   per_step(static_cast<double>(detections_))));
   const std::array<std::pair<const char*, double>, 7> stages = {{{"  1 refresh", stats_.refresh_ms},
                                                                  {"  2 sweep", stats_.sweep_ms},
                                                                  {"  3 hulls", stats_.hulls_ms},
@@ -86,8 +93,7 @@ void RunTotals::print_times(std::ostream& out) const {
                                                                  {"  6 confirm", stats_.confirm_ms},
                                                                  {"  7 report", stats_.report_ms}}};
   for (const auto& [name, ms] : stages) fmt::print(out, "  {:<26} {:>9.3f}\n", name, per_step(ms));
-  line("scene: contact points", times_.contacts_ms, "");
-  line("scene: pushing out", times_.settle_ms, "");
+  line("scene: sleep", times_.sleep_ms, "");
   fmt::print(out, "  {:<26} {:>9.3f}\n", "all", per_step(total));
 }
 

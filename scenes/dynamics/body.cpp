@@ -128,6 +128,7 @@ Body make_cloth(std::string name, const Mesh& mesh, const ClothMaterial& materia
   body.springs = Springs(springs, static_cast<int>(mesh.positions.size()));
   body.friction = material.friction;
   body.drag = material.drag;
+  body.thickness = material.thickness;
   return body;
 }
 
@@ -145,7 +146,13 @@ Body make_soft(std::string name, const Mesh& mesh, const SoftMaterial& material)
   body.friction = material.friction;
   body.drag = material.drag;
   body.inner_damping = material.inner_damping;
-  body.skin = material.skin;
+  body.thickness = material.thickness;
+  return body;
+}
+
+Body make_hard(std::string name, const Mesh& mesh, const SoftMaterial& material) {
+  Body body = make_soft(std::move(name), mesh, material);
+  body.rigid.emplace(body.positions, mass(body));
   return body;
 }
 
@@ -153,11 +160,12 @@ Body make_rigid(std::string name, const Mesh& mesh, const RigidMaterial& materia
   Body body = make_body(std::move(name), mesh);
   body.motion = motion;
   body.friction = material.friction;
-  body.skin = material.skin;
+  body.thickness = material.thickness;
   return body;
 }
 
 double kinetic_energy(const Body& body) {
+  if (body.rigid) return body.rigid->kinetic_energy();
   double sum = 0.0;
   for (std::size_t i = 0; i < body.velocities.size(); ++i) {
     if (body.inverse_masses[i] > 0.0) sum += 0.5 * norm_squared(body.velocities[i]) / body.inverse_masses[i];
@@ -165,24 +173,10 @@ double kinetic_energy(const Body& body) {
   return sum;
 }
 
-void move_out(const Body& body, std::vector<Vec3>& positions) {
-  if (!(body.skin > 0.0)) {
-    positions = body.positions;
-    return;
-  }
-  positions.assign(body.positions.size(), {});
-  for (Eigen::Index f = 0; f < body.facets.cols(); ++f) {
-    const Vec3 normal = area_normal(body.positions, body.facets, f);
-    for (int k = 0; k < 3; ++k) {
-      Vec3& sum = positions[static_cast<std::size_t>(body.facets(k, f))];
-      sum = sum + normal;
-    }
-  }
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const double length = norm(positions[i]);
-    const double scale = length > 0.0 ? body.skin / length : 0.0;
-    positions[i] = body.positions[i] + scale * positions[i];
-  }
+double mass(const Body& body) {
+  double sum = 0.0;
+  for (const double inverse : body.inverse_masses) sum += inverse > 0.0 ? 1.0 / inverse : 0.0;
+  return sum;
 }
 
 }  // namespace tact::scenes

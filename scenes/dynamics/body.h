@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scenes/dynamics/mesh.h"
+#include "scenes/dynamics/rigid_motion.h"
 #include "scenes/dynamics/shape.h"
 #include "scenes/dynamics/springs.h"
 #include "scenes/dynamics/topology.h"
@@ -20,7 +21,8 @@ struct ClothMaterial {
   double stretch_stiffness = 2000.0;  // of each edge, newtons a metre
   double bend_stiffness = 0.5;        // of each pair of facets that share an edge, newtons a metre
   double friction = 0.4;
-  double drag = 0.4;  // share of the velocity lost in a second
+  double drag = 0.4;         // share of the velocity lost in a second
+  double thickness = 0.004;  // metres, see Body::thickness
 };
 
 // A closed body that can be squashed and springs back.
@@ -35,13 +37,13 @@ struct SoftMaterial {
   double friction = 0.5;
   double drag = 0.1;           // share of the velocity lost in a second
   double inner_damping = 6.0;  // share of the velocity against the body's own rigid motion lost in a second
-  double skin = 0.0;           // metres, see Body::skin
+  double thickness = 0.003;    // metres, see Body::thickness
 };
 
 // A body that is as stiff as its script says: it moves as it is told, or not at all.
 struct RigidMaterial {
   double friction = 0.5;
-  double skin = 0.0;  // metres, see Body::skin
+  double thickness = 0.003;  // metres, see Body::thickness
 };
 
 struct Body {
@@ -58,16 +60,19 @@ struct Body {
   Springs springs;
   std::optional<VolumeKeeper> volume;
   std::optional<ShapeKeeper> shape;
-  double friction = 0.0;        // of a contact: the geometric mean of both bodies'
-  double drag = 0.0;            // 1 / seconds
-  double inner_damping = 0.0;   // 1 / seconds
-  double weight = 1.0;          // gravity times this
-  double hull_stiffness = 0.0;  // newtons a metre, see push_hulls_apart
-  // The surface that tact sees lies this far outside the body, metres; closed bodies only. Contacts are then known
-  // before the surfaces themselves meet.
-  double skin = 0.0;
+  std::optional<RigidMotion> rigid;  // of a body that forces move as a whole; springs and keepers then rest
+  double friction = 0.0;             // of a contact: the geometric mean of both bodies'
+  double drag = 0.0;                 // 1 / seconds
+  double inner_damping = 0.0;        // 1 / seconds
+  double weight = 1.0;               // gravity times this
+  // Half of the thickness of its surface, metres: surfaces stay apart by the sum of two.
+  double thickness = 0.0;
+  bool self_contact = false;
   double size = 0.0;     // length of the diagonal of its box at rest, metres
   bool dynamic = false;  // do forces move it? Otherwise its inverse masses are all 0
+  bool asleep = false;   // it rests, and nothing is done for it; a script may wake it
+
+  bool movable() const { return dynamic && !asleep; }
 };
 
 // Every facet that shares an edge with another gets a spring across it. The sheet's shape is that at rest.
@@ -75,12 +80,14 @@ Body make_cloth(std::string name, const Mesh& mesh, const ClothMaterial& materia
 // A closed body whose shape is that at rest. Its facets must enclose a positive volume. Springs along and across its
 // edges stand for the surface, struts through it for what is inside, which keep thin parts thick.
 Body make_soft(std::string name, const Mesh& mesh, const SoftMaterial& material);
+// The same body as make_soft() makes it, but rigid: of the material, density, friction, drag and thickness count. (The
+// rest does where impacts move its vertices one by one: see DynamicsSettings::continuous.)
+Body make_hard(std::string name, const Mesh& mesh, const SoftMaterial& material);
 // A body that only a script moves, or, if it is fixed, nobody.
 Body make_rigid(std::string name, const Mesh& mesh, const RigidMaterial& material, Motion motion);
 
-// The sum of ½ m v² over all vertices, joules.
+// Joules.
 double kinetic_energy(const Body& body);
-// The positions moved out by the body's skin, along the mean normal of each vertex.
-void move_out(const Body& body, std::vector<Vec3>& positions);
+double mass(const Body& body);  // of what forces move, kilograms
 
 }  // namespace tact::scenes

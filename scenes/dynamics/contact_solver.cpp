@@ -1,6 +1,7 @@
 #include "scenes/dynamics/contact_solver.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -10,93 +11,116 @@
 namespace tact::scenes {
 namespace {
 
-constexpr int kMostGroups = 64;
-
-Vec3 x_point(const SurfacePoint& point, const std::vector<Vec3>& positions) {
-  return point.x_weights[0] * positions[static_cast<std::size_t>(point.x_vertices[0])] +
-         point.x_weights[1] * positions[static_cast<std::size_t>(point.x_vertices[1])];
-}
-
-Vec3 y_point(const SurfacePoint& point, const std::vector<Vec3>& positions) {
-  return point.y_weights[0] * positions[static_cast<std::size_t>(point.y_vertices[0])] +
-         point.y_weights[1] * positions[static_cast<std::size_t>(point.y_vertices[1])] +
-         point.y_weights[2] * positions[static_cast<std::size_t>(point.y_vertices[2])];
-}
-
-// Sum of w² / m over the vertices of a point.
-template <class Vertices, class Weights>
-double give(const Vertices& vertices, const Weights& weights, const std::vector<double>& inverse_masses) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    sum += weights[k] * weights[k] * inverse_masses[static_cast<std::size_t>(vertices[k])];
-  }
-  return sum;
-}
-
-template <class Vertices, class Weights>
-void move(const Vertices& vertices, const Weights& weights, Vec3 impulse, Body& body) {
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    const auto vertex = static_cast<std::size_t>(vertices[k]);
-    if (!(body.inverse_masses[vertex] > 0.0)) continue;  // several contacts of a group may read what does not move
-    body.positions[vertex] = body.positions[vertex] + (weights[k] * body.inverse_masses[vertex]) * impulse;
-  }
-}
-
-double height(const SurfacePoint& point, const Body& x, const Body& y) {
-  return dot(point.normal, x_point(point, x.positions) - y_point(point, y.positions));
-}
-
-void start_points(std::vector<SurfacePoint>& points, const Body& x, const Body& y, double slop) {
-  for (SurfacePoint& point : points) point.offset = height(point, x, y) + (point.depth - slop);
-}
-
-void hold_points(std::vector<SurfacePoint>& points, const Body& x, const Body& y) {
-  for (SurfacePoint& point : points) point.offset = std::min(point.offset, height(point, x, y));
-}
-
-struct Sides {
-  Body& x;
-  Body& y;
-  const std::vector<Vec3>* x_before;  // null: no friction
-  const std::vector<Vec3>* y_before;
-  double friction;
-  WayOut part;  // most in metres
-};
-
-void solve_point(const SurfacePoint& point, const Sides& sides) {
-  const Vec3 between = x_point(point, sides.x.positions) - y_point(point, sides.y.positions);
-  const double inside = point.offset - dot(point.normal, between);
-  if (!(inside > 0.0)) return;
-  const double both = give(point.x_vertices, point.x_weights, sides.x.inverse_masses) +
-                      give(point.y_vertices, point.y_weights, sides.y.inverse_masses);
-  if (!(both > 0.0)) return;
-  Vec3 way = std::min(sides.part.share * inside, sides.part.most) * point.normal;
-  if (sides.x_before != nullptr) {
-    const Vec3 since = between - (x_point(point, *sides.x_before) - y_point(point, *sides.y_before));
-    const Vec3 slid = since - dot(since, point.normal) * point.normal;
-    const double length = norm(slid);
-    const double most = sides.friction * inside;
-    if (length > 0.0) way = way - (length > most ? most / length : 1.0) * slid;
-  }
-  const Vec3 impulse = (1.0 / both) * way;
-  move(point.x_vertices, point.x_weights, impulse, sides.x);
-  move(point.y_vertices, point.y_weights, -impulse, sides.y);
-}
+constexpr int kMostGroups = 64;  // bits of a word
+// Where the other body moves by a script no retreat may be enough.
+constexpr int kMostRetreats = 40;
 
 }  // namespace
 
-void ContactSolver::start(std::vector<BodyContact>& contacts, const std::vector<Body>& bodies, double slop) {
-  contacts_ = &contacts;
+// A place that a body carries.
+class ContactSolver::Carrier {
+ public:
+  Carrier(Body& body, const std::vector<Vec3>& before, const Place& place)
+      : body_(body), before_(before), place_(place), arm_(body.rigid ? body.rigid->arm(place.local) : Vec3{}) {}
+
+  Vec3 now() const { return body_.rigid ? body_.rigid->now(arm_) : at(body_.positions); }
+  Vec3 before() const { return body_.rigid ? body_.rigid->before(arm_) : at(before_); }
+  // How far a unit impulse along `direction` moves the place along it.
+  double give(Vec3 direction) const {
+    if (!body_.movable()) return 0.0;
+    if (body_.rigid) return body_.rigid->give(arm_, direction);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += place_.weights[k] * place_.weights[k] * body_.inverse_masses[static_cast<std::size_t>(place_.vertices[k])];
+    return sum;
+  }
+  void push(Vec3 impulse) {
+    if (!body_.movable()) return;  // several contacts of a group may read what does not move
+    if (body_.rigid) {
+      body_.rigid->push(arm_, impulse);
+      return;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto vertex = static_cast<std::size_t>(place_.vertices[k]);
+      body_.positions[vertex] = body_.positions[vertex] + (place_.weights[k] * body_.inverse_masses[vertex]) * impulse;
+    }
+  }
+  // Half of the way since the substep began is taken back.
+  void retreat() {
+    if (!body_.movable()) return;
+    if (body_.rigid) {
+      body_.rigid->retreat();
+      return;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto vertex = static_cast<std::size_t>(place_.vertices[k]);
+      if (place_.weights[k] > 0.0 && body_.inverse_masses[vertex] > 0.0)
+        body_.positions[vertex] = 0.5 * (body_.positions[vertex] + before_[vertex]);
+    }
+  }
+
+ private:
+  Vec3 at(const std::vector<Vec3>& positions) const {
+    Vec3 sum;
+    for (std::size_t k = 0; k < 3; ++k)
+      sum = sum + place_.weights[k] * positions[static_cast<std::size_t>(place_.vertices[k])];
+    return sum;
+  }
+
+  Body& body_;
+  const std::vector<Vec3>& before_;
+  const Place& place_;
+  Vec3 arm_;
+};
+
+ContactSolver::Place ContactSolver::place_of(const Body& body, const std::array<int, 3>& vertices,
+                                             const std::array<double, 3>& weights) {
+  Place place;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool used = vertices[k] >= 0;
+    place.vertices[k] = used ? vertices[k] : vertices[0];
+    place.weights[k] = used ? weights[k] : 0.0;
+    if (body.rigid)
+      place.local = place.local + place.weights[k] * body.rigid->local()[static_cast<std::size_t>(place.vertices[k])];
+  }
+  return place;
+}
+
+void ContactSolver::take(const Report& report, const std::vector<Body>& bodies, int threads) {
+  const auto contacts = report.contacts();
+  contacts_.clear();
+  std::vector<const Contact*> taken;
+  std::size_t count = 0;
+  for (const Contact& contact : contacts) {
+    const std::size_t a = contact.a.index, b = contact.b.index, size = contact.points().size();
+    if (size == 0 || !(bodies[a].movable() || bodies[b].movable())) continue;
+    contacts_.push_back({a, b, count, count + size});
+    taken.push_back(&contact);
+    count += size;
+  }
+  points_.resize(count);
+  base::parallel_for(taken.size(), 64, threads, [&](std::size_t i) {
+    const Body &a = bodies[contacts_[i].a], &b = bodies[contacts_[i].b];
+    Point* out = points_.data() + contacts_[i].begin;
+    for (const ContactPoint& point : taken[i]->points()) {
+      *out++ = {.a = place_of(a, point.a_vertices, point.a_weights),
+                .b = place_of(b, point.b_vertices, point.b_weights),
+                .normal = {point.normal.x(), point.normal.y(), point.normal.z()},
+                .wanted = a.thickness + b.thickness,
+                .found = std::min(a.thickness + b.thickness, point.gap),
+                .apart = std::min(a.thickness + b.thickness, point.gap)};
+    }
+  });
+  group_contacts(bodies);
+}
+
+void ContactSolver::group_contacts(const std::vector<Body>& bodies) {
   groups_.clear();
   rest_.clear();
   std::vector<std::uint64_t> taken(bodies.size(), 0);
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    BodyContact& contact = contacts[i];
-    const auto a = static_cast<std::size_t>(contact.a);
-    const auto b = static_cast<std::size_t>(contact.b);
-    start_points(contact.a_in_b, bodies[a], bodies[b], slop);
-    start_points(contact.b_in_a, bodies[b], bodies[a], slop);
-    const std::uint64_t both = (bodies[a].dynamic ? taken[a] : 0) | (bodies[b].dynamic ? taken[b] : 0);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const auto [a, b, begin, end] = contacts_[i];
+    const std::uint64_t both = (bodies[a].movable() ? taken[a] : 0) | (bodies[b].movable() ? taken[b] : 0);
     const int group = std::countr_one(both);
     if (group == kMostGroups) {
       rest_.push_back(i);
@@ -109,48 +133,70 @@ void ContactSolver::start(std::vector<BodyContact>& contacts, const std::vector<
   }
 }
 
-void ContactSolver::solve(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before, int threads) {
-  solve_contacts(bodies, &before, {}, threads);
-}
-
-void ContactSolver::push_out(std::vector<Body>& bodies, const WayOut& part, int threads) {
-  solve_contacts(bodies, nullptr, part, threads);
-}
-
-void ContactSolver::hold(const std::vector<Body>& bodies) {
-  if (contacts_ == nullptr) return;
-  for (BodyContact& contact : *contacts_) {
-    const Body& a = bodies[static_cast<std::size_t>(contact.a)];
-    const Body& b = bodies[static_cast<std::size_t>(contact.b)];
-    hold_points(contact.a_in_b, a, b);
-    hold_points(contact.b_in_a, b, a);
+void ContactSolver::solve(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before,
+                          const ContactSettings& settings, double h, int threads) {
+  for (Point& point : points_) {
+    const double missing = point.wanted - point.apart;
+    point.apart += std::min(settings.parting_share * missing, settings.parting_speed * h);
+  }
+  for (int k = 0; k < settings.most_sweeps; ++k) {
+    if (!sweep({.spare = k == 0 ? 0.0 : settings.spare}, bodies, before, threads)) break;
+  }
+  const Sweep retreat{.kind = Sweep::Kind::retreat, .least_share = settings.least_share};
+  for (int k = 0; k < kMostRetreats; ++k) {
+    if (!sweep(retreat, bodies, before, threads)) break;
   }
 }
 
-void ContactSolver::solve_contacts(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>* before,
-                                   const WayOut& part, int threads) {
-  if (contacts_ == nullptr) return;
-  for (const std::vector<std::size_t>& group : groups_) {
-    base::parallel_for(group.size(), 32, threads,
-                       [&](std::size_t i) { solve_contact(bodies, before, part, (*contacts_)[group[i]]); });
-  }
-  for (const std::size_t i : rest_) solve_contact(bodies, before, part, (*contacts_)[i]);
+bool ContactSolver::sweep(const Sweep& sweep, std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before,
+                          int threads) {
+  std::atomic<bool> any = false;
+  const auto sweep_one = [&](std::size_t contact) {
+    if (sweep_contact(contacts_[contact], sweep, bodies, before)) any = true;
+  };
+  for (const std::vector<std::size_t>& group : groups_)
+    base::parallel_for(group.size(), 32, threads, [&](std::size_t i) { sweep_one(group[i]); });
+  for (const std::size_t i : rest_) sweep_one(i);
+  return any;
 }
 
-void ContactSolver::solve_contact(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>* before,
-                                  const WayOut& part, BodyContact& contact) const {
-  const auto a = static_cast<std::size_t>(contact.a);
-  const auto b = static_cast<std::size_t>(contact.b);
-  const double friction = std::sqrt(bodies[a].friction * bodies[b].friction);
-  const std::vector<Vec3>* before_a = before != nullptr ? &(*before)[a] : nullptr;
-  const std::vector<Vec3>* before_b = before != nullptr ? &(*before)[b] : nullptr;
-  const WayOut way{part.share, part.most * std::min(bodies[a].size, bodies[b].size)};
-  for (const SurfacePoint& point : contact.a_in_b) {
-    solve_point(point, {bodies[a], bodies[b], before_a, before_b, friction, way});
+bool ContactSolver::sweep_contact(const BodyContact& contact, const Sweep& sweep, std::vector<Body>& bodies,
+                                  const std::vector<std::vector<Vec3>>& before) const {
+  Body &body_a = bodies[contact.a], &body_b = bodies[contact.b];
+  const double friction = std::sqrt(body_a.friction * body_b.friction);
+  bool any = false;
+  for (std::size_t i = contact.begin; i < contact.end; ++i) {
+    const Point& point = points_[i];
+    Carrier a(body_a, before[contact.a], point.a), b(body_b, before[contact.b], point.b);
+    const double distance = dot(point.normal, b.now() - a.now());
+    if (sweep.kind == Sweep::Kind::push) {
+      const double missing = point.apart - distance;
+      if (missing > sweep.spare * point.wanted) any = push(point, missing, a, b, friction) || any;
+    } else if (point.found > 0.0 && distance < sweep.least_share * point.found) {
+      a.retreat();
+      b.retreat();
+      any = true;
+    }
   }
-  for (const SurfacePoint& point : contact.b_in_a) {
-    solve_point(point, {bodies[b], bodies[a], before_b, before_a, friction, way});
-  }
+  return any;
+}
+
+bool ContactSolver::push(const Point& point, double missing, Carrier& a, Carrier& b, double friction) {
+  const double give = a.give(point.normal) + b.give(point.normal);
+  if (!(give > 0.0)) return false;
+  const double impulse = missing / give;
+  a.push(-impulse * point.normal);
+  b.push(impulse * point.normal);
+
+  Vec3 slid = (b.now() - b.before()) - (a.now() - a.before());
+  slid = slid - dot(slid, point.normal) * point.normal;
+  const double length = norm(slid);
+  if (!(length > 0.0)) return true;
+  const Vec3 along = (1.0 / length) * slid;
+  const double back = std::min(length / (a.give(along) + b.give(along)), friction * impulse);
+  a.push(back * along);
+  b.push(-back * along);
+  return true;
 }
 
 }  // namespace tact::scenes

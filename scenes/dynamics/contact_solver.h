@@ -1,54 +1,86 @@
-// Keeps the bodies of the simulation out of each other, as far as the contact points of the last step tell.
+// Keeps surfaces apart by the sum of their thicknesses, as far as the contact points of the last detection tell.
 #pragma once
 
-#include <limits>
+#include <tact/report.h>
+
+#include <array>
 #include <vector>
 
 #include "scenes/dynamics/body.h"
-#include "scenes/dynamics/penetration.h"
 
 namespace tact::scenes {
 
-// The contact points between two bodies.
-struct BodyContact {
-  int a = 0;  // places in the list of bodies
-  int b = 0;
-  std::vector<SurfacePoint> a_in_b;
-  std::vector<SurfacePoint> b_in_a;
-  double deepest = 0.0;  // of all points, metres
+struct ContactSettings {
+  // Sweeps over all points a substep. From the second one on only points are solved that have lost more than `spare` of
+  // what they ask for, and there is none if there are none: in a heap or a tight fold one point presses on the next.
+  int most_sweeps = 6;
+  double spare = 0.3;
+  // What is nearer than this share of its gap when the sweeps are done goes back towards where the substep began, by
+  // half as often as it takes: there it was not. So nothing crosses, whatever the points ask of each other.
+  double least_share = 0.2;
+  // How fast surfaces that are nearer than their thicknesses part, metres a second at most, and which share of what is
+  // missing a substep gives back. All at once would throw the bodies.
+  double parting_speed = 0.25;
+  double parting_share = 0.1;
 };
 
-// How much of its way out a point is moved in one sweep.
-struct WayOut {
-  double share = 1.0;                                     // of the way
-  double most = std::numeric_limits<double>::infinity();  // shares of the smaller body's size
-};
-
-// Contacts in groups of which no two move the same body; those of a group are solved in parallel, and give the same
-// bits for any number of threads.
+// One constraint a contact point: the two places that it names stay apart along its normal,
+//
+//     n · (p_b - p_a) >= t_a + t_b,
+//
+// with friction. Solved as positions, one after the other, masses shared (XPBD without compliance; M. Macklin et al.,
+// Small Steps in Physics Simulation, SCA 2019). Whether a gap is positive or negative makes no difference: a point
+// whose surfaces have crossed is one that is farther from where it should be.
+//
+// Contacts stand in groups of which no two move the same body; those of a group are solved in parallel, and give the
+// same bits for any number of threads.
 class ContactSolver {
  public:
-  // Takes the contact points and where their bodies are now: from here each has to move out by its depth, except for
-  // `slop` metres, which keep the contact alive until the next step. `contacts` must stay alive.
-  void start(std::vector<BodyContact>& contacts, const std::vector<Body>& bodies, double slop);
+  // Takes the points of a report; body i has index i in it. Contacts of which no body can be moved are left out.
+  void take(const Report& report, const std::vector<Body>& bodies, int threads);
+  // For a substep of `h` seconds that began at the positions `before`, by body. Friction takes back what a point slid
+  // since then, by up to the friction coefficient times the impulse along the normal (Coulomb's cone).
+  void solve(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before, const ContactSettings& settings,
+             double h, int threads);
 
-  // Moves the points that are still inside out along their normals, masses shared: one sweep over all contacts.
-  // Friction then takes back what a point slid since `before`, positions by body, by up to the friction coefficient
-  // times the way out (Coulomb's cone, as in M. Müller et al., Detailed Rigid Body Simulation with Extended Position
-  // Based Dynamics, SCA 2020).
-  void solve(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before, int threads);
-  // The same without friction, and only part of the way.
-  void push_out(std::vector<Body>& bodies, const WayOut& part, int threads);
-  // Points that are still inside need no longer move out from here, only not farther in.
-  void hold(const std::vector<Body>& bodies);
+  std::int64_t point_count() const { return static_cast<std::int64_t>(points_.size()); }
 
  private:
-  void solve_contacts(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>* before, const WayOut& part,
-                      int threads);
-  void solve_contact(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>* before, const WayOut& part,
-                     BodyContact& contact) const;
+  // A place on a surface.
+  struct Place {
+    std::array<int, 3> vertices{};  // the last is repeated with weight 0
+    std::array<double, 3> weights{};
+    Vec3 local;  // of a rigid body: RigidMotion::local()
+  };
+  struct Point {
+    Place a, b;
+    Vec3 normal;          // unit, from a to b
+    double wanted = 0.0;  // metres, both thicknesses
+    double found = 0.0;   // metres, the gap, but not more than is wanted
+    double apart = 0.0;   // metres, what is asked for in this substep
+  };
+  // How the points of a contact are treated.
+  struct Sweep {
+    enum class Kind { push, retreat } kind = Kind::push;
+    double spare = 0.0;        // metres that a point may miss
+    double least_share = 0.0;  // of its gap, for a retreat
+  };
+  struct BodyContact {
+    std::size_t a = 0, b = 0;        // places in the list of bodies
+    std::size_t begin = 0, end = 0;  // of its points
+  };
+  class Carrier;
 
-  std::vector<BodyContact>* contacts_ = nullptr;
+  static Place place_of(const Body& body, const std::array<int, 3>& vertices, const std::array<double, 3>& weights);
+  void group_contacts(const std::vector<Body>& bodies);
+  // These tell whether there was anything to do.
+  bool sweep(const Sweep& sweep, std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before, int threads);
+  bool sweep_contact(const BodyContact& contact, const Sweep& sweep, std::vector<Body>& bodies,
+                     const std::vector<std::vector<Vec3>>& before) const;
+  static bool push(const Point& point, double missing, Carrier& a, Carrier& b, double friction);
+
+  std::vector<Point> points_;
+  std::vector<BodyContact> contacts_;
   std::vector<std::vector<std::size_t>> groups_;
   std::vector<std::size_t> rest_;  // those that fit no group: one after the other
 };

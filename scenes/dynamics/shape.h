@@ -2,10 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "scenes/dynamics/mesh.h"
+#include "scenes/dynamics/rotation.h"
 
 namespace tact::scenes {
 
@@ -28,11 +28,6 @@ class VolumeKeeper {
   std::vector<Vec3> gradient_;  // kept between calls to spare allocations
 };
 
-// A rotation and what it is found from.
-struct Quaternion {
-  double w = 1.0, x = 0.0, y = 0.0, z = 0.0;
-};
-
 // Pulls each vertex towards its place in the shape at rest, moved, turned and partly sheared as the body is now. All
 // masses that are not infinite must be equal: then momentum and angular momentum stay. Source: M. Müller et al.,
 // Meshless Deformations Based on Shape Matching, SIGGRAPH 2005.
@@ -46,9 +41,9 @@ class ShapeKeeper {
   void solve(std::vector<Vec3>& positions, const std::vector<double>& inverse_masses, double h);
 
  private:
-  std::vector<Vec3> rest_;              // from the centre
-  std::array<Vec3, 3> inverse_spread_;  // rows of (sum of r rᵀ)⁻¹
-  double stiffness_;                    // newtons a metre and kilogram
+  std::vector<Vec3> rest_;  // from the centre
+  Matrix inverse_spread_;   // (sum of r rᵀ)⁻¹
+  double stiffness_;        // newtons a metre and kilogram
   double stretch_;
   Quaternion rotation_;  // of the last call, from which the next one starts
 };

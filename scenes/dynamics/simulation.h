@@ -10,39 +10,52 @@
 #include <ostream>
 #include <vector>
 
+#include "engine/base/timer.h"
 #include "scenes/dynamics/body.h"
 #include "scenes/dynamics/contact_solver.h"
 #include "scenes/dynamics/impact_response.h"
-#include "scenes/dynamics/penetration.h"
+#include "scenes/dynamics/sleep.h"
 
 namespace tact::scenes {
 
 struct DynamicsSettings {
   double gravity = 9.81;           // metres a second², towards -z
-  double time_step = 1.0 / 120.0;  // seconds from one detection to the next
-  int substeps = 4;                // of the motion, between two detections
-  int settle_sweeps = 2;           // pushes out of each other after a detection
-  double slop = 0.0005;            // metres that bodies at rest stay in each other, so that their contact lasts
-  // Stop bodies before they meet, rather than push them out of each other; skins are left away.
+  double time_step = 1.0 / 120.0;  // seconds
+  int substeps = 4;                // of the motion, a step
+  // How far ahead of a body contact points are known: its margin is its thickness and this reach. As much as it moves
+  // in a step, within these limits. A body that moves farther than its reach is detected again within the step.
+  double least_reach = 0.001;  // metres
+  double most_reach = 0.008;   // metres
+  // Nothing goes farther than its reach between two detections: what is faster is slowed down.
+  bool stay_within_reach = true;
+  ContactSettings contact = {};
+  SleepSettings sleep = {};
+  // Stop bodies before they meet, by World::detect_motion(), rather than keep contact points apart. Rigid bodies are
+  // soft then, as impacts move vertices one by one.
   bool continuous = false;
   double margin = 0.001;  // of every body then, metres: two surfaces stay two of these apart
 };
 
 // Moves the bodies that are not dynamic: sets their positions as they are at `time`, seconds. It may change the weight
-// and the hull stiffness of the others.
+// of the others, hold some of their vertices (inverse mass 0) and move these; a body that sleeps has to be woken for
+// it.
 using Script = std::function<void(double time, std::vector<Body>& bodies)>;
 
 // What a step of the simulation took, wall time in milliseconds.
 struct DynamicsTimes {
-  double move_ms = 0.0;       // substeps
+  double move_ms = 0.0;       // motion, springs, volumes, shapes
+  double contacts_ms = 0.0;   // taking contact points and keeping them apart
   double impacts_ms = 0.0;    // stopping before impacts, tact's part of it included
-  double surfaces_ms = 0.0;   // moving surfaces out by their skin
   double engine_ms = 0.0;     // setting positions and detecting: tact
-  double contacts_ms = 0.0;   // from facet pairs to contact points
-  double settle_ms = 0.0;     // pushing out
-  double recording_ms = 0.0;  // writing what entered the engine, between its two calls; in none of the others
-  std::chrono::steady_clock::time_point begin = {};  // of the step: these follow in their order
-  double total_ms() const { return move_ms + impacts_ms + surfaces_ms + engine_ms + contacts_ms + settle_ms; }
+  double sleep_ms = 0.0;      // damping, sleep, energies
+  double recording_ms = 0.0;  // writing what entered the engine; in none of the others
+  // The same, stretch by stretch, as they followed each other; recording is in that of the engine.
+  struct Stretch {
+    const char* name;
+    std::chrono::steady_clock::time_point begin, end;
+  };
+  std::vector<Stretch> stretches = {};
+  double total_ms() const { return move_ms + contacts_ms + impacts_ms + engine_ms + sleep_ms; }
 };
 
 // How a step of the simulation went.
@@ -50,32 +63,38 @@ struct DynamicsState {
   double time = 0.0;            // seconds simulated
   double kinetic_energy = 0.0;  // joules
   std::int64_t contact_points = 0;
-  // How far a point was inside another body when it was found, skins taken off, over the size of the smaller body.
-  double deepest = 0.0;
+  int detections = 0;      // in this step
+  std::int64_t awake = 0;  // bodies that forces move
+  // How much of both thicknesses two surfaces took from each other when that was found, and how far they had crossed,
+  // over the size of the smaller body.
+  double squeezed = 0.0;
+  double crossed = 0.0;
+  std::int64_t facet_pairs = 0;  // of all detections
 };
 
 // Bodies, the world of tact that finds their contacts, and the step. The same bits for any number of threads.
 //
-// Bodies are soft and cloth by XPBD with small substeps (M. Macklin et al., Small Steps in Physics Simulation, SCA
-// 2019). A step moves them, with the contact points of the last detection as the only obstacles; detects; finds the new
-// contact points from the report; and pushes the bodies out of each other, which changes no velocity. Where it is
-// continuous, it moves them and stops what would meet on the way, before it detects. There is no contact of a body with
-// itself.
+// Bodies are soft and cloth by XPBD with small substeps (M. Macklin et al., XPBD, MIG 2016; Small Steps in Physics
+// Simulation, SCA 2019; M. Müller et al., Position Based Dynamics, VRIPhys 2006), or rigid (Müller et al., Detailed
+// Rigid Body Simulation with Extended Position Based Dynamics, SCA 2020). A substep moves each of them by itself, then
+// keeps apart what the last detection found near each other. The next detection comes at the end of the step, or as
+// soon as a body may have moved farther than its reach: what is not among the contact points cannot have met till then.
 class Simulation {
  public:
-  // The bodies keep their order: body i has index i in every report. To `recording`, if not null, goes what enters the
-  // engine; writing it is in none of the times. Errors: those of World and World::add_body.
+  // The bodies keep their order: body i has index i in every report, which has contact points whether or not `settings`
+  // asks for them. To `recording`, if not null, goes what enters the engine; writing it is in none of the times.
+  // Errors: those of World and World::add_body.
   Simulation(std::vector<Body> bodies, Script script, const DynamicsSettings& dynamics, const Settings& settings,
              std::ostream* recording = nullptr);
 
   void step();
 
   const std::vector<Body>& bodies() const { return bodies_; }
-  // The positions of body i that tact saw in the last step: moved out by its skin, before the pushes that followed.
-  const std::vector<Vec3>& seen(std::size_t i) const { return seen_[i]; }
   const World& world() const { return world_; }
-  // Of the last step; null before the first.
+  // Of the last detection, which ended the last step; null before the first.
   const Report* report() const { return report_; }
+  // Summed over the detections of the last step; what counts the bodies of the world, too.
+  const StepStats& stats() const { return stats_; }
   const DynamicsState& state() const { return state_; }
   const DynamicsTimes& times() const { return times_; }
   const ImpactResponse& impacts() const { return impacts_; }
@@ -84,20 +103,19 @@ class Simulation {
  private:
   // What recording took so far.
   double writing_ms() const { return recorder_ ? recorder_->writing_ms() : 0.0; }
-  void move();
+  void run_substep(double h);
   void begin_substep(std::size_t body, double h, int threads);
   void end_substep(std::size_t body, double h, int threads);
-  void show_surface(std::size_t body);
-  void show_surfaces();
-  void find_points(const Contact& contact, PenetrationFinder& finder, BodyContact& points) const;
-  // How deep the two bodies can be in each other at most, metres.
-  double deepest_possible(const BodyContact& contact) const;
-  void detect();
+  bool has_left_its_reach(double h) const;
+  void set_reach(std::size_t body);
   void stop_before_impacts();
-  void find_contacts();
-  void settle();
-  void measure();
-  // Calls work(i, threads) for every body: small ones in parallel, large ones one by one on all threads.
+  void detect();
+  void measure_contacts();
+  void rest();
+  // Ends a stretch of the step; tells what it took, milliseconds.
+  double note(const char* name, base::Timer& timer);
+  // Calls work(i, threads) for every body that is not fixed nor asleep: small ones in parallel, large ones one by one
+  // on all threads.
   template <class Work>
   void for_each_body(const Work& work);
 
@@ -108,16 +126,17 @@ class Simulation {
   std::optional<Recorder> recorder_;  // outlives the world
   World world_;
   std::vector<BodyId> ids_;
-  std::vector<std::size_t> small_, large_;           // bodies that can move
-  std::vector<std::vector<Vec3>> before_;            // positions at the start of the substep, by body
-  std::vector<std::vector<Vec3>> seen_, last_seen_;  // what tact saw in the last step and in that before, by body
-  std::vector<double> moved_;                        // the longest way of a vertex between them, by body, metres
-  std::vector<PenetrationFinder> finders_;           // one a thread
-  std::vector<BodyContact> contacts_;                // of the last detection, and of the one before
-  std::vector<BodyContact> last_contacts_;
+  std::vector<std::size_t> small_, large_;     // bodies that can move
+  std::vector<std::vector<Vec3>> before_;      // positions at the start of the substep, by body
+  std::vector<std::vector<Vec3>> step_begin_;  // and of the step, where it is continuous
+  std::vector<double> reach_;                  // by body, metres
+  std::vector<double> last_way_, way_;         // by body: no vertex went farther in the last substep; since the
+                                               // last detection; metres
   ContactSolver solver_;
   ImpactResponse impacts_;
+  Sleep sleep_;
   const Report* report_ = nullptr;
+  StepStats stats_;
   DynamicsState state_;
   DynamicsTimes times_;
 };

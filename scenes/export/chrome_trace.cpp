@@ -81,28 +81,18 @@ double ChromeTrace::microseconds(Time::duration duration) const {
 }
 
 void ChromeTrace::add_step(int step, const Simulation& simulation) {
-  if (!start_) start_ = simulation.times().begin;
+  if (!start_) start_ = simulation.times().stretches.front().begin;
   add_phases(step, simulation.times());
   for (const TraceEvent& event : simulation.report()->trace()) add_engine_event(event, simulation);
 }
 
 void ChromeTrace::add_phases(int step, const DynamicsTimes& times) {
-  const auto after = [](Time time, double ms) {
-    return time + std::chrono::round<Time::duration>(std::chrono::duration<double, std::milli>(ms));
-  };
-  const Time end = after(times.begin, times.total_ms() + times.recording_ms);
-  write({.name = fmt::format("step {}", step), .category = "step", .begin = times.begin, .end = end});
-  Time begin = times.begin;
-  for (const auto& [name, ms] : {std::pair{"motion", times.move_ms},
-                                 {"impacts", times.impacts_ms},
-                                 {"surfaces", times.surfaces_ms},
-                                 {"engine", times.engine_ms + times.recording_ms},
-                                 {"contact points", times.contacts_ms},
-                                 {"pushing out", times.settle_ms}}) {
-    const Time phase_end = std::min(after(begin, ms), end);
-    write({.name = name, .category = "scene", .begin = begin, .end = phase_end});
-    begin = phase_end;
-  }
+  write({.name = fmt::format("step {}", step),
+         .category = "step",
+         .begin = times.stretches.front().begin,
+         .end = times.stretches.back().end});
+  for (const DynamicsTimes::Stretch& stretch : times.stretches)
+    write({.name = stretch.name, .category = "scene", .begin = stretch.begin, .end = stretch.end});
 }
 
 void ChromeTrace::add_engine_event(const TraceEvent& event, const Simulation& simulation) {

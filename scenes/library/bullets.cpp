@@ -19,7 +19,7 @@ struct BulletsAndSheets {
   ClothMaterial cloth{.density = 0.8, .stretch_stiffness = 4000.0, .bend_stiffness = 0.3, .friction = 0.3, .drag = 2.0};
   SoftMaterial soft{.density = 200.0, .surface_stiffness = 400.0, .inner_damping = 20.0};
   // Two surfaces stay a millimetre apart.
-  DynamicsSettings dynamics{.time_step = 1.0 / 60.0, .substeps = 1, .settle_sweeps = 1, .margin = 0.0005};
+  DynamicsSettings dynamics{.time_step = 1.0 / 60.0, .substeps = 1, .stay_within_reach = false, .margin = 0.0005};
 };
 
 // Held along two opposite sides.

@@ -3,6 +3,7 @@
 
 #include "scenes/library/catalog.h"
 #include "scenes/library/shapes.h"
+#include "scenes/library/smooth_step.h"
 
 namespace tact::scenes {
 namespace {
@@ -20,10 +21,10 @@ struct Clamp {
                     .shape_frequency = 12.0,
                     .friction = 1.5,
                     .inner_damping = 10.0,
-                    .skin = 0.003};
-  RigidMaterial steel{.friction = 1.5, .skin = 0.003};
-  RigidMaterial ground{.friction = 0.5, .skin = 0.003};
-  DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 6, .settle_sweeps = 2, .slop = 0.001};
+                    .thickness = 0.002};
+  RigidMaterial steel{.friction = 1.5, .thickness = 0.002};
+  RigidMaterial ground{.friction = 0.5, .thickness = 0.002};
+  DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 6};
 };
 
 // Upside down: the bridge is on top.
@@ -37,11 +38,6 @@ Mesh clamp_mesh(const Clamp& p) {
     }
   }
   return moved(cells(filled, {p.cell, p.cell, p.cell}), {-0.5 * width * p.cell, -0.5 * p.depth * p.cell, 0.02});
-}
-
-double smooth(double t) {
-  t = std::clamp(t, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
 }
 
 }  // namespace
@@ -61,8 +57,8 @@ Scene make_clamp(int /*size*/) {
   scene.add(make_rigid("ground", box({-1.0, -1.0, -0.2}, {1.0, 1.0, 0.0}, 0.2), p.ground, Motion::fixed),
             {.visible = false});
   scene.script = [p, rest = clamp.positions](double time, std::vector<Body>& bodies) {
-    const double width = 1.0 - (1.0 - p.closed) * smooth(time / p.close_time);
-    const double up = p.lift * smooth((time - p.lift_start) / p.lift_time);
+    const double width = 1.0 - (1.0 - p.closed) * smooth_step(time / p.close_time);
+    const double up = p.lift * smooth_step((time - p.lift_start) / p.lift_time);
     for (std::size_t v = 0; v < rest.size(); ++v) {
       bodies[0].positions[v] = {width * rest[v].x, rest[v].y, rest[v].z + up};
     }

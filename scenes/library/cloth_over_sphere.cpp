@@ -12,11 +12,10 @@ struct ClothOverSphere {
   double radius = 0.45;     // of the sphere, metres
   double height = 0.75;     // of the sphere's centre above the ground, metres
   double drop = 0.2;        // from the cloth down to the sphere, metres
-  double skin = 0.008;      // of the sphere, metres: the thickness of the cloth
   double turn = 0.3;        // of the cloth about z, radians
   ClothMaterial cloth;
-  RigidMaterial ball{.friction = 0.3, .skin = 0.008};
-  DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 8, .settle_sweeps = 3, .slop = 0.002};
+  RigidMaterial ball{.friction = 0.4, .thickness = 0.004};
+  DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 8, .most_reach = 0.004};
   int vertices_a_substep = 16;  // along a side, at most: a finer cloth needs finer steps, or it stretches and is passed
 };
 
@@ -31,7 +30,9 @@ Scene make_cloth_over_sphere(int size) {
   scene.ground = 0.0;
   scene.add(make_rigid("sphere", moved(sphere(4, p.radius), {0.0, 0.0, p.height}), p.ball, Motion::fixed));
   const Mesh cloth = turned(grid_sheet(size, size, p.cloth_side, p.cloth_side), {0.0, 0.0, 1.0}, p.turn);
-  scene.add(make_cloth("cloth", moved(cloth, {0.05, 0.0, p.height + p.radius + p.drop}), p.cloth));
+  Body body = make_cloth("cloth", moved(cloth, {0.05, 0.0, p.height + p.radius + p.drop}), p.cloth);
+  body.self_contact = true;
+  scene.add(std::move(body));
   return scene;
 }
 

@@ -24,10 +24,10 @@ struct LiverAndTool {
                      .friction = 0.4,
                      .drag = 0.5,
                      .inner_damping = 12.0,
-                     .skin = 0.001};
-  RigidMaterial steel{.friction = 0.1, .skin = 0.001};
-  RigidMaterial table{.friction = 0.8, .skin = 0.001};
-  DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 6, .settle_sweeps = 2, .slop = 0.0004};
+                     .thickness = 0.0008};
+  RigidMaterial steel{.friction = 0.1, .thickness = 0.0008};
+  RigidMaterial table{.friction = 0.8, .thickness = 0.0008};
+  DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 6, .least_reach = 0.0004, .most_reach = 0.004};
 };
 
 // A large lobe that tapers to a small one, hollow below, with a notch between them.

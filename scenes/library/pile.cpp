@@ -20,9 +20,10 @@ struct Pile {
   double layers = 5.0;     // of bodies before they fall, at most
   double wall = 0.15;      // thickness of the bin, metres
   double bin_edges = 0.3;  // length of the edges of the bin's facets, metres
-  SoftMaterial soft{.drag = 0.5, .skin = 0.003};
-  RigidMaterial bin{.friction = 0.5, .skin = 0.003};
-  DynamicsSettings dynamics{.time_step = 1.0 / 240.0, .substeps = 2, .settle_sweeps = 2, .slop = 0.0015};
+  SoftMaterial soft{.drag = 0.5, .thickness = 0.003};
+  RigidMaterial bin{.friction = 0.5, .thickness = 0.003};
+  DynamicsSettings dynamics{.time_step = 1.0 / 240.0, .substeps = 2, .most_reach = 0.016, .sleep = {.speed = 0.05}};
+  int rigid = 3;  // each so manieth body is rigid
 };
 
 // Shapes of radius about 1. All are spheres pulled into form, so that facets stay of one size.
@@ -106,7 +107,8 @@ Scene make_pile(int size) {
     const Vec3 center = step * (cell + Vec3{0.5, 0.5, 0.6}) - Vec3{half, half, 0.0} + jitter;
     const Shape& shape = kShapes[random.bits() % kShapes.size()];
     const Mesh mesh = moved(turned(scaled(mesh_of(shape), 0.5 * p.body_size), random), center);
-    scene.add(make_soft(shape.name + (" " + std::to_string(i)), mesh, p.soft));
+    const std::string name = shape.name + (" " + std::to_string(i));
+    scene.add(i % p.rigid == 2 ? make_hard(name, mesh, p.soft) : make_soft(name, mesh, p.soft));
   }
   return scene;
 }

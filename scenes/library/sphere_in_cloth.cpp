@@ -8,17 +8,16 @@ namespace tact::scenes {
 namespace {
 
 struct SphereInCloth {
-  double cloth_side = 2.0;       // metres
-  double frame = 0.5;            // side of the frame that holds the rim of the cloth, in cloth sides
-  double height = 1.15;          // of the frame above the ground, metres
-  double sag = 0.6;              // of the cloth at the start, metres
-  double radius = 0.2;           // of the sphere, metres
-  double start = 0.9;            // of the sphere's centre, metres
-  double push_time = 1.2;        // from when the sphere has no weight and is pushed out, seconds
-  double hull_stiffness = 60.0;  // of that push, newtons a metre
-  double push_drag = 5.0;        // of the sphere while it is pushed out, 1 / seconds
+  double cloth_side = 2.0;    // metres
+  double frame = 0.5;         // side of the frame that holds the rim of the cloth, in cloth sides
+  double height = 1.15;       // of the frame above the ground, metres
+  double sag = 0.6;           // of the cloth at the start, metres
+  double radius = 0.2;        // of the sphere, metres
+  double start = 0.9;         // of the sphere's centre, metres
+  double lift_time = 1.2;     // from when the sphere is lifted, seconds
+  double lift_weight = -0.4;  // of the sphere then, weights: as if it were filled with helium
   ClothMaterial cloth{
-      .density = 0.15, .stretch_stiffness = 400.0, .bend_stiffness = 0.02, .friction = 0.1, .drag = 1.5};
+      .density = 0.15, .stretch_stiffness = 400.0, .bend_stiffness = 0.02, .friction = 0.1, .drag = 6.0};
   SoftMaterial ball{.density = 120.0,
                     .surface_stiffness = 3000.0,
                     .bend_stiffness = 1000.0,
@@ -27,9 +26,9 @@ struct SphereInCloth {
                     .shape_frequency = 20.0,
                     .shape_stretch = 0.0,
                     .friction = 0.1,
-                    .drag = 0.8,
-                    .skin = 0.008};
-  DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 8, .settle_sweeps = 3, .slop = 0.002};
+                    .drag = 3.0,
+                    .thickness = 0.004};
+  DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 8};
 };
 
 // A bag: the rim is held by a square frame that is smaller than the cloth.
@@ -47,8 +46,8 @@ Body bag(const SphereInCloth& p, int size) {
 
 }  // namespace
 
-// The paper's second demonstration: the direction is carried from step to step, so that the sphere is pushed out the
-// way it came in, though the shortest way out is through the cloth.
+// The paper's second demonstration: the direction is carried from step to step, so that it tells the way that the
+// sphere came in, and goes out again, though the shortest way out is through the cloth.
 Scene make_sphere_in_cloth(int size) {
   const SphereInCloth p;
   Scene scene;
@@ -61,10 +60,13 @@ Scene make_sphere_in_cloth(int size) {
   scene.add(make_soft("sphere", moved(sphere(3, p.radius), {0.02, 0.01, p.height + p.start - 0.6}), p.ball));
   scene.add(bag(p, size), {.opacity = 0.75});
   scene.script = [p](double time, std::vector<Body>& bodies) {
-    const bool push = time > p.push_time;
-    bodies[0].weight = push ? 0.0 : 1.0;
-    bodies[0].hull_stiffness = push ? p.hull_stiffness : 0.0;
-    bodies[0].drag = push ? p.push_drag : p.ball.drag;
+    if (time < p.lift_time) return;
+    Body& ball = bodies[0];
+    const bool is_out = ball.positions.front().z > p.height + 2.0 * p.radius;
+    const double weight = is_out ? 0.0 : p.lift_weight;
+    if (weight == ball.weight) return;
+    ball.weight = weight;
+    for (Body& body : bodies) body.asleep = false;
   };
   return scene;
 }

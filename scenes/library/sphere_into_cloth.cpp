@@ -3,6 +3,7 @@
 
 #include "scenes/library/catalog.h"
 #include "scenes/library/shapes.h"
+#include "scenes/library/smooth_step.h"
 
 namespace tact::scenes {
 namespace {
@@ -17,8 +18,8 @@ struct SphereIntoCloth {
   double lowest = 0.3;      // of the sphere's centre, metres
   double highest = 1.05;    // metres
   ClothMaterial cloth{.density = 0.25, .stretch_stiffness = 1500.0, .bend_stiffness = 0.3, .friction = 0.3};
-  RigidMaterial ball{.friction = 0.3, .skin = 0.008};
-  DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 8, .settle_sweeps = 3, .slop = 0.002};
+  RigidMaterial ball{.friction = 0.3, .thickness = 0.004};
+  DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 8};
   int vertices_a_substep = 16;  // along a side, at most: a finer cloth needs finer steps, or it stretches and is passed
 };
 
@@ -50,8 +51,7 @@ Scene make_sphere_into_cloth(int size) {
   scene.add(make_rigid("sphere", sphere(4, p.radius), p.ball, Motion::moving));
   scene.add(hung_cloth(p, size));
   scene.script = [p, ball](double time, std::vector<Body>& bodies) {
-    const double t = std::clamp((time - p.rest_time) / p.rise_time, 0.0, 1.0);
-    const double z = p.lowest + (p.highest - p.lowest) * t * t * (3.0 - 2.0 * t);
+    const double z = p.lowest + (p.highest - p.lowest) * smooth_step((time - p.rest_time) / p.rise_time);
     for (std::size_t v = 0; v < ball.size(); ++v) bodies[0].positions[v] = ball[v] + Vec3{0.06, 0.04, z};
   };
   return scene;

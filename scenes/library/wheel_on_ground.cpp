@@ -24,9 +24,9 @@ struct WheelOnGround {
                     .friction = 0.9,
                     .drag = 0.05,
                     .inner_damping = 10.0,
-                    .skin = 0.004};
-  RigidMaterial soil{.friction = 0.9, .skin = 0.004};
-  DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 6, .settle_sweeps = 2, .slop = 0.002};
+                    .thickness = 0.003};
+  RigidMaterial soil{.friction = 0.9, .thickness = 0.003};
+  DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 6};
 };
 
 double height_at(double x, double y) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 
 namespace tact::scenes {
 namespace {
@@ -10,11 +11,19 @@ double diagonal(const PictureBody& body) {
   return (body.positions.rowwise().maxCoeff() - body.positions.rowwise().minCoeff()).norm();
 }
 
-// The middle of the box around the facets of `body` that meet, or around all of it if none does.
+bool meets(const Contact& contact) { return contact.touching() || !contact.points().empty(); }
+
+// The middle of the box around the facets and points of `body`, a of the contact, that meet, or around all of it if
+// none does.
 Eigen::Vector3d meeting_place(const PictureBody& body, const Contact& contact) {
   Eigen::AlignedBox3d box;
-  if (!contact.touching()) {
+  if (!meets(contact)) {
     return 0.5 * (body.positions.rowwise().minCoeff() + body.positions.rowwise().maxCoeff());
+  }
+  for (const ContactPoint& point : contact.points()) {
+    for (const int v : point.a_vertices) {
+      if (v >= 0) box.extend(body.positions.col(v));
+    }
   }
   for (const FacetPair& pair : contact.facet_pairs()) {
     for (int k = 0; k < 3; ++k) box.extend(body.positions.col(body.facets(k, pair.a)));
@@ -22,9 +31,51 @@ Eigen::Vector3d meeting_place(const PictureBody& body, const Contact& contact) {
   return box.center();
 }
 
-void sort_unique(std::vector<int>& values) {
+template <class Value>
+void sort_unique(std::vector<Value>& values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+// The facets of a body that hold one of some features: vertices, edges or facets.
+class FacetsOfFeatures {
+ public:
+  void add(const std::array<int, 3>& vertices) { features_.push_back(vertices); }
+  void append_to(std::vector<int>& facets, const Eigen::Matrix3Xi& all) {
+    if (features_.empty()) return;
+    sort_unique(features_);
+    for (int f = 0; f < static_cast<int>(all.cols()); ++f) {
+      if (holds_one(all.col(f))) facets.push_back(f);
+    }
+  }
+
+ private:
+  bool holds_one(const Eigen::Vector3i& facet) const {
+    const auto has = [&](int vertex) { return vertex < 0 || (facet.array() == vertex).any(); };
+    for (const int corner : facet) {
+      const auto first = std::ranges::lower_bound(features_, corner, {}, [](const auto& one) { return one[0]; });
+      for (auto one = first; one != features_.end() && (*one)[0] == corner; ++one) {
+        if (has((*one)[1]) && has((*one)[2])) return true;
+      }
+    }
+    return false;
+  }
+
+  std::vector<std::array<int, 3>> features_;
+};
+
+// The facets on which contact points lie.
+void mark_points(PictureScene& scene, const Report& report) {
+  std::vector<FacetsOfFeatures> features(scene.bodies.size());
+  for (const Contact& contact : report.contacts()) {
+    if (contact.a.index >= features.size() || contact.b.index >= features.size()) continue;
+    for (const ContactPoint& point : contact.points()) {
+      features[contact.a.index].add(point.a_vertices);
+      features[contact.b.index].add(point.b_vertices);
+    }
+  }
+  for (std::size_t i = 0; i < features.size(); ++i)
+    features[i].append_to(scene.bodies[i].meeting_facets, scene.bodies[i].facets);
 }
 
 }  // namespace
@@ -40,7 +91,7 @@ void mark_contacts(PictureScene& scene, const Report& report, const ContactMarks
         b.meeting_facets.push_back(pair.b);
       }
     }
-    if (marks.directions && (marks.hulls || contact.touching())) {
+    if (marks.directions && contact.a != contact.b && (marks.hulls || meets(contact))) {
       const double size = std::min(diagonal(a), diagonal(b));
       scene.arrows.push_back(
           {.start = meeting_place(a, contact),
@@ -54,6 +105,7 @@ void mark_contacts(PictureScene& scene, const Report& report, const ContactMarks
       }
     }
   }
+  if (marks.facets) mark_points(scene, report);
   for (PictureBody& body : scene.bodies) sort_unique(body.meeting_facets);
 }
 

@@ -9,7 +9,7 @@
 namespace tact::scenes {
 
 struct ContactMarks {
-  bool facets = true;            // the facets that meet
+  bool facets = true;            // the facets that meet, and those with contact points
   bool directions = true;        // an arrow a touching contact, from a to b
   bool hulls = false;            // arrows also where only hulls meet, from the middle of a's box
   bool zones = false;            // the disks around the impact zones; the world must have been asked for them

@@ -86,8 +86,8 @@ void ScenePictures::take(const Simulation& simulation) {
   std::string caption = fmt::format("{:.2f} s", simulation.state().time);
   if (simulation.report() != nullptr) {
     const StepStats& stats = simulation.report()->stats();
-    caption += fmt::format("   {}   {}", counted(stats.touching_contacts, "contact"),
-                           counted(stats.facet_pairs, "facet pair"));
+    caption += fmt::format("   {}   {}", counted(stats.contacts, "contact"),
+                           counted(simulation.state().contact_points, "contact point"));
   }
   scene.caption = caption;
   write_png(frame_file(folder_, count()), renderer_.render(scene, *camera_));

@@ -47,12 +47,16 @@ std::ostream& operator<<(std::ostream& out, const Case& test) { return out << te
 
 class Library : public ::testing::TestWithParam<Case> {};
 
+// Nothing crosses, at any detection; surfaces keep most of their thickness.
 TEST_P(Library, BodiesStayWholeInTheSceneAndOutOfEachOther) {
   const Case& test = GetParam();
   Simulation simulation = simulation_of(test.scene, test.size, {.threads = 1});
+  std::int64_t points = 0;
   for (int step = 0; step < test.steps; ++step) {
     simulation.step();
-    ASSERT_LT(simulation.state().deepest, 0.1) << "step " << step;
+    points += simulation.state().contact_points;
+    ASSERT_EQ(simulation.state().facet_pairs, 0) << "step " << step;
+    ASSERT_LE(simulation.state().crossed, 0.0) << "step " << step;
     ASSERT_TRUE(std::isfinite(simulation.state().kinetic_energy)) << "step " << step;
     for (const Body& body : simulation.bodies()) {
       if (!body.dynamic) continue;
@@ -61,7 +65,7 @@ TEST_P(Library, BodiesStayWholeInTheSceneAndOutOfEachOther) {
       ASSERT_LT(norm(box.upper - box.lower), 1.5 * body.size) << body.name << ", step " << step;
     }
   }
-  EXPECT_GT(simulation.state().contact_points, 0);
+  EXPECT_GT(points, 0);
 }
 
 TEST_P(Library, SameAnswerForOneAndTwoThreads) {
@@ -79,7 +83,7 @@ TEST_P(Library, SameAnswerForOneAndTwoThreads) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Library,
-                         ::testing::Values(Case{"cloth-over-sphere", 20, 120, {{-1.3, -1.3, 0.0}, {1.3, 1.3, 1.5}}},
+                         ::testing::Values(Case{"cloth-over-sphere", 16, 90, {{-1.3, -1.3, 0.0}, {1.3, 1.3, 1.5}}},
                                            Case{"sphere-into-cloth", 20, 200, {{-0.9, -0.9, 0.0}, {0.9, 0.9, 1.5}}},
                                            Case{"pile", 20, 110, {{-0.78, -0.78, -0.05}, {0.78, 0.78, 1.5}}},
                                            Case{"pile", 7, 110, {{-0.6, -0.6, -0.05}, {0.6, 0.6, 1.2}}},
@@ -103,7 +107,7 @@ TEST(Catalog, EverySceneIsMadeAtItsSizes) {
   EXPECT_EQ(find_scene("no-such-scene"), nullptr);
 }
 
-// With 8 substeps the sphere is 20 % deep in a cloth of 256 x 256 vertices, with 16 it is 3 %.
+// A fine cloth stretches where a spring is asked once in a coarse substep.
 TEST(Catalog, AFineClothTakesMoreSubsteps) {
   for (const char* name : {"cloth-over-sphere", "sphere-into-cloth"}) {
     EXPECT_EQ(find_scene(name)->make(64).dynamics.substeps, 8) << name;
@@ -111,15 +115,54 @@ TEST(Catalog, AFineClothTakesMoreSubsteps) {
   }
 }
 
-TEST(Pile, EnergyFallsToRest) {
-  Simulation simulation = simulation_of("pile", 12, {.threads = 1});
+double height_of_the_middle(const Body& cloth) { return cloth.positions[cloth.positions.size() / 2].z; }
+
+// It lies on top of the ball, apart by both thicknesses, long after it fell.
+TEST(ClothOverSphere, StaysOnTheBallAndComesToRest) {
+  Simulation simulation = simulation_of("cloth-over-sphere", 17, {.threads = 1});
   double peak = 0.0;
-  for (int step = 0; step < 700; ++step) {
+  for (int step = 0; step < 900 && (step < 100 || simulation.state().awake > 0); ++step) {
     simulation.step();
     peak = std::max(peak, simulation.state().kinetic_energy);
+    ASSERT_EQ(simulation.state().facet_pairs, 0) << "step " << step;
+  }
+  EXPECT_LT(simulation.state().kinetic_energy, 1e-4 * peak);
+  const double top = box_of(simulation.bodies()[0].positions).upper.z;
+  EXPECT_NEAR(height_of_the_middle(simulation.bodies()[1]), top + 0.008, 0.012);
+  EXPECT_LT(simulation.state().squeezed, 0.001);
+}
+
+TEST(Pile, ComesToRestAndThenCostsNothing) {
+  Simulation simulation = simulation_of("pile", 9, {.threads = 1});
+  double peak = 0.0;
+  for (int step = 0; step < 1600 && (step < 100 || simulation.state().awake > 0); ++step) {
+    simulation.step();
+    peak = std::max(peak, simulation.state().kinetic_energy);
+    ASSERT_EQ(simulation.state().facet_pairs, 0) << "step " << step;
   }
   EXPECT_GT(peak, 1.0);
-  EXPECT_LT(simulation.state().kinetic_energy, 0.02 * peak);
+  EXPECT_EQ(simulation.state().awake, 0);
+  EXPECT_LT(simulation.state().squeezed, 0.005);
+  simulation.step();
+  EXPECT_EQ(simulation.stats().moved_bodies, 0);
+  EXPECT_EQ(simulation.state().kinetic_energy, 0.0);
+}
+
+TEST(Pile, AThirdIsRigid) {
+  Simulation simulation = simulation_of("pile", 9, {.threads = 1});
+  std::vector<std::vector<Vec3>> begin;
+  for (const Body& body : simulation.bodies()) begin.push_back(body.positions);
+  for (int step = 0; step < 150; ++step) simulation.step();
+  int rigid = 0;
+  for (std::size_t i = 0; i < begin.size(); ++i) {
+    const Body& body = simulation.bodies()[i];
+    if (!body.rigid) continue;
+    ++rigid;
+    EXPECT_GT(norm(body.positions[0] - begin[i][0]), 0.02) << body.name;
+    for (std::size_t v = 1; v < begin[i].size(); ++v)
+      ASSERT_NEAR(norm(body.positions[v] - body.positions[v / 2]), norm(begin[i][v] - begin[i][v / 2]), 1e-12);
+  }
+  EXPECT_EQ(rigid, 3);
 }
 
 // The organ of the paper has 500 facets and is concave.
@@ -128,40 +171,27 @@ TEST(LiverAndTool, TheOrganIsThePapers) {
   EXPECT_EQ(scene.bodies[0].facets.cols(), 500);
 }
 
-tests::Mesh seen(const Simulation& simulation, std::size_t body) {
-  return {as_matrix(simulation.seen(body)), simulation.bodies()[body].facets};
-}
-
+// Of the bodies as the two worlds of LostPairs see them, thick enough to cross.
 TEST(Clamp, ExactFindsWhatTheOracleFindsAndPaperLosesPairs) {
-  Simulation exact = simulation_of("clamp", 0);
-  Simulation paper = simulation_of("clamp", 0, {.accuracy = Accuracy::paper});
-  LostPairs lost(paper, 1);
+  Simulation simulation = simulation_of("clamp", 0);
+  LostPairs lost(simulation, 1);
+  const auto seen = [&](BodyId body) -> tests::Mesh {
+    return {as_matrix(lost.seen(body.index)), simulation.bodies()[body.index].facets};
+  };
   for (int step = 0; step < 100; ++step) {
-    exact.step();
-    paper.step();
-    lost.add_step(paper);
+    simulation.step();
+    lost.add_step(simulation);
     if (step % 20 != 19) continue;
-    for (const Contact& contact : exact.report()->contacts()) {
+    for (const Contact& contact : lost.exact().contacts()) {
       const auto pairs = contact.facet_pairs();
       EXPECT_EQ(std::vector<FacetPair>(pairs.begin(), pairs.end()),
-                tests::facet_pairs_by_oracle(seen(exact, contact.a.index), seen(exact, contact.b.index)))
+                tests::facet_pairs_by_oracle(seen(contact.a), seen(contact.b)))
           << "step " << step;
     }
   }
   EXPECT_GT(lost.all(), 1000);
   EXPECT_GT(lost.lost(), lost.all() / 10);
   EXPECT_LT(lost.lost(), lost.all());
-}
-
-TEST(Clamp, ExactLosesNothing) {
-  Simulation simulation = simulation_of("clamp", 0);
-  LostPairs lost(simulation, 1);
-  for (int step = 0; step < 60; ++step) {
-    simulation.step();
-    lost.add_step(simulation);
-  }
-  EXPECT_GT(lost.all(), 0);
-  EXPECT_EQ(lost.lost(), 0);
 }
 
 TEST(Clamp, LiftsTheBall) {
@@ -173,14 +203,14 @@ TEST(Clamp, LiftsTheBall) {
 
 // The sphere sinks until all of it is in the cloth; the direction that is carried still points down then, though the
 // smallest separation does not; and the sphere leaves through the mouth of the bag.
-TEST(SphereInCloth, IsPushedOutTheWayItCame) {
+TEST(SphereInCloth, TheDirectionTellsTheWayItCame) {
   Simulation simulation = simulation_of("sphere-in-cloth", 24);
   World smallest({.threads = 1, .accuracy = Accuracy::hulls, .direction = DirectionPolicy::smallest});
   std::vector<BodyId> ids;
   for (std::size_t i = 0; i < 2; ++i) {
     const Body& body = simulation.bodies()[i];
     ids.push_back(smallest.add_body(
-        {.positions = as_matrix(simulation.seen(i)), .facets = body.facets, .surface = body.surface}));
+        {.positions = as_matrix(simulation.bodies()[i].positions), .facets = body.facets, .surface = body.surface}));
   }
   const double rim = box_of(simulation.bodies()[1].positions).upper.z;
   bool wholly_inside = false, through_the_cloth = false;
@@ -191,7 +221,7 @@ TEST(SphereInCloth, IsPushedOutTheWayItCame) {
     ASSERT_LT(contacts[0].direction.z(), -0.7) << "step " << step;
     if (box_of(simulation.bodies()[0].positions).upper.z > rim - 0.05) continue;
     wholly_inside = true;
-    for (std::size_t i = 0; i < 2; ++i) smallest.set_positions(ids[i], as_matrix(simulation.seen(i)));
+    for (std::size_t i = 0; i < 2; ++i) smallest.set_positions(ids[i], as_matrix(simulation.bodies()[i].positions));
     const auto by_hulls = smallest.detect().contacts();
     ASSERT_EQ(by_hulls.size(), 1u) << "step " << step;
     const Contact& shortest = by_hulls[0];
