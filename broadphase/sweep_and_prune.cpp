@@ -5,14 +5,12 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/base/fast_paths.h"
 #include "engine/base/floating_point_mode.h"
 
 namespace tact::broadphase {
 namespace {
 
 constexpr std::size_t kThreadShare = 2048;  // changed boxes for which one more thread is worth waking
-constexpr std::size_t kFew = 16;            // boxes of which each is compared with each: break-even at about 20
 
 std::vector<std::uint32_t> all_indices(std::size_t count) {
   std::vector<std::uint32_t> all(count);
@@ -23,10 +21,11 @@ std::vector<std::uint32_t> all_indices(std::size_t count) {
 }  // namespace
 
 std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std::span<const Filter> filters,
-                                                 std::span<const std::uint32_t> changed, int threads) {
+                                                 std::span<const std::uint32_t> changed, int threads,
+                                                 const base::Tuning& tuning) {
   assert(boxes.size() == filters.size());
   std::vector<std::uint32_t> all;
-  if (base::fast_paths() == base::FastPaths::off) {  // as in the first call
+  if (!tuning.carries_order) {  // as in the first call
     tree_is_current_ = false;
     all = all_indices(boxes.size());
     changed = all;
@@ -37,7 +36,7 @@ std::span<const IndexPair> SweepAndPrune::update(std::span<const Box> boxes, std
   const base::FloatingPointMode mode;
   box_count_ = boxes.size();
   const std::size_t changed_count = mark(filters, changed);
-  const bool few = boxes.size() <= kFew && base::fast_paths() == base::FastPaths::automatic;
+  const bool few = boxes.size() <= tuning.few_boxes;
   const auto fresh = few ? compare_all(boxes, filters) : join_changed(boxes, filters, changed, changed_count, threads);
   if (changed_count == boxes.size()) {
     pairs_changed_ = !std::ranges::equal(fresh, pairs_);

@@ -12,6 +12,7 @@
 #include "broadphase/index_pair.h"
 #include "broadphase/pair_sort.h"
 #include "engine/base/box.h"
+#include "engine/base/tuning.h"
 
 namespace tact::broadphase {
 
@@ -22,7 +23,8 @@ class SweepAndPrune {
   // call, those beyond the last call's size included. The answer is valid until the next call and depends on the boxes
   // and filters alone: not on history, nor on `threads`.
   std::span<const IndexPair> update(std::span<const Box> boxes, std::span<const Filter> filters,
-                                    std::span<const std::uint32_t> changed, int threads);
+                                    std::span<const std::uint32_t> changed, int threads,
+                                    const base::Tuning& tuning = base::kTuning);
 
   std::span<const IndexPair> pairs() const { return pairs_; }
   // Did the last call change the pairs?

@@ -9,7 +9,6 @@
 #include <optional>
 #include <type_traits>
 
-#include "engine/base/fast_paths.h"
 #include "engine/base/parallel.h"
 #include "engine/base/text.h"
 #include "engine/check_coordinate.h"
@@ -34,12 +33,8 @@ constexpr std::size_t kRefittedBytes = sizeof(narrowphase::ClusteredMesh);  // o
 // A body of so many facets is refitted by all threads: one among many, or one of a few that would not keep them busy.
 constexpr int kLargeBody = 32768, kLargeOfFew = 8192;  // facets
 constexpr std::size_t kFewPerThread = 4;
-constexpr int kMostWithDiagonals = 4096;  // vertices: to look how far more of them reach takes longer than it saves
-// The clusters of a body, if they are at least so many, are looked at after so many moves, and twice as many after each
-// try to group them anew, up to a limit. It is tried where their quality is less than what it was over kLoose, and kept
-// if their spread falls to this part of what it was.
-constexpr int kFewestRegrouped = 4, kMovesToLook = 32, kMostDoublings = 8;
-constexpr double kLoose = 2.0, kWorthRegrouping = 0.75;
+constexpr int kMostWithKdop = 4096;  // vertices: to look how far more of them reach takes longer than it saves
+constexpr int kMostDoublings = 8;    // of the moves until the clusters of a body are looked at
 
 std::string quoted(const std::string& name) { return "body '" + name + "'"; }
 
@@ -66,10 +61,8 @@ void check_margin(double margin, const std::string& name) {
   throw Error(ErrorCode::bad_settings, quoted(name) + ": margin is " + base::text_of(margin) + ", not 0 to 2^300");
 }
 
-int moves_to_look(int tries) { return kMovesToLook << tries; }
-
-bool has_diagonals(const narrowphase::ClusteredMesh& mesh) {
-  return mesh.vertex_count() > 0 && mesh.vertex_count() <= kMostWithDiagonals;
+bool has_kdop(const narrowphase::ClusteredMesh& mesh) {
+  return mesh.vertex_count() > 0 && mesh.vertex_count() <= kMostWithKdop;
 }
 
 template <class T>
@@ -130,8 +123,8 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   // Nothing can fail half-way: all that may allocate comes first.
   const std::size_t slots = std::max<std::size_t>(slots_.size(), slot + 1);
   const auto on_all = [&](const auto& grow) {
-    grow(boxes_), grow(filters_), grow(margins_), grow(diagonals_), grow(knows_diagonals_), grow(wants_diagonals_),
-        grow(groupings_), grow(slots_);
+    grow(boxes_), grow(filters_), grow(margins_), grow(kdops_), grow(knows_kdop_), grow(wants_kdop_), grow(groupings_),
+        grow(slots_);
   };
   on_all([&](auto& vector) { make_room(vector, slots); });
   make_room(changed_, slots);
@@ -143,8 +136,8 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   body->id = {slot, ++slots_[slot].generation, world_};
   margins_[slot] = definition.margin;
   boxes_[slot] = base::grown(body->mesh.box(), definition.margin);
-  find_diagonals(slot, body->mesh);
-  wants_diagonals_[slot] = 1;
+  find_kdops(slot, body->mesh);
+  wants_kdop_[slot] = 1;
   groupings_[slot] = {.quality = cluster_quality(body->mesh)};
   filters_[slot] = {definition.layer, definition.mask, definition.motion == Motion::fixed, definition.group};
   slots_[slot].vertex_count = body->mesh.source_vertex_count();
@@ -189,7 +182,7 @@ void Bodies::pack_meshes(int threads) try {
 }
 
 void Bodies::make_updates(std::size_t count) {
-  if (new_diagonals_.size() < count) new_diagonals_.resize(count);
+  if (new_kdops_.size() < count) new_kdops_.resize(count);
   if (updates_.size() < count) updates_.resize(count);
 }
 
@@ -241,23 +234,23 @@ void Bodies::refresh(std::size_t i, int threads) {
                           {.largest = kLargestCoordinate, .threads = threads, .prefetch = !stay_in_cache()});
   const bool changed = update.refitted == Refit::changed;
   update.box = mesh.box();
-  update.knows_diagonals = changed && wants_diagonals_[update.slot] != 0 && has_diagonals(mesh);
-  if (update.knows_diagonals) new_diagonals_[i] = narrowphase::kdop_of(mesh);
+  update.knows_kdop = changed && wants_kdop_[update.slot] != 0 && has_kdop(mesh);
+  if (update.knows_kdop) new_kdops_[i] = narrowphase::kdop_of(mesh);
   const Grouping& grouping = groupings_[update.slot];
-  const bool looks = changed && grouping.moves + 1 == moves_to_look(grouping.tries) &&
-                     mesh.cluster_count() >= kFewestRegrouped && base::fast_paths() != base::FastPaths::off;
+  const bool looks = changed && grouping.moves + 1 == moves_to_look(grouping) &&
+                     static_cast<std::size_t>(mesh.cluster_count()) >= tuning_->fewest_regrouped;
   update.quality = looks ? cluster_quality(mesh) : 0.0;
 }
 
-void Bodies::find_diagonals(int threads) {
+void Bodies::find_kdops(int threads) {
   base::parallel_for(unknown_.size(), 1, threads,
-                     [&](std::size_t i) { find_diagonals(unknown_[i], in_slot(unknown_[i]).mesh); });
+                     [&](std::size_t i) { find_kdops(unknown_[i], in_slot(unknown_[i]).mesh); });
   unknown_.clear();
 }
 
-void Bodies::find_diagonals(std::uint32_t slot, const narrowphase::ClusteredMesh& mesh) {
-  knows_diagonals_[slot] = has_diagonals(mesh) ? 1 : 0;
-  if (has_diagonals(mesh)) diagonals_[slot] = narrowphase::kdop_of(mesh);
+void Bodies::find_kdops(std::uint32_t slot, const narrowphase::ClusteredMesh& mesh) {
+  knows_kdop_[slot] = has_kdop(mesh) ? 1 : 0;
+  if (has_kdop(mesh)) kdops_[slot] = narrowphase::kdop_of(mesh);
 }
 
 // Takes all bodies back and says what is wrong if the positions of any cannot be taken.
@@ -276,10 +269,10 @@ void Bodies::publish(std::size_t i) {
   if (update.refitted != Refit::changed) return;
   const std::uint32_t slot = update.slot;
   boxes_[slot] = base::grown(update.box, margins_[slot]);
-  knows_diagonals_[slot] = update.knows_diagonals ? 1 : 0;
-  if (update.knows_diagonals) diagonals_[slot] = new_diagonals_[i];
+  knows_kdop_[slot] = update.knows_kdop ? 1 : 0;
+  if (update.knows_kdop) kdops_[slot] = new_kdops_[i];
   Grouping& grouping = groupings_[slot];
-  grouping.moves = static_cast<std::uint16_t>((grouping.moves + 1) % moves_to_look(grouping.tries));
+  grouping.moves = static_cast<std::uint16_t>((grouping.moves + 1) % moves_to_look(grouping));
 }
 
 void Bodies::note_change(const Update& update) {
@@ -294,7 +287,11 @@ void Bodies::note_change(const Update& update) {
   loose_.push_back(update.slot);
 }
 
-bool Bodies::is_loose(const Grouping& grouping, double quality) { return kLoose * quality < grouping.quality; }
+bool Bodies::is_loose(const Grouping& grouping, double quality) const {
+  return tuning_->decayed * quality < grouping.quality;
+}
+
+int Bodies::moves_to_look(const Grouping& grouping) const { return tuning_->moves_to_look << grouping.tries; }
 
 std::vector<Bodies::Regrouped> Bodies::regroup(int threads) {
   std::ranges::sort(loose_);
@@ -311,7 +308,7 @@ std::vector<Bodies::Regrouped> Bodies::regroup(int threads) {
     if (!meshes[i]) continue;
     Body& body = *slots_[loose_[i]].body;
     Grouping& grouping = groupings_[loose_[i]];
-    if (cluster_spread(*meshes[i]) <= kWorthRegrouping * cluster_spread(body.mesh)) {
+    if (cluster_spread(*meshes[i]) <= tuning_->worth_regrouping * cluster_spread(body.mesh)) {
       packed_meshes_.remove(body.mesh);
       body.mesh = std::move(*meshes[i]);
       body.features.reset();
@@ -349,7 +346,7 @@ void Bodies::set_positions(BodyId id, const Positions& positions, int threads) {
 void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads) {
   const base::FloatingPointMode mode;
   const std::size_t count = updates.size();
-  if (packed_meshes_.is_due()) pack_meshes(threads);
+  if (packed_meshes_.is_due(*tuning_)) pack_meshes(threads);
   make_updates(count);
   for (std::size_t i = 0; i < count; ++i) {
     try {

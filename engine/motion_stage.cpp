@@ -54,7 +54,7 @@ void MotionStage::sweep(const Bodies& bodies, int threads) {
     filters_[slot] = filter;
     changed_.push_back(slot);
   }
-  sweep_.update(boxes_, filters_, changed_, threads);
+  sweep_.update(boxes_, filters_, changed_, threads, bodies.tuning());
 }
 
 void MotionStage::select(const Bodies& bodies) {
@@ -103,7 +103,8 @@ void MotionStage::find_clusters(const Bodies& bodies, int threads, Impacts wante
   base::parallel_for(passing_.size(), kBodyPairsAtATime, threads, [&](std::size_t i, int thread) {
     Passing& one = passing_[i];
     Work& work = work_[thread];
-    const auto pairs = work.passing.find(bodies.moving(one.a), bodies.moving(one.b), one.reach, device_);
+    const auto pairs =
+        work.passing.find(bodies.moving(one.a), bodies.moving(one.b), one.reach, bodies.tuning(), device_);
     const std::size_t begin = work.clusters.size();
     work.clusters.insert(work.clusters.end(), pairs.begin(), pairs.end());
     work.cluster_pairs += static_cast<std::int64_t>(pairs.size());

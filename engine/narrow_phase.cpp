@@ -44,15 +44,14 @@ void NarrowPhase::run(PairTable& table, Bodies& bodies, const Settings& settings
   const std::size_t grain = base::grain_of(moved.size(), settings.threads, kFewestAtATime, kMostAtATime);
   const PairPrefetch prefetch(bodies, moved, grain, settings.threads);
   base::parallel_for(moved.size(), grain, settings.threads, [&](std::size_t i, int thread) {
-    if (prefetch.pays()) prefetch.ask_ahead_of(i);
+    if (prefetch.pays()) prefetch.prefetch_after(i);
     PairRecord& record = *moved[i].record;
     moved[i].touched = touches(record);
-    const PairInput pair(bodies.in_slot(record.a.index), bodies.in_slot(record.b.index),
-                         bodies.reach(record.a.index, record.b.index), settings);
+    const PairInput pair(bodies, record.a, record.b, settings);
     look_at(pair, record, table, device, thread);
     table.note_result(moved[i]);
   });
-  for (const auto& large : this->large()) confirm_in_ranges(*large, work_, settings.threads);
+  for (const auto& large : this->large()) confirm_in_ranges(*large, work_, settings.threads, bodies.tuning());
   for (const PairWork& work : work_) {
     for (const BodyId body : work.keep_travel) bodies.keep_travel(body.index);
   }
@@ -88,12 +87,12 @@ void NarrowPhase::look_at(const PairInput& pair, PairRecord& record, PairTable& 
   if (work.culled.cluster_pairs.empty()) return;
 
   table.make_room(record);
-  if (is_large(work.culled, table.moved().size(), pair.settings.threads)) {
+  if (is_large(work.culled, table.moved().size(), pair.settings.threads, pair.tuning)) {
     record.times.in_ranges = true;
     put_aside(work.culled);
     return;
   }
-  confirm(work);
+  confirm(pair.tuning, work);
   note(&PairTimes::confirm_ms, &PairCounts::confirm_ms);
 }
 

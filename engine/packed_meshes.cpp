@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/fast_paths.h"
 #include "engine/base/parallel.h"
 
 namespace tact {
@@ -15,7 +14,6 @@ using narrowphase::ClusteredMesh;
 
 // A large mesh is read from one end to the other as it is; a few fit into the cache.
 constexpr int kMostFacets = 1024, kMostVertices = 4096;  // the caller's
-constexpr std::size_t kFewestPacked = 64;
 constexpr std::size_t kMovedAtATime = 64;
 constexpr std::size_t kLine = 64;  // bytes: no two meshes share a line of the cache
 
@@ -58,10 +56,9 @@ void PackedMeshes::remove(const ClusteredMesh& mesh) {
   holes_ = 0;
 }
 
-bool PackedMeshes::is_due() const {
-  if (put_off_ || base::fast_paths() == base::FastPaths::off) return false;
-  if (base::fast_paths() == base::FastPaths::always) return scattered_ > 0;
-  return std::max(scattered_ + packed_, holes_) >= kFewestPacked && 2 * (scattered_ + holes_) > packed_;
+bool PackedMeshes::is_due(const base::Tuning& tuning) const {
+  return !put_off_ && std::max(scattered_ + packed_, holes_) >= tuning.fewest_packed &&
+         2 * (scattered_ + holes_) > packed_;
 }
 
 void PackedMeshes::pack(std::span<ClusteredMesh* const> meshes, int threads) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 
+#include "engine/base/tuning.h"
 #include "narrowphase/mesh/clustered_mesh.h"
 
 namespace tact {
@@ -17,7 +18,7 @@ class PackedMeshes {
   void remove(const narrowphase::ClusteredMesh& mesh);
   // Are so many small ones out of place, or so much of the memory holes, that it is worth to pack all anew? Of n bodies
   // that come one by one each is moved a few times at most.
-  bool is_due() const;
+  bool is_due(const base::Tuning& tuning) const;
   // Moves the small ones of all meshes of the world next to each other, in their order; until that is done they take
   // twice the memory. If it fails, nothing has changed.
   void pack(std::span<narrowphase::ClusteredMesh* const> meshes, int threads);

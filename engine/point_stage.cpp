@@ -144,7 +144,7 @@ void PointStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Set
     const auto a = bodies.featured(wanted.a), b = bodies.featured(wanted.b);
     work.found.clear();
     if (wanted.reach > 0.0) {
-      const auto pairs = work.near.find(a, b, wanted.reach, device);
+      const auto pairs = work.near.find(a, b, wanted.reach, bodies.tuning(), device);
       is_large_[i] = settings.threads > 1 && pairs.size() > kLargePair;
       if (is_large_[i]) return;
       work.search.run(a, b, wanted.reach, pairs, work.found);
@@ -155,9 +155,10 @@ void PointStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Set
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     if (!is_large_[i]) continue;
     const Wanted& wanted = wanted_[i];
-    search_in_ranges(wanted, bodies,
-                     work_[0].near.find(bodies.featured(wanted.a), bodies.featured(wanted.b), wanted.reach, device),
-                     settings.threads);
+    search_in_ranges(
+        wanted, bodies,
+        work_[0].near.find(bodies.featured(wanted.a), bodies.featured(wanted.b), wanted.reach, bodies.tuning(), device),
+        settings.threads);
   }
 }
 
@@ -171,7 +172,8 @@ void PointStage::run_self(std::uint32_t slot, Bodies& bodies, const Settings& se
   make_features(bodies, settings.threads);
   work_.resize(settings.threads);
   const auto mesh = bodies.featured(slot);
-  search_in_ranges(wanted_[0], bodies, work_[0].near.find(mesh, mesh, reach, device), settings.threads);
+  search_in_ranges(wanted_[0], bodies, work_[0].near.find(mesh, mesh, reach, bodies.tuning(), device),
+                   settings.threads);
 }
 
 void PointStage::search_in_ranges(const Wanted& wanted, const Bodies& bodies, std::span<const ClusterPair> pairs,

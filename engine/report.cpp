@@ -51,11 +51,6 @@ std::uint64_t Report::hash() const {
       hash.add(value);
     hash.add(contact.zone_a.center);
     hash.add(contact.zone_b.center);
-    hash.add(static_cast<std::uint64_t>(contact.source));
-    hash.add(static_cast<std::uint64_t>(contact.iterations));
-    hash.add(static_cast<std::uint64_t>(contact.limit_reached));
-    hash.add(static_cast<std::uint64_t>(contact.kept_facets_a));
-    hash.add(static_cast<std::uint64_t>(contact.kept_facets_b));
     if (contact.containment != Containment::none) hash.add(static_cast<std::uint64_t>(contact.containment));
     for (const FacetPair pair : contact.facet_pairs()) {
       hash.add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(pair.a)) << 32 |

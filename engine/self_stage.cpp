@@ -59,7 +59,7 @@ SelfRecord& SelfStage::record(std::uint32_t slot) {
 void SelfStage::find_facet_pairs(SelfRecord& record, const Bodies& bodies, int threads,
                                  narrowphase::EmbreeDevice& device) {
   const narrowphase::ClusteredMesh& mesh = bodies.in_slot(record.body.index).mesh;
-  const auto pairs = clusters_.find(mesh, device);
+  const auto pairs = clusters_.find(mesh, bodies.tuning(), device);
   const std::size_t ranges = (pairs.size() + kPairsAtATime - 1) / kPairsAtATime;
   if (ranges_.size() < ranges) ranges_.resize(ranges);
   base::parallel_for(ranges, 1, threads, [&](std::size_t i) {

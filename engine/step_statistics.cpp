@@ -13,8 +13,9 @@ void count_bodies(const Bodies& bodies, StepStats& stats) {
 
 void count_pairs(const PairTable& table, StepStats& stats) {
   stats.candidate_pairs = static_cast<std::int64_t>(table.candidates().size());
-  stats.parted_pairs = static_cast<std::int64_t>(table.separated());
-  stats.kept_pairs = stats.candidate_pairs - stats.parted_pairs - static_cast<std::int64_t>(table.moved().size());
+  stats.kdop_separated_pairs = static_cast<std::int64_t>(table.separated());
+  stats.kept_pairs =
+      stats.candidate_pairs - stats.kdop_separated_pairs - static_cast<std::int64_t>(table.moved().size());
 }
 
 void count_work(const NarrowPhase& narrow_phase, StepStats& stats) {
@@ -44,7 +45,7 @@ void count_work(const NarrowPhase& narrow_phase, StepStats& stats) {
   stats.facet_box_pairs = counts.confirm.facet_box_pairs;
   stats.triangle_tests = counts.confirm.triangle_tests;
   stats.exact_predicates = counts.confirm.predicates.exact;
-  stats.parting_ms = narrow_phase.kdop_ms();
+  stats.kdop_ms = narrow_phase.kdop_ms();
   stats.hulls_ms = narrow_phase.kdop_ms() + counts.hulls_ms;
   stats.gjk_ms = counts.gjk_ms;
   stats.direction_ms = counts.direction_ms;

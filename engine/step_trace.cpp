@@ -81,16 +81,17 @@ void StepTrace::make(Time begin, Time end, const StepStats& stats, std::span<con
   events.assign(refreshes_.begin(), refreshes_.end());
   add_stages(begin, end, stats, events);
   add_pairs(pairs, events);
-  if (stats.parted_pairs > 0) add_parted(begin + duration_of(stats.sweep_ms), stats, events);
+  if (stats.kdop_separated_pairs > 0) add_separated(begin + duration_of(stats.sweep_ms), stats, events);
   for (const auto& work : large) add_ranges(*work, events);
   std::sort(events.begin(), events.end(), before);
 }
 
 // On the thread that called, before all other pairs; these are in order by now.
-void StepTrace::add_parted(Time begin, const StepStats& stats, std::vector<TraceEvent>& events) {
-  Time end = begin + std::min(duration_of(stats.parting_ms), duration_of(stats.narrow_phase_ms));
+void StepTrace::add_separated(Time begin, const StepStats& stats, std::vector<TraceEvent>& events) {
+  Time end = begin + std::min(duration_of(stats.kdop_ms), duration_of(stats.narrow_phase_ms));
   if (!by_thread_.empty() && by_thread_[0]->times.thread == 0) end = std::min(end, by_thread_[0]->times.begin);
-  events.push_back({.kind = Kind::parted_pairs, .begin = begin, .end = end, .count = stats.parted_pairs});
+  events.push_back(
+      {.kind = Kind::kdop_separated_pairs, .begin = begin, .end = end, .count = stats.kdop_separated_pairs});
 }
 
 void StepTrace::add_pairs(std::span<const MovedPair> pairs, std::vector<TraceEvent>& events) {

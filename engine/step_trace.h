@@ -26,14 +26,14 @@ class StepTrace {
   void forget_refreshes() { refreshes_.clear(); }
 
   // Replaces `events` by those of a step from `begin` to `end`, with the refreshes before it, sorted by thread and
-  // time; an event stands before those within it. `pairs` are those that the step looked at and no diagonal parts,
+  // time; an event stands before those within it. `pairs` are those that the step looked at and no k-DOP separates,
   // `large` those cut into ranges.
   void make(Time begin, Time end, const StepStats& stats, std::span<const MovedPair> pairs,
             std::span<const std::unique_ptr<LargePair>> large, std::vector<TraceEvent>& events);
 
  private:
   void add_pairs(std::span<const MovedPair> pairs, std::vector<TraceEvent>& events);
-  void add_parted(Time begin, const StepStats& stats, std::vector<TraceEvent>& events);
+  void add_separated(Time begin, const StepStats& stats, std::vector<TraceEvent>& events);
 
   std::vector<TraceEvent> refreshes_;
   std::vector<const PairRecord*> by_thread_;  // scratch

@@ -16,6 +16,7 @@
 #include "engine/motion_stage.h"
 #include "engine/questions.h"
 #include "engine/step.h"
+#include "engine/world_tuning.h"
 
 namespace tact {
 
@@ -68,8 +69,9 @@ struct World::Implementation {
   explicit Implementation(const Settings& given) : settings(checked(given)), workers(settings.executor) {}
 
   Settings settings;
+  base::Tuning tuning;  // the bodies refer to it
   base::Workers workers;
-  Bodies bodies{next_world()};
+  Bodies bodies{next_world(), tuning};
   Step step;
   std::unique_ptr<MotionStage> motion = nullptr;  // made when it is first asked for
   double refresh_ms = 0.0;                        // since the last step
@@ -120,6 +122,8 @@ World::Implementation& World::implementation() const {
   if (implementation_ == nullptr) throw Error(ErrorCode::wrong_order, "the world was moved to another");
   return *implementation_;
 }
+
+void WorldTuning::set(const World& world, const base::Tuning& tuning) { world.implementation().tuning = tuning; }
 
 const Settings& World::settings() const { return implementation().settings; }
 

@@ -18,9 +18,10 @@ namespace {
 
 using narrowphase::ClusteredMesh;
 using narrowphase::ClusterPair;
-using narrowphase::ClusterPairSource;
 using narrowphase::ClusterPairWork;
 using narrowphase::KeptClusters;
+
+constexpr base::Tuning kByLoop{.largest_loop = base::Tuning::kNever}, kByTrees{.largest_loop = 0};
 
 // A wavy sheet, 4 m wide; `delay` shifts its waves.
 ClusteredMesh wavy_sheet(int cells, double delay) {
@@ -48,7 +49,7 @@ struct ClusterPairSearch {
   std::vector<ClusterPair> pairs;
   ClusterPairWork scratch;
 
-  void run(ClusterPairSource source) { find_cluster_pairs(a, b, source, device, pairs, scratch); }
+  void run(const base::Tuning& tuning) { find_cluster_pairs(a, b, tuning, device, pairs, scratch); }
 
   std::vector<std::int64_t> found() const {
     std::vector<std::int64_t> keys;
@@ -57,12 +58,12 @@ struct ClusterPairSearch {
   }
 };
 
-double median_us(ClusterPairSearch& search, ClusterPairSource source, double budget_ms) {
+double median_us(ClusterPairSearch& search, const base::Tuning& tuning, double budget_ms) {
   std::vector<double> times;
   double expected_ms = 0.0;
   const double start = wall_ms();
   while (times.size() < 5 || wall_ms() - start < budget_ms) {
-    times.push_back(time_ms(1, expected_ms, [&] { search.run(source); }));
+    times.push_back(time_ms(1, expected_ms, [&] { search.run(tuning); }));
     expected_ms = times.back();
   }
   return 1e3 * median(times);
@@ -81,12 +82,12 @@ int run_clusters(const BenchOptions& options) {
     const ClusteredMesh mesh_a = wavy_sheet(cells, 0.0), mesh_b = wavy_sheet(cells, 0.3);
     const KeptClusters a = all_clusters(mesh_a), b = all_clusters(mesh_b);
     ClusterPairSearch search{a, b, device, {}, {}};
-    search.run(ClusterPairSource::loop);
+    search.run(kByLoop);
     const std::vector<std::int64_t> by_loop = search.found();
-    search.run(ClusterPairSource::forest);
+    search.run(kByTrees);
     if (search.found() != by_loop) throw std::runtime_error("the loop and the trees find different pairs");
-    const double loop_us = median_us(search, ClusterPairSource::loop, budget_ms);
-    const double trees_us = median_us(search, ClusterPairSource::forest, budget_ms);
+    const double loop_us = median_us(search, kByLoop, budget_ms);
+    const double trees_us = median_us(search, kByTrees, budget_ms);
     table.add({fmt::to_string(a.count()), fmt::to_string(static_cast<std::int64_t>(a.count()) * b.count()),
                fmt::to_string(by_loop.size()), three_digits(loop_us), three_digits(trees_us),
                three_digits(loop_us / trees_us)});

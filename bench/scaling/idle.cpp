@@ -98,7 +98,7 @@ Skipped measure_skips(bool quick, double budget_ms) {
   const int size = quick ? 64 : 1000;
   const std::string pile_name = fmt::format("a pile of {} blobs of 320", size);
   Skipped skipped{Table({"skipped, of " + pile_name, "us a step", "vertices read", "excluded pairs", "kept pairs",
-                         "parted pairs", "still separated", "contacts", "clusters dropped", "facets kept"}),
+                         "separated pairs", "still separated", "contacts", "clusters dropped", "facets kept"}),
                   BarChart{.title = "what skipping is worth in " + pile_name, .unit = "us", .bars = {"a step"}}};
   for (const Skip& skip : skips(pile(size, 4, kFrames))) {
     TactRunner runner(skip.workload, skip.settings);
@@ -106,7 +106,7 @@ Skipped measure_skips(bool quick, double budget_ms) {
     const auto [us, s] = moving_step(runner, skip.workload, skip.moving, 1, budget_ms);
     skipped.chart.groups.push_back({skip.what, {us}});
     skipped.table.add({skip.what, three_digits(us), fmt::to_string(s.moved_vertices), fmt::to_string(s.excluded_pairs),
-                       fmt::to_string(s.kept_pairs), fmt::to_string(s.parted_pairs),
+                       fmt::to_string(s.kept_pairs), fmt::to_string(s.kdop_separated_pairs),
                        fmt::to_string(s.still_separated_pairs), fmt::to_string(s.contacts),
                        fmt::to_string(s.clusters - s.opened_clusters), fmt::to_string(s.kept_facets)});
   }
@@ -123,7 +123,7 @@ int run_idle(const BenchOptions& options) {
   std::vector<int> sizes{27, 125, 1000};
   if (!options.quick) sizes = {100, 1000, 10000};
   Table table({"blobs of 320 in a pile", "threads", "bodies that move", "us a step", "candidate pairs", "kept pairs",
-               "parted pairs"});
+               "separated pairs"});
   for (const int size : sizes) {
     const Workload workload = pile(size, 4, kFrames);
     for (const int count : threads > 1 ? std::vector<int>{1, threads} : std::vector<int>{1}) {
@@ -137,7 +137,7 @@ int run_idle(const BenchOptions& options) {
         const Moving result = moving_step(runner, workload, moving, count, budget_ms);
         table.add({fmt::to_string(size), fmt::to_string(count), all ? "all" : fmt::to_string(few),
                    three_digits(result.us), fmt::to_string(result.stats.candidate_pairs),
-                   fmt::to_string(result.stats.kept_pairs), fmt::to_string(result.stats.parted_pairs)});
+                   fmt::to_string(result.stats.kept_pairs), fmt::to_string(result.stats.kdop_separated_pairs)});
       }
     }
   }

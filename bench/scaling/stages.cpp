@@ -30,15 +30,15 @@ struct Stage {
 std::int64_t vertices(const StepStats& s) { return s.moved_vertices; }
 std::int64_t bodies(const StepStats& s) { return s.bodies; }
 std::int64_t moved_pairs(const StepStats& s) { return s.candidate_pairs - s.kept_pairs; }
-std::int64_t pairs_looked_at(const StepStats& s) { return moved_pairs(s) - s.parted_pairs; }
+std::int64_t pairs_looked_at(const StepStats& s) { return moved_pairs(s) - s.kdop_separated_pairs; }
 std::int64_t contacts(const StepStats& s) { return s.contacts; }
 std::int64_t kept_facets(const StepStats& s) { return s.kept_facets; }
 
 const std::array kStages{
     Stage{"1 refresh", "vertex", [](const StepStats& s) { return s.refresh_ms - s.regroup_ms; }, vertices},
     Stage{"2 sweep", "body", [](const StepStats& s) { return s.sweep_ms; }, bodies},
-    Stage{"3 diagonals", "candidate pair", [](const StepStats& s) { return s.parting_ms; }, moved_pairs},
-    Stage{"3 hulls", "pair left", [](const StepStats& s) { return s.hulls_ms - s.parting_ms; }, pairs_looked_at, true},
+    Stage{"3 k-DOPs", "candidate pair", [](const StepStats& s) { return s.kdop_ms; }, moved_pairs},
+    Stage{"3 hulls", "pair left", [](const StepStats& s) { return s.hulls_ms - s.kdop_ms; }, pairs_looked_at, true},
     Stage{"4 direction", "contact", [](const StepStats& s) { return s.direction_ms; }, contacts, true},
     Stage{"5 cull", "contact", [](const StepStats& s) { return s.cull_ms; }, contacts, true},
     Stage{"6 confirm", "kept facet", [](const StepStats& s) { return s.confirm_ms; }, kept_facets, true},

@@ -7,7 +7,8 @@
 namespace tact::base {
 
 // A counter of the processor that runs at one rate whatever the processor does, the same on all cores. To read it takes
-// half as long as to ask the system's clock, and waits for nothing that is under way.
+// half as long as to ask the system's clock, and waits for nothing that is under way: with the clock the wall of bricks
+// of tact-bench rivals takes 3.6 % longer.
 class TickCounter {
  public:
 #if defined(__x86_64__)

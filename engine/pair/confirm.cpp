@@ -4,7 +4,6 @@
 #include <bit>
 #include <utility>
 
-#include "engine/base/fast_paths.h"
 #include "engine/base/parallel.h"
 #include "engine/base/timer.h"
 
@@ -13,14 +12,8 @@ namespace tact {
 namespace {
 
 using namespace narrowphase;
-using base::fast_paths;
-using base::FastPaths;
 
-// A pair of bodies is cut into ranges if it has many pairs of clusters, or if a step has few pairs of bodies to share
-// out. A pair of clusters takes about a microsecond, and at a border between ranges a few clusters are opened twice.
-constexpr std::size_t kLargePair = 4096, kFewestInRanges = 128, kFewestInRange = 32;  // pairs of clusters
-constexpr std::size_t kPairsPerThread = 4;                                            // pairs of bodies
-constexpr std::size_t kRangesPerThread = 4;
+constexpr std::size_t kRangesPerThread = 4;  // of large pairs, so that threads end together
 
 void sort_facet_pairs(const CulledPair& culled, base::KeySorter& sorter, int threads) {
   std::vector<FacetPair>& pairs = culled.record->facet_pairs;
@@ -64,19 +57,19 @@ std::size_t range_begin(const std::vector<ClusterPair>& pairs, std::size_t i, st
   return begin;
 }
 
-// Equally many for each thread that has enough to do; of large pairs several, so that threads end together.
-std::size_t count_of_ranges(std::size_t pairs, int threads) {
-  const std::size_t fewest = fast_paths() == FastPaths::always ? 1 : kFewestInRange;
+// Equally many for each thread that has enough to do.
+std::size_t count_of_ranges(std::size_t pairs, int threads, std::size_t fewest) {
   const std::size_t at_once = std::clamp<std::size_t>(pairs / fewest, 1, static_cast<std::size_t>(threads));
   return at_once * std::clamp<std::size_t>(pairs / (2 * fewest * at_once), 1, kRangesPerThread);
 }
 
-void confirm_range(const LargePair& large, std::size_t i, FacetPairSearch& search, ConfirmedRange& range) {
+void confirm_range(const LargePair& large, std::size_t i, const base::Tuning& tuning, FacetPairSearch& search,
+                   ConfirmedRange& range) {
   const std::vector<ClusterPair>& pairs = large.culled.cluster_pairs;
   range.begin = base::Timer::Clock::now();
   range.found.clear();
   range.counts = {};
-  search.run(large.culled.confirm_input(), pairs, range_begin(pairs, i, large.range_count),
+  search.run(large.culled.confirm_input(tuning), pairs, range_begin(pairs, i, large.range_count),
              range_begin(pairs, i + 1, large.range_count), range.found, range.counts);
   range.opened_a = search.opened_a();
   range.opened_b = search.opened_b();
@@ -84,9 +77,9 @@ void confirm_range(const LargePair& large, std::size_t i, FacetPairSearch& searc
 }
 
 // A cluster of B that several ranges opened counts once.
-OpenedFacets opened_in_ranges(LargePair& large) {
+OpenedFacets opened_in_ranges(LargePair& large, const base::Tuning& tuning) {
   OpenedFacets opened;
-  large.seen_b.assign(static_cast<std::size_t>(large.culled.confirm_input().kept_b->count()), false);
+  large.seen_b.assign(static_cast<std::size_t>(large.culled.confirm_input(tuning).kept_b->count()), false);
   for (const ConfirmedRange& range : large.used_ranges()) {
     for (const OpenedCluster& one : range.opened_a) opened.a += one.counts;
     for (const OpenedCluster& one : range.opened_b) {
@@ -98,10 +91,10 @@ OpenedFacets opened_in_ranges(LargePair& large) {
 
 }  // namespace
 
-void confirm(PairWork& work) {
+void confirm(const base::Tuning& tuning, PairWork& work) {
   const CulledPair& culled = work.culled;
   ConfirmCounts confirmed;
-  work.search.run(culled.confirm_input(), culled.cluster_pairs, 0, culled.cluster_pairs.size(),
+  work.search.run(culled.confirm_input(tuning), culled.cluster_pairs, 0, culled.cluster_pairs.size(),
                   culled.record->facet_pairs, confirmed);
   OpenedFacets opened;
   for (const OpenedCluster& one : work.search.opened_a()) opened.a += one.counts;
@@ -109,21 +102,20 @@ void confirm(PairWork& work) {
   finish(culled, opened, confirmed, 1, work);
 }
 
-bool is_large(const CulledPair& culled, std::size_t pairs, int threads) {
-  if (threads == 1 || fast_paths() == FastPaths::off) return false;
-  const std::size_t size = culled.cluster_pairs.size();
-  return fast_paths() == FastPaths::always || size > kLargePair ||
-         (size > kFewestInRanges && pairs < kPairsPerThread * static_cast<std::size_t>(threads));
+bool is_large(const CulledPair& culled, std::size_t pairs, int threads, const base::Tuning& tuning) {
+  if (threads == 1) return false;
+  const bool few = pairs < tuning.few_pairs_per_thread * static_cast<std::size_t>(threads);
+  return culled.cluster_pairs.size() > (few ? tuning.large_of_few : tuning.large_pair);
 }
 
-void confirm_in_ranges(LargePair& large, std::span<PairWork> thread_work, int threads) {
+void confirm_in_ranges(LargePair& large, std::span<PairWork> thread_work, int threads, const base::Tuning& tuning) {
   base::Timer timer;
   large.begin = timer.start();
-  large.range_count = count_of_ranges(large.culled.cluster_pairs.size(), threads);
+  large.range_count = count_of_ranges(large.culled.cluster_pairs.size(), threads, tuning.fewest_in_range);
   if (large.ranges.size() < large.range_count) large.ranges.resize(large.range_count);
   base::parallel_for(large.range_count, 1, threads, [&](std::size_t i, int thread) {
     large.ranges[i].thread = thread;
-    confirm_range(large, i, thread_work[thread].search, large.ranges[i]);
+    confirm_range(large, i, tuning, thread_work[thread].search, large.ranges[i]);
   });
   PairRecord& record = *large.culled.record;
   ConfirmCounts confirmed;
@@ -131,7 +123,7 @@ void confirm_in_ranges(LargePair& large, std::span<PairWork> thread_work, int th
     record.facet_pairs.insert(record.facet_pairs.end(), range.found.begin(), range.found.end());
     confirmed += range.counts;
   }
-  finish(large.culled, opened_in_ranges(large), confirmed, threads, thread_work[0]);
+  finish(large.culled, opened_in_ranges(large, tuning), confirmed, threads, thread_work[0]);
   const double confirm_ms = timer.lap();
   record.times.confirm_ms = static_cast<float>(confirm_ms);
   thread_work[0].counts.confirm_ms += confirm_ms;

@@ -29,13 +29,13 @@ struct LargePair {
 };
 
 /// The facet pairs of `work.culled`, sorted, and the numbers of kept facets, into its record.
-void confirm(PairWork& work);
+void confirm(const base::Tuning& tuning, PairWork& work);
 
 /// Does it pay to share out the pair among threads, one of `pairs` pairs that a step looks at?
-bool is_large(const CulledPair& culled, std::size_t pairs, int threads);
+bool is_large(const CulledPair& culled, std::size_t pairs, int threads, const base::Tuning& tuning);
 
 /// The same answer as confirm(), with the cluster pairs cut into ranges. `thread_work` lends a PairWork to each thread;
 /// that of the calling one counts.
-void confirm_in_ranges(LargePair& large, std::span<PairWork> thread_work, int threads);
+void confirm_in_ranges(LargePair& large, std::span<PairWork> thread_work, int threads, const base::Tuning& tuning);
 
 }  // namespace tact

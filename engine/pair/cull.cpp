@@ -1,7 +1,5 @@
 #include "engine/pair/cull.h"
 
-#include "engine/base/fast_paths.h"
-
 namespace tact {
 
 namespace {
@@ -44,14 +42,14 @@ void prepare_surfaces(const PairInput& pair, PairRecord& record, PairWork& work)
   culled.turned = false;
   culled.history = nullptr;
   const bool zones = pair.settings.accuracy == Accuracy::paper || pair.settings.outputs.zones;
-  culled.as_surfaces = !zones && worth_as_surfaces(culled.confirm_input(), culled.cluster_pairs.size());
+  culled.as_surfaces = !zones && worth_as_surfaces(culled.confirm_input(pair.tuning), culled.cluster_pairs.size());
   if (!culled.as_surfaces) return;
   culled.turned = culled.kept_a.count() < culled.kept_b.count();
   if (culled.turned) turn(culled.cluster_pairs, culled.kept_b.count(), work.cluster_pair_work);
-  if (base::fast_paths() == base::FastPaths::off) return;
+  if (!pair.tuning.carries_surfaces) return;
   if (record.surfaces == nullptr) record.surfaces = std::make_unique<SurfaceHistory>();
   SurfaceHistory& history = *record.surfaces;
-  if (history.start(culled.confirm_input(), culled.cluster_pairs)) culled.history = &history;
+  if (history.start(culled.confirm_input(pair.tuning), culled.cluster_pairs)) culled.history = &history;
   if (history.wants_travel_of_a()) work.keep_travel.push_back(culled.turned ? record.b : record.a);
   if (history.wants_travel_of_b()) work.keep_travel.push_back(culled.turned ? record.a : record.b);
 }
@@ -65,13 +63,14 @@ void cull(const PairInput& pair, const Slab& slab, PairRecord& record, EmbreeDev
   culled.a = &a;
   culled.b = &b;
   find_criteria(pair, slab, record, work);
+  // Without prefetching the facets the piles of tact-bench rivals take 3 to 9 % longer.
   cull_clusters(a, culled.criteria_a, b.box(), culled.kept_a);
   if (work.prefetches) prefetch_facets(a, culled.kept_a);
   cull_clusters(b, culled.criteria_b, culled.kept_a.bounds, culled.kept_b);
   if (work.prefetches) prefetch_facets(b, culled.kept_b);
   cull_again(culled.kept_b.bounds, culled.kept_a);
-  const bool trees = find_cluster_pairs(culled.kept_a, culled.kept_b, ClusterPairSource::automatic, device,
-                                        culled.cluster_pairs, work.cluster_pair_work);
+  const bool trees = find_cluster_pairs(culled.kept_a, culled.kept_b, pair.tuning, device, culled.cluster_pairs,
+                                        work.cluster_pair_work);
   work.counts.tree_pairs += trees ? 1 : 0;
   count_clusters(culled, work.counts);
   prepare_surfaces(pair, record, work);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "engine/base/fast_paths.h"
 #include "narrowphase/direction/contact_direction.h"
 
 namespace tact {
@@ -18,11 +17,9 @@ struct FoundDirection {
   DirectionSource source = DirectionSource::smallest;
 };
 
-bool carries() { return base::fast_paths() != base::FastPaths::off; }
-
 // The surface that the search for the smallest separation starts from and leaves, if every step searches.
-SurfaceShape* surface_of(PairRecord& record, const Settings& settings) {
-  if (settings.direction != DirectionPolicy::smallest || !carries()) return nullptr;
+SurfaceShape* surface_of(const PairInput& pair, PairRecord& record) {
+  if (pair.settings.direction != DirectionPolicy::smallest || !pair.tuning.carries_hulls) return nullptr;
   if (record.surface == nullptr) record.surface = std::make_unique<SurfaceShape>();
   if (!record.history.has_surface) record.surface->face_count = 0;
   record.history.has_surface = true;
@@ -33,7 +30,7 @@ FoundDirection carried_direction(const PairInput& pair, const PairRecord& record
                                  PairWork& work) {
   const PairHistory& history = record.history;
   const bool was_overlapping = history.kind == PairHistory::Kind::overlapping;
-  const GjkSimplex face = was_overlapping && carries() ? record.face : GjkSimplex{};
+  const GjkSimplex face = was_overlapping && pair.tuning.carries_hulls ? record.face : GjkSimplex{};
   return {contact_direction(pair.difference, history.direction, face, settings, work.faces),
           was_overlapping ? DirectionSource::carried : DirectionSource::fresh};
 }
@@ -44,7 +41,7 @@ FoundDirection smallest_direction(const PairInput& pair, const HullTest& hulls, 
   const bool is_new = history.kind == PairHistory::Kind::none;
   const SmallestStart start{.preferred = is_new ? Vec3{0.0, 0.0, 1.0} : history.direction,
                             .hulls = history.hulls,
-                            .shape = surface_of(record, pair.settings),
+                            .shape = surface_of(pair, record),
                             .is_placed = hulls.surface_is_placed};
   const SmallestSeparation smallest = smallest_separation(pair.difference, start, work.smallest);
   work.counts.gjk_iterations += smallest.support_queries;

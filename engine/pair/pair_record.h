@@ -47,9 +47,8 @@ struct alignas(64) PairRecord {
   // Of pairs whose hulls overlap; for others the vectors are empty and the rest is old.
   narrowphase::GjkSimplex face;  ///< of the Minkowski difference, which the contact direction ended on in the last step
   Contact contact;
-  std::vector<FacetPair> facet_pairs;  ///< sorted
-  std::size_t room_left = 0;           ///< for facet pairs, by a large pair that had this record before, see PairTable
-  std::vector<ContactPoint> points;    ///< of pairs in contact, sorted
+  std::vector<FacetPair> facet_pairs;                     ///< sorted
+  std::vector<ContactPoint> points;                       ///< of pairs in contact, sorted
   std::vector<ContactPoint> last_points;                  ///< of the step before
   std::unique_ptr<PatchMemory> patches;                   ///< made when there are any
   std::unique_ptr<narrowphase::SurfaceHistory> surfaces;  ///< of bodies that lie on each other, once

@@ -8,8 +8,8 @@ namespace tact {
 
 namespace {
 
+// What a pair leaves to the next that has its record, so that steps in which small pairs come and go allocate nothing.
 constexpr std::size_t kLargestRoom = 512;                      // facet pairs, 4 kB
-constexpr std::size_t kMostSpareRoom = std::size_t{1} << 20;   // facet pairs, 8 MB
 constexpr std::size_t kFewestRecords = 4, kMostRecords = 256;  // taken at once
 
 bool names(const Bodies& bodies, BodyId id) { return bodies.in_slot(id.index).id == id; }
@@ -117,14 +117,7 @@ void PairTable::retire(PairRecord& record) {
   if (record.patches != nullptr) record.patches->end_all(record.a, record.b, gone_patches_);
   const std::size_t room = record.facet_pairs.capacity();
   room_ = std::min(std::max(room_, room), kLargestRoom);
-  // A large pair may leave its room to a small one, and take new room when it comes back. So there is a limit to what
-  // is left in all.
-  spare_room_ -= std::exchange(record.room_left, 0);
-  if (room > kLargestRoom && spare_room_ + room <= kMostSpareRoom) {
-    spare_room_ += record.room_left = room;
-  } else if (room > kLargestRoom) {
-    record.facet_pairs = std::vector<FacetPair>();
-  }
+  if (room > kLargestRoom) record.facet_pairs = std::vector<FacetPair>();
   free_.push_back(&record);
 }
 

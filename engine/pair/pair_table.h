@@ -88,8 +88,7 @@ class PairTable {
   std::vector<std::unique_ptr<PairRecord[]>> pool_;
   std::size_t record_count_ = 0;  // in the pool
   std::vector<PairRecord*> free_;
-  std::size_t room_ = 0;                       // facet pairs
-  std::size_t spare_room_ = 0;                 // of large pairs that are gone, facet pairs
+  std::size_t room_ = 0;                       // facet pairs: the most that a small pair had
   std::vector<broadphase::IndexPair> pairs_;   // slots
   std::vector<broadphase::IndexPair> tested_;  // scratch: those of the sweep that are not excluded
   std::size_t excluded_ = 0;

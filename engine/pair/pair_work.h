@@ -18,14 +18,20 @@ namespace tact {
 
 /// Two bodies as the stages of a pair see them.
 struct PairInput {
-  PairInput(const Body& body_a, const Body& body_b, double sum_of_margins, const Settings& of_world)
-      : a(body_a), b(body_b), difference(body_a.mesh, body_b.mesh), reach(sum_of_margins), settings(of_world) {}
+  PairInput(const Bodies& bodies, BodyId id_a, BodyId id_b, const Settings& of_world)
+      : a(bodies.in_slot(id_a.index)),
+        b(bodies.in_slot(id_b.index)),
+        difference(a.mesh, b.mesh, bodies.tuning()),
+        reach(bodies.reach(id_a.index, id_b.index)),
+        settings(of_world),
+        tuning(bodies.tuning()) {}
 
   const Body& a;
   const Body& b;
   narrowphase::MinkowskiDifference difference;  ///< of their hulls
   double reach;                                 ///< the sum of their margins, metres: hulls nearer than this are near
   const Settings& settings;
+  const base::Tuning& tuning;
 };
 
 /// What stage 5 leaves of a pair for stage 6.
@@ -40,9 +46,9 @@ struct CulledPair {
   bool turned = false;       ///< for stage 6 the second body is A, and the first is B: so in cluster_pairs
   narrowphase::SurfaceHistory* history = nullptr;  ///< of the record, if it is of use in this step
 
-  narrowphase::ConfirmInput confirm_input() const {
-    if (turned) return {b, a, criteria_b, criteria_a, &kept_b, &kept_a, as_surfaces, history};
-    return {a, b, criteria_a, criteria_b, &kept_a, &kept_b, as_surfaces, history};
+  narrowphase::ConfirmInput confirm_input(const base::Tuning& tuning) const {
+    if (turned) return {b, a, criteria_b, criteria_a, &kept_b, &kept_a, as_surfaces, history, &tuning};
+    return {a, b, criteria_a, criteria_b, &kept_a, &kept_b, as_surfaces, history, &tuning};
   }
 };
 

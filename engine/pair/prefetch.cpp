@@ -9,7 +9,8 @@ namespace {
 using narrowphase::ClusteredMesh;
 using narrowphase::prefetch_lines;
 
-// How many pairs ahead, and the cache lines of a record that pairs need which are apart.
+// How many pairs ahead, and the cache lines of a record that pairs need which are apart. Without any of this the pile
+// of 4,000 blobs of tact-bench rivals takes 13 % longer, that of 1,000 5 %; without the vertices alone 6 % and 3 %.
 constexpr std::size_t kBoxes = 2, kBody = 4, kRecord = 8, kRecordLines = 3;
 
 void prefetch_record(const PairRecord& record, std::size_t first_line, std::size_t end_line) {
@@ -21,22 +22,13 @@ const ClusteredMesh& mesh_of(const Bodies& bodies, BodyId id) { return bodies.in
 }  // namespace
 
 PairPrefetch::PairPrefetch(const Bodies& bodies, std::span<const MovedPair> moved, std::size_t grain, int threads)
-    : bodies_(bodies),
-      moved_(moved),
-      grain_(grain),
-      one_thread_(threads == 1),
-      pays_(!bodies.stay_in_cache()),
-      few_pairs_(moved.size() < bodies.count()) {}
-
-// Of the records from `own_end` on, which another thread may write, only the bodies are read.
-void PairPrefetch::ask_ahead_of(std::size_t i) const {
-  const std::size_t own_end = one_thread_ ? moved_.size() : i - i % grain_ + grain_;
-  if (few_pairs_) ask_for_first_bodies(i, own_end);
-  ask_for_pairs(i, own_end);
-}
+    : bodies_(bodies), moved_(moved), grain_(grain), one_thread_(threads == 1), pays_(!bodies.stay_in_cache()) {}
 
 // First the record, then the rest of it and the second body, then its boxes, and its vertices if the hulls overlapped.
-void PairPrefetch::ask_for_pairs(std::size_t i, std::size_t own_end) const {
+// The first body of a pair is most often that of the last. Of the records from `own_end` on, which another thread may
+// write, only the bodies are read.
+void PairPrefetch::prefetch_after(std::size_t i) const {
+  const std::size_t own_end = one_thread_ ? moved_.size() : i - i % grain_ + grain_;
   if (i + kRecord < moved_.size()) prefetch_record(*moved_[i + kRecord].record, 0, kRecordLines);
   if (i + kBody < moved_.size()) {
     const PairRecord& record = *moved_[i + kBody].record;
@@ -52,14 +44,6 @@ void PairPrefetch::ask_for_pairs(std::size_t i, std::size_t own_end) const {
     prefetch_position(a, record.history.hulls.a[0]);
     prefetch_position(b, record.history.hulls.b[0]);
   }
-}
-
-void PairPrefetch::ask_for_first_bodies(std::size_t i, std::size_t own_end) const {
-  if (i + kBody < moved_.size()) prefetch_lines(&mesh_of(bodies_, moved_[i + kBody].record->a), 1);
-  if (i + kBoxes >= moved_.size()) return;
-  const PairRecord& record = *moved_[i + kBoxes].record;
-  prefetch_boxes(mesh_of(bodies_, record.a));
-  if (i + kBoxes < own_end && record.hulls_overlap) prefetch_points(mesh_of(bodies_, record.a));
 }
 
 }  // namespace tact

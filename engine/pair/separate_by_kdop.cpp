@@ -1,6 +1,5 @@
 #include "engine/pair/separate_by_kdop.h"
 
-#include "engine/base/fast_paths.h"
 #include "engine/base/parallel.h"
 
 namespace tact {
@@ -19,21 +18,21 @@ bool may_be_separated(const PairTable& table, const Bodies& bodies, const MovedP
 
 // Both bodies of a pair that was apart, or is new, know their k-DOPs, whatever other pairs they have: what is found of
 // a pair depends on no other. Bodies that moved and have no such pair need not know theirs when they move next.
-void find_kdops(const PairTable& table, Bodies& bodies, int threads) {
-  for (const std::uint32_t slot : bodies.changed()) bodies.want_diagonals(slot, false);
+void find_missing_kdops(const PairTable& table, Bodies& bodies, int threads) {
+  for (const std::uint32_t slot : bodies.changed()) bodies.want_kdop(slot, false);
   for (const MovedPair& pair : table.moved()) {
     if (!may_be_separated(table, bodies, pair)) continue;
-    bodies.want_diagonals(table.candidates()[pair.place].a.index, true);
-    bodies.want_diagonals(table.candidates()[pair.place].b.index, true);
+    bodies.want_kdop(table.candidates()[pair.place].a.index, true);
+    bodies.want_kdop(table.candidates()[pair.place].b.index, true);
   }
-  bodies.find_diagonals(threads);
+  bodies.find_kdops(threads);
 }
 
 // Asks the axis that separated the pair last, then the others; notes which one does.
 bool is_separated(const MovedPair& pair, const Bodies& bodies, PairTable& table) {
   if (!may_be_separated(table, bodies, pair)) return false;
   const CandidatePair& candidate = table.candidates()[pair.place];
-  const auto *a = bodies.diagonals(candidate.a.index), *b = bodies.diagonals(candidate.b.index);
+  const auto *a = bodies.kdop(candidate.a.index), *b = bodies.kdop(candidate.b.index);
   const bool known = a != nullptr && b != nullptr;
   SeparatingDiagonal& axis = table.separating_axis(pair.place);
   const SeparatingDiagonal last = axis;
@@ -50,8 +49,8 @@ bool is_separated(const MovedPair& pair, const Bodies& bodies, PairTable& table)
 }  // namespace
 
 void separate_by_kdop(PairTable& table, Bodies& bodies, int threads) {
-  if (base::fast_paths() == base::FastPaths::off) return;
-  find_kdops(table, bodies, threads);
+  if (!bodies.tuning().separates_by_kdop) return;
+  find_missing_kdops(table, bodies, threads);
   const std::span<MovedPair> moved = table.moved();
   base::parallel_for(moved.size(), kPairsAtATime, threads,
                      [&](std::size_t i) { moved[i].separated = is_separated(moved[i], bodies, table); });

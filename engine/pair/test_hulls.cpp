@@ -1,6 +1,5 @@
 #include "engine/pair/test_hulls.h"
 
-#include "engine/base/fast_paths.h"
 #include "narrowphase/hull/hull_verdict.h"
 
 namespace tact {
@@ -84,7 +83,7 @@ HullTest test_by_gjk(const PairInput& pair, bool carries, PairRecord& record, Pa
 
 HullTest test_hulls(const PairInput& pair, PairRecord& record, PairWork& work) {
   // What the last step knew of a pair is a start from which less is to be done; its direction is more than that.
-  const bool carries = base::fast_paths() != base::FastPaths::off;
+  const bool carries = pair.tuning.carries_hulls;
   HullTest test;
   if (carries && still_overlap(pair, record, work, test)) {
     ++work.counts.still_overlapping;

@@ -210,12 +210,12 @@ class PointFinder {
 }  // namespace
 
 std::span<const ClusterPair> NearClusters::find(const FeaturedMesh& a, const FeaturedMesh& b, double reach,
-                                                EmbreeDevice& device) {
+                                                const base::Tuning& tuning, EmbreeDevice& device) {
   const double both = box_reach(reach, std::max(largest_coordinate(a.mesh->box()), largest_coordinate(b.mesh->box())));
   const auto box_of = [](const ClusteredMesh& mesh, int c) { return mesh.cluster_boxes()[c]; };
   return finder_.find(
       *a.mesh, [&](int c) { return inflated(box_of(*a.mesh, c), both); },  //
-      *b.mesh, [&](int c) { return box_of(*b.mesh, c); }, b.mesh->box(), device);
+      *b.mesh, [&](int c) { return box_of(*b.mesh, c); }, b.mesh->box(), tuning, device);
 }
 
 struct ContactPointSearch::Memory {

@@ -36,7 +36,8 @@ struct FeaturePoint {
 /// smaller first.
 class NearClusters {
  public:
-  std::span<const ClusterPair> find(const FeaturedMesh& a, const FeaturedMesh& b, double reach, EmbreeDevice& device);
+  std::span<const ClusterPair> find(const FeaturedMesh& a, const FeaturedMesh& b, double reach,
+                                    const base::Tuning& tuning, EmbreeDevice& device);
 
  private:
   ClusterPairFinder finder_;

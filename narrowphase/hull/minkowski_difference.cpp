@@ -30,7 +30,8 @@ double farthest(const Box& box, Vec3 origin, int axis) {
 
 }  // namespace
 
-MinkowskiDifference::MinkowskiDifference(const ClusteredMesh& a, const ClusteredMesh& b) : a_(&a), b_(&b) {
+MinkowskiDifference::MinkowskiDifference(const ClusteredMesh& a, const ClusteredMesh& b, const base::Tuning& tuning)
+    : a_(&a), b_(&b), by_clusters_(tuning.support_by_clusters) {
   const Box common = intersection(a.box(), b.box());
   origin_ = 0.5 * common.lower + 0.5 * common.upper;
   Vec3 reach;
@@ -49,6 +50,10 @@ MinkowskiDifference::MinkowskiDifference(const ClusteredMesh& a, const Clustered
 MinkowskiVertex MinkowskiDifference::support(Vec3 direction) const { return support(direction, {}); }
 
 MinkowskiVertex MinkowskiDifference::support(Vec3 direction, const MinkowskiVertex& near) const {
+  if (!by_clusters_) {
+    return vertex(support_by_full_scan(*a_, direction, origin_).vertex,
+                  support_by_full_scan(*b_, -direction, origin_).vertex);
+  }
   return vertex(narrowphase::support(*a_, direction, origin_, near.a).vertex,
                 narrowphase::support(*b_, -direction, origin_, near.b).vertex);
 }

@@ -5,6 +5,7 @@
 // whatever the unit of length, and the rounding of a - b is the only one between the input and a point of M.
 #pragma once
 
+#include "engine/base/tuning.h"
 #include "narrowphase/hull/support.h"
 #include "narrowphase/mesh/clustered_mesh.h"
 
@@ -20,7 +21,7 @@ struct MinkowskiVertex {
 class MinkowskiDifference {
  public:
   // Both meshes must have a facet, and outlive this.
-  MinkowskiDifference(const ClusteredMesh& a, const ClusteredMesh& b);
+  MinkowskiDifference(const ClusteredMesh& a, const ClusteredMesh& b, const base::Tuning& tuning = base::kTuning);
 
   // The vertex of M farthest along `direction`, which need not be of unit length.
   MinkowskiVertex support(Vec3 direction) const;
@@ -51,6 +52,7 @@ class MinkowskiDifference {
  private:
   const ClusteredMesh* a_;
   const ClusteredMesh* b_;
+  bool by_clusters_;
   Vec3 origin_;
   double scale_ = 1.0;
   double size_ = 0.0;

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <limits>
 
-#include "engine/base/fast_paths.h"
 #include "narrowphase/mesh/chosen_groups.h"
 
 namespace tact::narrowphase {
@@ -109,8 +108,7 @@ PointArrays far_corners(BoxView boxes, Vec3 n) {
 
 Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near) {
   assert(mesh.facet_count() > 0);
-  if (base::fast_paths() == base::FastPaths::off || mesh.cluster_count() == 1)
-    return support_by_full_scan(mesh, n, origin);
+  if (mesh.cluster_count() == 1) return support_by_full_scan(mesh, n, origin);
   SupportSearch search(mesh, n, origin);
   if (near >= 0) search.start_at(near);
   const PointArrays groups = far_corners(mesh.group_boxes(), n), clusters = far_corners(mesh.cluster_boxes(), n);

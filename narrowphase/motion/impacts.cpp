@@ -398,10 +398,10 @@ double earliest_time(const MovingMesh& a, int cluster_a, const MovingMesh& b, in
 }
 
 std::span<const ClusterPair> PassingClusters::find(const MovingMesh& a, const MovingMesh& b, double reach,
-                                                   EmbreeDevice& device) {
+                                                   const base::Tuning& tuning, EmbreeDevice& device) {
   return finder_.find(
       *a.mesh, [&](int c) { return base::grown(a.cluster_box(c), reach); },  //
-      *b.mesh, [&](int c) { return b.cluster_box(c); }, b.box(), device);
+      *b.mesh, [&](int c) { return b.cluster_box(c); }, b.box(), tuning, device);
 }
 
 struct ImpactFinder::Memory : SearchMemory {};

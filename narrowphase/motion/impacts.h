@@ -69,7 +69,8 @@ double earliest_time(const MovingMesh& a, int cluster_a, const MovingMesh& b, in
 /// The cluster pairs of two meshes, or of one twice, that come within `reach` (metres) of each other on their ways.
 class PassingClusters {
  public:
-  std::span<const ClusterPair> find(const MovingMesh& a, const MovingMesh& b, double reach, EmbreeDevice& device);
+  std::span<const ClusterPair> find(const MovingMesh& a, const MovingMesh& b, double reach, const base::Tuning& tuning,
+                                    EmbreeDevice& device);
 
  private:
   ClusterPairFinder finder_;

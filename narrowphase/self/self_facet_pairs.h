@@ -13,7 +13,7 @@ namespace tact::narrowphase {
 /// The pairs of clusters of a mesh whose boxes overlap, the smaller first; each cluster with itself is one.
 class SelfClusters {
  public:
-  std::span<const ClusterPair> find(const ClusteredMesh& mesh, EmbreeDevice& device);
+  std::span<const ClusterPair> find(const ClusteredMesh& mesh, const base::Tuning& tuning, EmbreeDevice& device);
 
  private:
   ClusterPairFinder finder_;

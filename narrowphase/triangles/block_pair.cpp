@@ -3,30 +3,12 @@
 #include <algorithm>
 #include <bit>
 
-#include "engine/base/fast_paths.h"
 #include "narrowphase/triangles/lattice.h"
 #include "narrowphase/triangles/triangle_triangle.h"
 
 namespace tact::narrowphase {
 
 namespace {
-
-// From so many pairs on it is worth making floats of all corners of two blocks.
-constexpr int kWorthFloats = 32;
-
-// A facet whose box overlaps so many others asks its plane which of them it leaves aside; deciding fewer is as cheap.
-constexpr int kWorthAPlane = 6;
-
-using base::fast_paths;
-using base::FastPaths;
-
-bool worth_floats(std::int64_t pairs) {
-  if (fast_paths() == FastPaths::automatic) return pairs >= kWorthFloats;
-  return fast_paths() == FastPaths::always;
-}
-
-// From how many facets on a plane is asked.
-int worth_a_plane() { return fast_paths() == FastPaths::automatic ? kWorthAPlane : 1; }
 
 std::int16_t cell(const Grid& grid, int axis, double x) {
   return static_cast<std::int16_t>(std::clamp((x - grid.origin[axis]) * grid.scale[axis], 0.0, kLastCell));
@@ -60,8 +42,8 @@ CellBox cells_of(const Grid& grid, const BoxBounds& box) {
 
 // By the cells of their boxes, by the planes of the fewer facets, then many pairs at a time.
 void BlockPair::find_meeting(const FacetBlock& a, std::uint64_t of_a, const FacetBlock& b, std::uint64_t of_b,
-                             const BoxBounds& bounds, const Grid& grid, std::vector<FacetPair>& found,
-                             ConfirmCounts& counts) {
+                             const BoxBounds& bounds, const Grid& grid, const base::Tuning& tuning,
+                             std::vector<FacetPair>& found, ConfirmCounts& counts) {
   const bool few_are_b = std::popcount(of_b) < std::popcount(of_a);
   const SharedCells shared = few_are_b ? kernels().share_cells(b.cells, of_b, a.cells, of_a, met_)
                                        : kernels().share_cells(a.cells, of_a, b.cells, of_b, met_);
@@ -69,8 +51,9 @@ void BlockPair::find_meeting(const FacetBlock& a, std::uint64_t of_a, const Face
   if (shared.pairs == 0) return;
   a_ = &a;
   b_ = &b;
+  decides_many_ = tuning.decides_many;
   bounds_ = bounds;
-  const Grid unit = choose_digits(worth_floats(shared.pairs));
+  const Grid unit = choose_digits(static_cast<std::size_t>(shared.pairs) >= tuning.worth_floats);
   if (in_floats_) {
     kernels().float_corners(a, of_a, unit, &floats_a_);
     kernels().float_corners(b, of_b, unit, &floats_b_);
@@ -78,7 +61,7 @@ void BlockPair::find_meeting(const FacetBlock& a, std::uint64_t of_a, const Face
   }
   if (in_floats_ && !exact_) {
     const FloatCorners &few = few_are_b ? floats_b_ : floats_a_, &many = few_are_b ? floats_a_ : floats_b_;
-    kernels().leave_aside(few, shared.facets, many, gap_, 0.0f, worth_a_plane(), met_);
+    kernels().leave_aside(few, shared.facets, many, gap_, 0.0f, static_cast<int>(tuning.worth_a_plane), met_);
   }
   for (std::uint64_t left = shared.facets; left != 0;) {
     pairs_.count = 0;
@@ -122,7 +105,7 @@ PairMatches BlockPair::matches_of_listed() const {
   const FacetBlock &a = *a_, &b = *b_;
   PairMatches all;
   all.undecided = ~std::uint64_t{0} >> (FacetPairList::kCapacity - pairs_.count);
-  if (fast_paths() == FastPaths::off) return all;
+  if (!decides_many_) return all;
   if (exact_) {
     return in_floats_ ? kernels().match_exact_float_pairs(floats_a_, floats_b_, pairs_)
                       : kernels().match_exact_pairs(a, b, pairs_);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/tuning.h"
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/numeric/predicates.h"
 
@@ -36,7 +37,8 @@ class BlockPair {
   // facets lie in the box `bounds`. Their cells are those of `grid`, into the box of which each facet's reaches: so
   // boxes that share cells are less than a cell apart.
   void find_meeting(const FacetBlock& a, std::uint64_t of_a, const FacetBlock& b, std::uint64_t of_b,
-                    const BoxBounds& bounds, const Grid& grid, std::vector<FacetPair>& found, ConfirmCounts& counts);
+                    const BoxBounds& bounds, const Grid& grid, const base::Tuning& tuning,
+                    std::vector<FacetPair>& found, ConfirmCounts& counts);
 
   // A bit for each of the listed pairs that meets, all of them in the box `bounds`: in doubles, then exactly.
   std::uint64_t meeting_of(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
@@ -49,6 +51,7 @@ class BlockPair {
 
   const FacetBlock* a_ = nullptr;
   const FacetBlock* b_ = nullptr;
+  bool decides_many_ = true;
   BoxBounds bounds_ = {};
   std::uint64_t met_[FacetBlock::kCapacity];  // of each facet of the one block, those of the other that it may meet
   FacetPairList pairs_;                       // some of these, to be decided together

@@ -15,10 +15,11 @@ class ClusterPairFinder {
   /// each pair once, the smaller cluster first. Valid until the next call. Errors: those of find_cluster_pairs().
   template <class BoxOfA, class BoxOfB>
   std::span<const ClusterPair> find(const ClusteredMesh& a, const BoxOfA& box_of_a, const ClusteredMesh& b,
-                                    const BoxOfB& box_of_b, const Box& all_of_b, EmbreeDevice& device) {
+                                    const BoxOfB& box_of_b, const Box& all_of_b, const base::Tuning& tuning,
+                                    EmbreeDevice& device) {
     keep(a, box_of_a, all_of_b, kept_a_);
     keep(b, box_of_b, kept_a_.bounds, kept_b_);
-    find_cluster_pairs(kept_a_, kept_b_, ClusterPairSource::automatic, device, pairs_, work_);
+    find_cluster_pairs(kept_a_, kept_b_, tuning, device, pairs_, work_);
     for (ClusterPair& pair : pairs_) pair = {kept_a_.cluster[pair.a], kept_b_.cluster[pair.b]};
     if (&a == &b) std::erase_if(pairs_, [](const ClusterPair& pair) { return pair.b < pair.a; });
     return pairs_;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "engine/base/fast_paths.h"
-
 namespace tact::narrowphase {
 
 namespace {
@@ -12,40 +10,21 @@ namespace {
 // Pairs of boxes, up to which all are compared, at half a nanosecond to one each; of more, runs of boxes first, which
 // of 8,000 boxes and 1,300 leaves 0.3 ms where a tree over the boxes themselves took 1.1 (tact-bench rivals, drape 606
 // k).
-constexpr std::int64_t kFewBoxPairs = 4096;
-// From so many on the runs are found by trees.
-constexpr std::int64_t kLargestLoop = std::int64_t{1} << 20;
+constexpr std::size_t kFewBoxPairs = 4096;
 
-// Two blocks of so many facets are paired at once; of more, those near the other are looked for first.
-constexpr int kFewInBlocks = 48;
-
-// From so many cluster pairs on, two bodies are taken to lie on each other if one of them keeps a quarter of its
-// clusters (tact-bench rivals: cloth 13 k 1.2 times as fast, sheets in layers 2.5; but two of 500 k, in shallow
-// overlap, 0.87) and a cluster has few others near it: those of a soup have hundreds, and no plane separates them.
-constexpr std::size_t kWorthAsSurfaces = 128, kMostNeighbours = 16;
+// Two bodies are taken to lie on each other if one of them keeps a quarter of its clusters (tact-bench rivals: cloth
+// 13 k 1.2 times as fast, sheets in layers 2.5; but two of 500 k, in shallow overlap, 0.87) and a cluster has few
+// others near it: those of a soup have hundreds, and no plane separates them.
+constexpr std::size_t kMostNeighbours = 16;
 constexpr int kMostOfBody = 4;
-
-using base::fast_paths;
-using base::FastPaths;
-
-bool worth_trees(std::int64_t box_pairs) {
-  if (fast_paths() == FastPaths::automatic) return box_pairs > kLargestLoop;
-  return fast_paths() == FastPaths::always;
-}
-
-bool worth_looking_for_near_facets(int facets) {
-  if (fast_paths() == FastPaths::automatic) return facets > kFewInBlocks;
-  return fast_paths() == FastPaths::always;
-}
 
 }  // namespace
 
-bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPairSource source, EmbreeDevice& device,
+bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, const base::Tuning& tuning, EmbreeDevice& device,
                         std::vector<ClusterPair>& pairs, ClusterPairWork& work) {
   pairs.clear();
-  const std::int64_t all = static_cast<std::int64_t>(a.count()) * b.count();
-  const bool forest =
-      source == ClusterPairSource::forest || (source == ClusterPairSource::automatic && worth_trees(all));
+  const std::size_t all = a.cluster.size() * b.cluster.size();
+  const bool forest = all > tuning.largest_loop;
   if (all == 0) return false;
   if (forest || all > kFewBoxPairs) {
     work.join.run(a.boxes, a.count(), b.boxes, b.count(), forest ? RunJoin::Runs::forest : RunJoin::Runs::loop, device,
@@ -73,7 +52,7 @@ void turn(std::vector<ClusterPair>& pairs, int clusters, ClusterPairWork& work) 
 }
 
 bool worth_as_surfaces(const ConfirmInput& input, std::size_t cluster_pairs) {
-  if (fast_paths() == FastPaths::off || cluster_pairs < kWorthAsSurfaces) return false;
+  if (cluster_pairs < input.tuning->worth_as_surfaces) return false;
   const int kept_a = input.kept_a->count(), kept_b = input.kept_b->count();
   return cluster_pairs <= kMostNeighbours * static_cast<std::size_t>(std::max(kept_a, kept_b)) &&
          (kMostOfBody * kept_a >= input.a->cluster_count() || kMostOfBody * kept_b >= input.b->cluster_count());
@@ -118,7 +97,7 @@ void FacetPairSearch::run(const ConfirmInput& input, const std::vector<ClusterPa
 bool FacetPairSearch::reaches_b(const ConfirmInput& input, std::int32_t index, const Box& box, const CellBox& cells) {
   const PlaceInB place = open_b(input, index);
   if (place.facets == 0) return false;
-  if (fast_paths() == FastPaths::off) return true;
+  if (!input.tuning->asks_near_facets) return true;
   const Box both = merged(input.kept_b->boxes[index], box);
   const FacetBlock& block = b_[place.block]->kept.block;
   return kernels().any_near(block, place.facets, cells, bounds_of(box), bounds_of(both));
@@ -180,7 +159,7 @@ void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b
                                   ConfirmCounts& counts) {
   std::uint64_t near_a = a_.facets, near_b = b.facets;
   kernels().find_cells(grid_, &a_.block);
-  if (worth_looking_for_near_facets(a_.block.count + b.block.count)) {
+  if (static_cast<std::size_t>(a_.block.count + b.block.count) > input.tuning->few_in_blocks) {
     const CellBox common = cells_of(grid_, bounds_of(intersection(a_.bounds, b.bounds)));
     near_b = kernels().near_facets(b.block.cells, near_b, common);
     if (near_b == 0) return;
@@ -188,7 +167,7 @@ void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b
   }
   const std::size_t before = found.size();
   const BoxBounds bounds = bounds_of(merged(a_.bounds, b.bounds));
-  block_pair_.find_meeting(a_.block, near_a, b.block, near_b, bounds, grid_, found, counts);
+  block_pair_.find_meeting(a_.block, near_a, b.block, near_b, bounds, grid_, *input.tuning, found, counts);
   for (std::size_t i = before; i < found.size(); ++i) {
     FacetPair& pair = found[i];
     pair = {input.a->source_facet(a_.block.facet[pair.a]), input.b->source_facet(b.block.facet[pair.b])};

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/base/tuning.h"
 #include "narrowphase/criteria/criteria.h"
 #include "narrowphase/triangles/block_pair.h"
 #include "narrowphase/triangles/cluster_forest.h"
@@ -15,9 +16,6 @@
 #include "narrowphase/triangles/surface_pairs.h"
 
 namespace tact::narrowphase {
-
-// Where cluster pairs come from.
-enum class ClusterPairSource { automatic, loop, forest };
 
 // Memory for finding cluster pairs, used again and again.
 struct ClusterPairWork {
@@ -28,7 +26,7 @@ struct ClusterPairWork {
 
 // The pairs of kept clusters whose boxes overlap, sorted: by a loop over boxes where they are few, by Embree's trees
 // where they are many. Says whether trees were used. `pairs` is replaced, `work` lends its memory.
-bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, ClusterPairSource source, EmbreeDevice& device,
+bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, const base::Tuning& tuning, EmbreeDevice& device,
                         std::vector<ClusterPair>& pairs, ClusterPairWork& work);
 
 // The same pairs with A and B exchanged, sorted again. There are `clusters` kept clusters of B.

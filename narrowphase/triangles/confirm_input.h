@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "engine/base/tuning.h"
 #include "narrowphase/criteria/criteria.h"
 
 namespace tact::narrowphase {
@@ -18,6 +19,7 @@ struct ConfirmInput {
   const KeptClusters* kept_b = nullptr;
   bool as_surfaces = false;           // see surface_pairs.h; without criterion 1 and zones only
   SurfaceHistory* history = nullptr;  // of the pair, if it is kept: it has started
+  const base::Tuning* tuning = &base::kTuning;
 };
 
 // A cluster of A and one of B whose boxes overlap: indices into kept_a and kept_b.

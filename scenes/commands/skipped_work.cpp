@@ -28,13 +28,13 @@ class Ledger {
 };
 
 void add_pairs(const StepStats& s, Ledger& ledger) {
-  const std::int64_t moved = s.candidate_pairs - s.kept_pairs, looked_at = moved - s.parted_pairs;
+  const std::int64_t moved = s.candidate_pairs - s.kept_pairs, looked_at = moved - s.kdop_separated_pairs;
   const Mean pair{s.hulls_ms + s.direction_ms + s.cull_ms + s.confirm_ms, moved, "stages 3 to 6 of a pair"};
-  const Mean hulls{s.hulls_ms - s.parting_ms, looked_at, "stage 3 of a pair that no diagonal parts"};
+  const Mean hulls{s.hulls_ms - s.kdop_ms, looked_at, "stage 3 of a pair that no axis of the 18-DOPs separates"};
   const Mean gjk{s.gjk_ms, looked_at - s.still_separated_pairs - s.still_overlapping_pairs, "GJK of a pair"};
   ledger.add("pairs excluded", s.excluded_pairs, "by layer, or both bodies are fixed", pair);
   ledger.add("pairs kept", s.kept_pairs, "neither body moved", pair);
-  ledger.add("pairs parted", s.parted_pairs, "apart along a diagonal of a cube's face", hulls);
+  ledger.add("pairs separated", s.kdop_separated_pairs, "an axis of the 18-DOPs separates them", hulls);
   ledger.add("GJK, apart", s.still_separated_pairs, "the last direction still separates the hulls", gjk);
   ledger.add("GJK, overlapping", s.still_overlapping_pairs, "the last vertices still show the overlap", gjk);
 }

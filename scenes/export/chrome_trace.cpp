@@ -26,13 +26,13 @@ const char* kind_name(Kind kind) {
     case Kind::confirm: return "6 confirm";
     case Kind::range: return "6 range";
     case Kind::small_pairs: return "small pairs";
-    case Kind::parted_pairs: return "parted pairs";
+    case Kind::kdop_separated_pairs: return "separated pairs";
     case Kind::report: return "7 report";
   }
   return "unknown";
 }
 
-bool has_pairs(Kind kind) { return kind == Kind::small_pairs || kind == Kind::parted_pairs; }
+bool has_pairs(Kind kind) { return kind == Kind::small_pairs || kind == Kind::kdop_separated_pairs; }
 bool has_facet_pairs(Kind kind) { return kind == Kind::pair || kind == Kind::confirm || kind == Kind::range; }
 
 Json nonzero_stats_json(const StepStats& stats) {

@@ -18,7 +18,7 @@
 //          6 range: a part of 6 confirm of a        a, b, facet_pairs
 //            pair so large that all threads share it
 //          small pairs: the others between these    pairs
-//          parted pairs: those that diagonals part  pairs
+//          separated pairs: those that 18-DOPs separate  pairs
 #pragma once
 
 #include <tact/trace.h>

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   const int threads = argc > 1 ? std::atoi(argv[1]) : 0;
   int different = 0;
   for (const tact::tests::HashScene& scene : tact::tests::hash_scenes()) {
-    const std::uint64_t hash = scene.play(threads);
+    const std::uint64_t hash = scene.play(threads).answers;
     std::printf("%-16s 0x%016" PRIx64 "%s\n", scene.name, hash, hash == scene.expected ? "" : "  differs");
     different += hash == scene.expected ? 0 : 1;
   }

@@ -14,7 +14,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/fast_paths.h"
 #include "tests/support/allocation_hook.h"
 #include "tests/support/body_pairs.h"
 #include "tests/support/clustered.h"
@@ -326,7 +325,7 @@ TEST(Allocation, ThatFailsWhileSmallBodiesArePackedLeavesAUsableWorld) {
     std::vector<PositionsUpdate> updates;
     for (std::size_t i = 0; i < ids.size(); ++i) updates.push_back({ids[i], after[i].positions});
     const Outcome outcome = call_short_of_memory(number, false, [&] { world.set_positions(updates); });
-    if (number == 0 && base::fast_paths() != base::FastPaths::off) {
+    if (number == 0) {
       EXPECT_EQ(outcome, Outcome::failed_unnoticed);  // the first that packing takes
     }
     if (outcome == Outcome::threw) world.set_positions(updates);
@@ -338,7 +337,6 @@ TEST(Allocation, ThatFailsWhileSmallBodiesArePackedLeavesAUsableWorld) {
 // Many small bodies are put next to each other by the first batch after they came, and again after a third of them
 // went.
 TEST(Allocation, ManySmallBodiesArePackedOnce) {
-  if (base::fast_paths() != base::FastPaths::automatic) GTEST_SKIP() << "decided by TACT_FAST_PATHS";
   const Mesh mesh = icosphere(1);
   World world({.threads = 1});
   std::vector<BodyId> ids = add_bodies(world, std::vector<Mesh>(100, mesh));

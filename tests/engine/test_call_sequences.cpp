@@ -5,6 +5,7 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <ostream>
@@ -13,6 +14,7 @@
 
 #include "tests/support/detection.h"
 #include "tests/support/generators.h"
+#include "tests/support/tunings.h"
 
 namespace tact::tests {
 
@@ -76,6 +78,8 @@ struct BodyAndMesh {
 // A world and what it should hold.
 class Model {
  public:
+  explicit Model(const base::Tuning& tuning) { world_.set_tuning(tuning); }
+
   void apply(const Change& change) {
     Random random(static_cast<std::uint64_t>(change.seed));
     const Vec3 by = random.in_cube(1.0);  // first: the order of arguments is the compiler's
@@ -167,7 +171,8 @@ class Model {
 TEST(CallSequences, LeaveAWorldThatAnswersAsAFreshOne) {
   setenv("RC_PARAMS", "seed=1 max_success=400 max_size=100", 0);
   EXPECT_TRUE(rc::check("after any calls a world answers as a fresh one", [](const std::vector<Change>& changes) {
-    Model model;
+    constexpr std::array kWays{base::kTuning, kPlain, base::kTuning, kForced};
+    Model model(kWays[*rc::gen::inRange<std::size_t>(0, kWays.size())]);
     for (const Change& change : changes) model.apply(change);
     model.detect();
   }));

@@ -7,7 +7,6 @@
 
 #include "tests/support/body_pairs.h"
 #include "tests/support/detection.h"
-#include "tests/support/environment.h"
 #include "tests/support/generators.h"
 #include "tests/support/messy_soups.h"
 
@@ -245,7 +244,7 @@ TEST(FacetPairs, OfVeryLargeBodiesEqualOracle) {
     EXPECT_TRUE(same_meeting_bodies(meeting_bodies_by_oracle(soups), meeting_bodies(report, ids)));
     EXPECT_TRUE(same_meeting_bodies(meeting_bodies_by_oracle(sheets), meeting_bodies(other_report, other_ids)));
     EXPECT_GT(report.stats().cluster_pairs, 4096);  // or the test would not show what it is for
-    EXPECT_EQ(other_report.stats().tree_pairs, fast_paths_are("off") ? 0 : 1);
+    EXPECT_EQ(other_report.stats().tree_pairs, 1);
   }
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/base/fast_paths.h"
 #include "tests/support/allocation_hook.h"
 #include "tests/support/generators.h"
 #include "tests/support/motion_by_brute_force.h"
@@ -298,7 +297,6 @@ TEST(DetectMotion, ASolverThatStopsBeforeImpactsSettlesWithinTheMargins) {
 }
 
 TEST(DetectMotion, SteadyStepsAllocateNothing) {
-  if (base::fast_paths() != base::FastPaths::automatic) GTEST_SKIP() << "decided by TACT_FAST_PATHS";
   const Couple couple = couples()[0];
   tact::World world({.threads = 1});
   const BodyId a = world.add_body({.positions = couple.a.begin.positions, .facets = couple.a.begin.facets});

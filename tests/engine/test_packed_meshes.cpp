@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "engine/base/fast_paths.h"
 #include "engine/packed_meshes.h"
 #include "narrowphase/mesh/refit.h"
 #include "tests/support/clustered.h"
@@ -78,35 +77,34 @@ TEST_F(Packing, MeshesStayWhatTheyAre) {
 }
 
 TEST_F(Packing, IsDueWhereManyAreOutOfPlace) {
-  if (base::fast_paths() != base::FastPaths::automatic) GTEST_SKIP() << "decided by TACT_FAST_PATHS";
   add(60);
-  EXPECT_FALSE(packed_.is_due());  // few
+  EXPECT_FALSE(packed_.is_due(base::kTuning));  // few
   add(60);
-  EXPECT_TRUE(packed_.is_due());
+  EXPECT_TRUE(packed_.is_due(base::kTuning));
   pack();
-  EXPECT_FALSE(packed_.is_due());
+  EXPECT_FALSE(packed_.is_due(base::kTuning));
   add(50);
-  EXPECT_FALSE(packed_.is_due());
+  EXPECT_FALSE(packed_.is_due(base::kTuning));
   add(20);
-  EXPECT_TRUE(packed_.is_due());
+  EXPECT_TRUE(packed_.is_due(base::kTuning));
   pack();
   remove_last(40);
-  EXPECT_FALSE(packed_.is_due());
+  EXPECT_FALSE(packed_.is_due(base::kTuning));
   remove_last(40);
-  EXPECT_TRUE(packed_.is_due());
+  EXPECT_TRUE(packed_.is_due(base::kTuning));
   pack();
   add(200);
   pack();
   remove_last(static_cast<int>(meshes_.size()) - 10);
-  EXPECT_TRUE(packed_.is_due());  // few, but in a large piece of memory
+  EXPECT_TRUE(packed_.is_due(base::kTuning));  // few, but in a large piece of memory
   packed_.put_off();
-  EXPECT_FALSE(packed_.is_due());
+  EXPECT_FALSE(packed_.is_due(base::kTuning));
   remove_last(1);
-  EXPECT_TRUE(packed_.is_due());
+  EXPECT_TRUE(packed_.is_due(base::kTuning));
   remove_last(9);
-  EXPECT_FALSE(packed_.is_due());  // none, and no memory
+  EXPECT_FALSE(packed_.is_due(base::kTuning));  // none, and no memory
   add(10);
-  EXPECT_FALSE(packed_.is_due());
+  EXPECT_FALSE(packed_.is_due(base::kTuning));
 }
 
 TEST_F(Packing, LeavesOutAMeshOfManyVerticesThatItDoesNotUse) {

@@ -3,6 +3,10 @@
 #include <tact/tact.h>
 
 #include <array>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/body_pairs.h"
@@ -11,6 +15,42 @@
 
 namespace tact::tests {
 namespace {
+
+// The fields of StepStats as its header documents them: name and comment.
+std::vector<std::pair<std::string, std::string>> documented_fields() {
+  std::ifstream header(TACT_SOURCE_DIR "/engine/include/tact/statistics.h");
+  const std::regex field(R"(^  (?:std::int64_t|double) (\w+) = 0(?:\.0)?;(?:  +///< (.*))?$)"),
+      comment(R"(^  /// (.*)$)");
+  std::vector<std::pair<std::string, std::string>> fields;
+  std::string line, above;
+  while (std::getline(header, line) && line != "};") {
+    std::smatch match;
+    if (std::regex_match(line, match, field)) fields.emplace_back(match[1], match[2].matched ? match[2].str() : above);
+    above = std::regex_match(line, match, comment) ? match[1].str() : "";
+  }
+  return fields;
+}
+
+TEST(Statistics, TablesHoldEveryFieldAsItIsDocumented) {
+  std::vector<std::pair<std::string, std::string>> listed;
+  StepStats stats;
+  double next = 1.0;
+  for (const auto& field : kStepCounts) {
+    listed.emplace_back(field.name, field.text);
+    stats.*field.value = static_cast<std::int64_t>(next++);
+  }
+  for (const auto& field : kStepTimes) {
+    listed.emplace_back(field.name, field.text);
+    stats.*field.value = next++;
+  }
+  EXPECT_EQ(listed, documented_fields());
+  EXPECT_EQ(sizeof(StepStats), 8 * listed.size());
+  double expected = 1.0;  // no member is listed twice
+  for_each_count(stats, [&](const char* name, const char*, std::int64_t value) {
+    EXPECT_EQ(static_cast<double>(value), expected++) << name;
+  });
+  for_each_time(stats, [&](const char* name, const char*, double value) { EXPECT_EQ(value, expected++) << name; });
+}
 
 const Mesh kSphere = icosphere(2);  // 162 vertices
 

@@ -99,18 +99,19 @@ TEST(Trace, TellsOfEveryPairOnce) {
     const Report& report = world.detect();
     std::int64_t pairs = 0;
     for (const TraceEvent& event : events_of(report, Kind::small_pairs)) pairs += event.count;
-    const std::vector<TraceEvent> parted = events_of(report, Kind::parted_pairs);
-    ASSERT_EQ(parted.size(), 1u);
-    EXPECT_EQ(parted[0].count, report.stats().parted_pairs);
-    EXPECT_GT(parted[0].count, 0);
-    pairs += parted[0].count;
+    const std::vector<TraceEvent> separated = events_of(report, Kind::kdop_separated_pairs);
+    ASSERT_EQ(separated.size(), 1u);
+    EXPECT_EQ(separated[0].count, report.stats().kdop_separated_pairs);
+    EXPECT_GT(separated[0].count, 0);
+    pairs += separated[0].count;
     EXPECT_TRUE(is_nested(report.trace()));
     std::set<std::pair<BodyId, BodyId>> long_pairs;
     for (const TraceEvent& event : events_of(report, Kind::pair)) long_pairs.insert({event.a, event.b});
     EXPECT_EQ(pairs + static_cast<std::int64_t>(long_pairs.size()), report.stats().candidate_pairs);
     const TraceEvent narrow_phase = events_of(report, Kind::narrow_phase).at(0);
     for (const TraceEvent& event : report.trace()) {
-      if (event.kind != Kind::pair && event.kind != Kind::small_pairs && event.kind != Kind::parted_pairs) continue;
+      if (event.kind != Kind::pair && event.kind != Kind::small_pairs && event.kind != Kind::kdop_separated_pairs)
+        continue;
       EXPECT_LT(event.thread, threads);
       EXPECT_GE(event.begin, narrow_phase.begin);
       EXPECT_LE(event.end, narrow_phase.end);

@@ -7,12 +7,18 @@
 
 namespace tact::tests {
 
+/// Hashes of all reports of a scene, folded into one.
+struct SceneHashes {
+  std::uint64_t answers = 0;  ///< Report::hash()
+  std::uint64_t work = 0;     ///< work_hash(): the same for any number of threads; changes where more work is saved
+  friend bool operator==(const SceneHashes&, const SceneHashes&) = default;
+};
+
 struct HashScene {
   const char* name;
-  // Plays the scene and folds the hashes of its reports into one.
-  std::uint64_t (*play)(int threads);
-  // What play() returned when the scene was last looked at. A change of the engine that changes an answer on purpose,
-  // or the number of iterations or kept facets, changes it: hash_program prints the new ones.
+  SceneHashes (*play)(int threads);
+  /// The answers when the scene was last looked at. Only a change that alters an answer on purpose changes it:
+  /// hash_program prints the new ones.
   std::uint64_t expected;
 };
 

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/world_tuning.h"
+
 namespace tact::tests {
 
 // A world that keeps its recording. When the first assertion of a test fails, the recordings of the few worlds
@@ -20,6 +22,8 @@ class RecordedWorld : public tact::World {
   explicit RecordedWorld(const Settings& settings = {});
 
   const Report& detect();
+  // Is no part of a recording, as no answer depends on it.
+  void set_tuning(const base::Tuning& tuning) { WorldTuning::set(*this, tuning); }
 
   // The recording so far, see tact/recording.h; empty if it grew too long.
   std::string recording() const { return recording_->str(); }

@@ -16,6 +16,7 @@
 #include "tests/support/body_pairs.h"
 #include "tests/support/detection.h"
 #include "tests/support/generators.h"
+#include "tests/support/work_hash.h"
 
 namespace tact::tests {
 namespace {
@@ -28,7 +29,9 @@ std::vector<std::uint64_t> hashes_of_crowd(std::uint64_t seed, int threads) {
   const std::vector<BodyId> ids = add_bodies(world, bodies);
   std::vector<std::uint64_t> hashes;
   for (int step = 0; step < 5; ++step) {
-    hashes.push_back(world.detect().hash());
+    const Report& report = world.detect();
+    hashes.push_back(report.hash());
+    hashes.push_back(work_hash(report));
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       bodies[i] = translated(bodies[i], {0.03125, 0.0625, -0.03125 * static_cast<double>(i % 3)});
       world.set_positions(ids[i], bodies[i].positions);

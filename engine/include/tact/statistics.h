@@ -5,87 +5,154 @@
 
 namespace tact {
 
-// Every count of a step, with a sentence on each: the one list that printing, JSON, CSV and averages are made from.
-// facet_box_pairs, triangle_tests and exact_predicates depend on how a large pair is shared, and so on threads.
-#define TACT_STEP_COUNTS(X)                                                                               \
-  X(bodies, "bodies in the world")                                                                        \
-  X(moved_bodies, "bodies that were added or whose positions, layers or motion changed")                  \
-  X(vertices, "vertices of the bodies in the world")                                                      \
-  X(moved_vertices, "vertices of the moved bodies")                                                       \
-  X(regrouped_bodies, "moved bodies whose clusters had lost their shape: their facets were grouped anew") \
-  X(excluded_pairs, "overlapping boxes, one moved, that layers, groups or two fixed bodies exclude")      \
-  X(named_excluded_pairs, "overlapping boxes of pairs that World::set_excluded() excludes")               \
-  X(candidate_pairs, "pairs of bodies whose boxes overlap")                                               \
-  X(kept_pairs, "candidate pairs in which neither body moved: the last result was kept")                  \
-  X(parted_pairs, "new pairs, or apart before, that are apart along a diagonal of a cube's face")         \
-  X(still_separated_pairs, "pairs that the last separating direction still separates")                    \
-  X(still_overlapping_pairs, "pairs whose hulls the last step's vertices still show to overlap")          \
-  X(separated_pairs, "other pairs whose hulls GJK found to be apart")                                     \
-  X(contacts, "pairs whose hulls overlap")                                                                \
-  X(carried_directions, "contact directions found from the last step's")                                  \
-  X(fresh_directions, "contact directions found from the one that separated the hulls before")            \
-  X(smallest_directions, "contact directions that are the smallest separation")                           \
-  X(direction_iterations, "shifted calls of GJK")                                                         \
-  X(gjk_iterations, "support queries of GJK, a vertex of each body")                                      \
-  X(limits_reached, "pairs in which GJK or the direction stopped at a limit")                             \
-  X(clusters, "clusters of the bodies in contact, once a contact")                                        \
-  X(clusters_outside_box, "clusters dropped whole: outside the box of what is left of the other")         \
-  X(clusters_outside_slab, "clusters dropped whole by criterion 2, outside the slab")                     \
-  X(opened_clusters, "clusters of which a cluster of the other body is near")                             \
-  X(opened_facets, "facets of the opened clusters: those dropped next, and those kept")                   \
-  X(facets, "facets of the bodies in contact, once a contact")                                            \
-  X(facets_facing_away, "facets dropped by criterion 1, facing away (paper only)")                        \
-  X(facets_outside_slab, "facets dropped by criterion 2, outside the slab")                               \
-  X(facets_outside_box, "other facets dropped: outside the box of what is left of the other")             \
-  X(facets_outside_zone, "facets dropped by criterion 3, outside the impact zone")                        \
-  X(kept_facets, "facets left after the criteria")                                                        \
-  X(cluster_pairs, "pairs of clusters whose boxes overlap")                                               \
-  X(tree_pairs, "contacts whose cluster pairs were found by trees rather than a plain loop")              \
-  X(facet_box_pairs, "pairs of facets whose boxes overlap or nearly do")                                  \
-  X(triangle_tests, "pairs of facets that doubles could not decide")                                      \
-  X(exact_predicates, "orientation predicates that needed integers")                                      \
-  X(facet_pairs, "pairs of facets that meet")                                                             \
-  X(touching_contacts, "contacts with at least one facet pair")
-
-// Every time of a step, in milliseconds. The stages 3 to 6 run pair by pair on all threads: theirs are sums over
-// threads.
-#define TACT_STEP_TIMES(X)                                                                         \
-  X(refresh_ms, "stage 1: setting positions since the last step, and grouping facets anew")        \
-  X(regroup_ms, "the part of stage 1 in which facets were grouped anew")                           \
-  X(sweep_ms, "stage 2: candidate pairs")                                                          \
-  X(hulls_ms, "stage 3: do the hulls overlap, summed over threads; and from one pair to the next") \
-  X(parting_ms, "the part of stage 3 in which diagonals are asked, once for all threads")          \
-  X(gjk_ms, "that part of stage 3 in which pairs needed GJK")                                      \
-  X(direction_ms, "stage 4: contact direction and depth, summed over threads")                     \
-  X(cull_ms, "stage 5: zones and criteria, summed over threads")                                   \
-  X(confirm_ms, "stage 6: facet pairs, summed over threads")                                       \
-  X(narrow_phase_ms, "stages 3 to 6 together and patches, wall time")                              \
-  X(report_ms, "stage 7: the report")                                                              \
-  X(total_ms, "the whole step, refresh included")
-
+/// Counts and times of one step. facet_box_pairs, triangle_tests and exact_predicates depend on how a large pair is
+/// shared out, and so on the number of threads; all other counts do not.
 struct StepStats {
-#define TACT_FIELD(name, text) std::int64_t name = 0;
-  TACT_STEP_COUNTS(TACT_FIELD)
-#undef TACT_FIELD
-#define TACT_FIELD(name, text) double name = 0.0;
-  TACT_STEP_TIMES(TACT_FIELD)
-#undef TACT_FIELD
+  std::int64_t bodies = 0;          ///< bodies in the world
+  std::int64_t moved_bodies = 0;    ///< bodies that were added or whose positions, layers or motion changed
+  std::int64_t vertices = 0;        ///< vertices of the bodies in the world
+  std::int64_t moved_vertices = 0;  ///< vertices of the moved bodies
+  /// moved bodies whose clusters had lost their shape: their facets were grouped anew
+  std::int64_t regrouped_bodies = 0;
+  /// overlapping boxes, one moved, that layers, groups or two fixed bodies exclude
+  std::int64_t excluded_pairs = 0;
+  std::int64_t named_excluded_pairs = 0;   ///< overlapping boxes of pairs that World::set_excluded() excludes
+  std::int64_t candidate_pairs = 0;        ///< pairs of bodies whose boxes overlap
+  std::int64_t kept_pairs = 0;             ///< candidate pairs in which neither body moved: the last result was kept
+  std::int64_t kdop_separated_pairs = 0;   ///< new pairs, or apart before, whose 18-DOPs an axis separates
+  std::int64_t still_separated_pairs = 0;  ///< pairs that the last separating direction still separates
+  /// pairs whose hulls the last step's vertices still show to overlap
+  std::int64_t still_overlapping_pairs = 0;
+  std::int64_t separated_pairs = 0;       ///< other pairs whose hulls GJK found to be apart
+  std::int64_t contacts = 0;              ///< pairs whose hulls overlap
+  std::int64_t carried_directions = 0;    ///< contact directions found from the last step's
+  std::int64_t fresh_directions = 0;      ///< contact directions found from the one that separated the hulls before
+  std::int64_t smallest_directions = 0;   ///< contact directions that are the smallest separation
+  std::int64_t direction_iterations = 0;  ///< shifted calls of GJK
+  std::int64_t gjk_iterations = 0;        ///< support queries of GJK, a vertex of each body
+  std::int64_t limits_reached = 0;        ///< pairs in which GJK or the direction stopped at a limit
+  std::int64_t clusters = 0;              ///< clusters of the bodies in contact, once a contact
+  /// clusters dropped whole: outside the box of what is left of the other
+  std::int64_t clusters_outside_box = 0;
+  std::int64_t clusters_outside_slab = 0;  ///< clusters dropped whole by criterion 2, outside the slab
+  std::int64_t opened_clusters = 0;        ///< clusters of which a cluster of the other body is near
+  std::int64_t opened_facets = 0;          ///< facets of the opened clusters: those dropped next, and those kept
+  std::int64_t facets = 0;                 ///< facets of the bodies in contact, once a contact
+  std::int64_t facets_facing_away = 0;     ///< facets dropped by criterion 1, facing away (paper only)
+  std::int64_t facets_outside_slab = 0;    ///< facets dropped by criterion 2, outside the slab
+  std::int64_t facets_outside_box = 0;     ///< other facets dropped: outside the box of what is left of the other
+  std::int64_t facets_outside_zone = 0;    ///< facets dropped by criterion 3, outside the impact zone
+  std::int64_t kept_facets = 0;            ///< facets left after the criteria
+  std::int64_t cluster_pairs = 0;          ///< pairs of clusters whose boxes overlap
+  std::int64_t tree_pairs = 0;         ///< contacts whose cluster pairs were found by trees rather than a plain loop
+  std::int64_t facet_box_pairs = 0;    ///< pairs of facets whose boxes overlap or nearly do
+  std::int64_t triangle_tests = 0;     ///< pairs of facets that doubles could not decide
+  std::int64_t exact_predicates = 0;   ///< orientation predicates that needed integers
+  std::int64_t facet_pairs = 0;        ///< pairs of facets that meet
+  std::int64_t touching_contacts = 0;  ///< contacts with at least one facet pair
+
+  // Milliseconds. The stages 3 to 6 run pair by pair on all threads: theirs are sums over threads.
+  double refresh_ms = 0.0;       ///< stage 1: setting positions since the last step, and grouping facets anew
+  double regroup_ms = 0.0;       ///< the part of stage 1 in which facets were grouped anew
+  double sweep_ms = 0.0;         ///< stage 2: candidate pairs
+  double hulls_ms = 0.0;         ///< stage 3: do the hulls overlap, summed over threads; and from one pair to the next
+  double kdop_ms = 0.0;          ///< the part of stage 3 in which the 18-DOPs are compared, once for all threads
+  double gjk_ms = 0.0;           ///< the part of stage 3 in which pairs needed GJK
+  double direction_ms = 0.0;     ///< stage 4: contact direction and depth, summed over threads
+  double cull_ms = 0.0;          ///< stage 5: zones and criteria, summed over threads
+  double confirm_ms = 0.0;       ///< stage 6: facet pairs, summed over threads
+  double narrow_phase_ms = 0.0;  ///< stages 3 to 6 together and patches, wall time
+  double report_ms = 0.0;        ///< stage 7: the report
+  double total_ms = 0.0;         ///< the whole step, refresh included
 };
 
-// Calls visit(name, description, value) for every count of `stats`, a std::int64_t each.
+/// A field of StepStats: its name, where it is, and a sentence on it.
+template <class Value>
+struct StepStatsField {
+  const char* name;
+  Value StepStats::*value;
+  const char* text;
+};
+
+/// Every count, in the order of the struct: what printing, JSON, CSV and averages are made from.
+inline constexpr StepStatsField<std::int64_t> kStepCounts[] = {
+    {"bodies", &StepStats::bodies, "bodies in the world"},
+    {"moved_bodies", &StepStats::moved_bodies, "bodies that were added or whose positions, layers or motion changed"},
+    {"vertices", &StepStats::vertices, "vertices of the bodies in the world"},
+    {"moved_vertices", &StepStats::moved_vertices, "vertices of the moved bodies"},
+    {"regrouped_bodies", &StepStats::regrouped_bodies,
+     "moved bodies whose clusters had lost their shape: their facets were grouped anew"},
+    {"excluded_pairs", &StepStats::excluded_pairs,
+     "overlapping boxes, one moved, that layers, groups or two fixed bodies exclude"},
+    {"named_excluded_pairs", &StepStats::named_excluded_pairs,
+     "overlapping boxes of pairs that World::set_excluded() excludes"},
+    {"candidate_pairs", &StepStats::candidate_pairs, "pairs of bodies whose boxes overlap"},
+    {"kept_pairs", &StepStats::kept_pairs, "candidate pairs in which neither body moved: the last result was kept"},
+    {"kdop_separated_pairs", &StepStats::kdop_separated_pairs,
+     "new pairs, or apart before, whose 18-DOPs an axis separates"},
+    {"still_separated_pairs", &StepStats::still_separated_pairs,
+     "pairs that the last separating direction still separates"},
+    {"still_overlapping_pairs", &StepStats::still_overlapping_pairs,
+     "pairs whose hulls the last step's vertices still show to overlap"},
+    {"separated_pairs", &StepStats::separated_pairs, "other pairs whose hulls GJK found to be apart"},
+    {"contacts", &StepStats::contacts, "pairs whose hulls overlap"},
+    {"carried_directions", &StepStats::carried_directions, "contact directions found from the last step's"},
+    {"fresh_directions", &StepStats::fresh_directions,
+     "contact directions found from the one that separated the hulls before"},
+    {"smallest_directions", &StepStats::smallest_directions, "contact directions that are the smallest separation"},
+    {"direction_iterations", &StepStats::direction_iterations, "shifted calls of GJK"},
+    {"gjk_iterations", &StepStats::gjk_iterations, "support queries of GJK, a vertex of each body"},
+    {"limits_reached", &StepStats::limits_reached, "pairs in which GJK or the direction stopped at a limit"},
+    {"clusters", &StepStats::clusters, "clusters of the bodies in contact, once a contact"},
+    {"clusters_outside_box", &StepStats::clusters_outside_box,
+     "clusters dropped whole: outside the box of what is left of the other"},
+    {"clusters_outside_slab", &StepStats::clusters_outside_slab,
+     "clusters dropped whole by criterion 2, outside the slab"},
+    {"opened_clusters", &StepStats::opened_clusters, "clusters of which a cluster of the other body is near"},
+    {"opened_facets", &StepStats::opened_facets, "facets of the opened clusters: those dropped next, and those kept"},
+    {"facets", &StepStats::facets, "facets of the bodies in contact, once a contact"},
+    {"facets_facing_away", &StepStats::facets_facing_away, "facets dropped by criterion 1, facing away (paper only)"},
+    {"facets_outside_slab", &StepStats::facets_outside_slab, "facets dropped by criterion 2, outside the slab"},
+    {"facets_outside_box", &StepStats::facets_outside_box,
+     "other facets dropped: outside the box of what is left of the other"},
+    {"facets_outside_zone", &StepStats::facets_outside_zone, "facets dropped by criterion 3, outside the impact zone"},
+    {"kept_facets", &StepStats::kept_facets, "facets left after the criteria"},
+    {"cluster_pairs", &StepStats::cluster_pairs, "pairs of clusters whose boxes overlap"},
+    {"tree_pairs", &StepStats::tree_pairs, "contacts whose cluster pairs were found by trees rather than a plain loop"},
+    {"facet_box_pairs", &StepStats::facet_box_pairs, "pairs of facets whose boxes overlap or nearly do"},
+    {"triangle_tests", &StepStats::triangle_tests, "pairs of facets that doubles could not decide"},
+    {"exact_predicates", &StepStats::exact_predicates, "orientation predicates that needed integers"},
+    {"facet_pairs", &StepStats::facet_pairs, "pairs of facets that meet"},
+    {"touching_contacts", &StepStats::touching_contacts, "contacts with at least one facet pair"},
+};
+
+/// Every time, milliseconds each.
+inline constexpr StepStatsField<double> kStepTimes[] = {
+    {"refresh_ms", &StepStats::refresh_ms, "stage 1: setting positions since the last step, and grouping facets anew"},
+    {"regroup_ms", &StepStats::regroup_ms, "the part of stage 1 in which facets were grouped anew"},
+    {"sweep_ms", &StepStats::sweep_ms, "stage 2: candidate pairs"},
+    {"hulls_ms", &StepStats::hulls_ms,
+     "stage 3: do the hulls overlap, summed over threads; and from one pair to the next"},
+    {"kdop_ms", &StepStats::kdop_ms, "the part of stage 3 in which the 18-DOPs are compared, once for all threads"},
+    {"gjk_ms", &StepStats::gjk_ms, "the part of stage 3 in which pairs needed GJK"},
+    {"direction_ms", &StepStats::direction_ms, "stage 4: contact direction and depth, summed over threads"},
+    {"cull_ms", &StepStats::cull_ms, "stage 5: zones and criteria, summed over threads"},
+    {"confirm_ms", &StepStats::confirm_ms, "stage 6: facet pairs, summed over threads"},
+    {"narrow_phase_ms", &StepStats::narrow_phase_ms, "stages 3 to 6 together and patches, wall time"},
+    {"report_ms", &StepStats::report_ms, "stage 7: the report"},
+    {"total_ms", &StepStats::total_ms, "the whole step, refresh included"},
+};
+
+/// Calls visit(name, description, value) for every count of `stats`, a std::int64_t each.
 template <class Stats, class Visit>
 void for_each_count(Stats&& stats, Visit&& visit) {
-#define TACT_FIELD(name, text) visit(#name, text, stats.name);
-  TACT_STEP_COUNTS(TACT_FIELD)
-#undef TACT_FIELD
+  for (const auto& field : kStepCounts) visit(field.name, field.text, stats.*field.value);
 }
 
-// Calls visit(name, description, value) for every time of `stats`, a double in milliseconds each.
+/// Calls visit(name, description, value) for every time of `stats`, a double in milliseconds each.
 template <class Stats, class Visit>
 void for_each_time(Stats&& stats, Visit&& visit) {
-#define TACT_FIELD(name, text) visit(#name, text, stats.name);
-  TACT_STEP_TIMES(TACT_FIELD)
-#undef TACT_FIELD
+  for (const auto& field : kStepTimes) visit(field.name, field.text, stats.*field.value);
 }
 
 }  // namespace tact

@@ -8,30 +8,33 @@
 
 namespace tact {
 
-// A stretch of one thread's work. Those of a thread lie in each other or apart.
+/// A stretch of one thread's work. Those of a thread lie in each other or apart.
 struct TraceEvent {
   enum class Kind {
-    refresh,       // stage 1: a call of World::set_positions since the last step, or grouping facets anew
-    detect,        // World::detect() but for that: all that follows
-    sweep,         // stage 2
-    narrow_phase,  // stages 3 to 6 of all pairs, on the thread that called; `pair` and `small_pairs` tell of the others
-    pair,          // one pair that took 20 microseconds or more: the stages that follow
-    hulls,         // stage 3 of it
-    direction,     // stage 4 of it
-    cull,          // stage 5 of it
-    confirm,       // stage 6 of it; of a large pair after all others and outside its `pair`, on all threads in ranges
-    range,         // one thread's part in stage 6 of a large pair
-    small_pairs,   // pairs that took less, one after the other
-    parted_pairs,  // pairs that diagonals part: all are asked at once, on all threads, but shown on the one that called
-    report,        // stage 7
+    refresh,       ///< stage 1: a call of World::set_positions since the last step, or grouping facets anew
+    detect,        ///< World::detect() but for that: all that follows
+    sweep,         ///< stage 2
+    narrow_phase,  ///< stages 3 to 6 of all pairs, on the thread that called; `pair` and `small_pairs` are of each
+                   ///< thread
+    pair,          ///< one pair that took 20 microseconds or more: the stages that follow
+    hulls,         ///< stage 3 of it
+    direction,     ///< stage 4 of it
+    cull,          ///< stage 5 of it
+    confirm,       ///< stage 6 of it; of a large pair after all others, outside its `pair`, on all threads in ranges
+    range,         ///< one thread's part in stage 6 of a large pair
+    small_pairs,   ///< pairs that took less, one after the other
+    /// pairs that an axis of the 18-DOPs separates: all are asked at once, on all threads, shown on the one that called
+    kdop_separated_pairs,
+    report,  ///< stage 7
   };
+  /// When: on the system's steady clock.
   using Time = std::chrono::steady_clock::time_point;
 
-  Kind kind = Kind::detect;
-  int thread = 0;  // from 0, the one that called
-  Time begin = {}, end = {};
-  BodyId a = {}, b = {};   // the pair that `pair`, its stages and its ranges tell of
-  std::int64_t count = 0;  // pair, confirm, range: facet pairs that meet; small_pairs, parted_pairs: pairs
+  Kind kind = Kind::detect;   ///< what was done
+  int thread = 0;             ///< from 0, the one that called
+  Time begin = {}, end = {};  ///< of the stretch
+  BodyId a = {}, b = {};      ///< the pair that `pair`, its stages and its ranges tell of
+  std::int64_t count = 0;     ///< pair, confirm, range: facet pairs that meet; small_pairs, kdop_separated_pairs: pairs
 };
 
 }  // namespace tact

@@ -19,14 +19,14 @@
 
 namespace tact {
 
-// New positions of one body, for World::set_positions of many:
-//
-//   std::vector<tact::PositionsUpdate> updates;
-//   for (Cloth& cloth : cloths) updates.push_back({cloth.body, cloth.positions});
-//   world.set_positions(updates);
+/// New positions of one body, for World::set_positions of many:
+///
+///   std::vector<tact::PositionsUpdate> updates;
+///   for (Cloth& cloth : cloths) updates.push_back({cloth.body, cloth.positions});
+///   world.set_positions(updates);
 struct PositionsUpdate {
   BodyId body;
-  Positions positions;  // 3 x V, metres
+  Positions positions;  ///< 3 x V, metres
 };
 
 /// A box, metres.
@@ -35,50 +35,50 @@ struct Bounds {
   std::array<double, 3> upper;
 };
 
-// A set of bodies and the contacts among them.
-//
-//   tact::World world;
-//   const tact::BodyId a = world.add_body({.positions = positions, .facets = facets});
-//   ...
-//   world.set_positions(a, new_positions);
-//   for (const tact::Contact& contact : world.detect().contacts()) ...
-//
-// Every function throws Error for data that it cannot take, and has then changed nothing (for detect(), which takes
-// none, see there). A world is used by one thread at a time; different worlds may be used by different threads. The
-// answers do not depend on the number of threads, nor on the floating-point mode of the caller.
+/// A set of bodies and the contacts among them.
+///
+///   tact::World world;
+///   const tact::BodyId a = world.add_body({.positions = positions, .facets = facets});
+///   ...
+///   world.set_positions(a, new_positions);
+///   for (const tact::Contact& contact : world.detect().contacts()) ...
+///
+/// Every function throws Error for data that it cannot take, and has then changed nothing (for detect(), which takes
+/// none, see there). A world is used by one thread at a time; different worlds may be used by different threads. The
+/// answers do not depend on the number of threads, nor on the floating-point mode of the caller.
 class TACT_API World {
  public:
-  // Errors: bad_settings, out_of_memory.
+  /// Errors: bad_settings, out_of_memory.
   explicit World(const Settings& settings = {});
   ~World();
-  // A world that was moved from holds no body, and refuses all calls but these and those that never throw
-  // (wrong_order).
+  /// A world that was moved from holds no body, and refuses all calls but these and those that never throw
+  /// (wrong_order).
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  // Valid as long as the world. (So is the name of a body, until the body is removed.)
+  /// Valid as long as the world. (So is the name of a body, until the body is removed.)
   const Settings& settings() const;
-  // Takes effect with the next step, which then looks at every pair anew; directions are carried on.
-  // Errors: bad_settings.
+  /// Takes effect with the next step, which then looks at every pair anew; directions are carried on.
+  /// Errors: bad_settings.
   void set_settings(const Settings& settings);
 
-  // Copies the mesh and groups its facets into clusters, which is costly. detect() does that again for a body whose
-  // facets have changed places so much that their groups have lost their shape (StepStats::regrouped_bodies).
-  // Errors: wrong_size, non_finite_position, position_out_of_range, facet_out_of_range, too_large, bad_settings (a
-  // surface or motion that is none), out_of_memory.
+  /// Copies the mesh and groups its facets into clusters, which is costly. detect() does that again for a body whose
+  /// facets have changed places so much that their groups have lost their shape (StepStats::regrouped_bodies).
+  /// Errors: wrong_size, non_finite_position, position_out_of_range, facet_out_of_range, too_large, bad_settings (a
+  /// surface or motion that is none), out_of_memory.
   BodyId add_body(const BodyDefinition& definition);
-  // Errors: stale_body, foreign_body.
+  /// Errors: stale_body, foreign_body.
   void remove_body(BodyId body);
 
-  // Copies the new positions of a body, 3 x V in metres, V as when it was added. A body whose coordinates are all equal
-  // to the old ones has not moved. Errors: stale_body, foreign_body, fixed_body, wrong_size, non_finite_position,
-  // position_out_of_range, out_of_memory.
+  /// Copies the new positions of a body, 3 x V in metres, V as when it was added. A body whose coordinates are all
+  /// equal to the old ones has not moved. Errors: stale_body, foreign_body, fixed_body, wrong_size,
+  /// non_finite_position, position_out_of_range, out_of_memory.
   void set_positions(BodyId body, const Positions& positions);
-  // The same for many bodies, in parallel; all or none. A body must not be named twice (wrong_order).
+  /// The same for many bodies, in parallel; all or none. A body must not be named twice (wrong_order).
   void set_positions(std::span<const PositionsUpdate> updates);
 
-  // The layers that a body is on, and those that it is tested against; see BodyDefinition. Errors: stale_body,
-  // foreign_body.
+  /// The layers that a body is on, and those that it is tested against; see BodyDefinition. Errors: stale_body,
+  /// foreign_body.
   void set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask);
   /// The group that a body is in; see BodyDefinition. Errors: stale_body, foreign_body.
   void set_group(BodyId body, std::uint32_t group);
@@ -86,18 +86,18 @@ class TACT_API World {
   /// again if they are excluded no more, and forgotten when one of them is removed. Errors: stale_body, foreign_body,
   /// bad_settings (one body twice).
   void set_excluded(BodyId a, BodyId b, bool excluded);
-  // A body that moves from now on, or one that stays where it is. Errors: stale_body, foreign_body, bad_settings (a
-  // motion that is none).
+  /// A body that moves from now on, or one that stays where it is. Errors: stale_body, foreign_body, bad_settings (a
+  /// motion that is none).
   void set_motion(BodyId body, Motion motion);
 
-  // Half the thickness of a body, metres, and whether it is held against itself; see BodyDefinition. Errors:
-  // stale_body, foreign_body, bad_settings (a margin that is negative, not finite or larger than kLargestCoordinate).
+  /// Half the thickness of a body, metres, and whether it is held against itself; see BodyDefinition. Errors:
+  /// stale_body, foreign_body, bad_settings (a margin that is negative, not finite or larger than kLargestCoordinate).
   void set_margin(BodyId body, double margin);
   void set_self_contact(BodyId body, bool wanted);
 
-  // One step: finds the contacts of the positions as they are now. Never throws for what positions can hold.
-  // Errors: out_of_memory, backend_failure. Bodies and positions are then as they were, but the next call starts
-  // afresh: it knows of no step before, so directions are not carried on, and all pairs that touch have begun to.
+  /// One step: finds the contacts of the positions as they are now. Never throws for what positions can hold.
+  /// Errors: out_of_memory, backend_failure. Bodies and positions are then as they were, but the next call starts
+  /// afresh: it knows of no step before, so directions are not carried on, and all pairs that touch have begun to.
   const Report& detect();
 
   /// What meets between the positions of the last detect() and those set since, every vertex moving straight from the
@@ -139,13 +139,13 @@ class TACT_API World {
   /// before the first body is added. Errors: wrong_order (bodies were added, and `observer` is not null).
   void set_observer(WorldObserver* observer);
 
-  // Does `body` name a body of this world? Never throws.
+  /// Does `body` name a body of this world? Never throws.
   bool contains(BodyId body) const noexcept;
   std::size_t body_count() const noexcept;
-  // The bodies in the order of their index. Errors: out_of_memory.
+  /// The bodies in the order of their index. Errors: out_of_memory.
   std::vector<BodyId> bodies() const;
 
-  // Errors of these: stale_body, foreign_body.
+  /// Errors of these: stale_body, foreign_body.
   const std::string& name(BodyId body) const;
   Surface surface(BodyId body) const;
   Motion motion(BodyId body) const;
@@ -169,6 +169,7 @@ class TACT_API World {
   Bounds bounds(BodyId body) const;
 
  private:
+  friend class WorldTuning;
   struct Implementation;
   Implementation& implementation() const;
   std::unique_ptr<Implementation> implementation_;

@@ -39,7 +39,7 @@ TEST(BlockPair, IsRightOfPairsThatOnlyShareCells) {
       ConfirmCounts counts;
       std::vector<FacetPair> found;
       blocks.find_meeting(block_a, all_bits(block_a.count), block_b, all_bits(block_b.count),
-                          bounds_of(merged(a.box(), b.box())), grid, found, counts);
+                          bounds_of(merged(a.box(), b.box())), grid, base::kTuning, found, counts);
       std::sort(found.begin(), found.end());
       asked += counts.facet_box_pairs;
       overlapping += overlapping_boxes(a, b);

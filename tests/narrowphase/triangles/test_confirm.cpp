@@ -12,6 +12,7 @@
 #include "tests/support/clustered.h"
 #include "tests/support/generators.h"
 #include "tests/support/random.h"
+#include "tests/support/tunings.h"
 
 namespace tact::narrowphase {
 namespace {
@@ -63,8 +64,8 @@ TEST(ClusterPairs, LoopAndForestAgree) {
                         b = tests::clustered(tests::translated(tests::icosphere(5, 0.8), {offset, 0, 0.1}));
     const KeptClusters kept_a = all_clusters(a), kept_b = all_clusters(b);
     std::vector<ClusterPair> loop, forest;
-    EXPECT_FALSE(find_cluster_pairs(kept_a, kept_b, ClusterPairSource::loop, device, loop, scratch));
-    EXPECT_TRUE(find_cluster_pairs(kept_a, kept_b, ClusterPairSource::forest, device, forest, scratch));
+    EXPECT_FALSE(find_cluster_pairs(kept_a, kept_b, tests::kPlain, device, loop, scratch));
+    EXPECT_TRUE(find_cluster_pairs(kept_a, kept_b, tests::kForced, device, forest, scratch));
     EXPECT_GT(loop.size(), 100u);
     EXPECT_EQ(as_pairs(loop), as_pairs(forest));
   }
@@ -76,16 +77,17 @@ TEST(ClusterPairs, EmbreeIsNotStartedByALoop) {
   const ClusteredMesh a = tests::clustered(tests::icosphere(3));
   const KeptClusters kept = all_clusters(a);
   std::vector<ClusterPair> pairs;
-  find_cluster_pairs(kept, kept, ClusterPairSource::automatic, device, pairs, scratch);
+  find_cluster_pairs(kept, kept, base::kTuning, device, pairs, scratch);
   EXPECT_FALSE(device.started());
-  find_cluster_pairs(kept, kept, ClusterPairSource::forest, device, pairs, scratch);
+  find_cluster_pairs(kept, kept, tests::kForced, device, pairs, scratch);
   EXPECT_TRUE(device.started());
 }
 
 // Facet pairs through the criteria of `exact` along n, whether or not n is a contact direction. Reuses its memory.
 class ThroughCriteria {
  public:
-  const std::vector<FacetPair>& operator()(const ClusteredMesh& a, const ClusteredMesh& b, Vec3 n, bool zones) {
+  const std::vector<FacetPair>& operator()(const ClusteredMesh& a, const ClusteredMesh& b, Vec3 n, bool zones,
+                                           const base::Tuning& tuning = base::kTuning) {
     const MinkowskiDifference m(a, b);
     const double upper = support(a, n, m.origin()).height, lower = -support(b, -n, m.origin()).height;
     const Slab slab = make_slab(n, m.origin(), lower, upper, m.vertex_height_error());
@@ -98,11 +100,12 @@ class ThroughCriteria {
                        .criteria_a = criteria_for_a(slab, zones ? &zone_b : nullptr, false),
                        .criteria_b = criteria_for_b(slab, zones ? &zone_a : nullptr, false),
                        .kept_a = &kept_a_,
-                       .kept_b = &kept_b_};
+                       .kept_b = &kept_b_,
+                       .tuning = &tuning};
     cull_clusters(a, input.criteria_a, b.box(), kept_a_);
     cull_clusters(b, input.criteria_b, kept_a_.bounds, kept_b_);
     cull_again(kept_b_.bounds, kept_a_);
-    find_cluster_pairs(kept_a_, kept_b_, ClusterPairSource::automatic, device_, pairs_, scratch_);
+    find_cluster_pairs(kept_a_, kept_b_, tuning, device_, pairs_, scratch_);
     ConfirmCounts counts;
     search_.run(input, pairs_, 0, pairs_.size(), found_, counts);
     std::sort(found_.begin(), found_.end());
@@ -145,6 +148,8 @@ TEST(Criteria, LoseNoPairInAnyDirection) {
     const Vec3 n = i % 4 ? random.direction() : Vec3{0, 0, 1};
     EXPECT_EQ(through_criteria(a, b, n, false), expected) << "case " << i;
     EXPECT_EQ(through_criteria(a, b, n, true), expected) << "case " << i << " with zones";
+    for (const tests::NamedTuning& way : tests::kTunings)
+      EXPECT_EQ(through_criteria(a, b, n, i % 2 == 0, way.tuning), expected) << "case " << i << ", " << way.name;
   }
 }
 

@@ -23,13 +23,13 @@ void expect_line(const std::vector<SkippedWork>& lines, const std::string& what,
   EXPECT_FALSE(line->measured_on.empty()) << what;
 }
 
-// Twenty candidate pairs: four kept, ten parted, one still separated, two still overlapping, three that needed GJK.
+// Twenty candidate pairs: four kept, ten separated by 18-DOPs, one still separated, two still overlapping, three that needed GJK.
 StepStats full_step() {
   StepStats s;
   s.vertices = 1000, s.moved_vertices = 200, s.refresh_ms = 0.4;
-  s.excluded_pairs = 5, s.candidate_pairs = 20, s.kept_pairs = 4, s.parted_pairs = 10;
+  s.excluded_pairs = 5, s.candidate_pairs = 20, s.kept_pairs = 4, s.kdop_separated_pairs = 10;
   s.still_separated_pairs = 1, s.still_overlapping_pairs = 2, s.contacts = 5, s.touching_contacts = 3;
-  s.gjk_ms = 0.9, s.hulls_ms = 1.0, s.parting_ms = 0.1, s.direction_ms = 2.0, s.cull_ms = 1.0, s.confirm_ms = 8.0;
+  s.gjk_ms = 0.9, s.hulls_ms = 1.0, s.kdop_ms = 0.1, s.direction_ms = 2.0, s.cull_ms = 1.0, s.confirm_ms = 8.0;
   s.clusters = 100, s.clusters_outside_box = 20, s.clusters_outside_slab = 30, s.opened_clusters = 40;
   s.facets = 6400, s.opened_facets = 2560, s.kept_facets = 1600;
   s.facets_facing_away = 100, s.facets_outside_slab = 500, s.facets_outside_box = 300, s.facets_outside_zone = 60;
@@ -42,7 +42,7 @@ TEST(SkippedWork, IsTheNumberTimesTheMeanOfWhatWasDone) {
   expect_line(lines, "vertices", 800, 800 * (0.4 / 200));
   expect_line(lines, "pairs excluded", 5, 5 * (12.0 / 16));
   expect_line(lines, "pairs kept", 4, 4 * (12.0 / 16));
-  expect_line(lines, "pairs parted", 10, 10 * (0.9 / 6));
+  expect_line(lines, "pairs separated", 10, 10 * (0.9 / 6));
   expect_line(lines, "GJK, apart", 1, 0.9 / 3);
   expect_line(lines, "GJK, overlapping", 2, 2 * (0.9 / 3));
   expect_line(lines, "clusters, box", 20, 20 * (8.0 / 40));

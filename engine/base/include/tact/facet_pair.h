@@ -5,11 +5,11 @@
 
 namespace tact {
 
-// Facet `a` of the first body and facet `b` of the second share at least one point. Facets count from 0 in the order
-// in which the body was added.
+/// Facet `a` of the first body and facet `b` of the second share at least one point. Facets count from 0 in the order
+/// in which the body was added.
 struct FacetPair {
-  int a = -1;
-  int b = -1;
+  int a = -1;  ///< facet of the first body
+  int b = -1;  ///< facet of the second
   friend constexpr auto operator<=>(const FacetPair&, const FacetPair&) = default;
 };
 
