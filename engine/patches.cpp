@@ -206,8 +206,7 @@ void PatchFinder::list_members(const PatchInput& input, int count, PatchSet& set
   set.vertices.clear();
   for (const Corner& corner : corners_) set.vertices.push_back({corner.vertex, number_[corner.item]});
   std::ranges::sort(set.vertices);
-  const auto rest = std::ranges::unique(set.vertices);
-  set.vertices.erase(rest.begin(), rest.end());
+  set.vertices.erase(std::unique(set.vertices.begin(), set.vertices.end()), set.vertices.end());
 }
 
 void PatchFinder::find(const PatchInput& input, PatchSet& set) {

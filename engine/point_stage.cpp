@@ -69,8 +69,8 @@ void carry(const PairRecord& record, FeaturePair kind, std::vector<narrowphase::
   std::ranges::sort(carried, {}, [](const narrowphase::CarriedNormal& one) {
     return std::tuple(one.vertex, one.gap, one.normal.x, one.normal.y, one.normal.z);
   });
-  const auto rest = std::ranges::unique(carried, {}, &narrowphase::CarriedNormal::vertex);
-  carried.erase(rest.begin(), rest.end());
+  const auto same_vertex = [](const auto& one, const auto& other) { return one.vertex == other.vertex; };
+  carried.erase(std::unique(carried.begin(), carried.end(), same_vertex), carried.end());
 }
 
 narrowphase::SurfaceKind kind_of(const Body& body) {

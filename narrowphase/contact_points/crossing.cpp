@@ -339,8 +339,7 @@ void CrossingSearch::append_edge_points(std::vector<FeaturePoint>& found) {
     }
   }
   std::ranges::sort(candidates_);
-  const auto rest = std::ranges::unique(candidates_);
-  candidates_.erase(rest.begin(), rest.end());
+  candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
   FeaturePoint point;
   for (const auto& [edge_a, edge_b] : candidates_) {
     if (std::ranges::binary_search(known_edges_, std::pair(edge_a, edge_b))) continue;

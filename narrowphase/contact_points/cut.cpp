@@ -37,13 +37,12 @@ void Cut::find_hits(const FeaturedMesh& own, const ClusteredMesh& other, std::sp
     }
   }
   std::ranges::sort(hits_);
-  const auto rest = std::ranges::unique(hits_);
-  hits_.erase(rest.begin(), rest.end());
+  hits_.erase(std::unique(hits_.begin(), hits_.end()), hits_.end());
 }
 
 std::span<const EdgeHit> Cut::hits_of(const EdgeVertices& vertices) const {
-  const auto found = std::ranges::equal_range(hits_, vertices, {}, &EdgeHit::vertices);
-  return {found.begin(), found.end()};
+  return {std::ranges::lower_bound(hits_, vertices, {}, &EdgeHit::vertices),
+          std::ranges::upper_bound(hits_, vertices, {}, &EdgeHit::vertices)};
 }
 
 bool Cut::is_cut_between(const ClusteredMesh& mesh, int v, int w) const {

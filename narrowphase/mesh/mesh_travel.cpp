@@ -20,6 +20,7 @@ MeshTravel::MeshTravel(const MeshTopology& topology) {
   before_.assign(clusters, 0.0);
   steps_.assign(clusters, 0.0);
   std::vector<int> ends;  // of the vertices that each cluster owns
+  ends.reserve(clusters);
   for (int c = 0; c < topology.cluster_count(); ++c) ends.push_back(topology.vertex_end(c));
   for (int c = 0; c < topology.cluster_count(); ++c) {
     owners_begin_.push_back(static_cast<int>(owners_.size()));

@@ -43,7 +43,7 @@ class SurfaceHistory {
     bool wants_travel = false;
 
     // Sets `same` to false if the mesh is another one, or has moved without its travel being kept.
-    bool start(const ClusteredMesh& mesh, bool& same);
+    bool start(const ClusteredMesh& now, bool& same);
   };
 
   std::vector<Certificate> last_, now_;

@@ -10,8 +10,8 @@
 //
 //   cat    events                                   args
 //   step   step 0, step 1, ...
-//   scene  motion, contact points, impacts, engine, sleep: stretch by stretch; of the engine the last detection of a step
-//   engine detect                                   counts and times, see <tact/statistics.h>; those not 0
+//   scene  motion, contact points, impacts, engine, sleep: stretch by stretch; of the engine the last detection of a
+//   step engine detect                                   counts and times, see <tact/statistics.h>; those not 0
 //          1 refresh, 2 sweep, 3-6 narrow phase, 7 report
 //   pair   "ball#2, bowl": a pair that took long    a, b (names), facet_pairs
 //          3 hulls, 4 direction, 5 cull, 6 confirm  a, b; 6 confirm facet_pairs too

@@ -24,7 +24,8 @@ std::vector<FeaturePoint> points_between(const ClusteredMesh& a, const Clustered
   EmbreeDevice device;
   NearClusters near;
   std::vector<FeaturePoint> found;
-  ContactPointSearch().run(featured_a, featured_b, reach, near.find(featured_a, featured_b, reach, base::kTuning, device), found);
+  ContactPointSearch().run(featured_a, featured_b, reach,
+                           near.find(featured_a, featured_b, reach, base::kTuning, device), found);
   return found;
 }
 

@@ -23,7 +23,8 @@ void expect_line(const std::vector<SkippedWork>& lines, const std::string& what,
   EXPECT_FALSE(line->measured_on.empty()) << what;
 }
 
-// Twenty candidate pairs: four kept, ten separated by 18-DOPs, one still separated, two still overlapping, three that needed GJK.
+// Twenty candidate pairs: four kept, ten separated by 18-DOPs, one still separated, two still overlapping, three that
+// needed GJK.
 StepStats full_step() {
   StepStats s;
   s.vertices = 1000, s.moved_vertices = 200, s.refresh_ms = 0.4;
