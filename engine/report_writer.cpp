@@ -59,6 +59,15 @@ void ReportWriter::add_thread_totals() {
   for (Totals& totals : thread_totals_) totals_.add(std::exchange(totals, {}));
 }
 
+void ReportWriter::forget() {
+  static_cast<Report&>(report_) = Report();
+  reported_ = {};
+  has_self_ = false;
+  last_contacts_ = {};
+  totals_ = {};
+  thread_totals_ = {};
+}
+
 void ReportWriter::write(PairTable& table, const SelfStage& self, int threads) {
   thread_totals_.resize(threads);
   const bool same = table.same_contacts() && self.same_contacts();

@@ -8,6 +8,7 @@
 
 #include "engine/pair/pair_table.h"
 #include "engine/self_stage.h"
+#include "engine/step_report.h"
 
 namespace tact {
 
@@ -23,7 +24,13 @@ class ReportWriter {
   /// Candidate pairs, contacts and events as the records have them now, and the counts of contacts.
   void write(PairTable& table, const SelfStage& self, int threads);
   /// The next report is the first.
-  void forget() { *this = {}; }
+  void forget();
+  /// Where the answers of this step come from: they must outlive the report.
+  void note_sources(const Bodies& bodies, PairTable& table, const Settings& settings) {
+    report_.bodies = &bodies;
+    report_.table = &table;
+    report_.settings = &settings;
+  }
 
  private:
   /// A contact of the report: a candidate, or a body with itself.
@@ -50,7 +57,7 @@ class ReportWriter {
   void write_events(const PairTable& table, const SelfStage& self);
   void add_thread_totals();
 
-  Report report_;
+  StepReport report_;
   std::vector<Reported> reported_;      // the contacts of the report, in its order
   bool has_self_ = false;               // is any of a body with itself?
   std::vector<Contact> last_contacts_;  // of the last report, while a new one is made

@@ -29,6 +29,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   Timer timer(settings.outputs.trace ? 0.0 : base::TickCounter::tick_ms());  // a trace wants times, not durations alone
   const TraceEvent::Time begin = timer.start();
   if (forgotten_) start_afresh();
+  writer_.note_sources(bodies, table_, settings);
   StepStats& stats = writer_.stats() = {};
   stats.regrouped_bodies = std::exchange(regrouped_, 0);
   stats.regroup_ms = std::exchange(regroup_ms_, 0.0);

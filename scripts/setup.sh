@@ -9,12 +9,15 @@ packages_of() {
     library) echo g++ cmake ninja-build libeigen3-dev libembree-dev pkg-config ;;
     python) echo pybind11-dev python3-dev python3-numpy python3-pip python3-setuptools python3-venv python3-wheel ;;
     program) echo g++ cmake ninja-build libeigen3-dev libembree-dev \
-                  libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev libfreetype-dev fonts-dejavu-core webp ;;
+                  libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev zlib1g-dev libfreetype-dev fonts-dejavu-core webp ;;
     tests) echo libgtest-dev libcgal-dev librapidcheck-dev pybind11-dev python3-dev python3-numpy python3-pytest python3-matplotlib ;;
     bullet) echo libbullet-dev pkg-config ;;
     docs) echo doxygen mkdocs mkdocs-material ;;
     bench) echo libcgal-dev libtbb-dev libfcl-dev libccd-dev libbullet-dev pkg-config gnuplot-nox ;;
     lint) echo clang-format clang-tidy clang libomp-dev ;;
+    # Not npm's packages where another node is there, which would be replaced.
+    viewer) command -v npm > /dev/null || echo nodejs npm
+            echo chromium ;;
     sanitizers) echo clang libclang-rt-14-dev libomp-dev llvm ;;
     *) echo "setup.sh: no group is called $1; there are library, python, program, tests, bullet, docs, bench, lint and sanitizers" >&2; exit 2 ;;
   esac
@@ -23,7 +26,7 @@ packages_of() {
 wanted=()
 for group in "$@"; do
   packages=$(packages_of "$group")
-  read -ra names <<< "$packages"
+  read -ra names <<< "${packages//$'\n'/ }"
   wanted+=("${names[@]}")
 done
 

@@ -101,6 +101,8 @@ Slab find_direction(const PairInput& pair, const HullTest& hulls, PairRecord& re
   record.history.direction = direction.found.n;
   record.face = direction.found.face;
   const Slab slab = slab_of(pair.difference, direction.found);
+  record.slab_lower = slab.lower;
+  record.slab_upper = slab.upper;
   fill_contact(pair, hulls, direction, slab, record);
   count_contact(record.contact, work.counts);
   return slab;

@@ -45,6 +45,8 @@ struct alignas(64) PairRecord {
   PairHistory history;
   PairTimes times;
   // Of pairs whose hulls overlap; for others the vectors are empty and the rest is old.
+  double slab_lower = 0.0;  ///< see narrowphase::Slab: the planes of `contact` are rounded once more
+  double slab_upper = 0.0;
   narrowphase::GjkSimplex face;  ///< of the Minkowski difference, which the contact direction ended on in the last step
   Contact contact;
   std::vector<FacetPair> facet_pairs;                     ///< sorted

@@ -105,6 +105,7 @@ void check_outputs(const CheckOptions& options, const std::vector<BodyFrames>& b
   }
   files.add_output("--json", options.json);
   files.add_output("--record", options.record);
+  files.add_output("--out", options.view.file);
 }
 
 // The engine's message names the body; the file tells which frame it is.
@@ -138,6 +139,12 @@ void set_frame(const std::vector<BodyFrames>& bodies, const std::vector<BodyId>&
   world.set_positions(updates);
 }
 
+ViewTitle title_of(const std::vector<BodyFrames>& bodies) {
+  std::string names;
+  for (const BodyFrames& body : bodies) names += (names.empty() ? "" : ", ") + body.name;
+  return {.name = names, .kind = "meshes"};
+}
+
 int frames_to_step(const CheckOptions& options, const std::vector<BodyFrames>& bodies) {
   const int held = frame_count(bodies);
   return held > 0 ? held : std::max(options.frames, 1);
@@ -158,16 +165,18 @@ void check(const CheckOptions& options, std::ostream& out) {
   std::optional<OutputFile> recording;
   if (!options.record.empty()) recording.emplace(options.record, out, Appears::at_once);
   std::optional<Recorder> recorder;
-  World world({.threads = threads,
-               .accuracy = options.accuracy,
-               .outputs = {.patches = options.points, .points = options.points}});
+  Outputs outputs = options.outputs;
+  outputs.patches = outputs.patches || outputs.points;
+  World world({.threads = threads, .accuracy = options.accuracy, .outputs = outputs});
   if (recording) world.set_observer(&recorder.emplace(recording->stream()));
   const std::vector<BodyId> ids = add_bodies(bodies, world);
 
+  std::optional<ViewPage> page;
+  if (!options.view.file.empty()) page.emplace(options.view, title_of(bodies), out);
   std::optional<JsonReport> json;
-  if (json_file) json.emplace(json_file->stream(), world);
+  if (json_file) json.emplace(json_file->stream(), world, page ? JsonReport::Fates::counts : JsonReport::Fates::none);
   std::optional<TableReport> table;
-  if (options.json != "-") table.emplace(out, world);
+  if (options.json != "-" && options.table) table.emplace(out, world);
 
   const int frames = frames_to_step(options, bodies);
   ProgressLine progress("frame", frames, ProgressLine::Beside::output);
@@ -178,6 +187,7 @@ void check(const CheckOptions& options, std::ostream& out) {
     const Report& report = world.detect();
     if (json) json->add_frame(frame, report, motion);
     if (table) table->add_frame(frame, report, motion);
+    if (page) page->add_step(frame, std::nullopt, world, report);
     progress.show(frame + 1);
   }
   progress.clear();
@@ -192,7 +202,9 @@ void check(const CheckOptions& options, std::ostream& out) {
     });
   }
   if (recording) failures.attempt([&] { recording->finish(); });
+  if (page) failures.attempt([&] { page->finish(ending); });
   failures.report();
+  if (page && options.json != "-") fmt::print(out, "{}\n", page->summary());
 }
 
 void add_check_command(CLI::App& program) {
@@ -215,7 +227,7 @@ void add_check_command(CLI::App& program) {
   command->add_option("--self", options->selves, "Hold this body against itself, too, or all; may be repeated")
       ->type_name("NAME|all")
       ->allow_extra_args(false);
-  command->add_flag("--points", options->points,
+  command->add_flag("--points", options->outputs.points,
                     "Find the contact points: where surfaces are nearest within their margins (in --json)");
   command->add_flag("--impacts", options->impacts,
                     "Find what meets between a frame and the next, every vertex moving straight (all in --json)");

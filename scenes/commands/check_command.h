@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "scenes/view/view_page.h"
+
 namespace tact::scenes {
 
 struct CheckOptions {
@@ -18,13 +20,15 @@ struct CheckOptions {
   std::vector<std::string> sheets = {};            // names of the bodies that are sheets, the others being closed
   std::vector<std::string> margins = {};           // "M" for every body, "NAME=M" for one, metres; the last one counts
   std::vector<std::string> selves = {};            // bodies that are held against themselves; "all": every one
-  bool points = false;                             // contact points
+  Outputs outputs = {};                            // points; for the page also zones and patches
   bool impacts = false;                            // what meets between a frame and the next
   Accuracy accuracy = Accuracy::exact;
   int threads = 0;          // 0: as many as OpenMP would use
   int frames = 0;           // of folders the first so many; without a folder the number of steps; 0: all, or one
   std::string json = {};    // the file to write, "-" for standard output; empty: none
   std::string record = {};  // the file to record what enters the engine; empty: none
+  ViewOptions view = {};    // a page that plays the frames
+  bool table = true;        // print what touches
 };
 
 // Reads all files first, so that nothing is written if one is bad; then steps one world through the frames. Without

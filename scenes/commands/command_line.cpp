@@ -19,6 +19,7 @@
 #include "scenes/commands/run_command.h"
 #include "scenes/commands/scenes_command.h"
 #include "scenes/commands/usage_error.h"
+#include "scenes/commands/view_command.h"
 #include "scenes/files/file_error.h"
 
 namespace tact::scenes {
@@ -70,6 +71,7 @@ int run_command_line(int argc, const char* const* argv) {
   add_check_command(program);
   add_run_command(program);
   add_replay_command(program);
+  add_view_command(program);
   add_scenes_command(program);
   const int status = parse(program, argc, argv);
   // What was printed may still wait in a buffer.

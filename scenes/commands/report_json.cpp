@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string_view>
 
+#include "engine/facet_fates.h"
 #include "scenes/commands/json_text.h"
 
 namespace tact::scenes {
@@ -92,11 +94,40 @@ Json patches_json(const Contact* contact) {
   return patches;
 }
 
+const char* fate_name(FacetFate fate) {
+  switch (fate) {
+    case FacetFate::outside_box: return "outside_box";
+    case FacetFate::outside_slab: return "outside_slab";
+    case FacetFate::far: return "far";
+    case FacetFate::facing_away: return "facing_away";
+    case FacetFate::outside_zone: return "outside_zone";
+    case FacetFate::kept: return "kept";
+    case FacetFate::meets: return "meets";
+  }
+  return "unknown";
+}
+
+// How many facets had each fate.
+Json fates_json(const std::vector<FacetFate>& fates) {
+  std::array<std::int64_t, kFacetFates> counts{};
+  for (const FacetFate fate : fates) ++counts[static_cast<std::size_t>(fate)];
+  Json json = Json::object();
+  for (std::size_t i = 0; i < counts.size(); ++i) json[fate_name(static_cast<FacetFate>(i))] = counts[i];
+  return json;
+}
+
+// What is told of a pair.
+struct PairParts {
+  bool facets = false;
+  bool points = false;
+  FacetFateFinder* finder = nullptr;  // null: no fates
+};
+
 // A body with itself has no direction.
-Json self_json(const Contact& contact, bool has_facets, bool has_points) {
+Json self_json(const Contact& contact, const PairParts& parts) {
   Json json = {{"a", contact.a.index}, {"b", contact.b.index}};
-  json["facet_pairs"] = has_facets ? facet_pairs_json(contact) : Json(nullptr);
-  if (has_points) {
+  json["facet_pairs"] = parts.facets ? facet_pairs_json(contact) : Json(nullptr);
+  if (parts.points) {
     json["points"] = points_json(&contact);
     json["patches"] = patches_json(&contact);
   }
@@ -104,7 +135,7 @@ Json self_json(const Contact& contact, bool has_facets, bool has_points) {
 }
 
 // `contact` is null if the pair is not in contact.
-Json pair_json(const CandidatePair& pair, const Contact* contact, bool has_facets, bool has_points) {
+Json pair_json(const CandidatePair& pair, const Contact* contact, const PairParts& parts) {
   Json json = {{"a", pair.a.index}, {"b", pair.b.index}, {"hulls_overlap", pair.hulls_overlap}};
   if (contact != nullptr) {
     json["direction"] = to_json(contact->direction);
@@ -115,13 +146,15 @@ Json pair_json(const CandidatePair& pair, const Contact* contact, bool has_facet
     json["kept_facets"] = Json::array({contact->kept_facets_a, contact->kept_facets_b});
     if (contact->containment != Containment::none)
       json["contained"] = contact->containment == Containment::a_in_b ? "a" : "b";
+    const std::optional<FacetFates> fates = parts.finder != nullptr ? parts.finder->find(*contact) : std::nullopt;
+    if (fates) json["fates"] = Json::array({fates_json(fates->a), fates_json(fates->b)});
   }
-  if (!has_facets) {
+  if (!parts.facets) {
     json["facet_pairs"] = nullptr;
   } else {
     json["facet_pairs"] = contact != nullptr ? facet_pairs_json(*contact) : Json::array();
   }
-  if (has_points) {
+  if (parts.points) {
     json["points"] = points_json(contact);
     json["patches"] = patches_json(contact);
   }
@@ -129,18 +162,18 @@ Json pair_json(const CandidatePair& pair, const Contact* contact, bool has_facet
 }
 
 // Candidates and bodies in contact with themselves, both sorted, merged.
-Json pairs_json(const Report& report, bool has_facets, bool has_points) {
+Json pairs_json(const Report& report, const PairParts& parts) {
   Json pairs = Json::array();
   auto contact = report.contacts().begin();
   const auto end = report.contacts().end();
   const auto add_selves_to = [&](BodyId body) {
     for (; contact != end && contact->a == contact->b && !(body < contact->a); ++contact)
-      pairs.push_back(self_json(*contact, has_facets, has_points));
+      pairs.push_back(self_json(*contact, parts));
   };
   for (const CandidatePair& pair : report.candidate_pairs()) {
     add_selves_to(pair.a);
     const bool found = contact != end && contact->a == pair.a && contact->b == pair.b;
-    pairs.push_back(pair_json(pair, found ? &*contact++ : nullptr, has_facets, has_points));
+    pairs.push_back(pair_json(pair, found ? &*contact++ : nullptr, parts));
   }
   if (contact != end) add_selves_to(report.contacts().back().a);
   return pairs;
@@ -193,10 +226,11 @@ std::string feature_pair_name(FeaturePair kind) {
 
 std::string hash_text(const Report& report) { return fmt::format("{:016x}", report.hash()); }
 
-JsonReport::JsonReport(std::ostream& out, const World& world)
+JsonReport::JsonReport(std::ostream& out, const World& world, Fates fates)
     : out_(out),
       has_facets_(world.settings().accuracy != Accuracy::hulls),
-      has_points_(world.settings().outputs.points) {
+      has_points_(world.settings().outputs.points),
+      fates_(fates) {
   out_ << "{\"tact\":" << json_text(TACT_VERSION)
        << ",\"accuracy\":" << json_text(accuracy_name(world.settings().accuracy))
        << ",\"threads\":" << world.settings().threads << ",\n \"bodies\":" << json_text(bodies_json(world))
@@ -204,9 +238,11 @@ JsonReport::JsonReport(std::ostream& out, const World& world)
 }
 
 void JsonReport::add_frame(int frame, const Report& report, const MotionReport* motion) {
+  std::optional<FacetFateFinder> finder;
+  if (fates_ == Fates::counts) finder.emplace(report);
   Json json = {{"frame", frame},
                {"hash", hash_text(report)},
-               {"pairs", pairs_json(report, has_facets_, has_points_)},
+               {"pairs", pairs_json(report, {has_facets_, has_points_, finder ? &*finder : nullptr})},
                {"stats", stats_json(report.stats())},
                {"times_ms", times_json(report.stats())}};
   if (motion != nullptr) {

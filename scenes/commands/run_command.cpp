@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <limits>
@@ -18,6 +19,7 @@
 #include "scenes/commands/progress_line.h"
 #include "scenes/commands/run_totals.h"
 #include "scenes/commands/usage_error.h"
+#include "scenes/commands/view_command.h"
 #include "scenes/files/named_files.h"
 #include "scenes/files/output_file.h"
 #include "scenes/library/catalog.h"
@@ -56,6 +58,13 @@ void check_outputs(const RunOptions& run) {
   files.add_output("--trace", options.trace);
   files.add_output("--gltf", options.gltf);
   files.add_output("--record", run.record);
+  files.add_output("--view", options.view.file);
+}
+
+// What the page shows besides is found where there is one.
+Outputs outputs_of(const OutputOptions& options) {
+  const bool page = !options.view.file.empty();
+  return {.zones = options.zones || page, .patches = page, .points = options.points, .trace = !options.trace.empty()};
 }
 
 }  // namespace
@@ -72,9 +81,7 @@ void run(const RunOptions& options, std::ostream& out) {
   std::optional<OutputFile> recording;
   if (!options.record.empty()) recording.emplace(options.record, out, Appears::at_once);
   Simulation simulation(std::move(scene.bodies), scene.script, scene.dynamics,
-                        {.threads = threads,
-                         .accuracy = options.accuracy,
-                         .outputs = {.zones = options.outputs.zones, .trace = !options.outputs.trace.empty()}},
+                        {.threads = threads, .accuracy = options.accuracy, .outputs = outputs_of(options.outputs)},
                         recording ? &recording->stream() : nullptr);
   RunOutputs outputs(options.outputs, options.scene, scene, simulation.world(), threads, out);
 
@@ -98,10 +105,12 @@ void run(const RunOptions& options, std::ostream& out) {
   if (recording) failures.attempt([&] { recording->finish(); });
   if (options.outputs.json != "-" && options.outputs.contacts != "-") {
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-    fmt::print(out, "{}{}\n", options.scene, ending == Ending::interrupted ? ", interrupted" : "");
-    totals.print(out, simulation, wall.count(), scene.paper);
-    if (lost) lost->print(out);
-    fmt::print(out, "\n");
+    if (options.prints == RunOptions::Prints::all) {
+      fmt::print(out, "{}{}\n", options.scene, ending == Ending::interrupted ? ", interrupted" : "");
+      totals.print(out, simulation, wall.count(), scene.paper);
+      if (lost) lost->print(out);
+      fmt::print(out, "\n");
+    }
     outputs.print(out);
   }
   failures.report();
@@ -144,10 +153,17 @@ void add_run_command(CLI::App& program) {
   command->add_option("--vtk", outputs.vtk, "Write the bodies, at every picture, to this folder for ParaView")
       ->type_name("FOLDER")
       ->check(refuse_empty_name);
+  command
+      ->add_option("--view", outputs.view.file,
+                   "Write a page for the browser that plays the run; zones and patches are then found, too")
+      ->type_name("FILE.html")
+      ->check(refuse_empty_name);
+  add_page_options(*command, outputs.view);
   add_trace_option(*command, outputs.trace);
   add_record_option(*command, options->record);
   command->callback([options, no_pictures] {
     options->outputs.pictures = !*no_pictures;
+    options->outputs.view.every = std::max(options->outputs.every, 1);
     run(*options, std::cout);
   });
 }

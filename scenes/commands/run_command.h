@@ -22,6 +22,7 @@ struct RunOptions {
   bool continuous = false;  // stop bodies before they meet
   std::string record = {};  // the file to record what enters the engine; empty: none
   OutputOptions outputs = {};
+  enum class Prints { all, files } prints = Prints::all;  // besides where files are, what the run added up to
 };
 
 // Runs the scene and prints what the run adds up to to `out`, or to nobody if JSON goes there. SIGINT ends it with what

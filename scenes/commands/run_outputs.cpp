@@ -27,7 +27,8 @@ RunOutputs::RunOutputs(const OutputOptions& options, const std::string& title, c
       every_(options.every > 0 ? options.every : steps_a_frame(scene.dynamics)) {
   if (!options.json.empty()) {
     json_file_.emplace(options.json, out);
-    json_.emplace(json_file_->stream(), world);
+    json_.emplace(json_file_->stream(), world,
+                  options.view.file.empty() ? JsonReport::Fates::none : JsonReport::Fates::counts);
   }
   if (!options.contacts.empty()) contacts_.emplace(options.contacts, out, Appears::at_once);
   if (!options.trace.empty()) {
@@ -39,6 +40,12 @@ RunOutputs::RunOutputs(const OutputOptions& options, const std::string& title, c
     gltf_.emplace(UpAxis::z);
   }
   if (!options.vtk.empty()) vtk_.emplace(options.vtk, title);
+  if (!options.view.file.empty()) {
+    page_.emplace(options.view, ViewTitle{.name = title, .kind = "scene"}, out);
+    std::vector<double> opacities;
+    for (const Look& look : looks_) opacities.push_back(look.visible ? look.opacity : 0.0);
+    page_->set_opacities(std::move(opacities));
+  }
   // Last, as it takes an older run's pictures away.
   if (options.pictures) {
     pictures_.emplace(title, scene, options.out.empty() ? std::filesystem::path("tact-" + title) : options.out,
@@ -52,6 +59,7 @@ void RunOutputs::add_step(int step, const Simulation& simulation) {
     write_contact_line(contacts_->stream(), step, simulation.state().time, simulation.world(), *simulation.report());
   }
   if (trace_) trace_->add_step(step, simulation);
+  if (page_) page_->add_step(step, simulation.state().time, simulation.world(), *simulation.report());
   if (step % every_ == 0) add_frame(simulation);
 }
 
@@ -96,6 +104,12 @@ void RunOutputs::finish(Ending ending, Failures& failures) {
       trace_->finish();
       trace_file_->finish();
       made_.push_back(fmt::format("trace for ui.perfetto.dev: {}", options_.trace));
+    });
+  }
+  if (page_) {
+    failures.attempt([&] {
+      page_->finish(ending);
+      made_.push_back("page for the browser: " + page_->summary());
     });
   }
   if (pictures_ && pictures_->count() > 0) finish_pictures(failures);

@@ -16,6 +16,7 @@
 #include "scenes/files/output_file.h"
 #include "scenes/library/scene.h"
 #include "scenes/pictures/scene_pictures.h"
+#include "scenes/view/view_page.h"
 
 namespace tact::scenes {
 
@@ -23,12 +24,14 @@ struct OutputOptions {
   bool pictures = true;
   std::filesystem::path out = {};  // the folder for pictures; empty: tact-<scene> in the working folder
   int every = 0;                   // steps from one frame to the next, in pictures, gltf and vtk; 0: 60 frames a second
-  bool zones = false;              // show impact zones in pictures
+  bool zones = false;              // show impact zones in pictures and in the page
+  bool points = false;             // and contact points in the page
   std::string json = {};           // the report of every step, "-" for standard output; empty: none
   std::string contacts = {};       // the contacts of every step, a line each, "-" likewise
   std::string trace = {};          // a Chrome trace of every step; empty: none
   std::filesystem::path gltf = {};  // a .glb file; empty: none
   std::filesystem::path vtk = {};   // a folder; empty: none
+  ViewOptions view = {};            // a page that plays the run
 };
 
 // The bodies that no picture shows are not in the files for other programs either.
@@ -64,6 +67,7 @@ class RunOutputs {
   std::optional<OutputFile> gltf_file_;
   std::optional<GltfAnimation> gltf_;
   std::optional<VtkSeries> vtk_;
+  std::optional<ViewPage> page_;
   std::vector<std::string> made_;  // lines that say where things are, or why there is no film
 };
 

@@ -10,6 +10,7 @@
 
 #include "scenes/commands/counted.h"
 #include "scenes/commands/skipped_work.h"
+#include "scenes/commands/stats_sum.h"
 
 namespace tact::scenes {
 namespace {
@@ -27,15 +28,7 @@ double share(double part, double whole) { return whole > 0.0 ? 100.0 * part / wh
 void RunTotals::add_step(const Simulation& simulation) {
   ++steps_;
   detections_ += simulation.state().detections;
-  std::vector<std::int64_t> counts;
-  std::vector<double> times;
-  const StepStats& step = simulation.stats();
-  for_each_count(step, [&](const char*, const char*, std::int64_t count) { counts.push_back(count); });
-  for_each_time(step, [&](const char*, const char*, double time) { times.push_back(time); });
-  auto count = counts.begin();
-  auto time = times.begin();
-  for_each_count(stats_, [&](const char*, const char*, std::int64_t& sum) { sum += *count++; });
-  for_each_time(stats_, [&](const char*, const char*, double& sum) { sum += *time++; });
+  add_to(stats_, simulation.stats());
   const DynamicsTimes& dynamics = simulation.times();
   times_.move_ms += dynamics.move_ms;
   times_.impacts_ms += dynamics.impacts_ms;

@@ -1,0 +1,113 @@
+#include "engine/facet_fates.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "engine/bodies.h"
+#include "engine/pair/confirm.h"
+#include "engine/pair/cull.h"
+#include "engine/pair/pair_table.h"
+#include "engine/step_report.h"
+#include "narrowphase/criteria/facet_fates.h"
+
+namespace tact {
+namespace {
+
+using namespace narrowphase;
+
+// None was opened where no pairs of clusters were left.
+std::vector<std::int32_t> indices_of(const std::vector<OpenedCluster>& opened, const CulledPair& culled) {
+  std::vector<std::int32_t> indices;
+  if (culled.cluster_pairs.empty()) return indices;
+  for (const OpenedCluster& one : opened) indices.push_back(one.index);
+  return indices;
+}
+
+// What the clusters of b were held against: that of a before b dropped more of them.
+Box first_bounds_of_a(const CulledPair& culled) {
+  KeptClusters first;
+  cull_clusters(*culled.a, culled.criteria_a, culled.b->box(), first);
+  return first.bounds;
+}
+
+// Of a pair that was culled and confirmed.
+FacetFates fates_of(const PairWork& work) {
+  const CulledPair& culled = work.culled;
+  std::vector<std::int32_t> opened_a = indices_of(work.search.opened_a(), culled);
+  std::vector<std::int32_t> opened_b = indices_of(work.search.opened_b(), culled);
+  if (culled.turned) std::swap(opened_a, opened_b);
+  FacetFates fates{.a = criteria_fates({.mesh = culled.a,
+                                        .criteria = culled.criteria_a,
+                                        .first_box = culled.b->box(),
+                                        .last_box = culled.kept_b.bounds,
+                                        .kept = &culled.kept_a,
+                                        .opened = opened_a}),
+                   .b = criteria_fates({.mesh = culled.b,
+                                        .criteria = culled.criteria_b,
+                                        .first_box = first_bounds_of_a(culled),
+                                        .last_box = culled.kept_a.bounds,
+                                        .kept = &culled.kept_b,
+                                        .opened = opened_b})};
+  for (const FacetPair& pair : culled.record->facet_pairs) {
+    fates.a[static_cast<std::size_t>(pair.a)] = FacetFate::meets;
+    fates.b[static_cast<std::size_t>(pair.b)] = FacetFate::meets;
+  }
+  return fates;
+}
+
+// Stages 5 and 6 of the last step once more; the answers go to `again`.
+void repeat(const PairRecord& record, const PairInput& pair, PairRecord& again, EmbreeDevice& device, PairWork& work) {
+  const MinkowskiDifference& m = pair.difference;
+  const Slab slab =
+      make_slab(record.history.direction, m.origin(), record.slab_lower, record.slab_upper, m.vertex_height_error());
+  again.facet_pairs.clear();
+  cull(pair, slab, again, device, work);
+  if (!work.culled.cluster_pairs.empty()) confirm(work);
+}
+
+// The record of a pair of the table; null if it is none.
+const PairRecord* record_of(PairTable& table, BodyId a, BodyId b) {
+  const std::span<const CandidatePair> candidates = table.candidates();
+  const auto place = std::ranges::lower_bound(candidates, std::tuple(a, b), {},
+                                              [](const CandidatePair& pair) { return std::tuple(pair.a, pair.b); });
+  if (place == candidates.end() || place->a != a || place->b != b) return nullptr;
+  return &table.record(static_cast<std::size_t>(place - candidates.begin()));
+}
+
+}  // namespace
+
+struct FacetFateFinder::Work {
+  const StepReport* report;
+  PairRecord record;  // of what is done once more
+  PairWork pair;
+  EmbreeDevice device;
+};
+
+FacetFateFinder::FacetFateFinder(const Report& report) : work_(std::make_unique<Work>()) {
+  work_->report = static_cast<const StepReport*>(&report);
+  work_->pair.prefetches = false;
+}
+
+FacetFateFinder::~FacetFateFinder() = default;
+
+std::optional<FacetFates> FacetFateFinder::find(const Contact& contact) {
+  const StepReport& report = *work_->report;
+  if (report.table == nullptr || contact.a == contact.b || report.settings->accuracy == Accuracy::hulls) return {};
+  const PairRecord* record = record_of(*report.table, contact.a, contact.b);
+  if (record == nullptr || !record->hulls_overlap) return {};
+  const PairInput pair(report.bodies->at(contact.a), report.bodies->at(contact.b), 0.0, *report.settings);
+  repeat(*record, pair, work_->record, work_->device, work_->pair);
+  return fates_of(work_->pair);
+}
+
+std::vector<int> FacetFateFinder::clusters(BodyId body) const {
+  const ClusteredMesh& mesh = work_->report->bodies->at(body).mesh;
+  std::vector<int> clusters(static_cast<std::size_t>(mesh.facet_count()));
+  for (int i = 0; i < mesh.facet_count(); ++i) {
+    clusters[static_cast<std::size_t>(i)] = mesh.facet_of_source(i) / kClusterSize;
+  }
+  return clusters;
+}
+
+}  // namespace tact

@@ -1,0 +1,25 @@
+// What the criteria make of each facet, for people who look: the engine's own criteria asked again, facet by facet.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/base/facet_fate.h"
+#include "narrowphase/criteria/criteria.h"
+
+namespace tact::narrowphase {
+
+// How one body of a pair was culled: see cull_clusters() and append_facets().
+struct CulledBody {
+  const ClusteredMesh* mesh = nullptr;
+  Criteria criteria;
+  Box first_box;                         // of the other body, for clusters
+  Box last_box;                          // of what is left of the other body, for facets
+  const KeptClusters* kept = nullptr;    // clusters that passed
+  std::span<const std::int32_t> opened;  // indices of those of them whose facets were looked at; may come again
+};
+
+// The fate of each facet, in the order in which the mesh was given; FacetFate::kept for those that may meet another.
+std::vector<FacetFate> criteria_fates(const CulledBody& body);
+
+}  // namespace tact::narrowphase

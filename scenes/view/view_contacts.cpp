@@ -1,0 +1,119 @@
+#include "scenes/view/view_contacts.h"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "engine/facet_fates.h"
+
+namespace tact::scenes {
+namespace {
+
+void put_vector(const Eigen::Vector3d& v, ViewBytes& out) {
+  for (int k = 0; k < 3; ++k) out.add_double(v[k]);
+}
+
+// For the picture alone, of which the thousands of contacts of a large pile are most.
+void put_rough_vector(const Eigen::Vector3d& v, ViewBytes& out) {
+  for (int k = 0; k < 3; ++k) out.add_float(static_cast<float>(v[k]));
+}
+
+void put_disk(const ZoneDisk& disk, ViewBytes& out) {
+  out.add_double(disk.radius);
+  if (disk.radius >= 0.0) put_rough_vector(disk.center, out);
+}
+
+// Sorted pairs: how far `a` is from the last one's, then `b` from the last one's.
+void put_facet_pairs(std::span<const FacetPair> pairs, ViewBytes& out) {
+  out.add_count(pairs.size());
+  FacetPair last{0, 0};
+  for (const FacetPair& pair : pairs) {
+    out.add_count(static_cast<std::uint64_t>(pair.a - last.a));
+    out.add_signed(pair.b - last.b);
+    last = pair;
+  }
+}
+
+// Runs of facets with one fate: eight times the length, and the fate.
+void put_fates(const std::vector<FacetFate>& fates, ViewBytes& out) {
+  out.add_count(fates.size());
+  for (std::size_t i = 0; i < fates.size();) {
+    const std::size_t begin = i;
+    while (i < fates.size() && fates[i] == fates[begin]) ++i;
+    out.add_count(8 * (i - begin) + static_cast<std::size_t>(fates[begin]));
+  }
+}
+
+void put_patches(std::span<const Patch> patches, ViewBytes& out) {
+  out.add_count(patches.size());
+  for (const Patch& patch : patches) {
+    put_rough_vector(patch.point, out);
+    put_rough_vector(patch.direction, out);
+    out.add_double(patch.depth);
+    out.add_count(patch.facet_pairs.size());
+    int last = 0;
+    for (const int index : patch.facet_pairs) {
+      out.add_count(static_cast<std::uint64_t>(index - last));
+      last = index;
+    }
+  }
+}
+
+void put_place(const std::array<int, 3>& vertices, const std::array<double, 3>& weights, ViewBytes& out) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    out.add_signed(vertices[k]);
+    if (vertices[k] >= 0) out.add_float(static_cast<float>(weights[k]));
+  }
+}
+
+void put_points(std::span<const ContactPoint> points, ViewBytes& out) {
+  out.add_count(points.size());
+  for (const ContactPoint& point : points) {
+    out.add_byte(static_cast<std::uint8_t>(point.kind));
+    out.add_count(static_cast<std::uint64_t>(point.patch));
+    put_place(point.a_vertices, point.a_weights, out);
+    put_place(point.b_vertices, point.b_weights, out);
+    put_vector(point.normal, out);
+    out.add_double(point.gap);
+    out.add_raw(point.id);
+  }
+}
+
+void put_contact(const Contact& contact, const std::optional<FacetFates>& fates, const PlaceInView& place,
+                 ViewBytes& out) {
+  out.add_count(place(contact.a));
+  out.add_count(place(contact.b));
+  out.add_byte(
+      static_cast<std::uint8_t>(static_cast<int>(contact.source) | (contact.limit_reached ? 4 : 0) | (fates ? 8 : 0)));
+  put_vector(contact.direction, out);
+  out.add_double(contact.depth);
+  out.add_double(contact.plane_a);
+  out.add_double(contact.plane_b);
+  put_disk(contact.zone_a, out);
+  put_disk(contact.zone_b, out);
+  out.add_count(static_cast<std::uint64_t>(contact.iterations));
+  out.add_count(static_cast<std::uint64_t>(contact.kept_facets_a));
+  out.add_count(static_cast<std::uint64_t>(contact.kept_facets_b));
+  put_facet_pairs(contact.facet_pairs(), out);
+  if (fates) {
+    put_fates(fates->a, out);
+    put_fates(fates->b, out);
+  }
+  put_patches(contact.patches(), out);
+  put_points(contact.points(), out);
+}
+
+}  // namespace
+
+void write_contacts(const Report& report, const PlaceInView& place, ViewBytes& out) {
+  out.add_count(report.candidate_pairs().size());
+  for (const CandidatePair& pair : report.candidate_pairs()) {
+    out.add_count(2 * place(pair.a) + (pair.hulls_overlap ? 1 : 0));
+    out.add_count(place(pair.b));
+  }
+  out.add_count(report.contacts().size());
+  FacetFateFinder finder(report);
+  for (const Contact& contact : report.contacts()) put_contact(contact, finder.find(contact), place, out);
+}
+
+}  // namespace tact::scenes

@@ -1,0 +1,18 @@
+// What a step found, as the page reads it.
+#pragma once
+
+#include <tact/report.h>
+
+#include <functional>
+
+#include "scenes/view/view_bytes.h"
+
+namespace tact::scenes {
+
+// The place of a body in the page.
+using PlaceInView = std::function<std::size_t(BodyId)>;
+
+// Appends the candidate pairs and the contacts of `report`. viewer/src/chunk.js reads them in the same order.
+void write_contacts(const Report& report, const PlaceInView& place, ViewBytes& out);
+
+}  // namespace tact::scenes

@@ -1,0 +1,130 @@
+// What the pages of all scenes show equals what the program's JSON says.
+import assert from "node:assert/strict";
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { close, difference, inFolder, open, openPage, tact } from "./browser.mjs";
+
+// Each with so many steps that bodies meet; small, as the machine of the tests draws without a graphics card.
+const SCENES = {
+  "cloth-over-sphere": ["--size", "24", "--frames", "32"],
+  "sphere-into-cloth": ["--size", "24", "--frames", "40"],
+  pile: ["--size", "6", "--frames", "40"],
+  bullets: ["--frames", "40"],
+  clamp: ["--frames", "16", "--accuracy", "paper"],
+  "liver-and-tool": ["--frames", "24"],
+  "sphere-in-cloth": ["--frames", "40"],
+  "wheel-on-ground": ["--frames", "24"],
+};
+const FATES = ["outside_box", "outside_slab", "far", "facing_away", "outside_zone", "kept", "meets"];
+
+before(open);
+after(close);
+
+const value = async (page, selector) => JSON.parse(await page.locator(selector).first().getAttribute("data-value"));
+const numberIn = (text) => Number(text.replaceAll("\u2009", ""));
+
+async function expectStatistics(page, frame) {
+  if (!(await page.evaluate(() => document.getElementById("statistics").open))) await page.click("#statistics > summary");
+  await page.waitForSelector("#statistics td[data-count]");
+  const shown = await page.$$eval("#statistics td[data-count]", (cells) => cells.map((cell) => [cell.dataset.count, cell.textContent]));
+  assert.deepEqual(Object.fromEntries(shown.map(([name, text]) => [name, numberIn(text)])), frame.stats);
+  assert.equal(await page.textContent('#statistics [data-fact="hash"]'), frame.hash);
+}
+
+async function expectPair(page, contact) {
+  const row = page.locator(`#pairs tr[data-pair="${contact.a},${contact.b}"]`);
+  if ((await row.getAttribute("aria-selected")) !== "true") await row.click();
+  assert.deepEqual(await value(page, '#pair [data-fact="direction"]'), contact.direction.map((x) => x + 0)); // -0 is 0
+  assert.equal(await value(page, '#pair [data-fact="depth"]'), contact.depth);
+  assert.equal(await value(page, '#pair [data-fact="source"]'), contact.source);
+  assert.equal(numberIn(await page.textContent('#pair [data-fact="iterations"]')), contact.iterations);
+  assert.equal(numberIn(await page.textContent('#pair [data-fact="facet pairs"]')), contact.facet_pairs.length);
+  const kept = (await page.textContent('#pair [data-fact="kept facets"]')).split(" and ").map(numberIn);
+  assert.deepEqual(kept, contact.kept_facets);
+  for (const side of [0, 1]) {
+    const cells = await page.$$eval(`#fates td[data-side="${side}"]`, (found) => found.map((cell) => [cell.dataset.fate, cell.textContent]));
+    assert.deepEqual(Object.fromEntries(cells.map(([fate, text]) => [fate, numberIn(text)])), contact.fates[side]);
+    assert.deepEqual(cells.map(([fate]) => fate), FATES);
+    assert.equal(contact.fates[side].kept + contact.fates[side].meets, kept[side]);
+  }
+}
+
+// A click on a facet that meets another selects it and its pair, and tells which facets it meets.
+async function expectPick(page, contacts) {
+  const target = await page.evaluate((pairs) => {
+    const { tactView } = window, { stage, run } = tactView;
+    const look = (body, facet) => {
+      const at = stage.project(stage.surface.centroid(body, facet));
+      return at !== null && stage.facetAt(at.x, at.y) === run.bodies[body].firstFacet + facet ? { ...at, body, facet } : null;
+    };
+    const met = pairs.flatMap(({ a, b, facet_pairs: both }) => both.slice(0, 40).flatMap(([fa, fb]) => [[a, fa], [b, fb]]));
+    for (const [body, facet] of met) {
+      const seen = look(body, facet);
+      if (seen !== null) return seen;
+    }
+    // They are inside a body: seen from its inside, all others hidden.
+    const [body, facet] = met[0];
+    tactView.state.opacity.fill(0);
+    tactView.state.opacity[body] = 1;
+    tactView.showAll();
+    const [p, q, r] = stage.surface.triangle(body, facet), normal = q.clone().sub(p).cross(r.clone().sub(p)).normalize();
+    for (const side of [1, -1]) {
+      const center = stage.surface.centroid(body, facet);
+      stage.controls.target.copy(center);
+      stage.camera.position.copy(center).addScaledVector(normal, side * 0.02 * stage.size);
+      stage.controls.update();
+      stage.drawNow();
+      const seen = look(body, facet);
+      if (seen !== null) return seen;
+    }
+    return null;
+  }, contacts);
+  assert.notEqual(target, null, "no facet that meets another can be seen");
+  await page.mouse.click(target.x, target.y);
+  const name = await page.evaluate((body) => window.tactView.run.bodies[body].name, target.body);
+  assert.equal(await page.locator("section:has(#facet) h2").textContent(), `Facet ${target.facet} of ${name}`);
+  const told = await page.$$eval('#facet [data-facet-fate="meets"]', (cells) => cells.map((cell) => cell.textContent));
+  const expected = contacts.map(({ a, b, facet_pairs: met }) => (a === target.body ? met.filter(([fa]) => fa === target.facet).map(([, fb]) => fb)
+    : b === target.body ? met.filter(([, fb]) => fb === target.facet).map(([fa]) => fa) : [])).filter((met) => met.length > 0);
+  assert.deepEqual(told, expected.map((met) => `meets: ${met.slice(0, 8).join(", ")}${met.length > 8 ? " …" : ""}`));
+}
+
+async function expectPicture(page, name) {
+  const file = fileURLToPath(new URL(`shots/${name}.png`, import.meta.url));
+  const shot = await page.locator("#stage").screenshot();
+  if (process.env.TACT_KEEP_SHOTS) {
+    mkdirSync(new URL("shots/", import.meta.url), { recursive: true });
+    writeFileSync(file, shot);
+  }
+  assert.ok(existsSync(file), `${file} is missing: scripts/viewer.sh shots keeps it`);
+  const { mean, clearly } = await difference(shot, readFileSync(file));
+  if (mean > 2 || clearly > 0.02) writeFileSync(`/tmp/tact-viewer-${name}.png`, shot);
+  assert.ok(mean <= 2 && clearly <= 0.02, `${name}: mean ${mean.toFixed(2)}, ${(100 * clearly).toFixed(2)} % differ: see /tmp/tact-viewer-${name}.png`);
+}
+
+for (const [scene, options] of Object.entries(SCENES)) {
+  test(scene, async () => {
+    const file = inFolder(`${scene}.html`), json = inFolder(`${scene}.json`);
+    tact("view", scene, ...options, "--out", file, "--json", json);
+    const { frames } = JSON.parse(readFileSync(json));
+    const page = await openPage(file);
+    const shown = async () => frames[Number(await page.getAttribute("#clock", "data-step"))];
+    const busiest = await shown();
+    assert.equal(busiest.stats.facet_pairs, Math.max(...frames.map((frame) => frame.stats.facet_pairs)));
+    await expectPicture(page, scene);
+    const contacts = busiest.pairs.filter((pair) => pair.hulls_overlap);
+    assert.equal(await page.locator("#pairs tr[data-pair]").count(), contacts.length);
+    await expectStatistics(page, busiest);
+    for (const contact of contacts.slice(0, 3)) await expectPair(page, contact);
+    if (busiest.stats.facet_pairs > 0) await expectPick(page, contacts);
+    await page.keyboard.press("ArrowLeft");
+    const before = await shown();
+    assert.equal(before.frame, busiest.frame - 1);
+    await expectStatistics(page, before);
+    await page.keyboard.press("Home");
+    await expectStatistics(page, frames[0]);
+    assert.deepEqual(page.complaints, []);
+    await page.close();
+  });
+}
