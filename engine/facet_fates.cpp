@@ -63,7 +63,7 @@ void repeat(const PairRecord& record, const PairInput& pair, PairRecord& again, 
       make_slab(record.history.direction, m.origin(), record.slab_lower, record.slab_upper, m.vertex_height_error());
   again.facet_pairs.clear();
   cull(pair, slab, again, device, work);
-  if (!work.culled.cluster_pairs.empty()) confirm(work);
+  if (!work.culled.cluster_pairs.empty()) confirm(pair.tuning, work);
 }
 
 // The record of a pair of the table; null if it is none.
@@ -96,7 +96,7 @@ std::optional<FacetFates> FacetFateFinder::find(const Contact& contact) {
   if (report.table == nullptr || contact.a == contact.b || report.settings->accuracy == Accuracy::hulls) return {};
   const PairRecord* record = record_of(*report.table, contact.a, contact.b);
   if (record == nullptr || !record->hulls_overlap) return {};
-  const PairInput pair(report.bodies->at(contact.a), report.bodies->at(contact.b), 0.0, *report.settings);
+  const PairInput pair(*report.bodies, contact.a, contact.b, *report.settings);
   repeat(*record, pair, work_->record, work_->device, work_->pair);
   return fates_of(work_->pair);
 }
