@@ -22,7 +22,7 @@ double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 // A name from a file may hold anything; a line of a table must stay one.
-std::string printable(std::string text) {
+std::string printable_name(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
   return text;
@@ -34,7 +34,7 @@ TableReport::TableReport(std::ostream& out, const World& world)
     : out_(out), has_facets_(world.settings().accuracy != Accuracy::hulls) {
   std::size_t width = 4;
   for (const BodyId body : world.bodies()) {
-    names_.push_back(printable(world.name(body)));
+    names_.push_back(printable_name(world.name(body)));
     width = std::max(width, names_.back().size());
   }
   name_width_ = static_cast<int>(width);

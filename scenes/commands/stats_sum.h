@@ -6,10 +6,8 @@
 namespace tact::scenes {
 
 inline void add_to(StepStats& sums, const StepStats& step) {
-#define TACT_FIELD(name, text) sums.name += step.name;
-  TACT_STEP_COUNTS(TACT_FIELD)
-  TACT_STEP_TIMES(TACT_FIELD)
-#undef TACT_FIELD
+  for (const auto& field : kStepCounts) sums.*field.value += step.*field.value;
+  for (const auto& field : kStepTimes) sums.*field.value += step.*field.value;
 }
 
 }  // namespace tact::scenes
