@@ -3,9 +3,11 @@
 #include <tact/tact.h>
 #include <tact/tact_c.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -81,7 +83,7 @@ void expect_equal_reports(tact_world c, const Report& cpp) {
       const Patch& expected = cpp.contacts()[i].patches()[k];
       EXPECT_TRUE(equal(patch.point, expected.point) && equal(patch.direction, expected.direction));
       EXPECT_EQ(patch.depth, expected.depth);
-      EXPECT_EQ(std::vector<int>(patch.facet_pairs, patch.facet_pairs + patch.facet_pair_count), expected.facet_pairs);
+      EXPECT_TRUE(std::ranges::equal(std::span(patch.facet_pairs, patch.facet_pair_count), expected.facet_pairs));
     }
   }
   uint64_t hash = 0;

@@ -163,7 +163,7 @@ class Model {
     RC_ASSERT_THROWS_AS(world_.remove_body({}), Error);
   }
 
-  World world_{{.threads = 1}};
+  RecordedWorld world_{{.threads = 1}};
   DirectionPolicy direction_ = DirectionPolicy::carried;
   std::vector<BodyAndMesh> bodies_;
 };

@@ -15,7 +15,7 @@ namespace {
 
 const Settings kPoints{.outputs = {.points = true}};
 
-BodyDefinition definition(const Mesh& mesh, double margin, Surface surface = Surface::closed) {
+BodyDefinition gap_body(const Mesh& mesh, double margin, Surface surface = Surface::closed) {
   return {.positions = mesh.positions, .facets = mesh.facets, .surface = surface, .margin = margin};
 }
 
@@ -23,8 +23,8 @@ BodyDefinition definition(const Mesh& mesh, double margin, Surface surface = Sur
 struct Two {
   Two(const Mesh& a, const Mesh& b, double margin, Surface surface_a = Surface::closed)
       : world(kPoints),
-        first(world.add_body(definition(a, margin, surface_a))),
-        second(world.add_body(definition(b, margin))),
+        first(world.add_body(gap_body(a, margin, surface_a))),
+        second(world.add_body(gap_body(b, margin))),
         shape(b) {}
   const Contact* at(Vec3 shift) {
     world.set_positions(second, translated(shape, shift).positions);
@@ -115,9 +115,9 @@ TEST(Gaps, OfABoxInABoxAreItsDepthInAnyFrame) {
   for (const Rotation& turn : {rotation(1, 0, 0, 0), rotation(0.3, 0.4, -0.5, 0.7), rotation(0.1, -0.8, 0.3, 0.2)}) {
     World world(kPoints);
     const Vec3 away = rotated(translated(Mesh{Eigen::Matrix3Xd::Zero(3, 1), {}}, {0, 0, 1}), turn).position(0);
-    world.add_body(definition(rotated(lower, turn), 0.01));
+    world.add_body(gap_body(rotated(lower, turn), 0.01));
     const Mesh turned = rotated(upper, turn);
-    const BodyId b = world.add_body(definition(translated(turned, 0.015 * away), 0.01));
+    const BodyId b = world.add_body(gap_body(translated(turned, 0.015 * away), 0.01));
     for (const double depth : {-0.015, 1e-6, 0.01, 0.05, 0.2, 0.05, 1e-6}) {
       world.set_positions(b, translated(turned, -depth * away).positions);
       const Report& report = world.detect();
@@ -316,8 +316,8 @@ TEST(Gaps, AreTheSameTurnedMovedScaledAndSwapped) {
   const Mesh a = blob(2, 1.0, 0.3, 5), b = translated(blob(2, 0.9, 0.3, 6), {1.4, 0.1, 0.2});
   const auto contact_of = [&](const Mesh& p, const Mesh& q, double margin) {
     World world(kPoints);
-    world.add_body(definition(p, margin));
-    world.add_body(definition(q, margin));
+    world.add_body(gap_body(p, margin));
+    world.add_body(gap_body(q, margin));
     return rounded_gaps(world.detect().contacts()[0], margin / 0.02);
   };
   const auto expected = contact_of(a, b, 0.02);
@@ -337,8 +337,8 @@ TEST(Gaps, OfHostileMeshesAreFinite) {
                b = seed % 2 == 0 ? lattice_soup(40, 3, 100 + seed) : cube(3.0, {1, 0, 0});
     for (const Surface surface : {Surface::closed, Surface::sheet}) {
       World world(kPoints);
-      world.add_body(definition(a, 0.05, surface));
-      world.add_body(definition(b, 0.0, seed % 3 == 0 ? Surface::sheet : Surface::closed));
+      world.add_body(gap_body(a, 0.05, surface));
+      world.add_body(gap_body(b, 0.0, seed % 3 == 0 ? Surface::sheet : Surface::closed));
       for (int step = 0; step < 2; ++step) {
         for (const Contact& contact : world.detect().contacts()) {
           for (const ContactPoint& point : contact.points()) {
@@ -363,7 +363,7 @@ TEST(Gaps, OfHostileMeshesAreFinite) {
 TEST(Containment, IsExactAndTellsTheWayOut) {
   World world(kPoints);
   const Mesh outer = cube(2.0, {}), inner = cube(0.5, {0.3, 0, 0.5});
-  const BodyId a = world.add_body(definition(outer, 0.0)), b = world.add_body(definition(inner, 0.0));
+  const BodyId a = world.add_body(gap_body(outer, 0.0)), b = world.add_body(gap_body(inner, 0.0));
   const Contact* contact = world.detect().find_contact(a, b);
   ASSERT_NE(contact, nullptr);
   EXPECT_EQ(contact->containment, Containment::b_in_a);
@@ -387,7 +387,7 @@ TEST(Containment, NeedsEveryPartOfTheInnerBody) {
   const Mesh two_cubes = merged(parts), shell = merged(shell_parts);
   for (const bool swapped : {false, true}) {
     World world;
-    const auto add = [&](const Mesh& mesh) { return world.add_body(definition(mesh, 0.0)); };
+    const auto add = [&](const Mesh& mesh) { return world.add_body(gap_body(mesh, 0.0)); };
     const BodyId first = add(swapped ? two_cubes : outer), second = add(swapped ? outer : two_cubes);
     EXPECT_EQ(world.detect().find_contact(first, second)->containment,
               swapped ? Containment::a_in_b : Containment::b_in_a);
@@ -423,7 +423,7 @@ TEST(Gaps, AreTheSameBitsForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 3, 4}) {
     World world({.threads = threads, .outputs = {.points = true}});
     const Mesh blobs[] = {blob(4, 1.0, 0.3, 1), blob(4, 1.0, 0.3, 2), blob(3, 1.0, 0.3, 3), blob(3, 0.2, 0.3, 4)};
-    for (int k = 0; k < 4; ++k) world.add_body(definition(translated(blobs[k], {k == 3 ? 0.0 : 1.2 * k, 0, 0}), 0.02));
+    for (int k = 0; k < 4; ++k) world.add_body(gap_body(translated(blobs[k], {k == 3 ? 0.0 : 1.2 * k, 0, 0}), 0.02));
     hashes.insert(world.detect().hash());
     EXPECT_GT(world.detect().contacts().size(), 1u);
   }

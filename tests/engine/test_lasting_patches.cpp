@@ -18,7 +18,7 @@ namespace {
 
 const Settings kWithPatches{.outputs = {.patches = true, .points = true}};
 
-BodyDefinition definition(const Mesh& mesh, double margin, Surface surface = Surface::closed) {
+BodyDefinition lasting_body(const Mesh& mesh, double margin, Surface surface = Surface::closed) {
   return {.positions = mesh.positions, .facets = mesh.facets, .surface = surface, .margin = margin};
 }
 
@@ -63,8 +63,8 @@ TEST(LastingPatches, OfABodyInAClampAreTwoOfOppositeDirections) {
   for (const double half_gap : {0.495, 0.48}) {  // within the margins; crossing
     World world(kWithPatches);
     const Mesh jaws = clamp(half_gap), ball = icosphere(3, 0.5);
-    world.add_body(definition(jaws, 0.01));
-    world.add_body(definition(ball, 0.01));
+    world.add_body(lasting_body(jaws, 0.01));
+    world.add_body(lasting_body(ball, 0.01));
     const Report& report = world.detect();
     ASSERT_EQ(report.contacts().size(), 1u);
     const Contact& contact = report.contacts()[0];
@@ -86,9 +86,9 @@ TEST(LastingPatches, OfABoxOnAFloorSpanItsSide) {
   const Mesh floor = gridded_box({-2, -2, -1}, {2, 2, 0}, 9), block = gridded_box({-0.4, -0.3, 0}, {0.4, 0.3, 1}, 5);
   for (const double height : {0.005, 0.0, -0.003}) {
     World world(kWithPatches);
-    world.add_body(definition(floor, 0.01));
+    world.add_body(lasting_body(floor, 0.01));
     const Mesh placed = translated(block, {0.03, 0.02, height});
-    world.add_body(definition(placed, 0.01));
+    world.add_body(lasting_body(placed, 0.01));
     const Contact& contact = world.detect().contacts()[0];
     ASSERT_EQ(contact.patches().size(), 1u) << height;
     expect_members_once(contact);
@@ -113,8 +113,8 @@ TEST(LastingPatches, OfABoxOnAFloorSpanItsSide) {
 
 TEST(LastingPatches, OfOnePointAndOfALineSpanWhatTheyHave) {
   World world(kWithPatches);
-  world.add_body(definition(gridded_box({-2, -2, -1}, {2, 2, 0}, 3), 0.01));
-  world.add_body(definition(translated(spike({0.1, 0.2, -1.0}, 0.1), {0, 0, 1.01}), 0.01));
+  world.add_body(lasting_body(gridded_box({-2, -2, -1}, {2, 2, 0}, 3), 0.01));
+  world.add_body(lasting_body(translated(spike({0.1, 0.2, -1.0}, 0.1), {0, 0, 1.01}), 0.01));
   const Contact& contact = world.detect().contacts()[0];
   ASSERT_EQ(contact.patches().size(), 1u);
   EXPECT_EQ(contact.patches()[0].spanning, (std::array<int, 4>{0, -1, -1, -1}));
@@ -125,8 +125,8 @@ TEST(LastingPatches, OfOnePointAndOfALineSpanWhatTheyHave) {
 TEST(LastingPatches, KeepTheirIdWhileFeaturesChange) {
   World world(kWithPatches);
   const Mesh floor = gridded_box({-2, -2, -1}, {2, 2, 0}, 24), ball = icosphere(3, 0.5);
-  world.add_body(definition(floor, 0.01));
-  const BodyId b = world.add_body(definition(translated(ball, {0, 0, 0.6}), 0.01));
+  world.add_body(lasting_body(floor, 0.01));
+  const BodyId b = world.add_body(lasting_body(translated(ball, {0, 0, 0.6}), 0.01));
   EXPECT_TRUE(ids_of(world.detect()).empty());
   std::set<std::uint64_t> ids, points;
   for (int step = 0; step < 60; ++step) {
@@ -153,13 +153,13 @@ TEST(LastingPatches, KeepTheirIdWhileFeaturesChange) {
 TEST(LastingPatches, TellSplitsAndMerges) {
   World world(kWithPatches);
   const Mesh floor = sheet(40, 40, 4, 4), cloth = sheet(24, 4, 1.9, 0.3);
-  world.add_body(definition(floor, 0.005, Surface::sheet));
+  world.add_body(lasting_body(floor, 0.005, Surface::sheet));
   const auto lifted = [&](double height) {
     return mapped(cloth, [&](Vec3 p) {
       return Vec3{p.x + 0.011, p.y + 0.007, 0.004 + (std::abs(p.x) < 0.3 ? height : 0.0)};
     });
   };
-  const BodyId b = world.add_body(definition(lifted(0.0), 0.005, Surface::sheet));
+  const BodyId b = world.add_body(lasting_body(lifted(0.0), 0.005, Surface::sheet));
   const std::vector<std::uint64_t> first = ids_of(world.detect());
   ASSERT_EQ(first.size(), 1u);
   world.set_positions(b, lifted(0.1).positions);
@@ -224,7 +224,7 @@ TEST(LastingPatches, HaveTheSameNamesForAnyNumberOfThreads) {
     World world({.threads = threads, .outputs = {.patches = true, .points = true}});
     std::vector<BodyId> ids;
     for (int k = 0; k < 12; ++k)
-      ids.push_back(world.add_body(definition(
+      ids.push_back(world.add_body(lasting_body(
           translated(blob(2, 0.5, 0.3, 1 + static_cast<unsigned>(k)), {0.9 * (k % 4), 0.9 * (k / 4), 0}), 0.02)));
     std::vector<std::uint64_t> names;
     for (int step = 0; step < 5; ++step) {
@@ -252,7 +252,7 @@ TEST(LastingPatches, OfSteadyStepsAllocateNothing) {
   std::vector<BodyId> ids;
   for (int k = 0; k < 6; ++k) {
     meshes.push_back(translated(blob(2, 0.5, 0.3, 1 + static_cast<unsigned>(k)), {0.8 * k, 0, 0}));
-    ids.push_back(world.add_body(definition(meshes.back(), 0.02)));
+    ids.push_back(world.add_body(lasting_body(meshes.back(), 0.02)));
   }
   const Mesh folded = mapped(sheet(20, 4, 1.2, 0.2), [](Vec3 p) { return Vec3{std::abs(p.x), p.y - 3.0, 0.02 * p.x}; });
   const BodyId cloth = world.add_body({.positions = folded.positions,
@@ -329,8 +329,8 @@ TEST(Filters, OfGroupsAndOfPairsByName) {
 TEST(PointIds, AreWhatWarmStartingNeeds) {
   World world(kWithPatches);
   const Mesh floor = gridded_box({-2, -2, -1}, {2, 2, 0}, 9), block = box({-0.5, -0.3, 0}, {0.5, 0.3, 1});
-  world.add_body(definition(floor, 0.01));
-  const BodyId b = world.add_body(definition(translated(block, {0.03, 0.02, 0.001}), 0.01));
+  world.add_body(lasting_body(floor, 0.01));
+  const BodyId b = world.add_body(lasting_body(translated(block, {0.03, 0.02, 0.001}), 0.01));
   std::map<std::uint64_t, double> kept;
   std::vector<int> passes;
   for (int step = 0; step < 6; ++step) {
