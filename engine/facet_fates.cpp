@@ -42,13 +42,15 @@ FacetFates fates_of(const PairWork& work) {
                                         .first_box = culled.b->box(),
                                         .last_box = culled.kept_b.bounds,
                                         .kept = &culled.kept_a,
-                                        .opened = opened_a}),
+                                        .opened = opened_a,
+                                        .whole = culled.as_surfaces}),
                    .b = criteria_fates({.mesh = culled.b,
                                         .criteria = culled.criteria_b,
                                         .first_box = first_bounds_of_a(culled),
                                         .last_box = culled.kept_a.bounds,
                                         .kept = &culled.kept_b,
-                                        .opened = opened_b})};
+                                        .opened = opened_b,
+                                        .whole = culled.as_surfaces})};
   for (const FacetPair& pair : culled.record->facet_pairs) {
     fates.a[static_cast<std::size_t>(pair.a)] = FacetFate::meets;
     fates.b[static_cast<std::size_t>(pair.b)] = FacetFate::meets;

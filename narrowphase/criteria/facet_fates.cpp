@@ -78,7 +78,14 @@ std::vector<FacetFate> criteria_fates(const CulledBody& body) {
   FateWriter fates(body);
   drop_low_clusters(body, fates);
   for (const std::int32_t cluster : body.kept->cluster) fates.set_cluster(cluster, FacetFate::far);
-  for (const std::int32_t index : body.opened) fates.open(body.kept->cluster[static_cast<std::size_t>(index)]);
+  for (const std::int32_t index : body.opened) {
+    const std::int32_t cluster = body.kept->cluster[static_cast<std::size_t>(index)];
+    if (body.whole) {
+      fates.set_cluster(cluster, FacetFate::kept);
+    } else {
+      fates.open(cluster);
+    }
+  }
   return fates.take();
 }
 

@@ -17,6 +17,7 @@ struct CulledBody {
   Box last_box;                          // of what is left of the other body, for facets
   const KeptClusters* kept = nullptr;    // clusters that passed
   std::span<const std::int32_t> opened;  // indices of those of them whose facets were looked at; may come again
+  bool whole = false;                    // no criterion was asked of their facets: surfaces that lie on each other
 };
 
 // The fate of each facet, in the order in which the mesh was given; FacetFate::kept for those that may meet another.

@@ -171,12 +171,12 @@ TEST(FacetFates, AreTrue) {
 }
 
 // Bodies that deform over many steps: carried directions, clusters that are grouped anew, pairs that are kept.
-TEST(FacetFates, AddUpInEveryStep) {
+void expect_fates_that_add_up(bool zones) {
   std::vector<Mesh> bodies = crowd(11);
-  World world({.threads = 1});
+  World world({.threads = 1, .outputs = {.zones = zones}});
   const std::vector<BodyId> ids = add_bodies(world, bodies);
   std::int64_t regrouped = 0, kept = 0;
-  for (int step = 0; step < 12; ++step) {
+  for (int step = 0; step < 40; ++step) {  // clusters are looked at every 32 moves
     for (std::size_t i = 0; i < 3; ++i) {
       if (step % 3 == 2 && i < 2) continue;  // their pair is at rest
       bodies[i] = jittered(step == 6 ? scrambled(bodies[i], 5) : bodies[i], 0.02, static_cast<std::uint64_t>(step));
@@ -186,8 +186,14 @@ TEST(FacetFates, AddUpInEveryStep) {
     FacetFateFinder finder(report);
     for (const Contact& contact : report.contacts()) {
       const FacetFates fates = finder.find(contact).value();
-      EXPECT_EQ(count(fates.a, FacetFate::kept) + count(fates.a, FacetFate::meets), contact.kept_facets_a) << step;
-      EXPECT_EQ(count(fates.b, FacetFate::kept) + count(fates.b, FacetFate::meets), contact.kept_facets_b) << step;
+      const auto kept_a = count(fates.a, FacetFate::kept) + count(fates.a, FacetFate::meets);
+      const auto kept_b = count(fates.b, FacetFate::kept) + count(fates.b, FacetFate::meets);
+      EXPECT_GE(kept_a, contact.kept_facets_a) << step;
+      EXPECT_GE(kept_b, contact.kept_facets_b) << step;
+      // What a step remembers of surfaces that lie on each other keeps fewer; with zones nothing is taken for such.
+      if (zones) {
+        EXPECT_EQ(kept_a + kept_b, contact.kept_facets_a + contact.kept_facets_b) << step;
+      }
       expect_same_meeting_facets(fates.a, facets_that_meet(contact, &FacetPair::a, fates.a.size()));
     }
     regrouped += report.stats().regrouped_bodies;
@@ -195,6 +201,11 @@ TEST(FacetFates, AddUpInEveryStep) {
   }
   EXPECT_GT(regrouped, 0);
   EXPECT_GT(kept, 0);
+}
+
+TEST(FacetFates, AddUpInEveryStep) {
+  expect_fates_that_add_up(true);
+  expect_fates_that_add_up(false);
 }
 
 TEST(FacetFates, AreTheSameForAnyNumberOfThreads) {

@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
+#include <tact/recording.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "scenes/commands/run_command.h"
 #include "scenes/commands/usage_error.h"
 #include "scenes/commands/view_command.h"
 #include "scenes/files/file_error.h"
+#include "tests/support/generators.h"
+#include "tests/support/mesh.h"
 #include "tests/support/temporary_folder.h"
 
 namespace tact::scenes {
@@ -28,12 +31,21 @@ class ViewCommand : public ::testing::Test {
     }
     return out.str();
   }
-  // A scene of few bodies, recorded.
+  // Two bodies of which one comes closer for ten steps, recorded.
   std::string record() const {
     const std::string file = (folder_.path() / "r.tactrec").string();
-    std::ostringstream ignored;
-    run({.scene = "wheel-on-ground", .frames = 10, .threads = 1, .record = file, .outputs = {.pictures = false}},
-        ignored);
+    std::ofstream out(file, std::ios::binary);
+    Recorder recorder(out);
+    World world({.threads = 1});
+    world.set_observer(&recorder);
+    const tests::Mesh ball = tests::icosphere(2);
+    const BodyId moving = world.add_body({.positions = ball.positions, .facets = ball.facets, .name = "moving"});
+    const tests::Mesh other = tests::translated(ball, {2.2, 0.1, 0.0});
+    world.add_body({.positions = other.positions, .facets = other.facets, .name = "other"});
+    for (int step = 0; step < 10; ++step) {
+      world.set_positions(moving, tests::translated(ball, {0.05 * step, 0.0, 0.0}).positions);
+      world.detect();
+    }
     return file;
   }
   ViewCommandOptions to_page(const std::string& what) const {
