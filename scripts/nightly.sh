@@ -11,6 +11,7 @@ TACT_LONG_CGAL_PAIRS=100000000 TACT_LONG_RATIONAL_PAIRS=1000000 build/release/te
 TACT_LONG_HULL_PAIRS=1000000 build/release/tests/long/test_directions_long
 TACT_LONG_MOTION_QUERIES=10000000 build/release/tests/long/test_motion_long
 TACT_SOAK_STEPS=1000000 build/release/tests/long/test_soak_long
+TACT_INSTRUCTION_SET=avx2 build/release/tests/test_engine --gtest_brief=1
 build/release/bench/tact-bench stability
 scripts/lint.sh all
 scripts/build.sh debug
