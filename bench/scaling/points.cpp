@@ -97,12 +97,12 @@ void check_against_rival(const Report& report, const std::vector<NearPoint>& riv
 }
 
 // Medians over the frames, all contestants taking turns, so that what disturbs one disturbs all.
-struct Measured {
+struct PointTimes {
   double without = 0.0, with = 0.0, with_patches = 0.0, embree = 0.0, cgal = 0.0;  // ms
   double points = 0.0;
 };
 
-Measured measure(const Workload& workload, const std::string& name, double budget_ms, int checked_frames) {
+PointTimes measure(const Workload& workload, const std::string& name, double budget_ms, int checked_frames) {
   const std::vector<double> margins = margins_of(workload);
   PointRunner without(workload, margins, {}), with(workload, margins, {.points = true}),
       with_patches(workload, margins, {.patches = true, .points = true});
@@ -147,7 +147,7 @@ int run_points(const BenchOptions& options) {
   for (const NamedWorkload& named : rival_workloads(options.quick ? Size::small : Size::full)) {
     if (named.name.find(options.only) == std::string::npos) continue;
     any = true;
-    const Measured m = measure(named.make(), named.name, budget_ms, options.quick ? 4 : 2);
+    const PointTimes m = measure(named.make(), named.name, budget_ms, options.quick ? 4 : 2);
     table.add({named.name, fmt::format("{:.0f}", m.points), three_digits(m.without), three_digits(m.with),
                three_digits(m.with / m.without), three_digits(m.with_patches), three_digits(m.embree),
                three_digits(m.cgal), three_digits(std::min(m.embree, m.cgal) / m.with)});

@@ -22,7 +22,7 @@ Workload recorded(const std::string& scene, int size, int settled, int frames) {
     simulation.step();
     for (std::size_t i = 0; i < workload.bodies.size(); ++i) {
       if (simulation.bodies()[i].motion == Motion::fixed && step > 0) continue;
-      workload.bodies[i].frames.push_back(scenes::as_matrix(simulation.seen(i)));
+      workload.bodies[i].frames.push_back(scenes::as_matrix(simulation.bodies()[i].positions));
     }
   }
   for (WorkloadBody& body : workload.bodies) {
