@@ -8,6 +8,7 @@ scripts/build.sh demo
 
 play() {
   echo
+  mkdir -p "out/$1"
   rm -f "out/$1"/film.*
   build/release/scenes/tact run "$@" --out "out/$1" --view "out/$1/page.html"
 }
