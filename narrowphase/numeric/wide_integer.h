@@ -45,6 +45,7 @@ class WideInteger {
     std::copy(b.limbs_, b.limbs_ + b.size_, limbs_);
   }
   WideInteger& operator=(const WideInteger& b) {
+    if (this == &b) return *this;
     size_ = b.size_;
     negative_ = b.negative_;
     std::copy(b.limbs_, b.limbs_ + b.size_, limbs_);
