@@ -15,6 +15,7 @@
 #include "scenes/commands/counted.h"
 #include "scenes/commands/interrupt.h"
 #include "scenes/files/mapped_file.h"
+#include "scenes/files/of_recording.h"
 #include "scenes/files/source.h"
 
 namespace tact::scenes {
@@ -29,34 +30,18 @@ constexpr const char* kReplayExamples =
 
 }  // namespace
 
-namespace {
-
-// Calls call(); what is wrong with the recording becomes an error of the file.
-template <class Call>
-auto of_file(const std::string& name, const Call& call) {
-  try {
-    return call();
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::bad_recording) throw;
-    constexpr std::size_t kLongest = 300;
-    throw FileError(fmt::format("{}: {}", name, printable(error.what(), kLongest)));  // it may hold the name of a body
-  }
-}
-
-}  // namespace
-
 void replay(const ReplayOptions& options, std::ostream& out) {
   const MappedFile file(options.recording);
   const std::string name = options.recording.string();
   base::Timer timer;
   RecordingPlayer player =
-      of_file(name, [&] { return RecordingPlayer(file.bytes(), {.threads = options.threads, .outputs = {}}); });
+      of_recording(name, [&] { return RecordingPlayer(file.bytes(), {.threads = options.threads, .outputs = {}}); });
   int steps = 0;
   int different = 0;
   std::optional<PlayedStep> first;
   const Interrupt interrupt;
   while (!interrupt.requested()) {
-    const std::optional<PlayedStep> step = of_file(name, [&] { return player.next(); });
+    const std::optional<PlayedStep> step = of_recording(name, [&] { return player.next(); });
     if (!step) break;
     if (!step->recorded) {
       fmt::print(out, "step {} had no answer when it was recorded; now {:016x}\n", step->number, step->now);

@@ -20,6 +20,7 @@
 #include "scenes/commands/usage_error.h"
 #include "scenes/files/mapped_file.h"
 #include "scenes/files/named_files.h"
+#include "scenes/files/of_recording.h"
 #include "scenes/files/source.h"
 #include "scenes/library/catalog.h"
 #include "scenes/pictures/program.h"
@@ -44,18 +45,6 @@ bool is_recording(const std::filesystem::path& path) {
   std::string begin(kMagic.size(), '\0');
   return std::filesystem::is_regular_file(path) &&
          file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == kMagic;
-}
-
-// Calls call(); what is wrong with the recording becomes an error of the file.
-template <class Call>
-auto of_recording(const std::string& name, const Call& call) {
-  try {
-    return call();
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::bad_recording) throw;
-    constexpr std::size_t kLongest = 300;
-    throw FileError(fmt::format("{}: {}", name, printable(error.what(), kLongest)));
-  }
 }
 
 std::string stem_of(const std::string& what) {

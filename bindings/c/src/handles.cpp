@@ -8,18 +8,45 @@
 namespace tact::c {
 namespace {
 
+template <class Entry>
+using Handles = std::map<std::uint64_t, std::shared_ptr<Entry>>;
+
 // The one list of what C programs hold: a handle that is not in it is refused, whatever its bits are. It is never taken
 // down, so that a program may end with worlds left.
 struct Registry {
   std::shared_mutex mutex;
-  std::map<std::uint64_t, std::shared_ptr<WorldEntry>> entries;
-  std::map<std::uint64_t, std::shared_ptr<PlayerEntry>> players;
+  Handles<WorldEntry> entries;
+  Handles<PlayerEntry> players;
   std::uint64_t last = 0x7461637400000000;  // "tact": no small number is ever a handle
 };
 
 Registry& registry() {
   static Registry& only = *new Registry;
   return only;
+}
+
+template <class Entry>
+std::uint64_t add(Handles<Entry> Registry::*list, std::shared_ptr<Entry> entry) {
+  Registry& all = registry();
+  const std::lock_guard lock(all.mutex);
+  (all.*list).emplace(all.last + 1, std::move(entry));
+  return ++all.last;
+}
+
+template <class Entry>
+void remove(Handles<Entry> Registry::*list, std::uint64_t handle) {
+  Registry& all = registry();
+  const std::lock_guard lock(all.mutex);
+  (all.*list).erase(handle);
+}
+
+template <class Entry>
+std::shared_ptr<Entry> find(Handles<Entry> Registry::*list, std::uint64_t handle, const char* message) {
+  Registry& all = registry();
+  const std::shared_lock lock(all.mutex);
+  const auto found = (all.*list).find(handle);
+  if (found == (all.*list).end()) throw Failure{TACT_ERROR_INVALID_HANDLE, message};
+  return found->second;
 }
 
 // In place, so that there is a message also where there is no memory.
@@ -36,48 +63,16 @@ static_assert(static_cast<int>(ErrorCode::bad_recording) + 1 == TACT_ERROR_BAD_R
 
 }  // namespace
 
-std::uint64_t add_entry(std::shared_ptr<WorldEntry> entry) {
-  Registry& all = registry();
-  const std::lock_guard lock(all.mutex);
-  all.entries.emplace(all.last + 1, std::move(entry));
-  return ++all.last;
-}
-
-void remove_entry(std::uint64_t handle) {
-  Registry& all = registry();
-  const std::lock_guard lock(all.mutex);
-  all.entries.erase(handle);
-}
-
+std::uint64_t add_entry(std::shared_ptr<WorldEntry> entry) { return add(&Registry::entries, std::move(entry)); }
+void remove_entry(std::uint64_t handle) { remove(&Registry::entries, handle); }
 std::shared_ptr<WorldEntry> entry_of(tact_world world) {
-  Registry& all = registry();
-  const std::shared_lock lock(all.mutex);
-  const auto found = all.entries.find(world.handle);
-  if (found == all.entries.end())
-    throw Failure{TACT_ERROR_INVALID_HANDLE, "the world was destroyed, or the handle was never given out"};
-  return found->second;
+  return find(&Registry::entries, world.handle, "the world was destroyed, or the handle was never given out");
 }
 
-std::uint64_t add_player(std::shared_ptr<PlayerEntry> player) {
-  Registry& all = registry();
-  const std::lock_guard lock(all.mutex);
-  all.players.emplace(all.last + 1, std::move(player));
-  return ++all.last;
-}
-
-void remove_player(std::uint64_t handle) {
-  Registry& all = registry();
-  const std::lock_guard lock(all.mutex);
-  all.players.erase(handle);
-}
-
+std::uint64_t add_player(std::shared_ptr<PlayerEntry> player) { return add(&Registry::players, std::move(player)); }
+void remove_player(std::uint64_t handle) { remove(&Registry::players, handle); }
 std::shared_ptr<PlayerEntry> player_of(tact_player player) {
-  Registry& all = registry();
-  const std::shared_lock lock(all.mutex);
-  const auto found = all.players.find(player.handle);
-  if (found == all.players.end())
-    throw Failure{TACT_ERROR_INVALID_HANDLE, "the player was closed, or the handle was never given out"};
-  return found->second;
+  return find(&Registry::players, player.handle, "the player was closed, or the handle was never given out");
 }
 
 tact_error failed(tact_error error, const char* message) noexcept {
