@@ -145,7 +145,7 @@ class App {
     byId("slider").value = state.frame;
     byId("clock").textContent = `step ${step}${time === null ? "" : ` · ${time.toFixed(3)} s`}`;
     byId("clock").dataset.step = step;
-    byId("play").textContent = state.playing ? "❚❚" : "▶";
+    byId("play").setAttribute("aria-pressed", String(state.playing));
     byId("loop").setAttribute("aria-pressed", String(state.loop));
     byId("speed").value = state.speed;
     this.timeline.show(state.frame);
