@@ -1,4 +1,5 @@
-// Made from the public interface alone: whatever is drawn here, a program can draw in its own way.
+// Made from the public interface, but for the facets that were kept: whatever else is drawn here, a program can draw in
+// its own way.
 #include <tact/debug_draw.h>
 
 #include <Eigen/Geometry>
@@ -8,10 +9,13 @@
 #include <cstdio>
 #include <new>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "engine/facet_fates.h"
 
 namespace tact {
 namespace {
@@ -49,7 +53,9 @@ std::string words_of(const char* format, double value) {
 class Drawing {
  public:
   Drawing(const World& world, const Report& report, DebugDrawer& drawer, const DebugDrawOptions& options)
-      : world_(world), report_(report), drawer_(drawer), options_(options) {}
+      : world_(world), report_(report), drawer_(drawer), options_(options) {
+    if (options.kept_facets) fates_.emplace(report);
+  }
 
   void draw() {
     draw_bodies();
@@ -84,6 +90,7 @@ class Drawing {
   void draw_contact(const Contact& contact) {
     const bool with_itself = contact.a == contact.b;
     if (!with_itself) draw_hulls(contact);
+    if (fates_) draw_kept_facets(contact);
     if (options_.facet_pairs) draw_facet_pairs(contact);
     if (options_.patches) {
       for (const Patch& patch : contact.patches())
@@ -111,6 +118,17 @@ class Drawing {
     if (options_.zones) {
       draw_disk(contact.zone_a, n);
       draw_disk(contact.zone_b, n);
+    }
+  }
+
+  void draw_kept_facets(const Contact& contact) {
+    const std::optional<FacetFates> fates = fates_->find(contact);
+    if (!fates) return;
+    for (const auto& [body, of_facets] : {std::pair{contact.a, &fates->a}, std::pair{contact.b, &fates->b}}) {
+      for (std::size_t f = 0; f < of_facets->size(); ++f) {
+        if ((*of_facets)[f] == FacetFate::kept || (!options_.facet_pairs && (*of_facets)[f] == FacetFate::meets))
+          draw_triangle(mesh_of(body), static_cast<int>(f), options_.kept);
+      }
     }
   }
 
@@ -212,6 +230,7 @@ class Drawing {
   const Report& report_;
   DebugDrawer& drawer_;
   const DebugDrawOptions& options_;
+  std::optional<FacetFateFinder> fates_;
   std::unordered_map<BodyId, Mesh> meshes_;
 };
 

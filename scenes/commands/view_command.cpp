@@ -37,7 +37,7 @@ Examples:
   tact view cloth-over-sphere --frames 120
   tact run pile --frames 60 --no-pictures --record pile.tactrec; tact view pile.tactrec
   tact view cloth_frames/ ball.obj --sheet cloth_frames --margin 0.004 --points
-  tact view pile --size 1000 --every 2 --out pile.html)";
+  tact view pile --size 1000 --few-points --out pile.html)";
 
 bool is_recording(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -190,6 +190,9 @@ void add_page_options(CLI::App& command, ViewOptions& page) {
   command.add_option("--to", page.to, "The page shows steps up to this one")
       ->type_name("STEP")
       ->check(CLI::Range(0, kMost).description(""));
+  command.add_flag(
+      "--few-points", page.few_points,
+      "Of each patch the page shows at most four contact points, which span it: pages of piles get smaller");
   command.add_option("--largest", page.largest, "How many megabytes the page may have; 400 if not given")
       ->type_name("MB")
       ->check(CLI::Range(1, kMost).description(""));

@@ -23,6 +23,10 @@ class ViewBytes {
   void add_raw(std::uint64_t bits) {
     for (int i = 0; i < 8; ++i) add_byte(static_cast<std::uint8_t>(bits >> 8 * i));
   }
+  void add_short(std::int16_t value) {
+    add_byte(static_cast<std::uint8_t>(value));
+    add_byte(static_cast<std::uint8_t>(value >> 8));
+  }
   void add_float(float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     for (int i = 0; i < 4; ++i) add_byte(static_cast<std::uint8_t>(bits >> 8 * i));

@@ -1,6 +1,9 @@
 #include "scenes/view/view_contacts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -8,6 +11,8 @@
 
 namespace tact::scenes {
 namespace {
+
+constexpr double kNormalSteps = 32767.0;  // of a component of a point's normal, for 16 bits
 
 void put_vector(const Eigen::Vector3d& v, ViewBytes& out) {
   for (int k = 0; k < 3; ++k) out.add_double(v[k]);
@@ -59,28 +64,46 @@ void put_patches(std::span<const Patch> patches, ViewBytes& out) {
   }
 }
 
-void put_place(const std::array<int, 3>& vertices, const std::array<double, 3>& weights, ViewBytes& out) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    out.add_signed(vertices[k]);
-    if (vertices[k] >= 0) out.add_float(static_cast<float>(weights[k]));
+// How many vertices a place has: of a vertex, an edge or a facet. Then how far they are from the last point's, which
+// has near ones, and all weights but the last in parts of 255, as positions are as rough.
+void put_place(const std::array<int, 3>& vertices, const std::array<double, 3>& weights, std::array<int, 3>& last,
+               ViewBytes& out) {
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(vertices, [](int v) { return v >= 0; }));
+  out.add_count(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    out.add_signed(vertices[k] - last[k]);
+    last[k] = vertices[k];
   }
+  for (std::size_t k = 0; k + 1 < count; ++k) out.add_byte(static_cast<std::uint8_t>(std::lrint(255.0 * weights[k])));
 }
 
-void put_points(std::span<const ContactPoint> points, ViewBytes& out) {
-  out.add_count(points.size());
-  for (const ContactPoint& point : points) {
-    out.add_byte(static_cast<std::uint8_t>(point.kind));
-    out.add_count(static_cast<std::uint64_t>(point.patch));
-    put_place(point.a_vertices, point.a_weights, out);
-    put_place(point.b_vertices, point.b_weights, out);
-    put_vector(point.normal, out);
-    out.add_double(point.gap);
-    out.add_raw(point.id);
+void put_point(const ContactPoint& point, std::array<int, 3>& last_a, std::array<int, 3>& last_b, ViewBytes& out) {
+  out.add_byte(static_cast<std::uint8_t>(point.kind));
+  out.add_count(static_cast<std::uint64_t>(point.patch));
+  put_place(point.a_vertices, point.a_weights, last_a, out);
+  put_place(point.b_vertices, point.b_weights, last_b, out);
+  for (int k = 0; k < 3; ++k) out.add_short(static_cast<std::int16_t>(std::lrint(kNormalSteps * point.normal[k])));
+  out.add_float(static_cast<float>(point.gap));
+  out.add_raw(point.id);
+}
+
+void put_points(const Contact& contact, PointsInView which, ViewBytes& out) {
+  std::vector<int> chosen;
+  if (which == PointsInView::spanning) {
+    for (const Patch& patch : contact.patches())
+      std::ranges::copy_if(patch.spanning, std::back_inserter(chosen), [](int point) { return point >= 0; });
+    std::ranges::sort(chosen);
+  } else {
+    chosen.resize(contact.points().size());
+    std::iota(chosen.begin(), chosen.end(), 0);
   }
+  out.add_count(chosen.size());
+  std::array<int, 3> last_a{}, last_b{};
+  for (const int point : chosen) put_point(contact.points()[static_cast<std::size_t>(point)], last_a, last_b, out);
 }
 
 void put_contact(const Contact& contact, const std::optional<FacetFates>& fates, const PlaceInView& place,
-                 ViewBytes& out) {
+                 PointsInView points, ViewBytes& out) {
   out.add_count(place(contact.a));
   out.add_count(place(contact.b));
   out.add_byte(
@@ -100,12 +123,12 @@ void put_contact(const Contact& contact, const std::optional<FacetFates>& fates,
     put_fates(fates->b, out);
   }
   put_patches(contact.patches(), out);
-  put_points(contact.points(), out);
+  put_points(contact, points, out);
 }
 
 }  // namespace
 
-void write_contacts(const Report& report, const PlaceInView& place, ViewBytes& out) {
+void write_contacts(const Report& report, const PlaceInView& place, PointsInView points, ViewBytes& out) {
   out.add_count(report.candidate_pairs().size());
   for (const CandidatePair& pair : report.candidate_pairs()) {
     out.add_count(2 * place(pair.a) + (pair.hulls_overlap ? 1 : 0));
@@ -113,7 +136,7 @@ void write_contacts(const Report& report, const PlaceInView& place, ViewBytes& o
   }
   out.add_count(report.contacts().size());
   FacetFateFinder finder(report);
-  for (const Contact& contact : report.contacts()) put_contact(contact, finder.find(contact), place, out);
+  for (const Contact& contact : report.contacts()) put_contact(contact, finder.find(contact), place, points, out);
 }
 
 }  // namespace tact::scenes

@@ -22,16 +22,17 @@ namespace {
 
 // A chunk is what the page unpacks at a time: large enough to compress well, and done in some hundredths of a second.
 constexpr std::size_t kChunkBytes = std::size_t{2} << 20;
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 constexpr double kMegabyte = 1e6;
 
-Json settings_json(const Settings& settings) {
+Json settings_json(const Settings& settings, bool few_points) {
   return {{"accuracy", accuracy_name(settings.accuracy)},
           {"direction", settings.direction == DirectionPolicy::carried ? "carried" : "smallest"},
           {"threads", settings.threads},
           {"zones", settings.outputs.zones || settings.accuracy == Accuracy::paper},
           {"patches", settings.outputs.patches},
           {"points", settings.outputs.points},
+          {"few_points", few_points},
           {"fates", settings.accuracy != Accuracy::hulls}};
 }
 
@@ -166,7 +167,8 @@ void ViewPage::write_frame(const Report& report) {
   }
   ViewBytes contacts;
   write_contacts(
-      report, [this](BodyId id) { return place_of(id); }, contacts);
+      report, [this](BodyId id) { return place_of(id); },
+      options_.few_points ? PointsInView::spanning : PointsInView::all, contacts);
   chunk_.add_part(contacts);
   ++chunks_.back().count;
   if (chunk_.size() >= kChunkBytes) end_chunk();
@@ -184,7 +186,7 @@ void ViewPage::check_size() const {
   if (static_cast<double>(written_) <= options_.largest * kMegabyte) return;
   throw FileError(
       fmt::format("{}: the page would be larger than {} MB after {} of the steps it shows: leave steps out with "
-                  "--every, --from and --to, or allow more with --largest",
+                  "--every, --from and --to, contact points with --few-points, or allow more with --largest",
                   options_.file, options_.largest, frames()));
 }
 
@@ -221,7 +223,7 @@ void ViewPage::write_head(Ending ending) {
                      {"tact", TACT_VERSION},
                      {"title", title_.name},
                      {"kind", title_.kind},
-                     {"settings", settings_json(settings_)},
+                     {"settings", settings_json(settings_, options_.few_points)},
                      {"steps", steps_},
                      {"interrupted", ending == Ending::interrupted},
                      {"bodies", bodies_json(bodies_, frames())},

@@ -23,6 +23,7 @@ struct ViewOptions {
   int every = 1;                             // steps from one that is shown to the next
   int from = 0;                              // the first step that is shown
   int to = std::numeric_limits<int>::max();  // the last one
+  bool few_points = false;                   // of each patch at most four contact points
   int largest = 400;                         // megabytes that the page may have: browsers hold some hundred
 };
 

@@ -139,6 +139,26 @@ TEST_F(DebugDraw, FacetsThatMeet) {
   EXPECT_EQ(drawn.triangles.back().r, other_.positions.col(other_.facets(2, b.back())));
 }
 
+// As many as the contact tells, those that meet among them; each colour its own.
+TEST_F(DebugDraw, FacetsThatWereKept) {
+  DebugDrawOptions options = kNothing;
+  options.kept_facets = true;
+  const Contact& contact = report_->contacts()[0];
+  const auto kept = static_cast<std::size_t>(contact.kept_facets_a + contact.kept_facets_b);
+  EXPECT_EQ(sketch(options).triangles.size(), kept);
+  options.facet_pairs = true;
+  const Sketch both = sketch(options);
+  EXPECT_EQ(both.triangles.size(), kept);
+  const auto of_color = [&](const DebugColor& color) {
+    return std::ranges::count_if(both.triangles, [&](const Sketch::Triangle& one) {
+      return one.color.green == color.green && one.color.alpha == color.alpha;
+    });
+  };
+  EXPECT_GT(of_color(options.kept), 0);
+  EXPECT_GT(of_color(options.meeting), 0);
+  EXPECT_EQ(of_color(options.kept) + of_color(options.meeting), static_cast<std::ptrdiff_t>(kept));
+}
+
 TEST_F(DebugDraw, NamesAndSurfaces) {
   DebugDrawOptions options = kNothing;
   options.names = options.surfaces = true;

@@ -107,6 +107,11 @@ def test_what_was_found_is_drawn():
     sketch = Sketch()
     world.debug_draw(report, sketch, options)
     assert sketch.triangles[0] == (0.25, 0.0, 0.0, 1.0)
+    options = tact.DebugDrawOptions(kept_facets=True, facet_pairs=False, kept=tact.DebugColor(green=0.5))
+    sketch = Sketch()
+    world.debug_draw(report, sketch, options)
+    contact = report.contacts[0]
+    assert sketch.triangles == [(0.0, 0.5, 0.0, 1.0)] * (contact.kept_facets_a + contact.kept_facets_b)
     with pytest.raises(AttributeError):
         tact.DebugDrawOptions(boxen=True)
     with pytest.raises(AttributeError):

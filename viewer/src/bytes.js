@@ -36,6 +36,12 @@ export class ByteReader {
     return value;
   }
 
+  short() {
+    const value = this.view.getInt16(this.at, true);
+    this.at += 2;
+    return value;
+  }
+
   float() {
     const value = this.view.getFloat32(this.at, true);
     this.at += 4;

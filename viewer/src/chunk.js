@@ -67,26 +67,27 @@ function readPatch(reader) {
   return patch;
 }
 
-/** A place on a surface: vertices and their weights. */
-function readPlace(reader) {
-  const vertices = [], weights = [];
-  for (let k = 0; k < 3; ++k) {
-    const vertex = reader.signed();
-    if (vertex < 0) continue;
-    vertices.push(vertex);
-    weights.push(reader.float());
+/** A place on a surface: vertices and their weights. `last` holds the vertices of the point before. */
+function readPlace(reader, last) {
+  const count = reader.count(), vertices = [], weights = [];
+  for (let k = 0; k < count; ++k) vertices.push((last[k] += reader.signed()));
+  let rest = 1;
+  for (let k = 0; k + 1 < count; ++k) {
+    weights.push(reader.byte() / 255);
+    rest -= weights[k];
   }
+  if (count > 0) weights.push(Math.max(rest, 0));
   return { vertices, weights };
 }
 
-function readPoint(reader) {
+function readPoint(reader, lastA, lastB) {
   return {
     kind: reader.byte(),
     patch: reader.count(),
-    a: readPlace(reader),
-    b: readPlace(reader),
-    normal: reader.vector(),
-    gap: reader.double(),
+    a: readPlace(reader, lastA),
+    b: readPlace(reader, lastB),
+    normal: [0, 1, 2].map(() => reader.short() / 32767),
+    gap: reader.float(),
     id: reader.hex(),
   };
 }
@@ -113,7 +114,8 @@ function readContact(reader) {
   contact.fatesA = flags & 8 ? readFates(reader) : null;
   contact.fatesB = flags & 8 ? readFates(reader) : null;
   contact.patches = times(reader.count(), () => readPatch(reader));
-  contact.points = times(reader.count(), () => readPoint(reader));
+  const lastA = [0, 0, 0], lastB = [0, 0, 0];
+  contact.points = times(reader.count(), () => readPoint(reader, lastA, lastB));
   contact.self = contact.a === contact.b;
   return contact;
 }

@@ -242,7 +242,8 @@ export class Panel {
     const { bodies } = this.app.run, coarsest = bodies.reduce((most, body) => Math.max(most, body.step), 0);
     const cut = bodies.filter((body) => body.cut_off).length;
     return element("p", { class: "quiet", id: "notes" },
-      `Numbers are the program's. Positions are rounded for the picture alone, to ${length(coarsest)} at most. Hulls are those of rounded positions.`,
+      `Numbers are the program's. Positions are rounded for the picture alone, to ${length(coarsest)} at most; so are normals and gaps of contact points, to some 1e-5 and 1e-7 of their size. Hulls are those of rounded positions.`,
+      this.app.run.head.settings.few_points ? "Of each patch at most four contact points are shown, which span it (--few-points)." : null,
       cut > 0 ? ` ${plural(cut, "body", "bodies")} went too far away to be drawn where they are.` : null);
   }
 }

@@ -487,6 +487,7 @@ class DebugDrawOptions:
     directions: bool
     planes: bool
     zones: bool
+    kept_facets: bool
     facet_pairs: bool
     patches: bool
     points: bool
@@ -498,6 +499,7 @@ class DebugDrawOptions:
     direction: DebugColor
     plane: DebugColor
     zone: DebugColor
+    kept: DebugColor
     meeting: DebugColor
     patch: DebugColor
     point: DebugColor

@@ -41,6 +41,7 @@ struct DebugDrawOptions {
   bool directions = true;       ///< of each contact: an arrow as long as its depth, and the depth as a word
   bool planes = false;          ///< its two contact planes, as squares as wide as the bodies
   bool zones = true;            ///< the disks around its impact zones
+  bool kept_facets = false;     ///< the facets that the criteria left, also those that meet none: found once more
   bool facet_pairs = true;      ///< the facets that meet
   bool patches = true;          ///< of each patch: an arrow as long as its depth
   bool points = true;           ///< of each contact point: a line from a to b, and its normal
@@ -53,6 +54,7 @@ struct DebugDrawOptions {
   DebugColor direction{1.0f, 0.8f, 0.0f, 1.0f};
   DebugColor plane{0.3f, 0.8f, 1.0f, 0.3f};
   DebugColor zone{0.2f, 1.0f, 0.6f, 1.0f};
+  DebugColor kept{1.0f, 0.6f, 0.1f, 0.4f};
   DebugColor meeting{1.0f, 0.1f, 0.1f, 0.8f};
   DebugColor patch{1.0f, 0.4f, 0.0f, 1.0f};
   DebugColor point{1.0f, 0.0f, 1.0f, 1.0f};
@@ -61,7 +63,7 @@ struct DebugDrawOptions {
 
 /// Draws what `report`, the last of `world`, found. Bodies are drawn at the positions that were set last: draw before
 /// they are set anew. Reads all positions of the bodies whose facets are drawn.
-/// Errors: stale_body (a body of the report was removed since), out_of_memory.
+/// Errors: stale_body (a body of the report was removed since), out_of_memory, backend_failure (kept_facets).
 TACT_API void debug_draw(const World& world, const Report& report, DebugDrawer& drawer,
                          const DebugDrawOptions& options = {});
 

@@ -579,6 +579,7 @@ typedef struct tact_debug_draw_options {
   bool directions;
   bool planes;
   bool zones;
+  bool kept_facets;
   bool facet_pairs;
   bool patches;
   bool points;
@@ -590,6 +591,7 @@ typedef struct tact_debug_draw_options {
   tact_debug_color direction;
   tact_debug_color plane;
   tact_debug_color zone;
+  tact_debug_color kept;
   tact_debug_color meeting;
   tact_debug_color patch;
   tact_debug_color point;
