@@ -23,7 +23,7 @@ std::vector<Command> commands() {
       {"scaling", "one and more threads, growth with bodies and facets, the slowest of many steps", run_scaling},
       {"stages", "what each stage costs in every level of the cache, and on all threads", run_stages},
       {"idle", "steps in which nothing moved, or few of many", run_idle},
-      {"busy", "steps beside programs that keep the processor busy", run_busy},
+      {"busy", "steps beside programs that keep the processor busy", run_busy, true},
       {"motion", "what meets between two steps, against the inclusion-based method", run_motion, true},
       {"points", "contact points, against the same step without, and with Embree's and CGAL's boxes", run_points, true},
       {"broadphase", "boxes alone, in every kind of motion, through tact, Embree and CGAL", run_broadphase},
