@@ -4,7 +4,7 @@ import { ConvexHull } from "three/addons/math/ConvexHull.js";
 
 const COLORS = { boxApart: 0x7c88a3, boxOverlap: 0xffffff, hullA: 0x6fa8ff, hullB: 0xffa56f, direction: 0xffffff, planeA: 0x6fa8ff,
   planeB: 0xffa56f, patch: 0xff6fd0, point: 0x7dffb0, chosen: 0xffffff };
-const kMostBoxes = 4000, kMostArrows = 60, kMostLines = 5000, kMostPoints = 20000; // more arrows are thin lines, in one call
+const kMostBoxes = 4000, kMostArrows = 60, kMostLines = 5000, kMostPoints = 20000, kMostRoundPoints = 1000; // more arrows are thin lines, in one call
 const kMostHullVertices = 20000; // of more, those farthest in some hundred directions stand for the hull
 const kUp = new THREE.Vector3(0, 0, 1);
 
@@ -81,8 +81,9 @@ function arrow(from, n, length, color) {
 }
 
 function balls(places, radius, color, chosen) {
-  const mesh = new THREE.InstancedMesh(new THREE.SphereGeometry(radius, 12, 8), new THREE.MeshBasicMaterial({ color: 0xffffff }),
-    places.length);
+  // Of thousands each is a few pixels wide, and round ones would be most of what is drawn.
+  const shape = places.length > kMostRoundPoints ? new THREE.OctahedronGeometry(radius) : new THREE.SphereGeometry(radius, 12, 8);
+  const mesh = new THREE.InstancedMesh(shape, new THREE.MeshBasicMaterial({ color: 0xffffff }), places.length);
   const matrix = new THREE.Matrix4(), scale = new THREE.Vector3(), none = new THREE.Quaternion();
   places.forEach((place, i) => {
     mesh.setMatrixAt(i, matrix.compose(place, none, scale.setScalar(i === chosen ? 2 : 1)));
