@@ -110,8 +110,8 @@ constexpr LoneCorner find_lone_corner(const Signs& s) {
     const int next = s[(i + 1) % 3];
     const int last = s[(i + 2) % 3];
     const bool touches = s[i] == 0 && next == last && next != 0;
-    const bool parted = s[i] != 0 && s[i] != next && s[i] != last;
-    if (touches || parted) return {static_cast<std::int8_t>(i), static_cast<std::int8_t>(touches ? -next : s[i])};
+    const bool separated = s[i] != 0 && s[i] != next && s[i] != last;
+    if (touches || separated) return {static_cast<std::int8_t>(i), static_cast<std::int8_t>(touches ? -next : s[i])};
   }
   return {0, 0};
 }
