@@ -83,26 +83,24 @@ struct VertexBounds {
   }
 };
 
-// Some features of a cluster, of kCorners corners each: their numbers in the mesh, where their corners are at time 0
-// and 1, and their boxes on the way.
+// Some features of a cluster, of kCorners corners each: their numbers in the mesh, their corners as the cluster counts
+// its vertices, and their boxes on the way.
 template <int kCorners, int kMostFeatures>
 struct MovingFeatures : FixedBoxes<kMostFeatures> {
   using Boxes = FixedBoxes<kMostFeatures>;
   using Boxes::bounds, Boxes::count;
   int number[kMostFeatures];
-  double at[2][kCorners][3][kMostFeatures];  // time, corner, axis
+  std::array<int, kCorners> corners[kMostFeatures];
 
   void clear() { count = 0; }
-  void add(int feature, const MovingCluster& cluster, const VertexBounds& vertex,
-           const std::array<int, kCorners>& corners) {
+  void add(int feature, const VertexBounds& vertex, const std::array<int, kCorners>& of_feature) {
     const int i = count++;
     number[i] = feature;
+    corners[i] = of_feature;
     for (int axis = 0; axis < 3; ++axis) {
-      double low = vertex.low[axis][corners[0]], high = vertex.high[axis][corners[0]];
-      for (int c = 0; c < kCorners; ++c) {
-        const int v = corners[c];
-        at[0][c][axis][i] = cluster.at[0][axis][v];
-        at[1][c][axis][i] = cluster.at[1][axis][v];
+      double low = vertex.low[axis][of_feature[0]], high = vertex.high[axis][of_feature[0]];
+      for (int c = 1; c < kCorners; ++c) {
+        const int v = of_feature[static_cast<std::size_t>(c)];
         low = vertex.low[axis][v] < low ? vertex.low[axis][v] : low;
         high = vertex.high[axis][v] > high ? vertex.high[axis][v] : high;
       }
@@ -115,42 +113,44 @@ struct MovingFeatures : FixedBoxes<kMostFeatures> {
 // The features of a cluster that come near the box of another one: its facets, and the vertices and edges that it has
 // first.
 struct NearFeatures {
+  const MovingCluster* cluster = nullptr;
   VertexBounds bounds;
   MovingFeatures<1, kMostVertices> vertices;
   MovingFeatures<2, kMostEdges> edges;
   MovingFeatures<3, kClusterSize> facets;
 
   // Is there any? Where no facet is near, no vertex nor edge of one is.
-  bool take(const MovingMesh& m, const MovingCluster& cluster, const Cut& cut, const Box& near);
+  bool take(const MovingMesh& m, const MovingCluster& from, const Cut& cut, const Box& near);
 };
 
 // A feature is beyond a side of the box if all its corners are: a bit for each side that a vertex is beyond.
-bool NearFeatures::take(const MovingMesh& m, const MovingCluster& cluster, const Cut& cut, const Box& near) {
-  bounds.take(cluster, cut);
+bool NearFeatures::take(const MovingMesh& m, const MovingCluster& from, const Cut& cut, const Box& near) {
+  cluster = &from;
+  bounds.take(from, cut);
   std::int64_t beyond[kMostVertices];  // as wide as a double, for the sake of the loops
-  std::fill_n(beyond, cluster.vertex_count, 0);
+  std::fill_n(beyond, from.vertex_count, 0);
   for (int axis = 0; axis < 3; ++axis) {
     const double lower = near.lower[axis], upper = near.upper[axis];
     const std::int64_t below = 1 << (2 * axis), above = 2 << (2 * axis);
-    for (int i = 0; i < cluster.vertex_count; ++i)
+    for (int i = 0; i < from.vertex_count; ++i)
       beyond[i] |= (bounds.high[axis][i] < lower ? below : 0) | (bounds.low[axis][i] > upper ? above : 0);
   }
-  const ClusterFacets all = m.mesh->facets_of(cluster.cluster);
+  const ClusterFacets all = m.mesh->facets_of(from.cluster);
   facets.clear();
   for (int i = 0; i < all.facet_count; ++i) {
     const int u = all.corner[0][i], v = all.corner[1][i], w = all.corner[2][i];
-    if ((beyond[u] & beyond[v] & beyond[w]) == 0) facets.add(all.facet_begin + i, cluster, bounds, {u, v, w});
+    if ((beyond[u] & beyond[v] & beyond[w]) == 0) facets.add(all.facet_begin + i, bounds, {u, v, w});
   }
   if (facets.count == 0) return false;
   vertices.clear();
   for (int i = 0; i < all.owned_count; ++i) {
-    if (beyond[i] == 0) vertices.add(all.owned_begin + i, cluster, bounds, {i});
+    if (beyond[i] == 0) vertices.add(all.owned_begin + i, bounds, {i});
   }
   edges.clear();
-  const int edge_end = m.features->edge_end(cluster.cluster);
-  for (int e = m.features->edge_begin(cluster.cluster); e < edge_end; ++e) {
+  const int edge_end = m.features->edge_end(from.cluster);
+  for (int e = m.features->edge_begin(from.cluster); e < edge_end; ++e) {
     const auto [u, v] = m.features->edge_in_cluster(e);
-    if ((beyond[u] & beyond[v]) == 0) edges.add(e, cluster, bounds, {u, v});
+    if ((beyond[u] & beyond[v]) == 0) edges.add(e, bounds, {u, v});
   }
   return true;
 }
@@ -266,11 +266,12 @@ class ImpactSearch {
       Waiting& waiting = memory_.facets;
       const int lane = waiting.polygons.count;
       waiting.pair[lane] = {kind, vertex_is_a ? vertex : facet, vertex_is_a ? facet : vertex};
+      const int v = vertices.vertices.corners[i][0];
       for (int time = 0; time < 2; ++time) {
         for (int axis = 0; axis < 3; ++axis) {
-          const double from = vertices.vertices.at[time][0][axis][i];
-          for (int c = 0; c < 3; ++c)
-            waiting.polygons.corner[time][c][axis][lane] = facets.facets.at[time][c][axis][k] - from;
+          const double from = vertices.cluster->at[time][axis][v], *const to = facets.cluster->at[time][axis];
+          for (std::size_t c = 0; c < 3; ++c)
+            waiting.polygons.corner[time][c][axis][lane] = to[facets.facets.corners[k][c]] - from;
         }
       }
       added(waiting);
@@ -284,10 +285,12 @@ class ImpactSearch {
       Waiting& waiting = memory_.edges;
       const int lane = waiting.polygons.count;
       waiting.pair[lane] = {FeaturePair::edge_edge, e, f};
+      const auto [of_p, of_q] = a.edges.corners[i];
+      const auto [of_r, of_s] = b.edges.corners[k];
       for (int time = 0; time < 2; ++time) {
         for (int axis = 0; axis < 3; ++axis) {
-          const double p = a.edges.at[time][0][axis][i], q = a.edges.at[time][1][axis][i];
-          const double r = b.edges.at[time][0][axis][k], s = b.edges.at[time][1][axis][k];
+          const double *const at_a = a.cluster->at[time][axis], *const at_b = b.cluster->at[time][axis];
+          const double p = at_a[of_p], q = at_a[of_q], r = at_b[of_r], s = at_b[of_s];
           auto& corner = waiting.polygons.corner[time];
           corner[0][axis][lane] = r - p;
           corner[1][axis][lane] = s - p;
