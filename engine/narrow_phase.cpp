@@ -1,5 +1,6 @@
 #include "engine/narrow_phase.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -14,6 +15,21 @@ namespace tact {
 namespace {
 
 constexpr std::size_t kFewestAtATime = 4, kMostAtATime = 64;  // pairs
+
+// Pairs that a thread takes at a time. Few pairs of large bodies are taken one by one.
+std::size_t grain_for(std::span<const MovedPair> moved, const Bodies& bodies, const Settings& settings) {
+  if (settings.threads > 1 && moved.size() > 1 && moved.size() <= kFewestAtATime) {
+    std::size_t facets = 0;
+    for (const MovedPair& pair : moved) {
+      const auto facets_of = [&](BodyId id) {
+        return static_cast<std::size_t>(bodies.in_slot(id.index).mesh.facet_count());
+      };
+      facets += std::min(facets_of(pair.record->a), facets_of(pair.record->b));
+    }
+    if (facets >= bodies.tuning().worth_threads) return 1;
+  }
+  return base::grain_of(moved.size(), settings.threads, kFewestAtATime, kMostAtATime);
+}
 
 // What it found in the last step, points are remembered.
 void clear_answers(PairRecord& record) {
@@ -41,7 +57,7 @@ void NarrowPhase::run(PairTable& table, Bodies& bodies, const Settings& settings
   clocks_.assign(threads, {.timer = own_timer});
   large_count_ = 0;
   const std::span<MovedPair> moved = table.moved();
-  const std::size_t grain = base::grain_of(moved.size(), settings.threads, kFewestAtATime, kMostAtATime);
+  const std::size_t grain = grain_for(moved, bodies, settings);
   const PairPrefetch prefetch(bodies, moved, grain, settings.threads);
   base::parallel_for(moved.size(), grain, settings.threads, [&](std::size_t i, int thread) {
     if (prefetch.pays()) prefetch.prefetch_after(i);
