@@ -18,7 +18,8 @@ constexpr std::size_t kFewestAtATime = 4, kMostAtATime = 64;  // pairs
 
 // Pairs that a thread takes at a time. Few pairs of large bodies are taken one by one.
 std::size_t grain_for(std::span<const MovedPair> moved, const Bodies& bodies, const Settings& settings) {
-  if (settings.threads > 1 && moved.size() > 1 && moved.size() <= kFewestAtATime) {
+  const base::Tuning& tuning = bodies.tuning();
+  if (settings.threads > 1 && moved.size() > 1 && is_few(moved.size(), settings.threads, tuning)) {
     std::size_t facets = 0;
     for (const MovedPair& pair : moved) {
       const auto facets_of = [&](BodyId id) {
@@ -26,7 +27,7 @@ std::size_t grain_for(std::span<const MovedPair> moved, const Bodies& bodies, co
       };
       facets += std::min(facets_of(pair.record->a), facets_of(pair.record->b));
     }
-    if (facets >= bodies.tuning().worth_threads) return 1;
+    if (facets >= tuning.worth_threads) return 1;
   }
   return base::grain_of(moved.size(), settings.threads, kFewestAtATime, kMostAtATime);
 }

@@ -63,7 +63,7 @@ struct Tuning {
   /// garment 6 k on two threads: 0.74 of the time with this and the next.
   std::size_t large_of_few = 64;
   std::size_t few_pairs_per_thread = 4;
-  /// Facets of the smaller bodies of up to four pairs, from which on these are shared out one by one.
+  /// Facets of the smaller bodies of so few pairs, from which on these are shared out one by one.
   std::size_t worth_threads = 1024;
   /// Pairs of clusters a range at least: ten times what it takes to wake a thread.
   std::size_t fewest_in_range = 32;

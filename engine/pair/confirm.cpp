@@ -102,10 +102,13 @@ void confirm(const base::Tuning& tuning, PairWork& work) {
   finish(culled, opened, confirmed, 1, work);
 }
 
+bool is_few(std::size_t pairs, int threads, const base::Tuning& tuning) {
+  return pairs < tuning.few_pairs_per_thread * static_cast<std::size_t>(threads);
+}
+
 bool is_large(const CulledPair& culled, std::size_t pairs, int threads, const base::Tuning& tuning) {
   if (threads == 1) return false;
-  const bool few = pairs < tuning.few_pairs_per_thread * static_cast<std::size_t>(threads);
-  return culled.cluster_pairs.size() > (few ? tuning.large_of_few : tuning.large_pair);
+  return culled.cluster_pairs.size() > (is_few(pairs, threads, tuning) ? tuning.large_of_few : tuning.large_pair);
 }
 
 void confirm_in_ranges(LargePair& large, std::span<PairWork> thread_work, int threads, const base::Tuning& tuning) {
