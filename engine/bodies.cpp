@@ -312,6 +312,7 @@ std::vector<Bodies::Regrouped> Bodies::regroup(int threads) {
       packed_meshes_.remove(body.mesh);
       body.mesh = std::move(*meshes[i]);
       body.features.reset();
+      body.neighbors.reset();
       slots_[loose_[i]].begin = Begin::here;
       packed_meshes_.add(body.mesh);
     } else {
@@ -454,6 +455,15 @@ void Bodies::make_features(std::span<const std::uint32_t> slots, int threads) {
     Body& body = *slots_[without_features_[i]].body;
     body.features = std::make_unique<const narrowphase::Features>(body.mesh);
   });
+}
+
+const narrowphase::ClusterNeighbors& Bodies::neighbors(std::uint32_t slot) {
+  Body& body = *slots_[slot].body;
+  if (body.neighbors == nullptr) {
+    make_features({&slot, 1}, 1);
+    body.neighbors = std::make_unique<const narrowphase::ClusterNeighbors>(body.mesh, *body.features);
+  }
+  return *body.neighbors;
 }
 
 void Bodies::set_filter(BodyId id, const broadphase::Filter& filter) {

@@ -18,6 +18,7 @@
 #include "narrowphase/mesh/clustered_mesh.h"
 #include "narrowphase/mesh/refit.h"
 #include "narrowphase/motion/impacts.h"
+#include "narrowphase/self/cluster_neighbors.h"
 
 namespace tact {
 
@@ -30,6 +31,7 @@ struct alignas(64) Body {
   std::uint64_t external_id = 0;
   bool self_contact = false;
   std::unique_ptr<const narrowphase::Features> features = nullptr;  // made when points are first asked for
+  std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors = nullptr;  // when it is first held against itself
   std::vector<double> begin = {};  // where it was in the last step, once it has moved twice since: a placement
 };
 
@@ -81,6 +83,8 @@ class Bodies {
   narrowphase::MovingMesh moving(std::uint32_t slot) const;
   // Makes the features that are missing of some bodies, which may be named more than once, in parallel.
   void make_features(std::span<const std::uint32_t> slots, int threads);
+  // Made, with its features, when they are first asked for.
+  const narrowphase::ClusterNeighbors& neighbors(std::uint32_t slot);
 
   // Pairs of slots that are not tested, sorted; were others before end_step()?
   bool excludes_any() const { return !excluded_.empty(); }

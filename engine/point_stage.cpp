@@ -163,17 +163,14 @@ void PointStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Set
 }
 
 void PointStage::run_self(std::uint32_t slot, Bodies& bodies, const Settings& settings,
-                          narrowphase::EmbreeDevice& device, std::vector<ContactPoint>& points) {
+                          std::span<const ClusterPair> pairs, std::vector<ContactPoint>& points) {
   points.clear();
-  const double reach = bodies.reach(slot, slot);
-  if (reach == 0.0) return;
+  if (pairs.empty()) return;
   numbers_patches_ = !settings.outputs.patches;
-  wanted_.assign(1, {slot, slot, reach, &points, nullptr});
+  wanted_.assign(1, {slot, slot, bodies.reach(slot, slot), &points, nullptr});
   make_features(bodies, settings.threads);
   work_.resize(settings.threads);
-  const auto mesh = bodies.featured(slot);
-  search_in_ranges(wanted_[0], bodies, work_[0].near.find(mesh, mesh, reach, bodies.tuning(), device),
-                   settings.threads);
+  search_in_ranges(wanted_[0], bodies, pairs, settings.threads);
 }
 
 void PointStage::search_in_ranges(const Wanted& wanted, const Bodies& bodies, std::span<const ClusterPair> pairs,

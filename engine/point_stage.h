@@ -21,9 +21,9 @@ class PointStage {
   /// one body is inside the other; each into its record.
   void run(std::span<const MovedPair> moved, Bodies& bodies, const Settings& settings,
            narrowphase::EmbreeDevice& device);
-  /// The points of a body with itself, into `points`, on all threads.
-  void run_self(std::uint32_t slot, Bodies& bodies, const Settings& settings, narrowphase::EmbreeDevice& device,
-                std::vector<ContactPoint>& points);
+  /// The points of a body with itself, of these of its cluster pairs, into `points`, on all threads.
+  void run_self(std::uint32_t slot, Bodies& bodies, const Settings& settings,
+                std::span<const narrowphase::ClusterPair> pairs, std::vector<ContactPoint>& points);
 
  private:
   /// Memory of a thread, used again.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "narrowphase/self/self_facet_pairs.h"
 
 namespace tact {
 
@@ -34,8 +35,11 @@ void SelfStage::run(Bodies& bodies, const Settings& settings, bool all, PointSta
     one.facet_pairs.clear();
     one.points.clear();
     one.looked_at = true;
-    if (settings.accuracy != Accuracy::hulls) find_facet_pairs(one, bodies, settings.threads, device);
-    if (settings.outputs.points) points.run_self(slot, bodies, settings, device, one.points);
+    const narrowphase::ClusterNeighbors& neighbors = bodies.neighbors(slot);
+    clusters_.find({bodies.featured(slot), &neighbors}, settings.outputs.points ? bodies.reach(slot, slot) : 0.0,
+                   bodies.tuning(), settings.threads, device);
+    if (settings.accuracy != Accuracy::hulls) find_facet_pairs(one, bodies, settings.threads);
+    if (settings.outputs.points) points.run_self(slot, bodies, settings, clusters_.may_contact(), one.points);
   };
   if (all) {
     const auto slots = static_cast<std::uint32_t>(bodies.boxes().size());
@@ -56,10 +60,9 @@ SelfRecord& SelfStage::record(std::uint32_t slot) {
   return *records_[slot];
 }
 
-void SelfStage::find_facet_pairs(SelfRecord& record, const Bodies& bodies, int threads,
-                                 narrowphase::EmbreeDevice& device) {
+void SelfStage::find_facet_pairs(SelfRecord& record, const Bodies& bodies, int threads) {
   const narrowphase::ClusteredMesh& mesh = bodies.in_slot(record.body.index).mesh;
-  const auto pairs = clusters_.find(mesh, bodies.tuning(), device);
+  const auto pairs = clusters_.may_meet();
   const std::size_t ranges = (pairs.size() + kPairsAtATime - 1) / kPairsAtATime;
   if (ranges_.size() < ranges) ranges_.resize(ranges);
   base::parallel_for(ranges, 1, threads, [&](std::size_t i) {

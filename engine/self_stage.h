@@ -13,7 +13,7 @@
 #include "engine/bodies.h"
 #include "engine/patch_stage.h"
 #include "engine/point_stage.h"
-#include "narrowphase/self/self_facet_pairs.h"
+#include "narrowphase/self/self_clusters.h"
 
 namespace tact {
 
@@ -50,7 +50,7 @@ class SelfStage {
 
  private:
   SelfRecord& record(std::uint32_t slot);
-  void find_facet_pairs(SelfRecord& record, const Bodies& bodies, int threads, narrowphase::EmbreeDevice& device);
+  void find_facet_pairs(SelfRecord& record, const Bodies& bodies, int threads);
   void select();
 
   std::vector<std::unique_ptr<SelfRecord>> records_;  // by slot; null where none is wanted

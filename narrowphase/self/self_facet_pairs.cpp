@@ -47,12 +47,6 @@ bool plane_separates(const Triangle& plane, const Triangle& other) {
 
 }  // namespace
 
-std::span<const ClusterPair> SelfClusters::find(const ClusteredMesh& mesh, const base::Tuning& tuning,
-                                                EmbreeDevice& device) {
-  const auto box_of = [&](int c) { return mesh.cluster_boxes()[c]; };
-  return finder_.find(mesh, box_of, mesh, box_of, mesh.box(), tuning, device);
-}
-
 void find_self_facet_pairs(const ClusteredMesh& mesh, std::span<const ClusterPair> pairs,
                            std::vector<FacetPair>& found) {
   OpenFacets a, b;

@@ -10,17 +10,8 @@
 
 namespace tact::narrowphase {
 
-/// The pairs of clusters of a mesh whose boxes overlap, the smaller first; each cluster with itself is one.
-class SelfClusters {
- public:
-  std::span<const ClusterPair> find(const ClusteredMesh& mesh, const base::Tuning& tuning, EmbreeDevice& device);
-
- private:
-  ClusterPairFinder finder_;
-};
-
 /// Appends the facet pairs of some cluster pairs, in no particular order, by the caller's numbers with a < b. All
-/// cluster pairs together give each facet pair once. Facets meet as closed sets, decided exactly (triangle_triangle.h).
+/// cluster pairs whose boxes overlap together give each facet pair once. Facets meet as closed sets, decided exactly (triangle_triangle.h).
 /// Facets that name a common vertex do not count; facets whose vertices have different numbers and the same place do.
 void find_self_facet_pairs(const ClusteredMesh& mesh, std::span<const ClusterPair> pairs,
                            std::vector<FacetPair>& found);

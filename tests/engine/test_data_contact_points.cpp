@@ -6,6 +6,7 @@
 
 #include "tests/support/data.h"
 #include "tests/support/detection.h"
+#include "tests/support/oracle.h"
 #include "tests/support/point_oracle.h"
 
 namespace tact::tests {
@@ -46,19 +47,6 @@ TEST(DataContactPoints, OfAClothThatFallsOnASphereEqualBruteForce) {
                                  "frame " + std::to_string(frame));
   }
   EXPECT_GT(points, 100u);
-}
-
-// Facets of one mesh that share no vertex and meet, by CGAL.
-std::vector<FacetPair> self_facet_pairs_by_oracle(const Mesh& mesh) {
-  std::vector<FacetPair> pairs;
-  for (const FacetPair& pair : facet_pairs_by_oracle(mesh, mesh)) {
-    bool share = false;
-    for (int i = 0; i < 3; ++i) {
-      for (int k = 0; k < 3; ++k) share = share || mesh.facets(i, pair.a) == mesh.facets(k, pair.b);
-    }
-    if (pair.a < pair.b && !share) pairs.push_back(pair);
-  }
-  return pairs;
 }
 
 std::vector<FacetPair> self_facet_pairs_by_engine(const Mesh& mesh, int threads) {

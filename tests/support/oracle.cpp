@@ -90,6 +90,16 @@ std::vector<FacetPair> facet_pairs_by_oracle(const Mesh& a, const Mesh& b) {
   return pairs;
 }
 
+std::vector<FacetPair> self_facet_pairs_by_oracle(const Mesh& mesh) {
+  std::vector<FacetPair> pairs = facet_pairs_by_oracle(mesh, mesh);
+  std::erase_if(pairs, [&](const FacetPair& pair) {
+    if (pair.b <= pair.a) return true;
+    const auto f = mesh.facets.col(pair.a), g = mesh.facets.col(pair.b);
+    return std::ranges::find_first_of(f, g) != f.end();
+  });
+  return pairs;
+}
+
 std::vector<FacetPair> facet_pairs_by_brute_force(const Mesh& a, const Mesh& b) {
   const auto triangle = [](const Mesh& mesh, int f) {
     return narrowphase::Triangle{mesh.position(mesh.facets(0, f)), mesh.position(mesh.facets(1, f)),

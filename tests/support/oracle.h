@@ -18,6 +18,9 @@ std::vector<FacetPair> facet_pairs_by_oracle(const Mesh& a, const Mesh& b);
 // The same by a plain loop over all pairs, for small meshes: the oracle of the oracle.
 std::vector<FacetPair> facet_pairs_by_brute_force(const Mesh& a, const Mesh& b);
 
+// The facets of one mesh that name no common vertex and share at least one point, a < b, sorted.
+std::vector<FacetPair> self_facet_pairs_by_oracle(const Mesh& mesh);
+
 // Two bodies whose facets meet.
 struct MeetingBodies {
   int a = -1;  // a < b

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
@@ -167,6 +168,56 @@ class PointOracle {
 
 std::map<PointKey, ExpectedPoint> points_by_brute_force(const Mesh& a, const Mesh& b, double reach, double band) {
   return PointOracle(a, b, reach, band).run();
+}
+
+namespace {
+
+// How far it is from one point along edges to another, from and to vertices of the features that hold them: by
+// relaxing all edges until nothing changes (Bellman, 1958; Ford, 1956).
+long double way_along_edges(const LongMesh& s, const std::array<int, 3>& from, const Vec3& from_point,
+                            const std::array<int, 3>& to, const Vec3& to_point) {
+  constexpr long double kFar = std::numeric_limits<long double>::infinity();
+  const auto distance = [&](const Vec3& p, int v) { return (Long3(p.x, p.y, p.z) - s.x[v]).norm(); };
+  std::vector<long double> way(s.x.size(), kFar);
+  for (const int v : from) {
+    if (v >= 0) way[v] = distance(from_point, v);
+  }
+  for (bool changes = true; changes;) {
+    changes = false;
+    for (const auto& [edge, _] : s.edges) {
+      const auto [p, q] = edge;
+      const long double length = (s.x[p] - s.x[q]).norm();
+      for (const auto& [one, other] : {std::pair(p, q), std::pair(q, p)}) {
+        if (way[one] + length < way[other]) {
+          way[other] = way[one] + length;
+          changes = true;
+        }
+      }
+    }
+  }
+  long double best = kFar;
+  for (const int v : to) {
+    if (v >= 0) best = std::min(best, way[v] + distance(to_point, v));
+  }
+  return best;
+}
+
+}  // namespace
+
+std::map<PointKey, ExpectedPoint> self_points_by_brute_force(const Mesh& mesh, double reach, double band) {
+  const LongMesh s = long_mesh(mesh);
+  const long double least_way = 0.5L * std::numbers::pi_v<long double> * reach;
+  std::map<PointKey, ExpectedPoint> points;
+  for (auto [key, point] : points_by_brute_force(mesh, mesh, reach, band)) {
+    const auto& [kind, a, b] = key;
+    const bool share = std::ranges::any_of(a, [&](int v) { return v >= 0 && std::ranges::find(b, v) != b.end(); });
+    if (share || kind == FeaturePair::facet_vertex || (kind == FeaturePair::edge_edge && b < a)) continue;
+    const long double way = way_along_edges(s, a, point.a, b, point.b);
+    if (way < least_way - band) continue;
+    point.certain = point.certain && way > least_way + band;
+    points[key] = point;
+  }
+  return points;
 }
 
 }  // namespace tact::tests

@@ -1,0 +1,271 @@
+#include "narrowphase/self/smooth_patches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tact::narrowphase {
+
+namespace {
+
+// Coordinates of this size at most have products of four that neither overflow nor, where it matters, vanish.
+constexpr double kLargestSize = 0x1p200;
+
+// Cosines of angles between normals and a direction are off by less than this. A normal is off by at most 2^-49 of the
+// product of two edges, which is at most 2^20 times its length; the axes of a view and what is computed of cones are
+// off by some 2^-50.
+constexpr double kSlack = 0x1p-27;
+constexpr double kLeastSineSquared = 0x1p-40;
+
+// A coordinate in a view is off by less than this part of the size of the patch: of the difference from the origin
+// 2^-53, of three products and two sums of it 2^-51 each at most, and the axes are unit vectors.
+constexpr double kViewSlack = 0x1p-48;
+
+// Clusters in a patch: ten around two, twenty around a cluster and those around it. Of more the boundary is long.
+constexpr std::size_t kMostInPatch = 40;
+
+double sum_of_sides(const Box& box) {
+  const Vec3 size = box.upper - box.lower;
+  return size.x + size.y + size.z;
+}
+
+}  // namespace
+
+void SmoothPatches::begin(const ClusteredMesh& mesh) {
+  cones_.resize(static_cast<std::size_t>(mesh.cluster_count()));
+  usable_ = sum_of_sides(mesh.box()) < kLargestSize;
+}
+
+void SmoothPatches::find_cone(const ClusteredMesh& mesh, int cluster) {
+  NormalCone& cone = cones_[static_cast<std::size_t>(cluster)] = {};
+  if (!usable_) return;
+  const ClusterFacets facets = mesh.facets_of(cluster);
+  Vec3 at[3 * kClusterSize];
+  for (int i = 0; i < facets.owned_count; ++i) at[i] = mesh.position(facets.owned_begin + i);
+  for (int i = 0; i < facets.borrowed_count; ++i) at[facets.owned_count + i] = mesh.position(facets.borrowed[i]);
+  Vec3 normals[kClusterSize];
+  double squares[kClusterSize];
+  Vec3 sum;
+  bool all_have_area = true;
+  for (int i = 0; i < facets.facet_count; ++i) {
+    const Vec3 p = at[facets.corner[0][i]], e = at[facets.corner[1][i]] - p, g = at[facets.corner[2][i]] - p;
+    normals[i] = cross(e, g);
+    squares[i] = norm_squared(normals[i]);
+    all_have_area = all_have_area && squares[i] > kLeastSineSquared * norm_squared(e) * norm_squared(g);
+    sum = sum + normals[i];
+  }
+  if (!all_have_area) return;
+  if (!(norm_squared(sum) > 0.0)) return;
+  const Vec3 axis = normalized(sum);
+  double least = 1.0;
+  for (int i = 0; i < facets.facet_count; ++i) {
+    const double along = dot(normals[i], axis);
+    least = std::min(least, along * std::abs(along) / squares[i]);
+  }
+  if (!(least > 0.0)) return;
+  cone = {axis, std::sqrt(least), std::sqrt(std::max(0.0, 1.0 - least))};
+}
+
+bool SmoothPatches::Judge::gather(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors,
+                                  std::span<const int> clusters) {
+  if (marks_.size() != static_cast<std::size_t>(mesh.cluster_count()) || mark_ > std::numeric_limits<int>::max() - 4)
+    marks_.assign(static_cast<std::size_t>(mesh.cluster_count()), mark_ = 0);
+  mark_ += 2;
+  patch_.clear();
+  for (const int cluster : clusters) {
+    bool connected = patch_.empty();
+    for (const int c : neighbors.around(cluster)) {
+      if (in_patch(c)) {
+        connected = true;
+        continue;
+      }
+      if (neighbors.irregular(c)) return false;
+      marks_[static_cast<std::size_t>(c)] = mark_;
+      patch_.push_back(c);
+    }
+    if (!connected || patch_.size() > kMostInPatch) return false;
+  }
+  for (const int cluster : clusters) marks_[static_cast<std::size_t>(cluster)] = mark_ + 1;
+  return true;
+}
+
+// Along the ends of the surface, or along the clusters; zero if these have no length.
+Vec3 SmoothPatches::Judge::along(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors,
+                                 std::span<const int> clusters) const {
+  Vec3 sum;
+  for (const int c : clusters) {
+    const auto rims = neighbors.rims(c);
+    if (rims.empty() || rims.front().other >= 0) continue;
+    for (const ClusterNeighbors::Side& side : neighbors.sides(rims.front()))
+      sum = sum + (mesh.position(side.to) - mesh.position(side.from));
+  }
+  if (sum != Vec3{}) return sum;
+  const auto box = [&](int c) { return mesh.cluster_boxes()[static_cast<std::size_t>(c)]; };
+  const Box first = box(clusters.front()), last = box(clusters.back());
+  sum = (last.lower + last.upper) - (first.lower + first.upper);
+  return sum != Vec3{} ? sum : first.upper - first.lower;
+}
+
+// The polygon around some clusters. What is farthest in a direction lies on their boundary: around any other vertex
+// there are facets on all sides.
+SmoothPatches::Judge::Region SmoothPatches::Judge::region_of(const ClusteredMesh& mesh,
+                                                             const ClusterNeighbors& neighbors,
+                                                             std::span<const int> clusters, const View& view) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Region region{kInfinity, -kInfinity, kInfinity, -kInfinity, {}, {}};
+  std::ranges::fill(region.low, kInfinity);
+  std::ranges::fill(region.high, -kInfinity);
+  for (const int cluster : clusters) {
+    for (const ClusterNeighbors::Rim& rim : neighbors.rims(cluster)) {
+      if (rim.other >= 0 && in_core(rim.other)) continue;
+      for (const ClusterNeighbors::Side& side : neighbors.sides(rim)) {
+        const Flat p = seen(view, mesh.position(side.from));
+        region.low_x = std::min(region.low_x, p.x);
+        region.high_x = std::max(region.high_x, p.x);
+        region.low_y = std::min(region.low_y, p.y);
+        region.high_y = std::max(region.high_y, p.y);
+        const auto along = between(p);
+        for (int k = 0; k < kBetween; ++k) {
+          region.low[k] = std::min(region.low[k], along[k]);
+          region.high[k] = std::max(region.high[k], along[k]);
+        }
+      }
+    }
+  }
+  const double wider = 16.0 * slack_;  // coordinates between add three errors, here and where they are compared
+  for (int k = 0; k < kBetween; ++k) {
+    region.low[k] -= wider;
+    region.high[k] += wider;
+  }
+  region.low_x -= wider;
+  region.high_x += wider;
+  region.low_y -= wider;
+  region.high_y += wider;
+  return region;
+}
+
+// Does the way from one point to another lie beyond one of the region's sides between x and y? `above`: on that of y.
+bool SmoothPatches::Judge::lies_beyond(const Region& region, const Flat& p, const Flat& q, bool& above) {
+  const auto along_p = between(p), along_q = between(q);
+  for (int k = 0; k < kBetween; ++k) {
+    above = along_p[k] > region.high[k] && along_q[k] > region.high[k];
+    if (above || (along_p[k] < region.low[k] && along_q[k] < region.low[k])) return true;
+  }
+  return false;
+}
+
+// Each edge of the boundary lies beyond one side of the region, or it does not avoid it. How often the region is
+// covered is how often the boundary crosses the ray that runs from it along y, counted by the way it goes: there it
+// lies beyond a side above the region.
+SmoothPatches::Judge::Boundary SmoothPatches::Judge::walk(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors,
+                                                          const View& view, const Region& region) {
+  enum : unsigned { kAbove = 1, kBelow = 2, kBefore = 4, kBehind = 8 };
+  ends_.clear();
+  const double ray = 0.5 * (region.low_x + region.high_x);
+  int covered = 0;
+  const auto look = [&](int vertex) -> Seen {
+    const Flat p = seen(view, mesh.position(vertex));
+    return {p, (p.y > region.high_y ? kAbove : 0u) | (p.y < region.low_y ? kBelow : 0u) |
+                   (p.x < region.low_x ? kBefore : 0u) | (p.x > region.high_x ? kBehind : 0u)};
+  };
+  for (const int c : patch_) {
+    for (const ClusterNeighbors::Rim& rim : neighbors.rims(c)) {
+      if (rim.other >= 0 && in_patch(rim.other)) continue;
+      int last = -1;
+      Seen p{}, q{};
+      for (const ClusterNeighbors::Side& side : neighbors.sides(rim)) {
+        p = side.from == last ? q : look(side.from);
+        q = look(side.to);
+        last = side.to;
+        const unsigned beyond = p.beyond & q.beyond;
+        bool above = (beyond & kAbove) != 0;
+        if (beyond == 0 && !lies_beyond(region, p.at, q.at, above)) {
+          if (rim.other >= 0) return Boundary::crosses;
+          ends_.push_back({side, p.at, q.at});
+        } else if (above) {
+          covered += (q.at.x <= ray ? 1 : 0) - (p.at.x <= ray ? 1 : 0);
+        }
+      }
+    }
+  }
+  if (covered != 1) return Boundary::crosses;
+  return ends_.empty() ? Boundary::avoids : Boundary::ends;
+}
+
+// Do strips that run from all ends against y continue the surface, and avoid the rays at the ends of chains the region?
+// Sorts the ends along x.
+bool SmoothPatches::Judge::continues(const Region& region) {
+  std::ranges::sort(ends_, {}, [](const End& end) { return end.from.x; });
+  const auto avoids = [&](const Flat& p) {
+    const auto along = between(p);
+    return p.x < region.low_x || p.x > region.high_x || p.y < region.low_y ||
+           !std::ranges::equal(along, region.low, std::ranges::greater_equal());
+  };
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
+    const End& end = ends_[i];
+    if (!(end.to.x - end.from.x > 2.0 * slack_)) return false;
+    const bool begins = i == 0 || ends_[i - 1].side.to != end.side.from;
+    const bool stops = i + 1 == ends_.size() || ends_[i + 1].side.from != end.side.to;
+    if ((begins && !avoids(end.from)) || (stops && !avoids(end.to))) return false;
+  }
+  return true;
+}
+
+// In radians.
+double SmoothPatches::Judge::most_inward_turn() const {
+  double turn = 0.0, most = 0.0;
+  for (std::size_t i = 1; i < ends_.size(); ++i) {
+    const End &one = ends_[i - 1], &next = ends_[i];
+    if (one.side.to != next.side.from) {
+      turn = 0.0;
+      continue;
+    }
+    const double ux = one.to.x - one.from.x, uy = one.to.y - one.from.y;
+    const double wx = next.to.x - next.from.x, wy = next.to.y - next.from.y;
+    turn = std::max(0.0, turn - std::atan2(ux * wy - uy * wx, ux * wx + uy * wy));
+    most = std::max(most, turn);
+  }
+  return most;
+}
+
+SelfVerdict SmoothPatches::Judge::operator()(const SmoothPatches& patches, const ClusteredMesh& mesh,
+                                             const ClusterNeighbors& neighbors, std::span<const int> clusters) {
+  if (!patches.usable_ || !gather(mesh, neighbors, clusters)) return SelfVerdict::open;
+  const auto cone = [&](int c) -> const NormalCone& { return patches.cones_[static_cast<std::size_t>(c)]; };
+  Vec3 sum;
+  for (const int c : patch_) sum = sum + cone(c).axis;
+  if (!(norm_squared(sum) > 0.25)) return SelfVerdict::open;
+  const Vec3 up = normalized(sum);
+  double least = 1.0;  // the cosine of the largest angle between `up` and a normal
+  Box box;
+  for (const int c : patch_) {
+    const double cosine = dot(up, cone(c).axis), sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    least = std::min(least, cosine * cone(c).cosine - sine * cone(c).sine);
+    box = merged(box, mesh.cluster_boxes()[static_cast<std::size_t>(c)]);
+  }
+  slack_ = kViewSlack * sum_of_sides(box);
+  return least > 2.0 * kSlack ? look(mesh, neighbors, clusters, up, least - kSlack) : SelfVerdict::open;
+}
+
+// From a direction whose angle with every normal has at least this cosine.
+SelfVerdict SmoothPatches::Judge::look(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors,
+                                       std::span<const int> clusters, Vec3 up, double least_cosine) {
+  Vec3 x = along(mesh, neighbors, clusters);
+  for (bool again = false;; again = true) {
+    const Vec3 across = cross(up, x);
+    if (!(norm_squared(across) > 1e-4 * norm_squared(x))) return SelfVerdict::open;
+    View view{mesh.cluster_boxes()[static_cast<std::size_t>(clusters.front())].lower, {}, normalized(across)};
+    view.x = cross(view.y, up);
+    const Region region = region_of(mesh, neighbors, clusters, view);
+    const Boundary boundary = walk(mesh, neighbors, view, region);
+    if (boundary == Boundary::crosses) return SelfVerdict::open;
+    if (boundary == Boundary::avoids || continues(region)) break;
+    if (again) return SelfVerdict::open;
+    x = {};
+    for (const End& end : ends_) x = x + (mesh.position(end.side.to) - mesh.position(end.side.from));
+  }
+  const double inward = most_inward_turn(), tangent = std::sqrt(1.0 - least_cosine * least_cosine) / least_cosine;
+  return inward < 1.5 && tangent < std::cos(inward) - kSlack ? SelfVerdict::never_contact : SelfVerdict::never_meet;
+}
+
+}  // namespace tact::narrowphase
