@@ -32,6 +32,13 @@ struct MeshView {
   }
 };
 
+// Do two facets name a common vertex?
+inline bool share_a_vertex(const MeshView& mesh, int f, int g) {
+  const int *i = mesh.facets + 3 * static_cast<std::ptrdiff_t>(f),
+            *k = mesh.facets + 3 * static_cast<std::ptrdiff_t>(g);
+  return std::find_first_of(i, i + 3, k, k + 3) != i + 3;
+}
+
 inline MeshView view_of(const WorkloadBody& body, int frame) {
   const Eigen::Matrix3Xd& positions = body.positions(frame);
   return {positions.data(), body.facets.data(), static_cast<int>(positions.cols()),

@@ -10,7 +10,8 @@ namespace {
 
 class Tact : public Rival {
  public:
-  Tact(const Workload& workload, int threads) : runner_(workload, threads) {}
+  Tact(const Workload& workload, int threads, TactRunner::Against against)
+      : runner_(workload, Settings{.threads = threads}, against) {}
 
   void step(int frame) override { report_ = &runner_.step(frame); }
 
@@ -32,13 +33,16 @@ class Tact : public Rival {
 
 }  // namespace
 
-TactRunner::TactRunner(const Workload& workload, const Settings& settings) : workload_(workload), world_(settings) {
+TactRunner::TactRunner(const Workload& workload, const Settings& settings, Against against, double margin)
+    : workload_(workload), world_(settings) {
   for (const WorkloadBody& body : workload.bodies) {
     ids_.push_back(world_.add_body({.positions = body.positions(0),
                                     .facets = body.facets,
                                     .surface = body.surface,
                                     .motion = body.fixed() ? Motion::fixed : Motion::moving,
-                                    .mask = body.mask}));
+                                    .mask = against == Against::self ? 0 : body.mask,
+                                    .margin = margin,
+                                    .self_contact = against == Against::self}));
   }
   updates_.reserve(ids_.size());
 }
@@ -56,7 +60,11 @@ const Report& TactRunner::step_few(int frame, std::size_t count) {
 }
 
 std::unique_ptr<Rival> make_tact(const Workload& workload, int threads) {
-  return std::make_unique<Tact>(workload, threads);
+  return std::make_unique<Tact>(workload, threads, TactRunner::Against::others);
+}
+
+std::unique_ptr<Rival> make_tact_self(const Workload& workload, int threads) {
+  return std::make_unique<Tact>(workload, threads, TactRunner::Against::self);
 }
 
 }  // namespace tact::bench

@@ -11,8 +11,11 @@ namespace tact::bench {
 
 class TactRunner {
  public:
-  // The workload outlives it. All bodies are added at frame 0.
-  TactRunner(const Workload& workload, const Settings& settings);
+  // The workload outlives it. All bodies are added at frame 0. `self`: each is held against itself, and against no
+  // other.
+  enum class Against { others, self };
+  TactRunner(const Workload& workload, const Settings& settings, Against against = Against::others,
+             double margin = 0.0);
   TactRunner(const Workload& workload, int threads) : TactRunner(workload, Settings{.threads = threads}) {}
 
   // Sets the positions of all bodies that are not fixed, then detects.

@@ -14,6 +14,7 @@
 #include "engine/patch_stage.h"
 #include "engine/point_stage.h"
 #include "narrowphase/self/self_clusters.h"
+#include "narrowphase/self/self_facet_pairs.h"
 
 namespace tact {
 
@@ -61,6 +62,7 @@ class SelfStage {
   bool same_ = true;
   bool any_ = false;
   narrowphase::SelfClusters clusters_;
+  std::vector<narrowphase::SelfFacetSearch> searches_;  // a thread each
   std::vector<std::vector<FacetPair>> ranges_;
 };
 

@@ -109,6 +109,7 @@ class Answers {
     if (facets_meet(a, facet_a, b, facet_b, test_)) list.push_back({body_a, body_b, facet_a, facet_b});
   }
   std::vector<FacetMeeting>& of_this_thread() { return lists_.local(); }
+  const MeshView& mesh(int body) const { return meshes_[body]; }
 
  private:
   const std::vector<MeshView>& meshes_;
@@ -242,14 +243,18 @@ class SceneABody : public Rival {
   std::vector<RTCGeometry> geometries_;
 };
 
+// The pairs of different bodies, or those within each body of facets that share no vertex.
+enum class Pairs { between_bodies, within_bodies };
+
 class OneScene : public Rival {
  public:
-  OneScene(const Workload& workload, int threads)
+  OneScene(const Workload& workload, int threads, Pairs pairs, TriangleTest test)
       : workload_(workload),
+        pairs_(pairs),
         threads_(useful_threads(workload, threads)),
         device_(threads_),
         views_(first_views(workload)),
-        answers_(views_, TriangleTest::exact),
+        answers_(views_, test),
         scene_(device_) {
     for (MeshView& view : views_) {
       geometries_.push_back(scene_.attach(device_, view.facet_count, facet_bounds, &view));
@@ -267,15 +272,26 @@ class OneScene : public Rival {
     }
     rtcCommitScene(scene_);
     answers_.clear();
-    rtcCollide(scene_, scene_, decide, &answers_);
+    rtcCollide(scene_, scene_, pairs_ == Pairs::between_bodies ? decide_between : decide_within, &answers_);
     check(device_);
   }
 
   std::vector<FacetMeeting> meetings() const override { return answers_.sorted(); }
 
  private:
+  // Both orders come.
+  static void decide_within(void* data, RTCCollision* collisions, unsigned count) {
+    Answers& answers = *static_cast<Answers*>(data);
+    std::vector<FacetMeeting>& list = answers.of_this_thread();
+    for (unsigned k = 0; k < count; ++k) {
+      const RTCCollision& c = collisions[k];
+      const auto body = static_cast<int>(c.geomID0), a = static_cast<int>(c.primID0), b = static_cast<int>(c.primID1);
+      if (c.geomID0 == c.geomID1 && a < b && !share_a_vertex(answers.mesh(body), a, b))
+        answers.decide(body, a, body, b, list);
+    }
+  }
   // Both orders come, and the pairs within a body.
-  static void decide(void* data, RTCCollision* collisions, unsigned count) {
+  static void decide_between(void* data, RTCCollision* collisions, unsigned count) {
     Answers& answers = *static_cast<Answers*>(data);
     std::vector<FacetMeeting>& list = answers.of_this_thread();
     for (unsigned k = 0; k < count; ++k) {
@@ -287,6 +303,7 @@ class OneScene : public Rival {
   }
 
   const Workload& workload_;
+  Pairs pairs_;
   int threads_;
   Device device_;
   std::vector<MeshView> views_;
@@ -306,7 +323,15 @@ std::unique_ptr<Rival> make_embree_scene_a_body_plain(const Workload& workload, 
 }
 
 std::unique_ptr<Rival> make_embree_one_scene(const Workload& workload, int threads) {
-  return std::make_unique<OneScene>(workload, threads);
+  return std::make_unique<OneScene>(workload, threads, Pairs::between_bodies, TriangleTest::exact);
+}
+
+std::unique_ptr<Rival> make_embree_self(const Workload& workload, int threads) {
+  return std::make_unique<OneScene>(workload, threads, Pairs::within_bodies, TriangleTest::exact);
+}
+
+std::unique_ptr<Rival> make_embree_self_plain(const Workload& workload, int threads) {
+  return std::make_unique<OneScene>(workload, threads, Pairs::within_bodies, TriangleTest::plain);
 }
 
 }  // namespace tact::bench

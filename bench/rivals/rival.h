@@ -60,4 +60,10 @@ std::unique_ptr<Rival> make_bullet_gimpact(const Workload& workload, int threads
 // All but tact.
 std::vector<RivalKind> all_rivals();
 
+// Facets of one body that share no vertex and meet: the bodies of a workload against themselves alone.
+std::unique_ptr<Rival> make_tact_self(const Workload& workload, int threads);
+std::unique_ptr<Rival> make_embree_self(const Workload& workload, int threads);
+std::unique_ptr<Rival> make_embree_self_plain(const Workload& workload, int threads);
+std::unique_ptr<Rival> make_cgal_self(const Workload& workload, int threads);
+
 }  // namespace tact::bench

@@ -92,6 +92,18 @@ enum class Pose {
 // as a whole.
 Workload brick_wall(int side, int courses, Pose pose, int frames);
 
+// Bodies that meet themselves; each alone.
+
+// The sheet of cloth(), without the sphere. It does not cross itself.
+Workload cloth_alone(int cells, int frames);
+
+// A sheet of `cells` x `cells` squares, 2 m long, that is rolled up two and a half times and unrolled again to half a
+// turn. Waves in it make each turn cross the next.
+Workload rolled_cloth(int cells, int frames);
+
+// The soft toy of ../shared/data/seq_toy_poses, 13,334 facets, from pose to pose and back; none where it is missing.
+Workload toy_figure(int frames);
+
 // What follows was made after the engine, of other kinds of bodies: no constant was chosen by it.
 
 // `count` blobs of 320 facets, side by side on a fixed height field of 2 * cells² facets, a little sunk in.

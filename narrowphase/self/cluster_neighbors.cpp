@@ -73,7 +73,8 @@ void ClusterNeighbors::choose_centers(int cluster_count) {
   const auto place = [&](int c, int d) {
     const std::span<const int> those = around(c);
     const auto found = std::ranges::lower_bound(those, d);
-    return found != those.end() && *found == d ? around_begin_[static_cast<std::size_t>(c)] + (found - those.begin()) : -1;
+    return found != those.end() && *found == d ? around_begin_[static_cast<std::size_t>(c)] + (found - those.begin())
+                                               : -1;
   };
   is_center_.assign(static_cast<std::size_t>(cluster_count), 0);
   for (const int worth : kWorthACenter) {
@@ -135,9 +136,8 @@ std::vector<ClusterNeighbors::RimSide> ClusterNeighbors::find_rim_sides(const Cl
 }
 
 void ClusterNeighbors::list_rims(std::vector<RimSide>& all, int cluster_count) {
-  std::ranges::sort(all, {}, [](const RimSide& one) {
-    return std::tuple(one.cluster, one.other, one.side.from, one.side.to);
-  });
+  std::ranges::sort(all, {},
+                    [](const RimSide& one) { return std::tuple(one.cluster, one.other, one.side.from, one.side.to); });
   rims_begin_.assign(static_cast<std::size_t>(cluster_count) + 1, 0);
   for (auto one = all.begin(); one != all.end();) {
     const RimSide first = *one;

@@ -31,7 +31,8 @@ class ClusterNeighbors {
   /// Ascending by the cluster beyond.
   std::span<const Rim> rims(int cluster) const { return part(rims_, rims_begin_, cluster); }
   std::span<const Side> sides(const Rim& rim) const {
-    return std::span(sides_).subspan(static_cast<std::size_t>(rim.begin), static_cast<std::size_t>(rim.end - rim.begin));
+    return std::span(sides_).subspan(static_cast<std::size_t>(rim.begin),
+                                     static_cast<std::size_t>(rim.end - rim.begin));
   }
   /// Does a facet of the cluster name a vertex twice, or lie at an edge that is not that of one facet, or of two that
   /// run through it in opposite directions? Or has it more neighbours than can be listed? Its rims are not complete.
@@ -45,7 +46,8 @@ class ClusterNeighbors {
   template <class Item>
   static std::span<const Item> part(const std::vector<Item>& all, const std::vector<int>& begin, int i) {
     const auto k = static_cast<std::size_t>(i);
-    return std::span(all).subspan(static_cast<std::size_t>(begin[k]), static_cast<std::size_t>(begin[k + 1] - begin[k]));
+    return std::span(all).subspan(static_cast<std::size_t>(begin[k]),
+                                  static_cast<std::size_t>(begin[k + 1] - begin[k]));
   }
   void find_around(const ClusteredMesh& mesh);
   void choose_centers(int cluster_count);

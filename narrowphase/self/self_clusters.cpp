@@ -37,7 +37,8 @@ void SelfClusters::judge_centers(const SelfMesh& self, int threads) {
   const ClusterNeighbors& neighbors = *self.neighbors;
   const auto clusters = static_cast<std::size_t>(mesh.cluster_count());
   patches_.begin(mesh);
-  base::parallel_for(clusters, kAtATime, threads, [&](std::size_t c) { patches_.find_cone(mesh, static_cast<int>(c)); });
+  base::parallel_for(clusters, kAtATime, threads,
+                     [&](std::size_t c) { patches_.find_cone(mesh, static_cast<int>(c)); });
   if (judges_.size() < static_cast<std::size_t>(threads)) judges_.resize(static_cast<std::size_t>(threads));
   of_center_.assign(clusters, SelfVerdict::open);
   base::parallel_for(neighbors.centers().size(), kAtATime, threads, [&](std::size_t i, int thread) {
@@ -69,9 +70,9 @@ void SelfClusters::judge(const SelfMesh& self, std::span<const ClusterPair> near
     SelfVerdict& verdict = verdicts_[i] = from_centers(*self.neighbors, near[i]);
     if (verdict >= wanted) return;
     const int both[] = {near[i].a, near[i].b};
-    verdict = std::max(verdict, judges_[static_cast<std::size_t>(thread)](
-                                    patches_, *self.featured.mesh, *self.neighbors,
-                                    std::span(both).first(near[i].a == near[i].b ? 1 : 2)));
+    verdict = std::max(
+        verdict, judges_[static_cast<std::size_t>(thread)](patches_, *self.featured.mesh, *self.neighbors,
+                                                           std::span(both).first(near[i].a == near[i].b ? 1 : 2)));
   });
 }
 

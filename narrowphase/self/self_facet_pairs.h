@@ -3,17 +3,32 @@
 
 #include <tact/facet_pair.h>
 
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "narrowphase/triangles/block_pair.h"
 #include "narrowphase/triangles/cluster_pairs.h"
 
 namespace tact::narrowphase {
 
-/// Appends the facet pairs of some cluster pairs, in no particular order, by the caller's numbers with a < b. All
-/// cluster pairs whose boxes overlap together give each facet pair once. Facets meet as closed sets, decided exactly (triangle_triangle.h).
-/// Facets that name a common vertex do not count; facets whose vertices have different numbers and the same place do.
-void find_self_facet_pairs(const ClusteredMesh& mesh, std::span<const ClusterPair> pairs,
-                           std::vector<FacetPair>& found);
+/// One for each thread, its memory used again.
+class SelfFacetSearch {
+ public:
+  SelfFacetSearch();
+  ~SelfFacetSearch();
+  SelfFacetSearch(SelfFacetSearch&&) noexcept;
+  SelfFacetSearch& operator=(SelfFacetSearch&&) noexcept;
+
+  /// Appends the facet pairs of some cluster pairs, in no particular order, by the caller's numbers with a < b. All
+  /// cluster pairs whose boxes overlap together give each facet pair once. Facets meet as closed sets, decided exactly.
+  /// Facets that name a common vertex do not count; facets whose vertices have different numbers and the same place do.
+  void run(const ClusteredMesh& mesh, std::span<const ClusterPair> pairs, const base::Tuning& tuning,
+           std::vector<FacetPair>& found);
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
 
 }  // namespace tact::narrowphase

@@ -25,11 +25,12 @@
 // may leave the surface and come back; there it follows the edges instead. Let m < 90 degrees be the most by which the
 // edges turn inwards on any part of a chain. Where the straight way leaves the surface and comes back, the edges
 // between turn by more than 0 inwards, and none of them deviates by more than m from the straight way. So the way along
-// them is at most d / cos m long, and p is left at a rate of at least d (cos m - tan² t / cos m): tan t < cos m will do.
+// them is at most d / cos m long, and p is left at a rate of at least d (cos m - tan² t / cos m): tan t < cos m will
+// do.
 //
-// **How it is tested.** For some clusters that lie together, P is all clusters around them, v the mean of their axes, and
-// D a polygon around those that were asked for. Cones bound the normals of each cluster. All is computed in doubles, with bounds of rounding
-// (kSlack...), and what they cannot tell is not proved.
+// **How it is tested.** For some clusters that lie together, P is all clusters around them, v the mean of their axes,
+// and D a polygon around those that were asked for. Cones bound the normals of each cluster. All is computed in
+// doubles, with bounds of rounding (kSlack...), and what they cannot tell is not proved.
 //
 // **What is not proved** is anything else: clusters in folds, at borders with notches, around edges that three facets
 // have. They are looked at facet by facet. A proof changes no answer.
@@ -46,7 +47,7 @@ namespace tact::narrowphase {
 /// A cone of less than 90 degrees about its axis that holds the normals of a cluster's facets. If there is none, or
 /// rounding cannot tell, all is zero: then its normals have a cosine of zero with every direction.
 struct NormalCone {
-  Vec3 axis;  // unit
+  Vec3 axis;                        // unit
   double cosine = 0.0, sine = 0.0;  // of the half angle
 };
 
@@ -111,8 +112,8 @@ class SmoothPatches {
                      const View& view) const;
     static bool lies_beyond(const Region& region, const Flat& p, const Flat& q, bool& above);
     Boundary walk(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, const View& view, const Region& region);
-    SelfVerdict look(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, std::span<const int> clusters, Vec3 up,
-                     double least_cosine);
+    SelfVerdict look(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, std::span<const int> clusters,
+                     Vec3 up, double least_cosine);
     bool continues(const Region& region);
     double most_inward_turn() const;
 

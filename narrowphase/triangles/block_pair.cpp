@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "narrowphase/triangles/lattice.h"
 #include "narrowphase/triangles/triangle_triangle.h"
@@ -43,10 +44,10 @@ CellBox cells_of(const Grid& grid, const BoxBounds& box) {
 // By the cells of their boxes, by the planes of the fewer facets, then many pairs at a time.
 void BlockPair::find_meeting(const FacetBlock& a, std::uint64_t of_a, const FacetBlock& b, std::uint64_t of_b,
                              const BoxBounds& bounds, const Grid& grid, const base::Tuning& tuning,
-                             std::vector<FacetPair>& found, ConfirmCounts& counts) {
-  const bool few_are_b = std::popcount(of_b) < std::popcount(of_a);
-  const SharedCells shared = few_are_b ? kernels().share_cells(b.cells, of_b, a.cells, of_a, met_)
-                                       : kernels().share_cells(a.cells, of_a, b.cells, of_b, met_);
+                             std::vector<FacetPair>& found, ConfirmCounts& counts, const std::uint64_t* excluded) {
+  const bool few_are_b = excluded == nullptr && std::popcount(of_b) < std::popcount(of_a);
+  const SharedCells shared =
+      few_are_b ? share_cells(b, of_b, a, of_a, nullptr) : share_cells(a, of_a, b, of_b, excluded);
   counts.facet_box_pairs += shared.pairs;
   if (shared.pairs == 0) return;
   a_ = &a;
@@ -72,6 +73,19 @@ void BlockPair::find_meeting(const FacetBlock& a, std::uint64_t of_a, const Face
       found.push_back({pairs_.a[k], pairs_.b[k]});
     }
   }
+}
+
+SharedCells BlockPair::share_cells(const FacetBlock& a, std::uint64_t of_a, const FacetBlock& b, std::uint64_t of_b,
+                                   const std::uint64_t* excluded) {
+  SharedCells shared = kernels().share_cells(a.cells, of_a, b.cells, of_b, met_);
+  if (excluded == nullptr) return shared;
+  for (std::uint64_t left = std::exchange(shared, {}).facets; left != 0; left &= left - 1) {
+    const int f = std::countr_zero(left);
+    met_[f] &= ~excluded[f];
+    shared.pairs += std::popcount(met_[f]);
+    shared.facets |= static_cast<std::uint64_t>(met_[f] != 0) << f;
+  }
+  return shared;
 }
 
 std::uint64_t BlockPair::meeting_of(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,

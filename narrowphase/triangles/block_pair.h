@@ -35,16 +35,19 @@ class BlockPair {
  public:
   // Appends the pairs of facets that meet, facets of `a` and `b` that have a bit, by their places in the blocks. These
   // facets lie in the box `bounds`. Their cells are those of `grid`, into the box of which each facet's reaches: so
-  // boxes that share cells are less than a cell apart.
+  // boxes that share cells are less than a cell apart. `excluded`: of each facet of `a` those of `b` that are left out;
+  // null: none.
   void find_meeting(const FacetBlock& a, std::uint64_t of_a, const FacetBlock& b, std::uint64_t of_b,
                     const BoxBounds& bounds, const Grid& grid, const base::Tuning& tuning,
-                    std::vector<FacetPair>& found, ConfirmCounts& counts);
+                    std::vector<FacetPair>& found, ConfirmCounts& counts, const std::uint64_t* excluded = nullptr);
 
   // A bit for each of the listed pairs that meets, all of them in the box `bounds`: in doubles, then exactly.
   std::uint64_t meeting_of(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
                            const BoxBounds& bounds, ConfirmCounts& counts);
 
  private:
+  SharedCells share_cells(const FacetBlock& a, std::uint64_t of_a, const FacetBlock& b, std::uint64_t of_b,
+                          const std::uint64_t* excluded);
   Grid choose_digits(bool floats_are_worth_it);
   std::uint64_t meeting_of_listed(ConfirmCounts& counts) const;
   PairMatches matches_of_listed() const;

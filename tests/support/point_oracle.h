@@ -24,8 +24,9 @@ struct ExpectedPoint {
 /// All points of two meshes that are nearer than `reach`, and those that lie in a band of `band` metres.
 std::map<PointKey, ExpectedPoint> points_by_brute_force(const Mesh& a, const Mesh& b, double reach, double band);
 
-/// The same of one mesh with itself, each pair of features once: vertices before facets, the lesser edge first. Features
-/// that name a common vertex have none, nor have those that are nearer than pi/2 times `reach` along the edges.
+/// The same of one mesh with itself, each pair of features once: vertices before facets, the lesser edge first.
+/// Features that name a common vertex have none, nor have those that are nearer than pi/2 times `reach` along the
+/// edges.
 std::map<PointKey, ExpectedPoint> self_points_by_brute_force(const Mesh& mesh, double reach, double band);
 
 }  // namespace tact::tests

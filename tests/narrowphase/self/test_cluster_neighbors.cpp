@@ -78,10 +78,10 @@ TEST(ClusterNeighbors, FacetsThatNoSurfaceHasAreIrregular) {
     return neighbors.of.irregular(cluster);
   };
   const auto f = [&](int corner) { return source.facets(corner, 400); };
-  EXPECT_TRUE(irregular_with(f(0), f(1), f(2)));        // repeated
-  EXPECT_TRUE(irregular_with(f(2), f(1), f(0)));        // and turned
-  EXPECT_TRUE(irregular_with(f(0), f(0), f(1)));        // without area
-  EXPECT_TRUE(irregular_with(f(0), f(1), 0));           // a third one at an edge
+  EXPECT_TRUE(irregular_with(f(0), f(1), f(2)));  // repeated
+  EXPECT_TRUE(irregular_with(f(2), f(1), f(0)));  // and turned
+  EXPECT_TRUE(irregular_with(f(0), f(0), f(1)));  // without area
+  EXPECT_TRUE(irregular_with(f(0), f(1), 0));     // a third one at an edge
   Mesh turned = source;
   std::swap(turned.facets(0, 400), turned.facets(1, 400));  // two in the same direction
   const Neighbors neighbors(turned);

@@ -154,7 +154,8 @@ TEST(SmoothPatches, DenyNoContactPointInSteepValleys) {
     const Verdicts verdicts(mesh);
     std::array<int, 3> count{};  // of pairs of facets, by what is proved
     for (int k = 0; k < 48; ++k) {
-      const int left = verdicts.cluster_of_facet(2 * (48 * k + 20)), right = verdicts.cluster_of_facet(2 * (48 * k + 27));
+      const int left = verdicts.cluster_of_facet(2 * (48 * k + 20)),
+                right = verdicts.cluster_of_facet(2 * (48 * k + 27));
       ++count[static_cast<std::size_t>(verdicts.of(left, right))];
     }
     return count;
