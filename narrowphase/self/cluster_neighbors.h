@@ -28,8 +28,12 @@ class ClusterNeighbors {
   /// Some clusters so chosen that most pairs of clusters that share a vertex are around one of them. Ascending.
   std::span<const int> centers() const { return centers_; }
   bool is_center(int cluster) const { return is_center_[static_cast<std::size_t>(cluster)] != 0; }
-  /// Ascending by the cluster beyond.
+  /// Ascending by the cluster beyond. All rims are counted through, those of a cluster from first_rim() on.
   std::span<const Rim> rims(int cluster) const { return part(rims_, rims_begin_, cluster); }
+  std::size_t first_rim(int cluster) const {
+    return static_cast<std::size_t>(rims_begin_[static_cast<std::size_t>(cluster)]);
+  }
+  std::size_t rim_count() const { return rims_.size(); }
   std::span<const Side> sides(const Rim& rim) const {
     return std::span(sides_).subspan(static_cast<std::size_t>(rim.begin),
                                      static_cast<std::size_t>(rim.end - rim.begin));

@@ -36,9 +36,9 @@ void SelfClusters::judge_centers(const SelfMesh& self, int threads) {
   const ClusteredMesh& mesh = *self.featured.mesh;
   const ClusterNeighbors& neighbors = *self.neighbors;
   const auto clusters = static_cast<std::size_t>(mesh.cluster_count());
-  patches_.begin(mesh);
+  patches_.begin(mesh, neighbors);
   base::parallel_for(clusters, kAtATime, threads,
-                     [&](std::size_t c) { patches_.find_cone(mesh, static_cast<int>(c)); });
+                     [&](std::size_t c) { patches_.look_at(mesh, neighbors, static_cast<int>(c)); });
   if (judges_.size() < static_cast<std::size_t>(threads)) judges_.resize(static_cast<std::size_t>(threads));
   of_center_.assign(clusters, SelfVerdict::open);
   base::parallel_for(neighbors.centers().size(), kAtATime, threads, [&](std::size_t i, int thread) {

@@ -31,9 +31,27 @@ double sum_of_sides(const Box& box) {
 
 }  // namespace
 
-void SmoothPatches::begin(const ClusteredMesh& mesh) {
+void SmoothPatches::begin(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors) {
   cones_.resize(static_cast<std::size_t>(mesh.cluster_count()));
+  rims_.resize(neighbors.rim_count());
   usable_ = sum_of_sides(mesh.box()) < kLargestSize;
+}
+
+void SmoothPatches::look_at(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, int cluster) {
+  find_cone(mesh, cluster);
+  std::size_t rim = neighbors.first_rim(cluster);
+  for (const ClusterNeighbors::Rim& one : neighbors.rims(cluster)) {
+    Box box;
+    for (const ClusterNeighbors::Side& side : neighbors.sides(one)) {
+      box = extended(box, mesh.position(side.from));
+      box = extended(box, mesh.position(side.to));
+    }
+    const Vec3 middle = 0.5 * box.lower + 0.5 * box.upper;  // as it is rounded
+    const auto half = [&](int axis) {
+      return std::max(box.upper[axis] - middle[axis], middle[axis] - box.lower[axis]);
+    };
+    rims_[rim++] = {middle, {half(0), half(1), half(2)}};
+  }
 }
 
 void SmoothPatches::find_cone(const ClusteredMesh& mesh, int cluster) {
@@ -154,38 +172,69 @@ bool SmoothPatches::Judge::lies_beyond(const Region& region, const Flat& p, cons
   return false;
 }
 
+// Does a rim lie beyond one side of the region, and cross the ray no more often one way than the other? By its box.
+bool SmoothPatches::Judge::passes_by(const RimBox& rim, const View& view, const Region& region) const {
+  const auto half_along = [&](Vec3 axis) {
+    return std::abs(axis.x) * rim.half.x + std::abs(axis.y) * rim.half.y + std::abs(axis.z) * rim.half.z + 4.0 * slack_;
+  };
+  const Flat middle = seen(view, rim.middle);
+  const double half_x = half_along(view.x), half_y = half_along(view.y);
+  if (middle.x + half_x < region.low_x || middle.x - half_x > region.high_x || middle.y + half_y < region.low_y)
+    return true;
+  const bool beside_ray = std::abs(middle.x - region.ray()) > half_x;
+  if (middle.y - half_y > region.high_y) return beside_ray;
+  const auto along = between(middle), half = between({half_x, half_y});
+  for (std::size_t k = 0; k < kBetween; ++k) {
+    const double reach = half[k - k % 2];  // the direction before an odd one is the same but for a sign
+    if (along[k] + reach < region.low[k]) return true;
+    if (along[k] - reach > region.high[k]) return beside_ray;
+  }
+  return false;
+}
+
 // Each edge of the boundary lies beyond one side of the region, or it does not avoid it. How often the region is
 // covered is how often the boundary crosses the ray that runs from it along y, counted by the way it goes: there it
 // lies beyond a side above the region.
-SmoothPatches::Judge::Boundary SmoothPatches::Judge::walk(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors,
-                                                          const View& view, const Region& region) {
+bool SmoothPatches::Judge::walk_along(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors,
+                                      const ClusterNeighbors::Rim& rim, const View& view, const Region& region,
+                                      int& covered) {
   enum : unsigned { kAbove = 1, kBelow = 2, kBefore = 4, kBehind = 8 };
-  ends_.clear();
-  const double ray = 0.5 * (region.low_x + region.high_x);
-  int covered = 0;
+  const double ray = region.ray();
   const auto look = [&](int vertex) -> Seen {
     const Flat p = seen(view, mesh.position(vertex));
     return {p, (p.y > region.high_y ? kAbove : 0u) | (p.y < region.low_y ? kBelow : 0u) |
                    (p.x < region.low_x ? kBefore : 0u) | (p.x > region.high_x ? kBehind : 0u)};
   };
+  int last = -1;
+  Seen p{}, q{};
+  for (const ClusterNeighbors::Side& side : neighbors.sides(rim)) {
+    p = side.from == last ? q : look(side.from);
+    q = look(side.to);
+    last = side.to;
+    const unsigned beyond = p.beyond & q.beyond;
+    bool above = (beyond & kAbove) != 0;
+    if (beyond == 0 && !lies_beyond(region, p.at, q.at, above)) {
+      if (rim.other >= 0) return false;
+      ends_.push_back({side, p.at, q.at});
+    } else if (above) {
+      covered += (q.at.x <= ray ? 1 : 0) - (p.at.x <= ray ? 1 : 0);
+    }
+  }
+  return true;
+}
+
+SmoothPatches::Judge::Boundary SmoothPatches::Judge::walk(const SmoothPatches& patches, const ClusteredMesh& mesh,
+                                                          const ClusterNeighbors& neighbors, const View& view,
+                                                          const Region& region) {
+  ends_.clear();
+  int covered = 0;
   for (const int c : patch_) {
+    std::size_t number = neighbors.first_rim(c);
     for (const ClusterNeighbors::Rim& rim : neighbors.rims(c)) {
+      const RimBox& box = patches.rims_[number++];
       if (rim.other >= 0 && in_patch(rim.other)) continue;
-      int last = -1;
-      Seen p{}, q{};
-      for (const ClusterNeighbors::Side& side : neighbors.sides(rim)) {
-        p = side.from == last ? q : look(side.from);
-        q = look(side.to);
-        last = side.to;
-        const unsigned beyond = p.beyond & q.beyond;
-        bool above = (beyond & kAbove) != 0;
-        if (beyond == 0 && !lies_beyond(region, p.at, q.at, above)) {
-          if (rim.other >= 0) return Boundary::crosses;
-          ends_.push_back({side, p.at, q.at});
-        } else if (above) {
-          covered += (q.at.x <= ray ? 1 : 0) - (p.at.x <= ray ? 1 : 0);
-        }
-      }
+      if (!passes_by(box, view, region) && !walk_along(mesh, neighbors, rim, view, region, covered))
+        return Boundary::crosses;
     }
   }
   if (covered != 1) return Boundary::crosses;
@@ -244,12 +293,13 @@ SelfVerdict SmoothPatches::Judge::operator()(const SmoothPatches& patches, const
     box = merged(box, mesh.cluster_boxes()[static_cast<std::size_t>(c)]);
   }
   slack_ = kViewSlack * sum_of_sides(box);
-  return least > 2.0 * kSlack ? look(mesh, neighbors, clusters, up, least - kSlack) : SelfVerdict::open;
+  return least > 2.0 * kSlack ? look(patches, mesh, neighbors, clusters, up, least - kSlack) : SelfVerdict::open;
 }
 
 // From a direction whose angle with every normal has at least this cosine.
-SelfVerdict SmoothPatches::Judge::look(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors,
-                                       std::span<const int> clusters, Vec3 up, double least_cosine) {
+SelfVerdict SmoothPatches::Judge::look(const SmoothPatches& patches, const ClusteredMesh& mesh,
+                                       const ClusterNeighbors& neighbors, std::span<const int> clusters, Vec3 up,
+                                       double least_cosine) {
   Vec3 x = along(mesh, neighbors, clusters);
   for (bool again = false;; again = true) {
     const Vec3 across = cross(up, x);
@@ -257,7 +307,7 @@ SelfVerdict SmoothPatches::Judge::look(const ClusteredMesh& mesh, const ClusterN
     View view{mesh.cluster_boxes()[static_cast<std::size_t>(clusters.front())].lower, {}, normalized(across)};
     view.x = cross(view.y, up);
     const Region region = region_of(mesh, neighbors, clusters, view);
-    const Boundary boundary = walk(mesh, neighbors, view, region);
+    const Boundary boundary = walk(patches, mesh, neighbors, view, region);
     if (boundary == Boundary::crosses) return SelfVerdict::open;
     if (boundary == Boundary::avoids || continues(region)) break;
     if (again) return SelfVerdict::open;

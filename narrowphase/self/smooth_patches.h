@@ -51,6 +51,11 @@ struct NormalCone {
   double cosine = 0.0, sine = 0.0;  // of the half angle
 };
 
+/// A box, that of the vertices of a rim.
+struct RimBox {
+  Vec3 middle, half;  // half its edges
+};
+
 /// What is known of two clusters of one mesh, or of one with itself.
 enum class SelfVerdict {
   open,          ///< nothing
@@ -60,9 +65,9 @@ enum class SelfVerdict {
 
 class SmoothPatches {
  public:
-  /// To be called when the mesh has moved, then find_cone() for each cluster, in any order.
-  void begin(const ClusteredMesh& mesh);
-  void find_cone(const ClusteredMesh& mesh, int cluster);
+  /// To be called when the mesh has moved, then look_at() for each cluster, in any order.
+  void begin(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors);
+  void look_at(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, int cluster);
 
   /// Memory of a thread, used again.
   class Judge {
@@ -84,6 +89,7 @@ class SmoothPatches {
     struct Region {
       double low_x, high_x, low_y, high_y;
       double low[kBetween], high[kBetween];
+      double ray() const { return 0.5 * (low_x + high_x); }
     };
     // A vertex of the boundary: which sides of a rectangle it lies beyond.
     struct Seen {
@@ -111,9 +117,13 @@ class SmoothPatches {
     Region region_of(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, std::span<const int> clusters,
                      const View& view) const;
     static bool lies_beyond(const Region& region, const Flat& p, const Flat& q, bool& above);
-    Boundary walk(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, const View& view, const Region& region);
-    SelfVerdict look(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, std::span<const int> clusters,
-                     Vec3 up, double least_cosine);
+    bool passes_by(const RimBox& rim, const View& view, const Region& region) const;
+    bool walk_along(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, const ClusterNeighbors::Rim& rim,
+                    const View& view, const Region& region, int& covered);
+    Boundary walk(const SmoothPatches& patches, const ClusteredMesh& mesh, const ClusterNeighbors& neighbors,
+                  const View& view, const Region& region);
+    SelfVerdict look(const SmoothPatches& patches, const ClusteredMesh& mesh, const ClusterNeighbors& neighbors,
+                     std::span<const int> clusters, Vec3 up, double least_cosine);
     bool continues(const Region& region);
     double most_inward_turn() const;
 
@@ -126,7 +136,10 @@ class SmoothPatches {
   };
 
  private:
+  void find_cone(const ClusteredMesh& mesh, int cluster);
+
   std::vector<NormalCone> cones_;
+  std::vector<RimBox> rims_;  // as ClusterNeighbors counts them
   bool usable_ = false;
 };
 

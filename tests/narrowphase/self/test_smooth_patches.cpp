@@ -23,8 +23,8 @@ class Verdicts {
  public:
   explicit Verdicts(const Mesh& source)
       : mesh_(tests::clustered(source)), features_(mesh_), neighbors_(mesh_, features_) {
-    patches_.begin(mesh_);
-    for (int c = 0; c < mesh_.cluster_count(); ++c) patches_.find_cone(mesh_, c);
+    patches_.begin(mesh_, neighbors_);
+    for (int c = 0; c < mesh_.cluster_count(); ++c) patches_.look_at(mesh_, neighbors_, c);
     all_.assign(static_cast<std::size_t>(mesh_.cluster_count() * mesh_.cluster_count()), SelfVerdict::open);
     for (int a = 0; a < mesh_.cluster_count(); ++a) {
       for (int b = a; b < mesh_.cluster_count(); ++b) {
