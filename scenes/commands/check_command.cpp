@@ -14,6 +14,7 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "engine/base/parallel.h"
 #include "scenes/commands/common_options.h"
@@ -42,6 +43,7 @@ Examples:
   tact check part.stl part.stl --sheet part.stl#2 --accuracy hulls
   tact check a.off b.off c.off --json - | python3 -m json.tool
   tact check cloth/ ball.obj --sheet cloth --self cloth --margin 0.004 --points --json -
+  tact check upper_arm.obj lower_arm.obj table.obj --exclude upper_arm lower_arm
   tact check bullet/ wall.obj --sheet wall --impacts)";
 
 std::vector<BodyFrames> bodies_of(const CheckOptions& options) {
@@ -108,6 +110,22 @@ void check_outputs(const CheckOptions& options, const std::vector<BodyFrames>& b
   files.add_output("--out", options.view.file);
 }
 
+// The places of two bodies that are not held against each other.
+using ExcludedPair = std::pair<std::size_t, std::size_t>;
+std::vector<ExcludedPair> excluded_pairs(const CheckOptions& options, std::vector<BodyFrames>& bodies) {
+  std::vector<ExcludedPair> pairs;
+  for (const auto& [a, b] : options.excluded) {
+    const auto place = [&](const std::string& name) {
+      return static_cast<std::size_t>(&body_named("--exclude", name, bodies) - bodies.data());
+    };
+    pairs.emplace_back(place(a), place(b));
+    if (pairs.back().first == pairs.back().second)
+      throw UsageError(
+          fmt::format("--exclude {} {}: these are one body; without --self it is not held against itself", a, b));
+  }
+  return pairs;
+}
+
 // The engine's message names the body; the file tells which frame it is.
 [[noreturn]] void rethrow_for_file(const std::filesystem::path& file, const Error& error) {
   throw FileError(fmt::format("{}: {}", file.string(), error.what()));
@@ -157,6 +175,7 @@ void check(const CheckOptions& options, std::ostream& out) {
   mark_sheets(options.sheets, bodies);
   mark_selves(options.selves, bodies);
   set_margins(options.margins, bodies);
+  const std::vector<ExcludedPair> excluded = excluded_pairs(options, bodies);
   check_outputs(options, bodies);
   const int threads = options.threads > 0 ? options.threads : base::default_threads();
   const Interrupt interrupt;  // before any file is opened, so that none is left unfinished
@@ -170,6 +189,7 @@ void check(const CheckOptions& options, std::ostream& out) {
   World world({.threads = threads, .accuracy = options.accuracy, .outputs = outputs});
   if (recording) world.set_observer(&recorder.emplace(recording->stream()));
   const std::vector<BodyId> ids = add_bodies(bodies, world);
+  for (const auto& [a, b] : excluded) world.set_excluded(ids[a], ids[b], true);
 
   std::optional<ViewPage> page;
   if (!options.view.file.empty()) page.emplace(options.view, title_of(bodies), out);
@@ -226,6 +246,11 @@ void add_check_command(CLI::App& program) {
       ->allow_extra_args(false);
   command->add_option("--self", options->selves, "Hold this body against itself, too, or all; may be repeated")
       ->type_name("NAME|all")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--exclude", options->excluded,
+                   "Do not hold these two bodies against each other, the sides of a joint, say; may be repeated")
+      ->type_name("NAME NAME")
       ->allow_extra_args(false);
   command->add_flag("--points", options->outputs.points,
                     "Find the contact points: where surfaces are nearest within their margins (in --json)");

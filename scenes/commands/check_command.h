@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenes/view/view_page.h"
@@ -20,8 +21,9 @@ struct CheckOptions {
   std::vector<std::string> sheets = {};            // names of the bodies that are sheets, the others being closed
   std::vector<std::string> margins = {};           // "M" for every body, "NAME=M" for one, metres; the last one counts
   std::vector<std::string> selves = {};            // bodies that are held against themselves; "all": every one
-  Outputs outputs = {};                            // points; for the page also zones and patches
-  bool impacts = false;                            // what meets between a frame and the next
+  std::vector<std::pair<std::string, std::string>> excluded = {};  // bodies that are not held against each other
+  Outputs outputs = {};                                            // points; for the page also zones and patches
+  bool impacts = false;                                            // what meets between a frame and the next
   Accuracy accuracy = Accuracy::exact;
   int threads = 0;          // 0: as many as OpenMP would use
   int frames = 0;           // of folders the first so many; without a folder the number of steps; 0: all, or one
@@ -32,7 +34,7 @@ struct CheckOptions {
 };
 
 // Reads all files first, so that nothing is written if one is bad; then steps one world through the frames. Without
-// "-" for JSON, tables go to `out`. SIGINT ends it after the frame. Errors: FileError, UsageError (a sheet that is no
+// "-" for JSON, tables go to `out`. SIGINT ends it after the frame. Errors: FileError, UsageError (a name that is no
 // body, an output that is a mesh or another output), Error.
 void check(const CheckOptions& options, std::ostream& out);
 

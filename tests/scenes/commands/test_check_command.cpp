@@ -171,6 +171,16 @@ TEST_F(CheckCommand, SheetsAreNamed) {
   EXPECT_THROW(check_json({.meshes = {a_}, .sheets = {"a"}}), UsageError);
 }
 
+TEST_F(CheckCommand, ExcludedPairsAreLeftOutAndCounted) {
+  const Json frame = check_json({.meshes = {a_, b_, c_}, .excluded = {{"b.obj", "a.obj"}}})["frames"][0];
+  ASSERT_EQ(frame["pairs"].size(), 2u);
+  EXPECT_EQ(frame["pairs"][0]["b"], 2);
+  EXPECT_EQ(frame["pairs"][1]["a"], 1);
+  EXPECT_EQ(frame["stats"]["named_excluded_pairs"], 1);
+  EXPECT_THROW(check_json({.meshes = {a_, b_}, .excluded = {{"a.obj", "c.obj"}}}), UsageError);
+  EXPECT_THROW(check_json({.meshes = {a_, b_}, .excluded = {{"a.obj", "a.obj"}}}), UsageError);
+}
+
 TEST_F(CheckCommand, FoldersMoveThroughOneWorld) {
   for (int i = 0; i < 4; ++i) {
     folder_.write("seq/" + std::to_string(i) + ".obj", tetrahedron_at(2 - 0.5 * i, 0.1, 0.1));

@@ -151,6 +151,8 @@ TEST_F(CommandLine, WrongUsageReturnsTwo) {
   expect_refusal("check", 2, "MESH");
   expect_refusal("check a.obj --bogus", 2, "--bogus");
   expect_refusal("check a.obj --sheet cloth", 2, "--sheet cloth: no body has this name; the bodies are: a.obj");
+  expect_refusal("check a.obj b.off --exclude a.obj", 2, "--exclude");
+  expect_refusal("check a.obj b.off --exclude a.obj cloth", 2, "--exclude cloth: no body has this name");
   expect_refusal("check a.obj b.off --accuracy perfect", 2, "--accuracy");
   expect_refusal("check a.obj b.off --threads -1", 2, "--threads");
   expect_refusal("check a.obj b.off --threads many", 2, "--threads");
