@@ -9,6 +9,9 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/base/parallel.h"
 #include "scenes/commands/common_options.h"
@@ -48,13 +51,20 @@ const SceneEntry& entry_of(const RunOptions& options) {
 // Two reports in one stream or file would be none.
 void check_outputs(const RunOptions& run) {
   const OutputOptions& options = run.outputs;
-  if (options.json == "-" && options.contacts == "-") {
-    throw UsageError("--json and --contacts: only one of them can go to standard output");
+  std::vector<const char*> to_standard_output;
+  for (const auto& [name, file] : std::initializer_list<std::pair<const char*, std::string>>{
+           {"--json", options.json}, {"--contacts", options.contacts}, {"--states", options.states}}) {
+    if (file == "-") to_standard_output.push_back(name);
+  }
+  if (to_standard_output.size() > 1) {
+    throw UsageError(fmt::format("{} and {}: only one of them can go to standard output", to_standard_output[0],
+                                 to_standard_output[1]));
   }
   if (options.gltf == "-") throw UsageError("--gltf: an animation goes to a file, not to standard output");
   NamedFiles files;
   files.add_output("--json", options.json);
   files.add_output("--contacts", options.contacts);
+  files.add_output("--states", options.states);
   files.add_output("--trace", options.trace);
   files.add_output("--gltf", options.gltf);
   files.add_output("--record", run.record);
@@ -103,7 +113,8 @@ void run(const RunOptions& options, std::ostream& out) {
   Failures failures;
   outputs.finish(ending, failures);
   if (recording) failures.attempt([&] { recording->finish(); });
-  if (options.outputs.json != "-" && options.outputs.contacts != "-") {
+  const OutputOptions& files = options.outputs;
+  if (files.json != "-" && files.contacts != "-" && files.states != "-") {
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (options.prints == RunOptions::Prints::all) {
       fmt::print(out, "{}{}\n", options.scene, ending == Ending::interrupted ? ", interrupted" : "");
@@ -145,6 +156,11 @@ void add_run_command(CLI::App& program) {
   command->add_flag("--zones", outputs.zones, "Show the impact zones in pictures; the engine then computes them");
   add_json_option(*command, outputs.json);
   command->add_option("--contacts", outputs.contacts, "Write the contacts as JSON, a line a step; - is standard output")
+      ->type_name("FILE|-")
+      ->check(refuse_empty_name);
+  command
+      ->add_option("--states", outputs.states,
+                   "Write how each step went as JSON, a line a step: energy, deepest point, who sleeps; - likewise")
       ->type_name("FILE|-")
       ->check(refuse_empty_name);
   command->add_option("--gltf", outputs.gltf, "Write the bodies, at every picture, as an animated glTF file")

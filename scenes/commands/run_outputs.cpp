@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "scenes/export/contact_lines.h"
+#include "scenes/export/state_lines.h"
 #include "scenes/pictures/film.h"
 
 namespace tact::scenes {
@@ -31,6 +32,7 @@ RunOutputs::RunOutputs(const OutputOptions& options, const std::string& title, c
                   options.view.file.empty() ? JsonReport::Fates::none : JsonReport::Fates::counts);
   }
   if (!options.contacts.empty()) contacts_.emplace(options.contacts, out, Appears::at_once);
+  if (!options.states.empty()) states_.emplace(options.states, out, Appears::at_once);
   if (!options.trace.empty()) {
     trace_file_.emplace(options.trace, out);
     trace_.emplace(trace_file_->stream(), title, threads);
@@ -58,6 +60,7 @@ void RunOutputs::add_step(int step, const Simulation& simulation) {
   if (contacts_) {
     write_contact_line(contacts_->stream(), step, simulation.state().time, simulation.world(), *simulation.report());
   }
+  if (states_) write_state_line(states_->stream(), step, simulation);
   if (trace_) trace_->add_step(step, simulation);
   if (page_) page_->add_step(step, simulation.state().time, simulation.world(), *simulation.report());
   if (step % every_ == 0) add_frame(simulation);
@@ -91,6 +94,7 @@ void RunOutputs::finish(Ending ending, Failures& failures) {
     });
   }
   if (contacts_) failures.attempt([&] { contacts_->finish(); });
+  if (states_) failures.attempt([&] { states_->finish(); });
   if (vtk_) made_.push_back(fmt::format("frames for ParaView: {}", vtk_->index_file().string()));
   if (gltf_ && gltf_->frames() > 0) {
     failures.attempt([&] {

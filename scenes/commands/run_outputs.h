@@ -28,6 +28,7 @@ struct OutputOptions {
   bool points = false;             // and contact points in the page
   std::string json = {};           // the report of every step, "-" for standard output; empty: none
   std::string contacts = {};       // the contacts of every step, a line each, "-" likewise
+  std::string states = {};         // how every step went, a line each, "-" likewise
   std::string trace = {};          // a Chrome trace of every step; empty: none
   std::filesystem::path gltf = {};  // a .glb file; empty: none
   std::filesystem::path vtk = {};   // a folder; empty: none
@@ -37,9 +38,9 @@ struct OutputOptions {
 // The bodies that no picture shows are not in the files for other programs either.
 class RunOutputs {
  public:
-  // Opens reports, contacts, trace and animation and makes the folders, so that a run does not begin for which one of
-  // them cannot be. `scene` without its bodies; `title` is its name. Errors: FileError; std::runtime_error if the font
-  // is missing.
+  // Opens reports, contacts, states, trace and animation and makes the folders, so that a run does not begin for which
+  // one of them cannot be. `scene` without its bodies; `title` is its name. Errors: FileError; std::runtime_error if
+  // the font is missing.
   RunOutputs(const OutputOptions& options, const std::string& title, const Scene& scene, const World& world,
              int threads, std::ostream& out);
 
@@ -62,6 +63,7 @@ class RunOutputs {
   std::optional<OutputFile> json_file_;
   std::optional<JsonReport> json_;
   std::optional<OutputFile> contacts_;
+  std::optional<OutputFile> states_;
   std::optional<OutputFile> trace_file_;
   std::optional<ChromeTrace> trace_;
   std::optional<OutputFile> gltf_file_;

@@ -36,10 +36,12 @@ void RunTotals::add_step(const Simulation& simulation) {
   times_.contacts_ms += dynamics.contacts_ms;
   times_.sleep_ms += dynamics.sleep_ms;
   peak_energy_ = std::max(peak_energy_, simulation.state().kinetic_energy);
-  stopped_ += simulation.impacts().impacts();
+  stopped_ += simulation.state().impacts;
+  stayed_ += simulation.state().stayed;
   shortest_ = std::min(shortest_, simulation.impacts().part());
   squeezed_ = std::max(squeezed_, simulation.state().squeezed);
-  crossed_ = std::max(crossed_, simulation.state().crossed);
+  facet_pairs_ += simulation.state().facet_pairs;
+  self_facet_pairs_ += simulation.state().self_facet_pairs;
 }
 
 void RunTotals::print(std::ostream& out, const Simulation& simulation, double wall_seconds,
@@ -49,15 +51,18 @@ void RunTotals::print(std::ostream& out, const Simulation& simulation, double wa
   fmt::print(out, "{} steps, {:.3f} s simulated in {:.2f} s; without pictures and files {:.1f} steps a second\n",
              steps_, state.time, wall_seconds, times_.total_ms() > 0.0 ? 1e3 * steps_ / times_.total_ms() : 0.0);
   const StepStats last = steps_ > 0 ? simulation.report()->stats() : StepStats{};
-  fmt::print(out, "last step: {}, {}, {}; bodies that forces move and that are awake: {}\n",
+  fmt::print(out, "last step: {}, {}, {}; of the bodies that forces move {} are awake, {} sleep\n",
              counted(last.contacts, "contact"), counted(state.contact_points, "contact point"),
-             counted(last.facet_pairs, "facet pair"), state.awake);
+             counted(last.facet_pairs, "facet pair"), state.awake, state.asleep);
   fmt::print(out,
-             "facet pairs that ever crossed: {}; thicknesses squeezed by up to {:.2f} % of the smaller body's size, by "
+             "facet pairs that ever crossed: {}, of a body with itself {}; thicknesses squeezed by up to {:.2f} % of "
+             "the smaller body's size, by "
              "{:.2f} % in the last step\n",
-             stats_.facet_pairs, 100.0 * squeezed_, 100.0 * state.squeezed);
+             facet_pairs_, self_facet_pairs_, 100.0 * squeezed_, 100.0 * state.squeezed);
   if (simulation.dynamics().continuous) {
     fmt::print(out, "impacts stopped: {}; the shortest step went {:.3g} of its way\n", stopped_, shortest_);
+  } else if (simulation.dynamics().guarded) {
+    fmt::print(out, "impacts stopped: {}; vertices that stayed where they were: {}\n", stopped_, stayed_);
   }
   fmt::print(out, "kinetic energy: {:.4g} J now, {:.4g} J at its peak\n", state.kinetic_energy, peak_energy_);
   print_times(out);

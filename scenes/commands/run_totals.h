@@ -28,9 +28,11 @@ class RunTotals {
   StepStats stats_;      // summed
   DynamicsTimes times_;  // summed
   double peak_energy_ = 0.0;
-  std::int64_t stopped_ = 0;               // impacts
-  double shortest_ = 1.0;                  // part of its way that a step went
-  double squeezed_ = 0.0, crossed_ = 0.0;  // shares of the smaller body's size
+  std::int64_t stopped_ = 0;  // impacts
+  std::int64_t stayed_ = 0;   // vertices, see ImpactResponse
+  double shortest_ = 1.0;     // part of its way that a step went
+  double squeezed_ = 0.0;     // share of the smaller body's size
+  std::int64_t facet_pairs_ = 0, self_facet_pairs_ = 0;
   std::int64_t detections_ = 0;
 };
 

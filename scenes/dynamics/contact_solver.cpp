@@ -133,8 +133,8 @@ void ContactSolver::group_contacts(const std::vector<Body>& bodies) {
   }
 }
 
-void ContactSolver::solve(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before,
-                          const ContactSettings& settings, double h, int threads) {
+void ContactSolver::push(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before,
+                         const ContactSettings& settings, double h, int threads) {
   for (Point& point : points_) {
     const double missing = point.wanted - point.apart;
     point.apart += std::min(settings.parting_share * missing, settings.parting_speed * h);
@@ -142,7 +142,12 @@ void ContactSolver::solve(std::vector<Body>& bodies, const std::vector<std::vect
   for (int k = 0; k < settings.most_sweeps; ++k) {
     if (!sweep({.spare = k == 0 ? 0.0 : settings.spare}, bodies, before, threads)) break;
   }
-  const Sweep retreat{.kind = Sweep::Kind::retreat, .least_share = settings.least_share};
+}
+
+void ContactSolver::retreat(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before,
+                            const ContactSettings& settings, int threads) {
+  const Sweep retreat{
+      .kind = Sweep::Kind::retreat, .least_share = settings.least_share, .least_gap = settings.least_gap};
   for (int k = 0; k < kMostRetreats; ++k) {
     if (!sweep(retreat, bodies, before, threads)) break;
   }
@@ -171,8 +176,9 @@ bool ContactSolver::sweep_contact(const BodyContact& contact, const Sweep& sweep
     const double distance = dot(point.normal, b.now() - a.now());
     if (sweep.kind == Sweep::Kind::push) {
       const double missing = point.apart - distance;
-      if (missing > sweep.spare * point.wanted) any = push(point, missing, a, b, friction) || any;
-    } else if (point.found > 0.0 && distance < sweep.least_share * point.found) {
+      if (missing > sweep.spare * point.wanted) any = push_point(point, missing, a, b, friction) || any;
+    } else if (point.found > 0.0 && distance < std::min(point.found, std::max(sweep.least_share * point.found,
+                                                                              sweep.least_gap * point.wanted))) {
       a.retreat();
       b.retreat();
       any = true;
@@ -181,7 +187,7 @@ bool ContactSolver::sweep_contact(const BodyContact& contact, const Sweep& sweep
   return any;
 }
 
-bool ContactSolver::push(const Point& point, double missing, Carrier& a, Carrier& b, double friction) {
+bool ContactSolver::push_point(const Point& point, double missing, Carrier& a, Carrier& b, double friction) {
   const double give = a.give(point.normal) + b.give(point.normal);
   if (!(give > 0.0)) return false;
   const double impulse = missing / give;

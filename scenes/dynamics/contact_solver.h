@@ -16,8 +16,10 @@ struct ContactSettings {
   int most_sweeps = 6;
   double spare = 0.3;
   // What is nearer than this share of its gap when the sweeps are done goes back towards where the substep began, by
-  // half as often as it takes: there it was not. So nothing crosses, whatever the points ask of each other.
+  // half as often as it takes: there it was not. So nothing crosses, whatever the points ask of each other. A gap below
+  // this share of both thicknesses does not shrink at all: in a heap it would go on shrinking, step by step, to zero.
   double least_share = 0.2;
+  double least_gap = 0.1;
   // How fast surfaces that are nearer than their thicknesses part, metres a second at most, and which share of what is
   // missing a substep gives back. All at once would throw the bodies.
   double parting_speed = 0.25;
@@ -40,8 +42,12 @@ class ContactSolver {
   void take(const Report& report, const std::vector<Body>& bodies, int threads);
   // For a substep of `h` seconds that began at the positions `before`, by body. Friction takes back what a point slid
   // since then, by up to the friction coefficient times the impulse along the normal (Coulomb's cone).
-  void solve(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before, const ContactSettings& settings,
-             double h, int threads);
+  void push(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before, const ContactSettings& settings,
+            double h, int threads);
+  // What is nearer than it may be (ContactSettings::least_share) goes back towards `before`. The last word of a
+  // substep.
+  void retreat(std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before, const ContactSettings& settings,
+               int threads);
 
   std::int64_t point_count() const { return static_cast<std::int64_t>(points_.size()); }
 
@@ -63,7 +69,8 @@ class ContactSolver {
   struct Sweep {
     enum class Kind { push, retreat } kind = Kind::push;
     double spare = 0.0;        // metres that a point may miss
-    double least_share = 0.0;  // of its gap, for a retreat
+    double least_share = 0.0;  // of its gap, for a retreat,
+    double least_gap = 0.0;    // and of both thicknesses
   };
   struct BodyContact {
     std::size_t a = 0, b = 0;        // places in the list of bodies
@@ -77,7 +84,7 @@ class ContactSolver {
   bool sweep(const Sweep& sweep, std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before, int threads);
   bool sweep_contact(const BodyContact& contact, const Sweep& sweep, std::vector<Body>& bodies,
                      const std::vector<std::vector<Vec3>>& before) const;
-  static bool push(const Point& point, double missing, Carrier& a, Carrier& b, double friction);
+  static bool push_point(const Point& point, double missing, Carrier& a, Carrier& b, double friction);
 
   std::vector<Point> points_;
   std::vector<BodyContact> contacts_;

@@ -8,7 +8,8 @@
 namespace tact::scenes {
 namespace {
 
-constexpr int kMostRounds = 20;
+// Rounds of stopping before the last resort: the cheap one comes soon.
+constexpr int kMostRounds = 20, kFewRounds = 5;
 // How far bodies go of what is free where impacts are left: a hundredth of a gap stays open at each step.
 constexpr double kPart = 0.99;
 
@@ -84,7 +85,7 @@ void weigh(ImpactSide& a, ImpactSide& b, double time) {
 
 }  // namespace
 
-void ImpactResponse::stop(const Impact& impact, double margins, const std::vector<std::vector<Vec3>>& begin,
+void ImpactResponse::stop(const Impact& impact, double margins, const Positions& begin,
                           std::vector<Body>& bodies) const {
   ImpactSide a = side_of(bodies[impact.a.index], begin[impact.a.index], impact.a_vertices);
   ImpactSide b = side_of(bodies[impact.b.index], begin[impact.b.index], impact.b_vertices);
@@ -107,38 +108,65 @@ void ImpactResponse::stop(const Impact& impact, double margins, const std::vecto
   b.move(momentum);
 }
 
-void ImpactResponse::run(const std::vector<std::vector<Vec3>>& begin, double seconds, const std::vector<BodyId>& ids,
+const MotionReport& ImpactResponse::detect(Impacts wanted, const std::vector<BodyId>& ids,
+                                           const std::vector<Body>& bodies, World& world) {
+  updates_.clear();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].motion != Motion::fixed) updates_.push_back({ids[i], as_matrix(bodies[i].positions)});
+  }
+  world.set_positions(updates_);
+  return world.detect_motion(wanted);
+}
+
+void ImpactResponse::let_all_go_a_part(const Positions& begin, double part, std::vector<Body>& bodies) {
+  part_ *= part;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (std::size_t v = 0; v < begin[i].size(); ++v)
+      bodies[i].positions[v] = begin[i][v] + part * (bodies[i].positions[v] - begin[i][v]);
+  }
+}
+
+bool ImpactResponse::take_back(std::span<const Impact> impacts, const Positions& begin, std::vector<Body>& bodies) {
+  const std::int64_t before = stayed_;
+  const auto take = [&](BodyId body, const std::array<int, 3>& vertices) {
+    for (const int v : vertices) {
+      if (v < 0) continue;
+      Vec3& position = bodies[body.index].positions[static_cast<std::size_t>(v)];
+      const Vec3 from = begin[body.index][static_cast<std::size_t>(v)];
+      if (position.x == from.x && position.y == from.y && position.z == from.z) continue;
+      position = from;
+      ++stayed_;
+    }
+  };
+  for (const Impact& impact : impacts) {
+    take(impact.a, impact.a_vertices);
+    take(impact.b, impact.b_vertices);
+  }
+  return stayed_ > before;
+}
+
+void ImpactResponse::run(const Positions& begin, double seconds, LastResort last_resort, const std::vector<BodyId>& ids,
                          std::vector<Body>& bodies, World& world) {
   wanted_.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) wanted_[i] = bodies[i].positions;
-  std::vector<PositionsUpdate> updates;
-  const auto detect = [&](Impacts wanted) -> const MotionReport& {
-    updates.clear();
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      if (bodies[i].motion != Motion::fixed) updates.push_back({ids[i], as_matrix(bodies[i].positions)});
-    }
-    world.set_positions(updates);
-    return world.detect_motion(wanted);
-  };
-  impacts_ = 0;
+  impacts_ = stayed_ = 0;
   part_ = 1.0;
   bool is_free = false;
-  for (rounds_ = 1; rounds_ <= kMostRounds && !is_free; ++rounds_) {
-    const std::span<const Impact> impacts = detect(Impacts::all).impacts();
+  const int rounds = last_resort == LastResort::all_stop ? kMostRounds : kFewRounds;
+  for (int round = 0; round < rounds && !is_free; ++round) {
+    const std::span<const Impact> impacts = detect(Impacts::all, ids, bodies, world).impacts();
     is_free = impacts.empty();
     impacts_ += static_cast<std::int64_t>(impacts.size());
     for (const Impact& impact : impacts) stop(impact, world.margin(impact.a) + world.margin(impact.b), begin, bodies);
   }
-  while (!is_free) {
-    const double first = detect(Impacts::first).first_time();
+  while (!is_free && last_resort == LastResort::all_stop) {
+    const double first = detect(Impacts::first, ids, bodies, world).first_time();
     is_free = first > 1.0;
-    if (is_free) break;
-    part_ *= kPart * first;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      for (std::size_t v = 0; v < begin[i].size(); ++v)
-        bodies[i].positions[v] = begin[i][v] + kPart * first * (bodies[i].positions[v] - begin[i][v]);
-    }
+    if (!is_free) let_all_go_a_part(begin, kPart * first, bodies);
   }
+  // Each round takes a vertex back that was not, or is the last one.
+  while (!is_free) is_free = !take_back(detect(Impacts::all, ids, bodies, world).impacts(), begin, bodies);
+  if (impacts_ == 0) return;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (std::size_t v = 0; v < begin[i].size(); ++v) {
       if (bodies[i].inverse_masses[v] > 0.0)

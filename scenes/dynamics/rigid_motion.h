@@ -40,6 +40,13 @@ class RigidMotion {
     shift_ = 0.5 * shift_;
     turn_ = 0.5 * turn_;
   }
+  // No vertex goes farther than `most` metres in the substep.
+  void shorten(double most) {
+    if (!(way() > most)) return;
+    const double part = most / way();
+    shift_ = part * shift_;
+    turn_ = part * turn_;
+  }
   // No vertex went farther in the substep, metres.
   double way() const { return norm(shift_) + norm(turn_) * radius_; }
 

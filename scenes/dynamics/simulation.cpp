@@ -70,7 +70,7 @@ Simulation::Simulation(std::vector<Body> bodies, Script script, const DynamicsSe
   if (script_) script_(0.0, bodies_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
-    if (dynamics_.continuous) body.rigid.reset();
+    if (stops_impacts()) body.rigid.reset();
     before_[i] = body.positions;
     reach_[i] = body.motion == Motion::fixed ? 0.0 : dynamics_.least_reach;
     ids_.push_back(world_.add_body({.positions = as_matrix(body.positions),
@@ -100,19 +100,12 @@ void Simulation::step() {
   times_.stretches.clear();
   const double h = dynamics_.time_step / dynamics_.substeps;
   stats_ = {};
-  state_.detections = 0;
-  state_.squeezed = state_.crossed = 0.0;
-  state_.facet_pairs = 0;
+  state_ = {.time = state_.time, .kinetic_energy = state_.kinetic_energy};
   if (report_ == nullptr) detect();
-  if (dynamics_.continuous) {
-    step_begin_.resize(bodies_.size());
-    for (std::size_t i = 0; i < bodies_.size(); ++i) step_begin_[i] = bodies_[i].positions;
-  }
   for (int substep = 1; substep <= dynamics_.substeps; ++substep) {
     run_substep(h);
     if (substep < dynamics_.substeps && !dynamics_.continuous && has_left_its_reach(h)) detect();
   }
-  if (dynamics_.continuous) stop_before_impacts();
   detect();
   rest();
 }
@@ -125,11 +118,10 @@ void Simulation::rest() {
   });
   sleep_.update(*report_, dynamics_.time_step, dynamics_.sleep, bodies_);
   state_.kinetic_energy = 0.0;
-  state_.awake = 0;
   for (const Body& body : bodies_) {
-    if (!body.movable()) continue;
+    if (!body.dynamic) continue;
     state_.kinetic_energy += kinetic_energy(body);
-    ++state_.awake;
+    ++(body.asleep ? state_.asleep : state_.awake);
   }
   times_.sleep_ms += note("sleep", timer);
 }
@@ -140,7 +132,11 @@ void Simulation::run_substep(double h) {
   state_.time += h;
   if (script_) script_(state_.time, bodies_);
   times_.move_ms += note("motion", timer);
-  if (!dynamics_.continuous) solver_.solve(bodies_, before_, dynamics_.contact, h, threads_);
+  if (!dynamics_.continuous) {
+    solver_.push(bodies_, before_, dynamics_.contact, h, threads_);
+    if (dynamics_.stay_within_reach) for_each_body([&](std::size_t i, int /*threads*/) { keep_within_reach(i); });
+    solver_.retreat(bodies_, before_, dynamics_.contact, threads_);
+  }
   times_.contacts_ms += note("contact points", timer);
   for_each_body([&](std::size_t i, int threads) { end_substep(i, h, threads); });
   times_.move_ms += note("motion", timer);
@@ -170,6 +166,17 @@ void Simulation::begin_substep(std::size_t i, double h, int threads) {
   hold_together(body, h, threads);
 }
 
+void Simulation::keep_within_reach(std::size_t i) {
+  Body& body = bodies_[i];
+  if (!body.dynamic) return;
+  const double free = std::max(free_[i] - way_[i], 0.0);
+  if (body.rigid) {
+    body.rigid->shorten(free);
+  } else {
+    shorten_ways(body, before_[i], free);
+  }
+}
+
 void Simulation::end_substep(std::size_t i, double h, int threads) {
   Body& body = bodies_[i];
   if (body.rigid) {
@@ -178,11 +185,6 @@ void Simulation::end_substep(std::size_t i, double h, int threads) {
   } else {
     const std::vector<Vec3>& before = before_[i];
     last_way_[i] = longest_way(before, body.positions);
-    const double free = reach_[i] - way_[i];
-    if (dynamics_.stay_within_reach && !dynamics_.continuous && body.dynamic && last_way_[i] > free) {
-      shorten_ways(body, before, std::max(free, 0.0));
-      last_way_[i] = std::max(free, 0.0);
-    }
     base::parallel_for(body.positions.size(), kVerticesAtATime, threads,
                        [&](std::size_t v) { body.velocities[v] = (1.0 / h) * (body.positions[v] - before[v]); });
   }
@@ -193,7 +195,7 @@ void Simulation::end_substep(std::size_t i, double h, int threads) {
 bool Simulation::has_left_its_reach(double h) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (bodies_[i].asleep || bodies_[i].motion == Motion::fixed) continue;
-    if (way_[i] + last_way_[i] + dynamics_.gravity * h * h > reach_[i]) return true;
+    if (way_[i] + last_way_[i] + dynamics_.gravity * h * h > free_[i]) return true;
   }
   return false;
 }
@@ -211,14 +213,26 @@ void Simulation::set_reach(std::size_t i) {
   world_.set_margin(ids_[i], bodies_[i].thickness + reach);
 }
 
-// The last detection saw the bodies where the step began.
+// Since the last detection, if anything moved.
 void Simulation::stop_before_impacts() {
+  if (std::ranges::none_of(way_, [](double way) { return way > 0.0; })) return;
   base::Timer timer;
-  impacts_.run(step_begin_, dynamics_.time_step, ids_, bodies_, world_);
+  const bool guards = !dynamics_.continuous;  // and margins are those of contact points
+  if (guards) {
+    for (const BodyId id : ids_) world_.set_margin(id, dynamics_.margin);
+  }
+  const auto last_resort = guards ? ImpactResponse::LastResort::some_stay : ImpactResponse::LastResort::all_stop;
+  impacts_.run(detected_, state_.time - detected_time_, last_resort, ids_, bodies_, world_);
+  if (guards) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) world_.set_margin(ids_[i], bodies_[i].thickness + reach_[i]);
+  }
+  state_.impacts += impacts_.impacts();
+  state_.stayed += impacts_.stayed();
   times_.impacts_ms += note("impacts", timer);
 }
 
 void Simulation::detect() {
+  if (stops_impacts() && report_ != nullptr) stop_before_impacts();
   base::Timer timer;
   const double written_ms = writing_ms();
   std::vector<PositionsUpdate> updates;
@@ -238,21 +252,46 @@ void Simulation::detect() {
   times_.engine_ms += note("engine", timer) - recording_ms;
   ++state_.detections;
   add(report_->stats(), stats_);
-  state_.facet_pairs += report_->stats().facet_pairs;
   if (!dynamics_.continuous) solver_.take(*report_, bodies_, threads_);
+  if (stops_impacts()) {
+    detected_.resize(bodies_.size());
+    for (std::size_t i = 0; i < bodies_.size(); ++i) detected_[i] = bodies_[i].positions;
+    detected_time_ = state_.time;
+  }
+  limit_ways();
   measure_contacts();
   times_.contacts_ms += note("contact points", timer);
+}
+
+void Simulation::limit_ways() {
+  constexpr double kPart = 0.9;    // of a gap, for both bodies
+  constexpr double kLeast = 0.05;  // of both thicknesses: what is nearer than that has to get away
+  free_ = reach_;
+  if (stops_impacts()) return;
+  for (const Contact& contact : report_->contacts()) {
+    const std::size_t a = contact.a.index, b = contact.b.index;
+    double gap = std::numeric_limits<double>::infinity();
+    for (const ContactPoint& point : contact.points()) gap = std::min(gap, point.gap);
+    gap = std::max(gap, kLeast * (bodies_[a].thickness + bodies_[b].thickness));
+    const auto moves = [&](const Body& body) { return body.motion != Motion::fixed && !body.asleep; };
+    const double free = (moves(bodies_[a]) && moves(bodies_[b]) ? 0.5 : 1.0) * kPart * gap;
+    free_[a] = std::min(free_[a], free);
+    free_[b] = std::min(free_[b], free);
+  }
 }
 
 void Simulation::measure_contacts() {
   state_.contact_points = 0;
   for (const Contact& contact : report_->contacts()) {
     const Body &a = bodies_[contact.a.index], &b = bodies_[contact.b.index];
+    (contact.a == contact.b ? state_.self_facet_pairs : state_.facet_pairs) +=
+        static_cast<std::int64_t>(contact.facet_pairs().size());
     state_.contact_points += static_cast<std::int64_t>(contact.points().size());
     const double wanted = dynamics_.continuous ? 2.0 * dynamics_.margin : a.thickness + b.thickness;
-    double gap = wanted;
     const double size = std::min(a.size, b.size);
+    double gap = std::numeric_limits<double>::infinity();
     for (const ContactPoint& point : contact.points()) gap = std::min(gap, point.gap);
+    state_.smallest_gap = std::min(state_.smallest_gap, gap);
     state_.squeezed = std::max(state_.squeezed, (wanted - gap) / size);
     state_.crossed = std::max(state_.crossed, -gap / size);
   }

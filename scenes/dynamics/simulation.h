@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <ostream>
 #include <vector>
@@ -26,14 +27,21 @@ struct DynamicsSettings {
   // in a step, within these limits. A body that moves farther than its reach is detected again within the step.
   double least_reach = 0.001;  // metres
   double most_reach = 0.008;   // metres
-  // Nothing goes farther than its reach between two detections: what is faster is slowed down.
+  // Nothing goes farther than its reach between two detections: what is faster is slowed down. Nor does a body go
+  // farther than nearly half of its smallest gap; of all of it where the other one stands still. Contact points hold
+  // the nearest places apart; as bodies slide and turn, others become the nearest, which have no points yet. But no
+  // two places are nearer than the smallest gap.
   bool stay_within_reach = true;
   ContactSettings contact = {};
   SleepSettings sleep = {};
   // Stop bodies before they meet, by World::detect_motion(), rather than keep contact points apart. Rigid bodies are
   // soft then, as impacts move vertices one by one.
   bool continuous = false;
-  double margin = 0.001;  // of every body then, metres: two surfaces stay two of these apart
+  // Keep contact points apart, and stop what they did not keep apart before it meets: before each detection, by
+  // World::detect_motion(). For cloth in folds: where a surface bends as sharply as its thickness, its nearest places
+  // are neighbours, which have no points, or change between two detections. Bodies are not rigid then, either.
+  bool guarded = false;
+  double margin = 0.001;  // of every body where impacts are found, metres: two surfaces stay two of these apart
 };
 
 // Moves the bodies that are not dynamic: sets their positions as they are at `time`, seconds. It may change the weight
@@ -63,13 +71,20 @@ struct DynamicsState {
   double time = 0.0;            // seconds simulated
   double kinetic_energy = 0.0;  // joules
   std::int64_t contact_points = 0;
-  int detections = 0;      // in this step
-  std::int64_t awake = 0;  // bodies that forces move
+  int detections = 0;       // in this step
+  std::int64_t awake = 0;   // bodies that forces move
+  std::int64_t asleep = 0;  // likewise
   // How much of both thicknesses two surfaces took from each other when that was found, and how far they had crossed,
   // over the size of the smaller body.
   double squeezed = 0.0;
   double crossed = 0.0;
-  std::int64_t facet_pairs = 0;  // of all detections
+  double smallest_gap = std::numeric_limits<double>::infinity();  // of a contact point, metres
+  // Facets that cross, of all detections: of two bodies, of a body with itself.
+  std::int64_t facet_pairs = 0;
+  std::int64_t self_facet_pairs = 0;
+  // Where impacts are stopped: how many, and how many vertices stayed where they were, see ImpactResponse.
+  std::int64_t impacts = 0;
+  std::int64_t stayed = 0;
 };
 
 // Bodies, the world of tact that finds their contacts, and the step. The same bits for any number of threads.
@@ -105,9 +120,12 @@ class Simulation {
   double writing_ms() const { return recorder_ ? recorder_->writing_ms() : 0.0; }
   void run_substep(double h);
   void begin_substep(std::size_t body, double h, int threads);
+  void keep_within_reach(std::size_t body);
   void end_substep(std::size_t body, double h, int threads);
   bool has_left_its_reach(double h) const;
   void set_reach(std::size_t body);
+  void limit_ways();
+  bool stops_impacts() const { return dynamics_.continuous || dynamics_.guarded; }
   void stop_before_impacts();
   void detect();
   void measure_contacts();
@@ -126,12 +144,14 @@ class Simulation {
   std::optional<Recorder> recorder_;  // outlives the world
   World world_;
   std::vector<BodyId> ids_;
-  std::vector<std::size_t> small_, large_;     // bodies that can move
-  std::vector<std::vector<Vec3>> before_;      // positions at the start of the substep, by body
-  std::vector<std::vector<Vec3>> step_begin_;  // and of the step, where it is continuous
-  std::vector<double> reach_;                  // by body, metres
-  std::vector<double> last_way_, way_;         // by body: no vertex went farther in the last substep; since the
-                                               // last detection; metres
+  std::vector<std::size_t> small_, large_;   // bodies that can move
+  std::vector<std::vector<Vec3>> before_;    // positions at the start of the substep, by body
+  std::vector<std::vector<Vec3>> detected_;  // and at the last detection, where impacts are stopped
+  double detected_time_ = 0.0;               // of it, seconds
+  std::vector<double> reach_;                // by body, metres
+  std::vector<double> free_;                 // by body: how far it may go until the next detection, metres
+  std::vector<double> last_way_, way_;       // by body: no vertex went farther in the last substep; since the
+                                             // last detection; metres
   ContactSolver solver_;
   ImpactResponse impacts_;
   Sleep sleep_;

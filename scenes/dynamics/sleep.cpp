@@ -31,9 +31,11 @@ void Sleep::update(const Report& report, double seconds, const SleepSettings& se
   }
   for (const Contact& contact : report.contacts()) {
     const std::size_t a = contact.a.index, b = contact.b.index;
-    const bool b_disturbs = bodies[a].dynamic && squares_[b] > fast,
-               a_disturbs = bodies[b].dynamic && squares_[a] > fast;
-    if (!(a_disturbs || b_disturbs) || !touch(contact, bodies[a].thickness + bodies[b].thickness)) continue;
+    const bool b_disturbs = bodies[a].dynamic && squares_[b] > (bodies[b].dynamic ? fast : 0.0),
+               a_disturbs = bodies[b].dynamic && squares_[a] > (bodies[a].dynamic ? fast : 0.0);
+    if (!(a_disturbs || b_disturbs)) continue;
+    const bool both_dynamic = bodies[a].dynamic && bodies[b].dynamic;
+    if (both_dynamic && !touch(contact, bodies[a].thickness + bodies[b].thickness)) continue;
     if (b_disturbs) restless_[a] = 1;
     if (a_disturbs) restless_[b] = 1;
   }

@@ -17,7 +17,8 @@ struct SleepSettings {
 
 // A sleeping body has no velocity, no gravity, and an infinite mass for those that touch it. It sleeps when it has been
 // still for a while and nothing that touches it moves; it wakes when a body that touches it moves faster than it could
-// in its sleep. That is decided body by body: a pile does not wait for its last one.
+// in its sleep. That is decided body by body: a pile does not wait for its last one. A body that a script moves goes on
+// whatever is in its way: it wakes what it has contact points with, however slow it is.
 class Sleep {
  public:
   // After a step of `seconds`, and its report. Body i has index i in it.

@@ -21,6 +21,10 @@ constexpr std::array kScenes = {
                "vertices along a side of the cloth", 48, 16, 256, make_sphere_in_cloth},
     SceneEntry{"wheel-on-ground", "a soft wheel rolls over hilly ground that is far larger", "cells along the ground",
                300, 50, 1000, make_wheel_on_ground},
+    SceneEntry{"cloth-fold", "a sheet on a table is folded over four times, into five layers",
+               "vertices along a side of the sheet", 40, 16, 160, make_cloth_fold},
+    SceneEntry{"ribbon-knot", "a loose knot in a ribbon is pulled tight by its ends", "vertices along the ribbon", 160,
+               100, 500, make_ribbon_knot},
 };
 
 }  // namespace

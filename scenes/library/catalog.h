@@ -32,5 +32,7 @@ Scene make_clamp(int size);
 Scene make_liver_and_tool(int size);
 Scene make_sphere_in_cloth(int size);
 Scene make_wheel_on_ground(int size);
+Scene make_cloth_fold(int size);
+Scene make_ribbon_knot(int size);
 
 }  // namespace tact::scenes

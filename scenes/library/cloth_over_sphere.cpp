@@ -15,7 +15,8 @@ struct ClothOverSphere {
   double turn = 0.3;        // of the cloth about z, radians
   ClothMaterial cloth;
   RigidMaterial ball{.friction = 0.4, .thickness = 0.004};
-  DynamicsSettings dynamics{.time_step = 1.0 / 120.0, .substeps = 8, .most_reach = 0.004};
+  DynamicsSettings dynamics{
+      .time_step = 1.0 / 120.0, .substeps = 8, .most_reach = 0.004, .guarded = true, .margin = 0.0005};
   int vertices_a_substep = 16;  // along a side, at most: a finer cloth needs finer steps, or it stretches and is passed
 };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -16,13 +17,14 @@ struct Pile {
   std::uint64_t seed = 1;
   double body_size = 0.3;  // about the diameter of a body, metres
   double spacing = 1.2;    // of the bodies before they fall, in body sizes
+  double widest = 1.15;    // of a body, in body sizes
   double room = 0.04;      // between the outermost bodies and the wall, metres
   double layers = 5.0;     // of bodies before they fall, at most
   double wall = 0.15;      // thickness of the bin, metres
   double bin_edges = 0.3;  // length of the edges of the bin's facets, metres
   SoftMaterial soft{.drag = 0.5, .thickness = 0.003};
   RigidMaterial bin{.friction = 0.5, .thickness = 0.003};
-  DynamicsSettings dynamics{.time_step = 1.0 / 240.0, .substeps = 2, .most_reach = 0.016, .sleep = {.speed = 0.05}};
+  DynamicsSettings dynamics{.time_step = 1.0 / 240.0, .substeps = 4, .most_reach = 0.006, .sleep = {.speed = 0.05}};
   int rigid = 3;  // each so manieth body is rigid
 };
 
@@ -57,8 +59,13 @@ constexpr std::array kShapes = {Shape{"ball", ball},   Shape{"star", star}, Shap
                                 Shape{"bone", bone},   Shape{"bean", bean}, Shape{"bowl", bowl},
                                 Shape{"ring", nullptr}};
 
-Mesh mesh_of(const Shape& shape) {
-  return shape.shape != nullptr ? shaped_sphere(2, shape.shape) : torus(20, 8, 0.7, 0.37);
+// No part of it is farther than `most` from the origin: neighbours of the grid do not begin in each other, however they
+// are turned.
+Mesh mesh_of(const Shape& shape, double most) {
+  const Mesh mesh = shape.shape != nullptr ? shaped_sphere(2, shape.shape) : torus(20, 8, 0.7, 0.37);
+  double radius = 0.0;
+  for (const Vec3& p : mesh.positions) radius = std::max(radius, norm(p));
+  return scaled(mesh, std::min(1.0, most / radius));
 }
 
 void add_bin(const Pile& p, double half, double height, Scene& scene) {
@@ -102,11 +109,11 @@ Scene make_pile(int size) {
     const int place = places[static_cast<std::size_t>(i)];
     const Vec3 cell{static_cast<double>(place % side), static_cast<double>(place / side % side),
                     static_cast<double>(place / (side * side))};
-    const double loose = 0.5 * (p.spacing - 1.05) * p.body_size;
+    const double loose = 0.5 * (p.spacing - p.widest) * p.body_size - p.soft.thickness;
     const Vec3 jitter{random.between(-loose, loose), random.between(-loose, loose), random.between(-loose, loose)};
     const Vec3 center = step * (cell + Vec3{0.5, 0.5, 0.6}) - Vec3{half, half, 0.0} + jitter;
     const Shape& shape = kShapes[random.bits() % kShapes.size()];
-    const Mesh mesh = moved(turned(scaled(mesh_of(shape), 0.5 * p.body_size), random), center);
+    const Mesh mesh = moved(turned(scaled(mesh_of(shape, p.widest), 0.5 * p.body_size), random), center);
     const std::string name = shape.name + (" " + std::to_string(i));
     scene.add(i % p.rigid == 2 ? make_hard(name, mesh, p.soft) : make_soft(name, mesh, p.soft));
   }

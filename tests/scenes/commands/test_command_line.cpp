@@ -87,7 +87,7 @@ TEST_F(CommandLine, BadInputReturnsOne) {
   expect_refusal("check 'odd\nname.stl'", 1, "odd name.stl: byte 4: ");
   expect_refusal("check none", 1, "none: the folder holds no mesh file");
   expect_refusal("check a.obj --json none/there/x.json", 1, "none/there/x.json: cannot be written: ");
-  for (const std::string option : {"--trace", "--gltf", "--json", "--contacts", "--record"}) {
+  for (const std::string option : {"--trace", "--gltf", "--json", "--contacts", "--states", "--record"}) {
     expect_refusal("run pile --size 1 --frames 1 --out pictures --vtk vtk " + option + " none/there/x", 1,
                    "none/there/x: cannot be written: ");
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "vtk" / "pile_00000.vtp")) << option << ": a step was made";

@@ -141,6 +141,31 @@ TEST_F(RunCommand, FilesForOtherPrograms) {
   }
 }
 
+TEST_F(RunCommand, StatesTellHowEachStepWent) {
+  const std::string text =
+      printed({.scene = "cloth-over-sphere", .frames = 40, .size = 12, .outputs = {.pictures = false, .states = "-"}});
+  std::istringstream in(text);
+  std::vector<nlohmann::json> states;
+  for (std::string line; std::getline(in, line);) states.push_back(nlohmann::json::parse(line));
+  ASSERT_EQ(states.size(), 40u);
+  EXPECT_TRUE(states[0]["smallest_gap"].is_null());
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const nlohmann::json& state = states[k];
+    EXPECT_EQ(state["frame"], k);
+    EXPECT_NEAR(state["time"].get<double>(), static_cast<double>(k + 1) / 120.0, 1e-12);
+    EXPECT_EQ(state["awake"], 1);
+    EXPECT_EQ(state["asleep"], 0);
+    EXPECT_EQ(state["facet_pairs"], 0);
+    EXPECT_EQ(state["self_facet_pairs"], 0);
+  }
+  // It falls freely for 0.2 metres, and then lies on the sphere, about both thicknesses above it.
+  const double before = states[10]["kinetic_energy"].get<double>(), after = states[20]["kinetic_energy"].get<double>();
+  EXPECT_NEAR(after / before, (21.0 * 21.0) / (11.0 * 11.0), 0.5);
+  EXPECT_GT(states[39]["contact_points"].get<int>(), 0);
+  EXPECT_GT(states[39]["smallest_gap"].get<double>(), 0.002);
+  EXPECT_LT(states[39]["smallest_gap"].get<double>(), 0.008 + 0.008);
+}
+
 // What a thread did, as the trace tells it: in each other or apart.
 void expect_nested(const nlohmann::json& events, int thread) {
   struct Stretch {
@@ -241,6 +266,8 @@ TEST_F(RunCommand, WrongUsageIsNamed) {
   EXPECT_EQ(message({.scene = "clamp", .size = 3}), "--size: clamp has one size only");
   EXPECT_EQ(message({.scene = "pile", .outputs = {.json = "-", .contacts = "-"}}),
             "--json and --contacts: only one of them can go to standard output");
+  EXPECT_EQ(message({.scene = "pile", .outputs = {.contacts = "-", .states = "-"}}),
+            "--contacts and --states: only one of them can go to standard output");
   EXPECT_EQ(message({.scene = "pile", .outputs = {.gltf = "-"}}),
             "--gltf: an animation goes to a file, not to standard output");
   EXPECT_EQ(message({.scene = "pile", .outputs = {.json = "no/x", .trace = "no/../no/x"}}),
@@ -252,8 +279,9 @@ TEST_F(RunCommand, WrongUsageIsNamed) {
 TEST(ScenesCommand, ListsEverySceneWithItsSizes) {
   std::ostringstream out;
   list_scenes(out);
-  for (const char* part : {"cloth-over-sphere", "sphere-into-cloth", "pile", "clamp", "liver-and-tool",
-                           "sphere-in-cloth", "wheel-on-ground", "--size: bodies, 1 to 4000, 100 if not given"}) {
+  for (const char* part :
+       {"cloth-over-sphere", "sphere-into-cloth", "pile", "clamp", "liver-and-tool", "sphere-in-cloth",
+        "wheel-on-ground", "cloth-fold", "ribbon-knot", "--size: bodies, 1 to 4000, 100 if not given"}) {
     EXPECT_NE(out.str().find(part), std::string::npos) << part;
   }
 }

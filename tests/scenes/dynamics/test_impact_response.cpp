@@ -7,6 +7,7 @@
 
 #include "scenes/dynamics/simulation.h"
 #include "scenes/library/catalog.h"
+#include "scenes/library/shapes.h"
 
 namespace tact::scenes {
 namespace {
@@ -100,6 +101,36 @@ TEST(ImpactResponse, NothingCrossesInAPileDroppedFromTenMetres) {
   }
   Simulation simulation(std::move(scene.bodies), scene.script, scene.dynamics, {.threads = 2});
   expect_no_crossing(simulation, 1000);
+}
+
+// A script moves both, so that no impulse stops them: the second one would end below the first, but for a corner that
+// is beside it.
+TEST(ImpactResponse, WhatMeetsStaysAndTheRestGoesOn) {
+  const auto sheet = [](double height, double shift) {
+    return make_rigid("sheet", moved(grid_sheet(6, 6, 1.0, 1.0), {shift, shift, height}), {}, Motion::moving);
+  };
+  std::vector<Body> bodies{sheet(0.0, 0.0), sheet(0.1, 0.3)};
+  World world;
+  std::vector<BodyId> ids;
+  ImpactResponse::Positions begin;
+  for (const Body& body : bodies) {
+    ids.push_back(world.add_body(
+        {.positions = as_matrix(body.positions), .facets = body.facets, .surface = Surface::sheet, .margin = 0.001}));
+    begin.push_back(body.positions);
+  }
+  world.detect();
+  for (Vec3& p : bodies[1].positions) p.z = -0.1;
+  ImpactResponse impacts;
+  impacts.run(begin, 0.1, ImpactResponse::LastResort::some_stay, ids, bodies, world);
+  const Report& report = world.detect();
+  EXPECT_EQ(report.stats().facet_pairs, 0);
+  EXPECT_GT(impacts.stayed(), 10);
+  for (const Vec3& p : bodies[1].positions) {
+    const bool over_the_first = p.x < 0.45 && p.y<0.45, beside_it = p.x> 0.75 || p.y > 0.75;
+    if (over_the_first || beside_it) {
+      EXPECT_EQ(p.z, beside_it ? -0.1 : 0.1);
+    }
+  }
 }
 
 TEST(ImpactResponse, SameAnswerForOneAndTwoThreads) {
