@@ -215,6 +215,21 @@ TEST(LiverAndTool, TheOrganIsThePapers) {
   EXPECT_EQ(scene.bodies[0].facets.cols(), 500);
 }
 
+// Slower than what wakes a sleeping body, as the tool does not give way.
+TEST(LiverAndTool, ASlowToolWakesTheOrgan) {
+  Scene scene = find_scene("liver-and-tool")->make(0);
+  const Script script = [slow = scene.script](double time, std::vector<Body>& bodies) { slow(0.2 * time, bodies); };
+  Simulation simulation(std::move(scene.bodies), script, scene.dynamics, {.threads = 1});
+  bool slept = false;
+  for (int step = 0; step < 300; ++step) {
+    simulation.step();
+    slept = slept || simulation.state().asleep > 0;
+    ASSERT_EQ(simulation.state().facet_pairs, 0) << "step " << step;
+  }
+  EXPECT_TRUE(slept);
+  EXPECT_EQ(simulation.state().asleep, 0);
+}
+
 // Of the bodies as the two worlds of LostPairs see them, thick enough to cross.
 TEST(Clamp, ExactFindsWhatTheOracleFindsAndPaperLosesPairs) {
   Simulation simulation = simulation_of("clamp", 0);
