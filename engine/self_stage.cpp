@@ -9,8 +9,9 @@ namespace tact {
 
 namespace {
 
-// Cluster pairs that a thread takes at a time: one takes a microsecond or two.
-constexpr std::size_t kPairsAtATime = 32;
+// Cluster pairs that a thread takes at a time: one takes a microsecond or two, and between two ranges a few clusters
+// are opened twice.
+constexpr std::size_t kPairsAtATime = 64;
 
 }  // namespace
 

@@ -33,15 +33,6 @@ struct OpenFacets {
       for (int i = 0; i < block.count; ++i) with_vertex[corner[i]] |= bit(i);
     }
   }
-
-  // Where a vertex is among those of the cluster, or -1.
-  int place_of(int vertex) const {
-    const int owned = vertex - source.owned_begin;
-    if (owned >= 0 && owned < source.owned_count) return owned;
-    const std::int32_t* const end = source.borrowed + source.borrowed_count;
-    const auto found = std::find(source.borrowed, end, vertex);
-    return found == end ? -1 : source.owned_count + static_cast<int>(found - source.borrowed);
-  }
 };
 
 // For each facet of `a` those of the same cluster that come before it, itself, and those that share a vertex with it.
@@ -52,11 +43,38 @@ void exclude_within(const OpenFacets& a, std::uint64_t (&excluded)[kClusterSize]
   }
 }
 
+// Where the vertices of a cluster are among its own, for those of all others -1.
+class Places {
+ public:
+  void choose(const OpenFacets& cluster, int vertex_count) {
+    forget();
+    if (place_.size() != static_cast<std::size_t>(vertex_count))
+      place_.assign(static_cast<std::size_t>(vertex_count), -1);
+    chosen_ = cluster.source;
+    for (int i = 0; i < chosen_.borrowed_count; ++i) place(chosen_.borrowed[i]) = chosen_.owned_count + i;
+  }
+  void forget() {
+    for (int i = 0; i < chosen_.borrowed_count; ++i) place(chosen_.borrowed[i]) = -1;
+    chosen_ = {};
+  }
+  int operator[](int vertex) const {
+    const int owned = vertex - chosen_.owned_begin;
+    return owned >= 0 && owned < chosen_.owned_count ? owned : place_[static_cast<std::size_t>(vertex)];
+  }
+
+ private:
+  int& place(int vertex) { return place_[static_cast<std::size_t>(vertex)]; }
+
+  ClusterFacets chosen_{};
+  std::vector<int> place_;  // of each vertex of the mesh among the borrowed ones
+};
+
 // For each facet of `a` those of a later cluster that share a vertex with it. These the later one has borrowed.
-void exclude_sharing(const OpenFacets& a, const OpenFacets& b, std::uint64_t (&excluded)[kClusterSize]) {
+void exclude_sharing(const OpenFacets& a, const Places& places_in_a, const OpenFacets& b,
+                     std::uint64_t (&excluded)[kClusterSize]) {
   std::fill_n(excluded, a.block.count, 0);
   for (int k = 0; k < b.source.borrowed_count; ++k) {
-    const int place = a.place_of(b.source.borrowed[k]);
+    const int place = places_in_a[b.source.borrowed[k]];
     if (place < 0) continue;
     for (std::uint64_t left = a.with_vertex[place]; left != 0; left &= left - 1)
       excluded[std::countr_zero(left)] |= b.with_vertex[b.source.owned_count + k];
@@ -66,10 +84,19 @@ void exclude_sharing(const OpenFacets& a, const OpenFacets& b, std::uint64_t (&e
 }  // namespace
 
 struct SelfFacetSearch::Memory {
-  static constexpr std::size_t kOpened = 16;  // clusters that stay open: neighbours come soon again
-  OpenFacets a, b[kOpened];
+  static constexpr std::size_t kOpened = 32;  // clusters that stay open: neighbours come soon again
+  OpenFacets opened[kOpened + 1];             // and one that would have the place of the other of a pair
+  Places places;                              // in the first cluster of a pair
   std::uint64_t excluded[kClusterSize];
   BlockPair blocks;
+
+  // In any place but that of `other`.
+  const OpenFacets& open(const ClusteredMesh& mesh, int cluster, const Grid& grid, const OpenFacets* other) {
+    OpenFacets* place = &opened[static_cast<std::size_t>(cluster) % kOpened];
+    if (place == other) place = &opened[kOpened];
+    if (place->cluster != cluster) place->open(mesh, cluster, grid);
+    return *place;
+  }
 };
 
 SelfFacetSearch::SelfFacetSearch() : memory_(std::make_unique<Memory>()) {}
@@ -81,14 +108,15 @@ void SelfFacetSearch::run(const ClusteredMesh& mesh, std::span<const ClusterPair
                           std::vector<FacetPair>& found) {
   Memory& m = *memory_;
   const Grid grid = grid_over(bounds_of(mesh.box()), kLastCell);
-  m.a.cluster = -1;
-  for (OpenFacets& one : m.b) one.cluster = -1;
+  for (OpenFacets& one : m.opened) one.cluster = -1;
+  const OpenFacets* first = nullptr;
   ConfirmCounts counts;
   for (const ClusterPair& pair : pairs) {
-    if (m.a.cluster != pair.a) m.a.open(mesh, pair.a, grid);
-    OpenFacets& other = m.b[static_cast<std::size_t>(pair.b) % Memory::kOpened];
-    if (pair.b != pair.a && other.cluster != pair.b) other.open(mesh, pair.b, grid);
-    const OpenFacets &a = m.a, &b = pair.b == pair.a ? m.a : other;
+    if (first == nullptr || first->cluster != pair.a) {
+      first = &m.open(mesh, pair.a, grid, nullptr);
+      m.places.choose(*first, mesh.vertex_count());
+    }
+    const OpenFacets &a = *first, &b = pair.b == pair.a ? a : m.open(mesh, pair.b, grid, first);
     const Box box_a = mesh.cluster_boxes()[static_cast<std::size_t>(pair.a)],
               box_b = mesh.cluster_boxes()[static_cast<std::size_t>(pair.b)];
     const CellBox common = cells_of(grid, bounds_of(intersection(box_a, box_b)));
@@ -98,17 +126,18 @@ void SelfFacetSearch::run(const ClusteredMesh& mesh, std::span<const ClusterPair
     if (pair.a == pair.b) {
       exclude_within(a, m.excluded);
     } else {
-      exclude_sharing(a, b, m.excluded);
+      exclude_sharing(a, m.places, b, m.excluded);
     }
     const std::size_t before = found.size();
     m.blocks.find_meeting(a.block, near_a, b.block, near_b, bounds_of(merged(box_a, box_b)), grid, tuning, found,
                           counts, m.excluded);
     for (std::size_t i = before; i < found.size(); ++i) {
-      const auto [first, second] =
+      const auto [low, high] =
           std::minmax({mesh.source_facet(a.block.facet[found[i].a]), mesh.source_facet(b.block.facet[found[i].b])});
-      found[i] = {first, second};
+      found[i] = {low, high};
     }
   }
+  m.places.forget();
 }
 
 }  // namespace tact::narrowphase

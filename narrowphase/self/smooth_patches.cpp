@@ -124,6 +124,11 @@ Vec3 SmoothPatches::Judge::along(const ClusteredMesh& mesh, const ClusterNeighbo
   return sum != Vec3{} ? sum : first.upper - first.lower;
 }
 
+// Half the length of a box along an axis, and what rounding may make of it.
+double SmoothPatches::Judge::half_along(const RimBox& rim, Vec3 axis) const {
+  return std::abs(axis.x) * rim.half.x + std::abs(axis.y) * rim.half.y + std::abs(axis.z) * rim.half.z + 4.0 * slack_;
+}
+
 // The polygon around some clusters. What is farthest in a direction lies on their boundary: around any other vertex
 // there are facets on all sides.
 SmoothPatches::Judge::Region SmoothPatches::Judge::region_of(const ClusteredMesh& mesh,
@@ -143,7 +148,7 @@ SmoothPatches::Judge::Region SmoothPatches::Judge::region_of(const ClusteredMesh
         region.low_y = std::min(region.low_y, p.y);
         region.high_y = std::max(region.high_y, p.y);
         const auto along = between(p);
-        for (int k = 0; k < kBetween; ++k) {
+        for (std::size_t k = 0; k < kBetween; ++k) {
           region.low[k] = std::min(region.low[k], along[k]);
           region.high[k] = std::max(region.high[k], along[k]);
         }
@@ -174,11 +179,8 @@ bool SmoothPatches::Judge::lies_beyond(const Region& region, const Flat& p, cons
 
 // Does a rim lie beyond one side of the region, and cross the ray no more often one way than the other? By its box.
 bool SmoothPatches::Judge::passes_by(const RimBox& rim, const View& view, const Region& region) const {
-  const auto half_along = [&](Vec3 axis) {
-    return std::abs(axis.x) * rim.half.x + std::abs(axis.y) * rim.half.y + std::abs(axis.z) * rim.half.z + 4.0 * slack_;
-  };
   const Flat middle = seen(view, rim.middle);
-  const double half_x = half_along(view.x), half_y = half_along(view.y);
+  const double half_x = half_along(rim, view.x), half_y = half_along(rim, view.y);
   if (middle.x + half_x < region.low_x || middle.x - half_x > region.high_x || middle.y + half_y < region.low_y)
     return true;
   const bool beside_ray = std::abs(middle.x - region.ray()) > half_x;

@@ -117,6 +117,7 @@ class SmoothPatches {
     Region region_of(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, std::span<const int> clusters,
                      const View& view) const;
     static bool lies_beyond(const Region& region, const Flat& p, const Flat& q, bool& above);
+    double half_along(const RimBox& rim, Vec3 axis) const;
     bool passes_by(const RimBox& rim, const View& view, const Region& region) const;
     bool walk_along(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, const ClusterNeighbors::Rim& rim,
                     const View& view, const Region& region, int& covered);
