@@ -20,7 +20,7 @@ Workload cloth_alone(int cells, int frames) {
 }
 
 Workload rolled_cloth(int cells, int frames) {
-  constexpr double kLength = 2.0, kGap = 0.03, kWave = 0.016;  // metres
+  constexpr double kLength = 2.0, kGap = 0.03, kWave = 0.03;  // metres
   const Shape sheet = square_sheet(cells, kLength);
   Workload workload{frames, {{.facets = sheet.facets, .surface = Surface::sheet}}};
   workload.bodies[0].frames.resize(static_cast<std::size_t>(frames));
