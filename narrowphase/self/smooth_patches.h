@@ -30,7 +30,7 @@
 //
 // **How it is tested.** For some clusters that lie together, P is all clusters around them, v the mean of their axes,
 // and D a polygon around those that were asked for. Cones bound the normals of each cluster. All is computed in
-// doubles, with bounds of rounding (kSlack...), and what they cannot tell is not proved.
+// doubles, with bounds of rounding (kSlack, kViewSlack), and what they cannot tell is not proved.
 //
 // **What is not proved** is anything else: clusters in folds, at borders with notches, around edges that three facets
 // have. They are looked at facet by facet. A proof changes no answer.
