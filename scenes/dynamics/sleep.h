@@ -3,6 +3,7 @@
 
 #include <tact/report.h>
 
+#include <array>
 #include <vector>
 
 #include "scenes/dynamics/body.h"
@@ -12,7 +13,10 @@ namespace tact::scenes {
 struct SleepSettings {
   double speed = 0.02;  // metres a second, root of the mean square over a body: slower is still; 0: nobody sleeps
   double time = 0.3;    // seconds that it has to be still before it sleeps
-  double wake = 5.0;    // a body that touches it wakes it at so many times that speed
+  // A body also sleeps when three of its vertices have not left this room for a second, metres: it rocks, or trembles
+  // in a heap, and gets nowhere. 0: it does not.
+  double room = 0.0;
+  double wake = 5.0;  // a body that touches it wakes it at so many times that speed
 };
 
 // A sleeping body has no velocity, no gravity, and an infinite mass for those that touch it. It sleeps when it has been
@@ -25,7 +29,15 @@ class Sleep {
   void update(const Report& report, double seconds, const SleepSettings& settings, std::vector<Body>& bodies);
 
  private:
+  // Where three of its vertices were, and for how long they have been near there, seconds.
+  struct Anchor {
+    std::array<Vec3, 3> places;
+    double time = 0.0;
+  };
+  static void watch(const Body& body, double seconds, double room, Anchor& anchor);
+
   std::vector<double> still_;    // by body: for how long, seconds
+  std::vector<Anchor> anchors_;  // by body
   std::vector<double> squares_;  // by body: mean square of its speed
   std::vector<char> restless_;   // by body: does something that touches it move?
 };

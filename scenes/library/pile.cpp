@@ -24,7 +24,8 @@ struct Pile {
   double bin_edges = 0.3;  // length of the edges of the bin's facets, metres
   SoftMaterial soft{.drag = 0.5, .thickness = 0.003};
   RigidMaterial bin{.friction = 0.5, .thickness = 0.003};
-  DynamicsSettings dynamics{.time_step = 1.0 / 240.0, .substeps = 4, .most_reach = 0.006, .sleep = {.speed = 0.05}};
+  DynamicsSettings dynamics{
+      .time_step = 1.0 / 240.0, .substeps = 4, .most_reach = 0.006, .sleep = {.speed = 0.05, .room = 0.01}};
   int rigid = 3;  // each so manieth body is rigid
 };
 
