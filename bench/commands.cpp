@@ -10,6 +10,7 @@
 #include "bench/scaling/motion.h"
 #include "bench/scaling/points.h"
 #include "bench/scaling/refresh.h"
+#include "bench/scaling/rigid.h"
 #include "bench/scaling/scaling.h"
 #include "bench/scaling/self.h"
 #include "bench/scaling/stages.h"
@@ -28,6 +29,7 @@ std::vector<Command> commands() {
       {"motion", "what meets between two steps, against the inclusion-based method", run_motion, true},
       {"points", "contact points, against the same step without, and with Embree's and CGAL's boxes", run_points, true},
       {"self", "bodies against themselves, through tact, Embree and CGAL", run_self, true},
+      {"rigid", "rigid bodies moved by poses, against the same moved by their vertices", run_rigid, true},
       {"broadphase", "boxes alone, in every kind of motion, through tact, Embree and CGAL", run_broadphase},
       {"clusters", "pairs of clusters by a loop and by Embree's trees", run_clusters},
       {"error", "run time against error, of every setting and of other libraries", run_error},

@@ -36,8 +36,6 @@ constexpr std::size_t kFewPerThread = 4;
 constexpr int kMostWithKdop = 4096;  // vertices: to look how far more of them reach takes longer than it saves
 constexpr int kMostDoublings = 8;    // of the moves until the clusters of a body are looked at
 
-std::string quoted(const std::string& name) { return "body '" + name + "'"; }
-
 void check_positions(const double* positions, std::size_t count, const std::string& name) {
   const PositionProblem problem = narrowphase::find_position_problem(positions, count, kLargestCoordinate);
   if (problem.kind == PositionProblem::none) return;
@@ -97,7 +95,7 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   const auto slot = free_.empty() ? static_cast<std::uint32_t>(slots_.size()) : free_.back();
   const std::string name = definition.name.empty() ? "body " + std::to_string(slot) : definition.name;
   check_name(definition.surface, Surface::sheet, quoted(name) + ": surface");
-  check_name(definition.motion, Motion::fixed, quoted(name) + ": motion");
+  check_name(definition.motion, Motion::rigid, quoted(name) + ": motion");
   check_margin(definition.margin, name);
   check_rows(definition.positions, "positions", name);
   check_rows(definition.facets, "facets", name);
@@ -120,6 +118,8 @@ BodyId Bodies::add(const BodyDefinition& definition) {
                                           .surface = definition.surface,
                                           .external_id = definition.external_id,
                                           .self_contact = definition.self_contact});
+  const bool rigid = definition.motion == Motion::rigid;
+  if (rigid) body->mesh.make_rigid(), body->mesh.place();
   // Nothing can fail half-way: all that may allocate comes first.
   const std::size_t slots = std::max<std::size_t>(slots_.size(), slot + 1);
   const auto on_all = [&](const auto& grow) {
@@ -142,6 +142,10 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   filters_[slot] = {definition.layer, definition.mask, definition.motion == Motion::fixed, definition.group};
   slots_[slot].vertex_count = body->mesh.source_vertex_count();
   slots_[slot].fixed = definition.motion == Motion::fixed;
+  slots_[slot].rigid = rigid;
+  slots_[slot].knows_box = slots_[slot].to_place = false;
+  rigid_count_ += rigid ? 1 : 0;
+  self_count_ += definition.self_contact ? 1 : 0;
   slots_[slot].begin = Begin::here;
   slots_[slot].seen = false;
   slots_[slot].body = std::move(body);
@@ -158,6 +162,8 @@ void Bodies::remove(BodyId id) {
   vertices_ -= vertices;
   if (moved(id.index)) moved_vertices_ -= vertices;
   packed_meshes_.remove(slots_[id.index].body->mesh);
+  rigid_count_ -= slots_[id.index].rigid ? 1 : 0;
+  self_count_ -= slots_[id.index].body->self_contact ? 1 : 0;
   slots_[id.index].body.reset();
   boxes_[id.index] = base::Box{};
   std::erase_if(excluded_, [&](const broadphase::IndexPair& pair) { return pair.a == id.index || pair.b == id.index; });
@@ -190,6 +196,9 @@ void Bodies::prepare(Update& update, BodyId id, const Positions& positions) {
   const Body& body = at(id);
   const Slot& slot = slots_[id.index];
   if (slot.fixed) throw Error(ErrorCode::fixed_body, quoted(body.name) + " is fixed: its positions cannot be set");
+  if (slot.rigid)
+    throw Error(ErrorCode::wrong_motion,
+                quoted(body.name) + " is rigid: set_pose() moves it, its positions cannot be set");
   check_rows(positions, "positions", body.name);
   if (positions.cols() != slot.vertex_count) {
     throw Error(ErrorCode::wrong_size, quoted(body.name) + " has " + std::to_string(slot.vertex_count) +
@@ -399,7 +408,12 @@ void Bodies::set_layers(BodyId id, std::uint32_t layer, std::uint32_t mask) {
 }
 
 void Bodies::set_motion(BodyId id, Motion motion) {
-  check_name(motion, Motion::fixed, quoted(at(id).name) + ": motion");
+  const Body& body = at(id);
+  check_name(motion, Motion::rigid, quoted(body.name) + ": motion");
+  if (motion != Motion::fixed && (motion == Motion::rigid) != body.mesh.is_rigid())
+    throw Error(ErrorCode::wrong_motion, quoted(body.name) + (body.mesh.is_rigid() ? " was" : " was not") +
+                                             " added as rigid: its motion cannot be " +
+                                             (motion == Motion::rigid ? "rigid" : "moving"));
   broadphase::Filter changed = filter(id);
   changed.fixed = motion == Motion::fixed;
   set_filter(id, changed);
@@ -435,13 +449,15 @@ void Bodies::set_margin(BodyId id, double margin) {
   check_margin(margin, body.name);
   if (margins_[id.index] == margin) return;
   margins_[id.index] = margin;
-  boxes_[id.index] = base::grown(body.mesh.box(), margin);
+  boxes_[id.index] = base::grown(body.mesh.rough_box(), margin);
+  slots_[id.index].knows_box = false;
   mark_moved(id.index);
 }
 
 void Bodies::set_self_contact(BodyId id, bool wanted) {
   if (at(id).self_contact == wanted) return;
   slots_[id.index].body->self_contact = wanted;
+  self_count_ += wanted ? 1 : std::size_t{0} - 1;
   mark_moved(id.index);
 }
 
@@ -473,13 +489,15 @@ void Bodies::set_filter(BodyId id, const broadphase::Filter& filter) {
   mark_moved(id.index);
 }
 
-void Bodies::check_named_once(std::span<const PositionsUpdate> updates) {
+template <class OfBody>
+void Bodies::check_named_once(std::span<const OfBody> updates) {
   named_.assign(slots_.size(), 0);
-  for (const PositionsUpdate& update : updates) {
+  for (const OfBody& update : updates) {
     if (named_[update.body.index]++)
       throw Error(ErrorCode::wrong_order, quoted(at(update.body).name) + " is named twice in one batch");
   }
 }
+template void Bodies::check_named_once(std::span<const PoseUpdate> updates);
 
 bool Bodies::contains(BodyId id) const noexcept {
   return id.world == world_ && id.index < slots_.size() && slots_[id.index].body != nullptr &&
@@ -529,6 +547,7 @@ void Bodies::end_step() {
   exclusions_changed_ = false;
   removed_any_ = false;
   moved_vertices_ = 0;
+  placed_count_ = 0;
 }
 
 void Bodies::mark_all_changed() {

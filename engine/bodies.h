@@ -30,10 +30,15 @@ struct alignas(64) Body {
   Surface surface = Surface::closed;
   std::uint64_t external_id = 0;
   bool self_contact = false;
-  std::unique_ptr<const narrowphase::Features> features = nullptr;  // made when points are first asked for
+  std::unique_ptr<const narrowphase::Features> features = nullptr;           // made when points are first asked for
   std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors = nullptr;  // when it is first held against itself
   std::vector<double> begin = {};  // where it was in the last step, once it has moved twice since: a placement
+  // Of a rigid body that is on its way, and whether it stands in `begin`.
+  narrowphase::Pose begin_pose = {};
+  bool begin_is_placed = false;
 };
+
+[[nodiscard]] inline std::string quoted(const std::string& name) { return "body '" + name + "'"; }
 
 class Bodies {
  public:
@@ -46,6 +51,8 @@ class Bodies {
   void remove(BodyId id);
   void set_positions(std::span<const PositionsUpdate> updates, int threads);
   void set_positions(BodyId id, const Positions& positions, int threads);
+  void set_pose(const PoseUpdate& update);
+  void set_poses(std::span<const PoseUpdate> updates, int threads);
   void set_layers(BodyId id, std::uint32_t layer, std::uint32_t mask);
   void set_motion(BodyId id, Motion motion);
   void set_group(BodyId id, std::uint32_t group);
@@ -86,12 +93,38 @@ class Bodies {
   // Made, with its features, when they are first asked for.
   const narrowphase::ClusterNeighbors& neighbors(std::uint32_t slot);
 
+  // Rigid bodies are placed by their poses when somebody looks at them. Is there any?
+  bool any_rigid() const { return rigid_count_ > 0; }
+  // The body, placed. Several threads may call this.
+  const Body& placed(std::uint32_t slot) const {
+    slots_[slot].body->mesh.place();
+    return in_slot(slot);
+  }
+  // Places the bodies of those pairs that are tested.
+  void place(std::span<const broadphase::IndexPair> pairs, int threads);
+  // The same of bodies, which may be named more than once, and where they were in the last step.
+  void place_ways(std::span<const std::uint32_t> slots, int threads);
+  // Bodies that place() placed since end_step().
+  std::int64_t placed_count() const { return placed_count_; }
+  // The box of a body with its margin: boxes() may hold a larger one of a rigid body.
+  base::Box exact_box(std::uint32_t slot) const {
+    if (!slots_[slot].rigid) return boxes_[slot];
+    if (slots_[slot].knows_box) return placed_boxes_[slot];
+    return base::grown(placed(slot).mesh.box(), margins_[slot]);
+  }
+  // Is any body held against itself?
+  bool any_self_contact() const { return self_count_ > 0; }
+  bool is_rigid(std::uint32_t slot) const { return slots_[slot].rigid; }
+  // A box with its margin of where a body was in the last step: its box, if it is not rigid or place_ways() placed it.
+  base::Box begin_box(std::uint32_t slot) const;
+
   // Pairs of slots that are not tested, sorted; were others before end_step()?
   bool excludes_any() const { return !excluded_.empty(); }
   bool excludes(const broadphase::IndexPair& slots) const { return std::ranges::binary_search(excluded_, slots); }
   bool exclusions_changed() const { return exclusions_changed_; }
 
-  // What the broad phase sees, an entry a slot: boxes with their margins; the box of an empty slot is empty.
+  // What the broad phase sees, an entry a slot: boxes with their margins; the box of an empty slot is empty. Those of
+  // rigid bodies may be larger.
   std::span<const base::Box> boxes() const { return boxes_; }
   std::span<const broadphase::Filter> filters() const { return filters_; }
   // The k-DOP of a body, or null if nobody wanted to know it.
@@ -141,6 +174,9 @@ class Bodies {
     std::uint32_t generation = 0;
     std::int32_t vertex_count = 0;  // the caller's; with `fixed`, so that a batch can be looked over without the bodies
     bool fixed = false;
+    bool rigid = false;
+    bool knows_box = false;  // of a rigid body: is its entry of placed_boxes_ that of its pose?
+    bool to_place = false;
     bool changed = false;
     bool seen = false;  // by a step
     Begin begin = Begin::here;
@@ -166,6 +202,16 @@ class Bodies {
     bool knows_kdop = false;
     double quality = 0.0;  // of the clusters, if it was time to look
   };
+  // A new pose: checked, then published.
+  struct PoseChange {
+    narrowphase::Pose pose;
+    base::Box box;  // of all vertices, or more
+    std::uint32_t slot = 0;
+    bool changed = false;
+  };
+  PoseChange checked(const PoseUpdate& update) const;
+  void publish(const PoseChange& change);
+  void prefetch_poses(std::span<const PoseUpdate> updates, std::size_t i) const;
   void pack_meshes(int threads);
   void make_updates(std::size_t count);
   void prepare(Update& update, BodyId id, const Positions& positions);
@@ -175,7 +221,8 @@ class Bodies {
   void keep_begin(Body& body, Slot& slot);
   void publish(std::size_t i);
   void note_change(const Update& update);
-  void check_named_once(std::span<const PositionsUpdate> updates);
+  template <class OfBody>
+  void check_named_once(std::span<const OfBody> updates);
   void find_kdops(std::uint32_t slot, const narrowphase::ClusteredMesh& mesh);
   void mark_changed(std::uint32_t slot);
   void mark_moved(std::uint32_t slot);
@@ -206,6 +253,11 @@ class Bodies {
   bool exclusions_changed_ = false;
   std::int64_t vertices_ = 0;
   std::int64_t moved_vertices_ = 0;
+  std::size_t rigid_count_ = 0, self_count_ = 0;
+  std::vector<base::Box> placed_boxes_;  // with their margins, of rigid bodies that place() placed
+  std::int64_t placed_count_ = 0;
+  std::vector<PoseChange> pose_changes_;         // scratch
+  std::vector<std::uint32_t> to_place_;          // scratch
   std::vector<Update> updates_;                  // scratch
   std::vector<narrowphase::Kdop> new_kdops_;     // of those that know them
   std::vector<std::uint32_t> without_features_;  // scratch

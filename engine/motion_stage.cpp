@@ -26,7 +26,7 @@ const MotionReport& MotionStage::run(Bodies& bodies, const Settings& settings, I
   base::Timer timer;
   report_.stats_ = {};
   sweep(bodies, settings.threads);
-  select(bodies);
+  select(bodies, settings.threads);
   report_.stats_.sweep_ms = timer.lap();
   make_features(bodies, settings.threads);
   find_clusters(bodies, settings.threads, wanted);
@@ -46,7 +46,7 @@ void MotionStage::sweep(const Bodies& bodies, int threads) {
     base::Box box = bodies.boxes()[slot];
     if (bodies.used(slot) && bodies.on_its_way(slot)) {
       ++report_.stats_.moved_bodies;
-      box = merged(box, base::grown(bodies.moving(slot).begin.box, bodies.margin(slot)));
+      box = merged(box, bodies.begin_box(slot));
     }
     const broadphase::Filter& filter = bodies.filters()[slot];
     if (slot < known && boxes_[slot] == box && filters_[slot] == filter) continue;
@@ -57,7 +57,7 @@ void MotionStage::sweep(const Bodies& bodies, int threads) {
   sweep_.update(boxes_, filters_, changed_, threads, bodies.tuning());
 }
 
-void MotionStage::select(const Bodies& bodies) {
+void MotionStage::select(Bodies& bodies, int threads) {
   passing_.clear();
   if (report_.stats_.moved_bodies == 0) return;
   const auto moves = [&](std::uint32_t slot) { return bodies.used(slot) && bodies.on_its_way(slot); };
@@ -70,8 +70,24 @@ void MotionStage::select(const Bodies& bodies) {
     if (moves(slot) && bodies.in_slot(slot).self_contact)
       passing_.push_back({.a = slot, .b = slot, .reach = bodies.reach(slot, slot)});
   }
+  if (bodies.any_rigid()) place(bodies, threads);
   std::ranges::sort(passing_, {}, [](const Passing& p) { return std::pair(p.a, p.b); });
   report_.stats_.body_pairs = static_cast<std::int64_t>(passing_.size());
+}
+
+// Of rigid bodies the sweep saw boxes that may be too large: where they pass in truth.
+base::Box MotionStage::way_box(const Bodies& bodies, std::uint32_t slot) const {
+  if (!bodies.is_rigid(slot)) return boxes_[slot];
+  return merged(bodies.exact_box(slot), bodies.begin_box(slot));
+}
+
+void MotionStage::place(Bodies& bodies, int threads) {
+  slots_.clear();
+  for (const Passing& one : passing_) slots_.insert(slots_.end(), {one.a, one.b});
+  bodies.place_ways(slots_, threads);
+  std::erase_if(passing_, [&](const Passing& one) {
+    return one.a != one.b && !overlaps(way_box(bodies, one.a), way_box(bodies, one.b));
+  });
 }
 
 void MotionStage::make_features(Bodies& bodies, int threads) {
@@ -141,7 +157,7 @@ void MotionStage::search(const Bodies& bodies, int threads, Impacts wanted) {
   if (first_.size() < firsts) first_ = std::vector<std::atomic<double>>(2 * firsts);
   for (std::size_t i = 0; i < firsts; ++i) first_[i] = kNever;
   base::Box all;
-  for (const Passing& one : passing_) all = merged(all, merged(boxes_[one.a], boxes_[one.b]));
+  for (const Passing& one : passing_) all = merged(all, merged(way_box(bodies, one.a), way_box(bodies, one.b)));
   for (Work& work : work_) {
     work.finder.begin(all);
     work.impacts.clear();

@@ -53,7 +53,9 @@ class MotionStage {
   };
 
   void sweep(const Bodies& bodies, int threads);
-  void select(const Bodies& bodies);
+  void select(Bodies& bodies, int threads);
+  void place(Bodies& bodies, int threads);
+  base::Box way_box(const Bodies& bodies, std::uint32_t slot) const;
   void make_features(Bodies& bodies, int threads);
   void find_clusters(const Bodies& bodies, int threads, Impacts wanted);
   static void sort_by_time(const Passing& passing, const Bodies& bodies, std::size_t begin, Work& work);

@@ -33,7 +33,7 @@ void for_each_body(const Bodies& bodies, const Asked& asked, const Wants& wants,
   const std::span<const Box> boxes = bodies.boxes();
   for (std::uint32_t slot = 0; slot < boxes.size(); ++slot) {
     if (boxes[slot].empty() || !wants(boxes[slot]) || !broadphase::tested(bodies.filters()[slot], filter)) continue;
-    if (!visit(bodies.in_slot(slot))) return;
+    if (!visit(bodies.placed(slot))) return;
   }
 }
 

@@ -20,6 +20,7 @@ void SelfStage::run(Bodies& bodies, const Settings& settings, bool all, PointSta
   gone_patches_.clear();
   began_.clear();
   ended_.clear();
+  if (!bodies.any_self_contact() && records_.empty()) return;
   const auto look_at = [&](std::uint32_t slot) {
     const bool is_wanted = bodies.used(slot) && bodies.in_slot(slot).self_contact;
     if (slot < records_.size() && records_[slot] != nullptr &&
@@ -29,6 +30,7 @@ void SelfStage::run(Bodies& bodies, const Settings& settings, bool all, PointSta
       records_[slot].reset();
     }
     if (!is_wanted) return;
+    bodies.placed(slot);
     any_ = true;
     SelfRecord& one = record(slot);
     one.body = bodies.in_slot(slot).id;

@@ -56,6 +56,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
 // Stages 2 to 6.
 void Step::look_at_pairs(Bodies& bodies, const Settings& settings, Timer& timer, StepStats& stats) {
   sweep_.update(bodies.boxes(), bodies.filters(), bodies.changed(), settings.threads, bodies.tuning());
+  bodies.place(sweep_.pairs(), settings.threads);
   table_.update(sweep_, bodies, all_);
   stats.excluded_pairs = static_cast<std::int64_t>(sweep_.excluded());
   stats.sweep_ms = timer.lap();

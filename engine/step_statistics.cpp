@@ -9,6 +9,7 @@ void count_bodies(const Bodies& bodies, StepStats& stats) {
   stats.vertices = bodies.vertices();
   stats.moved_bodies = std::ranges::count_if(bodies.changed(), [&](std::uint32_t slot) { return bodies.used(slot); });
   stats.moved_vertices = bodies.moved_vertices();
+  stats.placed_bodies = bodies.placed_count();
 }
 
 void count_pairs(const PairTable& table, StepStats& stats) {

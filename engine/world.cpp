@@ -161,6 +161,19 @@ void World::set_positions(std::span<const PositionsUpdate> updates) {
   i.observe([&](WorldObserver& observer) { observer.positions_set(updates); });
 }
 
+void World::set_pose(BodyId body, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {
+  Implementation& i = implementation();
+  const PoseUpdate update{body, rotation, translation};
+  i.set_positions([&] { i.bodies.set_pose(update); });
+  i.observe([&](WorldObserver& observer) { observer.poses_set(std::span(&update, 1)); });
+}
+
+void World::set_poses(std::span<const PoseUpdate> updates) {
+  Implementation& i = implementation();
+  i.set_positions([&] { i.bodies.set_poses(updates, i.settings.threads); });
+  i.observe([&](WorldObserver& observer) { observer.poses_set(updates); });
+}
+
 void World::set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask) {
   Implementation& i = implementation();
   i.bodies.set_layers(body, layer, mask);
@@ -315,6 +328,26 @@ std::vector<BodyId> World::inside(const PointQuestion& question) const {
   return with_memory(kNoMemoryForAnswers, [&] { return find_around(i.bodies, question); });
 }
 
+void World::overlap_boxes(std::span<const BoxQuestion> questions, std::span<std::vector<FacetOfBody>> answers) const {
+  Implementation& i = implementation();
+  const base::FloatingPointMode mode;
+  const base::Workers::Scope scope(i.workers);
+  with_memory(kNoMemoryForAnswers, [&] {
+    answer_all(questions, answers, i.settings.threads,
+               [&](const BoxQuestion& question) { return find_in_box(i.bodies, question); });
+  });
+}
+
+void World::inside_each(std::span<const PointQuestion> questions, std::span<std::vector<BodyId>> answers) const {
+  Implementation& i = implementation();
+  const base::FloatingPointMode mode;
+  const base::Workers::Scope scope(i.workers);
+  with_memory(kNoMemoryForAnswers, [&] {
+    answer_all(questions, answers, i.settings.threads,
+               [&](const PointQuestion& question) { return find_around(i.bodies, question); });
+  });
+}
+
 bool World::contains(BodyId body) const noexcept { return implementation_ && implementation_->bodies.contains(body); }
 std::size_t World::body_count() const noexcept { return implementation_ ? implementation_->bodies.count() : 0; }
 std::vector<BodyId> World::bodies() const {
@@ -323,7 +356,9 @@ std::vector<BodyId> World::bodies() const {
 const std::string& World::name(BodyId body) const { return implementation().bodies.at(body).name; }
 Surface World::surface(BodyId body) const { return implementation().bodies.at(body).surface; }
 Motion World::motion(BodyId body) const {
-  return implementation().bodies.filter(body).fixed ? Motion::fixed : Motion::moving;
+  const Bodies& bodies = implementation().bodies;
+  if (bodies.filter(body).fixed) return Motion::fixed;
+  return bodies.at(body).mesh.is_rigid() ? Motion::rigid : Motion::moving;
 }
 std::uint32_t World::group(BodyId body) const { return implementation().bodies.filter(body).group; }
 
@@ -360,7 +395,7 @@ void World::copy_positions(BodyId body, std::span<double> coordinates) const {
   check_room(coordinates, 3 * static_cast<std::size_t>(asked.mesh.source_vertex_count()), asked.name);
   std::ranges::fill(coordinates, std::numeric_limits<double>::quiet_NaN());
   for (int vertex = 0; vertex < asked.mesh.vertex_count(); ++vertex) {
-    const base::Vec3 position = asked.mesh.position(vertex);
+    const base::Vec3 position = asked.mesh.position_by_pose(vertex);
     double* const to = &coordinates[3 * static_cast<std::size_t>(asked.mesh.source_vertex(vertex))];
     to[0] = position.x, to[1] = position.y, to[2] = position.z;
   }
@@ -378,7 +413,7 @@ void World::copy_facets(BodyId body, std::span<int> corners) const {
 
 Bounds World::bounds(BodyId body) const {
   const Bodies& bodies = implementation().bodies;
-  const base::Box& box = bodies.boxes()[bodies.at(body).id.index];
+  const base::Box box = bodies.exact_box(bodies.at(body).id.index);
   return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
 }
 
@@ -387,6 +422,7 @@ void WorldObserver::settings_changed(const Settings&) noexcept {}
 void WorldObserver::body_added(BodyId, const BodyDefinition&) noexcept {}
 void WorldObserver::body_removed(BodyId) noexcept {}
 void WorldObserver::positions_set(std::span<const PositionsUpdate>) noexcept {}
+void WorldObserver::poses_set(std::span<const PoseUpdate>) noexcept {}
 void WorldObserver::layers_set(BodyId, std::uint32_t, std::uint32_t) noexcept {}
 void WorldObserver::group_set(BodyId, std::uint32_t) noexcept {}
 void WorldObserver::excluded_set(BodyId, BodyId, bool) noexcept {}

@@ -17,6 +17,8 @@ const char* error_code_name(ErrorCode code) {
     case ErrorCode::out_of_memory: return "out_of_memory";
     case ErrorCode::backend_failure: return "backend_failure";
     case ErrorCode::bad_recording: return "bad_recording";
+    case ErrorCode::wrong_motion: return "wrong_motion";
+    case ErrorCode::not_a_rotation: return "not_a_rotation";
   }
   return "unknown";
 }

@@ -35,21 +35,33 @@ void PairTable::update(const broadphase::SweepAndPrune& sweep, const Bodies& bod
   moved_.clear();
   separated_ = 0;
   same_pairs_ = !all && !bodies.removed_any() && !bodies.exclusions_changed() && !sweep.pairs_changed();
+  // The sweep sees boxes of rigid bodies that may be too large: what it says of them has to be looked at in each step.
+  const bool rough = bodies.any_rigid() || had_rigid_;
+  had_rigid_ = bodies.any_rigid();
+  if (same_pairs_ && !rough) return select_moved(bodies);
+  const std::span<const broadphase::IndexPair> pairs = tested_pairs(sweep.pairs(), bodies);
+  same_pairs_ = rough && !all && !bodies.removed_any() && std::ranges::equal(pairs, pairs_);
   if (same_pairs_) {
     select_moved(bodies);
   } else {
-    match(without_excluded(sweep.pairs(), bodies), bodies, all);
+    match(pairs, bodies, all);
   }
 }
 
-std::span<const broadphase::IndexPair> PairTable::without_excluded(std::span<const broadphase::IndexPair> pairs,
-                                                                   const Bodies& bodies) {
+std::span<const broadphase::IndexPair> PairTable::tested_pairs(std::span<const broadphase::IndexPair> pairs,
+                                                               const Bodies& bodies) {
   excluded_ = 0;
-  if (!bodies.excludes_any()) return pairs;
+  if (!bodies.excludes_any() && !bodies.any_rigid()) return pairs;
   tested_.clear();
-  std::ranges::copy_if(pairs, std::back_inserter(tested_),
-                       [&](const broadphase::IndexPair& pair) { return !bodies.excludes(pair); });
-  excluded_ = pairs.size() - tested_.size();
+  for (const broadphase::IndexPair& pair : pairs) {
+    if (bodies.excludes_any() && bodies.excludes(pair)) {
+      ++excluded_;
+    } else if (!bodies.is_rigid(pair.a) && !bodies.is_rigid(pair.b)) {
+      tested_.push_back(pair);
+    } else if (base::overlaps(bodies.exact_box(pair.a), bodies.exact_box(pair.b))) {
+      tested_.push_back(pair);
+    }
+  }
   return tested_;
 }
 

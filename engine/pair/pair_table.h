@@ -77,8 +77,9 @@ class PairTable {
     bool in_contact = false;
     narrowphase::SeparatingDiagonal separating_axis = 0;
   };
-  std::span<const broadphase::IndexPair> without_excluded(std::span<const broadphase::IndexPair> pairs,
-                                                          const Bodies& bodies);
+  // Without those that are excluded, or whose boxes do not overlap in truth.
+  std::span<const broadphase::IndexPair> tested_pairs(std::span<const broadphase::IndexPair> pairs,
+                                                      const Bodies& bodies);
   void select_moved(const Bodies& bodies);
   void match(std::span<const broadphase::IndexPair> pairs, const Bodies& bodies, bool all);
   void add_records();
@@ -90,7 +91,7 @@ class PairTable {
   std::vector<PairRecord*> free_;
   std::size_t room_ = 0;                       // facet pairs: the most that a small pair had
   std::vector<broadphase::IndexPair> pairs_;   // slots
-  std::vector<broadphase::IndexPair> tested_;  // scratch: those of the sweep that are not excluded
+  std::vector<broadphase::IndexPair> tested_;  // scratch: those of the sweep that are left
   std::size_t excluded_ = 0;
   std::vector<CandidatePair> candidates_;  // the same pairs, of bodies
   std::vector<Entry> entries_;             // of these
@@ -101,6 +102,7 @@ class PairTable {
   std::vector<ContactEvent> gone_;
   std::vector<PatchEvent> gone_patches_;
   bool same_pairs_ = false;
+  bool had_rigid_ = false;  // were there rigid bodies in the last step?
 };
 
 }  // namespace tact

@@ -125,6 +125,18 @@ void Recorder::positions_set(std::span<const PositionsUpdate> updates) noexcept 
   });
 }
 
+void Recorder::poses_set(std::span<const PoseUpdate> updates) noexcept {
+  write([&](std::ostream& out) {
+    put(out, RecordKind::poses);
+    put(out, std::uint64_t{updates.size()});
+    for (const PoseUpdate& update : updates) {
+      put_body(out, update.body);
+      for (const double entry : update.rotation.reshaped<Eigen::RowMajor>()) put(out, entry);
+      for (const double entry : update.translation) put(out, entry);
+    }
+  });
+}
+
 void Recorder::layers_set(BodyId body, std::uint32_t layer, std::uint32_t mask) noexcept {
   write([&](std::ostream& out) {
     put_value(out, RecordKind::layers, body, layer);

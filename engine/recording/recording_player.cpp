@@ -69,6 +69,7 @@ struct RecordingPlayer::Implementation {
         return make([&] { world->remove_body(body); });
       }
       case RecordKind::positions: return set_positions();
+      case RecordKind::poses: return set_poses();
       case RecordKind::layers: {
         const BodyId body = read_body();
         const auto layer = reader.read<std::uint32_t>(), mask = reader.read<std::uint32_t>();
@@ -86,7 +87,7 @@ struct RecordingPlayer::Implementation {
       }
       case RecordKind::motion: {
         const BodyId body = read_body();
-        const auto motion = read_enumeration(Motion::fixed);
+        const auto motion = read_enumeration(Motion::rigid);
         return make([&] { world->set_motion(body, motion); });
       }
       case RecordKind::margin: {
@@ -129,7 +130,7 @@ struct RecordingPlayer::Implementation {
 
   void add_body() {
     const auto surface = read_enumeration(Surface::sheet);
-    const auto motion = read_enumeration(Motion::fixed);
+    const auto motion = read_enumeration(Motion::rigid);
     const auto layer = reader.read<std::uint32_t>();
     const auto mask = reader.read<std::uint32_t>();
     const auto external_id = version < 4 ? std::uint64_t{0} : reader.read<std::uint64_t>();
@@ -165,6 +166,19 @@ struct RecordingPlayer::Implementation {
     std::vector<PositionsUpdate> updates;
     for (std::size_t i = 0; i < bodies.size(); ++i) updates.push_back({bodies[i], positions[i]});
     make([&] { world->set_positions(updates); });
+  }
+
+  void set_poses() {
+    constexpr std::size_t kSize = 8 + 12 * sizeof(double);  // bytes of a pose
+    const auto count = reader.read<std::uint64_t>();
+    reader.require(count, kSize);
+    std::vector<PoseUpdate> updates(static_cast<std::size_t>(count));
+    for (PoseUpdate& update : updates) {
+      update.body = read_body();
+      for (double& entry : update.rotation.reshaped<Eigen::RowMajor>()) entry = reader.read<double>();
+      for (double& entry : update.translation) entry = reader.read<double>();
+    }
+    make([&] { world->set_poses(updates); });
   }
 
   Settings read_settings() {

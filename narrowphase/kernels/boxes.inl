@@ -8,7 +8,7 @@
 namespace tact::narrowphase {
 namespace {
 
-// The box of some lanes of boxes.
+// The box of some lanes of boxes, or of points.
 struct LaneBoxes {
   Pack lower[3], opposite_upper[3];
 
@@ -21,6 +21,13 @@ struct LaneBoxes {
       const Pack low = load(boxes.lower[axis] + i), opposite_high = sub(zero, load(boxes.upper[axis] + i));
       lower[axis] = min(lower[axis], select(lanes, low, infinite));
       opposite_upper[axis] = min(opposite_upper[axis], select(lanes, opposite_high, infinite));
+    }
+  }
+  void widen(const Pack (&points)[3], Mask lanes) {
+    const Pack infinite = spread(__builtin_inf()), zero = spread(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = min(lower[axis], select(lanes, points[axis], infinite));
+      opposite_upper[axis] = min(opposite_upper[axis], select(lanes, sub(zero, points[axis]), infinite));
     }
   }
   BoxBounds all() const {

@@ -214,11 +214,27 @@ struct Refitted {
   bool not_a_number;  // some owned coordinate is not a number: the boxes are of no use
 };
 
+// A pose of a rigid mesh, see mesh/pose.h, and all clusters of it: see RefitInput for what is not said here.
+struct PlaceInput {
+  double rotation[3][3];  // rows
+  double translation[3];
+  PointArrays rest;
+  std::int32_t cluster_count;
+  const std::int32_t* ranges;
+  const std::int32_t* borrowed;  // vertices, not source vertices
+  double* x;
+  double* y;
+  double* z;
+  double* boxes;
+};
+
 struct Kernels {
   const char* name;
 
   // Copies the owned vertices and finds the box of each cluster, owned and borrowed vertices in it.
   Refitted (*refit_clusters)(const RefitInput& input);
+  // Places the vertices and finds the box of each cluster, as a refit with the same positions would; returns their box.
+  BoxBounds (*place_clusters)(const PlaceInput& input);
 
   // The box of `count` boxes.
   BoxBounds (*bounds)(const BoxPointers& boxes, int count);

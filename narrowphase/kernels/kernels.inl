@@ -10,6 +10,7 @@
 #include "narrowphase/kernels/facets.inl"
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/kernels/motion.inl"
+#include "narrowphase/kernels/place.inl"
 #include "narrowphase/kernels/points.inl"
 #include "narrowphase/kernels/refit.inl"
 #include "narrowphase/kernels/sort.inl"
@@ -21,6 +22,7 @@ namespace {
 constexpr Kernels all_kernels(const char* name) {
   return {.name = name,
           .refit_clusters = refit_clusters,
+          .place_clusters = place_clusters,
           .bounds = bounds,
           .kdop = kdop,
           .select_heights = select_heights,

@@ -71,7 +71,50 @@ Triangle ClusteredMesh::triangle(int facet) const {
   return {position(c[0]), position(c[1]), position(c[2])};
 }
 
+void ClusteredMesh::make_rigid() {
+  keep_travel(false);
+  std::copy_n(placements_.now_memory(), placements_.size() - kPadding, placements_.spare_memory());
+  rigid_ = std::make_unique<RigidPose>(points(), vertex_count(), box());
+}
+
+void ClusteredMesh::set_pose(const Pose& pose) {
+  rigid_->set(pose);
+  ++travel_epoch_;
+}
+
+void ClusteredMesh::place() {
+  if (rigid_ == nullptr) return;
+  rigid_->place_once([&] { placements_.set_box(place_at(rigid_->pose(), placements_.now_memory())); });
+}
+
+Box ClusteredMesh::place_at(const Pose& pose, double* placement) const {
+  const PlacementArrays to = arrays_in(placement, counts());
+  PlaceInput input{.rotation = {},
+                   .translation = {pose.translation.x, pose.translation.y, pose.translation.z},
+                   .rest = placements_.before().points,
+                   .cluster_count = cluster_count(),
+                   .ranges = refit_indices().data(),
+                   .borrowed = borrowed_vertices(),
+                   .x = to.x,
+                   .y = to.y,
+                   .z = to.z,
+                   .boxes = to.cluster_boxes};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int k = 0; k < 3; ++k) input.rotation[axis][k] = pose.rows[static_cast<std::size_t>(axis)][k];
+  }
+  const Box box = to_box(kernels().place_clusters(input));
+  find_group_boxes(*this, placement);
+  return box;
+}
+
+Vec3 ClusteredMesh::position_by_pose(int vertex) const {
+  if (rigid_ == nullptr) return position(vertex);
+  const PointArrays rest = placements_.before().points;
+  return placed(rigid_->pose(), Vec3{rest.x[vertex], rest.y[vertex], rest.z[vertex]});
+}
+
 void ClusteredMesh::keep_travel(bool keep) {
+  if (rigid_ != nullptr) keep = false;  // nobody counts how far its clusters go
   if (keep == (travel_ != nullptr)) return;
   travel_ = keep ? std::make_unique<MeshTravel>(*this) : nullptr;
   ++travel_epoch_;

@@ -4,6 +4,8 @@
 // Its parts, a file each: MeshTopology is what does not move, MeshPlacements where it is and was, MeshMemory how both
 // lie in memory. refit.h moves a mesh, cluster_quality.h says how well its clusters fit, prefetch.h prefetches its
 // parts.
+//
+// A rigid mesh moves by a pose instead: rigid_pose.h. Until it is placed its vertices and boxes are not to be read.
 #pragma once
 
 #include <array>
@@ -16,6 +18,7 @@
 #include "narrowphase/mesh/mesh_placements.h"
 #include "narrowphase/mesh/mesh_topology.h"
 #include "narrowphase/mesh/mesh_travel.h"
+#include "narrowphase/mesh/rigid_pose.h"
 
 namespace tact::narrowphase {
 
@@ -39,6 +42,24 @@ class ClusteredMesh : public MeshTopology {
   BoxView group_boxes() const { return placements_.group_boxes(); }
   const MeshPlacements& placements() const { return placements_; }
   MeshPlacements& placements() { return placements_; }
+
+  /// From now on the mesh is rigid: where it is now is its rest shape, and it stands there. It is refitted no more.
+  void make_rigid();
+  bool is_rigid() const { return rigid_ != nullptr; }
+  /// Of a rigid mesh. The new pose takes a box only; place() does the rest, once, whichever threads call it.
+  void set_pose(const Pose& pose);
+  const Pose& pose() const { return rigid_->pose(); }
+  bool is_placed() const { return rigid_ == nullptr || rigid_->is_placed(); }
+  /// Prefetches what set_pose() reads and writes.
+  void prefetch_pose() const;
+  void place();
+  /// A box of all its vertices: their box, if it is placed.
+  Box rough_box() const { return is_placed() ? box() : rigid_->box_at(rigid_->pose()); }
+  Box rough_box_at(const Pose& pose) const { return rigid_->box_at(pose); }
+  /// Writes where it is at some pose to a placement, of placements().size() doubles. Returns the box of all facets.
+  Box place_at(const Pose& pose, double* placement) const;
+  /// Where a vertex is, also if the mesh is not placed.
+  Vec3 position_by_pose(int vertex) const;
 
   /// Moves to memory of the caller, of memory_size(counts()). It stays the caller's, until the mesh moves again or is
   /// no more; kPadding doubles, or as many bytes, follow the last placement and the rest.
@@ -71,6 +92,7 @@ class ClusteredMesh : public MeshTopology {
   MeshPlacements placements_;
   std::unique_ptr<std::byte[]> own_memory_;  // unless move_to() was called
   std::unique_ptr<MeshTravel> travel_;
+  std::unique_ptr<RigidPose> rigid_;
   std::uint64_t travel_epoch_ = 0;
 };
 

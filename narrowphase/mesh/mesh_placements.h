@@ -48,6 +48,8 @@ class MeshPlacements {
   Box spare_box() const { return box_in(before_); }
   /// Makes the spare placement the one in use; `box` is its box.
   void exchange(const Box& box);
+  /// The one in use was written in place; `box` is its box.
+  void set_box(const Box& box) { box_ = box; }
   /// Copies both to other memory and goes on there.
   void move_to(double* const (&memory)[2]);
 

@@ -61,6 +61,8 @@ class MeshTopology {
   std::span<const int> refit_indices() const {
     return {ranges_, static_cast<std::size_t>(2 * cluster_count() + 2 + vertex_reads())};
   }
+  /// The vertices that clusters borrow, cluster by cluster.
+  const int* borrowed_vertices() const { return borrowed_; }
   const int* borrowed_source_vertices() const { return source_vertices() + counts_.vertices; }
   /// How many vertices of the caller a refit reads for clusters: those that several clusters share more than once.
   int vertex_reads() const { return counts_.vertices + counts_.borrowed; }

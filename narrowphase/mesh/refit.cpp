@@ -58,9 +58,11 @@ Refitted refit_in_ranges(const ClusteredMesh& mesh, const double* positions, int
   return {.box = {}, .changed = any_changed, .not_a_number = any_not_a_number};
 }
 
-void refit_groups(const ClusteredMesh& mesh) {
+}  // namespace
+
+void find_group_boxes(const ClusteredMesh& mesh, double* placement) {
   if (mesh.group_count() <= 1) return;
-  const PlacementArrays to = arrays_in(mesh.placements().spare_memory(), mesh.counts());
+  const PlacementArrays to = arrays_in(placement, mesh.counts());
   const BoxView clusters(to.cluster_boxes, static_cast<std::size_t>(mesh.cluster_count()));
   for (int g = 0; g < mesh.group_count(); ++g) {
     const int begin = mesh.cluster_begin(g), count = mesh.cluster_end(g) - begin;
@@ -69,15 +71,13 @@ void refit_groups(const ClusteredMesh& mesh) {
   }
 }
 
-}  // namespace
-
 Refit refit(ClusteredMesh& mesh, const double* positions, const RefitOptions& options) {
   const int per_range = std::clamp(mesh.cluster_count() / (4 * options.threads), kFewestInRange, kMostInRange);
   const bool in_ranges = options.threads > 1 && mesh.cluster_count() > per_range;
   double* const steps = mesh.travel() == nullptr ? nullptr : mesh.travel()->steps_squared();
   const Refitted all = in_ranges ? refit_in_ranges(mesh, positions, per_range, options, steps)
                                  : refit_range(mesh, positions, 0, mesh.cluster_count(), options.prefetch, steps);
-  refit_groups(mesh);
+  find_group_boxes(mesh, mesh.placements().spare_memory());
   const Box box = in_ranges ? mesh.placements().spare_box() : to_box(all.box);
   const auto is_bad = [&](int source_vertex) {
     const double* position = positions + 3 * static_cast<std::ptrdiff_t>(source_vertex);
@@ -104,6 +104,16 @@ void prefetch_refit(const ClusteredMesh& mesh, const double* positions) {
   prefetch_lines(mesh.refit_indices());
   prefetch_lines(placements.spare_memory(), placements.size());
   prefetch_line(placements.now_memory());  // if anything moves, the first x of all do
+}
+
+void ClusteredMesh::prefetch_pose() const { prefetch_lines(rigid_.get(), 1); }
+
+void prefetch_place(const ClusteredMesh& mesh) {
+  const MeshPlacements& placements = mesh.placements();
+  mesh.prefetch_pose();
+  prefetch_lines(placements.spare_memory(), placements.size());
+  prefetch_lines(mesh.refit_indices());
+  prefetch_lines(placements.now_memory(), placements.size());
 }
 
 }  // namespace tact::narrowphase

@@ -22,7 +22,11 @@ struct RefitOptions {
 Refit refit(ClusteredMesh& mesh, const double* positions, const RefitOptions& options = {});
 /// Undoes a refit() that changed the mesh, right after it: so that of a batch of bodies all move or none.
 void undo_refit(ClusteredMesh& mesh);
+/// Finds the boxes of the groups of a placement, from those of the clusters.
+void find_group_boxes(const ClusteredMesh& mesh, double* placement);
 /// Prefetches the memory that refit() reads and writes.
 void prefetch_refit(const ClusteredMesh& mesh, const double* positions);
+/// The same of place().
+void prefetch_place(const ClusteredMesh& mesh);
 
 }  // namespace tact::narrowphase

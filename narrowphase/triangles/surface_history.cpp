@@ -38,7 +38,10 @@ double longest_step(const ClusteredMesh& mesh) {
   return longest;
 }
 
-bool moves_little(const ClusteredMesh& mesh) { return longest_step(mesh) < kLittle * side_of(mesh); }
+// A rigid mesh does not know where it was, nor how far it goes.
+bool moves_little(const ClusteredMesh& mesh) {
+  return !mesh.is_rigid() && longest_step(mesh) < kLittle * side_of(mesh);
+}
 
 }  // namespace
 

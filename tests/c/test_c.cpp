@@ -185,6 +185,23 @@ TEST(C, TellsMotionAndAnswersQuestionsAsCpp) {
   box.upper[0] = box.upper[1] = box.upper[2] = 0.5;
   ASSERT_EQ(tact_world_overlap_box(c.world, &box, nullptr, 0, &count), TACT_OK);
   EXPECT_EQ(count, cpp.overlap_box({.upper = {0.5, 0.5, 0.5}}).size());
+  // Many at once: an empty answer among others, and room for a part of them.
+  const size_t in_box = count;
+  tact_box_question boxes[3] = {box, TACT_BOX_QUESTION_INIT, box};
+  boxes[1].lower[0] = boxes[1].upper[0] = 1e3;
+  std::vector<tact_facet_of_body> facets(in_box + 1);
+  size_t ends[3];
+  ASSERT_EQ(tact_world_overlap_boxes(c.world, boxes, 3, facets.data(), facets.size(), ends), TACT_OK);
+  EXPECT_EQ(ends[0], in_box);
+  EXPECT_EQ(ends[1], in_box);
+  EXPECT_EQ(ends[2], 2 * in_box);
+  EXPECT_EQ(facets[0].facet, facets[in_box].facet);
+  const tact_point_question points[2] = {TACT_POINT_QUESTION_INIT, point};
+  tact_body bodies[4];
+  ASSERT_EQ(tact_world_inside_each(c.world, points, 2, bodies, 4, ends), TACT_OK);
+  EXPECT_EQ(ends[1] - ends[0], 1u);
+  EXPECT_EQ(bodies[ends[0]].index, flying.index);
+  EXPECT_EQ(tact_world_inside_each(c.world, points, 2, bodies, 4, nullptr), TACT_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(tact_world_ray(c.world, nullptr, TACT_RAY_FIRST, &hit), TACT_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(tact_world_ray(c.world, &ray, 7, &hit), TACT_ERROR_BAD_SETTINGS);
 }
@@ -197,6 +214,42 @@ struct Three : WorldOfC {
   Mesh mesh = icosphere(1);
   tact_body a{}, b{}, far{};
 };
+
+TEST(C, MovesRigidBodiesAsCpp) {
+  const Mesh ball = icosphere(1);
+  WorldOfC c;
+  World cpp;
+  tact_body_definition definition = definition_of(ball);
+  definition.motion = TACT_MOTION_RIGID;
+  tact_body bodies[2];
+  std::vector<PoseUpdate> poses;
+  for (tact_body& body : bodies) {
+    ASSERT_EQ(tact_world_add_body(c.world, &definition, &body), TACT_OK) << tact_last_error_message();
+    poses.push_back({cpp.add_body({.positions = ball.positions, .facets = ball.facets, .motion = Motion::rigid})});
+  }
+  // A quarter turn: row by row and column by column differ.
+  const tact_pose_update updates[2] = {{bodies[0], {0, -1, 0, 1, 0, 0, 0, 0, 1}, {0.1, 0.2, 0.3}},
+                                       {bodies[1], {1, 0, 0, 0, 1, 0, 0, 0, 1}, {1.3, 0.5, 0.2}}};
+  poses[0].rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  poses[0].translation << 0.1, 0.2, 0.3;
+  poses[1].translation << 1.3, 0.5, 0.2;
+  ASSERT_EQ(tact_world_set_poses(c.world, updates, 2), TACT_OK) << tact_last_error_message();
+  cpp.set_poses(poses);
+  ASSERT_EQ(tact_world_detect(c.world), TACT_OK);
+  expect_equal_reports(c.world, cpp.detect());
+  EXPECT_FALSE(cpp.detect().contacts().empty());
+  const double turn[9] = {0, -1, 0, 1, 0, 0, 0, 0, 1}, away[3] = {9, 0, 0}, broken[9] = {2, 0, 0, 0, 1, 0, 0, 0, 1};
+  ASSERT_EQ(tact_world_set_pose(c.world, bodies[1], turn, away), TACT_OK);
+  ASSERT_EQ(tact_world_detect(c.world), TACT_OK);
+  size_t count = 1;
+  ASSERT_EQ(tact_report_contacts(c.world, &count), TACT_OK);
+  EXPECT_EQ(count, 0u);
+  expect_failure(tact_world_set_pose(c.world, bodies[1], broken, away), TACT_ERROR_NOT_A_ROTATION, "body 1");
+  expect_failure(tact_world_set_pose(c.world, bodies[1], nullptr, away), TACT_ERROR_NULL_ARGUMENT, "");
+  expect_failure(tact_world_set_pose(c.world, c.add(ball), turn, away), TACT_ERROR_WRONG_MOTION, "body 2");
+  const tact_columns columns = columns_of(ball.positions);
+  expect_failure(tact_world_set_positions(c.world, bodies[0], &columns), TACT_ERROR_WRONG_MOTION, "body 0");
+}
 
 TEST(C, TellsEventsPairsStatisticsAndTraces) {
   tact_settings settings = TACT_SETTINGS_INIT;
@@ -331,6 +384,8 @@ TEST(WrongUseOfC, NullPointers) {
            tact_world_add_body(w.world, &definition, nullptr),
            tact_world_set_positions(w.world, w.a, nullptr),
            tact_world_set_positions_of_many(w.world, nullptr, 1),
+           tact_world_set_poses(w.world, nullptr, 1),
+           tact_world_overlap_boxes(w.world, nullptr, 1, nullptr, 0, &count),
            tact_world_contains(w.world, w.a, nullptr),
            tact_world_body_count(w.world, nullptr),
            tact_world_bodies(w.world, nullptr, 1, &count),
@@ -350,6 +405,50 @@ TEST(WrongUseOfC, NullPointers) {
   }
   const tact_columns nothing = {nullptr, static_cast<size_t>(w.mesh.vertex_count()), 24, TACT_FLOAT64};
   expect_failure(tact_world_set_positions(w.world, w.a, &nothing), TACT_ERROR_WRONG_SIZE, "is null");
+}
+
+// A batch with one bad pose moves none.
+TEST(WrongUseOfC, PosesThatAreNone) {
+  const Mesh ball = icosphere(1);
+  WorldOfC w, other;
+  tact_body_definition definition = definition_of(ball);
+  definition.motion = TACT_MOTION_RIGID;
+  tact_body a{}, b{};
+  ASSERT_EQ(tact_world_add_body(w.world, &definition, &a), TACT_OK);
+  ASSERT_EQ(tact_world_add_body(w.world, &definition, &b), TACT_OK);
+  const tact_pose_update good{a, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {3, 0, 0}};
+  std::vector<double> before(3 * static_cast<size_t>(ball.vertex_count())), after(before.size());
+  ASSERT_EQ(tact_world_copy_positions(w.world, a, before.data(), before.size()), TACT_OK);
+  const auto expect = [&](const tact_pose_update& bad, tact_error error, const std::string& text) {
+    const tact_pose_update updates[2] = {good, bad};
+    expect_failure(tact_world_set_poses(w.world, updates, 2), error, text);
+    expect_failure(tact_world_set_pose(w.world, bad.body, bad.rotation, bad.translation), error, "");
+    ASSERT_EQ(tact_world_copy_positions(w.world, a, after.data(), after.size()), TACT_OK);
+    EXPECT_EQ(before, after);
+  };
+  const auto pose = [&](size_t place, double value) {
+    tact_pose_update update{b, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
+    (place < 9 ? update.rotation[place] : update.translation[place - 9]) = value;
+    return update;
+  };
+  expect(pose(3, 1e-8), TACT_ERROR_NOT_A_ROTATION, "update 1");
+  expect(pose(8, -1.0), TACT_ERROR_NOT_A_ROTATION, "mirrors");
+  expect(pose(4, kNan), TACT_ERROR_NOT_A_ROTATION, "nan");
+  expect(pose(11, kNan), TACT_ERROR_NON_FINITE_POSITION, "translation");
+  expect(pose(9, 1e200), TACT_ERROR_POSITION_OUT_OF_RANGE, "translation");
+  tact_pose_update foreign = good;
+  foreign.body = other.add(ball);
+  expect(foreign, TACT_ERROR_FOREIGN_BODY, "another world");
+  const tact_pose_update twice[2] = {good, good};
+  expect_failure(tact_world_set_poses(w.world, twice, 2), TACT_ERROR_WRONG_ORDER, "");
+  EXPECT_EQ(tact_world_set_poses(w.world, nullptr, 0), TACT_OK);
+  tact_motion motion{};
+  EXPECT_EQ(tact_world_motion(w.world, b, &motion), TACT_OK);
+  EXPECT_EQ(motion, TACT_MOTION_RIGID);
+  ASSERT_EQ(tact_world_set_motion(w.world, b, TACT_MOTION_FIXED), TACT_OK);
+  expect(pose(9, 1.0), TACT_ERROR_FIXED_BODY, "fixed");
+  ASSERT_EQ(tact_world_remove_body(w.world, b), TACT_OK);
+  expect(pose(9, 1.0), TACT_ERROR_STALE_BODY, "removed");
 }
 
 TEST(WrongUseOfC, SizesKindsAndNumbers) {

@@ -110,6 +110,7 @@ TEST(TwinsInC, OfEachField) {
   expect_twins_of_fields("report.h", "struct CandidatePair {", "tact_candidate_pair", {});
   expect_twins_of_fields("report.h", "struct ContactEvent {", "tact_contact_event", {});
   expect_twins_of_fields("world.h", "struct Bounds {", "tact_bounds", {});
+  expect_twins_of_fields("world.h", "struct PoseUpdate {", "tact_pose_update", {});
   expect_twins_of_fields("message.h", "struct Message {", "tact_message", {});
   expect_twins_of_fields("recording.h", "struct PlayedStep {", "tact_played_step", {});
   expect_twins_of_fields("debug_draw.h", "struct DebugDrawOptions {", "tact_debug_draw_options", {});

@@ -212,3 +212,42 @@ def test_questions_have_the_answers_of_closed_forms(two):
     np.testing.assert_array_equal(np.unique(world.overlap_box([-1, -1, -1], [2, 2, 2])[:, 0]), [left.index, right.index])
     with pytest.raises(tact.Error, match="question 0: the beginning of a ray has x = nan"):
         world.rays(np.array([[np.nan, 0, 0]]), np.zeros((1, 3)))
+
+
+def test_rigid_bodies_move_by_poses():
+    positions, facets = tetrahedron()
+    turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    world, other = tact.World(), tact.World()
+    rigid = [world.add_body(positions, facets, motion=tact.Motion.rigid) for _ in range(2)]
+    plain = [other.add_body(positions, facets) for _ in range(2)]
+    world.set_poses({rigid[0]: (turn, [0.5, 0.25, 0.0]), rigid[1]: (np.eye(3), [0.25, 0.25, 0.25])})
+    other.set_positions(plain[0], np.ascontiguousarray(positions @ turn.T + [0.5, 0.25, 0.0]))
+    other.set_positions(plain[1], positions + 0.25)
+    np.testing.assert_array_equal(world.positions(rigid[0]), other.positions(plain[0]))
+    assert world.detect().hash() == other.detect().hash()
+    before = world.detect().hash()
+    world.set_poses(rigid, np.array([np.eye(3), turn]), np.zeros((2, 3)))
+    np.testing.assert_array_equal(world.positions(rigid[1]), positions @ turn.T)
+    assert world.detect().hash() != before
+    world.set_poses(rigid[::-1], np.array([np.eye(3), turn]), [[0.25, 0.25, 0.25], [0.5, 0.25, 0.0]])
+    np.testing.assert_array_equal(world.positions(rigid[0]), other.positions(plain[0]))
+    world.set_pose(rigid[0], np.eye(3), [9, 0, 0])
+    assert len(world.detect().contacts) == 0
+    assert world.motion(rigid[0]) == tact.Motion.rigid
+    for pose, code in [((2 * np.eye(3), [0, 0, 0]), "not_a_rotation"), ((np.eye(3), [np.nan, 0, 0]), "non_finite_position")]:
+        with pytest.raises(tact.Error) as error:
+            world.set_pose(rigid[0], *pose)
+        assert error.value.code.name == code
+    with pytest.raises(tact.Error, match="is rigid"):
+        world.set_positions(rigid[0], positions)
+    with pytest.raises(tact.Error, match="is not rigid"):
+        other.set_pose(plain[0], np.eye(3), [0, 0, 0])
+
+
+def test_many_questions_at_once(two):
+    world, left, right = two
+    lower, upper = np.array([[-1.0, -1, -1], [50, 50, 50]]), np.array([[2.0, 2, 2], [51, 51, 51]])
+    answers = world.overlap_boxes(lower, upper)
+    np.testing.assert_array_equal(answers[0], world.overlap_box(lower[0], upper[0]))
+    assert len(answers[0]) > 0 and answers[1].shape == (0, 2)
+    assert world.inside_each(np.array([[0.1, 0.1, 0.1], [0.92, 0.02, 0.02], [9, 9, 9]])) == [[left], [left, right], []]

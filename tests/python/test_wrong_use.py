@@ -135,6 +135,8 @@ def test_a_removed_body_is_refused_by_every_call(world):
         lambda: world.remove_body(body),
         lambda: world.set_positions(body, POSITIONS),
         lambda: world.set_positions({kept: POSITIONS + 9, body: POSITIONS}),
+        lambda: world.set_pose(body, np.eye(3), np.zeros(3)),
+        lambda: world.set_poses([body], [np.eye(3)], [np.zeros(3)]),
         lambda: world.set_layers(body, 1, 1),
         lambda: world.set_motion(body, tact.Motion.fixed),
         lambda: world.set_margin(body, 0.1),
@@ -164,6 +166,10 @@ def test_a_removed_body_is_refused_by_every_call(world):
         (lambda w, b: w.rays(POSITIONS[:, :2], POSITIONS[:, :2]), ValueError, "shape"),
         (lambda w, b: w.closest_points(POSITIONS + np.inf), tact.Error, "question 0"),
         (lambda w, b: w.overlap_box([0, 0], [1, 1]), (TypeError, ValueError), ""),
+        (lambda w, b: w.overlap_boxes(POSITIONS, POSITIONS[:2]), ValueError, "different lengths"),
+        (lambda w, b: w.overlap_boxes(POSITIONS + 1, POSITIONS), tact.Error, "question 0"),
+        (lambda w, b: w.inside_each(POSITIONS * np.nan), tact.Error, "question 0"),
+        (lambda w, b: w.inside_each(POSITIONS[0]), ValueError, "shape"),
         (lambda w, b: tact.Settings(threads="two"), TypeError, "incompatible"),
         (lambda w, b: w.find_contact, AttributeError, "find_contact"),
     ],
@@ -175,6 +181,55 @@ def test_wrong_arguments_are_refused(world, call, exception, says):
     with pytest.raises(exception, match=says):
         call(world, body)
     assert world.detect().hash() == before
+
+
+@pytest.mark.parametrize(
+    "rotation, translation, code",
+    [
+        (1.001 * np.eye(3), np.zeros(3), "not_a_rotation"),
+        (np.diag([1.0, 1.0, -1.0]), np.zeros(3), "not_a_rotation"),
+        (np.full((3, 3), np.nan), np.zeros(3), "not_a_rotation"),
+        (np.eye(3), np.array([0, np.inf, 0]), "non_finite_position"),
+        (np.eye(3), np.array([0, 0, 1e200]), "position_out_of_range"),
+        (np.eye(2), np.zeros(3), None),
+        (np.eye(3), np.zeros(2), None),
+        (np.eye(4), np.zeros(4), None),
+    ],
+)
+def test_bad_poses_are_refused(world, rotation, translation, code):
+    first, second = (world.add_body(POSITIONS, FACETS, motion=tact.Motion.rigid) for _ in range(2))
+    good, bad = (np.eye(3), [5, 0, 0]), (rotation, translation)
+    calls = [lambda: world.set_pose(second, *bad), lambda: world.set_poses({first: good, second: bad})]
+    if code is None:
+        calls.append(lambda: world.set_poses([second], [rotation], [translation]))
+    else:
+        calls.append(lambda: world.set_poses([first, second], [good[0], rotation], [good[1], translation]))
+    for call in calls:
+        with pytest.raises((TypeError, ValueError) if code is None else tact.Error) as raised:
+            call()
+        assert code is None or raised.value.code.name == code
+        np.testing.assert_array_equal(world.positions(first), POSITIONS)
+
+
+def test_poses_of_wrong_bodies_are_refused(world):
+    rigid = world.add_body(POSITIONS, FACETS, motion=tact.Motion.rigid)
+    plain = world.add_body(POSITIONS, FACETS)
+    eyes, zeros = np.array([np.eye(3)] * 2), np.ones((2, 3))
+    for bodies, code in (([rigid, plain], "wrong_motion"), ([rigid, rigid], "wrong_order")):
+        with pytest.raises(tact.Error) as raised:
+            world.set_poses(bodies, eyes, zeros)
+        assert raised.value.code.name == code
+    with pytest.raises(ValueError, match=r"rotations has shape \(2, 3, 3\), not \(1, 3, 3\)"):
+        world.set_poses([rigid], eyes, zeros)
+    with pytest.raises(ValueError, match=r"translations has shape \(2, 3\), not \(1, 3\)"):
+        world.set_poses([rigid], eyes[:1], zeros)
+    world.set_motion(rigid, tact.Motion.fixed)
+    with pytest.raises(tact.Error) as raised:
+        world.set_pose(rigid, np.eye(3), np.ones(3))
+    assert raised.value.code == tact.ErrorCode.fixed_body
+    np.testing.assert_array_equal(world.positions(rigid), POSITIONS)
+    world.set_motion(rigid, tact.Motion.rigid)
+    world.set_poses([], np.zeros((0, 3, 3)), np.zeros((0, 3)))
 
 
 def test_positions_anywhere_in_memory_are_read(world):

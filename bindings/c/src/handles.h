@@ -40,6 +40,7 @@ struct WorldEntry {
   const Report* report = nullptr;        // of the last step; null before the first, or after a change of settings
   const MotionReport* motion = nullptr;  // of the last tact_world_detect_motion(); null before
   std::vector<PositionsUpdate> updates;  // scratch
+  std::vector<PoseUpdate> poses;         // scratch
   std::shared_mutex in_use;
 };
 

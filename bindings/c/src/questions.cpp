@@ -37,6 +37,18 @@ void write(const std::vector<Answer>& answers, ForC* to, size_t capacity, size_t
   *count = answers.size();
 }
 
+// The answers one after the other, and where each ends.
+template <class ForC, class Answer>
+void write(const std::vector<std::vector<Answer>>& answers, ForC* to, size_t capacity, size_t* ends) {
+  const std::span<Answer> room = as_cpp<Answer>(to, capacity);
+  size_t end = 0;
+  for (size_t i = 0; i < answers.size(); ++i) {
+    const size_t begin = std::min(end, capacity), fit = std::min(answers[i].size(), capacity - begin);
+    std::copy_n(answers[i].begin(), fit, room.begin() + static_cast<std::ptrdiff_t>(begin));
+    ends[i] = end += answers[i].size();
+  }
+}
+
 }  // namespace
 }  // namespace tact::c
 
@@ -77,6 +89,26 @@ tact_error tact_world_inside(tact_world world, const tact_point_question* questi
   return changing(world, [&](WorldEntry& entry) {
     check_not_null(count);
     write(entry.world.inside(as_cpp<const tact::PointQuestion>(question, 1)[0]), bodies, capacity, count);
+  });
+}
+
+tact_error tact_world_overlap_boxes(tact_world world, const tact_box_question* questions, size_t count,
+                                    tact_facet_of_body* facets, size_t capacity, size_t* ends) {
+  return changing(world, [&](WorldEntry& entry) {
+    if (count > 0) check_not_null(ends);
+    std::vector<std::vector<tact::FacetOfBody>> answers(count);
+    entry.world.overlap_boxes(as_cpp<const tact::BoxQuestion>(questions, count), answers);
+    write(answers, facets, capacity, ends);
+  });
+}
+
+tact_error tact_world_inside_each(tact_world world, const tact_point_question* questions, size_t count,
+                                  tact_body* bodies, size_t capacity, size_t* ends) {
+  return changing(world, [&](WorldEntry& entry) {
+    if (count > 0) check_not_null(ends);
+    std::vector<std::vector<tact::BodyId>> answers(count);
+    entry.world.inside_each(as_cpp<const tact::PointQuestion>(questions, count), answers);
+    write(answers, bodies, capacity, ends);
   });
 }
 

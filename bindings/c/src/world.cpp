@@ -80,6 +80,11 @@ Columns columns_of(const tact_columns& given) {
   return Columns::of_kind(kind_of(given.kind), given.first, given.count, given.stride_bytes);
 }
 
+PoseUpdate pose_of(tact_body body, const double* rotation, const double* translation) {
+  return {id_of(body), Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation),
+          Eigen::Map<const Eigen::Vector3d>(translation)};
+}
+
 // Calls get(world) and hands its result out.
 template <class Value, class Get>
 tact_error get(tact_world world, Value* value, const Get& get_from) noexcept {
@@ -164,6 +169,26 @@ tact_error tact_world_set_positions_of_many(tact_world world, const tact_positio
       all.push_back({id_of(updates[i].body), columns_of<tact::Positions>(updates[i].positions)});
     }
     entry.world.set_positions(all);
+  });
+}
+
+tact_error tact_world_set_pose(tact_world world, tact_body body, const double* rotation, const double* translation) {
+  return changing(world, [&](WorldEntry& entry) {
+    check_not_null(rotation, translation);
+    const tact::PoseUpdate pose = tact::c::pose_of(body, rotation, translation);
+    entry.world.set_pose(pose.body, pose.rotation, pose.translation);
+  });
+}
+
+tact_error tact_world_set_poses(tact_world world, const tact_pose_update* updates, size_t count) {
+  return changing(world, [&](WorldEntry& entry) {
+    if (count > 0) check_not_null(updates);
+    std::vector<tact::PoseUpdate>& all = entry.poses;
+    all.clear();
+    all.reserve(count);
+    for (size_t i = 0; i < count; ++i)
+      all.push_back(tact::c::pose_of(updates[i].body, updates[i].rotation, updates[i].translation));
+    entry.world.set_poses(all);
   });
 }
 

@@ -82,19 +82,45 @@ ClosestArrays closest_points(SharedWorld& world, py::handle points, double withi
           rows_of_three<double>(all, &ClosestPoint::weights)};
 }
 
-py::array_t<std::int64_t> overlap_box(SharedWorld& world, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
-                                      std::uint32_t layer, std::uint32_t mask) {
-  std::vector<FacetOfBody> found;
-  world.compute([&](World& w) { found = w.overlap_box({lower, upper, {layer, mask}}); });
+py::array_t<std::int64_t> facet_rows(const std::vector<FacetOfBody>& found) {
   return rows_of<std::int64_t>(std::span<const FacetOfBody>(found), 2, [](const FacetOfBody& one, std::int64_t* row) {
     row[0] = one.body.index;
     row[1] = one.facet;
   });
 }
 
+py::array_t<std::int64_t> overlap_box(SharedWorld& world, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
+                                      std::uint32_t layer, std::uint32_t mask) {
+  std::vector<FacetOfBody> found;
+  world.compute([&](World& w) { found = w.overlap_box({lower, upper, {layer, mask}}); });
+  return facet_rows(found);
+}
+
 std::vector<BodyId> inside(SharedWorld& world, const Eigen::Vector3d& point, std::uint32_t layer, std::uint32_t mask) {
   std::vector<BodyId> found;
   world.compute([&](World& w) { found = w.inside({.point = point, .asked = {layer, mask}}); });
+  return found;
+}
+
+std::vector<py::array_t<std::int64_t>> overlap_boxes(SharedWorld& world, py::handle lower, py::handle upper,
+                                                     std::uint32_t layer, std::uint32_t mask) {
+  const std::vector<Eigen::Vector3d> low = points_of(lower), high = points_of(upper);
+  if (low.size() != high.size()) throw py::value_error("lower and upper have different lengths");
+  std::vector<BoxQuestion> questions;
+  for (std::size_t i = 0; i < low.size(); ++i) questions.push_back({low[i], high[i], {layer, mask}});
+  std::vector<std::vector<FacetOfBody>> found(questions.size());
+  world.compute([&](World& w) { w.overlap_boxes(questions, found); });
+  std::vector<py::array_t<std::int64_t>> answers;
+  for (const std::vector<FacetOfBody>& one : found) answers.push_back(facet_rows(one));
+  return answers;
+}
+
+std::vector<std::vector<BodyId>> inside_each(SharedWorld& world, py::handle points, std::uint32_t layer,
+                                             std::uint32_t mask) {
+  std::vector<PointQuestion> questions;
+  for (const Eigen::Vector3d& point : points_of(points)) questions.push_back({.point = point, .asked = {layer, mask}});
+  std::vector<std::vector<BodyId>> found(questions.size());
+  world.compute([&](World& w) { w.inside_each(questions, found); });
   return found;
 }
 
@@ -125,7 +151,11 @@ void define_questions(py::module_& module, WorldClass& world) {
            "the nearest place of all surfaces to each point; (N, 3), metres")
       .def("overlap_box", overlap_box, py::arg("lower"), py::arg("upper"), py::kw_only(), layer, mask,
            "(N, 2) int64: BodyId.index and facet of what shares a point with the box")
-      .def("inside", inside, py::arg("point"), py::kw_only(), layer, mask, "the closed bodies that a point is in");
+      .def("overlap_boxes", overlap_boxes, py::arg("lower"), py::arg("upper"), py::kw_only(), layer, mask,
+           "the same of many boxes, (N, 3) both: a list of arrays")
+      .def("inside", inside, py::arg("point"), py::kw_only(), layer, mask, "the closed bodies that a point is in")
+      .def("inside_each", inside_each, py::arg("points"), py::kw_only(), layer, mask,
+           "the same of many points, (N, 3): a list of lists");
 }
 
 }  // namespace tact::python

@@ -22,7 +22,8 @@ void define_enums(py::module_& module) {
       .value("sheet", Surface::sheet, "cloth: no inside, both sides count");
   py::enum_<Motion>(module, "Motion", "Whether a body's positions can be set.")
       .value("moving", Motion::moving, "they can")
-      .value("fixed", Motion::fixed, "they cannot; two fixed bodies are never tested against each other");
+      .value("fixed", Motion::fixed, "they cannot; two fixed bodies are never tested against each other")
+      .value("rigid", Motion::rigid, "it keeps its shape: set_pose() turns and moves it");
   py::enum_<Accuracy>(module, "Accuracy", "What a report promises of its pairs.")
       .value("hulls", Accuracy::hulls, "direction and depth of the convex hulls; no facets")
       .value("paper", Accuracy::paper, "the three criteria of the paper; may miss facet pairs")

@@ -1,7 +1,9 @@
+#include <pybind11/eigen.h>
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 #include <tact/world.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -52,6 +54,49 @@ void set_many_positions(SharedWorld& world, const py::dict& positions) {
     updates.push_back({py::cast<BodyId>(body), arguments.back().columns()});
   }
   world.compute([&](World& w) { w.set_positions(updates); });
+}
+
+void set_pose(SharedWorld& world, BodyId body, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {
+  world.compute([&](World& w) { w.set_pose(body, rotation, translation); });
+}
+
+PoseUpdate pose_of(py::handle body, py::handle pose) {
+  try {
+    const auto [rotation, translation] = py::cast<std::pair<Eigen::Matrix3d, Eigen::Vector3d>>(pose);
+    return {py::cast<BodyId>(body), rotation, translation};
+  } catch (const py::cast_error&) {
+    throw py::type_error("poses are not {body: (rotation of shape (3, 3), translation of shape (3,))}");
+  }
+}
+
+void set_poses(SharedWorld& world, const py::dict& poses) {
+  std::vector<PoseUpdate> updates;
+  for (const auto& [body, pose] : poses) updates.push_back(pose_of(body, pose));
+  world.compute([&](World& w) { w.set_poses(updates); });
+}
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+void check_shape(const Numbers& array, const std::vector<py::ssize_t>& shape, const std::string& what) {
+  if (std::equal(array.shape(), array.shape() + array.ndim(), shape.begin(), shape.end())) return;
+  throw py::value_error(what + " has shape " + std::string(py::str(array.attr("shape"))) + ", not " +
+                        std::string(py::str(py::tuple(py::cast(shape)))));
+}
+
+void set_pose_arrays(SharedWorld& world, const std::vector<BodyId>& bodies, const Numbers& rotations,
+                     const Numbers& translations) {
+  const auto count = static_cast<py::ssize_t>(bodies.size());
+  check_shape(rotations, {count, 3, 3}, "rotations");
+  check_shape(translations, {count, 3}, "translations");
+  std::vector<PoseUpdate> updates;
+  updates.reserve(bodies.size());
+  const double *rotation = rotations.data(), *translation = translations.data();
+  for (const BodyId& body : bodies) {
+    updates.push_back({body, Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation),
+                       Eigen::Map<const Eigen::Vector3d>(translation)});
+    rotation += 9, translation += 3;
+  }
+  world.compute([&](World& w) { w.set_poses(updates); });
 }
 
 OfReport<Report> detect(const SharedPointer& world) {
@@ -179,6 +224,13 @@ void define_world(py::module_& module) {
       .def("set_positions", set_positions, py::arg("body"), py::arg("positions"), "positions: (V, 3) in metres")
       .def("set_positions", set_many_positions, py::arg("positions"),
            "{body: (V, 3) in metres}: all of them or, after an error, none")
+      .def(
+          "set_pose", set_pose, py::arg("body"), py::arg("rotation"), py::arg("translation"),
+          "of a rigid body: a vertex that was added at p stands at rotation @ p + translation; (3, 3), and (3,) metres")
+      .def("set_poses", set_poses, py::arg("poses"),
+           "{body: (rotation, translation)}: all of them or, after an error, none")
+      .def("set_poses", set_pose_arrays, py::arg("bodies"), py::arg("rotations"), py::arg("translations"),
+           "the same as arrays: N bodies, (N, 3, 3), and (N, 3) metres")
       .def(
           "set_layers",
           [](SharedWorld& world, BodyId body, std::uint32_t layer, std::uint32_t mask) {

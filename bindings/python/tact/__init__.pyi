@@ -1,7 +1,7 @@
 """Finds where many deformable triangle meshes touch."""
 
 import os
-from typing import Callable, ClassVar, Iterator, Optional, Protocol, overload
+from typing import Callable, ClassVar, Iterator, Optional, Protocol, Sequence, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -37,6 +37,8 @@ class ErrorCode:
     out_of_memory: ClassVar[ErrorCode]
     backend_failure: ClassVar[ErrorCode]
     bad_recording: ClassVar[ErrorCode]
+    wrong_motion: ClassVar[ErrorCode]
+    not_a_rotation: ClassVar[ErrorCode]
     name: str
     value: int
     def __init__(self, value: int) -> None: ...
@@ -59,6 +61,7 @@ class Motion:
 
     moving: ClassVar[Motion]
     fixed: ClassVar[Motion]
+    rigid: ClassVar[Motion]
     name: str
     value: int
     def __init__(self, value: int) -> None: ...
@@ -533,6 +536,14 @@ class World:
     def set_positions(self, body: BodyId, positions: npt.NDArray[np.floating]) -> None: ...
     @overload
     def set_positions(self, positions: dict[BodyId, npt.NDArray[np.floating]]) -> None: ...
+    def set_pose(self, body: BodyId, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> None:
+        """of a rigid body: a vertex that was added at p stands at rotation @ p + translation; (3, 3), and (3,) metres"""
+    @overload
+    def set_poses(self, poses: dict[BodyId, tuple[npt.ArrayLike, npt.ArrayLike]]) -> None:
+        """{body: (rotation, translation)}: all of them or, after an error, none"""
+    @overload
+    def set_poses(self, bodies: Sequence[BodyId], rotations: npt.ArrayLike, translations: npt.ArrayLike) -> None:
+        """the same as arrays: N bodies, (N, 3, 3), and (N, 3) metres"""
     def set_layers(self, body: BodyId, layer: int, mask: int) -> None: ...
     def set_group(self, body: BodyId, group: int) -> None:
         """bodies of one group are not tested against each other; 0: in none"""
@@ -584,6 +595,19 @@ class World:
         self, point: npt.ArrayLike, *, layer: int = 0xFFFFFFFF, mask: int = 0xFFFFFFFF
     ) -> list[BodyId]:
         """the closed bodies that a point is in"""
+    def overlap_boxes(
+        self,
+        lower: npt.NDArray[np.floating],
+        upper: npt.NDArray[np.floating],
+        *,
+        layer: int = 0xFFFFFFFF,
+        mask: int = 0xFFFFFFFF,
+    ) -> list[npt.NDArray[np.int64]]:
+        """overlap_box() of many boxes, (N, 3) both"""
+    def inside_each(
+        self, points: npt.NDArray[np.floating], *, layer: int = 0xFFFFFFFF, mask: int = 0xFFFFFFFF
+    ) -> list[list[BodyId]]:
+        """inside() of many points, (N, 3)"""
     def contains(self, body: BodyId) -> bool: ...
     @property
     def body_count(self) -> int: ...

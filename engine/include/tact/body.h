@@ -29,6 +29,7 @@ enum class Surface {
 enum class Motion {
   moving,  ///< its positions can be set
   fixed,   ///< its positions cannot be set; two fixed bodies are never tested against each other
+  rigid,   ///< it keeps its shape: World::set_pose() turns and moves it, positions cannot be set
 };
 
 /// The largest size of a coordinate, 2^300 metres. Anything smaller, subnormal numbers included, is decided exactly.
@@ -36,7 +37,7 @@ inline constexpr double kLargestCoordinate = 0x1p300;
 
 /// How to add a body. Only positions and facets are needed.
 struct BodyDefinition {
-  Positions positions;  ///< 3 x V, metres
+  Positions positions;  ///< 3 x V, metres; of a rigid body its rest shape, where it stands at first
   /// 3 x F, indices of vertices. Any triangle soup is accepted: repeated vertices, facets without area, no facet at
   /// all. A vertex that no facet uses touches nothing; it must be finite and in range as all are.
   Facets facets;

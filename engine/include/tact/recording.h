@@ -34,6 +34,7 @@ class TACT_API Recorder final : public WorldObserver {
   void body_added(BodyId body, const BodyDefinition& definition) noexcept override;
   void body_removed(BodyId body) noexcept override;
   void positions_set(std::span<const PositionsUpdate> updates) noexcept override;
+  void poses_set(std::span<const PoseUpdate> updates) noexcept override;
   void layers_set(BodyId body, std::uint32_t layer, std::uint32_t mask) noexcept override;
   void group_set(BodyId body, std::uint32_t group) noexcept override;
   void excluded_set(BodyId a, BodyId b, bool excluded) noexcept override;

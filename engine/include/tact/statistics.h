@@ -9,9 +9,10 @@ namespace tact {
 /// shared out, and so on the number of threads; all other counts do not.
 struct StepStats {
   std::int64_t bodies = 0;          ///< bodies in the world
-  std::int64_t moved_bodies = 0;    ///< bodies that were added or whose positions, layers or motion changed
+  std::int64_t moved_bodies = 0;    ///< bodies that were added or whose positions, pose, layers or motion changed
   std::int64_t vertices = 0;        ///< vertices of the bodies in the world
   std::int64_t moved_vertices = 0;  ///< vertices of the moved bodies
+  std::int64_t placed_bodies = 0;   ///< rigid bodies whose vertices were computed from their pose, as others came near
   /// moved bodies whose clusters had lost their shape: their facets were grouped anew
   std::int64_t regrouped_bodies = 0;
   /// overlapping boxes, one moved, that layers, groups or two fixed bodies exclude
@@ -77,9 +78,12 @@ struct StepStatsField {
 /// Every count, in the order of the struct: what printing, JSON, CSV and averages are made from.
 inline constexpr StepStatsField<std::int64_t> kStepCounts[] = {
     {"bodies", &StepStats::bodies, "bodies in the world"},
-    {"moved_bodies", &StepStats::moved_bodies, "bodies that were added or whose positions, layers or motion changed"},
+    {"moved_bodies", &StepStats::moved_bodies,
+     "bodies that were added or whose positions, pose, layers or motion changed"},
     {"vertices", &StepStats::vertices, "vertices of the bodies in the world"},
     {"moved_vertices", &StepStats::moved_vertices, "vertices of the moved bodies"},
+    {"placed_bodies", &StepStats::placed_bodies,
+     "rigid bodies whose vertices were computed from their pose, as others came near"},
     {"regrouped_bodies", &StepStats::regrouped_bodies,
      "moved bodies whose clusters had lost their shape: their facets were grouped anew"},
     {"excluded_pairs", &StepStats::excluded_pairs,

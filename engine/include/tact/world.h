@@ -9,6 +9,7 @@
 #include <tact/settings.h>
 #include <tact/world_observer.h>
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -27,6 +28,13 @@ namespace tact {
 struct PositionsUpdate {
   BodyId body;
   Positions positions;  ///< 3 x V, metres
+};
+
+/// A new pose of a rigid body, for World::set_poses(): a vertex that was added at p stands at rotation p + translation.
+struct PoseUpdate {
+  BodyId body;
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< metres
 };
 
 /// A box, metres.
@@ -71,11 +79,24 @@ class TACT_API World {
   void remove_body(BodyId body);
 
   /// Copies the new positions of a body, 3 x V in metres, V as when it was added. A body whose coordinates are all
-  /// equal to the old ones has not moved. Errors: stale_body, foreign_body, fixed_body, wrong_size,
+  /// equal to the old ones has not moved. Errors: stale_body, foreign_body, fixed_body, wrong_motion, wrong_size,
   /// non_finite_position, position_out_of_range, out_of_memory.
   void set_positions(BodyId body, const Positions& positions);
   /// The same for many bodies, in parallel; all or none. A body must not be named twice (wrong_order).
   void set_positions(std::span<const PositionsUpdate> updates);
+
+  /// Turns and moves a rigid body: a vertex that was added at p stands at R p + t from now on, whatever poses were set
+  /// before. Each coordinate is ((R0 p.x + R1 p.y) + R2 p.z) + t with the row R0, R1, R2 of R, every operation rounded
+  /// to double in this order; all answers are those of a body whose positions were set to these doubles. Vertices are
+  /// computed only of bodies that others come near, or that are asked for; a pose costs the same for a body of any
+  /// size. A body whose pose equals the old one has not moved.
+  ///
+  /// `rotation` must be orthonormal to 1e-9, determinant +1; it is used as it is. A vertex that no facet uses is not
+  /// looked at. Errors: stale_body, foreign_body, fixed_body, wrong_motion (the body is not rigid), not_a_rotation,
+  /// non_finite_position and position_out_of_range (the translation, or where a vertex would stand), out_of_memory.
+  void set_pose(BodyId body, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation);
+  /// The same for many bodies, in parallel; all or none. A body must not be named twice (wrong_order).
+  void set_poses(std::span<const PoseUpdate> updates);
 
   /// The layers that a body is on, and those that it is tested against; see BodyDefinition. Errors: stale_body,
   /// foreign_body.
@@ -86,8 +107,8 @@ class TACT_API World {
   /// again if they are excluded no more, and forgotten when one of them is removed. Errors: stale_body, foreign_body,
   /// bad_settings (one body twice).
   void set_excluded(BodyId a, BodyId b, bool excluded);
-  /// A body that moves from now on, or one that stays where it is. Errors: stale_body, foreign_body, bad_settings (a
-  /// motion that is none).
+  /// A body that moves from now on, or one that stays where it is. One that was added as rigid is rigid or fixed, any
+  /// other is moving or fixed. Errors: stale_body, foreign_body, bad_settings (a motion that is none), wrong_motion.
   void set_motion(BodyId body, Motion motion);
 
   /// Half the thickness of a body, metres, and whether it is held against itself; see BodyDefinition. Errors:
@@ -133,6 +154,9 @@ class TACT_API World {
   /// The closed bodies that a point is in, or on the surface of, decided exactly by how often each winds around it.
   /// `within` is not used.
   std::vector<BodyId> inside(const PointQuestion& question) const;
+  /// Many of these at once, an answer each: what it held is replaced.
+  void overlap_boxes(std::span<const BoxQuestion> questions, std::span<std::vector<FacetOfBody>> answers) const;
+  void inside_each(std::span<const PointQuestion> questions, std::span<std::vector<BodyId>> answers) const;
 
   /// Who is told of every call that changes the world from now on, a Recorder say; null: nobody. The observer outlives
   /// the world, also one that this world is moved to, or is taken away before. It sees the world whole: it is set

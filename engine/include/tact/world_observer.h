@@ -11,6 +11,7 @@
 namespace tact {
 
 struct PositionsUpdate;
+struct PoseUpdate;
 
 /// Each function is called on the thread that called the world, once that call has succeeded; what a world refuses is
 /// not told. What the arguments point to is valid during the call. None may throw, nor call the world.
@@ -23,6 +24,7 @@ class TACT_API WorldObserver {
   virtual void body_added(BodyId body, const BodyDefinition& definition) noexcept;
   virtual void body_removed(BodyId body) noexcept;
   virtual void positions_set(std::span<const PositionsUpdate> updates) noexcept;
+  virtual void poses_set(std::span<const PoseUpdate> updates) noexcept;
   virtual void layers_set(BodyId body, std::uint32_t layer, std::uint32_t mask) noexcept;
   virtual void group_set(BodyId body, std::uint32_t group) noexcept;
   virtual void excluded_set(BodyId a, BodyId b, bool excluded) noexcept;

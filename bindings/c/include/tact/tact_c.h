@@ -46,12 +46,14 @@ typedef enum tact_error {
   TACT_ERROR_TOO_LARGE = 5,             /**< more than 2^29 - 1 vertices or facets, or 2^32 - 1 bodies */
   TACT_ERROR_STALE_BODY = 6,            /**< the body was removed, or was never given out */
   TACT_ERROR_FOREIGN_BODY = 7,          /**< the body is another world's */
-  TACT_ERROR_FIXED_BODY = 8,            /**< positions were set on a body that is fixed */
+  TACT_ERROR_FIXED_BODY = 8,            /**< positions or a pose were set on a body that is fixed */
   TACT_ERROR_BAD_SETTINGS = 9,          /**< a setting has no meaning; the message says which */
   TACT_ERROR_WRONG_ORDER = 10,          /**< a body named twice in one batch, or a report before the first step */
   TACT_ERROR_OUT_OF_MEMORY = 11,        /**< an allocation failed */
   TACT_ERROR_BACKEND_FAILURE = 12,      /**< Embree reported an error */
   TACT_ERROR_BAD_RECORDING = 13,        /**< bytes that are no recording, or one that does not play */
+  TACT_ERROR_WRONG_MOTION = 14,         /**< positions were set on a rigid body, or a pose on one that is not */
+  TACT_ERROR_NOT_A_ROTATION = 15,       /**< the matrix of a pose is not orthonormal to 1e-9, or mirrors */
   TACT_ERROR_INVALID_HANDLE = 100,      /**< the world was destroyed, or is none */
   TACT_ERROR_NULL_ARGUMENT = 101,       /**< a pointer is null that must not be */
   TACT_ERROR_WRONG_STRUCT_SIZE = 102,   /**< struct_size is not that of a version of this library */
@@ -84,7 +86,7 @@ typedef struct tact_body {
 typedef enum tact_accuracy { TACT_ACCURACY_HULLS = 0, TACT_ACCURACY_PAPER = 1, TACT_ACCURACY_EXACT = 2 } tact_accuracy;
 typedef enum tact_direction_policy { TACT_DIRECTION_CARRIED = 0, TACT_DIRECTION_SMALLEST = 1 } tact_direction_policy;
 typedef enum tact_surface { TACT_SURFACE_CLOSED = 0, TACT_SURFACE_SHEET = 1 } tact_surface;
-typedef enum tact_motion { TACT_MOTION_MOVING = 0, TACT_MOTION_FIXED = 1 } tact_motion;
+typedef enum tact_motion { TACT_MOTION_MOVING = 0, TACT_MOTION_FIXED = 1, TACT_MOTION_RIGID = 2 } tact_motion;
 typedef enum tact_number_kind {
   TACT_FLOAT32 = 0,
   TACT_FLOAT64 = 1,
@@ -172,6 +174,13 @@ typedef struct tact_positions_update {
   tact_columns positions;
 } tact_positions_update;
 
+/** A new pose of a rigid body: see tact::PoseUpdate. */
+typedef struct tact_pose_update {
+  tact_body body;
+  double rotation[9];    /**< row by row */
+  double translation[3]; /**< metres */
+} tact_pose_update;
+
 /* The world. */
 
 /** `settings` may be null: the default. */
@@ -185,6 +194,11 @@ TACT_C_API tact_error tact_world_set_positions(tact_world world, tact_body body,
 /** Of many bodies, in parallel; all or none. */
 TACT_C_API tact_error tact_world_set_positions_of_many(tact_world world, const tact_positions_update* updates,
                                                        size_t count);
+/** Turns and moves a rigid body: see tact::World::set_pose(). `rotation` has 9 numbers, row by row, `translation` 3. */
+TACT_C_API tact_error tact_world_set_pose(tact_world world, tact_body body, const double* rotation,
+                                          const double* translation);
+/** Of many bodies, in parallel; all or none. */
+TACT_C_API tact_error tact_world_set_poses(tact_world world, const tact_pose_update* updates, size_t count);
 TACT_C_API tact_error tact_world_set_layers(tact_world world, tact_body body, uint32_t layer, uint32_t mask);
 TACT_C_API tact_error tact_world_set_group(tact_world world, tact_body body, uint32_t group);
 /** Are two bodies left out, whatever their layers: the two sides of a joint, say? */
@@ -547,6 +561,12 @@ TACT_C_API tact_error tact_world_overlap_box(tact_world world, const tact_box_qu
                                              tact_facet_of_body* facets, size_t capacity, size_t* count);
 TACT_C_API tact_error tact_world_inside(tact_world world, const tact_point_question* question, tact_body* bodies,
                                         size_t capacity, size_t* count);
+/** `count` questions, on all threads. The answers follow each other: ends[i], one for each question, is where that to
+ *  question i ends. Up to `capacity` are written; ends[count - 1] is how many there are. */
+TACT_C_API tact_error tact_world_overlap_boxes(tact_world world, const tact_box_question* questions, size_t count,
+                                               tact_facet_of_body* facets, size_t capacity, size_t* ends);
+TACT_C_API tact_error tact_world_inside_each(tact_world world, const tact_point_question* questions, size_t count,
+                                             tact_body* bodies, size_t capacity, size_t* ends);
 TACT_C_API tact_error tact_world_closest_point(tact_world world, const tact_point_question* question,
                                                tact_closest_point* answer);
 TACT_C_API tact_error tact_world_closest_points(tact_world world, const tact_point_question* questions, size_t count,

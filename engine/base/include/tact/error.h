@@ -22,12 +22,14 @@ enum class ErrorCode {
   too_large,              ///< more than 2^29 - 1 vertices or facets, or 2^32 - 1 bodies
   stale_body,             ///< the id is of a body that was removed, or was never given out
   foreign_body,           ///< the id was given out by another world
-  fixed_body,             ///< positions were set on a body whose motion is fixed
+  fixed_body,             ///< positions or a pose were set on a body whose motion is fixed
   bad_settings,           ///< a setting has no meaning; the message says which
   wrong_order,            ///< a call of a world that was moved from, or a body named twice in one batch
   out_of_memory,          ///< an allocation failed, ours or Embree's
   backend_failure,        ///< Embree reported an error; the message holds its code
   bad_recording,          ///< bytes that are no recording, or one that does not play; the message says at which byte
+  wrong_motion,           ///< positions were set on a rigid body, or a pose on one that is not
+  not_a_rotation,         ///< the matrix of a pose turns nothing: it is not orthonormal to 1e-9, or mirrors
 };
 
 /// The name of `code` as it stands in the enumeration, such as "stale_body".

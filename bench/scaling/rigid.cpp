@@ -1,0 +1,153 @@
+#include "bench/scaling/rigid.h"
+
+#include <fmt/format.h>
+#include <tact/world.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "bench/measure.h"
+#include "bench/table.h"
+#include "bench/workloads/workloads.h"
+
+namespace tact::bench {
+namespace {
+
+// The bodies of a workload, each turning about its middle, with a pose a frame and where its vertices then stand.
+struct TurningBodies {
+  std::vector<Eigen::Matrix3Xd> rest;
+  std::vector<Eigen::Matrix3Xi> facets;
+  std::vector<std::vector<PoseUpdate>> poses;            // frame, body; without ids
+  std::vector<std::vector<Eigen::Matrix3Xd>> positions;  // frame, body
+
+  TurningBodies(const Workload& workload, int frames) {
+    for (const WorkloadBody& body : workload.bodies) {
+      rest.push_back(body.frames[0]);
+      facets.push_back(body.facets);
+    }
+    for (int frame = 0; frame < frames; ++frame) {
+      poses.emplace_back();
+      positions.emplace_back();
+      for (std::size_t i = 0; i < rest.size(); ++i) {
+        const Eigen::Vector3d middle = rest[i].rowwise().mean();
+        const auto number = static_cast<double>(i);
+        const Eigen::Vector3d axis = Eigen::Vector3d(std::sin(number), std::cos(number), 0.5).normalized();
+        const Eigen::Matrix3d r = Eigen::AngleAxisd(0.02 * (frame + 1), axis).toRotationMatrix();
+        const Eigen::Vector3d t = middle - r * middle;
+        poses.back().push_back({{}, r, t});
+        positions.back().push_back(placed(rest[i], r, t));
+      }
+    }
+  }
+
+ private:
+  // As World::set_pose() promises it.
+  static Eigen::Matrix3Xd placed(const Eigen::Matrix3Xd& at, const Eigen::Matrix3d& r, const Eigen::Vector3d& t) {
+    Eigen::Matrix3Xd result(3, at.cols());
+    for (Eigen::Index v = 0; v < at.cols(); ++v) {
+      for (int k = 0; k < 3; ++k)
+        result(k, v) = ((r(k, 0) * at(0, v) + r(k, 1) * at(1, v)) + r(k, 2) * at(2, v)) + t[k];
+    }
+    return result;
+  }
+};
+
+class Player {
+ public:
+  Player(const TurningBodies& bodies, Motion motion, int threads) : bodies_(bodies), world_({.threads = threads}) {
+    for (std::size_t i = 0; i < bodies.rest.size(); ++i) {
+      const BodyId id = world_.add_body({.positions = bodies.rest[i], .facets = bodies.facets[i], .motion = motion});
+      positions_.push_back({id, bodies.rest[i]});
+      poses_.push_back({id});
+    }
+    world_.detect();
+  }
+
+  const Report& step(int frame) {
+    const auto f = static_cast<std::size_t>(frame) % bodies_.poses.size();
+    if (world_.motion(poses_.front().body) == Motion::rigid) {
+      for (std::size_t i = 0; i < poses_.size(); ++i) {
+        poses_[i].rotation = bodies_.poses[f][i].rotation;
+        poses_[i].translation = bodies_.poses[f][i].translation;
+      }
+      world_.set_poses(poses_);
+    } else {
+      for (std::size_t i = 0; i < positions_.size(); ++i) positions_[i].positions = bodies_.positions[f][i];
+      world_.set_positions(positions_);
+    }
+    return world_.detect();
+  }
+
+ private:
+  const TurningBodies& bodies_;
+  World world_;
+  std::vector<PositionsUpdate> positions_;
+  std::vector<PoseUpdate> poses_;
+};
+
+// The same bodies with their middles farther from the origin.
+Workload spread(Workload workload, double factor) {
+  for (WorkloadBody& body : workload.bodies) {
+    const Eigen::Vector3d away = (factor - 1.0) * body.frames[0].rowwise().mean();
+    for (Eigen::Matrix3Xd& frame : body.frames) frame.colwise() += away;
+  }
+  return workload;
+}
+
+struct Scene {
+  std::string name;
+  std::function<Workload()> make;
+};
+
+void add_row(const Scene& scene, int threads, double budget_ms, Table& table) {
+  constexpr int kFrames = 4;
+  const TurningBodies bodies(scene.make(), kFrames);
+  Player by_pose(bodies, Motion::rigid, threads), by_vertices(bodies, Motion::moving, threads);
+  std::int64_t placed = 0;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const Report &pose = by_pose.step(frame), &vertices = by_vertices.step(frame);
+    if (pose.hash() != vertices.hash()) throw std::runtime_error(scene.name + ": the answers differ");
+    placed = pose.stats().placed_bodies;
+  }
+  std::vector<double> pose_ms, vertices_ms;
+  int frame = 0;
+  for (const double start = wall_ms(); frame < 6 || wall_ms() - start < budget_ms; ++frame) {
+    double begin = wall_ms();
+    by_pose.step(frame);
+    pose_ms.push_back(wall_ms() - begin);
+    begin = wall_ms();
+    by_vertices.step(frame);
+    vertices_ms.push_back(wall_ms() - begin);
+  }
+  const double pose = median(pose_ms), vertices = median(vertices_ms);
+  table.add({scene.name, fmt::to_string(bodies.rest.size()), fmt::to_string(placed), fmt::to_string(threads),
+             three_digits(vertices), three_digits(pose), three_digits(pose / vertices)});
+}
+
+}  // namespace
+
+int run_rigid(const BenchOptions& options) {
+  const int threads = thread_count(options.threads), few = options.quick ? 20 : 1;
+  const double budget_ms = options.quick ? 50.0 : 3000.0;
+  fmt::print("{}\n\n", machine_line(threads));
+  const std::vector<Scene> scenes{
+      {"scattered, 80 facets", [=] { return scattered(10000 / few, 2); }},
+      {"apart, 320 facets", [=] { return spread(pile(10000 / few, 4, 2), 1.5); }},
+      {"apart, 1,280 facets", [=] { return spread(pile(2000 / few, 8, 2), 1.5); }},
+      {"pile, 320 facets", [=] { return pile(4000 / few, 4, 2); }},
+  };
+  Table table({"bodies that turn", "bodies", "placed a step", "threads", "by vertices ms", "by pose ms", "of it"});
+  for (const Scene& scene : scenes) {
+    if (scene.name.find(options.only) == std::string::npos) continue;
+    for (int t = 1; t <= threads; t *= 2) add_row(scene, t, budget_ms, table);
+  }
+  table.print();
+  if (!options.out.empty()) table.write_csv(options.out / "rigid.csv");
+  return 0;
+}
+
+}  // namespace tact::bench

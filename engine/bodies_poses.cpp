@@ -1,0 +1,208 @@
+// The rigid bodies of a world: their poses, and when their vertices are placed.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/parallel.h"
+#include "engine/base/text.h"
+#include "engine/bodies.h"
+#include "engine/check_coordinate.h"
+#include "narrowphase/mesh/prefetch.h"
+#include "narrowphase/mesh/refit.h"
+
+namespace tact {
+
+namespace {
+
+using base::Box;
+using base::Vec3;
+using narrowphase::ClusteredMesh;
+using narrowphase::Pose;
+
+constexpr double kLargestSkew = 1e-9;                     // of a rotation: how far R R^T is from 1 in any entry
+constexpr std::size_t kPosesAtATime = 256;                // a pose takes some 50 ns
+constexpr std::size_t kPosesAhead = 8, kPlacedAhead = 4;  // bodies that are prefetched
+constexpr std::size_t kPlacedAtATime = 4;                 // a body takes a microsecond or more
+
+void check_rotation(const Eigen::Matrix3d& r, const std::string& name) {
+  const auto refuse = [&](const std::string& what) {
+    throw Error(ErrorCode::not_a_rotation, quoted(name) + ": the matrix of its pose is no rotation: " + what);
+  };
+  for (int i = 0; i < 3; ++i) {
+    for (int k = i; k < 3; ++k) {
+      const double product = (r(i, 0) * r(k, 0) + r(i, 1) * r(k, 1)) + r(i, 2) * r(k, 2);
+      if (std::abs(product - (i == k ? 1.0 : 0.0)) <= kLargestSkew) continue;
+      refuse("rows " + std::to_string(i) + " and " + std::to_string(k) + " have the scalar product " +
+             base::text_of(product));
+    }
+  }
+  const double determinant = r(0, 0) * (r(1, 1) * r(2, 2) - r(1, 2) * r(2, 1)) -
+                             r(0, 1) * (r(1, 0) * r(2, 2) - r(1, 2) * r(2, 0)) +
+                             r(0, 2) * (r(1, 0) * r(2, 1) - r(1, 1) * r(2, 0));
+  if (!(determinant > 0.0)) refuse("it mirrors");
+}
+
+Pose pose_of(const PoseUpdate& update) {
+  Pose pose;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) pose.rows[static_cast<std::size_t>(i)][k] = update.rotation(i, k);
+    pose.translation[i] = update.translation[i];
+  }
+  return pose;
+}
+
+bool may_be_too_large(const Box& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (box.lower[axis] < -kLargestCoordinate || box.upper[axis] > kLargestCoordinate) return true;
+  }
+  return false;
+}
+
+// Refuses the first vertex, in the caller's order, that would stand too far away.
+void check_vertices(const ClusteredMesh& mesh, const Pose& pose, const std::string& name) {
+  const narrowphase::PointArrays rest = mesh.placements().before().points;
+  int first = std::numeric_limits<int>::max();
+  Vec3 stands;
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3 p = placed(pose, Vec3{rest.x[v], rest.y[v], rest.z[v]});
+    const bool good = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kLargestCoordinate;
+    if (good || mesh.source_vertex(v) > first) continue;
+    first = mesh.source_vertex(v);
+    stands = p;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(stands[axis]) > kLargestCoordinate)
+      refuse_coordinate(quoted(name) + ": vertex " + std::to_string(first), axis, stands[axis]);
+  }
+}
+
+}  // namespace
+
+Bodies::PoseChange Bodies::checked(const PoseUpdate& update) const {
+  const Body& body = at(update.body);
+  const Slot& slot = slots_[update.body.index];
+  if (!slot.rigid) throw Error(ErrorCode::wrong_motion, quoted(body.name) + " is not rigid: it takes no pose");
+  if (slot.fixed) throw Error(ErrorCode::fixed_body, quoted(body.name) + " is fixed: its pose cannot be set");
+  check_rotation(update.rotation, body.name);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(std::abs(update.translation[axis]) <= kLargestCoordinate))
+      refuse_coordinate(quoted(body.name) + ": the translation of its pose", axis, update.translation[axis]);
+  }
+  PoseChange change{.pose = pose_of(update), .box = {}, .slot = update.body.index};
+  change.changed = !(change.pose == body.mesh.pose());
+  if (!change.changed) return change;
+  change.box = body.mesh.rough_box_at(change.pose);
+  if (may_be_too_large(change.box)) check_vertices(body.mesh, change.pose, body.name);
+  return change;
+}
+
+void Bodies::publish(const PoseChange& change) {
+  if (!change.changed) return;
+  Slot& slot = slots_[change.slot];
+  Body& body = *slot.body;
+  if (slot.begin == Begin::here && slot.seen) {
+    body.begin_pose = body.mesh.pose();
+    body.begin_is_placed = false;
+    slot.begin = Begin::kept;
+  }
+  body.mesh.set_pose(change.pose);
+  slot.knows_box = false;
+  boxes_[change.slot] = base::grown(change.box, margins_[change.slot]);
+  knows_kdop_[change.slot] = 0;
+}
+
+void Bodies::set_pose(const PoseUpdate& update) {
+  const base::FloatingPointMode mode;
+  const PoseChange change = checked(update);
+  publish(change);
+  if (change.changed) mark_moved(change.slot);
+}
+
+void Bodies::set_poses(std::span<const PoseUpdate> updates, int threads) {
+  const base::FloatingPointMode mode;
+  if (packed_meshes_.is_due(*tuning_)) pack_meshes(threads);
+  pose_changes_.resize(updates.size());
+  const bool prefetches = !stay_in_cache();
+  base::parallel_for(updates.size(), kPosesAtATime, threads, [&](std::size_t i) {
+    if (prefetches) prefetch_poses(updates, i);
+    try {
+      pose_changes_[i] = checked(updates[i]);
+    } catch (const Error& error) {
+      throw Error(error.code(), "update " + std::to_string(i) + ": " + error.what());
+    }
+  });
+  check_named_once(updates);
+  base::parallel_for(updates.size(), kPosesAtATime, threads, [&](std::size_t i) {
+    if (prefetches) prefetch_poses(updates, i);
+    publish(pose_changes_[i]);
+  });
+  for (const PoseChange& change : pose_changes_) {
+    if (change.changed) mark_moved(change.slot);
+  }
+}
+
+// What stands some updates ahead: first the body, then what it points to.
+void Bodies::prefetch_poses(std::span<const PoseUpdate> updates, std::size_t i) const {
+  const auto body = [&](std::size_t k) -> const Body* {
+    if (k >= updates.size() || updates[k].body.index >= slots_.size()) return nullptr;
+    return slots_[updates[k].body.index].body.get();
+  };
+  if (const Body* const far = body(i + 2 * kPosesAhead)) narrowphase::prefetch_lines(far, 1);
+  if (const Body* const near = body(i + kPosesAhead)) near->mesh.prefetch_pose();
+}
+
+void Bodies::place(std::span<const broadphase::IndexPair> pairs, int threads) {
+  if (!any_rigid()) return;
+  placed_boxes_.resize(slots_.size());
+  to_place_.clear();
+  const auto note = [&](std::uint32_t index) {
+    Slot& slot = slots_[index];
+    if (!slot.rigid || slot.knows_box || slot.to_place) return;
+    slot.to_place = true;
+    to_place_.push_back(index);
+  };
+  for (const broadphase::IndexPair& pair : pairs) {
+    if (excludes_any() && excludes(pair)) continue;
+    note(pair.a), note(pair.b);
+  }
+  const bool prefetches = !stay_in_cache();
+  std::atomic<std::int64_t> count{0};
+  base::parallel_for(to_place_.size(), kPlacedAtATime, threads, [&](std::size_t i) {
+    if (prefetches && i + 2 * kPlacedAhead < to_place_.size())
+      narrowphase::prefetch_lines(slots_[to_place_[i + 2 * kPlacedAhead]].body.get(), 1);
+    if (prefetches && i + kPlacedAhead < to_place_.size()) prefetch_place(in_slot(to_place_[i + kPlacedAhead]).mesh);
+    Slot& slot = slots_[to_place_[i]];
+    narrowphase::ClusteredMesh& mesh = slot.body->mesh;
+    if (!mesh.is_placed()) count.fetch_add(1, std::memory_order_relaxed);
+    mesh.place();
+    placed_boxes_[to_place_[i]] = base::grown(mesh.box(), margins_[to_place_[i]]);
+    slot.knows_box = true;
+    slot.to_place = false;
+  });
+  placed_count_ += count;
+}
+
+void Bodies::place_ways(std::span<const std::uint32_t> slots, int threads) {
+  to_place_.clear();
+  std::ranges::copy_if(slots, std::back_inserter(to_place_), [&](std::uint32_t slot) { return slots_[slot].rigid; });
+  std::ranges::sort(to_place_);
+  to_place_.erase(std::unique(to_place_.begin(), to_place_.end()), to_place_.end());
+  base::parallel_for(to_place_.size(), kPlacedAtATime, threads, [&](std::size_t i) {
+    const Slot& slot = slots_[to_place_[i]];
+    Body& body = *slot.body;
+    body.mesh.place();
+    if (slot.begin == Begin::here || body.begin_is_placed) return;
+    body.begin.resize(body.mesh.placements().size());
+    body.mesh.place_at(body.begin_pose, body.begin.data());
+    body.begin_is_placed = true;
+  });
+}
+
+Box Bodies::begin_box(std::uint32_t slot) const {
+  const Body& body = in_slot(slot);
+  const bool rough = slots_[slot].rigid && slots_[slot].begin != Begin::here && !body.begin_is_placed;
+  return base::grown(rough ? body.mesh.rough_box_at(body.begin_pose) : moving(slot).begin.box, margins_[slot]);
+}
+
+}  // namespace tact
