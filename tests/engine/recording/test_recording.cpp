@@ -180,14 +180,14 @@ TEST(Recording, SaysWhatIsWrongAndAtWhichByte) {
   ASSERT_EQ(recording_refusal(good), "accepted");
   EXPECT_EQ(recording_refusal(""), "byte 0: not a recording: it does not begin with tactrec");
   EXPECT_EQ(recording_refusal("solid a"), "byte 0: not a recording: it does not begin with tactrec");
-  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(5u))),
-            "byte 8: a recording of version 5; versions 1 to 4 can be read");
+  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(6u))),
+            "byte 8: a recording of version 6; versions 1 to 5 can be read");
   EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(0u))),
-            "byte 8: a recording of version 0; versions 1 to 4 can be read");
+            "byte 8: a recording of version 0; versions 1 to 5 can be read");
   EXPECT_EQ(recording_refusal(with(good, kSettingsAt, "\x02")),
             at_byte(kSettingsAt) + "the first record is not one of settings");
-  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x0e")),
-            at_byte(kFirstBodyAt) + "step 0: no record is of kind 14");
+  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x0f")),
+            at_byte(kFirstBodyAt) + "step 0: no record is of kind 15");
   EXPECT_EQ(recording_refusal(with(good, kVerticesAt + 16, bytes_of(std::numeric_limits<double>::quiet_NaN())))
                 .substr(0, at_byte(kFirstBodyAt).size()),
             at_byte(kFirstBodyAt));
