@@ -1,11 +1,12 @@
 #include "narrowphase/contact_points/contact_points.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "narrowphase/contact_points/open_cluster.h"
+#include "narrowphase/contact_points/open_features.h"
 #include "narrowphase/contact_points/surface_distance.h"
 #include "narrowphase/numeric/unit_scale.h"
 
@@ -23,113 +24,125 @@ double largest_coordinate(const Box& box) {
 // A reach that box tests, which round, can take.
 double box_reach(double reach, double largest) { return reach * (1.0 + 0x1p-40) + 0x1p-50 * largest; }
 
-constexpr int kMostFeatures = 3 * kClusterSize;
+// Pairs of features that wait for the filter.
+struct Waiting {
+  PointQuads quads;
+  struct Pair {
+    int first, second;  // vertex and facet, or edges of a and b
+    FeaturePair kind;
+  } pair[PointQuads::kCapacity];
 
-// A cluster's facets, and the vertices and edges that it has first, scaled.
-struct OpenCluster {
-  int cluster = -1;
-  Box box;
-  ClusterFacets source;
-  ClusterVertices at;
-  PlacedFeatures<1, kMostFeatures> vertices;
-  PlacedFeatures<2, kMostFeatures> edges;
-  PlacedFacets facets;
-};
-
-void open(const ScaledMesh& m, int cluster, OpenCluster& opened) {
-  const ClusterFacets facets = m.mesh.facets_of(cluster);
-  opened.cluster = cluster;
-  opened.source = facets;
-  const Box box = m.mesh.cluster_boxes()[cluster];
-  opened.box = {m.scale * box.lower, m.scale * box.upper};
-  opened.at.take(facets, m.scale);
-  take_facets(facets, opened.at, opened.facets);
-  opened.vertices.take(facets.owned_begin, facets.owned_count, opened.at.at, [](int, int i) { return i; });
-  const int begin = m.features.edge_begin(cluster), end = m.features.edge_end(cluster);
-  opened.edges.take(begin, end - begin, opened.at.at,
-                    [&](int c, int i) { return m.features.edge_in_cluster(begin + i)[c]; });
-}
-
-// As ClusteredMesh::corners(), of facet i of the cluster.
-Corners corners_of(const ClusterFacets& facets, int i) {
-  const auto vertex = [&](int c) {
-    const int v = facets.corner[c][i];
-    return v < facets.owned_count ? facets.owned_begin + v : facets.borrowed[v - facets.owned_count];
-  };
-  return {vertex(0), vertex(1), vertex(2)};
-}
-
-// Features that are near another cluster, and their boxes.
-struct NearFeatures : FixedBoxes<kMostFeatures> {
-  std::int32_t index[kMostFeatures + kPadding];
+  bool full() const { return quads.count == PointQuads::kCapacity; }
+  // Point number `k` of the pair to come.
+  void set(int k, const ClusterPoints& points, int vertex) {
+    for (int axis = 0; axis < 3; ++axis) quads.at[k][axis][quads.count] = points.at[axis][vertex];
+  }
+  void add(const Pair& one) { pair[quads.count++] = one; }
+  Vec3 point(int k, int i) const { return {quads.at[k][0][i], quads.at[k][1][i], quads.at[k][2][i]}; }
 };
 
 // The search among the clusters of two meshes.
 class PointFinder {
  public:
-  PointFinder(const ScaledMesh& a, const ScaledMesh& b, double reach, NearFeatures& near, SurfaceWays& ways,
-              std::vector<FeaturePoint>& found)
-      : a_(a), b_(b), same_(&a.mesh == &b.mesh), reach_(reach), near_(near), found_(found), ways_(ways) {
-    const double largest = a.scale * std::max(largest_coordinate(a.mesh.box()), largest_coordinate(b.mesh.box()));
-    box_reach_ = box_reach(reach, largest);
-  }
+  PointFinder(const ScaledMesh& a, const ScaledMesh& b, double reach, Waiting& vertices, Waiting& edges,
+              SurfaceWays& ways, std::vector<FeaturePoint>& found)
+      : a_(a),
+        b_(b),
+        same_(&a.mesh == &b.mesh),
+        reach_(reach),
+        vertices_(vertices),
+        edges_(edges),
+        found_(found),
+        ways_(ways) {}
 
-  void search(const OpenCluster& a, const OpenCluster& b) {
-    from_vertices(a_, a, b_, b, FeaturePair::vertex_facet);
-    if (!same_) from_vertices(b_, b, a_, a, FeaturePair::facet_vertex);
-    if (same_ && a.cluster != b.cluster) from_vertices(b_, b, a_, a, FeaturePair::vertex_facet);
-    between_edges(a, b);
+  // The boxes of `a` are wider by the reach.
+  void search(const OpenFeatures& a, const OpenFeatures& b) {
+    if (a.facets.count == 0 || b.facets.count == 0) return;
+    const Near near_a = near_facets(a, b.cells), near_b = near_facets(b, a.cells);
+    if (near_a.facets == 0 || near_b.facets == 0) return;
+    from_vertices(a, b, near_b, FeaturePair::vertex_facet);
+    if (!same_) from_vertices(b, a, near_a, FeaturePair::facet_vertex);
+    if (same_ && a.cluster != b.cluster) from_vertices(b, a, near_a, FeaturePair::vertex_facet);
+    between_edges(a, near_a, b, near_b);
+  }
+  // Looks at all that waits.
+  void finish() {
+    look_at_vertices();
+    look_at_edges();
   }
 
  private:
-  // First what of either is near the other's whole cluster.
-  template <class Ones, class Others, class Visit>
-  void for_each_near(const OpenCluster& one, const Ones& ones, const OpenCluster& other, const Others& others,
-                     const Visit& visit) {
-    std::int32_t mine[kMostFeatures + kPadding], near[kMostFeatures + kPadding];
-    const int count =
-        kernels().select_overlapping(ones.pointers(), ones.count, bounds_of(inflated(other.box, box_reach_)), mine);
-    if (count == 0) return;
-    near_.count = kernels().select_overlapping(others.pointers(), others.count,
-                                               bounds_of(inflated(one.box, box_reach_)), near_.index);
-    for (int side = 0; side < 6; ++side) {
-      for (int k = 0; k < near_.count; ++k) near_.bounds[side][k] = others.bounds[side][near_.index[k]];
-    }
-    for (int i = 0; i < count && near_.count > 0; ++i) {
-      const Box box = inflated(ones.box(mine[i]), box_reach_);
-      const int found = kernels().select_overlapping(near_.pointers(), near_.count, bounds_of(box), near);
-      for (int k = 0; k < found; ++k) visit(mine[i], near_.index[near[k]]);
+  // The facets of a cluster that are near another one, and the cells that they reach.
+  struct Near {
+    std::uint64_t facets = 0;
+    CellBox cells;
+  };
+  static Near near_facets(const OpenFeatures& one, const CellBox& other) {
+    Near near;
+    near.facets = kernels().near_facets(one.facets.cells, all_of(one.facets.count), other);
+    if (near.facets != 0) near.cells = kernels().cells_of(one.facets.cells, near.facets);
+    return near;
+  }
+
+  // Calls visit(i, k) for the features i of `few`, among those with a bit, and k of `many`, likewise, that share cells.
+  template <class Visit>
+  static void for_each_pair(const FeatureBlock& few, std::uint64_t some, const FeatureBlock& many, std::uint64_t others,
+                            const Visit& visit) {
+    std::uint64_t met[FeatureBlock::kCapacity];
+    for (std::uint64_t left = kernels().share_cells(few.cells, some, many.cells, others, met).facets; left != 0;
+         left &= left - 1) {
+      const int i = std::countr_zero(left);
+      for (std::uint64_t rest = met[i]; rest != 0; rest &= rest - 1) visit(i, std::countr_zero(rest));
     }
   }
 
-  // Vertices of `m`, facets of `surface`.
-  void from_vertices(const ScaledMesh& m, const OpenCluster& vertices, const ScaledMesh& surface,
-                     const OpenCluster& facets, FeaturePair kind) {
-    for_each_near(vertices, vertices.vertices, facets, facets.facets, [&](int i, int k) {
-      const int vertex = vertices.vertices.first + i, facet = facets.facets.first + k;
-      const Vec3 v = vertices.vertices.corner(0, i);
-      const auto add = [&](const std::optional<Nearest>& nearest, std::span<const int> feature) {
-        if (nearest) add_vertex_point(m, vertex, surface, facet, feature, *nearest, kind);
-      };
-      const Corners corners = corners_of(facets.source, k);
-      const Vec3 corner[3] = {facets.facets.corner(0, k), facets.facets.corner(1, k), facets.facets.corner(2, k)};
-      add(nearest_inside_facet(v, corner, reach_), corners);
-      for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t next = (c + 1) % 3;
-        const int edge = surface.features.facet_edge(facet, static_cast<int>(c));
-        if (edge >= 0 && surface.features.first_facet_of_edge(edge) == facet) {
-          const EdgeVertices ends = surface.features.edge(edge);
-          const bool forward = ends[0] == corners[c];
-          add(nearest_inside_edge(v, corner[forward ? c : next], corner[forward ? next : c],
-                                  surface.around(surface.features.opposite(edge)), reach_),
-              ends);
-        }
-        const int w = corners[c];
-        const bool repeated = w == corners[0] ? c > 0 : c == 2 && w == corners[1];
-        if (!repeated && surface.features.first_facet_of_vertex(w) == facet && !(same_ && w == vertex))
-          add(nearest_in_vertex(v, corner[c], surface.around(surface.features.neighbors(w)), reach_), {&w, 1});
+  void from_vertices(const OpenFeatures& one, const OpenFeatures& other, const Near& near, FeaturePair kind) {
+    for (int block = 0; block < one.vertex_blocks; ++block) {
+      const FeatureBlock& vertices = one.vertices[block];
+      const std::uint64_t some = kernels().near_facets(vertices.cells, all_of(vertices.count), near.cells);
+      for_each_pair(vertices, some, other.facets, near.facets, [&](int i, int k) {
+        vertices_.set(0, one.points, vertices.corner[0][i]);
+        for (int c = 0; c < 3; ++c) vertices_.set(c + 1, other.points, other.facets.corner[c][k]);
+        vertices_.add({one.vertex(block, i), other.facet(k), kind});
+        if (vertices_.full()) look_at_vertices();
+      });
+    }
+  }
+
+  void look_at_vertices() {
+    const std::uint64_t beyond = kernels().facets_beyond(vertices_.quads, reach_);
+    for (std::uint64_t left = all_of(vertices_.quads.count) & ~beyond; left != 0; left &= left - 1)
+      look_at_vertex(std::countr_zero(left));
+    vertices_.quads.count = 0;
+  }
+
+  // A vertex and a facet: points on the facet, and on those edges and vertices of it that have it as their first one.
+  void look_at_vertex(int i) {
+    const auto [vertex, facet, kind] = vertices_.pair[i];
+    const bool of_a = kind == FeaturePair::vertex_facet;
+    const ScaledMesh &m = of_a ? a_ : b_, &surface = of_a ? b_ : a_;
+    const Vec3 v = vertices_.point(0, i);
+    const Vec3 corner[3] = {vertices_.point(1, i), vertices_.point(2, i), vertices_.point(3, i)};
+    const Corners corners = surface.mesh.corners(facet);
+    const auto add = [&](const std::optional<Nearest>& nearest, std::span<const int> feature) {
+      if (nearest) add_vertex_point(m, vertex, surface, facet, feature, *nearest, kind);
+    };
+    add(nearest_inside_facet(v, corner, reach_), corners);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t next = (c + 1) % 3;
+      const int edge = surface.features.facet_edge(facet, static_cast<int>(c));
+      if (edge >= 0 && surface.features.first_facet_of_edge(edge) == facet) {
+        const EdgeVertices ends = surface.features.edge(edge);
+        const bool forward = ends[0] == corners[c];
+        add(nearest_inside_edge(v, corner[forward ? c : next], corner[forward ? next : c],
+                                surface.around(surface.features.opposite(edge)), reach_),
+            ends);
       }
-    });
+      const int w = corners[c];
+      const bool repeated = w == corners[0] ? c > 0 : c == 2 && w == corners[1];
+      if (!repeated && surface.features.first_facet_of_vertex(w) == facet && !(same_ && w == vertex))
+        add(nearest_in_vertex(v, corner[c], surface.around(surface.features.neighbors(w)), reach_), {&w, 1});
+    }
   }
 
   void add_vertex_point(const ScaledMesh& m, int vertex, const ScaledMesh& surface, int facet,
@@ -152,16 +165,46 @@ class PointFinder {
     found_.push_back(point);
   }
 
-  void between_edges(const OpenCluster& a, const OpenCluster& b) {
-    for_each_near(a, a.edges, b, b.edges, [&](int i, int k) {
-      const int e = a.edges.first + i, f = b.edges.first + k;
-      const EdgeVertices ends_e = a_.features.edge(e), ends_f = b_.features.edge(f);
-      if (same_ && (share_a_vertex(ends_e, ends_f) || (a.cluster == b.cluster && e > f))) return;
-      const EdgeEnds at_e{a.edges.corner(0, i), a.edges.corner(1, i)}, at_f{b.edges.corner(0, k), b.edges.corner(1, k)};
+  void between_edges(const OpenFeatures& a, const Near& near_a, const OpenFeatures& b, const Near& near_b) {
+    std::uint64_t some_b[OpenFeatures::kMostBlocks];
+    for (int k = 0; k < b.edge_blocks; ++k)
+      some_b[k] = kernels().near_facets(b.edges[k].cells, all_of(b.edges[k].count), near_a.cells);
+    for (int i = 0; i < a.edge_blocks; ++i) {
+      const std::uint64_t some_a = kernels().near_facets(a.edges[i].cells, all_of(a.edges[i].count), near_b.cells);
+      for (int k = 0; some_a != 0 && k < b.edge_blocks; ++k) {
+        const auto take = [&](int e, int f) { add_edges(a, i, e, b, k, f); };
+        if (std::popcount(some_a) <= std::popcount(some_b[k])) {
+          for_each_pair(a.edges[i], some_a, b.edges[k], some_b[k], take);
+        } else {
+          for_each_pair(b.edges[k], some_b[k], a.edges[i], some_a, [&](int f, int e) { take(e, f); });
+        }
+      }
+    }
+  }
+
+  void add_edges(const OpenFeatures& a, int block_a, int i, const OpenFeatures& b, int block_b, int k) {
+    const int e = a.edge(block_a, i), f = b.edge(block_b, k);
+    if (same_ && (share_a_vertex(a_.features.edge(e), b_.features.edge(f)) || (a.cluster == b.cluster && e > f)))
+      return;
+    for (int c = 0; c < 2; ++c) {
+      edges_.set(c, a.points, a.edges[block_a].corner[c][i]);
+      edges_.set(c + 2, b.points, b.edges[block_b].corner[c][k]);
+    }
+    edges_.add({e, f, FeaturePair::edge_edge});
+    if (edges_.full()) look_at_edges();
+  }
+
+  void look_at_edges() {
+    const std::uint64_t beyond = kernels().edges_beyond(edges_.quads, reach_);
+    for (std::uint64_t left = all_of(edges_.quads.count) & ~beyond; left != 0; left &= left - 1) {
+      const int i = std::countr_zero(left);
+      const auto [e, f, _] = edges_.pair[i];
+      const EdgeEnds at_e{edges_.point(0, i), edges_.point(1, i)}, at_f{edges_.point(2, i), edges_.point(3, i)};
       const auto nearest = nearest_between_edges(at_e, a_.around(a_.features.opposite(e)), at_f,
                                                  b_.around(b_.features.opposite(f)), reach_);
       if (nearest) add_edge_point(e, at_e, f, *nearest);
-    });
+    }
+    edges_.quads.count = 0;
   }
 
   void add_edge_point(int edge_e, const EdgeEnds& at_e, int edge_f, const Nearest& nearest) {
@@ -201,8 +244,7 @@ class PointFinder {
   const ScaledMesh a_, b_;
   const bool same_;
   const double reach_;
-  double box_reach_ = 0.0;
-  NearFeatures& near_;
+  Waiting &vertices_, &edges_;
   std::vector<FeaturePoint>& found_;
   SurfaceWays& ways_;
 };
@@ -220,9 +262,9 @@ std::span<const ClusterPair> NearClusters::find(const FeaturedMesh& a, const Fea
 
 struct ContactPointSearch::Memory {
   static constexpr std::size_t kOpened = 16;  // clusters of b that stay open: neighbours come soon again
-  OpenCluster a;
-  OpenCluster b[kOpened];
-  NearFeatures near;
+  OpenFeatures a;
+  OpenFeatures b[kOpened];
+  Waiting vertices, edges;
   SurfaceWays ways;
 };
 
@@ -237,15 +279,34 @@ void ContactPointSearch::run(const FeaturedMesh& a, const FeaturedMesh& b, doubl
   const Vec3 size = whole.upper - whole.lower;
   const double scale = unit_scale(std::max({size.x, size.y, size.z}));
   const ScaledMesh scaled_a{*a.mesh, *a.features, scale}, scaled_b{*b.mesh, *b.features, scale};
-  PointFinder finder(scaled_a, scaled_b, scale * reach, memory_->near, memory_->ways, found);
-  memory_->a.cluster = -1;
-  for (OpenCluster& one : memory_->b) one.cluster = -1;
-  for (const ClusterPair& pair : pairs) {
-    OpenCluster& open_b = memory_->b[static_cast<std::size_t>(pair.b) % Memory::kOpened];
-    if (memory_->a.cluster != pair.a) open(scaled_a, pair.a, memory_->a);
-    if (open_b.cluster != pair.b) open(scaled_b, pair.b, open_b);
-    finder.search(memory_->a, open_b);
+  const double wide = box_reach(scale * reach, scale * std::max(largest_coordinate(a.mesh->box()),  //
+                                                                largest_coordinate(b.mesh->box())));
+  const auto box_of = [&](const ClusteredMesh& mesh, int c) {
+    const Box box = mesh.cluster_boxes()[c];
+    return Box{scale * box.lower, scale * box.upper};
+  };
+  PointFinder finder(scaled_a, scaled_b, scale * reach, memory_->vertices, memory_->edges, memory_->ways, found);
+  // So many pairs share a grid: its cells stay small beside the facets.
+  constexpr std::size_t kPairsOfGrid = 256;
+  for (; !pairs.empty(); pairs = pairs.subspan(std::min(pairs.size(), kPairsOfGrid))) {
+    const auto some = pairs.first(std::min(pairs.size(), kPairsOfGrid));
+    Box of_a, of_b;
+    for (const ClusterPair& pair : some) {
+      of_a = merged(of_a, box_of(*a.mesh, pair.a));
+      of_b = merged(of_b, box_of(*b.mesh, pair.b));
+    }
+    const Box near_a = inflated(of_a, wide), near_b = inflated(of_b, wide);
+    const Grid grid = grid_over(intersection(near_a, near_b));
+    memory_->a.cluster = -1;
+    for (OpenFeatures& one : memory_->b) one.cluster = -1;
+    for (const ClusterPair& pair : some) {
+      OpenFeatures& open_b = memory_->b[static_cast<std::size_t>(pair.b) % Memory::kOpened];
+      if (memory_->a.cluster != pair.a) memory_->a.open(scaled_a, pair.a, near_b, grid, wide);
+      if (open_b.cluster != pair.b) open_b.open(scaled_b, pair.b, near_a, grid, 0.0);
+      finder.search(memory_->a, open_b);
+    }
   }
+  finder.finish();
 }
 
 }  // namespace tact::narrowphase

@@ -60,7 +60,8 @@ void Features::find_edges(const ClusteredMesh& mesh) {
     edges_.push_back({corners[from], corners[to]});
     const ClusterFacets cluster = mesh.facets_of(sides[begin].facet / kClusterSize);
     const int facet = sides[begin].facet % kClusterSize;
-    edges_in_cluster_.push_back({cluster.corner[from][facet], cluster.corner[to][facet]});
+    edge_corner_[0].push_back(cluster.corner[from][facet]);
+    edge_corner_[1].push_back(cluster.corner[to][facet]);
     first_facet_of_edge_.push_back(sides[begin].facet);
     ++edge_begin_[static_cast<std::size_t>(sides[begin].facet / kClusterSize) + 1];
     for (std::size_t i = begin; i < sides.size() && sides[i].vertices == sides[begin].vertices; ++i) {
@@ -71,6 +72,7 @@ void Features::find_edges(const ClusteredMesh& mesh) {
     opposite_begin_.push_back(static_cast<int>(opposite_.size()));
   }
   for (std::size_t c = 1; c < edge_begin_.size(); ++c) edge_begin_[c] += edge_begin_[c - 1];
+  for (auto& corners : edge_corner_) corners.resize(corners.size() + 64);
 }
 
 void Features::find_neighbors(const ClusteredMesh& mesh) {

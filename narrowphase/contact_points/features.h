@@ -24,7 +24,11 @@ class Features {
   /// The two vertices, in the order of the caller's numbers. They differ.
   EdgeVertices edge(int edge) const { return edges_[edge]; }
   /// The same in its cluster, whose vertices are counted as ClusterFacets::corner counts them.
-  std::array<std::uint8_t, 2> edge_in_cluster(int edge) const { return edges_in_cluster_[edge]; }
+  std::array<std::uint8_t, 2> edge_in_cluster(int edge) const { return {edge_corner_[0][edge], edge_corner_[1][edge]}; }
+  /// The same of the edges from that one on, one array a vertex; 64 bytes of each may be read.
+  std::array<const std::uint8_t*, 2> edge_corners(int edge) const {
+    return {edge_corner_[0].data() + edge, edge_corner_[1].data() + edge};
+  }
   /// The third vertex of each facet that has the edge.
   std::span<const int> opposite(int edge) const { return part(opposite_, opposite_begin_, edge); }
   /// The edge from corner k of a facet to the next one; negative if these are one vertex.
@@ -51,7 +55,7 @@ class Features {
   void find_parts();
 
   std::vector<EdgeVertices> edges_;
-  std::vector<std::array<std::uint8_t, 2>> edges_in_cluster_;
+  std::vector<std::uint8_t> edge_corner_[2];
   std::vector<int> edge_begin_;  // by cluster, and one more
   std::vector<int> opposite_, opposite_begin_;
   std::vector<int> facet_edges_;

@@ -10,8 +10,6 @@ namespace {
 // Bounds what a sign below loses in doubles, relative to the product of the lengths that are multiplied: 16 roundings
 // of 2^-53 are in the longest of them, 256 leave room. Long doubles round 2048 times less.
 constexpr double kRounding = 256 * 0x1p-53, kWideRounding = kRounding / 2048;
-// Two edges this near to parallel, squared sine, are looked at in long doubles.
-constexpr double kNearlyParallel = 1e-8;
 
 template <class Real>
 struct Vec {
@@ -185,6 +183,7 @@ namespace {
 std::optional<Nearest> between_edges(const EdgeEnds& e, const ScaledVertices& third_e, const EdgeEnds& f,
                                      const ScaledVertices& third_f, double limit, Passed passed) {
   const LinePair<double> rough(e, f);
+  // What is nearly parallel is looked at in long doubles. The kernel edges_beyond() asks the same.
   if (rough.square > kNearlyParallel * dot(rough.u, rough.u) * dot(rough.w, rough.w))
     return between(rough, e, third_e, f, third_f, limit, passed);
   const LinePair<long double> fine(e, f);

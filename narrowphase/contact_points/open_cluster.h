@@ -1,7 +1,7 @@
 // A cluster's features side by side: where their corners are, and their boxes, for loops that compare many at once.
 #pragma once
 
-#include "narrowphase/contact_points/scaled_mesh.h"
+#include "narrowphase/contact_points/open_features.h"
 
 namespace tact::narrowphase {
 
@@ -62,6 +62,6 @@ inline void take_facets(const ClusterFacets& facets, const ClusterVertices& vert
   placed.take(facets.facet_begin, facets.facet_count, vertices.at, [&](int c, int i) { return facets.corner[c][i]; });
 }
 
-inline Box inflated(const Box& box, double by) { return {box.lower - Vec3{by, by, by}, box.upper + Vec3{by, by, by}}; }
+
 
 }  // namespace tact::narrowphase

@@ -27,6 +27,9 @@ template <class Real>
 inline PackOf<Real> dot(const VectorOf<Real>& n, const VectorOf<Real>& x) {
   return add(add(mul(n.x, x.x), mul(n.y, x.y)), mul(n.z, x.z));
 }
+inline VectorPack cross(const VectorPack& a, const VectorPack& b) {
+  return {sub(mul(a.y, b.z), mul(a.z, b.y)), sub(mul(a.z, b.x), mul(a.x, b.z)), sub(mul(a.x, b.y), mul(a.y, b.x))};
+}
 inline VectorPack spread(const double* p) { return {spread(p[0]), spread(p[1]), spread(p[2])}; }
 
 // A determinant as computed, a bound of its rounding, and the sum of the sizes of its products. If that is zero, each

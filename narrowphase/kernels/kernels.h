@@ -188,6 +188,42 @@ struct alignas(64) MovingPolygons {
   int count = 0;
 };
 
+// A cluster's vertices, owned ones first, times a power of two, and what rules each out: a bit for each side of a box.
+struct alignas(64) ClusterPoints {
+  static constexpr int kRoom = 192 + 64;
+  double at[3][kRoom];
+  std::uint8_t outside[kRoom];
+  int count = 0;
+};
+
+// Some features of a cluster, in its own numbers of vertices: `corners` of them each. 64 bytes of each array that is
+// used may be read.
+struct FeatureCorners {
+  const std::uint8_t* corner[3];
+  int corners;
+  int count;  // up to 64
+};
+
+// Features that are left, and the cells of their boxes.
+struct alignas(64) FeatureBlock {
+  static constexpr int kCapacity = 64;
+  FacetCells cells;
+  std::uint8_t feature[kCapacity];  // which of those that were given
+  std::uint8_t corner[3][2 * kCapacity];
+  int count = 0;
+};
+
+// Four points each: a vertex and a facet, or the ends of two edges. Coordinates differ by at most 4.
+struct alignas(64) PointQuads {
+  static constexpr int kCapacity = 64;
+  static constexpr int kRoom = kCapacity + 8;
+  double at[4][3][kRoom];  // point, axis
+  int count = 0;
+};
+
+// Two edges of which the squared sine is smaller are nearly parallel: doubles do not tell where their lines are nearest.
+inline constexpr double kNearlyParallel = 1e-8;
+
 // New positions for the clusters cluster_begin <= c < cluster_end. Those of source vertex s are source[3 s], source[3 s
 // + 1], source[3 s + 2].
 struct RefitInput {
@@ -252,6 +288,9 @@ struct Kernels {
 
   // Writes the indices i < count of boxes that overlap `box` (closed), ascending; returns how many.
   int (*select_overlapping)(const BoxPointers& boxes, int count, const BoxBounds& box, std::int32_t* indices);
+  // The same of boxes (closed) whose squared distance from a point is at most `within_squared`, but for rounding.
+  int (*select_within)(const BoxPointers& boxes, int count, const double* point, double within_squared,
+                       std::int32_t* indices);
   // The same of boxes that the planes leave. A box that misses that of the planes does not count as too low.
   Culled (*cull_boxes)(const BoxPointers& boxes, int count, const CullPlanes& planes, std::int32_t* indices);
 
@@ -330,6 +369,16 @@ struct Kernels {
   // Decides those of the pairs that have a bit in `which`, all of them of facets in one plane.
   PairMatches (*match_flat_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
                                   std::uint64_t which);
+
+  // The vertices of a cluster, times `scale`; `box` is scaled, too.
+  void (*place_points)(const ClusterFacets& cluster, double scale, const BoxBounds& box, ClusterPoints* points);
+  // The features that no side of the box rules out, and the cells of their boxes, widened by `widen`.
+  void (*place_features)(const ClusterPoints& points, const FeatureCorners& features, const Grid& grid, double widen,
+                         FeatureBlock* block);
+  // A bit for each vertex and facet that certainly are not nearer than `reach`, and for each two edges of which the
+  // insides certainly are not nearer than that where their lines are nearest.
+  std::uint64_t (*facets_beyond)(const PointQuads& quads, double reach);
+  std::uint64_t (*edges_beyond)(const PointQuads& quads, double reach);
 
   // A bit for each polygon that certainly stays farther than `reach` from the origin, all the time.
   std::uint64_t (*apart_throughout)(const MovingPolygons& polygons, double reach);

@@ -8,6 +8,7 @@
 #include "narrowphase/kernels/exact_pairs.inl"
 #include "narrowphase/kernels/facet_pairs.inl"
 #include "narrowphase/kernels/facets.inl"
+#include "narrowphase/kernels/features.inl"
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/kernels/motion.inl"
 #include "narrowphase/kernels/place.inl"
@@ -28,6 +29,7 @@ constexpr Kernels all_kernels(const char* name) {
           .select_heights = select_heights,
           .highest_point = highest_point,
           .select_overlapping = select_overlapping,
+          .select_within = select_within,
           .cull_boxes = cull_boxes,
           .open_cluster = open_cluster,
           .localize = localize,
@@ -52,6 +54,10 @@ constexpr Kernels all_kernels(const char* name) {
           .sharing_pairs = sharing_pairs,
           .match_pairs_wide = match_pairs_wide,
           .match_flat_pairs = match_flat_pairs,
+          .place_points = place_points,
+          .place_features = place_features,
+          .facets_beyond = facets_beyond,
+          .edges_beyond = edges_beyond,
           .apart_throughout = apart_throughout};
 }
 

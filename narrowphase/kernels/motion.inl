@@ -27,9 +27,6 @@ constexpr double kVolumeRounding = 0x1p-46;
 inline VectorPack add(const VectorPack& a, const VectorPack& b) {
   return {add(a.x, b.x), add(a.y, b.y), add(a.z, b.z)};
 }
-inline VectorPack cross(const VectorPack& a, const VectorPack& b) {
-  return {sub(mul(a.y, b.z), mul(a.z, b.y)), sub(mul(a.z, b.x), mul(a.x, b.z)), sub(mul(a.x, b.y), mul(a.y, b.x))};
-}
 inline Pack size_of(const VectorPack& a) { return max(max(abs(a.x), abs(a.y)), abs(a.z)); }
 inline Pack length_bound(const VectorPack& a) { return add(add(abs(a.x), abs(a.y)), abs(a.z)); }
 
