@@ -110,43 +110,66 @@ class PointFinder {
   }
 
   void look_at_vertices() {
-    const std::uint64_t beyond = kernels().facets_beyond(vertices_.quads, reach_);
-    for (std::uint64_t left = all_of(vertices_.quads.count) & ~beyond; left != 0; left &= left - 1)
-      look_at_vertex(std::countr_zero(left));
+    const auto [beyond, beside] = kernels().facets_beyond(vertices_.quads, reach_);
+    for (std::uint64_t left = all_of(vertices_.quads.count) & ~beyond; left != 0; left &= left - 1) {
+      const int i = std::countr_zero(left);
+      if ((beside >> i & 1) == 0) look_inside_facet(i);
+      look_at_border(i);
+    }
     vertices_.quads.count = 0;
   }
 
-  // A vertex and a facet: points on the facet, and on those edges and vertices of it that have it as their first one.
-  void look_at_vertex(int i) {
-    const auto [vertex, facet, kind] = vertices_.pair[i];
-    const bool of_a = kind == FeaturePair::vertex_facet;
-    const ScaledMesh &m = of_a ? a_ : b_, &surface = of_a ? b_ : a_;
-    const Vec3 v = vertices_.point(0, i);
-    const Vec3 corner[3] = {vertices_.point(1, i), vertices_.point(2, i), vertices_.point(3, i)};
-    const Corners corners = surface.mesh.corners(facet);
+  // Vertex and facet that wait, and the meshes that they are of.
+  struct Waited {
+    const ScaledMesh &m, &surface;
+    const Waiting::Pair& pair;
+    Vec3 v;
+    Vec3 corner[3];
+  };
+  Waited waited(int i) const {
+    const bool of_a = vertices_.pair[i].kind == FeaturePair::vertex_facet;
+    return {of_a ? a_ : b_,
+            of_a ? b_ : a_,
+            vertices_.pair[i],
+            vertices_.point(0, i),
+            {vertices_.point(1, i), vertices_.point(2, i), vertices_.point(3, i)}};
+  }
+  void look_inside_facet(int i) {
+    const Waited one = waited(i);
+    if (const auto nearest = nearest_inside_facet(one.v, one.corner, reach_))
+      add_vertex_point(one.m, one.surface, one.pair, one.surface.mesh.corners(one.pair.second), *nearest);
+  }
+
+  // Points on those edges and vertices that have the facet as their first one.
+  void look_at_border(int i) {
+    const int facet = vertices_.pair[i].second;
+    const Waited one = waited(i);
+    const Features& features = one.surface.features;
+    const unsigned first = features.firsts_of_facet(facet);
+    if (first == 0) return;
+    const Corners corners = one.surface.mesh.corners(facet);
     const auto add = [&](const std::optional<Nearest>& nearest, std::span<const int> feature) {
-      if (nearest) add_vertex_point(m, vertex, surface, facet, feature, *nearest, kind);
+      if (nearest) add_vertex_point(one.m, one.surface, one.pair, feature, *nearest);
     };
-    add(nearest_inside_facet(v, corner, reach_), corners);
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t next = (c + 1) % 3;
-      const int edge = surface.features.facet_edge(facet, static_cast<int>(c));
-      if (edge >= 0 && surface.features.first_facet_of_edge(edge) == facet) {
-        const EdgeVertices ends = surface.features.edge(edge);
+      if ((first >> c & 1) != 0) {
+        const int edge = features.facet_edge(facet, static_cast<int>(c));
+        const EdgeVertices ends = features.edge(edge);
         const bool forward = ends[0] == corners[c];
-        add(nearest_inside_edge(v, corner[forward ? c : next], corner[forward ? next : c],
-                                surface.around(surface.features.opposite(edge)), reach_),
+        add(nearest_inside_edge(one.v, one.corner[forward ? c : next], one.corner[forward ? next : c],
+                                one.surface.around(features.opposite(edge)), reach_),
             ends);
       }
       const int w = corners[c];
-      const bool repeated = w == corners[0] ? c > 0 : c == 2 && w == corners[1];
-      if (!repeated && surface.features.first_facet_of_vertex(w) == facet && !(same_ && w == vertex))
-        add(nearest_in_vertex(v, corner[c], surface.around(surface.features.neighbors(w)), reach_), {&w, 1});
+      if ((first >> (3 + c) & 1) != 0 && !(same_ && w == one.pair.first))
+        add(nearest_in_vertex(one.v, one.corner[c], one.surface.around(features.neighbors(w)), reach_), {&w, 1});
     }
   }
 
-  void add_vertex_point(const ScaledMesh& m, int vertex, const ScaledMesh& surface, int facet,
-                        std::span<const int> feature, const Nearest& nearest, FeaturePair kind) {
+  void add_vertex_point(const ScaledMesh& m, const ScaledMesh& surface, const Waiting::Pair& pair,
+                        std::span<const int> feature, const Nearest& nearest) {
+    const auto [vertex, facet, kind] = pair;
     if (same_ && along_surface({&vertex, 1}, m.position(vertex), feature,
                                m.position(vertex) + nearest.distance * nearest.normal))
       return;

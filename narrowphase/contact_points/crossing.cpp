@@ -88,8 +88,11 @@ void CrossingSearch::run(const CrossingInput& input, std::vector<FeaturePoint>& 
   };
   set(a_, input.a, input.surface_a, input.carried_a, -1.0);
   set(b_, input.b, input.surface_b, input.carried_b, 1.0);
-  a_.cut.find_hits(a_.mesh, *b_.mesh.mesh, input.facet_pairs, Cut::Which::a);
-  b_.cut.find_hits(b_.mesh, *a_.mesh.mesh, input.facet_pairs, Cut::Which::b);
+  a_.cut.begin(a_.mesh, input.facet_pairs, Cut::Which::a);
+  b_.cut.begin(b_.mesh, input.facet_pairs, Cut::Which::b);
+  edge_hits_.run(a_.mesh, b_.mesh, input.facet_pairs, a_.cut.edge_hits(), b_.cut.edge_hits());
+  a_.cut.order_hits();
+  b_.cut.order_hits();
   find_crossed(a_, b_);
   find_crossed(b_, a_);
   std::erase_if(found, [&](const FeaturePoint& point) { return is_crossed_vertex(point); });
@@ -186,7 +189,7 @@ void CrossingSearch::find_ways_through(Side& own, const Side& sheet) {
       const Vec3 facing = facing_of_vertex(own, hit.vertices[k]).value_or(facing_of_patch(own, hit.vertices[k]));
       const double along = dot(normal, facing);
       const int below = orient3d(t[0], t[1], t[2], own.mesh.mesh->position(ends[k]), counts);
-      if (along != 0.0 && below == (along > 0.0 ? 1 : -1)) reached_.push_back({hit.vertices[k], ends[k], -1, facing});
+      if (along != 0.0 && below == (along > 0.0 ? 1 : -1)) reached_.push_back({hit.vertices[k], ends[k], -1, facing, facet});
     }
   }
   while (!reached_.empty()) {
@@ -204,16 +207,15 @@ void CrossingSearch::reach_through(Side& own, const Side& sheet) {
   const ScaledMesh from = own.scaled(scale_);
   ways_.begin(sheet.scaled(scale_));
   next_.clear();
-  int hint = -1, last = -1;
+  int last = -1;
   for (const Reached& one : reached_) {
     if (one.source_vertex == last || own.cut.is_inside(one.source_vertex)) continue;
-    const auto way = ways_.nearest_through(from.position(one.vertex), one.facing, limit_, hint);
+    const auto way = ways_.nearest_through(from.position(one.vertex), one.facing, limit_, one.hint);
     if (!way) continue;
-    hint = way->facet;
     last = one.source_vertex;
     own.cut.add_inside(own.mesh, one.vertex, one.from);
     own.crossed.push_back({one.source_vertex, *way});
-    next_.push_back({one.source_vertex, one.vertex, one.from, way->out});
+    next_.push_back({one.source_vertex, one.vertex, one.from, way->out, way->facet});
   }
 }
 
@@ -224,7 +226,7 @@ void CrossingSearch::spread_through(Side& own) {
       const int source = own.mesh.mesh->source_vertex(to);
       if (own.cut.is_inside(source)) continue;
       const auto [first, second] = std::minmax(one.source_vertex, source);
-      if (!own.cut.is_cut({first, second})) reached_.push_back({source, to, one.source_vertex, one.facing});
+      if (!own.cut.is_cut({first, second})) reached_.push_back({source, to, one.source_vertex, one.facing, one.hint});
     }
   }
 }
@@ -324,9 +326,31 @@ void CrossingSearch::sign_edges(std::vector<FeaturePoint>& found) {
   std::ranges::sort(known_edges_);
 }
 
+// Takes two edges for the filter.
+void CrossingSearch::wait(int edge_a, int edge_b) {
+  const EdgeEnds a = ends_of(a_.scaled(scale_), edge_a), b = ends_of(b_.scaled(scale_), edge_b);
+  const Vec3 points[4] = {a.p, a.q, b.p, b.q};
+  const int i = waiting_.count++;
+  for (int k = 0; k < 4; ++k) {
+    for (int axis = 0; axis < 3; ++axis) waiting_.at[k][axis][i] = points[k][axis];
+  }
+  waiting_edges_[i] = {edge_a, edge_b};
+}
+
+// Calls visit(edge_a, edge_b) for those that wait and may have a point.
+template <class Visit>
+void CrossingSearch::visit_waiting(const Visit& visit) {
+  const std::uint64_t beyond = kernels().edges_beyond(waiting_, limit_);
+  for (int i = 0; i < waiting_.count; ++i) {
+    if ((beyond >> i & 1) == 0) visit(waiting_edges_[i].first, waiting_edges_[i].second);
+  }
+  waiting_.count = 0;
+}
+
 // Edges that are cut, and those of the facets that they meet.
 void CrossingSearch::append_edge_points(std::vector<FeaturePoint>& found) {
   candidates_.clear();
+  const auto keep = [&](int edge_a, int edge_b) { candidates_.emplace_back(edge_a, edge_b); };
   for (const Side* own : {&a_, &b_}) {
     const Side& other = own == &a_ ? b_ : a_;
     for (const EdgeHit& hit : own->cut.hits()) {
@@ -334,10 +358,12 @@ void CrossingSearch::append_edge_points(std::vector<FeaturePoint>& found) {
       for (int k = 0; k < 3; ++k) {
         const int edge = other.mesh.features->facet_edge(facet, k);
         if (edge < 0) continue;
-        candidates_.push_back(own == &a_ ? std::pair(hit.edge, edge) : std::pair(edge, hit.edge));
+        own == &a_ ? wait(hit.edge, edge) : wait(edge, hit.edge);
+        if (waiting_.count == PointQuads::kCapacity) visit_waiting(keep);
       }
     }
   }
+  visit_waiting(keep);
   std::ranges::sort(candidates_);
   candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
   FeaturePoint point;
@@ -364,22 +390,27 @@ void CrossingSearch::append_running_edges(const Side& own, const Side& other, st
   }
 }
 
-std::optional<FeaturePoint> CrossingSearch::nearest_passed(const Side& own, int edge, const Side& other) const {
+std::optional<FeaturePoint> CrossingSearch::nearest_passed(const Side& own, int edge, const Side& other) {
   const EdgeVertices ends = own.mesh.features->edge(edge);
   const Vec3 from = own.mesh.mesh->position(ends[0]);
   const Box near = grown(extended(Box{from, from}, own.mesh.mesh->position(ends[1])), limit_ / scale_);
   std::optional<FeaturePoint> best;
+  const auto look_at = [&](int edge_a, int edge_b) {
+    FeaturePoint point;
+    if (!passed_point(edge_a, edge_b, point)) return;
+    const bool better =
+        !best || point.gap > best->gap || (point.gap == best->gap && point.features() < best->features());
+    if (better && is_inside(own, edge, &own == &a_ ? point.weight_a : point.weight_b, other)) best = point;
+  };
   for_each_cluster(
       *other.mesh.mesh, [&](const Box& box) { return overlaps(box, near); },
       [&](int cluster) {
         for (int f = other.mesh.features->edge_begin(cluster); f < other.mesh.features->edge_end(cluster); ++f) {
-          FeaturePoint point;
-          if (!(&own == &a_ ? passed_point(edge, f, point) : passed_point(f, edge, point))) continue;
-          const bool better =
-              !best || point.gap > best->gap || (point.gap == best->gap && point.features() < best->features());
-          if (better && is_inside(own, edge, &own == &a_ ? point.weight_a : point.weight_b, other)) best = point;
+          &own == &a_ ? wait(edge, f) : wait(f, edge);
+          if (waiting_.count == PointQuads::kCapacity) visit_waiting(look_at);
         }
       });
+  visit_waiting(look_at);
   return best;
 }
 

@@ -93,6 +93,7 @@ class CrossingSearch {
     int source_vertex, vertex;
     int from;  // which vertex it was reached from, by the caller's number; -1: from an edge that is cut
     Vec3 facing;
+    int hint;  // a facet that is near it
   };
 
   void find_crossed(Side& own, const Side& other);
@@ -111,12 +112,16 @@ class CrossingSearch {
   Vec3 facing_of_edges(int edge_a, int edge_b) const;
   bool passed_point(int edge_a, int edge_b, FeaturePoint& point) const;
   void sign_edges(std::vector<FeaturePoint>& found);
+  void wait(int edge_a, int edge_b);
+  template <class Visit>
+  void visit_waiting(const Visit& visit);
   void append_edge_points(std::vector<FeaturePoint>& found);
   void append_running_edges(const Side& own, const Side& other, std::vector<FeaturePoint>& found);
-  std::optional<FeaturePoint> nearest_passed(const Side& own, int edge, const Side& other) const;
+  std::optional<FeaturePoint> nearest_passed(const Side& own, int edge, const Side& other);
   bool is_inside(const Side& own, int edge, const std::array<double, 3>& weight, const Side& other) const;
 
   Side a_, b_;
+  EdgeHitSearch edge_hits_;
   WayFinder ways_;
   double scale_ = 1.0, limit_ = 0.0;  // scaled
   Vec3 direction_;
@@ -124,6 +129,8 @@ class CrossingSearch {
   std::vector<Reached> reached_, next_;
   std::vector<std::pair<int, int>> known_edges_, candidates_;
   std::vector<int> with_point_;
+  PointQuads waiting_;  // edges of a and b, for the filter
+  std::pair<int, int> waiting_edges_[PointQuads::kCapacity];
 };
 
 }  // namespace tact::narrowphase

@@ -4,45 +4,46 @@
 #include <utility>
 
 #include "narrowphase/questions/mesh_questions.h"
-#include "narrowphase/triangles/triangle_triangle.h"
 
 namespace tact::narrowphase {
 
-void Cut::find_hits(const FeaturedMesh& own, const ClusteredMesh& other, std::span<const FacetPair> pairs,
-                    Which which) {
-  hits_.clear();
+void Cut::begin(const FeaturedMesh& own, std::span<const FacetPair> pairs, Which which) {
   clear_state(own);
   const ClusteredMesh& mesh = *own.mesh;
+  int last = -1;
   for (const FacetPair& pair : pairs) {
-    const int facet = mesh.facet_of_source(which == Which::a ? pair.a : pair.b);
-    const int met_source = which == Which::a ? pair.b : pair.a;
-    const Triangle met = other.triangle(other.facet_of_source(met_source));
-    const Box met_box = extended(extended(Box{met[0], met[0]}, met[1]), met[2]);
-    for (const int v : mesh.corners(facet)) {
-      if (state(mesh, v) == kUnknown) {
-        touch(mesh.source_vertex(v));
-        state(mesh, v) = kRing;
+    const int source = which == Which::a ? pair.a : pair.b;
+    if (source == last) continue;
+    last = source;
+    const Corners corners = mesh.corners(mesh.facet_of_source(source));
+    const int first = mesh.source_vertex(corners[0]);
+    for (const int v : corners) {
+      const int source_vertex = mesh.source_vertex(v);
+      if (state_[source_vertex] == kUnknown) {
+        touch(source_vertex);
+        state_[source_vertex] = kRing;
         ring_.push_back(v);
       }
-      join(mesh.source_vertex(v), mesh.source_vertex(mesh.corners(facet)[0]));
-    }
-    for (int k = 0; k < 3; ++k) {
-      const int edge = own.features->facet_edge(facet, k);
-      if (edge < 0) continue;
-      const EdgeVertices ends = own.features->edge(edge);
-      const Segment segment{mesh.position(ends[0]), mesh.position(ends[1])};
-      if (!overlaps(extended(Box{segment[0], segment[0]}, segment[1]), met_box)) continue;
-      if (!segment_triangle_meet(segment, met, counts_)) continue;
-      hits_.push_back({{mesh.source_vertex(ends[0]), mesh.source_vertex(ends[1])}, met_source, edge});
+      join(source_vertex, first);
     }
   }
-  std::ranges::sort(hits_);
-  hits_.erase(std::unique(hits_.begin(), hits_.end()), hits_.end());
+}
+
+void Cut::order_hits() {
+  for (std::size_t i = hits_.size(); i-- > 0;) first_hit_[hits_[i].vertices[0]] = static_cast<int>(i);
 }
 
 std::span<const EdgeHit> Cut::hits_of(const EdgeVertices& vertices) const {
-  return {std::ranges::lower_bound(hits_, vertices, {}, &EdgeHit::vertices),
-          std::ranges::upper_bound(hits_, vertices, {}, &EdgeHit::vertices)};
+  const int first = first_hit_[vertices[0]];
+  if (first < 0) return {};
+  auto begin = static_cast<std::size_t>(first);
+  const auto is_before = [&](std::size_t i) {
+    return i < hits_.size() && hits_[i].vertices[0] == vertices[0] && hits_[i].vertices[1] < vertices[1];
+  };
+  while (is_before(begin)) ++begin;
+  std::size_t end = begin;
+  while (end < hits_.size() && hits_[end].vertices == vertices) ++end;
+  return std::span(hits_).subspan(begin, end - begin);
 }
 
 bool Cut::is_cut_between(const ClusteredMesh& mesh, int v, int w) const {
@@ -89,13 +90,14 @@ int Cut::patch_of(int source_vertex) const {
 void Cut::clear_state(const FeaturedMesh& own) {
   for (const int v : touched_) {
     state_[v] = kUnknown;
-    parent_[v] = -1;
+    parent_[v] = first_hit_[v] = -1;
   }
   const auto count = static_cast<std::size_t>(own.mesh->source_vertex_count());
   if (state_.size() < count) {
     state_.resize(count, kUnknown);
     parent_.resize(count, -1);
     patch_.resize(count, -1);
+    first_hit_.resize(count, -1);
   }
   touched_.clear();
   ring_.clear();

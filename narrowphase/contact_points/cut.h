@@ -3,38 +3,27 @@
 
 #include <tact/facet_pair.h>
 
-#include <algorithm>
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <vector>
 
+#include "narrowphase/contact_points/edge_hits.h"
 #include "narrowphase/contact_points/features.h"
-#include "narrowphase/numeric/predicates.h"
 
 namespace tact::narrowphase {
-
-/// An edge and a facet of the other mesh that share a point, as closed sets, decided exactly.
-struct EdgeHit {
-  EdgeVertices vertices;  // of the edge, by the caller's numbers, ascending
-  int facet = -1;         // of the other mesh, by the caller's number
-  int edge = -1;          // as Features counts it
-
-  friend bool operator==(const EdgeHit&, const EdgeHit&) = default;
-  friend auto operator<=>(const EdgeHit& x, const EdgeHit& y) {
-    return std::tie(x.vertices, x.facet) <=> std::tie(y.vertices, y.facet);
-  }
-};
 
 /// A mesh as another one cuts it. Memory is used again.
 class Cut {
  public:
   enum class Which { a, b };
 
-  /// Takes the facets that meet, by the caller's numbers; `which` of each pair is of `own`.
-  void find_hits(const FeaturedMesh& own, const ClusteredMesh& other, std::span<const FacetPair> pairs, Which which);
+  /// Takes the facets that meet, by the caller's numbers; `which` of each pair is of `own`. Its edges that meet facets
+  /// are then to be put into edge_hits().
+  void begin(const FeaturedMesh& own, std::span<const FacetPair> pairs, Which which);
+  std::vector<EdgeHit>& edge_hits() { return hits_; }
+  /// After edge_hits() are there: finds where those of a vertex begin.
+  void order_hits();
   /// After it: finds the vertices of `own` that are inside the closed mesh `other` or on its surface. Exact: one vertex
   /// of those that hang together is asked, and edges that meet no facet lead to the others. What is looked at is what
   /// is inside, and the corners of facets that meet.
@@ -77,9 +66,9 @@ class Cut {
   std::vector<State> state_;  // by the caller's number, as the next two
   std::vector<int> parent_;   // of sets that are patches; -1: in none
   std::vector<int> patch_;    // of roots
+  std::vector<int> first_hit_;  // of the edges that have the vertex as their first one; -1: none
   std::vector<int> touched_;  // vertices of which these are set
   int patch_count_ = 0;
-  PredicateCounts counts_;
 };
 
 }  // namespace tact::narrowphase

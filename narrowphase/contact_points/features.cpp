@@ -36,6 +36,7 @@ std::vector<Side> sides_of(const ClusteredMesh& mesh) {
 Features::Features(const ClusteredMesh& mesh) {
   find_edges(mesh);
   find_neighbors(mesh);
+  find_firsts(mesh);
   find_parts();
   vertex_of_source_.assign(static_cast<std::size_t>(mesh.source_vertex_count()), -1);
   for (int v = 0; v < mesh.vertex_count(); ++v) vertex_of_source_[mesh.source_vertex(v)] = v;
@@ -91,6 +92,22 @@ void Features::find_neighbors(const ClusteredMesh& mesh) {
   for (const auto& [v, w] : edges_) {
     neighbors_[next[v]++] = w;
     neighbors_[next[w]++] = v;
+  }
+}
+
+void Features::find_firsts(const ClusteredMesh& mesh) {
+  firsts_of_facet_.assign(static_cast<std::size_t>(mesh.facet_count()), 0);
+  for (int f = 0; f < mesh.facet_count(); ++f) {
+    const Corners corners = mesh.corners(f);
+    unsigned firsts = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int edge = facet_edge(f, k), v = corners[k];
+      const bool edge_again = edge >= 0 && ((k > 0 && edge == facet_edge(f, 0)) || (k > 1 && edge == facet_edge(f, 1)));
+      if (edge >= 0 && !edge_again && first_facet_of_edge(edge) == f) firsts |= 1u << k;
+      const bool vertex_again = (k > 0 && v == corners[0]) || (k > 1 && v == corners[1]);
+      if (!vertex_again && first_facet_of_vertex(v) == f) firsts |= 8u << k;
+    }
+    firsts_of_facet_[f] = static_cast<std::uint8_t>(firsts);
   }
 }
 

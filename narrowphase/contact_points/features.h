@@ -38,6 +38,9 @@ class Features {
   /// Among the facets that have an edge or a vertex, the first one.
   int first_facet_of_edge(int edge) const { return first_facet_of_edge_[edge]; }
   int first_facet_of_vertex(int vertex) const { return first_facet_of_vertex_[vertex]; }
+  /// Bit k: the edge from corner k has the facet as its first one; bit 3 + k: so has the vertex at corner k. Each edge
+  /// and vertex has a bit once.
+  unsigned firsts_of_facet(int facet) const { return firsts_of_facet_[facet]; }
   /// The vertices that share an edge with a vertex, each once.
   std::span<const int> neighbors(int vertex) const { return part(neighbors_, neighbors_begin_, vertex); }
   /// The vertex that has a number of the caller's; -1 if no facet uses it.
@@ -52,6 +55,7 @@ class Features {
   }
   void find_edges(const ClusteredMesh& mesh);
   void find_neighbors(const ClusteredMesh& mesh);
+  void find_firsts(const ClusteredMesh& mesh);
   void find_parts();
 
   std::vector<EdgeVertices> edges_;
@@ -60,6 +64,7 @@ class Features {
   std::vector<int> opposite_, opposite_begin_;
   std::vector<int> facet_edges_;
   std::vector<int> first_facet_of_edge_, first_facet_of_vertex_;
+  std::vector<std::uint8_t> firsts_of_facet_;
   std::vector<int> neighbors_, neighbors_begin_;
   std::vector<int> one_of_each_part_;
   std::vector<int> vertex_of_source_;

@@ -9,7 +9,7 @@ namespace {
 
 // Bounds what a sign below loses in doubles, relative to the product of the lengths that are multiplied: 16 roundings
 // of 2^-53 are in the longest of them, 256 leave room. Long doubles round 2048 times less.
-constexpr double kRounding = 256 * 0x1p-53, kWideRounding = kRounding / 2048;
+constexpr double kRounding = kSignRounding, kWideRounding = kRounding / 2048;
 
 template <class Real>
 struct Vec {

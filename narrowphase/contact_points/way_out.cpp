@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "narrowphase/contact_points/open_cluster.h"
+#include "narrowphase/mesh/open_in_box.h"
 #include "narrowphase/questions/mesh_questions.h"
 
 namespace tact::narrowphase {
@@ -113,19 +113,17 @@ struct WayFinder::Memory {
   std::optional<ScaledMesh> surface;
   struct Opened {
     int cluster = -1;
-    PlacedFacets facets;
+    FacetBlock facets;
   };
   Opened opened[kOpened];
-  ClusterVertices vertices;
   std::vector<std::int32_t> clusters;
 
-  const PlacedFacets& facets_of(const ScaledMesh& m, int cluster) {
+  const FacetBlock& facets_of(const ClusteredMesh& mesh, int cluster) {
     Opened& one = opened[static_cast<std::size_t>(cluster) % kOpened];
     if (one.cluster != cluster) {
       one.cluster = cluster;
-      const ClusterFacets facets = m.mesh.facets_of(cluster);
-      vertices.take(facets, m.scale);
-      take_facets(facets, vertices, one.facets);
+      one.facets.count = 0;
+      kernels().open_cluster(mesh.facets_of(cluster), planes_of(everywhere()), &one.facets);
     }
     return one.facets;
   }
@@ -156,19 +154,30 @@ std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const 
     least = way.distance;
   };
   if (hint >= 0) look_at(hint, SeenFacet(m, hint, v));
-  const auto around = [&] { return inflated({v, v}, with_rounding(least) + 0x1p-50 * largest_of(v)); };
-  const Box wanted = around();
-  const int clusters = kernels().select_overlapping(
-      m.mesh.cluster_boxes().pointers(), m.mesh.cluster_count(),
-      bounds_of({(1.0 / m.scale) * wanted.lower, (1.0 / m.scale) * wanted.upper}), memory_->clusters.data());
+  // In the unit of the mesh, where the scaled lengths are as they are but for a power of two.
+  const Vec3 at = (1.0 / m.scale) * v;
+  const double point[3] = {at.x, at.y, at.z};
+  const auto within_squared = [&] {
+    const double most = (1.0 / m.scale) * (with_rounding(least) + 0x1p-50 * largest_of(v));
+    return most * most;
+  };
+  const int clusters = kernels().select_within(m.mesh.cluster_boxes().pointers(), m.mesh.cluster_count(), point,
+                                               within_squared(), memory_->clusters.data());
   for (int c = 0; c < clusters; ++c) {
-    const PlacedFacets& facets = memory_->facets_of(m, memory_->clusters[c]);
-    std::int32_t near[kClusterSize + kPadding];
-    const int count = kernels().select_overlapping(facets.pointers(), facets.count, bounds_of(around()), near);
+    const FacetBlock& facets = memory_->facets_of(m.mesh, memory_->clusters[c]);
+    std::int32_t near[FacetBlock::kRoom];
+    const BoxPointers boxes{{facets.lower[0], facets.lower[1], facets.lower[2]},
+                            {facets.upper[0], facets.upper[1], facets.upper[2]}};
+    const int count = kernels().select_within(boxes, facets.count, point, within_squared(), near);
     for (int k = 0; k < count; ++k) {
-      const int i = near[k], facet = facets.first + i;
-      if (facet == hint) continue;
-      look_at(facet, SeenFacet({facets.corner(0, i), facets.corner(1, i), facets.corner(2, i)}, v));
+      const int i = near[k];
+      if (facets.facet[i] == hint) continue;
+      Triangle corners;
+      for (int j = 0; j < 3; ++j) {
+        const auto& corner = facets.corner[j];
+        corners[static_cast<std::size_t>(j)] = m.scale * Vec3{corner[0][i], corner[1][i], corner[2][i]};
+      }
+      look_at(facets.facet[i], SeenFacet(corners, v));
     }
   }
   return best;

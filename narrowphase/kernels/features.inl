@@ -82,22 +82,41 @@ struct FacetBeyond {
   }
 };
 
-std::uint64_t facets_beyond(const PointQuads& quads, double reach) {
+// The same operations in the same order as nearest_inside_facet() in contact_points/nearest.cpp: what is certain here is
+// certain there.
+inline Mask beside_facet(const QuadLanes& q, const VectorPack& normal, double reach) {
+  const Pack zero = spread(0.0), rounding_squared = spread(kSignRounding * kSignRounding);
+  const Pack square = dot(normal, normal), height = dot(normal, sub(q.point[0], q.point[1]));
+  Mask beside = less(mul(mul(spread(reach * reach), square), spread(1.0 + 0x1p-40)), mul(height, height));
+  for (int k = 0; k < 3; ++k) {
+    const VectorPack& p = q.point[1 + (k + 1) % 3];
+    const VectorPack along = sub(q.point[1 + (k + 2) % 3], p), away = sub(q.point[0], p), across = sub(q.point[1 + k], p);
+    const Pack length = dot(along, along);
+    const Pack side = sub(mul(dot(away, across), length), mul(dot(across, along), dot(away, along)));
+    const Pack size_squared = mul(mul(length, length), mul(dot(away, away), dot(across, across)));
+    const Mask certain = less(mul(rounding_squared, size_squared), mul(side, side));
+    beside = either(beside, both(certain, less(side, zero)));
+  }
+  return beside;
+}
+
+FacetsBeyond facets_beyond(const PointQuads& quads, double reach) {
   const double most = reach * (1.0 + 0x1p-40) + 0x1p-46;
   const Pack reach_squared = spread(most * most * (1.0 + 0x1p-40));
-  std::uint64_t beyond = 0;
+  FacetsBeyond all{0, 0};
   for (int i = 0; i < quads.count; i += kWidth) {
     const QuadLanes q(quads, i);
     const FacetBeyond facet{{sub(q.point[1], q.point[0]), sub(q.point[2], q.point[0]), sub(q.point[3], q.point[0])},
                             reach_squared};
-    const VectorPack side[3] = {sub(facet.corner[1], facet.corner[0]), sub(facet.corner[2], facet.corner[1]),
-                                sub(facet.corner[0], facet.corner[2])};
+    const VectorPack side[3] = {sub(q.point[2], q.point[1]), sub(q.point[3], q.point[1]), sub(q.point[3], q.point[2])};
     const VectorPack normal = cross(side[0], side[1]);
     Mask some = facet.along(normal);
     for (const VectorPack& one : side) some = either(some, facet.along(cross(normal, one)));
-    beyond |= static_cast<std::uint64_t>(bits(some) & lanes_left(quads.count - i)) << i;
+    const unsigned lanes = lanes_left(quads.count - i);
+    all.beyond |= static_cast<std::uint64_t>(bits(some) & lanes) << i;
+    all.beside |= static_cast<std::uint64_t>(bits(beside_facet(q, normal, reach)) & lanes) << i;
   }
-  return beyond;
+  return all;
 }
 
 // The same operations in the same order as LinePair in contact_points/nearest.cpp, so that both see the same places;
@@ -118,6 +137,72 @@ std::uint64_t edges_beyond(const PointQuads& quads, double reach) {
     beyond |= static_cast<std::uint64_t>(bits(both(clear, either(beside, far))) & lanes_left(quads.count - i)) << i;
   }
   return beyond;
+}
+
+// The sides of some points, strictly; neither where rounding may tell.
+struct StrictSigns {
+  Mask above, below;
+  explicit StrictSigns(const Determinant& d) : above(d.positive()), below(d.negative()) {}
+};
+
+inline Mask all_of(Mask a, Mask b, Mask c) { return both(both(a, b), c); }
+inline Mask any_of(Mask a, Mask b, Mask c) { return either(either(a, b), c); }
+
+// A segment meets a triangle if its ends are on two sides of the plane, and the three sides of the triangle pass it on
+// one side. It does not if its ends are on one side, or if two sides of the triangle pass it on two sides: its line then
+// is not in the plane, and leaves the triangle out.
+EdgesThrough edges_through(const TrianglePairs& pairs) {
+  EdgesThrough all{};
+  for (int i = 0; i < pairs.count; i += kWidth) {
+    VectorPack corner[2][3];
+    for (int m = 0; m < 2; ++m) {
+      for (int c = 0; c < 3; ++c) {
+        const auto& from = pairs.corner[m][c];
+        corner[m][c] = {load(from[0] + i), load(from[1] + i), load(from[2] + i)};
+      }
+    }
+    const auto sign = [](const Plane& plane, const VectorPack& point) { return StrictSigns(plane.height(point)); };
+    const auto sides = [&](const VectorPack(&facet)[3], const VectorPack(&points)[3]) {
+      const Plane plane(facet[0], facet[1], facet[2]);
+      struct Sides {
+        StrictSigns of[3];
+      };
+      return Sides{{sign(plane, points[0]), sign(plane, points[1]), sign(plane, points[2])}};
+    };
+    const auto of_first = sides(corner[1], corner[0]), of_second = sides(corner[0], corner[1]);
+    // How edge k of the second facet passes edge m of the first one.
+    const auto passing = [&](int m) {
+      const VectorPack &p = corner[0][m], &q = corner[0][(m + 1) % 3];
+      const VectorPack(&t)[3] = corner[1];
+      const Plane through_0(p, q, t[0]), through_1(p, q, t[1]);
+      StrictSigns last = sign(through_0, t[2]);  // from the second corner to the first
+      const Mask turned = last.above;
+      last.above = last.below;
+      last.below = turned;
+      struct Passing {
+        StrictSigns edge[3];
+      };
+      return Passing{{sign(through_0, t[1]), sign(through_1, t[2]), last}};
+    };
+    const auto pass_0 = passing(0), pass_1 = passing(1), pass_2 = passing(2);
+    const unsigned lanes = lanes_left(pairs.count - i);
+    const auto decide = [&](int edge, const StrictSigns& from, const StrictSigns& to, const StrictSigns& x,
+                            const StrictSigns& y, const StrictSigns& z) {
+      const Mask crosses = either(both(from.above, to.below), both(from.below, to.above));
+      const Mask stays = either(both(from.above, to.above), both(from.below, to.below));
+      const Mask through = either(all_of(x.above, y.above, z.above), all_of(x.below, y.below, z.below));
+      const Mask past = both(any_of(x.above, y.above, z.above), any_of(x.below, y.below, z.below));
+      const unsigned meets = bits(both(crosses, through)), misses = bits(either(stays, past));
+      all.meeting[edge] |= static_cast<std::uint64_t>(meets & lanes) << i;
+      all.undecided[edge] |= static_cast<std::uint64_t>(~(meets | misses) & lanes) << i;
+    };
+    decide(0, of_first.of[0], of_first.of[1], pass_0.edge[0], pass_0.edge[1], pass_0.edge[2]);
+    decide(1, of_first.of[1], of_first.of[2], pass_1.edge[0], pass_1.edge[1], pass_1.edge[2]);
+    decide(2, of_first.of[2], of_first.of[0], pass_2.edge[0], pass_2.edge[1], pass_2.edge[2]);
+    for (int k = 0; k < 3; ++k)
+      decide(3 + k, of_second.of[k], of_second.of[(k + 1) % 3], pass_0.edge[k], pass_1.edge[k], pass_2.edge[k]);
+  }
+  return all;
 }
 
 }  // namespace

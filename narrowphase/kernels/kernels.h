@@ -221,6 +221,31 @@ struct alignas(64) PointQuads {
   int count = 0;
 };
 
+// Facets of two meshes that meet, by pairs.
+struct alignas(64) TrianglePairs {
+  static constexpr int kCapacity = 64;
+  static constexpr int kRoom = kCapacity + 8;
+  double corner[2][3][3][kRoom];  // mesh, corner, axis
+  int count = 0;
+};
+
+// A bit for each pair. Edge k leads from corner k of the first facet to the next one, edge 3 + k from corner k of the
+// second facet.
+struct EdgesThrough {
+  std::uint64_t meeting[6];  // it certainly meets the other facet
+  std::uint64_t undecided[6];
+};
+
+// What a vertex cannot have on a facet, a bit for each pair.
+struct FacetsBeyond {
+  std::uint64_t beyond;  // anything nearer than the reach
+  std::uint64_t beside;  // anything inside it nearer than the reach
+};
+
+// Bounds what the sign of a product of lengths loses in doubles, relative to that product: see
+// contact_points/nearest.cpp.
+inline constexpr double kSignRounding = 256 * 0x1p-53;
+
 // Two edges of which the squared sine is smaller are nearly parallel: doubles do not tell where their lines are nearest.
 inline constexpr double kNearlyParallel = 1e-8;
 
@@ -375,10 +400,13 @@ struct Kernels {
   // The features that no side of the box rules out, and the cells of their boxes, widened by `widen`.
   void (*place_features)(const ClusterPoints& points, const FeatureCorners& features, const Grid& grid, double widen,
                          FeatureBlock* block);
-  // A bit for each vertex and facet that certainly are not nearer than `reach`, and for each two edges of which the
-  // insides certainly are not nearer than that where their lines are nearest.
-  std::uint64_t (*facets_beyond)(const PointQuads& quads, double reach);
+  // What is certain of vertices and facets.
+  FacetsBeyond (*facets_beyond)(const PointQuads& quads, double reach);
+  // A bit for each two edges of which the insides certainly are not nearer than `reach` where their lines are nearest.
   std::uint64_t (*edges_beyond)(const PointQuads& quads, double reach);
+
+  // Which edges of facets meet the other facets, as closed sets.
+  EdgesThrough (*edges_through)(const TrianglePairs& pairs);
 
   // A bit for each polygon that certainly stays farther than `reach` from the origin, all the time.
   std::uint64_t (*apart_throughout)(const MovingPolygons& polygons, double reach);

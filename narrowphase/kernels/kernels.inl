@@ -58,6 +58,7 @@ constexpr Kernels all_kernels(const char* name) {
           .place_features = place_features,
           .facets_beyond = facets_beyond,
           .edges_beyond = edges_beyond,
+          .edges_through = edges_through,
           .apart_throughout = apart_throughout};
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "narrowphase/mesh/for_each_cluster.h"
+#include "narrowphase/mesh/open_in_box.h"
 #include "narrowphase/numeric/double_double.h"
 #include "narrowphase/numeric/unit_scale.h"
 
@@ -46,6 +47,14 @@ class SegmentClip {
  private:
   Vec3 from_, way_;
 };
+
+Triangle triangle_in(const FacetBlock& facets, int i) {
+  const auto corner = [&](int k) {
+    const auto& at = facets.corner[k];
+    return Vec3{at[0][i], at[1][i], at[2][i]};
+  };
+  return {corner(0), corner(1), corner(2)};
+}
 
 Vec3 place(const Triangle& t, const std::array<double, 3>& w) { return w[0] * t[0] + w[1] * t[1] + w[2] * t[2]; }
 
@@ -254,12 +263,14 @@ bool contains(const ClusteredMesh& mesh, Vec3 point) {
     return box.upper.x >= point.x && box.lower.y <= point.y && point.y <= box.upper.y && box.lower.z <= point.z &&
            point.z <= box.upper.z;
   };
+  const CullPlanes along_ray = planes_of({point, {kInfinity, point.y, point.z}});
+  FacetBlock facets;
   for_each_cluster(mesh, wants, [&](int cluster) {
-    for (int f = mesh.facet_begin(cluster); f < mesh.facet_end(cluster); ++f) {
-      const Triangle t = mesh.triangle(f);
-      const Box box = box_of(t);
-      if (on_surface || !wants(box)) continue;
-      if (contains(box, point) && triangle_triangle_meet(t, {point, point, point}, counts)) {
+    facets.count = 0;
+    kernels().open_cluster(mesh.facets_of(cluster), along_ray, &facets);
+    for (int i = 0; i < facets.count && !on_surface; ++i) {
+      const Triangle t = triangle_in(facets, i);
+      if (contains(box_of(t), point) && triangle_triangle_meet(t, {point, point, point}, counts)) {
         on_surface = true;
         continue;
       }
