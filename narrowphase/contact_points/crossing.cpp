@@ -189,7 +189,8 @@ void CrossingSearch::find_ways_through(Side& own, const Side& sheet) {
       const Vec3 facing = facing_of_vertex(own, hit.vertices[k]).value_or(facing_of_patch(own, hit.vertices[k]));
       const double along = dot(normal, facing);
       const int below = orient3d(t[0], t[1], t[2], own.mesh.mesh->position(ends[k]), counts);
-      if (along != 0.0 && below == (along > 0.0 ? 1 : -1)) reached_.push_back({hit.vertices[k], ends[k], -1, facing, facet});
+      if (along != 0.0 && below == (along > 0.0 ? 1 : -1))
+        reached_.push_back({hit.vertices[k], ends[k], -1, facing, facet});
     }
   }
   while (!reached_.empty()) {

@@ -63,11 +63,11 @@ class Cut {
 
   std::vector<EdgeHit> hits_;
   std::vector<int> ring_, inside_, next_;
-  std::vector<State> state_;  // by the caller's number, as the next two
-  std::vector<int> parent_;   // of sets that are patches; -1: in none
-  std::vector<int> patch_;    // of roots
+  std::vector<State> state_;    // by the caller's number, as the next two
+  std::vector<int> parent_;     // of sets that are patches; -1: in none
+  std::vector<int> patch_;      // of roots
   std::vector<int> first_hit_;  // of the edges that have the vertex as their first one; -1: none
-  std::vector<int> touched_;  // vertices of which these are set
+  std::vector<int> touched_;    // vertices of which these are set
   int patch_count_ = 0;
 };
 

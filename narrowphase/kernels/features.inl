@@ -24,8 +24,12 @@ void place_points(const ClusterFacets& in, double scale, const BoxBounds& box, C
   const Mask never = less(spread(1.0), spread(0.0));
   for (int i = 0; i < points->count; i += kWidth) {
     const Pack x = load(points->at[0] + i), y = load(points->at[1] + i), z = load(points->at[2] + i);
-    const Mask out[7] = {less(x, sides.lower[0]), less(sides.upper[0], x), less(y, sides.lower[1]),
-                         less(sides.upper[1], y), less(z, sides.lower[2]), less(sides.upper[2], z),
+    const Mask out[7] = {less(x, sides.lower[0]),
+                         less(sides.upper[0], x),
+                         less(y, sides.lower[1]),
+                         less(sides.upper[1], y),
+                         less(z, sides.lower[2]),
+                         less(sides.upper[2], z),
                          never};
     store_flags(points->outside + i, out);
   }
@@ -82,15 +86,16 @@ struct FacetBeyond {
   }
 };
 
-// The same operations in the same order as nearest_inside_facet() in contact_points/nearest.cpp: what is certain here is
-// certain there.
+// The same operations in the same order as nearest_inside_facet() in contact_points/nearest.cpp: what is certain here
+// is certain there.
 inline Mask beside_facet(const QuadLanes& q, const VectorPack& normal, double reach) {
   const Pack zero = spread(0.0), rounding_squared = spread(kSignRounding * kSignRounding);
   const Pack square = dot(normal, normal), height = dot(normal, sub(q.point[0], q.point[1]));
   Mask beside = less(mul(mul(spread(reach * reach), square), spread(1.0 + 0x1p-40)), mul(height, height));
   for (int k = 0; k < 3; ++k) {
     const VectorPack& p = q.point[1 + (k + 1) % 3];
-    const VectorPack along = sub(q.point[1 + (k + 2) % 3], p), away = sub(q.point[0], p), across = sub(q.point[1 + k], p);
+    const VectorPack along = sub(q.point[1 + (k + 2) % 3], p), away = sub(q.point[0], p),
+                     across = sub(q.point[1 + k], p);
     const Pack length = dot(along, along);
     const Pack side = sub(mul(dot(away, across), length), mul(dot(across, along), dot(away, along)));
     const Pack size_squared = mul(mul(length, length), mul(dot(away, away), dot(across, across)));
@@ -131,8 +136,8 @@ std::uint64_t edges_beyond(const PointQuads& quads, double reach) {
     const Pack s = dot(cross(r, w), across), t = dot(cross(r, u), across), square = dot(across, across);
     const Pack height = dot(across, r);
     const Mask clear = less(mul(mul(spread(kNearlyParallel), dot(u, u)), dot(w, w)), square);
-    const Mask beside = either(either(less_equal(s, zero), less_equal(square, s)),
-                               either(less_equal(t, zero), less_equal(square, t)));
+    const Mask beside =
+        either(either(less_equal(s, zero), less_equal(square, s)), either(less_equal(t, zero), less_equal(square, t)));
     const Mask far = less(mul(reach_squared, square), mul(height, height));
     beyond |= static_cast<std::uint64_t>(bits(both(clear, either(beside, far))) & lanes_left(quads.count - i)) << i;
   }
@@ -149,8 +154,8 @@ inline Mask all_of(Mask a, Mask b, Mask c) { return both(both(a, b), c); }
 inline Mask any_of(Mask a, Mask b, Mask c) { return either(either(a, b), c); }
 
 // A segment meets a triangle if its ends are on two sides of the plane, and the three sides of the triangle pass it on
-// one side. It does not if its ends are on one side, or if two sides of the triangle pass it on two sides: its line then
-// is not in the plane, and leaves the triangle out.
+// one side. It does not if its ends are on one side, or if two sides of the triangle pass it on two sides: its line
+// then is not in the plane, and leaves the triangle out.
 EdgesThrough edges_through(const TrianglePairs& pairs) {
   EdgesThrough all{};
   for (int i = 0; i < pairs.count; i += kWidth) {

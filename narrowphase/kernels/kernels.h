@@ -246,7 +246,8 @@ struct FacetsBeyond {
 // contact_points/nearest.cpp.
 inline constexpr double kSignRounding = 256 * 0x1p-53;
 
-// Two edges of which the squared sine is smaller are nearly parallel: doubles do not tell where their lines are nearest.
+// Two edges of which the squared sine is smaller are nearly parallel: doubles do not tell where their lines are
+// nearest.
 inline constexpr double kNearlyParallel = 1e-8;
 
 // New positions for the clusters cluster_begin <= c < cluster_end. Those of source vertex s are source[3 s], source[3 s
