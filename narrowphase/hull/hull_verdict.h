@@ -1,10 +1,10 @@
 // Do two hulls share a point? Exactly, for all coordinates up to 2^300 in size: GJK once more, with certain signs.
 //
 // Doubles decide wherever the bounds of their rounding allow it, see gjk.h. This is for the rest: hulls that touch, and
-// hulls that overlap or are apart by some 1e-15 of their size. Signs come from integers of 128 bits where coordinates are
-// so short, else from double-doubles that know their error, else from integers of any size. A step of a wall of bricks
-// on a lattice takes 1.06 times as long with it, one of a wall turned by any angle, where every contact depends on the
-// last bit, 1.6 times (tact-bench rivals; with integers of any size alone 1.24 and 2.0).
+// hulls that overlap or are apart by some 1e-15 of their size. Signs come from integers of 128 bits where coordinates
+// are so short, else from double-doubles that know their error, else from integers of any size. A step of a wall of
+// bricks on a lattice takes 1.06 times as long with it, one of a wall turned by any angle, where every contact depends
+// on the last bit, 1.6 times (tact-bench rivals; with integers of any size alone 1.24 and 2.0).
 #pragma once
 
 #include "narrowphase/hull/gjk.h"
