@@ -56,11 +56,10 @@ std::span<const broadphase::IndexPair> PairTable::tested_pairs(std::span<const b
   for (const broadphase::IndexPair& pair : pairs) {
     if (bodies.excludes_any() && bodies.excludes(pair)) {
       ++excluded_;
-    } else if (!bodies.is_rigid(pair.a) && !bodies.is_rigid(pair.b)) {
-      tested_.push_back(pair);
-    } else if (base::overlaps(bodies.exact_box(pair.a), bodies.exact_box(pair.b))) {
-      tested_.push_back(pair);
+      continue;
     }
+    const bool is_exact = !bodies.is_rigid(pair.a) && !bodies.is_rigid(pair.b);
+    if (is_exact || base::overlaps(bodies.exact_box(pair.a), bodies.exact_box(pair.b))) tested_.push_back(pair);
   }
   return tested_;
 }
