@@ -211,6 +211,7 @@ class Bodies {
   };
   PoseChange checked(const PoseUpdate& update) const;
   void publish(const PoseChange& change);
+  void note_to_place(std::uint32_t index);
   void prefetch_poses(std::span<const PoseUpdate> updates, std::size_t i) const;
   void pack_meshes(int threads);
   void make_updates(std::size_t count);

@@ -152,15 +152,20 @@ void Bodies::prefetch_poses(std::span<const PoseUpdate> updates, std::size_t i) 
   if (const Body* const near = body(i + kPosesAhead)) near->mesh.prefetch_pose();
 }
 
+// A rigid body, once.
+void Bodies::note_to_place(std::uint32_t index) {
+  Slot& slot = slots_[index];
+  if (!slot.rigid || slot.to_place) return;
+  to_place_.push_back(index);
+  slot.to_place = true;
+}
+
 void Bodies::place(std::span<const broadphase::IndexPair> pairs, int threads) {
   if (!any_rigid()) return;
   placed_boxes_.resize(slots_.size());
   to_place_.clear();
-  const auto note = [&](std::uint32_t index) {
-    Slot& slot = slots_[index];
-    if (!slot.rigid || slot.knows_box || slot.to_place) return;
-    slot.to_place = true;
-    to_place_.push_back(index);
+  const auto note = [&](std::uint32_t slot) {
+    if (!slots_[slot].knows_box) note_to_place(slot);
   };
   for (const broadphase::IndexPair& pair : pairs) {
     if (excludes_any() && excludes(pair)) continue;
@@ -185,12 +190,11 @@ void Bodies::place(std::span<const broadphase::IndexPair> pairs, int threads) {
 
 void Bodies::place_ways(std::span<const std::uint32_t> slots, int threads) {
   to_place_.clear();
-  std::ranges::copy_if(slots, std::back_inserter(to_place_), [&](std::uint32_t slot) { return slots_[slot].rigid; });
-  std::ranges::sort(to_place_);
-  to_place_.erase(std::unique(to_place_.begin(), to_place_.end()), to_place_.end());
+  for (const std::uint32_t slot : slots) note_to_place(slot);
   base::parallel_for(to_place_.size(), kPlacedAtATime, threads, [&](std::size_t i) {
-    const Slot& slot = slots_[to_place_[i]];
+    Slot& slot = slots_[to_place_[i]];
     Body& body = *slot.body;
+    slot.to_place = false;
     body.mesh.place();
     if (slot.begin == Begin::here || body.begin_is_placed) return;
     body.begin.resize(body.mesh.placements().size());

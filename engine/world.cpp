@@ -257,10 +257,14 @@ const MotionReport& World::detect_motion(Impacts wanted) {
 
 namespace {
 
-// Calls answer(question, its answer) for each; the message of an error tells which question it is of.
-template <class Question, class Answer, class Find>
-void answer_all(std::span<const Question> questions, std::span<Answer> answers, int threads, const Find& find) {
+constexpr const char* kNoMemoryForAnswers = "answering ran out of memory";
+
+// Answers each question by find(question), on all threads; the message of an error tells which question it is of.
+template <class OfWorld, class Question, class Answer, class Find>
+void answer_all(OfWorld& world, std::span<const Question> questions, std::span<Answer> answers, const Find& find) {
   constexpr std::size_t kAtATime = 16;  // a question takes a microsecond or more
+  const base::FloatingPointMode mode;
+  const base::Workers::Scope scope(world.workers);
   if (questions.size() != answers.size()) {
     throw Error(ErrorCode::wrong_size, std::to_string(questions.size()) + " questions, but room for " +
                                            std::to_string(answers.size()) + " answers");
@@ -272,10 +276,11 @@ void answer_all(std::span<const Question> questions, std::span<Answer> answers, 
       throw Error(error.code(), "question " + std::to_string(i) + ": " + error.what());
     }
   }
-  base::parallel_for(questions.size(), kAtATime, threads, [&](std::size_t i) { answers[i] = find(questions[i]); });
+  with_memory(kNoMemoryForAnswers, [&] {
+    base::parallel_for(questions.size(), kAtATime, world.settings.threads,
+                       [&](std::size_t i) { answers[i] = find(questions[i]); });
+  });
 }
-
-constexpr const char* kNoMemoryForAnswers = "answering ran out of memory";
 
 }  // namespace
 
@@ -288,9 +293,7 @@ RayHit World::ray(const Ray& ray, RayHits wanted) const {
 void World::rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted) const {
   Implementation& i = implementation();
   check_name(wanted, RayHits::any, "hits");
-  const base::FloatingPointMode mode;
-  const base::Workers::Scope scope(i.workers);
-  answer_all(rays, hits, i.settings.threads, [&](const Ray& ray) { return find_hit(i.bodies, ray, wanted); });
+  answer_all(i, rays, hits, [&](const Ray& ray) { return find_hit(i.bodies, ray, wanted); });
 }
 
 std::vector<RayHit> World::all_hits(const Ray& ray) const {
@@ -308,9 +311,7 @@ ClosestPoint World::closest_point(const PointQuestion& question) const {
 
 void World::closest_points(std::span<const PointQuestion> questions, std::span<ClosestPoint> answers) const {
   Implementation& i = implementation();
-  const base::FloatingPointMode mode;
-  const base::Workers::Scope scope(i.workers);
-  answer_all(questions, answers, i.settings.threads,
+  answer_all(i, questions, answers,
              [&](const PointQuestion& question) { return find_closest_point(i.bodies, question); });
 }
 
@@ -330,22 +331,12 @@ std::vector<BodyId> World::inside(const PointQuestion& question) const {
 
 void World::overlap_boxes(std::span<const BoxQuestion> questions, std::span<std::vector<FacetOfBody>> answers) const {
   Implementation& i = implementation();
-  const base::FloatingPointMode mode;
-  const base::Workers::Scope scope(i.workers);
-  with_memory(kNoMemoryForAnswers, [&] {
-    answer_all(questions, answers, i.settings.threads,
-               [&](const BoxQuestion& question) { return find_in_box(i.bodies, question); });
-  });
+  answer_all(i, questions, answers, [&](const BoxQuestion& question) { return find_in_box(i.bodies, question); });
 }
 
 void World::inside_each(std::span<const PointQuestion> questions, std::span<std::vector<BodyId>> answers) const {
   Implementation& i = implementation();
-  const base::FloatingPointMode mode;
-  const base::Workers::Scope scope(i.workers);
-  with_memory(kNoMemoryForAnswers, [&] {
-    answer_all(questions, answers, i.settings.threads,
-               [&](const PointQuestion& question) { return find_around(i.bodies, question); });
-  });
+  answer_all(i, questions, answers, [&](const PointQuestion& question) { return find_around(i.bodies, question); });
 }
 
 bool World::contains(BodyId body) const noexcept { return implementation_ && implementation_->bodies.contains(body); }

@@ -37,9 +37,13 @@ void write(const std::vector<Answer>& answers, ForC* to, size_t capacity, size_t
   *count = answers.size();
 }
 
-// The answers one after the other, and where each ends.
-template <class ForC, class Answer>
-void write(const std::vector<std::vector<Answer>>& answers, ForC* to, size_t capacity, size_t* ends) {
+// Calls ask(questions, answers) for lists of answers, and writes these one after the other, and where each ends.
+template <class Question, class Answer, class QuestionOfC, class AnswerOfC, class Ask>
+void write_each(const QuestionOfC* questions, size_t count, AnswerOfC* to, size_t capacity, size_t* ends,
+                const Ask& ask) {
+  if (count > 0) check_not_null(ends);
+  std::vector<std::vector<Answer>> answers(count);
+  ask(as_cpp<const Question>(questions, count), answers);
   const std::span<Answer> room = as_cpp<Answer>(to, capacity);
   size_t end = 0;
   for (size_t i = 0; i < answers.size(); ++i) {
@@ -53,7 +57,7 @@ void write(const std::vector<std::vector<Answer>>& answers, ForC* to, size_t cap
 }  // namespace tact::c
 
 using tact::c::as_cpp, tact::c::body_of, tact::c::changing, tact::c::check_not_null, tact::c::WorldEntry,
-    tact::c::write;
+    tact::c::write, tact::c::write_each;
 
 extern "C" {
 
@@ -95,20 +99,18 @@ tact_error tact_world_inside(tact_world world, const tact_point_question* questi
 tact_error tact_world_overlap_boxes(tact_world world, const tact_box_question* questions, size_t count,
                                     tact_facet_of_body* facets, size_t capacity, size_t* ends) {
   return changing(world, [&](WorldEntry& entry) {
-    if (count > 0) check_not_null(ends);
-    std::vector<std::vector<tact::FacetOfBody>> answers(count);
-    entry.world.overlap_boxes(as_cpp<const tact::BoxQuestion>(questions, count), answers);
-    write(answers, facets, capacity, ends);
+    write_each<tact::BoxQuestion, tact::FacetOfBody>(
+        questions, count, facets, capacity, ends,
+        [&](const auto& asked, auto& answers) { entry.world.overlap_boxes(asked, answers); });
   });
 }
 
 tact_error tact_world_inside_each(tact_world world, const tact_point_question* questions, size_t count,
                                   tact_body* bodies, size_t capacity, size_t* ends) {
   return changing(world, [&](WorldEntry& entry) {
-    if (count > 0) check_not_null(ends);
-    std::vector<std::vector<tact::BodyId>> answers(count);
-    entry.world.inside_each(as_cpp<const tact::PointQuestion>(questions, count), answers);
-    write(answers, bodies, capacity, ends);
+    write_each<tact::PointQuestion, tact::BodyId>(
+        questions, count, bodies, capacity, ends,
+        [&](const auto& asked, auto& answers) { entry.world.inside_each(asked, answers); });
   });
 }
 
