@@ -122,7 +122,7 @@ class MeetingLists {
   void clear() {
     for (List& list : lists_) list.meetings.clear();
   }
-  std::vector<FacetMeeting>& of_thread(int thread) { return lists_[static_cast<std::size_t>(thread)].meetings; }
+  std::vector<FacetMeeting>& of_thread(int thread) { return lists_[thread].meetings; }
   std::vector<FacetMeeting> sorted() const {
     std::vector<FacetMeeting> all;
     for (const List& list : lists_) all.insert(all.end(), list.meetings.begin(), list.meetings.end());

@@ -24,8 +24,7 @@ class Random {
   std::vector<int> permutation(int count) {
     std::vector<int> order(static_cast<std::size_t>(count));
     std::iota(order.begin(), order.end(), 0);
-    for (std::size_t k = order.size(); k > 1; --k)
-      std::swap(order[k - 1], order[static_cast<std::size_t>(bits_() % k)]);
+    for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[bits_() % k]);
     return order;
   }
 

@@ -86,7 +86,7 @@ void check_rows(const Columns<Scalar>& m, const char* what, const std::string& n
 // Makes room for the columns where they are not read where they are.
 template <class Scalar>
 void make_copy_room(const Columns<Scalar>& m, std::vector<Scalar>& copy) {
-  if (!is_packed(m)) copy.resize(static_cast<std::size_t>(3 * m.cols()));
+  if (!is_packed(m)) copy.resize(3 * m.cols());
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ void check_rotation(const Eigen::Matrix3d& r, const std::string& name) {
 Pose pose_of(const PoseUpdate& update) {
   Pose pose;
   for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) pose.rows[static_cast<std::size_t>(i)][k] = update.rotation(i, k);
+    for (int k = 0; k < 3; ++k) pose.rows[i][k] = update.rotation(i, k);
     pose.translation[i] = update.translation[i];
   }
   return pose;

@@ -52,8 +52,8 @@ FacetFates fates_of(const PairWork& work) {
                                         .opened = opened_b,
                                         .whole = culled.as_surfaces})};
   for (const FacetPair& pair : culled.record->facet_pairs) {
-    fates.a[static_cast<std::size_t>(pair.a)] = FacetFate::meets;
-    fates.b[static_cast<std::size_t>(pair.b)] = FacetFate::meets;
+    fates.a[pair.a] = FacetFate::meets;
+    fates.b[pair.b] = FacetFate::meets;
   }
   return fates;
 }
@@ -107,7 +107,7 @@ std::vector<int> FacetFateFinder::clusters(BodyId body) const {
   const ClusteredMesh& mesh = work_->report->bodies->at(body).mesh;
   std::vector<int> clusters(static_cast<std::size_t>(mesh.facet_count()));
   for (int i = 0; i < mesh.facet_count(); ++i) {
-    clusters[static_cast<std::size_t>(i)] = mesh.facet_of_source(i) / kClusterSize;
+    clusters[i] = mesh.facet_of_source(i) / kClusterSize;
   }
   return clusters;
 }

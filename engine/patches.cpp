@@ -197,8 +197,7 @@ void PatchFinder::list_members(const PatchInput& input, int count, PatchSet& set
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     members.resize(last - first);
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
-      set.patches[k].*shown =
-          std::span(members).subspan(begin_[k], static_cast<std::size_t>(begin_[k + 1] - begin_[k]));
+      set.patches[k].*shown = std::span(members).subspan(begin_[k], begin_[k + 1] - begin_[k]);
     for (std::size_t i = first; i < last; ++i) members[begin_[number_[i]]++] = static_cast<int>(i - first);
   };
   list(0, pairs, set.facet_pairs, &Patch::facet_pairs);
@@ -211,7 +210,7 @@ void PatchFinder::list_members(const PatchInput& input, int count, PatchSet& set
 
 void PatchFinder::find(const PatchInput& input, PatchSet& set) {
   const int count = number(input.facet_pairs, input.points, &input.a, &input.b);
-  set.patches.assign(static_cast<std::size_t>(count), Patch{});
+  set.patches.assign(count, Patch{});
   list_members(input, count, set);
   for (Patch& patch : set.patches) {
     places_.clear();

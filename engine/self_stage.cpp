@@ -67,11 +67,11 @@ void SelfStage::find_facet_pairs(SelfRecord& record, const Bodies& bodies, int t
   const auto pairs = clusters_.may_meet();
   const std::size_t ranges = (pairs.size() + kPairsAtATime - 1) / kPairsAtATime;
   if (ranges_.size() < ranges) ranges_.resize(ranges);
-  if (searches_.size() < static_cast<std::size_t>(threads)) searches_.resize(static_cast<std::size_t>(threads));
+  if (searches_.size() < static_cast<std::size_t>(threads)) searches_.resize(threads);
   base::parallel_for(ranges, 1, threads, [&](std::size_t i, int thread) {
     const std::size_t begin = i * kPairsAtATime, count = std::min(kPairsAtATime, pairs.size() - begin);
     ranges_[i].clear();
-    searches_[static_cast<std::size_t>(thread)].run(mesh, pairs.subspan(begin, count), bodies.tuning(), ranges_[i]);
+    searches_[thread].run(mesh, pairs.subspan(begin, count), bodies.tuning(), ranges_[i]);
   });
   for (std::size_t i = 0; i < ranges; ++i)
     record.facet_pairs.insert(record.facet_pairs.end(), ranges_[i].begin(), ranges_[i].end());

@@ -46,7 +46,7 @@ struct NearBody {
       Box box;
       for (const Vec3& p : mesh.triangle(f)) box = base::extended(box, p);
       box = base::grown(box, margin);
-      boxes[static_cast<std::size_t>(f)] = box;
+      boxes[f] = box;
       all = base::merged(all, box);
     }
   }
@@ -107,7 +107,7 @@ class FacetPoints {
                                                other.around(other.features.opposite(edge)), reach_),
               ends);
         }
-        const int w = corners[static_cast<std::size_t>(k)];
+        const int w = corners[k];
         if (other.features.first_facet_of_vertex(w) == facet)
           add(narrowphase::nearest_in_vertex(v, corner[k], other.around(other.features.neighbors(w)), reach_), {&w, 1});
       }

@@ -23,7 +23,7 @@ Workload rolled_cloth(int cells, int frames) {
   constexpr double kLength = 2.0, kGap = 0.03, kWave = 0.03;  // metres
   const Shape sheet = square_sheet(cells, kLength);
   Workload workload{frames, {{.facets = sheet.facets, .surface = Surface::sheet}}};
-  workload.bodies[0].frames.resize(static_cast<std::size_t>(frames));
+  workload.bodies[0].frames.resize(frames);
   base::parallel_for(static_cast<std::size_t>(frames), 1, base::default_threads(), [&](std::size_t frame) {
     const double turns = 0.5 + 2.0 * wave(0.5 * phase_of(static_cast<int>(frame), frames));
     const double radius = kLength / (2.0 * std::numbers::pi * turns);
@@ -50,7 +50,7 @@ Workload toy_figure(int frames) {
     const double at = static_cast<double>(last) * there / half;
     const int pose = std::min(static_cast<int>(at), last - 1);
     const double part = at - pose;
-    workload.bodies[0].frames.push_back((1.0 - part) * poses.positions[static_cast<std::size_t>(pose)] +
+    workload.bodies[0].frames.push_back((1.0 - part) * poses.positions[pose] +
                                         part * poses.positions[static_cast<std::size_t>(pose) + 1]);
   }
   return workload;

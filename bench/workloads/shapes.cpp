@@ -50,9 +50,9 @@ class Subdivision {
     shape.positions.resize(3, static_cast<Eigen::Index>(points_.size()));
     shape.facets.resize(3, static_cast<Eigen::Index>(facets_.size()));
     for (std::size_t v = 0; v < points_.size(); ++v) {
-      shape.positions.col(static_cast<Eigen::Index>(v)) = points_[v] / std::sqrt(points_[v].squaredNorm());
+      shape.positions.col(v) = points_[v] / std::sqrt(points_[v].squaredNorm());
     }
-    for (std::size_t f = 0; f < facets_.size(); ++f) shape.facets.col(static_cast<Eigen::Index>(f)) = facets_[f];
+    for (std::size_t f = 0; f < facets_.size(); ++f) shape.facets.col(f) = facets_[f];
     return shape;
   }
 
@@ -153,7 +153,7 @@ Shape rod(int around, int bands) {
   for (int k = 0; k < around; ++k)
     facets.push_back({1 + rings * around, vertex(rings - 1, k), vertex(rings - 1, k + 1)});
   shape.facets.resize(3, static_cast<Eigen::Index>(facets.size()));
-  for (std::size_t f = 0; f < facets.size(); ++f) shape.facets.col(static_cast<Eigen::Index>(f)) = facets[f];
+  for (std::size_t f = 0; f < facets.size(); ++f) shape.facets.col(f) = facets[f];
   return shape;
 }
 
@@ -245,7 +245,7 @@ Shape shuffled(const Shape& shape, std::uint64_t seed) {
   const std::vector<int> facet_place = random.permutation(static_cast<int>(shape.facets.cols()));
   Shape result = shape;
   for (std::size_t v = 0; v < place.size(); ++v) {
-    result.positions.col(place[v]) = shape.positions.col(static_cast<Eigen::Index>(v));
+    result.positions.col(place[v]) = shape.positions.col(v);
   }
   for (std::size_t f = 0; f < facet_place.size(); ++f) {
     for (int k = 0; k < 3; ++k) {

@@ -89,8 +89,8 @@ void Film::end() {
     std::vector<std::string> captions;
     for (const int frame : which) {
       for (const Played& way : played) {
-        tiles.push_back(way.frames[static_cast<std::size_t>(frame)]);
-        captions.push_back(way.times[static_cast<std::size_t>(frame)]);
+        tiles.push_back(way.frames[frame]);
+        captions.push_back(way.times[frame]);
       }
     }
     return pictures::contact_sheet(tiles, captions, implementation_->font, settings);

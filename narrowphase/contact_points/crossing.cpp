@@ -116,7 +116,7 @@ void CrossingSearch::find_crossed(Side& own, const Side& other) {
 // In the order of the caller's numbers, so that sums do not depend on how facets are grouped.
 void CrossingSearch::find_patch_directions(Side& own, const Side& other) {
   own.cut.number_patches();
-  patches_.assign(static_cast<std::size_t>(own.cut.patch_count()), {});
+  patches_.assign(own.cut.patch_count(), {});
   for (const CarriedNormal& one : own.carried) {
     const int patch = own.cut.patch_of(one.vertex);
     if (patch < 0) continue;

@@ -38,7 +38,7 @@ Features::Features(const ClusteredMesh& mesh) {
   find_neighbors(mesh);
   find_firsts(mesh);
   find_parts();
-  vertex_of_source_.assign(static_cast<std::size_t>(mesh.source_vertex_count()), -1);
+  vertex_of_source_.assign(mesh.source_vertex_count(), -1);
   for (int v = 0; v < mesh.vertex_count(); ++v) vertex_of_source_[mesh.source_vertex(v)] = v;
 }
 
@@ -96,7 +96,7 @@ void Features::find_neighbors(const ClusteredMesh& mesh) {
 }
 
 void Features::find_firsts(const ClusteredMesh& mesh) {
-  firsts_of_facet_.assign(static_cast<std::size_t>(mesh.facet_count()), 0);
+  firsts_of_facet_.assign(mesh.facet_count(), 0);
   for (int f = 0; f < mesh.facet_count(); ++f) {
     const Corners corners = mesh.corners(f);
     unsigned firsts = 0;

@@ -51,7 +51,7 @@ class Features {
  private:
   static std::span<const int> part(const std::vector<int>& all, const std::vector<int>& begin, int i) {
     const auto k = static_cast<std::size_t>(i);
-    return std::span(all).subspan(begin[k], static_cast<std::size_t>(begin[k + 1] - begin[k]));
+    return std::span(all).subspan(begin[k], begin[k + 1] - begin[k]);
   }
   void find_edges(const ClusteredMesh& mesh);
   void find_neighbors(const ClusteredMesh& mesh);

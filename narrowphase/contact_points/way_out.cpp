@@ -175,7 +175,7 @@ std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const 
       Triangle corners;
       for (int j = 0; j < 3; ++j) {
         const auto& corner = facets.corner[j];
-        corners[static_cast<std::size_t>(j)] = m.scale * Vec3{corner[0][i], corner[1][i], corner[2][i]};
+        corners[j] = m.scale * Vec3{corner[0][i], corner[1][i], corner[2][i]};
       }
       look_at(facets.facet[i], SeenFacet(corners, v));
     }

@@ -16,9 +16,7 @@ class FateWriter {
   explicit FateWriter(const CulledBody& body)
       : body_(body), fates_(static_cast<std::size_t>(body.mesh->facet_count()), FacetFate::outside_box) {}
 
-  void set_facet(int facet, FacetFate fate) {
-    fates_[static_cast<std::size_t>(body_.mesh->source_facet(facet))] = fate;
-  }
+  void set_facet(int facet, FacetFate fate) { fates_[body_.mesh->source_facet(facet)] = fate; }
   void set_cluster(int cluster, FacetFate fate) {
     for (int f = body_.mesh->facet_begin(cluster); f < body_.mesh->facet_end(cluster); ++f) set_facet(f, fate);
   }
@@ -79,7 +77,7 @@ std::vector<FacetFate> criteria_fates(const CulledBody& body) {
   drop_low_clusters(body, fates);
   for (const std::int32_t cluster : body.kept->cluster) fates.set_cluster(cluster, FacetFate::far);
   for (const std::int32_t index : body.opened) {
-    const std::int32_t cluster = body.kept->cluster[static_cast<std::size_t>(index)];
+    const std::int32_t cluster = body.kept->cluster[index];
     if (body.whole) {
       fates.set_cluster(cluster, FacetFate::kept);
     } else {

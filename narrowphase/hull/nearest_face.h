@@ -18,7 +18,7 @@ class NearestFace {
 
   // Up to four; then reduce().
   void clear() { count_ = 0; }
-  void add(const Point& point) { y_[static_cast<std::size_t>(count_++)] = point; }
+  void add(const Point& point) { y_[count_++] = point; }
 
   // Finds carrier() and, if the nearest point is not the origin itself, toward_origin().
   void reduce() {
@@ -47,7 +47,7 @@ class NearestFace {
   const Direction& toward_origin() const { return toward_origin_; }
 
  private:
-  const Point& y(int i) const { return y_[static_cast<std::size_t>(i)]; }
+  const Point& y(int i) const { return y_[i]; }
 
   void keep(std::array<int, 4> carrier, int count) {
     carrier_ = carrier;

@@ -11,9 +11,9 @@ void for_each_cluster(const ClusteredMesh& mesh, const Wants& wants, const Visit
   if (mesh.facet_count() == 0 || !wants(mesh.box())) return;
   const BoxView groups = mesh.group_boxes(), clusters = mesh.cluster_boxes();
   for (int g = 0; g < mesh.group_count(); ++g) {
-    if (mesh.group_count() > 1 && !wants(groups[static_cast<std::size_t>(g)])) continue;
+    if (mesh.group_count() > 1 && !wants(groups[g])) continue;
     for (int c = mesh.cluster_begin(g); c < mesh.cluster_end(g); ++c) {
-      if (wants(clusters[static_cast<std::size_t>(c)])) visit(c);
+      if (wants(clusters[c])) visit(c);
     }
   }
 }

@@ -38,8 +38,7 @@ void MeshTravel::add_steps() {
   for (double& step : steps_) step = std::sqrt(step) * kUp + kLeastStep;
   for (std::size_t c = 0; c < now_.size(); ++c) {
     double step = steps_[c];
-    for (int k = owners_begin_[c]; k < owners_begin_[c + 1]; ++k)
-      step = std::max(step, steps_[static_cast<std::size_t>(owners_[static_cast<std::size_t>(k)])]);
+    for (int k = owners_begin_[c]; k < owners_begin_[c + 1]; ++k) step = std::max(step, steps_[owners_[k]]);
     before_[c] = (now_[c] + step) * kUp;
   }
   now_.swap(before_);

@@ -14,10 +14,8 @@ class MeshTravel {
 
   /// Metres that any vertex of the cluster, borrowed ones included, has gone at most since this was made, all refits
   /// added up and rounded up; and what it was before the last refit. Infinite once it is too far to be told.
-  double of(int cluster) const { return now_[static_cast<std::size_t>(cluster)]; }
-  double last_of(int cluster) const {
-    return now_[static_cast<std::size_t>(cluster)] - before_[static_cast<std::size_t>(cluster)];
-  }
+  double of(int cluster) const { return now_[cluster]; }
+  double last_of(int cluster) const { return now_[cluster] - before_[cluster]; }
 
   /// Where a refit writes how far the vertices that each cluster owns went, in square metres.
   double* steps_squared() { return steps_.data(); }

@@ -25,8 +25,7 @@ struct Pose {
 /// R p + t, as described above.
 inline Vec3 placed(const Pose& pose, Vec3 p) {
   Vec3 q;
-  for (int axis = 0; axis < 3; ++axis)
-    q[axis] = dot(pose.rows[static_cast<std::size_t>(axis)], p) + pose.translation[axis];
+  for (int axis = 0; axis < 3; ++axis) q[axis] = dot(pose.rows[axis], p) + pose.translation[axis];
   return q;
 }
 
@@ -35,7 +34,7 @@ inline Box placed(const Pose& pose, const Box& box) {
   if (box.empty()) return box;
   Box result;
   for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 row = pose.rows[static_cast<std::size_t>(axis)];
+    const Vec3 row = pose.rows[axis];
     Vec3 low, high;
     for (int k = 0; k < 3; ++k) {
       low[k] = row[k] >= 0.0 ? box.lower[k] : box.upper[k];

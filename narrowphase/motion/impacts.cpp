@@ -100,7 +100,7 @@ struct MovingFeatures : FixedBoxes<kMostFeatures> {
     for (int axis = 0; axis < 3; ++axis) {
       double low = vertex.low[axis][of_feature[0]], high = vertex.high[axis][of_feature[0]];
       for (int c = 1; c < kCorners; ++c) {
-        const int v = of_feature[static_cast<std::size_t>(c)];
+        const int v = of_feature[c];
         low = vertex.low[axis][v] < low ? vertex.low[axis][v] : low;
         high = vertex.high[axis][v] > high ? vertex.high[axis][v] : high;
       }

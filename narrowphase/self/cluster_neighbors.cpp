@@ -53,7 +53,7 @@ void ClusterNeighbors::find_around(const ClusteredMesh& mesh) {
     for (; one != users.end() && one->first == vertex; ++one) at_vertex.push_back(one->second);
     const bool many = at_vertex.size() > kMostAtVertex;
     for (const int c : at_vertex) {
-      if (many) irregular_[static_cast<std::size_t>(c)] = 1;
+      if (many) irregular_[c] = 1;
       for (const int d : at_vertex) {
         if (!many) beside.emplace_back(c, d);
       }
@@ -73,22 +73,20 @@ void ClusterNeighbors::choose_centers(int cluster_count) {
   const auto place = [&](int c, int d) {
     const std::span<const int> those = around(c);
     const auto found = std::ranges::lower_bound(those, d);
-    return found != those.end() && *found == d ? around_begin_[static_cast<std::size_t>(c)] + (found - those.begin())
-                                               : -1;
+    return found != those.end() && *found == d ? around_begin_[c] + (found - those.begin()) : -1;
   };
-  is_center_.assign(static_cast<std::size_t>(cluster_count), 0);
+  is_center_.assign(cluster_count, 0);
   for (const int worth : kWorthACenter) {
     for (int center = 0; center < cluster_count; ++center) {
       std::vector<std::ptrdiff_t> fresh;
       for (const int c : around(center)) {
         for (const int d : around(center)) {
-          if (const std::ptrdiff_t at = d > c ? place(c, d) : -1; at >= 0 && !covered[static_cast<std::size_t>(at)])
-            fresh.push_back(at);
+          if (const std::ptrdiff_t at = d > c ? place(c, d) : -1; at >= 0 && !covered[at]) fresh.push_back(at);
         }
       }
       if (static_cast<int>(fresh.size()) < worth) continue;
-      for (const std::ptrdiff_t at : fresh) covered[static_cast<std::size_t>(at)] = 1;
-      is_center_[static_cast<std::size_t>(center)] = 1;
+      for (const std::ptrdiff_t at : fresh) covered[at] = 1;
+      is_center_[center] = 1;
     }
   }
   for (int c = 0; c < cluster_count; ++c) {
@@ -114,7 +112,7 @@ std::vector<ClusterNeighbors::RimSide> ClusterNeighbors::find_rim_sides(const Cl
   };
   for_each_side([&](int facet, int edge, Side side) {
     if (edge < 0) return;
-    EdgeUse& use = uses[static_cast<std::size_t>(edge)];
+    EdgeUse& use = uses[edge];
     if (use.count < 2) {
       use.facet[use.count] = facet;
       use.side[use.count] = side;
@@ -124,11 +122,11 @@ std::vector<ClusterNeighbors::RimSide> ClusterNeighbors::find_rim_sides(const Cl
   std::vector<RimSide> all;
   for_each_side([&](int facet, int edge, Side side) {
     const int cluster = facet / kClusterSize;
-    if (edge < 0 || !uses[static_cast<std::size_t>(edge)].regular()) {
-      irregular_[static_cast<std::size_t>(cluster)] = 1;
+    if (edge < 0 || !uses[edge].regular()) {
+      irregular_[cluster] = 1;
       return;
     }
-    const EdgeUse& use = uses[static_cast<std::size_t>(edge)];
+    const EdgeUse& use = uses[edge];
     const int beyond = use.count == 1 ? -1 : use.facet[use.facet[0] == facet ? 1 : 0] / kClusterSize;
     if (beyond != cluster) all.push_back({cluster, beyond, side});
   });

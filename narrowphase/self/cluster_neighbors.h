@@ -27,20 +27,17 @@ class ClusterNeighbors {
   std::span<const int> around(int cluster) const { return part(around_, around_begin_, cluster); }
   /// Some clusters so chosen that most pairs of clusters that share a vertex are around one of them. Ascending.
   std::span<const int> centers() const { return centers_; }
-  bool is_center(int cluster) const { return is_center_[static_cast<std::size_t>(cluster)] != 0; }
+  bool is_center(int cluster) const { return is_center_[cluster] != 0; }
   /// Ascending by the cluster beyond. All rims are counted through, those of a cluster from first_rim() on.
   std::span<const Rim> rims(int cluster) const { return part(rims_, rims_begin_, cluster); }
-  std::size_t first_rim(int cluster) const {
-    return static_cast<std::size_t>(rims_begin_[static_cast<std::size_t>(cluster)]);
-  }
+  std::size_t first_rim(int cluster) const { return static_cast<std::size_t>(rims_begin_[cluster]); }
   std::size_t rim_count() const { return rims_.size(); }
   std::span<const Side> sides(const Rim& rim) const {
-    return std::span(sides_).subspan(static_cast<std::size_t>(rim.begin),
-                                     static_cast<std::size_t>(rim.end - rim.begin));
+    return std::span(sides_).subspan(rim.begin, rim.end - rim.begin);
   }
   /// Does a facet of the cluster name a vertex twice, or lie at an edge that is not that of one facet, or of two that
   /// run through it in opposite directions? Or has it more neighbours than can be listed? Its rims are not complete.
-  bool irregular(int cluster) const { return irregular_[static_cast<std::size_t>(cluster)] != 0; }
+  bool irregular(int cluster) const { return irregular_[cluster] != 0; }
 
  private:
   struct RimSide {
@@ -50,8 +47,7 @@ class ClusterNeighbors {
   template <class Item>
   static std::span<const Item> part(const std::vector<Item>& all, const std::vector<int>& begin, int i) {
     const auto k = static_cast<std::size_t>(i);
-    return std::span(all).subspan(static_cast<std::size_t>(begin[k]),
-                                  static_cast<std::size_t>(begin[k + 1] - begin[k]));
+    return std::span(all).subspan(begin[k], begin[k + 1] - begin[k]);
   }
   void find_around(const ClusteredMesh& mesh);
   void choose_centers(int cluster_count);

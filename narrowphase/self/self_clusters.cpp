@@ -16,7 +16,7 @@ constexpr std::size_t kAtATime = 64;
 void SelfClusters::find(const SelfMesh& self, double reach, const base::Tuning& tuning, int threads,
                         EmbreeDevice& device) {
   const ClusteredMesh& mesh = *self.featured.mesh;
-  const auto box_of = [&](int c) { return mesh.cluster_boxes()[static_cast<std::size_t>(c)]; };
+  const auto box_of = [&](int c) { return mesh.cluster_boxes()[c]; };
   const bool wants_points = reach > 0.0;
   const std::span<const ClusterPair> near =
       wants_points ? near_.find(self.featured, self.featured, reach, tuning, device)
@@ -39,12 +39,11 @@ void SelfClusters::judge_centers(const SelfMesh& self, int threads) {
   patches_.begin(mesh, neighbors);
   base::parallel_for(clusters, kAtATime, threads,
                      [&](std::size_t c) { patches_.look_at(mesh, neighbors, static_cast<int>(c)); });
-  if (judges_.size() < static_cast<std::size_t>(threads)) judges_.resize(static_cast<std::size_t>(threads));
+  if (judges_.size() < static_cast<std::size_t>(threads)) judges_.resize(threads);
   of_center_.assign(clusters, SelfVerdict::open);
   base::parallel_for(neighbors.centers().size(), kAtATime, threads, [&](std::size_t i, int thread) {
     const int center = neighbors.centers()[i];
-    of_center_[static_cast<std::size_t>(center)] =
-        judges_[static_cast<std::size_t>(thread)](patches_, mesh, neighbors, neighbors.around(center));
+    of_center_[center] = judges_[thread](patches_, mesh, neighbors, neighbors.around(center));
   });
 }
 
@@ -54,7 +53,7 @@ SelfVerdict SelfClusters::from_centers(const ClusterNeighbors& neighbors, const 
   SelfVerdict best = SelfVerdict::open;
   for (auto i = a.begin(), k = b.begin(); i != a.end() && k != b.end();) {
     if (*i == *k) {
-      best = std::max(best, of_center_[static_cast<std::size_t>(*i)]);
+      best = std::max(best, of_center_[*i]);
       ++i, ++k;
     } else {
       ++(*i < *k ? i : k);
@@ -70,9 +69,8 @@ void SelfClusters::judge(const SelfMesh& self, std::span<const ClusterPair> near
     SelfVerdict& verdict = verdicts_[i] = from_centers(*self.neighbors, near[i]);
     if (verdict >= wanted) return;
     const int both[] = {near[i].a, near[i].b};
-    verdict = std::max(
-        verdict, judges_[static_cast<std::size_t>(thread)](patches_, *self.featured.mesh, *self.neighbors,
-                                                           std::span(both).first(near[i].a == near[i].b ? 1 : 2)));
+    verdict = std::max(verdict, judges_[thread](patches_, *self.featured.mesh, *self.neighbors,
+                                                std::span(both).first(near[i].a == near[i].b ? 1 : 2)));
   });
 }
 

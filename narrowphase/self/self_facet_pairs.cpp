@@ -48,8 +48,7 @@ class Places {
  public:
   void choose(const OpenFacets& cluster, int vertex_count) {
     forget();
-    if (place_.size() != static_cast<std::size_t>(vertex_count))
-      place_.assign(static_cast<std::size_t>(vertex_count), -1);
+    if (place_.size() != static_cast<std::size_t>(vertex_count)) place_.assign(vertex_count, -1);
     chosen_ = cluster.source;
     for (int i = 0; i < chosen_.borrowed_count; ++i) place(chosen_.borrowed[i]) = chosen_.owned_count + i;
   }
@@ -59,11 +58,11 @@ class Places {
   }
   int operator[](int vertex) const {
     const int owned = vertex - chosen_.owned_begin;
-    return owned >= 0 && owned < chosen_.owned_count ? owned : place_[static_cast<std::size_t>(vertex)];
+    return owned >= 0 && owned < chosen_.owned_count ? owned : place_[vertex];
   }
 
  private:
-  int& place(int vertex) { return place_[static_cast<std::size_t>(vertex)]; }
+  int& place(int vertex) { return place_[vertex]; }
 
   ClusterFacets chosen_{};
   std::vector<int> place_;  // of each vertex of the mesh among the borrowed ones
@@ -117,8 +116,7 @@ void SelfFacetSearch::run(const ClusteredMesh& mesh, std::span<const ClusterPair
       m.places.choose(*first, mesh.vertex_count());
     }
     const OpenFacets &a = *first, &b = pair.b == pair.a ? a : m.open(mesh, pair.b, grid, first);
-    const Box box_a = mesh.cluster_boxes()[static_cast<std::size_t>(pair.a)],
-              box_b = mesh.cluster_boxes()[static_cast<std::size_t>(pair.b)];
+    const Box box_a = mesh.cluster_boxes()[pair.a], box_b = mesh.cluster_boxes()[pair.b];
     const CellBox common = cells_of(grid, bounds_of(intersection(box_a, box_b)));
     const std::uint64_t near_a = kernels().near_facets(a.block.cells, a.facets, common),
                         near_b = kernels().near_facets(b.block.cells, b.facets, common);

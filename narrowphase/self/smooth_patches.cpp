@@ -32,7 +32,7 @@ double sum_of_sides(const Box& box) {
 }  // namespace
 
 void SmoothPatches::begin(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors) {
-  cones_.resize(static_cast<std::size_t>(mesh.cluster_count()));
+  cones_.resize(mesh.cluster_count());
   rims_.resize(neighbors.rim_count());
   usable_ = sum_of_sides(mesh.box()) < kLargestSize;
 }
@@ -55,7 +55,7 @@ void SmoothPatches::look_at(const ClusteredMesh& mesh, const ClusterNeighbors& n
 }
 
 void SmoothPatches::find_cone(const ClusteredMesh& mesh, int cluster) {
-  NormalCone& cone = cones_[static_cast<std::size_t>(cluster)] = {};
+  NormalCone& cone = cones_[cluster] = {};
   if (!usable_) return;
   const ClusterFacets facets = mesh.facets_of(cluster);
   Vec3 at[3 * kClusterSize];
@@ -87,7 +87,7 @@ void SmoothPatches::find_cone(const ClusteredMesh& mesh, int cluster) {
 bool SmoothPatches::Judge::gather(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors,
                                   std::span<const int> clusters) {
   if (marks_.size() != static_cast<std::size_t>(mesh.cluster_count()) || mark_ > std::numeric_limits<int>::max() - 4)
-    marks_.assign(static_cast<std::size_t>(mesh.cluster_count()), mark_ = 0);
+    marks_.assign(mesh.cluster_count(), mark_ = 0);
   mark_ += 2;
   patch_.clear();
   for (const int cluster : clusters) {
@@ -98,12 +98,12 @@ bool SmoothPatches::Judge::gather(const ClusteredMesh& mesh, const ClusterNeighb
         continue;
       }
       if (neighbors.irregular(c)) return false;
-      marks_[static_cast<std::size_t>(c)] = mark_;
+      marks_[c] = mark_;
       patch_.push_back(c);
     }
     if (!connected || patch_.size() > kMostInPatch) return false;
   }
-  for (const int cluster : clusters) marks_[static_cast<std::size_t>(cluster)] = mark_ + 1;
+  for (const int cluster : clusters) marks_[cluster] = mark_ + 1;
   return true;
 }
 
@@ -118,7 +118,7 @@ Vec3 SmoothPatches::Judge::along(const ClusteredMesh& mesh, const ClusterNeighbo
       sum = sum + (mesh.position(side.to) - mesh.position(side.from));
   }
   if (sum != Vec3{}) return sum;
-  const auto box = [&](int c) { return mesh.cluster_boxes()[static_cast<std::size_t>(c)]; };
+  const auto box = [&](int c) { return mesh.cluster_boxes()[c]; };
   const Box first = box(clusters.front()), last = box(clusters.back());
   sum = (last.lower + last.upper) - (first.lower + first.upper);
   return sum != Vec3{} ? sum : first.upper - first.lower;
@@ -282,7 +282,7 @@ double SmoothPatches::Judge::most_inward_turn() const {
 SelfVerdict SmoothPatches::Judge::operator()(const SmoothPatches& patches, const ClusteredMesh& mesh,
                                              const ClusterNeighbors& neighbors, std::span<const int> clusters) {
   if (!patches.usable_ || !gather(mesh, neighbors, clusters)) return SelfVerdict::open;
-  const auto cone = [&](int c) -> const NormalCone& { return patches.cones_[static_cast<std::size_t>(c)]; };
+  const auto cone = [&](int c) -> const NormalCone& { return patches.cones_[c]; };
   Vec3 sum;
   for (const int c : patch_) sum = sum + cone(c).axis;
   if (!(norm_squared(sum) > 0.25)) return SelfVerdict::open;
@@ -292,7 +292,7 @@ SelfVerdict SmoothPatches::Judge::operator()(const SmoothPatches& patches, const
   for (const int c : patch_) {
     const double cosine = dot(up, cone(c).axis), sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
     least = std::min(least, cosine * cone(c).cosine - sine * cone(c).sine);
-    box = merged(box, mesh.cluster_boxes()[static_cast<std::size_t>(c)]);
+    box = merged(box, mesh.cluster_boxes()[c]);
   }
   slack_ = kViewSlack * sum_of_sides(box);
   return least > 2.0 * kSlack ? look(patches, mesh, neighbors, clusters, up, least - kSlack) : SelfVerdict::open;
@@ -306,7 +306,7 @@ SelfVerdict SmoothPatches::Judge::look(const SmoothPatches& patches, const Clust
   for (bool again = false;; again = true) {
     const Vec3 across = cross(up, x);
     if (!(norm_squared(across) > 1e-4 * norm_squared(x))) return SelfVerdict::open;
-    View view{mesh.cluster_boxes()[static_cast<std::size_t>(clusters.front())].lower, {}, normalized(across)};
+    View view{mesh.cluster_boxes()[clusters.front()].lower, {}, normalized(across)};
     view.x = cross(view.y, up);
     const Region region = region_of(mesh, neighbors, clusters, view);
     const Boundary boundary = walk(patches, mesh, neighbors, view, region);

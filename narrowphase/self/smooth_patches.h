@@ -104,8 +104,8 @@ class SmoothPatches {
     enum class Boundary { crosses, ends, avoids };  // `ends`: but for edges at which the surface ends
 
     bool gather(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, std::span<const int> clusters);
-    bool in_patch(int cluster) const { return marks_[static_cast<std::size_t>(cluster)] >= mark_; }
-    bool in_core(int cluster) const { return marks_[static_cast<std::size_t>(cluster)] > mark_; }
+    bool in_patch(int cluster) const { return marks_[cluster] >= mark_; }
+    bool in_core(int cluster) const { return marks_[cluster] > mark_; }
     Vec3 along(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, std::span<const int> clusters) const;
     static Flat seen(const View& view, Vec3 p) {
       const Vec3 d = p - view.origin;

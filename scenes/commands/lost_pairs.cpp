@@ -15,10 +15,10 @@ std::vector<Vec3> thickened(const Body& body) {
   if (body.surface == Surface::sheet) return body.positions;
   std::vector<Vec3> positions(body.positions.size());
   for (Eigen::Index f = 0; f < body.facets.cols(); ++f) {
-    const auto corner = [&](int k) { return body.positions[static_cast<std::size_t>(body.facets(k, f))]; };
+    const auto corner = [&](int k) { return body.positions[body.facets(k, f)]; };
     const Vec3 normal = cross(corner(1) - corner(0), corner(2) - corner(0));
     for (int k = 0; k < 3; ++k) {
-      Vec3& sum = positions[static_cast<std::size_t>(body.facets(k, f))];
+      Vec3& sum = positions[body.facets(k, f)];
       sum = sum + normal;
     }
   }

@@ -10,15 +10,12 @@
 namespace tact::scenes {
 namespace {
 
-double distance(const Mesh& mesh, int a, int b) {
-  return norm(mesh.positions[static_cast<std::size_t>(b)] - mesh.positions[static_cast<std::size_t>(a)]);
-}
+double distance(const Mesh& mesh, int a, int b) { return norm(mesh.positions[b] - mesh.positions[a]); }
 
 // Twice the area of the facet along its normal.
 Vec3 area_normal(const std::vector<Vec3>& positions, const Eigen::Matrix3Xi& facets, Eigen::Index facet) {
-  const Vec3 a = positions[static_cast<std::size_t>(facets(0, facet))];
-  return cross(positions[static_cast<std::size_t>(facets(1, facet))] - a,
-               positions[static_cast<std::size_t>(facets(2, facet))] - a);
+  const Vec3 a = positions[facets(0, facet)];
+  return cross(positions[facets(1, facet)] - a, positions[facets(2, facet)] - a);
 }
 
 int opposite_corner(const Eigen::Matrix3Xi& facets, int facet, const Edge& edge) {
@@ -47,7 +44,7 @@ void add_bending_springs(const Mesh& mesh, const Topology& topology, double stif
 
 // How far the line from `p` along `direction` runs until it leaves through the facet; infinity if it does not.
 double way_out(const Mesh& mesh, Eigen::Index facet, Vec3 p, Vec3 direction) {
-  const auto corner = [&](int k) { return mesh.positions[static_cast<std::size_t>(mesh.facets(k, facet))] - p; };
+  const auto corner = [&](int k) { return mesh.positions[mesh.facets(k, facet)] - p; };
   const Vec3 a = corner(0), b = corner(1), c = corner(2);
   const double u = dot(direction, cross(b, c));
   const double v = dot(direction, cross(c, a));
@@ -60,7 +57,7 @@ double way_out(const Mesh& mesh, Eigen::Index facet, Vec3 p, Vec3 direction) {
 // The corner, nearest to where the line inwards from `vertex` leaves the body, of the facet where it does; -1 if it is
 // inside out there.
 int opposite_vertex(const Mesh& mesh, int vertex, Vec3 inwards) {
-  const Vec3 p = mesh.positions[static_cast<std::size_t>(vertex)];
+  const Vec3 p = mesh.positions[vertex];
   double shortest = std::numeric_limits<double>::infinity();
   Eigen::Index hit = -1;
   for (Eigen::Index f = 0; f < mesh.facets.cols(); ++f) {
@@ -70,9 +67,7 @@ int opposite_vertex(const Mesh& mesh, int vertex, Vec3 inwards) {
   }
   if (hit < 0) return -1;
   const Vec3 end = p + shortest * inwards;
-  const auto distance = [&](int k) {
-    return norm(mesh.positions[static_cast<std::size_t>(mesh.facets(k, hit))] - end);
-  };
+  const auto distance = [&](int k) { return norm(mesh.positions[mesh.facets(k, hit)] - end); };
   int nearest = 0;
   for (int k = 1; k < 3; ++k) {
     if (distance(k) < distance(nearest)) nearest = k;
@@ -84,12 +79,12 @@ void add_struts(const Mesh& mesh, double stiffness, std::vector<Spring>& springs
   std::vector<Vec3> normals(mesh.positions.size());
   for (Eigen::Index f = 0; f < mesh.facets.cols(); ++f) {
     for (int k = 0; k < 3; ++k) {
-      Vec3& sum = normals[static_cast<std::size_t>(mesh.facets(k, f))];
+      Vec3& sum = normals[mesh.facets(k, f)];
       sum = sum + area_normal(mesh.positions, mesh.facets, f);
     }
   }
   for (int vertex = 0; vertex < static_cast<int>(mesh.positions.size()); ++vertex) {
-    const Vec3 normal = normals[static_cast<std::size_t>(vertex)];
+    const Vec3 normal = normals[vertex];
     if (!(norm(normal) > 0.0)) continue;
     const int other = opposite_vertex(mesh, vertex, -normalized(normal));
     if (other >= 0) springs.push_back({vertex, other, distance(mesh, vertex, other), 1.0 / stiffness});
@@ -119,7 +114,7 @@ Body make_cloth(std::string name, const Mesh& mesh, const ClothMaterial& materia
   std::vector<double> masses(mesh.positions.size(), 0.0);
   for (Eigen::Index f = 0; f < mesh.facets.cols(); ++f) {
     const double third = material.density * norm(area_normal(mesh.positions, mesh.facets, f)) / 6.0;
-    for (int k = 0; k < 3; ++k) masses[static_cast<std::size_t>(mesh.facets(k, f))] += third;
+    for (int k = 0; k < 3; ++k) masses[mesh.facets(k, f)] += third;
   }
   std::transform(masses.begin(), masses.end(), body.inverse_masses.begin(),
                  [](double mass) { return mass > 0.0 ? 1.0 / mass : 0.0; });

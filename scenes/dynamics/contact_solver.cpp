@@ -31,7 +31,7 @@ class ContactSolver::Carrier {
     if (body_.rigid) return body_.rigid->give(arm_, direction);
     double sum = 0.0;
     for (std::size_t k = 0; k < 3; ++k)
-      sum += place_.weights[k] * place_.weights[k] * body_.inverse_masses[static_cast<std::size_t>(place_.vertices[k])];
+      sum += place_.weights[k] * place_.weights[k] * body_.inverse_masses[place_.vertices[k]];
     return sum;
   }
   void push(Vec3 impulse) {
@@ -62,8 +62,7 @@ class ContactSolver::Carrier {
  private:
   Vec3 at(const std::vector<Vec3>& positions) const {
     Vec3 sum;
-    for (std::size_t k = 0; k < 3; ++k)
-      sum = sum + place_.weights[k] * positions[static_cast<std::size_t>(place_.vertices[k])];
+    for (std::size_t k = 0; k < 3; ++k) sum = sum + place_.weights[k] * positions[place_.vertices[k]];
     return sum;
   }
 
@@ -80,8 +79,7 @@ ContactSolver::Place ContactSolver::place_of(const Body& body, const std::array<
     const bool used = vertices[k] >= 0;
     place.vertices[k] = used ? vertices[k] : vertices[0];
     place.weights[k] = used ? weights[k] : 0.0;
-    if (body.rigid)
-      place.local = place.local + place.weights[k] * body.rigid->local()[static_cast<std::size_t>(place.vertices[k])];
+    if (body.rigid) place.local = place.local + place.weights[k] * body.rigid->local()[place.vertices[k]];
   }
   return place;
 }
@@ -129,7 +127,7 @@ void ContactSolver::group_contacts(const std::vector<Body>& bodies) {
     taken[a] |= std::uint64_t{1} << group;
     taken[b] |= std::uint64_t{1} << group;
     groups_.resize(std::max(groups_.size(), static_cast<std::size_t>(group) + 1));
-    groups_[static_cast<std::size_t>(group)].push_back(i);
+    groups_[group].push_back(i);
   }
 }
 

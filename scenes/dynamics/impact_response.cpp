@@ -131,8 +131,8 @@ bool ImpactResponse::take_back(std::span<const Impact> impacts, const Positions&
   const auto take = [&](BodyId body, const std::array<int, 3>& vertices) {
     for (const int v : vertices) {
       if (v < 0) continue;
-      Vec3& position = bodies[body.index].positions[static_cast<std::size_t>(v)];
-      const Vec3 from = begin[body.index][static_cast<std::size_t>(v)];
+      Vec3& position = bodies[body.index].positions[v];
+      const Vec3 from = begin[body.index][v];
       if (position.x == from.x && position.y == from.y && position.z == from.z) continue;
       position = from;
       ++stayed_;

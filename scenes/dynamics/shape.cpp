@@ -44,7 +44,7 @@ Matrix spread(const std::vector<Vec3>& positions, Vec3 center, const std::vector
 
 // By reference: copies go through memory in halves, and waiting for them takes longer than all the arithmetic.
 const Vec3& corner(const std::vector<Vec3>& positions, const Eigen::Matrix3Xi& facets, Eigen::Index facet, int k) {
-  return positions[static_cast<std::size_t>(facets(k, facet))];
+  return positions[facets(k, facet)];
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ void VolumeKeeper::solve(std::vector<Vec3>& positions, const Eigen::Matrix3Xi& f
     const Vec3 third = (1.0 / 6.0) * cross(b - a, c - a);  // a third of the facet's area along its normal
     volume += dot(a - origin, third);
     for (int k = 0; k < 3; ++k) {
-      Vec3& g = gradient_[static_cast<std::size_t>(facets(k, f))];
+      Vec3& g = gradient_[facets(k, f)];
       g = g + third;
     }
   }

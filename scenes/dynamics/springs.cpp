@@ -18,8 +18,8 @@ std::vector<int> find_groups(std::span<const Spring> springs, int vertex_count) 
   groups.reserve(springs.size());
   int lonely = 64;
   for (const Spring& spring : springs) {
-    std::uint64_t& a = taken[static_cast<std::size_t>(spring.a)];
-    std::uint64_t& b = taken[static_cast<std::size_t>(spring.b)];
+    std::uint64_t& a = taken[spring.a];
+    std::uint64_t& b = taken[spring.b];
     const int group = std::countr_one(a | b);
     if (group < 64) a |= std::uint64_t{1} << group, b |= std::uint64_t{1} << group;
     groups.push_back(group < 64 ? group : lonely++);
@@ -29,10 +29,10 @@ std::vector<int> find_groups(std::span<const Spring> springs, int vertex_count) 
 
 void solve_spring(const Spring& spring, std::vector<Vec3>& positions, const std::vector<double>& inverse_masses,
                   double inverse_h_squared) {
-  Vec3& a = positions[static_cast<std::size_t>(spring.a)];
-  Vec3& b = positions[static_cast<std::size_t>(spring.b)];
-  const double mass_a = inverse_masses[static_cast<std::size_t>(spring.a)];
-  const double mass_b = inverse_masses[static_cast<std::size_t>(spring.b)];
+  Vec3& a = positions[spring.a];
+  Vec3& b = positions[spring.b];
+  const double mass_a = inverse_masses[spring.a];
+  const double mass_b = inverse_masses[spring.b];
   const Vec3 along = b - a;
   const double length = norm(along);
   const double give = mass_a + mass_b + spring.compliance * inverse_h_squared;

@@ -49,12 +49,12 @@ Topology::Topology(const Eigen::Matrix3Xi& facets, int vertex_count) : facet_edg
   std::vector<std::size_t> next(first_neighbor_.begin(), first_neighbor_.end() - 1);
   // Edges come sorted, so that each vertex meets its lower neighbours first, both kinds ascending.
   for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
-    const Edge& edge = edges_[static_cast<std::size_t>(e)];
-    neighbors_[next[static_cast<std::size_t>(edge.to)]++] = {edge.from, e};
+    const Edge& edge = edges_[e];
+    neighbors_[next[edge.to]++] = {edge.from, e};
   }
   for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
-    const Edge& edge = edges_[static_cast<std::size_t>(e)];
-    neighbors_[next[static_cast<std::size_t>(edge.from)]++] = {edge.to, e};
+    const Edge& edge = edges_[e];
+    neighbors_[next[edge.from]++] = {edge.to, e};
   }
 }
 

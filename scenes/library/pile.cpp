@@ -107,7 +107,7 @@ Scene make_pile(int size) {
   add_bin(p, half + p.room, step * layers + 0.2 * p.body_size, scene);
   const std::vector<int> places = shuffled(size, random);
   for (int i = 0; i < size; ++i) {
-    const int place = places[static_cast<std::size_t>(i)];
+    const int place = places[i];
     const Vec3 cell{static_cast<double>(place % side), static_cast<double>(place / side % side),
                     static_cast<double>(place / (side * side))};
     const double loose = 0.5 * (p.spacing - p.widest) * p.body_size - p.soft.thickness;

@@ -16,7 +16,7 @@ using Corners = std::array<int, 3>;
 Mesh mesh_of(std::vector<Vec3> positions, const std::vector<Corners>& facets) {
   Mesh mesh{std::move(positions), Eigen::Matrix3Xi(3, static_cast<Eigen::Index>(facets.size()))};
   for (std::size_t f = 0; f < facets.size(); ++f) {
-    mesh.facets.col(static_cast<Eigen::Index>(f)) << facets[f][0], facets[f][1], facets[f][2];
+    mesh.facets.col(f) << facets[f][0], facets[f][1], facets[f][2];
   }
   return mesh;
 }
@@ -28,7 +28,7 @@ void refine(std::vector<Vec3>& positions, std::vector<Corners>& facets) {
     const auto [place, fresh] =
         middles.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<int>(positions.size()));
     if (fresh) {
-      positions.push_back(normalized(positions[static_cast<std::size_t>(a)] + positions[static_cast<std::size_t>(b)]));
+      positions.push_back(normalized(positions[a] + positions[b]));
     }
     return place->second;
   };

@@ -99,7 +99,7 @@ void put_points(const Contact& contact, PointsInView which, ViewBytes& out) {
   }
   out.add_count(chosen.size());
   std::array<int, 3> last_a{}, last_b{};
-  for (const int point : chosen) put_point(contact.points()[static_cast<std::size_t>(point)], last_a, last_b, out);
+  for (const int point : chosen) put_point(contact.points()[point], last_a, last_b, out);
 }
 
 void put_contact(const Contact& contact, const std::optional<FacetFates>& fates, const PlaceInView& place,

@@ -59,7 +59,7 @@ ViewedBody::ViewedBody(BodyId body_id, const BodyForView& body, int first)
   if (body.positions.cols() > 0) {
     const Eigen::Vector3d middle =
         0.5 * body.positions.rowwise().maxCoeff() + 0.5 * body.positions.rowwise().minCoeff();
-    for (std::size_t k = 0; k < 3; ++k) origin_[k] = middle[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < 3; ++k) origin_[k] = middle[k];
   }
   set_positions(body.positions);
 }

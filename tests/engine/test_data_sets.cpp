@@ -170,7 +170,7 @@ TEST(DataSets, FallingClothNeverMeetsTheSphere) {
   const Vec3 down = normalized(centroid(sphere) - centroid({cloth.frames[0], cloth.facets}));
   int first_overlap = 60;
   for (int frame = 0; frame < 60; ++frame) {
-    world.set_positions(falling, cloth.frames[static_cast<std::size_t>(frame)]);
+    world.set_positions(falling, cloth.frames[frame]);
     const Report& report = world.detect();
     if (report.contacts().empty()) {
       ASSERT_EQ(first_overlap, 60) << "the hulls part again in frame " << frame;
@@ -185,7 +185,7 @@ TEST(DataSets, FallingClothNeverMeetsTheSphere) {
   ASSERT_LT(first_overlap, 60);
   const std::vector<Vec3> points = used_points(sphere);
   for (const int frame : {first_overlap - 1, first_overlap}) {
-    const Mesh sheet{cloth.frames[static_cast<std::size_t>(frame)], cloth.facets};
+    const Mesh sheet{cloth.frames[frame], cloth.facets};
     EXPECT_EQ(smallest_height(used_points(sheet), points, 0.0).height >= 0.0L, frame == first_overlap) << frame;
   }
 }
@@ -247,7 +247,7 @@ std::vector<std::array<Vec3, 4>> read_queries(const std::string& name) {
       p[axis] = numerator / denominator;
     }
     if (row % 4 == 0) queries.emplace_back();
-    queries.back()[static_cast<std::size_t>(row % 4)] = p;
+    queries.back()[row % 4] = p;
   }
   return queries;
 }

@@ -72,7 +72,7 @@ TEST(Determinism, ContactsDoNotDependOnTheNumberingOfVerticesAndFacets) {
     EXPECT_NEAR(expected[0].depth, found[0].depth, 1e-14) << "seed " << seed;
     std::vector<FacetPair> pairs;
     for (const FacetPair& pair : found[0].facet_pairs()) {
-      pairs.push_back({facets[0][static_cast<std::size_t>(pair.a)], facets[1][static_cast<std::size_t>(pair.b)]});
+      pairs.push_back({facets[0][pair.a], facets[1][pair.b]});
     }
     std::ranges::sort(pairs);
     EXPECT_TRUE(same_facet_pairs(expected[0].facet_pairs(), pairs)) << "seed " << seed;

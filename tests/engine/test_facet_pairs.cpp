@@ -76,7 +76,7 @@ TEST_P(FacetPairsOfKind, StayTheSameWhenVerticesAndFacetsAreRenumbered) {
     }
     std::vector<FacetPair> found = facet_pairs_by_engine(renumbered[0], renumbered[1]);
     for (FacetPair& f : found) {
-      f = {facets[0][static_cast<std::size_t>(f.a)], facets[1][static_cast<std::size_t>(f.b)]};
+      f = {facets[0][f.a], facets[1][f.b]};
     }
     std::sort(found.begin(), found.end());
     ASSERT_TRUE(same_facet_pairs(expected, found)) << "seed " << seed;

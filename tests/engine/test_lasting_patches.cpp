@@ -45,8 +45,7 @@ void expect_members_once(const Contact& contact) {
     const Patch& patch = contact.patches()[k];
     points.insert(patch.points.begin(), patch.points.end());
     pairs.insert(patch.facet_pairs.begin(), patch.facet_pairs.end());
-    for (const int i : patch.points)
-      EXPECT_EQ(contact.points()[static_cast<std::size_t>(i)].patch, static_cast<int>(k));
+    for (const int i : patch.points) EXPECT_EQ(contact.points()[i].patch, static_cast<int>(k));
   }
   EXPECT_EQ(points.size(), contact.points().size());
   EXPECT_EQ(pairs.size(), contact.facet_pairs().size());
@@ -99,7 +98,7 @@ TEST(LastingPatches, OfABoxOnAFloorSpanItsSide) {
     std::set<std::pair<int, int>> corners;
     for (const int i : patch.spanning) {
       ASSERT_GE(i, 0);
-      const ContactPoint& point = contact.points()[static_cast<std::size_t>(i)];
+      const ContactPoint& point = contact.points()[i];
       Eigen::Vector3d at = Eigen::Vector3d::Zero();
       for (std::size_t k = 0; k < 3; ++k) {
         if (point.b_vertices[k] >= 0) at += point.b_weights[k] * placed.positions.col(point.b_vertices[k]);
@@ -229,10 +228,9 @@ TEST(LastingPatches, HaveTheSameNamesForAnyNumberOfThreads) {
     std::vector<std::uint64_t> names;
     for (int step = 0; step < 5; ++step) {
       for (int k = 0; k < 12; k += 1 + step % 2)
-        world.set_positions(ids[static_cast<std::size_t>(k)],
-                            translated(blob(2, 0.5, 0.3, 1 + static_cast<unsigned>(k)),
-                                       {0.9 * (k % 4) + 0.02 * step * (k % 3), 0.9 * (k / 4), 0.03 * step})
-                                .positions);
+        world.set_positions(ids[k], translated(blob(2, 0.5, 0.3, 1 + static_cast<unsigned>(k)),
+                                               {0.9 * (k % 4) + 0.02 * step * (k % 3), 0.9 * (k / 4), 0.03 * step})
+                                        .positions);
       const Report& report = world.detect();
       for (const std::uint64_t id : ids_of(report)) names.push_back(id);
       for (const PatchEvent& event : report.patch_events()) names.push_back(event.patch + 1000 * event.other);

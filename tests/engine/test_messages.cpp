@@ -27,7 +27,7 @@ std::vector<Told> told_by_a_wild_crowd(int iteration_limit, int threads, std::in
   const auto there = [](int body, int step) {
     const auto seed = static_cast<std::uint64_t>(100 * step + body);
     Mesh mesh = blob(2, 0.5, 0.4, seed);
-    mesh.positions.row(static_cast<Eigen::Index>(seed % 3)) *= 3.0;
+    mesh.positions.row(seed % 3) *= 3.0;
     return mesh;
   };
   for (int i = 0; i < 6; ++i) {
@@ -37,7 +37,7 @@ std::vector<Told> told_by_a_wild_crowd(int iteration_limit, int threads, std::in
   }
   limits = 0;
   for (int step = 0; step < 20; ++step) {
-    for (int i = 0; i < 6; ++i) world.set_positions(bodies[static_cast<std::size_t>(i)], there(i, step).positions);
+    for (int i = 0; i < 6; ++i) world.set_positions(bodies[i], there(i, step).positions);
     const std::size_t before = told.size();
     const Report& report = world.detect();
     limits += report.stats().limits_reached;

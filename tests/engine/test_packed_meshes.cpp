@@ -46,8 +46,7 @@ class Packing : public testing::Test {
       EXPECT_EQ(refit(mesh, sources_[i].positions.data()), Refit::same) << i;
       for (int f = 0; f < mesh.facet_count(); f += 11) {
         const narrowphase::Triangle triangle = mesh.triangle(mesh.facet_of_source(f));
-        for (int k = 0; k < 3; ++k)
-          EXPECT_EQ(triangle[static_cast<std::size_t>(k)], sources_[i].position(sources_[i].facets(k, f))) << i;
+        for (int k = 0; k < 3; ++k) EXPECT_EQ(triangle[k], sources_[i].position(sources_[i].facets(k, f))) << i;
       }
     }
   }

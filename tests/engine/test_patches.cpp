@@ -110,7 +110,7 @@ TEST(Patches, MovingByTheirDepthPartsTheirFacetPairsAndByNoLess) {
       double needed = 0.0;
       Eigen::AlignedBox3d around;
       for (const int i : patch.facet_pairs) {
-        const FacetPair pair = found.pairs[static_cast<std::size_t>(i)];
+        const FacetPair pair = found.pairs[i];
         const Eigen::Matrix3d a = corners(bodies[0], pair.a), b = corners(bodies[1], pair.b);
         needed = std::max(needed,
                           (patch.direction.transpose() * a).maxCoeff() - (patch.direction.transpose() * b).minCoeff());
@@ -128,7 +128,7 @@ TEST(Patches, OfClosedBodiesPointAlongTheMeanNormal) {
   for (const Patch& patch : found.patches) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const int i : patch.facet_pairs) {
-      const FacetPair pair = found.pairs[static_cast<std::size_t>(i)];
+      const FacetPair pair = found.pairs[i];
       sum += area_normal(bodies[0], pair.a) - area_normal(bodies[1], pair.b);
     }
     EXPECT_LT((patch.direction - sum.normalized()).norm(), 1e-14);

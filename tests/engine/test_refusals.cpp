@@ -174,7 +174,7 @@ TEST_F(WorldOfThree, NamesTheFirstWrongBodyOfABatch) {
     ids.push_back(world_.add_body(definition(left_mesh_, "number " + std::to_string(i) + ".")));
   for (int i = 0; i < 200; ++i) {
     const bool wrong = i >= 37 && i % 3 == 0;  // the first is 39
-    updates.push_back({ids[static_cast<std::size_t>(i)], wrong ? bad : left_mesh_.positions});
+    updates.push_back({ids[i], wrong ? bad : left_mesh_.positions});
   }
   for (int repeat = 0; repeat < 20; ++repeat) {
     EXPECT_TRUE(throws_error([&] { world_.set_positions(updates); }, ErrorCode::non_finite_position, {"number 39."}));

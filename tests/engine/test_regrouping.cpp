@@ -188,8 +188,7 @@ TEST_F(Regrouping, ComesAtLongerAndLongerIntervals) {
   Mesh there = here;
   const std::vector<int> places = Random(6).permutation(here.facet_count());
   for (int f = 0; f < here.facet_count(); ++f) {
-    for (int k = 0; k < 3; ++k)
-      there.positions.col(here.facets(k, f)) = here.positions.col(here.facets(k, places[static_cast<std::size_t>(f)]));
+    for (int k = 0; k < 3; ++k) there.positions.col(here.facets(k, f)) = here.positions.col(here.facets(k, places[f]));
   }
   World world({.threads = 1});
   const BodyId id = add_bodies(world, std::array{here})[0];

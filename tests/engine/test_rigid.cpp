@@ -201,8 +201,7 @@ TEST(Rigid, OnlyBodiesThatOthersComeNearArePlaced) {
   for (int i = 0; i < 20; ++i)
     ids.push_back(world.add_body({.positions = ball.positions, .facets = ball.facets, .motion = Motion::rigid}));
   std::vector<PoseUpdate> poses;
-  for (int i = 0; i < 20; ++i)
-    poses.push_back({ids[static_cast<std::size_t>(i)], Eigen::Matrix3d::Identity(), {5.0 * i + 1.0, 0.0, 0.0}});
+  for (int i = 0; i < 20; ++i) poses.push_back({ids[i], Eigen::Matrix3d::Identity(), {5.0 * i + 1.0, 0.0, 0.0}});
   poses[1].translation.x() = 2.5;
   world.set_poses(poses);
   const Report& report = world.detect();

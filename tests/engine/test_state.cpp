@@ -54,8 +54,8 @@ class Player {
  private:
   Mesh random_mesh() {
     const auto kinds = body_pair_kinds();
-    const BodyPairKind& kind = kinds[static_cast<std::size_t>(random_.below(static_cast<int>(kinds.size())))];
-    return kind.make(random_.bits() % 1000)[static_cast<std::size_t>(random_.below(2))];
+    const BodyPairKind& kind = kinds[random_.below(static_cast<int>(kinds.size()))];
+    return kind.make(random_.bits() % 1000)[random_.below(2)];
   }
 
   void add() {
@@ -84,7 +84,7 @@ class Player {
 
   void change_filter() {
     if (bodies_.empty()) return;
-    ModelBody& body = bodies_[static_cast<std::size_t>(random_.below(static_cast<int>(bodies_.size())))];
+    ModelBody& body = bodies_[random_.below(static_cast<int>(bodies_.size()))];
     if (random_.chance(0.5)) {
       choose_layers(body);
       world_.set_layers(body.id, body.layer, body.mask);
@@ -97,7 +97,7 @@ class Player {
   void remove() {
     if (bodies_.empty()) return;
     const int i = random_.below(static_cast<int>(bodies_.size()));
-    world_.remove_body(bodies_[static_cast<std::size_t>(i)].id);
+    world_.remove_body(bodies_[i].id);
     bodies_.erase(bodies_.begin() + i);
   }
 
@@ -116,7 +116,7 @@ class Player {
 
   ModelBody* random_moving_body() {
     if (bodies_.empty()) return nullptr;
-    ModelBody& body = bodies_[static_cast<std::size_t>(random_.below(static_cast<int>(bodies_.size())))];
+    ModelBody& body = bodies_[random_.below(static_cast<int>(bodies_.size()))];
     return body.motion == Motion::moving ? &body : nullptr;
   }
 

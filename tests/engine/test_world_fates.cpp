@@ -42,7 +42,7 @@ std::int64_t count(const std::vector<FacetFate>& fates, FacetFate fate) {
 
 std::vector<bool> facets_that_meet(const Contact& contact, int FacetPair::*side, std::size_t facets) {
   std::vector<bool> meets(facets, false);
-  for (const FacetPair& pair : contact.facet_pairs()) meets[static_cast<std::size_t>(pair.*side)] = true;
+  for (const FacetPair& pair : contact.facet_pairs()) meets[pair.*side] = true;
   return meets;
 }
 
@@ -112,7 +112,7 @@ struct Side {
     std::array<Vector, 3> p;
     for (int k = 0; k < 3; ++k) {
       const Vector d = corner(facet, k) - center;
-      p[static_cast<std::size_t>(k)] = d - outward.dot(d) * outward;
+      p[k] = d - outward.dot(d) * outward;
     }
     const auto side = [&](std::size_t i) { return outward.dot(p[i].cross(p[(i + 1) % 3])); };
     const bool around =

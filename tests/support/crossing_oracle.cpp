@@ -39,7 +39,7 @@ Shape shape_of(const Mesh& mesh) {
   return s;
 }
 
-const Long3& at(const Shape& s, int v) { return s.x[static_cast<std::size_t>(v)]; }
+const Long3& at(const Shape& s, int v) { return s.x[v]; }
 
 // How often a closed surface winds around p (van Oosterom and Strackee, 1983).
 bool inside(const Shape& s, const Long3& p) {

@@ -14,7 +14,7 @@ namespace tact::tests {
 struct LocalCluster {
   LocalCluster(const narrowphase::Kernels& kernels, const narrowphase::ClusteredMesh& mesh, int cluster)
       : facets(mesh.facets_of(cluster)), count(facets.owned_count + facets.borrowed_count) {
-    const base::Box box = mesh.cluster_boxes()[static_cast<std::size_t>(cluster)];
+    const base::Box box = mesh.cluster_boxes()[cluster];
     origin = 0.5 * box.lower + 0.5 * box.upper;
     floats.assign(3 * narrowphase::LocalVertices::kMost + 64, 0.0f);
     const double from[3] = {origin.x, origin.y, origin.z};
@@ -24,9 +24,7 @@ struct LocalCluster {
     constexpr int kMost = narrowphase::LocalVertices::kMost;
     return {floats.data(), floats.data() + kMost, floats.data() + 2 * kMost};
   }
-  float at(int axis, int vertex) const {
-    return floats[static_cast<std::size_t>(axis * narrowphase::LocalVertices::kMost + vertex)];
-  }
+  float at(int axis, int vertex) const { return floats[axis * narrowphase::LocalVertices::kMost + vertex]; }
 
   narrowphase::ClusterFacets facets;
   int count;

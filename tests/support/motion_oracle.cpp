@@ -338,7 +338,7 @@ PolynomialVector way_of(const MovingVertex& vertex, int unit) {
   PolynomialVector way;
   for (int axis = 0; axis < 3; ++axis) {
     const Integer begin = in_units(vertex.at[0][axis], unit), end = in_units(vertex.at[1][axis], unit);
-    way[static_cast<std::size_t>(axis)] = trimmed({begin, end - begin});
+    way[axis] = trimmed({begin, end - begin});
   }
   return way;
 }

@@ -169,7 +169,7 @@ constexpr int kWorkers = 2;
 std::array<int, kWorkers> rounding_of_workers() {
   std::array<int, kWorkers> modes{};
 #pragma omp parallel num_threads(kWorkers)
-  modes[static_cast<std::size_t>(omp_get_thread_num())] = std::fegetround();
+  modes[omp_get_thread_num()] = std::fegetround();
   return modes;
 }
 

@@ -28,7 +28,7 @@ using Met = std::array<std::uint64_t, FacetBlock::kCapacity>;
 std::uint64_t facets_sharing_cells(const Kernels& kernels, const FacetBlock& a, int facet, const FacetBlock& b) {
   Met met{};
   kernels.share_cells(a.cells, std::uint64_t{1} << facet, b.cells, all_bits(b.count), met.data());
-  return met[static_cast<std::size_t>(facet)];
+  return met[facet];
 }
 
 // Whatever a grid is over, boxes that overlap share cells, also beyond its ends.

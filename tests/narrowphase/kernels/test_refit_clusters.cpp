@@ -60,7 +60,7 @@ class RefitClusters : public testing::Test {
     Box box;
     const auto widen = [&](const std::vector<std::int32_t>& vertices, std::size_t which) {
       for (std::int32_t i = ranges_[2 * cluster + which]; i < ranges_[2 * cluster + 2 + which]; ++i)
-        box = base::extended(box, mesh_.position(vertices[static_cast<std::size_t>(i)]));
+        box = base::extended(box, mesh_.position(vertices[i]));
     };
     widen(owned_, 0);
     widen(borrowed_, 1);

@@ -43,7 +43,7 @@ TEST(MeshTravel, IsNoLessThanTheSumOfStepsAndHardlyMore) {
       const Mesh to = tests::jittered(at, scale * std::pow(10.0, -static_cast<double>(step % 5)), step);
       refit(mesh, to.positions.data());
       for (int c = 0; c < mesh.cluster_count(); ++c) {
-        long double& all = sum[static_cast<std::size_t>(c)];
+        long double& all = sum[c];
         all += longest_step(mesh, c, at, to);
         EXPECT_GE(mesh.travel()->of(c), all);
         // A cluster counts the steps of its neighbours' vertices, too.

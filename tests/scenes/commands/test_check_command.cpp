@@ -118,7 +118,7 @@ TEST_F(CheckCommand, NumbersReadBackToTheSameDoubles) {
   const Json frame = check_json({.meshes = {a_, b_}})["frames"][0];
   const Json& pair = frame["pairs"][0];
   for (int axis = 0; axis < 3; ++axis) {
-    EXPECT_EQ(pair["direction"][static_cast<std::size_t>(axis)].get<double>(), contact.direction[axis]);
+    EXPECT_EQ(pair["direction"][axis].get<double>(), contact.direction[axis]);
   }
   EXPECT_EQ(pair["depth"].get<double>(), contact.depth);
   EXPECT_EQ(frame["hash"], hash_text(report));

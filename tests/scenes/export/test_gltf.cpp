@@ -104,7 +104,7 @@ TEST(Gltf, MeshesReadBackWithTheirBounds) {
   const auto indices = glb.values<std::uint32_t>(primitive["indices"], 1);
   ASSERT_EQ(indices.size(), 36u);
   for (std::size_t i = 0; i < indices.size(); ++i) {
-    EXPECT_EQ(static_cast<int>(indices[i]), expected.facets.reshaped()[static_cast<Eigen::Index>(i)]) << i;
+    EXPECT_EQ(static_cast<int>(indices[i]), expected.facets.reshaped()[i]) << i;
   }
   EXPECT_FALSE(primitive.contains("targets")) << "a body at rest needs no morph targets";
 }
