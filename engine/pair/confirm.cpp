@@ -43,6 +43,7 @@ void finish(const CulledPair& culled, OpenedFacets opened, const ConfirmCounts& 
     for (FacetPair& pair : culled.record->facet_pairs) std::swap(pair.a, pair.b);
   }
   sort_facet_pairs(culled, work.sorter, threads);
+  if (culled.history != nullptr) culled.history->finish(confirmed.still_apart);
   culled.record->contact.kept_facets_a = opened.a.kept;
   culled.record->contact.kept_facets_b = opened.b.kept;
   work.counts.cull += opened.a;
@@ -79,7 +80,7 @@ void confirm_range(const LargePair& large, std::size_t i, const base::Tuning& tu
 // A cluster of B that several ranges opened counts once.
 OpenedFacets opened_in_ranges(LargePair& large, const base::Tuning& tuning) {
   OpenedFacets opened;
-  large.seen_b.assign(static_cast<std::size_t>(large.culled.confirm_input(tuning).kept_b->count()), false);
+  large.seen_b.assign(large.culled.confirm_input(tuning).kept_b->count(), false);
   for (const ConfirmedRange& range : large.used_ranges()) {
     for (const OpenedCluster& one : range.opened_a) opened.a += one.counts;
     for (const OpenedCluster& one : range.opened_b) {

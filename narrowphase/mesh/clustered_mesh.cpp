@@ -100,7 +100,7 @@ Box ClusteredMesh::place_at(const Pose& pose, double* placement) const {
                    .z = to.z,
                    .boxes = to.cluster_boxes};
   for (int axis = 0; axis < 3; ++axis) {
-    for (int k = 0; k < 3; ++k) input.rotation[axis][k] = pose.rows[static_cast<std::size_t>(axis)][k];
+    for (int k = 0; k < 3; ++k) input.rotation[axis][k] = pose.rows[axis][k];
   }
   const Box box = to_box(kernels().place_clusters(input));
   find_group_boxes(*this, placement);
@@ -115,17 +115,20 @@ Vec3 ClusteredMesh::position_by_pose(int vertex) const {
 
 void ClusteredMesh::keep_travel(bool keep) {
   if (rigid_ != nullptr) keep = false;  // nobody counts how far its clusters go
-  if (keep == (travel_ != nullptr)) return;
-  travel_ = keep ? std::make_unique<MeshTravel>(*this) : nullptr;
+  unasked_refits_ = 0;
+  if (keep == keeps_travel_) return;
+  if (travel_ == nullptr) travel_ = std::make_unique<MeshTravel>(*this);
+  keeps_travel_ = keep;
   ++travel_epoch_;
 }
 
 void ClusteredMesh::count_travel() {
-  if (travel_ == nullptr) {
+  if (!keeps_travel_) {
     ++travel_epoch_;
-  } else {
-    travel_->add_steps();
+    return;
   }
+  travel_->add_steps();
+  if (++unasked_refits_ > kMostUnasked) keep_travel(false);
 }
 
 void ClusteredMesh::validate() const {

@@ -66,10 +66,12 @@ class ClusteredMesh : public MeshTopology {
   void move_to(const MeshMemory& memory);
   bool has_own_memory() const { return own_memory_ != nullptr; }
 
-  /// How far the vertices have gone, if that is kept: from keep_travel(true) on.
-  const MeshTravel* travel() const { return travel_.get(); }
-  MeshTravel* travel() { return travel_.get(); }
+  /// How far the vertices have gone, if that is kept: from keep_travel(true) on, until keep_travel(false) or until it
+  /// was not asked for again in kMostUnasked refits.
+  const MeshTravel* travel() const { return keeps_travel_ ? travel_.get() : nullptr; }
+  MeshTravel* travel() { return keeps_travel_ ? travel_.get() : nullptr; }
   void keep_travel(bool keep);
+  static constexpr int kMostUnasked = 4;
   /// Another number as soon as the mesh has moved and travel() does not tell how far.
   std::uint64_t travel_epoch() const { return travel_epoch_; }
   /// This one, with other clusters, stands for `earlier` from now on.
@@ -93,6 +95,8 @@ class ClusteredMesh : public MeshTopology {
   std::unique_ptr<std::byte[]> own_memory_;  // unless move_to() was called
   std::unique_ptr<MeshTravel> travel_;
   std::unique_ptr<RigidPose> rigid_;
+  bool keeps_travel_ = false;  // else travel_ is memory alone
+  int unasked_refits_ = 0;     // since keep_travel(true)
   std::uint64_t travel_epoch_ = 0;
 };
 

@@ -15,11 +15,13 @@ namespace tact::narrowphase {
 struct ConfirmCounts {
   std::int64_t facet_box_pairs = 0;
   std::int64_t triangle_tests = 0;
+  std::int64_t still_apart = 0;  // cluster pairs that SurfaceHistory knew to be apart
   PredicateCounts predicates;
 
   ConfirmCounts& operator+=(const ConfirmCounts& other) {
     facet_box_pairs += other.facet_box_pairs;
     triangle_tests += other.triangle_tests;
+    still_apart += other.still_apart;
     predicates.exact += other.predicates.exact;
     return *this;
   }

@@ -26,7 +26,12 @@ class SurfaceHistory {
 
   /// Before the cluster pairs of a step are looked at. Returns whether certificates can be of use: each body stands or
   /// keeps its travel, and moves little. Those of the last step are at hand then as far as the meshes are the same.
+  /// Never in a pause, which begins when certificates saved too little.
   bool start(const ConfirmInput& input, const std::vector<ClusterPair>& pairs);
+  /// After a step that start() let use certificates: how many of its pairs these told to be apart.
+  void finish(std::int64_t still_apart);
+
+  bool pauses() const { return pause_ > 0; }
 
   /// After start(): it would help if A kept its travel, or B.
   bool wants_travel_of_a() const { return of_a_.wants_travel; }
@@ -37,6 +42,8 @@ class SurfaceHistory {
   std::span<Certificate> now() { return now_; }
 
  private:
+  static constexpr int kFirstPause = 16;  // steps
+
   struct OfBody {
     const ClusteredMesh* mesh = nullptr;
     std::uint64_t epoch = 0;
@@ -48,6 +55,7 @@ class SurfaceHistory {
 
   std::vector<Certificate> last_, now_;
   OfBody of_a_, of_b_;
+  int pause_ = 0, next_pause_ = kFirstPause;  // steps
 };
 
 /// The travel of two clusters, rounded up.

@@ -99,13 +99,14 @@ void SurfacePairSearch::run(const ConfirmInput& input, const std::vector<Cluster
   opened_b_.clear();
   open_a_.count = open_b_.count = 0;
   floats_used_ = kFloatsOfA;
-  b_.assign(static_cast<std::size_t>(input.kept_b->count()), {});
+  b_.assign(input.kept_b->count(), {});
   next_certificate_ = 0;
   for (std::size_t i = begin; i < end;) {
     const std::size_t first = i;
     while (i < end && pairs[i].a == pairs[first].a) ++i;
     const auto of_a = std::span(pairs).subspan(first, i - first);
-    if (input.history == nullptr || !still_apart(input, of_a, first)) look_at(input, of_a, first, found, counts);
+    if (input.history == nullptr || !still_apart(input, of_a, first, counts))
+      look_at(input, of_a, first, found, counts);
   }
   decide_open(input, found, counts);
 }
@@ -135,7 +136,8 @@ std::size_t SurfacePairSearch::take(const ClusteredMesh& mesh, int cluster, std:
 }
 
 // Are all pairs of a cluster of A as far apart as the last step's certificates say? Hands these on.
-bool SurfacePairSearch::still_apart(const ConfirmInput& input, std::span<const ClusterPair> pairs, std::size_t first) {
+bool SurfacePairSearch::still_apart(const ConfirmInput& input, std::span<const ClusterPair> pairs, std::size_t first,
+                                    ConfirmCounts& counts) {
   const std::span<const SurfaceHistory::Certificate> last = input.history->last();
   const std::span<SurfaceHistory::Certificate> now = input.history->now().subspan(first, pairs.size());
   const int cluster_a = input.kept_a->cluster[pairs[0].a];
@@ -145,7 +147,7 @@ bool SurfacePairSearch::still_apart(const ConfirmInput& input, std::span<const C
         static_cast<std::size_t>(std::lower_bound(last.begin(), last.end(), cluster_a, before) - last.begin());
   }
   while (next_certificate_ < last.size() && last[next_certificate_].a < cluster_a) ++next_certificate_;
-  bool all = true;
+  std::size_t apart = 0;
   std::size_t next = next_certificate_;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const int cluster_b = input.kept_b->cluster[pairs[i].b];
@@ -154,9 +156,10 @@ bool SurfacePairSearch::still_apart(const ConfirmInput& input, std::span<const C
     if (next < last.size() && last[next].a == cluster_a && last[next].b == cluster_b &&
         travel_of(*input.a, cluster_a, *input.b, cluster_b) < last[next].until)
       now[i].until = last[next].until;
-    all = all && now[i].until > 0.0;
+    apart += now[i].until > 0.0 ? 1 : 0;
   }
-  return all;
+  counts.still_apart += static_cast<std::int64_t>(apart);
+  return apart == pairs.size();
 }
 
 // The pairs of one cluster of A, from the first-th of all. Those that a plane separates need no more.

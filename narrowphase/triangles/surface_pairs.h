@@ -49,7 +49,8 @@ class SurfacePairSearch {
 
   LocalVertices vertices_of(const LocalCluster& cluster);
   std::size_t take(const ClusteredMesh& mesh, int cluster, std::size_t floats, LocalCluster& local);
-  bool still_apart(const ConfirmInput& input, std::span<const ClusterPair> pairs, std::size_t first);
+  bool still_apart(const ConfirmInput& input, std::span<const ClusterPair> pairs, std::size_t first,
+                   ConfirmCounts& counts);
   void look_at(const ConfirmInput& input, std::span<const ClusterPair> pairs, std::size_t first,
                std::vector<FacetPair>& found, ConfirmCounts& counts);
   double gap_along_normal(const LocalCluster& b, const LocalRange& range_a);

@@ -26,6 +26,7 @@ const std::vector<FacetPair>& SurfaceSearch::operator()(const ClusteredMesh& a, 
     opened_ += search_.opened_a().size();
     begin = std::max(begin, end);
   }
+  if (input.history != nullptr) input.history->finish(counts_.still_apart);
   std::ranges::sort(found_);
   return found_;
 }

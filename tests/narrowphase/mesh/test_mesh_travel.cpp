@@ -42,6 +42,7 @@ TEST(MeshTravel, IsNoLessThanTheSumOfStepsAndHardlyMore) {
     for (std::uint64_t step = 0; step < 20; ++step) {
       const Mesh to = tests::jittered(at, scale * std::pow(10.0, -static_cast<double>(step % 5)), step);
       refit(mesh, to.positions.data());
+      mesh.keep_travel(true);  // still
       for (int c = 0; c < mesh.cluster_count(); ++c) {
         long double& all = sum[c];
         all += longest_step(mesh, c, at, to);
@@ -68,6 +69,20 @@ TEST(MeshTravel, OfRefusedStepsIsTakenBack) {
   bad.positions(1, 5) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refit(mesh, bad.positions.data()), Refit::bad);
   EXPECT_EQ(mesh.travel()->of(3), travel);
+}
+
+TEST(MeshTravel, EndsIfNobodyAsksForItAgain) {
+  const Mesh at = tests::icosphere(2);
+  ClusteredMesh mesh = tests::clustered(at);
+  mesh.keep_travel(true);
+  const std::uint64_t begin = mesh.travel_epoch();
+  for (int step = 0; step < 3 * ClusteredMesh::kMostUnasked; ++step) {
+    refit(mesh, tests::jittered(at, 0.1, static_cast<std::uint64_t>(step)).positions.data());
+    EXPECT_EQ(mesh.travel() != nullptr, step < ClusteredMesh::kMostUnasked) << step;
+  }
+  EXPECT_NE(mesh.travel_epoch(), begin);
+  mesh.keep_travel(true);
+  EXPECT_NE(mesh.travel(), nullptr);
 }
 
 TEST(MeshTravel, EpochsTellMovesThatNobodySaw) {
