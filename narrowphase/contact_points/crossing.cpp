@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "narrowphase/mesh/for_each_cluster.h"
+#include "narrowphase/mesh/cluster_search.h"
 #include "narrowphase/numeric/unit_scale.h"
 #include "narrowphase/questions/mesh_questions.h"
 
@@ -403,14 +403,12 @@ std::optional<FeaturePoint> CrossingSearch::nearest_passed(const Side& own, int 
         !best || point.gap > best->gap || (point.gap == best->gap && point.features() < best->features());
     if (better && is_inside(own, edge, &own == &a_ ? point.weight_a : point.weight_b, other)) best = point;
   };
-  for_each_cluster(
-      *other.mesh.mesh, [&](const Box& box) { return overlaps(box, near); },
-      [&](int cluster) {
-        for (int f = other.mesh.features->edge_begin(cluster); f < other.mesh.features->edge_end(cluster); ++f) {
-          &own == &a_ ? wait(edge, f) : wait(f, edge);
-          if (waiting_.count == PointQuads::kCapacity) visit_waiting(look_at);
-        }
-      });
+  for_each_cluster_in(*other.mesh.mesh, near, [&](int cluster) {
+    for (int f = other.mesh.features->edge_begin(cluster); f < other.mesh.features->edge_end(cluster); ++f) {
+      &own == &a_ ? wait(edge, f) : wait(f, edge);
+      if (waiting_.count == PointQuads::kCapacity) visit_waiting(look_at);
+    }
+  });
   visit_waiting(look_at);
   return best;
 }

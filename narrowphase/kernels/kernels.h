@@ -290,6 +290,47 @@ struct PlaceInput {
   double* boxes;
 };
 
+// A segment, for the question when it enters boxes. Where it is parallel to an axis, or as good as, `inverse` is zero;
+// then `stays` tells whether it is so exactly, or else that axis rules nothing out.
+struct SegmentSlabs {
+  double from[3];
+  double inverse[3];  // 1 / the way along each axis
+  bool stays[3];
+};
+
+// Some of many boxes, with a number each: the squared distance from a point, or when a segment enters.
+struct alignas(64) RankedBoxes {
+  static constexpr int kMost = 512;
+  double rank[kMost + 8];
+  std::int32_t index[kMost + 8];
+  int count = 0;
+};
+
+// A line, for the question which facets it may meet: `axis` are those of space in an order in which the way is longest
+// along the last, of which it goes slope[0] and slope[1] along the others. Seen along the line a point is off by at most
+// `error`.
+struct LineOfSight {
+  int axis[3];
+  double from[3];  // in the order of space
+  double slope[2];
+  double error;
+};
+
+// A cluster's vertices, owned ones first, as seen along a line, which is at zero.
+struct alignas(64) SightedPoints {
+  static constexpr int kRoom = 192 + 64;
+  double at[2][kRoom];
+  std::uint8_t beside[kRoom];  // what rules each out, see sight_facets()
+};
+
+// Facets of a cluster, and what their squared distances from a point are at least, in a unit of the caller's.
+struct alignas(64) FacetDistances {
+  static constexpr int kCapacity = 64;
+  double least_squared[kCapacity + 8];
+  std::uint8_t facet[2 * kCapacity];  // counted from the first of the cluster
+  int count;
+};
+
 struct Kernels {
   const char* name;
 
@@ -408,6 +449,19 @@ struct Kernels {
 
   // Which edges of facets meet the other facets, as closed sets.
   EdgesThrough (*edges_through)(const TrianglePairs& pairs);
+
+  // Those of up to RankedBoxes::kMost boxes that a segment enters by `latest`, and when: never later than it does.
+  void (*rank_by_entry)(const BoxPointers& boxes, int count, const SegmentSlabs& segment, double latest,
+                        RankedBoxes* ranked);
+  // Those whose squared distance from a point, times the square of `scale`, is at most `most`, and that distance.
+  void (*rank_by_distance)(const BoxPointers& boxes, int count, const double* point, double scale, double most,
+                           RankedBoxes* ranked);
+  // A bit for each facet of a cluster that a line may meet.
+  std::uint64_t (*sight_facets)(const ClusterFacets& cluster, const LineOfSight& line, SightedPoints* points);
+  // The facets of a cluster that may be as near to a point as any, or as `most`: their squared distances times the
+  // square of `scale`, from below.
+  void (*rank_facets)(const ClusterFacets& cluster, const double* point, double scale, double most,
+                      FacetDistances* facets);
 
   // A bit for each polygon that certainly stays farther than `reach` from the origin, all the time.
   std::uint64_t (*apart_throughout)(const MovingPolygons& polygons, double reach);

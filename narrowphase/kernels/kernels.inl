@@ -13,6 +13,7 @@
 #include "narrowphase/kernels/motion.inl"
 #include "narrowphase/kernels/place.inl"
 #include "narrowphase/kernels/points.inl"
+#include "narrowphase/kernels/questions.inl"
 #include "narrowphase/kernels/refit.inl"
 #include "narrowphase/kernels/sort.inl"
 #include "narrowphase/kernels/surfaces.inl"
@@ -59,6 +60,10 @@ constexpr Kernels all_kernels(const char* name) {
           .facets_beyond = facets_beyond,
           .edges_beyond = edges_beyond,
           .edges_through = edges_through,
+          .rank_by_entry = rank_by_entry,
+          .rank_by_distance = rank_by_distance,
+          .sight_facets = sight_facets,
+          .rank_facets = rank_facets,
           .apart_throughout = apart_throughout};
 }
 

@@ -29,6 +29,7 @@ inline Pack pick(const double* p, int, const Picks& at) { return gather(p, at.pl
 inline Pack add(Pack a, Pack b) { return _mm256_add_pd(a, b); }
 inline Pack sub(Pack a, Pack b) { return _mm256_sub_pd(a, b); }
 inline Pack mul(Pack a, Pack b) { return _mm256_mul_pd(a, b); }
+inline Pack div(Pack a, Pack b) { return _mm256_div_pd(a, b); }
 // a b - c, rounded once.
 inline Pack fused(Pack a, Pack b, Pack c) { return _mm256_fmsub_pd(a, b, c); }
 inline Pack min(Pack a, Pack b) { return _mm256_min_pd(a, b); }

@@ -39,6 +39,7 @@ inline Pack pick(const double* p, int count, const Picks& at) {
 inline Pack add(Pack a, Pack b) { return _mm512_add_pd(a, b); }
 inline Pack sub(Pack a, Pack b) { return _mm512_sub_pd(a, b); }
 inline Pack mul(Pack a, Pack b) { return _mm512_mul_pd(a, b); }
+inline Pack div(Pack a, Pack b) { return _mm512_div_pd(a, b); }
 // a b - c, rounded once.
 inline Pack fused(Pack a, Pack b, Pack c) { return _mm512_fmsub_pd(a, b, c); }
 inline Pack min(Pack a, Pack b) { return _mm512_min_pd(a, b); }

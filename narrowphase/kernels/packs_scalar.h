@@ -27,6 +27,7 @@ inline Pack pick(const double* p, int, const Picks& at) { return gather(p, at.pl
 inline Pack add(Pack a, Pack b) { return a + b; }
 inline Pack sub(Pack a, Pack b) { return a - b; }
 inline Pack mul(Pack a, Pack b) { return a * b; }
+inline Pack div(Pack a, Pack b) { return a / b; }
 // a b - c, rounded once.
 inline Pack fused(Pack a, Pack b, Pack c) { return __builtin_fma(a, b, -c); }
 inline Pack min(Pack a, Pack b) { return a < b ? a : b; }

@@ -1,11 +1,13 @@
 #include "narrowphase/questions/mesh_questions.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
-#include "narrowphase/mesh/for_each_cluster.h"
+#include "narrowphase/mesh/cluster_search.h"
 #include "narrowphase/mesh/open_in_box.h"
 #include "narrowphase/numeric/double_double.h"
 #include "narrowphase/numeric/unit_scale.h"
@@ -15,8 +17,9 @@ namespace tact::narrowphase {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// A quotient of two differences is wrong by three roundings at most.
-constexpr double kQuotientRounding = 0x1p-50;
+// Boxes are opened while they may hold something as good as what was found, to rounding: so much later or, by the square
+// of the distance, farther. Then the answer does not depend on their order.
+constexpr double kTimeRounding = 0x1p-30, kSquareRounding = 1.0 + 0x1p-40;
 
 Box box_of(const Triangle& triangle) {
   Box box;
@@ -24,28 +27,73 @@ Box box_of(const Triangle& triangle) {
   return box;
 }
 
-// Where a segment is in a box, or before it; infinity if it certainly does not meet it. Never later than it is.
-class SegmentClip {
+// A segment as the kernels take it.
+class SeenSegment {
  public:
-  explicit SegmentClip(const Segment& segment) : from_(segment[0]), way_(segment[1] - segment[0]) {}
-
-  double first_time(const Box& box) const {
-    double first = 0.0, last = 1.0;
+  SeenSegment(const Segment& segment, const Box& seen) : segment_(segment) {
+    const Vec3 from = segment[0], way = segment[1] - from;
+    double largest = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-      if (way_[axis] == 0.0) {  // then the ends are equal: the difference of two doubles is zero for no others
-        if (from_[axis] < box.lower[axis] || from_[axis] > box.upper[axis]) return kInfinity;
-        continue;
-      }
-      double enter = (box.lower[axis] - from_[axis]) / way_[axis], leave = (box.upper[axis] - from_[axis]) / way_[axis];
-      if (leave < enter) std::swap(enter, leave);
-      first = std::max(first, enter - kQuotientRounding * std::abs(enter));
-      last = std::min(last, leave + kQuotientRounding * std::abs(leave));
+      const double inverse = 1.0 / way[axis];
+      slabs_.from[axis] = line_.from[axis] = from[axis];
+      slabs_.inverse[axis] = std::isfinite(inverse) ? inverse : 0.0;
+      slabs_.stays[axis] = way[axis] == 0.0;  // then the ends are equal: the difference of no others is zero
+      largest = std::max({largest, std::abs(seen.lower[axis] - from[axis]), std::abs(seen.upper[axis] - from[axis])});
     }
-    return first <= last ? first : kInfinity;
+    const Vec3 length{std::abs(way.x), std::abs(way.y), std::abs(way.z)};
+    const int z = length.x >= length.y && length.x >= length.z ? 0 : length.y >= length.z ? 1 : 2;
+    for (int k = 0; k < 3; ++k) line_.axis[k] = (z + 1 + k) % 3;
+    is_point_ = way[z] == 0.0;
+    for (int k = 0; k < 2 && !is_point_; ++k) line_.slope[k] = way[line_.axis[k]] / way[z];
+    // Eight roundings of at most `largest`, and products that vanish.
+    line_.error = 0x1p-48 * largest + 0x1p-1000;
+  }
+
+  const SegmentSlabs& slabs() const { return slabs_; }
+
+  // A bit for each facet of a cluster that it may meet.
+  std::uint64_t sight(const ClusterFacets& cluster) {
+    if (is_point_) return ~std::uint64_t{0} >> (64 - cluster.facet_count);
+    return kernels().sight_facets(cluster, line_, &points_);
+  }
+  // Whether it meets one of these, exactly.
+  bool meets(const ClusterFacets& cluster, int facet, const Triangle& triangle, PredicateCounts& counts) const {
+    if (is_point_) {
+      return contains(box_of(triangle), segment_[0]) && segment_triangle_meet(segment_, triangle, counts);
+    }
+    const int sides = passes(cluster, facet);
+    if (sides == 0) return segment_triangle_meet(segment_, triangle, counts);
+    // Its line passes inside all sides, so it is not in the plane, or outside one.
+    const auto& [a, b, c] = triangle;
+    return sides > 0 && orient3d(a, b, c, segment_[0], counts) * orient3d(a, b, c, segment_[1], counts) <= 0;
   }
 
  private:
-  Vec3 from_, way_;
+  // 1: the line certainly passes inside all sides of a facet; -1: outside one; 0: rounding may tell.
+  int passes(const ClusterFacets& cluster, int facet) const {
+    double u[3], v[3];
+    for (int k = 0; k < 3; ++k) {
+      u[k] = points_.at[0][cluster.corner[k][facet]];
+      v[k] = points_.at[1][cluster.corner[k][facet]];
+    }
+    int positive = 0, negative = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int m = (k + 1) % 3;
+      const double turn = u[k] * v[m] - u[m] * v[k], error = line_.error;
+      const double bound =
+          4.0 * error * (std::abs(u[k]) + std::abs(v[k]) + std::abs(u[m]) + std::abs(v[m]) + 4.0 * error) + 0x1p-900;
+      positive += turn > bound;
+      negative += turn < -bound;
+    }
+    if (positive + negative < 3) return positive > 0 && negative > 0 ? -1 : 0;
+    return positive == 3 || negative == 3 ? 1 : -1;
+  }
+
+  Segment segment_;
+  SegmentSlabs slabs_;
+  LineOfSight line_;
+  bool is_point_ = false;
+  SightedPoints points_;
 };
 
 Triangle triangle_in(const FacetBlock& facets, int i) {
@@ -104,25 +152,21 @@ FacetHit hit_at(const Segment& segment, const Triangle& given, int facet) {
 // lower.
 template <class Visit>
 void for_each_hit(const ClusteredMesh& mesh, const Segment& segment, const double& latest, const Visit& visit) {
-  const SegmentClip clip(segment);
-  const auto wants = [&](const Box& box) { return clip.first_time(box) <= latest; };
+  if (mesh.facet_count() == 0) return;
+  SeenSegment seen(segment, mesh.box());
   PredicateCounts counts;
-  for_each_cluster(mesh, wants, [&](int cluster) {
-    for (int f = mesh.facet_begin(cluster); f < mesh.facet_end(cluster); ++f) {
+  const auto rank = [&](const BoxPointers& boxes, int count, RankedBoxes& ranked) {
+    kernels().rank_by_entry(boxes, count, seen.slabs(), latest + kTimeRounding, &ranked);
+  };
+  const auto wants = [&](double entry) { return entry <= latest + kTimeRounding; };
+  for_each_cluster_by_rank(mesh, rank, wants, [&](int cluster) {
+    const ClusterFacets facets = mesh.facets_of(cluster);
+    for (std::uint64_t left = seen.sight(facets); left != 0; left &= left - 1) {
+      const int i = std::countr_zero(left), f = facets.facet_begin + i;
       const Triangle triangle = mesh.triangle(f);
-      if (!wants(box_of(triangle)) || !segment_triangle_meet(segment, triangle, counts)) continue;
-      visit(hit_at(segment, triangle, mesh.source_facet(f)));
+      if (seen.meets(facets, i, triangle, counts)) visit(hit_at(segment, triangle, mesh.source_facet(f)));
     }
   });
-}
-
-double squared_distance(const Box& box, Vec3 p, double scale) {
-  double sum = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double away = scale * std::max({box.lower[axis] - p[axis], p[axis] - box.upper[axis], 0.0});
-    sum += away * away;
-  }
-  return sum;
 }
 
 // The turn of a, b, c in the plane of y and z, where c is moved off all lines.
@@ -206,19 +250,26 @@ std::optional<NearestFacet> nearest_facet(const ClusteredMesh& mesh, Vec3 point,
   const double scale = unit_scale(largest);
   double least = scale * within < 16.0 ? (scale * within) * (scale * within) : kInfinity;
   std::optional<NearestFacet> nearest;
-  const auto wants = [&](const Box& one) { return squared_distance(one, point, scale) <= least; };
-  for_each_cluster(mesh, wants, [&](int cluster) {
-    for (int f = mesh.facet_begin(cluster); f < mesh.facet_end(cluster); ++f) {
+  const double at[3] = {point.x, point.y, point.z};
+  const auto rank = [&](const BoxPointers& boxes, int count, RankedBoxes& ranked) {
+    kernels().rank_by_distance(boxes, count, at, scale, least * kSquareRounding, &ranked);
+  };
+  const auto wants = [&](double square) { return square <= least * kSquareRounding; };
+  FacetDistances ranked;
+  for_each_cluster_by_rank(mesh, rank, wants, [&](int cluster) {
+    const ClusterFacets facets = mesh.facets_of(cluster);
+    kernels().rank_facets(facets, at, scale, least * kSquareRounding, &ranked);
+    take_by_rank(ranked.least_squared, ranked.facet, ranked.count, wants, [&](int i) {
+      const int f = facets.facet_begin + i;
       Triangle triangle = mesh.triangle(f);
-      if (!wants(box_of(triangle))) continue;
       for (Vec3& p : triangle) p = scale * (p - point);
       const std::array<double, 3> weight = nearest_weights({}, triangle);
       const double distance2 = norm_squared(place(triangle, weight));
       const int facet = mesh.source_facet(f);
-      if (distance2 > least || (nearest && distance2 == least && facet > nearest->facet)) continue;
+      if (distance2 > least || (nearest && distance2 == least && facet > nearest->facet)) return;
       least = distance2;
       nearest = {facet, std::sqrt(distance2) / scale, weight};
-    }
+    });
   });
   return nearest;
 }
@@ -241,11 +292,10 @@ void append_facets_in_box(const ClusteredMesh& mesh, const Box& box, std::vector
     }
   }
   PredicateCounts counts;
-  const auto wants = [&](const Box& one) { return overlaps(one, box); };
-  for_each_cluster(mesh, wants, [&](int cluster) {
+  for_each_cluster_in(mesh, box, [&](int cluster) {
     for (int f = mesh.facet_begin(cluster); f < mesh.facet_end(cluster); ++f) {
       const Triangle triangle = mesh.triangle(f);
-      if (!wants(box_of(triangle))) continue;
+      if (!overlaps(box_of(triangle), box)) continue;
       const bool meets = std::ranges::any_of(triangle, [&](const Vec3& p) { return contains(box, p); }) ||
                          std::ranges::any_of(sides, [&](const Triangle& side) {
                            return triangle_triangle_meet(triangle, side, counts);
@@ -259,13 +309,10 @@ bool contains(const ClusteredMesh& mesh, Vec3 point) {
   PredicateCounts counts;
   int winding = 0;
   bool on_surface = false;
-  const auto wants = [&](const Box& box) {
-    return box.upper.x >= point.x && box.lower.y <= point.y && point.y <= box.upper.y && box.lower.z <= point.z &&
-           point.z <= box.upper.z;
-  };
-  const CullPlanes along_ray = planes_of({point, {kInfinity, point.y, point.z}});
+  const Box half_line{point, {kInfinity, point.y, point.z}};
+  const CullPlanes along_ray = planes_of(half_line);
   FacetBlock facets;
-  for_each_cluster(mesh, wants, [&](int cluster) {
+  for_each_cluster_in(mesh, half_line, [&](int cluster) {
     facets.count = 0;
     kernels().open_cluster(mesh.facets_of(cluster), along_ray, &facets);
     for (int i = 0; i < facets.count && !on_surface; ++i) {

@@ -1,0 +1,198 @@
+// The loops that answer questions: which boxes and facets a segment may meet, which may be nearest to a point.
+#pragma once
+
+#include <cstdint>
+
+#include "narrowphase/kernels/bytes.inl"
+#include "narrowphase/kernels/facets.inl"
+#include "narrowphase/kernels/kernels.h"
+#include "narrowphase/kernels/lanes.inl"
+
+namespace tact::narrowphase {
+namespace {
+
+inline void append_ranked(unsigned mask, int first, Pack rank, RankedBoxes* ranked) {
+  if (mask == 0) return;
+  alignas(64) double lane[kWidth];
+  store(lane, rank);
+  int found = ranked->count;
+  for (; mask != 0; mask &= mask - 1, ++found) {
+    const int k = __builtin_ctz(mask);
+    ranked->rank[found] = lane[k];
+    ranked->index[found] = first + k;
+  }
+  ranked->count = found;
+}
+
+// A quotient by way of the inverse of the way is wrong by four roundings at most: of the way, of its inverse, of the
+// difference and of the product; or by the least number.
+void rank_by_entry(const BoxPointers& boxes, int count, const SegmentSlabs& segment, double latest,
+                   RankedBoxes* ranked) {
+  const Pack zero = spread(0.0), rounding = spread(0x1p-50), least = spread(0x1p-1000), end = spread(latest);
+  ranked->count = 0;
+  for (int i = 0; i < count; i += kWidth) {
+    Pack first = zero, last = spread(1.0);
+    Mask meets = mask_of(lanes_left(count - i));
+    for (int axis = 0; axis < 3; ++axis) {
+      const Pack from = spread(segment.from[axis]);
+      const Pack low = load(boxes.lower[axis] + i), high = load(boxes.upper[axis] + i);
+      if (segment.inverse[axis] == 0.0) {
+        if (segment.stays[axis]) meets = both(meets, both(less_equal(low, from), less_equal(from, high)));
+        continue;
+      }
+      const Pack inverse = spread(segment.inverse[axis]);
+      const Pack a = mul(sub(low, from), inverse), b = mul(sub(high, from), inverse);
+      const Pack enter = min(a, b), leave = max(a, b);
+      first = max(first, sub(sub(enter, mul(rounding, abs(enter))), least));
+      last = min(last, add(add(leave, mul(rounding, abs(leave))), least));
+    }
+    meets = both(meets, both(less_equal(first, last), less_equal(first, end)));
+    append_ranked(bits(meets), i, first, ranked);
+  }
+}
+
+void rank_by_distance(const BoxPointers& boxes, int count, const double* point, double scale, double most,
+                      RankedBoxes* ranked) {
+  const Pack limit = spread(most), zero = spread(0.0), unit = spread(scale);
+  ranked->count = 0;
+  for (int i = 0; i < count; i += kWidth) {
+    Pack sum = zero;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Pack x = spread(point[axis]);
+      const Pack away = max(max(sub(load(boxes.lower[axis] + i), x), sub(x, load(boxes.upper[axis] + i))), zero);
+      const Pack scaled = mul(unit, away);
+      sum = add(sum, mul(scaled, scaled));
+    }
+    append_ranked(bits(less_equal(sum, limit)) & lanes_left(count - i), i, sum, ranked);
+  }
+}
+
+// Calls work(k, x, y, z) for packs of a cluster's vertices, owned ones first; those from k on, counted from the first.
+template <class Work>
+inline void for_cluster_points(const ClusterFacets& in, const Work& work) {
+  const double* const from[3] = {in.points.x, in.points.y, in.points.z};
+  for (int i = 0; i < in.owned_count; i += kWidth) {
+    const int k = in.owned_begin + i;
+    work(i, load(from[0] + k), load(from[1] + k), load(from[2] + k));
+  }
+  for (int i = 0; i < in.borrowed_count; i += kWidth) {
+    std::int32_t index[kWidth];
+    for (int k = 0; k < kWidth; ++k) index[k] = in.borrowed[i + k < in.borrowed_count ? i + k : i];
+    work(in.owned_count + i, gather(from[0], index), gather(from[1], index), gather(from[2], index));
+  }
+}
+
+// A line does not meet a facet whose corners all lie on one side of it, as seen along it: in one of seven directions.
+std::uint64_t sight_facets(const ClusterFacets& cluster, const LineOfSight& line, SightedPoints* points) {
+  const int x_axis = line.axis[0], y_axis = line.axis[1], z_axis = line.axis[2];
+  const Pack from[3] = {spread(line.from[0]), spread(line.from[1]), spread(line.from[2])};
+  const Pack slope_x = spread(line.slope[0]), slope_y = spread(line.slope[1]);
+  const Pack high = spread(line.error), low = spread(-line.error);
+  const Pack high_2 = spread(4.0 * line.error), low_2 = spread(-4.0 * line.error);
+  for_cluster_points(cluster, [&](int k, Pack x, Pack y, Pack z) {
+    const Pack away[3] = {sub(x, from[0]), sub(y, from[1]), sub(z, from[2])};
+    const Pack u = sub(away[x_axis], mul(slope_x, away[z_axis])), v = sub(away[y_axis], mul(slope_y, away[z_axis]));
+    store(points->at[0] + k, u);
+    store(points->at[1] + k, v);
+    const Pack sum = add(u, v), difference = sub(u, v);
+    const Mask beside[7] = {less(u, low),       less(high, u),       less(v, low),           less(high, v),
+                            less(sum, low_2), less(high_2, sum), less(high_2, difference)};
+    store_flags(points->beside + k, beside);
+  });
+  return common_flags(points->beside, cluster.owned_count + cluster.borrowed_count, cluster.corner,
+                      cluster.facet_count)
+      .none;
+}
+
+// The squared distance of the origin from a side, at its nearest place.
+inline Pack side_distance_squared(const VectorPack& a, const VectorPack& b) {
+  const VectorPack side = sub(b, a);
+  const Pack zero = spread(0.0), length = dot(side, side);
+  const Pack t = min(max(div(sub(zero, dot(a, side)), length), zero), spread(1.0));
+  const Pack s = select(less(zero, length), t, zero);
+  const VectorPack p{add(a.x, mul(s, side.x)), add(a.y, mul(s, side.y)), add(a.z, mul(s, side.z))};
+  return dot(p, p);
+}
+
+// What the squared distance of the origin from a facet is at least. Corners are rounded at 2^-52 of their size, the
+// largest of which is m. Where the height h of a facet is at least 2^-10 of its longest side, its normal is off by an
+// angle of 2^-42 m / h. That makes the distance from its plane wrong by 2^-41 m, and moves the border between what is
+// inside and what is not by 2^-50 m² / h, but not by more than the size of the facet, and so by 2^-20 m: the distance
+// from a side there is wrong by 2^-40 m². Narrower facets have their sides nearly as near as any of their points: the
+// squares differ by h² at most.
+inline Pack facet_distance_squared(const VectorPack& a, const VectorPack& b, const VectorPack& c) {
+  const Pack zero = spread(0.0);
+  const Pack sides = min(min(side_distance_squared(a, b), side_distance_squared(b, c)), side_distance_squared(c, a));
+  const VectorPack ab = sub(b, a), ac = sub(c, a), bc = sub(c, b), normal = cross(ab, ac);
+  const Pack square = dot(normal, normal), height = dot(normal, a);
+  const Pack longest = max(max(dot(ab, ab), dot(ac, ac)), dot(bc, bc));
+  const Mask inside = both(both(less_equal(zero, dot(cross(a, b), normal)), less_equal(zero, dot(cross(b, c), normal))),
+                           less_equal(zero, dot(cross(c, a), normal)));
+  const Mask wide = less(mul(spread(0x1p-20), mul(longest, longest)), square);
+  const Pack of_plane = div(mul(height, height), square);
+  const Pack narrow = sub(sides, select(less(zero, longest), div(square, longest), zero));
+  const Pack squared = select(wide, select(inside, of_plane, sides), narrow);
+  const Pack most = max(max(dot(a, a), dot(b, b)), dot(c, c));
+  return sub(squared, mul(spread(0x1p-34), most));
+}
+
+void rank_facets(const ClusterFacets& cluster, const double* point, double scale, double most,
+                 FacetDistances* facets) {
+  constexpr int kRoom = 192 + 64;
+  alignas(64) double at[3][kRoom];
+  alignas(64) std::uint8_t outside[kRoom];
+  const Pack origin[3] = {spread(point[0]), spread(point[1]), spread(point[2])}, unit = spread(scale);
+  const int count = cluster.owned_count + cluster.borrowed_count;
+  for_cluster_points(cluster, [&](int k, Pack x, Pack y, Pack z) {
+    store(at[0] + k, mul(unit, sub(x, origin[0])));
+    store(at[1] + k, mul(unit, sub(y, origin[1])));
+    store(at[2] + k, mul(unit, sub(z, origin[2])));
+  });
+  // Nothing is farther than the nearest corner: it lies in a box about the point, and not beyond the plane through
+  // that corner.
+  Pack nearest = spread(most), where = spread(-1.0);
+  for (int i = 0; i < count; i += kWidth) {
+    const VectorPack p{load(at[0] + i), load(at[1] + i), load(at[2] + i)};
+    const Pack square = select(mask_of(lanes_left(count - i)), dot(p, p), spread(__builtin_inf()));
+    where = select(less(square, nearest), spread(static_cast<double>(i)), where);
+    nearest = min(square, nearest);
+  }
+  const double least = -largest_lane(sub(spread(0.0), nearest));
+  VectorPack direction{spread(0.0), spread(0.0), spread(0.0)};
+  alignas(64) double places[kWidth], squares[kWidth];
+  store(places, where);
+  store(squares, nearest);
+  int nearest_at = -1;  // of equally near ones the first, whatever the width
+  for (int lane = 0; lane < kWidth; ++lane) {
+    const int i = static_cast<int>(places[lane]) + lane;
+    if (squares[lane] == least && places[lane] >= 0.0 && (nearest_at < 0 || i < nearest_at)) nearest_at = i;
+  }
+  if (nearest_at >= 0) direction = {spread(at[0][nearest_at]), spread(at[1][nearest_at]), spread(at[2][nearest_at])};
+  const double reach = __builtin_sqrt(least) * (1.0 + 0x1p-40);
+  const Pack high = spread(reach), low = spread(-reach), beyond = spread(least * (1.0 + 0x1p-40));
+  const Pack rounding = spread(0x1p-48 * reach);
+  for (int i = 0; i < count; i += kWidth) {
+    const VectorPack p{load(at[0] + i), load(at[1] + i), load(at[2] + i)};
+    const Mask out[7] = {less(p.x, low),  less(high, p.x), less(p.y, low),
+                         less(high, p.y), less(p.z, low),  less(high, p.z),
+                         less(add(beyond, mul(rounding, add(add(abs(p.x), abs(p.y)), abs(p.z)))), dot(direction, p))};
+    store_flags(outside + i, out);
+  }
+  const std::uint64_t left = common_flags(outside, count, cluster.corner, cluster.facet_count).none;
+  facets->count = __builtin_popcountll(left);
+  write_places(left, facets->facet);
+  alignas(64) std::uint8_t corner[3][2 * FacetDistances::kCapacity];
+  for (int k = 0; k < 3; ++k) {
+    compress(left, cluster.corner[k], corner[k]);
+    for (int n = facets->count; n < facets->count + kWidth; ++n) corner[k][n] = 0;
+  }
+  for (int i = 0; i < facets->count; i += kWidth) {
+    const auto of = [&](int k) {
+      return VectorPack{gather(at[0], corner[k] + i), gather(at[1], corner[k] + i), gather(at[2], corner[k] + i)};
+    };
+    store(facets->least_squared + i, facet_distance_squared(of(0), of(1), of(2)));
+  }
+}
+
+}  // namespace
+}  // namespace tact::narrowphase
