@@ -59,6 +59,19 @@ inline void store_flags(std::uint8_t* p, const Mask (&mask)[7]) {
   __builtin_memcpy(p, &four, sizeof four);
 }
 
+// Writes the lanes that have a bit, and first + lane, one after the other. Returns how many.
+inline int store_some(unsigned lanes, Pack a, int first, double* value, std::int32_t* index) {
+  double lane[kWidth];
+  store(lane, a);
+  int count = 0;
+  for (; lanes != 0; lanes &= lanes - 1, ++count) {
+    const int k = __builtin_ctz(lanes);
+    value[count] = lane[k];
+    index[count] = first + k;
+  }
+  return count;
+}
+
 // Eight floats at a time.
 constexpr int kFloatWidth = 8;
 using FloatPack = __m256;

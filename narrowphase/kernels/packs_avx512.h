@@ -57,8 +57,16 @@ inline Pack select(Mask mask, Pack yes, Pack no) { return _mm512_mask_blend_pd(m
 // Bit k of each byte: mask k.
 inline void store_flags(std::uint8_t* p, const Mask (&mask)[7]) {
   __m512i flags = _mm512_setzero_si512();
-  for (int k = 0; k < 7; ++k) flags = _mm512_or_si512(flags, _mm512_maskz_set1_epi64(mask[k], 1 << k));
+  for (int k = 0; k < 7; ++k) flags = _mm512_mask_or_epi64(flags, mask[k], flags, _mm512_set1_epi64(1 << k));
   _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm512_cvtepi64_epi8(flags));
+}
+
+// Writes the lanes that have a bit, and first + lane, one after the other; up to kWidth of each. Returns how many.
+inline int store_some(unsigned lanes, Pack a, int first, double* value, std::int32_t* index) {
+  const __m256i numbers = _mm256_add_epi32(_mm256_set1_epi32(first), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+  _mm512_storeu_pd(value, _mm512_maskz_compress_pd(static_cast<Mask>(lanes), a));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(index), _mm256_maskz_compress_epi32(static_cast<Mask>(lanes), numbers));
+  return __builtin_popcount(lanes);
 }
 
 // Sixteen floats at a time.

@@ -49,6 +49,13 @@ inline void store_flags(std::uint8_t* p, const Mask (&mask)[7]) {
   *p = static_cast<std::uint8_t>(flags);
 }
 
+// Writes the lane if it has a bit, and its number. Returns how many.
+inline int store_some(unsigned lanes, Pack a, int first, double* value, std::int32_t* index) {
+  *value = a;
+  *index = first;
+  return static_cast<int>(lanes);
+}
+
 constexpr int kFloatWidth = 1;
 using FloatPack = float;
 using FloatMask = bool;

@@ -12,40 +12,38 @@ namespace tact::narrowphase {
 namespace {
 
 inline void append_ranked(unsigned mask, int first, Pack rank, RankedBoxes* ranked) {
-  if (mask == 0) return;
-  alignas(64) double lane[kWidth];
-  store(lane, rank);
-  int found = ranked->count;
-  for (; mask != 0; mask &= mask - 1, ++found) {
-    const int k = __builtin_ctz(mask);
-    ranked->rank[found] = lane[k];
-    ranked->index[found] = first + k;
-  }
-  ranked->count = found;
+  ranked->count += store_some(mask, rank, first, ranked->rank + ranked->count, ranked->index + ranked->count);
 }
 
 // A quotient by way of the inverse of the way is wrong by four roundings at most: of the way, of its inverse, of the
-// difference and of the product; or by the least number.
+// difference and of the product; or by the least number. Its sign is right.
 void rank_by_entry(const BoxPointers& boxes, int count, const SegmentSlabs& segment, double latest,
                    RankedBoxes* ranked) {
-  const Pack zero = spread(0.0), rounding = spread(0x1p-50), least = spread(0x1p-1000), end = spread(latest);
+  const Pack zero = spread(0.0), one = spread(1.0), least = spread(0x1p-1000), end = spread(latest);
+  const Pack earlier = spread(1.0 - 0x1p-50), later = spread(1.0 + 0x1p-50);
+  const double *near[3], *far[3];
+  Pack from[3], inverse[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    near[axis] = segment.inverse[axis] >= 0.0 ? boxes.lower[axis] : boxes.upper[axis];
+    far[axis] = segment.inverse[axis] >= 0.0 ? boxes.upper[axis] : boxes.lower[axis];
+    from[axis] = spread(segment.from[axis]);
+    inverse[axis] = spread(segment.inverse[axis]);
+  }
   ranked->count = 0;
   for (int i = 0; i < count; i += kWidth) {
-    Pack first = zero, last = spread(1.0);
+    Pack first = zero, last = one;
     Mask meets = mask_of(lanes_left(count - i));
     for (int axis = 0; axis < 3; ++axis) {
-      const Pack from = spread(segment.from[axis]);
-      const Pack low = load(boxes.lower[axis] + i), high = load(boxes.upper[axis] + i);
-      if (segment.inverse[axis] == 0.0) {
-        if (segment.stays[axis]) meets = both(meets, both(less_equal(low, from), less_equal(from, high)));
-        continue;
+      const Pack enter = load(near[axis] + i), leave = load(far[axis] + i);
+      if (segment.inverse[axis] != 0.0) {
+        first = max(first, mul(sub(enter, from[axis]), inverse[axis]));
+        last = min(last, mul(sub(leave, from[axis]), inverse[axis]));
+      } else if (segment.stays[axis]) {
+        meets = both(meets, both(less_equal(enter, from[axis]), less_equal(from[axis], leave)));
       }
-      const Pack inverse = spread(segment.inverse[axis]);
-      const Pack a = mul(sub(low, from), inverse), b = mul(sub(high, from), inverse);
-      const Pack enter = min(a, b), leave = max(a, b);
-      first = max(first, sub(sub(enter, mul(rounding, abs(enter))), least));
-      last = min(last, add(add(leave, mul(rounding, abs(leave))), least));
     }
+    first = sub(mul(first, earlier), least);
+    last = add(mul(last, later), least);
     meets = both(meets, both(less_equal(first, last), less_equal(first, end)));
     append_ranked(bits(meets), i, first, ranked);
   }
@@ -76,8 +74,12 @@ inline void for_cluster_points(const ClusterFacets& in, const Work& work) {
     work(i, load(from[0] + k), load(from[1] + k), load(from[2] + k));
   }
   for (int i = 0; i < in.borrowed_count; i += kWidth) {
-    std::int32_t index[kWidth];
-    for (int k = 0; k < kWidth; ++k) index[k] = in.borrowed[i + k < in.borrowed_count ? i + k : i];
+    const std::int32_t* index = in.borrowed + i;
+    std::int32_t last[kWidth];
+    if (in.borrowed_count - i < kWidth) {
+      for (int k = 0; k < kWidth; ++k) last[k] = index[i + k < in.borrowed_count ? k : 0];
+      index = last;
+    }
     work(in.owned_count + i, gather(from[0], index), gather(from[1], index), gather(from[2], index));
   }
 }

@@ -106,6 +106,25 @@ Triangle triangle_in(const FacetBlock& facets, int i) {
 
 Vec3 place(const Triangle& t, const std::array<double, 3>& w) { return w[0] * t[0] + w[1] * t[1] + w[2] * t[2]; }
 
+Vec3 normal_of(const Triangle& t) {
+  return double_double_cross(double_double_difference(t[1], t[0]), double_double_difference(t[2], t[0]));
+}
+
+std::array<double, 3> nearest_weights(Vec3 p, const Triangle& t, Vec3 normal) {
+  const double area2 = norm_squared(normal);
+  if (area2 > 0.0) {
+    std::array<double, 3> w;
+    bool inside = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 a = t[(i + 1) % 3], b = t[(i + 2) % 3];
+      w[i] = dot(cross(a - p, b - p), normal) / area2;
+      inside = inside && w[i] >= 0.0;
+    }
+    if (inside) return w;
+  }
+  return nearest_weights_on_sides(p, t);
+}
+
 // Where a segment first is in a triangle that it is known to meet.
 FacetHit hit_at(const Segment& segment, const Triangle& given, int facet) {
   // About the beginning and near length 1, so that nothing overflows.
@@ -118,7 +137,7 @@ FacetHit hit_at(const Segment& segment, const Triangle& given, int facet) {
   const double scale = unit_scale(largest);
   for (Vec3& p : t) p = scale * p;
   const Vec3 way = scale * whole;
-  const Vec3 normal = double_double_cross(double_double_difference(t[1], t[0]), double_double_difference(t[2], t[0]));
+  const Vec3 normal = normal_of(t);
   const double along = dot(normal, way), above = dot(normal, t[0]);
   double time = 0.0;
   if (std::abs(along) > 0x1p-40 * norm(normal) * norm(way)) {
@@ -127,7 +146,7 @@ FacetHit hit_at(const Segment& segment, const Triangle& given, int facet) {
     // In the plane: where it enters, which is where it is nearest to a side, or at its beginning.
     const auto away = [&](double s) {
       const Vec3 p = s * way;
-      return norm(place(t, nearest_weights(p, t)) - p);
+      return norm(place(t, nearest_weights(p, t, normal)) - p);
     };
     double low = 0.0, high = 1.0;
     if (away(0.0) > 0x1p-45) {
@@ -145,7 +164,7 @@ FacetHit hit_at(const Segment& segment, const Triangle& given, int facet) {
       }
     }
   }
-  return {facet, time, nearest_weights(time * way, t)};
+  return {facet, time, nearest_weights(time * way, t, normal)};
 }
 
 // Calls visit(hit) for each facet that the segment meets, in clusters that it may reach by `latest`, which visit may
@@ -181,21 +200,7 @@ int turn(const Vec3& a, const Vec3& b, const Vec3& c, PredicateCounts& counts) {
 
 }  // namespace
 
-std::array<double, 3> nearest_weights(Vec3 p, const Triangle& t) {
-  const Vec3 normal = double_double_cross(double_double_difference(t[1], t[0]), double_double_difference(t[2], t[0]));
-  const double area2 = norm_squared(normal);
-  if (area2 > 0.0) {
-    std::array<double, 3> w;
-    bool inside = true;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 a = t[(i + 1) % 3], b = t[(i + 2) % 3];
-      w[i] = dot(cross(a - p, b - p), normal) / area2;
-      inside = inside && w[i] >= 0.0;
-    }
-    if (inside) return w;
-  }
-  return nearest_weights_on_sides(p, t);
-}
+std::array<double, 3> nearest_weights(Vec3 p, const Triangle& t) { return nearest_weights(p, t, normal_of(t)); }
 
 std::array<double, 3> nearest_weights_on_sides(Vec3 p, const Triangle& t) {
   std::array<double, 3> best{1.0, 0.0, 0.0};
