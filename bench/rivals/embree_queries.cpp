@@ -1,8 +1,6 @@
 // Embree asked for rays and nearest points as its manual says for deforming meshes: triangles in a dynamic scene of low
 // build quality, geometry of refit quality, vertices in its own buffer of floats. rtcPointQuery() leaves the distance
 // from a triangle to the caller: it is computed in floats, as the rest of Embree is.
-#include "narrowphase/triangles/embree.h"
-
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -13,6 +11,7 @@
 #include <string>
 
 #include "bench/rivals/query_rival.h"
+#include "narrowphase/triangles/embree.h"
 
 namespace tact::bench {
 namespace {
@@ -50,10 +49,10 @@ class EmbreeQueries : public QueryRival {
     rtcSetGeometryBuildQuality(geometry_, RTC_BUILD_QUALITY_REFIT);
     const auto vertices = static_cast<std::size_t>(body.frames[0].cols());
     const auto facets = static_cast<std::size_t>(body.facets.cols());
-    vertices_ = static_cast<float*>(rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                            3 * sizeof(float), vertices));
-    auto* corners = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_INDEX, 0,
-                                                                   RTC_FORMAT_UINT3, 3 * sizeof(unsigned), facets));
+    vertices_ = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices));
+    auto* corners = static_cast<unsigned*>(
+        rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), facets));
     if (!vertices_ || !corners) throw std::runtime_error("Embree has no memory for its buffers");
     std::copy_n(body.facets.data(), 3 * facets, corners);
     rtcAttachGeometry(scene_, geometry_);

@@ -307,8 +307,8 @@ struct alignas(64) RankedBoxes {
 };
 
 // A line, for the question which facets it may meet: `axis` are those of space in an order in which the way is longest
-// along the last, of which it goes slope[0] and slope[1] along the others. Seen along the line a point is off by at most
-// `error`.
+// along the last, of which it goes slope[0] and slope[1] along the others. Seen along the line a point is off by at
+// most `error`.
 struct LineOfSight {
   int axis[3];
   double from[3];  // in the order of space

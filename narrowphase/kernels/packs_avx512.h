@@ -65,7 +65,8 @@ inline void store_flags(std::uint8_t* p, const Mask (&mask)[7]) {
 inline int store_some(unsigned lanes, Pack a, int first, double* value, std::int32_t* index) {
   const __m256i numbers = _mm256_add_epi32(_mm256_set1_epi32(first), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
   _mm512_storeu_pd(value, _mm512_maskz_compress_pd(static_cast<Mask>(lanes), a));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(index), _mm256_maskz_compress_epi32(static_cast<Mask>(lanes), numbers));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(index),
+                      _mm256_maskz_compress_epi32(static_cast<Mask>(lanes), numbers));
   return __builtin_popcount(lanes);
 }
 

@@ -97,12 +97,11 @@ std::uint64_t sight_facets(const ClusterFacets& cluster, const LineOfSight& line
     store(points->at[0] + k, u);
     store(points->at[1] + k, v);
     const Pack sum = add(u, v), difference = sub(u, v);
-    const Mask beside[7] = {less(u, low),       less(high, u),       less(v, low),           less(high, v),
-                            less(sum, low_2), less(high_2, sum), less(high_2, difference)};
+    const Mask beside[7] = {less(u, low),      less(high, u),           less(v, low), less(high, v), less(sum, low_2),
+                            less(high_2, sum), less(high_2, difference)};
     store_flags(points->beside + k, beside);
   });
-  return common_flags(points->beside, cluster.owned_count + cluster.borrowed_count, cluster.corner,
-                      cluster.facet_count)
+  return common_flags(points->beside, cluster.owned_count + cluster.borrowed_count, cluster.corner, cluster.facet_count)
       .none;
 }
 
@@ -138,8 +137,7 @@ inline Pack facet_distance_squared(const VectorPack& a, const VectorPack& b, con
   return sub(squared, mul(spread(0x1p-34), most));
 }
 
-void rank_facets(const ClusterFacets& cluster, const double* point, double scale, double most,
-                 FacetDistances* facets) {
+void rank_facets(const ClusterFacets& cluster, const double* point, double scale, double most, FacetDistances* facets) {
   constexpr int kRoom = 192 + 64;
   alignas(64) double at[3][kRoom];
   alignas(64) std::uint8_t outside[kRoom];
@@ -175,8 +173,12 @@ void rank_facets(const ClusterFacets& cluster, const double* point, double scale
   const Pack rounding = spread(0x1p-48 * reach);
   for (int i = 0; i < count; i += kWidth) {
     const VectorPack p{load(at[0] + i), load(at[1] + i), load(at[2] + i)};
-    const Mask out[7] = {less(p.x, low),  less(high, p.x), less(p.y, low),
-                         less(high, p.y), less(p.z, low),  less(high, p.z),
+    const Mask out[7] = {less(p.x, low),
+                         less(high, p.x),
+                         less(p.y, low),
+                         less(high, p.y),
+                         less(p.z, low),
+                         less(high, p.z),
                          less(add(beyond, mul(rounding, add(add(abs(p.x), abs(p.y)), abs(p.z)))), dot(direction, p))};
     store_flags(outside + i, out);
   }

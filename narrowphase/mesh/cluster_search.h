@@ -1,4 +1,5 @@
-// From the boxes of groups to those of clusters: the clusters that a question wants to open, best first or all in a box.
+// From the boxes of groups to those of clusters: the clusters that a question wants to open, best first or all in a
+// box.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +12,8 @@
 
 namespace tact::narrowphase {
 
-/// Calls take(index) for entries of a list by ascending rank, as long as wants(rank), which take may narrow. The list is
-/// used up. Most entries drop out after the first was taken, so that sorting them all would cost more.
+/// Calls take(index) for entries of a list by ascending rank, as long as wants(rank), which take may narrow. The list
+/// is used up. Most entries drop out after the first was taken, so that sorting them all would cost more.
 template <class Index, class Wants, class Take>
 void take_by_rank(double* rank, Index* index, int count, const Wants& wants, const Take& take) {
   while (count > 0) {
@@ -33,8 +34,8 @@ void take_by_rank(double* rank, Index* index, int count, const Wants& wants, con
   }
 }
 
-/// Calls open(cluster) by ascending rank within a group, and groups by theirs. rank(boxes, count, ranked) fills `ranked`
-/// with those of up to RankedBoxes::kMost boxes that are wanted; wants(rank) tells whether one still is.
+/// Calls open(cluster) by ascending rank within a group, and groups by theirs. rank(boxes, count, ranked) fills
+/// `ranked` with those of up to RankedBoxes::kMost boxes that are wanted; wants(rank) tells whether one still is.
 template <class Rank, class Wants, class Open>
 void for_each_cluster_by_rank(const ClusteredMesh& mesh, const Rank& rank, const Wants& wants, const Open& open) {
   RankedBoxes groups, clusters;

@@ -17,8 +17,8 @@ namespace tact::narrowphase {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Boxes are opened while they may hold something as good as what was found, to rounding: so much later or, by the square
-// of the distance, farther. Then the answer does not depend on their order.
+// Boxes are opened while they may hold something as good as what was found, to rounding: so much later or, by the
+// square of the distance, farther. Then the answer does not depend on their order.
 constexpr double kTimeRounding = 0x1p-30, kSquareRounding = 1.0 + 0x1p-40;
 
 Box box_of(const Triangle& triangle) {
