@@ -129,7 +129,7 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   on_all([&](auto& vector) { make_room(vector, slots); });
   make_room(changed_, slots);
   make_room(free_, slots);
-  make_room(loose_, slots);
+  make_room(decayed_, slots);
   make_room(unknown_, slots);
   if (slot < slots_.size()) free_.pop_back();
   on_all([&](auto& vector) { vector.resize(slots); });
@@ -169,7 +169,7 @@ void Bodies::remove(BodyId id) {
   std::erase_if(excluded_, [&](const broadphase::IndexPair& pair) { return pair.a == id.index || pair.b == id.index; });
   // No id is given out twice: a slot whose generations are used up stays empty.
   if (id.generation < std::numeric_limits<std::uint32_t>::max()) free_.push_back(id.index);
-  std::erase(loose_, id.index);
+  std::erase(decayed_, id.index);
   mark_changed(id.index);
   removed_any_ = true;
   --count_;
@@ -291,38 +291,38 @@ void Bodies::note_change(const Update& update) {
   if (slot.begin == Begin::here && slot.seen) slot.begin = Begin::before;
   if (update.quality == 0.0) return;  // most often: nothing of the grouping is read
   Grouping& grouping = groupings_[update.slot];
-  if (grouping.loose || !is_loose(grouping, update.quality)) return;
-  grouping.loose = true;
-  loose_.push_back(update.slot);
+  if (grouping.decayed || !has_decayed(grouping, update.quality)) return;
+  grouping.decayed = true;
+  decayed_.push_back(update.slot);
 }
 
-bool Bodies::is_loose(const Grouping& grouping, double quality) const {
+bool Bodies::has_decayed(const Grouping& grouping, double quality) const {
   return tuning_->decayed * quality < grouping.quality;
 }
 
 int Bodies::moves_to_look(const Grouping& grouping) const { return tuning_->moves_to_look << grouping.tries; }
 
 std::vector<Bodies::Regrouped> Bodies::regroup(int threads) {
-  std::ranges::sort(loose_);
-  std::vector<Regrouped> all(loose_.size());
-  std::vector<std::optional<narrowphase::ClusteredMesh>> meshes(loose_.size());
-  base::parallel_for(loose_.size(), 1, threads, [&](std::size_t i) {
-    const narrowphase::ClusteredMesh& mesh = in_slot(loose_[i]).mesh;
-    if (!is_loose(groupings_[loose_[i]], cluster_quality(mesh))) return;  // it was, when it was looked at
+  std::ranges::sort(decayed_);
+  std::vector<Regrouped> all(decayed_.size());
+  std::vector<std::optional<narrowphase::ClusteredMesh>> meshes(decayed_.size());
+  base::parallel_for(decayed_.size(), 1, threads, [&](std::size_t i) {
+    const narrowphase::ClusteredMesh& mesh = in_slot(decayed_[i]).mesh;
+    if (!has_decayed(groupings_[decayed_[i]], cluster_quality(mesh))) return;  // it was, when it was looked at
     meshes[i] = clustered_anew(mesh);
-    all[i] = {in_slot(loose_[i]).id, vertex_numbers_in(*meshes[i], mesh)};
+    all[i] = {in_slot(decayed_[i]).id, vertex_numbers_in(*meshes[i], mesh)};
   });
   // From here on nothing can fail.
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!meshes[i]) continue;
-    Body& body = *slots_[loose_[i]].body;
-    Grouping& grouping = groupings_[loose_[i]];
+    Body& body = *slots_[decayed_[i]].body;
+    Grouping& grouping = groupings_[decayed_[i]];
     if (cluster_spread(*meshes[i]) <= tuning_->worth_regrouping * cluster_spread(body.mesh)) {
       packed_meshes_.remove(body.mesh);
       body.mesh = std::move(*meshes[i]);
       body.features.reset();
       body.neighbors.reset();
-      slots_[loose_[i]].begin = Begin::here;
+      slots_[decayed_[i]].begin = Begin::here;
       packed_meshes_.add(body.mesh);
     } else {
       all[i].numbers.clear();
@@ -336,11 +336,11 @@ std::vector<Bodies::Regrouped> Bodies::regroup(int threads) {
 }
 
 void Bodies::keep_groups() noexcept {
-  for (const std::uint32_t slot : loose_) {
-    groupings_[slot].loose = false;
+  for (const std::uint32_t slot : decayed_) {
+    groupings_[slot].decayed = false;
     groupings_[slot].moves = 0;
   }
-  loose_.clear();
+  decayed_.clear();
 }
 
 void Bodies::set_positions(BodyId id, const Positions& positions, int threads) {
@@ -373,7 +373,7 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
     return threads > 1 && updates_[i].body->mesh.facet_count() >= (few ? kLargeOfFew : kLargeBody);
   };
   const std::size_t grain = base::grain_of(count, threads, 16, 128);
-  const bool asks_ahead = !stay_in_cache();
+  const bool prefetches = !stay_in_cache();
   base::parallel_for(count, grain, threads, [&](std::size_t i) {
     // Of the bodies that another thread may turn over, only where they are is read.
     const std::size_t own_end = threads == 1 ? count : std::min(count, i - i % grain + grain);
@@ -381,7 +381,7 @@ void Bodies::set_positions(std::span<const PositionsUpdate> updates, int threads
       if (k < own_end && is_packed(*updates_[k].given))
         prefetch_refit(updates_[k].body->mesh, updates_[k].given->data());
     };
-    if (asks_ahead) {
+    if (prefetches) {
       for (std::size_t k = 1; i % grain == 0 && k < kPrefetchDistance; ++k) ask_for(i + k);
       ask_for(i + kPrefetchDistance);
       if (i + 2 * kPrefetchDistance < count) prefetch(updates[i + 2 * kPrefetchDistance].body);

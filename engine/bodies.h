@@ -152,8 +152,8 @@ class Bodies {
     std::vector<int> numbers;
   };
   // Clusters are grouped by where the facets are when a body is added. Have those of any body lost their shape?
-  bool any_loose() const { return !loose_.empty(); }
-  // Groups the facets of such bodies by where they are now, if they still are loose and it gains something. Sorted by
+  bool any_decayed() const { return !decayed_.empty(); }
+  // Groups the facets of these bodies by where they are now, if it gains something. Sorted by
   // slot. If it fails, nothing has changed.
   std::vector<Regrouped> regroup(int threads);
   // Does without: the groups stay as they are, until the bodies are looked at again.
@@ -187,7 +187,7 @@ class Bodies {
     double quality = 0.0;     // see cluster_quality(): when they were made, or could not be made better
     std::uint16_t moves = 0;  // since it was last looked at
     std::uint8_t tries = 0;   // to group anew: the more there were, the longer until the next look
-    bool loose = false;
+    bool decayed = false;
   };
 
   // New positions of a body: prepared; its mesh refitted, and put back if any of a batch is bad; published.
@@ -231,7 +231,7 @@ class Bodies {
     return {std::min(a.index, b.index), std::max(a.index, b.index)};
   }
   void set_filter(BodyId id, const broadphase::Filter& filter);
-  bool is_loose(const Grouping& grouping, double quality) const;
+  bool has_decayed(const Grouping& grouping, double quality) const;
   int moves_to_look(const Grouping& grouping) const;
 
   std::uint32_t world_;
@@ -246,7 +246,7 @@ class Bodies {
   std::vector<char> knows_kdop_, wants_kdop_;
   std::vector<std::uint32_t> unknown_;  // slots of bodies that are to look now
   std::vector<Grouping> groupings_;
-  std::vector<std::uint32_t> loose_;  // slots of bodies whose clusters have lost their shape
+  std::vector<std::uint32_t> decayed_;  // slots of bodies whose clusters have lost their shape
   std::vector<std::uint32_t> changed_;
   std::size_t count_ = 0;
   bool removed_any_ = false;

@@ -102,7 +102,7 @@ struct World::Implementation {
 
   // Where memory is short bodies stay grouped as they are: that is slower, and nothing else.
   void regroup() {
-    if (!bodies.any_loose()) return;
+    if (!bodies.any_decayed()) return;
     try {
       refresh([&] { step.regroup(bodies, settings.threads); });
     } catch (const std::bad_alloc&) {

@@ -96,7 +96,7 @@ class Bullet : public Rival {
     const auto [a, b] = std::minmax({number(pair.m_pProxy0), number(pair.m_pProxy1)});
     Body& first = *bodies_[a];
     Body& second = *bodies_[b];
-    // The pair cache holds fattened boxes, and pairs that have parted.
+    // The pair cache holds fattened boxes, and pairs that are separated by now.
     if (!first.boxes.getGlobalBox().has_collision(second.boxes.getGlobalBox())) return;
     btPairSet& candidates = *candidates_[thread];
     candidates.resizeNoInitialize(0);

@@ -97,6 +97,8 @@ int run_busy(const BenchOptions& options) {
   std::vector<Scene> scenes{
       {"8 blobs of 320", [] { return pile(8, 4, 6); }},
       {"2 blobs of 13,520", [] { return large_pair(26, 6); }},
+      {"8 blobs of 1,280", [] { return pile(8, 8, 6); }},
+      {"a pile of 30 blobs of 1,280", [] { return pile(30, 8, 6); }},
       {"a pile of 100 blobs of 1,280", [] { return pile(100, 8, 6); }},
       {"a pile of 400 blobs of 1,280", [] { return pile(400, 8, 6); }},
   };
