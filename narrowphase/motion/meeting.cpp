@@ -29,6 +29,7 @@ constexpr std::int64_t kMostSpans = 1 << 15;
 constexpr double kCrossing = 0x1p-36, kWideCrossing = 0x1p-23;
 constexpr double kShortInPlane = 0x1p-20;  // twice the margin in meeting_in_plane(), and some
 constexpr int kMostNewtonSteps = 12;
+constexpr double kShortestWay = 0x1p-900;  // of a corner: scaled lengths below the smallest double do not matter
 // Each halving of the step adds two at most.
 constexpr std::size_t kMostMoments = 96;
 
@@ -38,6 +39,13 @@ double largest_size(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std
 Vec3 perpendicular(Vec3 direction, Vec3 side) {
   direction = direction - dot(direction, side) / norm_squared(side) * side;
   return norm_squared(direction) > 0.0 ? normalized(direction) : Vec3{};
+}
+
+// The coefficients of a cubic before a time, and after it; the one at the time is in both.
+std::array<double, 7> halves_at(const std::array<double, 4>& c, double t) {
+  const auto mix = [&](double x, double y) { return x + t * (y - x); };
+  const double a = mix(c[0], c[1]), b = mix(c[1], c[2]), d = mix(c[2], c[3]), ab = mix(a, b), bd = mix(b, d);
+  return {c[0], a, ab, mix(ab, bd), bd, d, c[3]};
 }
 
 Vec3 unit(Vec3 v) { return largest_size(v) > 0x1p-500 ? normalized(v) : Vec3{}; }
@@ -60,28 +68,7 @@ Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double 
 
   Meeting meeting;
   Span span{0.0, 1.0};
-  if (reach_ == 0.0 && count_ > 2) {
-    const Volume volume = volume_on(at_[0], at_[1]);
-    if (const std::optional<Span> crossing = only_crossing(volume)) {
-      span = *crossing;
-      const Verdict verdict = holds_origin_near(polygon, scale_, span.from, span.to);
-      if (verdict == Verdict::yes) meeting.time = span.from;
-      if (verdict != Verdict::unknown) return meeting;
-    } else if (std::ranges::all_of(volume.coefficient, [&](double c) { return std::abs(c) <= volume.rounding; })) {
-      const MeetingInPlane flat = meeting_in_plane(polygon, scale_);
-      if (flat.verdict == Verdict::yes) meeting.time = flat.from;
-      if (flat.verdict != Verdict::unknown) return meeting;
-      span = {flat.from, flat.to};
-      if (span.to - span.from <= kShortInPlane) {
-        const std::optional<double> begin = finest_.first_open_part(polygon, scale_, span.from, span.to);
-        if (!begin) return meeting;
-        if (is_near(moment(*begin))) {
-          meeting.time = *begin;
-          return meeting;
-        }
-      }
-    }
-  }
+  if (reach_ == 0.0 && is_decided_at_once(polygon, span, meeting)) return meeting;
   Moment from = moment(span.from);
   if (reach_ > 0.0) reach_ = allowed_reach(from);
   waiting_.assign(1, moment(span.to));
@@ -120,6 +107,81 @@ Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double 
     add_between(from.time, to.time, middle);
   }
   return meeting;
+}
+
+// Without a search. Otherwise what is outside of `span` is left out.
+bool MeetingSearch::is_decided_at_once(const MovingPolygon& polygon, Span& span, Meeting& meeting) {
+  const std::optional<double> crossing_of_corner = first_exact_crossing(polygon);
+  if (crossing_of_corner == 0.0) {
+    meeting.time = 0.0;
+    return true;
+  }
+  if (count_ < 3) return false;
+  const Volume volume = volume_on(at_[0], at_[1]);
+  if (crossing_of_corner) {
+    if (const std::optional<double> begin = meeting_at_corner(volume, *crossing_of_corner)) {
+      meeting.time = *begin;
+      return true;
+    }
+  }
+  if (const std::optional<Span> crossing = only_crossing(volume)) {
+    span = *crossing;
+    const Verdict verdict = holds_origin_near(polygon, scale_, span.from, span.to);
+    if (verdict == Verdict::yes) meeting.time = span.from;
+    return verdict != Verdict::unknown;
+  }
+  if (!volume.vanishes()) return false;
+  const MeetingInPlane flat = meeting_in_plane(polygon, scale_);
+  if (flat.verdict == Verdict::yes) meeting.time = flat.from;
+  if (flat.verdict != Verdict::unknown) return true;
+  span = {flat.from, flat.to};
+  if (span.to - span.from > kShortInPlane) return false;
+  const std::optional<double> begin = finest_.first_open_part(polygon, scale_, span.from, span.to);
+  if (begin && !is_near(moment(*begin))) return false;
+  if (begin) meeting.time = *begin;
+  return true;
+}
+
+// Of layers on equal grids, or of what touches when the step begins, a corner's way goes exactly through the origin:
+// two of its coordinates are zero at both times, and the third one changes its sign or is zero. The time is right to a
+// few roundings. The differences are exact: where a head is zero, so is its tail.
+std::optional<double> MeetingSearch::first_exact_crossing(const MovingPolygon& polygon) const {
+  std::optional<double> first;
+  for (int i = 0; i < count_; ++i) {
+    const Vec3 &p = polygon.corner[0][i].head, &q = polygon.corner[1][i].head;
+    if (p == Vec3{}) return 0.0;
+    int zeros = 0, other = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (p[axis] == 0.0 && q[axis] == 0.0)
+        ++zeros;
+      else
+        other = axis;
+    }
+    const bool stays_on_one_side = (p[other] < 0.0 && q[other] < 0.0) || (p[other] > 0.0 && q[other] > 0.0);
+    if (zeros < 2 || stays_on_one_side) continue;
+    const double begin = at_[0][i][other], way = begin - at_[1][i][other];
+    if (!(std::abs(way) > kShortestWay)) continue;
+    const double time = begin / way;
+    if (!first || time < *first) first = time;
+  }
+  return first;
+}
+
+// The beginning of the meeting, if before the time at which a corner is at the origin nothing meets.
+std::optional<double> MeetingSearch::meeting_at_corner(const Volume& volume, double time) const {
+  const auto keeps_its_sign_before = [&](double t) {
+    const auto before = halves_at(volume.coefficient, t);
+    const double sign = before[0] > 0.0 ? 1.0 : -1.0;
+    return std::all_of(before.begin(), before.begin() + 4, [&](double x) { return sign * x > volume.rounding; });
+  };
+  const bool is_flat = volume.vanishes();
+  const Moment begin = is_flat ? moment(0.0) : Moment{};
+  for (const double margin : {kCrossing, kWideCrossing}) {
+    const double from = std::max(time - margin, 0.0);
+    if (from == 0.0) return from;
+    if (is_flat ? is_left_out_by_direction(begin, moment(from)) : keeps_its_sign_before(from)) return from;
+  }
+  return std::nullopt;
 }
 
 Vec3 MeetingSearch::corner(int i, double time) const { return at_[0][i] + time * (at_[1][i] - at_[0][i]); }
@@ -211,6 +273,10 @@ bool MeetingSearch::is_left_out_by_volume(const Moment& from, const Moment& to) 
   return low > volume.rounding || high < -volume.rounding;
 }
 
+bool MeetingSearch::Volume::vanishes() const {
+  return std::ranges::all_of(coefficient, [&](double c) { return std::abs(c) <= rounding; });
+}
+
 // Its rounding holds what a reach adds.
 MeetingSearch::Volume MeetingSearch::volume_on(const Vec3 (&from)[4], const Vec3 (&to)[4]) const {
   const Vec3 e0 = from[1] - from[0], e1 = to[1] - to[0];
@@ -231,15 +297,10 @@ std::optional<MeetingSearch::Span> MeetingSearch::only_crossing(const Volume& vo
   const bool changes_once =
       sign * c[0] > volume.rounding && sign * c[3] < -volume.rounding && !(sign * c[1] < 0.0 && sign * c[2] > 0.0);
   if (!changes_once) return std::nullopt;
-  const auto halves_at = [&](double t) {
-    const auto mix = [&](double x, double y) { return x + t * (y - x); };
-    const double a = mix(c[0], c[1]), b = mix(c[1], c[2]), d = mix(c[2], c[3]), ab = mix(a, b), bd = mix(b, d);
-    return std::array{c[0], a, ab, mix(ab, bd), bd, d, c[3]};
-  };
   // Newton's method, and halving where that would leave the bracket.
   double low = 0.0, high = 1.0, root = c[0] / (c[0] - c[3]);
   for (int k = 0; k < kMostNewtonSteps; ++k) {
-    const auto at = halves_at(root);
+    const auto at = halves_at(c, root);
     (sign * at[3] > 0.0 ? low : high) = root;
     const double next = root - at[3] / (3.0 * (at[4] - at[2]));
     const double last = std::exchange(root, low < next && next < high ? next : 0.5 * (low + high));
@@ -247,7 +308,7 @@ std::optional<MeetingSearch::Span> MeetingSearch::only_crossing(const Volume& vo
   }
   for (const double margin : {kCrossing, kWideCrossing}) {
     const double from = std::max(root - margin, 0.0), to = std::min(root + margin, 1.0);
-    const auto before = halves_at(from), after = halves_at(to);
+    const auto before = halves_at(c, from), after = halves_at(c, to);
     const bool is_apart_before =
         std::all_of(before.begin(), before.begin() + 4, [&](double x) { return sign * x > volume.rounding; });
     const bool is_apart_after =

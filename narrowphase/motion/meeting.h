@@ -8,7 +8,8 @@
 // they have to exceed), so no root is ever looked for: one that is missed cannot occur. Where n(t) comes from does not
 // matter for that. Spans without a certificate are halved, the earlier half first. Where the polygon is as near as
 // doubles can tell, or the span is as short as kFinestSpan of the step, double_doubles go on; what is left then counts
-// as a meeting, at its beginning. Hence
+// as a meeting, at its beginning. A corner that goes exactly through the origin is a meeting: all that is left to prove
+// is that there is none before. Hence
 //   - a time is never later than the true one;
 //   - a polygon that misses the origin by more than 1e-11 of its size and way never counts, and most often one that
 //     misses it by 1e-25;
@@ -60,11 +61,16 @@ class MeetingSearch {
   struct Volume {
     std::array<double, 4> coefficient;
     double rounding;
+
+    bool vanishes() const;  // as far as doubles tell
   };
   struct Span {
     double from, to;
   };
   Volume volume_on(const Vec3 (&from)[4], const Vec3 (&to)[4]) const;
+  bool is_decided_at_once(const MovingPolygon& polygon, Span& span, Meeting& meeting);
+  std::optional<double> first_exact_crossing(const MovingPolygon& polygon) const;
+  std::optional<double> meeting_at_corner(const Volume& volume, double time) const;
   std::optional<Span> only_crossing(const Volume& volume) const;
   Moment moment(double time) const;
   Vec3 corner(int i, double time) const;

@@ -33,6 +33,7 @@ TEST(LongMotion, FirstTimesEqualRationalArithmetic) {
     narrowphase::MeetingSearch search;
     for (std::uint64_t k = 0; k < kBlock; ++k) {
       const auto [answer, failure] = check(k % 5 == 0   ? query_in_plane(random)
+                                           : k % 5 == 1 ? query_of_layers(random)
                                            : k % 2 == 0 ? random_query(random)
                                                         : grazing_query(random),
                                            search);

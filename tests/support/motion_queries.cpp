@@ -117,6 +117,25 @@ MotionQuery query_in_plane(Random& random) {
   return query;
 }
 
+MotionQuery query_of_layers(Random& random) {
+  const int up = random.below(3);  // an axis
+  const double place = random.chance(0.3) ? random.uniform(-100.0, 100.0) : 0.0;
+  MotionQuery query;
+  query.edges = random.chance(0.5);
+  for (std::size_t i = 0; i < query.vertices.size(); ++i) {
+    const bool is_above = i < (query.edges ? 2u : 1u);
+    const int x = random.below(2), y = random.below(3);
+    const double begin = random.uniform(0.0, 0.5), way = random.uniform(-1.0, 1.0);
+    for (const int time : {0, 1}) {
+      Vec3& p = query.vertices[i].at[time];
+      p[(up + 1) % 3] = place + 0.1 * x;
+      p[(up + 2) % 3] = 0.1 * y - place;
+      p[up] = begin + time * (is_above ? way - 0.5 : way) + (is_above ? 0.5 : 0.0);
+    }
+  }
+  return query;
+}
+
 CheckedQuery check(const MotionQuery& query, narrowphase::MeetingSearch& search) {
   const MovingPolygon polygon = query.polygon();
   const double time = search.first(polygon, 0.0).time;

@@ -21,6 +21,8 @@ MotionQuery random_query(Random& random);
 MotionQuery grazing_query(Random& random);
 /// Edges of two layers of cloth on one grid, that move along the vertical: they stay in one plane.
 MotionQuery query_in_plane(Random& random);
+/// Features of two layers on one grid, in all places of it, that move along an axis: corners meet exactly.
+MotionQuery query_of_layers(Random& random);
 
 enum class QueryAnswer { meets, misses, misses_but_counts };  // the last: by next to nothing
 struct CheckedQuery {

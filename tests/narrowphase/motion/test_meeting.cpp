@@ -87,6 +87,36 @@ TEST(Meeting, EdgesThatStayInOnePlaneAreRightMostlyAtOnce) {
   EXPECT_GT(at_once, meeting / 3);
 }
 
+// Corners whose way goes exactly through the origin; often something meets before them.
+TEST(Meeting, CornersThatMeetExactlyAreRightMostlyAtOnce) {
+  Random random(6);
+  MeetingSearch search;
+  int meeting = 0, at_once = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const MotionQuery query = query_of_layers(random);
+    const CheckedQuery checked = check(query, search);
+    EXPECT_EQ(checked.failure, "");
+    const bool meets = checked.answer == QueryAnswer::meets;
+    meeting += meets ? 1 : 0;
+    at_once += meets && search.first(query.polygon(), 0.0).spans == 0 ? 1 : 0;
+  }
+  EXPECT_GT(meeting, 800);
+  EXPECT_GT(at_once, meeting * 8 / 10);
+}
+
+// The way of a corner goes to the origin and ends there, or begins there.
+TEST(Meeting, ACornerMeetsAtTheFirstOrLastTime) {
+  const MovingVertex facet[3] = {{{{0, 0, 0}, {0, 0, 0}}}, {{{1, 0, 0}, {1, 0, 0}}}, {{{0, 1, 0}, {0, 1, 0}}}};
+  MeetingSearch search;
+  for (const double height : {-1.0, 1.0}) {
+    const Vec3 away{0, 0, height}, corner{1, 0, 0};
+    EXPECT_EQ(search.first(facet_seen_from({{corner, corner + away}}, facet), 0.0).time, 0.0);
+    EXPECT_NEAR(search.first(facet_seen_from({{corner + away, corner}}, facet), 0.0).time, 1.0, 1e-10);
+    EXPECT_NEAR(search.first(facet_seen_from({{corner + away, corner - away}}, facet), 0.0).time, 0.5, 1e-10);
+    EXPECT_GT(search.first(facet_seen_from({{corner + away, corner + 0.5 * away}}, facet), 0.0).time, 1.0);
+  }
+}
+
 TEST(Meeting, TheSearchTakesTheSameStepsWhateverIsLatest) {
   Random random(3);
   MeetingSearch search;
