@@ -6,7 +6,6 @@
 
 #include "tests/support/data.h"
 #include "tests/support/detection.h"
-#include "tests/support/oracle.h"
 #include "tests/support/point_oracle.h"
 
 namespace tact::tests {
@@ -47,41 +46,6 @@ TEST(DataContactPoints, OfAClothThatFallsOnASphereEqualBruteForce) {
                                  "frame " + std::to_string(frame));
   }
   EXPECT_GT(points, 100u);
-}
-
-std::vector<FacetPair> self_facet_pairs_by_engine(const Mesh& mesh, int threads) {
-  World world({.threads = threads});
-  world.add_body({.positions = mesh.positions, .facets = mesh.facets, .self_contact = true});
-  const Report& report = world.detect();
-  if (report.contacts().empty()) return {};
-  EXPECT_EQ(report.contacts()[0].a, report.contacts()[0].b);
-  return {report.contacts()[0].facet_pairs().begin(), report.contacts()[0].facet_pairs().end()};
-}
-
-TEST(DataSelfContact, FacetPairsEqualTheOracle) {
-  TACT_SKIP_WITHOUT_DATA();
-  for (const char* name : {"spot.ply", "fish.obj", "dress.ply", "messy/cycloidal.ply",
-                           "messy/openscad-nonmanifold-crash.obj", "messy/l_tibia_SOMEINVERTEDFACES.obj",
-                           "messy/triple_vierbein.obj", "small_answers/two-cubes-intersecting.ply"}) {
-    const Mesh mesh = read_data(name);
-    EXPECT_TRUE(same_facet_pairs(self_facet_pairs_by_oracle(mesh), self_facet_pairs_by_engine(mesh, 2))) << name;
-  }
-}
-
-// Counts as SOURCES.md gives them.
-TEST(DataSelfContact, PosesOfAToyHaveTheKnownNumberOfPairs) {
-  TACT_SKIP_WITHOUT_DATA();
-  const Sequence toy = read_data_sequence("seq_toy_poses");
-  const std::vector<std::size_t> known = {117, 46, 41, 41, 0, 84, 0, 100, 4, 73, 93};
-  ASSERT_EQ(toy.frames.size(), known.size());
-  World world({.threads = 2});
-  const BodyId id = world.add_body({.positions = toy.frames[0], .facets = toy.facets, .self_contact = true});
-  for (std::size_t frame = 0; frame < known.size(); ++frame) {
-    world.set_positions(id, toy.frames[frame]);
-    const Report& report = world.detect();
-    const std::size_t found = report.contacts().empty() ? 0 : report.contacts()[0].facet_pairs().size();
-    EXPECT_EQ(found, known[frame]) << "pose " << frame + 1;
-  }
 }
 
 }  // namespace

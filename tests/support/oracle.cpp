@@ -1,10 +1,13 @@
 #include "tests/support/oracle.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -90,13 +93,41 @@ std::vector<FacetPair> facet_pairs_by_oracle(const Mesh& a, const Mesh& b) {
   return pairs;
 }
 
+namespace {
+
+bool share_a_vertex(const Mesh& mesh, const FacetPair& pair) {
+  const auto f = mesh.facets.col(pair.a), g = mesh.facets.col(pair.b);
+  return std::ranges::find_first_of(f, g) != f.end();
+}
+
+}  // namespace
+
 std::vector<FacetPair> self_facet_pairs_by_oracle(const Mesh& mesh) {
   std::vector<FacetPair> pairs = facet_pairs_by_oracle(mesh, mesh);
-  std::erase_if(pairs, [&](const FacetPair& pair) {
-    if (pair.b <= pair.a) return true;
-    const auto f = mesh.facets.col(pair.a), g = mesh.facets.col(pair.b);
-    return std::ranges::find_first_of(f, g) != f.end();
-  });
+  std::erase_if(pairs, [&](const FacetPair& pair) { return pair.b <= pair.a || share_a_vertex(mesh, pair); });
+  return pairs;
+}
+
+std::optional<std::vector<FacetPair>> self_facet_pairs_by_cgal(const Mesh& mesh) {
+  CGAL::Surface_mesh<Point> surface;
+  std::vector<CGAL::SM_Vertex_index> vertices;
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3 p = mesh.position(v);
+    vertices.push_back(surface.add_vertex(Point(p.x, p.y, p.z)));
+  }
+  for (int f = 0; f < mesh.facet_count(); ++f) {
+    const auto vertex = [&](int row) { return vertices[mesh.facets(row, f)]; };
+    if (shape_of(mesh, f).index() != 0) return {};
+    if (surface.add_face(vertex(0), vertex(1), vertex(2)) == surface.null_face()) return {};
+  }
+  std::vector<std::pair<CGAL::SM_Face_index, CGAL::SM_Face_index>> found;
+  CGAL::Polygon_mesh_processing::self_intersections(surface, std::back_inserter(found));
+  std::vector<FacetPair> pairs;
+  for (const auto& [f, g] : found) {
+    const auto [low, high] = std::minmax({static_cast<int>(f), static_cast<int>(g)});
+    if (!share_a_vertex(mesh, {low, high})) pairs.push_back({low, high});
+  }
+  std::ranges::sort(pairs);
   return pairs;
 }
 
