@@ -49,6 +49,15 @@ ContactPoint to_point(const FeaturePoint& found, BodyId a, BodyId b) {
   return point;
 }
 
+// What lasts of it.
+FeaturePoint to_feature_point(const ContactPoint& point) {
+  return {.kind = point.kind,
+          .a = point.a_vertices,
+          .b = point.b_vertices,
+          .normal = {point.normal.x(), point.normal.y(), point.normal.z()},
+          .gap = point.gap};
+}
+
 // Do surfaces cross, or touch, of which nobody knows how near they are? Where hulls only touch, nothing has crossed.
 bool cross_each_other(const PairRecord& record, double reach) {
   return record.hulls_overlap && (!record.facet_pairs.empty() || record.contact.containment != Containment::none) &&
@@ -102,6 +111,17 @@ void PointStage::cross(const Wanted& wanted, const Bodies& bodies, Work& work) {
                      .carried_a = work.carried_a,
                      .carried_b = work.carried_b},
                     work.found);
+}
+
+void PointStage::cross_itself(const Wanted& wanted, const Bodies& bodies, Work& work) {
+  work.last.clear();
+  for (const ContactPoint& point : wanted.self->last_points) work.last.push_back(to_feature_point(point));
+  wanted.self->crossing->run({.mesh = bodies.featured(wanted.a),
+                              .surface = kind_of(bodies.in_slot(wanted.a)),
+                              .reach = wanted.reach,
+                              .facet_pairs = wanted.self->facet_pairs,
+                              .last = work.last},
+                             work.found);
 }
 
 // In an order that depends on features alone.
@@ -162,15 +182,17 @@ void PointStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Set
   }
 }
 
-void PointStage::run_self(std::uint32_t slot, Bodies& bodies, const Settings& settings,
-                          std::span<const ClusterPair> pairs, std::vector<ContactPoint>& points) {
+void PointStage::run_self(const Self& self, Bodies& bodies, const Settings& settings,
+                          std::vector<ContactPoint>& points) {
   points.clear();
-  if (pairs.empty()) return;
+  if (self.cluster_pairs.empty() && self.crossing == nullptr) return;
   numbers_patches_ = !settings.outputs.patches;
-  wanted_.assign(1, {slot, slot, bodies.reach(slot, slot), &points, nullptr});
+  wanted_.assign(
+      1,
+      {.a = self.slot, .b = self.slot, .reach = bodies.reach(self.slot, self.slot), .points = &points, .self = &self});
   make_features(bodies, settings.threads);
   work_.resize(settings.threads);
-  search_in_ranges(wanted_[0], bodies, pairs, settings.threads);
+  search_in_ranges(wanted_[0], bodies, self.cluster_pairs, settings.threads);
 }
 
 void PointStage::search_in_ranges(const Wanted& wanted, const Bodies& bodies, std::span<const ClusterPair> pairs,
@@ -188,6 +210,7 @@ void PointStage::search_in_ranges(const Wanted& wanted, const Bodies& bodies, st
   found.clear();
   for (std::size_t i = 0; i < ranges; ++i) found.insert(found.end(), ranges_[i].begin(), ranges_[i].end());
   if (wanted.record != nullptr) cross(wanted, bodies, work_[0]);
+  if (wanted.self != nullptr && wanted.self->crossing != nullptr) cross_itself(wanted, bodies, work_[0]);
   publish(wanted, bodies, work_[0]);
 }
 

@@ -12,6 +12,7 @@
 #include "engine/patches.h"
 #include "narrowphase/contact_points/contact_points.h"
 #include "narrowphase/contact_points/crossing.h"
+#include "narrowphase/self/self_crossing.h"
 
 namespace tact {
 
@@ -21,9 +22,16 @@ class PointStage {
   /// one body is inside the other; each into its record.
   void run(std::span<const MovedPair> moved, Bodies& bodies, const Settings& settings,
            narrowphase::EmbreeDevice& device);
-  /// The points of a body with itself, of these of its cluster pairs, into `points`, on all threads.
-  void run_self(std::uint32_t slot, Bodies& bodies, const Settings& settings,
-                std::span<const narrowphase::ClusterPair> pairs, std::vector<ContactPoint>& points);
+  /// A body with itself.
+  struct Self {
+    std::uint32_t slot = 0;
+    std::span<const narrowphase::ClusterPair> cluster_pairs;
+    std::span<const FacetPair> facet_pairs;
+    std::span<const ContactPoint> last_points;
+    narrowphase::SelfCrossing* crossing = nullptr;  // if facets meet
+  };
+  /// Its points into `points`, on all threads.
+  void run_self(const Self& self, Bodies& bodies, const Settings& settings, std::vector<ContactPoint>& points);
 
  private:
   /// Memory of a thread, used again.
@@ -32,7 +40,7 @@ class PointStage {
     narrowphase::ContactPointSearch search;
     narrowphase::CrossingSearch crossing;
     std::vector<narrowphase::CarriedNormal> carried_a, carried_b;
-    std::vector<narrowphase::FeaturePoint> found;
+    std::vector<narrowphase::FeaturePoint> found, last;
     PatchFinder patches;
   };
   /// Two bodies, or one twice.
@@ -41,11 +49,13 @@ class PointStage {
     double reach = 0.0;
     std::vector<ContactPoint>* points = nullptr;
     const PairRecord* record = nullptr;  // of two bodies
+    const Self* self = nullptr;          // of one
   };
   void select(std::span<const MovedPair> moved, const Bodies& bodies);
   void make_features(Bodies& bodies, int threads);
   void publish(const Wanted& wanted, const Bodies& bodies, Work& work) const;
   static void cross(const Wanted& wanted, const Bodies& bodies, Work& work);
+  static void cross_itself(const Wanted& wanted, const Bodies& bodies, Work& work);
   void search_in_ranges(const Wanted& wanted, const Bodies& bodies, std::span<const narrowphase::ClusterPair> pairs,
                         int threads);
 

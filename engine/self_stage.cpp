@@ -35,13 +35,14 @@ void SelfStage::run(Bodies& bodies, const Settings& settings, bool all, PointSta
     SelfRecord& one = record(slot);
     one.body = bodies.in_slot(slot).id;
     one.facet_pairs.clear();
+    std::swap(one.points, one.last_points);
     one.points.clear();
     one.looked_at = true;
     const narrowphase::ClusterNeighbors& neighbors = bodies.neighbors(slot);
     clusters_.find({bodies.featured(slot), &neighbors}, settings.outputs.points ? bodies.reach(slot, slot) : 0.0,
                    bodies.tuning(), settings.threads, device);
     if (settings.accuracy != Accuracy::hulls) find_facet_pairs(one, bodies, settings.threads);
-    if (settings.outputs.points) points.run_self(slot, bodies, settings, clusters_.may_contact(), one.points);
+    if (settings.outputs.points) find_points(one, bodies, settings, points);
   };
   if (all) {
     const auto slots = static_cast<std::uint32_t>(bodies.boxes().size());
@@ -76,6 +77,20 @@ void SelfStage::find_facet_pairs(SelfRecord& record, const Bodies& bodies, int t
   for (std::size_t i = 0; i < ranges; ++i)
     record.facet_pairs.insert(record.facet_pairs.end(), ranges_[i].begin(), ranges_[i].end());
   std::ranges::sort(record.facet_pairs);
+}
+
+void SelfStage::find_points(SelfRecord& record, Bodies& bodies, const Settings& settings, PointStage& points) {
+  // A sheet with a margin keeps the side on which it is: see ContactPoint.
+  const std::uint32_t slot = record.body.index;
+  const bool has_side = bodies.in_slot(slot).surface == Surface::closed || bodies.reach(slot, slot) == 0.0;
+  const bool crosses = has_side && !record.facet_pairs.empty();
+  if (crosses && record.crossing == nullptr) record.crossing = std::make_unique<narrowphase::SelfCrossing>();
+  points.run_self({.slot = slot,
+                   .cluster_pairs = clusters_.may_contact(),
+                   .facet_pairs = record.facet_pairs,
+                   .last_points = record.last_points,
+                   .crossing = crosses ? record.crossing.get() : nullptr},
+                  bodies, settings, record.points);
 }
 
 void SelfStage::select() {

@@ -14,6 +14,7 @@
 #include "engine/patch_stage.h"
 #include "engine/point_stage.h"
 #include "narrowphase/self/self_clusters.h"
+#include "narrowphase/self/self_crossing.h"
 #include "narrowphase/self/self_facet_pairs.h"
 
 namespace tact {
@@ -22,7 +23,8 @@ namespace tact {
 struct SelfRecord {
   BodyId body;
   std::vector<FacetPair> facet_pairs;  // sorted, a < b
-  std::vector<ContactPoint> points;
+  std::vector<ContactPoint> points, last_points;
+  std::unique_ptr<narrowphase::SelfCrossing> crossing;  // made when facets meet for the first time
   PatchMemory patches;
   bool looked_at = false;  // in this step
   bool in_contact() const { return !facet_pairs.empty() || !points.empty(); }
@@ -52,6 +54,7 @@ class SelfStage {
  private:
   SelfRecord& record(std::uint32_t slot);
   void find_facet_pairs(SelfRecord& record, const Bodies& bodies, int threads);
+  void find_points(SelfRecord& record, Bodies& bodies, const Settings& settings, PointStage& points);
   void select();
 
   std::vector<std::unique_ptr<SelfRecord>> records_;  // by slot; null where none is wanted

@@ -209,6 +209,14 @@ std::optional<WayOut> WayFinder::nearest_through(Vec3 v, Vec3 facing, double wit
   return beyond ? way : std::nullopt;
 }
 
+std::optional<WayOut> way_to_facet(const ScaledMesh& surface, int facet, Vec3 v) {
+  const SeenFacet seen(surface, facet, v);
+  if (seen.length == 0.0) return {};
+  WayOut way = way_to(seen, facet);
+  name_feature(surface, way);
+  return way;
+}
+
 std::optional<WayOut> way_out_along(const ScaledMesh& surface, Vec3 v, Vec3 direction, double within) {
   const Vec3 from = (1.0 / surface.scale) * v;
   const Vec3 way = (within / surface.scale) * direction;

@@ -47,6 +47,9 @@ class WayFinder {
   std::unique_ptr<Memory> memory_;
 };
 
+/// The nearest place of one facet; none if it has no area.
+std::optional<WayOut> way_to_facet(const ScaledMesh& surface, int facet, Vec3 v);
+
 /// Of a closed mesh: along `direction`, a unit vector, at most `within` far.
 std::optional<WayOut> way_out_along(const ScaledMesh& surface, Vec3 v, Vec3 direction, double within);
 

@@ -204,6 +204,11 @@ long double way_along_edges(const LongMesh& s, const std::array<int, 3>& from, c
 
 }  // namespace
 
+long double way_along_edges(const Mesh& mesh, const std::array<int, 3>& from, Vec3 from_point,
+                            const std::array<int, 3>& to, Vec3 to_point) {
+  return way_along_edges(long_mesh(mesh), from, from_point, to, to_point);
+}
+
 std::map<PointKey, ExpectedPoint> self_points_by_brute_force(const Mesh& mesh, double reach, double band) {
   const LongMesh s = long_mesh(mesh);
   const long double least_way = 0.5L * std::numbers::pi_v<long double> * reach;

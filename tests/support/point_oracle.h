@@ -29,4 +29,9 @@ std::map<PointKey, ExpectedPoint> points_by_brute_force(const Mesh& a, const Mes
 /// edges.
 std::map<PointKey, ExpectedPoint> self_points_by_brute_force(const Mesh& mesh, double reach, double band);
 
+/// How long the shortest way along edges is from one point to another, from and to vertices of the features that hold
+/// them; -1 fills these up.
+long double way_along_edges(const Mesh& mesh, const std::array<int, 3>& from, Vec3 from_point,
+                            const std::array<int, 3>& to, Vec3 to_point);
+
 }  // namespace tact::tests

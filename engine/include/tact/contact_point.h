@@ -24,7 +24,7 @@ namespace tact {
 ///     one than the contact direction shows;
 ///   - two edges that have passed each other have one, if one meets a facet of the other; an edge that runs through a
 ///     closed body has one with the nearest edge that it has passed, if there is one.
-/// Bodies with themselves have no negative gaps.
+/// A closed body that crosses itself, or a sheet without a margin, has them, too; a sheet with a margin has none.
 ///
 /// A point of a surface is the sum of its vertices times their weights:
 ///

@@ -1,0 +1,137 @@
+#include "narrowphase/self/facets_around.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tact::narrowphase {
+
+namespace {
+
+// Facets with a common edge may be as far from a vertex as each other, but for some roundings; lengths are near 1.
+constexpr double kRounding = 1e-13;
+
+Vec3 facet_unit_normal(const ScaledMesh& mesh, int facet) {
+  const Corners c = mesh.mesh.corners(facet);
+  const Vec3 normal = cross(mesh.position(c[1]) - mesh.position(c[0]), mesh.position(c[2]) - mesh.position(c[0]));
+  const double length = norm(normal);
+  return length > 0.0 ? (1.0 / length) * normal : Vec3{};
+}
+
+}  // namespace
+
+FacetsAround::FacetsAround(const ClusteredMesh& mesh) {
+  begin_.assign(static_cast<std::size_t>(mesh.source_vertex_count()) + 1, 0);
+  const auto for_each_corner = [&](const auto& visit) {
+    for (int source = 0; source < mesh.facet_count(); ++source) {
+      const Corners corners = mesh.corners(mesh.facet_of_source(source));
+      for (std::size_t k = 0; k < 3; ++k) {
+        const bool again = std::find(corners.begin(), corners.begin() + k, corners[k]) != corners.begin() + k;
+        if (!again) visit(mesh.source_vertex(corners[k]), source);
+      }
+    }
+  };
+  for_each_corner([&](int vertex, int) { ++begin_[vertex + 1]; });
+  for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+  facets_.resize(begin_.back());
+  std::vector<int> next(begin_.begin(), begin_.end() - 1);
+  for_each_corner([&](int vertex, int source) { facets_[next[vertex]++] = source; });
+}
+
+std::span<const int> FacetsAround::operator[](int source_vertex) const {
+  const auto v = static_cast<std::size_t>(source_vertex);
+  return std::span(facets_).subspan(begin_[v], begin_[v + 1] - begin_[v]);
+}
+
+Vec3 NearestAround::normal_at(const ScaledMesh& mesh, const WayOut& way) const {
+  if (way.feature[2] >= 0) return facet_unit_normal(mesh, way.facet);
+  const bool is_edge = way.feature[1] >= 0;
+  Vec3 sum;
+  int at_edge = 0;
+  for (const int source : around_[mesh.mesh.source_vertex(way.feature[0])]) {
+    const int facet = mesh.mesh.facet_of_source(source);
+    const Corners c = mesh.mesh.corners(facet);
+    const Vec3 normal = facet_unit_normal(mesh, facet);
+    if (is_edge) {
+      if (std::ranges::find(c, way.feature[1]) == c.end()) continue;
+      ++at_edge;
+      sum = sum + normal;
+      continue;
+    }
+    const auto k = static_cast<std::size_t>(std::ranges::find(c, way.feature[0]) - c.begin());
+    for (const std::size_t side : {k, (k + 2) % 3}) {
+      const int edge = mesh.features.facet_edge(facet, static_cast<int>(side));
+      if (edge >= 0 && mesh.features.opposite(edge).size() == 1) return {};
+    }
+    const Vec3 p = mesh.position(c[(k + 1) % 3]) - mesh.position(c[k]),
+               q = mesh.position(c[(k + 2) % 3]) - mesh.position(c[k]);
+    sum = sum + std::atan2(norm(cross(p, q)), dot(p, q)) * normal;
+  }
+  return is_edge && at_edge == 1 ? Vec3{} : sum;
+}
+
+bool NearestAround::is_beside(const ClusteredMesh& mesh, int vertex, const WayOut& way) const {
+  return std::ranges::any_of(around_[mesh.source_vertex(vertex)], [&](int source) {
+    const Corners corners = mesh.corners(mesh.facet_of_source(source));
+    return std::ranges::all_of(way.feature,
+                               [&](int w) { return w < 0 || std::ranges::find(corners, w) != corners.end(); });
+  });
+}
+
+// Of the facets at an edge or a vertex, rounding would choose: the caller's first one with an area counts.
+void NearestAround::choose_facet(const ScaledMesh& mesh, WayOut& way) const {
+  if (way.feature[2] >= 0) return;
+  for (const int source : around_[mesh.mesh.source_vertex(way.feature[0])]) {
+    const int facet = mesh.mesh.facet_of_source(source);
+    const Corners corners = mesh.mesh.corners(facet);
+    std::array<double, 3> weight{};
+    int found = 0;
+    for (std::size_t i = 0; i < 2 && way.feature[i] >= 0; ++i) {
+      const auto k = static_cast<std::size_t>(std::ranges::find(corners, way.feature[i]) - corners.begin());
+      if (k == corners.size()) break;
+      weight[k] = way.feature_weight[i];
+      ++found;
+    }
+    const bool has_all = found == (way.feature[1] < 0 ? 1 : 2);
+    if (!has_all || !way_to_facet(mesh, facet, {})) continue;
+    way.facet = facet;
+    way.weight = weight;
+    return;
+  }
+}
+
+std::optional<WayOut> NearestAround::find(const ScaledMesh& mesh, int vertex, int from) {
+  const Vec3 v = mesh.position(vertex);
+  seen_.resize(static_cast<std::size_t>(mesh.mesh.facet_count()));
+  std::optional<WayOut> best;
+  double within = 0.0;
+  const auto look_at = [&](int source) {
+    if (std::exchange(seen_[source], 1) != 0) return;
+    reached_.push_back(source);
+    const int facet = mesh.mesh.facet_of_source(source);
+    const Corners corners = mesh.mesh.corners(facet);
+    if (std::ranges::find(corners, vertex) != corners.end()) return;
+    const auto way = way_to_facet(mesh, facet, v);
+    if (!way) return;
+    if (reached_.size() == 1) within = way->distance * (1.0 + kRounding) + kRounding;
+    if (way->distance > within) return;
+    spread_.push_back(facet);
+    const bool better = !best || way->distance < best->distance ||
+                        (way->distance == best->distance && source < mesh.mesh.source_facet(best->facet));
+    if (better) best = way;
+  };
+  look_at(mesh.mesh.source_facet(from));
+  for (; !spread_.empty();) {
+    const int facet = spread_.back();
+    spread_.pop_back();
+    for (const int corner : mesh.mesh.corners(facet)) {
+      for (const int source : around_[mesh.mesh.source_vertex(corner)]) look_at(source);
+    }
+  }
+  for (const int source : reached_) seen_[source] = 0;
+  reached_.clear();
+  if (best) choose_facet(mesh, *best);
+  return best;
+}
+
+}  // namespace tact::narrowphase
