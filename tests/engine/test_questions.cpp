@@ -8,56 +8,17 @@
 #include <set>
 
 #include "tests/support/generators.h"
+#include "tests/support/question_oracle.h"
 #include "tests/support/random.h"
 #include "tests/support/triangle_oracle.h"
 
 namespace tact::tests {
 namespace {
 
-Eigen::Vector3d vector_of(Vec3 p) { return {p.x, p.y, p.z}; }
-Vec3 point_of(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
-
-Triangle facet_of(const Mesh& mesh, int f) {
-  return {mesh.position(mesh.facets(0, f)), mesh.position(mesh.facets(1, f)), mesh.position(mesh.facets(2, f))};
-}
-
-Vec3 weighted(const Triangle& t, const std::array<double, 3>& w) { return w[0] * t[0] + w[1] * t[1] + w[2] * t[2]; }
-
-std::vector<Mesh> meshes() {
-  return {blob(2, 1.0, 0.3, 1),
-          torus(16, 10, 1.0, 0.4),
-          gridded_box({-1, -1, -1}, {1, 1, 1}, 4),
-          organ(2),
-          soup(200, 2.0, 3),
-          lattice_soup(150, 3, 5),
-          needles(80, 1e4, 7),
-          sheet(12, 12, 2.0, 2.0)};
-}
-
-// Anywhere; along an axis, on a grid; through a vertex; through an edge; in the plane of a facet.
-Ray random_ray(const Mesh& mesh, Random& random) {
-  const auto any = [&] { return 2.5 * random.in_cube(1.0); };
-  const int kind = random.below(5);
-  if (kind == 0) return {vector_of(any()), vector_of(any())};
-  if (kind == 1) {
-    Vec3 p{0.5 * random.below(9) - 2.0, 0.5 * random.below(9) - 2.0, 0.5 * random.below(9) - 2.0}, q = p;
-    q[random.below(3)] = 3.0;
-    return {vector_of(p), vector_of(q)};
-  }
-  const Triangle t = facet_of(mesh, random.below(mesh.facet_count()));
-  if (kind == 4) {
-    const double s = random.uniform(), u = random.uniform();
-    return {vector_of(t[0] + 3.0 * (s * (t[1] - t[0]) + (s - 1.0) * (t[2] - t[0]))),
-            vector_of(t[0] + 2.0 * ((u - 1.0) * (t[1] - t[0]) + u * (t[2] - t[0])))};
-  }
-  const Vec3 target = kind == 2 ? t[0] : 0.5 * (t[0] + t[1]), from = any();
-  return {vector_of(from), vector_of(target + (target - from))};
-}
-
 TEST(Questions, RaysEqualRationalArithmetic) {
   Random random(1);
   std::size_t hits = 0;
-  for (const Mesh& mesh : meshes()) {
+  for (const Mesh& mesh : meshes_to_question()) {
     tact::World world({.threads = 2});
     const BodyId id = world.add_body({.positions = mesh.positions, .facets = mesh.facets});
     std::vector<Ray> rays;
@@ -68,13 +29,13 @@ TEST(Questions, RaysEqualRationalArithmetic) {
       const Vec3 from = point_of(rays[i].from), to = point_of(rays[i].to);
       std::set<int> expected, found;
       for (int f = 0; f < mesh.facet_count(); ++f) {
-        if (cgal_meet({from, to, to}, facet_of(mesh, f))) expected.insert(f);
+        if (cgal_meet({from, to, to}, facet_at(mesh, f))) expected.insert(f);
       }
       const std::vector<RayHit> all = world.all_hits(rays[i]);
       for (const RayHit& hit : all) {
         EXPECT_EQ(hit.body, id);
         found.insert(hit.facet);
-        const Vec3 on_ray = from + hit.time * (to - from), on_facet = weighted(facet_of(mesh, hit.facet), hit.weights);
+        const Vec3 on_ray = from + hit.time * (to - from), on_facet = weighted(facet_at(mesh, hit.facet), hit.weights);
         EXPECT_LT(norm(on_ray - on_facet), 1e-11) << "ray " << i;
         EXPECT_TRUE(hit.time >= 0.0 && hit.time <= 1.0);
       }
@@ -90,36 +51,14 @@ TEST(Questions, RaysEqualRationalArithmetic) {
   EXPECT_GT(hits, 500u);
 }
 
-long double distance_by_brute_force(const Mesh& mesh, Vec3 p) {
-  using Vector = Eigen::Matrix<long double, 3, 1>;
-  long double least = std::numeric_limits<long double>::infinity();
-  for (int f = 0; f < mesh.facet_count(); ++f) {
-    const Triangle t = facet_of(mesh, f);
-    Vector c[3];
-    for (std::size_t k = 0; k < 3; ++k) c[k] = vector_of(t[k]).cast<long double>() - vector_of(p).cast<long double>();
-    for (int k = 0; k < 3; ++k) {
-      const Vector side = c[(k + 1) % 3] - c[k];
-      const long double length = side.squaredNorm();
-      const long double s = length > 0 ? std::clamp(-c[k].dot(side) / length, 0.0L, 1.0L) : 0.0L;
-      least = std::min(least, (c[k] + s * side).norm());
-    }
-    const Vector normal = (c[1] - c[0]).cross(c[2] - c[0]);
-    if (!(normal.squaredNorm() > 0)) continue;
-    bool inside = true;
-    for (int k = 0; k < 3; ++k) inside = inside && c[k].cross(c[(k + 1) % 3]).dot(normal) >= 0;
-    if (inside) least = std::min(least, std::abs(c[0].dot(normal)) / normal.norm());
-  }
-  return least;
-}
-
 TEST(Questions, NearestPointsEqualBruteForce) {
   Random random(2);
-  for (const Mesh& mesh : meshes()) {
+  for (const Mesh& mesh : meshes_to_question()) {
     tact::World world({.threads = 2});
     world.add_body({.positions = mesh.positions, .facets = mesh.facets});
     std::vector<PointQuestion> questions;
     for (int i = 0; i < 100; ++i) {
-      const Vec3 corner = facet_of(mesh, random.below(mesh.facet_count()))[0];
+      const Vec3 corner = facet_at(mesh, random.below(mesh.facet_count()))[0];
       questions.push_back({.point = vector_of(i % 4 == 0 ? corner : 3.0 * random.in_cube(1.0))});
     }
     std::vector<ClosestPoint> answers(questions.size());
@@ -128,7 +67,7 @@ TEST(Questions, NearestPointsEqualBruteForce) {
       const Vec3 p = point_of(questions[i].point);
       const double expected = static_cast<double>(distance_by_brute_force(mesh, p));
       EXPECT_NEAR(answers[i].distance, expected, 1e-12);
-      EXPECT_NEAR(norm(weighted(facet_of(mesh, answers[i].facet), answers[i].weights) - p), expected, 1e-12);
+      EXPECT_NEAR(norm(weighted(facet_at(mesh, answers[i].facet), answers[i].weights) - p), expected, 1e-12);
       PointQuestion nearer = questions[i];
       nearer.within = 0.5 * expected;
       EXPECT_TRUE(expected == 0.0 || world.closest_point(nearer).facet < 0);
@@ -141,7 +80,7 @@ TEST(Questions, NearestPointsEqualBruteForce) {
 TEST(Questions, BoxesEqualCgal) {
   Random random(3);
   std::size_t hits = 0;
-  for (const Mesh& mesh : meshes()) {
+  for (const Mesh& mesh : meshes_to_question()) {
     tact::World world;
     const BodyId id = world.add_body({.positions = mesh.positions, .facets = mesh.facets});
     for (int i = 0; i < 40; ++i) {
@@ -154,13 +93,13 @@ TEST(Questions, BoxesEqualCgal) {
       const Mesh solid = box(p, p + size);
       std::vector<FacetOfBody> expected;
       for (int f = 0; f < mesh.facet_count(); ++f) {
-        const Triangle t = facet_of(mesh, f);
+        const Triangle t = facet_at(mesh, f);
         bool meets = false;
         for (const Vec3& q : t) {
           const Eigen::Vector3d v = vector_of(q);
           meets = meets || ((v.array() >= question.lower.array()).all() && (v.array() <= question.upper.array()).all());
         }
-        for (int k = 0; k < solid.facet_count() && !meets; ++k) meets = cgal_meet(t, facet_of(solid, k));
+        for (int k = 0; k < solid.facet_count() && !meets; ++k) meets = cgal_meet(t, facet_at(solid, k));
         if (meets) expected.push_back({id, f});
       }
       ASSERT_EQ(world.overlap_box(question), expected);
@@ -197,7 +136,7 @@ TEST(Questions, WhatIsInsideIsCountedByItsWinding) {
     const Vec3 far = p + 10.0 * random.direction();
     for (const auto& [mesh, id] : {std::pair(&ring, ring_id), std::pair(&ball, ball_id)}) {
       int crossings = 0;
-      for (int f = 0; f < mesh->facet_count(); ++f) crossings += cgal_meet({p, far, far}, facet_of(*mesh, f));
+      for (int f = 0; f < mesh->facet_count(); ++f) crossings += cgal_meet({p, far, far}, facet_at(*mesh, f));
       EXPECT_EQ(is_in(p, id), crossings % 2 == 1);
     }
   }
