@@ -200,7 +200,7 @@ TEST(LongQuestions, EqualBruteForce) {
   std::printf("places of hits are off by %.1e at most, nearest points by %.1e; %zu failures\n", sum.worst_place,
               sum.worst_distance, failed);
   EXPECT_EQ(failed, 0u);
-  EXPECT_LE(sum.coarse, sum.asked[kRay] / 50'000);  // 2 of 500,000, of rays nearly in the plane of a needle
+  EXPECT_LE(sum.coarse, sum.asked[kRay] / 50'000);  // 2 of 500,000 were
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ enum class RayHits {
 };
 
 /// A facet that a ray meets. Whether it does is decided exactly, edges and corners belong to the facets that have them:
-/// no ray slips through between two. Where it does is right to 1e-12 of the size of facet and ray; to 1e-11 if
-/// the ray is nearly in the facet's plane.
+/// no ray slips through between two. Where it does is right to 1e-11 of the size of facet and ray, and
+/// nearly always to 1e-12.
 struct RayHit {
   BodyId body;
   int facet = -1;                   ///< negative: nothing was hit
