@@ -8,6 +8,7 @@
 #include <new>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "engine/base/parallel.h"
 #include "engine/base/text.h"
@@ -119,7 +120,6 @@ BodyId Bodies::add(const BodyDefinition& definition) {
                                           .external_id = definition.external_id,
                                           .self_contact = definition.self_contact});
   const bool rigid = definition.motion == Motion::rigid;
-  if (rigid) body->mesh.make_rigid(), body->mesh.place();
   // Nothing can fail half-way: all that may allocate comes first.
   const std::size_t slots = std::max<std::size_t>(slots_.size(), slot + 1);
   const auto on_all = [&](const auto& grow) {
@@ -131,6 +131,7 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   make_room(free_, slots);
   make_room(decayed_, slots);
   make_room(unknown_, slots);
+  if (rigid) rigid_states_.make_room();
   if (slot < slots_.size()) free_.pop_back();
   on_all([&](auto& vector) { vector.resize(slots); });
   body->id = {slot, ++slots_[slot].generation, world_};
@@ -142,8 +143,10 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   filters_[slot] = {definition.layer, definition.mask, definition.motion == Motion::fixed, definition.group};
   slots_[slot].vertex_count = body->mesh.source_vertex_count();
   slots_[slot].fixed = definition.motion == Motion::fixed;
-  slots_[slot].rigid = rigid;
+  slots_[slot].rigid = rigid ? rigid_states_.take() : nullptr;
+  if (rigid) body->mesh.make_rigid(&slots_[slot].rigid->pose), body->mesh.place();
   slots_[slot].knows_box = slots_[slot].to_place = false;
+  slots_[slot].is_placed = true;
   rigid_count_ += rigid ? 1 : 0;
   self_count_ += definition.self_contact ? 1 : 0;
   slots_[slot].begin = Begin::here;
@@ -162,9 +165,10 @@ void Bodies::remove(BodyId id) {
   vertices_ -= vertices;
   if (moved(id.index)) moved_vertices_ -= vertices;
   packed_meshes_.remove(slots_[id.index].body->mesh);
-  rigid_count_ -= slots_[id.index].rigid ? 1 : 0;
+  rigid_count_ -= is_rigid(id.index) ? 1 : 0;
   self_count_ -= slots_[id.index].body->self_contact ? 1 : 0;
   slots_[id.index].body.reset();
+  if (is_rigid(id.index)) rigid_states_.give_back(std::exchange(slots_[id.index].rigid, nullptr));
   boxes_[id.index] = base::Box{};
   std::erase_if(excluded_, [&](const broadphase::IndexPair& pair) { return pair.a == id.index || pair.b == id.index; });
   // No id is given out twice: a slot whose generations are used up stays empty.

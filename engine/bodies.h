@@ -14,6 +14,7 @@
 #include "broadphase/sweep_and_prune.h"
 #include "engine/base/tuning.h"
 #include "engine/packed_meshes.h"
+#include "engine/rigid_states.h"
 #include "narrowphase/contact_points/contact_points.h"
 #include "narrowphase/mesh/clustered_mesh.h"
 #include "narrowphase/mesh/refit.h"
@@ -33,9 +34,6 @@ struct alignas(64) Body {
   std::unique_ptr<const narrowphase::Features> features = nullptr;           // made when points are first asked for
   std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors = nullptr;  // when it is first held against itself
   std::vector<double> begin = {};  // where it was in the last step, once it has moved twice since: a placement
-  // Of a rigid body that is on its way, and whether it stands in `begin`.
-  narrowphase::Pose begin_pose = {};
-  bool begin_is_placed = false;
 };
 
 [[nodiscard]] inline std::string quoted(const std::string& name) { return "body '" + name + "'"; }
@@ -100,7 +98,7 @@ class Bodies {
     slots_[slot].body->mesh.place();
     return in_slot(slot);
   }
-  // Places the bodies of those pairs that are tested.
+  // Places the bodies of those pairs that are tested and whose boxes overlap.
   void place(std::span<const broadphase::IndexPair> pairs, int threads);
   // The same of bodies, which may be named more than once, and where they were in the last step.
   void place_ways(std::span<const std::uint32_t> slots, int threads);
@@ -114,7 +112,7 @@ class Bodies {
   }
   // Is any body held against itself?
   bool any_self_contact() const { return self_count_ > 0; }
-  bool is_rigid(std::uint32_t slot) const { return slots_[slot].rigid; }
+  bool is_rigid(std::uint32_t slot) const { return slots_[slot].rigid != nullptr; }
   // A box with its margin of where a body was in the last step: its box, if it is not rigid or place_ways() placed it.
   base::Box begin_box(std::uint32_t slot) const;
 
@@ -171,11 +169,12 @@ class Bodies {
 
   struct Slot {
     std::unique_ptr<Body> body;
+    RigidState* rigid = nullptr;  // if it is
     std::uint32_t generation = 0;
     std::int32_t vertex_count = 0;  // the caller's; with `fixed`, so that a batch can be looked over without the bodies
     bool fixed = false;
-    bool rigid = false;
     bool knows_box = false;  // of a rigid body: is its entry of placed_boxes_ that of its pose?
+    bool is_placed = true;   // of a rigid body: otherwise place() found its box alone, or nothing
     bool to_place = false;
     bool changed = false;
     bool seen = false;  // by a step
@@ -202,16 +201,19 @@ class Bodies {
     bool knows_kdop = false;
     double quality = 0.0;  // of the clusters, if it was time to look
   };
-  // A new pose: checked, then published.
+  // A new pose, checked: what is published besides it.
   struct PoseChange {
-    narrowphase::Pose pose;
     base::Box box;  // of all vertices, or more
     std::uint32_t slot = 0;
     bool changed = false;
   };
   PoseChange checked(const PoseUpdate& update) const;
-  void publish(const PoseChange& change);
+  void publish(const PoseChange& change, const PoseUpdate& update);
   void note_to_place(std::uint32_t index);
+  template <class Work>
+  void for_each_to_place(int threads, const Work& work);
+  void place_in_cache(std::uint32_t index);
+  bool place_or_find_box(std::uint32_t index);
   void prefetch_poses(std::span<const PoseUpdate> updates, std::size_t i) const;
   void pack_meshes(int threads);
   void make_updates(std::size_t count);
@@ -238,6 +240,7 @@ class Bodies {
   const base::Tuning* tuning_;
   PackedMeshes packed_meshes_;
   std::vector<Slot> slots_;
+  RigidStates rigid_states_;
   std::vector<std::uint32_t> free_;
   std::vector<base::Box> boxes_;
   std::vector<broadphase::Filter> filters_;

@@ -10,6 +10,7 @@
 #include "engine/check_coordinate.h"
 #include "narrowphase/mesh/prefetch.h"
 #include "narrowphase/mesh/refit.h"
+#include "narrowphase/mesh/rigid_box.h"
 
 namespace tact {
 
@@ -24,6 +25,8 @@ constexpr double kLargestSkew = 1e-9;                     // of a rotation: how 
 constexpr std::size_t kPosesAtATime = 256;                // a pose takes some 50 ns
 constexpr std::size_t kPosesAhead = 8, kPlacedAhead = 4;  // bodies that are prefetched
 constexpr std::size_t kPlacedAtATime = 4;                 // a body takes a microsecond or more
+// Of a rigid body of so many facets the box is found before it is placed: fewer are placed as fast.
+constexpr int kBoxFirst = 1024;
 
 void check_rotation(const Eigen::Matrix3d& r, const std::string& name) {
   const auto refuse = [&](const std::string& what) {
@@ -82,32 +85,34 @@ void check_vertices(const ClusteredMesh& mesh, const Pose& pose, const std::stri
 Bodies::PoseChange Bodies::checked(const PoseUpdate& update) const {
   const Body& body = at(update.body);
   const Slot& slot = slots_[update.body.index];
-  if (!slot.rigid) throw Error(ErrorCode::wrong_motion, quoted(body.name) + " is not rigid: it takes no pose");
+  if (slot.rigid == nullptr)
+    throw Error(ErrorCode::wrong_motion, quoted(body.name) + " is not rigid: it takes no pose");
   if (slot.fixed) throw Error(ErrorCode::fixed_body, quoted(body.name) + " is fixed: its pose cannot be set");
   check_rotation(update.rotation, body.name);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(std::abs(update.translation[axis]) <= kLargestCoordinate))
       refuse_coordinate(quoted(body.name) + ": the translation of its pose", axis, update.translation[axis]);
   }
-  PoseChange change{.pose = pose_of(update), .box = {}, .slot = update.body.index};
-  change.changed = !(change.pose == body.mesh.pose());
+  PoseChange change{.box = {}, .slot = update.body.index};
+  const Pose pose = pose_of(update);
+  change.changed = !(pose == slot.rigid->pose.pose());
   if (!change.changed) return change;
-  change.box = body.mesh.rough_box_at(change.pose);
-  if (may_be_too_large(change.box)) check_vertices(body.mesh, change.pose, body.name);
+  change.box = slot.rigid->pose.box_at(pose);
+  if (may_be_too_large(change.box)) check_vertices(body.mesh, pose, body.name);
   return change;
 }
 
-void Bodies::publish(const PoseChange& change) {
+void Bodies::publish(const PoseChange& change, const PoseUpdate& update) {
   if (!change.changed) return;
   Slot& slot = slots_[change.slot];
-  Body& body = *slot.body;
+  RigidState& state = *slot.rigid;
   if (slot.begin == Begin::here && slot.seen) {
-    body.begin_pose = body.mesh.pose();
-    body.begin_is_placed = false;
+    state.begin_pose = state.pose.pose();
+    state.begin_is_placed = false;
     slot.begin = Begin::kept;
   }
-  body.mesh.set_pose(change.pose);
-  slot.knows_box = false;
+  state.pose.set(pose_of(update));
+  slot.knows_box = slot.is_placed = false;
   boxes_[change.slot] = base::grown(change.box, margins_[change.slot]);
   knows_kdop_[change.slot] = 0;
 }
@@ -115,7 +120,7 @@ void Bodies::publish(const PoseChange& change) {
 void Bodies::set_pose(const PoseUpdate& update) {
   const base::FloatingPointMode mode;
   const PoseChange change = checked(update);
-  publish(change);
+  publish(change, update);
   if (change.changed) mark_moved(change.slot);
 }
 
@@ -135,55 +140,91 @@ void Bodies::set_poses(std::span<const PoseUpdate> updates, int threads) {
   check_named_once(updates);
   base::parallel_for(updates.size(), kPosesAtATime, threads, [&](std::size_t i) {
     if (prefetches) prefetch_poses(updates, i);
-    publish(pose_changes_[i]);
+    publish(pose_changes_[i], updates[i]);
   });
   for (const PoseChange& change : pose_changes_) {
     if (change.changed) mark_moved(change.slot);
   }
 }
 
-// What stands some updates ahead: first the body, then what it points to.
+// What stands some updates ahead.
 void Bodies::prefetch_poses(std::span<const PoseUpdate> updates, std::size_t i) const {
-  const auto body = [&](std::size_t k) -> const Body* {
-    if (k >= updates.size() || updates[k].body.index >= slots_.size()) return nullptr;
-    return slots_[updates[k].body.index].body.get();
-  };
-  if (const Body* const far = body(i + 2 * kPosesAhead)) narrowphase::prefetch_lines(far, 1);
-  if (const Body* const near = body(i + kPosesAhead)) near->mesh.prefetch_pose();
+  const std::size_t k = i + kPosesAhead;
+  if (k >= updates.size() || updates[k].body.index >= slots_.size()) return;
+  if (const RigidState* const state = slots_[updates[k].body.index].rigid) narrowphase::prefetch_lines(state, 1);
 }
 
 // A rigid body, once.
 void Bodies::note_to_place(std::uint32_t index) {
   Slot& slot = slots_[index];
-  if (!slot.rigid || slot.to_place) return;
+  if (slot.rigid == nullptr || slot.to_place) return;
   to_place_.push_back(index);
   slot.to_place = true;
+}
+
+template <class Work>
+void Bodies::for_each_to_place(int threads, const Work& work) {
+  const bool prefetches = !stay_in_cache();
+  base::parallel_for(to_place_.size(), kPlacedAtATime, threads, [&](std::size_t i) {
+    if (prefetches && i + 2 * kPlacedAhead < to_place_.size()) {
+      const Slot& far = slots_[to_place_[i + 2 * kPlacedAhead]];
+      narrowphase::prefetch_lines(far.body.get(), 1);
+      narrowphase::prefetch_lines(far.rigid, 1);
+    }
+    if (prefetches && i + kPlacedAhead < to_place_.size()) prefetch_place(in_slot(to_place_[i + kPlacedAhead]).mesh);
+    slots_[to_place_[i]].to_place = false;
+    work(to_place_[i]);
+  });
+}
+
+// What the step wants of the body besides is found while it is in the cache.
+void Bodies::place_in_cache(std::uint32_t index) {
+  ClusteredMesh& mesh = slots_[index].body->mesh;
+  mesh.place();
+  if (wants_kdop_[index] != 0 && knows_kdop_[index] == 0) find_kdops(index, mesh);
+}
+
+// Of a large body the box is found first: was it placed?
+bool Bodies::place_or_find_box(std::uint32_t index) {
+  Slot& slot = slots_[index];
+  narrowphase::ClusteredMesh& mesh = slot.body->mesh;
+  const bool box_alone = mesh.facet_count() >= kBoxFirst && !mesh.is_placed();
+  const bool was_placed = mesh.is_placed();
+  if (!box_alone) place_in_cache(index);
+  const Box box = box_alone ? narrowphase::box_at_pose(mesh, slot.rigid->pose.pose()) : mesh.box();
+  placed_boxes_[index] = base::grown(box, margins_[index]);
+  slot.knows_box = true;
+  slot.is_placed = !box_alone;
+  return !box_alone && !was_placed;
 }
 
 void Bodies::place(std::span<const broadphase::IndexPair> pairs, int threads) {
   if (!any_rigid()) return;
   placed_boxes_.resize(slots_.size());
-  to_place_.clear();
-  const auto note = [&](std::uint32_t slot) {
-    if (!slots_[slot].knows_box) note_to_place(slot);
-  };
-  for (const broadphase::IndexPair& pair : pairs) {
-    if (excludes_any() && excludes(pair)) continue;
-    note(pair.a), note(pair.b);
-  }
-  const bool prefetches = !stay_in_cache();
   std::atomic<std::int64_t> count{0};
-  base::parallel_for(to_place_.size(), kPlacedAtATime, threads, [&](std::size_t i) {
-    if (prefetches && i + 2 * kPlacedAhead < to_place_.size())
-      narrowphase::prefetch_lines(slots_[to_place_[i + 2 * kPlacedAhead]].body.get(), 1);
-    if (prefetches && i + kPlacedAhead < to_place_.size()) prefetch_place(in_slot(to_place_[i + kPlacedAhead]).mesh);
-    Slot& slot = slots_[to_place_[i]];
-    narrowphase::ClusteredMesh& mesh = slot.body->mesh;
+  to_place_.clear();
+  for (const broadphase::IndexPair& pair : pairs) {
+    if (slots_[pair.a].knows_box && slots_[pair.b].knows_box) continue;
+    if (excludes_any() && excludes(pair)) continue;
+    if (!slots_[pair.a].knows_box) note_to_place(pair.a);
+    if (!slots_[pair.b].knows_box) note_to_place(pair.b);
+  }
+  for_each_to_place(threads, [&](std::uint32_t slot) {
+    if (place_or_find_box(slot)) count.fetch_add(1, std::memory_order_relaxed);
+  });
+  to_place_.clear();
+  for (const broadphase::IndexPair& pair : pairs) {
+    if (slots_[pair.a].is_placed && slots_[pair.b].is_placed) continue;
+    if (excludes_any() && excludes(pair)) continue;
+    if (!base::overlaps(exact_box(pair.a), exact_box(pair.b))) continue;
+    if (!slots_[pair.a].is_placed) note_to_place(pair.a);
+    if (!slots_[pair.b].is_placed) note_to_place(pair.b);
+  }
+  for_each_to_place(threads, [&](std::uint32_t slot) {
+    narrowphase::ClusteredMesh& mesh = slots_[slot].body->mesh;
     if (!mesh.is_placed()) count.fetch_add(1, std::memory_order_relaxed);
-    mesh.place();
-    placed_boxes_[to_place_[i]] = base::grown(mesh.box(), margins_[to_place_[i]]);
-    slot.knows_box = true;
-    slot.to_place = false;
+    place_in_cache(slot);
+    slots_[slot].is_placed = true;
   });
   placed_count_ += count;
 }
@@ -196,17 +237,17 @@ void Bodies::place_ways(std::span<const std::uint32_t> slots, int threads) {
     Body& body = *slot.body;
     slot.to_place = false;
     body.mesh.place();
-    if (slot.begin == Begin::here || body.begin_is_placed) return;
+    if (slot.begin == Begin::here || slot.rigid->begin_is_placed) return;
     body.begin.resize(body.mesh.placements().size());
-    body.mesh.place_at(body.begin_pose, body.begin.data());
-    body.begin_is_placed = true;
+    body.mesh.place_at(slot.rigid->begin_pose, body.begin.data());
+    slot.rigid->begin_is_placed = true;
   });
 }
 
 Box Bodies::begin_box(std::uint32_t slot) const {
-  const Body& body = in_slot(slot);
-  const bool rough = slots_[slot].rigid && slots_[slot].begin != Begin::here && !body.begin_is_placed;
-  return base::grown(rough ? body.mesh.rough_box_at(body.begin_pose) : moving(slot).begin.box, margins_[slot]);
+  const RigidState* const state = slots_[slot].rigid;
+  const bool rough = state != nullptr && slots_[slot].begin != Begin::here && !state->begin_is_placed;
+  return base::grown(rough ? state->pose.box_at(state->begin_pose) : moving(slot).begin.box, margins_[slot]);
 }
 
 }  // namespace tact

@@ -136,6 +136,7 @@ int run_rigid(const BenchOptions& options) {
   fmt::print("{}\n\n", machine_line(threads));
   const std::vector<Scene> scenes{
       {"scattered, 80 facets", [=] { return scattered(10000 / few, 2); }},
+      {"pile, 5,120 facets", [=] { return pile(250 / few, 16, 2); }},
       {"apart, 320 facets", [=] { return spread(pile(10000 / few, 4, 2), 1.5); }},
       {"apart, 1,280 facets", [=] { return spread(pile(2000 / few, 8, 2), 1.5); }},
       {"pile, 320 facets", [=] { return pile(4000 / few, 4, 2); }},

@@ -71,20 +71,19 @@ Triangle ClusteredMesh::triangle(int facet) const {
   return {position(c[0]), position(c[1]), position(c[2])};
 }
 
-void ClusteredMesh::make_rigid() {
+void ClusteredMesh::make_rigid(RigidPose* pose) {
   keep_travel(false);
   std::copy_n(placements_.now_memory(), placements_.size() - kPadding, placements_.spare_memory());
-  rigid_ = std::make_unique<RigidPose>(points(), vertex_count(), box());
-}
-
-void ClusteredMesh::set_pose(const Pose& pose) {
-  rigid_->set(pose);
-  ++travel_epoch_;
+  rigid_ = pose;
+  rigid_->begin(points(), vertex_count(), box());
 }
 
 void ClusteredMesh::place() {
   if (rigid_ == nullptr) return;
-  rigid_->place_once([&] { placements_.set_box(place_at(rigid_->pose(), placements_.now_memory())); });
+  rigid_->place_once([&] {
+    placements_.set_box(place_at(rigid_->pose(), placements_.now_memory()));
+    ++travel_epoch_;
+  });
 }
 
 Box ClusteredMesh::place_at(const Pose& pose, double* placement) const {

@@ -43,19 +43,15 @@ class ClusteredMesh : public MeshTopology {
   const MeshPlacements& placements() const { return placements_; }
   MeshPlacements& placements() { return placements_; }
 
-  /// From now on the mesh is rigid: where it is now is its rest shape, and it stands there. It is refitted no more.
-  void make_rigid();
+  /// From now on the mesh is rigid: where it is now is its rest shape, and it stands there. It is refitted no more. Its
+  /// pose is the caller's, and stays as long as the mesh is used: who sets it needs nothing of the mesh.
+  void make_rigid(RigidPose* pose);
   bool is_rigid() const { return rigid_ != nullptr; }
-  /// Of a rigid mesh. The new pose takes a box only; place() does the rest, once, whichever threads call it.
-  void set_pose(const Pose& pose);
-  const Pose& pose() const { return rigid_->pose(); }
   bool is_placed() const { return rigid_ == nullptr || rigid_->is_placed(); }
-  /// Prefetches what set_pose() reads and writes.
-  void prefetch_pose() const;
+  /// Places it where its pose says, once, whichever threads call this.
   void place();
   /// A box of all its vertices: their box, if it is placed.
   Box rough_box() const { return is_placed() ? box() : rigid_->box_at(rigid_->pose()); }
-  Box rough_box_at(const Pose& pose) const { return rigid_->box_at(pose); }
   /// Writes where it is at some pose to a placement, of placements().size() doubles. Returns the box of all facets.
   Box place_at(const Pose& pose, double* placement) const;
   /// Where a vertex is, also if the mesh is not placed.
@@ -94,7 +90,7 @@ class ClusteredMesh : public MeshTopology {
   MeshPlacements placements_;
   std::unique_ptr<std::byte[]> own_memory_;  // unless move_to() was called
   std::unique_ptr<MeshTravel> travel_;
-  std::unique_ptr<RigidPose> rigid_;
+  RigidPose* rigid_ = nullptr;
   bool keeps_travel_ = false;  // else travel_ is memory alone
   int unasked_refits_ = 0;     // since keep_travel(true)
   std::uint64_t travel_epoch_ = 0;

@@ -106,11 +106,8 @@ void prefetch_refit(const ClusteredMesh& mesh, const double* positions) {
   prefetch_line(placements.now_memory());  // if anything moves, the first x of all do
 }
 
-void ClusteredMesh::prefetch_pose() const { prefetch_lines(rigid_.get(), 1); }
-
 void prefetch_place(const ClusteredMesh& mesh) {
   const MeshPlacements& placements = mesh.placements();
-  mesh.prefetch_pose();
   prefetch_lines(placements.spare_memory(), placements.size());
   prefetch_lines(mesh.refit_indices());
   prefetch_lines(placements.now_memory(), placements.size());

@@ -23,7 +23,11 @@ double size_of(const Box& box) {
 
 }  // namespace
 
-RigidPose::RigidPose(const PointArrays& rest, int vertex_count, const Box& rest_box) : rest_box_(rest_box) {
+void RigidPose::begin(const PointArrays& rest, int vertex_count, const Box& rest_box) {
+  set({});
+  rest_box_ = rest_box;
+  center_ = {};
+  radius_ = 0.0;
   if (rest_box.empty()) return;
   center_ = 0.5 * rest_box.lower + 0.5 * rest_box.upper;
   for (int v = 0; v < vertex_count; ++v) {

@@ -11,8 +11,8 @@ namespace tact::narrowphase {
 
 class RigidPose {
  public:
-  /// Of a mesh whose rest shape has these vertices and this box.
-  RigidPose(const PointArrays& rest, int vertex_count, const Box& rest_box);
+  /// The mesh stands where it rests: these are its vertices and their box.
+  void begin(const PointArrays& rest, int vertex_count, const Box& rest_box);
 
   const Pose& pose() const { return pose_; }
   /// Nothing is placed any more.
