@@ -92,6 +92,25 @@ void shape_by_facets(const PatchInput& input, Patch& patch) {
   patch.depth = std::max(0.0, depth);
 }
 
+// Calls visit(vertex) for the vertices of a point, as in PatchVertex. A body with itself has one kind of vertices.
+template <class Visit>
+void for_each_vertex(const ContactPoint& point, int b_side, const Visit& visit) {
+  for (const int v : point.a_vertices) {
+    if (v >= 0) visit(2 * std::int64_t{v});
+  }
+  for (const int v : point.b_vertices) {
+    if (v >= 0) visit(2 * std::int64_t{v} + b_side);
+  }
+}
+
+// The same of the corners of two facets.
+template <class Visit>
+void for_each_vertex(const FacetPair& pair, const Body& a, const Body& b, int b_side, const Visit& visit) {
+  for (const int v : a.mesh.corners(a.mesh.facet_of_source(pair.a))) visit(2 * std::int64_t{a.mesh.source_vertex(v)});
+  for (const int v : b.mesh.corners(b.mesh.facet_of_source(pair.b)))
+    visit(2 * std::int64_t{b.mesh.source_vertex(v)} + b_side);
+}
+
 // Two unit vectors across n, which is one.
 std::pair<Vec3, Vec3> across(Vec3 n) {
   const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
@@ -125,48 +144,44 @@ void PatchFinder::join_facet_pairs(std::span<const FacetPair> pairs) {
   }
 }
 
-void PatchFinder::collect_corners(std::span<const FacetPair> pairs, std::span<const ContactPoint> points, const Body* a,
-                                  const Body* b) {
-  corners_.clear();
-  const int b_side = a == b ? 0 : 1;  // a body with itself has one kind of vertices
-  const auto add_facet = [&](const Body& body, int source_facet, int side, std::size_t item) {
-    for (const int v : body.mesh.corners(body.mesh.facet_of_source(source_facet)))
-      corners_.push_back({2 * std::int64_t{body.mesh.source_vertex(v)} + side, static_cast<int>(item)});
-  };
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    add_facet(*a, pairs[i].a, 0, i);
-    add_facet(*b, pairs[i].b, b_side, i);
-  }
+// The points at each vertex are held against one for each way that normals point there. Of a body with itself a normal
+// may point either way.
+void PatchFinder::join_points(std::span<const ContactPoint> points, int first_point, const Body* a, const Body* b) {
+  const int most_vertices = std::max(a->mesh.source_vertex_count(), b->mesh.source_vertex_count());
+  if (first_at_vertex_.size() < 2 * static_cast<std::size_t>(most_vertices))
+    first_at_vertex_.resize(2 * static_cast<std::size_t>(most_vertices), -1);
+  at_vertex_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    for (const int v : points[i].a_vertices) {
-      if (v >= 0) corners_.push_back({2 * std::int64_t{v}, static_cast<int>(pairs.size() + i)});
-    }
-    for (const int v : points[i].b_vertices) {
-      if (v >= 0) corners_.push_back({2 * std::int64_t{v} + b_side, static_cast<int>(pairs.size() + i)});
-    }
+    for_each_vertex(points[i], a == b ? 0 : 1, [&](std::int64_t vertex) {
+      join_at_vertex(points, first_point, static_cast<int>(i), static_cast<std::size_t>(vertex), a != b);
+    });
   }
-  std::ranges::sort(corners_);
 }
 
-// Vertex by vertex: its points are held against one for each way that normals point there, facet pairs join the first.
-// Of a body with itself a normal may point either way.
-void PatchFinder::join_points(std::span<const ContactPoint> points, int first_point, bool by_normal) {
-  for (std::size_t begin = 0, end = 0; begin < corners_.size(); begin = end) {
-    while (end < corners_.size() && corners_[end].vertex == corners_[begin].vertex) ++end;
-    ones_.clear();
-    for (std::size_t i = begin; i < end; ++i) {
-      if (corners_[i].item < first_point) continue;
-      const auto normal = [&](int item) { return points[item - first_point].normal; };
-      bool alone = true;
-      for (const int one : ones_) {
-        if (by_normal && !(normal(one).dot(normal(corners_[i].item)) >= 0.0)) continue;
-        join(one, corners_[i].item);
-        alone = false;
-      }
-      if (alone) ones_.push_back(corners_[i].item);
-    }
-    if (ones_.empty()) continue;
-    for (std::size_t i = begin; i < end && corners_[i].item < first_point; ++i) join(corners_[i].item, ones_[0]);
+void PatchFinder::join_at_vertex(std::span<const ContactPoint> points, int first_point, int point, std::size_t vertex,
+                                 bool by_normal) {
+  bool alone = true;
+  int last = -1;
+  for (int k = first_at_vertex_[vertex]; k >= 0; k = at_vertex_[k].next) {
+    last = k;
+    const int one = at_vertex_[k].point;
+    if (by_normal && !(points[one].normal.dot(points[point].normal) >= 0.0)) continue;
+    join(first_point + one, first_point + point);
+    alone = false;
+  }
+  if (!alone) return;
+  (last < 0 ? first_at_vertex_[vertex] : at_vertex_[last].next) = static_cast<int>(at_vertex_.size());
+  at_vertex_.push_back({point, -1});
+}
+
+// A facet pair joins the first point at each of its corners.
+void PatchFinder::join_points_and_facets(std::span<const FacetPair> pairs, const Body* a, const Body* b) {
+  const int first_point = static_cast<int>(pairs.size());
+  for (int i = 0; i < first_point; ++i) {
+    for_each_vertex(pairs[i], *a, *b, a == b ? 0 : 1, [&](std::int64_t vertex) {
+      const int first = first_at_vertex_[static_cast<std::size_t>(vertex)];
+      if (first >= 0) join(i, first_point + at_vertex_[first].point);
+    });
   }
 }
 
@@ -175,8 +190,10 @@ int PatchFinder::number(std::span<const FacetPair> facet_pairs, std::span<Contac
   parent_.resize(facet_pairs.size() + points.size());
   std::iota(parent_.begin(), parent_.end(), 0);
   join_facet_pairs(facet_pairs);
-  collect_corners(facet_pairs, points, a, b);
-  join_points(points, static_cast<int>(facet_pairs.size()), a != b);
+  join_points(points, static_cast<int>(facet_pairs.size()), a, b);
+  join_points_and_facets(facet_pairs, a, b);
+  for (const ContactPoint& point : points)
+    for_each_vertex(point, a == b ? 0 : 1, [&](std::int64_t v) { first_at_vertex_[static_cast<std::size_t>(v)] = -1; });
   number_.resize(parent_.size());
   int count = 0;
   for (std::size_t i = 0; i < parent_.size(); ++i) {
@@ -203,7 +220,15 @@ void PatchFinder::list_members(const PatchInput& input, int count, PatchSet& set
   list(0, pairs, set.facet_pairs, &Patch::facet_pairs);
   list(pairs, number_.size(), set.points, &Patch::points);
   set.vertices.clear();
-  for (const Corner& corner : corners_) set.vertices.push_back({corner.vertex, number_[corner.item]});
+  const int b_side = &input.a == &input.b ? 0 : 1;
+  for (std::size_t i = 0; i < number_.size(); ++i) {
+    const auto add = [&](std::int64_t vertex) { set.vertices.push_back({vertex, number_[i]}); };
+    if (i < pairs) {
+      for_each_vertex(input.facet_pairs[i], input.a, input.b, b_side, add);
+    } else {
+      for_each_vertex(input.points[i - pairs], b_side, add);
+    }
+  }
   std::ranges::sort(set.vertices);
   set.vertices.erase(std::unique(set.vertices.begin(), set.vertices.end()), set.vertices.end());
 }

@@ -32,10 +32,9 @@ class PatchFinder {
   void find(const PatchInput& input, PatchSet& set);
 
  private:
-  struct Corner {
-    std::int64_t vertex;  // as in PatchVertex
-    int item;
-    friend auto operator<=>(const Corner&, const Corner&) = default;
+  struct PointAtVertex {
+    int point;
+    int next;  // of the same vertex, -1: none
   };
   struct PlanePoint {
     double x, y;
@@ -44,18 +43,19 @@ class PatchFinder {
   int root(int i);
   void join(int i, int k);
   void join_facet_pairs(std::span<const FacetPair> pairs);
-  void join_points(std::span<const ContactPoint> points, int first_point, bool by_normal);
-  void collect_corners(std::span<const FacetPair> pairs, std::span<const ContactPoint> points, const Body* a,
-                       const Body* b);
+  void join_points(std::span<const ContactPoint> points, int first_point, const Body* a, const Body* b);
+  void join_at_vertex(std::span<const ContactPoint> points, int first_point, int point, std::size_t vertex,
+                      bool by_normal);
+  void join_points_and_facets(std::span<const FacetPair> pairs, const Body* a, const Body* b);
   void list_members(const PatchInput& input, int count, PatchSet& set);
   void shape_by_points(const PatchInput& input, Patch& patch);
   void span(const PatchInput& input, Patch& patch, double scale);
   double area_of_hull(double scale);
 
   std::vector<int> parent_, number_, by_b_, begin_;
-  std::vector<Corner> corners_;
-  std::vector<int> ones_;           // of the points at a vertex, one for each way that normals point
-  std::vector<base::Vec3> places_;  // of the members of a patch
+  std::vector<int> first_at_vertex_;      // by vertex, as in PatchVertex; -1: none
+  std::vector<PointAtVertex> at_vertex_;  // of the points at a vertex, one for each way that normals point
+  std::vector<base::Vec3> places_;        // of the members of a patch
   std::vector<PlanePoint> flat_, hull_;
 };
 

@@ -82,35 +82,32 @@ void carry(const PairRecord& record, FeaturePair kind, std::vector<narrowphase::
   carried.erase(std::unique(carried.begin(), carried.end(), same_vertex), carried.end());
 }
 
+base::Vec3 direction_of(const PairRecord& record) {
+  const Eigen::Vector3d& direction = record.contact.direction;
+  return {direction.x(), direction.y(), direction.z()};
+}
+
 narrowphase::SurfaceKind kind_of(const Body& body) {
   return body.surface == Surface::closed ? narrowphase::SurfaceKind::closed : narrowphase::SurfaceKind::sheet;
 }
 
 }  // namespace
 
-void PointStage::cross(const Wanted& wanted, const Bodies& bodies, Work& work) {
+// The vertices that have crossed, which need no search for what is near them.
+narrowphase::CrossedVertices PointStage::begin_crossing(const Wanted& wanted, const Bodies& bodies, Work& work) {
+  if (wanted.record == nullptr || !cross_each_other(*wanted.record, wanted.reach)) return {};
   const PairRecord& record = *wanted.record;
-  const Eigen::Vector3d& direction = record.contact.direction;
-  const base::Vec3 contact{direction.x(), direction.y(), direction.z()};
-  if (!cross_each_other(record, wanted.reach)) {
-    // What touches in a vertex or an edge has no side of its own.
-    for (FeaturePoint& point : work.found) {
-      if (point.gap == 0.0 && dot(point.normal, contact) < 0.0) point.normal = -point.normal;
-    }
-    return;
-  }
   carry(record, FeaturePair::vertex_facet, work.carried_a);
   carry(record, FeaturePair::facet_vertex, work.carried_b);
-  work.crossing.run({.a = bodies.featured(wanted.a),
-                     .b = bodies.featured(wanted.b),
-                     .surface_a = kind_of(bodies.in_slot(wanted.a)),
-                     .surface_b = kind_of(bodies.in_slot(wanted.b)),
-                     .direction = contact,
-                     .depth = record.contact.depth,
-                     .facet_pairs = record.facet_pairs,
-                     .carried_a = work.carried_a,
-                     .carried_b = work.carried_b},
-                    work.found);
+  return work.crossing.begin({.a = bodies.featured(wanted.a),
+                              .b = bodies.featured(wanted.b),
+                              .surface_a = kind_of(bodies.in_slot(wanted.a)),
+                              .surface_b = kind_of(bodies.in_slot(wanted.b)),
+                              .direction = direction_of(record),
+                              .depth = record.contact.depth,
+                              .facet_pairs = record.facet_pairs,
+                              .carried_a = work.carried_a,
+                              .carried_b = work.carried_b});
 }
 
 void PointStage::cross_itself(const Wanted& wanted, const Bodies& bodies, Work& work) {
@@ -124,14 +121,39 @@ void PointStage::cross_itself(const Wanted& wanted, const Bodies& bodies, Work& 
                              work.found);
 }
 
-// In an order that depends on features alone.
+void PointStage::finish_crossing(const Wanted& wanted, Work& work) {
+  if (wanted.record == nullptr) return;
+  if (cross_each_other(*wanted.record, wanted.reach)) {
+    work.crossing.finish(work.found);
+    return;
+  }
+  // What touches in a vertex or an edge has no side of its own.
+  const base::Vec3 contact = direction_of(*wanted.record);
+  for (FeaturePoint& point : work.found) {
+    if (point.gap == 0.0 && dot(point.normal, contact) < 0.0) point.normal = -point.normal;
+  }
+}
+
+// In an order that depends on features alone. Points are large: what is sorted is what tells most of them apart.
 void PointStage::publish(const Wanted& wanted, const Bodies& bodies, Work& work) const {
-  std::ranges::sort(work.found, {}, &FeaturePoint::features);
+  const std::vector<FeaturePoint>& found = work.found;
+  work.order.clear();
+  const auto rank = [](int vertex) { return std::uint64_t{static_cast<std::uint32_t>(vertex + 1)}; };  // of -1: 0
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto& a = found[i].a;
+    work.order.push_back({static_cast<std::uint64_t>(found[i].kind) << 32 | rank(a[0]), rank(a[1]) << 32 | rank(a[2]),
+                          static_cast<std::uint32_t>(i)});
+  }
+  std::sort(work.order.begin(), work.order.end(), [&](const PointOrder& one, const PointOrder& other) {
+    if (one.kind_and_first != other.kind_and_first) return one.kind_and_first < other.kind_and_first;
+    if (one.others != other.others) return one.others < other.others;
+    return found[one.place].b < found[other.place].b;
+  });
   const Body &a = bodies.in_slot(wanted.a), &b = bodies.in_slot(wanted.b);
   std::vector<ContactPoint>& points = *wanted.points;
   points.clear();
-  if (points.capacity() < work.found.size()) points.reserve(work.found.size() + work.found.size() / 4);
-  for (const FeaturePoint& one : work.found) points.push_back(to_point(one, a.id, b.id));
+  if (points.capacity() < found.size()) points.reserve(found.size() + found.size() / 4);
+  for (const PointOrder& one : work.order) points.push_back(to_point(found[one.place], a.id, b.id));
   if (numbers_patches_) work.patches.number({}, points, &a, &b);
 }
 
@@ -163,13 +185,15 @@ void PointStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Set
     const Wanted& wanted = wanted_[i];
     const auto a = bodies.featured(wanted.a), b = bodies.featured(wanted.b);
     work.found.clear();
+    std::span<const ClusterPair> pairs;
     if (wanted.reach > 0.0) {
-      const auto pairs = work.near.find(a, b, wanted.reach, bodies.tuning(), device);
+      pairs = work.near.find(a, b, wanted.reach, bodies.tuning(), device);
       is_large_[i] = settings.threads > 1 && pairs.size() > kLargePair;
       if (is_large_[i]) return;
-      work.search.run(a, b, wanted.reach, pairs, work.found);
     }
-    cross(wanted, bodies, work);
+    const narrowphase::CrossedVertices crossed = begin_crossing(wanted, bodies, work);
+    work.search.run(a, b, wanted.reach, pairs, work.found, crossed);
+    finish_crossing(wanted, work);
     publish(wanted, bodies, work);
   });
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
@@ -201,15 +225,16 @@ void PointStage::search_in_ranges(const Wanted& wanted, const Bodies& bodies, st
   const std::size_t ranges =
       std::clamp<std::size_t>(pairs.size() / 8, 1, kRangesPerThread * static_cast<std::size_t>(threads));
   if (ranges_.size() < ranges) ranges_.resize(ranges);
+  const narrowphase::CrossedVertices crossed = begin_crossing(wanted, bodies, work_[0]);
   base::parallel_for(ranges, 1, threads, [&](std::size_t i, int thread) {
     const std::size_t begin = pairs.size() * i / ranges, end = pairs.size() * (i + 1) / ranges;
     ranges_[i].clear();
-    work_[thread].search.run(a, b, wanted.reach, pairs.subspan(begin, end - begin), ranges_[i]);
+    work_[thread].search.run(a, b, wanted.reach, pairs.subspan(begin, end - begin), ranges_[i], crossed);
   });
   std::vector<FeaturePoint>& found = work_[0].found;
   found.clear();
   for (std::size_t i = 0; i < ranges; ++i) found.insert(found.end(), ranges_[i].begin(), ranges_[i].end());
-  if (wanted.record != nullptr) cross(wanted, bodies, work_[0]);
+  finish_crossing(wanted, work_[0]);
   if (wanted.self != nullptr && wanted.self->crossing != nullptr) cross_itself(wanted, bodies, work_[0]);
   publish(wanted, bodies, work_[0]);
 }

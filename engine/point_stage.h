@@ -34,6 +34,11 @@ class PointStage {
   void run_self(const Self& self, Bodies& bodies, const Settings& settings, std::vector<ContactPoint>& points);
 
  private:
+  /// What a point is sorted by first, and where it is.
+  struct PointOrder {
+    std::uint64_t kind_and_first, others;
+    std::uint32_t place;
+  };
   /// Memory of a thread, used again.
   struct Work {
     narrowphase::NearClusters near;
@@ -41,6 +46,7 @@ class PointStage {
     narrowphase::CrossingSearch crossing;
     std::vector<narrowphase::CarriedNormal> carried_a, carried_b;
     std::vector<narrowphase::FeaturePoint> found, last;
+    std::vector<PointOrder> order;
     PatchFinder patches;
   };
   /// Two bodies, or one twice.
@@ -54,7 +60,8 @@ class PointStage {
   void select(std::span<const MovedPair> moved, const Bodies& bodies);
   void make_features(Bodies& bodies, int threads);
   void publish(const Wanted& wanted, const Bodies& bodies, Work& work) const;
-  static void cross(const Wanted& wanted, const Bodies& bodies, Work& work);
+  static narrowphase::CrossedVertices begin_crossing(const Wanted& wanted, const Bodies& bodies, Work& work);
+  static void finish_crossing(const Wanted& wanted, Work& work);
   static void cross_itself(const Wanted& wanted, const Bodies& bodies, Work& work);
   void search_in_ranges(const Wanted& wanted, const Bodies& bodies, std::span<const narrowphase::ClusterPair> pairs,
                         int threads);

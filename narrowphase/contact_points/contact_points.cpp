@@ -44,10 +44,11 @@ struct Waiting {
 // The search among the clusters of two meshes.
 class PointFinder {
  public:
-  PointFinder(const ScaledMesh& a, const ScaledMesh& b, double reach, Waiting& vertices, Waiting& edges,
-              SurfaceWays& ways, std::vector<FeaturePoint>& found)
+  PointFinder(const ScaledMesh& a, const ScaledMesh& b, double reach, const CrossedVertices& crossed, Waiting& vertices,
+              Waiting& edges, SurfaceWays& ways, std::vector<FeaturePoint>& found)
       : a_(a),
         b_(b),
+        crossed_(crossed),
         same_(&a.mesh == &b.mesh),
         reach_(reach),
         vertices_(vertices),
@@ -99,7 +100,9 @@ class PointFinder {
   void from_vertices(const OpenFeatures& one, const OpenFeatures& other, const Near& near, FeaturePair kind) {
     for (int block = 0; block < one.vertex_blocks; ++block) {
       const FeatureBlock& vertices = one.vertices[block];
-      const std::uint64_t some = kernels().near_facets(vertices.cells, all_of(vertices.count), near.cells);
+      std::uint64_t some = kernels().near_facets(vertices.cells, all_of(vertices.count), near.cells);
+      const auto crossed = kind == FeaturePair::vertex_facet ? crossed_.a : crossed_.b;
+      if (!crossed.empty()) some = without_crossed(some, one, block, crossed);
       for_each_pair(vertices, some, other.facets, near.facets, [&](int i, int k) {
         vertices_.set(0, one.points, vertices.corner[0][i]);
         for (int c = 0; c < 3; ++c) vertices_.set(c + 1, other.points, other.facets.corner[c][k]);
@@ -107,6 +110,16 @@ class PointFinder {
         if (vertices_.full()) look_at_vertices();
       });
     }
+  }
+
+  static std::uint64_t without_crossed(std::uint64_t some, const OpenFeatures& one, int block,
+                                       std::span<const std::uint64_t> crossed) {
+    std::uint64_t rest = some;
+    for (std::uint64_t left = some; left != 0; left &= left - 1) {
+      const auto vertex = static_cast<std::size_t>(one.vertex(block, std::countr_zero(left)));
+      if ((crossed[vertex / 64] >> vertex % 64 & 1) != 0) rest &= ~(left & -left);
+    }
+    return rest;
   }
 
   void look_at_vertices() {
@@ -265,6 +278,7 @@ class PointFinder {
   }
 
   const ScaledMesh a_, b_;
+  const CrossedVertices crossed_;
   const bool same_;
   const double reach_;
   Waiting &vertices_, &edges_;
@@ -297,7 +311,8 @@ ContactPointSearch::ContactPointSearch(ContactPointSearch&&) noexcept = default;
 ContactPointSearch& ContactPointSearch::operator=(ContactPointSearch&&) noexcept = default;
 
 void ContactPointSearch::run(const FeaturedMesh& a, const FeaturedMesh& b, double reach,
-                             std::span<const ClusterPair> pairs, std::vector<FeaturePoint>& found) {
+                             std::span<const ClusterPair> pairs, std::vector<FeaturePoint>& found,
+                             const CrossedVertices& crossed) {
   const Box whole = merged(a.mesh->box(), b.mesh->box());
   const Vec3 size = whole.upper - whole.lower;
   const double scale = unit_scale(std::max({size.x, size.y, size.z}));
@@ -308,7 +323,8 @@ void ContactPointSearch::run(const FeaturedMesh& a, const FeaturedMesh& b, doubl
     const Box box = mesh.cluster_boxes()[c];
     return Box{scale * box.lower, scale * box.upper};
   };
-  PointFinder finder(scaled_a, scaled_b, scale * reach, memory_->vertices, memory_->edges, memory_->ways, found);
+  PointFinder finder(scaled_a, scaled_b, scale * reach, crossed, memory_->vertices, memory_->edges, memory_->ways,
+                     found);
   // So many pairs share a grid: its cells stay small beside the facets.
   constexpr std::size_t kPairsOfGrid = 256;
   for (; !pairs.empty(); pairs = pairs.subspan(std::min(pairs.size(), kPairsOfGrid))) {

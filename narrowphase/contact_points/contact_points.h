@@ -6,6 +6,7 @@
 
 #include <array>
 #include <compare>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -43,6 +44,11 @@ class NearClusters {
   ClusterPairFinder finder_;
 };
 
+/// A bit for each vertex, by the mesh's numbers: those that have crossed the other surface. Empty: none has.
+struct CrossedVertices {
+  std::span<const std::uint64_t> a, b;
+};
+
 class ContactPointSearch {
  public:
   ContactPointSearch();
@@ -51,13 +57,13 @@ class ContactPointSearch {
   ContactPointSearch& operator=(ContactPointSearch&&) noexcept;
 
   /// Appends the points of some cluster pairs of `a` and `b`, which may be one mesh, in no particular order. All pairs
-  /// together give each point once.
+  /// together give each point once. Vertices that have `crossed` get none.
   ///
   /// Of one mesh, features that share a vertex have none, nor do those that are nearer than pi/2 times `reach` along
   /// the edges of the mesh: so far apart lie, on a sheet folded as tightly as its thickness lets it, the places that
   /// are one reach apart.
   void run(const FeaturedMesh& a, const FeaturedMesh& b, double reach, std::span<const ClusterPair> pairs,
-           std::vector<FeaturePoint>& found);
+           std::vector<FeaturePoint>& found, const CrossedVertices& crossed = {});
 
  private:
   struct Memory;

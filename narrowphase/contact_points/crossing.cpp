@@ -73,7 +73,15 @@ const CrossingSearch::Crossed* CrossingSearch::Side::find(int source_vertex) con
   return found != crossed.end() && found->source_vertex == source_vertex ? &*found : nullptr;
 }
 
-void CrossingSearch::run(const CrossingInput& input, std::vector<FeaturePoint>& found) {
+void CrossingSearch::Side::mark_crossed() {
+  has_crossed.assign(static_cast<std::size_t>(mesh.mesh->vertex_count()) / 64 + 1, 0);
+  for (const Crossed& one : crossed) {
+    const auto vertex = static_cast<std::size_t>(mesh.features->vertex_of_source(one.source_vertex));
+    has_crossed[vertex / 64] |= std::uint64_t{1} << vertex % 64;
+  }
+}
+
+CrossedVertices CrossingSearch::begin(const CrossingInput& input) {
   const Box whole = merged(input.a.mesh->box(), input.b.mesh->box());
   const Vec3 size = whole.upper - whole.lower;
   scale_ = unit_scale(std::max({size.x, size.y, size.z}));
@@ -95,7 +103,12 @@ void CrossingSearch::run(const CrossingInput& input, std::vector<FeaturePoint>& 
   b_.cut.order_hits();
   find_crossed(a_, b_);
   find_crossed(b_, a_);
-  std::erase_if(found, [&](const FeaturePoint& point) { return is_crossed_vertex(point); });
+  a_.mark_crossed();
+  b_.mark_crossed();
+  return {a_.has_crossed, b_.has_crossed};
+}
+
+void CrossingSearch::finish(std::vector<FeaturePoint>& found) {
   sign_edges(found);
   append_edge_points(found);
   append_running_edges(a_, b_, found);
@@ -230,11 +243,6 @@ void CrossingSearch::spread_through(Side& own) {
       if (!own.cut.is_cut({first, second})) reached_.push_back({source, to, one.source_vertex, one.facing, one.hint});
     }
   }
-}
-
-bool CrossingSearch::is_crossed_vertex(const FeaturePoint& point) const {
-  return (point.kind == FeaturePair::vertex_facet && a_.find(point.a[0]) != nullptr) ||
-         (point.kind == FeaturePair::facet_vertex && b_.find(point.b[0]) != nullptr);
 }
 
 void CrossingSearch::append_vertex_points(const Side& own, const Side& other, std::vector<FeaturePoint>& found) const {

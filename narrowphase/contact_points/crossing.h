@@ -61,9 +61,12 @@ bool is_contained(const FeaturedMesh& inner, const ClusteredMesh& outer);
 /// Memory for it, used again.
 class CrossingSearch {
  public:
-  /// Takes the points that ContactPointSearch has found within the margins, all of them; gives those of vertices and
-  /// edges that have crossed their new gaps, takes out the ones that are none, and appends what is deeper.
-  void run(const CrossingInput& input, std::vector<FeaturePoint>& found);
+  /// Finds the vertices that have crossed; valid until the next call. What `input` refers to stays until finish().
+  CrossedVertices begin(const CrossingInput& input);
+  /// Takes the points within the margins that ContactPointSearch has found, all but those of vertices that have
+  /// crossed; gives those of edges that have crossed their new gaps, takes out the ones that are none, and appends what
+  /// is deeper.
+  void finish(std::vector<FeaturePoint>& found);
 
  private:
   struct Crossed {
@@ -77,11 +80,13 @@ class CrossingSearch {
     std::span<const CarriedNormal> carried;
     double sign = 1.0;  // times a way out of the other mesh: the normal from a to b
     Cut cut;
-    std::vector<Crossed> crossed;  // sorted by vertex
+    std::vector<Crossed> crossed;            // sorted by vertex
+    std::vector<std::uint64_t> has_crossed;  // a bit for each vertex, by the mesh's numbers
 
     ScaledMesh scaled(double scale) const { return {*mesh.mesh, *mesh.features, scale}; }
     const CarriedNormal* carried_normal(int source_vertex) const;
     const Crossed* find(int source_vertex) const;
+    void mark_crossed();
   };
   /// What a patch of vertices knows of its direction: sums of unit vectors out of the other mesh.
   struct PatchDirection {
@@ -105,7 +110,6 @@ class CrossingSearch {
   void reach_through(Side& own, const Side& sheet);
   void spread_through(Side& own);
   void append_vertex_points(const Side& own, const Side& other, std::vector<FeaturePoint>& found) const;
-  bool is_crossed_vertex(const FeaturePoint& point) const;
   bool have_passed(int edge_a, int edge_b, const FeaturePoint& point) const;
   bool goes_on_inside(const Side& own, int edge) const;
   bool meets_beside(const Side& own, int edge, const Side& other, int other_edge) const;
