@@ -167,10 +167,13 @@ std::optional<Vec3> CrossingSearch::facing_of_vertex(const Side& own, int source
 
 void CrossingSearch::find_ways_out(Side& own, const Side& other) {
   own.cut.find_inside(own.mesh, *other.mesh.mesh);
+  if (own.cut.inside().empty()) return;
   find_patch_directions(own, other);
   const ScaledMesh surface = other.scaled(scale_), from = own.scaled(scale_);
   const Vec3 contact = own.sign * direction_;
-  ways_.begin(surface);
+  Box around;
+  for (const int vertex : own.cut.inside()) around = extended(around, own.mesh.mesh->position(vertex));
+  ways_.begin(surface, around, limit_);
   int hint = -1;
   for (const int vertex : own.cut.inside()) {
     const int source = own.mesh.mesh->source_vertex(vertex);

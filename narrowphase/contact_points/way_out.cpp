@@ -109,7 +109,7 @@ double height_at_edge(const ScaledMesh& m, int facet, int side, Vec3 v, double o
 }  // namespace
 
 struct WayFinder::Memory {
-  static constexpr std::size_t kOpened = 16;
+  static constexpr std::size_t kOpened = 32, kGathered = 3;
   std::optional<ScaledMesh> surface;
   struct Opened {
     int cluster = -1;
@@ -117,6 +117,29 @@ struct WayFinder::Memory {
   };
   Opened opened[kOpened];
   std::vector<std::int32_t> clusters;
+  FacetBlock gathered[kGathered];  // all facets that ways not longer than `gathered_within` lead to
+  std::size_t gathered_count = 0;
+  double gathered_within = -1.0;  // scaled; negative: none are gathered
+
+  // Takes the facets that reach into a box, in the unit of the mesh; false if they are too many.
+  bool gather(const ClusteredMesh& mesh, const Box& box) {
+    gathered_count = 1;
+    gathered[0].count = 0;
+    const CullPlanes planes = planes_of(box);
+    const int found = kernels().select_overlapping(mesh.cluster_boxes().pointers(), mesh.cluster_count(), planes.box,
+                                                   clusters.data());
+    for (int c = 0; c < found; ++c) {
+      const ClusterFacets facets = mesh.facets_of(clusters[c]);
+      const FacetBlock& last = gathered[gathered_count - 1];
+      const int before = last.count;
+      const Culled taken = kernels().open_cluster(facets, planes, &gathered[gathered_count - 1]);
+      if (before + taken.left <= FacetBlock::kCapacity) continue;
+      if (gathered_count == kGathered) return false;
+      gathered[gathered_count].count = 0;
+      kernels().open_cluster(facets, planes, &gathered[gathered_count++]);
+    }
+    return true;
+  }
 
   const FacetBlock& facets_of(const ClusteredMesh& mesh, int cluster) {
     Opened& one = opened[static_cast<std::size_t>(cluster) % kOpened];
@@ -138,6 +161,14 @@ void WayFinder::begin(const ScaledMesh& surface) {
   memory_->surface.emplace(surface);
   for (Memory::Opened& one : memory_->opened) one.cluster = -1;
   memory_->clusters.resize(surface.mesh.cluster_count() + kPadding);
+  memory_->gathered_within = -1.0;
+}
+
+void WayFinder::begin(const ScaledMesh& surface, const Box& box, double within) {
+  begin(surface);
+  // Lengths are near 1: the last term is far more than a way or a box is rounded by.
+  const double more = (with_rounding(within) + 1e-9) / surface.scale;
+  if (memory_->gather(surface.mesh, grown(box, more))) memory_->gathered_within = within;
 }
 
 template <class Counts>
@@ -161,10 +192,7 @@ std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const 
     const double most = (1.0 / m.scale) * (with_rounding(least) + 0x1p-50 * largest_of(v));
     return most * most;
   };
-  const int clusters = kernels().select_within(m.mesh.cluster_boxes().pointers(), m.mesh.cluster_count(), point,
-                                               within_squared(), memory_->clusters.data());
-  for (int c = 0; c < clusters; ++c) {
-    const FacetBlock& facets = memory_->facets_of(m.mesh, memory_->clusters[c]);
+  const auto look_into = [&](const FacetBlock& facets) {
     std::int32_t near[FacetBlock::kRoom];
     const BoxPointers boxes{{facets.lower[0], facets.lower[1], facets.lower[2]},
                             {facets.upper[0], facets.upper[1], facets.upper[2]}};
@@ -179,7 +207,14 @@ std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const 
       }
       look_at(facets.facet[i], SeenFacet(corners, v));
     }
+  };
+  if (within <= memory_->gathered_within) {
+    for (std::size_t k = 0; k < memory_->gathered_count; ++k) look_into(memory_->gathered[k]);
+    return best;
   }
+  const int clusters = kernels().select_within(m.mesh.cluster_boxes().pointers(), m.mesh.cluster_count(), point,
+                                               within_squared(), memory_->clusters.data());
+  for (int c = 0; c < clusters; ++c) look_into(memory_->facets_of(m.mesh, memory_->clusters[c]));
   return best;
 }
 

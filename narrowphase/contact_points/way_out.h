@@ -29,6 +29,9 @@ class WayFinder {
 
   /// Begins with a surface, which must not move until the next call.
   void begin(const ScaledMesh& surface);
+  /// The same for vertices that all lie in `box`, in the unit of the mesh: the facets that ways not longer than
+  /// `within` can lead to are opened at once, if they are few.
+  void begin(const ScaledMesh& surface, const Box& box, double within);
 
   /// Of a closed mesh: the nearest place in those facets that see `v` from behind and whose outward normal is nearer to
   /// `facing`, a unit vector, than the angle of this cosine; if one is at most `within` away. Of equally near facets

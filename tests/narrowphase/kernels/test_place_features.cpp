@@ -1,0 +1,139 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "narrowphase/contact_points/features.h"
+#include "narrowphase/kernels/kernels.h"
+#include "narrowphase/mesh/clustered_mesh.h"
+#include "tests/support/clustered.h"
+#include "tests/support/facet_filters.h"
+#include "tests/support/generators.h"
+
+namespace tact::narrowphase {
+namespace {
+
+constexpr double kScale = 0.5;
+constexpr BoxBounds kBox{{-0.15, -0.1, -0.2}, {0.15, 0.25, 0.1}};
+constexpr Grid kGrid{{-0.15, -0.1, -0.2}, {300.0, 1e6, 0.0}};  // the second axis has more cells than there are
+constexpr double kWiden = 0.01;
+
+// The vertices of a cluster, those that it owns first.
+std::vector<Vec3> scaled_vertices(const ClusteredMesh& mesh, int cluster) {
+  const ClusterFacets facets = mesh.facets_of(cluster);
+  std::vector<Vec3> all;
+  for (int i = 0; i < facets.owned_count; ++i) all.push_back(kScale * mesh.position(facets.owned_begin + i));
+  for (int i = 0; i < facets.borrowed_count; ++i) all.push_back(kScale * mesh.position(facets.borrowed[i]));
+  return all;
+}
+
+// A bit for each side of the box that a point is beyond.
+unsigned outside(Vec3 p) {
+  unsigned sides = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    sides |= (p[axis] < kBox.lower[axis] ? 1u : 0u) << (2 * axis);
+    sides |= (p[axis] > kBox.upper[axis] ? 1u : 0u) << (2 * axis + 1);
+  }
+  return sides;
+}
+
+std::int16_t cell(int axis, double x) {
+  return static_cast<std::int16_t>(std::clamp((x - kGrid.origin[axis]) * kGrid.scale[axis], 0.0, kLastCell));
+}
+
+template <class Check>
+void for_clusters(const Check& check) {
+  for (int seed = 0; seed < 12; ++seed) {
+    const ClusteredMesh mesh = tests::clustered(tests::bodies(seed).first);
+    const Features features(mesh);
+    for (int c = 0; c < mesh.cluster_count(); ++c) check(mesh, features, c);
+  }
+}
+
+TEST(PlacePoints, ScaleTheVerticesAndTellWhichSidesRuleThemOut) {
+  int inside = 0, beyond = 0;
+  for_clusters([&](const ClusteredMesh& mesh, const Features&, int cluster) {
+    const std::vector<Vec3> expected = scaled_vertices(mesh, cluster);
+    for (const Kernels* kernels : tests::available_kernels()) {
+      ClusterPoints points;
+      kernels->place_points(mesh.facets_of(cluster), kScale, kBox, &points);
+      ASSERT_EQ(points.count, static_cast<int>(expected.size())) << kernels->name;
+      for (int i = 0; i < points.count; ++i) {
+        ASSERT_EQ((Vec3{points.at[0][i], points.at[1][i], points.at[2][i]}), expected[i]) << kernels->name;
+        ASSERT_EQ(points.outside[i], outside(expected[i])) << kernels->name;
+        (outside(expected[i]) == 0 ? inside : beyond) += 1;
+      }
+    }
+  });
+  EXPECT_GT(inside, 300);
+  EXPECT_GT(beyond, 300);
+}
+
+// Against plain loops: which features are left, in order, and the cells of their boxes. Returns how many were left out.
+int expect_placed(const ClusteredMesh& mesh, int cluster, const FeatureCorners& in) {
+  const std::vector<Vec3> vertices = scaled_vertices(mesh, cluster);
+  int left_out = 0;
+  for (const Kernels* kernels : tests::available_kernels()) {
+    ClusterPoints points;
+    kernels->place_points(mesh.facets_of(cluster), kScale, kBox, &points);
+    FeatureBlock block;
+    kernels->place_features(points, in, kGrid, kWiden, &block);
+    int n = 0;
+    for (int i = 0; i < in.count; ++i) {
+      unsigned common = ~0u;
+      for (int k = 0; k < in.corners; ++k) common &= outside(vertices[in.corner[k][i]]);
+      if (common != 0) {
+        ++left_out;
+        continue;
+      }
+      EXPECT_LT(n, block.count) << kernels->name;
+      EXPECT_EQ(block.feature[n], i) << kernels->name;
+      for (int axis = 0; axis < 3; ++axis) {
+        double low = vertices[in.corner[0][i]][axis], high = low;
+        for (int k = 0; k < in.corners; ++k) {
+          EXPECT_EQ(block.corner[k][n], in.corner[k][i]) << kernels->name;
+          low = std::min(low, vertices[in.corner[k][i]][axis]);
+          high = std::max(high, vertices[in.corner[k][i]][axis]);
+        }
+        EXPECT_EQ(block.cells.lower[axis][n], cell(axis, low - kWiden)) << kernels->name;
+        EXPECT_EQ(block.cells.upper[axis][n], cell(axis, high + kWiden)) << kernels->name;
+      }
+      ++n;
+    }
+    EXPECT_EQ(block.count, n) << kernels->name;
+    EXPECT_EQ(block.cells.count, n) << kernels->name;
+  }
+  return left_out;
+}
+
+TEST(PlaceFeatures, LeaveThoseThatNoSideRulesOutAndFindTheirCells) {
+  std::vector<std::uint8_t> numbers(256);
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<std::uint8_t>(i);
+  int left_out[3] = {0, 0, 0};
+  for_clusters([&](const ClusteredMesh& mesh, const Features& features, int c) {
+    const ClusterFacets all = mesh.facets_of(c);
+    left_out[0] += expect_placed(mesh, c, {{all.corner[0], all.corner[1], all.corner[2]}, 3, all.facet_count});
+    left_out[1] += expect_placed(mesh, c, {{numbers.data()}, 1, std::min(all.owned_count, 64)});
+    const int edges = features.edge_end(c) - features.edge_begin(c);
+    if (edges == 0) return;
+    const auto corners = features.edge_corners(features.edge_begin(c));
+    left_out[2] += expect_placed(mesh, c, {{corners[0], corners[1]}, 2, std::min(edges, 64)});
+  });
+  for (const int one : left_out) EXPECT_GT(one, 100);
+}
+
+TEST(PlaceFeatures, OfNoneAreNone) {
+  for (const Kernels* kernels : tests::available_kernels()) {
+    FeatureBlock block;
+    block.count = block.cells.count = 3;
+    ClusterPoints points;
+    kernels->place_features(points, {{nullptr}, 1, 0}, kGrid, kWiden, &block);
+    EXPECT_EQ(block.count, 0) << kernels->name;
+    EXPECT_EQ(block.cells.count, 0) << kernels->name;
+  }
+}
+
+}  // namespace
+}  // namespace tact::narrowphase
