@@ -17,7 +17,7 @@ namespace tact::narrowphase {
 namespace {
 
 constexpr double kScale = 0.5;
-constexpr BoxBounds kBox{{-0.15, -0.1, -0.2}, {0.15, 0.25, 0.1}};
+constexpr BoxBounds kCutBox{{-0.15, -0.1, -0.2}, {0.15, 0.25, 0.1}};
 constexpr Grid kGrid{{-0.15, -0.1, -0.2}, {300.0, 1e6, 0.0}};  // the second axis has more cells than there are
 constexpr double kWiden = 0.01;
 
@@ -34,8 +34,8 @@ std::vector<Vec3> scaled_vertices(const ClusteredMesh& mesh, int cluster) {
 unsigned outside(Vec3 p) {
   unsigned sides = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    sides |= (p[axis] < kBox.lower[axis] ? 1u : 0u) << (2 * axis);
-    sides |= (p[axis] > kBox.upper[axis] ? 1u : 0u) << (2 * axis + 1);
+    sides |= (p[axis] < kCutBox.lower[axis] ? 1u : 0u) << (2 * axis);
+    sides |= (p[axis] > kCutBox.upper[axis] ? 1u : 0u) << (2 * axis + 1);
   }
   return sides;
 }
@@ -59,7 +59,7 @@ TEST(PlacePoints, ScaleTheVerticesAndTellWhichSidesRuleThemOut) {
     const std::vector<Vec3> expected = scaled_vertices(mesh, cluster);
     for (const Kernels* kernels : tests::available_kernels()) {
       ClusterPoints points;
-      kernels->place_points(mesh.facets_of(cluster), kScale, kBox, &points);
+      kernels->place_points(mesh.facets_of(cluster), kScale, kCutBox, &points);
       ASSERT_EQ(points.count, static_cast<int>(expected.size())) << kernels->name;
       for (int i = 0; i < points.count; ++i) {
         ASSERT_EQ((Vec3{points.at[0][i], points.at[1][i], points.at[2][i]}), expected[i]) << kernels->name;
@@ -78,7 +78,7 @@ int expect_placed(const ClusteredMesh& mesh, int cluster, const FeatureCorners& 
   int left_out = 0;
   for (const Kernels* kernels : tests::available_kernels()) {
     ClusterPoints points;
-    kernels->place_points(mesh.facets_of(cluster), kScale, kBox, &points);
+    kernels->place_points(mesh.facets_of(cluster), kScale, kCutBox, &points);
     FeatureBlock block;
     kernels->place_features(points, in, kGrid, kWiden, &block);
     int n = 0;
