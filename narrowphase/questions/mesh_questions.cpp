@@ -17,10 +17,9 @@ namespace tact::narrowphase {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Boxes are opened while they may hold something as good as what was found, to rounding: so much later or, by the
-// square of the distance, farther. Then the answer does not depend on their order. A ray at
-// an angle of 2^-40 with a facet meets it at a time that is wrong by 2^-12, though its place is not.
-constexpr double kTimeRounding = 0x1p-10, kSquareRounding = 1.0 + 0x1p-40;
+// Boxes are opened while they may hold something as near as what was found: to the rounding of the square of the
+// distance. Then the answer does not depend on their order.
+constexpr double kSquareRounding = 1.0 + 0x1p-40;
 
 Box box_of(const Triangle& triangle) {
   Box box;
@@ -51,6 +50,17 @@ class SeenSegment {
   }
 
   const SegmentSlabs& slabs() const { return slabs_; }
+
+  // When it enters a box, as in rank_by_entry(): not earlier than any box around that one, rounding included.
+  double entry(const Box& box) const {
+    double first = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double inverse = slabs_.inverse[axis];
+      if (inverse == 0.0) continue;
+      first = std::max(first, ((inverse > 0.0 ? box.lower : box.upper)[axis] - slabs_.from[axis]) * inverse);
+    }
+    return first;
+  }
 
   // A bit for each facet of a cluster that it may meet.
   std::uint64_t sight(const ClusterFacets& cluster) {
@@ -137,8 +147,10 @@ std::array<double, 3> nearest_weights(Vec3 p, const Triangle& t, Vec3 normal) {
   return takes_sides ? beside : w;
 }
 
-// Where a segment first is in a triangle that it is known to meet.
-FacetHit hit_at(const Segment& segment, const Triangle& given, int facet) {
+// Where a segment first is in a triangle that it is known to meet. A ray at an angle of 2^-40 with a facet meets it at
+// a time that is wrong by 2^-12, though its place is not. So the time is held against `entry`, into the facet's box:
+// then no facet of a box that is entered later is hit earlier.
+FacetHit hit_at(const Segment& segment, const Triangle& given, int facet, double entry) {
   // About the beginning and near length 1, so that nothing overflows.
   double largest = 0.0;
   const auto note = [&](Vec3 p) { largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)}); };
@@ -176,6 +188,7 @@ FacetHit hit_at(const Segment& segment, const Triangle& given, int facet) {
       }
     }
   }
+  time = std::min(std::max(time, entry), 1.0);
   return {facet, time, nearest_weights(time * way, t, normal)};
 }
 
@@ -187,15 +200,16 @@ void for_each_hit(const ClusteredMesh& mesh, const Segment& segment, const doubl
   SeenSegment seen(segment, mesh.box());
   PredicateCounts counts;
   const auto rank = [&](const BoxPointers& boxes, int count, RankedBoxes& ranked) {
-    kernels().rank_by_entry(boxes, count, seen.slabs(), latest + kTimeRounding, &ranked);
+    kernels().rank_by_entry(boxes, count, seen.slabs(), latest, &ranked);
   };
-  const auto wants = [&](double entry) { return entry <= latest + kTimeRounding; };
+  const auto wants = [&](double entry) { return entry <= latest; };
   for_each_cluster_by_rank(mesh, rank, wants, [&](int cluster) {
     const ClusterFacets facets = mesh.facets_of(cluster);
     for (std::uint64_t left = seen.sight(facets); left != 0; left &= left - 1) {
       const int i = std::countr_zero(left), f = facets.facet_begin + i;
       const Triangle triangle = mesh.triangle(f);
-      if (seen.meets(facets, i, triangle, counts)) visit(hit_at(segment, triangle, mesh.source_facet(f)));
+      if (seen.meets(facets, i, triangle, counts))
+        visit(hit_at(segment, triangle, mesh.source_facet(f), seen.entry(box_of(triangle))));
     }
   });
 }
