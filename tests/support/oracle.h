@@ -22,8 +22,8 @@ std::vector<FacetPair> facet_pairs_by_brute_force(const Mesh& a, const Mesh& b);
 // The facets of one mesh that name no common vertex and share at least one point, a < b, sorted.
 std::vector<FacetPair> self_facet_pairs_by_oracle(const Mesh& mesh);
 
-// The same by CGAL's Polygon_mesh_processing::self_intersections. Nothing where CGAL cannot hold the mesh: where an edge
-// has three facets, facets beside each other turn opposite ways, or a facet has no area.
+// The same by CGAL's Polygon_mesh_processing::self_intersections. Nothing where CGAL cannot hold the mesh: where an
+// edge has three facets, facets beside each other turn opposite ways, or a facet has no area.
 std::optional<std::vector<FacetPair>> self_facet_pairs_by_cgal(const Mesh& mesh);
 
 // Two bodies whose facets meet.
