@@ -43,6 +43,7 @@ void ClusterNeighbors::find_around(const ClusteredMesh& mesh) {
   }
   std::ranges::sort(users);
   std::vector<std::pair<int, int>> beside;
+  beside.reserve(mesh.cluster_count());
   for (int c = 0; c < mesh.cluster_count(); ++c) beside.emplace_back(c, c);
   std::vector<int> at_vertex;
   int owner = 0;

@@ -54,11 +54,12 @@ void LastPoints::take(std::span<const FeaturePoint> points) {
 Vec3 LastPoints::side(std::span<const int> own, std::span<const int> other) const {
   Vec3 sum;
   for (std::size_t k = 0; k < own.size(); ++k) {
-    for (const Entry& one : std::ranges::equal_range(entries_, own[k], {}, &Entry::vertex)) {
-      const FeaturePoint& point = points_[one.point];
-      const auto &mine = one.is_a ? point.a : point.b, &theirs = one.is_a ? point.b : point.a;
+    auto one = std::ranges::lower_bound(entries_, own[k], {}, &Entry::vertex);
+    for (; one != entries_.end() && one->vertex == own[k]; ++one) {
+      const FeaturePoint& point = points_[one->point];
+      const auto &mine = one->is_a ? point.a : point.b, &theirs = one->is_a ? point.b : point.a;
       if (!have_common(other, theirs) || have_common(own.first(k), mine)) continue;
-      sum = one.is_a ? sum - point.normal : sum + point.normal;
+      sum = one->is_a ? sum - point.normal : sum + point.normal;
     }
   }
   return sum;
@@ -142,7 +143,7 @@ void CrossingSides::turn_guesses(const ScaledMesh& mesh, std::span<const EdgeHit
     const double along = lines_.layer_of(hit.facet) * dot(normal, guesses_of_lines_[line]);
     const EdgeVertices ends = mesh.features.edge(hit.edge);
     for (std::size_t k = 0; k < 2; ++k)
-      ends_.push_back({line, along * dot(normal, mesh.position(ends[k]) - corner) < 0.0, hit.vertices[k]});
+      ends_.emplace_back(line, along * dot(normal, mesh.position(ends[k]) - corner) < 0.0, hit.vertices[k]);
   }
   std::ranges::sort(ends_);
   ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());

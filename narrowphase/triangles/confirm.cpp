@@ -162,7 +162,8 @@ void FacetPairSearch::test_blocks(const ConfirmInput& input, const KeptFacets& b
                                   ConfirmCounts& counts) {
   std::uint64_t near_a = a_.facets, near_b = b.facets;
   kernels().find_cells(grid_, &a_.block);
-  if (static_cast<std::size_t>(a_.block.count + b.block.count) > input.tuning->few_in_blocks) {
+  const std::size_t in_blocks = a_.block.count + b.block.count;
+  if (in_blocks > input.tuning->few_in_blocks) {
     const CellBox common = cells_of(grid_, bounds_of(intersection(a_.bounds, b.bounds)));
     near_b = kernels().near_facets(b.block.cells, near_b, common);
     if (near_b == 0) return;
