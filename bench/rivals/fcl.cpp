@@ -2,7 +2,6 @@
 // beginUpdateModel(), whose boxes hold the last frame too), refitted bottom up; bodies paired by its dynamic AABB tree.
 // The traversal is called directly: fcl::collide() would copy both models for every pair.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision_object.h>
 #include <fcl/narrowphase/collision_result.h>
 #include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "bench/meeting_lists.h"
+#include "bench/rivals/fcl_model.h"
 #include "bench/rivals/rival.h"
 #include "engine/base/parallel.h"
 
@@ -50,7 +50,7 @@ class Fcl : public Rival {
       : workload_(workload), threads_(useful_threads(workload, threads)), lists_(threads_) {
     for (const WorkloadBody& body : workload.bodies) {
       models_.push_back(std::make_shared<Model>());
-      build(*models_.back(), body);
+      build_fcl_model(*models_.back(), body);
       objects_.push_back(std::make_unique<fcl::CollisionObjectd>(models_.back()));
       objects_.back()->setUserData(reinterpret_cast<void*>(objects_.size() - 1));
       manager_.registerObject(objects_.back().get());
@@ -76,24 +76,9 @@ class Fcl : public Rival {
   using Model = fcl::BVHModel<Volume>;
   using BodyPair = std::pair<int, int>;
 
-  static void build(Model& model, const WorkloadBody& body) {
-    std::vector<fcl::Vector3d> vertices;
-    for (const auto& p : body.positions(0).colwise()) vertices.push_back(p);
-    std::vector<fcl::Triangle> triangles;
-    for (const auto& f : body.facets.colwise()) {
-      triangles.emplace_back(static_cast<std::size_t>(f[0]), static_cast<std::size_t>(f[1]),
-                             static_cast<std::size_t>(f[2]));
-    }
-    model.beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
-    model.addSubModel(vertices, triangles);
-    model.endModel();
-  }
-
   void refit(std::size_t k, int frame) {
     Model& model = *models_[k];
-    model.beginReplaceModel();
-    for (const auto& p : workload_.bodies[k].positions(frame).colwise()) model.replaceVertex(p);
-    model.endReplaceModel(true, true);
+    refit_fcl_model(model, workload_.bodies[k].positions(frame));
     if constexpr (std::is_same_v<Volume, fcl::AABBd>) {
       model.aabb_local = model.getBV(0).bv;  // what computeLocalAABB() would find anew
     } else {

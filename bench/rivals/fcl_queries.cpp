@@ -1,11 +1,11 @@
 // FCL asked for nearest points: the distance of a mesh from a sphere that is hardly more than a point, by its traversal
 // of a hierarchy of boxes, refitted bottom up as in fcl.cpp. It has no rays.
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/detail/gjk_solver_libccd.h>
 #include <fcl/narrowphase/detail/traversal/collision_node.h>
 #include <fcl/narrowphase/detail/traversal/distance/mesh_shape_distance_traversal_node.h>
 
+#include "bench/rivals/fcl_model.h"
 #include "bench/rivals/query_rival.h"
 #include "engine/base/parallel.h"
 
@@ -16,24 +16,9 @@ constexpr double kPointRadius = 1e-12;  // metres: below what answers are compar
 
 class FclQueries : public QueryRival {
  public:
-  FclQueries(const WorkloadBody& body, int threads) : threads_(threads) {
-    std::vector<fcl::Vector3d> vertices;
-    for (const auto& p : body.frames[0].colwise()) vertices.push_back(p);
-    std::vector<fcl::Triangle> triangles;
-    for (const auto& f : body.facets.colwise()) {
-      triangles.emplace_back(static_cast<std::size_t>(f[0]), static_cast<std::size_t>(f[1]),
-                             static_cast<std::size_t>(f[2]));
-    }
-    model_.beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
-    model_.addSubModel(vertices, triangles);
-    model_.endModel();
-  }
+  FclQueries(const WorkloadBody& body, int threads) : threads_(threads) { build_fcl_model(model_, body); }
 
-  void refit(const Eigen::Matrix3Xd& positions) override {
-    model_.beginReplaceModel();
-    for (const auto& p : positions.colwise()) model_.replaceVertex(p);
-    model_.endReplaceModel(true, true);
-  }
+  void refit(const Eigen::Matrix3Xd& positions) override { refit_fcl_model(model_, positions); }
 
   bool ask(std::span<const Ray>) override { return false; }
 

@@ -247,15 +247,8 @@ class PointFinder {
     const EdgeVertices e = a_.features.edge(edge_e), f = b_.features.edge(edge_f);
     const Vec3 on_e = nearest.first[0] * at_e.p + nearest.first[1] * at_e.q;
     if (same_ && along_surface(e, on_e, f, on_e + nearest.distance * nearest.normal)) return;
-    FeaturePoint point{.kind = FeaturePair::edge_edge,
-                       .a = source_vertices(a_.mesh, e),
-                       .b = source_vertices(b_.mesh, f),
-                       .weight_a = {nearest.first[0], nearest.first[1], 0.0},
-                       .weight_b = {nearest.weight[0], nearest.weight[1], 0.0},
-                       .normal = nearest.normal,
-                       .gap = nearest.distance / a_.scale,
-                       .edge_a = edge_e,
-                       .edge_b = edge_f};
+    FeaturePoint point = point_of_edges(nearest, source_vertices(a_.mesh, e), source_vertices(b_.mesh, f), edge_e,
+                                        edge_f, nearest.distance / a_.scale);
     if (same_ && point.b < point.a) {
       std::swap(point.a, point.b);
       std::swap(point.weight_a, point.weight_b);

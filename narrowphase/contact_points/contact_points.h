@@ -33,6 +33,21 @@ struct FeaturePoint {
   auto features() const { return std::tie(kind, a, b); }
 };
 
+/// The point of two edges, by Features' numbers, with the ends `a` and `b` and this gap in metres, at their nearest
+/// places.
+inline FeaturePoint point_of_edges(const Nearest& nearest, const std::array<int, 3>& a, const std::array<int, 3>& b,
+                                   int edge_a, int edge_b, double gap) {
+  return {.kind = FeaturePair::edge_edge,
+          .a = a,
+          .b = b,
+          .weight_a = {nearest.first[0], nearest.first[1], 0.0},
+          .weight_b = {nearest.weight[0], nearest.weight[1], 0.0},
+          .normal = nearest.normal,
+          .gap = gap,
+          .edge_a = edge_a,
+          .edge_b = edge_b};
+}
+
 /// The cluster pairs of `a` and `b` that come within `reach` (metres); for one mesh with itself each pair once, the
 /// smaller first.
 class NearClusters {

@@ -26,13 +26,6 @@ constexpr double kAgree = 0.8;
 constexpr double kDepthRounding = 1e-12;
 constexpr double kAnywhere = 16.0;  // beyond both meshes, whose lengths are at most 2
 
-Vec3 unit_normal(const ScaledMesh& m, int facet) {
-  const Corners c = m.mesh.corners(facet);
-  const Vec3 normal = cross(m.position(c[1]) - m.position(c[0]), m.position(c[2]) - m.position(c[0]));
-  const double length = norm(normal);
-  return length > 0.0 ? (1.0 / length) * normal : Vec3{};
-}
-
 Vec3 unit_or(Vec3 v, Vec3 otherwise) {
   const double length = norm(v);
   return length > 0.0 ? (1.0 / length) * v : otherwise;
@@ -139,7 +132,7 @@ void CrossingSearch::find_patch_directions(Side& own, const Side& other) {
   }
   for (const EdgeHit& hit : own.cut.hits()) {
     PatchDirection& one = patches_[own.cut.patch_of(hit.vertices[0])];
-    one.entered = one.entered + unit_normal(other.scaled(scale_), other.mesh.mesh->facet_of_source(hit.facet));
+    one.entered = one.entered + other.scaled(scale_).unit_normal(other.mesh.mesh->facet_of_source(hit.facet));
     ++one.entries;
   }
   for (PatchDirection& one : patches_) {
@@ -199,7 +192,7 @@ void CrossingSearch::find_ways_through(Side& own, const Side& sheet) {
   for (const EdgeHit& hit : own.cut.hits()) {
     const int facet = sheet.mesh.mesh->facet_of_source(hit.facet);
     const Triangle t = sheet.mesh.mesh->triangle(facet);
-    const Vec3 normal = unit_normal(surface, facet);
+    const Vec3 normal = surface.unit_normal(facet);
     const EdgeVertices ends = own.mesh.features->edge(hit.edge);
     for (std::size_t k = 0; k < 2; ++k) {
       const Vec3 facing = facing_of_vertex(own, hit.vertices[k]).value_or(facing_of_patch(own, hit.vertices[k]));
@@ -311,15 +304,8 @@ bool CrossingSearch::passed_point(int edge_a, int edge_b, FeaturePoint& point) c
                                               ends_of(b, edge_b), b.around(b.features.opposite(edge_b)), limit_);
   if (!nearest || dot(nearest->normal, facing_of_edges(edge_a, edge_b)) <= kFaces) return false;
   const EdgeVertices ends_a = source_ends(a_.mesh, edge_a), ends_b = source_ends(b_.mesh, edge_b);
-  point = {.kind = FeaturePair::edge_edge,
-           .a = {ends_a[0], ends_a[1], -1},
-           .b = {ends_b[0], ends_b[1], -1},
-           .weight_a = {nearest->first[0], nearest->first[1], 0.0},
-           .weight_b = {nearest->weight[0], nearest->weight[1], 0.0},
-           .normal = nearest->normal,
-           .gap = negative(nearest->distance / scale_),
-           .edge_a = edge_a,
-           .edge_b = edge_b};
+  point = point_of_edges(*nearest, {ends_a[0], ends_a[1], -1}, {ends_b[0], ends_b[1], -1}, edge_a, edge_b,
+                         negative(nearest->distance / scale_));
   return true;
 }
 

@@ -12,6 +12,13 @@ struct ScaledMesh {
   double scale;  // a power of two
 
   Vec3 position(int vertex) const { return scale * mesh.position(vertex); }
+  /// Of a facet; zero if it has no area.
+  Vec3 unit_normal(int facet) const {
+    const Corners c = mesh.corners(facet);
+    const Vec3 normal = cross(position(c[1]) - position(c[0]), position(c[2]) - position(c[0]));
+    const double length = norm(normal);
+    return length > 0.0 ? (1.0 / length) * normal : Vec3{};
+  }
   ScaledVertices around(std::span<const int> vertices) const { return {mesh.points(), vertices, scale}; }
 };
 

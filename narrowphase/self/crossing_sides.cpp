@@ -29,8 +29,7 @@ Vec3 longer_side(const ScaledMesh& mesh, const EdgeHit& hit, Vec3 normal) {
 }  // namespace
 
 Vec3 unit_normal_of_source(const ScaledMesh& mesh, int source_facet) {
-  const Corners c = mesh.mesh.corners(mesh.mesh.facet_of_source(source_facet));
-  return unit_or_zero(cross(mesh.position(c[1]) - mesh.position(c[0]), mesh.position(c[2]) - mesh.position(c[0])));
+  return mesh.unit_normal(mesh.mesh.facet_of_source(source_facet));
 }
 
 std::array<int, 3> source_corners(const ClusteredMesh& mesh, int source_facet) {

@@ -11,13 +11,6 @@ namespace {
 // Facets with a common edge may be as far from a vertex as each other, but for some roundings; lengths are near 1.
 constexpr double kRounding = 1e-13;
 
-Vec3 facet_unit_normal(const ScaledMesh& mesh, int facet) {
-  const Corners c = mesh.mesh.corners(facet);
-  const Vec3 normal = cross(mesh.position(c[1]) - mesh.position(c[0]), mesh.position(c[2]) - mesh.position(c[0]));
-  const double length = norm(normal);
-  return length > 0.0 ? (1.0 / length) * normal : Vec3{};
-}
-
 }  // namespace
 
 FacetsAround::FacetsAround(const ClusteredMesh& mesh) {
@@ -44,14 +37,14 @@ std::span<const int> FacetsAround::operator[](int source_vertex) const {
 }
 
 Vec3 NearestAround::normal_at(const ScaledMesh& mesh, const WayOut& way) const {
-  if (way.feature[2] >= 0) return facet_unit_normal(mesh, way.facet);
+  if (way.feature[2] >= 0) return mesh.unit_normal(way.facet);
   const bool is_edge = way.feature[1] >= 0;
   Vec3 sum;
   int at_edge = 0;
   for (const int source : around_[mesh.mesh.source_vertex(way.feature[0])]) {
     const int facet = mesh.mesh.facet_of_source(source);
     const Corners c = mesh.mesh.corners(facet);
-    const Vec3 normal = facet_unit_normal(mesh, facet);
+    const Vec3 normal = mesh.unit_normal(facet);
     if (is_edge) {
       if (std::ranges::find(c, way.feature[1]) == c.end()) continue;
       ++at_edge;

@@ -239,15 +239,8 @@ std::optional<FeaturePoint> SelfCrossing::passed_point(const EdgePair& edges) {
   if (nearest->distance > limit_ && !(dot(sides_.last_points().side(b, a), nearest->normal) > 0.0)) return {};
   const Vec3 on_e = nearest->first[0] * at_e.p + nearest->first[1] * at_e.q;
   if (along_surface(e, on_e, f, on_e - nearest->distance * nearest->normal)) return {};
-  return FeaturePoint{.kind = FeaturePair::edge_edge,
-                      .a = {a[0], a[1], -1},
-                      .b = {b[0], b[1], -1},
-                      .weight_a = {nearest->first[0], nearest->first[1], 0.0},
-                      .weight_b = {nearest->weight[0], nearest->weight[1], 0.0},
-                      .normal = nearest->normal,
-                      .gap = negative(nearest->distance / scale_),
-                      .edge_a = edges.first,
-                      .edge_b = edges.second};
+  return point_of_edges(*nearest, {a[0], a[1], -1}, {b[0], b[1], -1}, edges.first, edges.second,
+                        negative(nearest->distance / scale_));
 }
 
 void SelfCrossing::sign_edges(std::vector<FeaturePoint>& found) {

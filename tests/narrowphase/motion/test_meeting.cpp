@@ -70,36 +70,37 @@ TEST(Meeting, AReachIsMetWhenItIsReached) {
   EXPECT_NEAR(search.first(facet_seen_from(vertex, facet), 0.998).time, 0.001, 1e-10);
 }
 
-// Their volume is zero throughout.
-TEST(Meeting, EdgesThatStayInOnePlaneAreRightMostlyAtOnce) {
-  Random random(5);
+struct MeetingCounts {
+  int meeting = 0, at_once = 0;  // of these, without a search of spans of time
+};
+
+// Checks that each of `count` queries is answered rightly.
+template <class Make>
+MeetingCounts check_all(int count, std::uint64_t seed, const Make& make) {
+  Random random(seed);
   MeetingSearch search;
-  int meeting = 0, at_once = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const MotionQuery query = query_in_plane(random);
+  MeetingCounts counts;
+  for (int i = 0; i < count; ++i) {
+    const MotionQuery query = make(random);
     const CheckedQuery checked = check(query, search);
     EXPECT_EQ(checked.failure, "");
-    const bool meets = checked.answer == QueryAnswer::meets;
-    meeting += meets ? 1 : 0;
-    at_once += meets && search.first(query.polygon(), 0.0).spans == 0 ? 1 : 0;
+    if (checked.answer != QueryAnswer::meets) continue;
+    ++counts.meeting;
+    counts.at_once += search.first(query.polygon(), 0.0).spans == 0 ? 1 : 0;
   }
+  return counts;
+}
+
+// Their volume is zero throughout.
+TEST(Meeting, EdgesThatStayInOnePlaneAreRightMostlyAtOnce) {
+  const auto [meeting, at_once] = check_all(2000, 5, query_in_plane);
   EXPECT_GT(meeting, 500);
   EXPECT_GT(at_once, meeting / 3);
 }
 
 // Corners whose way goes exactly through the origin; often something meets before them.
 TEST(Meeting, CornersThatMeetExactlyAreRightMostlyAtOnce) {
-  Random random(6);
-  MeetingSearch search;
-  int meeting = 0, at_once = 0;
-  for (int i = 0; i < 3000; ++i) {
-    const MotionQuery query = query_of_layers(random);
-    const CheckedQuery checked = check(query, search);
-    EXPECT_EQ(checked.failure, "");
-    const bool meets = checked.answer == QueryAnswer::meets;
-    meeting += meets ? 1 : 0;
-    at_once += meets && search.first(query.polygon(), 0.0).spans == 0 ? 1 : 0;
-  }
+  const auto [meeting, at_once] = check_all(3000, 6, query_of_layers);
   EXPECT_GT(meeting, 800);
   EXPECT_GT(at_once, meeting * 8 / 10);
 }
