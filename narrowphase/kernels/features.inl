@@ -11,6 +11,21 @@
 namespace tact::narrowphase {
 namespace {
 
+// For each box a bit for each side of `box` that it is beyond: 2^(2 axis) below, twice that above.
+inline void flag_outside(const double* const (&lower)[3], const double* const (&upper)[3], int count,
+                         const BoxBounds& box, std::uint8_t* outside) {
+  const BoxPack sides(box);
+  Mask out[7];
+  out[6] = less(spread(1.0), spread(0.0));
+  for (int i = 0; i < count; i += kWidth) {
+    for (int axis = 0; axis < 3; ++axis) {
+      out[2 * axis] = less(load(upper[axis] + i), sides.lower[axis]);
+      out[2 * axis + 1] = less(sides.upper[axis], load(lower[axis] + i));
+    }
+    store_flags(outside + i, out);
+  }
+}
+
 void place_points(const ClusterFacets& in, double scale, const BoxBounds& box, ClusterPoints* points) {
   const double* const from[3] = {in.points.x, in.points.y, in.points.z};
   points->count = in.owned_count + in.borrowed_count;
@@ -20,27 +35,21 @@ void place_points(const ClusterFacets& in, double scale, const BoxBounds& box, C
     for (int i = 0; i < in.owned_count; i += kWidth) store(to + i, mul(factor, load(from[axis] + in.owned_begin + i)));
     for (int i = 0; i < in.borrowed_count; ++i) to[in.owned_count + i] = scale * from[axis][in.borrowed[i]];
   }
-  const BoxPack sides(box);
-  const Mask never = less(spread(1.0), spread(0.0));
-  for (int i = 0; i < points->count; i += kWidth) {
-    const Pack x = load(points->at[0] + i), y = load(points->at[1] + i), z = load(points->at[2] + i);
-    const Mask out[7] = {less(x, sides.lower[0]),
-                         less(sides.upper[0], x),
-                         less(y, sides.lower[1]),
-                         less(sides.upper[1], y),
-                         less(z, sides.lower[2]),
-                         less(sides.upper[2], z),
-                         never};
-    store_flags(points->outside + i, out);
-  }
+  const double* const at[3] = {points->at[0], points->at[1], points->at[2]};
+  flag_outside(at, at, points->count, box, points->outside);
+}
+
+// A bit for each feature that no side rules out, of one to 64.
+inline std::uint64_t left_of(const FeatureCorners& in, const std::uint8_t* outside, int vertices) {
+  const std::uint8_t* const corner[3] = {in.corner[0], in.corner[in.corners > 1 ? 1 : 0], in.corner[in.corners - 1]};
+  return common_flags(outside, vertices, corner, in.count).none;
 }
 
 void place_features(const ClusterPoints& points, const FeatureCorners& in, const Grid& grid, double widen,
                     FeatureBlock* block) {
   block->count = block->cells.count = 0;
   if (in.count == 0) return;
-  const std::uint8_t* const corner[3] = {in.corner[0], in.corner[in.corners > 1 ? 1 : 0], in.corner[in.corners - 1]};
-  const std::uint64_t left = common_flags(points.outside, points.count, corner, in.count).none;
+  const std::uint64_t left = left_of(in, points.outside, points.count);
   const int count = __builtin_popcountll(left);
   write_places(left, block->feature);
   for (int k = 0; k < in.corners; ++k) {

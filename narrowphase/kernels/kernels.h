@@ -196,6 +196,13 @@ struct alignas(64) ClusterPoints {
   int count = 0;
 };
 
+// Between which coordinates each vertex of a cluster stays on its way, owned ones first.
+struct alignas(64) VertexWays {
+  static constexpr int kRoom = 192 + 64;
+  double lower[3][kRoom], upper[3][kRoom];
+  int count = 0;
+};
+
 // Some features of a cluster, in its own numbers of vertices: `corners` of them each. 64 bytes of each array that is
 // used may be read.
 struct FeatureCorners {
@@ -210,6 +217,14 @@ struct alignas(64) FeatureBlock {
   FacetCells cells;
   std::uint8_t feature[kCapacity];  // which of those that were given
   std::uint8_t corner[3][2 * kCapacity];
+  int count = 0;
+};
+
+// Features, and the boxes of their ways.
+struct alignas(64) FeatureWays {
+  static constexpr int kRoom = 192 + 64;
+  double lower[3][kRoom], upper[3][kRoom];
+  std::uint8_t feature[kRoom], corner[3][kRoom];
   int count = 0;
 };
 
@@ -463,6 +478,12 @@ struct Kernels {
   void (*rank_facets)(const ClusterFacets& cluster, const double* point, double scale, double most,
                       FacetDistances* facets);
 
+  // Writes a bit for each side of the box that a vertex stays beyond, a byte a vertex; up to 8 bytes more are written.
+  void (*flag_ways)(const VertexWays& vertices, const BoxBounds& box, std::uint8_t* outside);
+  // Appends the features that no side rules out, their numbers counted from `first`. The room of VertexWays is that of
+  // `outside`, too.
+  void (*append_near_ways)(const VertexWays& vertices, const std::uint8_t* outside, const FeatureCorners& features,
+                           int first, FeatureWays* near);
   // A bit for each polygon that certainly stays farther than `reach` from the origin, all the time.
   std::uint64_t (*apart_throughout)(const MovingPolygons& polygons, double reach);
 };

@@ -17,6 +17,7 @@
 #include "narrowphase/kernels/refit.inl"
 #include "narrowphase/kernels/sort.inl"
 #include "narrowphase/kernels/surfaces.inl"
+#include "narrowphase/kernels/ways.inl"
 
 namespace tact::narrowphase {
 namespace {
@@ -64,6 +65,8 @@ constexpr Kernels all_kernels(const char* name) {
           .rank_by_distance = rank_by_distance,
           .sight_facets = sight_facets,
           .rank_facets = rank_facets,
+          .flag_ways = flag_ways,
+          .append_near_ways = append_near_ways,
           .apart_throughout = apart_throughout};
 }
 

@@ -74,23 +74,4 @@ class BoxArrays {
   std::size_t stride_ = 0;
 };
 
-/// The same for a few, in memory of a fixed size. The boxes are undefined at first.
-template <int kMostBoxes>
-struct FixedBoxes {
-  static constexpr int kMost = kMostBoxes;
-  int count = 0;
-  double bounds[6][kMost + kPadding];  // lower x, y, z, upper x, y, z
-
-  void set(int i, const Box& box) {
-    for (int axis = 0; axis < 3; ++axis) {
-      bounds[axis][i] = box.lower[axis];
-      bounds[axis + 3][i] = box.upper[axis];
-    }
-  }
-  Box box(int i) const {
-    return {{bounds[0][i], bounds[1][i], bounds[2][i]}, {bounds[3][i], bounds[4][i], bounds[5][i]}};
-  }
-  BoxPointers pointers() const { return {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}}; }
-};
-
 }  // namespace tact::narrowphase

@@ -15,7 +15,16 @@ namespace {
 constexpr double kNearly = 0x1p-36;
 constexpr double kEarlier = 0x1p-19;  // by less is the time of an impact earlier than the true one: see meeting.h
 
-constexpr int kMostVertices = 3 * kClusterSize, kMostEdges = 3 * kClusterSize;
+constexpr int kMostVertices = 3 * kClusterSize;
+static_assert(kMostVertices + 64 <= VertexWays::kRoom && 3 * kClusterSize + 64 <= FeatureWays::kRoom);
+
+// The part of the way that counts, and how much wider than the features their boxes are.
+struct Cut {
+  double until = 1.0;
+  double wider = 0.0;
+
+  friend bool operator==(const Cut&, const Cut&) = default;
+};
 
 // A cluster that stays open: where its vertices are at time 0 and 1, owned ones first. All lengths here are scaled.
 struct MovingCluster {
@@ -25,6 +34,8 @@ struct MovingCluster {
   Box at_end[2];  // at time 0 and 1
   int vertex_count = 0;
   double at[2][3][kMostVertices];  // time, axis
+  VertexWays ways;                 // as far as asked for last; of no vertex: never asked for
+  Cut cut;
 
   // On the way up to a time.
   Box box_until(double time) const {
@@ -55,103 +66,69 @@ void open(const MovingMesh& m, int cluster, double scale, MovingCluster& opened)
         to[facets.owned_count + i] = scale * from[axis][facets.borrowed[i]];
     }
   }
+  opened.ways.count = 0;
 }
 
-// The part of the way that counts, and how much wider than the features their boxes are.
-struct Cut {
-  double until = 1.0;
-  double wider = 0.0;
-};
-
-// Between which coordinates the vertices of a cluster stay.
-struct VertexBounds {
-  double low[3][kMostVertices], high[3][kMostVertices];
-
-  void take(const MovingCluster& cluster, const Cut& cut) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const double *const from = cluster.at[0][axis], *const to = cluster.at[1][axis];
-      const auto set = [&](int i, double begin, double end) {
-        low[axis][i] = (begin < end ? begin : end) - cut.wider;
-        high[axis][i] = (begin < end ? end : begin) + cut.wider;
-      };
-      if (cut.until == 1.0) {
-        for (int i = 0; i < cluster.vertex_count; ++i) set(i, from[i], to[i]);
-      } else {
-        for (int i = 0; i < cluster.vertex_count; ++i) set(i, from[i], from[i] + cut.until * (to[i] - from[i]));
-      }
+// Between which coordinates the vertices stay.
+const VertexWays& find_ways(MovingCluster& cluster, const Cut& cut) {
+  VertexWays& ways = cluster.ways;
+  if (ways.count != 0 && cluster.cut == cut) return ways;
+  ways.count = cluster.vertex_count;
+  cluster.cut = cut;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double *const from = cluster.at[0][axis], *const to = cluster.at[1][axis];
+    double *const lower = ways.lower[axis], *const upper = ways.upper[axis];
+    for (int i = 0; i < cluster.vertex_count; ++i) {
+      const double begin = from[i], end = cut.until == 1.0 ? to[i] : begin + cut.until * (to[i] - begin);
+      lower[i] = (begin < end ? begin : end) - cut.wider;
+      upper[i] = (begin < end ? end : begin) + cut.wider;
     }
   }
-};
+  return ways;
+}
 
-// Some features of a cluster, of kCorners corners each: their numbers in the mesh, their corners as the cluster counts
-// its vertices, and their boxes on the way.
-template <int kCorners, int kMostFeatures>
-struct MovingFeatures : FixedBoxes<kMostFeatures> {
-  using Boxes = FixedBoxes<kMostFeatures>;
-  using Boxes::bounds, Boxes::count;
-  int number[kMostFeatures];
-  std::array<int, kCorners> corners[kMostFeatures];
-
-  void clear() { count = 0; }
-  void add(int feature, const VertexBounds& vertex, const std::array<int, kCorners>& of_feature) {
-    const int i = count++;
-    number[i] = feature;
-    corners[i] = of_feature;
-    for (int axis = 0; axis < 3; ++axis) {
-      double low = vertex.low[axis][of_feature[0]], high = vertex.high[axis][of_feature[0]];
-      for (int c = 1; c < kCorners; ++c) {
-        const int v = of_feature[c];
-        low = vertex.low[axis][v] < low ? vertex.low[axis][v] : low;
-        high = vertex.high[axis][v] > high ? vertex.high[axis][v] : high;
-      }
-      bounds[axis][i] = low;
-      bounds[axis + 3][i] = high;
-    }
-  }
-};
+// The numbers of a cluster's vertices.
+constexpr auto kEachVertex = [] {
+  std::array<std::uint8_t, VertexWays::kRoom> numbers{};
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<std::uint8_t>(i);
+  return numbers;
+}();
 
 // The features of a cluster that come near the box of another one: its facets, and the vertices and edges that it has
 // first.
 struct NearFeatures {
   const MovingCluster* cluster = nullptr;
-  VertexBounds bounds;
-  MovingFeatures<1, kMostVertices> vertices;
-  MovingFeatures<2, kMostEdges> edges;
-  MovingFeatures<3, kClusterSize> facets;
+  FeatureWays vertices, edges, facets;
+  int vertex_begin = 0, edge_begin = 0, facet_begin = 0;  // the first of the cluster in the mesh
 
   // Is there any? Where no facet is near, no vertex nor edge of one is.
-  bool take(const MovingMesh& m, const MovingCluster& from, const Cut& cut, const Box& near);
+  bool take(const MovingMesh& m, MovingCluster& from, const Cut& cut, const Box& near);
+
+ private:
+  std::uint8_t outside_[VertexWays::kRoom];
 };
 
-// A feature is beyond a side of the box if all its corners are: a bit for each side that a vertex is beyond.
-bool NearFeatures::take(const MovingMesh& m, const MovingCluster& from, const Cut& cut, const Box& near) {
+bool NearFeatures::take(const MovingMesh& m, MovingCluster& from, const Cut& cut, const Box& near) {
   cluster = &from;
-  bounds.take(from, cut);
-  std::int64_t beyond[kMostVertices];  // as wide as a double, for the sake of the loops
-  std::fill_n(beyond, from.vertex_count, 0);
-  for (int axis = 0; axis < 3; ++axis) {
-    const double lower = near.lower[axis], upper = near.upper[axis];
-    const std::int64_t below = 1 << (2 * axis), above = 2 << (2 * axis);
-    for (int i = 0; i < from.vertex_count; ++i)
-      beyond[i] |= (bounds.high[axis][i] < lower ? below : 0) | (bounds.low[axis][i] > upper ? above : 0);
-  }
+  const VertexWays& ways = find_ways(from, cut);
+  kernels().flag_ways(ways, bounds_of(near), outside_);
+  const auto append = [&](const std::array<const std::uint8_t*, 3>& corner, int corners, int count, FeatureWays& to) {
+    to.count = 0;
+    for (int first = 0; first < count; first += 64) {
+      FeatureCorners some{{}, corners, std::min(count - first, 64)};
+      for (std::size_t k = 0; k < static_cast<std::size_t>(corners); ++k) some.corner[k] = corner[k] + first;
+      kernels().append_near_ways(ways, outside_, some, first, &to);
+    }
+  };
   const ClusterFacets all = m.mesh->facets_of(from.cluster);
-  facets.clear();
-  for (int i = 0; i < all.facet_count; ++i) {
-    const int u = all.corner[0][i], v = all.corner[1][i], w = all.corner[2][i];
-    if ((beyond[u] & beyond[v] & beyond[w]) == 0) facets.add(all.facet_begin + i, bounds, {u, v, w});
-  }
+  facet_begin = all.facet_begin;
+  append({all.corner[0], all.corner[1], all.corner[2]}, 3, all.facet_count, facets);
   if (facets.count == 0) return false;
-  vertices.clear();
-  for (int i = 0; i < all.owned_count; ++i) {
-    if (beyond[i] == 0) vertices.add(all.owned_begin + i, bounds, {i});
-  }
-  edges.clear();
-  const int edge_end = m.features->edge_end(from.cluster);
-  for (int e = m.features->edge_begin(from.cluster); e < edge_end; ++e) {
-    const auto [u, v] = m.features->edge_in_cluster(e);
-    if ((beyond[u] & beyond[v]) == 0) edges.add(e, bounds, {u, v});
-  }
+  vertex_begin = all.owned_begin;
+  append({kEachVertex.data()}, 1, all.owned_count, vertices);
+  edge_begin = m.features->edge_begin(from.cluster);
+  const auto [u, v] = m.features->edge_corners(edge_begin);
+  append({u, v}, 2, m.features->edge_end(from.cluster) - edge_begin, edges);
   return true;
 }
 
@@ -184,7 +161,7 @@ class OpenClusters {
   void close() {
     for (MovingCluster& one : clusters_) one.mesh = nullptr;
   }
-  const MovingCluster& get(const MovingMesh& m, int cluster, double scale) {
+  MovingCluster& get(const MovingMesh& m, int cluster, double scale) {
     MovingCluster& one = clusters_[static_cast<std::size_t>(cluster) % kOpened];
     if (one.mesh != m.mesh || one.cluster != cluster) open(m, cluster, scale, one);
     return one;
@@ -223,7 +200,7 @@ class ImpactSearch {
   }
 
   void search(const ClusterPair& pair) {
-    const MovingCluster &of_a = memory_.a.get(a_, pair.a, scale_), &of_b = memory_.b.get(b_, pair.b, scale_);
+    MovingCluster &of_a = memory_.a.get(a_, pair.a, scale_), &of_b = memory_.b.get(b_, pair.b, scale_);
     NearFeatures &a = memory_.near_a, &b = memory_.near_b;
     const Cut cut = cut_of(merged(of_a.box, of_b.box));
     const auto near = [&](const MovingCluster& cluster) {
@@ -243,13 +220,17 @@ class ImpactSearch {
   }
 
  private:
-  template <class Ones, class Others, class Visit>
-  void for_each_near(const Ones& ones, const Others& others, const Visit& visit) {
+  template <class Visit>
+  void for_each_near(const FeatureWays& ones, const FeatureWays& others, const Visit& visit) {
     if (others.count == 0) return;
-    std::int32_t near[Others::kMost + kPadding];
+    const BoxPointers boxes{{others.lower[0], others.lower[1], others.lower[2]},
+                            {others.upper[0], others.upper[1], others.upper[2]}};
+    std::int32_t near[FeatureWays::kRoom];
     for (int i = 0; i < ones.count; ++i) {
-      const BoxBounds box = bounds_of(base::grown(ones.box(i), scaled_reach_));
-      const int count = kernels().select_overlapping(others.pointers(), others.count, box, near);
+      const Box way{{ones.lower[0][i], ones.lower[1][i], ones.lower[2][i]},
+                    {ones.upper[0][i], ones.upper[1][i], ones.upper[2][i]}};
+      const BoxBounds box = bounds_of(base::grown(way, scaled_reach_));
+      const int count = kernels().select_overlapping(boxes, others.count, box, near);
       for (int k = 0; k < count; ++k) visit(i, near[k]);
     }
   }
@@ -257,7 +238,8 @@ class ImpactSearch {
   void from_vertices(const NearFeatures& vertices, const NearFeatures& facets, FeaturePair kind) {
     const ClusteredMesh& surface = kind == FeaturePair::vertex_facet ? *b_.mesh : *a_.mesh;
     for_each_near(vertices.vertices, facets.facets, [&](int i, int k) {
-      const int vertex = vertices.vertices.number[i], facet = facets.facets.number[k];
+      const int vertex = vertices.vertex_begin + vertices.vertices.feature[i];
+      const int facet = facets.facet_begin + facets.facets.feature[k];
       if (same_) {
         const Corners c = surface.corners(facet);
         if (c[0] == vertex || c[1] == vertex || c[2] == vertex) return;
@@ -266,12 +248,12 @@ class ImpactSearch {
       Waiting& waiting = memory_.facets;
       const int lane = waiting.polygons.count;
       waiting.pair[lane] = {kind, vertex_is_a ? vertex : facet, vertex_is_a ? facet : vertex};
-      const int v = vertices.vertices.corners[i][0];
+      const int v = vertices.vertices.corner[0][i];
       for (int time = 0; time < 2; ++time) {
         for (int axis = 0; axis < 3; ++axis) {
           const double from = vertices.cluster->at[time][axis][v], *const to = facets.cluster->at[time][axis];
           for (std::size_t c = 0; c < 3; ++c)
-            waiting.polygons.corner[time][c][axis][lane] = to[facets.facets.corners[k][c]] - from;
+            waiting.polygons.corner[time][c][axis][lane] = to[facets.facets.corner[c][k]] - from;
         }
       }
       added(waiting);
@@ -280,13 +262,13 @@ class ImpactSearch {
 
   void between_edges(const NearFeatures& a, const NearFeatures& b, bool one_cluster) {
     for_each_near(a.edges, b.edges, [&](int i, int k) {
-      const int e = a.edges.number[i], f = b.edges.number[k];
+      const int e = a.edge_begin + a.edges.feature[i], f = b.edge_begin + b.edges.feature[k];
       if (same_ && ((one_cluster && e >= f) || share_a_vertex(a_.features->edge(e), b_.features->edge(f)))) return;
       Waiting& waiting = memory_.edges;
       const int lane = waiting.polygons.count;
       waiting.pair[lane] = {FeaturePair::edge_edge, e, f};
-      const auto [of_p, of_q] = a.edges.corners[i];
-      const auto [of_r, of_s] = b.edges.corners[k];
+      const int of_p = a.edges.corner[0][i], of_q = a.edges.corner[1][i];
+      const int of_r = b.edges.corner[0][k], of_s = b.edges.corner[1][k];
       for (int time = 0; time < 2; ++time) {
         for (int axis = 0; axis < 3; ++axis) {
           const double *const at_a = a.cluster->at[time][axis], *const at_b = b.cluster->at[time][axis];
