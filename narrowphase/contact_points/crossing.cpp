@@ -202,20 +202,20 @@ void CrossingSearch::find_ways_through(Side& own, const Side& sheet) {
         reached_.push_back({hit.vertices[k], ends[k], -1, facing, facet});
     }
   }
+  ways_.begin(surface);
   while (!reached_.empty()) {
-    reach_through(own, sheet);
+    reach_through(own);
     spread_through(own);
   }
 }
 
 // Looks at what was reached, in the order of the caller's numbers; keeps what is beyond the sheet.
-void CrossingSearch::reach_through(Side& own, const Side& sheet) {
+void CrossingSearch::reach_through(Side& own) {
   // Of those that reach a vertex, the first in that order.
   std::ranges::sort(reached_, {}, [](const Reached& one) {
     return std::tuple(one.source_vertex, one.from, one.facing.x, one.facing.y, one.facing.z);
   });
   const ScaledMesh from = own.scaled(scale_);
-  ways_.begin(sheet.scaled(scale_));
   next_.clear();
   int last = -1;
   for (const Reached& one : reached_) {

@@ -107,7 +107,7 @@ class CrossingSearch {
   Vec3 facing_of_patch(const Side& own, int source_vertex) const;
   std::optional<Vec3> facing_of_vertex(const Side& own, int source_vertex) const;
   void find_ways_through(Side& own, const Side& sheet);
-  void reach_through(Side& own, const Side& sheet);
+  void reach_through(Side& own);
   void spread_through(Side& own);
   void append_vertex_points(const Side& own, const Side& other, std::vector<FeaturePoint>& found) const;
   bool have_passed(int edge_a, int edge_b, const FeaturePoint& point) const;

@@ -98,11 +98,12 @@ struct LinePair {
 // Does a facet with one of these third vertices lead from `end` along `way`?
 template <class Real>
 bool leads_along(const Vec<Real>& way, Vec3 end, const ScaledVertices& third) {
-  const Real length = std::sqrt(dot(way, way));
   constexpr Real kBound = std::is_same_v<Real, double> ? Real{kRounding} : Real{kWideRounding};
   for (std::size_t i = 0; i < third.size(); ++i) {
     const Vec<Real> to = Vec<Real>(third[i]) - Vec<Real>(end);
-    if (dot(way, to) > kBound * length * std::sqrt(dot(to, to))) return true;
+    const Real rise = dot(way, to);
+    // Most facets lead back, which takes no root to see.
+    if (rise > 0 && rise > kBound * std::sqrt(dot(way, way)) * std::sqrt(dot(to, to))) return true;
   }
   return false;
 }

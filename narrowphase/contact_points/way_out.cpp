@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "narrowphase/mesh/cluster_search.h"
 #include "narrowphase/mesh/open_in_box.h"
 #include "narrowphase/questions/mesh_questions.h"
 
@@ -120,6 +121,7 @@ struct WayFinder::Memory {
   FacetBlock gathered[kGathered];  // all facets that ways not longer than `gathered_within` lead to
   std::size_t gathered_count = 0;
   double gathered_within = -1.0;  // scaled; negative: none are gathered
+  FacetDistances near;
 
   // Takes the facets that reach into a box, in the unit of the mesh; false if they are too many.
   bool gather(const ClusteredMesh& mesh, const Box& box) {
@@ -188,33 +190,35 @@ std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const 
   // In the unit of the mesh, where the scaled lengths are as they are but for a power of two.
   const Vec3 at = (1.0 / m.scale) * v;
   const double point[3] = {at.x, at.y, at.z};
-  const auto within_squared = [&] {
-    const double most = (1.0 / m.scale) * (with_rounding(least) + 0x1p-50 * largest_of(v));
-    return most * most;
+  const double rounding = 0x1p-50 * largest_of(v);
+  const auto most = [&] {
+    const double one = with_rounding(least) + rounding;
+    return one * one;
   };
+  const auto wants = [&](double distance_squared) { return distance_squared <= most(); };
   const auto look_into = [&](const FacetBlock& facets) {
-    std::int32_t near[FacetBlock::kRoom];
-    const BoxPointers boxes{{facets.lower[0], facets.lower[1], facets.lower[2]},
-                            {facets.upper[0], facets.upper[1], facets.upper[2]}};
-    const int count = kernels().select_within(boxes, facets.count, point, within_squared(), near);
-    for (int k = 0; k < count; ++k) {
-      const int i = near[k];
-      if (facets.facet[i] == hint) continue;
+    FacetDistances& near = memory_->near;
+    kernels().rank_block(facets, point, m.scale, most(), &near);
+    take_by_rank(near.least_squared, near.facet, near.count, wants, [&](int i) {
+      if (facets.facet[i] == hint) return;
       Triangle corners;
       for (int j = 0; j < 3; ++j) {
         const auto& corner = facets.corner[j];
         corners[j] = m.scale * Vec3{corner[0][i], corner[1][i], corner[2][i]};
       }
       look_at(facets.facet[i], SeenFacet(corners, v));
-    }
+    });
   };
   if (within <= memory_->gathered_within) {
     for (std::size_t k = 0; k < memory_->gathered_count; ++k) look_into(memory_->gathered[k]);
     return best;
   }
-  const int clusters = kernels().select_within(m.mesh.cluster_boxes().pointers(), m.mesh.cluster_count(), point,
-                                               within_squared(), memory_->clusters.data());
-  for (int c = 0; c < clusters; ++c) look_into(memory_->facets_of(m.mesh, memory_->clusters[c]));
+  for_each_cluster_by_rank(
+      m.mesh,
+      [&](const BoxPointers& boxes, int count, RankedBoxes& ranked) {
+        kernels().rank_by_distance(boxes, count, point, m.scale, most(), &ranked);
+      },
+      wants, [&](int cluster) { look_into(memory_->facets_of(m.mesh, cluster)); });
   return best;
 }
 

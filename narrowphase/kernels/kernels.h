@@ -342,7 +342,7 @@ struct alignas(64) SightedPoints {
 struct alignas(64) FacetDistances {
   static constexpr int kCapacity = 64;
   double least_squared[kCapacity + 8];
-  std::uint8_t facet[2 * kCapacity];  // counted from the first of the cluster
+  std::uint8_t facet[2 * kCapacity];  // counted from the first one
   int count;
 };
 
@@ -477,6 +477,8 @@ struct Kernels {
   // square of `scale`, from below.
   void (*rank_facets)(const ClusterFacets& cluster, const double* point, double scale, double most,
                       FacetDistances* facets);
+  // The facets of a block whose boxes are as near to a point as `most`, likewise; counted from the first of the block.
+  void (*rank_block)(const FacetBlock& block, const double* point, double scale, double most, FacetDistances* facets);
 
   // Writes a bit for each side of the box that a vertex stays beyond, a byte a vertex; up to 8 bytes more are written.
   void (*flag_ways)(const VertexWays& vertices, const BoxBounds& box, std::uint8_t* outside);

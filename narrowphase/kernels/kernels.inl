@@ -65,6 +65,7 @@ constexpr Kernels all_kernels(const char* name) {
           .rank_by_distance = rank_by_distance,
           .sight_facets = sight_facets,
           .rank_facets = rank_facets,
+          .rank_block = rank_block,
           .flag_ways = flag_ways,
           .append_near_ways = append_near_ways,
           .apart_throughout = apart_throughout};

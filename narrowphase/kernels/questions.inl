@@ -198,5 +198,32 @@ void rank_facets(const ClusterFacets& cluster, const double* point, double scale
   }
 }
 
+void rank_block(const FacetBlock& block, const double* point, double scale, double most, FacetDistances* facets) {
+  const Pack origin[3] = {spread(point[0]), spread(point[1]), spread(point[2])}, unit = spread(scale);
+  const Pack limit = spread(most), zero = spread(0.0);
+  std::uint64_t left = 0;
+  for (int i = 0; i < block.count; i += kWidth) {
+    Pack sum = zero;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Pack below = sub(load(block.lower[axis] + i), origin[axis]);
+      const Pack above = sub(origin[axis], load(block.upper[axis] + i));
+      const Pack away = mul(unit, max(max(below, above), zero));
+      sum = add(sum, mul(away, away));
+    }
+    left |= static_cast<std::uint64_t>(bits(less_equal(sum, limit)) & lanes_left(block.count - i)) << i;
+  }
+  facets->count = __builtin_popcountll(left);
+  if (left == 0) return;
+  write_places(left, facets->facet);
+  for (int n = facets->count; n < facets->count + kWidth; ++n) facets->facet[n] = 0;
+  for (int i = 0; i < facets->count; i += kWidth) {
+    const auto along = [&](int k, int axis) {
+      return mul(unit, sub(gather(block.corner[k][axis], facets->facet + i), origin[axis]));
+    };
+    const auto of = [&](int k) { return VectorPack{along(k, 0), along(k, 1), along(k, 2)}; };
+    store(facets->least_squared + i, facet_distance_squared(of(0), of(1), of(2)));
+  }
+}
+
 }  // namespace
 }  // namespace tact::narrowphase

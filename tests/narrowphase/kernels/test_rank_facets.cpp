@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "narrowphase/kernels/kernels.h"
+#include "narrowphase/mesh/open_in_box.h"
 #include "tests/support/facet_filters.h"
 #include "tests/support/local_clusters.h"
 #include "tests/support/random.h"
@@ -85,6 +86,48 @@ TEST(RankFacets, NeverSaysTooFarAndKeepsTheNearest) {
       }
       listed += expected.count;
       facets += cluster.facet_count;
+    }
+  });
+  EXPECT_LT(listed, facets / 2);
+}
+
+TEST(RankBlock, HoldsTheFacetsWithinReachAndNeverSaysTooFar) {
+  Random random(3);
+  int listed = 0, facets = 0;
+  tests::for_clusters([&](const ClusteredMesh& mesh, int c) {
+    FacetBlock block;
+    block.count = 0;
+    kernels().open_cluster(mesh.facets_of(c), planes_of(everywhere()), &block);
+    for (int trial = 0; trial < 30; ++trial) {
+      const Triangle target = mesh.triangle(block.facet[random.below(block.count)]);
+      const Vec3 point = 0.5 * target[0] + 0.5 * target[1] + (trial % 2 == 0 ? 0.3 : 0.0) * random.in_cube(1.0);
+      std::vector<double> squares;
+      for (int i = 0; i < block.count; ++i)
+        squares.push_back(static_cast<double>(distance_squared(point, mesh.triangle(block.facet[i]))));
+      const double most = 1.5 * *std::ranges::min_element(squares) + 1e-4;
+      const double at[3] = {point.x, point.y, point.z};
+      FacetDistances expected;
+      scalar_kernels()->rank_block(block, at, 0.5, 0.25 * most, &expected);
+      std::vector<bool> is_listed(squares.size(), false);
+      for (int i = 0; i < expected.count; ++i) {
+        const std::size_t place = expected.facet[i];
+        is_listed[place] = true;
+        EXPECT_LE(expected.least_squared[i], 0.25 * squares[place]) << "facet " << place;
+        EXPECT_GT(expected.least_squared[i], 0.25 * squares[place] - 1e-3) << "facet " << place;
+      }
+      for (std::size_t i = 0; i < squares.size(); ++i)
+        EXPECT_TRUE(is_listed[i] || squares[i] > most) << "facet " << i << " trial " << trial;
+      for (const Kernels* kernels : tests::available_kernels()) {
+        FacetDistances found;
+        kernels->rank_block(block, at, 0.5, 0.25 * most, &found);
+        ASSERT_EQ(found.count, expected.count) << kernels->name;
+        for (int i = 0; i < found.count; ++i) {
+          EXPECT_EQ(found.facet[i], expected.facet[i]) << kernels->name;
+          EXPECT_EQ(found.least_squared[i], expected.least_squared[i]) << kernels->name;
+        }
+      }
+      listed += expected.count;
+      facets += block.count;
     }
   });
   EXPECT_LT(listed, facets / 2);
