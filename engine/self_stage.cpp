@@ -9,9 +9,9 @@ namespace tact {
 
 namespace {
 
-// Cluster pairs that a thread takes at a time: one takes a microsecond or two, and between two ranges a few clusters
-// are opened twice.
-constexpr std::size_t kPairsAtATime = 64;
+// Cluster pairs that a thread takes at a time: one takes 0.8 us, and between two ranges clusters are opened twice. With
+// 64 the rolled sheet of 13 k took 1.35 ms instead of 1.22.
+constexpr std::size_t kPairsAtATime = 256;
 
 }  // namespace
 

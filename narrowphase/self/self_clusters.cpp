@@ -45,10 +45,15 @@ void SelfClusters::judge_centers(const SelfMesh& self, int threads) {
     const int center = neighbors.centers()[i];
     of_center_[center] = judges_[thread](patches_, mesh, neighbors, neighbors.around(center));
   });
+  best_around_.assign(clusters, SelfVerdict::open);
+  for (const int center : neighbors.centers()) {
+    for (const int c : neighbors.around(center)) best_around_[c] = std::max(best_around_[c], of_center_[center]);
+  }
 }
 
 // The best of the centers around which both clusters lie.
 SelfVerdict SelfClusters::from_centers(const ClusterNeighbors& neighbors, const ClusterPair& pair) const {
+  if (best_around_[pair.a] == SelfVerdict::open || best_around_[pair.b] == SelfVerdict::open) return SelfVerdict::open;
   const std::span<const int> a = neighbors.around(pair.a), b = neighbors.around(pair.b);
   SelfVerdict best = SelfVerdict::open;
   for (auto i = a.begin(), k = b.begin(); i != a.end() && k != b.end();) {
@@ -67,7 +72,9 @@ void SelfClusters::judge(const SelfMesh& self, std::span<const ClusterPair> near
   verdicts_.resize(near.size());
   base::parallel_for(near.size(), kAtATime, threads, [&](std::size_t i, int thread) {
     SelfVerdict& verdict = verdicts_[i] = from_centers(*self.neighbors, near[i]);
-    if (verdict >= wanted) return;
+    // To look at a pair's facets takes 0.8 us, and so does its proof: it pays only where points are searched for, too.
+    // Rolled sheets of 13 k, 152 k: 1.54 to 1.40, 12.3 to 9.9 ms; draped cloth of 152 k: 6.3 to 5.5 ms.
+    if (wanted == SelfVerdict::never_meet || verdict >= wanted) return;
     const int both[] = {near[i].a, near[i].b};
     verdict = std::max(verdict, judges_[thread](patches_, *self.featured.mesh, *self.neighbors,
                                                 std::span(both).first(near[i].a == near[i].b ? 1 : 2)));

@@ -39,6 +39,7 @@ class SelfClusters {
   std::vector<SmoothPatches::Judge> judges_;  // a thread each
   std::vector<SelfVerdict> verdicts_;         // of the near pairs
   std::vector<SelfVerdict> of_center_;        // of all clusters around a center; of each cluster
+  std::vector<SelfVerdict> best_around_;      // of each cluster: the best of the centers around it
   std::vector<ClusterPair> may_meet_, may_contact_;
 };
 
