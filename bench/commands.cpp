@@ -31,7 +31,7 @@ std::vector<Command> commands() {
       {"points", "contact points, against the same step without, and with Embree's and CGAL's boxes", run_points, true},
       {"self", "bodies against themselves, through tact, Embree and CGAL", run_self, true},
       {"rigid", "rigid bodies moved by poses, against the same moved by their vertices", run_rigid, true},
-      {"queries", "rays and nearest points of a moving surface, through tact, Embree and FCL", run_queries},
+      {"queries", "rays and nearest points of a moving surface, through tact, Embree and FCL", run_queries, true},
       {"broadphase", "boxes alone, in every kind of motion, through tact, Embree and CGAL", run_broadphase},
       {"clusters", "pairs of clusters by a loop and by Embree's trees", run_clusters},
       {"error", "run time against error, of every setting and of other libraries", run_error},

@@ -1,6 +1,7 @@
 #include "engine/questions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <tuple>
@@ -70,23 +71,64 @@ void check_question(const BoxQuestion& question) {
 
 RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted) {
   const narrowphase::Segment segment = segment_of(ray);
+  const narrowphase::Sightline line(segment);
   RayHit best;
   best.time = 1.0;
   for_each_body_near(bodies, ray.asked, box_of(segment), [&](const Body& body) {
-    const auto hit = wanted == RayHits::any ? any_hit(body.mesh, segment) : first_hit(body.mesh, segment, best.time);
+    const auto hit = wanted == RayHits::any ? any_hit(body.mesh, line) : first_hit(body.mesh, line, best.time);
     if (hit && (best.facet < 0 || hit->time < best.time)) best = hit_of(body, *hit);
     return !(hit && wanted == RayHits::any);
   });
   return best.facet >= 0 ? best : RayHit{};
 }
 
+void begin_rays(const Bodies& bodies, std::size_t rays, narrowphase::LineRoom& room) {
+  std::vector<int> clusters(bodies.boxes().size());
+  for (std::uint32_t slot = 0; slot < clusters.size(); ++slot)
+    clusters[slot] = bodies.boxes()[slot].empty() ? 0 : bodies.in_slot(slot).mesh.cluster_count();
+  room.begin(clusters, rays);
+}
+
+void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<RayHit> hits,
+                     narrowphase::LineRoom& room) {
+  std::vector<narrowphase::FirstHitQuestion> questions;
+  std::array<Box, narrowphase::kLinesAtATime> boxes;
+  questions.reserve(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const narrowphase::Segment segment = segment_of(rays[i]);
+    questions.emplace_back(segment);
+    boxes[i] = box_of(segment);
+    hits[i] = {};
+  }
+  for (std::uint32_t slot = 0; slot < bodies.boxes().size(); ++slot) {
+    if (bodies.boxes()[slot].empty()) continue;
+    std::array<narrowphase::FirstHitQuestion*, narrowphase::kLinesAtATime> asked;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const broadphase::Filter filter{rays[i].asked.layer, rays[i].asked.mask, false};
+      if (overlaps(bodies.boxes()[slot], boxes[i]) && broadphase::tested(bodies.filters()[slot], filter))
+        asked[count++] = &questions[i];
+    }
+    if (count == 0) continue;
+    const Body& body = bodies.placed(slot);
+    narrowphase::ask_first_hits({body.mesh, &room, slot}, {asked.data(), count});
+    // A hit is of the first body that has one as early.
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto i = static_cast<std::size_t>(asked[k] - questions.data());
+      const auto& hit = asked[k]->hit;
+      if (hit && (hits[i].facet < 0 || hit->time < hits[i].time)) hits[i] = hit_of(body, *hit);
+    }
+  }
+}
+
 std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray) {
   const narrowphase::Segment segment = segment_of(ray);
+  const narrowphase::Sightline line(segment);
   std::vector<RayHit> all;
   std::vector<FacetHit> hits;
   for_each_body_near(bodies, ray.asked, box_of(segment), [&](const Body& body) {
     hits.clear();
-    append_hits(body.mesh, segment, hits);
+    append_hits(body.mesh, line, hits);
     for (const FacetHit& hit : hits) all.push_back(hit_of(body, hit));
     return true;
   });

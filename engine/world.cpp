@@ -73,6 +73,7 @@ struct World::Implementation {
   base::Workers workers;
   Bodies bodies{next_world(), tuning};
   Step step;
+  narrowphase::LineRoom line_room;
   std::unique_ptr<MotionStage> motion = nullptr;  // made when it is first asked for
   double refresh_ms = 0.0;                        // since the last step
   WorldObserver* observer = nullptr;
@@ -259,15 +260,12 @@ namespace {
 
 constexpr const char* kNoMemoryForAnswers = "answering ran out of memory";
 
-// Answers each question by find(question), on all threads; the message of an error tells which question it is of.
-template <class OfWorld, class Question, class Answer, class Find>
-void answer_all(OfWorld& world, std::span<const Question> questions, std::span<Answer> answers, const Find& find) {
-  constexpr std::size_t kAtATime = 16;  // a question takes a microsecond or more
-  const base::FloatingPointMode mode;
-  const base::Workers::Scope scope(world.workers);
-  if (questions.size() != answers.size()) {
-    throw Error(ErrorCode::wrong_size, std::to_string(questions.size()) + " questions, but room for " +
-                                           std::to_string(answers.size()) + " answers");
+// The message of an error tells which question it is of.
+template <class Question>
+void check_questions(std::span<const Question> questions, std::size_t answers) {
+  if (questions.size() != answers) {
+    throw Error(ErrorCode::wrong_size,
+                std::to_string(questions.size()) + " questions, but room for " + std::to_string(answers) + " answers");
   }
   for (std::size_t i = 0; i < questions.size(); ++i) {
     try {
@@ -276,6 +274,15 @@ void answer_all(OfWorld& world, std::span<const Question> questions, std::span<A
       throw Error(error.code(), "question " + std::to_string(i) + ": " + error.what());
     }
   }
+}
+
+// Answers each question by find(question), on all threads.
+template <class OfWorld, class Question, class Answer, class Find>
+void answer_all(OfWorld& world, std::span<const Question> questions, std::span<Answer> answers, const Find& find) {
+  constexpr std::size_t kAtATime = 16;  // a question takes a microsecond or more
+  check_questions(questions, answers.size());
+  const base::FloatingPointMode mode;
+  const base::Workers::Scope scope(world.workers);
   with_memory(kNoMemoryForAnswers, [&] {
     base::parallel_for(questions.size(), kAtATime, world.settings.threads,
                        [&](std::size_t i) { answers[i] = find(questions[i]); });
@@ -293,7 +300,21 @@ RayHit World::ray(const Ray& ray, RayHits wanted) const {
 void World::rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted) const {
   Implementation& i = implementation();
   check_name(wanted, RayHits::any, "hits");
-  answer_all(i, rays, hits, [&](const Ray& ray) { return find_hit(i.bodies, ray, wanted); });
+  // Fewer do not open the same clusters often enough.
+  constexpr std::size_t kFewestTogether = 64;
+  if (wanted != RayHits::first || rays.size() < kFewestTogether)
+    return answer_all(i, rays, hits, [&](const Ray& ray) { return find_hit(i.bodies, ray, wanted); });
+  check_questions(rays, hits.size());
+  const base::FloatingPointMode mode;
+  const base::Workers::Scope scope(i.workers);
+  with_memory(kNoMemoryForAnswers, [&] {
+    constexpr std::size_t kAtATime = narrowphase::kLinesAtATime;
+    begin_rays(i.bodies, rays.size(), i.line_room);
+    base::parallel_for((rays.size() + kAtATime - 1) / kAtATime, 1, i.settings.threads, [&](std::size_t block) {
+      const std::size_t begin = block * kAtATime, count = std::min(kAtATime, rays.size() - begin);
+      find_first_hits(i.bodies, rays.subspan(begin, count), hits.subspan(begin, count), i.line_room);
+    });
+  });
 }
 
 std::vector<RayHit> World::all_hits(const Ray& ray) const {

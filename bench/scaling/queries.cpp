@@ -55,6 +55,7 @@ class TactQueries : public QueryRival {
 
 enum QueryContestant : std::size_t { kQueryTact, kQueryEmbree, kQueryFcl, kQueryContestants };
 enum class QuestionKind { refit_alone, rays, points };
+constexpr std::array<const char*, 3> kQuestionNames{"refit alone", "rays", "nearest points"};
 
 // Floats are rounded at 6e-8 of the size of the bodies, which is 1 m, a few times over.
 constexpr double kFloatDifference = 1e-5, kDoubleDifference = 1e-9;  // of the distance or 1 m, whichever is more
@@ -118,11 +119,10 @@ class QueryContest {
       if (answers[k]) ms[k] = median_ms(k, kind, set);
     }
     const double rival = answers[kQueryFcl] ? std::min(ms[kQueryEmbree], ms[kQueryFcl]) : ms[kQueryEmbree];
-    const std::array<std::string, 3> names{"refit alone", "rays", "nearest points"};
-    table.add({names[static_cast<std::size_t>(kind)], fmt::to_string(body_.facets.cols()), fmt::to_string(count),
-               fmt::to_string(threads_), three_digits(ms[kQueryTact]), three_digits(ms[kQueryEmbree]),
-               answers[kQueryFcl] ? three_digits(ms[kQueryFcl]) : "-", three_digits(rival / ms[kQueryTact]),
-               fmt::to_string(from_embree)});
+    table.add({kQuestionNames[static_cast<std::size_t>(kind)], fmt::to_string(body_.facets.cols()),
+               fmt::to_string(count), fmt::to_string(threads_), three_digits(ms[kQueryTact]),
+               three_digits(ms[kQueryEmbree]), answers[kQueryFcl] ? three_digits(ms[kQueryFcl]) : "-",
+               three_digits(rival / ms[kQueryTact]), fmt::to_string(from_embree)});
   }
 
  private:
@@ -177,6 +177,8 @@ int run_queries(const BenchOptions& options) {
       QueryContest contest(workload.bodies[0], t, options.quick ? 5.0 : 200.0);
       contest.add_row(QuestionKind::refit_alone, 0, table);
       for (const QuestionKind kind : {QuestionKind::rays, QuestionKind::points}) {
+        if (std::string(kQuestionNames[static_cast<std::size_t>(kind)]).find(options.only) == std::string::npos)
+          continue;
         for (const int count : counts) contest.add_row(kind, count, table);
       }
     }

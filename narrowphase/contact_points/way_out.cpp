@@ -259,7 +259,7 @@ std::optional<WayOut> way_to_facet(const ScaledMesh& surface, int facet, Vec3 v)
 std::optional<WayOut> way_out_along(const ScaledMesh& surface, Vec3 v, Vec3 direction, double within) {
   const Vec3 from = (1.0 / surface.scale) * v;
   const Vec3 way = (within / surface.scale) * direction;
-  const auto hit = first_hit(surface.mesh, {from, from + way}, 1.0);
+  const auto hit = first_hit(surface.mesh, Sightline({from, from + way}), 1.0);
   if (!hit) return {};
   WayOut out;
   out.facet = surface.mesh.facet_of_source(hit->facet);

@@ -331,11 +331,33 @@ struct LineOfSight {
   double error;
 };
 
-// A cluster's vertices, owned ones first, as seen along a line, which is at zero.
-struct alignas(64) SightedPoints {
-  static constexpr int kRoom = 192 + 64;
-  double at[2][kRoom];
-  std::uint8_t beside[kRoom];  // what rules each out, see sight_facets()
+// The corners of a cluster's facets in floats, one beside the other: (x - origin) scale, at most 1 in size; what
+// follows the last facet is like its first vertex.
+struct alignas(64) LinedFacets {
+  static constexpr int kMost = 64;
+  float corner[3][3][kMost];  // of each corner its coordinates
+  double origin[3];
+  double scale;
+  std::int32_t count;
+};
+
+// Boxes in floats about a middle, in a unit in which no coordinate exceeds 1: lower x, y, z, upper x, y, z, an array
+// each. Of what is read at once 64 bytes more can be read.
+struct LinedBoxes {
+  const float* bounds[6];
+};
+
+// A segment in the same unit, and the boxes that it enters, with when at the earliest. Of an axis x is passed at
+// x inverse - enter_at at the earliest, and at x inverse - leave_at at the latest.
+struct alignas(64) EnteringLine {
+  static constexpr int kMost = 128;
+  float rank[kMost + 32];
+  std::int32_t index[kMost + 32];
+  float inverse[3], enter_at[3], leave_at[3];
+  float latest;
+  int count;
+  bool overflows;      // there were more
+  std::int32_t taken;  // the index of what take_nearest() took
 };
 
 // Facets of a cluster, and what their squared distances from a point are at least, in a unit of the caller's.
@@ -472,7 +494,16 @@ struct Kernels {
   void (*rank_by_distance)(const BoxPointers& boxes, int count, const double* point, double scale, double most,
                            RankedBoxes* ranked);
   // A bit for each facet of a cluster that a line may meet.
-  std::uint64_t (*sight_facets)(const ClusterFacets& cluster, const LineOfSight& line, SightedPoints* points);
+  std::uint64_t (*sight_facets)(const ClusterFacets& cluster, const LineOfSight& line);
+  // The same for lined facets, fewer of them; the line's own error does not count. And what fills them, but for their
+  // origin and scale.
+  std::uint64_t (*facets_on_line)(const LinedFacets& facets, const LineOfSight& line);
+  void (*line_up_facets)(const ClusterFacets& cluster, LinedFacets* lined);
+  // Appends those of `count` boxes, from `first` on, that a segment enters by `latest`; their index is mark xor their
+  // number.
+  void (*enter_lined_boxes)(const LinedBoxes& boxes, int first, int count, std::int32_t mark, EnteringLine* line);
+  // Takes out the box that is entered first, if that is not later than `latest`.
+  bool (*take_nearest)(EnteringLine* line);
   // The facets of a cluster that may be as near to a point as any, or as `most`: their squared distances times the
   // square of `scale`, from below.
   void (*rank_facets)(const ClusterFacets& cluster, const double* point, double scale, double most,

@@ -10,6 +10,7 @@
 #include "narrowphase/kernels/facets.inl"
 #include "narrowphase/kernels/features.inl"
 #include "narrowphase/kernels/kernels.h"
+#include "narrowphase/kernels/lines.inl"
 #include "narrowphase/kernels/motion.inl"
 #include "narrowphase/kernels/place.inl"
 #include "narrowphase/kernels/points.inl"
@@ -64,6 +65,10 @@ constexpr Kernels all_kernels(const char* name) {
           .rank_by_entry = rank_by_entry,
           .rank_by_distance = rank_by_distance,
           .sight_facets = sight_facets,
+          .facets_on_line = facets_on_line,
+          .line_up_facets = line_up_facets,
+          .enter_lined_boxes = enter_lined_boxes,
+          .take_nearest = take_nearest,
           .rank_facets = rank_facets,
           .rank_block = rank_block,
           .flag_ways = flag_ways,

@@ -90,6 +90,9 @@ inline FloatPack pick(const float* p, int, const FloatPicks& at) {
 inline FloatPack add(FloatPack a, FloatPack b) { return _mm256_add_ps(a, b); }
 inline FloatPack sub(FloatPack a, FloatPack b) { return _mm256_sub_ps(a, b); }
 inline FloatPack mul(FloatPack a, FloatPack b) { return _mm256_mul_ps(a, b); }
+// a b - c and a b + c, rounded once.
+inline FloatPack fused(FloatPack a, FloatPack b, FloatPack c) { return _mm256_fmsub_ps(a, b, c); }
+inline FloatPack fused_sum(FloatPack a, FloatPack b, FloatPack c) { return _mm256_fmadd_ps(a, b, c); }
 inline FloatPack abs(FloatPack a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
 inline FloatMask less_equal(FloatPack a, FloatPack b) { return _mm256_cmp_ps(a, b, _CMP_LE_OQ); }
 inline FloatMask less(FloatPack a, FloatPack b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
@@ -112,6 +115,18 @@ inline void store_cells(std::int16_t* p, FloatPack a) {
   const __m256i numbers = _mm256_cvttps_epi32(a);
   _mm_storeu_si128(reinterpret_cast<__m128i*>(p),
                    _mm_packs_epi32(_mm256_castsi256_si128(numbers), _mm256_extracti128_si256(numbers, 1)));
+}
+// Writes the lanes that have a bit, and mark xor (first + lane), one after the other. Returns how many.
+inline int store_some_floats(unsigned lanes, FloatPack a, int first, int mark, float* value, std::int32_t* index) {
+  float lane[kFloatWidth];
+  store_floats(lane, a);
+  int count = 0;
+  for (; lanes != 0; lanes &= lanes - 1, ++count) {
+    const int k = __builtin_ctz(lanes);
+    value[count] = lane[k];
+    index[count] = mark ^ (first + k);
+  }
+  return count;
 }
 inline float largest_lane(FloatPack a) {
   const __m128 four = _mm_max_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));

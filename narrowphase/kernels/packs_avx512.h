@@ -93,6 +93,9 @@ inline FloatPack pick(const float* p, int count, const FloatPicks& at) {
 inline FloatPack add(FloatPack a, FloatPack b) { return _mm512_add_ps(a, b); }
 inline FloatPack sub(FloatPack a, FloatPack b) { return _mm512_sub_ps(a, b); }
 inline FloatPack mul(FloatPack a, FloatPack b) { return _mm512_mul_ps(a, b); }
+// a b - c and a b + c, rounded once.
+inline FloatPack fused(FloatPack a, FloatPack b, FloatPack c) { return _mm512_fmsub_ps(a, b, c); }
+inline FloatPack fused_sum(FloatPack a, FloatPack b, FloatPack c) { return _mm512_fmadd_ps(a, b, c); }
 inline FloatPack abs(FloatPack a) { return _mm512_abs_ps(a); }
 inline FloatMask less_equal(FloatPack a, FloatPack b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
 inline FloatMask less(FloatPack a, FloatPack b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
@@ -112,6 +115,15 @@ inline void store_cells(std::int16_t* p, Pack a) {
 }
 inline void store_cells(std::int16_t* p, FloatPack a) {
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm512_cvtepi32_epi16(_mm512_cvttps_epi32(a)));
+}
+// Writes the lanes that have a bit, and mark xor (first + lane), one after the other; up to kFloatWidth of each.
+// Returns how many.
+inline int store_some_floats(unsigned lanes, FloatPack a, int first, int mark, float* value, std::int32_t* index) {
+  const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const __m512i number = _mm512_xor_si512(_mm512_set1_epi32(mark), _mm512_add_epi32(_mm512_set1_epi32(first), lane));
+  _mm512_storeu_ps(value, _mm512_maskz_compress_ps(static_cast<FloatMask>(lanes), a));
+  _mm512_storeu_si512(index, _mm512_maskz_compress_epi32(static_cast<FloatMask>(lanes), number));
+  return __builtin_popcount(lanes);
 }
 inline float largest_lane(FloatPack a) { return _mm512_reduce_max_ps(a); }
 inline double largest_lane(Pack a) { return _mm512_reduce_max_pd(a); }

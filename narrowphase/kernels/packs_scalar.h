@@ -70,6 +70,8 @@ inline FloatPack pick(const float* p, int, const FloatPicks& at) { return p[*at.
 inline FloatPack add(FloatPack a, FloatPack b) { return a + b; }
 inline FloatPack sub(FloatPack a, FloatPack b) { return a - b; }
 inline FloatPack mul(FloatPack a, FloatPack b) { return a * b; }
+inline FloatPack fused(FloatPack a, FloatPack b, FloatPack c) { return __builtin_fmaf(a, b, -c); }
+inline FloatPack fused_sum(FloatPack a, FloatPack b, FloatPack c) { return __builtin_fmaf(a, b, c); }
 inline FloatPack abs(FloatPack a) { return __builtin_fabsf(a); }
 inline FloatMask less_equal(FloatPack a, FloatPack b) { return a <= b; }
 inline FloatMask less(FloatPack a, FloatPack b) { return a < b; }
@@ -82,6 +84,12 @@ inline FloatPack max(FloatPack a, FloatPack b) { return a > b ? a : b; }
 // Numbers from 0 to 2^15 - 1, without what follows the point.
 inline void store_cells(std::int16_t* p, Pack a) { *p = static_cast<std::int16_t>(a); }
 inline void store_cells(std::int16_t* p, FloatPack a) { *p = static_cast<std::int16_t>(a); }
+// Writes the lane if it has a bit, and mark xor its number. Returns how many.
+inline int store_some_floats(unsigned lanes, FloatPack a, int first, int mark, float* value, std::int32_t* index) {
+  *value = a;
+  *index = mark ^ first;
+  return static_cast<int>(lanes);
+}
 inline float largest_lane(FloatPack a) { return a; }
 inline double largest_lane(Pack a) { return a; }
 

@@ -85,7 +85,8 @@ inline void for_cluster_points(const ClusterFacets& in, const Work& work) {
 }
 
 // A line does not meet a facet whose corners all lie on one side of it, as seen along it: in one of seven directions.
-std::uint64_t sight_facets(const ClusterFacets& cluster, const LineOfSight& line, SightedPoints* points) {
+std::uint64_t sight_facets(const ClusterFacets& cluster, const LineOfSight& line) {
+  alignas(64) std::uint8_t beside[192 + 64];
   const int x_axis = line.axis[0], y_axis = line.axis[1], z_axis = line.axis[2];
   const Pack from[3] = {spread(line.from[0]), spread(line.from[1]), spread(line.from[2])};
   const Pack slope_x = spread(line.slope[0]), slope_y = spread(line.slope[1]);
@@ -94,15 +95,12 @@ std::uint64_t sight_facets(const ClusterFacets& cluster, const LineOfSight& line
   for_cluster_points(cluster, [&](int k, Pack x, Pack y, Pack z) {
     const Pack away[3] = {sub(x, from[0]), sub(y, from[1]), sub(z, from[2])};
     const Pack u = sub(away[x_axis], mul(slope_x, away[z_axis])), v = sub(away[y_axis], mul(slope_y, away[z_axis]));
-    store(points->at[0] + k, u);
-    store(points->at[1] + k, v);
     const Pack sum = add(u, v), difference = sub(u, v);
-    const Mask beside[7] = {less(u, low),      less(high, u),           less(v, low), less(high, v), less(sum, low_2),
-                            less(high_2, sum), less(high_2, difference)};
-    store_flags(points->beside + k, beside);
+    const Mask out[7] = {less(u, low),      less(high, u),           less(v, low), less(high, v), less(sum, low_2),
+                         less(high_2, sum), less(high_2, difference)};
+    store_flags(beside + k, out);
   });
-  return common_flags(points->beside, cluster.owned_count + cluster.borrowed_count, cluster.corner, cluster.facet_count)
-      .none;
+  return common_flags(beside, cluster.owned_count + cluster.borrowed_count, cluster.corner, cluster.facet_count).none;
 }
 
 // The squared distance of the origin from a side, at its nearest place.

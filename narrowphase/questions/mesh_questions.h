@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "narrowphase/mesh/clustered_mesh.h"
-#include "narrowphase/triangles/triangle_triangle.h"
+#include "narrowphase/questions/nearest_weights.h"
+#include "narrowphase/questions/sightline.h"
 
 namespace tact::narrowphase {
 
@@ -24,16 +25,11 @@ struct FacetHit {
 };
 
 /// The first facet that the segment meets, not later than `latest`.
-std::optional<FacetHit> first_hit(const ClusteredMesh& mesh, const Segment& segment, double latest);
+std::optional<FacetHit> first_hit(const ClusteredMesh& mesh, const Sightline& line, double latest);
 /// Any of them.
-std::optional<FacetHit> any_hit(const ClusteredMesh& mesh, const Segment& segment);
+std::optional<FacetHit> any_hit(const ClusteredMesh& mesh, const Sightline& line);
 /// Appends all of them, in no particular order.
-void append_hits(const ClusteredMesh& mesh, const Segment& segment, std::vector<FacetHit>& hits);
-
-/// The weights of the corners for the place of a triangle that is nearest to `p`; lengths are near 1.
-std::array<double, 3> nearest_weights(Vec3 p, const Triangle& t);
-/// The same for the place of its sides that is nearest.
-std::array<double, 3> nearest_weights_on_sides(Vec3 p, const Triangle& t);
+void append_hits(const ClusteredMesh& mesh, const Sightline& line, std::vector<FacetHit>& hits);
 
 struct NearestFacet {
   int facet = -1;  // the caller's number; of equally near ones the least

@@ -51,7 +51,10 @@ class Twins {
     const Mesh mesh = random_.chance(0.3) ? centered_box({size_, 0.7 * size_, 0.4 * size_})
                                           : icosphere(random_.chance(0.1) ? 3 : 1 + random_.below(2), 0.7 * size_);
     const bool is_rigid = random_.chance(0.6);
-    const double margin = random_.chance(0.3) ? 0.05 * size_ : 0.0;
+    add(mesh, is_rigid, random_.chance(0.3) ? 0.05 * size_ : 0.0);
+  }
+
+  void add(const Mesh& mesh, bool is_rigid, double margin) {
     BodyDefinition definition{.positions = mesh.positions, .facets = mesh.facets, .margin = margin};
     plain_ids_.push_back(plain_.add_body(definition));
     if (is_rigid) definition.motion = Motion::rigid;
@@ -128,12 +131,32 @@ class Twins {
       ASSERT_EQ(u.distance, v.distance);
       ASSERT_EQ(rigid_.inside({.point = from}).size(), plain_.inside({.point = from}).size());
     }
+    expect_same_rays();
     for (std::size_t i = 0; i < rest_.size(); ++i) {
       ASSERT_EQ(rigid_.bounds(rigid_ids_[i]).lower, plain_.bounds(plain_ids_[i]).lower);
       Eigen::Matrix3Xd x(3, rest_[i].positions.cols()), y = x;
       rigid_.copy_positions(rigid_ids_[i], {x.data(), static_cast<std::size_t>(x.size())});
       plain_.copy_positions(plain_ids_[i], {y.data(), static_cast<std::size_t>(y.size())});
       ASSERT_EQ(x, y);
+    }
+  }
+
+  // Many at once: whichever thread comes first to a body places it.
+  void expect_same_rays() {
+    std::vector<Ray> rays(100);
+    for (Ray& ray : rays) {
+      const Vec3 p = random_.in_cube(3.0 * size_), q = random_.in_cube(size_);
+      ray.from = {p.x + away_, p.y - away_, p.z};
+      ray.to = {q.x + away_, q.y - away_, q.z};
+    }
+    std::vector<RayHit> x(rays.size()), y(rays.size());
+    rigid_.rays(rays, x);
+    plain_.rays(rays, y);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      ASSERT_EQ(x[i].body.index, y[i].body.index);
+      ASSERT_EQ(x[i].facet, y[i].facet);
+      ASSERT_EQ(x[i].time, y[i].time);
+      ASSERT_EQ(x[i].weights, y[i].weights);
     }
   }
 
@@ -193,6 +216,26 @@ INSTANTIATE_TEST_SUITE_P(Sizes, RigidTwins,
                          ::testing::Values(Setting{"of_a_metre", 1.0, 0.0}, Setting{"far_away", 1.0, 1e9},
                                            Setting{"tiny", 0x1p-300, 0.0}, Setting{"huge", 0x1p280, 0.0}),
                          [](const auto& setting) { return std::string(setting.param.name); });
+
+// Of 80 clusters each, in three groups.
+TEST(Rigid, LargeBodiesAnswerAsPlacedOnesOnAnyThreads) {
+  const Mesh ball = icosphere(4, 0.7), rough = blob(4, 0.7, 0.3, 1);
+  for (const int threads : {1, 3}) {
+    Twins twins(5, 1.0, 0.0, threads, 0);
+    for (int i = 0; i < 4; ++i) twins.add(i % 2 == 0 ? ball : rough, i != 1, i == 2 ? 0.01 : 0.0);
+    for (int step = 0; step < 3; ++step) {
+      SCOPED_TRACE(std::to_string(threads) + " threads, step " + std::to_string(step));
+      twins.move();
+      if (step == 1) twins.expect_same_questions();
+      if (step == 2) twins.expect_same_motion();
+      if (HasFatalFailure()) return;
+      twins.expect_same_step();
+      if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(twins.facet_pairs(), 100u);
+    EXPECT_GT(twins.points(), 100u);
+  }
+}
 
 TEST(Rigid, OnlyBodiesThatOthersComeNearArePlaced) {
   const Mesh ball = icosphere(2);

@@ -29,8 +29,7 @@ enum class RayHits {
 };
 
 /// A facet that a ray meets. Whether it does is decided exactly, edges and corners belong to the facets that have them:
-/// no ray slips through between two. Where it does is right to 1e-11 of the size of facet and ray, and
-/// nearly always to 1e-12.
+/// no ray slips through between two. Where it does is right to 1e-12 of the size of facet and ray.
 struct RayHit {
   BodyId body;
   int facet = -1;                   ///< negative: nothing was hit

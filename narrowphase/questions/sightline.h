@@ -1,0 +1,41 @@
+// A segment, ready for many questions: which boxes it enters and when, which facets it meets and where.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "narrowphase/kernels/kernels.h"
+#include "narrowphase/mesh/box_arrays.h"
+#include "narrowphase/questions/exact_place.h"
+
+namespace tact::narrowphase {
+
+class Sightline {
+ public:
+  explicit Sightline(const Segment& segment);
+
+  /// As the kernels take it; a point has no line.
+  const SegmentSlabs& slabs() const { return slabs_; }
+  const LineOfSight& line() const { return line_; }  // without its error
+  /// A bit for each facet of a cluster that it may meet.
+  std::uint64_t facets_seen(const ClusteredMesh& mesh, int cluster) const;
+  bool is_point() const { return is_point_; }
+
+  /// The first place where it meets a triangle, if it does: decided exactly. The place of the segment is that of the
+  /// triangle to 1e-12 of the size of both. It is not before entry() into any box around the triangle, so that no facet
+  /// of a box that is entered later is met earlier.
+  std::optional<CommonPlace> meet(const Triangle& triangle, PredicateCounts& counts) const;
+
+ private:
+  std::optional<CommonPlace> meet_exactly(const Triangle& triangle, PredicateCounts& counts) const;
+  double entry(const Triangle& triangle) const;
+  CommonPlace not_before_entry(CommonPlace place, const Triangle& triangle) const;
+
+  Segment segment_;
+  SegmentSlabs slabs_{};
+  LineOfSight line_{};
+  double way_ = 0.0;  // along the last axis of line_
+  bool is_point_ = false;
+};
+
+}  // namespace tact::narrowphase
