@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "narrowphase/mesh/prefetch.h"
 
 namespace tact {
 
@@ -17,6 +18,8 @@ using narrowphase::FeaturePoint;
 // A pair of so many cluster pairs is searched by all threads: a pair takes some microseconds, to wake a thread as much.
 constexpr std::size_t kLargePair = 64;
 constexpr std::size_t kRangesPerThread = 4;
+// So many pairs a thread takes at a time: it prefetches the next one of them while it searches one.
+constexpr std::size_t kPairsAtATime = 8;
 
 // The finisher of SplitMix64 (Steele, Lea, Flood, 2014).
 std::uint64_t mixed(std::uint64_t word) {
@@ -173,6 +176,35 @@ void PointStage::make_features(Bodies& bodies, int threads) {
   bodies.make_features(slots_, threads);
 }
 
+// Those of the i-th pair, found already or now.
+std::span<const ClusterPair> PointStage::near_clusters(std::size_t i, const Bodies& bodies, Work& work,
+                                                       narrowphase::EmbreeDevice& device) const {
+  if (work.ahead == i + 1) return work.ahead_pairs;
+  const Wanted& wanted = wanted_[i];
+  if (!(wanted.reach > 0.0)) return {};
+  return work.near[i % 2].find(bodies.featured(wanted.a), bodies.featured(wanted.b), wanted.reach, bodies.tuning(),
+                               device);
+}
+
+// Finds those of a pair, and prefetches what its search reads of them.
+void PointStage::look_ahead(std::size_t i, const Bodies& bodies, Work& work, narrowphase::EmbreeDevice& device) const {
+  work.ahead_pairs = near_clusters(i, bodies, work, device);
+  work.ahead = i + 1;
+  const auto prefetch = [](const narrowphase::FeaturedMesh& m, int cluster) {
+    narrowphase::prefetch_facets(*m.mesh, cluster);
+    m.features->prefetch(*m.mesh, cluster);
+  };
+  const auto a = bodies.featured(wanted_[i].a), b = bodies.featured(wanted_[i].b);
+  int last_a = -1;
+  std::uint64_t done_b = 0;  // by the last bits of their numbers
+  for (const ClusterPair& pair : work.ahead_pairs) {
+    if (pair.a != last_a) prefetch(a, last_a = pair.a);
+    const std::uint64_t bit = std::uint64_t{1} << (pair.b % 64);
+    if ((done_b & bit) == 0) prefetch(b, pair.b);
+    done_b |= bit;
+  }
+}
+
 void PointStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Settings& settings,
                      narrowphase::EmbreeDevice& device) {
   numbers_patches_ = !settings.outputs.patches;  // or that is done with the facet pairs
@@ -180,17 +212,21 @@ void PointStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Set
   make_features(bodies, settings.threads);
   work_.resize(settings.threads);
   is_large_.assign(wanted_.size(), false);
-  base::parallel_for(wanted_.size(), 1, settings.threads, [&](std::size_t i, int thread) {
+  for (Work& work : work_) work.ahead = 0;
+  const bool prefetches = !bodies.stay_in_cache();
+  // Few pairs are shared out one by one.
+  const std::size_t grain =
+      wanted_.size() < 4 * kPairsAtATime * static_cast<std::size_t>(settings.threads) ? 1 : kPairsAtATime;
+  base::parallel_for(wanted_.size(), grain, settings.threads, [&](std::size_t i, int thread) {
     Work& work = work_[thread];
     const Wanted& wanted = wanted_[i];
     const auto a = bodies.featured(wanted.a), b = bodies.featured(wanted.b);
     work.found.clear();
-    std::span<const ClusterPair> pairs;
-    if (wanted.reach > 0.0) {
-      pairs = work.near.find(a, b, wanted.reach, bodies.tuning(), device);
-      is_large_[i] = settings.threads > 1 && pairs.size() > kLargePair;
-      if (is_large_[i]) return;
-    }
+    const std::span<const ClusterPair> pairs = near_clusters(i, bodies, work, device);
+    is_large_[i] = settings.threads > 1 && pairs.size() > kLargePair;
+    if (is_large_[i]) return;
+    const std::size_t own_end = settings.threads == 1 ? wanted_.size() : i - i % grain + grain;
+    if (prefetches && i + 1 < std::min(own_end, wanted_.size())) look_ahead(i + 1, bodies, work, device);
     const narrowphase::CrossedVertices crossed = begin_crossing(wanted, bodies, work);
     work.search.run(a, b, wanted.reach, pairs, work.found, crossed);
     finish_crossing(wanted, work);
@@ -199,10 +235,10 @@ void PointStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Set
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     if (!is_large_[i]) continue;
     const Wanted& wanted = wanted_[i];
-    search_in_ranges(
-        wanted, bodies,
-        work_[0].near.find(bodies.featured(wanted.a), bodies.featured(wanted.b), wanted.reach, bodies.tuning(), device),
-        settings.threads);
+    search_in_ranges(wanted, bodies,
+                     work_[0].near[0].find(bodies.featured(wanted.a), bodies.featured(wanted.b), wanted.reach,
+                                           bodies.tuning(), device),
+                     settings.threads);
   }
 }
 

@@ -41,7 +41,9 @@ class PointStage {
   };
   /// Memory of a thread, used again.
   struct Work {
-    narrowphase::NearClusters near;
+    narrowphase::NearClusters near[2];  // of pairs with even numbers, and with odd ones
+    std::size_t ahead = 0;              // the pair that `near` knows already, and one more; 0: none
+    std::span<const narrowphase::ClusterPair> ahead_pairs;
     narrowphase::ContactPointSearch search;
     narrowphase::CrossingSearch crossing;
     std::vector<narrowphase::CarriedNormal> carried_a, carried_b;
@@ -59,6 +61,9 @@ class PointStage {
   };
   void select(std::span<const MovedPair> moved, const Bodies& bodies);
   void make_features(Bodies& bodies, int threads);
+  std::span<const narrowphase::ClusterPair> near_clusters(std::size_t i, const Bodies& bodies, Work& work,
+                                                          narrowphase::EmbreeDevice& device) const;
+  void look_ahead(std::size_t i, const Bodies& bodies, Work& work, narrowphase::EmbreeDevice& device) const;
   void publish(const Wanted& wanted, const Bodies& bodies, Work& work) const;
   static narrowphase::CrossedVertices begin_crossing(const Wanted& wanted, const Bodies& bodies, Work& work);
   static void finish_crossing(const Wanted& wanted, Work& work);

@@ -8,6 +8,7 @@
 
 #include "narrowphase/contact_points/open_features.h"
 #include "narrowphase/contact_points/surface_distance.h"
+#include "narrowphase/contact_points/waiting_edges.h"
 #include "narrowphase/numeric/unit_scale.h"
 
 namespace tact::narrowphase {
@@ -24,36 +25,20 @@ double largest_coordinate(const Box& box) {
 // A reach that box tests, which round, can take.
 double box_reach(double reach, double largest) { return reach * (1.0 + 0x1p-40) + 0x1p-50 * largest; }
 
-// Pairs of features that wait for the filter.
-struct Waiting {
-  PointQuads quads;
-  struct Pair {
-    int first, second;  // vertex and facet, or edges of a and b
-    FeaturePair kind;
-  } pair[PointQuads::kCapacity];
-
-  bool full() const { return quads.count == PointQuads::kCapacity; }
-  // Point number `k` of the pair to come.
-  void set(int k, const ClusterPoints& points, int vertex) {
-    for (int axis = 0; axis < 3; ++axis) quads.at[k][axis][quads.count] = points.at[axis][vertex];
-  }
-  void add(const Pair& one) { pair[quads.count++] = one; }
-  Vec3 point(int k, int i) const { return {quads.at[k][0][i], quads.at[k][1][i], quads.at[k][2][i]}; }
-};
+Vec3 point_of(const ClusterPoints& points, int i) { return {points.at[0][i], points.at[1][i], points.at[2][i]}; }
 
 // The search among the clusters of two meshes.
 class PointFinder {
  public:
-  PointFinder(const ScaledMesh& a, const ScaledMesh& b, double reach, const CrossedVertices& crossed, Waiting& vertices,
-              Waiting& edges, SurfaceWays& ways, std::vector<FeaturePoint>& found)
+  PointFinder(const ScaledMesh& a, const ScaledMesh& b, double reach, const CrossedVertices& crossed,
+              WaitingEdges& waiting, SurfaceWays& ways, std::vector<FeaturePoint>& found)
       : a_(a),
         b_(b),
         crossed_(crossed),
         same_(&a.mesh == &b.mesh),
         reach_(reach),
-        vertices_(vertices),
-        edges_(edges),
         found_(found),
+        waiting_(waiting),
         ways_(ways) {}
 
   // The boxes of `a` are wider by the reach.
@@ -68,8 +53,7 @@ class PointFinder {
   }
   // Looks at all that waits.
   void finish() {
-    look_at_vertices();
-    look_at_edges();
+    waiting_.visit_all(a_, b_, reach_, EdgeSide::before, [&](int e, int f) { look_at_edges(e, f); });
   }
 
  private:
@@ -85,30 +69,31 @@ class PointFinder {
     return near;
   }
 
-  // Calls visit(i, k) for the features i of `few`, among those with a bit, and k of `many`, likewise, that share cells.
-  template <class Visit>
-  static void for_each_pair(const FeatureBlock& few, std::uint64_t some, const FeatureBlock& many, std::uint64_t others,
-                            const Visit& visit) {
-    std::uint64_t met[FeatureBlock::kCapacity];
-    for (std::uint64_t left = kernels().share_cells(few.cells, some, many.cells, others, met).facets; left != 0;
-         left &= left - 1) {
-      const int i = std::countr_zero(left);
-      for (std::uint64_t rest = met[i]; rest != 0; rest &= rest - 1) visit(i, std::countr_zero(rest));
-    }
-  }
-
   void from_vertices(const OpenFeatures& one, const OpenFeatures& other, const Near& near, FeaturePair kind) {
+    std::uint64_t met[FeatureBlock::kCapacity], inside[FeatureBlock::kCapacity];
     for (int block = 0; block < one.vertex_blocks; ++block) {
       const FeatureBlock& vertices = one.vertices[block];
       std::uint64_t some = kernels().near_facets(vertices.cells, all_of(vertices.count), near.cells);
       const auto crossed = kind == FeaturePair::vertex_facet ? crossed_.a : crossed_.b;
       if (!crossed.empty()) some = without_crossed(some, one, block, crossed);
-      for_each_pair(vertices, some, other.facets, near.facets, [&](int i, int k) {
-        vertices_.set(0, one.points, vertices.corner[0][i]);
-        for (int c = 0; c < 3; ++c) vertices_.set(c + 1, other.points, other.facets.corner[c][k]);
-        vertices_.add({one.vertex(block, i), other.facet(k), kind});
-        if (vertices_.full()) look_at_vertices();
-      });
+      std::uint64_t left = kernels().near_vertices({one.points, vertices, some},
+                                                   {other.points, other.facets, near.facets}, reach_, met, inside);
+      for (; left != 0; left &= left - 1) {
+        const int i = std::countr_zero(left);
+        for (std::uint64_t rest = met[i]; rest != 0; rest &= rest - 1) {
+          const int k = std::countr_zero(rest);
+          const auto corner = [&](int c) { return point_of(other.points, other.facets.corner[c][k]); };
+          const VertexAndFacet pair{kind == FeaturePair::vertex_facet ? a_ : b_,
+                                    kind == FeaturePair::vertex_facet ? b_ : a_,
+                                    kind,
+                                    one.vertex(block, i),
+                                    other.facet(k),
+                                    point_of(one.points, vertices.corner[0][i]),
+                                    {corner(0), corner(1), corner(2)}};
+          if ((inside[i] >> k & 1) != 0) look_inside_facet(pair);
+          look_at_border(pair);
+        }
+      }
     }
   }
 
@@ -122,47 +107,28 @@ class PointFinder {
     return rest;
   }
 
-  void look_at_vertices() {
-    const auto [beyond, beside] = kernels().facets_beyond(vertices_.quads, reach_);
-    for (std::uint64_t left = all_of(vertices_.quads.count) & ~beyond; left != 0; left &= left - 1) {
-      const int i = std::countr_zero(left);
-      if ((beside >> i & 1) == 0) look_inside_facet(i);
-      look_at_border(i);
-    }
-    vertices_.quads.count = 0;
-  }
-
-  // Vertex and facet that wait, and the meshes that they are of.
-  struct Waited {
+  // A vertex and a facet, the meshes that they are of, and where they are.
+  struct VertexAndFacet {
     const ScaledMesh &m, &surface;
-    const Waiting::Pair& pair;
+    FeaturePair kind;
+    int vertex, facet;
     Vec3 v;
     Vec3 corner[3];
   };
-  Waited waited(int i) const {
-    const bool of_a = vertices_.pair[i].kind == FeaturePair::vertex_facet;
-    return {of_a ? a_ : b_,
-            of_a ? b_ : a_,
-            vertices_.pair[i],
-            vertices_.point(0, i),
-            {vertices_.point(1, i), vertices_.point(2, i), vertices_.point(3, i)}};
-  }
-  void look_inside_facet(int i) {
-    const Waited one = waited(i);
+  void look_inside_facet(const VertexAndFacet& one) {
     if (const auto nearest = nearest_inside_facet(one.v, one.corner, reach_))
-      add_vertex_point(one.m, one.surface, one.pair, one.surface.mesh.corners(one.pair.second), *nearest);
+      add_vertex_point(one, one.surface.mesh.corners(one.facet), *nearest);
   }
 
   // Points on those edges and vertices that have the facet as their first one.
-  void look_at_border(int i) {
-    const int facet = vertices_.pair[i].second;
-    const Waited one = waited(i);
+  void look_at_border(const VertexAndFacet& one) {
+    const int facet = one.facet;
     const Features& features = one.surface.features;
     const unsigned first = features.firsts_of_facet(facet);
     if (first == 0) return;
     const Corners corners = one.surface.mesh.corners(facet);
     const auto add = [&](const std::optional<Nearest>& nearest, std::span<const int> feature) {
-      if (nearest) add_vertex_point(one.m, one.surface, one.pair, feature, *nearest);
+      if (nearest) add_vertex_point(one, feature, *nearest);
     };
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t next = (c + 1) % 3;
@@ -175,17 +141,14 @@ class PointFinder {
             ends);
       }
       const int w = corners[c];
-      if ((first >> (3 + c) & 1) != 0 && !(same_ && w == one.pair.first))
+      if ((first >> (3 + c) & 1) != 0 && !(same_ && w == one.vertex))
         add(nearest_in_vertex(one.v, one.corner[c], one.surface.around(features.neighbors(w)), reach_), {&w, 1});
     }
   }
 
-  void add_vertex_point(const ScaledMesh& m, const ScaledMesh& surface, const Waiting::Pair& pair,
-                        std::span<const int> feature, const Nearest& nearest) {
-    const auto [vertex, facet, kind] = pair;
-    if (same_ && along_surface({&vertex, 1}, m.position(vertex), feature,
-                               m.position(vertex) + nearest.distance * nearest.normal))
-      return;
+  void add_vertex_point(const VertexAndFacet& pair, std::span<const int> feature, const Nearest& nearest) {
+    const auto& [m, surface, kind, vertex, facet, v, corner] = pair;
+    if (same_ && along_surface({&vertex, 1}, v, feature, v + nearest.distance * nearest.normal)) return;
     FeaturePoint point;
     point.kind = kind;
     point.gap = nearest.distance / m.scale;
@@ -207,40 +170,39 @@ class PointFinder {
       some_b[k] = kernels().near_facets(b.edges[k].cells, all_of(b.edges[k].count), near_a.cells);
     for (int i = 0; i < a.edge_blocks; ++i) {
       const std::uint64_t some_a = kernels().near_facets(a.edges[i].cells, all_of(a.edges[i].count), near_b.cells);
-      for (int k = 0; some_a != 0 && k < b.edge_blocks; ++k) {
-        const auto take = [&](int e, int f) { add_edges(a, i, e, b, k, f); };
-        if (std::popcount(some_a) <= std::popcount(some_b[k])) {
-          for_each_pair(a.edges[i], some_a, b.edges[k], some_b[k], take);
-        } else {
-          for_each_pair(b.edges[k], some_b[k], a.edges[i], some_a, [&](int f, int e) { take(e, f); });
-        }
+      for (int k = 0; some_a != 0 && k < b.edge_blocks; ++k) between_blocks(a, i, some_a, b, k, some_b[k]);
+    }
+  }
+
+  void between_blocks(const OpenFeatures& a, int block_a, std::uint64_t some_a, const OpenFeatures& b, int block_b,
+                      std::uint64_t some_b) {
+    const PlacedFeatures of_a{a.points, a.edges[block_a], some_a}, of_b{b.points, b.edges[block_b], some_b};
+    const bool few_are_a = std::popcount(some_a) <= std::popcount(some_b);
+    std::uint64_t met[FeatureBlock::kCapacity];
+    std::uint64_t left = kernels().near_edges(few_are_a ? of_a : of_b, few_are_a ? of_b : of_a, reach_, met);
+    for (; left != 0; left &= left - 1) {
+      const int i = std::countr_zero(left);
+      for (std::uint64_t rest = met[i]; rest != 0; rest &= rest - 1) {
+        const int k = std::countr_zero(rest), e = few_are_a ? i : k, f = few_are_a ? k : i;
+        add_edges(a.edge(block_a, e), b.edge(block_b, f), a.cluster == b.cluster);
       }
     }
   }
 
-  void add_edges(const OpenFeatures& a, int block_a, int i, const OpenFeatures& b, int block_b, int k) {
-    const int e = a.edge(block_a, i), f = b.edge(block_b, k);
-    if (same_ && (share_a_vertex(a_.features.edge(e), b_.features.edge(f)) || (a.cluster == b.cluster && e > f)))
-      return;
-    for (int c = 0; c < 2; ++c) {
-      edges_.set(c, a.points, a.edges[block_a].corner[c][i]);
-      edges_.set(c + 2, b.points, b.edges[block_b].corner[c][k]);
-    }
-    edges_.add({e, f, FeaturePair::edge_edge});
-    if (edges_.full()) look_at_edges();
+  void add_edges(int e, int f, bool in_one_cluster) {
+    if (same_ && (share_a_vertex(a_.features.edge(e), b_.features.edge(f)) || (in_one_cluster && e > f))) return;
+    waiting_.add(a_, e, b_, f, reach_, EdgeSide::before, [&](int edge, int other) { look_at_edges(edge, other); });
   }
 
-  void look_at_edges() {
-    const std::uint64_t beyond = kernels().edges_beyond(edges_.quads, reach_);
-    for (std::uint64_t left = all_of(edges_.quads.count) & ~beyond; left != 0; left &= left - 1) {
-      const int i = std::countr_zero(left);
-      const auto [e, f, _] = edges_.pair[i];
-      const EdgeEnds at_e{edges_.point(0, i), edges_.point(1, i)}, at_f{edges_.point(2, i), edges_.point(3, i)};
-      const auto nearest = nearest_between_edges(at_e, a_.around(a_.features.opposite(e)), at_f,
-                                                 b_.around(b_.features.opposite(f)), reach_);
-      if (nearest) add_edge_point(e, at_e, f, *nearest);
-    }
-    edges_.quads.count = 0;
+  void look_at_edges(int e, int f) {
+    const auto ends = [](const ScaledMesh& m, int edge) {
+      const EdgeVertices vertices = m.features.edge(edge);
+      return EdgeEnds{m.position(vertices[0]), m.position(vertices[1])};
+    };
+    const EdgeEnds at_e = ends(a_, e), at_f = ends(b_, f);
+    const auto nearest = nearest_between_edges(at_e, a_.around(a_.features.opposite(e)), at_f,
+                                               b_.around(b_.features.opposite(f)), reach_);
+    if (nearest) add_edge_point(e, at_e, f, *nearest);
   }
 
   void add_edge_point(int edge_e, const EdgeEnds& at_e, int edge_f, const Nearest& nearest) {
@@ -274,8 +236,8 @@ class PointFinder {
   const CrossedVertices crossed_;
   const bool same_;
   const double reach_;
-  Waiting &vertices_, &edges_;
   std::vector<FeaturePoint>& found_;
+  WaitingEdges& waiting_;
   SurfaceWays& ways_;
 };
 
@@ -294,7 +256,7 @@ struct ContactPointSearch::Memory {
   static constexpr std::size_t kOpened = 16;  // clusters of b that stay open: neighbours come soon again
   OpenFeatures a;
   OpenFeatures b[kOpened];
-  Waiting vertices, edges;
+  WaitingEdges edges;
   SurfaceWays ways;
 };
 
@@ -316,8 +278,7 @@ void ContactPointSearch::run(const FeaturedMesh& a, const FeaturedMesh& b, doubl
     const Box box = mesh.cluster_boxes()[c];
     return Box{scale * box.lower, scale * box.upper};
   };
-  PointFinder finder(scaled_a, scaled_b, scale * reach, crossed, memory_->vertices, memory_->edges, memory_->ways,
-                     found);
+  PointFinder finder(scaled_a, scaled_b, scale * reach, crossed, memory_->edges, memory_->ways, found);
   // So many pairs share a grid: its cells stay small beside the facets.
   constexpr std::size_t kPairsOfGrid = 256;
   for (; !pairs.empty(); pairs = pairs.subspan(std::min(pairs.size(), kPairsOfGrid))) {

@@ -47,6 +47,24 @@ std::span<const int> used(const std::array<int, 3>& feature) {
 
 double negative(double distance) { return distance > 0.0 ? -distance : 0.0; }
 
+// Beside the ends of an edge nothing is nearest to its inside: the part of space between its ends, and a sixteenth more
+// for rounding.
+struct BetweenEnds {
+  Vec3 from, along;
+  double length_squared;
+
+  BetweenEnds(Vec3 p, Vec3 q) : from(p), along(q - p), length_squared(norm_squared(along)) {}
+  bool reaches(const Box& box) const {
+    double low = 0.0, high = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = along[axis] * (box.lower[axis] - from[axis]), y = along[axis] * (box.upper[axis] - from[axis]);
+      low += std::min(x, y);
+      high += std::max(x, y);
+    }
+    return low <= 1.0625 * length_squared && high >= -0.0625 * length_squared;
+  }
+};
+
 }  // namespace
 
 bool is_contained(const FeaturedMesh& inner, const ClusteredMesh& outer) {
@@ -324,25 +342,16 @@ void CrossingSearch::sign_edges(std::vector<FeaturePoint>& found) {
   std::ranges::sort(known_edges_);
 }
 
-// Takes two edges for the filter.
-void CrossingSearch::wait(int edge_a, int edge_b) {
-  const EdgeEnds a = ends_of(a_.scaled(scale_), edge_a), b = ends_of(b_.scaled(scale_), edge_b);
-  const Vec3 points[4] = {a.p, a.q, b.p, b.q};
-  const int i = waiting_.count++;
-  for (int k = 0; k < 4; ++k) {
-    for (int axis = 0; axis < 3; ++axis) waiting_.at[k][axis][i] = points[k][axis];
-  }
-  waiting_edges_[i] = {edge_a, edge_b};
+// Takes two edges for the filter, which may have some that wait visited.
+template <class Visit>
+void CrossingSearch::wait(int edge_a, int edge_b, const Visit& visit) {
+  waiting_.add(a_.scaled(scale_), edge_a, b_.scaled(scale_), edge_b, limit_, EdgeSide::passed, visit);
 }
 
 // Calls visit(edge_a, edge_b) for those that wait and may have a point.
 template <class Visit>
 void CrossingSearch::visit_waiting(const Visit& visit) {
-  const std::uint64_t beyond = kernels().edges_beyond(waiting_, limit_);
-  for (int i = 0; i < waiting_.count; ++i) {
-    if ((beyond >> i & 1) == 0) visit(waiting_edges_[i].first, waiting_edges_[i].second);
-  }
-  waiting_.count = 0;
+  waiting_.visit_all(a_.scaled(scale_), b_.scaled(scale_), limit_, EdgeSide::passed, visit);
 }
 
 // Edges that are cut, and those of the facets that they meet.
@@ -356,8 +365,7 @@ void CrossingSearch::append_edge_points(std::vector<FeaturePoint>& found) {
       for (int k = 0; k < 3; ++k) {
         const int edge = other.mesh.features->facet_edge(facet, k);
         if (edge < 0) continue;
-        own == &a_ ? wait(hit.edge, edge) : wait(edge, hit.edge);
-        if (waiting_.count == PointQuads::kCapacity) visit_waiting(keep);
+        own == &a_ ? wait(hit.edge, edge, keep) : wait(edge, hit.edge, keep);
       }
     }
   }
@@ -390,8 +398,9 @@ void CrossingSearch::append_running_edges(const Side& own, const Side& other, st
 
 std::optional<FeaturePoint> CrossingSearch::nearest_passed(const Side& own, int edge, const Side& other) {
   const EdgeVertices ends = own.mesh.features->edge(edge);
-  const Vec3 from = own.mesh.mesh->position(ends[0]);
-  const Box near = grown(extended(Box{from, from}, own.mesh.mesh->position(ends[1])), limit_ / scale_);
+  const Vec3 from = own.mesh.mesh->position(ends[0]), to = own.mesh.mesh->position(ends[1]);
+  const BetweenEnds between(from, to);
+  const Box near = grown(extended(Box{from, from}, to), limit_ / scale_);
   std::optional<FeaturePoint> best;
   const auto look_at = [&](int edge_a, int edge_b) {
     FeaturePoint point;
@@ -401,9 +410,9 @@ std::optional<FeaturePoint> CrossingSearch::nearest_passed(const Side& own, int 
     if (better && is_inside(own, edge, &own == &a_ ? point.weight_a : point.weight_b, other)) best = point;
   };
   for_each_cluster_in(*other.mesh.mesh, near, [&](int cluster) {
+    if (!between.reaches(other.mesh.mesh->cluster_boxes()[cluster])) return;
     for (int f = other.mesh.features->edge_begin(cluster); f < other.mesh.features->edge_end(cluster); ++f) {
-      &own == &a_ ? wait(edge, f) : wait(f, edge);
-      if (waiting_.count == PointQuads::kCapacity) visit_waiting(look_at);
+      &own == &a_ ? wait(edge, f, look_at) : wait(f, edge, look_at);
     }
   });
   visit_waiting(look_at);

@@ -32,6 +32,7 @@
 
 #include "narrowphase/contact_points/contact_points.h"
 #include "narrowphase/contact_points/cut.h"
+#include "narrowphase/contact_points/waiting_edges.h"
 #include "narrowphase/contact_points/way_out.h"
 
 namespace tact::narrowphase {
@@ -116,7 +117,8 @@ class CrossingSearch {
   Vec3 facing_of_edges(int edge_a, int edge_b) const;
   bool passed_point(int edge_a, int edge_b, FeaturePoint& point) const;
   void sign_edges(std::vector<FeaturePoint>& found);
-  void wait(int edge_a, int edge_b);
+  template <class Visit>
+  void wait(int edge_a, int edge_b, const Visit& visit);
   template <class Visit>
   void visit_waiting(const Visit& visit);
   void append_edge_points(std::vector<FeaturePoint>& found);
@@ -133,8 +135,7 @@ class CrossingSearch {
   std::vector<Reached> reached_, next_;
   std::vector<std::pair<int, int>> known_edges_, candidates_;
   std::vector<int> with_point_;
-  PointQuads waiting_;  // edges of a and b, for the filter
-  std::pair<int, int> waiting_edges_[PointQuads::kCapacity];
+  WaitingEdges waiting_;
 };
 
 }  // namespace tact::narrowphase

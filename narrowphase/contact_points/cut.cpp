@@ -36,13 +36,11 @@ void Cut::order_hits() {
 std::span<const EdgeHit> Cut::hits_of(const EdgeVertices& vertices) const {
   const int first = first_hit_[vertices[0]];
   if (first < 0) return {};
+  const std::uint64_t key = EdgeHit{vertices}.key();
   auto begin = static_cast<std::size_t>(first);
-  const auto is_before = [&](std::size_t i) {
-    return i < hits_.size() && hits_[i].vertices[0] == vertices[0] && hits_[i].vertices[1] < vertices[1];
-  };
-  while (is_before(begin)) ++begin;
+  while (begin < hits_.size() && hits_[begin].key() < key) ++begin;
   std::size_t end = begin;
-  while (end < hits_.size() && hits_[end].vertices == vertices) ++end;
+  while (end < hits_.size() && hits_[end].key() == key) ++end;
   return std::span(hits_).subspan(begin, end - begin);
 }
 

@@ -4,8 +4,8 @@
 #include <tact/facet_pair.h>
 
 #include <compare>
+#include <cstdint>
 #include <span>
-#include <tuple>
 #include <vector>
 
 #include "narrowphase/contact_points/features.h"
@@ -19,9 +19,13 @@ struct EdgeHit {
   int facet = -1;         // of the other mesh, by the caller's number
   int edge = -1;          // as Features counts it
 
-  friend bool operator==(const EdgeHit&, const EdgeHit&) = default;
+  /// The two vertices as one number, of the same order.
+  std::uint64_t key() const {
+    return std::uint64_t{static_cast<std::uint32_t>(vertices[0])} << 32 | static_cast<std::uint32_t>(vertices[1]);
+  }
+  friend bool operator==(const EdgeHit& x, const EdgeHit& y) { return x.key() == y.key() && x.facet == y.facet; }
   friend auto operator<=>(const EdgeHit& x, const EdgeHit& y) {
-    return std::tie(x.vertices, x.facet) <=> std::tie(y.vertices, y.facet);
+    return x.key() != y.key() ? x.key() <=> y.key() : x.facet <=> y.facet;
   }
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "narrowphase/mesh/prefetch.h"
+
 namespace tact::narrowphase {
 
 namespace {
@@ -128,6 +130,24 @@ void Features::find_parts() {
       }
     }
   }
+}
+
+void Features::prefetch(const ClusteredMesh& mesh, int cluster) const {
+  const auto lines = [](const auto& array, int begin, int end) {
+    prefetch_lines(array.data() + begin, static_cast<std::size_t>(end - begin));
+  };
+  const int edge = edge_begin(cluster), end = edge_end(cluster);
+  const int facet = mesh.facet_begin(cluster), facet_end = mesh.facet_end(cluster);
+  const int vertex = mesh.vertex_begin(cluster), vertex_end = mesh.vertex_end(cluster);
+  lines(edges_, edge, end);
+  lines(edge_corner_[0], edge, end);
+  lines(edge_corner_[1], edge, end);
+  lines(opposite_begin_, edge, end + 1);
+  lines(facet_edges_, 3 * facet, 3 * facet_end);
+  lines(firsts_of_facet_, facet, facet_end);
+  lines(neighbors_begin_, vertex, vertex_end + 1);
+  lines(opposite_, opposite_begin_[edge], opposite_begin_[end]);
+  lines(neighbors_, neighbors_begin_[vertex], neighbors_begin_[vertex_end]);
 }
 
 std::array<int, 3> source_vertices(const ClusteredMesh& mesh, std::span<const int> vertices) {

@@ -48,6 +48,9 @@ class Features {
   /// A vertex of each part that hangs together by edges.
   std::span<const int> one_of_each_part() const { return one_of_each_part_; }
 
+  /// Prefetches what is known of a cluster's edges, facets and vertices.
+  void prefetch(const ClusteredMesh& mesh, int cluster) const;
+
  private:
   static std::span<const int> part(const std::vector<int>& all, const std::vector<int>& begin, int i) {
     const auto k = static_cast<std::size_t>(i);

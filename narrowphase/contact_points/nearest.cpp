@@ -108,16 +108,14 @@ bool leads_along(const Vec<Real>& way, Vec3 end, const ScaledVertices& third) {
   return false;
 }
 
-enum class Passed { no, yes };
-
 template <class Real>
 std::optional<Nearest> between(const LinePair<Real>& lines, const EdgeEnds& e, const ScaledVertices& third_e,
-                               const EdgeEnds& f, const ScaledVertices& third_f, double limit, Passed passed) {
+                               const EdgeEnds& f, const ScaledVertices& third_f, double limit, EdgeSide side) {
   if (!lines.inside_both()) return {};
   const Real length = std::sqrt(lines.square), height = dot(lines.across, lines.r) / length;
   const auto distance = static_cast<double>(std::abs(height));
   if (!(distance < limit)) return {};
-  const Real flip = (height < 0) == (passed == Passed::no) ? -1 : 1;
+  const Real flip = (height < 0) == (side == EdgeSide::before) ? -1 : 1;
   for (const Real turn : {flip, -flip}) {
     const Vec<Real> way(turn * lines.across.x, turn * lines.across.y, turn * lines.across.z);
     const Vec<Real> back(-way.x, -way.y, -way.z);
@@ -182,26 +180,26 @@ std::optional<Nearest> nearest_in_vertex(Vec3 v, Vec3 w, const ScaledVertices& n
 namespace {
 
 std::optional<Nearest> between_edges(const EdgeEnds& e, const ScaledVertices& third_e, const EdgeEnds& f,
-                                     const ScaledVertices& third_f, double limit, Passed passed) {
+                                     const ScaledVertices& third_f, double limit, EdgeSide side) {
   const LinePair<double> rough(e, f);
-  // What is nearly parallel is looked at in long doubles. The kernel edges_beyond() asks the same.
-  if (rough.square > kNearlyParallel * dot(rough.u, rough.u) * dot(rough.w, rough.w))
-    return between(rough, e, third_e, f, third_f, limit, passed);
+  // What is nearly parallel is looked at in long doubles. The kernels near_edges() and edges_beyond() ask the same.
+  if (rough.square > kNearlyParallel * (dot(rough.u, rough.u) * dot(rough.w, rough.w)))
+    return between(rough, e, third_e, f, third_f, limit, side);
   const LinePair<long double> fine(e, f);
   if (!(fine.square > 0)) return {};
-  return between(fine, e, third_e, f, third_f, limit, passed);
+  return between(fine, e, third_e, f, third_f, limit, side);
 }
 
 }  // namespace
 
 std::optional<Nearest> nearest_between_edges(const EdgeEnds& e, const ScaledVertices& third_e, const EdgeEnds& f,
                                              const ScaledVertices& third_f, double limit) {
-  return between_edges(e, third_e, f, third_f, limit, Passed::no);
+  return between_edges(e, third_e, f, third_f, limit, EdgeSide::before);
 }
 
 std::optional<Nearest> crossing_between_edges(const EdgeEnds& e, const ScaledVertices& third_e, const EdgeEnds& f,
                                               const ScaledVertices& third_f, double limit) {
-  return between_edges(e, third_e, f, third_f, limit, Passed::yes);
+  return between_edges(e, third_e, f, third_f, limit, EdgeSide::passed);
 }
 
 }  // namespace tact::narrowphase

@@ -74,10 +74,68 @@ void place_features(const ClusterPoints& points, const FeatureCorners& in, const
 
 struct QuadLanes {
   VectorPack point[4];
-  QuadLanes(const PointQuads& in, int i) {
-    for (int k = 0; k < 4; ++k) point[k] = {load(in.at[k][0] + i), load(in.at[k][1] + i), load(in.at[k][2] + i)};
+};
+
+// Pairs of features that share cells, by their places in their blocks and by the points of their corners.
+template <int kFew, int kMany>
+struct ListedPairs {
+  static constexpr int kEnough = 64, kRoom = kEnough + 2 * FeatureBlock::kCapacity;
+  alignas(64) std::uint8_t few[kRoom], many[kRoom], corner[kFew + kMany][kRoom];
+  int count = 0;
+
+  void append(const FeatureBlock& one, int i, const FeatureBlock& others, std::uint64_t met) {
+    __builtin_memset(few + count, i, FeatureBlock::kCapacity);
+    write_places(met, many + count);
+    for (int c = 0; c < kFew; ++c) __builtin_memset(corner[c] + count, one.corner[c][i], FeatureBlock::kCapacity);
+    for (int c = 0; c < kMany; ++c) compress(met, others.corner[c], corner[kFew + c] + count);
+    count += __builtin_popcountll(met);
+  }
+  void fill_up() {
+    for (auto& one : corner) __builtin_memset(one + count, 0, kWidth);
+  }
+  QuadLanes lanes(const ClusterPoints& points, const ClusterPoints& others, int i) const {
+    static_assert(kFew + kMany == 4);
+    QuadLanes q;
+    for (int k = 0; k < 4; ++k) {
+      const auto& at = (k < kFew ? points : others).at;
+      q.point[k] = {gather(at[0], corner[k] + i), gather(at[1], corner[k] + i), gather(at[2], corner[k] + i)};
+    }
+    return q;
   }
 };
+
+// Calls decide(pairs, i), which takes the pairs from the i-th on, as many as there are lanes and pairs, for all that
+// share cells. Returns a bit for each of the first ones that has such a pair.
+template <int kFew, int kMany, class Decide>
+inline std::uint64_t for_listed_pairs(const PlacedFeatures& few, const PlacedFeatures& many, std::uint64_t* near,
+                                      const Decide& decide) {
+  std::uint64_t met[FeatureBlock::kCapacity];
+  ListedPairs<kFew, kMany> pairs;
+  const auto decide_all = [&] {
+    pairs.fill_up();
+    for (int i = 0; i < pairs.count; i += kWidth) decide(pairs, i);
+    pairs.count = 0;
+  };
+  const std::uint64_t shared = share_cells(few.block.cells, few.some, many.block.cells, many.some, met).facets;
+  for (std::uint64_t left = shared; left != 0; left &= left - 1) {
+    const int i = __builtin_ctzll(left);
+    near[i] = 0;
+    pairs.append(few.block, i, many.block, met[i]);
+    if (pairs.count >= pairs.kEnough) decide_all();
+  }
+  decide_all();
+  return shared;
+}
+
+// Those of the features that have a bit in `near`.
+inline std::uint64_t with_any(std::uint64_t some, const std::uint64_t* near) {
+  std::uint64_t any = 0;
+  for (; some != 0; some &= some - 1) {
+    const int i = __builtin_ctzll(some);
+    any |= static_cast<std::uint64_t>(near[i] != 0) << i;
+  }
+  return any;
+}
 
 // A facet is beyond the reach if all its corners are, seen along one direction: its normal, or across a side of it.
 // A direction is what its doubles say. Corners, counted from the vertex, are at most 7 long, so their products with it
@@ -114,43 +172,108 @@ inline Mask beside_facet(const QuadLanes& q, const VectorPack& normal, double re
   return beside;
 }
 
-FacetsBeyond facets_beyond(const PointQuads& quads, double reach) {
+inline Mask beyond_facet(const QuadLanes& q, const VectorPack& normal, const VectorPack (&side)[3],
+                         Pack reach_squared) {
+  const FacetBeyond facet{{sub(q.point[1], q.point[0]), sub(q.point[2], q.point[0]), sub(q.point[3], q.point[0])},
+                          reach_squared};
+  Mask some = facet.along(normal);
+  for (const VectorPack& one : side) some = either(some, facet.along(cross(normal, one)));
+  return some;
+}
+
+std::uint64_t near_vertices(const PlacedFeatures& vertices, const PlacedFeatures& facets, double reach,
+                            std::uint64_t* near, std::uint64_t* inside) {
   const double most = reach * (1.0 + 0x1p-40) + 0x1p-46;
   const Pack reach_squared = spread(most * most * (1.0 + 0x1p-40));
-  FacetsBeyond all{0, 0};
-  for (int i = 0; i < quads.count; i += kWidth) {
-    const QuadLanes q(quads, i);
-    const FacetBeyond facet{{sub(q.point[1], q.point[0]), sub(q.point[2], q.point[0]), sub(q.point[3], q.point[0])},
-                            reach_squared};
+  const std::uint64_t shared = for_listed_pairs<1, 3>(vertices, facets, near, [&](const auto& pairs, int i) {
+    const QuadLanes q = pairs.lanes(vertices.points, facets.points, i);
     const VectorPack side[3] = {sub(q.point[2], q.point[1]), sub(q.point[3], q.point[1]), sub(q.point[3], q.point[2])};
     const VectorPack normal = cross(side[0], side[1]);
-    Mask some = facet.along(normal);
-    for (const VectorPack& one : side) some = either(some, facet.along(cross(normal, one)));
-    const unsigned lanes = lanes_left(quads.count - i);
-    all.beyond |= static_cast<std::uint64_t>(bits(some) & lanes) << i;
-    all.beside |= static_cast<std::uint64_t>(bits(beside_facet(q, normal, reach)) & lanes) << i;
+    unsigned left = ~bits(beyond_facet(q, normal, side, reach_squared)) & lanes_left(pairs.count - i);
+    if (left == 0) return;
+    const unsigned beside = bits(beside_facet(q, normal, reach));
+    for (; left != 0; left &= left - 1) {
+      const int lane = __builtin_ctz(left), vertex = pairs.few[i + lane];
+      const std::uint64_t facet = std::uint64_t{1} << pairs.many[i + lane];
+      if (near[vertex] == 0) inside[vertex] = 0;
+      near[vertex] |= facet;
+      if ((beside >> lane & 1) == 0) inside[vertex] |= facet;
+    }
+  });
+  return with_any(shared, near);
+}
+
+// The same operations in the same order as LinePair in contact_points/nearest.cpp, so that both see the same places;
+// the distance has room for another rounding. Edges that change places change signs at most.
+struct EdgeLanes {
+  VectorPack across;
+  Pack square, height;
+  Mask clear, beyond;
+
+  EdgeLanes(const QuadLanes& q, Pack reach_squared) {
+    const Pack zero = spread(0.0);
+    const VectorPack u = sub(q.point[1], q.point[0]), w = sub(q.point[3], q.point[2]), r = sub(q.point[2], q.point[0]);
+    across = cross(u, w);
+    const Pack s = dot(cross(r, w), across), t = dot(cross(r, u), across);
+    square = dot(across, across);
+    height = dot(across, r);
+    clear = less(mul(spread(kNearlyParallel), mul(dot(u, u), dot(w, w))), square);
+    const Mask beside =
+        either(either(less_equal(s, zero), less_equal(square, s)), either(less_equal(t, zero), less_equal(square, t)));
+    const Mask far = less(mul(reach_squared, square), mul(height, height));
+    beyond = both(clear, either(beside, far));
+  }
+
+  // Leads a facet from `end` to `third` certainly along the way, which is `across` times a sign? Twice the bound of
+  // leads_along() in contact_points/nearest.cpp.
+  Mask leads(Pack sign, const VectorPack& end, const VectorPack& third) const {
+    const VectorPack to = sub(third, end);
+    const Pack rise = mul(sign, dot(across, to));
+    const Pack bound = mul(spread(4.0 * kSignRounding * kSignRounding), mul(square, dot(to, to)));
+    return both(less(spread(0.0), rise), less(bound, mul(rise, rise)));
+  }
+};
+
+inline Pack edge_reach_squared(double reach) { return spread(reach * reach * (1.0 + 0x1p-40)); }
+
+std::uint64_t edges_beyond(const EdgePairs& pairs, const PointArrays& a, const PointArrays& b, double scale,
+                           double reach, EdgeSide side) {
+  const Pack reach_squared = edge_reach_squared(reach), unit = spread(scale);
+  const Pack one = spread(1.0), opposite = spread(-1.0), zero = spread(0.0);
+  std::uint64_t all = 0;
+  for (int i = 0; i < pairs.count; i += kWidth) {
+    const auto point = [&](int mesh, int k) {
+      const PointArrays& at = mesh == 0 ? a : b;
+      const std::int32_t* const vertex = pairs.vertex[mesh][k] + i;
+      return VectorPack{mul(unit, gather(at.x, vertex)), mul(unit, gather(at.y, vertex)),
+                        mul(unit, gather(at.z, vertex))};
+    };
+    const QuadLanes q{{point(0, 0), point(0, 1), point(1, 0), point(1, 1)}};
+    const EdgeLanes edges(q, reach_squared);
+    // Which way the point's normal goes along `across`. Edges that nearly touch may be seen from both sides.
+    const Mask below = less(edges.height, zero);
+    const Pack sign = side == EdgeSide::before ? select(below, opposite, one) : select(below, one, opposite);
+    const Pack back = sub(zero, sign);
+    const Mask has_side = less(mul(spread(0x1p-400), edges.square), mul(edges.height, edges.height));
+    const Mask leads =
+        either(either(edges.leads(sign, q.point[0], point(0, 2)), edges.leads(sign, q.point[0], point(0, 3))),
+               either(edges.leads(back, q.point[2], point(1, 2)), edges.leads(back, q.point[2], point(1, 3))));
+    const Mask none = either(edges.beyond, both(both(edges.clear, has_side), leads));
+    all |= static_cast<std::uint64_t>(bits(none) & lanes_left(pairs.count - i)) << i;
   }
   return all;
 }
 
-// The same operations in the same order as LinePair in contact_points/nearest.cpp, so that both see the same places;
-// the distance has room for another rounding.
-std::uint64_t edges_beyond(const PointQuads& quads, double reach) {
-  const Pack reach_squared = spread(reach * reach * (1.0 + 0x1p-40)), zero = spread(0.0);
-  std::uint64_t beyond = 0;
-  for (int i = 0; i < quads.count; i += kWidth) {
-    const QuadLanes q(quads, i);
-    const VectorPack u = sub(q.point[1], q.point[0]), w = sub(q.point[3], q.point[2]), r = sub(q.point[2], q.point[0]);
-    const VectorPack across = cross(u, w);
-    const Pack s = dot(cross(r, w), across), t = dot(cross(r, u), across), square = dot(across, across);
-    const Pack height = dot(across, r);
-    const Mask clear = less(mul(mul(spread(kNearlyParallel), dot(u, u)), dot(w, w)), square);
-    const Mask beside =
-        either(either(less_equal(s, zero), less_equal(square, s)), either(less_equal(t, zero), less_equal(square, t)));
-    const Mask far = less(mul(reach_squared, square), mul(height, height));
-    beyond |= static_cast<std::uint64_t>(bits(both(clear, either(beside, far))) & lanes_left(quads.count - i)) << i;
-  }
-  return beyond;
+std::uint64_t near_edges(const PlacedFeatures& few, const PlacedFeatures& many, double reach, std::uint64_t* near) {
+  const Pack reach_squared = edge_reach_squared(reach);
+  const std::uint64_t shared = for_listed_pairs<2, 2>(few, many, near, [&](const auto& pairs, int i) {
+    const EdgeLanes edges(pairs.lanes(few.points, many.points, i), reach_squared);
+    for (unsigned left = ~bits(edges.beyond) & lanes_left(pairs.count - i); left != 0; left &= left - 1) {
+      const int lane = __builtin_ctz(left);
+      near[pairs.few[i + lane]] |= std::uint64_t{1} << pairs.many[i + lane];
+    }
+  });
+  return with_any(shared, near);
 }
 
 // The sides of some points, strictly; neither where rounding may tell.

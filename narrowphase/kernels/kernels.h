@@ -220,6 +220,13 @@ struct alignas(64) FeatureBlock {
   int count = 0;
 };
 
+// Those of a block that have a bit, and the points of their cluster.
+struct PlacedFeatures {
+  const ClusterPoints& points;
+  const FeatureBlock& block;
+  std::uint64_t some;
+};
+
 // Features, and the boxes of their ways.
 struct alignas(64) FeatureWays {
   static constexpr int kRoom = 192 + 64;
@@ -228,13 +235,17 @@ struct alignas(64) FeatureWays {
   int count = 0;
 };
 
-// Four points each: a vertex and a facet, or the ends of two edges. Coordinates differ by at most 4.
-struct alignas(64) PointQuads {
+// Pairs of edges of two meshes, by the vertices of each: its ends, and the third vertices of two facets that have it,
+// or of one twice, or an end instead.
+struct alignas(64) EdgePairs {
   static constexpr int kCapacity = 64;
   static constexpr int kRoom = kCapacity + 8;
-  double at[4][3][kRoom];  // point, axis
+  std::int32_t vertex[2][4][kRoom];  // mesh
   int count = 0;
 };
+
+// The side that edges are on: as nearest_between_edges() and crossing_between_edges() ask.
+enum class EdgeSide { before, passed };
 
 // Facets of two meshes that meet, by pairs.
 struct alignas(64) TrianglePairs {
@@ -249,12 +260,6 @@ struct alignas(64) TrianglePairs {
 struct EdgesThrough {
   std::uint64_t meeting[6];  // it certainly meets the other facet
   std::uint64_t undecided[6];
-};
-
-// What a vertex cannot have on a facet, a bit for each pair.
-struct FacetsBeyond {
-  std::uint64_t beyond;  // anything nearer than the reach
-  std::uint64_t beside;  // anything inside it nearer than the reach
 };
 
 // Bounds what the sign of a product of lengths loses in doubles, relative to that product: see
@@ -479,10 +484,17 @@ struct Kernels {
   // The features that no side of the box rules out, and the cells of their boxes, widened by `widen`.
   void (*place_features)(const ClusterPoints& points, const FeatureCorners& features, const Grid& grid, double widen,
                          FeatureBlock* block);
-  // What is certain of vertices and facets.
-  FacetsBeyond (*facets_beyond)(const PointQuads& quads, double reach);
-  // A bit for each two edges of which the insides certainly are not nearer than `reach` where their lines are nearest.
-  std::uint64_t (*edges_beyond)(const PointQuads& quads, double reach);
+  // For each of some vertices a bit for each of some facets that shares cells with it and may have a point nearer than
+  // `reach`: anywhere, and inside. They are written for the vertices that the result has a bit for: they have one.
+  std::uint64_t (*near_vertices)(const PlacedFeatures& vertices, const PlacedFeatures& facets, double reach,
+                                 std::uint64_t* near, std::uint64_t* inside);
+  // The same of edges and edges, without those that certainly are not nearer than `reach` where their lines are
+  // nearest, or not inside both.
+  std::uint64_t (*near_edges)(const PlacedFeatures& few, const PlacedFeatures& many, double reach, std::uint64_t* near);
+  // A bit for each pair that certainly has no point nearer than `reach`: for the same reasons, or as a facet leads
+  // nearer there. Vertices are at `a` and `b`, times `scale`.
+  std::uint64_t (*edges_beyond)(const EdgePairs& pairs, const PointArrays& a, const PointArrays& b, double scale,
+                                double reach, EdgeSide side);
 
   // Which edges of facets meet the other facets, as closed sets.
   EdgesThrough (*edges_through)(const TrianglePairs& pairs);
