@@ -1,6 +1,7 @@
 #include "engine/narrow_phase.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -60,15 +61,25 @@ void NarrowPhase::run(PairTable& table, Bodies& bodies, const Settings& settings
   const std::span<MovedPair> moved = table.moved();
   const std::size_t grain = grain_for(moved, bodies, settings);
   const PairPrefetch prefetch(bodies, moved, grain, settings.threads);
-  base::parallel_for(moved.size(), grain, settings.threads, [&](std::size_t i, int thread) {
+  const bool few = is_few(moved.size(), settings.threads, bodies.tuning());  // many pairs are not counted one by one
+  std::atomic<std::size_t> left = few ? moved.size() : 0, gone = 0;
+  const auto look_at_next = [&](std::size_t i, int thread) {
     if (prefetch.pays()) prefetch.prefetch_after(i);
     PairRecord& record = *moved[i].record;
     moved[i].touched = touches(record);
     const PairInput pair(bodies, record.a, record.b, settings);
     look_at(pair, record, table, device, thread);
     table.note_result(moved[i]);
-  });
-  for (const auto& large : this->large()) confirm_in_ranges(*large, work_, settings.threads, bodies.tuning());
+    if (few) --left;
+  };
+  // Ranges of large pairs. A thread that finds none goes; when no pairs are left, the other ranges are for all threads.
+  const auto help_with_large = [&](int thread) {
+    while ((left > 0 || gone == 0) && confirm_next_range(bodies.tuning(), thread)) {
+    }
+    ++gone;
+  };
+  base::parallel_for(moved.size(), grain, settings.threads, look_at_next, help_with_large);
+  if (large_count_ > 0) confirm_large_pairs(settings.threads, bodies.tuning());
   for (const PairWork& work : work_) {
     for (const BodyId body : work.keep_travel) bodies.keep_travel(body.index);
   }
@@ -106,7 +117,7 @@ void NarrowPhase::look_at(const PairInput& pair, PairRecord& record, PairTable& 
   table.make_room(record);
   if (is_large(work.culled, table.moved().size(), pair.settings.threads, pair.tuning)) {
     record.times.in_ranges = true;
-    put_aside(work.culled);
+    put_aside(work.culled, pair.settings.threads, pair.tuning);
     return;
   }
   confirm(pair.tuning, work);
@@ -114,10 +125,48 @@ void NarrowPhase::look_at(const PairInput& pair, PairRecord& record, PairTable& 
 }
 
 // Takes a large pair and gives other memory for it.
-void NarrowPhase::put_aside(CulledPair& culled) {
+void NarrowPhase::put_aside(CulledPair& culled, int threads, const base::Tuning& tuning) {
   const std::lock_guard lock(large_mutex_);
   if (large_.size() == large_count_) large_.push_back(std::make_unique<LargePair>());
-  std::swap(culled, large_[large_count_++]->culled);
+  LargePair& large = *large_[large_count_];
+  std::swap(culled, large.culled);
+  large.cut(threads, tuning);
+  ++large_count_;
+}
+
+// Is there a range that no thread has taken? Threads begin at either end: what a thread refitted is in its cache.
+bool NarrowPhase::confirm_next_range(const base::Tuning& tuning, int thread) {
+  LargePair* pair = nullptr;
+  std::size_t range = 0;
+  {
+    const std::lock_guard lock(large_mutex_);
+    const auto next = std::ranges::find_if(large(), [](const auto& p) { return p->next_range < p->end_range; });
+    if (next == large().end()) return false;
+    pair = next->get();
+    range = thread % 2 == 0 ? pair->next_range++ : --pair->end_range;
+  }
+  confirm_range(*pair, range, tuning, thread, work_[thread]);
+  return true;
+}
+
+// What is left of them when all pairs have been looked at.
+void NarrowPhase::confirm_large_pairs(int threads, const base::Tuning& tuning) {
+  large_begin_ = base::Timer::Clock::now();
+  left_ranges_.clear();
+  std::size_t all = 0;
+  for (const auto& pair : large()) all += pair->range_count;
+  left_ranges_.reserve(all);  // how many are left is not the same in every step
+  for (const auto& pair : large()) {
+    for (; pair->next_range < pair->end_range; ++pair->next_range)
+      left_ranges_.push_back({pair.get(), pair->next_range});
+  }
+  base::parallel_for(left_ranges_.size(), 1, threads, [&](std::size_t i, int thread) {
+    confirm_range(*left_ranges_[i].pair, left_ranges_[i].range, tuning, thread, work_[thread]);
+  });
+  const int threads_of_pair = large_count_ > 1 ? 1 : threads;
+  base::parallel_for(large_count_, 1, threads, [&](std::size_t i, int thread) {
+    gather_ranges(*large_[i], tuning, threads_of_pair, work_[thread]);
+  });
 }
 
 void NarrowPhase::forget() {

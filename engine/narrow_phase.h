@@ -30,6 +30,8 @@ class NarrowPhase {
   /// The pairs that were shared out among threads.
   std::span<const std::unique_ptr<LargePair>> large() const { return std::span(large_).first(large_count_); }
   void forget_large() { large_count_ = 0; }
+  /// From then on no thread had other pairs; some ranges may have been searched before.
+  TraceEvent::Time large_begin() const { return large_begin_; }
   /// Gives back its memory.
   void forget();
 
@@ -39,15 +41,23 @@ class NarrowPhase {
     base::Timer timer;
     bool begun = false;
   };
+  struct LeftRange {
+    LargePair* pair;
+    std::size_t range;
+  };
   void look_at(const PairInput& pair, PairRecord& record, PairTable& table, narrowphase::EmbreeDevice& device,
                int thread);
-  void put_aside(CulledPair& culled);
+  void put_aside(CulledPair& culled, int threads, const base::Tuning& tuning);
+  bool confirm_next_range(const base::Tuning& tuning, int thread);
+  void confirm_large_pairs(int threads, const base::Tuning& tuning);
 
   std::vector<PairWork> work_;                     // a thread each
   std::vector<ThreadClock> clocks_;                // a thread each
   std::vector<std::unique_ptr<LargePair>> large_;  // large_count_ of them are in use
   std::size_t large_count_ = 0;
   std::mutex large_mutex_;
+  std::vector<LeftRange> left_ranges_;  // scratch
+  TraceEvent::Time large_begin_;
   double kdop_ms_ = 0.0;
 };
 

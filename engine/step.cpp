@@ -98,8 +98,7 @@ void Step::find_patches(const Bodies& bodies, const Settings& settings) {
 
 void Step::make_trace(TraceEvent::Time begin, TraceEvent::Time end, const Settings& settings) {
   writer_.trace().clear();
-  if (settings.outputs.trace)
-    trace_.make(begin, end, writer_.stats(), table_.moved(), narrow_phase_.large(), writer_.trace());
+  if (settings.outputs.trace) trace_.make(begin, end, writer_.stats(), table_.moved(), narrow_phase_, writer_.trace());
   trace_.forget_refreshes();
 }
 

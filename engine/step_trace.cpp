@@ -13,7 +13,7 @@ using Time = TraceEvent::Time;
 
 // Pairs that take less are joined to one event, so that a trace grows with time rather than with pairs.
 constexpr Time::duration kLongPair = std::chrono::microseconds(20);
-constexpr std::size_t kEventsOfStep = 5, kEventsOfPair = 5;  // at most, refreshes and ranges apart
+constexpr std::size_t kEventsOfStep = 6, kEventsOfPair = 5;  // at most, refreshes and ranges apart
 
 Time::duration duration_of(double ms) {
   return std::chrono::round<Time::duration>(std::chrono::duration<double, std::milli>(ms));
@@ -45,14 +45,21 @@ void add_pair(const PairRecord& record, Time latest, std::vector<TraceEvent>& ev
   }
 }
 
-void add_ranges(const LargePair& large, std::vector<TraceEvent>& events) {
-  const PairRecord& record = *large.culled.record;
-  const Time end = large.begin + duration_of(record.times.confirm_ms);
-  events.push_back({Kind::confirm, 0, large.begin, end, record.a, record.b, facet_pairs_of(record)});
-  for (const ConfirmedRange& range : large.used_ranges()) {
-    events.push_back({Kind::range, range.thread, range.begin, range.end, record.a, record.b,
-                      static_cast<std::int64_t>(range.found.size())});
+// Stage 6 of all large pairs, on the thread that called, and the ranges, each on its own.
+void add_ranges(Time begin, std::span<const std::unique_ptr<LargePair>> large, std::vector<TraceEvent>& events) {
+  if (large.empty()) return;
+  TraceEvent all{.kind = Kind::confirm, .begin = begin, .end = begin};
+  if (large.size() == 1) all.a = large[0]->culled.record->a, all.b = large[0]->culled.record->b;
+  for (const auto& pair : large) {
+    const PairRecord& record = *pair->culled.record;
+    for (const ConfirmedRange& range : pair->used_ranges()) {
+      events.push_back({Kind::range, range.thread, range.begin, range.end, record.a, record.b,
+                        static_cast<std::int64_t>(range.found.size())});
+    }
+    all.end = std::max(all.end, pair->end);
+    all.count += facet_pairs_of(record);
   }
+  events.push_back(all);
 }
 
 void add_stages(Time begin, Time end, const StepStats& stats, std::vector<TraceEvent>& events) {
@@ -74,15 +81,15 @@ bool before(const TraceEvent& x, const TraceEvent& y) {
 }  // namespace
 
 void StepTrace::make(Time begin, Time end, const StepStats& stats, std::span<const MovedPair> pairs,
-                     std::span<const std::unique_ptr<LargePair>> large, std::vector<TraceEvent>& events) {
+                     const NarrowPhase& narrow_phase, std::vector<TraceEvent>& events) {
   std::size_t most = refreshes_.size() + kEventsOfStep + kEventsOfPair * pairs.size();
-  for (const auto& work : large) most += work->range_count + 1;
+  for (const auto& pair : narrow_phase.large()) most += pair->range_count;
   events.reserve(most);
   events.assign(refreshes_.begin(), refreshes_.end());
   add_stages(begin, end, stats, events);
   add_pairs(pairs, events);
   if (stats.kdop_separated_pairs > 0) add_separated(begin + duration_of(stats.sweep_ms), stats, events);
-  for (const auto& work : large) add_ranges(*work, events);
+  add_ranges(narrow_phase.large_begin(), narrow_phase.large(), events);
   std::sort(events.begin(), events.end(), before);
 }
 

@@ -4,12 +4,11 @@
 #include <tact/statistics.h>
 #include <tact/trace.h>
 
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "engine/base/timer.h"
-#include "engine/pair/confirm.h"
+#include "engine/narrow_phase.h"
 #include "engine/pair/pair_table.h"
 
 namespace tact {
@@ -26,10 +25,9 @@ class StepTrace {
   void forget_refreshes() { refreshes_.clear(); }
 
   // Replaces `events` by those of a step from `begin` to `end`, with the refreshes before it, sorted by thread and
-  // time; an event stands before those within it. `pairs` are those that the step looked at and no k-DOP separates,
-  // `large` those cut into ranges.
+  // time; an event stands before those within it. `pairs` are those that the step looked at and no k-DOP separates.
   void make(Time begin, Time end, const StepStats& stats, std::span<const MovedPair> pairs,
-            std::span<const std::unique_ptr<LargePair>> large, std::vector<TraceEvent>& events);
+            const NarrowPhase& narrow_phase, std::vector<TraceEvent>& events);
 
  private:
   void add_pairs(std::span<const MovedPair> pairs, std::vector<TraceEvent>& events);

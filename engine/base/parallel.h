@@ -64,12 +64,17 @@ class FirstException {
   std::exception_ptr exception_;
 };
 
+// What parallel_for() does for a thread that is left without items, if nobody says otherwise.
+struct Nothing {
+  void operator()(int) const {}
+};
+
 // A loop that several threads do.
-template <class Work>
+template <class Work, class Afterwards>
 class SharedLoop {
  public:
-  SharedLoop(std::size_t count, std::size_t grain, int threads, const Work& work)
-      : count_(count), grain_(grain), blocks_((count + grain - 1) / grain), work_(work) {
+  SharedLoop(std::size_t count, std::size_t grain, int threads, const Work& work, const Afterwards& afterwards)
+      : count_(count), grain_(grain), blocks_((count + grain - 1) / grain), work_(work), afterwards_(afterwards) {
     share_count_ = std::min({static_cast<std::size_t>(threads), blocks_, kMostShares});
     for (std::size_t k = 0; k < share_count_; ++k) {
       shares_[k].next.store(blocks_ * k / share_count_, std::memory_order_relaxed);
@@ -84,6 +89,11 @@ class SharedLoop {
       BlockShare& share = shares_[(static_cast<std::size_t>(thread) + k) % share_count_];
       const auto take = [&] { return share.next.fetch_add(1, std::memory_order_relaxed); };
       for (std::size_t block = take(); block < share.end; block = take()) run_block(block, thread);
+    }
+    try {
+      afterwards_(thread);
+    } catch (...) {
+      failed_.keep(count_);
     }
   }
   std::size_t blocks() const { return blocks_; }
@@ -106,6 +116,7 @@ class SharedLoop {
   BlockShare shares_[kMostShares];
   std::size_t share_count_, count_, grain_, blocks_;
   const Work& work_;
+  const Afterwards& afterwards_;
   FirstException failed_;
 };
 
@@ -185,9 +196,11 @@ void run_on_executor(int threads, Executor& executor, const Run& run) {
 
 // Calls work(i), or work(i, thread) with 0 <= thread < threads, for every 0 <= i < count, `grain` neighbouring items at
 // a time, on up to `threads` threads. With one thread, or no more than `grain` items, it runs in the calling thread. Of
-// loops over the same items a thread takes the same part, as far as it can, and finds them in its cache.
-template <class Work>
-void parallel_for(std::size_t count, std::size_t grain, int threads, const Work& work) {
+// loops over the same items a thread takes the same part, as far as it can, and finds them in its cache. One of several
+// threads that is left without items, while others may still have some, calls afterwards(thread).
+template <class Work, class Afterwards = Nothing>
+void parallel_for(std::size_t count, std::size_t grain, int threads, const Work& work,
+                  const Afterwards& afterwards = {}) {
   if (threads <= 1 || count <= grain) {
     const FloatingPointMode mode;
     for (std::size_t i = 0; i < count; ++i) call_work(work, i, 0);
@@ -195,7 +208,7 @@ void parallel_for(std::size_t count, std::size_t grain, int threads, const Work&
   }
   Workers* const workers = Workers::current();
   const int allowed = workers != nullptr ? workers->allowed(threads) : threads;
-  SharedLoop<Work> loop(count, grain, allowed, work);
+  SharedLoop<Work, Afterwards> loop(count, grain, allowed, work, afterwards);
   const auto run = [&](int thread) { loop.run(thread); };
   if (workers != nullptr && workers->executor() != nullptr) {
     const auto tasks = std::min({loop.blocks(), static_cast<std::size_t>(threads), std::size_t{1024}});

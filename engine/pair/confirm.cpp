@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <utility>
 
-#include "engine/base/parallel.h"
 #include "engine/base/timer.h"
 
 namespace tact {
@@ -64,19 +64,6 @@ std::size_t count_of_ranges(std::size_t pairs, int threads, std::size_t fewest) 
   return at_once * std::clamp<std::size_t>(pairs / (2 * fewest * at_once), 1, kRangesPerThread);
 }
 
-void confirm_range(const LargePair& large, std::size_t i, const base::Tuning& tuning, FacetPairSearch& search,
-                   ConfirmedRange& range) {
-  const std::vector<ClusterPair>& pairs = large.culled.cluster_pairs;
-  range.begin = base::Timer::Clock::now();
-  range.found.clear();
-  range.counts = {};
-  search.run(large.culled.confirm_input(tuning), pairs, range_begin(pairs, i, large.range_count),
-             range_begin(pairs, i + 1, large.range_count), range.found, range.counts);
-  range.opened_a = search.opened_a();
-  range.opened_b = search.opened_b();
-  range.end = base::Timer::Clock::now();
-}
-
 // A cluster of B that several ranges opened counts once.
 OpenedFacets opened_in_ranges(LargePair& large, const base::Tuning& tuning) {
   OpenedFacets opened;
@@ -112,25 +99,39 @@ bool is_large(const CulledPair& culled, std::size_t pairs, int threads, const ba
   return culled.cluster_pairs.size() > (is_few(pairs, threads, tuning) ? tuning.large_of_few : tuning.large_pair);
 }
 
-void confirm_in_ranges(LargePair& large, std::span<PairWork> thread_work, int threads, const base::Tuning& tuning) {
+void LargePair::cut(int threads, const base::Tuning& tuning) {
+  range_count = count_of_ranges(culled.cluster_pairs.size(), threads, tuning.fewest_in_range);
+  next_range = 0;
+  end_range = range_count;
+  if (ranges.size() < range_count) ranges.resize(range_count);
+}
+
+void confirm_range(LargePair& large, std::size_t i, const base::Tuning& tuning, int thread, PairWork& work) {
+  const std::vector<ClusterPair>& pairs = large.culled.cluster_pairs;
+  ConfirmedRange& range = large.ranges[i];
+  range.thread = thread;
+  range.begin = base::Timer::Clock::now();
+  range.found.clear();
+  range.counts = {};
+  work.search.run(large.culled.confirm_input(tuning), pairs, range_begin(pairs, i, large.range_count),
+                  range_begin(pairs, i + 1, large.range_count), range.found, range.counts);
+  range.opened_a = work.search.opened_a();
+  range.opened_b = work.search.opened_b();
+  range.end = base::Timer::Clock::now();
+  work.counts.confirm_ms += std::chrono::duration<double, std::milli>(range.end - range.begin).count();
+}
+
+void gather_ranges(LargePair& large, const base::Tuning& tuning, int threads, PairWork& work) {
   base::Timer timer;
-  large.begin = timer.start();
-  large.range_count = count_of_ranges(large.culled.cluster_pairs.size(), threads, tuning.fewest_in_range);
-  if (large.ranges.size() < large.range_count) large.ranges.resize(large.range_count);
-  base::parallel_for(large.range_count, 1, threads, [&](std::size_t i, int thread) {
-    large.ranges[i].thread = thread;
-    confirm_range(large, i, tuning, thread_work[thread].search, large.ranges[i]);
-  });
   PairRecord& record = *large.culled.record;
   ConfirmCounts confirmed;
   for (const ConfirmedRange& range : large.used_ranges()) {
     record.facet_pairs.insert(record.facet_pairs.end(), range.found.begin(), range.found.end());
     confirmed += range.counts;
   }
-  finish(large.culled, opened_in_ranges(large, tuning), confirmed, threads, thread_work[0]);
-  const double confirm_ms = timer.lap();
-  record.times.confirm_ms = static_cast<float>(confirm_ms);
-  thread_work[0].counts.confirm_ms += confirm_ms;
+  finish(large.culled, opened_in_ranges(large, tuning), confirmed, threads, work);
+  work.counts.confirm_ms += timer.lap();
+  large.end = timer.start();
 }
 
 }  // namespace tact

@@ -20,11 +20,14 @@ struct ConfirmedRange {
 /// A pair that is put aside for all threads.
 struct LargePair {
   CulledPair culled;
-  TraceEvent::Time begin;
   std::vector<ConfirmedRange> ranges;  ///< memory of earlier pairs; `range_count` of them are this one's
   std::size_t range_count = 0;
-  std::vector<char> seen_b;  ///< scratch, by kept cluster of B
+  std::size_t next_range = 0, end_range = 0;  ///< no thread has taken those between
+  TraceEvent::Time end;                       ///< when all that was found stood in the record
+  std::vector<char> seen_b;                   ///< scratch, by kept cluster of B
 
+  /// Into ranges that no thread has taken yet.
+  void cut(int threads, const base::Tuning& tuning);
   std::span<const ConfirmedRange> used_ranges() const { return std::span(ranges).first(range_count); }
 };
 
@@ -37,8 +40,10 @@ bool is_few(std::size_t pairs, int threads, const base::Tuning& tuning);
 /// Does it pay to share out the pair among threads, one of `pairs` pairs that a step looks at?
 bool is_large(const CulledPair& culled, std::size_t pairs, int threads, const base::Tuning& tuning);
 
-/// The same answer as confirm(), with the cluster pairs cut into ranges. `thread_work` lends a PairWork to each thread;
-/// that of the calling one counts.
-void confirm_in_ranges(LargePair& large, std::span<PairWork> thread_work, int threads, const base::Tuning& tuning);
+/// Searches a range. All of them together, and gather_ranges(), give the answer of confirm().
+void confirm_range(LargePair& large, std::size_t range, const base::Tuning& tuning, int thread, PairWork& work);
+
+/// Puts what the ranges found into the record.
+void gather_ranges(LargePair& large, const base::Tuning& tuning, int threads, PairWork& work);
 
 }  // namespace tact

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cfenv>
 #include <chrono>
@@ -35,6 +36,27 @@ TEST(ParallelFor, VisitsEveryItemOnce) {
       }
     }
   }
+}
+
+TEST(ParallelFor, CallsAfterwardsOnceForEachOfSeveralThreads) {
+  std::array<std::atomic<int>, 3> calls{};
+  parallel_for(
+      100, 1, 3, [](std::size_t) {}, [&](int thread) { ++calls[static_cast<std::size_t>(thread)]; });
+  for (const std::atomic<int>& of_thread : calls) EXPECT_EQ(of_thread, 1);
+  parallel_for(
+      100, 1, 1, [](std::size_t) {}, [&](int) { ++calls[0]; });
+  EXPECT_EQ(calls[0], 1);
+}
+
+TEST(ParallelFor, ThrowsWhatAfterwardsThrowsUnlessAnItemDid) {
+  const auto fail = [](int) { throw std::runtime_error("afterwards"); };
+  EXPECT_THROW(parallel_for(
+                   100, 1, 2, [](std::size_t) {}, fail),
+               std::runtime_error);
+  const auto fail_first = [](std::size_t i) {
+    if (i == 7) throw std::logic_error("item 7");
+  };
+  EXPECT_THROW(parallel_for(100, 1, 2, fail_first, fail), std::logic_error);
 }
 
 // The number given to an item is that of its thread: no two items run at the same time with the same number.

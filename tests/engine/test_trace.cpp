@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -140,6 +141,39 @@ TEST(Trace, NamesALargePairWithItsStagesAndRanges) {
     EXPECT_LE(range.end, events_of(report, Kind::confirm)[0].end);
   }
   EXPECT_EQ(found, facet_pairs);
+}
+
+// Threads that are left without pairs take ranges of large ones, while others still have pairs.
+TEST(Trace, OfSeveralLargePairsTellsOfEveryRange) {
+  const Mesh ball = icosphere(5);
+  const std::array bodies{ball, translated(scaled(ball, 0.98), {0.03, 0.01, 0.0}), translated(ball, {1.9, 0.0, 0.0}),
+                          translated(scaled(ball, 0.97), {1.92, 0.02, 0.0})};
+  World alone({.threads = 1});
+  add_bodies(alone, bodies);
+  const Report& expected = alone.detect();
+  World world({.threads = 3, .outputs = {.trace = true}});
+  add_bodies(world, bodies);
+  for (int step = 0; step < 20; ++step) {
+    const Report& report = world.detect();
+    EXPECT_EQ(report.hash(), expected.hash());
+    EXPECT_TRUE(is_nested(report.trace()));
+    std::map<std::pair<BodyId, BodyId>, std::int64_t> found;
+    for (const TraceEvent& range : events_of(report, Kind::range)) found[{range.a, range.b}] += range.count;
+    EXPECT_GE(found.size(), 2u);
+    std::int64_t all = 0;
+    for (const Contact& contact : report.contacts()) {
+      const auto facet_pairs = static_cast<std::int64_t>(contact.facet_pairs().size());
+      if (!found.contains({contact.a, contact.b})) continue;
+      EXPECT_EQ(found.at({contact.a, contact.b}), facet_pairs);
+      all += facet_pairs;
+    }
+    std::int64_t told = 0;
+    for (const TraceEvent& confirm : events_of(report, Kind::confirm)) {
+      if (confirm.a == confirm.b) told += confirm.count;
+    }
+    EXPECT_EQ(told, all);
+    world.set_settings(world.settings());  // looks at all pairs again
+  }
 }
 
 TEST(Trace, OneThreadCutsNothing) {

@@ -20,8 +20,9 @@ struct TraceEvent {
     hulls,         ///< stage 3 of it
     direction,     ///< stage 4 of it
     cull,          ///< stage 5 of it
-    confirm,       ///< stage 6 of it; of a large pair after all others, outside its `pair`, on all threads in ranges
-    range,         ///< one thread's part in stage 6 of a large pair
+    confirm,       ///< stage 6 of it; of all large pairs what is left of it when there are no other pairs, in one event
+                   ///< on the thread that called, which names the pair if it is the only one
+    range,         ///< one thread's part in stage 6 of a large pair, in `confirm` or before it
     small_pairs,   ///< pairs that took less, one after the other
     /// pairs that an axis of the 18-DOPs separates: all are asked at once, on all threads, shown on the one that called
     kdop_separated_pairs,
