@@ -146,7 +146,6 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   slots_[slot].rigid = rigid ? rigid_states_.take() : nullptr;
   if (rigid) body->mesh.make_rigid(&slots_[slot].rigid->pose), body->mesh.place();
   slots_[slot].knows_box = slots_[slot].to_place = false;
-  slots_[slot].is_placed = true;
   rigid_count_ += rigid ? 1 : 0;
   self_count_ += definition.self_contact ? 1 : 0;
   slots_[slot].begin = Begin::here;

@@ -174,7 +174,6 @@ class Bodies {
     std::int32_t vertex_count = 0;  // the caller's; with `fixed`, so that a batch can be looked over without the bodies
     bool fixed = false;
     bool knows_box = false;  // of a rigid body: is its entry of placed_boxes_ that of its pose?
-    bool is_placed = true;   // of a rigid body: otherwise place() found its box alone, or nothing
     bool to_place = false;
     bool changed = false;
     bool seen = false;  // by a step
@@ -210,10 +209,7 @@ class Bodies {
   PoseChange checked(const PoseUpdate& update) const;
   void publish(const PoseChange& change, const PoseUpdate& update);
   void note_to_place(std::uint32_t index);
-  template <class Work>
-  void for_each_to_place(int threads, const Work& work);
-  void place_in_cache(std::uint32_t index);
-  bool place_or_find_box(std::uint32_t index);
+  bool place_in_cache(std::uint32_t index);
   void prefetch_poses(std::span<const PoseUpdate> updates, std::size_t i) const;
   void pack_meshes(int threads);
   void make_updates(std::size_t count);
