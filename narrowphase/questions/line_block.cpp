@@ -73,7 +73,7 @@ class Block {
   void answer() {
     for (find_next(); count_ > 0; find_next()) {
       find_facets();
-      prefetch_facets();
+      if (mesh_.cluster_count() > kMostInCache) prefetch_facets();
       for (std::size_t i = 0; i < count_; ++i) meet_facets(asking_[i]);
     }
   }
