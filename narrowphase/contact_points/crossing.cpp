@@ -112,8 +112,10 @@ CrossedVertices CrossingSearch::begin(const CrossingInput& input) {
   edge_hits_.run(a_.mesh, b_.mesh, input.facet_pairs, a_.cut.edge_hits(), b_.cut.edge_hits());
   a_.cut.order_hits();
   b_.cut.order_hits();
-  find_crossed(a_, b_);
-  find_crossed(b_, a_);
+  // Into a closed mesh first: the ways out of it tell on which side of a sheet it belongs.
+  const bool into_a_first = a_.surface == SurfaceKind::closed && b_.surface == SurfaceKind::sheet;
+  find_crossed(into_a_first ? b_ : a_, into_a_first ? a_ : b_);
+  find_crossed(into_a_first ? a_ : b_, into_a_first ? b_ : a_);
   a_.mark_crossed();
   b_.mark_crossed();
   return {a_.has_crossed, b_.has_crossed};
@@ -150,15 +152,27 @@ void CrossingSearch::find_patch_directions(Side& own, const Side& other) {
   }
   for (const EdgeHit& hit : own.cut.hits()) {
     PatchDirection& one = patches_[own.cut.patch_of(hit.vertices[0])];
-    one.entered = one.entered + other.scaled(scale_).unit_normal(other.mesh.mesh->facet_of_source(hit.facet));
-    ++one.entries;
+    const int facet = other.mesh.mesh->facet_of_source(hit.facet);
+    if (other.surface == SurfaceKind::closed) {
+      one.entered = one.entered + other.scaled(scale_).unit_normal(facet);
+      ++one.entries;
+    } else if (own.surface == SurfaceKind::closed) {
+      for (const int corner : other.mesh.mesh->corners(facet)) {
+        const int source = other.mesh.mesh->source_vertex(corner);
+        const Crossed* crossed = other.find(source);
+        const CarriedNormal* carried = other.carried_normal(source);
+        if (crossed == nullptr || (carried != nullptr && carried->gap < 0.0)) continue;
+        one.entered = one.entered - crossed->way.out;
+        ++one.entries;
+      }
+    }
   }
   for (PatchDirection& one : patches_) {
     const bool agree = one.entries > 0 && norm(one.entered) > kAgree * one.entries;
-    one.facing = one.of_crossed != Vec3{}                        ? one.of_crossed
-                 : one.of_others != Vec3{}                       ? one.of_others
-                 : agree && other.surface == SurfaceKind::closed ? one.entered
-                                                                 : own.sign * direction_;
+    one.facing = one.of_crossed != Vec3{}  ? one.of_crossed
+                 : one.of_others != Vec3{} ? one.of_others
+                 : agree                   ? one.entered
+                                           : own.sign * direction_;
     one.facing = normalized(one.facing);
   }
 }
@@ -168,10 +182,11 @@ Vec3 CrossingSearch::facing_of_patch(const Side& own, int source_vertex) const {
   return patch < 0 ? own.sign * direction_ : patches_[patch].facing;
 }
 
-std::optional<Vec3> CrossingSearch::facing_of_vertex(const Side& own, int source_vertex) const {
+std::optional<Vec3> CrossingSearch::facing_of_vertex(const Side& own, int source_vertex, SurfaceKind other) const {
   const CarriedNormal* carried = own.carried_normal(source_vertex);
   if (carried == nullptr) return {};
   const Vec3 facing = own.sign * carried->normal;
+  if (other == SurfaceKind::sheet) return facing;
   if (carried->gap >= 0.0 && dot(facing, facing_of_patch(own, source_vertex)) < 0.0) return {};
   return facing;
 }
@@ -190,7 +205,7 @@ void CrossingSearch::find_ways_out(Side& own, const Side& other) {
     const int source = own.mesh.mesh->source_vertex(vertex);
     const Vec3 v = from.position(vertex), facing = facing_of_patch(own, source);
     std::optional<WayOut> way;
-    if (const auto carried = facing_of_vertex(own, source))
+    if (const auto carried = facing_of_vertex(own, source, SurfaceKind::closed))
       way = ways_.nearest_out(v, *carried, kSameSide, limit_, hint);
     if (!way) way = ways_.nearest_out(v, facing, kFaces, limit_, hint);
     if (!way) way = way_out_along(surface, v, contact, limit_);
@@ -213,7 +228,8 @@ void CrossingSearch::find_ways_through(Side& own, const Side& sheet) {
     const Vec3 normal = surface.unit_normal(facet);
     const EdgeVertices ends = own.mesh.features->edge(hit.edge);
     for (std::size_t k = 0; k < 2; ++k) {
-      const Vec3 facing = facing_of_vertex(own, hit.vertices[k]).value_or(facing_of_patch(own, hit.vertices[k]));
+      const Vec3 facing =
+          facing_of_vertex(own, hit.vertices[k], SurfaceKind::sheet).value_or(facing_of_patch(own, hit.vertices[k]));
       const double along = dot(normal, facing);
       const int below = orient3d(t[0], t[1], t[2], own.mesh.mesh->position(ends[k]), counts);
       if (along != 0.0 && below == (along > 0.0 ? 1 : -1))
@@ -238,7 +254,9 @@ void CrossingSearch::reach_through(Side& own) {
   int last = -1;
   for (const Reached& one : reached_) {
     if (one.source_vertex == last || own.cut.is_inside(one.source_vertex)) continue;
-    const auto way = ways_.nearest_through(from.position(one.vertex), one.facing, limit_, one.hint);
+    const CarriedNormal* carried = own.carried_normal(one.source_vertex);
+    const Vec3 facing = carried != nullptr && carried->gap > 0.0 ? own.sign * carried->normal : one.facing;
+    const auto way = ways_.nearest_through(from.position(one.vertex), facing, limit_, one.hint);
     if (!way) continue;
     last = one.source_vertex;
     own.cut.add_inside(own.mesh, one.vertex, one.from);

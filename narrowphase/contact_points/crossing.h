@@ -13,9 +13,10 @@
 // thin part, and goes in again, goes back with the others.
 //
 // Through a sheet. A vertex whose edge the sheet cuts, and which is on the other side than its normal in the last step
-// says, or that of its patch, or the contact direction if these had none, has one point: its distance to the sheet,
-// negative. So have the vertices around it as far as they are on that side, above the inside of the sheet and not
-// deeper than the hulls.
+// says, or that of its patch, has one point: its distance to the sheet, negative. If these had none, of a closed mesh
+// the ways out of it tell that corners of the sheet have which were not in it before, where these agree; or else the
+// contact direction. Vertices around it have one as far as they are on that side, by their own normal of the last step
+// if its gap was positive, above the inside of the sheet and not deeper than the hulls.
 //
 // A patch is, for either mesh, what facets that meet join, and what is inside and hangs together with it.
 //
@@ -106,7 +107,7 @@ class CrossingSearch {
   void find_ways_out(Side& own, const Side& other);
   void find_patch_directions(Side& own, const Side& other);
   Vec3 facing_of_patch(const Side& own, int source_vertex) const;
-  std::optional<Vec3> facing_of_vertex(const Side& own, int source_vertex) const;
+  std::optional<Vec3> facing_of_vertex(const Side& own, int source_vertex, SurfaceKind other) const;
   void find_ways_through(Side& own, const Side& sheet);
   void reach_through(Side& own);
   void spread_through(Side& own);

@@ -54,6 +54,14 @@ Vec3 place(const Mesh& mesh, const std::array<int, 3>& vertices, const std::arra
   return p;
 }
 
+int lowest_vertex(const Mesh& mesh) {
+  int lowest = mesh.facets(0, 0);
+  for (const int v : mesh.facets.reshaped()) {
+    if (mesh.position(v).z < mesh.position(lowest).z) lowest = v;
+  }
+  return lowest;
+}
+
 // What holds of any point: its gap is the distance of its two places along its normal.
 void expect_places_to_agree(const Contact& contact, const Mesh& a, const Mesh& b) {
   for (const ContactPoint& point : contact.points()) {
@@ -274,6 +282,47 @@ TEST(Gaps, OfAClothAreNegativeOnTheOtherSideThanBefore) {
       }
       const Contact* beyond = two.at({0.01, 0.02, -side * 0.53});
       EXPECT_TRUE(beyond == nullptr || gaps_of_b(*beyond).empty());
+    }
+  }
+}
+
+// A dome that reaches below the middle of a ball, with one vertex at its border dented into the ball. There the contact
+// direction, along the dome's axis, shows to the wrong side: the ball would have to leave through the dome.
+TEST(Gaps, OfAClothThatWrapsABallAreNoDeeperThanItsDent) {
+  const Mesh ball = rotated(icosphere(3, 0.4), rotation(0.3, 0.4, -0.5, 0.7));
+  Mesh dome = icosphere(3, 0.41);
+  std::vector<int> kept;
+  for (int f = 0; f < dome.facet_count(); ++f) {
+    const auto corner = [&](int k) { return dome.position(dome.facets(k, f)); };
+    if (std::min({corner(0).z, corner(1).z, corner(2).z}) > -0.25) kept.push_back(f);
+  }
+  dome.facets = Eigen::Matrix3Xi(dome.facets(Eigen::all, kept));
+  const int border = lowest_vertex(dome);
+  const Mesh flawless = dome;
+  dome.positions.col(border) *= 0.392 / 0.41;
+  for (const double margin : {0.0, 0.004}) {
+    for (const bool looked_before : {false, true}) {
+      for (const bool dome_first : {true, false}) {
+        World world(kPoints);
+        const auto add_dome = [&] {
+          return world.add_body(gap_body(looked_before ? flawless : dome, margin, Surface::sheet));
+        };
+        const BodyId first = dome_first ? add_dome() : world.add_body(gap_body(ball, margin));
+        const BodyId second = dome_first ? world.add_body(gap_body(ball, margin)) : add_dome();
+        if (looked_before) world.detect();
+        world.set_positions(dome_first ? first : second, dome.positions);
+        const Contact* contact = world.detect().find_contact(first, second);
+        ASSERT_NE(contact, nullptr);
+        ASSERT_TRUE(contact->touching());
+        int crossed = 0;
+        for (const ContactPoint& point : contact->points()) {
+          if (point.gap >= 0.0) continue;
+          ++crossed;
+          EXPECT_GT(point.gap, -0.012) << margin << " " << looked_before << " " << dome_first;
+        }
+        EXPECT_GT(crossed, 0);
+        EXPECT_LT(crossed, 20);
+      }
     }
   }
 }

@@ -20,8 +20,8 @@ namespace tact {
 ///     agree. So the gap of a shallow vertex is its distance from the surface, and a vertex deep in a thin part keeps
 ///     its side. It is never deeper than the hulls of the contact overlap;
 ///   - each vertex on the wrong side of a sheet, as far as it hangs together with an edge that the sheet cuts, has one:
-///     the wrong side is the other one than in the last step, or that of its patch; for a patch that is new, the other
-///     one than the contact direction shows;
+///     the wrong side is the other one than in the last step, or that of its patch; for a patch that is new, the one to
+///     which corners of the sheet leave a closed body they came into, or the other one than the contact direction's;
 ///   - two edges that have passed each other have one, if one meets a facet of the other; an edge that runs through a
 ///     closed body has one with the nearest edge that it has passed, if there is one.
 /// A closed body that crosses itself, or a sheet without a margin, has them, too; a sheet with a margin has none.
