@@ -323,17 +323,21 @@ Vec3 MeetingSearch::direction_to(const Moment& m) const {
   const Vec3 normal = count_ < 3 ? Vec3{} : unit(cross(p[1] - p[0], p[count_ - 1] - p[0]));
   bool inside = normal != Vec3{};
   double least = Meeting::kNever;
-  Vec3 nearest;
+  Vec3 nearest_point, nearest_side;
+  bool within_side = false;
   for (int i = 0; i < count_; ++i) {
-    const Vec3 from = p[i], side = p[(i + 1) % count_] - from;
+    const Vec3 from = p[i], side = p[i + 1 < count_ ? i + 1 : 0] - from;
     inside = inside && dot(cross(side, from), normal) <= 0.0;
     const double length2 = norm_squared(side), along = -dot(from, side);
     const bool between = along > 0.0 && along < length2;
     const Vec3 point = between ? from + along / length2 * side : along <= 0.0 ? from : from + side;
     if (norm_squared(point) >= least) continue;
     least = norm_squared(point);
-    nearest = between ? perpendicular(unit(point), side) : unit(point);
+    nearest_point = point;
+    nearest_side = side;
+    within_side = between;
   }
+  const Vec3 nearest = within_side ? perpendicular(unit(nearest_point), nearest_side) : unit(nearest_point);
   if (!inside) return nearest;
   // For a polygon with next to no area, rounding may say so of any point.
   const Vec3 above = dot(normal, p[0]) < 0.0 ? -normal : normal;

@@ -1,0 +1,71 @@
+// What the loops of questions to the world read and write: rays and nearest points.
+#pragma once
+
+#include <cstdint>
+
+namespace tact::narrowphase {
+
+// A segment, for the question when it enters boxes. Where it is parallel to an axis, or as good as, `inverse` is zero;
+// then `stays` tells whether it is so exactly, or else that axis rules nothing out.
+struct SegmentSlabs {
+  double from[3];
+  double inverse[3];  // 1 / the way along each axis
+  bool stays[3];
+};
+
+// Some of many boxes, with a number each: the squared distance from a point, or when a segment enters.
+struct alignas(64) RankedBoxes {
+  static constexpr int kMost = 512;
+  double rank[kMost + 8];
+  std::int32_t index[kMost + 8];
+  int count = 0;
+};
+
+// A line, for the question which facets it may meet: `axis` are those of space in an order in which the way is longest
+// along the last, of which it goes slope[0] and slope[1] along the others. Seen along the line a point is off by at
+// most `error`.
+struct LineOfSight {
+  int axis[3];
+  double from[3];  // in the order of space
+  double slope[2];
+  double error;
+};
+
+// The corners of a cluster's facets in floats, one beside the other: (x - origin) scale, at most 1 in size; what
+// follows the last facet is like its first vertex.
+struct alignas(64) LinedFacets {
+  static constexpr int kMost = 64;
+  float corner[3][3][kMost];  // of each corner its coordinates
+  double origin[3];
+  double scale;
+  std::int32_t count;
+};
+
+// Boxes in floats about a middle, in a unit in which no coordinate exceeds 1: lower x, y, z, upper x, y, z, an array
+// each. Of what is read at once 64 bytes more can be read.
+struct LinedBoxes {
+  const float* bounds[6];
+};
+
+// A segment in the same unit, and the boxes that it enters, with when at the earliest. Of an axis x is passed at
+// x inverse - enter_at at the earliest, and at x inverse - leave_at at the latest.
+struct alignas(64) EnteringLine {
+  static constexpr int kMost = 128;
+  float rank[kMost + 32];
+  std::int32_t index[kMost + 32];
+  float inverse[3], enter_at[3], leave_at[3];
+  float latest;
+  int count;
+  bool overflows;      // there were more
+  std::int32_t taken;  // the index of what take_nearest() took
+};
+
+// Facets of a cluster, and what their squared distances from a point are at least, in a unit of the caller's.
+struct alignas(64) FacetDistances {
+  static constexpr int kCapacity = 64;
+  double least_squared[kCapacity + 8];
+  std::uint8_t facet[2 * kCapacity];  // counted from the first one
+  int count;
+};
+
+}  // namespace tact::narrowphase
