@@ -40,8 +40,8 @@ bool is_few(std::size_t pairs, int threads, const base::Tuning& tuning);
 /// Does it pay to share out the pair among threads, one of `pairs` pairs that a step looks at?
 bool is_large(const CulledPair& culled, std::size_t pairs, int threads, const base::Tuning& tuning);
 
-/// Searches a range. All of them together, and gather_ranges(), give the answer of confirm().
-void confirm_range(LargePair& large, std::size_t range, const base::Tuning& tuning, int thread, PairWork& work);
+/// Searches the i-th range. All of them together, and gather_ranges(), give the answer of confirm().
+void confirm_range(LargePair& large, std::size_t i, const base::Tuning& tuning, int thread, PairWork& work);
 
 /// Puts what the ranges found into the record.
 void gather_ranges(LargePair& large, const base::Tuning& tuning, int threads, PairWork& work);
