@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,6 +13,13 @@
 namespace tact::narrowphase {
 
 using EdgeVertices = std::array<int, 2>;
+
+/// The numbers of a cluster's vertices: FeatureCorners of vertices alone. 64 more than there can be may be read.
+inline constexpr auto kEachVertex = [] {
+  std::array<std::uint8_t, ClusterPoints::kRoom> numbers{};
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<std::uint8_t>(i);
+  return numbers;
+}();
 
 class Features {
  public:

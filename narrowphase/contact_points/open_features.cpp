@@ -7,14 +7,7 @@ namespace tact::narrowphase {
 
 namespace {
 
-constexpr int kMostFeatures = OpenFeatures::kMostBlocks * FeatureBlock::kCapacity;
-
-// The vertices that a cluster owns are numbered through; so many more may be read.
-constexpr auto kNumbers = [] {
-  std::array<std::uint8_t, kMostFeatures + 64> numbers{};
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<std::uint8_t>(i);
-  return numbers;
-}();
+static_assert(OpenFeatures::kMostBlocks * FeatureBlock::kCapacity + 64 <= kEachVertex.size());
 
 int blocks_of(int count) { return (count + FeatureBlock::kCapacity - 1) / FeatureBlock::kCapacity; }
 
@@ -36,7 +29,7 @@ void OpenFeatures::open(const ScaledMesh& m, int which, const Box& box, const Gr
   for (int k = 0; k < vertex_blocks; ++k) {
     const int first = k * FeatureBlock::kCapacity;
     const int count = std::min(all.owned_count - first, FeatureBlock::kCapacity);
-    kernels().place_features(points, {{kNumbers.data() + first}, 1, count}, grid, widen, &vertices[k]);
+    kernels().place_features(points, {{kEachVertex.data() + first}, 1, count}, grid, widen, &vertices[k]);
   }
   const int edges_in_all = m.features.edge_end(which) - first_edge;
   edge_blocks = blocks_of(edges_in_all);

@@ -74,22 +74,6 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
   return found;
 }
 
-int select_within(const BoxPointers& boxes, int count, const double* point, double within_squared,
-                  std::int32_t* indices) {
-  const Pack most = spread(within_squared), zero = spread(0.0);
-  int found = 0;
-  for (int i = 0; i < count; i += kWidth) {
-    Pack sum = zero;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Pack x = spread(point[axis]);
-      const Pack away = max(max(sub(load(boxes.lower[axis] + i), x), sub(x, load(boxes.upper[axis] + i))), zero);
-      sum = add(sum, mul(away, away));
-    }
-    found = append(bits(less_equal(sum, most)) & lanes_left(count - i), i, indices, found);
-  }
-  return found;
-}
-
 Culled cull_boxes(const BoxPointers& boxes, int count, const CullPlanes& planes, std::int32_t* indices) {
   const BoxPack box(planes.box);
   const HeightPack height(planes.axis);

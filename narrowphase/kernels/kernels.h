@@ -41,9 +41,6 @@ struct Kernels {
 
   // Writes the indices i < count of boxes that overlap `box` (closed), ascending; returns how many.
   int (*select_overlapping)(const BoxPointers& boxes, int count, const BoxBounds& box, std::int32_t* indices);
-  // The same of boxes (closed) whose squared distance from a point is at most `within_squared`, but for rounding.
-  int (*select_within)(const BoxPointers& boxes, int count, const double* point, double within_squared,
-                       std::int32_t* indices);
   // The same of boxes that the planes leave. A box that misses that of the planes does not count as too low.
   Culled (*cull_boxes)(const BoxPointers& boxes, int count, const CullPlanes& planes, std::int32_t* indices);
 

@@ -32,7 +32,6 @@ constexpr Kernels all_kernels(const char* name) {
           .select_heights = select_heights,
           .highest_point = highest_point,
           .select_overlapping = select_overlapping,
-          .select_within = select_within,
           .cull_boxes = cull_boxes,
           .open_cluster = open_cluster,
           .localize = localize,

@@ -87,13 +87,6 @@ const VertexWays& find_ways(MovingCluster& cluster, const Cut& cut) {
   return ways;
 }
 
-// The numbers of a cluster's vertices.
-constexpr auto kEachVertex = [] {
-  std::array<std::uint8_t, VertexWays::kRoom> numbers{};
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<std::uint8_t>(i);
-  return numbers;
-}();
-
 // The features of a cluster that come near the box of another one: its facets, and the vertices and edges that it has
 // first.
 struct NearFeatures {
