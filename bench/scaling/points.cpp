@@ -147,6 +147,7 @@ int run_points(const BenchOptions& options) {
   for (const NamedWorkload& named : rival_workloads(options.quick ? Size::small : Size::full)) {
     if (named.name.find(options.only) == std::string::npos) continue;
     any = true;
+    fmt::print(stderr, "{}\n", named.name);
     const PointTimes m = measure(named.make(), named.name, budget_ms, options.quick ? 4 : 2);
     table.add({named.name, fmt::format("{:.0f}", m.points), three_digits(m.without), three_digits(m.with),
                three_digits(m.with / m.without), three_digits(m.with_patches), three_digits(m.embree),
