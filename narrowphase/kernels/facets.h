@@ -96,6 +96,12 @@ struct LocalFrame {
   double error;  // of any coordinate, at most
 };
 
+// Where the normals of facets point.
+struct NormalSpread {
+  double axis[3] = {};  // of their sum, a unit vector
+  double least = 0.0;   // cosine between it and one of them, times its own size
+};
+
 // What facets are judged by.
 struct CullPlanes {
   HeightAxis axis;

@@ -147,6 +147,54 @@ Culled open_cluster(const ClusterFacets& in, const CullPlanes& planes, FacetBloc
   return opened;
 }
 
+// Adds up in one order, whatever the width.
+inline double sum_of_eight(const double* p) {
+  return ((p[0] + p[4]) + (p[2] + p[6])) + ((p[1] + p[5]) + (p[3] + p[7]));
+}
+
+NormalSpread normal_spread(const ClusterFacets& in, double least_sine_squared) {
+  ClusterVertices v;
+  load_vertices(in, &v);
+  alignas(64) std::uint8_t corner[3][2 * FacetBlock::kCapacity] = {};
+  for (int k = 0; k < 3; ++k) __builtin_memcpy(corner[k], in.corner[k], static_cast<unsigned>(in.facet_count));
+  alignas(64) double normal[3][FacetBlock::kCapacity], square[FacetBlock::kCapacity], sums[3][8] = {};
+  unsigned flat = 0;
+  for (int i = 0; i < in.facet_count; i += kWidth) {
+    VectorPack p[3];
+    for (int k = 0; k < 3; ++k)
+      p[k] = {gather(v.x, corner[k] + i), gather(v.y, corner[k] + i), gather(v.z, corner[k] + i)};
+    const VectorPack e = sub(p[1], p[0]), g = sub(p[2], p[0]);
+    const VectorPack n{sub(mul(e.y, g.z), mul(e.z, g.y)), sub(mul(e.z, g.x), mul(e.x, g.z)),
+                       sub(mul(e.x, g.y), mul(e.y, g.x))};
+    const Pack squared = dot(n, n), least = mul(mul(spread(least_sine_squared), dot(e, e)), dot(g, g));
+    flat |= ~bits(less(least, squared)) & lanes_left(in.facet_count - i);
+    store(square + i, squared);
+    const Pack coordinates[3] = {n.x, n.y, n.z};
+    for (int axis = 0; axis < 3; ++axis) {  // past the end there is no normal: all corners are the first vertex
+      store(normal[axis] + i, coordinates[axis]);
+      double* const sum = sums[axis] + i % 8;
+      store(sum, add(load(sum), coordinates[axis]));
+    }
+  }
+  if (flat != 0) return {};
+  const double x = sum_of_eight(sums[0]), y = sum_of_eight(sums[1]), z = sum_of_eight(sums[2]);
+  const double length = __builtin_sqrt(x * x + y * y + z * z);
+  if (!(length > 0.0)) return {};
+  NormalSpread spread_of{{x / length, y / length, z / length}, 1.0};
+  const Pack ax = spread(spread_of.axis[0]), ay = spread(spread_of.axis[1]), az = spread(spread_of.axis[2]);
+  Pack least = spread(1.0);
+  for (int i = 0; i < in.facet_count; i += kWidth) {
+    const Pack along =
+        add(add(mul(load(normal[0] + i), ax), mul(load(normal[1] + i), ay)), mul(load(normal[2] + i), az));
+    const Pack cosine = div(mul(along, abs(along)), load(square + i));
+    least = min(least, select(mask_of(lanes_left(in.facet_count - i)), cosine, least));
+  }
+  alignas(64) double lane[kWidth];
+  store(lane, least);
+  for (const double one : lane) spread_of.least = one < spread_of.least ? one : spread_of.least;
+  return spread_of;
+}
+
 inline Pack place_in(const Grid& grid, int axis, Pack x) {
   return mul(sub(x, spread(grid.origin[axis])), spread(grid.scale[axis]));
 }

@@ -12,6 +12,7 @@
 #include "narrowphase/kernels/boxes.h"
 #include "narrowphase/kernels/facets.h"
 #include "narrowphase/kernels/features.h"
+#include "narrowphase/kernels/polygons.h"
 #include "narrowphase/kernels/questions.h"
 #include "narrowphase/kernels/refit.h"
 
@@ -47,6 +48,10 @@ struct Kernels {
   // Appends to `block` the facets of a cluster that the planes leave; if it has no room for all, appends none. Returns
   // how many they are.
   Culled (*open_cluster)(const ClusterFacets& cluster, const CullPlanes& planes, FacetBlock* block);
+
+  // Of the normals of a cluster's facets, each as long as twice its area; all is zero if their sum is, or if the sine
+  // of a facet's angle at its first corner, squared, is not more than `least_sine_squared`.
+  NormalSpread (*normal_spread)(const ClusterFacets& cluster, double least_sine_squared);
 
   // The vertices of a cluster: (x - origin) scale, rounded to floats.
   void (*localize)(const ClusterFacets& cluster, const double* origin, double scale, const LocalVertices& vertices);
@@ -163,6 +168,9 @@ struct Kernels {
                       FacetDistances* facets);
   // The facets of a block whose boxes are as near to a point as `most`, likewise; counted from the first of the block.
   void (*rank_block)(const FacetBlock& block, const double* point, double scale, double most, FacetDistances* facets);
+
+  // Does a closed polygon certainly come to no point twice? Its room is written.
+  bool (*comes_nowhere_twice)(FlatPolygon* polygon);
 
   // Writes a bit for each side of the box that a vertex stays beyond, a byte a vertex; up to 8 bytes more are written.
   void (*flag_ways)(const VertexWays& vertices, const BoxBounds& box, std::uint8_t* outside);

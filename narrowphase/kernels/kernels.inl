@@ -14,6 +14,7 @@
 #include "narrowphase/kernels/motion.inl"
 #include "narrowphase/kernels/place.inl"
 #include "narrowphase/kernels/points.inl"
+#include "narrowphase/kernels/polygons.inl"
 #include "narrowphase/kernels/questions.inl"
 #include "narrowphase/kernels/refit.inl"
 #include "narrowphase/kernels/sort.inl"
@@ -34,6 +35,7 @@ constexpr Kernels all_kernels(const char* name) {
           .select_overlapping = select_overlapping,
           .cull_boxes = cull_boxes,
           .open_cluster = open_cluster,
+          .normal_spread = normal_spread,
           .localize = localize,
           .mean_normal = mean_normal,
           .range_along = range_along,
@@ -71,6 +73,7 @@ constexpr Kernels all_kernels(const char* name) {
           .take_nearest = take_nearest,
           .rank_facets = rank_facets,
           .rank_block = rank_block,
+          .comes_nowhere_twice = comes_nowhere_twice,
           .flag_ways = flag_ways,
           .append_near_ways = append_near_ways,
           .apart_throughout = apart_throughout};

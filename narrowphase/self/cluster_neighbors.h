@@ -1,7 +1,9 @@
-// Which clusters of a mesh lie beside each other, and along which edges. It depends on facets alone, so it is made once
-// and holds while the mesh moves.
+// Which clusters of a mesh lie beside each other, and along which edges they and the corners where they meet end. It
+// depends on facets alone, so it is made once and holds while the mesh moves.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -35,6 +37,16 @@ class ClusterNeighbors {
   std::span<const Side> sides(const Rim& rim) const {
     return std::span(sides_).subspan(rim.begin, rim.end - rim.begin);
   }
+  /// Corners: clusters that meet at a vertex, and that together end along one closed line of edges, which comes to no
+  /// vertex twice. They are so chosen that most pairs of clusters that share a vertex meet at one of them.
+  int corner_count() const { return static_cast<int>(corner_begin_.size()) - 1; }
+  /// Ascending.
+  std::span<const int> clusters_at(int corner) const { return part(at_corner_, corner_begin_, corner); }
+  /// The vertices of that line in their order, 3 to kMostAround; seen from above the clusters are on its left.
+  std::span<const int> line_around(int corner) const { return part(lines_, line_begin_, corner); }
+  static constexpr int kMostAround = 128;
+  /// The corners at which a cluster meets others, ascending.
+  std::span<const int> corners_of(int cluster) const { return part(corners_of_, corners_of_begin_, cluster); }
   /// Does a facet of the cluster name a vertex twice, or lie at an edge that is not that of one facet, or of two that
   /// run through it in opposite directions? Or has it more neighbours than can be listed? Its rims are not complete.
   bool irregular(int cluster) const { return irregular_[cluster] != 0; }
@@ -49,10 +61,16 @@ class ClusterNeighbors {
     const auto k = static_cast<std::size_t>(i);
     return std::span(all).subspan(begin[k], begin[k + 1] - begin[k]);
   }
-  void find_around(const ClusteredMesh& mesh);
+  // Some clusters, ascending, then -1.
+  using Together = std::array<int, 6>;
+  std::vector<Together> find_around(const ClusteredMesh& mesh);
+  // Where around_ has the second cluster among those around the first, or -1.
+  std::ptrdiff_t place_of(int cluster, int other) const;
   void choose_centers(int cluster_count);
   std::vector<RimSide> find_rim_sides(const ClusteredMesh& mesh, const Features& features);
   void list_rims(std::vector<RimSide>& all, int cluster_count);
+  void choose_corners(std::vector<Together>& meeting, int cluster_count);
+  std::vector<int> line_around(std::span<const int> clusters) const;
 
   std::vector<int> around_, around_begin_;
   std::vector<int> centers_;
@@ -60,6 +78,9 @@ class ClusterNeighbors {
   std::vector<Rim> rims_;
   std::vector<int> rims_begin_;
   std::vector<Side> sides_;
+  std::vector<int> at_corner_, corner_begin_{0};
+  std::vector<int> lines_, line_begin_{0};
+  std::vector<int> corners_of_, corners_of_begin_;
   std::vector<char> irregular_;
 };
 

@@ -30,6 +30,8 @@ class SelfClusters {
 
  private:
   void judge_centers(const SelfMesh& self, int threads);
+  void judge_corners(const SelfMesh& self, int threads);
+  bool never_meet_at_corner(const ClusterNeighbors& neighbors, const ClusterPair& pair) const;
   SelfVerdict from_centers(const ClusterNeighbors& neighbors, const ClusterPair& pair) const;
   void judge(const SelfMesh& self, std::span<const ClusterPair> near, SelfVerdict wanted, int threads);
 
@@ -40,6 +42,7 @@ class SelfClusters {
   std::vector<SelfVerdict> verdicts_;         // of the near pairs
   std::vector<SelfVerdict> of_center_;        // of all clusters around a center; of each cluster
   std::vector<SelfVerdict> best_around_;      // of each cluster: the best of the centers around it
+  std::vector<char> never_meet_at_;           // of all clusters at a corner
   std::vector<ClusterPair> may_meet_, may_contact_;
 };
 

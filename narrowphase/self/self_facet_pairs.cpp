@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
 
 namespace tact::narrowphase {
 
@@ -10,13 +11,12 @@ namespace {
 
 constexpr std::uint64_t bit(int i) { return std::uint64_t{1} << i; }
 
-// The facets of a cluster, and which of them have each of its vertices, owned ones first.
+// The facets of a cluster.
 struct OpenFacets {
   int cluster = -1;
   ClusterFacets source;
   FacetBlock block;
   std::uint64_t facets = 0;  // a bit each
-  std::uint64_t with_vertex[3 * kClusterSize];
 
   void open(const ClusteredMesh& mesh, int wanted, const Grid& grid) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -28,18 +28,30 @@ struct OpenFacets {
     kernels().open_cluster(source, kAll, &block);
     kernels().find_cells(grid, &block);
     facets = ~std::uint64_t{0} >> (kClusterSize - block.count);
-    std::fill_n(with_vertex, source.owned_count + source.borrowed_count, 0);
-    for (const std::uint8_t* corner : source.corner) {
-      for (int i = 0; i < block.count; ++i) with_vertex[corner[i]] |= bit(i);
-    }
+    listed_ = false;
   }
+  // Which facets have each of the vertices, owned ones first. Listed when first asked for: most clusters are held
+  // against others only that are far along the surface.
+  const std::uint64_t* with_vertex() {
+    if (std::exchange(listed_, true)) return with_vertex_;
+    std::fill_n(with_vertex_, source.owned_count + source.borrowed_count, 0);
+    for (const std::uint8_t* corner : source.corner) {
+      for (int i = 0; i < block.count; ++i) with_vertex_[corner[i]] |= bit(i);
+    }
+    return with_vertex_;
+  }
+
+ private:
+  bool listed_ = false;
+  std::uint64_t with_vertex_[3 * kClusterSize];
 };
 
 // For each facet of `a` those of the same cluster that come before it, itself, and those that share a vertex with it.
-void exclude_within(const OpenFacets& a, std::uint64_t (&excluded)[kClusterSize]) {
+void exclude_within(OpenFacets& a, std::uint64_t (&excluded)[kClusterSize]) {
+  const std::uint64_t* const with_vertex = a.with_vertex();
   for (int i = 0; i < a.block.count; ++i) {
     excluded[i] = bit(i) | (bit(i) - 1);
-    for (const std::uint8_t* corner : a.source.corner) excluded[i] |= a.with_vertex[corner[i]];
+    for (const std::uint8_t* corner : a.source.corner) excluded[i] |= with_vertex[corner[i]];
   }
 }
 
@@ -69,14 +81,14 @@ class Places {
 };
 
 // For each facet of `a` those of a later cluster that share a vertex with it. These the later one has borrowed.
-void exclude_sharing(const OpenFacets& a, const Places& places_in_a, const OpenFacets& b,
-                     std::uint64_t (&excluded)[kClusterSize]) {
+void exclude_sharing(OpenFacets& a, const Places& places_in_a, OpenFacets& b, std::uint64_t (&excluded)[kClusterSize]) {
   std::fill_n(excluded, a.block.count, 0);
   for (int k = 0; k < b.source.borrowed_count; ++k) {
     const int place = places_in_a[b.source.borrowed[k]];
     if (place < 0) continue;
-    for (std::uint64_t left = a.with_vertex[place]; left != 0; left &= left - 1)
-      excluded[std::countr_zero(left)] |= b.with_vertex[b.source.owned_count + k];
+    const std::uint64_t of_b = b.with_vertex()[b.source.owned_count + k];
+    for (std::uint64_t left = a.with_vertex()[place]; left != 0; left &= left - 1)
+      excluded[std::countr_zero(left)] |= of_b;
   }
 }
 
@@ -92,7 +104,7 @@ struct SelfFacetSearch::Memory {
   BlockPair blocks;
 
   // In any place but that of `other`.
-  const OpenFacets& open(const ClusteredMesh& mesh, int cluster, const Grid& grid, const OpenFacets* other) {
+  OpenFacets& open(const ClusteredMesh& mesh, int cluster, const Grid& grid, const OpenFacets* other) {
     OpenFacets* place = &opened[static_cast<std::size_t>(cluster) % kOpened];
     if (place == other) place = &opened[kOpened];
     if (place->cluster != cluster) place->open(mesh, cluster, grid);
@@ -110,14 +122,14 @@ void SelfFacetSearch::run(const ClusteredMesh& mesh, std::span<const ClusterPair
   Memory& m = *memory_;
   const Grid grid = grid_over(bounds_of(mesh.box()), kLastCell);
   for (OpenFacets& one : m.opened) one.cluster = -1;
-  const OpenFacets* first = nullptr;
+  OpenFacets* first = nullptr;
   ConfirmCounts counts;
   for (const ClusterPair& pair : pairs) {
     if (first == nullptr || first->cluster != pair.a) {
       first = &m.open(mesh, pair.a, grid, nullptr);
       m.places.choose(*first, mesh.vertex_count());
     }
-    const OpenFacets &a = *first, &b = pair.b == pair.a ? a : m.open(mesh, pair.b, grid, first);
+    OpenFacets &a = *first, &b = pair.b == pair.a ? a : m.open(mesh, pair.b, grid, first);
     const Box box_a = mesh.cluster_boxes()[pair.a], box_b = mesh.cluster_boxes()[pair.b];
     const CellBox common = cells_of(grid, bounds_of(intersection(box_a, box_b)));
     const std::uint64_t near_a = kernels().near_facets(a.block.cells, a.facets, common),

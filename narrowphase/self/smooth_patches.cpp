@@ -4,12 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "narrowphase/kernels/kernels.h"
+
 namespace tact::narrowphase {
 
 namespace {
 
 // Coordinates of this size at most have products of four that neither overflow nor, where it matters, vanish.
 constexpr double kLargestSize = 0x1p200;
+constexpr double kLeastSize = 0x1p-200;  // of clusters at a corner: errors of products of two are far from vanishing
 
 // Cosines of angles between normals and a direction are off by less than this. A normal is off by at most 2^-49 of the
 // product of two edges, which is at most 2^20 times its length; the axes of a view and what is computed of cones are
@@ -57,31 +60,45 @@ void SmoothPatches::look_at(const ClusteredMesh& mesh, const ClusterNeighbors& n
 void SmoothPatches::find_cone(const ClusteredMesh& mesh, int cluster) {
   NormalCone& cone = cones_[cluster] = {};
   if (!usable_) return;
-  const ClusterFacets facets = mesh.facets_of(cluster);
-  Vec3 at[3 * kClusterSize];
-  for (int i = 0; i < facets.owned_count; ++i) at[i] = mesh.position(facets.owned_begin + i);
-  for (int i = 0; i < facets.borrowed_count; ++i) at[facets.owned_count + i] = mesh.position(facets.borrowed[i]);
-  Vec3 normals[kClusterSize];
-  double squares[kClusterSize];
+  const NormalSpread spread = kernels().normal_spread(mesh.facets_of(cluster), kLeastSineSquared);
+  if (!(spread.least > 0.0)) return;
+  const auto [x, y, z] = spread.axis;
+  cone = {{x, y, z}, std::sqrt(spread.least), std::sqrt(std::max(0.0, 1.0 - spread.least))};
+}
+
+SmoothPatches::Outlook SmoothPatches::outlook_on(const ClusteredMesh& mesh, std::span<const int> clusters) const {
   Vec3 sum;
-  bool all_have_area = true;
-  for (int i = 0; i < facets.facet_count; ++i) {
-    const Vec3 p = at[facets.corner[0][i]], e = at[facets.corner[1][i]] - p, g = at[facets.corner[2][i]] - p;
-    normals[i] = cross(e, g);
-    squares[i] = norm_squared(normals[i]);
-    all_have_area = all_have_area && squares[i] > kLeastSineSquared * norm_squared(e) * norm_squared(g);
-    sum = sum + normals[i];
+  for (const int c : clusters) sum = sum + cones_[c].axis;
+  if (!(norm_squared(sum) > 0.25)) return {};
+  const Vec3 up = normalized(sum);
+  double least = 1.0;  // the cosine of the largest angle between `up` and a normal
+  Box box;
+  for (const int c : clusters) {
+    const double cosine = dot(up, cones_[c].axis), sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    least = std::min(least, cosine * cones_[c].cosine - sine * cones_[c].sine);
+    box = merged(box, mesh.cluster_boxes()[c]);
   }
-  if (!all_have_area) return;
-  if (!(norm_squared(sum) > 0.0)) return;
-  const Vec3 axis = normalized(sum);
-  double least = 1.0;
-  for (int i = 0; i < facets.facet_count; ++i) {
-    const double along = dot(normals[i], axis);
-    least = std::min(least, along * std::abs(along) / squares[i]);
+  return {up, least > 2.0 * kSlack ? least - kSlack : 0.0, sum_of_sides(box)};
+}
+
+bool SmoothPatches::never_meet_at(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, int corner) const {
+  if (!usable_) return false;
+  const std::span<const int> clusters = neighbors.clusters_at(corner);
+  const Outlook outlook = outlook_on(mesh, clusters);
+  if (!(outlook.least_cosine > 0.0) || !(outlook.size > kLeastSize)) return false;
+  const Vec3 up = outlook.up, x = normalized(cross(up, std::abs(up.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+  const Vec3 y = cross(up, x), origin = mesh.cluster_boxes()[clusters.front()].lower;
+  FlatPolygon line;
+  static_assert(FlatPolygon::kMost == ClusterNeighbors::kMostAround);
+  line.count = 0;
+  for (const int vertex : neighbors.line_around(corner)) {
+    const Vec3 d = mesh.position(vertex) - origin;
+    line.x[line.count] = dot(x, d);
+    line.y[line.count++] = dot(y, d);
   }
-  if (!(least > 0.0)) return;
-  cone = {axis, std::sqrt(least), std::sqrt(std::max(0.0, 1.0 - least))};
+  line.error = kViewSlack * outlook.size;
+  line.size = outlook.size;
+  return kernels().comes_nowhere_twice(&line);
 }
 
 bool SmoothPatches::Judge::gather(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors,
@@ -282,20 +299,10 @@ double SmoothPatches::Judge::most_inward_turn() const {
 SelfVerdict SmoothPatches::Judge::operator()(const SmoothPatches& patches, const ClusteredMesh& mesh,
                                              const ClusterNeighbors& neighbors, std::span<const int> clusters) {
   if (!patches.usable_ || !gather(mesh, neighbors, clusters)) return SelfVerdict::open;
-  const auto cone = [&](int c) -> const NormalCone& { return patches.cones_[c]; };
-  Vec3 sum;
-  for (const int c : patch_) sum = sum + cone(c).axis;
-  if (!(norm_squared(sum) > 0.25)) return SelfVerdict::open;
-  const Vec3 up = normalized(sum);
-  double least = 1.0;  // the cosine of the largest angle between `up` and a normal
-  Box box;
-  for (const int c : patch_) {
-    const double cosine = dot(up, cone(c).axis), sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-    least = std::min(least, cosine * cone(c).cosine - sine * cone(c).sine);
-    box = merged(box, mesh.cluster_boxes()[c]);
-  }
-  slack_ = kViewSlack * sum_of_sides(box);
-  return least > 2.0 * kSlack ? look(patches, mesh, neighbors, clusters, up, least - kSlack) : SelfVerdict::open;
+  const Outlook outlook = patches.outlook_on(mesh, patch_);
+  slack_ = kViewSlack * outlook.size;
+  if (!(outlook.least_cosine > 0.0)) return SelfVerdict::open;
+  return look(patches, mesh, neighbors, clusters, outlook.up, outlook.least_cosine);
 }
 
 // From a direction whose angle with every normal has at least this cosine.

@@ -28,8 +28,16 @@
 // them is at most d / cos m long, and p is left at a rate of at least d (cos m - tan² t / cos m): tan t < cos m will
 // do.
 //
+// **Where D is not needed.** Is the boundary one closed line that, seen along v, does not come to any place twice, no
+// point is covered more than once, as no winding number about such a line is beyond 1. Then facets of P meet only where
+// they share a vertex, those at the boundary among them. For a point x of two facets that is not seen on the boundary 1
+// holds as it stands. If x is seen on it, within an edge, that edge's facet covers all of P's side around x, and no
+// other facet holds x. At a vertex of it that do the facets around the vertex, which go from the one of its two edges
+// to the other, and all that hold x are among them.
+//
 // **How it is tested.** For some clusters that lie together, P is all clusters around them, v the mean of their axes,
-// and D a polygon around those that were asked for. Cones bound the normals of each cluster. All is computed in
+// and D a polygon around those that were asked for. In tight turns such a P leaves the half space of v, and P is three
+// or four clusters that meet at a vertex, without D. Cones bound the normals of each cluster. All is computed in
 // doubles, with bounds of rounding (kSlack, kViewSlack), and what they cannot tell is not proved.
 //
 // **What is not proved** is anything else: clusters in folds, at borders with notches, around edges that three facets
@@ -68,6 +76,9 @@ class SmoothPatches {
   /// To be called when the mesh has moved, then look_at() for each cluster, in any order.
   void begin(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors);
   void look_at(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, int cluster);
+
+  /// Do facets of the clusters at a corner that share no vertex certainly not meet? Shown without D.
+  bool never_meet_at(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, int corner) const;
 
   /// Memory of a thread, used again.
   class Judge {
@@ -137,7 +148,16 @@ class SmoothPatches {
   };
 
  private:
+  // A direction to look at some clusters along.
+  struct Outlook {
+    Vec3 up;
+    double least_cosine =
+        0.0;            // its angle with every normal has at least this cosine; zero: there is no such direction
+    double size = 0.0;  // of the box of the clusters: the sum of its sides
+  };
+
   void find_cone(const ClusteredMesh& mesh, int cluster);
+  Outlook outlook_on(const ClusteredMesh& mesh, std::span<const int> clusters) const;
 
   std::vector<NormalCone> cones_;
   std::vector<RimBox> rims_;  // as ClusterNeighbors counts them

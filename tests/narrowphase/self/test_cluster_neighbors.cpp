@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "narrowphase/self/cluster_neighbors.h"
 #include "tests/support/clustered.h"
@@ -64,6 +65,61 @@ TEST(ClusterNeighbors, RimsHoldTheEdgesBetweenClustersAndTheEndsOfTheSurface) {
       }
     }
     EXPECT_EQ(found, expected) << name;
+  }
+}
+
+// The line around a corner holds each edge that one facet of its clusters has and none has against it, one after the
+// other, each vertex once.
+TEST(ClusterNeighbors, LinesAreTheBoundariesOfTheClustersAtACorner) {
+  int corners = 0;
+  std::vector<tests::NamedMesh> meshes = tests::folded_meshes(20, 3);
+  meshes.push_back({"sheet", tests::sheet(48, 48, 1.0, 1.0)});
+  meshes.push_back({"sphere", tests::icosphere(4)});
+  for (const auto& [name, source] : meshes) {
+    const Neighbors neighbors(source);
+    for (int corner = 0; corner < neighbors.of.corner_count(); ++corner, ++corners) {
+      const auto clusters = neighbors.of.clusters_at(corner);
+      EXPECT_TRUE(std::ranges::is_sorted(clusters)) << name;
+      EXPECT_GE(clusters.size(), 2u) << name;
+      std::set<std::pair<int, int>> edges;
+      std::map<int, std::set<int>> users;
+      for (int f = 0; f < neighbors.mesh.facet_count(); ++f) {
+        if (std::ranges::find(clusters, cluster_of(f)) == clusters.end()) continue;
+        const Corners c = neighbors.mesh.corners(f);
+        for (std::size_t k = 0; k < 3; ++k) {
+          edges.insert({c[k], c[(k + 1) % 3]});
+          users[c[k]].insert(cluster_of(f));
+        }
+      }
+      EXPECT_TRUE(std::ranges::any_of(users, [&](const auto& one) { return one.second.size() == clusters.size(); }));
+      std::erase_if(edges, [all = edges](const auto& e) { return all.contains({e.second, e.first}); });
+      const auto line = neighbors.of.line_around(corner);
+      std::set<std::pair<int, int>> found;
+      for (std::size_t i = 0; i < line.size(); ++i) found.insert({line[i], line[(i + 1) % line.size()]});
+      EXPECT_EQ(found, edges) << name << ", corner " << corner;
+      EXPECT_EQ(std::set<int>(line.begin(), line.end()).size(), line.size()) << name << ", corner " << corner;
+    }
+  }
+  EXPECT_GT(corners, 100);
+}
+
+TEST(ClusterNeighbors, MostPairsMeetAtACorner) {
+  for (const Mesh& source : {tests::sheet(48, 48, 1.0, 1.0), tests::icosphere(4)}) {
+    const Neighbors neighbors(source);
+    int pairs = 0, at_corners = 0;
+    for (int c = 0; c < neighbors.mesh.cluster_count(); ++c) {
+      for (const int corner : neighbors.of.corners_of(c)) {
+        const auto clusters = neighbors.of.clusters_at(corner);
+        EXPECT_NE(std::ranges::find(clusters, c), clusters.end());
+      }
+      for (const int d : neighbors.of.around(c)) {
+        const auto of_d = neighbors.of.corners_of(d);
+        ++pairs;
+        at_corners += std::ranges::any_of(neighbors.of.corners_of(c),
+                                          [&](int corner) { return std::ranges::find(of_d, corner) != of_d.end(); });
+      }
+    }
+    EXPECT_GT(at_corners, 0.95 * pairs);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "narrowphase/mesh/refit.h"
 #include "narrowphase/self/smooth_patches.h"
 #include "tests/support/clustered.h"
 #include "tests/support/folds.h"
@@ -21,8 +22,11 @@ using tests::Mesh;
 // What is proved of all pairs of clusters of a mesh.
 class Verdicts {
  public:
-  explicit Verdicts(const Mesh& source)
+  explicit Verdicts(const Mesh& mesh) : Verdicts(mesh, mesh) {}
+  // Of a mesh that was clustered as `source`, and has moved since.
+  Verdicts(const Mesh& source, const Mesh& mesh)
       : mesh_(tests::clustered(source)), features_(mesh_), neighbors_(mesh_, features_) {
+    refit(mesh_, mesh.positions.data(), {});
     patches_.begin(mesh_, neighbors_);
     for (int c = 0; c < mesh_.cluster_count(); ++c) patches_.look_at(mesh_, neighbors_, c);
     all_.assign(static_cast<std::size_t>(mesh_.cluster_count() * mesh_.cluster_count()), SelfVerdict::open);
@@ -32,6 +36,10 @@ class Verdicts {
         take(std::span(both).first(a == b ? 1 : 2));
       }
       take(neighbors_.around(a));
+    }
+    for (int corner = 0; corner < neighbors_.corner_count(); ++corner) {
+      if (patches_.never_meet_at(mesh_, neighbors_, corner))
+        note(neighbors_.clusters_at(corner), SelfVerdict::never_meet);
     }
   }
 
@@ -63,8 +71,8 @@ class Verdicts {
 
  private:
   std::size_t place(int a, int b) const { return static_cast<std::size_t>(a * mesh_.cluster_count() + b); }
-  void take(std::span<const int> clusters) {
-    const SelfVerdict verdict = judge_(patches_, mesh_, neighbors_, clusters);
+  void take(std::span<const int> clusters) { note(clusters, judge_(patches_, mesh_, neighbors_, clusters)); }
+  void note(std::span<const int> clusters, SelfVerdict verdict) {
     for (const int a : clusters) {
       for (const int b : clusters) all_[place(a, b)] = std::max(all_[place(a, b)], verdict);
     }
@@ -207,6 +215,45 @@ TEST(SmoothPatches, ProveAlmostAllOfWhatIsSmooth) {
   EXPECT_GT(proved(tests::icosphere(5), SelfVerdict::never_contact), 0.9);
   EXPECT_GT(proved(tests::wrinkled_sheet(64, 1.0, 0.05, 1), SelfVerdict::never_meet), 0.9);
   EXPECT_GT(proved(tests::rolled_sheet(200, 40, 0.9, 1.0, 0.05), SelfVerdict::never_contact), 0.9);
+}
+
+// So tightly that all clusters around a cluster leave every half space; those at a corner do not.
+TEST(SmoothPatches, ProveAlmostAllOfATightTurn) {
+  const Mesh sheet = tests::sheet(64, 64, 1.0, 1.0);
+  const Mesh rolled = tests::mapped(sheet, [](Vec3 p) {
+    const double turn = 12.0 * (p.x + 0.5), r = 0.06 + 0.006 * turn;
+    return Vec3{r * std::cos(turn), p.y, r * std::sin(turn)};
+  });
+  const Verdicts verdicts(sheet, rolled);
+  EXPECT_GT(verdicts.part(SelfVerdict::never_meet), 0.9);
+  EXPECT_LT(verdicts.part(SelfVerdict::never_contact), 0.3);
+  EXPECT_EQ(expect_no_meeting_denied(rolled, verdicts, "tight turn"), 0u);
+}
+
+// A strip bent in its plane until it lies on itself, as flat as a ring or nearly so: normals point up, and the lines
+// around its corners come back to where they were.
+TEST(SmoothPatches, LinesThatCrossThemselvesProveNothing) {
+  tests::Random random(7);
+  std::size_t meetings = 0;
+  double proved = 0.0;
+  for (int round = 0; round < 16; ++round) {
+    const int across = 3 + random.below(6);
+    const Mesh strip = tests::sheet(24 + random.below(16), across, 1.0, 0.2);
+    const double turns = random.uniform(0.5, 4.0), inner = random.uniform(0.3, 1.0), rise = round % 3 == 0 ? 1e-3 : 0.0,
+                 wave = random.uniform(0.0, 0.3);
+    const Mesh bent = tests::rotated(tests::mapped(strip,
+                                                   [&](Vec3 p) {
+                                                     const double turn = 2.0 * std::numbers::pi * turns * (p.x + 0.5);
+                                                     const double r = inner + 0.1 - p.y + wave * std::sin(3.0 * turn);
+                                                     return Vec3{r * std::cos(turn), r * std::sin(turn), rise * turn};
+                                                   }),
+                                     random.rotation());
+    const Verdicts verdicts(strip, bent);
+    meetings += expect_no_meeting_denied(bent, verdicts, "strip " + std::to_string(round));
+    proved += verdicts.part(SelfVerdict::never_meet) / 16;
+  }
+  EXPECT_GT(meetings, 5000u);
+  EXPECT_GT(proved, 0.1);
 }
 
 // At any size and place, also far from the origin, with margins for rounding that grow as they must.
