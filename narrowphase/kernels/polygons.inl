@@ -46,14 +46,14 @@ bool has_no_spike(const FlatPolygon& polygon, Pack least) {
   return true;
 }
 
-// Where each edge lies, and the first ones once more.
+// Where each edge lies.
 struct alignas(64) EdgeBoxes {
   double lower_x[FlatPolygon::kRoom], upper_x[FlatPolygon::kRoom];
   double lower_y[FlatPolygon::kRoom], upper_y[FlatPolygon::kRoom];
 
-  EdgeBoxes(const FlatPolygon& polygon, int repeated) {
+  explicit EdgeBoxes(const FlatPolygon& polygon) {
     const Pack wider = spread(4.0 * polygon.error);
-    for (int i = 0; i < polygon.count + repeated; i += kWidth) {
+    for (int i = 0; i < polygon.count; i += kWidth) {
       const FlatPack p = points_from(polygon, i), q = points_from(polygon, i + 1);
       store(lower_x + i, min(p.x, q.x));
       store(upper_x + i, add(max(p.x, q.x), wider));
@@ -61,30 +61,15 @@ struct alignas(64) EdgeBoxes {
       store(upper_y + i, add(max(p.y, q.y), wider));
     }
   }
-  // The edges from k on whose boxes overlap that of edge i; that of edges from i on, one by one.
-  unsigned near_one(int i, int k) const {
-    return near(spread(lower_x[i]), spread(upper_x[i]), spread(lower_y[i]), spread(upper_y[i]), k);
-  }
-  unsigned near_each(int i, int k) const {
-    return near(load(lower_x + i), load(upper_x + i), load(lower_y + i), load(upper_y + i), k);
-  }
-
- private:
-  unsigned near(Pack low_x, Pack high_x, Pack low_y, Pack high_y, int k) const {
-    return bits(both(both(less_equal(load(lower_x + k), high_x), less_equal(low_x, load(upper_x + k))),
-                     both(less_equal(load(lower_y + k), high_y), less_equal(low_y, load(upper_y + k)))));
+  // The edges from k on whose boxes overlap that of edge i.
+  unsigned near(int i, int k) const {
+    const Mask along_x =
+        both(less_equal(load(lower_x + k), spread(upper_x[i])), less_equal(spread(lower_x[i]), load(upper_x + k)));
+    const Mask along_y =
+        both(less_equal(load(lower_y + k), spread(upper_y[i])), less_equal(spread(lower_y[i]), load(upper_y + k)));
+    return bits(both(along_x, along_y));
   }
 };
-
-// Do all edges lie apart from the one `later` edges after them?
-bool lies_apart(const FlatPolygon& polygon, const EdgeBoxes& boxes, int later, Pack least) {
-  for (int i = 0; i < polygon.count; i += kWidth) {
-    const unsigned apart = bits(lie_apart(points_from(polygon, i), points_from(polygon, i + 1),
-                                          points_from(polygon, i + later), points_from(polygon, i + later + 1), least));
-    if ((~apart & boxes.near_each(i, i + later) & lanes_left(polygon.count - i)) != 0) return false;
-  }
-  return true;
-}
 
 bool comes_nowhere_twice(FlatPolygon* polygon) {
   const int count = polygon->count;
@@ -94,18 +79,11 @@ bool comes_nowhere_twice(FlatPolygon* polygon) {
   }
   const Pack least = spread(least_turn(*polygon));
   if (!has_no_spike(*polygon, least)) return false;
-  // Edges that come soon after each other all at once: their boxes often overlap. An edge and the one before it, which
-  // is count - 1 edges later, have a vertex in common.
-  constexpr int kSoon = 3;
-  const EdgeBoxes boxes(*polygon, kSoon);
-  int later = 2;
-  for (; later <= kSoon && later <= count - 2; ++later) {
-    if (!lies_apart(*polygon, boxes, later, least)) return false;
-  }
+  const EdgeBoxes boxes(*polygon);
   for (int i = 0; i < count; ++i) {
-    const int last = i + count - later, end = last < count ? last + 1 : count;  // beyond it edge i comes soon again
-    for (int k = i + later; k < end; k += kWidth) {
-      const unsigned near = boxes.near_one(i, k) & lanes_left(end - k);
+    const int end = i == 0 ? count - 1 : count;  // the last edge is the one before the first
+    for (int k = i + 2; k < end; k += kWidth) {
+      const unsigned near = boxes.near(i, k) & lanes_left(end - k);
       if (near == 0) continue;
       const Mask apart = lie_apart(point_at(*polygon, i), point_at(*polygon, i + 1), points_from(*polygon, k),
                                    points_from(*polygon, k + 1), least);
