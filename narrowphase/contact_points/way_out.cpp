@@ -84,6 +84,9 @@ void name_feature(const ScaledMesh& m, WayOut& way) {
 // Facets that are about as near as the nearest are looked at, too: boxes round otherwise than facets.
 double with_rounding(double distance) { return distance * (1.0 + 0x1p-40) + 0x1p-49; }
 
+// Neither normals in the unit of the mesh nor the square of its scale vanish or overflow then.
+bool is_near_one(double scale) { return scale > 0x1p-400 && scale < 0x1p400; }
+
 double largest_of(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 // Which side of an edge's facets is `v` on that is nearest to the edge? The facet that sees it from more above or below
@@ -174,7 +177,8 @@ void WayFinder::begin(const ScaledMesh& surface, const Box& box, double within) 
 }
 
 template <class Counts>
-std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const Counts& counts) {
+std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const FacingNormals* facing,
+                                         const Counts& counts) {
   const ScaledMesh& m = *memory_->surface;
   std::optional<WayOut> best;
   double least = within;
@@ -198,7 +202,7 @@ std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const 
   const auto wants = [&](double distance_squared) { return distance_squared <= most(); };
   const auto look_into = [&](const FacetBlock& facets) {
     FacetDistances& near = memory_->near;
-    kernels().rank_block(facets, point, m.scale, most(), &near);
+    kernels().rank_block(facets, point, m.scale, most(), facing, &near);
     take_by_rank(near.least_squared, near.facet, near.count, wants, [&](int i) {
       if (facets.facet[i] == hint) return;
       Triangle corners;
@@ -223,7 +227,9 @@ std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const 
 }
 
 std::optional<WayOut> WayFinder::nearest_out(Vec3 v, Vec3 facing, double cosine, double within, int hint) {
-  auto way = nearest(v, within, hint, [&](const SeenFacet& seen) {
+  const FacingNormals normals{{facing.x, facing.y, facing.z}, cosine};
+  const bool filters = cosine > 0.0 && is_near_one(memory_->surface->scale);
+  auto way = nearest(v, within, hint, filters ? &normals : nullptr, [&](const SeenFacet& seen) {
     return seen.height <= kFlat && dot(seen.normal, facing) > cosine * seen.length;
   });
   if (way) name_feature(*memory_->surface, *way);
@@ -232,7 +238,7 @@ std::optional<WayOut> WayFinder::nearest_out(Vec3 v, Vec3 facing, double cosine,
 
 std::optional<WayOut> WayFinder::nearest_through(Vec3 v, Vec3 facing, double within, int hint) {
   const ScaledMesh& sheet = *memory_->surface;
-  auto way = nearest(v, within, hint, [](const SeenFacet&) { return true; });
+  auto way = nearest(v, within, hint, nullptr, [](const SeenFacet&) { return true; });
   if (!way) return way;
   name_feature(sheet, *way);
   const SeenFacet seen(sheet, way->facet, v);

@@ -45,7 +45,7 @@ class WayFinder {
  private:
   struct Memory;
   template <class Counts>
-  std::optional<WayOut> nearest(Vec3 v, double within, int hint, const Counts& counts);
+  std::optional<WayOut> nearest(Vec3 v, double within, int hint, const FacingNormals* facing, const Counts& counts);
 
   std::unique_ptr<Memory> memory_;
 };

@@ -167,7 +167,10 @@ struct Kernels {
   void (*rank_facets)(const ClusterFacets& cluster, const double* point, double scale, double most,
                       FacetDistances* facets);
   // The facets of a block whose boxes are as near to a point as `most`, likewise; counted from the first of the block.
-  void (*rank_block)(const FacetBlock& block, const double* point, double scale, double most, FacetDistances* facets);
+  // Without those that certainly do not face `facing`, unless that is null: whose normals are not among these, however
+  // they are computed from corners that are counted from a point at most 4 away in the unit of `scale`.
+  void (*rank_block)(const FacetBlock& block, const double* point, double scale, double most,
+                     const FacingNormals* facing, FacetDistances* facets);
 
   // Does a closed polygon certainly come to no point twice? Its room is written.
   bool (*comes_nowhere_twice)(FlatPolygon* polygon);

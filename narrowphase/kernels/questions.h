@@ -60,6 +60,12 @@ struct alignas(64) EnteringLine {
   std::int32_t taken;  // the index of what take_nearest() took
 };
 
+// Normals nearer to a direction, a unit vector, than the angle of this cosine, which is positive.
+struct FacingNormals {
+  double direction[3];
+  double cosine;
+};
+
 // Facets of a cluster, and what their squared distances from a point are at least, in a unit of the caller's.
 struct alignas(64) FacetDistances {
   static constexpr int kCapacity = 64;

@@ -196,7 +196,33 @@ void rank_facets(const ClusterFacets& cluster, const double* point, double scale
   }
 }
 
-void rank_block(const FacetBlock& block, const double* point, double scale, double most, FacetDistances* facets) {
+// Which facets of a block certainly do not face a direction. In the unit of `scale` corners that are counted from a
+// point at most 4 away are rounded by 2^-50, sides by twice that: a normal, times the square of `scale`, and what it is
+// along the direction are off by less than 2^-45 times the size of the facet's box.
+struct FacingTest {
+  VectorPack direction;
+  Pack unit, unit_squared, least;
+
+  FacingTest(const FacingNormals& facing, double scale)
+      : direction{spread(facing.direction[0]), spread(facing.direction[1]), spread(facing.direction[2])},
+        unit(spread(0x1p-44 * scale)),
+        unit_squared(spread(scale * scale)),
+        least(spread(facing.cosine * facing.cosine * (1.0 - 0x1p-40))) {}
+
+  Mask turned_away(const FacetBlock& block, int i) const {
+    const VectorPack normal{mul(unit_squared, load(block.normal[0] + i)), mul(unit_squared, load(block.normal[1] + i)),
+                            mul(unit_squared, load(block.normal[2] + i))};
+    Pack size = spread(0.0);
+    for (int axis = 0; axis < 3; ++axis) size = add(size, sub(load(block.upper[axis] + i), load(block.lower[axis] + i)));
+    const Pack most_along = add(dot(normal, direction), mul(unit, size));
+    return either(less(most_along, spread(0.0)),
+                  less(mul(most_along, most_along), mul(least, dot(normal, normal))));
+  }
+};
+
+void rank_block(const FacetBlock& block, const double* point, double scale, double most, const FacingNormals* facing,
+                FacetDistances* facets) {
+  const FacingTest test(facing != nullptr ? *facing : FacingNormals{}, scale);
   const Pack origin[3] = {spread(point[0]), spread(point[1]), spread(point[2])}, unit = spread(scale);
   const Pack limit = spread(most), zero = spread(0.0);
   std::uint64_t left = 0;
@@ -208,7 +234,9 @@ void rank_block(const FacetBlock& block, const double* point, double scale, doub
       const Pack away = mul(unit, max(max(below, above), zero));
       sum = add(sum, mul(away, away));
     }
-    left |= static_cast<std::uint64_t>(bits(less_equal(sum, limit)) & lanes_left(block.count - i)) << i;
+    Mask some = less_equal(sum, limit);
+    if (facing != nullptr && bits(some) != 0) some = without(some, test.turned_away(block, i));
+    left |= static_cast<std::uint64_t>(bits(some) & lanes_left(block.count - i)) << i;
   }
   facets->count = __builtin_popcountll(left);
   if (left == 0) return;

@@ -107,7 +107,7 @@ TEST(RankBlock, HoldsTheFacetsWithinReachAndNeverSaysTooFar) {
       const double most = 1.5 * *std::ranges::min_element(squares) + 1e-4;
       const double at[3] = {point.x, point.y, point.z};
       FacetDistances expected;
-      scalar_kernels()->rank_block(block, at, 0.5, 0.25 * most, &expected);
+      scalar_kernels()->rank_block(block, at, 0.5, 0.25 * most, nullptr, &expected);
       std::vector<bool> is_listed(squares.size(), false);
       for (int i = 0; i < expected.count; ++i) {
         const std::size_t place = expected.facet[i];
@@ -119,7 +119,7 @@ TEST(RankBlock, HoldsTheFacetsWithinReachAndNeverSaysTooFar) {
         EXPECT_TRUE(is_listed[i] || squares[i] > most) << "facet " << i << " trial " << trial;
       for (const Kernels* kernels : tests::available_kernels()) {
         FacetDistances found;
-        kernels->rank_block(block, at, 0.5, 0.25 * most, &found);
+        kernels->rank_block(block, at, 0.5, 0.25 * most, nullptr, &found);
         ASSERT_EQ(found.count, expected.count) << kernels->name;
         for (int i = 0; i < found.count; ++i) {
           EXPECT_EQ(found.facet[i], expected.facet[i]) << kernels->name;
