@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "narrowphase/contact_points/facet_border.h"
 #include "narrowphase/contact_points/open_features.h"
 #include "narrowphase/contact_points/surface_distance.h"
 #include "narrowphase/contact_points/waiting_edges.h"
@@ -117,16 +118,17 @@ class PointFinder {
   };
   void look_inside_facet(const VertexAndFacet& one) {
     if (const auto nearest = nearest_inside_facet(one.v, one.corner, reach_))
-      add_vertex_point(one, one.surface.mesh.corners(one.facet), *nearest);
+      add_vertex_point(one, one.surface.features.corners(one.facet), *nearest);
   }
 
   // Points on those edges and vertices that have the facet as their first one.
   void look_at_border(const VertexAndFacet& one) {
     const int facet = one.facet;
     const Features& features = one.surface.features;
-    const unsigned first = features.firsts_of_facet(facet);
+    unsigned first = features.firsts_of_facet(facet);
+    if (first != 0) first &= border_of(one.v, one.corner, reach_);
     if (first == 0) return;
-    const Corners corners = one.surface.mesh.corners(facet);
+    const Corners& corners = features.corners(facet);
     const auto add = [&](const std::optional<Nearest>& nearest, std::span<const int> feature) {
       if (nearest) add_vertex_point(one, feature, *nearest);
     };
@@ -221,8 +223,8 @@ class PointFinder {
   }
 
   static Vec3 facet_normal(const ScaledMesh& m, int facet) {
-    const Corners c = m.mesh.corners(facet);
-    const Vec3 normal = cross(m.position(c[1]) - m.position(c[0]), m.position(c[2]) - m.position(c[0]));
+    const Triangle t = m.triangle(facet);
+    const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
     return normal == Vec3{} ? Vec3{0.0, 0.0, 1.0} : normalized(normal);
   }
 

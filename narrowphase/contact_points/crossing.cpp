@@ -6,7 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "narrowphase/mesh/cluster_search.h"
 #include "narrowphase/numeric/unit_scale.h"
 #include "narrowphase/questions/mesh_questions.h"
 
@@ -47,24 +46,6 @@ std::span<const int> used(const std::array<int, 3>& feature) {
 
 double negative(double distance) { return distance > 0.0 ? -distance : 0.0; }
 
-// Beside the ends of an edge nothing is nearest to its inside: the part of space between its ends, and a sixteenth more
-// for rounding.
-struct BetweenEnds {
-  Vec3 from, along;
-  double length_squared;
-
-  BetweenEnds(Vec3 p, Vec3 q) : from(p), along(q - p), length_squared(norm_squared(along)) {}
-  bool reaches(const Box& box) const {
-    double low = 0.0, high = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double x = along[axis] * (box.lower[axis] - from[axis]), y = along[axis] * (box.upper[axis] - from[axis]);
-      low += std::min(x, y);
-      high += std::max(x, y);
-    }
-    return low <= 1.0625 * length_squared && high >= -0.0625 * length_squared;
-  }
-};
-
 }  // namespace
 
 bool is_contained(const FeaturedMesh& inner, const ClusteredMesh& outer) {
@@ -75,13 +56,13 @@ bool is_contained(const FeaturedMesh& inner, const ClusteredMesh& outer) {
 }
 
 const CarriedNormal* CrossingSearch::Side::carried_normal(int source_vertex) const {
-  const auto found = std::ranges::lower_bound(carried, source_vertex, {}, &CarriedNormal::vertex);
-  return found != carried.end() && found->vertex == source_vertex ? &*found : nullptr;
+  const int place = carried_at[source_vertex];
+  return place < 0 ? nullptr : &carried[place];
 }
 
 const CrossingSearch::Crossed* CrossingSearch::Side::find(int source_vertex) const {
-  const auto found = std::ranges::lower_bound(crossed, source_vertex, {}, &Crossed::source_vertex);
-  return found != crossed.end() && found->source_vertex == source_vertex ? &*found : nullptr;
+  const int place = crossed_at[source_vertex];
+  return place < 0 ? nullptr : &crossed[place];
 }
 
 void CrossingSearch::Side::mark_crossed() {
@@ -103,7 +84,10 @@ CrossedVertices CrossingSearch::begin(const CrossingInput& input) {
     side.surface = surface;
     side.carried = carried;
     side.sign = sign;
+    side.carried_at.clear(mesh.mesh->source_vertex_count());
+    for (std::size_t i = 0; i < carried.size(); ++i) side.carried_at.set(carried[i].vertex, i);
     side.crossed.clear();
+    side.crossed_at.clear(mesh.mesh->source_vertex_count());
   };
   set(a_, input.a, input.surface_a, input.carried_a, -1.0);
   set(b_, input.b, input.surface_b, input.carried_b, 1.0);
@@ -137,6 +121,7 @@ void CrossingSearch::find_crossed(Side& own, const Side& other) {
     find_ways_through(own, other);
   }
   std::ranges::sort(own.crossed, {}, &Crossed::source_vertex);
+  for (std::size_t i = 0; i < own.crossed.size(); ++i) own.crossed_at.set(own.crossed[i].source_vertex, i);
 }
 
 // In the order of the caller's numbers, so that sums do not depend on how facets are grouped.
@@ -157,7 +142,7 @@ void CrossingSearch::find_patch_directions(Side& own, const Side& other) {
       one.entered = one.entered + other.scaled(scale_).unit_normal(facet);
       ++one.entries;
     } else if (own.surface == SurfaceKind::closed) {
-      for (const int corner : other.mesh.mesh->corners(facet)) {
+      for (const int corner : other.mesh.features->corners(facet)) {
         const int source = other.mesh.mesh->source_vertex(corner);
         const Crossed* crossed = other.find(source);
         const CarriedNormal* carried = other.carried_normal(source);
@@ -237,6 +222,8 @@ void CrossingSearch::find_ways_through(Side& own, const Side& sheet) {
     }
   }
   ways_.begin(surface);
+  through_.clear();
+  through_at_.clear(own.mesh.mesh->source_vertex_count());
   while (!reached_.empty()) {
     reach_through(own);
     spread_through(own);
@@ -256,13 +243,25 @@ void CrossingSearch::reach_through(Side& own) {
     if (one.source_vertex == last || own.cut.is_inside(one.source_vertex)) continue;
     const CarriedNormal* carried = own.carried_normal(one.source_vertex);
     const Vec3 facing = carried != nullptr && carried->gap > 0.0 ? own.sign * carried->normal : one.facing;
-    const auto way = ways_.nearest_through(from.position(one.vertex), facing, limit_, one.hint);
-    if (!way) continue;
+    const WayThrough* through = way_through(one, from);
+    if (through == nullptr || !through->is_beyond(facing)) continue;
+    const WayOut& way = through->way;
     last = one.source_vertex;
     own.cut.add_inside(own.mesh, one.vertex, one.from);
-    own.crossed.push_back({one.source_vertex, *way});
-    next_.push_back({one.source_vertex, one.vertex, one.from, way->out, way->facet});
+    own.crossed.push_back({one.source_vertex, way});
+    next_.push_back({one.source_vertex, one.vertex, one.from, way.out, way.facet});
   }
+}
+
+// That of a vertex, found once: a vertex that is not beyond the sheet is reached again and again.
+const WayThrough* CrossingSearch::way_through(const Reached& one, const ScaledMesh& from) {
+  int place = through_at_[one.source_vertex];
+  if (place < 0) {
+    place = static_cast<int>(through_.size());
+    through_at_.set(one.source_vertex, through_.size());
+    through_.push_back(ways_.nearest_through(from.position(one.vertex), limit_, one.hint));
+  }
+  return through_[place] ? &*through_[place] : nullptr;
 }
 
 void CrossingSearch::spread_through(Side& own) {
@@ -302,7 +301,7 @@ bool CrossingSearch::goes_on_inside(const Side& own, int edge) const {
 bool CrossingSearch::meets_beside(const Side& own, int edge, const Side& other, int other_edge) const {
   const EdgeVertices ends = other.mesh.features->edge(other_edge);
   return std::ranges::any_of(own.cut.hits_of(source_ends(own.mesh, edge)), [&](const EdgeHit& hit) {
-    const Corners corners = other.mesh.mesh->corners(other.mesh.mesh->facet_of_source(hit.facet));
+    const Corners& corners = other.mesh.features->corners(other.mesh.mesh->facet_of_source(hit.facet));
     return std::ranges::all_of(ends, [&](int v) { return std::ranges::find(corners, v) != corners.end(); });
   });
 }
@@ -406,19 +405,20 @@ void CrossingSearch::append_running_edges(const Side& own, const Side& other, st
   }
   std::ranges::sort(with_point_);
   const auto hits = own.cut.hits();
-  for (std::size_t i = 0; i + 1 < hits.size(); ++i) {
-    const bool first_of_several = (i == 0 || hits[i - 1].edge != hits[i].edge) && hits[i + 1].edge == hits[i].edge;
-    if (!first_of_several || std::ranges::binary_search(with_point_, hits[i].edge)) continue;
+  for (std::size_t i = 0, end = 0; i < hits.size(); i = end) {
+    for (end = i + 1; end < hits.size() && hits[end].edge == hits[i].edge;) ++end;
+    if (end == i + 1 || std::ranges::binary_search(with_point_, hits[i].edge)) continue;
     if (own.cut.is_inside(hits[i].vertices[0]) || own.cut.is_inside(hits[i].vertices[1])) continue;
-    if (const auto point = nearest_passed(own, hits[i].edge, other)) found.push_back(*point);
+    if (const auto point = nearest_passed(own, hits.subspan(i, end - i), other)) found.push_back(*point);
   }
 }
 
-std::optional<FeaturePoint> CrossingSearch::nearest_passed(const Side& own, int edge, const Side& other) {
-  const EdgeVertices ends = own.mesh.features->edge(edge);
-  const Vec3 from = own.mesh.mesh->position(ends[0]), to = own.mesh.mesh->position(ends[1]);
-  const BetweenEnds between(from, to);
-  const Box near = grown(extended(Box{from, from}, to), limit_ / scale_);
+std::optional<FeaturePoint> CrossingSearch::nearest_passed(const Side& own, std::span<const EdgeHit> hits,
+                                                           const Side& other) {
+  const int edge = hits[0].edge;
+  const ScaledMesh surface = other.scaled(scale_);
+  RunningEdge running(ends_of(own.scaled(scale_), edge));
+  for (const EdgeHit& hit : hits) running.add_hit(surface.triangle(surface.mesh.facet_of_source(hit.facet)));
   std::optional<FeaturePoint> best;
   const auto look_at = [&](int edge_a, int edge_b) {
     FeaturePoint point;
@@ -427,12 +427,8 @@ std::optional<FeaturePoint> CrossingSearch::nearest_passed(const Side& own, int 
         !best || point.gap > best->gap || (point.gap == best->gap && point.features() < best->features());
     if (better && is_inside(own, edge, &own == &a_ ? point.weight_a : point.weight_b, other)) best = point;
   };
-  for_each_cluster_in(*other.mesh.mesh, near, [&](int cluster) {
-    if (!between.reaches(other.mesh.mesh->cluster_boxes()[cluster])) return;
-    for (int f = other.mesh.features->edge_begin(cluster); f < other.mesh.features->edge_end(cluster); ++f) {
-      &own == &a_ ? wait(edge, f, look_at) : wait(f, edge, look_at);
-    }
-  });
+  for (const int f : beside_running_.find(running, surface, limit_))
+    &own == &a_ ? wait(edge, f, look_at) : wait(f, edge, look_at);
   visit_waiting(look_at);
   return best;
 }

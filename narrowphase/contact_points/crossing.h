@@ -33,6 +33,8 @@
 
 #include "narrowphase/contact_points/contact_points.h"
 #include "narrowphase/contact_points/cut.h"
+#include "narrowphase/contact_points/running_edge.h"
+#include "narrowphase/contact_points/vertex_places.h"
 #include "narrowphase/contact_points/waiting_edges.h"
 #include "narrowphase/contact_points/way_out.h"
 
@@ -82,7 +84,9 @@ class CrossingSearch {
     std::span<const CarriedNormal> carried;
     double sign = 1.0;  // times a way out of the other mesh: the normal from a to b
     Cut cut;
+    VertexPlaces carried_at;                 // in `carried`
     std::vector<Crossed> crossed;            // sorted by vertex
+    VertexPlaces crossed_at;                 // in `crossed`, when it is whole
     std::vector<std::uint64_t> has_crossed;  // a bit for each vertex, by the mesh's numbers
 
     ScaledMesh scaled(double scale) const { return {*mesh.mesh, *mesh.features, scale}; }
@@ -110,6 +114,7 @@ class CrossingSearch {
   std::optional<Vec3> facing_of_vertex(const Side& own, int source_vertex, SurfaceKind other) const;
   void find_ways_through(Side& own, const Side& sheet);
   void reach_through(Side& own);
+  const WayThrough* way_through(const Reached& one, const ScaledMesh& from);
   void spread_through(Side& own);
   void append_vertex_points(const Side& own, const Side& other, std::vector<FeaturePoint>& found) const;
   bool have_passed(int edge_a, int edge_b, const FeaturePoint& point) const;
@@ -124,7 +129,7 @@ class CrossingSearch {
   void visit_waiting(const Visit& visit);
   void append_edge_points(std::vector<FeaturePoint>& found);
   void append_running_edges(const Side& own, const Side& other, std::vector<FeaturePoint>& found);
-  std::optional<FeaturePoint> nearest_passed(const Side& own, int edge, const Side& other);
+  std::optional<FeaturePoint> nearest_passed(const Side& own, std::span<const EdgeHit> hits, const Side& other);
   bool is_inside(const Side& own, int edge, const std::array<double, 3>& weight, const Side& other) const;
 
   Side a_, b_;
@@ -134,9 +139,12 @@ class CrossingSearch {
   Vec3 direction_;
   std::vector<PatchDirection> patches_;
   std::vector<Reached> reached_, next_;
+  std::vector<std::optional<WayThrough>> through_;  // of vertices that were reached
+  VertexPlaces through_at_;
   std::vector<std::pair<int, int>> known_edges_, candidates_;
   std::vector<int> with_point_;
   WaitingEdges waiting_;
+  EdgesBeside beside_running_;
 };
 
 }  // namespace tact::narrowphase

@@ -10,12 +10,15 @@ namespace tact::narrowphase {
 void Cut::begin(const FeaturedMesh& own, std::span<const FacetPair> pairs, Which which) {
   clear_state(own);
   const ClusteredMesh& mesh = *own.mesh;
-  int last = -1;
+  // A facet comes again soon; to take it again changes nothing.
+  std::array<int, 64> recent;
+  recent.fill(-1);
   for (const FacetPair& pair : pairs) {
     const int source = which == Which::a ? pair.a : pair.b;
-    if (source == last) continue;
-    last = source;
-    const Corners corners = mesh.corners(mesh.facet_of_source(source));
+    int& known = recent[static_cast<std::size_t>(source) % recent.size()];
+    if (source == known) continue;
+    known = source;
+    const Corners& corners = own.features->corners(mesh.facet_of_source(source));
     const int first = mesh.source_vertex(corners[0]);
     for (const int v : corners) {
       const int source_vertex = mesh.source_vertex(v);

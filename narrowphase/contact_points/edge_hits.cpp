@@ -14,6 +14,11 @@ Vec3 corner_of(const TrianglePairs& pairs, int mesh, int k, int pair) {
   return {at[0][pair], at[1][pair], at[2][pair]};
 }
 
+Triangle triangle_of(const FeaturedMesh& m, int facet) {
+  const Corners& c = m.features->corners(facet);
+  return {m.mesh->position(c[0]), m.mesh->position(c[1]), m.mesh->position(c[2])};
+}
+
 void set_corners(const Triangle& triangle, int mesh, TrianglePairs& pairs) {
   for (std::size_t k = 0; k < 3; ++k) {
     for (int axis = 0; axis < 3; ++axis) pairs.corner[mesh][k][axis][pairs.count] = triangle[k][axis];
@@ -45,11 +50,11 @@ void EdgeHitSearch::run(const FeaturedMesh& a, const FeaturedMesh& b, std::span<
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (i == 0 || pairs[i].a != pairs[i - 1].a) {
       facet_a = a.mesh->facet_of_source(pairs[i].a);
-      triangle_a = a.mesh->triangle(facet_a);
+      triangle_a = triangle_of(a, facet_a);
     }
     const int facet_b = b.mesh->facet_of_source(pairs[i].b);
     set_corners(triangle_a, 0, triangles_);
-    set_corners(b.mesh->triangle(facet_b), 1, triangles_);
+    set_corners(triangle_of(b, facet_b), 1, triangles_);
     met_[triangles_.count++] = {{facet_a, facet_b}, pairs[i]};
     if (triangles_.count == TrianglePairs::kCapacity) decide(a, b, of_a, of_b);
   }
@@ -61,13 +66,17 @@ void EdgeHitSearch::run(const FeaturedMesh& a, const FeaturedMesh& b, std::span<
 void EdgeHitSearch::decide(const FeaturedMesh& a, const FeaturedMesh& b, std::vector<EdgeHit>& of_a,
                            std::vector<EdgeHit>& of_b) {
   const EdgesThrough through = kernels().edges_through(triangles_);
+  // Of two meshes all facets that meet are known, so each facet with the edge tells the same: the first one is asked.
+  // Of one mesh the pairs of facets that share a vertex are missing.
+  const bool asks_first = a.mesh != b.mesh;
   for (int edge = 0; edge < 6; ++edge) {
     const int mesh = edge / 3, k = edge % 3;
     const FeaturedMesh& own = mesh == 0 ? a : b;
     std::vector<EdgeHit>& hits = mesh == 0 ? of_a : of_b;
     for (std::uint64_t left = through.meeting[edge] | through.undecided[edge]; left != 0; left &= left - 1) {
-      const int i = std::countr_zero(left);
-      const int own_edge = own.features->facet_edge(met_[i].facet[mesh], k);
+      const int i = std::countr_zero(left), facet = met_[i].facet[mesh];
+      if (asks_first && (own.features->firsts_of_facet(facet) >> k & 1) == 0) continue;
+      const int own_edge = own.features->facet_edge(facet, k);
       if (own_edge < 0) continue;
       if ((through.undecided[edge] >> i & 1) != 0 && !meets(triangles_, mesh, k, i, counts_)) continue;
       const EdgeVertices ends = own.features->edge(own_edge);

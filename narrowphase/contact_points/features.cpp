@@ -19,11 +19,11 @@ struct Side {
   }
 };
 
-std::vector<Side> sides_of(const ClusteredMesh& mesh) {
+std::vector<Side> sides_of(const std::vector<Corners>& corners) {
   std::vector<Side> sides;
-  sides.reserve(3 * static_cast<std::size_t>(mesh.facet_count()));
-  for (int f = 0; f < mesh.facet_count(); ++f) {
-    const Corners c = mesh.corners(f);
+  sides.reserve(3 * corners.size());
+  for (int f = 0; f < static_cast<int>(corners.size()); ++f) {
+    const Corners& c = corners[f];
     for (int k = 0; k < 3; ++k) {
       const int from = c[k], to = c[(k + 1) % 3];
       if (from != to) sides.push_back({{std::min(from, to), std::max(from, to)}, f, k});
@@ -36,6 +36,8 @@ std::vector<Side> sides_of(const ClusteredMesh& mesh) {
 }  // namespace
 
 Features::Features(const ClusteredMesh& mesh) {
+  corners_.reserve(mesh.facet_count());
+  for (int f = 0; f < mesh.facet_count(); ++f) corners_.push_back(mesh.corners(f));
   find_edges(mesh);
   find_neighbors(mesh);
   find_firsts(mesh);
@@ -45,7 +47,7 @@ Features::Features(const ClusteredMesh& mesh) {
 }
 
 void Features::find_edges(const ClusteredMesh& mesh) {
-  const std::vector<Side> sides = sides_of(mesh);
+  const std::vector<Side> sides = sides_of(corners_);
   // Where the sides of each edge begin, in the order of the first facets.
   std::vector<std::size_t> begins;
   for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -57,7 +59,7 @@ void Features::find_edges(const ClusteredMesh& mesh) {
   opposite_begin_.push_back(0);
   for (const std::size_t begin : begins) {
     const int edge = edge_count();
-    const Corners corners = mesh.corners(sides[begin].facet);
+    const Corners& corners = corners_[sides[begin].facet];
     auto from = static_cast<std::size_t>(sides[begin].k), to = (from + 1) % 3;
     if (mesh.source_vertex(corners[to]) < mesh.source_vertex(corners[from])) std::swap(from, to);
     edges_.push_back({corners[from], corners[to]});
@@ -70,7 +72,7 @@ void Features::find_edges(const ClusteredMesh& mesh) {
     for (std::size_t i = begin; i < sides.size() && sides[i].vertices == sides[begin].vertices; ++i) {
       const auto [_, f, k] = sides[i];
       facet_edges_[3 * static_cast<std::size_t>(f) + static_cast<std::size_t>(k)] = edge;
-      opposite_.push_back(mesh.corners(f)[(k + 2) % 3]);
+      opposite_.push_back(corners_[f][(k + 2) % 3]);
     }
     opposite_begin_.push_back(static_cast<int>(opposite_.size()));
   }
@@ -82,7 +84,7 @@ void Features::find_neighbors(const ClusteredMesh& mesh) {
   const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
   first_facet_of_vertex_.assign(vertices, -1);
   for (int f = mesh.facet_count() - 1; f >= 0; --f) {
-    for (const int v : mesh.corners(f)) first_facet_of_vertex_[v] = f;
+    for (const int v : corners_[f]) first_facet_of_vertex_[v] = f;
   }
   neighbors_begin_.assign(vertices + 1, 0);
   for (const EdgeVertices& edge : edges_) {
@@ -100,7 +102,7 @@ void Features::find_neighbors(const ClusteredMesh& mesh) {
 void Features::find_firsts(const ClusteredMesh& mesh) {
   firsts_of_facet_.assign(mesh.facet_count(), 0);
   for (int f = 0; f < mesh.facet_count(); ++f) {
-    const Corners corners = mesh.corners(f);
+    const Corners& corners = corners_[f];
     unsigned firsts = 0;
     for (int k = 0; k < 3; ++k) {
       const int edge = facet_edge(f, k), v = corners[k];
@@ -143,6 +145,7 @@ void Features::prefetch(const ClusteredMesh& mesh, int cluster) const {
   lines(edge_corner_[0], edge, end);
   lines(edge_corner_[1], edge, end);
   lines(opposite_begin_, edge, end + 1);
+  lines(corners_, facet, facet_end);
   lines(facet_edges_, 3 * facet, 3 * facet_end);
   lines(firsts_of_facet_, facet, facet_end);
   lines(neighbors_begin_, vertex, vertex_end + 1);

@@ -39,6 +39,8 @@ class Features {
   }
   /// The third vertex of each facet that has the edge.
   std::span<const int> opposite(int edge) const { return part(opposite_, opposite_begin_, edge); }
+  /// What the mesh tells of a facet's vertices, without a look at its cluster.
+  const Corners& corners(int facet) const { return corners_[facet]; }
   /// The edge from corner k of a facet to the next one; negative if these are one vertex.
   int facet_edge(int facet, int k) const {
     return facet_edges_[3 * static_cast<std::size_t>(facet) + static_cast<std::size_t>(k)];
@@ -73,6 +75,7 @@ class Features {
   std::vector<std::uint8_t> edge_corner_[2];
   std::vector<int> edge_begin_;  // by cluster, and one more
   std::vector<int> opposite_, opposite_begin_;
+  std::vector<Corners> corners_;
   std::vector<int> facet_edges_;
   std::vector<int> first_facet_of_edge_, first_facet_of_vertex_;
   std::vector<std::uint8_t> firsts_of_facet_;

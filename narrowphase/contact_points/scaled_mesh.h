@@ -12,10 +12,14 @@ struct ScaledMesh {
   double scale;  // a power of two
 
   Vec3 position(int vertex) const { return scale * mesh.position(vertex); }
+  Triangle triangle(int facet) const {
+    const Corners& c = features.corners(facet);
+    return {position(c[0]), position(c[1]), position(c[2])};
+  }
   /// Of a facet; zero if it has no area.
   Vec3 unit_normal(int facet) const {
-    const Corners c = mesh.corners(facet);
-    const Vec3 normal = cross(position(c[1]) - position(c[0]), position(c[2]) - position(c[0]));
+    const Triangle t = triangle(facet);
+    const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
     const double length = norm(normal);
     return length > 0.0 ? (1.0 / length) * normal : Vec3{};
   }

@@ -22,10 +22,7 @@ struct SeenFacet {
   double length = 0.0;  // of the normal, which need not be 1
   double height = 0.0;  // of the vertex above the facet's plane
 
-  SeenFacet(const ScaledMesh& m, int facet, Vec3 v) {
-    const Corners c = m.mesh.corners(facet);
-    see({m.position(c[0]), m.position(c[1]), m.position(c[2])}, v);
-  }
+  SeenFacet(const ScaledMesh& m, int facet, Vec3 v) { see(m.triangle(facet), v); }
   SeenFacet(const Triangle& facet, Vec3 v) { see(facet, v); }
 
  private:
@@ -68,7 +65,7 @@ WayOut way_to(const SeenFacet& seen, int facet) {
 
 // The smallest feature with the place: corners without weight are left out, those of an edge in the caller's order.
 void name_feature(const ScaledMesh& m, WayOut& way) {
-  const Corners c = m.mesh.corners(way.facet);
+  const Corners& c = m.features.corners(way.facet);
   std::size_t count = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     if (way.weight[k] <= 0.0) continue;
@@ -96,7 +93,7 @@ double height_at_edge(const ScaledMesh& m, int facet, int side, Vec3 v, double o
   if (edge < 0) return own_height;
   const auto third = m.features.opposite(edge);
   if (third.size() == 1) return 0.0;
-  const Corners c = m.mesh.corners(facet);
+  const Corners& c = m.features.corners(facet);
   const auto k = static_cast<std::size_t>(side);
   const Vec3 p = m.position(c[k]), q = m.position(c[(k + 1) % 3]);
   double height = own_height;
@@ -236,10 +233,10 @@ std::optional<WayOut> WayFinder::nearest_out(Vec3 v, Vec3 facing, double cosine,
   return way;
 }
 
-std::optional<WayOut> WayFinder::nearest_through(Vec3 v, Vec3 facing, double within, int hint) {
+std::optional<WayThrough> WayFinder::nearest_through(Vec3 v, double within, int hint) {
   const ScaledMesh& sheet = *memory_->surface;
   auto way = nearest(v, within, hint, nullptr, [](const SeenFacet&) { return true; });
-  if (!way) return way;
+  if (!way) return {};
   name_feature(sheet, *way);
   const SeenFacet seen(sheet, way->facet, v);
   double height = seen.height;
@@ -249,9 +246,7 @@ std::optional<WayOut> WayFinder::nearest_through(Vec3 v, Vec3 facing, double wit
     height = height_at_edge(sheet, way->facet, (k + 1) % 3, v, height);
     if (height == 0.0) return {};
   }
-  const double along = dot(seen.normal, facing);
-  const bool beyond = (along > 0.0 && height < 0.0) || (along < 0.0 && height > 0.0);
-  return beyond ? way : std::nullopt;
+  return WayThrough{*way, seen.normal, height};
 }
 
 std::optional<WayOut> way_to_facet(const ScaledMesh& surface, int facet, Vec3 v) {

@@ -19,6 +19,19 @@ struct WayOut {
   std::array<double, 3> feature_weight{};  // and their weights
 };
 
+/// A way to a sheet, and on which side of it the vertex is.
+struct WayThrough {
+  WayOut way;
+  Vec3 normal;          // of the facet, of any length
+  double height = 0.0;  // of the vertex: its sign tells the side, that of `normal` if it is positive
+
+  /// Is the vertex on the other side than `facing` shows to?
+  bool is_beyond(Vec3 facing) const {
+    const double along = dot(normal, facing);
+    return (along > 0.0 && height < 0.0) || (along < 0.0 && height > 0.0);
+  }
+};
+
 /// Of many vertices, one after the other: clusters that were opened for one stay open for the next.
 class WayFinder {
  public:
@@ -38,9 +51,8 @@ class WayFinder {
   /// the one with the least number of the caller. `hint`, a facet or -1, changes no answer.
   std::optional<WayOut> nearest_out(Vec3 v, Vec3 facing, double cosine, double within, int hint);
 
-  /// Of a sheet: the nearest place, if it is at most `within` away, if it is not on the sheet's border, and if `v` is
-  /// on the other side of it than `facing` shows to.
-  std::optional<WayOut> nearest_through(Vec3 v, Vec3 facing, double within, int hint);
+  /// Of a sheet: the nearest place, if it is at most `within` away and not on the sheet's border.
+  std::optional<WayThrough> nearest_through(Vec3 v, double within, int hint);
 
  private:
   struct Memory;

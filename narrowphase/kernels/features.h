@@ -22,6 +22,7 @@ struct alignas(64) MovingPolygons {
 struct alignas(64) ClusterPoints {
   static constexpr int kRoom = 192 + 64;
   double at[3][kRoom];
+  double together[4 * kRoom];  // the same vertex by vertex; the fourth number of each has no meaning
   std::uint8_t outside[kRoom];
   int count = 0;
 };

@@ -35,6 +35,9 @@ void place_points(const ClusterFacets& in, double scale, const BoxBounds& box, C
     for (int i = 0; i < in.owned_count; i += kWidth) store(to + i, mul(factor, load(from[axis] + in.owned_begin + i)));
     for (int i = 0; i < in.borrowed_count; ++i) to[in.owned_count + i] = scale * from[axis][in.borrowed[i]];
   }
+  for (int i = 0; i < points->count; ++i) {
+    for (int axis = 0; axis < 3; ++axis) points->together[4 * i + axis] = points->at[axis][i];
+  }
   const double* const at[3] = {points->at[0], points->at[1], points->at[2]};
   flag_outside(at, at, points->count, box, points->outside);
 }
@@ -57,16 +60,21 @@ void place_features(const ClusterPoints& points, const FeatureCorners& in, const
     for (int n = count; n < count + kWidth; ++n) block->corner[k][n] = 0;
   }
   const Pack more = spread(widen);
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < count; i += kWidth) {
-      Pack low = gather(points.at[axis], block->corner[0] + i), high = low;
-      for (int k = 1; k < in.corners; ++k) {
-        const Pack x = gather(points.at[axis], block->corner[k] + i);
-        low = min(low, x);
-        high = max(high, x);
+  for (int i = 0; i < count; i += kWidth) {
+    Pack low[3], high[3];
+    gather_points(points.together, block->corner[0] + i, low);
+    for (int axis = 0; axis < 3; ++axis) high[axis] = low[axis];
+    for (int k = 1; k < in.corners; ++k) {
+      Pack x[3];
+      gather_points(points.together, block->corner[k] + i, x);
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = min(low[axis], x[axis]);
+        high[axis] = max(high[axis], x[axis]);
       }
-      store_cells(block->cells.lower[axis] + i, cell(grid, axis, sub(low, more)));
-      store_cells(block->cells.upper[axis] + i, cell(grid, axis, add(high, more)));
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      store_cells(block->cells.lower[axis] + i, cell(grid, axis, sub(low[axis], more)));
+      store_cells(block->cells.upper[axis] + i, cell(grid, axis, add(high[axis], more)));
     }
   }
   block->count = block->cells.count = count;
@@ -97,8 +105,9 @@ struct ListedPairs {
     static_assert(kFew + kMany == 4);
     QuadLanes q;
     for (int k = 0; k < 4; ++k) {
-      const auto& at = (k < kFew ? points : others).at;
-      q.point[k] = {gather(at[0], corner[k] + i), gather(at[1], corner[k] + i), gather(at[2], corner[k] + i)};
+      Pack xyz[3];
+      gather_points((k < kFew ? points : others).together, corner[k] + i, xyz);
+      q.point[k] = {xyz[0], xyz[1], xyz[2]};
     }
     return q;
   }

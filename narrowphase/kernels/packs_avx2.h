@@ -20,6 +20,14 @@ template <class Index>
 inline Pack gather(const double* p, const Index* i) {
   return _mm256_set_pd(p[i[3]], p[i[2]], p[i[1]], p[i[0]]);
 }
+// Of points of four numbers each the first three of some.
+inline void gather_points(const double* p, const std::uint8_t* i, Pack* xyz) {
+  const Pack a = load(p + 4 * i[0]), b = load(p + 4 * i[1]), c = load(p + 4 * i[2]), d = load(p + 4 * i[3]);
+  const Pack xz_ab = _mm256_unpacklo_pd(a, b), xz_cd = _mm256_unpacklo_pd(c, d);
+  xyz[0] = _mm256_permute2f128_pd(xz_ab, xz_cd, 0x20);
+  xyz[1] = _mm256_permute2f128_pd(_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d), 0x20);
+  xyz[2] = _mm256_permute2f128_pd(xz_ab, xz_cd, 0x31);
+}
 // Elements of an array.
 struct Picks {
   const std::uint8_t* place;

@@ -20,6 +20,18 @@ template <class Index>
 inline Pack gather(const double* p, const Index* i) {
   return _mm512_set_pd(p[i[7]], p[i[6]], p[i[5]], p[i[4]], p[i[3]], p[i[2]], p[i[1]], p[i[0]]);
 }
+// Of points of four numbers each the first three of some.
+inline void gather_points(const double* p, const std::uint8_t* i, Pack* xyz) {
+  const auto two = [&](int k, int n) {
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(p + 4 * i[k])), _mm256_loadu_pd(p + 4 * i[n]), 1);
+  };
+  const Pack a = two(0, 4), b = two(1, 5), c = two(2, 6), d = two(3, 7);
+  const Pack xz_ab = _mm512_unpacklo_pd(a, b), xz_cd = _mm512_unpacklo_pd(c, d);
+  const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+  xyz[0] = _mm512_permutex2var_pd(xz_ab, low, xz_cd);
+  xyz[1] = _mm512_permutex2var_pd(_mm512_unpackhi_pd(a, b), low, _mm512_unpackhi_pd(c, d));
+  xyz[2] = _mm512_permutex2var_pd(xz_ab, high, xz_cd);
+}
 // Elements of a padded array of up to 64, of which `count` are filled. Short arrays are taken whole into registers.
 struct Picks {
   const std::uint8_t* place;

@@ -18,6 +18,10 @@ template <class Index>
 inline Pack gather(const double* p, const Index* index) {
   return p[*index];
 }
+// Of points of four numbers each the first three of some.
+inline void gather_points(const double* p, const std::uint8_t* index, Pack* xyz) {
+  for (int axis = 0; axis < 3; ++axis) xyz[axis] = p[4 * *index + axis];
+}
 // Elements of an array.
 struct Picks {
   const std::uint8_t* place;

@@ -213,10 +213,10 @@ struct FacingTest {
     const VectorPack normal{mul(unit_squared, load(block.normal[0] + i)), mul(unit_squared, load(block.normal[1] + i)),
                             mul(unit_squared, load(block.normal[2] + i))};
     Pack size = spread(0.0);
-    for (int axis = 0; axis < 3; ++axis) size = add(size, sub(load(block.upper[axis] + i), load(block.lower[axis] + i)));
+    for (int axis = 0; axis < 3; ++axis)
+      size = add(size, sub(load(block.upper[axis] + i), load(block.lower[axis] + i)));
     const Pack most_along = add(dot(normal, direction), mul(unit, size));
-    return either(less(most_along, spread(0.0)),
-                  less(mul(most_along, most_along), mul(least, dot(normal, normal))));
+    return either(less(most_along, spread(0.0)), less(mul(most_along, most_along), mul(least, dot(normal, normal))));
   }
 };
 

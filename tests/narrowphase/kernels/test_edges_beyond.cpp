@@ -126,6 +126,7 @@ TEST(NearEdges, AreThoseThatShareCellsAndAreNotBeyond) {
       for (int i = 0; i < 128; ++i) {
         for (int axis = 0; axis < 3; ++axis) points[side].at[axis][i] = random.uniform(-0.5, 0.5);
         points[side].at[2][i] *= 0.1;
+        for (int axis = 0; axis < 3; ++axis) points[side].together[4 * i + axis] = points[side].at[axis][i];
       }
       FeatureBlock& one = edges[side];
       one.count = one.cells.count = count;

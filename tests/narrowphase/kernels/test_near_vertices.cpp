@@ -55,7 +55,7 @@ struct VerticesAndFacets {
   void add(Vec3 vertex, const Vec3 (&corner)[3]) {
     const int i = vertices.count;
     const auto set = [](ClusterPoints& points, int at, Vec3 p) {
-      for (int axis = 0; axis < 3; ++axis) points.at[axis][at] = p[axis];
+      for (int axis = 0; axis < 3; ++axis) points.at[axis][at] = points.together[4 * at + axis] = p[axis];
     };
     set(vertex_points, i, vertex);
     vertices.corner[0][i] = static_cast<std::uint8_t>(i);

@@ -63,6 +63,8 @@ TEST(PlacePoints, ScaleTheVerticesAndTellWhichSidesRuleThemOut) {
       ASSERT_EQ(points.count, static_cast<int>(expected.size())) << kernels->name;
       for (int i = 0; i < points.count; ++i) {
         ASSERT_EQ((Vec3{points.at[0][i], points.at[1][i], points.at[2][i]}), expected[i]) << kernels->name;
+        const double* const together = points.together + 4 * i;
+        ASSERT_EQ((Vec3{together[0], together[1], together[2]}), expected[i]) << kernels->name;
         ASSERT_EQ(points.outside[i], outside(expected[i])) << kernels->name;
         (outside(expected[i]) == 0 ? inside : beyond) += 1;
       }

@@ -133,6 +133,45 @@ TEST(RankBlock, HoldsTheFacetsWithinReachAndNeverSaysTooFar) {
   EXPECT_LT(listed, facets / 2);
 }
 
+// What is left out is not nearer to the direction than the angle of the cosine, and is all that is farther by rounding.
+TEST(RankBlock, LeavesOutWhatDoesNotFaceADirection) {
+  Random random(4);
+  int left_out = 0, kept = 0;
+  tests::for_clusters([&](const ClusteredMesh& mesh, int c) {
+    FacetBlock block;
+    block.count = 0;
+    kernels().open_cluster(mesh.facets_of(c), planes_of(everywhere()), &block);
+    for (int trial = 0; trial < 30; ++trial) {
+      const Vec3 direction = normalized(random.in_cube(1.0));
+      const FacingNormals facing{{direction.x, direction.y, direction.z}, trial % 2 == 0 ? 0.5 : 0.05};
+      const double at[3] = {0.0, 0.0, 0.0}, most = std::numeric_limits<double>::infinity();
+      FacetDistances expected;
+      scalar_kernels()->rank_block(block, at, 0.5, most, &facing, &expected);
+      std::vector<bool> is_listed(FacetBlock::kCapacity, false);
+      for (int i = 0; i < expected.count; ++i) is_listed[expected.facet[i]] = true;
+      for (int i = 0; i < block.count; ++i) {
+        const Triangle t = mesh.triangle(block.facet[i]);
+        const Vector normal = cross_product(difference(t[1], t[0]), difference(t[2], t[0]));
+        const long double along =
+            product(normal, difference(direction, {})) - facing.cosine * std::sqrt(product(normal, normal));
+        if (along > 0 || along < -1e-12L) {
+          EXPECT_EQ(is_listed[i], along > 0) << "facet " << i << " trial " << trial;
+        }
+      }
+      for (const Kernels* kernels : tests::available_kernels()) {
+        FacetDistances found;
+        kernels->rank_block(block, at, 0.5, most, &facing, &found);
+        ASSERT_EQ(found.count, expected.count) << kernels->name;
+        for (int i = 0; i < found.count; ++i) EXPECT_EQ(found.facet[i], expected.facet[i]) << kernels->name;
+      }
+      kept += expected.count;
+      left_out += block.count - expected.count;
+    }
+  });
+  EXPECT_GT(kept, 1000);
+  EXPECT_GT(left_out, 1000);
+}
+
 TEST(RankByDistance, HoldsTheBoxesWithinReach) {
   Random random(2);
   BoxArrays boxes;

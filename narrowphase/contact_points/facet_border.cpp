@@ -1,0 +1,48 @@
+#include "narrowphase/contact_points/facet_border.h"
+
+#include <algorithm>
+
+namespace tact::narrowphase {
+
+namespace {
+
+// Is a value above the bound at which nearest.cpp calls its sign certain?
+bool certainly_positive(double value, double size_squared) {
+  return value > 0.0 && value * value > kSignRounding * kSignRounding * size_squared;
+}
+
+}  // namespace
+
+unsigned border_of(Vec3 v, const Vec3 (&corner)[3], double limit) {
+  Vec3 away[3], side[3];
+  double square[3], length[3], place[3];  // of `away`, of `side`; how far along the side, times its length
+  for (int k = 0; k < 3; ++k) {
+    away[k] = v - corner[k];
+    side[k] = corner[(k + 1) % 3] - corner[k];
+    square[k] = norm_squared(away[k]);
+    length[k] = norm_squared(side[k]);
+    place[k] = dot(away[k], side[k]);
+  }
+  const double most = limit * limit * (1.0 + 0x1p-40);
+  unsigned left = 0;
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3, last = (k + 2) % 3;
+    const double back = -dot(away[k], side[last]);  // along the side to the last corner
+    // In the corner: with the operations of nearest_in_vertex(), but for the root.
+    if (square[k] <= most && !certainly_positive(place[k], square[k] * length[k]) &&
+        !certainly_positive(back, square[k] * length[last]))
+      left |= 8u << k;
+    // Inside the edge: nearest_inside_edge() may count from its other end, so that what rounding moves is left.
+    const double rounding = 0x1p-40 * (square[k] + length[k]);
+    if (place[k] < -rounding || place[k] > length[k] + rounding) continue;
+    const double apart = square[k] * length[k] - place[k] * place[k];  // squared distance times length
+    if (apart > most * length[k] + 0x1p-40 * square[k] * length[k]) continue;
+    const double inner = back * length[k] + dot(side[last], side[k]) * place[k];
+    const double size_squared =
+        length[k] * length[k] * std::max(square[k], square[next]) * std::max(length[last], length[next]);
+    if (!certainly_positive(inner, 16.0 * size_squared)) left |= 1u << k;
+  }
+  return left;
+}
+
+}  // namespace tact::narrowphase
