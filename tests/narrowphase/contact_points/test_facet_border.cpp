@@ -55,7 +55,7 @@ TEST(FacetBorder, LeavesOutNoPoint) {
     }
   }
   EXPECT_GT(points, 20'000);
-  EXPECT_LT(kept, points + points / 10);
+  EXPECT_LT(kept, points + points / 4);
   EXPECT_GT(missing, 5 * kept);
 }
 

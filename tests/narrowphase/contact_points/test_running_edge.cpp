@@ -52,7 +52,8 @@ TEST(EdgesBeside, HoldEveryEdgeThatIsNearestToThePartInside) {
   for (int trial = 0; trial < 400; ++trial) {
     const double scale = trial % 2 == 0 ? 0.5 : 1.0, within = trial % 3 == 0 ? 0.05 : 2.0;
     const ScaledMesh surface{ball, features, scale};
-    const Vec3 middle = 0.9 * random.in_cube(1.0), along = (trial % 4 == 0 ? 4.0 : 1.0) * random.in_cube(1.0);
+    const Vec3 middle = 0.95 * normalized(random.in_cube(1.0)),
+               along = (trial % 4 == 0 ? 4.0 : 0.6) * random.in_cube(1.0);
     const Segment edge{middle - along, middle + along};
     RunningEdge running({scale * edge[0], scale * edge[1]});
     std::vector<long double> places;
@@ -72,8 +73,8 @@ TEST(EdgesBeside, HoldEveryEdgeThatIsNearestToThePartInside) {
     EXPECT_TRUE(std::ranges::is_sorted(listed));
     for (int f = 0; f < features.edge_count(); ++f) {
       const EdgeVertices ends = features.edge(f);
-      const Places at =
-          nearest_places({scale * edge[0], scale * edge[1]}, {surface.position(ends[0]), surface.position(ends[1])});
+      const LinePlaces at =
+          places_of_lines({scale * edge[0], scale * edge[1]}, {surface.position(ends[0]), surface.position(ends[1])});
       if (!at.inside_both || !(at.height < within) || at.on_first < first || at.on_first > last) continue;
       ++nearest;
       EXPECT_TRUE(std::ranges::binary_search(listed, f)) << "edge " << f << " trial " << trial;
