@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "engine/base/parallel.h"
 #include "engine/base/text.h"
 #include "engine/check_coordinate.h"
 #include "narrowphase/questions/mesh_questions.h"
@@ -82,22 +83,30 @@ RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted) {
   return best.facet >= 0 ? best : RayHit{};
 }
 
-void begin_rays(const Bodies& bodies, std::size_t rays, narrowphase::LineRoom& room) {
+void begin_rays(const Bodies& bodies, std::size_t rays, int threads, narrowphase::LineRoom& room) {
   std::vector<int> clusters(bodies.boxes().size());
   for (std::uint32_t slot = 0; slot < clusters.size(); ++slot)
     clusters[slot] = bodies.boxes()[slot].empty() ? 0 : bodies.in_slot(slot).mesh.cluster_count();
   room.begin(clusters, rays);
+  base::parallel_for(room.meshes().size(), 1, threads, [&](std::size_t k) {
+    const std::size_t slot = room.meshes()[k];
+    room.make_tree(bodies.placed(static_cast<std::uint32_t>(slot)).mesh, slot);
+  });
+  base::parallel_for(room.node_count(), 4, threads, [&](std::size_t i) { room.make_node(i); });
 }
 
 void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<RayHit> hits,
-                     narrowphase::LineRoom& room) {
-  std::vector<narrowphase::FirstHitQuestion> questions;
+                     const narrowphase::LineRoom& room) {
+  std::array<narrowphase::FirstHitQuestion, narrowphase::kLinesAtATime> questions;
   std::array<Box, narrowphase::kLinesAtATime> boxes;
-  questions.reserve(rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const narrowphase::Segment segment = segment_of(rays[i]);
-    questions.emplace_back(segment);
-    boxes[i] = box_of(segment);
+    for (int axis = 0; axis < 3;
+         ++axis) {  // number by number: what was written as such cannot be read at once in pairs
+      questions[i].segment[0][axis] = rays[i].from[axis];
+      questions[i].segment[1][axis] = rays[i].to[axis];
+      boxes[i].lower[axis] = std::min(rays[i].from[axis], rays[i].to[axis]);
+      boxes[i].upper[axis] = std::max(rays[i].from[axis], rays[i].to[axis]);
+    }
     hits[i] = {};
   }
   for (std::uint32_t slot = 0; slot < bodies.boxes().size(); ++slot) {
@@ -111,7 +120,7 @@ void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<
     }
     if (count == 0) continue;
     const Body& body = bodies.placed(slot);
-    narrowphase::ask_first_hits({body.mesh, &room, slot}, {asked.data(), count});
+    narrowphase::ask_first_hits(body.mesh, room.tree(slot), {asked.data(), count});
     // A hit is of the first body that has one as early.
     for (std::size_t k = 0; k < count; ++k) {
       const auto i = static_cast<std::size_t>(asked[k] - questions.data());

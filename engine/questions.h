@@ -20,10 +20,10 @@ void check_question(const BoxQuestion& question);
 
 RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted);
 /// Begins to ask for the first hits of many rays of the bodies as they are now.
-void begin_rays(const Bodies& bodies, std::size_t rays, narrowphase::LineRoom& room);
+void begin_rays(const Bodies& bodies, std::size_t rays, int threads, narrowphase::LineRoom& room);
 /// Answers some of them, up to kLinesAtATime, each as find_hit().
 void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<RayHit> hits,
-                     narrowphase::LineRoom& room);
+                     const narrowphase::LineRoom& room);
 std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray);
 ClosestPoint find_closest_point(const Bodies& bodies, const PointQuestion& question);
 std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuestion& question);

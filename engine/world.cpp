@@ -309,7 +309,7 @@ void World::rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits want
   const base::Workers::Scope scope(i.workers);
   with_memory(kNoMemoryForAnswers, [&] {
     constexpr std::size_t kAtATime = narrowphase::kLinesAtATime;
-    begin_rays(i.bodies, rays.size(), i.line_room);
+    begin_rays(i.bodies, rays.size(), i.settings.threads, i.line_room);
     base::parallel_for((rays.size() + kAtATime - 1) / kAtATime, 1, i.settings.threads, [&](std::size_t block) {
       const std::size_t begin = block * kAtATime, count = std::min(kAtATime, rays.size() - begin);
       find_first_hits(i.bodies, rays.subspan(begin, count), hits.subspan(begin, count), i.line_room);

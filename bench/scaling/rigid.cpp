@@ -13,6 +13,7 @@
 #include "bench/measure.h"
 #include "bench/table.h"
 #include "bench/workloads/workloads.h"
+#include "engine/base/parallel.h"
 
 namespace tact::bench {
 namespace {
@@ -56,9 +57,19 @@ struct TurningBodies {
   }
 };
 
+// What a program gives the world in every frame: poses, vertices that it has, or vertices that it computes from poses.
+enum class Given { poses, vertices, computed_vertices };
+
+struct StepTimes {
+  double set_ms = 0.0, detect_ms = 0.0;
+  double sum() const { return set_ms + detect_ms; }
+};
+
 class Player {
  public:
-  Player(const TurningBodies& bodies, Motion motion, int threads) : bodies_(bodies), world_({.threads = threads}) {
+  Player(const TurningBodies& bodies, Given given, int threads)
+      : bodies_(bodies), given_(given), threads_(threads), world_({.threads = threads}) {
+    const Motion motion = given == Given::poses ? Motion::rigid : Motion::moving;
     for (std::size_t i = 0; i < bodies.rest.size(); ++i) {
       const BodyId id = world_.add_body({.positions = bodies.rest[i], .facets = bodies.facets[i], .motion = motion});
       positions_.push_back({id, bodies.rest[i]});
@@ -67,24 +78,40 @@ class Player {
     world_.detect();
   }
 
-  const Report& step(int frame) {
+  // Nothing is copied while it is timed: a program has what it gives, but for vertices that it computes.
+  StepTimes step(int frame) {
     const auto f = static_cast<std::size_t>(frame) % bodies_.poses.size();
-    if (world_.motion(poses_.front().body) == Motion::rigid) {
-      for (std::size_t i = 0; i < poses_.size(); ++i) {
-        poses_[i].rotation = bodies_.poses[f][i].rotation;
-        poses_[i].translation = bodies_.poses[f][i].translation;
-      }
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      poses_[i].rotation = bodies_.poses[f][i].rotation;
+      poses_[i].translation = bodies_.poses[f][i].translation;
+      if (given_ == Given::vertices) positions_[i].positions = bodies_.positions[f][i];
+    }
+    const double begin = wall_ms();
+    if (given_ == Given::computed_vertices) compute_vertices();
+    if (given_ == Given::poses) {
       world_.set_poses(poses_);
     } else {
-      for (std::size_t i = 0; i < positions_.size(); ++i) positions_[i].positions = bodies_.positions[f][i];
       world_.set_positions(positions_);
     }
-    return world_.detect();
+    const double set = wall_ms();
+    report_ = &world_.detect();
+    return {set - begin, wall_ms() - set};
   }
+  const Report& report() const { return *report_; }
 
  private:
+  void compute_vertices() {
+    constexpr std::size_t kAtATime = 16;  // bodies
+    base::parallel_for(positions_.size(), kAtATime, threads_, [&](std::size_t i) {
+      positions_[i].positions = poses_[i].rotation.lazyProduct(bodies_.rest[i]).colwise() + poses_[i].translation;
+    });
+  }
+
   const TurningBodies& bodies_;
+  Given given_;
+  int threads_;
   World world_;
+  const Report* report_ = nullptr;
   std::vector<PositionsUpdate> positions_;
   std::vector<PoseUpdate> poses_;
 };
@@ -103,29 +130,39 @@ struct Scene {
   std::function<Workload()> make;
 };
 
+StepTimes median_of(const std::vector<StepTimes>& steps) {
+  std::vector<double> set, detect;
+  for (const StepTimes& step : steps) {
+    set.push_back(step.set_ms);
+    detect.push_back(step.detect_ms);
+  }
+  return {median(set), median(detect)};
+}
+
 void add_row(const Scene& scene, int threads, double budget_ms, Table& table) {
   constexpr int kFrames = 4;
   const TurningBodies bodies(scene.make(), kFrames);
-  Player by_pose(bodies, Motion::rigid, threads), by_vertices(bodies, Motion::moving, threads);
+  Player by_pose(bodies, Given::poses, threads), by_vertices(bodies, Given::vertices, threads),
+      computed(bodies, Given::computed_vertices, threads);
   std::int64_t placed = 0;
   for (int frame = 0; frame < kFrames; ++frame) {
-    const Report &pose = by_pose.step(frame), &vertices = by_vertices.step(frame);
-    if (pose.hash() != vertices.hash()) throw std::runtime_error(scene.name + ": the answers differ");
-    placed = pose.stats().placed_bodies;
+    for (Player* const player : {&by_pose, &by_vertices, &computed}) player->step(frame);
+    if (by_pose.report().hash() != by_vertices.report().hash())
+      throw std::runtime_error(scene.name + ": the answers differ");
+    placed = by_pose.report().stats().placed_bodies;
   }
-  std::vector<double> pose_ms, vertices_ms;
+  std::vector<StepTimes> pose_steps, vertex_steps, computed_steps;
   int frame = 0;
   for (const double start = wall_ms(); frame < 6 || wall_ms() - start < budget_ms; ++frame) {
-    double begin = wall_ms();
-    by_pose.step(frame);
-    pose_ms.push_back(wall_ms() - begin);
-    begin = wall_ms();
-    by_vertices.step(frame);
-    vertices_ms.push_back(wall_ms() - begin);
+    pose_steps.push_back(by_pose.step(frame));
+    vertex_steps.push_back(by_vertices.step(frame));
+    computed_steps.push_back(computed.step(frame));
   }
-  const double pose = median(pose_ms), vertices = median(vertices_ms);
+  const StepTimes pose = median_of(pose_steps), vertices = median_of(vertex_steps), all = median_of(computed_steps);
   table.add({scene.name, fmt::to_string(bodies.rest.size()), fmt::to_string(placed), fmt::to_string(threads),
-             three_digits(vertices), three_digits(pose), three_digits(pose / vertices)});
+             three_digits(vertices.set_ms), three_digits(vertices.detect_ms), three_digits(all.set_ms),
+             three_digits(pose.set_ms), three_digits(pose.detect_ms), three_digits(pose.sum() / vertices.sum()),
+             three_digits(vertices.detect_ms / vertices.sum()), three_digits(pose.sum() / all.sum())});
 }
 
 }  // namespace
@@ -141,7 +178,10 @@ int run_rigid(const BenchOptions& options) {
       {"apart, 1,280 facets", [=] { return spread(pile(2000 / few, 8, 2), 1.5); }},
       {"pile, 320 facets", [=] { return pile(4000 / few, 4, 2); }},
   };
-  Table table({"bodies that turn", "bodies", "placed a step", "threads", "by vertices ms", "by pose ms", "of it"});
+  // "at least" is what setting poses for nothing would leave: what detect() takes where the vertices are there.
+  Table table({"bodies that turn", "bodies", "placed a step", "threads", "set vertices ms", "detect ms",
+               "compute and set vertices ms", "set poses ms", "detect and place ms", "poses / vertices", "at least",
+               "poses / computed vertices"});
   for (const Scene& scene : scenes) {
     if (scene.name.find(options.only) == std::string::npos) continue;
     for (int t = 1; t <= threads; t *= 2) add_row(scene, t, budget_ms, table);

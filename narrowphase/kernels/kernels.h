@@ -12,6 +12,7 @@
 #include "narrowphase/kernels/boxes.h"
 #include "narrowphase/kernels/facets.h"
 #include "narrowphase/kernels/features.h"
+#include "narrowphase/kernels/lines.h"
 #include "narrowphase/kernels/polygons.h"
 #include "narrowphase/kernels/questions.h"
 #include "narrowphase/kernels/refit.h"
@@ -153,15 +154,24 @@ struct Kernels {
                            RankedBoxes* ranked);
   // A bit for each facet of a cluster that a line may meet.
   std::uint64_t (*sight_facets)(const ClusterFacets& cluster, const LineOfSight& line);
-  // The same for lined facets, fewer of them; the line's own error does not count. And what fills them, but for their
-  // origin and scale.
-  std::uint64_t (*facets_on_line)(const LinedFacets& facets, const LineOfSight& line);
-  void (*line_up_facets)(const ClusterFacets& cluster, LinedFacets* lined);
-  // Appends those of `count` boxes, from `first` on, that a segment enters by `latest`; their index is mark xor their
-  // number.
-  void (*enter_lined_boxes)(const LinedBoxes& boxes, int first, int count, std::int32_t mark, EnteringLine* line);
-  // Takes out the box that is entered first, if that is not later than `latest`.
-  bool (*take_nearest)(EnteringLine* line);
+  // Writes the leaves of a cluster, and their boxes to those of a node, from `first` on.
+  void (*line_up_facets)(const ClusterFacets& cluster, const double* origin, double scale, LineLeaf* leaves, int first,
+                         LineNode* node);
+  // From the beginnings and the directions of segments finds the rest, with empty lists.
+  LinesApart (*set_out_lines)(const LineTree& tree, LineBlock* block);
+  // Appends the groups that a segment enters by its latest time.
+  void (*enter_groups)(const LineTree& tree, int line, LineBlock* block);
+  // Appends the leaves that it enters in those of a few nodes, from `first` on, that it enters.
+  void (*enter_nodes)(const LineTree& tree, int first, int count, int line, LineBlock* block);
+  // The same for all segments and all nodes, up to 64: each enters those first that it does not enter later than it
+  // leaves any.
+  void (*enter_all_nodes)(const LineTree& tree, LineBlock* block);
+  // Now those that have a bit enter the others.
+  void (*enter_later_nodes)(const LineTree& tree, std::uint32_t lines, LineBlock* block);
+  // Goes on with some segments, each until there is something to do, or nothing left before its latest time.
+  void (*find_facets)(const LineTree& tree, const std::uint8_t* lines, int count, LineBlock* block);
+  // Decides pairs as Sightline::meet(), and with the same bits.
+  void (*meet_lines)(const LineBlock& block, LinePairs* pairs);
   // The facets of a cluster that may be as near to a point as any, or as `most`: their squared distances times the
   // square of `scale`, from below.
   void (*rank_facets)(const ClusterFacets& cluster, const double* point, double scale, double most,

@@ -11,114 +11,435 @@
 namespace tact::narrowphase {
 namespace {
 
-void line_up_facets(const ClusterFacets& cluster, LinedFacets* lined) {
-  constexpr int kRoom = LocalVertices::kMost + 64;
+inline float least_lane(FloatPack a) { return -largest_lane(sub(spread(0.0f), a)); }
+
+void line_up_facets(const ClusterFacets& cluster, const double* origin, double scale, LineLeaf* leaves, int first,
+                    LineNode* node) {
+  constexpr int kRoom = LocalVertices::kMost + 64, kFacets = LineLeaf::kFacets;
   alignas(64) float at[3][kRoom];
-  localize(cluster, lined->origin, lined->scale, {at[0], at[1], at[2]});
+  localize(cluster, origin, scale, {at[0], at[1], at[2]});
   const int vertices = cluster.owned_count + cluster.borrowed_count;
+  alignas(64) std::uint8_t place[3][64];
   for (int k = 0; k < 3; ++k) {
-    alignas(64) std::uint8_t place[LinedFacets::kMost] = {};
-    __builtin_memcpy(place, cluster.corner[k], static_cast<std::size_t>(cluster.facet_count));
-    for (int i = 0; i < LinedFacets::kMost; i += kFloatWidth) {
-      const AnyFloatPicks picks(place + i);
-      for (int axis = 0; axis < 3; ++axis) store_floats(lined->corner[k][axis] + i, picks.pick(at[axis], vertices));
+    __builtin_memset(place[k], cluster.corner[k][cluster.facet_count - 1], sizeof place[k]);
+    __builtin_memcpy(place[k], cluster.corner[k], static_cast<std::size_t>(cluster.facet_count));
+  }
+  std::int32_t vertex[LocalVertices::kMost];
+  for (int i = 0; i < cluster.owned_count; ++i) vertex[i] = cluster.owned_begin + i;
+  for (int i = 0; i < cluster.borrowed_count; ++i) vertex[cluster.owned_count + i] = cluster.borrowed[i];
+  for (int begin = 0, to = first; begin < cluster.facet_count; begin += kFacets, ++to) {
+    LineLeaf& leaf = leaves[begin / kFacets];
+    const FloatPack most = spread(2.0f), least = spread(-2.0f);
+    FloatPack lower[3] = {most, most, most}, upper[3] = {least, least, least};
+    for (int i = 0; i < kFacets; i += kFloatWidth) {
+      for (int k = 0; k < 3; ++k) {
+        const AnyFloatPicks picks(place[k] + begin + i);
+        for (int axis = 0; axis < 3; ++axis) {
+          const FloatPack x = picks.pick(at[axis], vertices);
+          store_floats(leaf.corner[k][axis] + i, x);
+          lower[axis] = min(lower[axis], x);
+          upper[axis] = max(upper[axis], x);
+        }
+      }
+    }
+    for (int k = 0; k < 3; ++k) {
+      for (int i = 0; i < kFacets; ++i) leaf.vertex[k][i] = vertex[place[k][begin + i]];
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      node->bounds[axis][to] = least_lane(lower[axis]);
+      node->bounds[axis + 3][to] = largest_lane(upper[axis]);
     }
   }
-  lined->count = cluster.facet_count;
 }
 
-inline double size_of(double x) { return x < 0.0 ? -x : x; }
-inline double larger(double x, double y) { return x < y ? y : x; }
+// Of each lane one of three, by the number of an axis.
+inline Pack of_axis(Pack axis, const Pack (&x)[3]) {
+  return select(less(axis, spread(0.5)), x[0], select(less(axis, spread(1.5)), x[1], x[2]));
+}
 
-// Seen along the line, which is at zero, a corner is at (u, v). With e = 2^-24 coordinates of facets are rounded by e,
-// slopes by e, where the line is by c e, of which c is the size, what a fused operation gives by 2 e, and the last
-// difference by (2 + c) e: u and v are wrong by (6 + 2 c) e, and by what doubles lost from the beginning of the line
-// on. Twice an area between the line and a side is wrong by that error times four coordinates of at most 2 + c, its
-// square twice, and two roundings of at most 2 (2 + c)², which is less than another three. If the areas have both signs
-// for certain, the line passes outside.
-std::uint64_t facets_on_line(const LinedFacets& facets, const LineOfSight& line) {
-  double away[3];  // of the middle of the facets from the line's beginning, in its order of axes
-  for (int k = 0; k < 3; ++k) away[k] = (facets.origin[line.axis[k]] - line.from[line.axis[k]]) * facets.scale;
-  const double farthest = larger(larger(size_of(away[0]), size_of(away[1])), size_of(away[2]));
-  const std::uint64_t all = ~std::uint64_t{0} >> (64 - facets.count);
-  if (!(farthest < 0x1p100)) return all;
-  const double at_u = away[0] - line.slope[0] * away[2], at_v = away[1] - line.slope[1] * away[2];
-  const double size = larger(size_of(at_u), size_of(at_v)), lost = 0x1p-48 * farthest;
-  if (size > 3.0 + lost) return 0;
-  const double error = 0x1p-24 * (8.0 + 2.0 * size) + lost;
-  const double bound = 1.001 * (8.0 * error * (2.0 + size + error));
-  const FloatPack high = spread(static_cast<float>(bound)), low = spread(static_cast<float>(-bound));
-  const FloatPack slope_u = spread(static_cast<float>(-line.slope[0])),
-                  slope_v = spread(static_cast<float>(-line.slope[1]));
-  const FloatPack from_u = spread(static_cast<float>(at_u)), from_v = spread(static_cast<float>(at_v));
-  const int u_axis = line.axis[0], v_axis = line.axis[1], z_axis = line.axis[2];
-  std::uint64_t out = 0;
-  for (int i = 0; i < facets.count; i += kFloatWidth) {
+// As Sightline does: see there.
+inline void find_slopes(int i, LineBlock* block) {
+  const Pack zero = spread(0.0), one = spread(1.0), largest = spread(__DBL_MAX__);
+  const Pack way[3] = {load(block->direction[0] + i), load(block->direction[1] + i), load(block->direction[2] + i)};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Pack inverse = div(one, way[axis]);
+    store(block->inverse[axis] + i, select(less_equal(abs(inverse), largest), inverse, zero));
+  }
+  const Pack x = abs(way[0]), y = abs(way[1]), z = abs(way[2]);
+  const Pack longest =
+      select(both(less_equal(y, x), less_equal(z, x)), zero, select(less_equal(z, y), one, spread(2.0)));
+  const Pack u[3] = {way[1], way[2], way[0]}, v[3] = {way[2], way[0], way[1]};
+  const Pack along = of_axis(longest, way);
+  store(block->longest + i, longest);
+  store(block->way + i, along);
+  store(block->slope[0] + i, div(of_axis(longest, u), along));
+  store(block->slope[1] + i, div(of_axis(longest, v), along));
+}
+
+// A segment from farther away, in half sizes of the mesh, is for doubles alone: floats know too little of it.
+constexpr double kFarthestLine = 1024.0;
+
+// Seen along the line, with e = 2^-24: coordinates of facets are rounded by e, slopes by e, where the line is by c e,
+// of which c is the size, what a fused operation gives by 2 e, and the last difference by (2 + c) e: a corner is off by
+// d = (6 + 2 c) e, and by what doubles lost from the beginning of the line on. Twice an area between the line and a
+// side is wrong by d times four coordinates, of at most m, by 2 d², and by two roundings of at most 3 e m², where m is
+// less than 2 + c + d. If the areas have both signs for certain, the line passes outside.
+inline void look_along(const Pack (&away)[3], Pack farthest, int i, LineBlock* block, LinesApart* apart) {
+  const Pack longest = load(block->longest + i), zero = spread(0.0);
+  const Pack u[3] = {away[1], away[2], away[0]}, v[3] = {away[2], away[0], away[1]};
+  const Pack lost = mul(spread(0x1p-48), farthest);
+  Pack size = zero;
+  for (int k = 0; k < 2; ++k) {
+    const Pack slope = load(block->slope[k] + i);
+    const Pack shift = sub(of_axis(longest, k == 0 ? u : v), mul(slope, of_axis(longest, away)));
+    store(block->tilt[k] + i, sub(zero, slope));
+    store(block->shift[k] + i, shift);
+    size = max(size, abs(shift));
+  }
+  apart->past |= bits(less(add(spread(3.0), lost), size)) << i;
+  const Pack off = add(mul(spread(0x1p-24), add(spread(6.0), mul(spread(2.0), size))), lost);
+  const Pack of_size = mul(spread(0x1.8p-23), add(add(spread(2.0), size), off));
+  store(block->error + i, mul(spread(1.001), add(mul(spread(4.0), off), of_size)));
+  store(block->least_error + i, mul(spread(2.002), mul(off, off)));
+}
+
+// Times are wrong by what four roundings of 2^-24 take from a coordinate, of the line or of a box, over the way:
+// sixteen are allowed for. Where the line goes along an axis no way, it goes one that is less than that.
+LinesApart set_out_lines(const LineTree& tree, LineBlock* block) {
+  LinesApart apart{0, 0};
+  const Pack zero = spread(0.0), scale = spread(tree.scale), unit = spread(1.0 / tree.scale);
+  const Pack steepest = spread(0x1p60), least = spread(0x1p-100);
+  for (int i = 0; i < LineBlock::kLines; i += kWidth) {
+    find_slopes(i, block);
+    Pack away[3], farthest = zero;
+    for (int axis = 0; axis < 3; ++axis) {
+      away[axis] = mul(sub(spread(tree.origin[axis]), load(block->from[axis] + i)), scale);
+      farthest = max(farthest, abs(away[axis]));
+      const Pack inverse = load(block->inverse[axis] + i),
+                 clamped = min(max(mul(inverse, unit), sub(zero, steepest)), steepest);
+      const Pack rate = select(not_equal(inverse, zero), clamped, steepest);
+      const Pack slack = add(mul(mul(spread(0x1p-20), add(abs(away[axis]), spread(2.0))), abs(rate)), least);
+      const Pack at = sub(zero, mul(away[axis], rate));
+      store(block->rate[axis] + i, rate);
+      store(block->enter_at[axis] + i, add(at, slack));
+      store(block->leave_at[axis] + i, sub(at, slack));
+    }
+    const Mask near = both(less_equal(farthest, spread(kFarthestLine)), not_equal(load(block->way + i), zero));
+    apart.alone |= (~bits(near) & kAllLanes) << i;
+    look_along(away, farthest, i, block, &apart);
+  }
+  for (int line = 0; line < LineBlock::kLines; ++line) {
+    block->entries[line] = 0;
+    block->later_from[line] = __builtin_inff();
+    store_floats(block->key[line], spread(__builtin_inff()));
+  }
+  block->later_count = 0;
+  block->overflowing = 0;
+  apart.past &= ~apart.alone;
+  return apart;
+}
+
+// The sides of boxes that a line enters by and leaves by, and when.
+struct LineSlabs {
+  int near[3], far[3];
+  FloatPack rate[3], enter_at[3], leave_at[3], begin, end;
+
+  LineSlabs(const LineBlock& of, int line) : begin(spread(0x1p-101f)), end(spread(of.latest[line])) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool forward = of.rate[axis][line] >= 0.0f;
+      near[axis] = forward ? axis : axis + 3;
+      far[axis] = forward ? axis + 3 : axis;
+      rate[axis] = spread(of.rate[axis][line]);
+      enter_at[axis] = spread(of.enter_at[axis][line]);
+      leave_at[axis] = spread(of.leave_at[axis][line]);
+    }
+  }
+  // A bit for each box that is entered, and when.
+  template <class Bound>
+  unsigned entered(const Bound& bound, FloatPack& enter) const {
+    FloatPack leave = end;
+    enter = begin;
+    for (int axis = 0; axis < 3; ++axis) {
+      enter = max(enter, fused(load(bound(near[axis])), rate[axis], enter_at[axis]));
+      leave = min(leave, fused(load(bound(far[axis])), rate[axis], leave_at[axis]));
+    }
+    return bits(less_equal(enter, leave));
+  }
+};
+
+// Appends boxes with a number each, as far as there is room.
+class EntryList {
+ public:
+  EntryList(LineBlock* block, int line) : block_(block), line_(line), count_(block->entries[line]) {}
+  ~EntryList() {
+    block_->entries[line_] = count_;
+    store_floats(block_->key[line_] + count_, spread(__builtin_inff()));
+  }
+  EntryList(const EntryList&) = delete;
+  EntryList& operator=(const EntryList&) = delete;
+
+  bool has_room() const {
+    if (count_ <= LineBlock::kEntries - kFloatWidth) return true;
+    block_->overflowing |= 1u << line_;
+    return false;
+  }
+  void append(unsigned lanes, FloatPack enter, int first, int mark) {
+    count_ += store_keys(lanes, enter, LineBlock::kEntries - 1, first, mark, count_, block_->key[line_] + count_,
+                         block_->entry[line_] + count_);
+  }
+
+ private:
+  LineBlock* block_;
+  int line_, count_;
+};
+
+void enter_groups(const LineTree& tree, int line, LineBlock* block) {
+  const LineSlabs slabs(*block, line);
+  EntryList list(block, line);
+  for (int i = 0; i < tree.group_count && list.has_room(); i += kFloatWidth) {
+    FloatPack enter;
+    const unsigned entered = slabs.entered([&](int side) { return tree.groups.bounds[side] + i; }, enter);
+    list.append(entered & lanes_left<kFloatWidth>(tree.group_count - i), enter, i, -1);
+  }
+}
+
+inline void enter_leaves(const LineTree& tree, int node, const LineSlabs& slabs, EntryList& list) {
+  for (int i = 0; i < LineNode::kLeaves && list.has_room(); i += kFloatWidth) {
+    FloatPack enter;
+    const unsigned entered = slabs.entered([&](int side) { return tree.node[node].bounds[side] + i; }, enter);
+    list.append(entered, enter, node * LineNode::kLeaves + i, 0);
+  }
+}
+
+void enter_nodes(const LineTree& tree, int first, int count, int line, LineBlock* block) {
+  const LineSlabs slabs(*block, line);
+  EntryList list(block, line);
+  for (int i = 0; i < count; i += kFloatWidth) {
+    FloatPack enter;
+    unsigned nodes = slabs.entered([&](int side) { return tree.nodes.bounds[side] + first + i; }, enter) &
+                     lanes_left<kFloatWidth>(count - i);
+    for (; nodes != 0; nodes &= nodes - 1) enter_leaves(tree, first + i + __builtin_ctz(nodes), slabs, list);
+  }
+}
+
+// Here a lane is a segment. A segment that meets the nodes that it enters first enters no others: of 38 nodes a ray
+// enters seven, three of them first. What is appended to is not a list of entries, but of nodes: their times are not
+// used.
+void enter_all_nodes(const LineTree& tree, LineBlock* block) {
+  constexpr int kMostNodes = 64;
+  alignas(64) float entry[kMostNodes][kFloatWidth], time[kMostNodes * LineBlock::kLines + 16];
+  alignas(64) std::int32_t now[kMostNodes * LineBlock::kLines + 16];
+  unsigned entered[kMostNodes];
+  const FloatPack never = spread(__builtin_inff());
+  int now_count = 0, later_count = 0;
+  for (int i = 0; i < LineBlock::kLines; i += kFloatWidth) {
+    FloatPack rate[3], enter_at[3], leave_at[3], first_left = never, later_from = never;
+    for (int axis = 0; axis < 3; ++axis) {
+      rate[axis] = load(block->rate[axis] + i);
+      enter_at[axis] = load(block->enter_at[axis] + i);
+      leave_at[axis] = load(block->leave_at[axis] + i);
+    }
+    const FloatPack begin = spread(0x1p-101f), end = load(block->latest + i);
+    for (int node = 0; node < tree.node_count; ++node) {
+      FloatPack enter = begin, leave = end;
+      for (int axis = 0; axis < 3; ++axis) {
+        const FloatPack p = mul(spread(tree.nodes.bounds[axis][node]), rate[axis]);
+        const FloatPack q = mul(spread(tree.nodes.bounds[axis + 3][node]), rate[axis]);
+        enter = max(enter, sub(min(p, q), enter_at[axis]));
+        leave = min(leave, sub(max(p, q), leave_at[axis]));
+      }
+      const FloatMask inside = less_equal(enter, leave);
+      entered[node] = bits(inside);
+      first_left = select(inside, min(first_left, leave), first_left);
+      store_floats(entry[node], enter);
+    }
+    for (int node = 0; node < tree.node_count; ++node) {
+      const FloatPack enter = load(entry[node]);
+      const unsigned first = bits(less_equal(enter, first_left));
+      const int number = node * LineBlock::kLines + i;
+      now_count += store_keys(entered[node] & first, enter, 0, number, 0, 0, time, now + now_count);
+      const unsigned later = entered[node] & ~first;
+      later_from = select(float_mask_of(later), min(later_from, enter), later_from);
+      later_count += store_keys(later, enter, 0, number, 0, 0, time, block->later + later_count);
+    }
+    store_floats(block->later_from + i, later_from);
+  }
+  block->later_count = later_count;
+  for (int k = 0; k < now_count; ++k) {
+    const int line = now[k] % LineBlock::kLines, node = now[k] / LineBlock::kLines;
+    EntryList list(block, line);
+    enter_leaves(tree, node, LineSlabs(*block, line), list);
+  }
+}
+
+void enter_later_nodes(const LineTree& tree, std::uint32_t lines, LineBlock* block) {
+  for (int k = 0; k < block->later_count; ++k) {
+    const int line = block->later[k] % LineBlock::kLines, node = block->later[k] / LineBlock::kLines;
+    if ((lines >> line & 1u) == 0) continue;
+    EntryList list(block, line);
+    enter_leaves(tree, node, LineSlabs(*block, line), list);
+    block->later_from[line] = __builtin_inff();
+  }
+}
+
+inline std::uint32_t facets_on_line(const LineLeaf& leaf, const LineBlock& block, int line) {
+  const FloatPack tilt_u = spread(block.tilt[0][line]), tilt_v = spread(block.tilt[1][line]);
+  const FloatPack shift_u = spread(block.shift[0][line]), shift_v = spread(block.shift[1][line]);
+  const FloatPack error = spread(block.error[line]), least_error = spread(block.least_error[line]);
+  const auto z_axis = static_cast<int>(block.longest[line]);
+  const int u_axis = z_axis == 2 ? 0 : z_axis + 1, v_axis = z_axis == 0 ? 2 : z_axis - 1;
+  std::uint32_t out = 0;
+  for (int i = 0; i < LineLeaf::kFacets; i += kFloatWidth) {
     FloatPack u[3], v[3];
     for (int k = 0; k < 3; ++k) {
-      const FloatPack z = load(facets.corner[k][z_axis] + i);
-      u[k] = add(fused_sum(slope_u, z, load(facets.corner[k][u_axis] + i)), from_u);
-      v[k] = add(fused_sum(slope_v, z, load(facets.corner[k][v_axis] + i)), from_v);
+      const FloatPack z = load(leaf.corner[k][z_axis] + i);
+      u[k] = add(fused_sum(tilt_u, z, load(leaf.corner[k][u_axis] + i)), shift_u);
+      v[k] = add(fused_sum(tilt_v, z, load(leaf.corner[k][v_axis] + i)), shift_v);
     }
+    const auto widest_of = [](const FloatPack(&x)[3]) { return max(max(abs(x[0]), abs(x[1])), abs(x[2])); };
+    const FloatPack high = fused_sum(max(widest_of(u), widest_of(v)), error, least_error);
     const auto area = [&](int p, int q) { return fused(u[p], v[q], mul(u[q], v[p])); };
     const FloatPack a = area(1, 2), b = area(2, 0), c = area(0, 1);
-    const FloatMask outside = both(less(min(min(a, b), c), low), less(high, max(max(a, b), c)));
-    out |= static_cast<std::uint64_t>(bits(outside)) << i;
+    const FloatMask outside = both(less(min(min(a, b), c), sub(spread(0.0f), high)), less(high, max(max(a, b), c)));
+    out |= static_cast<std::uint32_t>(bits(outside)) << i;
   }
-  return all & ~out;
+  return ~out & 0xffffu;
 }
 
-void enter_lined_boxes(const LinedBoxes& boxes, int first, int count, std::int32_t mark, EnteringLine* line) {
-  const float *near[3], *far[3];
-  FloatPack inverse[3], enter_at[3], leave_at[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    const bool forward = line->inverse[axis] >= 0.0f;
-    near[axis] = boxes.bounds[forward ? axis : axis + 3] + first;
-    far[axis] = boxes.bounds[forward ? axis + 3 : axis] + first;
-    inverse[axis] = spread(line->inverse[axis]);
-    enter_at[axis] = spread(line->enter_at[axis]);
-    leave_at[axis] = spread(line->leave_at[axis]);
+// The list of a segment, from which the first entries are taken. Up to one pack of keys stays in a register: what was
+// just written to memory could not be read at once.
+class FirstEntries {
+ public:
+  FirstEntries(LineBlock* block, int line)
+      : count_(block->entries[line]), keys_(block->key[line]), few_(load(keys_)), is_short_(count_ <= kFloatWidth) {}
+
+  // The key of the first entry; infinite if there is none.
+  float first() const {
+    FloatPack least = few_;
+    for (int k = kFloatWidth; k < count_; k += kFloatWidth) least = min(least, load(keys_ + k));
+    return least_lane(least);
   }
-  const FloatPack begin = spread(0.0f), end = spread(line->latest);
-  int found = line->count;
-  for (int i = 0; i < count; i += kFloatWidth) {
-    FloatPack enter = begin, leave = end;
+  // Takes the entry that has a key; returns its place.
+  int take(float key) {
+    std::int32_t bits_of_key;
+    __builtin_memcpy(&bits_of_key, &key, sizeof key);
+    const int place = bits_of_key & (LineBlock::kEntries - 1);
+    const FloatPack never = spread(__builtin_inff());
+    few_ = select(less_equal(few_, spread(key)), never, few_);
+    if (!is_short_) keys_[place] = __builtin_inff();
+    return place;
+  }
+  void write_back() const { store_floats(keys_, few_); }
+
+ private:
+  int count_;
+  float* keys_;
+  FloatPack few_;
+  bool is_short_;
+};
+
+// The next entry of a segment, or what there is instead.
+inline std::int32_t take_next(int line, LineBlock* block, FirstEntries& entries) {
+  const float latest = block->latest[line], later_from = block->later_from[line];
+  const float key = entries.first();
+  if (key <= latest && key <= later_from) return block->entry[line][entries.take(key)];
+  return latest < later_from ? LineBlock::kNothing : LineBlock::kLaterNodes;
+}
+
+// What all segments enter next is under way before the first of them needs it.
+void find_facets(const LineTree& tree, const std::uint8_t* lines, int count, LineBlock* block) {
+  for (int i = 0; i < count; ++i) {
+    FirstEntries entries(block, lines[i]);
+    const std::int32_t taken = take_next(lines[i], block, entries);
+    entries.write_back();
+    block->taken[lines[i]] = taken;
+    const auto* const leaf = reinterpret_cast<const char*>(tree.leaf + (taken >= 0 ? taken : 0));
+    for (unsigned at = 0; at < sizeof(LineLeaf::corner); at += 64) __builtin_prefetch(leaf + at, 0, 3);
+  }
+  for (int i = 0; i < count; ++i) {
+    const int line = lines[i];
+    std::int32_t taken = block->taken[line];
+    std::uint32_t facets = 0;
+    FirstEntries entries(block, line);
+    for (; taken >= 0; taken = take_next(line, block, entries)) {
+      const int rest = tree.facet_count - taken * LineLeaf::kFacets;
+      facets = facets_on_line(tree.leaf[taken], *block, line);
+      if (rest < LineLeaf::kFacets) facets &= (1u << rest) - 1u;
+      if (facets != 0) break;
+    }
+    entries.write_back();
+    block->taken[line] = taken;
+    block->facets[line] = facets;
+  }
+}
+
+// Sightline::meet(), operation by operation: the errors are explained there.
+void meet_lines(const LineBlock& block, LinePairs* pairs) {
+  const Pack zero = spread(0.0), one = spread(1.0);
+  pairs->meets = pairs->uncertain = 0;
+  for (int i = 0; i < pairs->count; i += kWidth) {
+    Pack u[3], v[3], z[3], largest = zero, widest = zero;
+    const std::int32_t* const line = pairs->line + i;
+    const Pack slope_u = gather(block.slope[0], line), slope_v = gather(block.slope[1], line);
+    const Pack way = gather(block.way, line), longest = gather(block.longest, line);
+    const auto in_order = [&](const double(&of)[3][LineBlock::kLines], Pack(&to)[3]) {
+      const Pack x[3] = {gather(of[0], line), gather(of[1], line), gather(of[2], line)};
+      const Pack u_of[3] = {x[1], x[2], x[0]}, v_of[3] = {x[2], x[0], x[1]};
+      to[0] = of_axis(longest, u_of), to[1] = of_axis(longest, v_of), to[2] = of_axis(longest, x);
+    };
+    Pack from[3], inverses[3];
+    in_order(block.from, from);
+    in_order(block.inverse, inverses);
+    for (int k = 0; k < 3; ++k) {
+      const Pack x = sub(load(pairs->corner[k][0] + i), from[0]), y = sub(load(pairs->corner[k][1] + i), from[1]);
+      z[k] = sub(load(pairs->corner[k][2] + i), from[2]);
+      u[k] = sub(x, mul(slope_u, z[k]));
+      v[k] = sub(y, mul(slope_v, z[k]));
+      largest = max(largest, max(max(abs(x), abs(y)), abs(z[k])));
+      widest = max(widest, max(abs(u[k]), abs(v[k])));
+    }
+    const Pack error = add(mul(spread(0x1.1p-50), largest), spread(0x1p-1000));
+    const Pack bound = add(mul(mul(spread(5.0), error), add(widest, error)), spread(0x1p-900));
+    const auto area_of = [&](int p, int q) { return sub(mul(u[p], v[q]), mul(u[q], v[p])); };
+    const Pack area[3] = {area_of(1, 2), area_of(2, 0), area_of(0, 1)};
+    const Pack least = min(min(area[0], area[1]), area[2]), most = max(max(area[0], area[1]), area[2]);
+    const Pack sum = add(add(add(zero, area[0]), area[1]), area[2]), whole = abs(sum), off = mul(spread(3.0), bound);
+    const Pack below = sub(zero, bound), size = max(largest, abs(way));
+    const unsigned beside = bits(both(less(least, below), less(bound, most)));
+    const unsigned clear =
+        bits(both(less(mul(spread(16.0), off), whole),
+                  less_equal(mul(mul(spread(3.0), widest), off), mul(mul(spread(0x1p-41), size), whole))));
+
+    const Mask negative = less(sum, zero);
+    Pack weight[3], part = zero, along = zero, entry = zero;
+    for (int k = 0; k < 3; ++k) {
+      weight[k] = max(zero, select(negative, sub(zero, area[k]), area[k]));
+      part = add(part, weight[k]);
+    }
+    for (int k = 0; k < 3; ++k) {
+      weight[k] = div(weight[k], part);
+      along = add(along, mul(weight[k], z[k]));
+    }
+    const Pack time = div(along, way);
+    const Pack late = div(mul(add(div(mul(spread(4.0), off), whole), spread(0x1p-48)), largest), abs(way));
+    const Mask outside = either(less(time, sub(zero, late)), less(add(one, late), time));
+    const Mask inside = both(less(late, time), less(time, sub(one, late)));
+    const unsigned within = bits(either(less(bound, least), less(most, below)));
+
     for (int axis = 0; axis < 3; ++axis) {
-      enter = max(enter, fused(load(near[axis] + i), inverse[axis], enter_at[axis]));
-      leave = min(leave, fused(load(far[axis] + i), inverse[axis], leave_at[axis]));
+      const Pack p = load(pairs->corner[0][axis] + i), q = load(pairs->corner[1][axis] + i),
+                 r = load(pairs->corner[2][axis] + i), inverse = inverses[axis];
+      const Pack near = select(less(zero, inverse), min(min(p, q), r), max(max(p, q), r));
+      const Pack at = mul(sub(near, from[axis]), inverse);
+      entry = select(not_equal(inverse, zero), max(at, entry), entry);
     }
-    if (found > EnteringLine::kMost) {
-      line->overflows = true;
-      return;
-    }
-    const unsigned entered = bits(less_equal(enter, leave)) & lanes_left<kFloatWidth>(count - i);
-    found += store_some_floats(entered, enter, first + i, mark, line->rank + found, line->index + found);
+    store(pairs->time + i, min(max(entry, time), one));
+    for (int k = 0; k < 3; ++k) store(pairs->weight[k] + i, weight[k]);
+    const unsigned missed = beside | (clear & within & bits(outside)), met = clear & within & bits(inside);
+    const unsigned lanes = lanes_left(pairs->count - i);
+    pairs->meets |= (met & ~missed & lanes) << i;
+    pairs->uncertain |= (~met & ~missed & lanes) << i;
   }
-  line->count = found;
-  store_floats(line->rank + found, spread(__builtin_inff()));
-}
-
-// Takes out the least: its place in the list is the last one then. What follows the last is infinite.
-bool take_nearest(EnteringLine* line) {
-  if (line->count == 0) return false;
-  FloatPack least = spread(__builtin_inff());
-  for (int i = 0; i < line->count; i += kFloatWidth) least = min(least, load(line->rank + i));
-  const float value = -largest_lane(sub(spread(0.0f), least));
-  if (!(value <= line->latest)) return false;
-  const FloatPack sought = spread(value);
-  int at = 0;
-  for (int i = 0;; i += kFloatWidth) {
-    const unsigned same = bits(less_equal(load(line->rank + i), sought));
-    if (same == 0) continue;
-    at = i + __builtin_ctz(same);
-    break;
-  }
-  const int last = --line->count;
-  line->taken = line->index[at];
-  line->rank[at] = line->rank[last];
-  line->index[at] = line->index[last];
-  line->rank[last] = __builtin_inff();
-  return true;
 }
 
 }  // namespace

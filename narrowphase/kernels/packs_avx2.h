@@ -108,6 +108,11 @@ inline FloatMask both(FloatMask a, FloatMask b) { return _mm256_and_ps(a, b); }
 inline FloatMask either(FloatMask a, FloatMask b) { return _mm256_or_ps(a, b); }
 inline FloatMask differ(FloatMask a, FloatMask b) { return _mm256_xor_ps(a, b); }
 inline unsigned bits(FloatMask a) { return static_cast<unsigned>(_mm256_movemask_ps(a)); }
+inline FloatMask float_mask_of(unsigned bits) {
+  const __m256i lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+  const __m256i some = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), lane);
+  return _mm256_castsi256_ps(_mm256_cmpeq_epi32(some, lane));
+}
 inline FloatPack select(FloatMask mask, FloatPack yes, FloatPack no) { return _mm256_blendv_ps(no, yes, mask); }
 
 inline void store_floats(float* p, FloatPack a) { _mm256_storeu_ps(p, a); }
@@ -124,14 +129,18 @@ inline void store_cells(std::int16_t* p, FloatPack a) {
   _mm_storeu_si128(reinterpret_cast<__m128i*>(p),
                    _mm_packs_epi32(_mm256_castsi256_si128(numbers), _mm256_extracti128_si256(numbers, 1)));
 }
-// Writes the lanes that have a bit, and mark xor (first + lane), one after the other. Returns how many.
-inline int store_some_floats(unsigned lanes, FloatPack a, int first, int mark, float* value, std::int32_t* index) {
-  float lane[kFloatWidth];
-  store_floats(lane, a);
+// Writes the lanes that have a bit one after the other, in their last bits, those of `places`, at which place from
+// `place` on; and mark xor (first + lane). Returns how many.
+inline int store_keys(unsigned lanes, FloatPack a, int places, int first, int mark, int place, float* key,
+                      std::int32_t* index) {
+  alignas(32) std::int32_t lane[kFloatWidth];
+  const __m256i time = _mm256_andnot_si256(_mm256_set1_epi32(places), _mm256_castps_si256(a));
+  _mm256_store_si256(reinterpret_cast<__m256i*>(lane), time);
   int count = 0;
   for (; lanes != 0; lanes &= lanes - 1, ++count) {
     const int k = __builtin_ctz(lanes);
-    value[count] = lane[k];
+    const std::int32_t bits_of_key = lane[k] | (place + count);
+    __builtin_memcpy(key + count, &bits_of_key, sizeof bits_of_key);
     index[count] = mark ^ (first + k);
   }
   return count;

@@ -115,6 +115,7 @@ inline FloatMask both(FloatMask a, FloatMask b) { return _kand_mask16(a, b); }
 inline FloatMask either(FloatMask a, FloatMask b) { return _kor_mask16(a, b); }
 inline FloatMask differ(FloatMask a, FloatMask b) { return _kxor_mask16(a, b); }
 inline unsigned bits(FloatMask a) { return a; }
+inline FloatMask float_mask_of(unsigned bits) { return static_cast<FloatMask>(bits); }
 inline FloatPack select(FloatMask mask, FloatPack yes, FloatPack no) { return _mm512_mask_blend_ps(mask, no, yes); }
 
 inline void store_floats(float* p, FloatPack a) { _mm512_storeu_ps(p, a); }
@@ -128,13 +129,17 @@ inline void store_cells(std::int16_t* p, Pack a) {
 inline void store_cells(std::int16_t* p, FloatPack a) {
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm512_cvtepi32_epi16(_mm512_cvttps_epi32(a)));
 }
-// Writes the lanes that have a bit, and mark xor (first + lane), one after the other; up to kFloatWidth of each.
-// Returns how many.
-inline int store_some_floats(unsigned lanes, FloatPack a, int first, int mark, float* value, std::int32_t* index) {
+// Writes the lanes that have a bit one after the other, in their last bits, those of `places`, at which place from
+// `place` on; and mark xor (first + lane); up to kFloatWidth of each. Returns how many.
+inline int store_keys(unsigned lanes, FloatPack a, int places, int first, int mark, int place, float* key,
+                      std::int32_t* index) {
+  const auto some = static_cast<FloatMask>(lanes);
   const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   const __m512i number = _mm512_xor_si512(_mm512_set1_epi32(mark), _mm512_add_epi32(_mm512_set1_epi32(first), lane));
-  _mm512_storeu_ps(value, _mm512_maskz_compress_ps(static_cast<FloatMask>(lanes), a));
-  _mm512_storeu_si512(index, _mm512_maskz_compress_epi32(static_cast<FloatMask>(lanes), number));
+  const __m512i in_order = _mm512_castps_si512(_mm512_maskz_compress_ps(some, a));
+  const __m512i at = _mm512_add_epi32(_mm512_set1_epi32(place), lane);
+  _mm512_storeu_si512(key, _mm512_or_si512(_mm512_andnot_si512(_mm512_set1_epi32(places), in_order), at));
+  _mm512_storeu_si512(index, _mm512_maskz_compress_epi32(some, number));
   return __builtin_popcount(lanes);
 }
 inline float largest_lane(FloatPack a) { return _mm512_reduce_max_ps(a); }

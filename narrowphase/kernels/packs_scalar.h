@@ -79,6 +79,7 @@ inline FloatPack fused_sum(FloatPack a, FloatPack b, FloatPack c) { return __bui
 inline FloatPack abs(FloatPack a) { return __builtin_fabsf(a); }
 inline FloatMask less_equal(FloatPack a, FloatPack b) { return a <= b; }
 inline FloatMask less(FloatPack a, FloatPack b) { return a < b; }
+inline FloatMask float_mask_of(unsigned bits) { return bits != 0; }
 inline FloatPack select(FloatMask mask, FloatPack yes, FloatPack no) { return mask ? yes : no; }
 
 inline void store_floats(float* p, FloatPack a) { *p = a; }
@@ -88,9 +89,14 @@ inline FloatPack max(FloatPack a, FloatPack b) { return a > b ? a : b; }
 // Numbers from 0 to 2^15 - 1, without what follows the point.
 inline void store_cells(std::int16_t* p, Pack a) { *p = static_cast<std::int16_t>(a); }
 inline void store_cells(std::int16_t* p, FloatPack a) { *p = static_cast<std::int16_t>(a); }
-// Writes the lane if it has a bit, and mark xor its number. Returns how many.
-inline int store_some_floats(unsigned lanes, FloatPack a, int first, int mark, float* value, std::int32_t* index) {
-  *value = a;
+// Writes the lane if it has a bit, in its last bits, those of `places`, at which place; and mark xor its number. Returns
+// how many.
+inline int store_keys(unsigned lanes, FloatPack a, int places, int first, int mark, int place, float* key,
+                      std::int32_t* index) {
+  std::int32_t bits_of_key;
+  __builtin_memcpy(&bits_of_key, &a, sizeof a);
+  bits_of_key = (bits_of_key & ~places) | place;
+  __builtin_memcpy(key, &bits_of_key, sizeof a);
   *index = mark ^ first;
   return static_cast<int>(lanes);
 }

@@ -31,35 +31,6 @@ struct LineOfSight {
   double error;
 };
 
-// The corners of a cluster's facets in floats, one beside the other: (x - origin) scale, at most 1 in size; what
-// follows the last facet is like its first vertex.
-struct alignas(64) LinedFacets {
-  static constexpr int kMost = 64;
-  float corner[3][3][kMost];  // of each corner its coordinates
-  double origin[3];
-  double scale;
-  std::int32_t count;
-};
-
-// Boxes in floats about a middle, in a unit in which no coordinate exceeds 1: lower x, y, z, upper x, y, z, an array
-// each. Of what is read at once 64 bytes more can be read.
-struct LinedBoxes {
-  const float* bounds[6];
-};
-
-// A segment in the same unit, and the boxes that it enters, with when at the earliest. Of an axis x is passed at
-// x inverse - enter_at at the earliest, and at x inverse - leave_at at the latest.
-struct alignas(64) EnteringLine {
-  static constexpr int kMost = 128;
-  float rank[kMost + 32];
-  std::int32_t index[kMost + 32];
-  float inverse[3], enter_at[3], leave_at[3];
-  float latest;
-  int count;
-  bool overflows;      // there were more
-  std::int32_t taken;  // the index of what take_nearest() took
-};
-
 // Normals nearer to a direction, a unit vector, than the angle of this cosine, which is positive.
 struct FacingNormals {
   double direction[3];

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 
 #include "narrowphase/mesh/prefetch.h"
@@ -11,162 +10,145 @@ namespace tact::narrowphase {
 
 namespace {
 
-// A segment from farther away, in half sizes of the mesh, is asked alone: floats know too little of it.
-constexpr double kFarthest = 1024.0;
-// Up to so many clusters are held against a segment one by one: a group more or less costs as much.
-constexpr int kMostWithoutGroups = 192;
+// Up to so many nodes are held against a segment one by one: a group more or less costs as much.
+constexpr int kMostWithoutGroups = 64;
+// The leaves of so many nodes, of 10 kB, stay in the second level of the cache: they are not prefetched.
+constexpr int kMostInCache = 128;
 
-// The floats of so many clusters stay in the second level of the cache: they are not prefetched.
-constexpr int kMostInCache = 512;
-
-void ask_alone(const QuestionedMesh& mesh, FirstHitQuestion& question) {
-  if (const auto hit = first_hit(mesh.mesh, question.line, question.latest)) question.take(*hit);
-}
-
-void set_latest(EnteringLine& entering, double latest) {
-  entering.latest = static_cast<float>(latest * (1.0 + 0x1p-22) + 0x1p-100);
-}
-
-// In the unit of a mesh. Times are wrong by what four roundings of 2^-24 take from a coordinate, of the line or of a
-// box, over the way: sixteen are allowed for. Where the line goes along an axis no way, it goes one that is less than
-// that.
-bool set_out(const MeshBoxes& boxes, const FirstHitQuestion& question, EnteringLine& entering) {
-  constexpr double kSteepest = 0x1p60;
-  const double unit = 1.0 / boxes.scale;  // a power of two
-  const SegmentSlabs& slabs = question.line.slabs();
-  for (int axis = 0; axis < 3; ++axis) {
-    const double from = (slabs.from[axis] - boxes.origin[axis]) * boxes.scale;
-    if (!(std::abs(from) <= kFarthest)) return false;
-    const double inverse =
-        slabs.inverse[axis] == 0.0 ? kSteepest : std::clamp(slabs.inverse[axis] * unit, -kSteepest, kSteepest);
-    const double slack = 0x1p-20 * (std::abs(from) + 2.0) * std::abs(inverse) + 0x1p-100;
-    entering.inverse[axis] = static_cast<float>(inverse);
-    entering.enter_at[axis] = static_cast<float>(from * inverse + slack);
-    entering.leave_at[axis] = static_cast<float>(from * inverse - slack);
-  }
-  entering.count = 0;
-  entering.overflows = false;
-  set_latest(entering, question.latest);
-  return true;
+void ask_alone(const ClusteredMesh& mesh, FirstHitQuestion& question) {
+  if (const auto hit = first_hit(mesh, Sightline(question.segment), question.latest)) question.take(*hit);
 }
 
 // Segments that are asked of one mesh together.
 class Block {
  public:
-  Block(const QuestionedMesh& questioned, const MeshBoxes& boxes) : questioned_(questioned), boxes_(boxes) {}
-
-  // Returns false where floats do not do.
-  bool add(FirstHitQuestion& question) {
-    Asking& one = asking_[count_];
-    one.question = &question;
-    one.entering = &entering_[count_];
-    if (question.line.is_point() || !set_out(boxes_, question, *one.entering)) return false;
-    ++count_;
-    if (mesh_.cluster_count() <= kMostWithoutGroups) {
-      kernels_.enter_lined_boxes(boxes_.clusters, 0, mesh_.cluster_count(), 0, one.entering);
-    } else {
-      kernels_.enter_lined_boxes(boxes_.groups, 0, mesh_.group_count(), -1, one.entering);
+  Block(const ClusteredMesh& mesh, const LineTree& tree, std::span<FirstHitQuestion* const> questions)
+      : mesh_(mesh), tree_(tree), questions_(questions) {
+    for (std::size_t i = 0; i < kLinesAtATime; ++i) {
+      const FirstHitQuestion& question = *questions[i < questions.size() ? i : 0];
+      const Vec3 from = question.segment[0], way = question.segment[1] - from;
+      for (int axis = 0; axis < 3; ++axis) {
+        block_.from[axis][i] = from[axis];
+        block_.direction[axis][i] = way[axis];
+      }
+      set_latest(i, question.latest);
     }
-    return true;
+    const LinesApart apart = kernels_.set_out_lines(tree, &block_);
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+      if ((apart.alone >> i & 1U) != 0) ask_alone(mesh, *questions[i]);
+      if (((apart.alone | apart.past) >> i & 1U) == 0) lines_[count_++] = static_cast<std::uint8_t>(i);
+    }
   }
 
   void answer() {
-    for (find_next(); count_ > 0; find_next()) {
-      find_facets();
-      if (mesh_.cluster_count() > kMostInCache) prefetch_facets();
-      for (std::size_t i = 0; i < count_; ++i) meet_facets(asking_[i]);
+    if (tree_.node_count <= kMostWithoutGroups) {
+      kernels_.enter_all_nodes(tree_, &block_);
+    } else {
+      for (int i = 0; i < count_; ++i) kernels_.enter_groups(tree_, lines_[i], &block_);
+    }
+    for (find_facets(); count_ > 0; find_facets()) {
+      list_pairs();
+      decide_pairs();
     }
   }
 
  private:
-  struct Asking {
-    FirstHitQuestion* question;
-    EnteringLine* entering;
-    const LinedFacets* lined;  // of the cluster that it entered last
-    std::uint64_t facets;      // of that cluster, that it may meet
-  };
+  // Of the segment at a place of the block.
+  void set_latest(std::size_t line, double latest) {
+    block_.latest[line] = static_cast<float>(latest * (1.0 + 0x1p-22) + 0x1p-100);
+  }
 
-  // The clusters that the segments enter next; those that enter no more have their answer.
-  void find_next() {
-    std::size_t left = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Asking one = asking_[i];
-      if (find_next(*one.entering)) {
-        asking_[left++] = one;
-      } else if (one.entering->overflows) {
-        ask_alone(questioned_, *one.question);
+  // Facets that the segments may meet next; those for which there are none have their answer.
+  void find_facets() {
+    kernels_.find_facets(tree_, lines_, count_, &block_);
+    std::uint32_t later = 0;
+    for (int i = 0; i < count_; ++i)
+      later |= static_cast<std::uint32_t>(block_.taken[lines_[i]] == LineBlock::kLaterNodes) << lines_[i];
+    if (later != 0) kernels_.enter_later_nodes(tree_, later, &block_);
+    int left = 0;
+    for (int i = 0; i < count_; ++i) {
+      const std::uint8_t line = lines_[i];
+      const std::int32_t& taken = block_.taken[line];
+      while (taken < 0 && taken != LineBlock::kNothing) {
+        if (taken != LineBlock::kLaterNodes) {
+          const int begin = ~taken * kNodesOfGroup;
+          kernels_.enter_nodes(tree_, begin, std::min(kNodesOfGroup, tree_.node_count - begin), line, &block_);
+        }
+        kernels_.find_facets(tree_, &line, 1, &block_);
+      }
+      if ((block_.overflowing >> line & 1U) != 0) {
+        ask_alone(mesh_, *questions_[line]);
+      } else if (taken >= 0) {
+        if (tree_.node_count > kMostInCache) prefetch_corners(tree_.leaf[taken], std::countr_zero(block_.facets[line]));
+        lines_[left++] = line;
       }
     }
     count_ = left;
-    for (std::size_t i = 0; i < count_; ++i) {
-      Asking& one = asking_[i];
-      one.lined = questioned_.room->facets(mesh_, questioned_.number, one.entering->taken);
-      if (one.lined != nullptr && mesh_.cluster_count() > kMostInCache) prefetch_lines(one.lined, 1);
+  }
+
+  void list_pairs() {
+    for (int i = 0; i < count_; ++i) {
+      for (std::uint32_t facets = block_.facets[lines_[i]]; facets != 0; facets &= facets - 1) {
+        if (pairs_.count == LinePairs::kMost) decide_pairs();
+        add_pair(lines_[i], block_.taken[lines_[i]], std::countr_zero(facets));
+      }
     }
   }
 
-  bool find_next(EnteringLine& entering) const {
-    while (!entering.overflows && kernels_.take_nearest(&entering)) {
-      if (entering.taken >= 0) return true;
-      const int group = ~entering.taken, begin = mesh_.cluster_begin(group);
-      kernels_.enter_lined_boxes(boxes_.clusters, begin, mesh_.cluster_end(group) - begin, 0, &entering);
-    }
-    return false;
+  void prefetch_corners(const LineLeaf& leaf, int facet) const {
+    for (const auto& vertex : leaf.vertex) prefetch_position(mesh_, vertex[facet]);
   }
 
-  void find_facets() {
-    for (std::size_t i = 0; i < count_; ++i) {
-      Asking& one = asking_[i];
-      const Sightline& line = one.question->line;
-      one.facets = one.lined != nullptr ? kernels_.facets_on_line(*one.lined, line.line())
-                                        : line.facets_seen(mesh_, one.entering->taken);
+  void add_pair(int line, int leaf, int facet) {
+    const int place = pairs_.count++, last = static_cast<int>(block_.longest[line]);
+    const PointArrays points = mesh_.points();
+    const double* const along[5] = {points.x, points.y, points.z, points.x, points.y};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int v = tree_.leaf[leaf].vertex[k][facet];
+      pairs_.corner[k][0][place] = along[last + 1][v];
+      pairs_.corner[k][1][place] = along[last + 2][v];
+      pairs_.corner[k][2][place] = along[last][v];
     }
+    pairs_.line[place] = line;
+    facet_[place] = leaf * LineLeaf::kFacets + facet;
   }
 
-  void prefetch_facets() const {
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Asking& one = asking_[i];
-      if (one.facets == 0) continue;
-      for (const int v : mesh_.corners(mesh_.facet_begin(one.entering->taken) + std::countr_zero(one.facets)))
-        prefetch_position(mesh_, v);
+  void decide_pairs() {
+    for (int i = pairs_.count; i < LinePairs::kMost; ++i) pairs_.line[i] = 0;
+    kernels_.meet_lines(block_, &pairs_);
+    for (std::uint32_t left = pairs_.meets | pairs_.uncertain; left != 0; left &= left - 1) {
+      const int i = std::countr_zero(left);
+      const auto line = static_cast<std::size_t>(pairs_.line[i]);
+      FirstHitQuestion& question = *questions_[line];
+      CommonPlace place{pairs_.time[i], {pairs_.weight[0][i], pairs_.weight[1][i], pairs_.weight[2][i]}};
+      if ((pairs_.uncertain >> i & 1U) != 0) {
+        const auto met = Sightline(question.segment).meet(mesh_.triangle(facet_[i]), counts_);
+        if (!met) continue;
+        place = *met;
+      }
+      question.take({mesh_.source_facet(facet_[i]), place.time, place.weight});
+      set_latest(line, question.latest);
     }
+    pairs_.count = 0;
   }
 
-  void meet_facets(Asking& one) {
-    for (std::uint64_t rest = one.facets; rest != 0; rest &= rest - 1) {
-      const int f = mesh_.facet_begin(one.entering->taken) + std::countr_zero(rest);
-      const auto place = one.question->line.meet(mesh_.triangle(f), counts_);
-      if (!place) continue;
-      one.question->take({mesh_.source_facet(f), place->time, place->weight});
-      set_latest(*one.entering, one.question->latest);
-    }
-  }
-
-  const QuestionedMesh& questioned_;
-  const ClusteredMesh& mesh_ = questioned_.mesh;
-  const MeshBoxes& boxes_;
+  const ClusteredMesh& mesh_;
+  const LineTree& tree_;
+  const std::span<FirstHitQuestion* const> questions_;
   const Kernels& kernels_ = kernels();
-  EnteringLine entering_[kLinesAtATime];
-  Asking asking_[kLinesAtATime];
-  std::size_t count_ = 0;
+  LineBlock block_;
+  std::uint8_t lines_[kLinesAtATime];  // of the block, those that have not ended
+  int count_ = 0;
+  LinePairs pairs_;
+  int facet_[LinePairs::kMost];  // of each pair
   PredicateCounts counts_;
 };
 
 }  // namespace
 
-void ask_first_hits(const QuestionedMesh& questioned, std::span<FirstHitQuestion* const> questions) {
-  const ClusteredMesh& mesh = questioned.mesh;
-  if (mesh.facet_count() == 0) return;
-  const MeshBoxes* const boxes = questioned.room == nullptr ? nullptr : questioned.room->boxes(mesh, questioned.number);
-  if (boxes == nullptr) {
-    for (FirstHitQuestion* const question : questions) ask_alone(questioned, *question);
-    return;
-  }
-  Block block(questioned, *boxes);
-  for (FirstHitQuestion* const question : questions) {
-    if (!block.add(*question)) ask_alone(questioned, *question);
-  }
-  block.answer();
+void ask_first_hits(const ClusteredMesh& mesh, const LineTree* tree, std::span<FirstHitQuestion* const> questions) {
+  if (tree != nullptr) return Block(mesh, *tree, questions).answer();
+  for (FirstHitQuestion* const question : questions) ask_alone(mesh, *question);
 }
 
 }  // namespace tact::narrowphase

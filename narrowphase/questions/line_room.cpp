@@ -8,101 +8,90 @@ namespace tact::narrowphase {
 
 namespace {
 
-// The middle of a box, and a unit in which it reaches from -1 to 1 at most.
-struct LocalUnit {
-  Vec3 origin;
-  double scale;
-  explicit LocalUnit(const Box& box) : origin(0.5 * box.lower + 0.5 * box.upper) {
-    double largest = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-      largest = std::max({largest, box.upper[axis] - origin[axis], origin[axis] - box.lower[axis]});
-    scale = 0.5 * unit_scale(largest);
-  }
-};
+constexpr std::size_t kMore = 16;  // floats that a kernel reads past the end
 
-void fill_facets(const ClusteredMesh& mesh, int cluster, LinedFacets& lined) {
-  const LocalUnit unit(mesh.cluster_boxes()[static_cast<std::size_t>(cluster)]);
-  for (int axis = 0; axis < 3; ++axis) lined.origin[axis] = unit.origin[axis];
-  lined.scale = unit.scale;
-  kernels().line_up_facets(mesh.facets_of(cluster), &lined);
+int nodes_of(int clusters) { return (clusters + LineNode::kClusters - 1) / LineNode::kClusters; }
+
+// The middle of the mesh, and a unit in which it reaches from -1 to 1 at most.
+void set_unit(const Box& box, LineTree& tree) {
+  double largest = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    tree.origin[axis] = 0.5 * box.lower[axis] + 0.5 * box.upper[axis];
+    largest = std::max({largest, box.upper[axis] - tree.origin[axis], tree.origin[axis] - box.lower[axis]});
+  }
+  tree.scale = 0.5 * unit_scale(largest);
 }
 
-// Makes an array new if it is to hold more than it does.
-template <class Element>
-void make_room(std::unique_ptr<Element[]>& array, std::size_t& count, std::size_t wanted) {
-  if (wanted <= count) return;
-  count = 0;
-  array.reset();
-  array.reset(new Element[wanted]);
-  count = wanted;
+// A box for each `step` of `count` boxes. Returns where they end.
+float* copy_boxes(const BoxView& from, int count, int step, const LineTree& tree, float* to, LinedBoxes& boxes) {
+  for (int side = 0; side < 6; ++side) {
+    const int axis = side % 3;
+    const double* const bound = side < 3 ? from.lower(axis) : from.upper(axis);
+    boxes.bounds[side] = to;
+    for (int i = 0; i < count; i += step) {
+      double farthest = bound[i];
+      for (int k = i + 1; k < std::min(i + step, count); ++k)
+        farthest = side < 3 ? std::min(farthest, bound[k]) : std::max(farthest, bound[k]);
+      *to++ = static_cast<float>((farthest - tree.origin[axis]) * tree.scale);
+    }
+    to += kMore;
+  }
+  return to;
+}
+
+// No segment enters it.
+void make_empty(LineNode& node) {
+  for (int side = 0; side < 6; ++side) std::fill_n(node.bounds[side], LineNode::kLeaves, side < 3 ? 2.0F : -2.0F);
 }
 
 }  // namespace
 
-void LineRoom::begin(const std::vector<int>& cluster_counts, std::size_t segments) {
-  segments_ = segments;
-  make_room(meshes_, mesh_count_, cluster_counts.size());
-  std::size_t clusters = 0;
+void LineRoom::begin(std::span<const int> cluster_counts, std::size_t segments) {
+  entries_.resize(cluster_counts.size());
+  chosen_.clear();
+  mesh_of_node_.clear();
   for (std::size_t i = 0; i < cluster_counts.size(); ++i) {
-    meshes_[i].state.store(kUnopened, std::memory_order_relaxed);
-    meshes_[i].first_cluster = clusters;
-    clusters += static_cast<std::size_t>(cluster_counts[i]);
+    const auto own = static_cast<std::size_t>(nodes_of(cluster_counts[i])), before = mesh_of_node_.size();
+    const bool pays = own > 0 && kSegmentsOfNode * (before + own) <= segments;
+    entries_[i].first_node = pays ? before : kNowhere;
+    if (!pays) continue;
+    chosen_.push_back(i);
+    mesh_of_node_.resize(before + own, i);
   }
-  make_room(clusters_, cluster_count_, clusters);
-  for (std::size_t i = 0; i < clusters; ++i) clusters_[i].store(kUnopened, std::memory_order_relaxed);
-  make_room(facets_, place_count_, std::min(clusters, kMost));
-  next_place_.store(0, std::memory_order_relaxed);
+  if (node_count() <= room_) return;
+  room_ = 0;
+  nodes_.reset(new LineNode[node_count()]);
+  leaves_.reset(new LineLeaf[node_count() * LineNode::kLeaves]);
+  room_ = node_count();
 }
 
-const LinedFacets* LineRoom::facets(const ClusteredMesh& mesh, std::size_t number, int cluster) {
-  auto& state = clusters_[meshes_[number].first_cluster + static_cast<std::size_t>(cluster)];
-  std::uint32_t seen = state.load(std::memory_order_acquire);
-  if (seen >= kFirstPlace) return &facets_[seen - kFirstPlace];
-  if (seen == kUnopened) {
-    state.compare_exchange_strong(seen, kOpened, std::memory_order_relaxed);
-    return nullptr;
+void LineRoom::make_tree(const ClusteredMesh& mesh, std::size_t number) {
+  Entry& entry = entries_[number];
+  LineTree& tree = entry.tree;
+  entry.mesh = &mesh;
+  tree.group_count = mesh.group_count();
+  tree.node_count = nodes_of(mesh.cluster_count());
+  tree.facet_count = mesh.facet_count();
+  tree.node = &nodes_[entry.first_node];
+  tree.leaf = &leaves_[entry.first_node * LineNode::kLeaves];
+  set_unit(mesh.box(), tree);
+  entry.bounds.resize(6 * (static_cast<std::size_t>(tree.node_count + tree.group_count) + 2 * kMore));
+  float* const end = copy_boxes(mesh.cluster_boxes(), mesh.cluster_count(), LineNode::kClusters, tree,
+                                entry.bounds.data(), tree.nodes);
+  if (tree.group_count > 1) copy_boxes(mesh.group_boxes(), tree.group_count, 1, tree, end, tree.groups);
+}
+
+void LineRoom::make_node(std::size_t i) {
+  const Entry& entry = entries_[mesh_of_node_[i]];
+  const ClusteredMesh& mesh = *entry.mesh;
+  const int begin = static_cast<int>(i - entry.first_node) * LineNode::kClusters;
+  const int end = std::min(begin + LineNode::kClusters, mesh.cluster_count());
+  if (end - begin < LineNode::kClusters || end == mesh.cluster_count()) make_empty(nodes_[i]);
+  for (int c = begin; c < end; ++c) {
+    const int first = (c - begin) * LineNode::kLeavesOfCluster;
+    LineLeaf* const leaves = &leaves_[i * LineNode::kLeaves + static_cast<std::size_t>(first)];
+    kernels().line_up_facets(mesh.facets_of(c), entry.tree.origin, entry.tree.scale, leaves, first, &nodes_[i]);
   }
-  if (seen != kOpened || !state.compare_exchange_strong(seen, kBeingMade, std::memory_order_relaxed)) return nullptr;
-  const std::size_t place = next_place_.fetch_add(1, std::memory_order_relaxed);
-  if (place >= place_count_) return nullptr;
-  fill_facets(mesh, cluster, facets_[place]);
-  state.store(static_cast<std::uint32_t>(kFirstPlace + place), std::memory_order_release);
-  return &facets_[place];
-}
-
-void LineRoom::fill(const ClusteredMesh& mesh, MeshEntry& entry) {
-  constexpr std::size_t kMore = 16;  // floats that a kernel reads past the end
-  const LocalUnit unit(mesh.box());
-  entry.boxes.origin = unit.origin;
-  entry.boxes.scale = unit.scale;
-  const auto clusters = static_cast<std::size_t>(mesh.cluster_count());
-  const auto groups = static_cast<std::size_t>(mesh.group_count());
-  entry.bounds.resize(6 * (clusters + groups + 2 * kMore));
-  float* to = entry.bounds.data();
-  const auto copy = [&](const BoxView& from, std::size_t count, LinedBoxes& boxes) {
-    for (int side = 0; side < 6; ++side) {
-      const int axis = side % 3;
-      const double* const bound = side < 3 ? from.lower(axis) : from.upper(axis);
-      const double origin = unit.origin[axis];
-      boxes.bounds[side] = to;
-      for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<float>((bound[i] - origin) * unit.scale);
-      to += count + kMore;
-    }
-  };
-  copy(mesh.cluster_boxes(), clusters, entry.boxes.clusters);
-  copy(mesh.group_boxes(), groups, entry.boxes.groups);
-}
-
-const MeshBoxes* LineRoom::boxes(const ClusteredMesh& mesh, std::size_t number) {
-  MeshEntry& entry = meshes_[number];
-  std::uint32_t seen = entry.state.load(std::memory_order_acquire);
-  if (seen == kFirstPlace) return &entry.boxes;
-  if (seen != kUnopened || static_cast<std::size_t>(mesh.cluster_count()) > kBoxesPerSegment * segments_ ||
-      !entry.state.compare_exchange_strong(seen, kBeingMade, std::memory_order_relaxed))
-    return nullptr;
-  fill(mesh, entry);
-  entry.state.store(kFirstPlace, std::memory_order_release);
-  return &entry.boxes;
 }
 
 }  // namespace tact::narrowphase

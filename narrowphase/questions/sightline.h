@@ -14,12 +14,10 @@ class Sightline {
  public:
   explicit Sightline(const Segment& segment);
 
-  /// As the kernels take it; a point has no line.
+  /// As the kernels take it.
   const SegmentSlabs& slabs() const { return slabs_; }
-  const LineOfSight& line() const { return line_; }  // without its error
   /// A bit for each facet of a cluster that it may meet.
   std::uint64_t facets_seen(const ClusteredMesh& mesh, int cluster) const;
-  bool is_point() const { return is_point_; }
 
   /// The first place where it meets a triangle, if it does: decided exactly. The place of the segment is that of the
   /// triangle to 1e-12 of the size of both. It is not before entry() into any box around the triangle, so that no facet

@@ -54,7 +54,9 @@ TEST(Questions, RaysEqualRationalArithmetic) {
 // Many rays open the same clusters, whose facets are then held against them in floats.
 TEST(Questions, ManyRaysAtOnceAnswerAsEachAlone) {
   Random random(7);
-  for (const Mesh& mesh : {blob(4, 1.0, 0.3, 3), wrinkled_sheet(40, 2.0, 0.3, 1), needles(300, 1e4, 2)}) {
+  // The last one has groups of nodes.
+  for (const Mesh& mesh :
+       {blob(4, 1.0, 0.3, 3), wrinkled_sheet(40, 2.0, 0.3, 1), needles(300, 1e4, 2), wrinkled_sheet(92, 2.0, 0.3, 1)}) {
     std::vector<Ray> rays;
     for (int i = 0; i < 1500; ++i) rays.push_back(i % 2 == 0 ? hard_ray(mesh, random) : random_ray(mesh, random));
     std::vector<RayHit> expected, hits(rays.size());
@@ -83,6 +85,35 @@ TEST(Questions, ManyRaysAtOnceAnswerAsEachAlone) {
         return a.facet == b.facet && a.time == b.time && a.weights == b.weights;
       }));
     }
+  }
+}
+
+// A ray that enters more leaves than a list has room for is asked alone.
+TEST(Questions, ManyRaysThroughManyLayersAnswerAsEachAlone) {
+  constexpr int kLayers = 2000;
+  Mesh stack;
+  stack.positions.resize(3, 4 * kLayers);
+  stack.facets.resize(3, 2 * kLayers);
+  for (int i = 0; i < kLayers; ++i) {
+    for (int k = 0; k < 4; ++k) stack.positions.col(4 * i + k) << k % 2, k / 2, 0.001 * i;
+    stack.facets.col(2 * i) << 4 * i, 4 * i + 1, 4 * i + 2;
+    stack.facets.col(2 * i + 1) << 4 * i + 1, 4 * i + 3, 4 * i + 2;
+  }
+  tact::World world({.threads = 2});
+  world.add_body({.positions = stack.positions, .facets = stack.facets});
+  Random random(8);
+  std::vector<Ray> rays(256);
+  for (Ray& ray : rays) {
+    ray.from << random.uniform(), random.uniform(), -1.0;
+    ray.to << random.uniform(), random.uniform(), 3.0;
+    if (random.chance(0.5)) std::swap(ray.from, ray.to);
+  }
+  std::vector<RayHit> hits(rays.size());
+  world.rays(rays, hits);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const RayHit alone = world.ray(rays[i]);
+    EXPECT_TRUE(hits[i].facet == alone.facet && hits[i].time == alone.time && hits[i].weights == alone.weights);
+    EXPECT_EQ(hits[i].facet / 2, rays[i].from.z() < 0.0 ? 0 : kLayers - 1);
   }
 }
 

@@ -1,4 +1,4 @@
-// The kernels that follow a segment: which boxes it enters, and when; which facets its line may meet.
+// The kernels that follow one segment: which boxes it enters, and when; which facets its line may meet.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/triangles/triangle_triangle.h"
@@ -134,114 +133,6 @@ TEST(SightFacets, LeavesOutNoFacetThatTheLineMeetsAndMostOthers) {
   });
   EXPECT_GT(met, 900);
   EXPECT_LT(left, facets / 4);
-}
-
-LinedFacets lined_up(const Kernels& kernels, const ClusteredMesh& mesh, int c, double unit) {
-  const Box box = mesh.cluster_boxes()[static_cast<std::size_t>(c)];
-  const Vec3 middle = 0.5 * (box.lower + box.upper), half = box.upper - middle;
-  LinedFacets lined;
-  for (int axis = 0; axis < 3; ++axis) lined.origin[axis] = middle[axis];
-  lined.scale = unit / std::max({half.x, half.y, half.z});
-  kernels.line_up_facets(mesh.facets_of(c), &lined);
-  return lined;
-}
-
-TEST(FacetsOnLine, LeavesOutNoFacetThatTheLineMeetsAndNearlyAllOthers) {
-  Random random(3);
-  PredicateCounts counts;
-  int met = 0, left = 0, aimed = 0;
-  tests::for_clusters([&](const ClusteredMesh& mesh, int c) {
-    const LinedFacets lined = lined_up(*scalar_kernels(), mesh, c, 0.75);
-    for (int trial = 0; trial < 30; ++trial) {
-      const Triangle target = mesh.triangle(mesh.facet_begin(c) + random.below(lined.count));
-      // Through a corner, an edge or the inside, from near and far.
-      const Vec3 at = trial % 3 == 0   ? target[0]
-                      : trial % 3 == 1 ? 0.5 * (target[0] + target[1])
-                                       : 0.4 * target[0] + 0.3 * (target[1] + target[2]);
-      const Vec3 from = at + (trial % 2 == 0 ? 3.0 : 3e5) * random.in_cube(1.0);
-      const Segment segment{from, at + (at - from)};
-      const std::uint64_t expected = scalar_kernels()->facets_on_line(lined, line_of(segment));
-      for (const Kernels* kernels : tests::available_kernels())
-        EXPECT_EQ(kernels->facets_on_line(lined_up(*kernels, mesh, c, 0.75), line_of(segment)), expected)
-            << kernels->name;
-      for (int i = 0; i < lined.count; ++i) {
-        if (!segment_triangle_meet(segment, mesh.triangle(mesh.facet_begin(c) + i), counts)) continue;
-        EXPECT_TRUE(expected >> i & 1) << "facet " << i;
-        ++met;
-      }
-      left += std::popcount(expected);
-      ++aimed;
-    }
-  });
-  EXPECT_GT(met, aimed);
-  EXPECT_LT(left, met + 2 * aimed);
-}
-
-// Boxes in floats, and a segment that passes x at x inverse - enter_at.
-struct EnteredBoxes {
-  static constexpr int kCount = 45;
-  std::vector<float> bounds[6];
-  EnteringLine line;
-
-  explicit EnteredBoxes(Random& random) {
-    for (auto& one : bounds) one.resize(kCount + 16);
-    for (int i = 0; i < kCount; ++i) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const double p = random.in_cube(0.6).x;
-        bounds[axis][i] = static_cast<float>(p);
-        bounds[axis + 3][i] = static_cast<float>(p + 0.9 * random.uniform());
-      }
-    }
-    const Vec3 from = random.in_cube(2.0), to = random.in_cube(2.0);
-    for (int axis = 0; axis < 3; ++axis) {
-      line.inverse[axis] = static_cast<float>(1.0 / (to[axis] - from[axis]));
-      line.enter_at[axis] = line.leave_at[axis] = static_cast<float>(from[axis] / (to[axis] - from[axis]));
-    }
-    line.latest = 0.9f;
-    line.count = 0;
-    line.overflows = false;
-  }
-  LinedBoxes boxes() const {
-    return {
-        {bounds[0].data(), bounds[1].data(), bounds[2].data(), bounds[3].data(), bounds[4].data(), bounds[5].data()}};
-  }
-};
-
-TEST(EnterLinedBoxes, FindsWhatTheSegmentEntersAndTakesTheFirstFirst) {
-  Random random(4);
-  int entered = 0;
-  for (int trial = 0; trial < 300; ++trial) {
-    const EnteredBoxes made(random);
-    std::vector<std::pair<float, int>> expected;
-    for (int i = 0; i < EnteredBoxes::kCount; ++i) {
-      double first = 0.0, last = made.line.latest;
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto at = [&](int side) {
-          return static_cast<double>(made.bounds[side][i]) * made.line.inverse[axis] - made.line.enter_at[axis];
-        };
-        first = std::max(first, std::min(at(axis), at(axis + 3)));
-        last = std::min(last, std::max(at(axis), at(axis + 3)));
-      }
-      if (first <= last) expected.emplace_back(static_cast<float>(first), i);
-    }
-    std::ranges::sort(expected);
-    for (const Kernels* kernels : tests::available_kernels()) {
-      EnteringLine line = made.line;
-      kernels->enter_lined_boxes(made.boxes(), 0, 20, 0, &line);
-      kernels->enter_lined_boxes(made.boxes(), 20, EnteredBoxes::kCount - 20, 0, &line);
-      ASSERT_EQ(line.count, static_cast<int>(expected.size())) << kernels->name << ", trial " << trial;
-      for (const auto& [rank, index] : expected) {
-        ASSERT_TRUE(kernels->take_nearest(&line));
-        EXPECT_TRUE(line.taken == index || rank == 0.0f) << kernels->name;
-      }
-      EXPECT_FALSE(kernels->take_nearest(&line));
-      EnteringLine marked = made.line;
-      kernels->enter_lined_boxes(made.boxes(), 20, 20, -1, &marked);
-      for (int i = 0; i < marked.count; ++i) EXPECT_TRUE(~marked.index[i] >= 20 && ~marked.index[i] < 40);
-    }
-    entered += static_cast<int>(expected.size());
-  }
-  EXPECT_GT(entered, 200);
 }
 
 }  // namespace
