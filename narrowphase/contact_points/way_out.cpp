@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "narrowphase/contact_points/facing_clusters.h"
 #include "narrowphase/mesh/cluster_search.h"
 #include "narrowphase/mesh/open_in_box.h"
 #include "narrowphase/questions/mesh_questions.h"
@@ -86,6 +87,13 @@ bool is_near_one(double scale) { return scale > 0x1p-400 && scale < 0x1p400; }
 
 double largest_of(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
+struct SkipTurnedAway {
+  const FacingClusters& clusters;
+  const FacingNormals& facing;
+  bool group(int group) const { return clusters.group_turned_away(group, facing); }
+  bool cluster(int cluster) const { return clusters.cluster_turned_away(cluster, facing); }
+};
+
 // Which side of an edge's facets is `v` on that is nearest to the edge? The facet that sees it from more above or below
 // tells: v is beyond the other's edge, where its plane says little. Zero at the border.
 double height_at_edge(const ScaledMesh& m, int facet, int side, Vec3 v, double own_height) {
@@ -122,6 +130,15 @@ struct WayFinder::Memory {
   std::size_t gathered_count = 0;
   double gathered_within = -1.0;  // scaled; negative: none are gathered
   FacetDistances near;
+  FacingClusters facing;  // known as soon as that is worth it
+  int listed = 0;         // facets of the last one that was looked into
+  int fruitless = 0;      // clusters that were looked into for a facet that faces a direction, and had none
+
+  // To find all normals costs what it costs to look into each cluster once.
+  void find_facing(const ScaledMesh& m) {
+    for (int c = 0; c < m.mesh.cluster_count(); ++c) facing.add(facets_of(m.mesh, c), m.scale);
+    facing.merge_groups(m.mesh);
+  }
 
   // Takes the facets that reach into a box, in the unit of the mesh; false if they are too many.
   bool gather(const ClusteredMesh& mesh, const Box& box) {
@@ -164,6 +181,8 @@ void WayFinder::begin(const ScaledMesh& surface) {
   for (Memory::Opened& one : memory_->opened) one.cluster = -1;
   memory_->clusters.resize(surface.mesh.cluster_count() + kPadding);
   memory_->gathered_within = -1.0;
+  memory_->facing.clear();
+  memory_->fruitless = 0;
 }
 
 void WayFinder::begin(const ScaledMesh& surface, const Box& box, double within) {
@@ -200,6 +219,7 @@ std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const 
   const auto look_into = [&](const FacetBlock& facets) {
     FacetDistances& near = memory_->near;
     kernels().rank_block(facets, point, m.scale, most(), facing, &near);
+    memory_->listed = near.count;
     take_by_rank(near.least_squared, near.facet, near.count, wants, [&](int i) {
       if (facets.facet[i] == hint) return;
       Triangle corners;
@@ -214,12 +234,23 @@ std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const 
     for (std::size_t k = 0; k < memory_->gathered_count; ++k) look_into(memory_->gathered[k]);
     return best;
   }
-  for_each_cluster_by_rank(
-      m.mesh,
-      [&](const BoxPointers& boxes, int count, RankedBoxes& ranked) {
-        kernels().rank_by_distance(boxes, count, point, m.scale, most(), &ranked);
-      },
-      wants, [&](int cluster) { look_into(memory_->facets_of(m.mesh, cluster)); });
+  const auto rank = [&](const BoxPointers& boxes, int count, RankedBoxes& ranked) {
+    kernels().rank_by_distance(boxes, count, point, m.scale, most(), &ranked);
+  };
+  const auto open = [&](int cluster) {
+    look_into(memory_->facets_of(m.mesh, cluster));
+    memory_->fruitless += facing != nullptr && memory_->listed == 0;
+  };
+  if (facing == nullptr) {
+    for_each_cluster_by_rank(m.mesh, rank, wants, open);
+    return best;
+  }
+  if (!memory_->facing.are_known() && memory_->fruitless >= m.mesh.cluster_count()) memory_->find_facing(m);
+  if (memory_->facing.are_known()) {
+    for_each_cluster_by_rank(m.mesh, rank, wants, open, SkipTurnedAway{memory_->facing, *facing});
+  } else {
+    for_each_cluster_by_rank(m.mesh, rank, wants, open);
+  }
   return best;
 }
 

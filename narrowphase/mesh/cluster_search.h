@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <type_traits>
 
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/mesh/box_arrays.h"
@@ -34,14 +35,32 @@ void take_by_rank(double* rank, Index* index, int count, const Wants& wants, con
   }
 }
 
-/// Calls open(cluster) by ascending rank within a group, and groups by theirs. rank(boxes, count, ranked) fills
-/// `ranked` with those of up to RankedBoxes::kMost boxes that are wanted; wants(rank) tells whether one still is.
-template <class Rank, class Wants, class Open>
-void for_each_cluster_by_rank(const ClusteredMesh& mesh, const Rank& rank, const Wants& wants, const Open& open) {
+/// What for_each_cluster_by_rank() is to leave out: nothing.
+struct SkipNone {
+  static bool group(int) { return false; }
+  static bool cluster(int) { return false; }
+};
+
+/// Calls open(cluster) by ascending rank within a group, and groups by theirs, but for those that skips.group() or
+/// skips.cluster() names. rank(boxes, count, ranked) fills `ranked` with those of up to RankedBoxes::kMost boxes that
+/// are wanted; wants(rank) tells whether one still is.
+template <class Rank, class Wants, class Open, class Skips = SkipNone>
+void for_each_cluster_by_rank(const ClusteredMesh& mesh, const Rank& rank, const Wants& wants, const Open& open,
+                              const Skips& skips = {}) {
   RankedBoxes groups, clusters;
   const auto open_group = [&](int group) {
+    if (skips.group(group)) return;
     const int begin = mesh.cluster_begin(group);
     rank(mesh.cluster_boxes().pointers(begin), mesh.cluster_end(group) - begin, clusters);
+    if constexpr (!std::is_same_v<Skips, SkipNone>) {
+      int left = 0;
+      for (int i = 0; i < clusters.count; ++i) {
+        if (skips.cluster(begin + clusters.index[i])) continue;
+        clusters.rank[left] = clusters.rank[i];
+        clusters.index[left++] = clusters.index[i];
+      }
+      clusters.count = left;
+    }
     take_by_rank(clusters.rank, clusters.index, clusters.count, wants, [&](int c) { open(begin + c); });
   };
   const int count = mesh.group_count();
