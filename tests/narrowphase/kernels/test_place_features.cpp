@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kScale = 0.5;
 constexpr BoxBounds kCutBox{{-0.15, -0.1, -0.2}, {0.15, 0.25, 0.1}};
-constexpr Grid kGrid{{-0.15, -0.1, -0.2}, {300.0, 1e6, 0.0}};  // the second axis has more cells than there are
+constexpr Grid kCutGrid{{-0.15, -0.1, -0.2}, {300.0, 1e6, 0.0}};  // the second axis has more cells than there are
 constexpr double kWiden = 0.01;
 
 // The vertices of a cluster, those that it owns first.
@@ -41,7 +41,7 @@ unsigned outside(Vec3 p) {
 }
 
 std::int16_t cell(int axis, double x) {
-  return static_cast<std::int16_t>(std::clamp((x - kGrid.origin[axis]) * kGrid.scale[axis], 0.0, kLastCell));
+  return static_cast<std::int16_t>(std::clamp((x - kCutGrid.origin[axis]) * kCutGrid.scale[axis], 0.0, kLastCell));
 }
 
 template <class Check>
@@ -82,7 +82,7 @@ int expect_placed(const ClusteredMesh& mesh, int cluster, const FeatureCorners& 
     ClusterPoints points;
     kernels->place_points(mesh.facets_of(cluster), kScale, kCutBox, &points);
     FeatureBlock block;
-    kernels->place_features(points, in, kGrid, kWiden, &block);
+    kernels->place_features(points, in, kCutGrid, kWiden, &block);
     int n = 0;
     for (int i = 0; i < in.count; ++i) {
       unsigned common = ~0u;
@@ -132,7 +132,7 @@ TEST(PlaceFeatures, OfNoneAreNone) {
     FeatureBlock block;
     block.count = block.cells.count = 3;
     ClusterPoints points;
-    kernels->place_features(points, {{nullptr}, 1, 0}, kGrid, kWiden, &block);
+    kernels->place_features(points, {{nullptr}, 1, 0}, kCutGrid, kWiden, &block);
     EXPECT_EQ(block.count, 0) << kernels->name;
     EXPECT_EQ(block.cells.count, 0) << kernels->name;
   }
