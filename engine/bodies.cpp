@@ -144,7 +144,13 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   slots_[slot].vertex_count = body->mesh.source_vertex_count();
   slots_[slot].fixed = definition.motion == Motion::fixed;
   slots_[slot].rigid = rigid ? rigid_states_.take() : nullptr;
-  if (rigid) body->mesh.make_rigid(&slots_[slot].rigid->pose), body->mesh.place();
+  if (rigid) {
+    const base::Box box = body->mesh.box();
+    for (int axis = 0; axis < 3 && !box.empty(); ++axis)
+      farthest_rest_ = std::max({farthest_rest_, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
+    body->mesh.make_rigid(&slots_[slot].rigid->pose);
+    body->mesh.place();
+  }
   slots_[slot].knows_box = slots_[slot].to_place = false;
   rigid_count_ += rigid ? 1 : 0;
   self_count_ += definition.self_contact ? 1 : 0;

@@ -200,14 +200,10 @@ class Bodies {
     bool knows_kdop = false;
     double quality = 0.0;  // of the clusters, if it was time to look
   };
-  // A new pose, checked: what is published besides it.
-  struct PoseChange {
-    base::Box box;  // of all vertices, or more
-    std::uint32_t slot = 0;
-    bool changed = false;
-  };
-  PoseChange checked(const PoseUpdate& update) const;
-  void publish(const PoseChange& change, const PoseUpdate& update);
+  // Throws if a pose is bad. Reads nothing of the body's shape, unless that may stand too far away.
+  void check(const PoseUpdate& update) const;
+  // Sets a pose that is good; returns whether it is another one.
+  bool publish(const PoseUpdate& update);
   void note_to_place(std::uint32_t index);
   bool place_in_cache(std::uint32_t index);
   void prefetch_poses(std::span<const PoseUpdate> updates, std::size_t i) const;
@@ -256,7 +252,8 @@ class Bodies {
   std::size_t rigid_count_ = 0, self_count_ = 0;
   std::vector<base::Box> placed_boxes_;  // with their margins, of rigid bodies that place() placed
   std::int64_t placed_count_ = 0;
-  std::vector<PoseChange> pose_changes_;         // scratch
+  double farthest_rest_ = 0.0;                   // coordinate of rigid bodies that there were, or more
+  std::vector<char> pose_changed_;               // scratch, of each update
   std::vector<std::uint32_t> to_place_;          // scratch
   std::vector<Update> updates_;                  // scratch
   std::vector<narrowphase::Kdop> new_kdops_;     // of those that know them

@@ -79,68 +79,69 @@ void check_vertices(const ClusteredMesh& mesh, const Pose& pose, const std::stri
 
 }  // namespace
 
-Bodies::PoseChange Bodies::checked(const PoseUpdate& update) const {
+void Bodies::check(const PoseUpdate& update) const {
   const Body& body = at(update.body);
   const Slot& slot = slots_[update.body.index];
   if (slot.rigid == nullptr)
     throw Error(ErrorCode::wrong_motion, quoted(body.name) + " is not rigid: it takes no pose");
   if (slot.fixed) throw Error(ErrorCode::fixed_body, quoted(body.name) + " is fixed: its pose cannot be set");
   check_rotation(update.rotation, body.name);
+  double farthest = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
-    if (!(std::abs(update.translation[axis]) <= kLargestCoordinate))
+    const double size = std::abs(update.translation[axis]);
+    if (!(size <= kLargestCoordinate))
       refuse_coordinate(quoted(body.name) + ": the translation of its pose", axis, update.translation[axis]);
+    farthest = std::max(farthest, size);
   }
-  PoseChange change{.box = {}, .slot = update.body.index};
+  // A turned coordinate is less than twice the largest one at rest.
+  if (farthest + 2.0 * farthest_rest_ < 0.5 * kLargestCoordinate) return;
   const Pose pose = pose_of(update);
-  change.changed = !(pose == slot.rigid->pose.pose());
-  if (!change.changed) return change;
-  change.box = slot.rigid->pose.box_at(pose);
-  if (may_be_too_large(change.box)) check_vertices(body.mesh, pose, body.name);
-  return change;
+  if (may_be_too_large(slot.rigid->pose.box_at(pose))) check_vertices(body.mesh, pose, body.name);
 }
 
-void Bodies::publish(const PoseChange& change, const PoseUpdate& update) {
-  if (!change.changed) return;
-  Slot& slot = slots_[change.slot];
+bool Bodies::publish(const PoseUpdate& update) {
+  const std::uint32_t index = update.body.index;
+  Slot& slot = slots_[index];
   RigidState& state = *slot.rigid;
+  const Pose pose = pose_of(update);
+  if (pose == state.pose.pose()) return false;
   if (slot.begin == Begin::here && slot.seen) {
     state.begin_pose = state.pose.pose();
     state.begin_is_placed = false;
     slot.begin = Begin::kept;
   }
-  state.pose.set(pose_of(update));
+  state.pose.set(pose);
   slot.knows_box = false;
-  boxes_[change.slot] = base::grown(change.box, margins_[change.slot]);
-  knows_kdop_[change.slot] = 0;
+  boxes_[index] = base::grown(state.pose.box_at(pose), margins_[index]);
+  knows_kdop_[index] = 0;
+  return true;
 }
 
 void Bodies::set_pose(const PoseUpdate& update) {
   const base::FloatingPointMode mode;
-  const PoseChange change = checked(update);
-  publish(change, update);
-  if (change.changed) mark_moved(change.slot);
+  check(update);
+  if (publish(update)) mark_moved(update.body.index);
 }
 
 void Bodies::set_poses(std::span<const PoseUpdate> updates, int threads) {
   const base::FloatingPointMode mode;
   if (packed_meshes_.is_due(*tuning_)) pack_meshes(threads);
-  pose_changes_.resize(updates.size());
-  const bool prefetches = !stay_in_cache();
+  pose_changed_.resize(updates.size());
   base::parallel_for(updates.size(), kPosesAtATime, threads, [&](std::size_t i) {
-    if (prefetches) prefetch_poses(updates, i);
     try {
-      pose_changes_[i] = checked(updates[i]);
+      check(updates[i]);
     } catch (const Error& error) {
       throw Error(error.code(), "update " + std::to_string(i) + ": " + error.what());
     }
   });
   check_named_once(updates);
+  const bool prefetches = !stay_in_cache();
   base::parallel_for(updates.size(), kPosesAtATime, threads, [&](std::size_t i) {
     if (prefetches) prefetch_poses(updates, i);
-    publish(pose_changes_[i], updates[i]);
+    pose_changed_[i] = publish(updates[i]) ? 1 : 0;
   });
-  for (const PoseChange& change : pose_changes_) {
-    if (change.changed) mark_moved(change.slot);
+  for (std::size_t i = 0; i < updates.size(); ++i) {
+    if (pose_changed_[i] != 0) mark_moved(updates[i].body.index);
   }
 }
 

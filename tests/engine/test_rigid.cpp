@@ -331,6 +331,14 @@ TEST_F(RigidRefusal, PlacesThatAreTooFar) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   expect(ErrorCode::non_finite_position, "stone", [&] { world_.set_pose(rigid_, identity_, {0.0, nan, 0.0}); });
   expect(ErrorCode::position_out_of_range, "stone", [&] { world_.set_pose(rigid_, identity_, {0x1p301, 0.0, 0.0}); });
+  // A translation that is allowed, and vertices that are not.
+  const BodyId planet = world_.add_body(
+      {.positions = 0x1p299 * ball_.positions, .facets = ball_.facets, .motion = Motion::rigid, .name = "planet"});
+  const std::vector<PoseUpdate> far{{rigid_, identity_, {1.0, 0.0, 0.0}}, {planet, identity_, {0x1.9p299, 0.0, 0.0}}};
+  world_.detect();
+  expect(ErrorCode::position_out_of_range, "planet", [&] { world_.set_pose(planet, identity_, far[1].translation); });
+  expect(ErrorCode::position_out_of_range, "vertex", [&] { world_.set_poses(far); });
+  EXPECT_NO_THROW(world_.set_pose(planet, identity_, {0x1p298, 0.0, 0.0}));
 }
 
 TEST_F(RigidRefusal, WhatDoesNotFitTheMotion) {
