@@ -70,8 +70,8 @@ SelfCrossing::EdgePair SelfCrossing::edge_pair(int edge, int other_edge) const {
 }
 
 std::span<const EdgeHit> SelfCrossing::hits_of(const EdgeVertices& vertices) const {
-  const auto some = std::ranges::equal_range(hits_, vertices, {}, &EdgeHit::vertices);
-  return {some.begin(), some.end()};
+  return {std::ranges::lower_bound(hits_, vertices, {}, &EdgeHit::vertices),
+          std::ranges::upper_bound(hits_, vertices, {}, &EdgeHit::vertices)};
 }
 
 const SelfCrossing::Crossed* SelfCrossing::crossed(int source_vertex) const {
