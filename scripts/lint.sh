@@ -1,5 +1,6 @@
 #!/bin/bash
-# Is all code formatted as .clang-format says, and does clang-tidy find nothing in the library that .clang-tidy names?
+# Is all code formatted as .clang-format says, does Clang compile the library without a warning, and does
+# clang-tidy find nothing in the library that .clang-tidy names?
 # usage: scripts/lint.sh quick|all
 # quick: clang-tidy reads the folders in which a mistake is hardest to see, about a minute on 2 cores. all: every source of
 # the library but the kernels, which are plain loops over instructions that clang-tidy knows nothing about.
@@ -16,10 +17,15 @@ echo "clang-format"
 find engine broadphase narrowphase scenes bench tests bindings examples \( -name '*.h' -o -name '*.cpp' -o -name '*.inl' \) \
   -not -path '*/build/*' -print0 | xargs -0 clang-format --dry-run -Werror
 
-echo "clang-tidy: ${folders[*]}"
 embree=3
 [[ -d /usr/include/embree4 ]] && embree=4
 flags=(-std=c++20 -fopenmp -I. -Iengine/include -Iengine/base/include -Ibindings/c/include -isystem /usr/include/eigen3
        -DTACT_EMBREE_MAJOR=$embree)
+
+echo "clang"
+find engine broadphase narrowphase bindings/c -name '*.cpp' -not -path '*/kernels/*' -not -path '*/build/*' -print0 |
+  xargs -0 -n 1 -P "$(nproc)" clang++ -fsyntax-only -Wall -Wextra -Wpedantic -Wshadow -Werror "${flags[@]}"
+
+echo "clang-tidy: ${folders[*]}"
 find "${folders[@]}" -name '*.cpp' -not -path '*/kernels/*' -print0 | sort -z |
   xargs -0 -n 4 -P "$(nproc)" sh -c 'flags=$1; shift; exec clang-tidy --quiet "$@" -- $flags' sh "${flags[*]}"

@@ -264,7 +264,7 @@ void Simulation::detect() {
 }
 
 void Simulation::limit_ways() {
-  constexpr double kPart = 0.9;    // of a gap, for both bodies
+  constexpr double kOfGap = 0.9;   // of a gap, for both bodies
   constexpr double kLeast = 0.05;  // of both thicknesses: what is nearer than that has to get away
   free_ = reach_;
   if (stops_impacts()) return;
@@ -274,7 +274,7 @@ void Simulation::limit_ways() {
     for (const ContactPoint& point : contact.points()) gap = std::min(gap, point.gap);
     gap = std::max(gap, kLeast * (bodies_[a].thickness + bodies_[b].thickness));
     const auto moves = [&](const Body& body) { return body.motion != Motion::fixed && !body.asleep; };
-    const double free = (moves(bodies_[a]) && moves(bodies_[b]) ? 0.5 : 1.0) * kPart * gap;
+    const double free = (moves(bodies_[a]) && moves(bodies_[b]) ? 0.5 : 1.0) * kOfGap * gap;
     free_[a] = std::min(free_[a], free);
     free_[b] = std::min(free_[b], free);
   }

@@ -12,7 +12,7 @@ std::atomic<long> until_failure{kNever};  // or the number of allocations that s
 std::atomic<bool> fail_for_good{false};
 std::atomic<bool> has_failed{false};
 
-void* allocate(std::size_t size, std::size_t alignment) {
+[[maybe_unused]] void* allocate(std::size_t size, std::size_t alignment) {
   ++allocations;
   if (until_failure > kNever && until_failure.fetch_sub(1) <= 0) {
     until_failure = fail_for_good ? 0 : kNever;
@@ -27,6 +27,7 @@ void* allocate(std::size_t size, std::size_t alignment) {
 
 }  // namespace
 
+#ifndef TACT_KEEP_OPERATOR_NEW
 void* operator new(std::size_t size) { return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__); }
 void* operator new[](std::size_t size) { return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
@@ -43,6 +44,7 @@ void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory
 void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+#endif
 
 namespace tact::tests {
 

@@ -75,7 +75,7 @@ Time middle_of(const Time& low, const Time& high) {
 
 bool is_before(const Time& s, const Time& t) {
   const unsigned bits = std::max(s.bits, t.bits);
-  return s.numerator << (bits - s.bits) < t.numerator << (bits - t.bits);
+  return (s.numerator << (bits - s.bits)) < (t.numerator << (bits - t.bits));
 }
 
 // p at a time, times a power of two: 2^(bits * degree), `degree` not less than that of p.
@@ -177,7 +177,7 @@ struct Root {
   // To a width of 2^-bits or less. Doubles guess where, signs decide.
   void narrow(unsigned bits) {
     if (!is_known && std::max(low.bits, high.bits) < kGuessed) jump();
-    while (!is_known && high.numerator << (std::max(low.bits, high.bits) - high.bits) >
+    while (!is_known && (high.numerator << (std::max(low.bits, high.bits) - high.bits)) >
                             (low.numerator << (std::max(low.bits, high.bits) - low.bits)) +
                                 (Integer(1) << std::max(low.bits, high.bits)) / (Integer(1) << bits))
       halve();

@@ -215,7 +215,8 @@ std::map<PointKey, ExpectedPoint> self_points_by_brute_force(const Mesh& mesh, d
   std::map<PointKey, ExpectedPoint> points;
   for (auto [key, point] : points_by_brute_force(mesh, mesh, reach, band)) {
     const auto& [kind, a, b] = key;
-    const bool share = std::ranges::any_of(a, [&](int v) { return v >= 0 && std::ranges::find(b, v) != b.end(); });
+    const auto in_b = [&b = b](int v) { return v >= 0 && std::ranges::find(b, v) != b.end(); };
+    const bool share = std::ranges::any_of(a, in_b);
     if (share || kind == FeaturePair::facet_vertex || (kind == FeaturePair::edge_edge && b < a)) continue;
     const long double way = way_along_edges(s, a, point.a, b, point.b);
     if (way < least_way - band) continue;
