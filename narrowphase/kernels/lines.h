@@ -56,10 +56,9 @@ struct alignas(64) LineBlock {
   std::int32_t entry[kLines][kEntries + 16];
   std::int32_t entries[kLines];
 
-  // Of enter_all_nodes(): the nodes that each segment enters after it has left another one, by node * kLines + segment;
-  // and when it enters the first of them, or infinity.
-  std::int32_t later[64 * kLines + 16];
-  std::int32_t later_count;
+  // Of enter_all_nodes(): a bit for each node that a segment enters after it has left another one; and when it enters
+  // the first of them, or infinity.
+  std::uint64_t later[kLines];
   float later_from[kLines];
 
   // By find_facets(): a leaf, and a bit for each facet of it that the segment may meet; or ~ a group, or what there is

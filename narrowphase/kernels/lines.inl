@@ -133,7 +133,6 @@ LinesApart set_out_lines(const LineTree& tree, LineBlock* block) {
     block->later_from[line] = __builtin_inff();
     store_floats(block->key[line], spread(__builtin_inff()));
   }
-  block->later_count = 0;
   block->overflowing = 0;
   apart.past &= ~apart.alone;
   return apart;
@@ -222,24 +221,41 @@ void enter_nodes(const LineTree& tree, int first, int count, int line, LineBlock
   }
 }
 
+// The leaves of nodes that a segment enters, a bit for each node.
+inline void enter_leaves_of(const LineTree& tree, std::uint64_t nodes, int line, LineBlock* block) {
+  const LineSlabs slabs(*block, line);
+  EntryList list(block, line);
+  for (; nodes != 0; nodes &= nodes - 1) enter_leaves(tree, __builtin_ctzll(nodes), slabs, list);
+}
+
+// For each segment numbers of kPart bits, as floats, from which a number of 64 bits is made.
+struct NodeBits {
+  static constexpr int kPart = 16, kParts = 64 / kPart;
+  alignas(64) float part[kParts][LineBlock::kLines] = {};
+
+  std::uint64_t of(int line) const {
+    std::uint64_t all = 0;
+    for (int k = 0; k < kParts; ++k)
+      all |= static_cast<std::uint64_t>(static_cast<std::int32_t>(part[k][line])) << kPart * k;
+    return all;
+  }
+};
+
 // Here a lane is a segment. A segment that meets the nodes that it enters first enters no others: of 38 nodes a ray
-// enters seven, three of them first. What is appended to is not a list of entries, but of nodes: their times are not
-// used.
+// enters seven, three of them first.
 void enter_all_nodes(const LineTree& tree, LineBlock* block) {
-  constexpr int kMostNodes = 64;
-  alignas(64) float entry[kMostNodes][kFloatWidth], time[kMostNodes * LineBlock::kLines + 16];
-  alignas(64) std::int32_t now[kMostNodes * LineBlock::kLines + 16];
-  unsigned entered[kMostNodes];
+  alignas(64) float entry[64][kFloatWidth];
   const FloatPack never = spread(__builtin_inff());
-  int now_count = 0, later_count = 0;
+  NodeBits all, first;
   for (int i = 0; i < LineBlock::kLines; i += kFloatWidth) {
-    FloatPack rate[3], enter_at[3], leave_at[3], first_left = never, later_from = never;
+    FloatPack rate[3], enter_at[3], leave_at[3], later_from = never;
     for (int axis = 0; axis < 3; ++axis) {
       rate[axis] = load(block->rate[axis] + i);
       enter_at[axis] = load(block->enter_at[axis] + i);
       leave_at[axis] = load(block->leave_at[axis] + i);
     }
     const FloatPack begin = spread(0x1p-101f), end = load(block->latest + i);
+    FloatPack first_left = end;
     for (int node = 0; node < tree.node_count; ++node) {
       FloatPack enter = begin, leave = end;
       for (int axis = 0; axis < 3; ++axis) {
@@ -249,35 +265,35 @@ void enter_all_nodes(const LineTree& tree, LineBlock* block) {
         leave = min(leave, sub(max(p, q), leave_at[axis]));
       }
       const FloatMask inside = less_equal(enter, leave);
-      entered[node] = bits(inside);
       first_left = select(inside, min(first_left, leave), first_left);
-      store_floats(entry[node], enter);
+      store_floats(entry[node], select(inside, enter, never));
     }
-    for (int node = 0; node < tree.node_count; ++node) {
-      const FloatPack enter = load(entry[node]);
-      const unsigned first = bits(less_equal(enter, first_left));
-      const int number = node * LineBlock::kLines + i;
-      now_count += store_keys(entered[node] & first, enter, 0, number, 0, 0, time, now + now_count);
-      const unsigned later = entered[node] & ~first;
-      later_from = select(float_mask_of(later), min(later_from, enter), later_from);
-      later_count += store_keys(later, enter, 0, number, 0, 0, time, block->later + later_count);
+    for (int begin_part = 0, k = 0; begin_part < tree.node_count; begin_part += NodeBits::kPart, ++k) {
+      FloatPack bit = spread(1.0f), all_bits = spread(0.0f), first_bits = all_bits;
+      for (int node = begin_part; node < tree.node_count && node < begin_part + NodeBits::kPart; ++node) {
+        const FloatPack enter = load(entry[node]);
+        const FloatMask is_first = less_equal(enter, first_left);
+        all_bits = select(less(enter, never), add(all_bits, bit), all_bits);
+        first_bits = select(is_first, add(first_bits, bit), first_bits);
+        later_from = min(later_from, select(is_first, never, enter));
+        bit = add(bit, bit);
+      }
+      store_floats(all.part[k] + i, all_bits);
+      store_floats(first.part[k] + i, first_bits);
     }
     store_floats(block->later_from + i, later_from);
   }
-  block->later_count = later_count;
-  for (int k = 0; k < now_count; ++k) {
-    const int line = now[k] % LineBlock::kLines, node = now[k] / LineBlock::kLines;
-    EntryList list(block, line);
-    enter_leaves(tree, node, LineSlabs(*block, line), list);
+  for (int line = 0; line < LineBlock::kLines; ++line) {
+    const std::uint64_t now = first.of(line);
+    block->later[line] = all.of(line) & ~now;
+    if (now != 0) enter_leaves_of(tree, now, line, block);
   }
 }
 
 void enter_later_nodes(const LineTree& tree, std::uint32_t lines, LineBlock* block) {
-  for (int k = 0; k < block->later_count; ++k) {
-    const int line = block->later[k] % LineBlock::kLines, node = block->later[k] / LineBlock::kLines;
-    if ((lines >> line & 1u) == 0) continue;
-    EntryList list(block, line);
-    enter_leaves(tree, node, LineSlabs(*block, line), list);
+  for (; lines != 0; lines &= lines - 1) {
+    const int line = __builtin_ctz(lines);
+    enter_leaves_of(tree, block->later[line], line, block);
     block->later_from[line] = __builtin_inff();
   }
 }
@@ -306,70 +322,54 @@ inline std::uint32_t facets_on_line(const LineLeaf& leaf, const LineBlock& block
   return ~out & 0xffffu;
 }
 
-// The list of a segment, from which the first entries are taken. Up to one pack of keys stays in a register: what was
-// just written to memory could not be read at once.
-class FirstEntries {
- public:
-  FirstEntries(LineBlock* block, int line)
-      : count_(block->entries[line]), keys_(block->key[line]), few_(load(keys_)), is_short_(count_ <= kFloatWidth) {}
-
-  // The key of the first entry; infinite if there is none.
-  float first() const {
-    FloatPack least = few_;
-    for (int k = kFloatWidth; k < count_; k += kFloatWidth) least = min(least, load(keys_ + k));
-    return least_lane(least);
-  }
-  // Takes the entry that has a key; returns its place.
-  int take(float key) {
-    std::int32_t bits_of_key;
-    __builtin_memcpy(&bits_of_key, &key, sizeof key);
-    const int place = bits_of_key & (LineBlock::kEntries - 1);
-    const FloatPack never = spread(__builtin_inff());
-    few_ = select(less_equal(few_, spread(key)), never, few_);
-    if (!is_short_) keys_[place] = __builtin_inff();
-    return place;
-  }
-  void write_back() const { store_floats(keys_, few_); }
-
- private:
-  int count_;
-  float* keys_;
-  FloatPack few_;
-  bool is_short_;
-};
-
-// The next entry of a segment, or what there is instead.
-inline std::int32_t take_next(int line, LineBlock* block, FirstEntries& entries) {
+// The next entry of a segment, which is taken from its list, or what there is instead. Whether there is one is not to be
+// guessed: the list is written in any case. Up to one pack of keys is read and written as one.
+inline std::int32_t take_next(int line, LineBlock* block) {
+  float* const keys = block->key[line];
+  const int count = block->entries[line];
   const float latest = block->latest[line], later_from = block->later_from[line];
-  const float key = entries.first();
-  if (key <= latest && key <= later_from) return block->entry[line][entries.take(key)];
-  return latest < later_from ? LineBlock::kNothing : LineBlock::kLaterNodes;
+  const FloatPack few = load(keys);
+  FloatPack least = few;
+  for (int k = kFloatWidth; k < count; k += kFloatWidth) least = min(least, load(keys + k));
+  const float key = least_lane(least);
+  std::int32_t place;
+  __builtin_memcpy(&place, &key, sizeof key);
+  place &= LineBlock::kEntries - 1;
+  const bool is_next = (key <= latest) & (key <= later_from);
+  const FloatPack never = spread(__builtin_inff());
+  store_floats(keys, select(less_equal(few, spread(is_next ? key : -1.0f)), never, few));
+  if (count > kFloatWidth && is_next) keys[place] = __builtin_inff();
+  const std::int32_t otherwise = latest < later_from ? LineBlock::kNothing : LineBlock::kLaterNodes;
+  return is_next ? block->entry[line][place] : otherwise;
 }
 
-// What all segments enter next is under way before the first of them needs it.
+// In rounds: all segments take what they enter next, then those leaves are tested, and those without a facet go on.
+// Whether one goes on is not to be guessed: lists are written without a branch.
 void find_facets(const LineTree& tree, const std::uint8_t* lines, int count, LineBlock* block) {
-  for (int i = 0; i < count; ++i) {
-    FirstEntries entries(block, lines[i]);
-    const std::int32_t taken = take_next(lines[i], block, entries);
-    entries.write_back();
-    block->taken[lines[i]] = taken;
-    const auto* const leaf = reinterpret_cast<const char*>(tree.leaf + (taken >= 0 ? taken : 0));
-    for (unsigned at = 0; at < sizeof(LineLeaf::corner); at += 64) __builtin_prefetch(leaf + at, 0, 3);
-  }
-  for (int i = 0; i < count; ++i) {
-    const int line = lines[i];
-    std::int32_t taken = block->taken[line];
-    std::uint32_t facets = 0;
-    FirstEntries entries(block, line);
-    for (; taken >= 0; taken = take_next(line, block, entries)) {
-      const int rest = tree.facet_count - taken * LineLeaf::kFacets;
-      facets = facets_on_line(tree.leaf[taken], *block, line);
-      if (rest < LineLeaf::kFacets) facets &= (1u << rest) - 1u;
-      if (facets != 0) break;
+  std::uint8_t asking[LineBlock::kLines];
+  for (int i = 0; i < count; ++i) asking[i] = lines[i];
+  while (count > 0) {
+    int leaves = 0;
+    for (int i = 0; i < count; ++i) {
+      const std::uint8_t line = asking[i];
+      const std::int32_t taken = take_next(line, block);
+      block->taken[line] = taken;
+      const auto* const leaf = reinterpret_cast<const char*>(tree.leaf + (taken >= 0 ? taken : 0));
+      for (unsigned at = 0; at < sizeof(LineLeaf::corner); at += 64) __builtin_prefetch(leaf + at, 0, 3);
+      asking[leaves] = line;
+      leaves += static_cast<int>(taken >= 0);
     }
-    entries.write_back();
-    block->taken[line] = taken;
-    block->facets[line] = facets;
+    count = 0;
+    for (int i = 0; i < leaves; ++i) {
+      const std::uint8_t line = asking[i];
+      const std::int32_t taken = block->taken[line];
+      const int rest = tree.facet_count - taken * LineLeaf::kFacets;
+      const std::uint32_t present = rest < LineLeaf::kFacets ? (1u << rest) - 1u : 0xffffu;
+      const std::uint32_t facets = facets_on_line(tree.leaf[taken], *block, line) & present;
+      block->facets[line] = facets;
+      asking[count] = line;
+      count += static_cast<int>(facets == 0);
+    }
   }
 }
 
