@@ -335,17 +335,23 @@ inline std::int32_t take_next(int line, LineBlock* block) {
   std::int32_t place;
   __builtin_memcpy(&place, &key, sizeof key);
   place &= LineBlock::kEntries - 1;
-  const bool is_next = (key <= latest) & (key <= later_from);
-  const FloatPack never = spread(__builtin_inff());
-  store_floats(keys, select(less_equal(few, spread(is_next ? key : -1.0f)), never, few));
-  if (count > kFloatWidth && is_next) keys[place] = __builtin_inff();
-  const std::int32_t otherwise = latest < later_from ? LineBlock::kNothing : LineBlock::kLaterNodes;
-  return is_next ? block->entry[line][place] : otherwise;
+  const float limit = latest < later_from ? latest : later_from;
+  const float until = key < limit ? key : limit;
+  store_floats(keys, select(less_equal(few, spread(until)), spread(__builtin_inff()), few));
+  const std::int32_t is_next = -static_cast<std::int32_t>(key <= limit);
+  if (count > kFloatWidth && is_next != 0) keys[place] = __builtin_inff();
+  const std::int32_t otherwise = LineBlock::kNothing + static_cast<std::int32_t>(latest >= later_from);
+  static_assert(LineBlock::kLaterNodes == LineBlock::kNothing + 1);
+  return (block->entry[line][place] & is_next) | (otherwise & ~is_next);
 }
+
+// The leaves of so many nodes, of 10 kB, stay in the second level of the cache: they are not prefetched.
+constexpr int kMostInCache = 128;
 
 // In rounds: all segments take what they enter next, then those leaves are tested, and those without a facet go on.
 // Whether one goes on is not to be guessed: lists are written without a branch.
 void find_facets(const LineTree& tree, const std::uint8_t* lines, int count, LineBlock* block) {
+  const bool is_far = tree.node_count > kMostInCache;
   std::uint8_t asking[LineBlock::kLines];
   for (int i = 0; i < count; ++i) asking[i] = lines[i];
   while (count > 0) {
@@ -354,8 +360,10 @@ void find_facets(const LineTree& tree, const std::uint8_t* lines, int count, Lin
       const std::uint8_t line = asking[i];
       const std::int32_t taken = take_next(line, block);
       block->taken[line] = taken;
-      const auto* const leaf = reinterpret_cast<const char*>(tree.leaf + (taken >= 0 ? taken : 0));
-      for (unsigned at = 0; at < sizeof(LineLeaf::corner); at += 64) __builtin_prefetch(leaf + at, 0, 3);
+      if (is_far) {
+        const auto* const leaf = reinterpret_cast<const char*>(tree.leaf + (taken >= 0 ? taken : 0));
+        for (unsigned at = 0; at < sizeof(LineLeaf::corner); at += 64) __builtin_prefetch(leaf + at, 0, 3);
+      }
       asking[leaves] = line;
       leaves += static_cast<int>(taken >= 0);
     }

@@ -12,7 +12,7 @@ namespace {
 
 // Up to so many nodes are held against a segment one by one: a group more or less costs as much.
 constexpr int kMostWithoutGroups = 64;
-// The leaves of so many nodes, of 10 kB, stay in the second level of the cache: they are not prefetched.
+// The vertices of so many nodes, of 10 kB with their leaves, stay in the second level of the cache: see find_facets().
 constexpr int kMostInCache = 128;
 
 void ask_alone(const ClusteredMesh& mesh, FirstHitQuestion& question) {
@@ -61,29 +61,43 @@ class Block {
   // Facets that the segments may meet next; those for which there are none have their answer.
   void find_facets() {
     kernels_.find_facets(tree_, lines_, count_, &block_);
-    std::uint32_t later = 0;
-    for (int i = 0; i < count_; ++i)
-      later |= static_cast<std::uint32_t>(block_.taken[lines_[i]] == LineBlock::kLaterNodes) << lines_[i];
-    if (later != 0) kernels_.enter_later_nodes(tree_, later, &block_);
+    if (tree_.node_count <= kMostWithoutGroups) enter_later_nodes();
     int left = 0;
     for (int i = 0; i < count_; ++i) {
       const std::uint8_t line = lines_[i];
       const std::int32_t& taken = block_.taken[line];
-      while (taken < 0 && taken != LineBlock::kNothing) {
-        if (taken != LineBlock::kLaterNodes) {
-          const int begin = ~taken * kNodesOfGroup;
-          kernels_.enter_nodes(tree_, begin, std::min(kNodesOfGroup, tree_.node_count - begin), line, &block_);
-        }
+      // Negative, but not kNothing: in one comparison, as most often it is one of either and which is not to be guessed.
+      while (static_cast<std::uint32_t>(taken) > static_cast<std::uint32_t>(LineBlock::kNothing)) {
+        const int begin = ~taken * kNodesOfGroup;
+        kernels_.enter_nodes(tree_, begin, std::min(kNodesOfGroup, tree_.node_count - begin), line, &block_);
         kernels_.find_facets(tree_, &line, 1, &block_);
       }
       if ((block_.overflowing >> line & 1U) != 0) {
         ask_alone(mesh_, *questions_[line]);
-      } else if (taken >= 0) {
-        if (tree_.node_count > kMostInCache) prefetch_corners(tree_.leaf[taken], std::countr_zero(block_.facets[line]));
-        lines_[left++] = line;
+        continue;
       }
+      if (tree_.node_count > kMostInCache && taken >= 0)
+        prefetch_corners(tree_.leaf[taken], std::countr_zero(block_.facets[line]));
+      lines_[left] = line;
+      left += static_cast<int>(taken >= 0);
     }
     count_ = left;
+  }
+
+  // For the segments that have met nothing in the nodes that they enter first.
+  void enter_later_nodes() {
+    std::uint8_t asking[kLinesAtATime];
+    std::uint32_t lines = 0;
+    int asking_count = 0;
+    for (int i = 0; i < count_; ++i) {
+      const std::uint32_t asks = static_cast<std::uint32_t>(block_.taken[lines_[i]] == LineBlock::kLaterNodes);
+      lines |= asks << lines_[i];
+      asking[asking_count] = lines_[i];
+      asking_count += static_cast<int>(asks);
+    }
+    if (asking_count == 0) return;
+    kernels_.enter_later_nodes(tree_, lines, &block_);
+    kernels_.find_facets(tree_, asking, asking_count, &block_);
   }
 
   void list_pairs() {
