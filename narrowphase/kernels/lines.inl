@@ -322,8 +322,8 @@ inline std::uint32_t facets_on_line(const LineLeaf& leaf, const LineBlock& block
   return ~out & 0xffffu;
 }
 
-// The next entry of a segment, which is taken from its list, or what there is instead. Whether there is one is not to be
-// guessed: the list is written in any case. Up to one pack of keys is read and written as one.
+// The next entry of a segment, which is taken from its list, or what there is instead. Whether there is one is not to
+// be guessed: the list is written in any case. Up to one pack of keys is read and written as one.
 inline std::int32_t take_next(int line, LineBlock* block) {
   float* const keys = block->key[line];
   const int count = block->entries[line];
@@ -345,13 +345,9 @@ inline std::int32_t take_next(int line, LineBlock* block) {
   return (block->entry[line][place] & is_next) | (otherwise & ~is_next);
 }
 
-// The leaves of so many nodes, of 10 kB, stay in the second level of the cache: they are not prefetched.
-constexpr int kMostInCache = 128;
-
 // In rounds: all segments take what they enter next, then those leaves are tested, and those without a facet go on.
 // Whether one goes on is not to be guessed: lists are written without a branch.
 void find_facets(const LineTree& tree, const std::uint8_t* lines, int count, LineBlock* block) {
-  const bool is_far = tree.node_count > kMostInCache;
   std::uint8_t asking[LineBlock::kLines];
   for (int i = 0; i < count; ++i) asking[i] = lines[i];
   while (count > 0) {
@@ -360,10 +356,8 @@ void find_facets(const LineTree& tree, const std::uint8_t* lines, int count, Lin
       const std::uint8_t line = asking[i];
       const std::int32_t taken = take_next(line, block);
       block->taken[line] = taken;
-      if (is_far) {
-        const auto* const leaf = reinterpret_cast<const char*>(tree.leaf + (taken >= 0 ? taken : 0));
-        for (unsigned at = 0; at < sizeof(LineLeaf::corner); at += 64) __builtin_prefetch(leaf + at, 0, 3);
-      }
+      const auto* const leaf = reinterpret_cast<const char*>(tree.leaf + (taken >= 0 ? taken : 0));
+      for (unsigned at = 0; at < sizeof(LineLeaf::corner); at += 64) __builtin_prefetch(leaf + at, 0, 3);
       asking[leaves] = line;
       leaves += static_cast<int>(taken >= 0);
     }

@@ -12,7 +12,7 @@ namespace {
 
 // Up to so many nodes are held against a segment one by one: a group more or less costs as much.
 constexpr int kMostWithoutGroups = 64;
-// The vertices of so many nodes, of 10 kB with their leaves, stay in the second level of the cache: see find_facets().
+// The leaves of so many nodes, of 10 kB, stay in the second level of the cache: their vertices are not prefetched.
 constexpr int kMostInCache = 128;
 
 void ask_alone(const ClusteredMesh& mesh, FirstHitQuestion& question) {
@@ -66,7 +66,8 @@ class Block {
     for (int i = 0; i < count_; ++i) {
       const std::uint8_t line = lines_[i];
       const std::int32_t& taken = block_.taken[line];
-      // Negative, but not kNothing: in one comparison, as most often it is one of either and which is not to be guessed.
+      // Negative, but not kNothing: in one comparison, as most often it is one of either and which is not to be
+      // guessed.
       while (static_cast<std::uint32_t>(taken) > static_cast<std::uint32_t>(LineBlock::kNothing)) {
         const int begin = ~taken * kNodesOfGroup;
         kernels_.enter_nodes(tree_, begin, std::min(kNodesOfGroup, tree_.node_count - begin), line, &block_);
