@@ -228,25 +228,20 @@ inline void enter_leaves_of(const LineTree& tree, std::uint64_t nodes, int line,
   for (; nodes != 0; nodes &= nodes - 1) enter_leaves(tree, __builtin_ctzll(nodes), slabs, list);
 }
 
-// For each segment numbers of kPart bits, as floats, from which a number of 64 bits is made.
-struct NodeBits {
-  static constexpr int kPart = 16, kParts = 64 / kPart;
-  alignas(64) float part[kParts][LineBlock::kLines] = {};
-
-  std::uint64_t of(int line) const {
-    std::uint64_t all = 0;
-    for (int k = 0; k < kParts; ++k)
-      all |= static_cast<std::uint64_t>(static_cast<std::int32_t>(part[k][line])) << kPart * k;
-    return all;
-  }
-};
+// Adds for each lane a part of its bits, which is a number of up to 24 bits, as a float.
+inline void add_bits(FloatPack part, int first, std::uint64_t* bits) {
+  alignas(64) float number[kFloatWidth];
+  store_floats(number, part);
+  for (int lane = 0; lane < kFloatWidth; ++lane)
+    bits[lane] |= static_cast<std::uint64_t>(static_cast<std::int32_t>(number[lane])) << first;
+}
 
 // Here a lane is a segment. A segment that meets the nodes that it enters first enters no others: of 38 nodes a ray
 // enters seven, three of them first.
 void enter_all_nodes(const LineTree& tree, LineBlock* block) {
   alignas(64) float entry[64][kFloatWidth];
   const FloatPack never = spread(__builtin_inff());
-  NodeBits all, first;
+  std::uint64_t all[LineBlock::kLines] = {}, first[LineBlock::kLines] = {};
   for (int i = 0; i < LineBlock::kLines; i += kFloatWidth) {
     FloatPack rate[3], enter_at[3], leave_at[3], later_from = never;
     for (int axis = 0; axis < 3; ++axis) {
@@ -254,23 +249,25 @@ void enter_all_nodes(const LineTree& tree, LineBlock* block) {
       enter_at[axis] = load(block->enter_at[axis] + i);
       leave_at[axis] = load(block->leave_at[axis] + i);
     }
-    const FloatPack begin = spread(0x1p-101f), end = load(block->latest + i);
+    const FloatPack zero = spread(0.0f), begin = spread(0x1p-101f), end = load(block->latest + i);
+    const FloatMask forward[3] = {less_equal(zero, rate[0]), less_equal(zero, rate[1]), less_equal(zero, rate[2])};
     FloatPack first_left = end;
     for (int node = 0; node < tree.node_count; ++node) {
       FloatPack enter = begin, leave = end;
       for (int axis = 0; axis < 3; ++axis) {
-        const FloatPack p = mul(spread(tree.nodes.bounds[axis][node]), rate[axis]);
-        const FloatPack q = mul(spread(tree.nodes.bounds[axis + 3][node]), rate[axis]);
-        enter = max(enter, sub(min(p, q), enter_at[axis]));
-        leave = min(leave, sub(max(p, q), leave_at[axis]));
+        const FloatPack lower = spread(tree.nodes.bounds[axis][node]),
+                        upper = spread(tree.nodes.bounds[axis + 3][node]);
+        enter = max(enter, fused(select(forward[axis], lower, upper), rate[axis], enter_at[axis]));
+        leave = min(leave, fused(select(forward[axis], upper, lower), rate[axis], leave_at[axis]));
       }
       const FloatMask inside = less_equal(enter, leave);
       first_left = select(inside, min(first_left, leave), first_left);
       store_floats(entry[node], select(inside, enter, never));
     }
-    for (int begin_part = 0, k = 0; begin_part < tree.node_count; begin_part += NodeBits::kPart, ++k) {
-      FloatPack bit = spread(1.0f), all_bits = spread(0.0f), first_bits = all_bits;
-      for (int node = begin_part; node < tree.node_count && node < begin_part + NodeBits::kPart; ++node) {
+    constexpr int kPart = 24;
+    for (int begin_part = 0; begin_part < tree.node_count; begin_part += kPart) {
+      FloatPack bit = spread(1.0f), all_bits = zero, first_bits = zero;
+      for (int node = begin_part; node < tree.node_count && node < begin_part + kPart; ++node) {
         const FloatPack enter = load(entry[node]);
         const FloatMask is_first = less_equal(enter, first_left);
         all_bits = select(less(enter, never), add(all_bits, bit), all_bits);
@@ -278,15 +275,14 @@ void enter_all_nodes(const LineTree& tree, LineBlock* block) {
         later_from = min(later_from, select(is_first, never, enter));
         bit = add(bit, bit);
       }
-      store_floats(all.part[k] + i, all_bits);
-      store_floats(first.part[k] + i, first_bits);
+      add_bits(all_bits, begin_part, all + i);
+      add_bits(first_bits, begin_part, first + i);
     }
     store_floats(block->later_from + i, later_from);
   }
   for (int line = 0; line < LineBlock::kLines; ++line) {
-    const std::uint64_t now = first.of(line);
-    block->later[line] = all.of(line) & ~now;
-    if (now != 0) enter_leaves_of(tree, now, line, block);
+    block->later[line] = all[line] & ~first[line];
+    if (first[line] != 0) enter_leaves_of(tree, first[line], line, block);
   }
 }
 
