@@ -64,10 +64,12 @@ void float_corners(const FacetBlock& block, std::uint64_t facets, const Grid& gr
     const Mask lanes = mask_of(static_cast<unsigned>(left >> i) & kAllLanes);
     left &= ~(static_cast<std::uint64_t>(kAllLanes) << i);
     for (int axis = 0; axis < 3; ++axis) {
+      Pack x[3];
       for (int k = 0; k < 3; ++k) {
-        store(corners->corner[k][axis] + i, place_in(grid, axis, load(block.corner[k][axis] + i)));
+        x[k] = load(block.corner[k][axis] + i);
+        store(corners->corner[k][axis] + i, place_in(grid, axis, x[k]));
       }
-      const Pack one = sub(load(block.upper[axis] + i), load(block.lower[axis] + i));
+      const Pack one = sub(max(max(x[0], x[1]), x[2]), min(min(x[0], x[1]), x[2]));
       extent[axis] = max(extent[axis], select(lanes, one, spread(0.0)));
     }
   }

@@ -147,22 +147,79 @@ Culled open_cluster(const ClusterFacets& in, const CullPlanes& planes, FacetBloc
   return opened;
 }
 
+// The vertices of a cluster, owned ones first, one after the other; the fourth number of each has no meaning.
+struct alignas(64) PointsTogether {
+  double at[4 * ClusterVertices::kCapacity];
+
+  explicit PointsTogether(const ClusterFacets& in) {
+    double* to = at;
+    const auto put = [&](std::int32_t from) {
+      to[0] = in.points.x[from];
+      to[1] = in.points.y[from];
+      to[2] = in.points.z[from];
+      to += 4;
+    };
+    for (int i = 0; i < in.owned_count; ++i) put(in.owned_begin + i);
+    for (int i = 0; i < in.borrowed_count; ++i) put(in.borrowed[i]);
+  }
+};
+
+// The corners of a cluster's facets among its vertices; past the end all are the first vertex.
+struct alignas(64) CornerPlaces {
+  std::uint8_t corner[3][2 * FacetBlock::kCapacity];
+
+  explicit CornerPlaces(const ClusterFacets& in) {
+    for (int k = 0; k < 3; ++k) {  // 64 bytes may be read
+      __builtin_memcpy(corner[k], in.corner[k], FacetBlock::kCapacity);
+      __builtin_memset(corner[k] + in.facet_count, 0, kWidth);
+    }
+  }
+};
+
+inline Pack place_in(const Grid& grid, int axis, Pack x) {
+  return mul(sub(x, spread(grid.origin[axis])), spread(grid.scale[axis]));
+}
+
+inline Pack cell(const Grid& grid, int axis, Pack x) {
+  return max(min(place_in(grid, axis, x), spread(kLastCell)), spread(0.0));
+}
+
+void open_whole(const ClusterFacets& in, const Grid& grid, FacetBlock* block) {
+  const PointsTogether points(in);
+  const CornerPlaces places(in);
+  for (int i = 0; i < in.facet_count; i += kWidth) {
+    Pack p[3][3];
+    for (int k = 0; k < 3; ++k) {
+      gather_points(points.at, places.corner[k] + i, p[k]);
+      for (int axis = 0; axis < 3; ++axis) store(block->corner[k][axis] + i, p[k][axis]);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      const Pack low = min(min(p[0][axis], p[1][axis]), p[2][axis]),
+                 high = max(max(p[0][axis], p[1][axis]), p[2][axis]);
+      store_cells(block->cells.lower[axis] + i, cell(grid, axis, low));
+      store_cells(block->cells.upper[axis] + i, cell(grid, axis, high));
+    }
+  }
+  block->count = block->cells.count = in.facet_count;
+}
+
 // Adds up in one order, whatever the width.
 inline double sum_of_eight(const double* p) {
   return ((p[0] + p[4]) + (p[2] + p[6])) + ((p[1] + p[5]) + (p[3] + p[7]));
 }
 
 NormalSpread normal_spread(const ClusterFacets& in, double least_sine_squared) {
-  ClusterVertices v;
-  load_vertices(in, &v);
-  alignas(64) std::uint8_t corner[3][2 * FacetBlock::kCapacity] = {};
-  for (int k = 0; k < 3; ++k) __builtin_memcpy(corner[k], in.corner[k], static_cast<unsigned>(in.facet_count));
+  const PointsTogether points(in);
+  const CornerPlaces places(in);
   alignas(64) double normal[3][FacetBlock::kCapacity], square[FacetBlock::kCapacity], sums[3][8] = {};
   unsigned flat = 0;
   for (int i = 0; i < in.facet_count; i += kWidth) {
     VectorPack p[3];
-    for (int k = 0; k < 3; ++k)
-      p[k] = {gather(v.x, corner[k] + i), gather(v.y, corner[k] + i), gather(v.z, corner[k] + i)};
+    for (int k = 0; k < 3; ++k) {
+      Pack xyz[3];
+      gather_points(points.at, places.corner[k] + i, xyz);
+      p[k] = {xyz[0], xyz[1], xyz[2]};
+    }
     const VectorPack e = sub(p[1], p[0]), g = sub(p[2], p[0]);
     const VectorPack n{sub(mul(e.y, g.z), mul(e.z, g.y)), sub(mul(e.z, g.x), mul(e.x, g.z)),
                        sub(mul(e.x, g.y), mul(e.y, g.x))};
@@ -193,14 +250,6 @@ NormalSpread normal_spread(const ClusterFacets& in, double least_sine_squared) {
   store(lane, least);
   for (const double one : lane) spread_of.least = one < spread_of.least ? one : spread_of.least;
   return spread_of;
-}
-
-inline Pack place_in(const Grid& grid, int axis, Pack x) {
-  return mul(sub(x, spread(grid.origin[axis])), spread(grid.scale[axis]));
-}
-
-inline Pack cell(const Grid& grid, int axis, Pack x) {
-  return max(min(place_in(grid, axis, x), spread(kLastCell)), spread(0.0));
 }
 
 void find_cells(const Grid& grid, FacetBlock* block) {

@@ -35,6 +35,7 @@ constexpr Kernels all_kernels(const char* name) {
           .select_overlapping = select_overlapping,
           .cull_boxes = cull_boxes,
           .open_cluster = open_cluster,
+          .open_whole = open_whole,
           .normal_spread = normal_spread,
           .localize = localize,
           .mean_normal = mean_normal,

@@ -80,6 +80,7 @@ void SelfClusters::judge_corners(const SelfMesh& self, int threads) {
 }
 
 bool SelfClusters::never_meet_at_corner(const ClusterNeighbors& neighbors, const ClusterPair& pair) const {
+  if (!std::ranges::binary_search(neighbors.around(pair.a), pair.b)) return false;  // most pairs: far along the surface
   const std::span<const int> b = neighbors.corners_of(pair.b);
   return std::ranges::any_of(neighbors.corners_of(pair.a), [&](int corner) {
     return never_meet_at_[corner] != 0 && std::ranges::find(b, corner) != b.end();

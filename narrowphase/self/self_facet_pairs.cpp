@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <utility>
 
 namespace tact::narrowphase {
@@ -19,14 +18,9 @@ struct OpenFacets {
   std::uint64_t facets = 0;  // a bit each
 
   void open(const ClusteredMesh& mesh, int wanted, const Grid& grid) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    constexpr CullPlanes kAll{
-        {0, 0, 0, 0, 0, 0}, -kInfinity, {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}}};
     cluster = wanted;
     source = mesh.facets_of(wanted);
-    block.count = block.cells.count = 0;
-    kernels().open_cluster(source, kAll, &block);
-    kernels().find_cells(grid, &block);
+    kernels().open_whole(source, grid, &block);
     facets = ~std::uint64_t{0} >> (kClusterSize - block.count);
     listed_ = false;
   }
@@ -80,23 +74,26 @@ class Places {
   std::vector<int> place_;  // of each vertex of the mesh among the borrowed ones
 };
 
-// For each facet of `a` those of a later cluster that share a vertex with it. These the later one has borrowed.
-void exclude_sharing(OpenFacets& a, const Places& places_in_a, OpenFacets& b, std::uint64_t (&excluded)[kClusterSize]) {
-  std::fill_n(excluded, a.block.count, 0);
+// For each facet of `a` those of a later cluster that share a vertex with it. These the later one has borrowed. Returns
+// whether there are any; if not, nothing is written.
+bool exclude_sharing(OpenFacets& a, const Places& places_in_a, OpenFacets& b, std::uint64_t (&excluded)[kClusterSize]) {
+  bool any = false;
   for (int k = 0; k < b.source.borrowed_count; ++k) {
     const int place = places_in_a[b.source.borrowed[k]];
     if (place < 0) continue;
+    if (!std::exchange(any, true)) std::fill_n(excluded, a.block.count, 0);
     const std::uint64_t of_b = b.with_vertex()[b.source.owned_count + k];
     for (std::uint64_t left = a.with_vertex()[place]; left != 0; left &= left - 1)
       excluded[std::countr_zero(left)] |= of_b;
   }
+  return any;
 }
 
 }  // namespace
 
 struct SelfFacetSearch::Memory {
-  // Clusters that stay open, 14 kB each: neighbours come soon again. With 32 the rolled sheet of 13 k took 1.22 ms
-  // instead of 1.17, with 128 as much.
+  // Clusters that stay open, 14 kB each, of which 8 are used: neighbours come soon again. With 32 the rolled sheet of
+  // 13 k took 1.22 ms instead of 1.17, with 128 as much.
   static constexpr std::size_t kOpened = 64;
   OpenFacets opened[kOpened + 1];  // and one that would have the place of the other of a pair
   Places places;                   // in the first cluster of a pair
@@ -135,17 +132,18 @@ void SelfFacetSearch::run(const ClusteredMesh& mesh, std::span<const ClusterPair
     const std::uint64_t near_a = kernels().near_facets(a.block.cells, a.facets, common),
                         near_b = kernels().near_facets(b.block.cells, b.facets, common);
     if (near_a == 0 || near_b == 0) continue;
+    bool any_excluded = true;
     if (pair.a == pair.b) {
       exclude_within(a, m.excluded);
     } else {
-      exclude_sharing(a, m.places, b, m.excluded);
+      any_excluded = exclude_sharing(a, m.places, b, m.excluded);
     }
     const std::size_t before = found.size();
     m.blocks.find_meeting(a.block, near_a, b.block, near_b, bounds_of(merged(box_a, box_b)), grid, tuning, found,
-                          counts, m.excluded);
+                          counts, any_excluded ? m.excluded : nullptr);
+    const int *const sources_a = mesh.source_facets_of(pair.a), *const sources_b = mesh.source_facets_of(pair.b);
     for (std::size_t i = before; i < found.size(); ++i) {
-      const auto [low, high] =
-          std::minmax({mesh.source_facet(a.block.facet[found[i].a]), mesh.source_facet(b.block.facet[found[i].b])});
+      const auto [low, high] = std::minmax({sources_a[found[i].a], sources_b[found[i].b]});
       found[i] = {low, high};
     }
   }

@@ -53,6 +53,30 @@ TEST(OpenCluster, LeavesOutWhatOneSideRulesOut) {
   }
 }
 
+// All facets of a cluster, whatever the block held before, with the cells that find_cells() finds.
+TEST(OpenWhole, WritesCornersAndCells) {
+  for (int seed = 0; seed < 12; ++seed) {
+    const auto [first, second] = bodies(seed);
+    for (const Kernels* kernels : tests::available_kernels()) {
+      FacetBlock block = block_of(*kernels, clustered(first), 0);
+      const ClusteredMesh mesh = clustered(second);
+      for (int c = 0; c < mesh.cluster_count(); ++c) {
+        const FacetBlock expected = block_of(*scalar_kernels(), mesh, c);
+        kernels->open_whole(mesh.facets_of(c), tests::kGrid, &block);
+        ASSERT_EQ(block.count, mesh.facet_end(c) - mesh.facet_begin(c)) << kernels->name << " seed " << seed;
+        ASSERT_EQ(block.cells.count, block.count) << kernels->name << " seed " << seed;
+        for (int i = 0; i < block.count; ++i) {
+          for (int axis = 0; axis < 3; ++axis) {
+            for (int k = 0; k < 3; ++k) EXPECT_EQ(block.corner[k][axis][i], expected.corner[k][axis][i]);
+            EXPECT_EQ(block.cells.lower[axis][i], expected.cells.lower[axis][i]) << kernels->name << " facet " << i;
+            EXPECT_EQ(block.cells.upper[axis][i], expected.cells.upper[axis][i]) << kernels->name << " facet " << i;
+          }
+        }
+      }
+    }
+  }
+}
+
 // What the block holds besides the corners: boxes and normals, the same bits for every instruction set.
 TEST(OpenCluster, WritesBoxesAndNormals) {
   for (int seed = 0; seed < 12; ++seed) {
