@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/key_sort.h"
 #include "engine/bodies.h"
 #include "engine/patch_stage.h"
 #include "engine/point_stage.h"
@@ -67,6 +68,7 @@ class SelfStage {
   narrowphase::SelfClusters clusters_;
   std::vector<narrowphase::SelfFacetSearch> searches_;  // a thread each
   std::vector<std::vector<FacetPair>> ranges_;
+  base::KeySorter sorter_;
 };
 
 }  // namespace tact

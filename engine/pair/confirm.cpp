@@ -1,11 +1,11 @@
 #include "engine/pair/confirm.h"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <utility>
 
 #include "engine/base/timer.h"
+#include "engine/pair/facet_pair_sort.h"
 
 namespace tact {
 
@@ -14,22 +14,6 @@ namespace {
 using namespace narrowphase;
 
 constexpr std::size_t kRangesPerThread = 4;  // of large pairs, so that threads end together
-
-void sort_facet_pairs(const CulledPair& culled, base::KeySorter& sorter, int threads) {
-  std::vector<FacetPair>& pairs = culled.record->facet_pairs;
-  if (pairs.size() <= kMostSorted) return kernels().sort_pairs(pairs.data(), static_cast<int>(pairs.size()));
-  const auto bits_of = [](const ClusteredMesh& mesh) {
-    return std::bit_width(static_cast<unsigned>(mesh.facet_count()));
-  };
-  const auto bits_a = bits_of(*culled.a), bits_b = bits_of(*culled.b);
-  const std::span<std::uint64_t> keys = sorter.keys(pairs.size());
-  std::ranges::transform(pairs, keys.begin(), [&](const FacetPair& pair) {
-    return static_cast<std::uint64_t>(pair.a) << bits_b | static_cast<std::uint64_t>(pair.b);
-  });
-  std::ranges::transform(sorter.sort(bits_a + bits_b, threads), pairs.begin(), [&](std::uint64_t key) {
-    return FacetPair{static_cast<int>(key >> bits_b), static_cast<int>(key & ((std::uint64_t{1} << bits_b) - 1))};
-  });
-}
 
 // What the criteria did to the facets of the clusters of either body that were opened.
 struct OpenedFacets {
@@ -42,7 +26,7 @@ void finish(const CulledPair& culled, OpenedFacets opened, const ConfirmCounts& 
     std::swap(opened.a, opened.b);
     for (FacetPair& pair : culled.record->facet_pairs) std::swap(pair.a, pair.b);
   }
-  sort_facet_pairs(culled, work.sorter, threads);
+  sort_facet_pairs(culled.record->facet_pairs, culled.a->facet_count(), culled.b->facet_count(), work.sorter, threads);
   if (culled.history != nullptr) culled.history->finish(confirmed.still_apart);
   culled.record->contact.kept_facets_a = opened.a.kept;
   culled.record->contact.kept_facets_b = opened.b.kept;
