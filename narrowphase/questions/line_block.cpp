@@ -60,23 +60,18 @@ class Block {
 
   // Facets that the segments may meet next; those for which there are none have their answer.
   void find_facets() {
-    kernels_.find_facets(tree_, lines_, count_, &block_);
-    if (tree_.node_count <= kMostWithoutGroups) enter_later_nodes();
+    std::uint8_t asking[kLinesAtATime];
+    std::copy_n(lines_, count_, asking);
+    for (int asking_count = count_; asking_count > 0; asking_count = open_nodes(asking, asking_count))
+      kernels_.find_facets(tree_, asking, asking_count, &block_);
     int left = 0;
     for (int i = 0; i < count_; ++i) {
       const std::uint8_t line = lines_[i];
-      const std::int32_t& taken = block_.taken[line];
-      // Negative, but not kNothing: in one comparison, as most often it is one of either and which is not to be
-      // guessed.
-      while (static_cast<std::uint32_t>(taken) > static_cast<std::uint32_t>(LineBlock::kNothing)) {
-        const int begin = ~taken * kNodesOfGroup;
-        kernels_.enter_nodes(tree_, begin, std::min(kNodesOfGroup, tree_.node_count - begin), line, &block_);
-        kernels_.find_facets(tree_, &line, 1, &block_);
-      }
       if ((block_.overflowing >> line & 1U) != 0) {
         ask_alone(mesh_, *questions_[line]);
         continue;
       }
+      const std::int32_t taken = block_.taken[line];
       if (tree_.node_count > kMostInCache && taken >= 0)
         prefetch_corners(tree_.leaf[taken], std::countr_zero(block_.facets[line]));
       lines_[left] = line;
@@ -85,20 +80,28 @@ class Block {
     count_ = left;
   }
 
-  // For the segments that have met nothing in the nodes that they enter first.
-  void enter_later_nodes() {
-    std::uint8_t asking[kLinesAtATime];
-    std::uint32_t lines = 0;
-    int asking_count = 0;
-    for (int i = 0; i < count_; ++i) {
-      const std::uint32_t asks = static_cast<std::uint32_t>(block_.taken[lines_[i]] == LineBlock::kLaterNodes);
-      lines |= asks << lines_[i];
-      asking[asking_count] = lines_[i];
-      asking_count += static_cast<int>(asks);
+  // Of the segments that asked, those that came to a group or are left with later nodes enter what is in them. These
+  // are to ask again; returns how many there are. Which ones is not to be guessed: the list is written without a
+  // branch.
+  int open_nodes(std::uint8_t* asking, int count) {
+    constexpr auto kNothing = static_cast<std::uint32_t>(LineBlock::kNothing);
+    std::uint32_t later = 0;
+    int again = 0;
+    for (int i = 0; i < count; ++i) {
+      const std::uint8_t line = asking[i];
+      const std::int32_t taken = block_.taken[line];
+      const std::uint32_t asks_later = static_cast<std::uint32_t>(taken == LineBlock::kLaterNodes);
+      later |= asks_later << line;
+      // Any other negative number but kNothing is a group.
+      if (static_cast<std::uint32_t>(taken) > kNothing + 1) {
+        const int begin = ~taken * kNodesOfGroup;
+        kernels_.enter_nodes(tree_, begin, std::min(kNodesOfGroup, tree_.node_count - begin), line, &block_);
+      }
+      asking[again] = line;
+      again += static_cast<int>(static_cast<std::uint32_t>(taken) > kNothing);
     }
-    if (asking_count == 0) return;
-    kernels_.enter_later_nodes(tree_, lines, &block_);
-    kernels_.find_facets(tree_, asking, asking_count, &block_);
+    if (later != 0) kernels_.enter_later_nodes(tree_, later, &block_);
+    return again;
   }
 
   void list_pairs() {
