@@ -42,9 +42,15 @@ LongMesh long_mesh(const Mesh& mesh) {
   return s;
 }
 
+// From the edge p q straight to the third vertex.
+Long3 across_edge(const Long3& p, const Long3& q, const Long3& third) {
+  const Long3 along = (q - p).normalized();
+  return (third - p) - (third - p).dot(along) * along;
+}
+
 // How far v lies from the edge p q on the side of the third vertex; nothing where these are in line.
 long double beside(const Long3& v, const Long3& p, const Long3& q, const Long3& third) {
-  const Long3 along = (q - p).normalized(), across = (third - p) - (third - p).dot(along) * along;
+  const Long3 across = across_edge(p, q, third);
   return across.norm() > 0 ? (v - p).dot(across.normalized()) : 0.0L;
 }
 
@@ -115,7 +121,11 @@ class PointOracle {
       inside.positive(place);
       inside.positive(length - place);
       for (const int t : third) {
-        if (beside(at(s, t), p, q, at(s, t)) > 0) inside.at_most_zero(beside(v, p, q, at(s, t)));
+        const long double width = across_edge(p, q, at(s, t)).norm();
+        if (width > band_) inside.at_most_zero(beside(v, p, q, at(s, t)));
+        // In line but for rounding: who knows on which side the facet lies?
+        else if (width > 0)
+          inside.positive(0);
       }
       add_vertex(kind, vertex, v, {edge.first, edge.second, -1}, p + place * along, inside);
     }
