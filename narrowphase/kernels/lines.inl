@@ -170,12 +170,11 @@ struct LineSlabs {
 class EntryList {
  public:
   EntryList(LineBlock* block, int line) : block_(block), line_(line), count_(block->entries[line]) {}
-  ~EntryList() {
+  // Writes how many there are. Not a destructor: kernels have none, so that none needs what unwinds.
+  void finish() {
     block_->entries[line_] = count_;
     store_floats(block_->key[line_] + count_, spread(__builtin_inff()));
   }
-  EntryList(const EntryList&) = delete;
-  EntryList& operator=(const EntryList&) = delete;
 
   bool has_room() const {
     if (count_ <= LineBlock::kEntries - kFloatWidth) return true;
@@ -200,6 +199,7 @@ void enter_groups(const LineTree& tree, int line, LineBlock* block) {
     const unsigned entered = slabs.entered([&](int side) { return tree.groups.bounds[side] + i; }, enter);
     list.append(entered & lanes_left<kFloatWidth>(tree.group_count - i), enter, i, -1);
   }
+  list.finish();
 }
 
 inline void enter_leaves(const LineTree& tree, int node, const LineSlabs& slabs, EntryList& list) {
@@ -219,6 +219,7 @@ void enter_nodes(const LineTree& tree, int first, int count, int line, LineBlock
                      lanes_left<kFloatWidth>(count - i);
     for (; nodes != 0; nodes &= nodes - 1) enter_leaves(tree, first + i + __builtin_ctz(nodes), slabs, list);
   }
+  list.finish();
 }
 
 // The leaves of nodes that a segment enters, a bit for each node.
@@ -226,6 +227,7 @@ inline void enter_leaves_of(const LineTree& tree, std::uint64_t nodes, int line,
   const LineSlabs slabs(*block, line);
   EntryList list(block, line);
   for (; nodes != 0; nodes &= nodes - 1) enter_leaves(tree, __builtin_ctzll(nodes), slabs, list);
+  list.finish();
 }
 
 // Adds for each lane a part of its bits, which is a number of up to 24 bits, as a float.
