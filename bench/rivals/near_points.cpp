@@ -189,8 +189,8 @@ void store_outward(const Box& box, RTCBounds& bounds) {
   bounds.lower_z = out(box.lower.z, -1.0), bounds.upper_z = out(box.upper.z, 1.0);
 }
 
-// A tree a body, refitted in every frame. rtcCollide calls back from as many threads as it likes, whatever the device was
-// told, so they are limited: the list is not made for two, and what is timed is one thread.
+// A tree a body, refitted in every frame. rtcCollide calls back from as many threads as it likes, whatever the device
+// was told, so they are limited: the list is not made for two, and what is timed is one thread.
 class EmbreeNear : public NearBase {
  public:
   EmbreeNear(const Workload& workload, const std::vector<double>& margins)

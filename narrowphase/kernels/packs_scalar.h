@@ -89,8 +89,8 @@ inline FloatPack max(FloatPack a, FloatPack b) { return a > b ? a : b; }
 // Numbers from 0 to 2^15 - 1, without what follows the point.
 inline void store_cells(std::int16_t* p, Pack a) { *p = static_cast<std::int16_t>(a); }
 inline void store_cells(std::int16_t* p, FloatPack a) { *p = static_cast<std::int16_t>(a); }
-// Writes the lane if it has a bit, in its last bits, those of `places`, at which place; and mark xor its number. Returns
-// how many.
+// Writes the lane if it has a bit, in its last bits, those of `places`, at which place; and mark xor its number.
+// Returns how many.
 inline int store_keys(unsigned lanes, FloatPack a, int places, int first, int mark, int place, float* key,
                       std::int32_t* index) {
   std::int32_t bits_of_key;
