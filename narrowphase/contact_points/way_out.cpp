@@ -131,7 +131,6 @@ struct WayFinder::Memory {
   double gathered_within = -1.0;  // scaled; negative: none are gathered
   FacetDistances near;
   FacingClusters facing;  // known as soon as that is worth it
-  int listed = 0;         // facets of the last one that was looked into
   int fruitless = 0;      // clusters that were looked into for a facet that faces a direction, and had none
 
   // To find all normals costs what it costs to look into each cluster once.
@@ -219,7 +218,7 @@ std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const 
   const auto look_into = [&](const FacetBlock& facets) {
     FacetDistances& near = memory_->near;
     kernels().rank_block(facets, point, m.scale, most(), facing, &near);
-    memory_->listed = near.count;
+    const bool any = near.count > 0;
     take_by_rank(near.least_squared, near.facet, near.count, wants, [&](int i) {
       if (facets.facet[i] == hint) return;
       Triangle corners;
@@ -229,6 +228,7 @@ std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const 
       }
       look_at(facets.facet[i], SeenFacet(corners, v));
     });
+    return any;
   };
   if (within <= memory_->gathered_within) {
     for (std::size_t k = 0; k < memory_->gathered_count; ++k) look_into(memory_->gathered[k]);
@@ -238,15 +238,12 @@ std::optional<WayOut> WayFinder::nearest(Vec3 v, double within, int hint, const 
     kernels().rank_by_distance(boxes, count, point, m.scale, most(), &ranked);
   };
   const auto open = [&](int cluster) {
-    look_into(memory_->facets_of(m.mesh, cluster));
-    memory_->fruitless += facing != nullptr && memory_->listed == 0;
+    const bool any = look_into(memory_->facets_of(m.mesh, cluster));
+    memory_->fruitless += facing != nullptr && !any;
   };
-  if (facing == nullptr) {
-    for_each_cluster_by_rank(m.mesh, rank, wants, open);
-    return best;
-  }
-  if (!memory_->facing.are_known() && memory_->fruitless >= m.mesh.cluster_count()) memory_->find_facing(m);
-  if (memory_->facing.are_known()) {
+  const bool worth_it = facing != nullptr && memory_->fruitless >= m.mesh.cluster_count();
+  if (worth_it && !memory_->facing.are_known()) memory_->find_facing(m);
+  if (worth_it) {
     for_each_cluster_by_rank(m.mesh, rank, wants, open, SkipTurnedAway{memory_->facing, *facing});
   } else {
     for_each_cluster_by_rank(m.mesh, rank, wants, open);

@@ -37,11 +37,8 @@ void SelfCrossing::begin(const SelfCrossingInput& input) {
   input_ = input;
   const Vec3 size = input.mesh.mesh->box().upper - input.mesh.mesh->box().lower;
   scale_ = unit_scale(std::max({size.x, size.y, size.z}));
-  if (nearest_ == nullptr) {
-    nearest_ = std::make_unique<NearestAround>(*input.mesh.mesh);
-    crossed_at_.assign(static_cast<std::size_t>(input.mesh.mesh->source_vertex_count()), -1);
-  }
-  for (const Crossed& one : crossed_) crossed_at_[one.source_vertex] = -1;
+  if (nearest_ == nullptr) nearest_ = std::make_unique<NearestAround>(*input.mesh.mesh);
+  crossed_at_.clear(input.mesh.mesh->source_vertex_count());
   crossed_.clear();
   edge_hits_.run(input.mesh, input.mesh, input.facet_pairs, hits_, hits_of_second_);
   hits_.insert(hits_.end(), hits_of_second_.begin(), hits_of_second_.end());
@@ -127,7 +124,7 @@ void SelfCrossing::take_reached() {
       if (way && (!best || way->distance < best->distance)) best = way;
     }
     if (!best) continue;
-    crossed_at_[source] = static_cast<int>(crossed_.size());
+    crossed_at_.set(source, crossed_.size());
     crossed_.push_back({source, *best});
     next_.push_back({source, vertex, best->facet, best->out});
   }

@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "narrowphase/contact_points/surface_distance.h"
+#include "narrowphase/contact_points/vertex_places.h"
 #include "narrowphase/self/crossing_sides.h"
 #include "narrowphase/self/facets_around.h"
 
@@ -89,7 +90,7 @@ class SelfCrossing {
   CrossingSides sides_;
   std::vector<Reached> reached_, next_;
   std::vector<Crossed> crossed_;  // in the order in which they were reached
-  std::vector<int> crossed_at_;   // in that list, by the caller's number; -1: none
+  VertexPlaces crossed_at_;       // in that list
   std::vector<EdgePair> known_, candidates_;
   SurfaceWays ways_;
 };
