@@ -1,5 +1,6 @@
 // Rays, nearest points, boxes and what is inside, hard ones, against brute force: sets from CGAL's exact predicates,
-// places and distances in long doubles. Not part of the ordinary tests: how many is read from the environment.
+// places and distances in long doubles. Rays that are asked together are held, bit for bit, against each asked alone.
+// Not part of the ordinary tests: how many is read from the environment.
 //   TACT_LONG_QUESTIONS  4000 if not set
 //   TACT_LONG_SEED       which questions, 1 if not set
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,7 @@ namespace tact::tests {
 namespace {
 
 constexpr std::uint64_t kBlock = 200;  // questions
+constexpr std::uint64_t kTogether = 2000;  // rays to meshes that are too large for brute force
 constexpr std::size_t kFailuresShown = 10;
 enum QuestionKind : std::size_t { kRay, kPoint, kBox, kInside, kKinds };
 
@@ -30,6 +33,19 @@ struct BlockResult {
   double worst_place = 0.0, worst_distance = 0.0;      // relative to the sizes in question
   std::vector<std::string> failures;
 };
+
+// How many of the answers to rays asked together are not those, to the last bit, to each asked alone.
+std::size_t differing_together(const World& world, std::span<const Ray> rays) {
+  std::vector<RayHit> hits(rays.size());
+  world.rays(rays, hits);
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const RayHit &one = hits[i], alone = world.ray(rays[i]);
+    differing += !(one.body == alone.body && one.facet == alone.facet && one.time == alone.time &&
+                   one.weights == alone.weights);
+  }
+  return differing;
+}
 
 // Small ones, for brute force, closed or not.
 Mesh some_mesh(Random& random) {
@@ -66,15 +82,20 @@ class Block {
     closed_ = world_.add_body({.positions = solid_.positions, .facets = solid_.facets, .layer = 2});
   }
 
+  void ask_all() {
+    for (std::uint64_t k = 0; k < kBlock; ++k) ask();
+    expect(differing_together(world_, rays_) == 0, "rays asked together have other answers");
+  }
+
+ private:
+  static constexpr Asked kMesh{.mask = 1}, kSolid{.mask = 2};
+
   void ask() {
     const int kind = random_.below(8);
     if (kind < 4) return ask_ray();
     if (kind < 6) return ask_point();
     kind == 6 ? ask_box() : ask_inside();
   }
-
- private:
-  static constexpr Asked kMesh{.mask = 1}, kSolid{.mask = 2};
 
   void note(QuestionKind kind, bool found) {
     ++result_.asked[kind];
@@ -87,6 +108,7 @@ class Block {
   void ask_ray() {
     Ray ray = hard_ray(mesh_, random_);
     ray.asked = kMesh;
+    rays_.push_back(ray);
     const std::vector<RayHit> all = world_.all_hits(ray);
     std::vector<int> facets;
     for (const RayHit& hit : all) {
@@ -162,6 +184,7 @@ class Block {
   Mesh mesh_, solid_;
   World world_{{.threads = 1}};
   BodyId body_, closed_;
+  std::vector<Ray> rays_;  // asked so far
   double extent_ = 0.0;  // of the mesh, from the origin
 };
 
@@ -171,7 +194,7 @@ TEST(LongQuestions, EqualBruteForce) {
   std::vector<BlockResult> blocks((count + kBlock - 1) / kBlock);
   base::parallel_for(blocks.size(), 1, base::default_threads(), [&](std::size_t i) {
     Block block(seed * 1'000'000'007 + i, blocks[i]);
-    for (std::uint64_t k = 0; k < kBlock; ++k) block.ask();
+    block.ask_all();
   });
   BlockResult sum;
   std::size_t failed = 0;
@@ -197,6 +220,45 @@ TEST(LongQuestions, EqualBruteForce) {
   std::printf("places of hits are off by %.1e at most, nearest points by %.1e; %zu failures\n", sum.worst_place,
               sum.worst_distance, failed);
   EXPECT_EQ(failed, 0u);
+}
+
+// Up to 80 nodes of a tree, and groups of them.
+Mesh some_large_mesh(Random& random) {
+  const std::uint64_t seed = random.bits() % 1000;
+  switch (random.below(6)) {
+    case 0: return blob(4, 1.0, 0.3, seed);
+    case 1: return blob(5, 1.0, 0.3, seed);
+    case 2: return soup(6000, 2.0, seed);
+    case 3: return lattice_soup(3000, 5, seed);
+    case 4: return needles(4000, 1e4, seed);
+    default: return wrinkled_sheet(30 + random.below(70), 2.0, 0.3, seed);
+  }
+}
+
+TEST(LongQuestions, ManyRaysToLargeMeshesAnswerAsEachAlone) {
+  const std::uint64_t count = from_environment("TACT_LONG_QUESTIONS", 4000);
+  const std::uint64_t seed = from_environment("TACT_LONG_SEED", 1);
+  std::vector<std::size_t> differing((count + kTogether - 1) / kTogether);
+  base::parallel_for(differing.size(), 1, base::default_threads(), [&](std::size_t i) {
+    Random random(seed * 1'000'000'009 + i);
+    World world({.threads = 1});
+    std::array<Mesh, 2> meshes;
+    for (std::uint32_t k = 0; k < meshes.size(); ++k) {
+      meshes[k] = some_large_mesh(random);
+      world.add_body({.positions = meshes[k].positions,
+                      .facets = meshes[k].facets,
+                      .surface = Surface::sheet,
+                      .layer = std::uint32_t{1} << k});
+    }
+    std::vector<Ray> rays;
+    for (std::uint64_t k = 0; k < kTogether; ++k) {
+      Ray ray = hard_ray(meshes[random.below(2)], random);
+      ray.asked.mask = static_cast<std::uint32_t>(1 + random.below(3));
+      rays.push_back(ray);
+    }
+    differing[i] = differing_together(world, rays);
+  });
+  for (std::size_t i = 0; i < differing.size(); ++i) EXPECT_EQ(differing[i], 0u) << "block " << i << ", seed " << seed;
 }
 
 }  // namespace
