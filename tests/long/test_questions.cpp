@@ -23,7 +23,7 @@
 namespace tact::tests {
 namespace {
 
-constexpr std::uint64_t kBlock = 200;  // questions
+constexpr std::uint64_t kBlock = 200;      // questions
 constexpr std::uint64_t kTogether = 2000;  // rays to meshes that are too large for brute force
 constexpr std::size_t kFailuresShown = 10;
 enum QuestionKind : std::size_t { kRay, kPoint, kBox, kInside, kKinds };
@@ -41,8 +41,8 @@ std::size_t differing_together(const World& world, std::span<const Ray> rays) {
   std::size_t differing = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const RayHit &one = hits[i], alone = world.ray(rays[i]);
-    differing += !(one.body == alone.body && one.facet == alone.facet && one.time == alone.time &&
-                   one.weights == alone.weights);
+    differing +=
+        !(one.body == alone.body && one.facet == alone.facet && one.time == alone.time && one.weights == alone.weights);
   }
   return differing;
 }
@@ -185,7 +185,7 @@ class Block {
   World world_{{.threads = 1}};
   BodyId body_, closed_;
   std::vector<Ray> rays_;  // asked so far
-  double extent_ = 0.0;  // of the mesh, from the origin
+  double extent_ = 0.0;    // of the mesh, from the origin
 };
 
 TEST(LongQuestions, EqualBruteForce) {
