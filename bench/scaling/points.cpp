@@ -19,13 +19,14 @@
 namespace tact::bench {
 namespace {
 
-constexpr double kMargin = 0.005;  // of a body's size
+constexpr double kMargin = 0.005;  // of a body's size, where it has none of its scene
 
 std::vector<double> margins_of(const Workload& workload) {
   std::vector<double> margins;
   for (const WorkloadBody& body : workload.bodies) {
     const Eigen::Matrix3Xd& x = body.positions(0);
-    margins.push_back(kMargin * (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff());
+    const double size = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
+    margins.push_back(body.margin > 0.0 ? body.margin : kMargin * size);
   }
   return margins;
 }
@@ -139,8 +140,10 @@ PointTimes measure(const Workload& workload, const std::string& name, double bud
 
 int run_points(const BenchOptions& options) {
   const double budget_ms = options.quick ? 20.0 : 3000.0;
-  fmt::print("{}\nmargins of {} % of a body's size, one thread, medians over the frames\n\n", machine_line(1),
-             100.0 * kMargin);
+  fmt::print(
+      "{}\nmargins of {} % of a body's size, in recorded rows those of the scene; one thread, medians over the "
+      "frames\n\n",
+      machine_line(1), 100.0 * kMargin);
   Table table({"workload", "points", "without ms", "with ms", "ratio", "and patches ms", "Embree's boxes ms",
                "CGAL's boxes ms", "factor"});
   bool any = false;

@@ -1,4 +1,5 @@
 // Workloads recorded from the scenes of the command line program, see workloads.h.
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -37,6 +38,7 @@ Workload recorded(const std::string& scene, int size, int settled, int frames) {
     const scenes::Body& body = simulation.bodies()[i];
     if (body.motion == Motion::fixed) {
       append(body, still);
+      still.margin = std::max(still.margin, body.thickness);
       continue;
     }
     moving.push_back(i);
@@ -44,6 +46,9 @@ Workload recorded(const std::string& scene, int size, int settled, int frames) {
   }
   const int steps = frames / 2 + 1;  // there and back
   for (int step = 0; step < settled; ++step) simulation.step();
+  // As the scene has them then: some have moved fast before, and were to see far.
+  const std::vector<BodyId> ids = simulation.world().bodies();
+  for (std::size_t k = 0; k < moving.size(); ++k) workload.bodies[k].margin = simulation.world().margin(ids[moving[k]]);
   for (int step = 0; step < steps; ++step) {
     simulation.step();
     for (std::size_t k = 0; k < moving.size(); ++k) {

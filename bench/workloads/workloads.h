@@ -18,6 +18,7 @@ struct WorkloadBody {
   Surface surface = Surface::closed;
   std::vector<Eigen::Matrix3Xd> frames = {};  // 3 x V metres, one a frame; a single one: the body is fixed
   std::uint32_t mask = 0xffffffffu;           // see BodyDefinition
+  double margin = 0.0;                        // that a scene gave it, metres; 0: it has none of its own
 
   bool fixed() const { return frames.size() == 1; }
   const Eigen::Matrix3Xd& positions(int frame) const { return frames[fixed() ? 0 : static_cast<std::size_t>(frame)]; }
