@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "engine/pair/pair_table.h"
 
 namespace tact {

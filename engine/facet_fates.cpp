@@ -4,7 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "engine/pair/confirm.h"
 #include "engine/pair/cull.h"
 #include "engine/pair/pair_table.h"

@@ -4,7 +4,7 @@
 #include <tact/message.h>
 #include <tact/report.h>
 
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 
 namespace tact {
 

@@ -62,7 +62,7 @@ void MotionStage::select(Bodies& bodies, int threads) {
   if (report_.stats_.moved_bodies == 0) return;
   const auto moves = [&](std::uint32_t slot) { return bodies.used(slot) && bodies.on_its_way(slot); };
   for (const auto& [a, b] : sweep_.pairs()) {
-    if (bodies.excludes({a, b})) continue;
+    if (bodies.excluded_pairs().contains({a, b})) continue;
     if (moves(a) || moves(b)) passing_.push_back({.a = a, .b = b, .reach = bodies.reach(a, b)});
   }
   const auto slots = static_cast<std::uint32_t>(boxes_.size());

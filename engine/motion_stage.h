@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "broadphase/sweep_and_prune.h"
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "narrowphase/motion/impacts.h"
 
 namespace tact {

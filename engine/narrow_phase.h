@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/base/timer.h"
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "engine/pair/confirm.h"
 #include "engine/pair/pair_table.h"
 #include "engine/pair/pair_work.h"

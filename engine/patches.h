@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "engine/patch_set.h"
 
 namespace tact {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "engine/pair/pair_table.h"
 #include "engine/patches.h"
 #include "narrowphase/contact_points/contact_points.h"

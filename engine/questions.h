@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "narrowphase/questions/line_block.h"
 
 namespace tact {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/base/key_sort.h"
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "engine/patch_stage.h"
 #include "engine/point_stage.h"
 #include "narrowphase/self/self_clusters.h"

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "broadphase/sweep_and_prune.h"
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "engine/containment.h"
 #include "engine/narrow_phase.h"
 #include "engine/pair/pair_table.h"

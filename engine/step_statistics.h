@@ -3,7 +3,7 @@
 
 #include <tact/statistics.h>
 
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "engine/narrow_phase.h"
 #include "engine/pair/pair_table.h"
 

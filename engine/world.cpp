@@ -10,7 +10,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/text.h"
 #include "engine/base/timer.h"
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "engine/check_name.h"
 #include "engine/messages.h"
 #include "engine/motion_stage.h"

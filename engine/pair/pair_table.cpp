@@ -34,7 +34,7 @@ void PairTable::update(const broadphase::SweepAndPrune& sweep, const Bodies& bod
   gone_patches_.clear();
   moved_.clear();
   separated_ = 0;
-  same_pairs_ = !all && !bodies.removed_any() && !bodies.exclusions_changed() && !sweep.pairs_changed();
+  same_pairs_ = !all && !bodies.removed_any() && !bodies.excluded_pairs().changed() && !sweep.pairs_changed();
   // The sweep sees boxes of rigid bodies that may be too large: what it says of them has to be looked at in each step.
   const bool rough = bodies.any_rigid() || had_rigid_;
   had_rigid_ = bodies.any_rigid();
@@ -51,10 +51,10 @@ void PairTable::update(const broadphase::SweepAndPrune& sweep, const Bodies& bod
 std::span<const broadphase::IndexPair> PairTable::tested_pairs(std::span<const broadphase::IndexPair> pairs,
                                                                const Bodies& bodies) {
   excluded_ = 0;
-  if (!bodies.excludes_any() && !bodies.any_rigid()) return pairs;
+  if (bodies.excluded_pairs().empty() && !bodies.any_rigid()) return pairs;
   tested_.clear();
   for (const broadphase::IndexPair& pair : pairs) {
-    if (bodies.excludes_any() && bodies.excludes(pair)) {
+    if (bodies.excluded_pairs().contains(pair)) {
       ++excluded_;
       continue;
     }

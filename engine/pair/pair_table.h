@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "broadphase/sweep_and_prune.h"
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "engine/pair/pair_record.h"
 #include "narrowphase/hull/kdop.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/base/key_sort.h"
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "engine/pair/pair_counts.h"
 #include "engine/pair/pair_record.h"
 #include "narrowphase/depth/smallest_separation.h"

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "engine/pair/pair_table.h"
 
 namespace tact {

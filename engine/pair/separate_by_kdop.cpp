@@ -32,7 +32,7 @@ void find_missing_kdops(const PairTable& table, Bodies& bodies, int threads) {
 bool is_separated(const MovedPair& pair, const Bodies& bodies, PairTable& table) {
   if (!may_be_separated(table, bodies, pair)) return false;
   const CandidatePair& candidate = table.candidates()[pair.place];
-  const auto *a = bodies.kdop(candidate.a.index), *b = bodies.kdop(candidate.b.index);
+  const auto *a = bodies.kdops().of(candidate.a.index), *b = bodies.kdops().of(candidate.b.index);
   const bool known = a != nullptr && b != nullptr;
   SeparatingDiagonal& axis = table.separating_axis(pair.place);
   const SeparatingDiagonal last = axis;

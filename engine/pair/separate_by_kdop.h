@@ -1,7 +1,7 @@
 // The first question of stage 3, to all pairs in one pass: does an axis of an 18-DOP separate the bodies?
 #pragma once
 
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "engine/pair/pair_table.h"
 
 namespace tact {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "engine/packed_meshes.h"
+#include "engine/bodies/packed_meshes.h"
 #include "narrowphase/mesh/refit.h"
 #include "tests/support/clustered.h"
 #include "tests/support/generators.h"

@@ -13,8 +13,13 @@
 
 #include "broadphase/sweep_and_prune.h"
 #include "engine/base/tuning.h"
-#include "engine/packed_meshes.h"
-#include "engine/rigid_states.h"
+#include "engine/bodies/body_kdops.h"
+#include "engine/bodies/checks.h"
+#include "engine/bodies/cluster_groupings.h"
+#include "engine/bodies/columns.h"
+#include "engine/bodies/excluded_pairs.h"
+#include "engine/bodies/packed_meshes.h"
+#include "engine/bodies/rigid_states.h"
 #include "narrowphase/contact_points/contact_points.h"
 #include "narrowphase/mesh/clustered_mesh.h"
 #include "narrowphase/mesh/refit.h"
@@ -36,11 +41,9 @@ struct alignas(64) Body {
   std::vector<double> begin = {};  // where it was in the last step, once it has moved twice since: a placement
 };
 
-[[nodiscard]] inline std::string quoted(const std::string& name) { return "body '" + name + "'"; }
-
 class Bodies {
  public:
-  Bodies(std::uint32_t world, const base::Tuning& tuning) : world_(world), tuning_(&tuning) {}
+  Bodies(std::uint32_t world, const base::Tuning& tuning) : world_(world), tuning_(&tuning), groupings_(tuning) {}
 
   // Of the world.
   const base::Tuning& tuning() const { return *tuning_; }
@@ -116,23 +119,15 @@ class Bodies {
   // A box with its margin of where a body was in the last step: its box, if it is not rigid or place_ways() placed it.
   base::Box begin_box(std::uint32_t slot) const;
 
-  // Pairs of slots that are not tested, sorted; were others before end_step()?
-  bool excludes_any() const { return !excluded_.empty(); }
-  bool excludes(const broadphase::IndexPair& slots) const { return std::ranges::binary_search(excluded_, slots); }
-  bool exclusions_changed() const { return exclusions_changed_; }
+  // Of slots.
+  const ExcludedPairs& excluded_pairs() const { return excluded_; }
 
   // What the broad phase sees, an entry a slot: boxes with their margins; the box of an empty slot is empty. Those of
   // rigid bodies may be larger.
   std::span<const base::Box> boxes() const { return boxes_; }
   std::span<const broadphase::Filter> filters() const { return filters_; }
-  // The k-DOP of a body, or null if nobody wanted to know it.
-  const narrowphase::Kdop* kdop(std::uint32_t slot) const { return knows_kdop_[slot] != 0 ? &kdops_[slot] : nullptr; }
-  // Is the k-DOP of a body found while its positions are in the cache, when it moves next? That of a new one is, that
-  // of a large one never. Found afterwards, all of them, the pile of 4,000 blobs of tact-bench rivals takes 6 % longer.
-  void want_kdop(std::uint32_t slot, bool wanted) {
-    if (wanted && wants_kdop_[slot] == 0 && knows_kdop_[slot] == 0) unknown_.push_back(slot);
-    wants_kdop_[slot] = wanted ? 1 : 0;
-  }
+  const BodyKdops& kdops() const { return kdops_; }
+  void want_kdop(std::uint32_t slot, bool wanted) { kdops_.want(slot, wanted); }
   // Finds those that are wanted and not known.
   void find_kdops(int threads);
   // From now on the body's mesh keeps how far it goes.
@@ -149,13 +144,13 @@ class Bodies {
     BodyId id;
     std::vector<int> numbers;
   };
-  // Clusters are grouped by where the facets are when a body is added. Have those of any body lost their shape?
-  bool any_decayed() const { return !decayed_.empty(); }
-  // Groups the facets of these bodies by where they are now, if it gains something. Sorted by
-  // slot. If it fails, nothing has changed.
+  // Have the clusters of any body lost their shape?
+  bool any_decayed() const { return groupings_.any_decayed(); }
+  // Groups the facets of these bodies by where they are now, if it gains something. Sorted by slot. If it fails,
+  // nothing has changed.
   std::vector<Regrouped> regroup(int threads);
   // Does without: the groups stay as they are, until the bodies are looked at again.
-  void keep_groups() noexcept;
+  void keep_groups() noexcept { groupings_.clear_decayed(); }
 
   // The step has seen the changes: nothing has moved.
   void end_step();
@@ -180,14 +175,6 @@ class Bodies {
     Begin begin = Begin::here;
   };
 
-  // How the clusters keep their shape.
-  struct Grouping {
-    double quality = 0.0;     // see cluster_quality(): when they were made, or could not be made better
-    std::uint16_t moves = 0;  // since it was last looked at
-    std::uint8_t tries = 0;   // to group anew: the more there were, the longer until the next look
-    bool decayed = false;
-  };
-
   // New positions of a body: prepared; its mesh refitted, and put back if any of a batch is bad; published.
   struct Update {
     Body* body = nullptr;
@@ -200,6 +187,22 @@ class Bodies {
     bool knows_kdop = false;
     double quality = 0.0;  // of the clusters, if it was time to look
   };
+
+  // bodies.cpp
+  void make_room_for(std::uint32_t slot);
+  void add_slot();
+  void mark_changed(std::uint32_t slot);
+  void mark_moved(std::uint32_t slot);
+  static broadphase::IndexPair slots_of(BodyId a, BodyId b) {
+    return {std::min(a.index, b.index), std::max(a.index, b.index)};
+  }
+  void set_filter(BodyId id, const broadphase::Filter& filter);
+  template <class OfBody>
+  void check_named_once(std::span<const OfBody> updates);
+
+  // poses.cpp
+  // Makes a mesh rigid, in the pose in which it is.
+  void make_rigid(narrowphase::ClusteredMesh& mesh, RigidState& state);
   // Throws if a pose is bad. Reads nothing of the body's shape, unless that may stand too far away.
   void check(const PoseUpdate& update) const;
   // Sets a pose that is good; returns whether it is another one.
@@ -207,26 +210,18 @@ class Bodies {
   void note_to_place(std::uint32_t index);
   bool place_in_cache(std::uint32_t index);
   void prefetch_poses(std::span<const PoseUpdate> updates, std::size_t i) const;
+
+  // positions.cpp
   void pack_meshes(int threads);
   void make_updates(std::size_t count);
   void prepare(Update& update, BodyId id, const Positions& positions);
-  void prefetch(BodyId id) const;
   void refresh(std::size_t i, int threads);
+  void refresh_all(std::size_t count, int threads);
+  void prefetch_updates(std::size_t i, std::size_t grain, std::size_t own_end, std::size_t count) const;
   void take_back_if_bad(std::size_t count);
   void keep_begin(Body& body, Slot& slot);
   void publish(std::size_t i);
   void note_change(const Update& update);
-  template <class OfBody>
-  void check_named_once(std::span<const OfBody> updates);
-  void find_kdops(std::uint32_t slot, const narrowphase::ClusteredMesh& mesh);
-  void mark_changed(std::uint32_t slot);
-  void mark_moved(std::uint32_t slot);
-  static broadphase::IndexPair slots_of(BodyId a, BodyId b) {
-    return {std::min(a.index, b.index), std::max(a.index, b.index)};
-  }
-  void set_filter(BodyId id, const broadphase::Filter& filter);
-  bool has_decayed(const Grouping& grouping, double quality) const;
-  int moves_to_look(const Grouping& grouping) const;
 
   std::uint32_t world_;
   const base::Tuning* tuning_;
@@ -237,16 +232,12 @@ class Bodies {
   std::vector<base::Box> boxes_;
   std::vector<broadphase::Filter> filters_;
   std::vector<double> margins_;
-  std::vector<narrowphase::Kdop> kdops_;
-  std::vector<char> knows_kdop_, wants_kdop_;
-  std::vector<std::uint32_t> unknown_;  // slots of bodies that are to look now
-  std::vector<Grouping> groupings_;
-  std::vector<std::uint32_t> decayed_;  // slots of bodies whose clusters have lost their shape
+  BodyKdops kdops_;
+  ClusterGroupings groupings_;
   std::vector<std::uint32_t> changed_;
   std::size_t count_ = 0;
   bool removed_any_ = false;
-  std::vector<broadphase::IndexPair> excluded_;
-  bool exclusions_changed_ = false;
+  ExcludedPairs excluded_;
   std::int64_t vertices_ = 0;
   std::int64_t moved_vertices_ = 0;
   std::size_t rigid_count_ = 0, self_count_ = 0;

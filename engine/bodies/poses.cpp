@@ -6,7 +6,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/text.h"
-#include "engine/bodies.h"
+#include "engine/bodies/bodies.h"
 #include "engine/check_coordinate.h"
 #include "narrowphase/mesh/prefetch.h"
 #include "narrowphase/mesh/refit.h"
@@ -79,6 +79,14 @@ void check_vertices(const ClusteredMesh& mesh, const Pose& pose, const std::stri
 
 }  // namespace
 
+void Bodies::make_rigid(ClusteredMesh& mesh, RigidState& state) {
+  const Box box = mesh.box();
+  for (int axis = 0; axis < 3 && !box.empty(); ++axis)
+    farthest_rest_ = std::max({farthest_rest_, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
+  mesh.make_rigid(&state.pose);
+  mesh.place();
+}
+
 void Bodies::check(const PoseUpdate& update) const {
   const Body& body = at(update.body);
   const Slot& slot = slots_[update.body.index];
@@ -113,7 +121,7 @@ bool Bodies::publish(const PoseUpdate& update) {
   state.pose.set(pose);
   slot.knows_box = false;
   boxes_[index] = base::grown(state.pose.box_at(pose), margins_[index]);
-  knows_kdop_[index] = 0;
+  kdops_.forget(index);
   return true;
 }
 
@@ -165,7 +173,7 @@ bool Bodies::place_in_cache(std::uint32_t index) {
   ClusteredMesh& mesh = slots_[index].body->mesh;
   const bool was_placed = mesh.is_placed();
   mesh.place();
-  if (wants_kdop_[index] != 0 && knows_kdop_[index] == 0) find_kdops(index, mesh);
+  if (kdops_.is_wanted(index) && kdops_.of(index) == nullptr) kdops_.find(index, mesh);
   placed_boxes_[index] = base::grown(mesh.box(), margins_[index]);
   slots_[index].knows_box = true;
   return !was_placed;
@@ -179,7 +187,7 @@ void Bodies::place(std::span<const broadphase::IndexPair> pairs, int threads) {
   to_place_.clear();
   for (const broadphase::IndexPair& pair : pairs) {
     if (slots_[pair.a].knows_box && slots_[pair.b].knows_box) continue;
-    if (excludes_any() && excludes(pair)) continue;
+    if (excluded_.contains(pair)) continue;
     if (!slots_[pair.a].knows_box) note_to_place(pair.a);
     if (!slots_[pair.b].knows_box) note_to_place(pair.b);
   }

@@ -1,4 +1,4 @@
-#include "engine/packed_meshes.h"
+#include "engine/bodies/packed_meshes.h"
 
 #include <algorithm>
 #include <utility>

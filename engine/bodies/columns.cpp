@@ -1,4 +1,4 @@
-#include "engine/columns.h"
+#include "engine/bodies/columns.h"
 
 #include <Eigen/Core>
 #include <algorithm>

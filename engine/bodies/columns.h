@@ -17,6 +17,12 @@ bool is_packed(const Columns<Scalar>& columns);
 template <class Scalar>
 std::span<const Scalar> packed(const Columns<Scalar>& columns, std::span<Scalar> copy);
 
+// Makes room for the columns where they are not packed.
+template <class Scalar>
+void make_copy_room(const Columns<Scalar>& columns, std::vector<Scalar>& copy) {
+  if (!is_packed(columns)) copy.resize(3 * columns.cols());
+}
+
 // The numbers of a column, as they were given.
 long long index_at(const Facets& facets, std::ptrdiff_t facet, int corner);
 

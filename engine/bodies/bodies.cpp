@@ -1,0 +1,277 @@
+#include "engine/bodies/bodies.h"
+
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "engine/base/parallel.h"
+#include "engine/bodies/room.h"
+#include "engine/check_name.h"
+#include "narrowphase/mesh/cluster_quality.h"
+
+namespace tact {
+
+namespace {
+
+// The body of a definition that is good, not placed in any world.
+std::unique_ptr<Body> make_body(const BodyDefinition& definition, const std::string& name) {
+  std::vector<double> position_copy;
+  std::vector<int> facet_copy;
+  make_copy_room(definition.positions, position_copy);
+  make_copy_room(definition.facets, facet_copy);
+  const std::span<const double> positions = packed(definition.positions, std::span(position_copy));
+  const std::span<const int> facets = packed(definition.facets, std::span(facet_copy));
+  check_positions(positions.data(), positions.size() / 3, name);
+  check_facets(facets, definition.facets, definition.positions.cols(), name);
+  return std::make_unique<Body>(Body{.mesh = {positions, facets},
+                                     .id = {},
+                                     .name = name,
+                                     .surface = definition.surface,
+                                     .external_id = definition.external_id,
+                                     .self_contact = definition.self_contact});
+}
+
+}  // namespace
+
+BodyId Bodies::add(const BodyDefinition& definition) {
+  const auto slot = free_.empty() ? static_cast<std::uint32_t>(slots_.size()) : free_.back();
+  const std::string name = definition.name.empty() ? "body " + std::to_string(slot) : definition.name;
+  check_name(definition.surface, Surface::sheet, quoted(name) + ": surface");
+  check_name(definition.motion, Motion::rigid, quoted(name) + ": motion");
+  check_margin(definition.margin, name);
+  check_array(definition.positions, name);
+  check_array(definition.facets, name);
+  check_counts(definition.positions.cols(), definition.facets.cols(), slots_.size(), name);
+  std::unique_ptr<Body> body = make_body(definition, name);
+  const bool rigid = definition.motion == Motion::rigid;
+  // Nothing can fail half-way: all that may allocate comes first.
+  make_room_for(slot);
+  if (rigid) rigid_states_.make_room();
+  slot < slots_.size() ? free_.pop_back() : add_slot();
+  body->id = {slot, ++slots_[slot].generation, world_};
+  margins_[slot] = definition.margin;
+  boxes_[slot] = base::grown(body->mesh.box(), definition.margin);
+  kdops_.start(slot, body->mesh);
+  groupings_.start(slot, cluster_quality(body->mesh));
+  filters_[slot] = {definition.layer, definition.mask, definition.motion == Motion::fixed, definition.group};
+  slots_[slot].vertex_count = body->mesh.source_vertex_count();
+  slots_[slot].fixed = definition.motion == Motion::fixed;
+  slots_[slot].rigid = rigid ? rigid_states_.take() : nullptr;
+  if (rigid) make_rigid(body->mesh, *slots_[slot].rigid);
+  slots_[slot].knows_box = slots_[slot].to_place = false;
+  rigid_count_ += rigid ? 1 : 0;
+  self_count_ += definition.self_contact ? 1 : 0;
+  slots_[slot].begin = Begin::here;
+  slots_[slot].seen = false;
+  slots_[slot].body = std::move(body);
+  packed_meshes_.add(slots_[slot].body->mesh);
+  mark_changed(slot);
+  ++count_;
+  vertices_ += slots_[slot].vertex_count;
+  moved_vertices_ += slots_[slot].vertex_count;
+  return slots_[slot].body->id;
+}
+
+void Bodies::make_room_for(std::uint32_t slot) {
+  const std::size_t slots = std::max<std::size_t>(slots_.size(), slot + 1);
+  make_room(slots_, slots), make_room(boxes_, slots), make_room(filters_, slots), make_room(margins_, slots);
+  kdops_.make_room(slots), groupings_.make_room(slots);
+  make_room(changed_, slots), make_room(free_, slots);
+}
+
+void Bodies::add_slot() {
+  const std::size_t slots = slots_.size() + 1;
+  slots_.resize(slots), boxes_.resize(slots), filters_.resize(slots), margins_.resize(slots);
+  kdops_.resize(slots), groupings_.resize(slots);
+}
+
+void Bodies::remove(BodyId id) {
+  const auto vertices = at(id).mesh.source_vertex_count();
+  vertices_ -= vertices;
+  if (moved(id.index)) moved_vertices_ -= vertices;
+  packed_meshes_.remove(slots_[id.index].body->mesh);
+  rigid_count_ -= is_rigid(id.index) ? 1 : 0;
+  self_count_ -= slots_[id.index].body->self_contact ? 1 : 0;
+  slots_[id.index].body.reset();
+  if (is_rigid(id.index)) rigid_states_.give_back(std::exchange(slots_[id.index].rigid, nullptr));
+  boxes_[id.index] = base::Box{};
+  excluded_.remove_all_of(id.index);
+  // No id is given out twice: a slot whose generations are used up stays empty.
+  if (id.generation < std::numeric_limits<std::uint32_t>::max()) free_.push_back(id.index);
+  groupings_.forget(id.index);
+  mark_changed(id.index);
+  removed_any_ = true;
+  --count_;
+}
+
+narrowphase::MovingMesh Bodies::moving(std::uint32_t slot) const {
+  const Body& body = in_slot(slot);
+  const narrowphase::MeshPlacements& placements = body.mesh.placements();
+  const Begin begin = slots_[slot].begin;
+  return {&body.mesh, body.features.get(),
+          begin == Begin::here     ? placements.now()
+          : begin == Begin::before ? placements.before()
+                                   : placements.in(body.begin.data())};
+}
+
+void Bodies::set_layers(BodyId id, std::uint32_t layer, std::uint32_t mask) {
+  broadphase::Filter changed = filter(id);
+  changed.layer = layer;
+  changed.mask = mask;
+  set_filter(id, changed);
+}
+
+void Bodies::set_motion(BodyId id, Motion motion) {
+  const Body& body = at(id);
+  check_name(motion, Motion::rigid, quoted(body.name) + ": motion");
+  if (motion != Motion::fixed && (motion == Motion::rigid) != body.mesh.is_rigid())
+    throw Error(ErrorCode::wrong_motion, quoted(body.name) + (body.mesh.is_rigid() ? " was" : " was not") +
+                                             " added as rigid: its motion cannot be " +
+                                             (motion == Motion::rigid ? "rigid" : "moving"));
+  broadphase::Filter changed = filter(id);
+  changed.fixed = motion == Motion::fixed;
+  set_filter(id, changed);
+}
+
+void Bodies::set_group(BodyId id, std::uint32_t group) {
+  broadphase::Filter changed = filter(id);
+  changed.group = group;
+  set_filter(id, changed);
+}
+
+void Bodies::set_excluded(BodyId a, BodyId b, bool excluded) {
+  if (this->excluded(a, b) == excluded) return;
+  const broadphase::IndexPair pair = slots_of(a, b);
+  excluded ? excluded_.add(pair) : excluded_.remove(pair);
+  mark_moved(pair.a);
+  mark_moved(pair.b);
+}
+
+bool Bodies::excluded(BodyId a, BodyId b) const {
+  at(a), at(b);
+  if (a == b) throw Error(ErrorCode::bad_settings, quoted(at(a).name) + ": a pair is of two bodies; see self_contact");
+  return excluded_.contains(slots_of(a, b));
+}
+
+void Bodies::set_margin(BodyId id, double margin) {
+  const Body& body = at(id);
+  check_margin(margin, body.name);
+  if (margins_[id.index] == margin) return;
+  margins_[id.index] = margin;
+  boxes_[id.index] = base::grown(body.mesh.rough_box(), margin);
+  slots_[id.index].knows_box = false;
+  mark_moved(id.index);
+}
+
+void Bodies::set_self_contact(BodyId id, bool wanted) {
+  if (at(id).self_contact == wanted) return;
+  slots_[id.index].body->self_contact = wanted;
+  self_count_ += wanted ? 1 : std::size_t{0} - 1;
+  mark_moved(id.index);
+}
+
+void Bodies::find_kdops(int threads) {
+  const std::span<const std::uint32_t> missing = kdops_.missing();
+  base::parallel_for(missing.size(), 1, threads,
+                     [&](std::size_t i) { kdops_.find(missing[i], in_slot(missing[i]).mesh); });
+  kdops_.clear_missing();
+}
+
+void Bodies::make_features(std::span<const std::uint32_t> slots, int threads) {
+  without_features_.clear();
+  std::ranges::copy_if(slots, std::back_inserter(without_features_),
+                       [&](std::uint32_t slot) { return in_slot(slot).features == nullptr; });
+  std::ranges::sort(without_features_);
+  without_features_.erase(std::unique(without_features_.begin(), without_features_.end()), without_features_.end());
+  base::parallel_for(without_features_.size(), 1, threads, [&](std::size_t i) {
+    Body& body = *slots_[without_features_[i]].body;
+    body.features = std::make_unique<const narrowphase::Features>(body.mesh);
+  });
+}
+
+const narrowphase::ClusterNeighbors& Bodies::neighbors(std::uint32_t slot) {
+  Body& body = *slots_[slot].body;
+  if (body.neighbors == nullptr) {
+    make_features({&slot, 1}, 1);
+    body.neighbors = std::make_unique<const narrowphase::ClusterNeighbors>(body.mesh, *body.features);
+  }
+  return *body.neighbors;
+}
+
+void Bodies::set_filter(BodyId id, const broadphase::Filter& filter) {
+  if (filters_[id.index] == filter) return;
+  filters_[id.index] = filter;
+  slots_[id.index].fixed = filter.fixed;
+  mark_moved(id.index);
+}
+
+template <class OfBody>
+void Bodies::check_named_once(std::span<const OfBody> updates) {
+  named_.assign(slots_.size(), 0);
+  for (const OfBody& update : updates) {
+    if (named_[update.body.index]++)
+      throw Error(ErrorCode::wrong_order, quoted(at(update.body).name) + " is named twice in one batch");
+  }
+}
+template void Bodies::check_named_once(std::span<const PoseUpdate> updates);
+template void Bodies::check_named_once(std::span<const PositionsUpdate> updates);
+
+bool Bodies::contains(BodyId id) const noexcept {
+  return id.world == world_ && id.index < slots_.size() && slots_[id.index].body != nullptr &&
+         slots_[id.index].generation == id.generation;
+}
+
+const Body& Bodies::at(BodyId id) const {
+  const auto text = [&] {
+    return "id (" + std::to_string(id.index) + ", generation " + std::to_string(id.generation) + ")";
+  };
+  if (id.generation == 0) throw Error(ErrorCode::stale_body, text() + " names no body");
+  if (id.world != world_) throw Error(ErrorCode::foreign_body, text() + " was given out by another world");
+  if (!contains(id)) {
+    const bool was_given = id.index < slots_.size() && id.generation <= slots_[id.index].generation;
+    throw Error(ErrorCode::stale_body,
+                text() + (was_given ? " names a body that was removed" : " was never given out"));
+  }
+  return *slots_[id.index].body;
+}
+
+std::vector<BodyId> Bodies::ids() const {
+  std::vector<BodyId> ids;
+  for (const Slot& slot : slots_) {
+    if (slot.body) ids.push_back(slot.body->id);
+  }
+  return ids;
+}
+
+void Bodies::mark_moved(std::uint32_t slot) {
+  if (!moved(slot)) moved_vertices_ += slots_[slot].vertex_count;
+  mark_changed(slot);
+}
+
+void Bodies::mark_changed(std::uint32_t slot) {
+  if (slots_[slot].changed) return;
+  slots_[slot].changed = true;
+  changed_.push_back(slot);
+}
+
+void Bodies::end_step() {
+  for (const std::uint32_t slot : changed_) {
+    slots_[slot].changed = false;
+    slots_[slot].begin = Begin::here;
+    slots_[slot].seen = true;
+  }
+  changed_.clear();
+  excluded_.end_step();
+  removed_any_ = false;
+  moved_vertices_ = 0;
+  placed_count_ = 0;
+}
+
+void Bodies::mark_all_changed() {
+  kdops_.clear_missing();
+  for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) mark_changed(slot);
+  moved_vertices_ = vertices_;
+}
+
+}  // namespace tact
