@@ -50,9 +50,9 @@ struct BodyDefinition {
   std::uint32_t group = 0;
   std::uint64_t external_id = 0;  ///< the program's own, see World::external_id(); nothing depends on it
   /// Half a thickness, metres, 0 to kLargestCoordinate: surfaces closer than the sum of two margins are in contact.
-  /// It is how far ahead contact points are seen, too: what moves farther than that sum from one detect() to the next may
-  /// cross before it has a point. A solver may take a larger margin than its thickness and keep surfaces at the smaller
-  /// distance, by ContactPoint::gap; World::detect_motion() finds what crosses at any speed.
+  /// It is how far ahead contact points are seen, too: what moves farther than that sum from one detect() to the next
+  /// may cross before it has a point. A solver may take a larger margin than its thickness and keep surfaces at the
+  /// smaller distance, by ContactPoint::gap; World::detect_motion() finds what crosses at any speed.
   double margin = 0.0;
   bool self_contact = false;  ///< is the body held against itself, too? See Contact
 };
