@@ -5,10 +5,11 @@ A line of its own in a page,
     {{ file examples/c/drop.c }}
     {{ file examples/concepts.cpp part direction }}
     {{ rivals bench/results/rivals/rivals.csv }}
+    {{ table bench/results/rigid/rigid.csv | bodies that turn; poses / vertices | threads=1 }}
 
 becomes the file, or what stands between the two lines in it that hold `[part direction]`, as a block of code; or a table of what
-tact and the fastest rival took. A page that names a file or a part that is
-not there does not build.
+tact and the fastest rival took; or these columns of a table, of the rows with that value. A page that names a file, a part, a
+column or a value that is not there does not build.
 """
 
 import csv
@@ -19,6 +20,7 @@ import textwrap
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 LANGUAGES = {".cpp": "cpp", ".h": "cpp", ".c": "c", ".py": "python", ".pyi": "python", ".sh": "sh"}
 RIVALS = re.compile(r"^\{\{ rivals (\S+) \}\}$", re.MULTILINE)
+TABLE = re.compile(r"^\{\{ table (\S+) \| (.+?)(?: \| ([^|]+?)=([^|]+?))? \}\}$", re.MULTILINE)
 LINE = re.compile(r"^( *)\{\{ file (\S+?)(?: part (\S+))? \}\}$", re.MULTILINE)
 
 
@@ -55,8 +57,19 @@ def rivals(match):
     return "\n".join(lines)
 
 
+def table(match):
+    path, columns, filtered, value = match.groups()
+    names = [name.strip() for name in columns.split(";")]
+    rows = [row for row in csv.DictReader((PROJECT / path).open()) if filtered is None or row[filtered] == value]
+    if not rows:
+        raise ValueError(f"{path}: no row has {filtered} = {value}")
+    cells = [[row[name] for name in names] for row in rows]
+    header = [f"| {' | '.join(names)} |", f"|---|{'---:|' * (len(names) - 1)}"]
+    return "\n".join(header + [f"| {' | '.join(line)} |" for line in cells])
+
+
 def on_page_markdown(markdown, page, config, files):
-    markdown = RIVALS.sub(rivals, LINE.sub(shown, markdown))
+    markdown = TABLE.sub(table, RIVALS.sub(rivals, LINE.sub(shown, markdown)))
     if left := re.search(r"^ *\{\{ .*$", markdown, re.MULTILINE):
         raise ValueError(f"{page.file.src_path}: nobody knows what to show for {left.group()}")
     return markdown
