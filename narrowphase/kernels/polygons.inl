@@ -30,6 +30,15 @@ inline Mask lie_apart(const FlatPack& a, const FlatPack& b, const FlatPack& c, c
   return either(on_one_side(turn(a, b, c), turn(a, b, d), least), on_one_side(turn(c, d, a), turn(c, d, b), least));
 }
 
+// Where the boxes of ab and cd have more than `gap` between them.
+inline Mask boxes_lie_apart(const FlatPack& a, const FlatPack& b, const FlatPack& c, const FlatPack& d, Pack gap) {
+  const auto below = [&](Pack a_along, Pack b_along, Pack c_along, Pack d_along) {
+    return less(add(max(a_along, b_along), gap), min(c_along, d_along));
+  };
+  return either(either(below(a.x, b.x, c.x, d.x), below(c.x, d.x, a.x, b.x)),
+                either(below(a.y, b.y, c.y, d.y), below(c.y, d.y, a.y, b.y)));
+}
+
 // The least `turn` that certainly is not zero, and so of a scalar product. Each factor of the two products is a
 // difference of up to `size`, off by two errors and a rounding of half an error at most, so each product is off by 5
 // errors times `size`; roundings of products and sums add 2 at most, and squares of errors next to nothing.
@@ -46,30 +55,48 @@ bool has_no_spike(const FlatPolygon& polygon, Pack least) {
   return true;
 }
 
-// Where each edge lies.
+// Where each edge lies, in floats, which leave out most pairs of edges: counted from the first vertex, in a unit in
+// which no coordinate exceeds 1 by more than rounding. Rounding and errors of coordinates add up to less than 2^-24;
+// boxes are wider by 2^-22 on every side.
 struct alignas(64) EdgeBoxes {
-  double lower_x[FlatPolygon::kRoom], upper_x[FlatPolygon::kRoom];
-  double lower_y[FlatPolygon::kRoom], upper_y[FlatPolygon::kRoom];
+  float lower_x[FlatPolygon::kRoom], upper_x[FlatPolygon::kRoom];
+  float lower_y[FlatPolygon::kRoom], upper_y[FlatPolygon::kRoom];
 
   explicit EdgeBoxes(const FlatPolygon& polygon) {
-    const Pack wider = spread(4.0 * polygon.error);
+    const Pack scale = spread(1.0 / polygon.size), wider = spread(0x1p-22);
+    const Pack origin_x = spread(polygon.x[0]), origin_y = spread(polygon.y[0]);
     for (int i = 0; i < polygon.count; i += kWidth) {
       const FlatPack p = points_from(polygon, i), q = points_from(polygon, i + 1);
-      store(lower_x + i, min(p.x, q.x));
-      store(upper_x + i, add(max(p.x, q.x), wider));
-      store(lower_y + i, min(p.y, q.y));
-      store(upper_y + i, add(max(p.y, q.y), wider));
+      const Pack px = mul(sub(p.x, origin_x), scale), qx = mul(sub(q.x, origin_x), scale);
+      const Pack py = mul(sub(p.y, origin_y), scale), qy = mul(sub(q.y, origin_y), scale);
+      store(lower_x + i, sub(min(px, qx), wider));
+      store(upper_x + i, add(max(px, qx), wider));
+      store(lower_y + i, sub(min(py, qy), wider));
+      store(upper_y + i, add(max(py, qy), wider));
     }
   }
   // The edges from k on whose boxes overlap that of edge i.
   unsigned near(int i, int k) const {
-    const Mask along_x =
+    const FloatMask along_x =
         both(less_equal(load(lower_x + k), spread(upper_x[i])), less_equal(spread(lower_x[i]), load(upper_x + k)));
-    const Mask along_y =
+    const FloatMask along_y =
         both(less_equal(load(lower_y + k), spread(upper_y[i])), less_equal(spread(lower_y[i]), load(upper_y + k)));
     return bits(both(along_x, along_y));
   }
 };
+
+// Does edge i certainly lie apart from those edges from k on that have a bit?
+inline bool lies_apart(const FlatPolygon& polygon, int i, int k, unsigned edges, Pack least) {
+  const FlatPack a = point_at(polygon, i), b = point_at(polygon, i + 1);
+  const Pack gap = spread(4.0 * polygon.error);
+  for (; edges != 0; edges >>= kWidth, k += kWidth) {
+    if ((edges & kAllLanes) == 0) continue;
+    const FlatPack c = points_from(polygon, k), d = points_from(polygon, k + 1);
+    const unsigned apart = bits(either(boxes_lie_apart(a, b, c, d, gap), lie_apart(a, b, c, d, least)));
+    if ((edges & kAllLanes & ~apart) != 0) return false;
+  }
+  return true;
+}
 
 bool comes_nowhere_twice(FlatPolygon* polygon) {
   const int count = polygon->count;
@@ -83,13 +110,10 @@ bool comes_nowhere_twice(FlatPolygon* polygon) {
   for (int i = 0; i < count; ++i) {
     const int end = i == 0 ? count - 1 : count;  // the last edge is the one before the first
     const int first = i + 2;
-    for (int k = first / kWidth * kWidth; k < end; k += kWidth) {  // loads that cross no line take half the time
-      const unsigned before = k < first ? lanes_left(first - k) : 0;
-      const unsigned near = boxes.near(i, k) & lanes_left(end - k) & ~before;
-      if (near == 0) continue;
-      const Mask apart = lie_apart(point_at(*polygon, i), point_at(*polygon, i + 1), points_from(*polygon, k),
-                                   points_from(*polygon, k + 1), least);
-      if ((near & ~bits(apart)) != 0) return false;
+    for (int k = first / kFloatWidth * kFloatWidth; k < end; k += kFloatWidth) {  // packs that cross no line
+      const unsigned before = k < first ? lanes_left<kFloatWidth>(first - k) : 0;
+      const unsigned near = boxes.near(i, k) & lanes_left<kFloatWidth>(end - k) & ~before;
+      if (near != 0 && !lies_apart(*polygon, i, k, near, least)) return false;
     }
   }
   return true;

@@ -12,14 +12,12 @@ constexpr std::uint64_t bit(int i) { return std::uint64_t{1} << i; }
 
 // The facets of a cluster.
 struct OpenFacets {
-  int cluster = -1;
   ClusterFacets source;
   FacetBlock block;
   std::uint64_t facets = 0;  // a bit each
 
-  void open(const ClusteredMesh& mesh, int wanted, const Grid& grid) {
-    cluster = wanted;
-    source = mesh.facets_of(wanted);
+  void open(const ClusteredMesh& mesh, int cluster, const Grid& grid) {
+    source = mesh.facets_of(cluster);
     kernels().open_whole(source, grid, &block);
     facets = ~std::uint64_t{0} >> (kClusterSize - block.count);
     listed_ = false;
@@ -95,17 +93,18 @@ struct SelfFacetSearch::Memory {
   // Clusters that stay open, 14 kB each, of which 8 are used: neighbours come soon again. With 32 the rolled sheet of
   // 13 k took 1.22 ms instead of 1.17, with 128 as much.
   static constexpr std::size_t kOpened = 64;
-  OpenFacets opened[kOpened + 1];  // and one that would have the place of the other of a pair
-  Places places;                   // in the first cluster of a pair
+  OpenFacets opened[kOpened + 1];    // and one that would have the place of the other of a pair
+  int cluster_in[kOpened + 1] = {};  // which one is there; beside them, as to ask for it should read nothing of them
+  Places places;                     // in the first cluster of a pair
   std::uint64_t excluded[kClusterSize];
   BlockPair blocks;
 
   // In any place but that of `other`.
   OpenFacets& open(const ClusteredMesh& mesh, int cluster, const Grid& grid, const OpenFacets* other) {
-    OpenFacets* place = &opened[static_cast<std::size_t>(cluster) % kOpened];
-    if (place == other) place = &opened[kOpened];
-    if (place->cluster != cluster) place->open(mesh, cluster, grid);
-    return *place;
+    std::size_t place = static_cast<std::size_t>(cluster) % kOpened;
+    if (&opened[place] == other) place = kOpened;
+    if (std::exchange(cluster_in[place], cluster) != cluster) opened[place].open(mesh, cluster, grid);
+    return opened[place];
   }
 };
 
@@ -118,11 +117,12 @@ void SelfFacetSearch::run(const ClusteredMesh& mesh, std::span<const ClusterPair
                           std::vector<FacetPair>& found) {
   Memory& m = *memory_;
   const Grid grid = grid_over(bounds_of(mesh.box()), kLastCell);
-  for (OpenFacets& one : m.opened) one.cluster = -1;
+  std::ranges::fill(m.cluster_in, -1);
   OpenFacets* first = nullptr;
+  int first_cluster = -1;
   ConfirmCounts counts;
   for (const ClusterPair& pair : pairs) {
-    if (first == nullptr || first->cluster != pair.a) {
+    if (std::exchange(first_cluster, pair.a) != pair.a) {
       first = &m.open(mesh, pair.a, grid, nullptr);
       m.places.choose(*first, mesh.vertex_count());
     }

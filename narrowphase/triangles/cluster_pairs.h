@@ -11,17 +11,17 @@ namespace tact::narrowphase {
 /// One for each thread, its memory used again.
 class ClusterPairFinder {
  public:
-  /// box_of_a(c) and box_of_b(c) give the boxes of the clusters c; all of b's lie in `all_of_b`. Sorted; of one mesh
-  /// each pair once, the smaller cluster first. Valid until the next call. Errors: those of find_cluster_pairs().
+  /// box_of_a(c) and box_of_b(c) give the boxes of the clusters c; all of b's lie in `all_of_b`. Sorted. Of one mesh,
+  /// where box_of_a(c) holds box_of_b(c), each pair once, the smaller cluster first. Valid until the next call. Errors:
+  /// those of find_cluster_pairs().
   template <class BoxOfA, class BoxOfB>
   std::span<const ClusterPair> find(const ClusteredMesh& a, const BoxOfA& box_of_a, const ClusteredMesh& b,
                                     const BoxOfB& box_of_b, const Box& all_of_b, const base::Tuning& tuning,
                                     EmbreeDevice& device) {
     keep(a, box_of_a, all_of_b, kept_a_);
     keep(b, box_of_b, kept_a_.bounds, kept_b_);
-    find_cluster_pairs(kept_a_, kept_b_, tuning, device, pairs_, work_);
+    find_cluster_pairs(kept_a_, kept_b_, tuning, device, pairs_, work_, &a == &b ? BoxPairs::ascending : BoxPairs::all);
     for (ClusterPair& pair : pairs_) pair = {kept_a_.cluster[pair.a], kept_b_.cluster[pair.b]};
-    if (&a == &b) std::erase_if(pairs_, [](const ClusterPair& pair) { return pair.b < pair.a; });
     return pairs_;
   }
 

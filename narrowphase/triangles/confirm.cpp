@@ -23,22 +23,23 @@ constexpr int kMostOfBody = 4;
 }  // namespace
 
 bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, const base::Tuning& tuning, EmbreeDevice& device,
-                        std::vector<ClusterPair>& pairs, ClusterPairWork& work) {
+                        std::vector<ClusterPair>& pairs, ClusterPairWork& work, BoxPairs wanted) {
   pairs.clear();
   const std::size_t all = a.cluster.size() * b.cluster.size();
   const bool forest = all > tuning.largest_loop;
   if (all == 0) return false;
   if (forest || all > kFewBoxPairs) {
-    work.join.run(a.boxes, a.count(), b.boxes, b.count(), forest ? RunJoin::Runs::forest : RunJoin::Runs::loop, device,
-                  pairs);
+    work.join.run(a.boxes, a.count(), b.boxes, b.count(), forest ? RunJoin::Runs::forest : RunJoin::Runs::loop, wanted,
+                  device, pairs);
     return forest;
   }
   std::vector<std::int32_t>& found = work.found;
   found.resize(b.count());
   for (std::int32_t i = 0; i < a.count(); ++i) {
+    const int first = wanted == BoxPairs::ascending ? std::min(i, b.count()) : 0;
     const auto count = static_cast<std::size_t>(kernels().select_overlapping(
-        b.boxes.pointers(), b.count(), a.boxes.bounds(static_cast<std::size_t>(i)), found.data()));
-    for (std::size_t k = 0; k < count; ++k) pairs.push_back({i, found[k]});
+        b.boxes.view().pointers(first), b.count() - first, a.boxes.bounds(static_cast<std::size_t>(i)), found.data()));
+    for (std::size_t k = 0; k < count; ++k) pairs.push_back({i, first + found[k]});
   }
   return false;
 }

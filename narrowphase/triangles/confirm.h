@@ -25,9 +25,10 @@ struct ClusterPairWork {
 };
 
 // The pairs of kept clusters whose boxes overlap, sorted: by a loop over boxes where they are few, by Embree's trees
-// where they are many. Says whether trees were used. `pairs` is replaced, `work` lends its memory.
+// where they are many; of them those that are wanted. Says whether trees were used. `pairs` is replaced, `work` lends
+// its memory.
 bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, const base::Tuning& tuning, EmbreeDevice& device,
-                        std::vector<ClusterPair>& pairs, ClusterPairWork& work);
+                        std::vector<ClusterPair>& pairs, ClusterPairWork& work, BoxPairs wanted = BoxPairs::all);
 
 // The same pairs with A and B exchanged, sorted again. There are `clusters` kept clusters of B.
 void turn(std::vector<ClusterPair>& pairs, int clusters, ClusterPairWork& work);

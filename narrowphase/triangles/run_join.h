@@ -11,18 +11,22 @@
 
 namespace tact::narrowphase {
 
+/// Of two lists all pairs (i, j), or those with i <= j: of one list with itself each pair once.
+enum class BoxPairs { all, ascending };
+
 /// Boxes are looked at in runs of 32: each run of A is held against the runs of B, by a loop or by Embree's trees, and
 /// its boxes against those boxes of B that are near the run. Its memory is used again.
 class RunJoin {
  public:
   enum class Runs { loop, forest };
 
-  /// Appends the pairs (i, j) of boxes a[i] and b[j] that overlap, sorted. Errors: those of ClusterForest::build().
-  void run(const BoxArrays& a, int count_a, const BoxArrays& b, int count_b, Runs runs, EmbreeDevice& device,
-           std::vector<ClusterPair>& pairs);
+  /// Appends the pairs (i, j) of boxes a[i] and b[j] that overlap, sorted; of them those that are wanted. Errors: those
+  /// of ClusterForest::build().
+  void run(const BoxArrays& a, int count_a, const BoxArrays& b, int count_b, Runs runs, BoxPairs wanted,
+           EmbreeDevice& device, std::vector<ClusterPair>& pairs);
 
  private:
-  void find_near_runs(const BoxBounds& run, Runs runs);
+  void find_near_runs(const BoxBounds& run, int first, Runs runs);
   void find_near(const BoxArrays& b, int count_b, const BoxBounds& run);
 
   BoxArrays run_boxes_;  // of B

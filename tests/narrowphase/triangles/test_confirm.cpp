@@ -71,6 +71,24 @@ TEST(ClusterPairs, LoopAndForestAgree) {
   }
 }
 
+// Of a mesh with itself, of few clusters, in runs and by trees.
+TEST(ClusterPairs, AscendingOnesAreThoseOfAll) {
+  ClusterPairWork scratch;
+  EmbreeDevice device;
+  for (const int cells : {3, 40, 100, 200}) {
+    const ClusteredMesh mesh = tests::clustered(tests::wrinkled_sheet(cells, 2.0, 0.3, 1));
+    const KeptClusters kept = all_clusters(mesh);
+    for (const base::Tuning& tuning : {tests::kPlain, tests::kForced}) {
+      std::vector<ClusterPair> all, ascending;
+      find_cluster_pairs(kept, kept, tuning, device, all, scratch);
+      find_cluster_pairs(kept, kept, tuning, device, ascending, scratch, BoxPairs::ascending);
+      std::erase_if(all, [](const ClusterPair& pair) { return pair.b < pair.a; });
+      EXPECT_EQ(as_pairs(ascending), as_pairs(all)) << cells;
+      EXPECT_GE(ascending.size(), kept.cluster.size());
+    }
+  }
+}
+
 TEST(ClusterPairs, EmbreeIsNotStartedByALoop) {
   ClusterPairWork scratch;
   EmbreeDevice device;
