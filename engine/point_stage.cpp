@@ -228,7 +228,7 @@ void PointStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Set
     const std::size_t own_end = settings.threads == 1 ? wanted_.size() : i - i % grain + grain;
     if (prefetches && i + 1 < std::min(own_end, wanted_.size())) look_ahead(i + 1, bodies, work, device);
     const narrowphase::CrossedVertices crossed = begin_crossing(wanted, bodies, work);
-    work.search.run(a, b, wanted.reach, pairs, work.found, crossed);
+    work.search.run(a, b, wanted.reach, pairs, work.found, crossed, narrowphase::ContactPointSearch::Given::all);
     finish_crossing(wanted, work);
     publish(wanted, bodies, work);
   });

@@ -87,8 +87,8 @@ class PointFinder {
           const VertexAndFacet pair{kind == FeaturePair::vertex_facet ? a_ : b_,
                                     kind == FeaturePair::vertex_facet ? b_ : a_,
                                     kind,
-                                    one.vertex(block, i),
-                                    other.facet(k),
+                                    vertices.feature[i],
+                                    other.facets.feature[k],
                                     point_of(one.points, vertices.corner[0][i]),
                                     {corner(0), corner(1), corner(2)}};
           if ((inside[i] >> k & 1) != 0) look_inside_facet(pair);
@@ -102,7 +102,7 @@ class PointFinder {
                                        std::span<const std::uint64_t> crossed) {
     std::uint64_t rest = some;
     for (std::uint64_t left = some; left != 0; left &= left - 1) {
-      const auto vertex = static_cast<std::size_t>(one.vertex(block, std::countr_zero(left)));
+      const auto vertex = static_cast<std::size_t>(one.vertices[block].feature[std::countr_zero(left)]);
       if ((crossed[vertex / 64] >> vertex % 64 & 1) != 0) rest &= ~(left & -left);
     }
     return rest;
@@ -186,7 +186,7 @@ class PointFinder {
       const int i = std::countr_zero(left);
       for (std::uint64_t rest = met[i]; rest != 0; rest &= rest - 1) {
         const int k = std::countr_zero(rest), e = few_are_a ? i : k, f = few_are_a ? k : i;
-        add_edges(a.edge(block_a, e), b.edge(block_b, f), a.cluster == b.cluster);
+        add_edges(a.edges[block_a].feature[e], b.edges[block_b].feature[f], a.cluster == b.cluster);
       }
     }
   }
@@ -243,6 +243,106 @@ class PointFinder {
   SurfaceWays& ways_;
 };
 
+// So many pairs share a grid: its cells stay small beside the facets.
+constexpr std::size_t kPairsOfGrid = 256;
+
+// Memory of the search.
+struct OpenClusters {
+  static constexpr int kOfB = 16;  // clusters of b that stay open: neighbours come soon again
+  OpenFeatures a;
+  OpenFeatures b[kOfB];
+};
+
+// The clusters of b, if they are few, and where each is open.
+class FewClusters {
+ public:
+  // False if they are many.
+  bool take(std::span<const ClusterPair> pairs) {
+    for (const ClusterPair& pair : pairs) {
+      if (place_of(pair.b) < count_) continue;
+      if (count_ == OpenClusters::kOfB) return false;
+      cluster_[count_++] = pair.b;
+    }
+    return true;
+  }
+  int count() const { return count_; }
+  int cluster(int i) const { return cluster_[i]; }
+  void set_open(int i, int open) { open_[i] = open; }
+  int open(int cluster) const { return open_[place_of(cluster)]; }
+
+ private:
+  int place_of(int cluster) const {
+    return static_cast<int>(std::find(cluster_, cluster_ + count_, cluster) - cluster_);
+  }
+  int cluster_[OpenClusters::kOfB], open_[OpenClusters::kOfB], count_ = 0;
+};
+
+// Some cluster pairs, sorted, and the grid that they share.
+class ClusterSearch {
+ public:
+  // Boxes of `a` are widened by `wide`.
+  ClusterSearch(const ScaledMesh& a, const ScaledMesh& b, double wide, std::span<const ClusterPair> pairs)
+      : a_(a), b_(b), wide_(wide), pairs_(pairs) {
+    Box of_a, of_b;
+    for (const ClusterPair& pair : pairs) {
+      of_a = merged(of_a, box_of(a, pair.a));
+      of_b = merged(of_b, box_of(b, pair.b));
+    }
+    near_a_ = inflated(of_a, wide);
+    near_b_ = inflated(of_b, wide);
+    grid_ = grid_over(intersection(near_a_, near_b_));
+  }
+
+  // Pair by pair.
+  void run(OpenClusters& open, PointFinder& finder) const {
+    open.a.cluster = -1;
+    for (OpenFeatures& one : open.b) one.cluster = -1;
+    for (const ClusterPair& pair : pairs_) {
+      OpenFeatures& b = open.b[pair.b % OpenClusters::kOfB];
+      if (open.a.cluster != pair.a) open.a.open(a_, pair.a, near_b_, grid_, wide_);
+      if (b.cluster != pair.b) b.open(b_, pair.b, near_a_, grid_, 0.0);
+      finder.search(open.a, b);
+    }
+  }
+
+  // Bodies that touch in a small place have a few facets there in each of several clusters: as many clusters as there
+  // is room for are searched at once. The pairs are all that there are, so that no other search finds the same points.
+  void run_together(FewClusters& of_b, OpenClusters& open, PointFinder& finder) const {
+    open.b[0].clear();
+    for (int i = 0, last = 0; i < of_b.count(); ++i) {
+      if (!open.b[last].append(b_, of_b.cluster(i), near_a_, grid_, 0.0))
+        open.b[++last].open(b_, of_b.cluster(i), near_a_, grid_, 0.0);
+      of_b.set_open(i, last);
+    }
+    std::uint32_t near = 0;  // a bit for each of `open.b`
+    const auto search = [&] {
+      for (; near != 0; near &= near - 1) finder.search(open.a, open.b[std::countr_zero(near)]);
+    };
+    open.a.clear();
+    for (std::size_t i = 0; i < pairs_.size();) {
+      const int cluster = pairs_[i].a;
+      if (!open.a.append(a_, cluster, near_b_, grid_, wide_)) {
+        search();
+        open.a.open(a_, cluster, near_b_, grid_, wide_);
+      }
+      for (; i < pairs_.size() && pairs_[i].a == cluster; ++i) near |= 1u << of_b.open(pairs_[i].b);
+    }
+    search();
+  }
+
+ private:
+  static Box box_of(const ScaledMesh& m, int cluster) {
+    const Box box = m.mesh.cluster_boxes()[cluster];
+    return {m.scale * box.lower, m.scale * box.upper};
+  }
+
+  const ScaledMesh &a_, &b_;
+  const double wide_;
+  std::span<const ClusterPair> pairs_;
+  Box near_a_, near_b_;
+  Grid grid_;
+};
+
 }  // namespace
 
 std::span<const ClusterPair> NearClusters::find(const FeaturedMesh& a, const FeaturedMesh& b, double reach,
@@ -255,9 +355,7 @@ std::span<const ClusterPair> NearClusters::find(const FeaturedMesh& a, const Fea
 }
 
 struct ContactPointSearch::Memory {
-  static constexpr std::size_t kOpened = 16;  // clusters of b that stay open: neighbours come soon again
-  OpenFeatures a;
-  OpenFeatures b[kOpened];
+  OpenClusters open;
   WaitingEdges edges;
   SurfaceWays ways;
 };
@@ -269,37 +367,19 @@ ContactPointSearch& ContactPointSearch::operator=(ContactPointSearch&&) noexcept
 
 void ContactPointSearch::run(const FeaturedMesh& a, const FeaturedMesh& b, double reach,
                              std::span<const ClusterPair> pairs, std::vector<FeaturePoint>& found,
-                             const CrossedVertices& crossed) {
+                             const CrossedVertices& crossed, Given given) {
   const Box whole = merged(a.mesh->box(), b.mesh->box());
   const Vec3 size = whole.upper - whole.lower;
   const double scale = unit_scale(std::max({size.x, size.y, size.z}));
   const ScaledMesh scaled_a{*a.mesh, *a.features, scale}, scaled_b{*b.mesh, *b.features, scale};
   const double wide = box_reach(scale * reach, scale * std::max(largest_coordinate(a.mesh->box()),  //
                                                                 largest_coordinate(b.mesh->box())));
-  const auto box_of = [&](const ClusteredMesh& mesh, int c) {
-    const Box box = mesh.cluster_boxes()[c];
-    return Box{scale * box.lower, scale * box.upper};
-  };
   PointFinder finder(scaled_a, scaled_b, scale * reach, crossed, memory_->edges, memory_->ways, found);
-  // So many pairs share a grid: its cells stay small beside the facets.
-  constexpr std::size_t kPairsOfGrid = 256;
+  FewClusters few;
+  const bool together = given == Given::all && a.mesh != b.mesh && pairs.size() <= kPairsOfGrid && few.take(pairs);
   for (; !pairs.empty(); pairs = pairs.subspan(std::min(pairs.size(), kPairsOfGrid))) {
-    const auto some = pairs.first(std::min(pairs.size(), kPairsOfGrid));
-    Box of_a, of_b;
-    for (const ClusterPair& pair : some) {
-      of_a = merged(of_a, box_of(*a.mesh, pair.a));
-      of_b = merged(of_b, box_of(*b.mesh, pair.b));
-    }
-    const Box near_a = inflated(of_a, wide), near_b = inflated(of_b, wide);
-    const Grid grid = grid_over(intersection(near_a, near_b));
-    memory_->a.cluster = -1;
-    for (OpenFeatures& one : memory_->b) one.cluster = -1;
-    for (const ClusterPair& pair : some) {
-      OpenFeatures& open_b = memory_->b[static_cast<std::size_t>(pair.b) % Memory::kOpened];
-      if (memory_->a.cluster != pair.a) memory_->a.open(scaled_a, pair.a, near_b, grid, wide);
-      if (open_b.cluster != pair.b) open_b.open(scaled_b, pair.b, near_a, grid, 0.0);
-      finder.search(memory_->a, open_b);
-    }
+    const ClusterSearch search(scaled_a, scaled_b, wide, pairs.first(std::min(pairs.size(), kPairsOfGrid)));
+    together ? search.run_together(few, memory_->open, finder) : search.run(memory_->open, finder);
   }
   finder.finish();
 }

@@ -66,19 +66,23 @@ struct CrossedVertices {
 
 class ContactPointSearch {
  public:
+  /// Which of the cluster pairs are given.
+  enum class Given { some, all };
+
   ContactPointSearch();
   ~ContactPointSearch();
   ContactPointSearch(ContactPointSearch&&) noexcept;
   ContactPointSearch& operator=(ContactPointSearch&&) noexcept;
 
   /// Appends the points of some cluster pairs of `a` and `b`, which may be one mesh, in no particular order. All pairs
-  /// together give each point once. Vertices that have `crossed` get none.
+  /// together give each point once; where it is known that they are all, few clusters are searched together. Vertices
+  /// that have `crossed` get none.
   ///
   /// Of one mesh, features that share a vertex have none, nor do those that are nearer than pi/2 times `reach` along
   /// the edges of the mesh: so far apart lie, on a sheet folded as tightly as its thickness lets it, the places that
   /// are one reach apart.
   void run(const FeaturedMesh& a, const FeaturedMesh& b, double reach, std::span<const ClusterPair> pairs,
-           std::vector<FeaturePoint>& found, const CrossedVertices& crossed = {});
+           std::vector<FeaturePoint>& found, const CrossedVertices& crossed = {}, Given given = Given::some);
 
  private:
   struct Memory;

@@ -1,7 +1,7 @@
 #include "narrowphase/contact_points/open_features.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 
 namespace tact::narrowphase {
 
@@ -9,36 +9,79 @@ namespace {
 
 static_assert(OpenFeatures::kMostBlocks * FeatureBlock::kCapacity + 64 <= kEachVertex.size());
 
-int blocks_of(int count) { return (count + FeatureBlock::kCapacity - 1) / FeatureBlock::kCapacity; }
+// The first of the bits, as many as there is room for.
+std::uint64_t first_bits(std::uint64_t bits, int room) {
+  if (std::popcount(bits) <= room) return bits;
+  std::uint64_t first = 0;
+  for (; room > 0; --room, bits &= bits - 1) first |= bits & -bits;
+  return first;
+}
+
+// A cluster as it is put among others.
+struct PlacedCluster {
+  const ClusterPoints& points;
+  int first_point;
+  const Grid& grid;
+  double widen;
+
+  std::uint64_t left(const FeatureCorners& features) const {
+    return kernels().features_left(points, first_point, features);
+  }
+  void place(const FeatureCorners& features, std::uint64_t some, FeatureBlock& block) const {
+    kernels().place_features(points, first_point, features, some, grid, widen, &block);
+  }
+  // Into the last block, and then into new ones.
+  void append(const FeatureCorners& features, FeatureBlock* block, int& blocks) const {
+    for (std::uint64_t rest = left(features); rest != 0;) {
+      if (blocks == 0 || block[blocks - 1].count == FeatureBlock::kCapacity) block[blocks++].clear();
+      FeatureBlock& last = block[blocks - 1];
+      const std::uint64_t some = first_bits(rest, FeatureBlock::kCapacity - last.count);
+      place(features, some, last);
+      rest ^= some;
+    }
+  }
+};
 
 }  // namespace
 
+void OpenFeatures::clear() {
+  cluster = -1;
+  points.count = vertex_blocks = edge_blocks = 0;
+  facets.clear();
+}
+
 void OpenFeatures::open(const ScaledMesh& m, int which, const Box& box, const Grid& grid, double widen) {
+  clear();
+  append(m, which, box, grid, widen);
+}
+
+// A vertex or an edge that reaches into the box is of a facet that does: there are at most three times as many.
+bool OpenFeatures::append(const ScaledMesh& m, int which, const Box& box, const Grid& grid, double widen) {
   const ClusterFacets all = m.mesh.facets_of(which);
-  cluster = which;
-  first_facet = all.facet_begin;
-  first_vertex = all.owned_begin;
-  first_edge = m.features.edge_begin(which);
+  const PlacedCluster placed{points, points.count, grid, widen};
+  if (points.count + all.owned_count + all.borrowed_count > ClusterPoints::kMost) return false;
   kernels().place_points(all, m.scale, bounds_of(box), &points);
-  vertex_blocks = edge_blocks = 0;
-  kernels().place_features(points, {{all.corner[0], all.corner[1], all.corner[2]}, 3, all.facet_count}, grid, widen,
-                           &facets);
-  if (facets.count == 0) return;  // then nothing else is near
+  const FeatureCorners of_facets{{all.corner[0], all.corner[1], all.corner[2]}, 3, all.facet_count, all.facet_begin};
+  const std::uint64_t near = placed.left(of_facets);
+  const bool fits = facets.count + std::popcount(near) <= FeatureBlock::kCapacity;
+  if (fits) cluster = which;
+  if (!fits || near == 0) {
+    points.count = placed.first_point;
+    return fits;
+  }
+  placed.place(of_facets, near, facets);
   cells = kernels().cells_of(facets.cells, all_of(facets.count));
-  vertex_blocks = blocks_of(all.owned_count);
-  for (int k = 0; k < vertex_blocks; ++k) {
-    const int first = k * FeatureBlock::kCapacity;
+  for (int first = 0; first < all.owned_count; first += FeatureBlock::kCapacity) {
     const int count = std::min(all.owned_count - first, FeatureBlock::kCapacity);
-    kernels().place_features(points, {{kEachVertex.data() + first}, 1, count}, grid, widen, &vertices[k]);
+    placed.append({{kEachVertex.data() + first}, 1, count, all.owned_begin + first}, vertices, vertex_blocks);
   }
-  const int edges_in_all = m.features.edge_end(which) - first_edge;
-  edge_blocks = blocks_of(edges_in_all);
-  for (int k = 0; k < edge_blocks; ++k) {
-    const int first = k * FeatureBlock::kCapacity;
-    const auto corners = m.features.edge_corners(first_edge + first);
-    const int count = std::min(edges_in_all - first, FeatureBlock::kCapacity);
-    kernels().place_features(points, {{corners[0], corners[1]}, 2, count}, grid, widen, &edges[k]);
+  const int end = m.features.edge_end(which);
+  for (int first = m.features.edge_begin(which); first < end; first += FeatureBlock::kCapacity) {
+    const auto corners = m.features.edge_corners(first);
+    placed.append({{corners[0], corners[1]}, 2, std::min(end - first, FeatureBlock::kCapacity), first}, edges,
+                  edge_blocks);
   }
+  return true;
 }
 
 Grid grid_over(const Box& box) {

@@ -1,4 +1,4 @@
-// The features of a cluster that are near another mesh, side by side, for loops that compare many at once.
+// The features of a cluster, or of some, that are near another mesh, side by side, for loops that compare many at once.
 #pragma once
 
 #include "narrowphase/contact_points/scaled_mesh.h"
@@ -13,21 +13,20 @@ inline std::uint64_t all_of(int count) { return count == 0 ? 0 : ~std::uint64_t{
 struct OpenFeatures {
   static constexpr int kMostBlocks = 3;
 
-  int cluster = -1;
+  int cluster = -1;      // the last one
   ClusterPoints points;  // scaled, as all below
-  int first_facet = 0, first_vertex = 0, first_edge = 0;
   FeatureBlock facets;
-  FeatureBlock vertices[kMostBlocks];  // those that the cluster owns
-  FeatureBlock edges[kMostBlocks];     // those of which the first facet is in the cluster
+  FeatureBlock vertices[kMostBlocks];  // those that the clusters own
+  FeatureBlock edges[kMostBlocks];     // those of which the first facet is in the clusters
   int vertex_blocks = 0, edge_blocks = 0;
   CellBox cells;  // of the facets, if there are any
 
-  /// Those that reach into `box`; their own boxes are widened by `widen` before they are put into the grid.
+  void clear();
+  /// What of a cluster reaches into `box`, alone; their own boxes are widened by `widen` before they are put into the
+  /// grid.
   void open(const ScaledMesh& m, int which, const Box& box, const Grid& grid, double widen);
-
-  int facet(int i) const { return first_facet + facets.feature[i]; }
-  int vertex(int block, int i) const { return first_vertex + 64 * block + vertices[block].feature[i]; }
-  int edge(int block, int i) const { return first_edge + 64 * block + edges[block].feature[i]; }
+  /// The same of one more cluster. False, and nothing has changed, if it has too many.
+  bool append(const ScaledMesh& m, int which, const Box& box, const Grid& grid, double widen);
 };
 
 /// A grid of that box. Where it has no length, or next to none, all is in one cell.

@@ -64,6 +64,7 @@ std::span<const int> EdgesBeside::find(const RunningEdge& running, const ScaledM
 
 void EdgesBeside::append_from(int cluster, const RunningEdge& running, const ScaledMesh& surface,
                               const BoxBounds& near) {
+  points_.count = 0;
   kernels().place_points(surface.mesh.facets_of(cluster), surface.scale, near, &points_);
   const double lowest = running.lowest(), highest = running.highest();
   for (int i = 0; i < points_.count; ++i) {

@@ -18,12 +18,14 @@ struct alignas(64) MovingPolygons {
   int count = 0;
 };
 
-// A cluster's vertices, owned ones first, times a power of two, and what rules each out: a bit for each side of a box.
+// The vertices of some clusters, one cluster after the other, owned ones first, times a power of two, and what rules
+// each out: a bit for each side of a box.
 struct alignas(64) ClusterPoints {
-  static constexpr int kRoom = 192 + 64;
+  static constexpr int kMost = 256;
+  static constexpr int kRoom = kMost + 64;
   double at[3][kRoom];
   double together[4 * kRoom];  // the same vertex by vertex; the fourth number of each has no meaning
-  std::uint8_t outside[kRoom];
+  std::uint8_t outside[kRoom + 64];
   int count = 0;
 };
 
@@ -39,16 +41,19 @@ struct alignas(64) VertexWays {
 struct FeatureCorners {
   const std::uint8_t* corner[3];
   int corners;
-  int count;  // up to 64
+  int count;      // up to 64
+  int first = 0;  // the number of the first feature, where numbers are wanted; they follow each other
 };
 
-// Features that are left, and the cells of their boxes.
+// Features of some clusters, and the cells of their boxes.
 struct alignas(64) FeatureBlock {
   static constexpr int kCapacity = 64;
   FacetCells cells;
-  std::uint8_t feature[kCapacity];  // which of those that were given
-  std::uint8_t corner[3][2 * kCapacity];
+  std::int32_t feature[2 * kCapacity];    // their numbers
+  std::uint8_t corner[3][2 * kCapacity];  // as the clusters' points are counted
   int count = 0;
+
+  void clear() { count = cells.count = 0; }
 };
 
 // Those of a block that have a bit, and the points of their cluster.

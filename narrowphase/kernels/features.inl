@@ -28,18 +28,19 @@ inline void flag_outside(const double* const (&lower)[3], const double* const (&
 
 void place_points(const ClusterFacets& in, double scale, const BoxBounds& box, ClusterPoints* points) {
   const double* const from[3] = {in.points.x, in.points.y, in.points.z};
-  points->count = in.owned_count + in.borrowed_count;
+  const int begin = points->count, end = begin + in.owned_count + in.borrowed_count;
   const Pack factor = spread(scale);
   for (int axis = 0; axis < 3; ++axis) {
-    double* const to = points->at[axis];
+    double* const to = points->at[axis] + begin;
     for (int i = 0; i < in.owned_count; i += kWidth) store(to + i, mul(factor, load(from[axis] + in.owned_begin + i)));
     for (int i = 0; i < in.borrowed_count; ++i) to[in.owned_count + i] = scale * from[axis][in.borrowed[i]];
   }
-  for (int i = 0; i < points->count; ++i) {
+  for (int i = begin; i < end; ++i) {
     for (int axis = 0; axis < 3; ++axis) points->together[4 * i + axis] = points->at[axis][i];
   }
-  const double* const at[3] = {points->at[0], points->at[1], points->at[2]};
-  flag_outside(at, at, points->count, box, points->outside);
+  const double* const at[3] = {points->at[0] + begin, points->at[1] + begin, points->at[2] + begin};
+  flag_outside(at, at, end - begin, box, points->outside + begin);
+  points->count = end;
 }
 
 // A bit for each feature that no side rules out, of one to 64.
@@ -48,19 +49,25 @@ inline std::uint64_t left_of(const FeatureCorners& in, const std::uint8_t* outsi
   return common_flags(outside, vertices, corner, in.count).none;
 }
 
-void place_features(const ClusterPoints& points, const FeatureCorners& in, const Grid& grid, double widen,
-                    FeatureBlock* block) {
-  block->count = block->cells.count = 0;
-  if (in.count == 0) return;
-  const std::uint64_t left = left_of(in, points.outside, points.count);
-  const int count = __builtin_popcountll(left);
-  write_places(left, block->feature);
+std::uint64_t features_left(const ClusterPoints& points, int first_point, const FeatureCorners& in) {
+  return in.count == 0 ? 0 : left_of(in, points.outside + first_point, points.count - first_point);
+}
+
+void place_features(const ClusterPoints& points, int first_point, const FeatureCorners& in, std::uint64_t some,
+                    const Grid& grid, double widen, FeatureBlock* block) {
+  const int begin = block->count, end = begin + __builtin_popcountll(some);
+  std::uint8_t place[FeatureBlock::kCapacity];
+  write_places(some, place);
+  // Whole arrays at a time: that is a few operations, whatever lies beyond the end.
+  for (int n = 0; n < FeatureBlock::kCapacity; ++n) block->feature[begin + n] = in.first + place[n];
   for (int k = 0; k < in.corners; ++k) {
-    compress(left, in.corner[k], block->corner[k]);
-    for (int n = count; n < count + kWidth; ++n) block->corner[k][n] = 0;
+    std::uint8_t* const corner = block->corner[k] + begin;
+    compress(some, in.corner[k], corner);
+    for (int n = 0; n < FeatureBlock::kCapacity; ++n) corner[n] = static_cast<std::uint8_t>(corner[n] + first_point);
+    for (int n = end; n < end + kWidth; ++n) block->corner[k][n] = 0;
   }
   const Pack more = spread(widen);
-  for (int i = 0; i < count; i += kWidth) {
+  for (int i = begin; i < end; i += kWidth) {
     Pack low[3], high[3];
     gather_points(points.together, block->corner[0] + i, low);
     for (int axis = 0; axis < 3; ++axis) high[axis] = low[axis];
@@ -77,7 +84,7 @@ void place_features(const ClusterPoints& points, const FeatureCorners& in, const
       store_cells(block->cells.upper[axis] + i, cell(grid, axis, add(high[axis], more)));
     }
   }
-  block->count = block->cells.count = count;
+  block->count = block->cells.count = end;
 }
 
 struct QuadLanes {

@@ -130,11 +130,14 @@ struct Kernels {
   PairMatches (*match_flat_pairs)(const FacetBlock& a, const FacetBlock& b, const FacetPairList& pairs,
                                   std::uint64_t which);
 
-  // The vertices of a cluster, times `scale`; `box` is scaled, too.
+  // Appends the vertices of a cluster, times `scale`; `box` is scaled, too. There is room for them.
   void (*place_points)(const ClusterFacets& cluster, double scale, const BoxBounds& box, ClusterPoints* points);
-  // The features that no side of the box rules out, and the cells of their boxes, widened by `widen`.
-  void (*place_features)(const ClusterPoints& points, const FeatureCorners& features, const Grid& grid, double widen,
-                         FeatureBlock* block);
+  // A bit for each feature of the cluster that was placed last, from `first_point` on, that no side of the box rules
+  // out.
+  std::uint64_t (*features_left)(const ClusterPoints& points, int first_point, const FeatureCorners& features);
+  // Appends those of them that have a bit, and the cells of their boxes, widened by `widen`. There is room for them.
+  void (*place_features)(const ClusterPoints& points, int first_point, const FeatureCorners& features,
+                         std::uint64_t some, const Grid& grid, double widen, FeatureBlock* block);
   // For each of some vertices a bit for each of some facets that shares cells with it and may have a point nearer than
   // `reach`: anywhere, and inside. They are written for the vertices that the result has a bit for: they have one.
   std::uint64_t (*near_vertices)(const PlacedFeatures& vertices, const PlacedFeatures& facets, double reach,

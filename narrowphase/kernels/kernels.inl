@@ -60,6 +60,7 @@ constexpr Kernels all_kernels(const char* name) {
           .match_pairs_wide = match_pairs_wide,
           .match_flat_pairs = match_flat_pairs,
           .place_points = place_points,
+          .features_left = features_left,
           .place_features = place_features,
           .near_vertices = near_vertices,
           .near_edges = near_edges,

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
+#include <tuple>
 
 #include "narrowphase/contact_points/contact_points.h"
 #include "tests/support/clustered.h"
@@ -18,14 +20,31 @@ using tests::Mesh;
 using tests::PointKey;
 using tests::Random;
 
+std::vector<FeaturePoint> sorted(std::vector<FeaturePoint> points) {
+  std::ranges::sort(points, {}, &FeaturePoint::features);
+  return points;
+}
+
+void expect_same_bits(const std::vector<FeaturePoint>& points, const std::vector<FeaturePoint>& others) {
+  const auto all_of = [](const FeaturePoint& p) {
+    return std::tie(p.kind, p.a, p.b, p.weight_a, p.weight_b, p.normal, p.gap, p.edge_a, p.edge_b);
+  };
+  ASSERT_EQ(points.size(), others.size());
+  for (std::size_t i = 0; i < points.size(); ++i) ASSERT_TRUE(all_of(points[i]) == all_of(others[i])) << i;
+}
+
+// The same whether clusters are searched pair by pair or, where all pairs are known, few of them together.
 std::vector<FeaturePoint> points_between(const ClusteredMesh& a, const ClusteredMesh& b, double reach) {
   const Features features_a(a), features_b(b);
   const FeaturedMesh featured_a{&a, &features_a}, featured_b{&b, &a == &b ? &features_a : &features_b};
   EmbreeDevice device;
   NearClusters near;
-  std::vector<FeaturePoint> found;
-  ContactPointSearch().run(featured_a, featured_b, reach,
-                           near.find(featured_a, featured_b, reach, base::kTuning, device), found);
+  const std::span<const ClusterPair> pairs = near.find(featured_a, featured_b, reach, base::kTuning, device);
+  std::vector<FeaturePoint> found, together;
+  ContactPointSearch search;
+  search.run(featured_a, featured_b, reach, pairs, found);
+  search.run(featured_a, featured_b, reach, pairs, together, {}, ContactPointSearch::Given::all);
+  expect_same_bits(sorted(found), sorted(together));
   return found;
 }
 
@@ -102,6 +121,19 @@ TEST(ContactPoints, EqualBruteForceOnSmoothBodies) {
                b = tests::translated(tests::blob(2, 0.8, 0.3, seed + 50), {1.75, 0.1, 0.05});
     for (const double reach : {0.1, 0.4}) expect_points_of_brute_force(a, b, reach, "blobs " + std::to_string(seed));
   }
+}
+
+// Few clusters with few facets there each, with many, and more than are searched together.
+TEST(ContactPoints, AreTheSameHoweverManyClustersAreNear) {
+  const Mesh a = tests::blob(4, 1.0, 0.1, 1), b = tests::translated(tests::blob(3, 1.0, 0.1, 2), {1.93, 0.2, 0.05});
+  std::size_t last = 0;
+  for (const double reach : {0.03, 0.1, 0.3, 0.8}) {
+    const std::size_t count = points_between(a, b, reach).size();
+    EXPECT_EQ(points_between(b, a, reach).size(), count) << reach;
+    EXPECT_GT(count, last) << reach;
+    last = count;
+  }
+  EXPECT_GT(last, 300u);
 }
 
 TEST(ContactPoints, EqualBruteForceOfSheetsThatLieOnEachOther) {
