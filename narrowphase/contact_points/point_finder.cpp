@@ -1,0 +1,196 @@
+#include "narrowphase/contact_points/point_finder.h"
+
+#include <algorithm>
+#include <bit>
+#include <numbers>
+#include <utility>
+
+#include "narrowphase/contact_points/facet_border.h"
+
+namespace tact::narrowphase {
+
+namespace {
+
+Vec3 point_of(const ClusterPoints& points, int i) { return {points.at[0][i], points.at[1][i], points.at[2][i]}; }
+
+std::uint64_t without_crossed(std::uint64_t some, const OpenFeatures& one, int block,
+                              std::span<const std::uint64_t> crossed) {
+  std::uint64_t rest = some;
+  for (std::uint64_t left = some; left != 0; left &= left - 1) {
+    const auto vertex = static_cast<std::size_t>(one.vertices[block].feature[std::countr_zero(left)]);
+    if ((crossed[vertex / 64] >> vertex % 64 & 1) != 0) rest &= ~(left & -left);
+  }
+  return rest;
+}
+
+Vec3 facet_normal(const ScaledMesh& m, int facet) {
+  const Triangle t = m.triangle(facet);
+  const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+  return normal == Vec3{} ? Vec3{0.0, 0.0, 1.0} : normalized(normal);
+}
+
+}  // namespace
+
+void PointFinder::search(const OpenFeatures& a, const OpenFeatures& b) {
+  if (a.facets.count == 0 || b.facets.count == 0) return;
+  const Near near_a = near_facets(a, b.cells), near_b = near_facets(b, a.cells);
+  if (near_a.facets == 0 || near_b.facets == 0) return;
+  from_vertices(a, b, near_b, FeaturePair::vertex_facet);
+  if (!same_) from_vertices(b, a, near_a, FeaturePair::facet_vertex);
+  if (same_ && a.cluster != b.cluster) from_vertices(b, a, near_a, FeaturePair::vertex_facet);
+  between_edges(a, near_a, b, near_b);
+}
+
+void PointFinder::finish() {
+  waiting_.visit_all(a_, b_, reach_, EdgeSide::before, [&](int e, int f) { look_at_edges(e, f); });
+}
+
+PointFinder::Near PointFinder::near_facets(const OpenFeatures& one, const CellBox& other) {
+  Near near;
+  near.facets = kernels().near_facets(one.facets.cells, all_of(one.facets.count), other);
+  if (near.facets != 0) near.cells = kernels().cells_of(one.facets.cells, near.facets);
+  return near;
+}
+
+void PointFinder::from_vertices(const OpenFeatures& one, const OpenFeatures& other, const Near& near,
+                                FeaturePair kind) {
+  std::uint64_t met[FeatureBlock::kCapacity], inside[FeatureBlock::kCapacity];
+  for (int block = 0; block < one.vertex_blocks; ++block) {
+    const FeatureBlock& vertices = one.vertices[block];
+    std::uint64_t some = kernels().near_facets(vertices.cells, all_of(vertices.count), near.cells);
+    const auto crossed = kind == FeaturePair::vertex_facet ? crossed_.a : crossed_.b;
+    if (!crossed.empty()) some = without_crossed(some, one, block, crossed);
+    std::uint64_t left = kernels().near_vertices({one.points, vertices, some},
+                                                 {other.points, other.facets, near.facets}, reach_, met, inside);
+    for (; left != 0; left &= left - 1) {
+      const int i = std::countr_zero(left);
+      for (std::uint64_t rest = met[i]; rest != 0; rest &= rest - 1) {
+        const int k = std::countr_zero(rest);
+        const auto corner = [&](int c) { return point_of(other.points, other.facets.corner[c][k]); };
+        const VertexAndFacet pair{kind == FeaturePair::vertex_facet ? a_ : b_,
+                                  kind == FeaturePair::vertex_facet ? b_ : a_,
+                                  kind,
+                                  vertices.feature[i],
+                                  other.facets.feature[k],
+                                  point_of(one.points, vertices.corner[0][i]),
+                                  {corner(0), corner(1), corner(2)}};
+        if ((inside[i] >> k & 1) != 0) look_inside_facet(pair);
+        look_at_border(pair);
+      }
+    }
+  }
+}
+
+void PointFinder::look_inside_facet(const VertexAndFacet& one) {
+  if (const auto nearest = nearest_inside_facet(one.v, one.corner, reach_))
+    add_vertex_point(one, one.surface.features.corners(one.facet), *nearest);
+}
+
+// Points on those edges and vertices that have the facet as their first one.
+void PointFinder::look_at_border(const VertexAndFacet& one) {
+  const int facet = one.facet;
+  const Features& features = one.surface.features;
+  unsigned first = features.firsts_of_facet(facet);
+  if (first != 0) first &= border_of(one.v, one.corner, reach_);
+  if (first == 0) return;
+  const Corners& corners = features.corners(facet);
+  const auto add = [&](const std::optional<Nearest>& nearest, std::span<const int> feature) {
+    if (nearest) add_vertex_point(one, feature, *nearest);
+  };
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::size_t next = (c + 1) % 3;
+    if ((first >> c & 1) != 0) {
+      const int edge = features.facet_edge(facet, static_cast<int>(c));
+      const EdgeVertices ends = features.edge(edge);
+      const bool forward = ends[0] == corners[c];
+      add(nearest_inside_edge(one.v, one.corner[forward ? c : next], one.corner[forward ? next : c],
+                              one.surface.around(features.opposite(edge)), reach_),
+          ends);
+    }
+    const int w = corners[c];
+    if ((first >> (3 + c) & 1) != 0 && !(same_ && w == one.vertex))
+      add(nearest_in_vertex(one.v, one.corner[c], one.surface.around(features.neighbors(w)), reach_), {&w, 1});
+  }
+}
+
+void PointFinder::add_vertex_point(const VertexAndFacet& pair, std::span<const int> feature, const Nearest& nearest) {
+  const auto& [m, surface, kind, vertex, facet, v, corner] = pair;
+  if (same_ && along_surface({&vertex, 1}, v, feature, v + nearest.distance * nearest.normal)) return;
+  FeaturePoint point;
+  point.kind = kind;
+  point.gap = nearest.distance / m.scale;
+  const bool of_a = kind == FeaturePair::vertex_facet;
+  auto& own = of_a ? point.a : point.b;
+  auto& others = of_a ? point.b : point.a;
+  own = source_vertices(m.mesh, {&vertex, 1});
+  others = source_vertices(surface.mesh, feature);
+  (of_a ? point.weight_a : point.weight_b) = {1.0, 0.0, 0.0};
+  std::ranges::copy(nearest.weight, (of_a ? point.weight_b : point.weight_a).begin());
+  const Vec3 normal = nearest.normal == Vec3{} ? -facet_normal(surface, facet) : nearest.normal;
+  point.normal = of_a ? normal : -normal;
+  found_.push_back(point);
+}
+
+void PointFinder::between_edges(const OpenFeatures& a, const Near& near_a, const OpenFeatures& b, const Near& near_b) {
+  std::uint64_t some_b[OpenFeatures::kMostBlocks];
+  for (int k = 0; k < b.edge_blocks; ++k)
+    some_b[k] = kernels().near_facets(b.edges[k].cells, all_of(b.edges[k].count), near_a.cells);
+  for (int i = 0; i < a.edge_blocks; ++i) {
+    const std::uint64_t some_a = kernels().near_facets(a.edges[i].cells, all_of(a.edges[i].count), near_b.cells);
+    for (int k = 0; some_a != 0 && k < b.edge_blocks; ++k) between_blocks(a, i, some_a, b, k, some_b[k]);
+  }
+}
+
+void PointFinder::between_blocks(const OpenFeatures& a, int block_a, std::uint64_t some_a, const OpenFeatures& b,
+                                 int block_b, std::uint64_t some_b) {
+  const PlacedFeatures of_a{a.points, a.edges[block_a], some_a}, of_b{b.points, b.edges[block_b], some_b};
+  const bool few_are_a = std::popcount(some_a) <= std::popcount(some_b);
+  std::uint64_t met[FeatureBlock::kCapacity];
+  std::uint64_t left = kernels().near_edges(few_are_a ? of_a : of_b, few_are_a ? of_b : of_a, reach_, met);
+  for (; left != 0; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    for (std::uint64_t rest = met[i]; rest != 0; rest &= rest - 1) {
+      const int k = std::countr_zero(rest), e = few_are_a ? i : k, f = few_are_a ? k : i;
+      add_edges(a.edges[block_a].feature[e], b.edges[block_b].feature[f], a.cluster == b.cluster);
+    }
+  }
+}
+
+void PointFinder::add_edges(int e, int f, bool in_one_cluster) {
+  if (same_ && (share_a_vertex(a_.features.edge(e), b_.features.edge(f)) || (in_one_cluster && e > f))) return;
+  waiting_.add(a_, e, b_, f, reach_, EdgeSide::before, [&](int edge, int other) { look_at_edges(edge, other); });
+}
+
+void PointFinder::look_at_edges(int e, int f) {
+  const auto ends = [](const ScaledMesh& m, int edge) {
+    const EdgeVertices vertices = m.features.edge(edge);
+    return EdgeEnds{m.position(vertices[0]), m.position(vertices[1])};
+  };
+  const EdgeEnds at_e = ends(a_, e), at_f = ends(b_, f);
+  const auto nearest =
+      nearest_between_edges(at_e, a_.around(a_.features.opposite(e)), at_f, b_.around(b_.features.opposite(f)), reach_);
+  if (nearest) add_edge_point(e, at_e, f, *nearest);
+}
+
+void PointFinder::add_edge_point(int edge_e, const EdgeEnds& at_e, int edge_f, const Nearest& nearest) {
+  const EdgeVertices e = a_.features.edge(edge_e), f = b_.features.edge(edge_f);
+  const Vec3 on_e = nearest.first[0] * at_e.p + nearest.first[1] * at_e.q;
+  if (same_ && along_surface(e, on_e, f, on_e + nearest.distance * nearest.normal)) return;
+  FeaturePoint point = point_of_edges(nearest, source_vertices(a_.mesh, e), source_vertices(b_.mesh, f), edge_e, edge_f,
+                                      nearest.distance / a_.scale);
+  if (same_ && point.b < point.a) {
+    std::swap(point.a, point.b);
+    std::swap(point.weight_a, point.weight_b);
+    std::swap(point.edge_a, point.edge_b);
+    point.normal = -point.normal;
+  }
+  found_.push_back(point);
+}
+
+// Is the way along the edges of the mesh from one point to the other too short for a contact?
+bool PointFinder::along_surface(std::span<const int> from, Vec3 from_point, std::span<const int> to, Vec3 to_point) {
+  const double limit = 0.5 * std::numbers::pi * reach_;
+  return surface_distance_below(limit, a_.mesh, a_.features, a_.scale, {from, from_point}, {to, to_point}, ways_);
+}
+
+}  // namespace tact::narrowphase

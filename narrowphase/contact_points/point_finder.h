@@ -1,0 +1,70 @@
+// The contact points among features of two meshes, or of one with itself, that lie side by side in open clusters.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "narrowphase/contact_points/contact_points.h"
+#include "narrowphase/contact_points/open_features.h"
+#include "narrowphase/contact_points/surface_distance.h"
+#include "narrowphase/contact_points/waiting_edges.h"
+
+namespace tact::narrowphase {
+
+class PointFinder {
+ public:
+  /// Memory is lent by `waiting` and `ways`; points are appended to `found`.
+  PointFinder(const ScaledMesh& a, const ScaledMesh& b, double reach, const CrossedVertices& crossed,
+              WaitingEdges& waiting, SurfaceWays& ways, std::vector<FeaturePoint>& found)
+      : a_(a),
+        b_(b),
+        crossed_(crossed),
+        same_(&a.mesh == &b.mesh),
+        reach_(reach),
+        found_(found),
+        waiting_(waiting),
+        ways_(ways) {}
+
+  /// Of two open clusters. The boxes of `a` are wider by the reach.
+  void search(const OpenFeatures& a, const OpenFeatures& b);
+  /// Looks at all that waits.
+  void finish();
+
+ private:
+  // The facets of a cluster that are near another one, and the cells that they reach.
+  struct Near {
+    std::uint64_t facets = 0;
+    CellBox cells;
+  };
+  // A vertex and a facet, the meshes that they are of, and where they are.
+  struct VertexAndFacet {
+    const ScaledMesh &m, &surface;
+    FeaturePair kind;
+    int vertex, facet;
+    Vec3 v;
+    Vec3 corner[3];
+  };
+
+  static Near near_facets(const OpenFeatures& one, const CellBox& other);
+  void from_vertices(const OpenFeatures& one, const OpenFeatures& other, const Near& near, FeaturePair kind);
+  void look_inside_facet(const VertexAndFacet& one);
+  void look_at_border(const VertexAndFacet& one);
+  void add_vertex_point(const VertexAndFacet& pair, std::span<const int> feature, const Nearest& nearest);
+  void between_edges(const OpenFeatures& a, const Near& near_a, const OpenFeatures& b, const Near& near_b);
+  void between_blocks(const OpenFeatures& a, int block_a, std::uint64_t some_a, const OpenFeatures& b, int block_b,
+                      std::uint64_t some_b);
+  void add_edges(int e, int f, bool in_one_cluster);
+  void look_at_edges(int e, int f);
+  void add_edge_point(int edge_e, const EdgeEnds& at_e, int edge_f, const Nearest& nearest);
+  bool along_surface(std::span<const int> from, Vec3 from_point, std::span<const int> to, Vec3 to_point);
+
+  const ScaledMesh a_, b_;
+  const CrossedVertices crossed_;
+  const bool same_;
+  const double reach_;
+  std::vector<FeaturePoint>& found_;
+  WaitingEdges& waiting_;
+  SurfaceWays& ways_;
+};
+
+}  // namespace tact::narrowphase
