@@ -36,9 +36,7 @@ void check_columns(const Columns<Scalar>& m, const char* what, const std::string
 void check_positions(const double* positions, std::size_t count, const std::string& name) {
   const PositionProblem problem = narrowphase::find_position_problem(positions, count, kLargestCoordinate);
   if (problem.kind == PositionProblem::none) return;
-  const double value =
-      positions[3 * static_cast<std::size_t>(problem.source_vertex) + static_cast<std::size_t>(problem.axis)];
-  refuse_coordinate(quoted(name) + ": vertex " + std::to_string(problem.source_vertex), problem.axis, value);
+  refuse_coordinate(quoted(name) + ": vertex " + std::to_string(problem.source_vertex), problem.axis, problem.value);
 }
 
 void check_facets(std::span<const int> corners, const Facets& given, std::ptrdiff_t vertices, const std::string& name) {

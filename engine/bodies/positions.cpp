@@ -89,6 +89,8 @@ void Bodies::take_back_if_bad(std::size_t count) {
     if (update.refitted == Refit::changed) undo_refit(update.body->mesh);
   }
   check_positions(bad->positions.data(), bad->positions.size() / 3, bad->body->name);
+  // Good by now: another thread writes to them.
+  throw Error(ErrorCode::non_finite_position, quoted(bad->body->name) + ": its positions changed while they were read");
 }
 
 void Bodies::publish(std::size_t i) {
