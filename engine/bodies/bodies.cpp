@@ -1,6 +1,5 @@
 #include "engine/bodies/bodies.h"
 
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <utility>
