@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "bench/rivals/nearest_in_triangle.h"
 #include "bench/rivals/query_rival.h"
 #include "narrowphase/triangles/embree.h"
 
@@ -17,24 +18,6 @@ namespace tact::bench {
 namespace {
 
 using Eigen::Vector3f;
-
-// The nearest point of a triangle: on its plane where that is inside, else on its nearest side.
-Vector3f nearest_in_triangle(const Vector3f& p, const Vector3f& a, const Vector3f& b, const Vector3f& c) {
-  const Vector3f u = b - a, v = c - a, w = p - a;
-  const float uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), uw = u.dot(w), vw = v.dot(w);
-  const float area = uu * vv - uv * uv, s = vv * uw - uv * vw, t = uu * vw - uv * uw;
-  if (s >= 0.0F && t >= 0.0F && s + t <= area && area > 0.0F) return a + (s * u + t * v) / area;
-  const auto on_side = [&](const Vector3f& from, const Vector3f& to) -> Vector3f {
-    const Vector3f way = to - from;
-    const float length2 = way.squaredNorm();
-    return from + (length2 > 0.0F ? std::clamp(way.dot(p - from) / length2, 0.0F, 1.0F) : 0.0F) * way;
-  };
-  Vector3f nearest = on_side(a, b);
-  for (const Vector3f& other : {on_side(b, c), on_side(c, a)}) {
-    if ((other - p).squaredNorm() < (nearest - p).squaredNorm()) nearest = other;
-  }
-  return nearest;
-}
 
 class EmbreeQueries : public QueryRival {
  public:
@@ -124,7 +107,7 @@ class EmbreeQueries : public QueryRival {
     const auto at = [&](int k) { return Eigen::Map<const Vector3f>(self.vertices_ + 3 * corner[k]); };
     RTCPointQuery& query = *arguments->query;
     const Vector3f p(query.x, query.y, query.z);
-    const float distance = (nearest_in_triangle(p, at(0), at(1), at(2)) - p).norm();
+    const float distance = (nearest_in_triangle<float>(p, at(0), at(1), at(2)) - p).norm();
     if (distance >= query.radius) return false;
     query.radius = distance;
     nearest.facet = static_cast<int>(arguments->primID);

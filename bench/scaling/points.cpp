@@ -97,28 +97,74 @@ void check_against_rival(const Report& report, const std::vector<NearPoint>& riv
     throw std::runtime_error(fmt::format("points of {}: {} are none of the rival's", name, own.size() - place));
 }
 
+// The vertices that are inside a closed body are the rival's. tact's way out leads to the side that the vertex came
+// from, so it is no shorter than the distance to the surface. What lies on the surface but for rounding may be either.
+void check_signs(const Report& report, const Workload& workload, const std::vector<CrossedVertex>& rival,
+                 const std::string& name) {
+  constexpr double kOnSurface = 1e-9;  // metres
+  std::vector<CrossedVertex> own;
+  for (const Contact& contact : report.contacts()) {
+    if (!contact.touching()) continue;
+    const auto a = static_cast<int>(contact.a.index), b = static_cast<int>(contact.b.index);
+    for (const ContactPoint& point : contact.points()) {
+      if (point.gap > -kOnSurface || point.kind == FeaturePair::edge_edge) continue;
+      const bool of_a = point.kind == FeaturePair::vertex_facet;
+      if (workload.bodies[of_a ? b : a].surface == Surface::closed)
+        own.push_back({a, b, point.kind, (of_a ? point.a_vertices : point.b_vertices)[0], -point.gap});
+    }
+  }
+  std::ranges::sort(own, {}, &CrossedVertex::key);
+  const auto fail = [&](const CrossedVertex& one, const char* what) {
+    throw std::runtime_error(fmt::format("signs of {}: of bodies {} and {}, vertex {} of the {}, {} m deep, {}", name,
+                                         one.body_a, one.body_b, one.vertex,
+                                         one.kind == FeaturePair::vertex_facet ? "first" : "second", one.depth, what));
+  };
+  std::size_t place = 0;
+  for (const CrossedVertex& one : rival) {
+    if (place < own.size() && own[place].key() < one.key()) fail(own[place], "is not inside for the rival");
+    if (place < own.size() && own[place].key() == one.key()) {
+      if (own[place].depth < one.depth - kOnSurface) fail(one, "is less deep for tact");
+      ++place;
+    } else if (one.depth > 2.0 * kOnSurface) {
+      fail(one, "is not inside for tact");
+    }
+  }
+  if (place != own.size()) fail(own[place], "is not inside for the rival");
+}
+
+bool any_cross(const Report& report) {
+  return std::ranges::any_of(report.contacts(), [](const Contact& contact) { return contact.touching(); });
+}
+
 // Medians over the frames, all contestants taking turns, so that what disturbs one disturbs all.
 struct PointTimes {
-  double without = 0.0, with = 0.0, with_patches = 0.0, embree = 0.0, cgal = 0.0;  // ms
+  double without = 0.0, with = 0.0, with_patches = 0.0, embree = 0.0, cgal = 0.0, signs = 0.0;  // ms
   double points = 0.0;
+  bool crosses = false;  // or there is nothing that has a sign
+
+  double fastest() const { return std::min(embree, cgal); }
 };
 
 PointTimes measure(const Workload& workload, const std::string& name, double budget_ms, int checked_frames) {
   const std::vector<double> margins = margins_of(workload);
   PointRunner without(workload, margins, {}), with(workload, margins, {.points = true}),
       with_patches(workload, margins, {.patches = true, .points = true});
-  const auto embree = make_near_rival(NearBoxes::embree, workload, margins),
-             cgal = make_near_rival(NearBoxes::cgal, workload, margins);
+  const auto embree = make_near_embree(workload, margins), cgal = make_near_cgal(workload, margins),
+             signs = make_signed_embree(workload, margins);
+  PointTimes result;
   for (int frame = 0; frame < std::min(checked_frames, workload.frames); ++frame) {
     const Report& report = with.step(frame);
     embree->step(frame);
     cgal->step(frame);
     check_against_rival(report, embree->points(), name + " by Embree");
     check_against_rival(report, cgal->points(), name + " by CGAL");
+    signs->step(frame);
+    check_signs(report, workload, signs->crossed(), name);
+    result.crosses |= any_cross(report);
     without.step(frame);
     with_patches.step(frame);
   }
-  std::vector<double> times[5], points;
+  std::vector<double> times[6], points;
   int frame = 0;
   double expected_ms = 1.0;
   for (const double start = wall_ms(); times[0].size() < 3 || wall_ms() - start < budget_ms;
@@ -132,8 +178,16 @@ PointTimes measure(const Workload& workload, const std::string& name, double bud
     time(2, [&] { with_patches.step(frame); });
     time(3, [&] { embree->step(frame); });
     time(4, [&] { cgal->step(frame); });
+    if (result.crosses) time(5, [&] { signs->step(frame); });
   }
-  return {median(times[0]), median(times[1]), median(times[2]), median(times[3]), median(times[4]), median(points)};
+  result.without = median(times[0]);
+  result.with = median(times[1]);
+  result.with_patches = median(times[2]);
+  result.embree = median(times[3]);
+  result.cgal = median(times[4]);
+  result.signs = result.crosses ? median(times[5]) : result.fastest();
+  result.points = median(points);
+  return result;
 }
 
 }  // namespace
@@ -145,7 +199,7 @@ int run_points(const BenchOptions& options) {
       "frames\n\n",
       machine_line(1), 100.0 * kMargin);
   Table table({"workload", "points", "without ms", "with ms", "ratio", "and patches ms", "Embree's boxes ms",
-               "CGAL's boxes ms", "factor"});
+               "CGAL's boxes ms", "factor", "and signs ms", "factor with signs"});
   bool any = false;
   for (const NamedWorkload& named : rival_workloads(options.quick ? Size::small : Size::full)) {
     if (named.name.find(options.only) == std::string::npos) continue;
@@ -154,7 +208,8 @@ int run_points(const BenchOptions& options) {
     const PointTimes m = measure(named.make(), named.name, budget_ms, options.quick ? 4 : 2);
     table.add({named.name, fmt::format("{:.0f}", m.points), three_digits(m.without), three_digits(m.with),
                three_digits(m.with / m.without), three_digits(m.with_patches), three_digits(m.embree),
-               three_digits(m.cgal), three_digits(std::min(m.embree, m.cgal) / m.with)});
+               three_digits(m.cgal), three_digits(m.fastest() / m.with), three_digits(m.signs),
+               three_digits(m.signs / m.with)});
   }
   if (!any) throw std::runtime_error("no workload's name holds '" + options.only + "'");
   table.print();

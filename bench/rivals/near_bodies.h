@@ -1,23 +1,21 @@
-#include "bench/rivals/near_points.h"
-
-#include <CGAL/box_intersection_d.h>
-#include <tbb/global_control.h>
+// What the rivals for contact points have in common: bodies with boxes of their facets, pairs of bodies, and the loop
+// over the features of two facets.
+#pragma once
 
 #include <algorithm>
-#include <cmath>
+#include <memory>
+#include <optional>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <utility>
+#include <vector>
 
+#include "bench/rivals/near_points.h"
 #include "broadphase/sweep_and_prune.h"
 #include "narrowphase/contact_points/features.h"
 #include "narrowphase/contact_points/nearest.h"
 #include "narrowphase/mesh/refit.h"
-#include "narrowphase/triangles/embree.h"
 
 namespace tact::bench {
-namespace {
 
 using base::Box;
 using base::Vec3;
@@ -178,139 +176,5 @@ class NearBase : public NearRival {
   std::vector<Box> boxes_;
   std::vector<NearPoint> found_;
 };
-
-void store_outward(const Box& box, RTCBounds& bounds) {
-  const auto out = [](double x, double sign) {
-    const auto f = static_cast<float>(x);
-    return static_cast<float>(f + sign * (std::abs(f) * 0x1p-23 + 0x1p-126));
-  };
-  bounds.lower_x = out(box.lower.x, -1.0), bounds.upper_x = out(box.upper.x, 1.0);
-  bounds.lower_y = out(box.lower.y, -1.0), bounds.upper_y = out(box.upper.y, 1.0);
-  bounds.lower_z = out(box.lower.z, -1.0), bounds.upper_z = out(box.upper.z, 1.0);
-}
-
-// A tree a body, refitted in every frame. rtcCollide calls back from as many threads as it likes, whatever the device
-// was told, so they are limited: the list is not made for two, and what is timed is one thread.
-class EmbreeNear : public NearBase {
- public:
-  EmbreeNear(const Workload& workload, const std::vector<double>& margins)
-      : NearBase(workload, margins), device_(rtcNewDevice("threads=1")) {
-    for (const auto& body : bodies_) {
-      const RTCScene scene = rtcNewScene(device_);
-      rtcSetSceneFlags(scene, RTC_SCENE_FLAG_DYNAMIC);
-      rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
-      const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
-      rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(body->mesh.facet_count()));
-      rtcSetGeometryUserData(geometry, body.get());
-      rtcSetGeometryBoundsFunction(
-          geometry,
-          [](const RTCBoundsFunctionArguments* arguments) {
-            store_outward(static_cast<const NearBody*>(arguments->geometryUserPtr)->boxes[arguments->primID],
-                          *arguments->bounds_o);
-          },
-          nullptr);
-      rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
-      rtcCommitGeometry(geometry);
-      rtcAttachGeometry(scene, geometry);
-      rtcReleaseGeometry(geometry);  // the scene holds it
-      rtcCommitScene(scene);
-      scenes_.push_back(scene);
-      geometries_.push_back(geometry);
-    }
-    check();
-  }
-  ~EmbreeNear() override {
-    for (const RTCScene scene : scenes_) rtcReleaseScene(scene);
-    rtcReleaseDevice(device_);
-  }
-
-  void step(int frame) override {
-    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-    NearBase::step(frame);
-  }
-
- private:
-  void check() const {
-    const RTCError error = rtcGetDeviceError(device_);
-    if (error != RTC_ERROR_NONE) throw std::runtime_error("Embree reports error " + std::to_string(error));
-  }
-  void moved(std::size_t body) override {
-    rtcCommitGeometry(geometries_[body]);
-    rtcCommitScene(scenes_[body]);
-  }
-  void propose(std::size_t a, std::size_t b, FacetPoints& points) override {
-    struct Query {
-      const NearBody &a, &b;
-      FacetPoints& points;
-    } query{*bodies_[a], *bodies_[b], points};
-    rtcCollide(
-        scenes_[a], scenes_[b],
-        [](void* data, RTCCollision* collisions, unsigned count) {
-          const Query& q = *static_cast<const Query*>(data);
-          for (unsigned k = 0; k < count; ++k) {
-            const unsigned i = collisions[k].primID0, j = collisions[k].primID1;
-            if (base::overlaps(q.a.boxes[i], q.b.boxes[j])) q.points.find(static_cast<int>(i), static_cast<int>(j));
-          }
-        },
-        &query);
-    check();
-  }
-
-  RTCDevice device_;
-  std::vector<RTCScene> scenes_;
-  std::vector<RTCGeometry> geometries_;
-};
-
-// A model of CGAL's BoxIntersectionBox_d.
-struct CgalFacet {
-  using NT = double;
-  using ID = std::size_t;
-  static int dimension() { return 3; }
-  double min_coord(int axis) const { return box->lower[axis]; }
-  double max_coord(int axis) const { return box->upper[axis]; }
-  ID id() const { return number; }
-
-  const Box* box = nullptr;
-  std::size_t number = 0;
-};
-
-// Only facets that reach into the box that both bodies share are given to it.
-class CgalNear : public NearBase {
- public:
-  using NearBase::NearBase;
-
- private:
-  void moved(std::size_t) override {}
-  void gather(const NearBody& body, const Box& common, std::size_t first, std::vector<CgalFacet>& facets,
-              std::vector<const CgalFacet*>& pointers) {
-    facets.clear();
-    pointers.clear();
-    for (std::size_t f = 0; f < body.boxes.size(); ++f) {
-      if (base::overlaps(body.boxes[f], common)) facets.push_back({&body.boxes[f], first + f});
-    }
-    for (const CgalFacet& facet : facets) pointers.push_back(&facet);
-  }
-  void propose(std::size_t a, std::size_t b, FacetPoints& points) override {
-    const Box common = base::intersection(bodies_[a]->all, bodies_[b]->all);
-    const std::size_t first_of_b = bodies_[a]->boxes.size();
-    gather(*bodies_[a], common, 0, facets_a_, pointers_a_);
-    gather(*bodies_[b], common, first_of_b, facets_b_, pointers_b_);
-    CGAL::box_intersection_d(pointers_a_.begin(), pointers_a_.end(), pointers_b_.begin(), pointers_b_.end(),
-                             [&](const CgalFacet* p, const CgalFacet* q) {
-                               points.find(static_cast<int>(p->number), static_cast<int>(q->number - first_of_b));
-                             });
-  }
-
-  std::vector<CgalFacet> facets_a_, facets_b_;
-  std::vector<const CgalFacet*> pointers_a_, pointers_b_;
-};
-
-}  // namespace
-
-std::unique_ptr<NearRival> make_near_rival(NearBoxes boxes, const Workload& workload,
-                                           const std::vector<double>& margins) {
-  if (boxes == NearBoxes::embree) return std::make_unique<EmbreeNear>(workload, margins);
-  return std::make_unique<CgalNear>(workload, margins);
-}
 
 }  // namespace tact::bench
