@@ -42,15 +42,26 @@ std::optional<Vec3> AdjacentFaces::lowest(const SupportedFace& face, double near
   std::array<Vec3, kNearCorners> corners;
   std::size_t count = 0;
   if (sides == 1) corners[count++] = in_space(face, polygon.corner[0]);
-  for (std::size_t i = 0; sides > 1 && i < sides; ++i) {
-    if (!is_near(i)) continue;
-    turn_over_side(face, i);
-    if (!is_near(i + 1)) continue;
+  const auto add_corner = [&](std::size_t i) {
     if (count < kNearCorners) {
-      corners[count++] = in_space(face, corner_at(polygon.corner, i + 1));
+      corners[count++] = in_space(face, corner_at(polygon.corner, i));
     } else {
       limit_reached_ = true;
     }
+  };
+  bool added_first = false, added_last = false;  // the first corner; the second one of the last side
+  for (std::size_t i = 0; sides > 1 && i < sides; ++i) {
+    if (!is_near(i)) {
+      added_last = false;
+      continue;
+    }
+    const bool is_flat = turn_over_side(face, i);
+    if (is_flat && !added_last) {
+      added_first = added_first || i == 0;
+      add_corner(i);
+    }
+    added_last = is_near(i + 1) || is_flat;
+    if (added_last && !(i + 1 == sides && added_first)) add_corner(i + 1);
   }
   // If the projection is outside of the polygon, which may be too small for its sides to have directions: the nearest
   // corner.
@@ -62,15 +73,18 @@ std::optional<Vec3> AdjacentFaces::lowest(const SupportedFace& face, double near
 }
 
 // Turns about the axis along the side, to the next face; and by small angles where that is not lower, for
-// it may be a sliver with a lower face behind it.
-void AdjacentFaces::turn_over_side(const SupportedFace& face, std::size_t side) {
+// it may be a sliver with a lower face behind it. Is that face turned so little that a small turn ends beyond it, where
+// a corner of the side may be the highest?
+bool AdjacentFaces::turn_over_side(const SupportedFace& face, std::size_t side) {
   const Vec3 axis_point = in_space(face, face.polygon->corner[side]), outward = outward_of_side(*face.polygon, side);
-  if (!(norm_squared(outward) > 0.0)) return;
+  if (!(norm_squared(outward) > 0.0)) return false;
   const double before = lowest_height_;
-  try_direction(turned_to_next_face(m_, face.n, axis_point, outward, tolerance_, face.top), face.top);
+  const Vec3 next = turned_to_next_face(m_, face.n, axis_point, outward, tolerance_, face.top);
+  try_direction(next, face.top);
   for (double turn = kProbe; turn > kSmallestProbe && !(lowest_height_ < before); turn *= 0.1) {
     try_direction(normalized(face.n + turn * outward), face.top);
   }
+  return norm(next - face.n) < kProbe;
 }
 
 // Of the directions that a corner of M supports, w is the lowest at the normal of a face around it. Goes around it one

@@ -24,7 +24,7 @@ class AdjacentFaces {
 
   // The normal of the lowest face next to `face`, or nothing if none is lower. Looks across each side that the
   // projection lies beyond or nearer to than `near`; both ways from an edge; and around each corner between two such
-  // sides. Afterwards the polygon is invalid.
+  // sides, or at an end of one across which the next face is hardly turned. Afterwards the polygon is invalid.
   std::optional<Vec3> lowest(const SupportedFace& face, double near);
 
   int support_queries() const { return support_queries_; }
@@ -34,7 +34,7 @@ class AdjacentFaces {
  private:
   enum class Way { counter_clockwise, clockwise };
 
-  void turn_over_side(const SupportedFace& face, std::size_t side);
+  bool turn_over_side(const SupportedFace& face, std::size_t side);
   void go_around(const SupportedFace& face, Vec3 corner);
   bool go_around(const SupportedFace& face, Vec3 corner, Way way);
   double try_direction(Vec3 n, const MinkowskiVertex& near);

@@ -176,9 +176,10 @@ TEST(ContactDirection, IsALocalMinimumAndNeverHigherThanItsStart) {
 }
 
 // The first of them, and those that show what is left out: corners that are near to a face's foot, faces that are not
-// supported, a walk that ends above its start.
+// supported, a walk that ends above its start; and a corner between directions that lead lower, at a side across which
+// the next face is hardly turned and higher (the last).
 TEST(ContactDirection, HostilePairsEndAtLocalMinima) {
-  std::vector<std::uint64_t> seeds{1115, 2053, 2951, 83345, 100435, 110414};
+  std::vector<std::uint64_t> seeds{1115, 2053, 2951, 83345, 100435, 110414, (std::uint64_t{9901} << 40) + 166731};
   for (std::uint64_t seed = 0; seed < 600; ++seed) seeds.push_back(seed);
   std::int64_t directions = 0;
   for (const std::uint64_t seed : seeds) {
@@ -189,10 +190,13 @@ TEST(ContactDirection, HostilePairsEndAtLocalMinima) {
 
 // Corners of a face that are one point once its place is added have no side between them. And those that show what else
 // is left out: sides of a face too small for directions of their own (the first two), faces as low as the first but
-// narrow, beyond which it is lower, steps around a corner that rounding makes nothing (the last two).
+// narrow, beyond which it is lower, steps around a corner that rounding makes nothing (these two), corners of a side
+// across which the next face is hardly turned (the last six).
 TEST(ContactDirection, CoordinatesOfAllSizesEndAtLocalMinima) {
-  constexpr std::uint64_t kSome = std::uint64_t{77} << 40, kOthers = std::uint64_t{6} << 40;
+  constexpr std::uint64_t kSome = std::uint64_t{77} << 40, kOthers = std::uint64_t{6} << 40,
+                          kCorners = std::uint64_t{9901} << 40;
   std::vector<std::uint64_t> seeds{kSome + 6339, kSome + 10540, kSome + 33350, kOthers + 285224, kOthers + 367284};
+  for (const std::uint64_t seed : {2793, 49018, 75812, 97301, 120694, 131530}) seeds.push_back(kCorners + seed);
   for (std::uint64_t seed = 0; seed < 4000; ++seed) seeds.push_back(seed);
   std::int64_t directions = 0;
   for (const std::uint64_t seed : seeds) {
