@@ -1,0 +1,169 @@
+// Contact points of two bodies through the engine against brute force in long doubles: bodies of all kinds that come
+// near, and closed ones that sink into each other. Not part of the ordinary tests: how many pairs is read from the
+// environment.
+//   TACT_LONG_POINT_PAIRS  40 if not set; some ten a second
+//   TACT_LONG_SEED         which, 1 if not set
+#include <gtest/gtest.h>
+#include <tact/world.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <set>
+#include <string>
+
+#include "tests/support/crossing_oracle.h"
+#include "tests/support/environment.h"
+#include "tests/support/generators.h"
+#include "tests/support/point_oracle.h"
+
+namespace tact::tests {
+namespace {
+
+template <class Check>
+void for_pairs(const Check& check) {
+  const std::uint64_t pairs = from_environment("TACT_LONG_POINT_PAIRS", 40);
+  const std::uint64_t first = from_environment("TACT_LONG_SEED", 1) << 32;
+  for (std::uint64_t i = 0; i < pairs && !::testing::Test::HasFatalFailure(); ++i) check(first + i);
+}
+
+struct Shape {
+  const char* name;
+  Mesh mesh;
+  Surface surface = Surface::sheet;
+};
+
+// About the origin, some metres wide at most.
+Shape any_shape(Random& random) {
+  const std::uint64_t seed = random.below(1 << 30);
+  switch (random.below(11)) {
+    case 0: return {"blob", blob(1 + random.below(2), 1.0, random.uniform(0.0, 0.4), seed), Surface::closed};
+    case 1: return {"hull", random_hull(4 + random.below(36), seed), Surface::closed};
+    case 2: return {"torus", torus(16, 8, 1.0, random.uniform(0.1, 0.4)), Surface::closed};
+    case 3: return {"box", gridded_box({-1, -1, -0.5}, {1, 1, 0.5}, 1 + random.below(5)), Surface::closed};
+    case 4: return {"spike", spike(random.uniform(0.1, 2.0) * random.direction(), 0.3), Surface::closed};
+    case 5: return {"sheet", sheet(1 + random.below(12), 1 + random.below(12), 2.0, 1.5)};
+    case 6: return {"wrinkles", wrinkled_sheet(4 + random.below(12), 2.0, random.uniform(0.0, 0.3), seed)};
+    case 7: return {"soup", soup(10 + random.below(40), 1.0, seed)};
+    case 8: return {"lattice", lattice_soup(10 + random.below(40), 1 + random.below(3), seed)};
+    case 9: return {"needles", needles(10 + random.below(20), std::pow(10.0, -random.uniform(0.0, 5.0)), seed)};
+    default: return {"crumple", crumpled(icosphere(1), seed)};
+  }
+}
+
+Shape closed_shape(Random& random) {
+  const std::uint64_t seed = random.below(1 << 30);
+  if (random.chance(0.5))
+    return {"blob", blob(1 + random.below(2), random.uniform(0.5, 1.0), 0.3, seed), Surface::closed};
+  return {"hull", random_hull(8 + random.below(30), seed), Surface::closed};
+}
+
+Rotation any_turn(Random& random) {
+  return rotation(random.uniform(0.1, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
+                  random.uniform(-1.0, 1.0));
+}
+
+Vec3 highest(const Mesh& mesh, Vec3 direction) {
+  Vec3 highest = mesh.position(0);
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    if (dot(direction, mesh.position(v)) > dot(direction, highest)) highest = mesh.position(v);
+  }
+  return highest;
+}
+
+BodyDefinition body_of(const Mesh& mesh, Surface surface, double margin) {
+  return {.positions = mesh.positions, .facets = mesh.facets, .surface = surface, .margin = margin};
+}
+
+// Those of certain points that are missing, those that are none, and gaps that differ.
+void expect_points(const Contact* contact, const Mesh& a, const Mesh& b, double reach, const std::string& what) {
+  const double size = std::max(extent(a), extent(b));
+  const auto expected = points_by_brute_force(a, b, reach, 1e-12 * size);
+  std::set<PointKey> seen;
+  for (const ContactPoint& point : contact == nullptr ? std::span<const ContactPoint>() : contact->points()) {
+    const PointKey key{point.kind, point.a_vertices, point.b_vertices};
+    ASSERT_TRUE(seen.insert(key).second) << what << ": twice";
+    const auto known = expected.find(key);
+    ASSERT_NE(known, expected.end()) << what << ": " << point.a_vertices[0] << " of a and " << point.b_vertices[0]
+                                     << " of b have none, gap " << point.gap;
+    ASSERT_NEAR(point.gap, known->second.gap, 1e-11 * size) << what;
+  }
+  for (const auto& [key, point] : expected)
+    ASSERT_TRUE(!point.certain || seen.contains(key)) << what << ": lacks one, gap " << point.gap;
+}
+
+TEST(PointsLong, OfBodiesThatDoNotCrossEqualBruteForce) {
+  int near = 0, crossing = 0, apart = 0;
+  for_pairs([&](std::uint64_t seed) {
+    Random random(seed);
+    const Shape first = any_shape(random), second = any_shape(random);
+    const double scale = random.chance(0.3) ? std::ldexp(1.0, random.below(200) - 100) : 1.0;
+    const Vec3 far =
+        random.chance(0.2) ? scale * std::pow(10.0, random.uniform(0.0, 6.0)) * random.direction() : Vec3{};
+    const bool turned = random.chance(0.7);
+    const Mesh one = turned ? rotated(first.mesh, any_turn(random)) : first.mesh;
+    const Mesh other = turned ? rotated(second.mesh, any_turn(random)) : second.mesh;
+    const Vec3 way = random.chance(0.7) ? random.direction() : Vec3{0, 0, 1};
+    const double reach = std::pow(10.0, random.uniform(-2.0, 0.0));
+    // Corner to corner; or hulls overlap, as surfaces then may.
+    const double gap = random.chance(0.8) ? random.uniform(0.0, 1.2) * reach : -random.uniform(0.0, 0.5);
+    const Vec3 beside = highest(one, way) - highest(other, -way);
+    const Mesh a = translated(scaled(one, scale), far),
+               b = translated(scaled(translated(other, beside + gap * way), scale), far);
+    const std::string what = std::string(first.name) + " and " + second.name + ", seed " + std::to_string(seed);
+    World world({.threads = 1 + random.below(2), .outputs = {.points = true}});
+    const double part = random.uniform(0.0, 1.0);
+    world.add_body(body_of(a, first.surface, part * reach * scale));
+    world.add_body(body_of(b, second.surface, (reach - part * reach) * scale));
+    const Report& report = world.detect();
+    const Contact* contact = report.contacts().empty() ? nullptr : &report.contacts()[0];
+    if (contact != nullptr && (contact->touching() || contact->containment != Containment::none)) {
+      ++crossing;
+      return;
+    }
+    ++(contact == nullptr ? apart : near);
+    expect_points(contact, a, b, part * reach * scale + (reach - part * reach) * scale, what);
+  });
+  std::printf("%d near, %d apart, %d cross\n", near, apart, crossing);
+  EXPECT_GT(near, crossing / 4);
+}
+
+TEST(PointsLong, GapsOfClosedBodiesEqualBruteForce) {
+  std::size_t points = 0;
+  for_pairs([&](std::uint64_t seed) {
+    Random random(seed);
+    const Shape first = closed_shape(random), second = closed_shape(random);
+    const Mesh a = rotated(first.mesh, any_turn(random)), shape = rotated(second.mesh, any_turn(random));
+    const Vec3 way = random.direction();
+    const Vec3 beside = highest(a, way) - highest(shape, -way);
+    const double margin = random.chance(0.5) ? random.uniform(0.0, 0.05) : 0.0;
+    World world({.threads = 1, .outputs = {.points = true}});
+    world.add_body(body_of(a, Surface::closed, margin));
+    const BodyId moved = world.add_body(body_of(translated(shape, beside + 0.1 * way), Surface::closed, margin));
+    LastNormals last;
+    double depth = -0.1;
+    for (int step = 0; step < 6; ++step) {
+      depth += random.uniform(-0.05, 0.25);
+      const Mesh b = translated(shape, beside - depth * way + 0.05 * random.direction());
+      world.set_positions(moved, b.positions);
+      const Report& report = world.detect();
+      if (report.contacts().empty()) {
+        last = {};
+        continue;
+      }
+      const Contact& contact = report.contacts()[0];
+      if (contact.touching()) {
+        const ExpectedGaps expected = gaps_by_brute_force(a, b, contact, last);
+        ASSERT_TRUE(has_gaps(contact, expected, 1e-11))
+            << first.name << " and " << second.name << ", seed " << seed << ", step " << step;
+        points += expected.vertices_of_a.size() + expected.vertices_of_b.size() + expected.edges.size();
+      }
+      last = last_normals(contact);
+    }
+  });
+  std::printf("%zu points that have crossed\n", points);
+  EXPECT_GT(points, 100u);
+}
+
+}  // namespace
+}  // namespace tact::tests
