@@ -108,24 +108,56 @@ bool leads_along(const Vec<Real>& way, Vec3 end, const ScaledVertices& third) {
   return false;
 }
 
+// Where two edges are nearest, and how near.
+struct EdgesApart {
+  double s, t;  // places on either edge
+  Vec3 normal;  // unit, the way that `across` shows
+  double distance;
+};
+
+EdgesApart edges_apart(const LinePair<double>& lines) {
+  const double length = std::sqrt(lines.square);
+  return {lines.s / lines.square,
+          lines.t / lines.square,
+          {lines.across.x / length, lines.across.y / length, lines.across.z / length},
+          std::abs(dot(lines.across, lines.r) / length)};
+}
+
+// Of edges that are nearly parallel rounding turns `across`, and moves the places far along the edges. The distance
+// hardly changes along them, so it is measured from the place on e to its foot on f.
+EdgesApart edges_apart(const LinePair<long double>& lines) {
+  using Long3 = Vec<long double>;
+  const long double s = lines.s / lines.square;
+  const long double foot = (s * dot(lines.u, lines.w) - dot(lines.r, lines.w)) / dot(lines.w, lines.w);
+  const long double t = std::clamp(foot, 0.0L, 1.0L);
+  Long3 way(lines.r.x + t * lines.w.x - s * lines.u.x, lines.r.y + t * lines.w.y - s * lines.u.y,
+            lines.r.z + t * lines.w.z - s * lines.u.z);
+  const long double distance = std::sqrt(dot(way, way));
+  // Lengths are near 1: a way so short has no direction of its own.
+  if (!(distance > 0x1p-40L)) way = lines.across;
+  const long double turn = dot(way, lines.across) < 0 ? -1 : 1, unit = turn / std::sqrt(dot(way, way));
+  return {static_cast<double>(s),
+          static_cast<double>(t),
+          {static_cast<double>(unit * way.x), static_cast<double>(unit * way.y), static_cast<double>(unit * way.z)},
+          static_cast<double>(distance)};
+}
+
 template <class Real>
 std::optional<Nearest> between(const LinePair<Real>& lines, const EdgeEnds& e, const ScaledVertices& third_e,
                                const EdgeEnds& f, const ScaledVertices& third_f, double limit, EdgeSide side) {
   if (!lines.inside_both()) return {};
-  const Real length = std::sqrt(lines.square), height = dot(lines.across, lines.r) / length;
-  const auto distance = static_cast<double>(std::abs(height));
-  if (!(distance < limit)) return {};
-  const Real flip = (height < 0) == (side == EdgeSide::before) ? -1 : 1;
-  for (const Real turn : {flip, -flip}) {
-    const Vec<Real> way(turn * lines.across.x, turn * lines.across.y, turn * lines.across.z);
-    const Vec<Real> back(-way.x, -way.y, -way.z);
-    if (!leads_along(way, e.p, third_e) && !leads_along(back, f.p, third_f)) {
-      const auto s = static_cast<double>(lines.s / lines.square), t = static_cast<double>(lines.t / lines.square);
-      const Vec3 normal{static_cast<double>(way.x / length), static_cast<double>(way.y / length),
-                        static_cast<double>(way.z / length)};
-      return Nearest{.normal = normal, .distance = distance, .weight = {1.0 - t, t}, .first = {1.0 - s, s}};
-    }
-    if (distance > 0.0) break;  // edges that touch have no side yet
+  const EdgesApart apart = edges_apart(lines);
+  if (!(apart.distance < limit)) return {};
+  const bool turned = (dot(lines.across, lines.r) < 0) == (side == EdgeSide::before);
+  for (const bool back : {turned, !turned}) {
+    const Vec<Real>& across = lines.across;
+    const Vec<Real> opposite(-across.x, -across.y, -across.z);
+    if (!leads_along(back ? opposite : across, e.p, third_e) && !leads_along(back ? across : opposite, f.p, third_f))
+      return Nearest{.normal = back ? -apart.normal : apart.normal,
+                     .distance = apart.distance,
+                     .weight = {1.0 - apart.t, apart.t},
+                     .first = {1.0 - apart.s, apart.s}};
+    if (apart.distance > 0.0) break;  // edges that touch have no side yet
   }
   return {};
 }

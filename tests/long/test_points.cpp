@@ -75,10 +75,19 @@ BodyDefinition body_of(const Mesh& mesh, Surface surface, double margin) {
   return {.positions = mesh.positions, .facets = mesh.facets, .surface = surface, .margin = margin};
 }
 
+Vec3 place(const Mesh& mesh, const std::array<int, 3>& vertices, const std::array<double, 3>& weights) {
+  Vec3 p;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (vertices[k] >= 0) p = p + weights[k] * mesh.position(vertices[k]);
+  }
+  return p;
+}
+
 // Those of certain points that are missing, those that are none, and gaps that differ.
 void expect_points(const Contact* contact, const Mesh& a, const Mesh& b, double reach, const std::string& what) {
   const double size = std::max(extent(a), extent(b));
   const auto expected = points_by_brute_force(a, b, reach, 1e-12 * size);
+  const double farthest = std::max(a.positions.cwiseAbs().maxCoeff(), b.positions.cwiseAbs().maxCoeff());
   std::set<PointKey> seen;
   for (const ContactPoint& point : contact == nullptr ? std::span<const ContactPoint>() : contact->points()) {
     const PointKey key{point.kind, point.a_vertices, point.b_vertices};
@@ -87,6 +96,8 @@ void expect_points(const Contact* contact, const Mesh& a, const Mesh& b, double 
     ASSERT_NE(known, expected.end()) << what << ": " << point.a_vertices[0] << " of a and " << point.b_vertices[0]
                                      << " of b have none, gap " << point.gap;
     ASSERT_NEAR(point.gap, known->second.gap, 1e-11 * size) << what;
+    const Vec3 way = place(b, point.b_vertices, point.b_weights) - place(a, point.a_vertices, point.a_weights);
+    ASSERT_NEAR(norm(way), point.gap, 1e-11 * size + 1e-15 * farthest) << what;
   }
   for (const auto& [key, point] : expected)
     ASSERT_TRUE(!point.certain || seen.contains(key)) << what << ": lacks one, gap " << point.gap;

@@ -145,7 +145,11 @@ class PointOracle {
     const Long3 across = u.cross(w);
     const long double square = across.squaredNorm();
     if (!(square > 0)) return;
-    const long double s = (r - p).cross(w).dot(across) / square, t = (r - p).cross(u).dot(across) / square;
+    const long double s = (r - p).cross(w).dot(across) / square;
+    // Of edges that are nearly parallel rounding moves the places: one is put beside the other.
+    const bool nearly_parallel = square < 1e-12L * u.squaredNorm() * w.squaredNorm();
+    const long double t = nearly_parallel ? std::clamp((p + s * u - r).dot(w) / w.squaredNorm(), 0.0L, 1.0L)
+                                          : (r - p).cross(u).dot(across) / square;
     Conditions inside;
     inside.positive(s * u.norm());
     inside.positive((1 - s) * u.norm());
@@ -166,6 +170,8 @@ class PointOracle {
       if (minimum.least > best.least) best = minimum;
     }
     if (touch) best.positive(0);
+    // All along such edges it is equally far: they may have a point or none, wherever facets lie.
+    if (nearly_parallel) best.least = 0;
     add(FeaturePair::edge_edge, {e.first, e.second, -1}, {f.first, f.second, -1}, on_e, on_f, best);
   }
 
