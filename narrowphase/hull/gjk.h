@@ -48,8 +48,7 @@ GjkResult gjk(const MinkowskiDifference& m, Vec3 point, const GjkSimplex& start,
 
 // A point of each hull, in metres. Their difference is the nearest point of M that a search found, or the origin if it
 // ended `overlapping`. After a search for the origin between hulls that are apart, they are two closest points; where
-// faces are parallel, others may be as close. Where hulls touch or overlap in a tetrahedron that is flat but for
-// rounding, the difference is wrong by up to 1e-12 of their size.
+// faces are parallel, others may be as close.
 struct ClosestPoints {
   Vec3 a, b;
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace tact::narrowphase {
 
@@ -76,15 +77,18 @@ class ClosestFace {
     return best_;
   }
 
-  // Each corner's share of the volume is that of the tetrahedron which the origin makes with the face across from it.
+  // Each corner's share of the volume is that of the tetrahedron which the origin makes with the face across from it. A
+  // needle's volumes lose so many digits that the sum lies beside the origin, along the needle: it is put back there.
   std::array<double, 4> origin_weights() {
     std::array<Scalar, 4> share{volume(1, 2, 3), volume(0, 2, 3), volume(0, 1, 3), volume(0, 1, 2)};
     const Scalar sum = (share[0] + share[1]) + (share[2] + share[3]);
-    Point origin{0, 0, 0};
-    for (int i = 0; i < 4; ++i) {
-      share[i] /= sum;
-      origin = along(origin, share[i], y(i));
-    }
+    for (Scalar& one : share) one /= sum;
+    const auto [from, to] = longest_edge();
+    const Point edge = y(to) - y(from);
+    const Scalar back = dot(weighted(share), edge) / dot(edge, edge);
+    share[from] += back;
+    share[to] -= back;
+    const Point origin = weighted(share);
     const SimplexClosest on_faces = run_on_faces();
     std::array<double, 4> weights{};
     const bool too_flat = !(dot(origin, origin) < distance_);
@@ -99,6 +103,24 @@ class ClosestFace {
   using Point = Vector<Scalar>;
 
   const Point& y(int i) const { return y_[i]; }
+
+  Point weighted(const std::array<Scalar, 4>& weight) const {
+    Point sum{0, 0, 0};
+    for (int i = 0; i < 4; ++i) sum = along(sum, weight[i], y(i));
+    return sum;
+  }
+
+  std::pair<int, int> longest_edge() const {
+    std::pair longest{0, 1};
+    Scalar most = 0;
+    for (int i = 0; i < count_; ++i) {
+      for (int j = i + 1; j < count_; ++j) {
+        const Point e = y(j) - y(i);
+        if (dot(e, e) > most) longest = {i, j}, most = dot(e, e);
+      }
+    }
+    return longest;
+  }
 
   void edge(int i, int j) {
     const Point e = y(j) - y(i);
