@@ -108,6 +108,8 @@ class PointOracle {
       inside.positive(beside(v, p, q, r));
       inside.positive(beside(v, q, r, p));
       inside.positive(beside(v, r, p, q));
+      // In line but for rounding: who knows where it faces?
+      if (!(normal.norm() > band_ * std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()}))) inside.positive(0);
       const Long3 unit = normal.normalized();
       add_vertex(kind, vertex, v, c, v - unit.dot(v - p) * unit, inside);
     }
@@ -146,10 +148,8 @@ class PointOracle {
     const long double square = across.squaredNorm();
     if (!(square > 0)) return;
     const long double s = (r - p).cross(w).dot(across) / square;
-    // Of edges that are nearly parallel rounding moves the places: one is put beside the other.
-    const bool nearly_parallel = square < 1e-12L * u.squaredNorm() * w.squaredNorm();
-    const long double t = nearly_parallel ? std::clamp((p + s * u - r).dot(w) / w.squaredNorm(), 0.0L, 1.0L)
-                                          : (r - p).cross(u).dot(across) / square;
+    // The foot of the place on e: where edges are nearly parallel, places that are rounded one by one lie apart.
+    const long double t = (p + s * u - r).dot(w) / w.squaredNorm();
     Conditions inside;
     inside.positive(s * u.norm());
     inside.positive((1 - s) * u.norm());
@@ -170,8 +170,8 @@ class PointOracle {
       if (minimum.least > best.least) best = minimum;
     }
     if (touch) best.positive(0);
-    // All along such edges it is equally far: they may have a point or none, wherever facets lie.
-    if (nearly_parallel) best.least = 0;
+    // The common normal of edges with such a sine is wrong by more than the band: they may have a point or none.
+    if (square < 1e-14L * u.squaredNorm() * w.squaredNorm()) best.least = 0;
     add(FeaturePair::edge_edge, {e.first, e.second, -1}, {f.first, f.second, -1}, on_e, on_f, best);
   }
 
