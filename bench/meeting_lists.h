@@ -72,6 +72,11 @@ struct LoneCorner {
   }
 };
 
+// Six times that of the tetrahedron of four points; positive if d is above the plane of a, b, c.
+inline double volume(const base::Vec3& a, const base::Vec3& b, const base::Vec3& c, const base::Vec3& d) {
+  return dot(cross(b - a, c - a), d - a);
+}
+
 // The same by the signs of plain doubles (Guigue and Devillers, 2003), as a program would write it that wants to be
 // fast: right where nothing hangs on rounding.
 inline bool facets_meet_plainly(const FacetCorners& s, const FacetCorners& t) {
@@ -95,9 +100,6 @@ inline bool facets_meet_plainly(const FacetCorners& s, const FacetCorners& t) {
   };
   const FacetCorners p = turned(s, of_s_alone.corner, !of_t_alone.above);
   const FacetCorners q = turned(t, of_t_alone.corner, !of_s_alone.above);
-  const auto volume = [](const base::Vec3& a, const base::Vec3& b, const base::Vec3& c, const base::Vec3& d) {
-    return dot(cross(b - a, c - a), d - a);
-  };
   return volume(p[0], p[1], q[0], q[1]) <= 0.0 && volume(p[0], p[2], q[2], q[0]) <= 0.0;
 }
 

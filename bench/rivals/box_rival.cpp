@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "bench/rivals/cgal_box.h"
 #include "broadphase/sweep_and_prune.h"
 #include "engine/base/parallel.h"
 #include "narrowphase/triangles/embree.h"
@@ -122,19 +123,6 @@ class Embree : public BoxRival {
   RTCGeometry geometry_;
   std::span<const base::Box> boxes_;
   PairLists found_;
-};
-
-// A model of CGAL's BoxIntersectionBox_d.
-struct CgalBox {
-  using NT = double;
-  using ID = std::size_t;
-  static int dimension() { return 3; }
-  double min_coord(int axis) const { return box.lower[axis]; }
-  double max_coord(int axis) const { return box.upper[axis]; }
-  ID id() const { return number; }
-
-  base::Box box;
-  std::size_t number = 0;
 };
 
 // box_self_intersection_d over pointers, which its manual finds faster than boxes. Nothing is kept from step to step.

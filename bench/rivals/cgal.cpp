@@ -10,24 +10,12 @@
 #include <utility>
 
 #include "bench/meeting_lists.h"
+#include "bench/rivals/cgal_box.h"
 #include "bench/rivals/rival.h"
 #include "engine/base/parallel.h"
 
 namespace tact::bench {
 namespace {
-
-// A model of CGAL's BoxIntersectionBox_d.
-struct CgalBox {
-  using NT = double;
-  using ID = std::size_t;
-  static int dimension() { return 3; }
-  double min_coord(int axis) const { return box.lower[axis]; }
-  double max_coord(int axis) const { return box.upper[axis]; }
-  ID id() const { return number; }
-
-  base::Box box;
-  std::size_t number = 0;  // unique among all boxes of a call
-};
 
 struct CgalBoxes {
   std::vector<CgalBox> boxes;

@@ -1,23 +1,11 @@
 // Contact points from facets' boxes that CGAL finds to overlap.
 #include <CGAL/box_intersection_d.h>
 
+#include "bench/rivals/cgal_box.h"
 #include "bench/rivals/near_bodies.h"
 
 namespace tact::bench {
 namespace {
-
-// A model of CGAL's BoxIntersectionBox_d.
-struct CgalFacet {
-  using NT = double;
-  using ID = std::size_t;
-  static int dimension() { return 3; }
-  double min_coord(int axis) const { return box->lower[axis]; }
-  double max_coord(int axis) const { return box->upper[axis]; }
-  ID id() const { return number; }
-
-  const Box* box = nullptr;
-  std::size_t number = 0;
-};
 
 // Only facets that reach into the box that both bodies share are given to it.
 class CgalNear : public NearBase {
@@ -26,14 +14,14 @@ class CgalNear : public NearBase {
 
  private:
   void moved(std::size_t) override {}
-  void gather(const NearBody& body, const Box& common, std::size_t first, std::vector<CgalFacet>& facets,
-              std::vector<const CgalFacet*>& pointers) {
+  void gather(const NearBody& body, const Box& common, std::size_t first, std::vector<CgalBox>& facets,
+              std::vector<const CgalBox*>& pointers) {
     facets.clear();
     pointers.clear();
     for (std::size_t f = 0; f < body.boxes.size(); ++f) {
-      if (base::overlaps(body.boxes[f], common)) facets.push_back({&body.boxes[f], first + f});
+      if (base::overlaps(body.boxes[f], common)) facets.push_back({body.boxes[f], first + f});
     }
-    for (const CgalFacet& facet : facets) pointers.push_back(&facet);
+    for (const CgalBox& facet : facets) pointers.push_back(&facet);
   }
   void propose(std::size_t a, std::size_t b, FacetPoints& points) override {
     const Box common = base::intersection(bodies_[a]->all, bodies_[b]->all);
@@ -41,13 +29,13 @@ class CgalNear : public NearBase {
     gather(*bodies_[a], common, 0, facets_a_, pointers_a_);
     gather(*bodies_[b], common, first_of_b, facets_b_, pointers_b_);
     CGAL::box_intersection_d(pointers_a_.begin(), pointers_a_.end(), pointers_b_.begin(), pointers_b_.end(),
-                             [&](const CgalFacet* p, const CgalFacet* q) {
+                             [&](const CgalBox* p, const CgalBox* q) {
                                points.find(static_cast<int>(p->number), static_cast<int>(q->number - first_of_b));
                              });
   }
 
-  std::vector<CgalFacet> facets_a_, facets_b_;
-  std::vector<const CgalFacet*> pointers_a_, pointers_b_;
+  std::vector<CgalBox> facets_a_, facets_b_;
+  std::vector<const CgalBox*> pointers_a_, pointers_b_;
 };
 
 }  // namespace

@@ -105,9 +105,6 @@ class EmbreeNear : public NearBase {
 
 // Does a segment cross a triangle? By the signs of plain doubles: right where nothing hangs on rounding.
 bool crosses(const Vec3& p, const Vec3& q, const narrowphase::Triangle& t) {
-  const auto volume = [](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    return dot(cross(b - a, c - a), d - a);
-  };
   if ((volume(t[0], t[1], t[2], p) > 0.0) == (volume(t[0], t[1], t[2], q) > 0.0)) return false;
   const bool first = volume(p, q, t[0], t[1]) > 0.0;
   return (volume(p, q, t[1], t[2]) > 0.0) == first && (volume(p, q, t[2], t[0]) > 0.0) == first;

@@ -1,5 +1,6 @@
 #include "narrowphase/direction/adjacent_faces.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -40,33 +41,28 @@ std::optional<Vec3> AdjacentFaces::lowest(const SupportedFace& face, double near
   lowest_.reset();
   limit_reached_ = false;
   std::array<Vec3, kNearCorners> corners;
+  std::array<std::size_t, kNearCorners> places;  // in the polygon
   std::size_t count = 0;
-  if (sides == 1) corners[count++] = in_space(face, polygon.corner[0]);
   const auto add_corner = [&](std::size_t i) {
-    if (count < kNearCorners) {
-      corners[count++] = in_space(face, corner_at(polygon.corner, i));
-    } else {
+    const std::size_t place = i % sides;
+    if (std::find(places.begin(), places.begin() + count, place) != places.begin() + count) return;
+    if (count == kNearCorners) {
       limit_reached_ = true;
+      return;
     }
+    places[count] = place;
+    corners[count++] = in_space(face, polygon.corner[place]);
   };
-  bool added_first = false, added_last = false;  // the first corner; the second one of the last side
+  if (sides == 1) add_corner(0);
   for (std::size_t i = 0; sides > 1 && i < sides; ++i) {
-    if (!is_near(i)) {
-      added_last = false;
-      continue;
-    }
+    if (!is_near(i)) continue;
     const bool is_flat = turn_over_side(face, i);
-    if (is_flat && !added_last) {
-      added_first = added_first || i == 0;
-      add_corner(i);
-    }
-    added_last = is_near(i + 1) || is_flat;
-    if (added_last && !(i + 1 == sides && added_first)) add_corner(i + 1);
+    if (is_flat) add_corner(i);
+    if (is_flat || is_near(i + 1)) add_corner(i + 1);
   }
   // If the projection is outside of the polygon, which may be too small for its sides to have directions: the nearest
   // corner.
-  if (count == 0 && margin_of_projection(polygon) < -tolerance_)
-    corners[count++] = in_space(face, polygon.corner[nearest_corner(polygon, {0.0, 0.0})]);
+  if (count == 0 && margin_of_projection(polygon) < -tolerance_) add_corner(nearest_corner(polygon, {0.0, 0.0}));
   for (std::size_t k = 0; k < count && !lowest_; ++k) go_around(face, corners[k]);
   limit_reached_ = limit_reached_ && !lowest_;
   return lowest_;

@@ -46,14 +46,6 @@ std::map<int, double> gaps_of_b(const Contact& contact) {
   return gaps;
 }
 
-Vec3 place(const Mesh& mesh, const std::array<int, 3>& vertices, const std::array<double, 3>& weights) {
-  Vec3 p;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (vertices[k] >= 0) p = p + weights[k] * mesh.position(vertices[k]);
-  }
-  return p;
-}
-
 int lowest_vertex(const Mesh& mesh) {
   int lowest = mesh.facets(0, 0);
   for (const int v : mesh.facets.reshaped()) {
@@ -65,7 +57,7 @@ int lowest_vertex(const Mesh& mesh) {
 // What holds of any point: its gap is the distance of its two places along its normal.
 void expect_places_to_agree(const Contact& contact, const Mesh& a, const Mesh& b) {
   for (const ContactPoint& point : contact.points()) {
-    const Vec3 way = place(b, point.b_vertices, point.b_weights) - place(a, point.a_vertices, point.a_weights);
+    const Vec3 way = weighted(b, point.b_vertices, point.b_weights) - weighted(a, point.a_vertices, point.a_weights);
     const Vec3 n{point.normal.x(), point.normal.y(), point.normal.z()};
     EXPECT_NEAR(norm(n), 1.0, 1e-12);
     EXPECT_NEAR(dot(n, way), point.gap, 1e-12);

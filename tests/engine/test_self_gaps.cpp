@@ -95,18 +95,12 @@ Mesh dented_strip(double depth) {
 
 // What holds of any point: its gap is the distance of its two places along its normal.
 void expect_places_to_agree(std::span<const ContactPoint> points, const Mesh& mesh) {
-  const auto place = [&](const std::array<int, 3>& vertices, const std::array<double, 3>& weights) {
-    Eigen::Vector3d p = Eigen::Vector3d::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (vertices[k] >= 0) p += weights[k] * mesh.positions.col(vertices[k]);
-    }
-    return p;
-  };
   for (const ContactPoint& point : points) {
-    const Eigen::Vector3d way = place(point.b_vertices, point.b_weights) - place(point.a_vertices, point.a_weights);
+    const Vec3 way =
+        weighted(mesh, point.b_vertices, point.b_weights) - weighted(mesh, point.a_vertices, point.a_weights);
     EXPECT_NEAR(point.normal.norm(), 1.0, 1e-12);
-    EXPECT_NEAR(point.normal.dot(way), point.gap, 1e-12);
-    EXPECT_NEAR(way.norm(), std::abs(point.gap), 1e-12);
+    EXPECT_NEAR(point.normal.dot(Eigen::Vector3d(way.x, way.y, way.z)), point.gap, 1e-12);
+    EXPECT_NEAR(norm(way), std::abs(point.gap), 1e-12);
   }
 }
 

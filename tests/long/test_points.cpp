@@ -22,9 +22,7 @@ namespace {
 
 template <class Check>
 void for_pairs(const Check& check) {
-  const std::uint64_t pairs = from_environment("TACT_LONG_POINT_PAIRS", 40);
-  const std::uint64_t first = from_environment("TACT_LONG_SEED", 1) << 32;
-  for (std::uint64_t i = 0; i < pairs && !::testing::Test::HasFatalFailure(); ++i) check(first + i);
+  for_seeds("TACT_LONG_POINT_PAIRS", 40, check);
 }
 
 struct Shape {
@@ -58,11 +56,6 @@ Shape closed_shape(Random& random) {
   return {"hull", random_hull(8 + random.below(30), seed), Surface::closed};
 }
 
-Rotation any_turn(Random& random) {
-  return rotation(random.uniform(0.1, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
-                  random.uniform(-1.0, 1.0));
-}
-
 Vec3 highest(const Mesh& mesh, Vec3 direction) {
   Vec3 highest = mesh.position(0);
   for (int v = 0; v < mesh.vertex_count(); ++v) {
@@ -73,14 +66,6 @@ Vec3 highest(const Mesh& mesh, Vec3 direction) {
 
 BodyDefinition body_of(const Mesh& mesh, Surface surface, double margin) {
   return {.positions = mesh.positions, .facets = mesh.facets, .surface = surface, .margin = margin};
-}
-
-Vec3 place(const Mesh& mesh, const std::array<int, 3>& vertices, const std::array<double, 3>& weights) {
-  Vec3 p;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (vertices[k] >= 0) p = p + weights[k] * mesh.position(vertices[k]);
-  }
-  return p;
 }
 
 // Those of certain points that are missing, those that are none, and gaps that differ.
@@ -96,7 +81,7 @@ void expect_points(const Contact* contact, const Mesh& a, const Mesh& b, double 
     ASSERT_NE(known, expected.end()) << what << ": " << point.a_vertices[0] << " of a and " << point.b_vertices[0]
                                      << " of b have none, gap " << point.gap;
     ASSERT_NEAR(point.gap, known->second.gap, 1e-11 * size) << what;
-    const Vec3 way = place(b, point.b_vertices, point.b_weights) - place(a, point.a_vertices, point.a_weights);
+    const Vec3 way = weighted(b, point.b_vertices, point.b_weights) - weighted(a, point.a_vertices, point.a_weights);
     ASSERT_NEAR(norm(way), point.gap, 1e-11 * size + 1e-15 * farthest) << what;
   }
   for (const auto& [key, point] : expected)
@@ -112,8 +97,8 @@ TEST(PointsLong, OfBodiesThatDoNotCrossEqualBruteForce) {
     const Vec3 far =
         random.chance(0.2) ? scale * std::pow(10.0, random.uniform(0.0, 6.0)) * random.direction() : Vec3{};
     const bool turned = random.chance(0.7);
-    const Mesh one = turned ? rotated(first.mesh, any_turn(random)) : first.mesh;
-    const Mesh other = turned ? rotated(second.mesh, any_turn(random)) : second.mesh;
+    const Mesh one = turned ? rotated(first.mesh, random.rotation()) : first.mesh;
+    const Mesh other = turned ? rotated(second.mesh, random.rotation()) : second.mesh;
     const Vec3 way = random.chance(0.7) ? random.direction() : Vec3{0, 0, 1};
     const double reach = std::pow(10.0, random.uniform(-2.0, 0.0));
     // Corner to corner; or hulls overlap, as surfaces then may.
@@ -144,7 +129,7 @@ TEST(PointsLong, GapsOfClosedBodiesEqualBruteForce) {
   for_pairs([&](std::uint64_t seed) {
     Random random(seed);
     const Shape first = closed_shape(random), second = closed_shape(random);
-    const Mesh a = rotated(first.mesh, any_turn(random)), shape = rotated(second.mesh, any_turn(random));
+    const Mesh a = rotated(first.mesh, random.rotation()), shape = rotated(second.mesh, random.rotation());
     const Vec3 way = random.direction();
     const Vec3 beside = highest(a, way) - highest(shape, -way);
     const double margin = random.chance(0.5) ? random.uniform(0.0, 0.05) : 0.0;

@@ -18,13 +18,6 @@
 namespace tact::tests {
 namespace {
 
-template <class Check>
-void for_seeds(const Check& check) {
-  const std::uint64_t seeds = from_environment("TACT_LONG_SELF_SEEDS", 1);
-  const std::uint64_t first = from_environment("TACT_LONG_SEED", 1) << 32;
-  for (std::uint64_t i = 0; i < seeds; ++i) check(first + i);
-}
-
 World world_of(const Mesh& mesh, double margin) {
   World world({.threads = 1, .outputs = {.points = margin > 0.0}});
   world.add_body({.positions = mesh.positions,
@@ -45,7 +38,7 @@ void expect_facet_pairs_of_the_oracle(const Mesh& mesh, const std::string& what)
 }
 
 TEST(SelfLong, FacetPairsEqualTheOracle) {
-  for_seeds([](std::uint64_t seed) {
+  for_seeds("TACT_LONG_SELF_SEEDS", 1, [](std::uint64_t seed) {
     for (const int cells : {14, 24, 40}) {
       for (const auto& [name, mesh] : folded_meshes(cells, seed)) {
         const std::string what = name + ", " + std::to_string(cells) + " cells, seed " + std::to_string(seed);
@@ -57,7 +50,7 @@ TEST(SelfLong, FacetPairsEqualTheOracle) {
 }
 
 TEST(SelfLong, PointsEqualBruteForce) {
-  for_seeds([](std::uint64_t seed) {
+  for_seeds("TACT_LONG_SELF_SEEDS", 1, [](std::uint64_t seed) {
     for (const auto& [name, mesh] : folded_meshes(14, seed)) {
       for (const double margin : {0.001, 0.01, 0.08}) {
         const std::string what = name + ", margin " + std::to_string(margin) + ", seed " + std::to_string(seed);

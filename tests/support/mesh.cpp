@@ -176,6 +176,14 @@ Eigen::Matrix3Xd interpolated(const Eigen::Matrix3Xd& from, const Eigen::Matrix3
   return (1.0 - t) * from + t * to;
 }
 
+Vec3 weighted(const Mesh& mesh, const std::array<int, 3>& vertices, const std::array<double, 3>& weights) {
+  Vec3 sum;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (vertices[k] >= 0) sum = sum + weights[k] * mesh.position(vertices[k]);
+  }
+  return sum;
+}
+
 std::vector<Vec3> used_points(const Mesh& mesh) {
   const std::vector<char> used = used_vertices(mesh);
   std::vector<Vec3> points;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -81,6 +82,9 @@ double extent(const Mesh& mesh);
 
 // The positions between two of the same shape: (1 - t) * from + t * to.
 Eigen::Matrix3Xd interpolated(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to, double t);
+
+// The sum of up to three vertices times their weights; -1 stands for none.
+Vec3 weighted(const Mesh& mesh, const std::array<int, 3>& vertices, const std::array<double, 3>& weights);
 
 // The vertices that a facet uses, each once, in their order.
 std::vector<Vec3> used_points(const Mesh& mesh);

@@ -19,6 +19,7 @@ namespace {
 using tests::Mesh;
 using tests::PointKey;
 using tests::Random;
+using tests::weighted;
 
 std::vector<FeaturePoint> sorted(std::vector<FeaturePoint> points) {
   std::ranges::sort(points, {}, &FeaturePoint::features);
@@ -58,14 +59,6 @@ std::vector<FeaturePoint> points_of_itself(const Mesh& mesh, double reach) {
 }
 
 double size_of(const Mesh& a, const Mesh& b) { return std::max({tests::extent(a), tests::extent(b), 1e-300}); }
-
-Vec3 weighted(const Mesh& mesh, const std::array<int, 3>& vertices, const std::array<double, 3>& weights) {
-  Vec3 sum;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (vertices[k] >= 0) sum = sum + weights[k] * mesh.position(vertices[k]);
-  }
-  return sum;
-}
 
 // The sets are equal outside the band, and each point lies where the oracle says.
 void expect_points_of_brute_force(const Mesh& a, const Mesh& b, double reach, const std::string& what) {
