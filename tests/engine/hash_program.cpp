@@ -1,10 +1,10 @@
-// Prints the hash of every scene of tests/support/hash_scenes.h and says whether it is the one that is expected: for
-// builds of other types, compilers and machines than the one that runs the tests. Exit status 1 if one differs.
+// Prints the hash of every scene of tests/support/hashes/hash_scenes.h and says whether it is the one that is expected:
+// for builds of other types, compilers and machines than the one that runs the tests. Exit status 1 if one differs.
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/support/hash_scenes.h"
+#include "tests/support/hashes/hash_scenes.h"
 
 int main(int argc, char** argv) {
   const int threads = argc > 1 ? std::atoi(argv[1]) : 0;

@@ -14,11 +14,11 @@
 #include <span>
 #include <vector>
 
-#include "tests/support/allocation_hook.h"
-#include "tests/support/body_pairs.h"
-#include "tests/support/clustered.h"
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/environment/allocation_hook.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/body_pairs.h"
+#include "tests/support/inside/clustered.h"
 
 namespace tact::tests {
 namespace {

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
-#include "tests/support/tunings.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/checks/tunings.h"
+#include "tests/support/generators/bodies.h"
 
 namespace tact::tests {
 

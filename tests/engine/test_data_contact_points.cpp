@@ -4,9 +4,9 @@
 #include <map>
 #include <set>
 
-#include "tests/support/data.h"
-#include "tests/support/detection.h"
-#include "tests/support/point_oracle.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/data/data_sets.h"
+#include "tests/support/oracles/point_oracle.h"
 
 namespace tact::tests {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <tact/tact.h>
 
-#include "tests/support/data.h"
-#include "tests/support/motion_by_brute_force.h"
+#include "tests/support/data/data_sets.h"
+#include "tests/support/oracles/motion_by_brute_force.h"
 
 namespace tact::tests {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-#include "tests/support/data.h"
-#include "tests/support/detection.h"
-#include "tests/support/folds.h"
-#include "tests/support/random.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/data/data_sets.h"
+#include "tests/support/generators/folds.h"
+#include "tests/support/generators/random.h"
 
 namespace tact::tests {
 namespace {

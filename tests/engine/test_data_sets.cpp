@@ -7,12 +7,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/support/clustered.h"
-#include "tests/support/contact_checks.h"
-#include "tests/support/data.h"
-#include "tests/support/detection.h"
-#include "tests/support/minkowski_oracle.h"
-#include "tests/support/random.h"
+#include "tests/support/checks/contact_checks.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/data/data_sets.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/clustered.h"
+#include "tests/support/oracles/minkowski_oracle.h"
 
 namespace tact::tests {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/body_pairs.h"
-#include "tests/support/generators.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/body_pairs.h"
 
 namespace tact::tests {
 namespace {

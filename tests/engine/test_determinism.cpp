@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 
-#include "tests/support/body_pairs.h"
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
-#include "tests/support/hash_scenes.h"
-#include "tests/support/work_hash.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/body_pairs.h"
+#include "tests/support/hashes/hash_scenes.h"
+#include "tests/support/hashes/work_hash.h"
 
 namespace tact::tests {
 namespace {

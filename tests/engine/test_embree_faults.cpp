@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "narrowphase/triangles/embree.h"
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
 
 namespace {
 

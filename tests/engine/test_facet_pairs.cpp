@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include "tests/support/body_pairs.h"
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
-#include "tests/support/messy_soups.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/body_pairs.h"
+#include "tests/support/generators/messy_soups.h"
 
 namespace tact::tests {
 namespace {

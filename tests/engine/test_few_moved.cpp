@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
-#include "tests/support/random.h"
-#include "tests/support/work_hash.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/hashes/work_hash.h"
 
 namespace tact::tests {
 namespace {

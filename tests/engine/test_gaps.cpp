@@ -6,9 +6,9 @@
 #include <numbers>
 #include <set>
 
-#include "tests/support/crossing_oracle.h"
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/oracles/crossing_oracle.h"
 
 namespace tact::tests {
 namespace {

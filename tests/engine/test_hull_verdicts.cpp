@@ -4,9 +4,9 @@
 
 #include <array>
 
-#include "tests/support/detection.h"
-#include "tests/support/hull_oracle.h"
-#include "tests/support/touching_hulls.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/touching_hulls.h"
+#include "tests/support/oracles/hull_oracle.h"
 
 namespace tact::tests {
 namespace {

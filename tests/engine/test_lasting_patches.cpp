@@ -9,9 +9,9 @@
 #include <set>
 #include <tuple>
 
-#include "tests/support/allocation_hook.h"
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/environment/allocation_hook.h"
+#include "tests/support/generators/bodies.h"
 
 namespace tact::tests {
 namespace {

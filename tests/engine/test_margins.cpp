@@ -5,8 +5,8 @@
 #include <limits>
 #include <set>
 
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
 
 namespace tact::tests {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/support/allocation_hook.h"
-#include "tests/support/generators.h"
-#include "tests/support/motion_by_brute_force.h"
-#include "tests/support/random.h"
+#include "tests/support/environment/allocation_hook.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/oracles/motion_by_brute_force.h"
 
 namespace tact::tests {
 namespace {

@@ -5,9 +5,9 @@
 #include <map>
 #include <utility>
 
-#include "tests/support/body_pairs.h"
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/body_pairs.h"
 
 namespace tact::tests {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "engine/bodies/packed_meshes.h"
 #include "narrowphase/mesh/refit.h"
-#include "tests/support/clustered.h"
-#include "tests/support/generators.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/inside/clustered.h"
 
 namespace tact {
 namespace {

@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
 
 namespace tact::tests {
 namespace {

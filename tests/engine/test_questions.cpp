@@ -7,10 +7,10 @@
 #include <cmath>
 #include <set>
 
-#include "tests/support/generators.h"
-#include "tests/support/question_oracle.h"
-#include "tests/support/random.h"
-#include "tests/support/triangle_oracle.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/oracles/question_oracle.h"
+#include "tests/support/oracles/triangle_oracle.h"
 
 namespace tact::tests {
 namespace {

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <string>
 
-#include "tests/support/body_pairs.h"
-#include "tests/support/generators.h"
-#include "tests/support/recorded_world.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/checks/recorded_world.h"
+#include "tests/support/environment/temporary_folder.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/body_pairs.h"
 
 namespace tact::tests {
 namespace {

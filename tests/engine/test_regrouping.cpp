@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
-#include "tests/support/random.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
 
 namespace tact::tests {
 namespace {

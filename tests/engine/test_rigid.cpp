@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
-#include "tests/support/random.h"
-#include "tests/support/recorded_world.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/checks/recorded_world.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
 
 namespace tact::tests {
 namespace {

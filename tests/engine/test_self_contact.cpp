@@ -5,12 +5,12 @@
 #include <numbers>
 #include <set>
 
-#include "tests/support/detection.h"
-#include "tests/support/folds.h"
-#include "tests/support/generators.h"
-#include "tests/support/oracle.h"
-#include "tests/support/point_oracle.h"
-#include "tests/support/random.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/folds.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/oracles/facet_pair_oracle.h"
+#include "tests/support/oracles/point_oracle.h"
 
 namespace tact::tests {
 namespace {

@@ -5,11 +5,11 @@
 #include <map>
 #include <numbers>
 
-#include "tests/support/detection.h"
-#include "tests/support/folds.h"
-#include "tests/support/generators.h"
-#include "tests/support/random.h"
-#include "tests/support/self_crossing_oracle.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/folds.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/oracles/self_crossing_oracle.h"
 
 namespace tact::tests {
 namespace {

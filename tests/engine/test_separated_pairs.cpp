@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "narrowphase/hull/gjk.h"
-#include "tests/support/clustered.h"
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
-#include "tests/support/random.h"
-#include "tests/support/work_hash.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/hashes/work_hash.h"
+#include "tests/support/inside/clustered.h"
 
 namespace tact::tests {
 namespace {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
 
 namespace tact::tests {
 namespace {

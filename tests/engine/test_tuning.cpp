@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/body_pairs.h"
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
-#include "tests/support/messy_soups.h"
-#include "tests/support/tunings.h"
-#include "tests/support/work_hash.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/checks/tunings.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/body_pairs.h"
+#include "tests/support/generators/messy_soups.h"
+#include "tests/support/hashes/work_hash.h"
 
 namespace tact::tests {
 namespace {

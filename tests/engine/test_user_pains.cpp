@@ -13,11 +13,11 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/support/body_pairs.h"
-#include "tests/support/contact_checks.h"
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
-#include "tests/support/minkowski_oracle.h"
+#include "tests/support/checks/contact_checks.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/body_pairs.h"
+#include "tests/support/oracles/minkowski_oracle.h"
 
 namespace tact::tests {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "engine/facet_fates.h"
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
 
 namespace tact::tests {
 namespace {

@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
-#include "tests/support/environment.h"
-#include "tests/support/generators.h"
-#include "tests/support/question_oracle.h"
+#include "tests/support/environment/environment.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/oracles/question_oracle.h"
 
 namespace tact::tests {
 namespace {
