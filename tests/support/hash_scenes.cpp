@@ -5,6 +5,7 @@
 
 #include "tests/support/body_pairs.h"
 #include "tests/support/generators.h"
+#include "tests/support/hash_scene_list.h"
 #include "tests/support/scene_player.h"
 
 namespace tact::tests {
@@ -61,6 +62,32 @@ constexpr HashScene kScenes[] = {
     {"hulls_alone", hulls_alone, {0xc9d4f7a4a0389528, 0x41f80414c23f4714, 0xa6c0dc80fab03bc2}},
     {"wall", wall, {0x0c6eb35572444384, 0x9e6d15c0a91a0336, 0x37cf5f49c603ea96}},
     {"large", large, {0x3590805f1b5293f3, 0x25b10be5e2ffb539, 0xe5c0571f6aa85dca}},
+    {"gaps", play_gaps, {0x226da8b997b92c69, 0x75699318a174a03b, 0x1a6aa0815526bdbe}},
+    {"crossings", play_crossings, {0x0528a3698275ee17, 0x1a6d22f84539da59, 0x1c14ac75fbbcf5dc}},
+    {"stacked_sheets", play_stacked_sheets, {0xaea09c5b16a99730, 0x79b5a10ff5b3971c, 0x6a50cc664de8b070}},
+    {"parallel_edges", play_parallel_edges, {0xb73af5575e4efb67, 0xc86c8a6a9b0bda9c, 0x2c76a15944cb759b}},
+    {"cut_sheets", play_cut_sheets, {0x67f0b38a243e8e46, 0x8deb89122b7a56bf, 0xd92ce6203d1100d4}},
+    {"nested", play_nested, {0xdcf8c587c860beee, 0xf6791ba90c23c16a, 0x5ebda215f5a1f981}},
+    {"degenerate", play_degenerate, {0xe8d4ebf10c3f0a71, 0x1a279372df96e2d4, 0xa8e709c1def8362c}},
+    {"many_clusters", play_many_clusters, {0x94c71db2c4ae80e7, 0xe16160f84d82201b, 0x432acad1301454d2}},
+    {"cluster_trees", play_cluster_trees, {0xe5a0c064ba9fd125, 0xcfafd40c0e8f7d82, 0xcf71da5e5d6701c5}},
+    {"self_sheets", play_self_sheets, {0xf1e3b6964d32e90f, 0xe9667ec0fa74ad19, 0x66fdbcca5cf4a203}},
+    {"self_closed", play_self_closed, {0x98113465e5c75c4c, 0x40f32af01ddfa9bc, 0xa8f9ad635c5f977d}},
+    {"self_facets", play_self_facets, {0xea72b6c4e1c3afd6, 0xc9db73ed90ba3471, 0xecfd7a83994ce168}},
+    {"self_large", play_self_large, {0xe4445769b752d988, 0x5a9e816a5dec8af6, 0x08e1799353e210cb}},
+    {"impacts", play_impacts, {0xe2c3a93ce99eacd5, 0x3dd6e0c0f7ba84e6, 0x12623f3cc108e37c}},
+    {"impacts_of_cloth", play_impacts_of_cloth, {0x71dbf15bc518c10d, 0xfcaecbd615efde7a, 0x0bf2097feeda140e}},
+    {"first_impacts", play_first_impacts, {0xd701d096bffb2928, 0xa843d91b87d7ecde, 0xd7399c245f70254f}},
+    {"impacts_large", play_impacts_large, {0x81650dd764ba98d8, 0xbdee4915b8bbf100, 0xbd4d102e550ed59d}},
+    {"poses", play_poses, {0xa53bb7c5946e5fee, 0xa35c11f3d05f39b5, 0xd3fa76d68bf27224}},
+    {"patches", play_patches, {0x30e82c19816d7ac3, 0x220996d299243962, 0xe5377800b8d10796}},
+    {"patches_of_facets", play_patches_of_facets, {0xa4d80bed9f6d95e5, 0x12977d74b932a5df, 0xd02f0422b86b6cfe}},
+    {"clamp", play_clamp, {0xdfe382b4f6d19895, 0xcae3485a70b4c9a0, 0x6a445c6bb493fd19}},
+    {"calls", play_calls, {0x464788704595c448, 0xb5dbc04e4f3d69c8, 0x274285fc46539871}},
+    {"rays", play_rays, {0x0d82f994797a6870, 0x16efdecaf8e7c7f0, 0x45c615af16c86bb9}},
+    {"closest_points", play_closest_points, {0x713a500a470a7034, 0x3992ad2d478fb1ce, 0x5858da22f40ed15b}},
+    {"boxes", play_boxes, {0x8d60221edbf116cf, 0xd2c8721bd83262c6, 0x6cfaf97b17f96814}},
+    {"inside", play_inside, {0x7f0c935580d9d901, 0xe15d9007a8d245fb, 0x387197bb83336c85}},
 };
 
 }  // namespace
