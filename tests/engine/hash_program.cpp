@@ -1,18 +1,39 @@
-// Prints the hash of every scene of tests/support/hashes/hash_scenes.h and says whether it is the one that is expected:
-// for builds of other types, compilers and machines than the one that runs the tests. Exit status 1 if one differs.
+// hash_program [THREADS] [--only TEXT]: prints the hashes of every scene of tests/support/hashes/hash_scenes.h, or of
+// those whose name holds the text, and says which of them differ from what is expected: for builds of other types,
+// compilers and machines than the one that runs the tests. Exit status 1 if one differs, 2 if no scene is played.
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "tests/support/hashes/hash_scenes.h"
 
 int main(int argc, char** argv) {
-  const int threads = argc > 1 ? std::atoi(argv[1]) : 0;
-  int different = 0;
+  int threads = 0;
+  const char* only = "";
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--only") == 0 && i + 1 < argc) {
+      only = argv[++i];
+    } else {
+      threads = std::atoi(argv[i]);
+    }
+  }
+  int played = 0, different = 0;
+  std::printf("%-20s %-18s %-18s %-18s\n", "scene", "reports", "features", "numbers");
   for (const tact::tests::HashScene& scene : tact::tests::hash_scenes()) {
-    const std::uint64_t hash = scene.play(threads).answers;
-    std::printf("%-16s 0x%016" PRIx64 "%s\n", scene.name, hash, hash == scene.expected ? "" : "  differs");
-    different += hash == scene.expected ? 0 : 1;
+    if (std::strstr(scene.name, only) == nullptr) continue;
+    const tact::tests::SceneAnswers &found = scene.play(threads).answers, &expected = scene.expected;
+    std::printf(
+        "%-20s 0x%016" PRIx64 " 0x%016" PRIx64 " 0x%016" PRIx64 "%s%s%s%s\n", scene.name, found.reports, found.features,
+        found.numbers, found == expected ? "" : "  other", found.reports == expected.reports ? "" : " reports",
+        found.features == expected.features ? "" : " features", found.numbers == expected.numbers ? "" : " numbers");
+    std::fflush(stdout);
+    ++played;
+    different += found == expected ? 0 : 1;
+  }
+  if (played == 0) {
+    std::fprintf(stderr, "hash_program: no scene's name holds '%s'\n", only);
+    return 2;
   }
   return different == 0 ? 0 : 1;
 }

@@ -2,7 +2,7 @@
 
 #include "narrowphase/contact_points/way_out.h"
 #include "tests/support/inside/clustered.h"
-#include "tests/support/oracles/question_oracle.h"
+#include "tests/support/oracles/query_oracle.h"
 
 namespace tact::narrowphase {
 namespace {

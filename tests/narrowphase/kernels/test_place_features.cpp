@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "narrowphase/contact_points/features.h"
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/mesh/clustered_mesh.h"
+#include "narrowphase/mesh/features.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/inside/clustered.h"
 #include "tests/support/inside/facet_blocks.h"

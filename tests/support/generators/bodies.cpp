@@ -313,6 +313,13 @@ Mesh wrinkled_sheet(int cells, double size, double height, std::uint64_t seed) {
   });
 }
 
+Mesh pleated(Mesh mesh, int waves, double height, double overhang) {
+  return mapped(std::move(mesh), [&](Vec3 p) {
+    const double along = waves * p.x;
+    return Vec3{p.x + overhang * wave(2.0 * along), p.y, p.z + height * wave(along + 0.25)};
+  });
+}
+
 Mesh soup(int facets, double extent, std::uint64_t seed) {
   Random random(seed);
   MeshBuilder builder;

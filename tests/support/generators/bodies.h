@@ -37,6 +37,9 @@ Mesh spike(Vec3 tip, double radius);
 Mesh sheet(int cells_x, int cells_y, double size_x, double size_y);
 // A sheet of `cells` x `cells` and the given size with smooth folds of up to `height`.
 Mesh wrinkled_sheet(int cells, double size, double height, std::uint64_t seed);
+// A mesh of x from -0.5 to 0.5 laid into `waves` waves along x, of the given height; their flanks hang over from an
+// overhang of 1 / (16 * waves) on, and waves meet from 3 / (16 * waves) on.
+Mesh pleated(Mesh mesh, int waves, double height, double overhang);
 
 // `facets` random triangles in the cube of half edge `extent`, of about a fifth of its size; nothing is shared.
 Mesh soup(int facets, double extent, std::uint64_t seed);
