@@ -61,12 +61,12 @@ void Step::look_at_pairs(Bodies& bodies, const Settings& settings, Timer& timer,
   stats.excluded_pairs = static_cast<std::int64_t>(sweep_.excluded());
   stats.sweep_ms = timer.lap();
 
-  narrow_phase_.run(table_, bodies, settings, device_, timer);
+  pair_stage_.run(table_, bodies, settings, device_, timer);
   containment_.run(table_.moved(), bodies, settings);
   if (settings.outputs.points) points_.run(table_.moved(), bodies, settings, device_);
   self_.run(bodies, settings, all_, points_, device_);
   find_patches(bodies, settings);
-  count_work(narrow_phase_, stats);
+  count_work(pair_stage_, stats);
   stats.narrow_phase_ms = timer.lap();
 }
 
@@ -74,7 +74,7 @@ void Step::look_at_pairs(Bodies& bodies, const Settings& settings, Timer& timer,
 void Step::keep_last_answers() {
   table_.keep();
   self_.keep();
-  narrow_phase_.forget_large();
+  pair_stage_.forget_large();
   writer_.patch_events().clear();
 }
 
@@ -98,14 +98,14 @@ void Step::find_patches(const Bodies& bodies, const Settings& settings) {
 
 void Step::make_trace(TraceEvent::Time begin, TraceEvent::Time end, const Settings& settings) {
   writer_.trace().clear();
-  if (settings.outputs.trace) trace_.make(begin, end, writer_.stats(), table_.moved(), narrow_phase_, writer_.trace());
+  if (settings.outputs.trace) trace_.make(begin, end, writer_.stats(), table_.moved(), pair_stage_, writer_.trace());
   trace_.forget_refreshes();
 }
 
 void Step::start_afresh() {
   sweep_ = {};
   table_ = {};
-  narrow_phase_.forget();
+  pair_stage_.forget();
   points_ = {};
   containment_ = {};
   self_ = {};

@@ -9,8 +9,8 @@
 #include "broadphase/sweep_and_prune.h"
 #include "engine/bodies/bodies.h"
 #include "engine/containment.h"
-#include "engine/narrow_phase.h"
 #include "engine/pair/pair_table.h"
+#include "engine/pair_stage.h"
 #include "engine/patch_stage.h"
 #include "engine/point_stage.h"
 #include "engine/report_writer.h"
@@ -46,7 +46,7 @@ class Step {
 
   broadphase::SweepAndPrune sweep_;
   PairTable table_;
-  NarrowPhase narrow_phase_;
+  PairStage pair_stage_;
   ContainmentStage containment_;
   PointStage points_;
   SelfStage self_;

@@ -19,7 +19,7 @@ void count_pairs(const PairTable& table, StepStats& stats) {
       stats.candidate_pairs - stats.kdop_separated_pairs - static_cast<std::int64_t>(table.moved().size());
 }
 
-void count_work(const NarrowPhase& narrow_phase, StepStats& stats) {
+void count_work(const PairStage& narrow_phase, StepStats& stats) {
   const PairCounts counts = narrow_phase.counts();
   stats.still_separated_pairs = counts.still_separated;
   stats.still_overlapping_pairs = counts.still_overlapping;

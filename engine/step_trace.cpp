@@ -81,7 +81,7 @@ bool before(const TraceEvent& x, const TraceEvent& y) {
 }  // namespace
 
 void StepTrace::make(Time begin, Time end, const StepStats& stats, std::span<const MovedPair> pairs,
-                     const NarrowPhase& narrow_phase, std::vector<TraceEvent>& events) {
+                     const PairStage& narrow_phase, std::vector<TraceEvent>& events) {
   std::size_t most = refreshes_.size() + kEventsOfStep + kEventsOfPair * pairs.size();
   for (const auto& pair : narrow_phase.large()) most += pair->range_count;
   events.reserve(most);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/base/timer.h"
-#include "engine/narrow_phase.h"
 #include "engine/pair/pair_table.h"
+#include "engine/pair_stage.h"
 
 namespace tact {
 
@@ -27,7 +27,7 @@ class StepTrace {
   // Replaces `events` by those of a step from `begin` to `end`, with the refreshes before it, sorted by thread and
   // time; an event stands before those within it. `pairs` are those that the step looked at and no k-DOP separates.
   void make(Time begin, Time end, const StepStats& stats, std::span<const MovedPair> pairs,
-            const NarrowPhase& narrow_phase, std::vector<TraceEvent>& events);
+            const PairStage& narrow_phase, std::vector<TraceEvent>& events);
 
  private:
   void add_pairs(std::span<const MovedPair> pairs, std::vector<TraceEvent>& events);

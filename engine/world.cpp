@@ -14,7 +14,7 @@
 #include "engine/check_name.h"
 #include "engine/messages.h"
 #include "engine/motion_stage.h"
-#include "engine/questions.h"
+#include "engine/queries.h"
 #include "engine/step.h"
 #include "engine/world_tuning.h"
 
@@ -73,7 +73,7 @@ struct World::Implementation {
   base::Workers workers;
   Bodies bodies{next_world(), tuning};
   Step step;
-  narrowphase::LineRoom line_room;
+  narrowphase::SegmentBatch segment_batch;
   std::unique_ptr<MotionStage> motion = nullptr;  // made when it is first asked for
   double refresh_ms = 0.0;                        // since the last step
   WorldObserver* observer = nullptr;
@@ -260,32 +260,32 @@ namespace {
 
 constexpr const char* kNoMemoryForAnswers = "answering ran out of memory";
 
-// The message of an error tells which question it is of.
-template <class Question>
-void check_questions(std::span<const Question> questions, std::size_t answers) {
-  if (questions.size() != answers) {
+// The message of an error tells which query it is of.
+template <class Query>
+void check_queries(std::span<const Query> queries, std::size_t answers) {
+  if (queries.size() != answers) {
     throw Error(ErrorCode::wrong_size,
-                std::to_string(questions.size()) + " questions, but room for " + std::to_string(answers) + " answers");
+                std::to_string(queries.size()) + " queries, but room for " + std::to_string(answers) + " answers");
   }
-  for (std::size_t i = 0; i < questions.size(); ++i) {
+  for (std::size_t i = 0; i < queries.size(); ++i) {
     try {
-      check_question(questions[i]);
+      check_query(queries[i]);
     } catch (const Error& error) {
-      throw Error(error.code(), "question " + std::to_string(i) + ": " + error.what());
+      throw Error(error.code(), "query " + std::to_string(i) + ": " + error.what());
     }
   }
 }
 
-// Answers each question by find(question), on all threads.
-template <class OfWorld, class Question, class Answer, class Find>
-void answer_all(OfWorld& world, std::span<const Question> questions, std::span<Answer> answers, const Find& find) {
-  constexpr std::size_t kAtATime = 16;  // a question takes a microsecond or more
-  check_questions(questions, answers.size());
+// Answers each query by find(query), on all threads.
+template <class OfWorld, class Query, class Answer, class Find>
+void answer_all(OfWorld& world, std::span<const Query> queries, std::span<Answer> answers, const Find& find) {
+  constexpr std::size_t kAtATime = 16;  // a query takes a microsecond or more
+  check_queries(queries, answers.size());
   const base::FloatingPointMode mode;
   const base::Workers::Scope scope(world.workers);
   with_memory(kNoMemoryForAnswers, [&] {
-    base::parallel_for(questions.size(), kAtATime, world.settings.threads,
-                       [&](std::size_t i) { answers[i] = find(questions[i]); });
+    base::parallel_for(queries.size(), kAtATime, world.settings.threads,
+                       [&](std::size_t i) { answers[i] = find(queries[i]); });
   });
 }
 
@@ -304,60 +304,59 @@ void World::rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits want
   constexpr std::size_t kFewestTogether = 64;
   if (wanted != RayHits::first || rays.size() < kFewestTogether)
     return answer_all(i, rays, hits, [&](const Ray& ray) { return find_hit(i.bodies, ray, wanted); });
-  check_questions(rays, hits.size());
+  check_queries(rays, hits.size());
   const base::FloatingPointMode mode;
   const base::Workers::Scope scope(i.workers);
   with_memory(kNoMemoryForAnswers, [&] {
     constexpr std::size_t kAtATime = narrowphase::kLinesAtATime;
-    begin_rays(i.bodies, rays.size(), i.settings.threads, i.line_room);
+    begin_rays(i.bodies, rays.size(), i.settings.threads, i.segment_batch);
     base::parallel_for((rays.size() + kAtATime - 1) / kAtATime, 1, i.settings.threads, [&](std::size_t block) {
       const std::size_t begin = block * kAtATime, count = std::min(kAtATime, rays.size() - begin);
-      find_first_hits(i.bodies, rays.subspan(begin, count), hits.subspan(begin, count), i.line_room);
+      find_first_hits(i.bodies, rays.subspan(begin, count), hits.subspan(begin, count), i.segment_batch);
     });
   });
 }
 
 std::vector<RayHit> World::all_hits(const Ray& ray) const {
   const Implementation& i = implementation();
-  check_question(ray);
+  check_query(ray);
   const base::FloatingPointMode mode;
   return with_memory(kNoMemoryForAnswers, [&] { return find_all_hits(i.bodies, ray); });
 }
 
-ClosestPoint World::closest_point(const PointQuestion& question) const {
+ClosestPoint World::closest_point(const PointQuery& query) const {
   ClosestPoint answer;
-  closest_points({&question, 1}, {&answer, 1});
+  closest_points({&query, 1}, {&answer, 1});
   return answer;
 }
 
-void World::closest_points(std::span<const PointQuestion> questions, std::span<ClosestPoint> answers) const {
+void World::closest_points(std::span<const PointQuery> queries, std::span<ClosestPoint> answers) const {
   Implementation& i = implementation();
-  answer_all(i, questions, answers,
-             [&](const PointQuestion& question) { return find_closest_point(i.bodies, question); });
+  answer_all(i, queries, answers, [&](const PointQuery& query) { return find_closest_point(i.bodies, query); });
 }
 
-std::vector<FacetOfBody> World::overlap_box(const BoxQuestion& question) const {
+std::vector<FacetOfBody> World::overlap_box(const BoxQuery& query) const {
   const Implementation& i = implementation();
-  check_question(question);
+  check_query(query);
   const base::FloatingPointMode mode;
-  return with_memory(kNoMemoryForAnswers, [&] { return find_in_box(i.bodies, question); });
+  return with_memory(kNoMemoryForAnswers, [&] { return find_in_box(i.bodies, query); });
 }
 
-std::vector<BodyId> World::inside(const PointQuestion& question) const {
+std::vector<BodyId> World::inside(const PointQuery& query) const {
   const Implementation& i = implementation();
-  check_question(question);
+  check_query(query);
   const base::FloatingPointMode mode;
-  return with_memory(kNoMemoryForAnswers, [&] { return find_around(i.bodies, question); });
+  return with_memory(kNoMemoryForAnswers, [&] { return find_around(i.bodies, query); });
 }
 
-void World::overlap_boxes(std::span<const BoxQuestion> questions, std::span<std::vector<FacetOfBody>> answers) const {
+void World::overlap_boxes(std::span<const BoxQuery> queries, std::span<std::vector<FacetOfBody>> answers) const {
   Implementation& i = implementation();
-  answer_all(i, questions, answers, [&](const BoxQuestion& question) { return find_in_box(i.bodies, question); });
+  answer_all(i, queries, answers, [&](const BoxQuery& query) { return find_in_box(i.bodies, query); });
 }
 
-void World::inside_each(std::span<const PointQuestion> questions, std::span<std::vector<BodyId>> answers) const {
+void World::inside_each(std::span<const PointQuery> queries, std::span<std::vector<BodyId>> answers) const {
   Implementation& i = implementation();
-  answer_all(i, questions, answers, [&](const PointQuestion& question) { return find_around(i.bodies, question); });
+  answer_all(i, queries, answers, [&](const PointQuery& query) { return find_around(i.bodies, query); });
 }
 
 bool World::contains(BodyId body) const noexcept { return implementation_ && implementation_->bodies.contains(body); }

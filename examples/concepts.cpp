@@ -121,15 +121,15 @@ void motion() {
   expect(world.detect().stats().facet_pairs == 0, "stopped before, they do not meet");
 }
 
-void questions() {
+void queries() {
   const Mesh mesh = cube(1.0, {0, 0, 0});
-  // [part questions]
+  // [part queries]
   tact::World world;
   world.add_body({.positions = mesh.positions, .facets = mesh.facets});
   const tact::RayHit hit = world.ray({.from = {0.3, 0.4, 5}, .to = {0.3, 0.4, -5}});
   const tact::ClosestPoint closest = world.closest_point({.point = {0.3, 0.4, 1.2}});
   const bool is_inside = !world.inside({.point = {0.5, 0.5, 0.5}}).empty();
-  // [part questions]
+  // [part queries]
   expect(near(hit.time, 0.4), "the ray meets the top after 4 of 10 metres");
   expect(near(closest.distance, 0.2), "the point is 0.2 m above the cube");
   expect(is_inside, "the middle is inside");
@@ -159,7 +159,7 @@ int main() {
   zones_and_patches();
   points_and_margins();
   motion();
-  questions();
+  queries();
   errors();
   return failures == 0 ? 0 : 1;
 }

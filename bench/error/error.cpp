@@ -22,9 +22,9 @@ std::vector<HullMethodKind> hull_methods() {
 
 // Judges all methods, then times them, and says how many of tact's failed.
 template <class Row, class Kind>
-int run_row(const Row& row, Question question, const std::vector<Kind>& kinds, double seconds,
+int run_row(const Row& row, Query query, const std::vector<Kind>& kinds, double seconds,
             std::vector<ErrorTable>& tables) {
-  ErrorTable table{row.name, question, {}};
+  ErrorTable table{row.name, query, {}};
   int faults = 0;
   for (const Kind& kind : kinds) table.results.push_back(judge(row, kind));
   const std::vector<double> times = measure(row, kinds, seconds);
@@ -32,7 +32,7 @@ int run_row(const Row& row, Question question, const std::vector<Kind>& kinds, d
   print(table);
   print_verdict(table);
   for (const ErrorResult& r : table.results) {
-    const std::string fault = r.library == "tact" ? fault_of(r, question) : "";
+    const std::string fault = r.library == "tact" ? fault_of(r, query) : "";
     if (fault.empty()) continue;
     fmt::print("WRONG: tact, {}: {}\n\n", r.setting, fault);
     ++faults;
@@ -56,16 +56,16 @@ int run_error(const BenchOptions& options) {
   std::vector<ErrorTable> tables;
   int faults = 0;
   for (const HullRow& row : hull_rows(options.quick))
-    faults += run_row(row, Question::hulls, hull_methods(), seconds, tables);
+    faults += run_row(row, Query::hulls, hull_methods(), seconds, tables);
   for (const MeshRow& row : mesh_rows(options.quick))
-    faults += run_row(row, Question::facet_pairs, mesh_methods(), seconds, tables);
+    faults += run_row(row, Query::facet_pairs, mesh_methods(), seconds, tables);
   faults += print_recall(options);
   faults += print_iterations(options);
   print_growth(options);
   if (!options.out.empty()) {
     write_csv(tables, options.out / "error.csv");
-    plot_tables(tables, Question::hulls, options.out, "error_hulls");
-    plot_tables(tables, Question::facet_pairs, options.out, "error_meshes");
+    plot_tables(tables, Query::hulls, options.out, "error_hulls");
+    plot_tables(tables, Query::facet_pairs, options.out, "error_meshes");
   }
   return faults > 0 ? 1 : 0;
 }

@@ -1,5 +1,5 @@
 // tact-bench error: run time against error, of tact at every level and setting and of the libraries that answer the
-// same questions.
+// same queries.
 #pragma once
 
 #include "bench/options.h"

@@ -27,7 +27,7 @@ void HullErrors::judge(const HullAnswer& answer, Minimum minimum, const Minkowsk
   const double size = w.size();
   const MinkowskiFaces::Smallest smallest = faces.smallest(shift, kTie * size);
   if (std::abs(smallest.height) < kUndecided * size) return;
-  ++result.questions;
+  ++result.queries;
   if (answer.failed) {
     ++result.failed;
   } else if (answer.overlap != (smallest.height > 0.0)) {

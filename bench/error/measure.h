@@ -18,7 +18,7 @@ struct ErrorResult {
   std::string setting;
   Minimum minimum = Minimum::smallest;
   double microseconds = 0.0;  // a pair and step, median over the steps
-  int questions = 0;          // pairs and steps that were judged
+  int queries = 0;            // pairs and steps that were judged
   int missed = 0;             // overlapping hulls called apart; or facet pairs that were not found
   int wrong = 0;              // hulls apart called overlapping; or facet pairs found that do not meet
   int failed = 0;  // no answer: threw, not a number, a limit reached, or a direction that is no minimum at all
@@ -32,7 +32,7 @@ struct ErrorResult {
 class HullErrors {
  public:
   // `answer` against the smallest or the nearest minimum of w, where the second body is shifted by `shift`. Counts it
-  // in `result` as a question, unless the hulls touch or nearly do.
+  // in `result` as a query, unless the hulls touch or nearly do.
   void judge(const HullAnswer& answer, Minimum minimum, const MinkowskiFaces& faces, const TrueHeight& w,
              const Eigen::Vector3d& shift, ErrorResult& result);
   void summarize(ErrorResult& result) const;

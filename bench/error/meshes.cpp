@@ -151,7 +151,7 @@ ErrorResult judge(const MeshRow& row, const MeshMethodKind& kind) {
       std::ranges::set_intersection(expected, found, std::back_inserter(both));
       result.missed += static_cast<int>(expected.size() - both.size());
       result.wrong += static_cast<int>(found.size() - both.size());
-      result.questions += static_cast<int>(expected.size());
+      result.queries += static_cast<int>(expected.size());
     }
     if (kind.depth && row.hulls[at]) {
       ErrorResult of_hulls;

@@ -1,4 +1,4 @@
-// The rows of meshes of the benchmark `error`: two bodies that deform, every facet pair in question.
+// The rows of meshes of the benchmark `error`: two bodies that deform, every facet pair in query.
 #pragma once
 
 #include <functional>

@@ -23,23 +23,23 @@ std::string scientific(const std::optional<double>& value) { return value ? fmt:
 
 int mistakes(const ErrorResult& r) { return r.missed + r.wrong + r.failed; }
 
-bool as_accurate(const ErrorResult& rival, const ErrorResult& tact, Question question) {
+bool as_accurate(const ErrorResult& rival, const ErrorResult& tact, Query query) {
   if (mistakes(rival) > mistakes(tact)) return false;
-  if (question == Question::facet_pairs) return true;
+  if (query == Query::facet_pairs) return true;
   if (!rival.depth_error || !tact.depth_error) return false;
   return *rival.depth_error <= std::max(*tact.depth_error, kDepthPromise) &&
          *rival.direction_error <= std::max(*tact.direction_error, kDirectionPromise);
 }
 
-double drawn_error(const ErrorResult& r, Question question) {
-  if (question == Question::facet_pairs) {
-    return std::max(kLeastShareDrawn, static_cast<double>(r.missed + r.wrong) / std::max(1, r.questions));
+double drawn_error(const ErrorResult& r, Query query) {
+  if (query == Query::facet_pairs) {
+    return std::max(kLeastShareDrawn, static_cast<double>(r.missed + r.wrong) / std::max(1, r.queries));
   }
   return std::max(kLeastDepthDrawn, r.depth_error.value_or(1.0));
 }
 
 // Not a level without facet pairs, where these are what is asked for.
-bool is_drawn(const ErrorResult& r, Question question) { return question == Question::hulls || r.questions > 0; }
+bool is_drawn(const ErrorResult& r, Query query) { return query == Query::hulls || r.queries > 0; }
 
 // "tact, exact" and "tact, smallest" are series of their own: settings that differ in tolerance share one.
 std::string series_of(const ErrorResult& r) {
@@ -52,13 +52,13 @@ std::string series_of(const ErrorResult& r) {
 }  // namespace
 
 void print(const ErrorTable& table) {
-  const bool pairs = table.question == Question::facet_pairs;
+  const bool pairs = table.query == Query::facet_pairs;
   fmt::print("{}\n", table.row);
   Table columns({"library, setting", "µs", "asked", "missed", "wrong", "failed", "depth error", "median",
                  "direction error", "median"});
   for (const ErrorResult& r : table.results) {
     columns.add({r.library + ", " + r.setting, three_digits(r.microseconds),
-                 pairs && r.questions == 0 ? "-" : fmt::format("{}", r.questions), fmt::format("{}", r.missed),
+                 pairs && r.queries == 0 ? "-" : fmt::format("{}", r.queries), fmt::format("{}", r.missed),
                  fmt::format("{}", r.wrong), fmt::format("{}", r.failed), scientific(r.depth_error),
                  scientific(r.median_depth_error), scientific(r.direction_error),
                  scientific(r.median_direction_error)});
@@ -69,9 +69,9 @@ void print(const ErrorTable& table) {
 void print_verdict(const ErrorTable& table) {
   bool any = false;
   for (const ErrorResult& tact : table.results) {
-    if (tact.library != "tact" || !is_drawn(tact, table.question)) continue;
+    if (tact.library != "tact" || !is_drawn(tact, table.query)) continue;
     for (const ErrorResult& r : table.results) {
-      if (r.library == "tact" || r.microseconds >= tact.microseconds || !as_accurate(r, tact, table.question)) continue;
+      if (r.library == "tact" || r.microseconds >= tact.microseconds || !as_accurate(r, tact, table.query)) continue;
       fmt::print("  {} {} is as accurate as tact ({}) and {} times as fast.\n", r.library, r.setting, tact.setting,
                  three_digits(tact.microseconds / r.microseconds));
       any = true;
@@ -87,7 +87,7 @@ void write_csv(const std::vector<ErrorTable>& tables, const std::filesystem::pat
   for (const ErrorTable& table : tables) {
     for (const ErrorResult& r : table.results) {
       csv.add({r.row, r.library, r.setting, r.minimum == Minimum::local ? "local" : "smallest",
-               three_digits(r.microseconds), fmt::format("{}", r.questions), fmt::format("{}", r.missed),
+               three_digits(r.microseconds), fmt::format("{}", r.queries), fmt::format("{}", r.missed),
                fmt::format("{}", r.wrong), fmt::format("{}", r.failed), scientific(r.depth_error),
                scientific(r.median_depth_error), scientific(r.direction_error), scientific(r.median_direction_error)});
     }
@@ -95,27 +95,26 @@ void write_csv(const std::vector<ErrorTable>& tables, const std::filesystem::pat
   csv.write_csv(file);
 }
 
-void plot_tables(const std::vector<ErrorTable>& tables, Question question, const std::filesystem::path& out,
+void plot_tables(const std::vector<ErrorTable>& tables, Query query, const std::filesystem::path& out,
                  const std::string& name) {
   std::vector<const ErrorTable*> panels;
   std::map<std::string, int> number;  // of each series, the same in all panels
   for (const ErrorTable& table : tables) {
-    if (table.question != question) continue;
+    if (table.query != query) continue;
     panels.push_back(&table);
     for (const ErrorResult& r : table.results) {
-      if (is_drawn(r, question)) number.try_emplace(series_of(r), static_cast<int>(number.size()) + 1);
+      if (is_drawn(r, query)) number.try_emplace(series_of(r), static_cast<int>(number.size()) + 1);
     }
   }
-  const std::size_t columns = std::min<std::size_t>(panels.size() + 1, question == Question::hulls ? 4 : 2);
+  const std::size_t columns = std::min<std::size_t>(panels.size() + 1, query == Query::hulls ? 4 : 2);
   const std::size_t lines = (panels.size() + columns) / columns;
   std::string script = fmt::format(
       "set multiplot layout {},{}\nset logscale xy\nset format x '%g'\nset format y '10^{{%L}}'\nset key off\n"
       "set xlabel 'µs a pair and step'\nset grid\n",
       lines, columns);
-  script +=
-      question == Question::hulls
-          ? "set yrange [3e-18:1]\nset ylabel 'largest error of depth / size'\n"
-          : fmt::format("set yrange [{}:1]\nset ylabel 'missed or wrong (10^{{-7}}: none)'\n", 0.3 * kLeastShareDrawn);
+  script += query == Query::hulls ? "set yrange [3e-18:1]\nset ylabel 'largest error of depth / size'\n"
+                                  : fmt::format("set yrange [{}:1]\nset ylabel 'missed or wrong (10^{{-7}}: none)'\n",
+                                                0.3 * kLeastShareDrawn);
   const auto style = [&](const std::string& series) {
     const int n = number.at(series);
     const bool tact = series.starts_with("tact");
@@ -125,8 +124,8 @@ void plot_tables(const std::vector<ErrorTable>& tables, Question question, const
     script += fmt::format("set title '{}'\n", panel->row);
     std::map<std::string, std::string> points;
     for (const ErrorResult& r : panel->results) {
-      if (!is_drawn(r, question)) continue;
-      points[series_of(r)] += fmt::format("{} {}\n", r.microseconds, drawn_error(r, question));
+      if (!is_drawn(r, query)) continue;
+      points[series_of(r)] += fmt::format("{} {}\n", r.microseconds, drawn_error(r, query));
     }
     std::string plots, data;
     for (const auto& [series, lines_of] : points) {
@@ -145,11 +144,11 @@ void plot_tables(const std::vector<ErrorTable>& tables, Question question, const
   plot(out, name, script + key + "\nunset multiplot");
 }
 
-std::string fault_of(const ErrorResult& r, Question question) {
-  const bool promises_pairs = question == Question::facet_pairs && r.setting.starts_with("exact");
+std::string fault_of(const ErrorResult& r, Query query) {
+  const bool promises_pairs = query == Query::facet_pairs && r.setting.starts_with("exact");
   if (r.wrong > 0) return fmt::format("{} wrong", r.wrong);
   if (r.failed > 0) return fmt::format("{} failed", r.failed);
-  if (r.missed > 0 && (promises_pairs || question == Question::hulls)) return fmt::format("{} missed", r.missed);
+  if (r.missed > 0 && (promises_pairs || query == Query::hulls)) return fmt::format("{} missed", r.missed);
   if (r.depth_error.value_or(0.0) > kDepthPromise) return "depth off by " + scientific(r.depth_error);
   if (r.direction_error.value_or(0.0) > kDirectionPromise) return "direction off by " + scientific(r.direction_error);
   return {};

@@ -9,12 +9,12 @@
 
 namespace tact::bench {
 
-enum class Question { hulls, facet_pairs };
+enum class Query { hulls, facet_pairs };
 
 // The results of one row.
 struct ErrorTable {
   std::string row;
-  Question question = Question::hulls;
+  Query query = Query::hulls;
   std::vector<ErrorResult> results;
 };
 
@@ -24,10 +24,10 @@ void print(const ErrorTable& table);
 void print_verdict(const ErrorTable& table);
 void write_csv(const std::vector<ErrorTable>& tables, const std::filesystem::path& file);
 // A panel a row: time across, the largest error of depth or the share of missed and wrong facet pairs upwards.
-void plot_tables(const std::vector<ErrorTable>& tables, Question question, const std::filesystem::path& out,
+void plot_tables(const std::vector<ErrorTable>& tables, Query query, const std::filesystem::path& out,
                  const std::string& name);
 
 // What is wrong with an answer of tact: empty if nothing is.
-std::string fault_of(const ErrorResult& result, Question question);
+std::string fault_of(const ErrorResult& result, Query query);
 
 }  // namespace tact::bench

@@ -80,7 +80,7 @@ class EmbreeQueries : public QueryRival {
     return true;
   }
 
-  void ask(std::span<const PointQuestion> points) override {
+  void ask(std::span<const PointQuery> points) override {
     for_each(points.size(), [&](std::size_t i) {
       const Vector3f p = points[i].point.cast<float>();
       RTCPointQuery query{p.x(), p.y(), p.z(), 0.0F, std::numeric_limits<float>::infinity()};

@@ -22,7 +22,7 @@ class FclQueries : public QueryRival {
 
   bool ask(std::span<const Ray>) override { return false; }
 
-  void ask(std::span<const PointQuestion> points) override {
+  void ask(std::span<const PointQuery> points) override {
     answers_.resize(points.size());
     const fcl::Sphered sphere(kPointRadius);
     const Solver solver;

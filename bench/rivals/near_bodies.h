@@ -11,8 +11,8 @@
 
 #include "bench/rivals/near_points.h"
 #include "broadphase/sweep_and_prune.h"
-#include "narrowphase/contact_points/features.h"
 #include "narrowphase/contact_points/nearest.h"
+#include "narrowphase/mesh/features.h"
 #include "narrowphase/mesh/refit.h"
 
 namespace tact::bench {

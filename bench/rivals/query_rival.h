@@ -1,7 +1,7 @@
-// Something that answers questions to one moving surface: tact, or a library it is held against.
+// Something that answers queries to one moving surface: tact, or a library it is held against.
 #pragma once
 
-#include <tact/questions.h>
+#include <tact/queries.h>
 
 #include <Eigen/Core>
 #include <memory>
@@ -24,14 +24,14 @@ class QueryRival {
   QueryRival(const QueryRival&) = delete;
   QueryRival& operator=(const QueryRival&) = delete;
 
-  // What is timed. All vertices have new positions, 3 x V metres, in memory that stays while questions are asked.
+  // What is timed. All vertices have new positions, 3 x V metres, in memory that stays while queries are asked.
   virtual void refit(const Eigen::Matrix3Xd& positions) = 0;
-  // The first facet that each ray meets. False if the library has no such question.
+  // The first facet that each ray meets. False if the library has no such query.
   virtual bool ask(std::span<const Ray> rays) = 0;
   // The nearest facet.
-  virtual void ask(std::span<const PointQuestion> points) = 0;
+  virtual void ask(std::span<const PointQuery> points) = 0;
 
-  // The answers to the questions that were asked last.
+  // The answers to the queries that were asked last.
   virtual const std::vector<QueryAnswer>& answers() const = 0;
 };
 

@@ -37,7 +37,7 @@ class TactQueries : public QueryRival {
     return true;
   }
 
-  void ask(std::span<const PointQuestion> points) override {
+  void ask(std::span<const PointQuery> points) override {
     closest_.resize(points.size());
     world_.closest_points(points, closest_);
     answers_.resize(points.size());
@@ -57,23 +57,23 @@ class TactQueries : public QueryRival {
 };
 
 enum QueryContestant : std::size_t { kQueryTact, kQueryEmbree, kQueryFcl, kQueryContestants };
-enum class QuestionKind { refit_alone, rays, points };
-constexpr std::array<const char*, 3> kQuestionNames{"refit alone", "rays", "nearest points"};
+enum class QueryKind { refit_alone, rays, points };
+constexpr std::array<const char*, 3> kQueryNames{"refit alone", "rays", "nearest points"};
 
 // Floats are rounded at 6e-8 of the size of the bodies, which is 1 m, a few times over.
 constexpr double kFloatDifference = 1e-5, kDoubleDifference = 1e-9;  // of the distance or 1 m, whichever is more
 // Of all answers, as many may differ from Embree's, which takes rays along the border of what is seen for hits or not.
 constexpr double kMostDiffering = 0.001;
 
-struct QuestionSet {
+struct QuerySet {
   std::vector<Ray> rays;
-  std::vector<PointQuestion> points;
+  std::vector<PointQuery> points;
 };
 
 // Rays from all around, a fifth of which miss; points in a cube of three metres about the body.
-QuestionSet questions_about(const Eigen::Vector3d& middle, int count) {
+QuerySet queries_about(const Eigen::Vector3d& middle, int count) {
   Random random(61);
-  QuestionSet set;
+  QuerySet set;
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d from = middle + 2.5 * random.direction();
     const Eigen::Vector3d through = middle + 1.2 * std::cbrt(random.uniform(0.0, 1.0)) * random.direction();
@@ -105,14 +105,14 @@ class QueryContest {
   }
 
   // With one thread the answers are added to `all_answers`.
-  void add_row(QuestionKind kind, int count, Table& table, tests::AnswerHash& all_answers) {
-    const QuestionSet set = questions_about(body_.frames[0].rowwise().mean(), count);
+  void add_row(QueryKind kind, int count, Table& table, tests::AnswerHash& all_answers) {
+    const QuerySet set = queries_about(body_.frames[0].rowwise().mean(), count);
     std::array<bool, kQueryContestants> answers{};
     for (std::size_t k = 0; k < kQueryContestants; ++k) answers[k] = step(k, kind, set, 1);
-    if (threads_ == 1 && kind == QuestionKind::rays) all_answers.add(tact_->hits());
-    if (threads_ == 1 && kind == QuestionKind::points) all_answers.add(tact_->closest());
+    if (threads_ == 1 && kind == QueryKind::rays) all_answers.add(tact_->hits());
+    if (threads_ == 1 && kind == QueryKind::points) all_answers.add(tact_->closest());
     const auto check = [&](QueryContestant rival, double tolerance) {
-      return answers[rival] && kind != QuestionKind::refit_alone
+      return answers[rival] && kind != QueryKind::refit_alone
                  ? differing(all_[kQueryTact]->answers(), all_[rival]->answers(), tolerance)
                  : 0;
     };
@@ -127,21 +127,21 @@ class QueryContest {
       if (answers[k]) ms[k] = median_ms(k, kind, set);
     }
     const double rival = answers[kQueryFcl] ? std::min(ms[kQueryEmbree], ms[kQueryFcl]) : ms[kQueryEmbree];
-    table.add({kQuestionNames[static_cast<std::size_t>(kind)], fmt::to_string(body_.facets.cols()),
-               fmt::to_string(count), fmt::to_string(threads_), three_digits(ms[kQueryTact]),
-               three_digits(ms[kQueryEmbree]), answers[kQueryFcl] ? three_digits(ms[kQueryFcl]) : "-",
-               three_digits(rival / ms[kQueryTact]), fmt::to_string(from_embree)});
+    table.add({kQueryNames[static_cast<std::size_t>(kind)], fmt::to_string(body_.facets.cols()), fmt::to_string(count),
+               fmt::to_string(threads_), three_digits(ms[kQueryTact]), three_digits(ms[kQueryEmbree]),
+               answers[kQueryFcl] ? three_digits(ms[kQueryFcl]) : "-", three_digits(rival / ms[kQueryTact]),
+               fmt::to_string(from_embree)});
   }
 
  private:
-  bool step(std::size_t k, QuestionKind kind, const QuestionSet& set, int frame) {
+  bool step(std::size_t k, QueryKind kind, const QuerySet& set, int frame) {
     all_[k]->refit(body_.positions(frame));
-    if (kind == QuestionKind::rays) return all_[k]->ask(set.rays);
-    if (kind == QuestionKind::points) all_[k]->ask(set.points);
+    if (kind == QueryKind::rays) return all_[k]->ask(set.rays);
+    if (kind == QueryKind::points) all_[k]->ask(set.points);
     return true;
   }
 
-  double median_ms(std::size_t k, QuestionKind kind, const QuestionSet& set) {
+  double median_ms(std::size_t k, QueryKind kind, const QuerySet& set) {
     std::vector<double> times;
     double expected = kShortWork_ms;
     const double start = wall_ms();
@@ -174,17 +174,16 @@ int run_queries(const BenchOptions& options) {
   const std::vector<int> frequencies = options.quick ? std::vector{6} : std::vector{22, 71, 224};
   const std::vector<int> counts = options.quick ? std::vector{100, 1000} : std::vector{100, 1'000, 10'000, 100'000};
   constexpr int kQueryFrames = 4;
-  Table table({"questions", "facets", "a step", "threads", "tact ms", "Embree ms", "FCL ms", "rival / tact",
+  Table table({"queries", "facets", "a step", "threads", "tact ms", "Embree ms", "FCL ms", "rival / tact",
                "differ from Embree"});
   tests::AnswerHash answers;
   for (const int frequency : frequencies) {
     const Workload workload = large_pair(frequency, kQueryFrames);
     for (int t = 1; t <= threads; t *= 2) {
       QueryContest contest(workload.bodies[0], t, options.quick ? 5.0 : 200.0);
-      contest.add_row(QuestionKind::refit_alone, 0, table, answers);
-      for (const QuestionKind kind : {QuestionKind::rays, QuestionKind::points}) {
-        if (std::string(kQuestionNames[static_cast<std::size_t>(kind)]).find(options.only) == std::string::npos)
-          continue;
+      contest.add_row(QueryKind::refit_alone, 0, table, answers);
+      for (const QueryKind kind : {QueryKind::rays, QueryKind::points}) {
+        if (std::string(kQueryNames[static_cast<std::size_t>(kind)]).find(options.only) == std::string::npos) continue;
         for (const int count : counts) contest.add_row(kind, count, table, answers);
       }
     }

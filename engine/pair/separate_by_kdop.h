@@ -1,4 +1,4 @@
-// The first question of stage 3, to all pairs in one pass: does an axis of an 18-DOP separate the bodies?
+// The first query of stage 3, to all pairs in one pass: does an axis of an 18-DOP separate the bodies?
 #pragma once
 
 #include "engine/bodies/bodies.h"

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "narrowphase/contact_points/features.h"
 #include "narrowphase/contact_points/nearest.h"
+#include "narrowphase/mesh/features.h"
 #include "narrowphase/triangles/cluster_pairs.h"
 
 namespace tact::narrowphase {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "narrowphase/numeric/unit_scale.h"
-#include "narrowphase/questions/mesh_questions.h"
+#include "narrowphase/queries/mesh_queries.h"
 
 namespace tact::narrowphase {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "narrowphase/questions/mesh_questions.h"
+#include "narrowphase/queries/mesh_queries.h"
 
 namespace tact::narrowphase {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "narrowphase/contact_points/edge_hits.h"
-#include "narrowphase/contact_points/features.h"
+#include "narrowphase/mesh/features.h"
 
 namespace tact::narrowphase {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "narrowphase/contact_points/features.h"
+#include "narrowphase/mesh/features.h"
 #include "narrowphase/numeric/predicates.h"
 
 namespace tact::narrowphase {

@@ -8,7 +8,7 @@ namespace tact::narrowphase {
 namespace {
 
 // Rounding turns a normal, however it is computed, by less than 2^-44 times the size of the facet's box over its
-// length: see FacingTest in kernels/questions.inl.
+// length: see FacingTest in kernels/queries.inl.
 constexpr double kTurn = 0x1p-43;
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "narrowphase/contact_points/features.h"
+#include "narrowphase/mesh/features.h"
 
 namespace tact::narrowphase {
 

@@ -7,7 +7,7 @@
 #include "narrowphase/contact_points/facing_clusters.h"
 #include "narrowphase/mesh/cluster_search.h"
 #include "narrowphase/mesh/open_in_box.h"
-#include "narrowphase/questions/mesh_questions.h"
+#include "narrowphase/queries/mesh_queries.h"
 
 namespace tact::narrowphase {
 
@@ -288,7 +288,7 @@ std::optional<WayOut> way_to_facet(const ScaledMesh& surface, int facet, Vec3 v)
 std::optional<WayOut> way_out_along(const ScaledMesh& surface, Vec3 v, Vec3 direction, double within) {
   const Vec3 from = (1.0 / surface.scale) * v;
   const Vec3 way = (within / surface.scale) * direction;
-  const auto hit = first_hit(surface.mesh, Sightline({from, from + way}), 1.0);
+  const auto hit = first_hit(surface.mesh, PreparedSegment({from, from + way}), 1.0);
   if (!hit) return {};
   WayOut out;
   out.facet = surface.mesh.facet_of_source(hit->facet);

@@ -14,7 +14,7 @@
 #include "narrowphase/kernels/features.h"
 #include "narrowphase/kernels/lines.h"
 #include "narrowphase/kernels/polygons.h"
-#include "narrowphase/kernels/questions.h"
+#include "narrowphase/kernels/queries.h"
 #include "narrowphase/kernels/refit.h"
 
 namespace tact::narrowphase {
@@ -165,7 +165,7 @@ struct Kernels {
   void (*line_up_facets)(const ClusterFacets& cluster, const double* origin, double scale, LineLeaf* leaves, int first,
                          LineNode* node);
   // From the beginnings and the directions of segments finds the rest, with empty lists.
-  LinesApart (*set_out_lines)(const LineTree& tree, LineBlock* block);
+  LinesApart (*prepare_segments)(const LineTree& tree, LineBlock* block);
   // Appends the groups that a segment enters by its latest time.
   void (*enter_groups)(const LineTree& tree, int line, LineBlock* block);
   // Appends the leaves that it enters in those of a few nodes, from `first` on, that it enters.
@@ -177,7 +177,7 @@ struct Kernels {
   void (*enter_later_nodes)(const LineTree& tree, std::uint32_t lines, LineBlock* block);
   // Goes on with some segments, each until there is something to do, or nothing left before its latest time.
   void (*find_facets)(const LineTree& tree, const std::uint8_t* lines, int count, LineBlock* block);
-  // Decides pairs as Sightline::meet(), and with the same bits.
+  // Decides pairs as PreparedSegment::meet(), and with the same bits.
   void (*meet_lines)(const LineBlock& block, LinePairs* pairs);
   // The facets of a cluster that may be as near to a point as any, or as `most`: their squared distances times the
   // square of `scale`, from below.

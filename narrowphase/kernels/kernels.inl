@@ -15,7 +15,7 @@
 #include "narrowphase/kernels/place.inl"
 #include "narrowphase/kernels/points.inl"
 #include "narrowphase/kernels/polygons.inl"
-#include "narrowphase/kernels/questions.inl"
+#include "narrowphase/kernels/queries.inl"
 #include "narrowphase/kernels/refit.inl"
 #include "narrowphase/kernels/sort.inl"
 #include "narrowphase/kernels/surfaces.inl"
@@ -70,7 +70,7 @@ constexpr Kernels all_kernels(const char* name) {
           .rank_by_distance = rank_by_distance,
           .sight_facets = sight_facets,
           .line_up_facets = line_up_facets,
-          .set_out_lines = set_out_lines,
+          .prepare_segments = prepare_segments,
           .enter_groups = enter_groups,
           .enter_nodes = enter_nodes,
           .enter_all_nodes = enter_all_nodes,

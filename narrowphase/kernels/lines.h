@@ -71,7 +71,7 @@ struct alignas(64) LineBlock {
   int count = 0;
 };
 
-// What set_out_lines() knows of segments, a bit for each: those that are for doubles alone, and those that pass the
+// What prepare_segments() knows of segments, a bit for each: those that are for doubles alone, and those that pass the
 // mesh.
 struct LinesApart {
   std::uint32_t alone, past;

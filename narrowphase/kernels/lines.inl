@@ -57,7 +57,7 @@ inline Pack of_axis(Pack axis, const Pack (&x)[3]) {
   return select(less(axis, spread(0.5)), x[0], select(less(axis, spread(1.5)), x[1], x[2]));
 }
 
-// As Sightline does: see there.
+// As PreparedSegment does: see there.
 inline void find_slopes(int i, LineBlock* block) {
   const Pack zero = spread(0.0), one = spread(1.0), largest = spread(__DBL_MAX__);
   const Pack way[3] = {load(block->direction[0] + i), load(block->direction[1] + i), load(block->direction[2] + i)};
@@ -105,7 +105,7 @@ inline void look_along(const Pack (&away)[3], Pack farthest, int i, LineBlock* b
 
 // Times are wrong by what four roundings of 2^-24 take from a coordinate, of the line or of a box, over the way:
 // sixteen are allowed for. Where the line goes along an axis no way, it goes one that is less than that.
-LinesApart set_out_lines(const LineTree& tree, LineBlock* block) {
+LinesApart prepare_segments(const LineTree& tree, LineBlock* block) {
   LinesApart apart{0, 0};
   const Pack zero = spread(0.0), scale = spread(tree.scale), unit = spread(1.0 / tree.scale);
   const Pack steepest = spread(0x1p60), least = spread(0x1p-100);
@@ -373,7 +373,7 @@ void find_facets(const LineTree& tree, const std::uint8_t* lines, int count, Lin
   }
 }
 
-// Sightline::meet(), operation by operation: the errors are explained there.
+// PreparedSegment::meet(), operation by operation: the errors are explained there.
 void meet_lines(const LineBlock& block, LinePairs* pairs) {
   const Pack zero = spread(0.0), one = spread(1.0);
   pairs->meets = pairs->uncertain = 0;

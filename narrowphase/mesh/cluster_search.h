@@ -1,4 +1,4 @@
-// From the boxes of groups to those of clusters: the clusters that a question wants to open, best first or all in a
+// From the boxes of groups to those of clusters: the clusters that a query wants to open, best first or all in a
 // box.
 #pragma once
 

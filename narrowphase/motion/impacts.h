@@ -12,7 +12,7 @@
 #include <tuple>
 #include <vector>
 
-#include "narrowphase/contact_points/features.h"
+#include "narrowphase/mesh/features.h"
 #include "narrowphase/motion/meeting.h"
 #include "narrowphase/triangles/cluster_pairs.h"
 

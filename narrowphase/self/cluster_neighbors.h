@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "narrowphase/contact_points/features.h"
+#include "narrowphase/mesh/features.h"
 
 namespace tact::narrowphase {
 

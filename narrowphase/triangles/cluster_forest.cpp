@@ -25,7 +25,7 @@ constexpr int kBoxesPerTree = 512;
 // What the calling thread's last calls of Embree left behind. Leaves nothing for the next.
 RTCError take_error(RTCDevice device) {
   RTCError code = rtcGetDeviceError(device);
-  // A thread's first question allocates. Where that fails the answer is "unknown", and the reason is kept for the
+  // A thread's first query allocates. Where that fails the answer is "unknown", and the reason is kept for the
   // second.
   if (code == RTC_ERROR_UNKNOWN) {
     const RTCError reason = rtcGetDeviceError(device);

@@ -118,7 +118,7 @@ TEST(C, AnswersAsCpp) {
 }
 
 // What meets on the way, and what can be asked: as in C++.
-TEST(C, TellsMotionAndAnswersQuestionsAsCpp) {
+TEST(C, TellsMotionAndAnswersQueriesAsCpp) {
   WorldOfC c;
   tact::World cpp;
   const Mesh ball = translated(icosphere(2, 0.2), {0.05, 0.02, 1.0}), wall = sheet(6, 6, 2.0, 2.0);
@@ -172,7 +172,7 @@ TEST(C, TellsMotionAndAnswersQuestionsAsCpp) {
   ASSERT_EQ(tact_world_all_hits(c.world, &ray, hits.data(), hits.size(), &count), TACT_OK);
   EXPECT_EQ(count, cpp.all_hits({{0, 0, 5}, {0, 0, -5}}).size());
   EXPECT_EQ(hits[1].time, cpp.all_hits({{0, 0, 5}, {0, 0, -5}})[1].time);
-  tact_point_question point = TACT_POINT_QUESTION_INIT;
+  tact_point_query point = TACT_POINT_QUESTION_INIT;
   point.point[0] = 0.05, point.point[1] = 0.02, point.point[2] = -2.0;
   tact_closest_point closest;
   ASSERT_EQ(tact_world_closest_point(c.world, &point, &closest), TACT_OK);
@@ -181,13 +181,13 @@ TEST(C, TellsMotionAndAnswersQuestionsAsCpp) {
   ASSERT_EQ(tact_world_inside(c.world, &point, &body, 1, &count), TACT_OK);
   EXPECT_EQ(count, 1u);
   EXPECT_EQ(body.index, flying.index);
-  tact_box_question box = TACT_BOX_QUESTION_INIT;
+  tact_box_query box = TACT_BOX_QUESTION_INIT;
   box.upper[0] = box.upper[1] = box.upper[2] = 0.5;
   ASSERT_EQ(tact_world_overlap_box(c.world, &box, nullptr, 0, &count), TACT_OK);
   EXPECT_EQ(count, cpp.overlap_box({.upper = {0.5, 0.5, 0.5}}).size());
   // Many at once: an empty answer among others, and room for a part of them.
   const size_t in_box = count;
-  tact_box_question boxes[3] = {box, TACT_BOX_QUESTION_INIT, box};
+  tact_box_query boxes[3] = {box, TACT_BOX_QUESTION_INIT, box};
   boxes[1].lower[0] = boxes[1].upper[0] = 1e3;
   std::vector<tact_facet_of_body> facets(in_box + 1);
   size_t ends[3];
@@ -196,7 +196,7 @@ TEST(C, TellsMotionAndAnswersQuestionsAsCpp) {
   EXPECT_EQ(ends[1], in_box);
   EXPECT_EQ(ends[2], 2 * in_box);
   EXPECT_EQ(facets[0].facet, facets[in_box].facet);
-  const tact_point_question points[2] = {TACT_POINT_QUESTION_INIT, point};
+  const tact_point_query points[2] = {TACT_POINT_QUESTION_INIT, point};
   tact_body bodies[4];
   ASSERT_EQ(tact_world_inside_each(c.world, points, 2, bodies, 4, ends), TACT_OK);
   EXPECT_EQ(ends[1] - ends[0], 1u);

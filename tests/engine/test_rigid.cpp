@@ -119,7 +119,7 @@ class Twins {
     }
   }
 
-  void expect_same_questions() {
+  void expect_same_queries() {
     for (int i = 0; i < 8; ++i) {
       const Vec3 p = random_.in_cube(3.0 * size_), q = random_.in_cube(3.0 * size_);
       const Eigen::Vector3d from(p.x + away_, p.y - away_, p.z), to(q.x + away_, q.y - away_, q.z);
@@ -199,7 +199,7 @@ TEST_P(RigidTwins, AnswerAsPlacedBodies) {
       SCOPED_TRACE("seed " + std::to_string(seed) + ", step " + std::to_string(step));
       if (step % 3 == 2) twins.replace_one();
       if (step != 4) twins.move();
-      if (step % 2 == 1) twins.expect_same_questions();
+      if (step % 2 == 1) twins.expect_same_queries();
       if (step > 0 && step % 2 == 0) twins.expect_same_motion();
       if (HasFatalFailure()) return;
       twins.expect_same_step();
@@ -226,7 +226,7 @@ TEST(Rigid, LargeBodiesAnswerAsPlacedOnesOnAnyThreads) {
     for (int step = 0; step < 3; ++step) {
       SCOPED_TRACE(std::to_string(threads) + " threads, step " + std::to_string(step));
       twins.move();
-      if (step == 1) twins.expect_same_questions();
+      if (step == 1) twins.expect_same_queries();
       if (step == 2) twins.expect_same_motion();
       if (HasFatalFailure()) return;
       twins.expect_same_step();

@@ -196,7 +196,7 @@ def test_motion_tells_when_a_body_passes_through_a_sheet():
     assert len(world.detect()) == 0
 
 
-def test_questions_have_the_answers_of_closed_forms(two):
+def test_queries_have_the_answers_of_closed_forms(two):
     world, left, right = two
     hits = world.rays(np.array([[0.1, 0.1, 5.0], [9.0, 9.0, 5.0]]), np.array([[0.1, 0.1, -5.0], [9.0, 9.0, -5.0]]))
     assert hits.bodies[0] == left.index and hits.bodies[1] == hits.facets[1] == -1
@@ -210,7 +210,7 @@ def test_questions_have_the_answers_of_closed_forms(two):
     assert world.inside([0.92, 0.02, 0.02]) == [left, right]
     assert world.inside([0.92, 0.02, 0.02], mask=0) == []
     np.testing.assert_array_equal(np.unique(world.overlap_box([-1, -1, -1], [2, 2, 2])[:, 0]), [left.index, right.index])
-    with pytest.raises(tact.Error, match="question 0: the beginning of a ray has x = nan"):
+    with pytest.raises(tact.Error, match="query 0: the beginning of a ray has x = nan"):
         world.rays(np.array([[np.nan, 0, 0]]), np.zeros((1, 3)))
 
 
@@ -244,7 +244,7 @@ def test_rigid_bodies_move_by_poses():
         other.set_pose(plain[0], np.eye(3), [0, 0, 0])
 
 
-def test_many_questions_at_once(two):
+def test_many_queries_at_once(two):
     world, left, right = two
     lower, upper = np.array([[-1.0, -1, -1], [50, 50, 50]]), np.array([[2.0, 2, 2], [51, 51, 51]])
     answers = world.overlap_boxes(lower, upper)

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <tact/motion.h>
-#include <tact/questions.h>
+#include <tact/queries.h>
 #include <tact/report.h>
 
 #include <bit>

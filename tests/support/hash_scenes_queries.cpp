@@ -89,9 +89,9 @@ SceneHashes play_rays(int threads) {
 SceneHashes play_closest_points(int threads) {
   return ask_while_moving(threads, [](ScenePlayer& player, Random& random) {
     const tact::World& world = player.world();
-    std::vector<PointQuestion> points;
+    std::vector<PointQuery> points;
     for (int i = 0; i < 300; ++i) {
-      PointQuestion& point = points.emplace_back();
+      PointQuery& point = points.emplace_back();
       point.point = eigen_of(any_place(player, random));
       if (i % 3 == 0) point.point += eigen_of(random.in_cube(1e-3));
       if (i % 4 == 0) point.within = random.uniform(0.0, 1.0);
@@ -108,7 +108,7 @@ SceneHashes play_closest_points(int threads) {
 SceneHashes play_boxes(int threads) {
   return ask_while_moving(threads, [](ScenePlayer& player, Random& random) {
     const tact::World& world = player.world();
-    std::vector<BoxQuestion> boxes;
+    std::vector<BoxQuery> boxes;
     for (int i = 0; i < 200; ++i) {
       const Vec3 p = any_place(player, random);
       Vec3 size = random.in_ball();
@@ -128,9 +128,9 @@ SceneHashes play_boxes(int threads) {
 SceneHashes play_inside(int threads) {
   return ask_while_moving(threads, [](ScenePlayer& player, Random& random) {
     const tact::World& world = player.world();
-    std::vector<PointQuestion> points;
+    std::vector<PointQuery> points;
     for (int i = 0; i < 400; ++i) {
-      PointQuestion& point = points.emplace_back();
+      PointQuery& point = points.emplace_back();
       point.point = eigen_of(any_place(player, random));
       if (i % 10 == 0) point.asked = {.layer = 1, .mask = 2};
     }

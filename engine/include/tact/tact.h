@@ -7,7 +7,7 @@
 #include <tact/executor.h>
 #include <tact/message.h>
 #include <tact/motion.h>
-#include <tact/questions.h>
+#include <tact/queries.h>
 #include <tact/recording.h>
 #include <tact/report.h>
 #include <tact/settings.h>

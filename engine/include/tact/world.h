@@ -4,7 +4,7 @@
 #include <tact/body.h>
 #include <tact/error.h>
 #include <tact/motion.h>
-#include <tact/questions.h>
+#include <tact/queries.h>
 #include <tact/report.h>
 #include <tact/settings.h>
 #include <tact/world_observer.h>
@@ -137,26 +137,26 @@ class TACT_API World {
   /// Errors: bad_settings (`wanted` is none), out_of_memory, backend_failure.
   const MotionReport& detect_motion(Impacts wanted = Impacts::all);
 
-  /// Questions to the surfaces where they are now: at the positions that were set last, whether or not a step has seen
+  /// Queries to the surfaces where they are now: at the positions that were set last, whether or not a step has seen
   /// them. Bodies are asked in no tree, so nothing has to be kept up to date; each costs some nanoseconds a body, and
-  /// then what is near. Many questions at once are shared by all threads; they have the same answers.
+  /// then what is near. Many queries at once are shared by all threads; they have the same answers.
   ///
-  /// Errors: non_finite_position, position_out_of_range, bad_settings (see questions.h; the message tells which of many
-  /// questions), wrong_size (there are not as many answers as questions), out_of_memory. Nothing is answered then.
+  /// Errors: non_finite_position, position_out_of_range, bad_settings (see queries.h; the message tells which of many
+  /// queries), wrong_size (there are not as many answers as queries), out_of_memory. Nothing is answered then.
   RayHit ray(const Ray& ray, RayHits wanted = RayHits::first) const;
   void rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted = RayHits::first) const;
   /// All facets that a ray meets, sorted by time, body and facet.
   std::vector<RayHit> all_hits(const Ray& ray) const;
-  ClosestPoint closest_point(const PointQuestion& question) const;
-  void closest_points(std::span<const PointQuestion> questions, std::span<ClosestPoint> answers) const;
+  ClosestPoint closest_point(const PointQuery& query) const;
+  void closest_points(std::span<const PointQuery> queries, std::span<ClosestPoint> answers) const;
   /// The facets that share a point with a box, decided exactly; sorted by body and facet.
-  std::vector<FacetOfBody> overlap_box(const BoxQuestion& question) const;
+  std::vector<FacetOfBody> overlap_box(const BoxQuery& query) const;
   /// The closed bodies that a point is in, or on the surface of, decided exactly by how often each winds around it.
   /// `within` is not used.
-  std::vector<BodyId> inside(const PointQuestion& question) const;
+  std::vector<BodyId> inside(const PointQuery& query) const;
   /// Many of these at once, an answer each: what it held is replaced.
-  void overlap_boxes(std::span<const BoxQuestion> questions, std::span<std::vector<FacetOfBody>> answers) const;
-  void inside_each(std::span<const PointQuestion> questions, std::span<std::vector<BodyId>> answers) const;
+  void overlap_boxes(std::span<const BoxQuery> queries, std::span<std::vector<FacetOfBody>> answers) const;
+  void inside_each(std::span<const PointQuery> queries, std::span<std::vector<BodyId>> answers) const;
 
   /// Who is told of every call that changes the world from now on, a Recorder say; null: nobody. The observer outlives
   /// the world, also one that this world is moved to, or is taken away before. It sees the world whole: it is set

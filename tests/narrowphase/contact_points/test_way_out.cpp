@@ -2,7 +2,7 @@
 
 #include "narrowphase/contact_points/way_out.h"
 #include "tests/support/clustered.h"
-#include "tests/support/question_oracle.h"
+#include "tests/support/query_oracle.h"
 
 namespace tact::narrowphase {
 namespace {

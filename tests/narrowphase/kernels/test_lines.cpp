@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "narrowphase/kernels/kernels.h"
-#include "narrowphase/questions/line_room.h"
-#include "narrowphase/questions/sightline.h"
+#include "narrowphase/queries/prepared_segment.h"
+#include "narrowphase/queries/segment_batch.h"
 #include "narrowphase/triangles/triangle_triangle.h"
 #include "tests/support/clustered.h"
 #include "tests/support/facet_filters.h"
@@ -32,7 +32,7 @@ class OneTree {
   const LineTree& tree() const { return *room_.tree(0); }
 
  private:
-  LineRoom room_;
+  SegmentBatch room_;
 };
 
 // Through a corner, an edge or the inside of a facet, along an axis or not, from near and far.
@@ -60,7 +60,7 @@ LinesApart set_out(const Kernels& kernels, const LineTree& tree, const Segments&
     }
     block.latest[i] = 1.0f + 0x1p-20f;
   }
-  return kernels.set_out_lines(tree, &block);
+  return kernels.prepare_segments(tree, &block);
 }
 
 enum class Descent { all_nodes, groups };
@@ -230,7 +230,7 @@ TEST(MeetLines, EqualsSightlineBitForBit) {
           ++uncertain;
           continue;
         }
-        const auto place = Sightline(segments[pairs.line[i]]).meet(mesh.triangle(facet[i]), counts);
+        const auto place = PreparedSegment(segments[pairs.line[i]]).meet(mesh.triangle(facet[i]), counts);
         ASSERT_EQ(place.has_value(), (pairs.meets >> i & 1U) != 0) << kernels->name << ", trial " << trial;
         ++(place ? met : missed);
         if (!place) continue;

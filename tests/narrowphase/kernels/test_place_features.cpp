@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "narrowphase/contact_points/features.h"
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/mesh/clustered_mesh.h"
+#include "narrowphase/mesh/features.h"
 #include "tests/support/clustered.h"
 #include "tests/support/facet_blocks.h"
 #include "tests/support/facet_filters.h"

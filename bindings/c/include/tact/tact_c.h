@@ -494,7 +494,7 @@ TACT_C_API tact_error tact_motion_pairs(tact_world world, size_t* count);
 TACT_C_API tact_error tact_motion_pair(tact_world world, size_t index, tact_impact_pair* pair);
 TACT_C_API tact_error tact_motion_stats(tact_world world, tact_motion_statistics* statistics);
 
-/* Questions to the surfaces where they are now. */
+/* Queries to the surfaces where they are now. */
 
 /** See tact::Ray. */
 typedef struct tact_ray {
@@ -516,13 +516,13 @@ typedef struct tact_ray_hit {
   double weights[3]; /**< of the facet's corners there */
 } tact_ray_hit;
 
-/** See tact::PointQuestion. */
-typedef struct tact_point_question {
+/** See tact::PointQuery. */
+typedef struct tact_point_query {
   double point[3]; /**< metres */
   double within;   /**< metres */
   uint32_t layer;
   uint32_t mask;
-} tact_point_question;
+} tact_point_query;
 #define TACT_POINT_QUESTION_INIT \
   { {0, 0, 0}, HUGE_VAL, 0xffffffffu, 0xffffffffu }
 
@@ -534,13 +534,13 @@ typedef struct tact_closest_point {
   double weights[3];
 } tact_closest_point;
 
-/** See tact::BoxQuestion. */
-typedef struct tact_box_question {
+/** See tact::BoxQuery. */
+typedef struct tact_box_query {
   double lower[3]; /**< metres */
   double upper[3];
   uint32_t layer;
   uint32_t mask;
-} tact_box_question;
+} tact_box_query;
 #define TACT_BOX_QUESTION_INIT TACT_RAY_INIT
 
 /** A facet of a body. */
@@ -557,19 +557,19 @@ TACT_C_API tact_error tact_world_rays(tact_world world, const tact_ray* rays, si
 /** These three write up to `capacity` answers, sorted, and how many there are. */
 TACT_C_API tact_error tact_world_all_hits(tact_world world, const tact_ray* ray, tact_ray_hit* hits, size_t capacity,
                                           size_t* count);
-TACT_C_API tact_error tact_world_overlap_box(tact_world world, const tact_box_question* question,
-                                             tact_facet_of_body* facets, size_t capacity, size_t* count);
-TACT_C_API tact_error tact_world_inside(tact_world world, const tact_point_question* question, tact_body* bodies,
+TACT_C_API tact_error tact_world_overlap_box(tact_world world, const tact_box_query* query, tact_facet_of_body* facets,
+                                             size_t capacity, size_t* count);
+TACT_C_API tact_error tact_world_inside(tact_world world, const tact_point_query* query, tact_body* bodies,
                                         size_t capacity, size_t* count);
-/** `count` questions, on all threads. The answers follow each other: ends[i], one for each question, is where that to
- *  question i ends. Up to `capacity` are written; ends[count - 1] is how many there are. */
-TACT_C_API tact_error tact_world_overlap_boxes(tact_world world, const tact_box_question* questions, size_t count,
+/** `count` queries, on all threads. The answers follow each other: ends[i], one for each query, is where that to
+ *  query i ends. Up to `capacity` are written; ends[count - 1] is how many there are. */
+TACT_C_API tact_error tact_world_overlap_boxes(tact_world world, const tact_box_query* queries, size_t count,
                                                tact_facet_of_body* facets, size_t capacity, size_t* ends);
-TACT_C_API tact_error tact_world_inside_each(tact_world world, const tact_point_question* questions, size_t count,
+TACT_C_API tact_error tact_world_inside_each(tact_world world, const tact_point_query* queries, size_t count,
                                              tact_body* bodies, size_t capacity, size_t* ends);
-TACT_C_API tact_error tact_world_closest_point(tact_world world, const tact_point_question* question,
+TACT_C_API tact_error tact_world_closest_point(tact_world world, const tact_point_query* query,
                                                tact_closest_point* answer);
-TACT_C_API tact_error tact_world_closest_points(tact_world world, const tact_point_question* questions, size_t count,
+TACT_C_API tact_error tact_world_closest_points(tact_world world, const tact_point_query* queries, size_t count,
                                                 tact_closest_point* answers);
 
 /* Drawing what a step found: see tact/debug_draw.h. */

@@ -17,7 +17,7 @@
 
 namespace tact {
 
-class NarrowPhase {
+class PairStage {
  public:
   /// Looks at table.moved(), in parallel; after it these are the pairs that no axis of a k-DOP separates. Clocks are of
   /// the kind of `timer`.

@@ -1,20 +1,20 @@
 // Many segments that are asked for their first facet together, a few at a time: each step is done for all of them
 // before the next, so that the processor need not wait for, nor guess, what one of them turns out to be.
 //
-// What a segment may meet is found in floats, from the tree that LineRoom has; what it meets is decided as for one
+// What a segment may meet is found in floats, from the tree that SegmentBatch has; what it meets is decided as for one
 // segment alone, so the answers are the same.
 #pragma once
 
 #include <optional>
 #include <span>
 
-#include "narrowphase/questions/line_room.h"
-#include "narrowphase/questions/mesh_questions.h"
+#include "narrowphase/queries/mesh_queries.h"
+#include "narrowphase/queries/segment_batch.h"
 
 namespace tact::narrowphase {
 
 /// A segment on its way through meshes, and the first hit of one of them that is not later than `latest`.
-struct FirstHitQuestion {
+struct FirstHitQuery {
   Segment segment;
   double latest = 1.0;
   std::optional<FacetHit> hit = {};
@@ -28,7 +28,7 @@ struct FirstHitQuestion {
 
 inline constexpr std::size_t kLinesAtATime = LineBlock::kLines;
 
-/// Asks a mesh up to kLinesAtATime questions; each hit is that of first_hit(). The tree is the mesh's or null.
-void ask_first_hits(const ClusteredMesh& mesh, const LineTree* tree, std::span<FirstHitQuestion* const> questions);
+/// Asks a mesh up to kLinesAtATime queries; each hit is that of first_hit(). The tree is the mesh's or null.
+void ask_first_hits(const ClusteredMesh& mesh, const LineTree* tree, std::span<FirstHitQuery* const> queries);
 
 }  // namespace tact::narrowphase

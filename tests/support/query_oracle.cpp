@@ -1,4 +1,4 @@
-#include "tests/support/question_oracle.h"
+#include "tests/support/query_oracle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ Triangle facet_at(const Mesh& mesh, int f) {
   return {mesh.position(mesh.facets(0, f)), mesh.position(mesh.facets(1, f)), mesh.position(mesh.facets(2, f))};
 }
 
-std::vector<Mesh> meshes_to_question() {
+std::vector<Mesh> meshes_to_query() {
   return {blob(2, 1.0, 0.3, 1),
           torus(16, 10, 1.0, 0.4),
           gridded_box({-1, -1, -1}, {1, 1, 1}, 4),
@@ -100,7 +100,7 @@ Vec3 hard_point(const Mesh& mesh, Random& random) {
   }
 }
 
-BoxQuestion hard_box(const Mesh& mesh, Random& random) {
+BoxQuery hard_box(const Mesh& mesh, Random& random) {
   const auto on_grid = [&] { return 0.5 * random.below(6) - 1.5; };
   const Vec3 corner = some_facet(mesh, random)[0];
   const Vec3 edge{random.uniform(), random.uniform(), random.uniform()};
@@ -132,8 +132,8 @@ std::vector<int> hit_facets(const Mesh& mesh, const Ray& ray) {
   return hit;
 }
 
-std::vector<int> facets_in(const Mesh& mesh, const BoxQuestion& question) {
-  const Box asked{point_of(question.lower), point_of(question.upper)};
+std::vector<int> facets_in(const Mesh& mesh, const BoxQuery& query) {
+  const Box asked{point_of(query.lower), point_of(query.upper)};
   const Mesh solid = box(asked.lower, asked.upper);
   std::vector<int> found;
   for (int f = 0; f < mesh.facet_count(); ++f) {

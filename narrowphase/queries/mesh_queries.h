@@ -1,4 +1,4 @@
-// Questions to one mesh, as it is now: segments, nearest points, boxes, what is inside. They descend from the boxes of
+// Queries to one mesh, as it is now: segments, nearest points, boxes, what is inside. They descend from the boxes of
 // groups to those of clusters to facets; nothing is built.
 #pragma once
 
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "narrowphase/mesh/clustered_mesh.h"
-#include "narrowphase/questions/nearest_weights.h"
-#include "narrowphase/questions/sightline.h"
+#include "narrowphase/queries/nearest_weights.h"
+#include "narrowphase/queries/prepared_segment.h"
 
 namespace tact::narrowphase {
 
@@ -25,11 +25,11 @@ struct FacetHit {
 };
 
 /// The first facet that the segment meets, not later than `latest`.
-std::optional<FacetHit> first_hit(const ClusteredMesh& mesh, const Sightline& line, double latest);
+std::optional<FacetHit> first_hit(const ClusteredMesh& mesh, const PreparedSegment& line, double latest);
 /// Any of them.
-std::optional<FacetHit> any_hit(const ClusteredMesh& mesh, const Sightline& line);
+std::optional<FacetHit> any_hit(const ClusteredMesh& mesh, const PreparedSegment& line);
 /// Appends all of them, in no particular order.
-void append_hits(const ClusteredMesh& mesh, const Sightline& line, std::vector<FacetHit>& hits);
+void append_hits(const ClusteredMesh& mesh, const PreparedSegment& line, std::vector<FacetHit>& hits);
 
 struct NearestFacet {
   int facet = -1;  // the caller's number; of equally near ones the least

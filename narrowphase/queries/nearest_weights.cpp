@@ -1,4 +1,4 @@
-#include "narrowphase/questions/nearest_weights.h"
+#include "narrowphase/queries/nearest_weights.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "narrowphase/questions/exact_place.h"
+#include "narrowphase/queries/exact_place.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "narrowphase/numeric/wide_vector.h"
-#include "narrowphase/questions/nearest_weights.h"
+#include "narrowphase/queries/nearest_weights.h"
 
 namespace tact::narrowphase {
 

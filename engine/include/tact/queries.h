@@ -38,7 +38,7 @@ struct RayHit {
 };
 
 /// A point, metres, and how far away the answer may be.
-struct PointQuestion {
+struct PointQuery {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double within = std::numeric_limits<double>::infinity();
   Asked asked = {};
@@ -54,7 +54,7 @@ struct ClosestPoint {
 };
 
 /// A box, metres; closed.
-struct BoxQuestion {
+struct BoxQuery {
   Eigen::Vector3d lower = Eigen::Vector3d::Zero();
   Eigen::Vector3d upper = Eigen::Vector3d::Zero();
   Asked asked = {};

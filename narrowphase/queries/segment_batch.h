@@ -18,7 +18,7 @@ namespace tact::narrowphase {
 
 inline constexpr int kNodesOfGroup = kGroupSize / LineNode::kClusters;
 
-class LineRoom {
+class SegmentBatch {
  public:
   /// Forgets all. From now on there are meshes of so many clusters, numbered as they stand there, and so many segments
   /// are about to be asked. For each number in meshes() make_tree() is to be called, then make_node() for each

@@ -1,4 +1,4 @@
-#include "narrowphase/questions/line_block.h"
+#include "narrowphase/queries/line_block.h"
 
 #include <algorithm>
 #include <bit>
@@ -15,27 +15,27 @@ constexpr int kMostWithoutGroups = 64;
 // The leaves of so many nodes, of 10 kB, stay in the second level of the cache: their vertices are not prefetched.
 constexpr int kMostInCache = 128;
 
-void ask_alone(const ClusteredMesh& mesh, FirstHitQuestion& question) {
-  if (const auto hit = first_hit(mesh, Sightline(question.segment), question.latest)) question.take(*hit);
+void ask_alone(const ClusteredMesh& mesh, FirstHitQuery& query) {
+  if (const auto hit = first_hit(mesh, PreparedSegment(query.segment), query.latest)) query.take(*hit);
 }
 
 // Segments that are asked of one mesh together.
 class Block {
  public:
-  Block(const ClusteredMesh& mesh, const LineTree& tree, std::span<FirstHitQuestion* const> questions)
-      : mesh_(mesh), tree_(tree), questions_(questions) {
+  Block(const ClusteredMesh& mesh, const LineTree& tree, std::span<FirstHitQuery* const> queries)
+      : mesh_(mesh), tree_(tree), queries_(queries) {
     for (std::size_t i = 0; i < kLinesAtATime; ++i) {
-      const FirstHitQuestion& question = *questions[i < questions.size() ? i : 0];
-      const Vec3 from = question.segment[0], way = question.segment[1] - from;
+      const FirstHitQuery& query = *queries[i < queries.size() ? i : 0];
+      const Vec3 from = query.segment[0], way = query.segment[1] - from;
       for (int axis = 0; axis < 3; ++axis) {
         block_.from[axis][i] = from[axis];
         block_.direction[axis][i] = way[axis];
       }
-      set_latest(i, question.latest);
+      set_latest(i, query.latest);
     }
-    const LinesApart apart = kernels_.set_out_lines(tree, &block_);
-    for (std::size_t i = 0; i < questions.size(); ++i) {
-      if ((apart.alone >> i & 1U) != 0) ask_alone(mesh, *questions[i]);
+    const LinesApart apart = kernels_.prepare_segments(tree, &block_);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      if ((apart.alone >> i & 1U) != 0) ask_alone(mesh, *queries[i]);
       if (((apart.alone | apart.past) >> i & 1U) == 0) lines_[count_++] = static_cast<std::uint8_t>(i);
     }
   }
@@ -68,7 +68,7 @@ class Block {
     for (int i = 0; i < count_; ++i) {
       const std::uint8_t line = lines_[i];
       if ((block_.overflowing >> line & 1U) != 0) {
-        ask_alone(mesh_, *questions_[line]);
+        ask_alone(mesh_, *queries_[line]);
         continue;
       }
       const std::int32_t taken = block_.taken[line];
@@ -137,22 +137,22 @@ class Block {
     for (std::uint32_t left = pairs_.meets | pairs_.uncertain; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left);
       const auto line = static_cast<std::size_t>(pairs_.line[i]);
-      FirstHitQuestion& question = *questions_[line];
+      FirstHitQuery& query = *queries_[line];
       CommonPlace place{pairs_.time[i], {pairs_.weight[0][i], pairs_.weight[1][i], pairs_.weight[2][i]}};
       if ((pairs_.uncertain >> i & 1U) != 0) {
-        const auto met = Sightline(question.segment).meet(mesh_.triangle(facet_[i]), counts_);
+        const auto met = PreparedSegment(query.segment).meet(mesh_.triangle(facet_[i]), counts_);
         if (!met) continue;
         place = *met;
       }
-      question.take({mesh_.source_facet(facet_[i]), place.time, place.weight});
-      set_latest(line, question.latest);
+      query.take({mesh_.source_facet(facet_[i]), place.time, place.weight});
+      set_latest(line, query.latest);
     }
     pairs_.count = 0;
   }
 
   const ClusteredMesh& mesh_;
   const LineTree& tree_;
-  const std::span<FirstHitQuestion* const> questions_;
+  const std::span<FirstHitQuery* const> queries_;
   const Kernels& kernels_ = kernels();
   LineBlock block_;
   std::uint8_t lines_[kLinesAtATime];  // of the block, those that have not ended
@@ -164,9 +164,9 @@ class Block {
 
 }  // namespace
 
-void ask_first_hits(const ClusteredMesh& mesh, const LineTree* tree, std::span<FirstHitQuestion* const> questions) {
-  if (tree != nullptr) return Block(mesh, *tree, questions).answer();
-  for (FirstHitQuestion* const question : questions) ask_alone(mesh, *question);
+void ask_first_hits(const ClusteredMesh& mesh, const LineTree* tree, std::span<FirstHitQuery* const> queries) {
+  if (tree != nullptr) return Block(mesh, *tree, queries).answer();
+  for (FirstHitQuery* const query : queries) ask_alone(mesh, *query);
 }
 
 }  // namespace tact::narrowphase

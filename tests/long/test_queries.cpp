@@ -2,7 +2,7 @@
 // places and distances in long doubles. Rays that are asked together are held, bit for bit, against each asked alone.
 // Not part of the ordinary tests: how many is read from the environment.
 //   TACT_LONG_QUESTIONS  4000 if not set
-//   TACT_LONG_SEED       which questions, 1 if not set
+//   TACT_LONG_SEED       which queries, 1 if not set
 #include <gtest/gtest.h>
 #include <tact/tact.h>
 
@@ -18,19 +18,19 @@
 #include "engine/base/parallel.h"
 #include "tests/support/environment.h"
 #include "tests/support/generators.h"
-#include "tests/support/question_oracle.h"
+#include "tests/support/query_oracle.h"
 
 namespace tact::tests {
 namespace {
 
-constexpr std::uint64_t kBlock = 200;      // questions
+constexpr std::uint64_t kBlock = 200;      // queries
 constexpr std::uint64_t kTogether = 2000;  // rays to meshes that are too large for brute force
 constexpr std::size_t kFailuresShown = 10;
-enum QuestionKind : std::size_t { kRay, kPoint, kBox, kInside, kKinds };
+enum QueryKind : std::size_t { kRay, kPoint, kBox, kInside, kKinds };
 
 struct BlockResult {
   std::array<std::uint64_t, kKinds> asked{}, found{};  // found: that have an answer, or a distance of zero
-  double worst_place = 0.0, worst_distance = 0.0;      // relative to the sizes in question
+  double worst_place = 0.0, worst_distance = 0.0;      // relative to the sizes in query
   std::vector<std::string> failures;
 };
 
@@ -97,12 +97,12 @@ class Block {
     kind == 6 ? ask_box() : ask_inside();
   }
 
-  void note(QuestionKind kind, bool found) {
+  void note(QueryKind kind, bool found) {
     ++result_.asked[kind];
     result_.found[kind] += found;
   }
   void expect(bool holds, const std::string& what) {
-    if (!holds) result_.failures.push_back("question " + std::to_string(result_.asked[kRay]) + ", " + what);
+    if (!holds) result_.failures.push_back("query " + std::to_string(result_.asked[kRay]) + ", " + what);
   }
 
   void ask_ray() {
@@ -162,7 +162,7 @@ class Block {
   }
 
   void ask_box() {
-    BoxQuestion box = hard_box(mesh_, random_);
+    BoxQuery box = hard_box(mesh_, random_);
     box.asked = kMesh;
     std::vector<int> facets;
     for (const FacetOfBody& one : world_.overlap_box(box)) facets.push_back(one.facet);
@@ -188,7 +188,7 @@ class Block {
   double extent_ = 0.0;    // of the mesh, from the origin
 };
 
-TEST(LongQuestions, EqualBruteForce) {
+TEST(LongQueries, EqualBruteForce) {
   const std::uint64_t count = from_environment("TACT_LONG_QUESTIONS", 4000);
   const std::uint64_t seed = from_environment("TACT_LONG_SEED", 1);
   std::vector<BlockResult> blocks((count + kBlock - 1) / kBlock);
@@ -235,7 +235,7 @@ Mesh some_large_mesh(Random& random) {
   }
 }
 
-TEST(LongQuestions, ManyRaysToLargeMeshesAnswerAsEachAlone) {
+TEST(LongQueries, ManyRaysToLargeMeshesAnswerAsEachAlone) {
   const std::uint64_t count = from_environment("TACT_LONG_QUESTIONS", 4000);
   const std::uint64_t seed = from_environment("TACT_LONG_SEED", 1);
   std::vector<std::size_t> differing((count + kTogether - 1) / kTogether);

@@ -8,17 +8,17 @@
 #include <set>
 
 #include "tests/support/generators.h"
-#include "tests/support/question_oracle.h"
+#include "tests/support/query_oracle.h"
 #include "tests/support/random.h"
 #include "tests/support/triangle_oracle.h"
 
 namespace tact::tests {
 namespace {
 
-TEST(Questions, RaysEqualRationalArithmetic) {
+TEST(Queries, RaysEqualRationalArithmetic) {
   Random random(1);
   std::size_t hits = 0;
-  for (const Mesh& mesh : meshes_to_question()) {
+  for (const Mesh& mesh : meshes_to_query()) {
     tact::World world({.threads = 2});
     const BodyId id = world.add_body({.positions = mesh.positions, .facets = mesh.facets});
     std::vector<Ray> rays;
@@ -52,7 +52,7 @@ TEST(Questions, RaysEqualRationalArithmetic) {
 }
 
 // Many rays open the same clusters, whose facets are then held against them in floats.
-TEST(Questions, ManyRaysAtOnceAnswerAsEachAlone) {
+TEST(Queries, ManyRaysAtOnceAnswerAsEachAlone) {
   Random random(7);
   // The last one has groups of nodes.
   for (const Mesh& mesh :
@@ -89,7 +89,7 @@ TEST(Questions, ManyRaysAtOnceAnswerAsEachAlone) {
 }
 
 // A ray that enters more leaves than a list has room for is asked alone.
-TEST(Questions, ManyRaysThroughManyLayersAnswerAsEachAlone) {
+TEST(Queries, ManyRaysThroughManyLayersAnswerAsEachAlone) {
   constexpr int kLayers = 2000;
   Mesh stack;
   stack.positions.resize(3, 4 * kLayers);
@@ -117,24 +117,24 @@ TEST(Questions, ManyRaysThroughManyLayersAnswerAsEachAlone) {
   }
 }
 
-TEST(Questions, NearestPointsEqualBruteForce) {
+TEST(Queries, NearestPointsEqualBruteForce) {
   Random random(2);
-  for (const Mesh& mesh : meshes_to_question()) {
+  for (const Mesh& mesh : meshes_to_query()) {
     tact::World world({.threads = 2});
     world.add_body({.positions = mesh.positions, .facets = mesh.facets});
-    std::vector<PointQuestion> questions;
+    std::vector<PointQuery> queries;
     for (int i = 0; i < 100; ++i) {
       const Vec3 corner = facet_at(mesh, random.below(mesh.facet_count()))[0];
-      questions.push_back({.point = vector_of(i % 4 == 0 ? corner : 3.0 * random.in_cube(1.0))});
+      queries.push_back({.point = vector_of(i % 4 == 0 ? corner : 3.0 * random.in_cube(1.0))});
     }
-    std::vector<ClosestPoint> answers(questions.size());
-    world.closest_points(questions, answers);
-    for (std::size_t i = 0; i < questions.size(); ++i) {
-      const Vec3 p = point_of(questions[i].point);
+    std::vector<ClosestPoint> answers(queries.size());
+    world.closest_points(queries, answers);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const Vec3 p = point_of(queries[i].point);
       const double expected = static_cast<double>(distance_by_brute_force(mesh, p));
       EXPECT_NEAR(answers[i].distance, expected, 1e-12);
       EXPECT_NEAR(norm(weighted(facet_at(mesh, answers[i].facet), answers[i].weights) - p), expected, 1e-12);
-      PointQuestion nearer = questions[i];
+      PointQuery nearer = queries[i];
       nearer.within = 0.5 * expected;
       EXPECT_TRUE(expected == 0.0 || world.closest_point(nearer).facet < 0);
       nearer.within = 2.0 * expected;
@@ -143,10 +143,10 @@ TEST(Questions, NearestPointsEqualBruteForce) {
   }
 }
 
-TEST(Questions, BoxesEqualCgal) {
+TEST(Queries, BoxesEqualCgal) {
   Random random(3);
   std::size_t hits = 0;
-  for (const Mesh& mesh : meshes_to_question()) {
+  for (const Mesh& mesh : meshes_to_query()) {
     tact::World world;
     const BodyId id = world.add_body({.positions = mesh.positions, .facets = mesh.facets});
     for (int i = 0; i < 40; ++i) {
@@ -155,7 +155,7 @@ TEST(Questions, BoxesEqualCgal) {
                          ? 2.0 * random.in_cube(1.0)
                          : Vec3{0.5 * random.below(6) - 1.5, 0.5 * random.below(6) - 1.5, 0.5 * random.below(6) - 1.5};
       const Vec3 size = i % 2 == 0 ? Vec3{random.uniform(), random.uniform(), random.uniform()} : Vec3{0.5, 0.5, 0.5};
-      const BoxQuestion question{.lower = vector_of(p), .upper = vector_of(p + size)};
+      const BoxQuery query{.lower = vector_of(p), .upper = vector_of(p + size)};
       const Mesh solid = box(p, p + size);
       std::vector<FacetOfBody> expected;
       for (int f = 0; f < mesh.facet_count(); ++f) {
@@ -163,19 +163,19 @@ TEST(Questions, BoxesEqualCgal) {
         bool meets = false;
         for (const Vec3& q : t) {
           const Eigen::Vector3d v = vector_of(q);
-          meets = meets || ((v.array() >= question.lower.array()).all() && (v.array() <= question.upper.array()).all());
+          meets = meets || ((v.array() >= query.lower.array()).all() && (v.array() <= query.upper.array()).all());
         }
         for (int k = 0; k < solid.facet_count() && !meets; ++k) meets = cgal_meet(t, facet_at(solid, k));
         if (meets) expected.push_back({id, f});
       }
-      ASSERT_EQ(world.overlap_box(question), expected);
+      ASSERT_EQ(world.overlap_box(query), expected);
       hits += expected.size();
     }
   }
   EXPECT_GT(hits, 1000u);
 }
 
-TEST(Questions, WhatIsInsideIsCountedByItsWinding) {
+TEST(Queries, WhatIsInsideIsCountedByItsWinding) {
   Random random(4);
   const Mesh grid = gridded_box({-1, -1, -1}, {1, 1, 1}, 4), ring = torus(16, 10, 1.0, 0.4),
              ball = blob(2, 1.0, 0.3, 1);
@@ -212,7 +212,7 @@ TEST(Questions, WhatIsInsideIsCountedByItsWinding) {
   EXPECT_FALSE(is_in({0, 0, 0}, ring_id));
 }
 
-TEST(Questions, LayersMasksAndPositionsThatWereSet) {
+TEST(Queries, LayersMasksAndPositionsThatWereSet) {
   tact::World world;
   const Mesh ball = icosphere(1);
   const BodyId a = world.add_body({.positions = ball.positions, .facets = ball.facets, .layer = 2});
@@ -229,7 +229,7 @@ TEST(Questions, LayersMasksAndPositionsThatWereSet) {
   EXPECT_LT(world.closest_point({.point = {9, 0, 3}}).facet, 0);
 }
 
-TEST(Questions, HugeAndTinyBodies) {
+TEST(Queries, HugeAndTinyBodies) {
   for (const double unit : {0x1p-900, 0x1p-300, 1.0, 0x1p290}) {
     tact::World world;
     Mesh ball = icosphere(2);
@@ -245,7 +245,7 @@ TEST(Questions, HugeAndTinyBodies) {
   }
 }
 
-TEST(Questions, RefusalsNameTheQuestion) {
+TEST(Queries, RefusalsNameTheQuery) {
   tact::World world;
   const auto code_of = [](const auto& call) {
     try {
@@ -259,9 +259,9 @@ TEST(Questions, RefusalsNameTheQuestion) {
   rays[2].to.y() = std::nan("");
   std::vector<RayHit> hits(3);
   EXPECT_EQ(code_of([&] { world.rays(rays, hits); }),
-            "non_finite_position: question 2: the end of a ray has y = nan, which is not finite");
+            "non_finite_position: query 2: the end of a ray has y = nan, which is not finite");
   hits.resize(2);
-  EXPECT_EQ(code_of([&] { world.rays(rays, hits); }), "wrong_size: 3 questions, but room for 2 answers");
+  EXPECT_EQ(code_of([&] { world.rays(rays, hits); }), "wrong_size: 3 queries, but room for 2 answers");
   EXPECT_EQ(code_of([&] { world.closest_point({.within = -1.0}); }).substr(0, 12), "bad_settings");
   EXPECT_EQ(code_of([&] {
               world.overlap_box({.lower = {1, 0, 0}, .upper = {0, 0, 0}});

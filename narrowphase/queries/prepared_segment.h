@@ -1,4 +1,4 @@
-// A segment, ready for many questions: which boxes it enters and when, which facets it meets and where.
+// A segment, ready for many queries: which boxes it enters and when, which facets it meets and where.
 #pragma once
 
 #include <cstdint>
@@ -6,13 +6,13 @@
 
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/mesh/box_arrays.h"
-#include "narrowphase/questions/exact_place.h"
+#include "narrowphase/queries/exact_place.h"
 
 namespace tact::narrowphase {
 
-class Sightline {
+class PreparedSegment {
  public:
-  explicit Sightline(const Segment& segment);
+  explicit PreparedSegment(const Segment& segment);
 
   /// As the kernels take it.
   const SegmentSlabs& slabs() const { return slabs_; }

@@ -1,4 +1,4 @@
-#include "engine/narrow_phase.h"
+#include "engine/pair_stage.h"
 
 #include <algorithm>
 #include <atomic>
@@ -42,8 +42,8 @@ void clear_answers(PairRecord& record) {
 
 }  // namespace
 
-void NarrowPhase::run(PairTable& table, Bodies& bodies, const Settings& settings, narrowphase::EmbreeDevice& device,
-                      const base::Timer& timer) {
+void PairStage::run(PairTable& table, Bodies& bodies, const Settings& settings, narrowphase::EmbreeDevice& device,
+                    const base::Timer& timer) {
   base::Timer own_timer = timer;
   own_timer.lap();
   separate_by_kdop(table, bodies, settings.threads);
@@ -86,8 +86,8 @@ void NarrowPhase::run(PairTable& table, Bodies& bodies, const Settings& settings
 }
 
 // One pair through stages 3 to 6. A large one is put aside before the last.
-void NarrowPhase::look_at(const PairInput& pair, PairRecord& record, PairTable& table,
-                          narrowphase::EmbreeDevice& device, int thread) {
+void PairStage::look_at(const PairInput& pair, PairRecord& record, PairTable& table, narrowphase::EmbreeDevice& device,
+                        int thread) {
   PairWork& work = work_[thread];
   ThreadClock& clock = clocks_[thread];
   if (!std::exchange(clock.begun, true)) clock.timer.lap();
@@ -125,7 +125,7 @@ void NarrowPhase::look_at(const PairInput& pair, PairRecord& record, PairTable& 
 }
 
 // Takes a large pair and gives other memory for it.
-void NarrowPhase::put_aside(CulledPair& culled, int threads, const base::Tuning& tuning) {
+void PairStage::put_aside(CulledPair& culled, int threads, const base::Tuning& tuning) {
   const std::lock_guard lock(large_mutex_);
   if (large_.size() == large_count_) large_.push_back(std::make_unique<LargePair>());
   LargePair& large = *large_[large_count_];
@@ -135,7 +135,7 @@ void NarrowPhase::put_aside(CulledPair& culled, int threads, const base::Tuning&
 }
 
 // Is there a range that no thread has taken? Threads begin at either end: what a thread refitted is in its cache.
-bool NarrowPhase::confirm_next_range(const base::Tuning& tuning, int thread) {
+bool PairStage::confirm_next_range(const base::Tuning& tuning, int thread) {
   LargePair* pair = nullptr;
   std::size_t range = 0;
   {
@@ -150,7 +150,7 @@ bool NarrowPhase::confirm_next_range(const base::Tuning& tuning, int thread) {
 }
 
 // What is left of them when all pairs have been looked at.
-void NarrowPhase::confirm_large_pairs(int threads, const base::Tuning& tuning) {
+void PairStage::confirm_large_pairs(int threads, const base::Tuning& tuning) {
   large_begin_ = base::Timer::Clock::now();
   left_ranges_.clear();
   std::size_t all = 0;
@@ -169,13 +169,13 @@ void NarrowPhase::confirm_large_pairs(int threads, const base::Tuning& tuning) {
   });
 }
 
-void NarrowPhase::forget() {
+void PairStage::forget() {
   large_count_ = 0;
   large_.clear();
   work_.clear();
 }
 
-PairCounts NarrowPhase::counts() const {
+PairCounts PairStage::counts() const {
   PairCounts sum;
   for (const PairWork& work : work_) sum += work.counts;
   return sum;

@@ -1,11 +1,11 @@
-// What the loops of questions to the world read and write: rays and nearest points.
+// What the loops of queries to the world read and write: rays and nearest points.
 #pragma once
 
 #include <cstdint>
 
 namespace tact::narrowphase {
 
-// A segment, for the question when it enters boxes. Where it is parallel to an axis, or as good as, `inverse` is zero;
+// A segment, for the query when it enters boxes. Where it is parallel to an axis, or as good as, `inverse` is zero;
 // then `stays` tells whether it is so exactly, or else that axis rules nothing out.
 struct SegmentSlabs {
   double from[3];
@@ -21,7 +21,7 @@ struct alignas(64) RankedBoxes {
   int count = 0;
 };
 
-// A line, for the question which facets it may meet: `axis` are those of space in an order in which the way is longest
+// A line, for the query which facets it may meet: `axis` are those of space in an order in which the way is longest
 // along the last, of which it goes slope[0] and slope[1] along the others. Seen along the line a point is off by at
 // most `error`.
 struct LineOfSight {

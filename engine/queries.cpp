@@ -1,4 +1,4 @@
-#include "engine/questions.h"
+#include "engine/queries.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/text.h"
 #include "engine/check_coordinate.h"
-#include "narrowphase/questions/mesh_questions.h"
+#include "narrowphase/queries/mesh_queries.h"
 
 namespace tact {
 
@@ -52,27 +52,27 @@ RayHit hit_of(const Body& body, const FacetHit& hit) { return {body.id, hit.face
 
 }  // namespace
 
-void check_question(const Ray& ray) {
+void check_query(const Ray& ray) {
   check_point(ray.from, "the beginning of a ray");
   check_point(ray.to, "the end of a ray");
 }
 
-void check_question(const PointQuestion& question) {
-  check_point(question.point, "a point");
-  if (!(question.within >= 0.0))
-    throw Error(ErrorCode::bad_settings, "within is " + base::text_of(question.within) + ", not at least 0");
+void check_query(const PointQuery& query) {
+  check_point(query.point, "a point");
+  if (!(query.within >= 0.0))
+    throw Error(ErrorCode::bad_settings, "within is " + base::text_of(query.within) + ", not at least 0");
 }
 
-void check_question(const BoxQuestion& question) {
-  check_point(question.lower, "the lower corner of a box");
-  check_point(question.upper, "the upper corner of a box");
-  if ((question.lower.array() > question.upper.array()).any())
+void check_query(const BoxQuery& query) {
+  check_point(query.lower, "the lower corner of a box");
+  check_point(query.upper, "the upper corner of a box");
+  if ((query.lower.array() > query.upper.array()).any())
     throw Error(ErrorCode::bad_settings, "the lower corner of a box is above its upper one");
 }
 
 RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted) {
   const narrowphase::Segment segment = segment_of(ray);
-  const narrowphase::Sightline line(segment);
+  const narrowphase::PreparedSegment line(segment);
   RayHit best;
   best.time = 1.0;
   for_each_body_near(bodies, ray.asked, box_of(segment), [&](const Body& body) {
@@ -83,7 +83,7 @@ RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted) {
   return best.facet >= 0 ? best : RayHit{};
 }
 
-void begin_rays(const Bodies& bodies, std::size_t rays, int threads, narrowphase::LineRoom& room) {
+void begin_rays(const Bodies& bodies, std::size_t rays, int threads, narrowphase::SegmentBatch& room) {
   std::vector<int> clusters(bodies.boxes().size());
   for (std::uint32_t slot = 0; slot < clusters.size(); ++slot)
     clusters[slot] = bodies.boxes()[slot].empty() ? 0 : bodies.in_slot(slot).mesh.cluster_count();
@@ -96,14 +96,14 @@ void begin_rays(const Bodies& bodies, std::size_t rays, int threads, narrowphase
 }
 
 void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<RayHit> hits,
-                     const narrowphase::LineRoom& room) {
-  std::array<narrowphase::FirstHitQuestion, narrowphase::kLinesAtATime> questions;
+                     const narrowphase::SegmentBatch& room) {
+  std::array<narrowphase::FirstHitQuery, narrowphase::kLinesAtATime> queries;
   std::array<Box, narrowphase::kLinesAtATime> boxes;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     for (int axis = 0; axis < 3;
          ++axis) {  // number by number: what was written as such cannot be read at once in pairs
-      questions[i].segment[0][axis] = rays[i].from[axis];
-      questions[i].segment[1][axis] = rays[i].to[axis];
+      queries[i].segment[0][axis] = rays[i].from[axis];
+      queries[i].segment[1][axis] = rays[i].to[axis];
       boxes[i].lower[axis] = std::min(rays[i].from[axis], rays[i].to[axis]);
       boxes[i].upper[axis] = std::max(rays[i].from[axis], rays[i].to[axis]);
     }
@@ -111,19 +111,19 @@ void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<
   }
   for (std::uint32_t slot = 0; slot < bodies.boxes().size(); ++slot) {
     if (bodies.boxes()[slot].empty()) continue;
-    std::array<narrowphase::FirstHitQuestion*, narrowphase::kLinesAtATime> asked;
+    std::array<narrowphase::FirstHitQuery*, narrowphase::kLinesAtATime> asked;
     std::size_t count = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const broadphase::Filter filter{rays[i].asked.layer, rays[i].asked.mask, false};
       if (overlaps(bodies.boxes()[slot], boxes[i]) && broadphase::tested(bodies.filters()[slot], filter))
-        asked[count++] = &questions[i];
+        asked[count++] = &queries[i];
     }
     if (count == 0) continue;
     const Body& body = bodies.placed(slot);
     narrowphase::ask_first_hits(body.mesh, room.tree(slot), {asked.data(), count});
     // A hit is of the first body that has one as early.
     for (std::size_t k = 0; k < count; ++k) {
-      const auto i = static_cast<std::size_t>(asked[k] - questions.data());
+      const auto i = static_cast<std::size_t>(asked[k] - queries.data());
       const auto& hit = asked[k]->hit;
       if (hit && (hits[i].facet < 0 || hit->time < hits[i].time)) hits[i] = hit_of(body, *hit);
     }
@@ -132,7 +132,7 @@ void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<
 
 std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray) {
   const narrowphase::Segment segment = segment_of(ray);
-  const narrowphase::Sightline line(segment);
+  const narrowphase::PreparedSegment line(segment);
   std::vector<RayHit> all;
   std::vector<FacetHit> hits;
   for_each_body_near(bodies, ray.asked, box_of(segment), [&](const Body& body) {
@@ -145,10 +145,10 @@ std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray) {
   return all;
 }
 
-ClosestPoint find_closest_point(const Bodies& bodies, const PointQuestion& question) {
-  const Vec3 point = point_of(question.point);
+ClosestPoint find_closest_point(const Bodies& bodies, const PointQuery& query) {
+  const Vec3 point = point_of(query.point);
   ClosestPoint best;
-  double within = question.within;
+  double within = query.within;
   const auto wants = [&](const Box& box) {
     for (int axis = 0; axis < 3; ++axis) {
       // Rounded towards nearer, so that nothing is left out.
@@ -157,7 +157,7 @@ ClosestPoint find_closest_point(const Bodies& bodies, const PointQuestion& quest
     }
     return true;
   };
-  for_each_body(bodies, question.asked, wants, [&](const Body& body) {
+  for_each_body(bodies, query.asked, wants, [&](const Body& body) {
     const auto nearest = nearest_facet(body.mesh, point, within);
     if (!nearest || (best.facet >= 0 && nearest->distance >= best.distance)) return true;
     best = {body.id, nearest->facet, nearest->distance, nearest->weight};
@@ -167,11 +167,11 @@ ClosestPoint find_closest_point(const Bodies& bodies, const PointQuestion& quest
   return best;
 }
 
-std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuestion& question) {
-  const Box box{point_of(question.lower), point_of(question.upper)};
+std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuery& query) {
+  const Box box{point_of(query.lower), point_of(query.upper)};
   std::vector<FacetOfBody> found;
   std::vector<int> facets;
-  for_each_body_near(bodies, question.asked, box, [&](const Body& body) {
+  for_each_body_near(bodies, query.asked, box, [&](const Body& body) {
     facets.clear();
     append_facets_in_box(body.mesh, box, facets);
     std::ranges::sort(facets);
@@ -181,10 +181,10 @@ std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuestion& qu
   return found;
 }
 
-std::vector<BodyId> find_around(const Bodies& bodies, const PointQuestion& question) {
-  const Vec3 point = point_of(question.point);
+std::vector<BodyId> find_around(const Bodies& bodies, const PointQuery& query) {
+  const Vec3 point = point_of(query.point);
   std::vector<BodyId> found;
-  for_each_body_near(bodies, question.asked, {point, point}, [&](const Body& body) {
+  for_each_body_near(bodies, query.asked, {point, point}, [&](const Body& body) {
     if (body.surface == Surface::closed && contains(body.mesh, point)) found.push_back(body.id);
     return true;
   });

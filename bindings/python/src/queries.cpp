@@ -1,6 +1,6 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
-#include <tact/questions.h>
+#include <tact/queries.h>
 
 #include <limits>
 #include <vector>
@@ -72,10 +72,10 @@ HitArrays all_hits(SharedWorld& world, const Eigen::Vector3d& from, const Eigen:
 
 ClosestArrays closest_points(SharedWorld& world, py::handle points, double within, std::uint32_t layer,
                              std::uint32_t mask) {
-  std::vector<PointQuestion> questions;
-  for (const Eigen::Vector3d& point : points_of(points)) questions.push_back({point, within, {layer, mask}});
-  std::vector<ClosestPoint> answers(questions.size());
-  world.compute([&](World& w) { w.closest_points(questions, answers); });
+  std::vector<PointQuery> queries;
+  for (const Eigen::Vector3d& point : points_of(points)) queries.push_back({point, within, {layer, mask}});
+  std::vector<ClosestPoint> answers(queries.size());
+  world.compute([&](World& w) { w.closest_points(queries, answers); });
   const std::span<const ClosestPoint> all = answers;
   return {body_column(all), facet_column(all),
           column_of<double>(all, [](const ClosestPoint& one) { return one.distance; }),
@@ -106,10 +106,10 @@ std::vector<py::array_t<std::int64_t>> overlap_boxes(SharedWorld& world, py::han
                                                      std::uint32_t layer, std::uint32_t mask) {
   const std::vector<Eigen::Vector3d> low = points_of(lower), high = points_of(upper);
   if (low.size() != high.size()) throw py::value_error("lower and upper have different lengths");
-  std::vector<BoxQuestion> questions;
-  for (std::size_t i = 0; i < low.size(); ++i) questions.push_back({low[i], high[i], {layer, mask}});
-  std::vector<std::vector<FacetOfBody>> found(questions.size());
-  world.compute([&](World& w) { w.overlap_boxes(questions, found); });
+  std::vector<BoxQuery> queries;
+  for (std::size_t i = 0; i < low.size(); ++i) queries.push_back({low[i], high[i], {layer, mask}});
+  std::vector<std::vector<FacetOfBody>> found(queries.size());
+  world.compute([&](World& w) { w.overlap_boxes(queries, found); });
   std::vector<py::array_t<std::int64_t>> answers;
   for (const std::vector<FacetOfBody>& one : found) answers.push_back(facet_rows(one));
   return answers;
@@ -117,16 +117,16 @@ std::vector<py::array_t<std::int64_t>> overlap_boxes(SharedWorld& world, py::han
 
 std::vector<std::vector<BodyId>> inside_each(SharedWorld& world, py::handle points, std::uint32_t layer,
                                              std::uint32_t mask) {
-  std::vector<PointQuestion> questions;
-  for (const Eigen::Vector3d& point : points_of(points)) questions.push_back({.point = point, .asked = {layer, mask}});
-  std::vector<std::vector<BodyId>> found(questions.size());
-  world.compute([&](World& w) { w.inside_each(questions, found); });
+  std::vector<PointQuery> queries;
+  for (const Eigen::Vector3d& point : points_of(points)) queries.push_back({.point = point, .asked = {layer, mask}});
+  std::vector<std::vector<BodyId>> found(queries.size());
+  world.compute([&](World& w) { w.inside_each(queries, found); });
   return found;
 }
 
 }  // namespace
 
-void define_questions(py::module_& module, WorldClass& world) {
+void define_queries(py::module_& module, WorldClass& world) {
   py::class_<HitArrays>(module, "RayHits", "Facets that rays meet, a row a hit.")
       .def_readonly("bodies", &HitArrays::bodies, "(N,) int64: BodyId.index; -1 where nothing was hit")
       .def_readonly("facets", &HitArrays::facets, "(N,) int32; -1 where nothing was hit")

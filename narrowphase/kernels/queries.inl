@@ -1,4 +1,4 @@
-// The loops that answer questions: which boxes and facets a segment may meet, which may be nearest to a point.
+// The loops that answer queries: which boxes and facets a segment may meet, which may be nearest to a point.
 #pragma once
 
 #include <cstdint>

@@ -12,14 +12,14 @@ static_assert(sizeof(tact_ray) == sizeof(Ray) && offsetof(tact_ray, to) == offse
 static_assert(sizeof(tact_ray_hit) == sizeof(RayHit) && offsetof(tact_ray_hit, facet) == offsetof(RayHit, facet) &&
               offsetof(tact_ray_hit, time) == offsetof(RayHit, time) &&
               offsetof(tact_ray_hit, weights) == offsetof(RayHit, weights));
-static_assert(sizeof(tact_point_question) == sizeof(PointQuestion) &&
-              offsetof(tact_point_question, within) == offsetof(PointQuestion, within) &&
-              offsetof(tact_point_question, layer) == offsetof(PointQuestion, asked));
+static_assert(sizeof(tact_point_query) == sizeof(PointQuery) &&
+              offsetof(tact_point_query, within) == offsetof(PointQuery, within) &&
+              offsetof(tact_point_query, layer) == offsetof(PointQuery, asked));
 static_assert(sizeof(tact_closest_point) == sizeof(ClosestPoint) &&
               offsetof(tact_closest_point, distance) == offsetof(ClosestPoint, distance) &&
               offsetof(tact_closest_point, weights) == offsetof(ClosestPoint, weights));
-static_assert(sizeof(tact_box_question) == sizeof(BoxQuestion) &&
-              offsetof(tact_box_question, layer) == offsetof(BoxQuestion, asked));
+static_assert(sizeof(tact_box_query) == sizeof(BoxQuery) &&
+              offsetof(tact_box_query, layer) == offsetof(BoxQuery, asked));
 static_assert(sizeof(tact_facet_of_body) == sizeof(FacetOfBody) &&
               offsetof(tact_facet_of_body, facet) == offsetof(FacetOfBody, facet));
 
@@ -37,13 +37,12 @@ void write(const std::vector<Answer>& answers, ForC* to, size_t capacity, size_t
   *count = answers.size();
 }
 
-// Calls ask(questions, answers) for lists of answers, and writes these one after the other, and where each ends.
-template <class Question, class Answer, class QuestionOfC, class AnswerOfC, class Ask>
-void write_each(const QuestionOfC* questions, size_t count, AnswerOfC* to, size_t capacity, size_t* ends,
-                const Ask& ask) {
+// Calls ask(queries, answers) for lists of answers, and writes these one after the other, and where each ends.
+template <class Query, class Answer, class QueryOfC, class AnswerOfC, class Ask>
+void write_each(const QueryOfC* queries, size_t count, AnswerOfC* to, size_t capacity, size_t* ends, const Ask& ask) {
   if (count > 0) check_not_null(ends);
   std::vector<std::vector<Answer>> answers(count);
-  ask(as_cpp<const Question>(questions, count), answers);
+  ask(as_cpp<const Query>(queries, count), answers);
   const std::span<Answer> room = as_cpp<Answer>(to, capacity);
   size_t end = 0;
   for (size_t i = 0; i < answers.size(); ++i) {
@@ -80,48 +79,48 @@ tact_error tact_world_all_hits(tact_world world, const tact_ray* ray, tact_ray_h
   });
 }
 
-tact_error tact_world_overlap_box(tact_world world, const tact_box_question* question, tact_facet_of_body* facets,
+tact_error tact_world_overlap_box(tact_world world, const tact_box_query* query, tact_facet_of_body* facets,
                                   size_t capacity, size_t* count) {
   return changing(world, [&](WorldEntry& entry) {
     check_not_null(count);
-    write(entry.world.overlap_box(as_cpp<const tact::BoxQuestion>(question, 1)[0]), facets, capacity, count);
+    write(entry.world.overlap_box(as_cpp<const tact::BoxQuery>(query, 1)[0]), facets, capacity, count);
   });
 }
 
-tact_error tact_world_inside(tact_world world, const tact_point_question* question, tact_body* bodies, size_t capacity,
+tact_error tact_world_inside(tact_world world, const tact_point_query* query, tact_body* bodies, size_t capacity,
                              size_t* count) {
   return changing(world, [&](WorldEntry& entry) {
     check_not_null(count);
-    write(entry.world.inside(as_cpp<const tact::PointQuestion>(question, 1)[0]), bodies, capacity, count);
+    write(entry.world.inside(as_cpp<const tact::PointQuery>(query, 1)[0]), bodies, capacity, count);
   });
 }
 
-tact_error tact_world_overlap_boxes(tact_world world, const tact_box_question* questions, size_t count,
+tact_error tact_world_overlap_boxes(tact_world world, const tact_box_query* queries, size_t count,
                                     tact_facet_of_body* facets, size_t capacity, size_t* ends) {
   return changing(world, [&](WorldEntry& entry) {
-    write_each<tact::BoxQuestion, tact::FacetOfBody>(
-        questions, count, facets, capacity, ends,
+    write_each<tact::BoxQuery, tact::FacetOfBody>(
+        queries, count, facets, capacity, ends,
         [&](const auto& asked, auto& answers) { entry.world.overlap_boxes(asked, answers); });
   });
 }
 
-tact_error tact_world_inside_each(tact_world world, const tact_point_question* questions, size_t count,
-                                  tact_body* bodies, size_t capacity, size_t* ends) {
+tact_error tact_world_inside_each(tact_world world, const tact_point_query* queries, size_t count, tact_body* bodies,
+                                  size_t capacity, size_t* ends) {
   return changing(world, [&](WorldEntry& entry) {
-    write_each<tact::PointQuestion, tact::BodyId>(
-        questions, count, bodies, capacity, ends,
+    write_each<tact::PointQuery, tact::BodyId>(
+        queries, count, bodies, capacity, ends,
         [&](const auto& asked, auto& answers) { entry.world.inside_each(asked, answers); });
   });
 }
 
-tact_error tact_world_closest_point(tact_world world, const tact_point_question* question, tact_closest_point* answer) {
-  return tact_world_closest_points(world, question, 1, answer);
+tact_error tact_world_closest_point(tact_world world, const tact_point_query* query, tact_closest_point* answer) {
+  return tact_world_closest_points(world, query, 1, answer);
 }
 
-tact_error tact_world_closest_points(tact_world world, const tact_point_question* questions, size_t count,
+tact_error tact_world_closest_points(tact_world world, const tact_point_query* queries, size_t count,
                                      tact_closest_point* answers) {
   return changing(world, [&](WorldEntry& entry) {
-    entry.world.closest_points(as_cpp<const tact::PointQuestion>(questions, count),
+    entry.world.closest_points(as_cpp<const tact::PointQuery>(queries, count),
                                as_cpp<tact::ClosestPoint>(answers, count));
   });
 }

@@ -1,14 +1,14 @@
-#include "narrowphase/questions/sightline.h"
+#include "narrowphase/queries/prepared_segment.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-#include "narrowphase/questions/nearest_weights.h"
+#include "narrowphase/queries/nearest_weights.h"
 
 namespace tact::narrowphase {
 
-std::uint64_t Sightline::facets_seen(const ClusteredMesh& mesh, int cluster) const {
+std::uint64_t PreparedSegment::facets_seen(const ClusteredMesh& mesh, int cluster) const {
   const ClusterFacets facets = mesh.facets_of(cluster);
   if (is_point_) return ~std::uint64_t{0} >> (64 - facets.facet_count);
   LineOfSight line = line_;
@@ -22,7 +22,7 @@ std::uint64_t Sightline::facets_seen(const ClusteredMesh& mesh, int cluster) con
   return kernels().sight_facets(facets, line);
 }
 
-Sightline::Sightline(const Segment& segment) : segment_(segment) {
+PreparedSegment::PreparedSegment(const Segment& segment) : segment_(segment) {
   const Vec3 from = segment[0], way = segment[1] - from;
   for (int axis = 0; axis < 3; ++axis) {
     const double inverse = 1.0 / way[axis];
@@ -38,7 +38,7 @@ Sightline::Sightline(const Segment& segment) : segment_(segment) {
 }
 
 // When it enters a triangle's box, as in rank_by_entry(): not earlier than any box around that one, rounding included.
-double Sightline::entry(const Triangle& triangle) const {
+double PreparedSegment::entry(const Triangle& triangle) const {
   double first = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const double inverse = slabs_.inverse[axis];
@@ -50,12 +50,12 @@ double Sightline::entry(const Triangle& triangle) const {
   return first;
 }
 
-CommonPlace Sightline::not_before_entry(CommonPlace place, const Triangle& triangle) const {
+CommonPlace PreparedSegment::not_before_entry(CommonPlace place, const Triangle& triangle) const {
   place.time = std::min(std::max(place.time, entry(triangle)), 1.0);
   return place;
 }
 
-std::optional<CommonPlace> Sightline::meet_exactly(const Triangle& triangle, PredicateCounts& counts) const {
+std::optional<CommonPlace> PreparedSegment::meet_exactly(const Triangle& triangle, PredicateCounts& counts) const {
   if (!segment_triangle_meet(segment_, triangle, counts)) return std::nullopt;
   if (is_point_) return CommonPlace{0.0, weights_about(segment_[0], triangle)};
   return not_before_entry(exact_place(segment_, triangle), triangle);
@@ -72,7 +72,7 @@ std::optional<CommonPlace> Sightline::meet_exactly(const Triangle& triangle, Pre
 // So the place that the weights give is off the line, in each of two directions, by the errors of the areas times the
 // largest coordinate, over the whole area; twice that where a weight was raised to zero. If that is at most 2^-41 of
 // the size, as nearly always, it is good enough; otherwise exact_place().
-std::optional<CommonPlace> Sightline::meet(const Triangle& triangle, PredicateCounts& counts) const {
+std::optional<CommonPlace> PreparedSegment::meet(const Triangle& triangle, PredicateCounts& counts) const {
   if (is_point_) {
     Box box;
     for (const Vec3& p : triangle) box = extended(box, p);

@@ -1,4 +1,4 @@
-#include "narrowphase/questions/line_room.h"
+#include "narrowphase/queries/segment_batch.h"
 
 #include <algorithm>
 
@@ -46,7 +46,7 @@ void make_empty(LineNode& node) {
 
 }  // namespace
 
-void LineRoom::begin(std::span<const int> cluster_counts, std::size_t segments) {
+void SegmentBatch::begin(std::span<const int> cluster_counts, std::size_t segments) {
   entries_.resize(cluster_counts.size());
   chosen_.clear();
   mesh_of_node_.clear();
@@ -65,7 +65,7 @@ void LineRoom::begin(std::span<const int> cluster_counts, std::size_t segments) 
   room_ = node_count();
 }
 
-void LineRoom::make_tree(const ClusteredMesh& mesh, std::size_t number) {
+void SegmentBatch::make_tree(const ClusteredMesh& mesh, std::size_t number) {
   Entry& entry = entries_[number];
   LineTree& tree = entry.tree;
   entry.mesh = &mesh;
@@ -81,7 +81,7 @@ void LineRoom::make_tree(const ClusteredMesh& mesh, std::size_t number) {
   if (tree.group_count > 1) copy_boxes(mesh.group_boxes(), tree.group_count, 1, tree, end, tree.groups);
 }
 
-void LineRoom::make_node(std::size_t i) {
+void SegmentBatch::make_node(std::size_t i) {
   const Entry& entry = entries_[mesh_of_node_[i]];
   const ClusteredMesh& mesh = *entry.mesh;
   const int begin = static_cast<int>(i - entry.first_node) * LineNode::kClusters;

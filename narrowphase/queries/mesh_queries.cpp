@@ -1,4 +1,4 @@
-#include "narrowphase/questions/mesh_questions.h"
+#include "narrowphase/queries/mesh_queries.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,7 +10,7 @@
 #include "narrowphase/mesh/cluster_search.h"
 #include "narrowphase/mesh/open_in_box.h"
 #include "narrowphase/numeric/unit_scale.h"
-#include "narrowphase/questions/sightline.h"
+#include "narrowphase/queries/prepared_segment.h"
 
 namespace tact::narrowphase {
 
@@ -38,7 +38,7 @@ Triangle triangle_in(const FacetBlock& facets, int i) {
 // Calls visit(hit) for each facet that the segment meets, in clusters that it may reach by `latest`, which visit may
 // lower.
 template <class Visit>
-void for_each_hit(const ClusteredMesh& mesh, const Sightline& line, const double& latest, const Visit& visit) {
+void for_each_hit(const ClusteredMesh& mesh, const PreparedSegment& line, const double& latest, const Visit& visit) {
   if (mesh.facet_count() == 0) return;
   PredicateCounts counts;
   const auto rank = [&](const BoxPointers& boxes, int count, RankedBoxes& ranked) {
@@ -66,7 +66,7 @@ int turn(const Vec3& a, const Vec3& b, const Vec3& c, PredicateCounts& counts) {
 
 }  // namespace
 
-std::optional<FacetHit> first_hit(const ClusteredMesh& mesh, const Sightline& line, double latest) {
+std::optional<FacetHit> first_hit(const ClusteredMesh& mesh, const PreparedSegment& line, double latest) {
   std::optional<FacetHit> first;
   for_each_hit(mesh, line, latest, [&](const FacetHit& hit) {
     if (hit.time > latest || (first && !(hit < *first))) return;
@@ -76,7 +76,7 @@ std::optional<FacetHit> first_hit(const ClusteredMesh& mesh, const Sightline& li
   return first;
 }
 
-std::optional<FacetHit> any_hit(const ClusteredMesh& mesh, const Sightline& line) {
+std::optional<FacetHit> any_hit(const ClusteredMesh& mesh, const PreparedSegment& line) {
   std::optional<FacetHit> any;
   double latest = 1.0;
   for_each_hit(mesh, line, latest, [&](const FacetHit& hit) {
@@ -86,7 +86,7 @@ std::optional<FacetHit> any_hit(const ClusteredMesh& mesh, const Sightline& line
   return any;
 }
 
-void append_hits(const ClusteredMesh& mesh, const Sightline& line, std::vector<FacetHit>& hits) {
+void append_hits(const ClusteredMesh& mesh, const PreparedSegment& line, std::vector<FacetHit>& hits) {
   const double latest = 1.0;
   for_each_hit(mesh, line, latest, [&](const FacetHit& hit) { hits.push_back(hit); });
 }

@@ -1,4 +1,4 @@
-#include "narrowphase/contact_points/features.h"
+#include "narrowphase/mesh/features.h"
 
 #include <algorithm>
 #include <tuple>

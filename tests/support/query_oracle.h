@@ -1,7 +1,7 @@
-// Questions to a mesh, hard ones, and their answers by brute force: exact ones from CGAL, distances in long doubles.
+// Queries to a mesh, hard ones, and their answers by brute force: exact ones from CGAL, distances in long doubles.
 #pragma once
 
-#include <tact/questions.h>
+#include <tact/queries.h>
 
 #include <array>
 #include <vector>
@@ -20,7 +20,7 @@ inline Vec3 weighted(const Triangle& t, const std::array<double, 3>& w) {
 }
 
 // Closed ones, sheets, soups, needles; about the unit ball.
-std::vector<Mesh> meshes_to_question();
+std::vector<Mesh> meshes_to_query();
 
 // Anywhere; along an axis, on a grid; through a vertex; through an edge; in the plane of a facet.
 Ray random_ray(const Mesh& mesh, Random& random);
@@ -30,11 +30,11 @@ Ray hard_ray(const Mesh& mesh, Random& random);
 // Anywhere, far away, a vertex, on an edge or a facet, to rounding or just off it.
 Vec3 hard_point(const Mesh& mesh, Random& random);
 // Anywhere, on a grid, with a corner on a vertex, flat, a point.
-BoxQuestion hard_box(const Mesh& mesh, Random& random);
+BoxQuery hard_box(const Mesh& mesh, Random& random);
 
 // Ascending.
 std::vector<int> hit_facets(const Mesh& mesh, const Ray& ray);
-std::vector<int> facets_in(const Mesh& mesh, const BoxQuestion& box);
+std::vector<int> facets_in(const Mesh& mesh, const BoxQuery& box);
 long double distance_by_brute_force(const Mesh& mesh, Vec3 p);
 // Of a closed mesh that does not meet itself: is the point on its surface, or does a segment from it, in some
 // direction, cross it an odd number of times?
