@@ -96,45 +96,33 @@ narrowphase::SurfaceKind kind_of(const Body& body) {
 
 }  // namespace
 
-// The vertices that have crossed, which need no search for what is near them.
-narrowphase::CrossedVertices PointStage::begin_crossing(const Wanted& wanted, const Bodies& bodies, Work& work) {
-  if (wanted.record == nullptr || !cross_each_other(*wanted.record, wanted.reach)) return {};
+// What of the bodies has crossed, before what is near is searched.
+narrowphase::NearRules PointStage::find_crossing(const Wanted& wanted, const Bodies& bodies, Work& work) {
+  if (wanted.record == nullptr) return {.crossing = find_self_crossing(wanted, bodies, work)};
   const PairRecord& record = *wanted.record;
+  if (!cross_each_other(record, wanted.reach)) return {.touching = direction_of(record)};
   carry(record, FeaturePair::vertex_facet, work.carried_a);
   carry(record, FeaturePair::facet_vertex, work.carried_b);
-  return work.crossing.begin({.a = bodies.featured(wanted.a),
-                              .b = bodies.featured(wanted.b),
-                              .surface_a = kind_of(bodies.in_slot(wanted.a)),
-                              .surface_b = kind_of(bodies.in_slot(wanted.b)),
-                              .direction = direction_of(record),
-                              .depth = record.contact.depth,
-                              .facet_pairs = record.facet_pairs,
-                              .carried_a = work.carried_a,
-                              .carried_b = work.carried_b});
+  return {.crossing = &work.crossing.find({.a = bodies.featured(wanted.a),
+                                           .b = bodies.featured(wanted.b),
+                                           .surface_a = kind_of(bodies.in_slot(wanted.a)),
+                                           .surface_b = kind_of(bodies.in_slot(wanted.b)),
+                                           .direction = direction_of(record),
+                                           .depth = record.contact.depth,
+                                           .facet_pairs = record.facet_pairs,
+                                           .carried_a = work.carried_a,
+                                           .carried_b = work.carried_b})};
 }
 
-void PointStage::cross_itself(const Wanted& wanted, const Bodies& bodies, Work& work) {
+const narrowphase::Crossing* PointStage::find_self_crossing(const Wanted& wanted, const Bodies& bodies, Work& work) {
+  if (wanted.self->crossing == nullptr) return nullptr;
   work.last.clear();
   for (const ContactPoint& point : wanted.self->last_points) work.last.push_back(to_feature_point(point));
-  wanted.self->crossing->run({.mesh = bodies.featured(wanted.a),
-                              .surface = kind_of(bodies.in_slot(wanted.a)),
-                              .reach = wanted.reach,
-                              .facet_pairs = wanted.self->facet_pairs,
-                              .last = work.last},
-                             work.found);
-}
-
-void PointStage::finish_crossing(const Wanted& wanted, Work& work) {
-  if (wanted.record == nullptr) return;
-  if (cross_each_other(*wanted.record, wanted.reach)) {
-    work.crossing.finish(work.found);
-    return;
-  }
-  // What touches in a vertex or an edge has no side of its own.
-  const base::Vec3 contact = direction_of(*wanted.record);
-  for (FeaturePoint& point : work.found) {
-    if (point.gap == 0.0 && dot(point.normal, contact) < 0.0) point.normal = -point.normal;
-  }
+  return &wanted.self->crossing->find({.mesh = bodies.featured(wanted.a),
+                                       .surface = kind_of(bodies.in_slot(wanted.a)),
+                                       .reach = wanted.reach,
+                                       .facet_pairs = wanted.self->facet_pairs,
+                                       .last = work.last});
 }
 
 // In an order that depends on features alone. Points are large: what is sorted is what tells most of them apart.
@@ -227,9 +215,9 @@ void PointStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Set
     if (is_large_[i]) return;
     const std::size_t own_end = settings.threads == 1 ? wanted_.size() : i - i % grain + grain;
     if (prefetches && i + 1 < std::min(own_end, wanted_.size())) look_ahead(i + 1, bodies, work, device);
-    const narrowphase::CrossedVertices crossed = begin_crossing(wanted, bodies, work);
-    work.search.run(a, b, wanted.reach, pairs, work.found, crossed, narrowphase::ContactPointSearch::Given::all);
-    finish_crossing(wanted, work);
+    const narrowphase::NearRules rules = find_crossing(wanted, bodies, work);
+    work.search.run(a, b, wanted.reach, pairs, work.found, rules, narrowphase::ContactPointSearch::Given::all);
+    if (rules.crossing != nullptr) work.crossing_points.append(*rules.crossing, work.found);
     publish(wanted, bodies, work);
   });
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
@@ -261,17 +249,16 @@ void PointStage::search_in_ranges(const Wanted& wanted, const Bodies& bodies, st
   const std::size_t ranges =
       std::clamp<std::size_t>(pairs.size() / 8, 1, kRangesPerThread * static_cast<std::size_t>(threads));
   if (ranges_.size() < ranges) ranges_.resize(ranges);
-  const narrowphase::CrossedVertices crossed = begin_crossing(wanted, bodies, work_[0]);
+  const narrowphase::NearRules rules = find_crossing(wanted, bodies, work_[0]);
   base::parallel_for(ranges, 1, threads, [&](std::size_t i, int thread) {
     const std::size_t begin = pairs.size() * i / ranges, end = pairs.size() * (i + 1) / ranges;
     ranges_[i].clear();
-    work_[thread].search.run(a, b, wanted.reach, pairs.subspan(begin, end - begin), ranges_[i], crossed);
+    work_[thread].search.run(a, b, wanted.reach, pairs.subspan(begin, end - begin), ranges_[i], rules);
   });
   std::vector<FeaturePoint>& found = work_[0].found;
   found.clear();
   for (std::size_t i = 0; i < ranges; ++i) found.insert(found.end(), ranges_[i].begin(), ranges_[i].end());
-  finish_crossing(wanted, work_[0]);
-  if (wanted.self != nullptr && wanted.self->crossing != nullptr) cross_itself(wanted, bodies, work_[0]);
+  if (rules.crossing != nullptr) work_[0].crossing_points.append(*rules.crossing, found);
   publish(wanted, bodies, work_[0]);
 }
 

@@ -11,8 +11,9 @@
 #include "engine/pair/pair_table.h"
 #include "engine/patches.h"
 #include "narrowphase/contact_points/contact_points.h"
-#include "narrowphase/contact_points/crossing.h"
-#include "narrowphase/self/self_crossing.h"
+#include "narrowphase/crossing/crossing_points.h"
+#include "narrowphase/crossing/pair_crossing.h"
+#include "narrowphase/crossing/self_crossing.h"
 
 namespace tact {
 
@@ -45,7 +46,8 @@ class PointStage {
     std::size_t ahead = 0;              // the pair that `near` knows already, and one more; 0: none
     std::span<const narrowphase::ClusterPair> ahead_pairs;
     narrowphase::ContactPointSearch search;
-    narrowphase::CrossingSearch crossing;
+    narrowphase::PairCrossing crossing;
+    narrowphase::CrossingPoints crossing_points;
     std::vector<narrowphase::CarriedNormal> carried_a, carried_b;
     std::vector<narrowphase::FeaturePoint> found, last;
     std::vector<PointOrder> order;
@@ -65,9 +67,8 @@ class PointStage {
                                                           narrowphase::EmbreeDevice& device) const;
   void look_ahead(std::size_t i, const Bodies& bodies, Work& work, narrowphase::EmbreeDevice& device) const;
   void publish(const Wanted& wanted, const Bodies& bodies, Work& work) const;
-  static narrowphase::CrossedVertices begin_crossing(const Wanted& wanted, const Bodies& bodies, Work& work);
-  static void finish_crossing(const Wanted& wanted, Work& work);
-  static void cross_itself(const Wanted& wanted, const Bodies& bodies, Work& work);
+  static narrowphase::NearRules find_crossing(const Wanted& wanted, const Bodies& bodies, Work& work);
+  static const narrowphase::Crossing* find_self_crossing(const Wanted& wanted, const Bodies& bodies, Work& work);
   void search_in_ranges(const Wanted& wanted, const Bodies& bodies, std::span<const narrowphase::ClusterPair> pairs,
                         int threads);
 

@@ -15,7 +15,7 @@
 #include "engine/patch_stage.h"
 #include "engine/point_stage.h"
 #include "narrowphase/self/self_clusters.h"
-#include "narrowphase/self/self_crossing.h"
+#include "narrowphase/crossing/self_crossing.h"
 #include "narrowphase/self/self_facet_pairs.h"
 
 namespace tact {
