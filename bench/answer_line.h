@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "tests/support/answer_hash.h"
+#include "tests/support/hashes/answer_hash.h"
 
 namespace tact::bench {
 

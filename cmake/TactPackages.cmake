@@ -13,9 +13,11 @@ install(FILES ${PROJECT_BINARY_DIR}/tact.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/
 add_custom_target(uninstall COMMENT "Removing what was installed"
   COMMAND ${CMAKE_COMMAND} -DMANIFEST_FOLDER=${PROJECT_BINARY_DIR} -P ${PROJECT_SOURCE_DIR}/cmake/uninstall.cmake)
 
-# Debian: libtact0, the shared library; libtact-dev, headers and how to find them; tact-tools, the program;
+# Debian: libtact and the number of its SONAME, as Debian wants it, the shared library; libtact-dev, headers and how to find them; tact-tools, the program;
 # python3-tact, the package for Python. From a shared build, as any library of Debian: `cmake --preset packages &&
 # cmake --build --preset packages && cpack --config build/packages/CPackConfig.cmake`.
+get_target_property(soversion tact SOVERSION)
+set(runtime_package libtact${soversion})
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tact)
 set(CPACK_PACKAGE_CONTACT "The maintainers of tact <maintainers@tact.invalid>")
@@ -27,16 +29,16 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/engine)  # where the others find libtact
 set(CPACK_COMPONENTS_ALL runtime library)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME libtact${PROJECT_VERSION_MAJOR})
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME ${runtime_package})
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libtact-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libtact${PROJECT_VERSION_MAJOR} (= ${PROJECT_VERSION}), libeigen3-dev (>= 3.4)")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "${runtime_package} (= ${PROJECT_VERSION}), libeigen3-dev (>= 3.4)")
 if(TARGET tact_program)
   list(APPEND CPACK_COMPONENTS_ALL program)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME tact-tools)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
-  set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libtact${PROJECT_VERSION_MAJOR} (= ${PROJECT_VERSION})")
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "${runtime_package} (= ${PROJECT_VERSION})")
 endif()
 if(TARGET tact_python)
   find_package(Python3 COMPONENTS Interpreter)
@@ -44,7 +46,7 @@ if(TARGET tact_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-tact)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "libtact${PROJECT_VERSION_MAJOR} (= ${PROJECT_VERSION}), python3-numpy, \
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${runtime_package} (= ${PROJECT_VERSION}), python3-numpy, \
 python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor})")
 endif()
 include(CPack)

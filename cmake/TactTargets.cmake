@@ -34,6 +34,20 @@ function(tact_unity_build target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
 endfunction()
 
+# The same, but with sources of one folder at a time, up to twelve: a new file does not move the others to other batches.
+function(tact_unity_build_by_folder target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source ${sources})
+    cmake_path(GET source PARENT_PATH folder)
+    cmake_path(GET folder FILENAME folder)
+    list(APPEND of_${folder} ${source})
+    list(LENGTH of_${folder} number)
+    math(EXPR batch "(${number} - 1) / 12")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${batch})
+  endforeach()
+endfunction()
+
 # A layer of the engine: its objects end in the library tact. Includes are written from the project's root.
 function(tact_layer target)
   add_library(${target} OBJECT ${ARGN})

@@ -10,7 +10,7 @@ build=$root/build/fuzz
 
 mkdir -p "$root/build"
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ \
-  -DTACT_BUILD_FUZZERS=ON -DTACT_BUILD_BENCH=OFF >"$build.log" 2>&1 || { cat "$build.log"; exit 1; }
+  -DTACT_BUILD_FUZZERS=ON -DTACT_BUILD_PROGRAM=ON -DTACT_BUILD_TESTS=ON >"$build.log" 2>&1 || { cat "$build.log"; exit 1; }
 ninja -C "$build" fuzz_obj fuzz_off fuzz_ply fuzz_stl fuzz_recording
 
 for format in obj off ply stl recording; do

@@ -1,8 +1,25 @@
 #!/bin/bash
-# Installs the Debian packages that are missing, nothing else.   usage: scripts/setup.sh GROUP...
-# The groups are those of the list below, the one place where packages are named. With all of them in place it needs neither
-# rights nor network.
+# Installs the Debian packages that are missing, nothing else.   usage: scripts/setup.sh GROUP... | --help
+# The groups are those of the two lists below, the one place where packages are named. With all of them in place it needs
+# neither rights nor network.
 set -euo pipefail
+
+help() {
+  cat <<'END'
+usage: scripts/setup.sh GROUP...
+Installs the Debian packages that are missing. The groups:
+  library     the library, for C++ and C: cmake -B build
+  python      the Python package: pip install bindings/python
+  program     the program tact and its scenes: -DTACT_BUILD_PROGRAM=ON
+  tests       the tests, with program: -DTACT_BUILD_TESTS=ON
+  bench       the libraries that the benchmarks measure against, with program: -DTACT_BUILD_BENCH=ON
+  bullet      the example of Bullet's soft bodies
+  docs        the manual: scripts/docs.sh
+  viewer      the page of `tact view` from its sources: scripts/viewer.sh
+  lint        scripts/lint.sh
+  sanitizers  scripts/sanitize.sh, scripts/fuzz.sh
+END
+}
 
 packages_of() {
   case $1 in
@@ -19,9 +36,18 @@ packages_of() {
     viewer) command -v npm > /dev/null || echo nodejs npm
             echo chromium ;;
     sanitizers) echo clang libclang-rt-14-dev libomp-dev llvm ;;
-    *) echo "setup.sh: no group is called $1; there are library, python, program, tests, bullet, docs, bench, lint and sanitizers" >&2; exit 2 ;;
+    *) printf 'setup.sh: no group is called %s\n\n%s\n' "$1" "$(help)" >&2; exit 2 ;;
   esac
 }
+
+if (( $# == 0 )); then
+  help >&2
+  exit 2
+fi
+if [[ $1 == --help || $1 == -h ]]; then
+  help
+  exit 0
+fi
 
 wanted=()
 for group in "$@"; do

@@ -1,7 +1,10 @@
 #!/bin/bash
-# The page of `tact view`, which viewer/ holds.   usage: scripts/viewer.sh build | check | test | shots
-#   build   makes viewer/page.html from its sources: after every change of them
-#   check   is viewer/page.html what the sources give?
+# The page of `tact view`, which viewer/ holds.   usage: scripts/viewer.sh build | sums | check | test | shots
+# viewer/page.html is kept in the tree, since the program is built without node and without the network, and what makes the
+# page comes from npm. page.sha256 tells from which sources it was made.
+#   build   makes viewer/page.html and page.sha256 from the sources: after every change of them
+#   sums    compares page and sources with page.sha256, without node: ctest runs it
+#   check   the same, then makes the page once more and compares every byte
 #   test    opens pages of all scenes in Chromium and compares what they show with the program's JSON
 #   shots   the same, and keeps the pictures that the tests compare with
 set -euo pipefail
@@ -21,11 +24,24 @@ install_packages() {
   npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 }
 
+sums() {
+  LC_ALL=C sha256sum build.mjs package.json package-lock.json src/* page.html
+}
+compare_sums() {
+  diff page.sha256 <(sums) && return
+  echo "viewer/page.html is not of these sources, see the sums above: run scripts/viewer.sh build" >&2
+  exit 1
+}
+
 case ${1-} in
   build)
     need && install_packages
-    node build.mjs page.html ;;
+    node build.mjs page.html
+    sums > page.sha256 ;;
+  sums)
+    compare_sums ;;
   check)
+    compare_sums
     need && install_packages
     built=$(mktemp)
     trap 'rm -f "$built"' EXIT
@@ -41,6 +57,6 @@ case ${1-} in
     [[ $1 == shots ]] && export TACT_KEEP_SHOTS=1
     node --test --test-reporter=spec test/*.test.mjs ;;
   *)
-    sed -n '2,6s/^# \?//p' "$0" >&2
+    sed -n '2,9s/^# \?//p' "$0" >&2
     exit 2 ;;
 esac

@@ -11,8 +11,8 @@
 #include "bench/measure.h"
 #include "bench/rivals/box_rival.h"
 #include "bench/table.h"
-#include "tests/support/box_pairs.h"
-#include "tests/support/box_workloads.h"
+#include "tests/support/generators/box_workloads.h"
+#include "tests/support/oracles/box_pairs.h"
 
 namespace tact::bench {
 namespace {

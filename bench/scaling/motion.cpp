@@ -17,7 +17,7 @@
 #include "bench/table.h"
 #include "bench/workloads/workloads.h"
 #include "narrowphase/motion/meeting.h"
-#include "tests/support/unit_queries.h"
+#include "tests/support/data/unit_queries.h"
 
 namespace tact::bench {
 namespace {

@@ -22,9 +22,6 @@ class CMakeBuild(build_ext):
         options = [
             "-DCMAKE_BUILD_TYPE=Release",
             "-DTACT_BUILD_PYTHON=ON",
-            "-DTACT_BUILD_PROGRAM=OFF",
-            "-DTACT_BUILD_TESTS=OFF",
-            "-DTACT_BUILD_BENCH=OFF",
             f"-DPython3_EXECUTABLE={sys.executable}",
         ]
         if shutil.which("ninja"):  # a machine with Ninja need not have make

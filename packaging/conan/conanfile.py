@@ -37,8 +37,6 @@ class Tact(ConanFile):
 
     def generate(self):
         toolchain = CMakeToolchain(self)
-        for part in ("PROGRAM", "TESTS", "BENCH"):
-            toolchain.variables[f"TACT_BUILD_{part}"] = False
         toolchain.variables["BUILD_SHARED_LIBS"] = bool(self.options.shared)
         toolchain.generate()
         CMakeDeps(self).generate()

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/base/key_sort.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/random.h"
 
 namespace tact::base {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "broadphase/sweep_and_prune.h"
-#include "tests/support/box_workloads.h"
+#include "tests/support/generators/box_workloads.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include "broadphase/block_join.h"
 #include "broadphase/block_tree.h"
-#include "tests/support/box_workloads.h"
+#include "tests/support/generators/box_workloads.h"
 
 namespace tact::broadphase {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "broadphase/kernels/kernels.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/random.h"
 
 namespace tact::broadphase {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "broadphase/pair_sort.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/random.h"
 
 namespace tact::broadphase {
 namespace {

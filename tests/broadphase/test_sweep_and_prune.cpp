@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "broadphase/sweep_and_prune.h"
-#include "tests/support/box_pairs.h"
-#include "tests/support/box_workloads.h"
-#include "tests/support/random.h"
-#include "tests/support/tunings.h"
+#include "tests/support/checks/tunings.h"
+#include "tests/support/generators/box_workloads.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/oracles/box_pairs.h"
 
 namespace tact::broadphase {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "tests/c/mesh_for_c.h"
-#include "tests/support/body_pairs.h"
-#include "tests/support/generators.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/environment/temporary_folder.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/body_pairs.h"
 
 namespace tact::tests {
 namespace {

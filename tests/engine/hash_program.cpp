@@ -1,12 +1,12 @@
-// hash_program [THREADS] [--only TEXT]: prints the hashes of every scene of tests/support/hash_scenes.h, or of those
-// whose name holds the text, and says which of them differ from what is expected: for builds of other types, compilers
-// and machines than the one that runs the tests. Exit status 1 if one differs, 2 if no scene is played.
+// hash_program [THREADS] [--only TEXT]: prints the hashes of every scene of tests/support/hashes/hash_scenes.h, or of
+// those whose name holds the text, and says which of them differ from what is expected: for builds of other types,
+// compilers and machines than the one that runs the tests. Exit status 1 if one differs, 2 if no scene is played.
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
-#include "tests/support/hash_scenes.h"
+#include "tests/support/hashes/hash_scenes.h"
 
 int main(int argc, char** argv) {
   int threads = 0;

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
-#include "tests/support/world_of_three.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/world_of_three.h"
 
 namespace tact::tests {
 namespace {

@@ -9,11 +9,11 @@
 #include <string>
 
 #include "narrowphase/hull/hull_verdict.h"
-#include "tests/support/environment.h"
-#include "tests/support/hostile_hulls.h"
-#include "tests/support/hull_oracle.h"
-#include "tests/support/minkowski_oracle.h"
-#include "tests/support/touching_hulls.h"
+#include "tests/support/environment/environment.h"
+#include "tests/support/generators/hostile_hulls.h"
+#include "tests/support/generators/touching_hulls.h"
+#include "tests/support/oracles/hull_oracle.h"
+#include "tests/support/oracles/minkowski_oracle.h"
 
 namespace tact::tests {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
-#include "tests/support/environment.h"
-#include "tests/support/motion_queries.h"
+#include "tests/support/environment/environment.h"
+#include "tests/support/inside/motion_queries.h"
 
 namespace tact::tests {
 namespace {

@@ -12,10 +12,10 @@
 #include <set>
 #include <string>
 
-#include "tests/support/crossing_oracle.h"
-#include "tests/support/environment.h"
-#include "tests/support/generators.h"
-#include "tests/support/point_oracle.h"
+#include "tests/support/environment/environment.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/oracles/crossing_oracle.h"
+#include "tests/support/oracles/point_oracle.h"
 
 namespace tact::tests {
 namespace {

@@ -16,10 +16,10 @@
 
 #include "engine/base/parallel.h"
 #include "narrowphase/triangles/triangle_triangle.h"
-#include "tests/support/environment.h"
-#include "tests/support/facet_filters.h"
-#include "tests/support/triangle_oracle.h"
-#include "tests/support/triangle_pairs.h"
+#include "tests/support/environment/environment.h"
+#include "tests/support/generators/triangle_pairs.h"
+#include "tests/support/inside/facet_filters.h"
+#include "tests/support/oracles/triangle_oracle.h"
 
 namespace tact::tests {
 namespace {

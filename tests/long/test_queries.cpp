@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
-#include "tests/support/environment.h"
-#include "tests/support/generators.h"
-#include "tests/support/query_oracle.h"
+#include "tests/support/environment/environment.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/oracles/query_oracle.h"
 
 namespace tact::tests {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "scenes/library/catalog.h"
-#include "tests/support/environment.h"
+#include "tests/support/environment/environment.h"
 
 namespace tact::scenes {
 namespace {

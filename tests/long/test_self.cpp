@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/environment.h"
-#include "tests/support/folds.h"
-#include "tests/support/oracle.h"
-#include "tests/support/point_oracle.h"
+#include "tests/support/environment/environment.h"
+#include "tests/support/generators/folds.h"
+#include "tests/support/oracles/facet_pair_oracle.h"
+#include "tests/support/oracles/point_oracle.h"
 
 namespace tact::tests {
 namespace {

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "engine/base/timer.h"
-#include "tests/support/body_pairs.h"
-#include "tests/support/detection.h"
-#include "tests/support/environment.h"
-#include "tests/support/generators.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/environment/environment.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/body_pairs.h"
 
 namespace tact::tests {
 namespace {

@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "tests/support/body_pairs.h"
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/body_pairs.h"
 
 namespace tact::tests {
 namespace {

@@ -7,8 +7,8 @@
 #include <ctime>
 #include <filesystem>
 
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
 
 namespace tact::tests {
 namespace {

@@ -13,10 +13,10 @@
 #endif
 
 #include "engine/base/parallel.h"
-#include "tests/support/body_pairs.h"
-#include "tests/support/detection.h"
-#include "tests/support/generators.h"
-#include "tests/support/work_hash.h"
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/body_pairs.h"
+#include "tests/support/hashes/work_hash.h"
 
 namespace tact::tests {
 namespace {

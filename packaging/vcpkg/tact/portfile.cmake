@@ -1,8 +1,7 @@
 # Builds tact from this tree: vcpkg install tact --overlay-ports=packaging/vcpkg
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 
-vcpkg_cmake_configure(SOURCE_PATH "${SOURCE_PATH}"
-  OPTIONS -DTACT_BUILD_PROGRAM=OFF -DTACT_BUILD_TESTS=OFF -DTACT_BUILD_BENCH=OFF)
+vcpkg_cmake_configure(SOURCE_PATH "${SOURCE_PATH}")
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(CONFIG_PATH lib/cmake/tact)
 vcpkg_fixup_pkgconfig()

@@ -8,10 +8,10 @@
 #include <tuple>
 
 #include "narrowphase/contact_points/contact_points.h"
-#include "tests/support/clustered.h"
-#include "tests/support/generators.h"
-#include "tests/support/point_oracle.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/clustered.h"
+#include "tests/support/oracles/point_oracle.h"
 
 namespace tact::narrowphase {
 namespace {

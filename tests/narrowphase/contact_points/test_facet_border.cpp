@@ -3,7 +3,7 @@
 #include <array>
 
 #include "narrowphase/contact_points/facet_border.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/random.h"
 
 namespace tact::narrowphase {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "narrowphase/contact_points/facing_clusters.h"
 #include "narrowphase/mesh/open_in_box.h"
-#include "tests/support/clustered.h"
-#include "tests/support/generators.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/clustered.h"
 
 namespace tact::narrowphase {
 namespace {

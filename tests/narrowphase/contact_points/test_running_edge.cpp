@@ -8,9 +8,9 @@
 
 #include "narrowphase/contact_points/running_edge.h"
 #include "narrowphase/triangles/triangle_triangle.h"
-#include "tests/support/clustered.h"
-#include "tests/support/generators.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/clustered.h"
 
 namespace tact::narrowphase {
 namespace {

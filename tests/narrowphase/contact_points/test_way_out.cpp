@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "narrowphase/contact_points/way_out.h"
-#include "tests/support/clustered.h"
-#include "tests/support/query_oracle.h"
+#include "tests/support/inside/clustered.h"
+#include "tests/support/oracles/query_oracle.h"
 
 namespace tact::narrowphase {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "narrowphase/depth/smallest_separation.h"
 #include "narrowphase/mesh/refit.h"
-#include "tests/support/minkowski_oracle.h"
+#include "tests/support/oracles/minkowski_oracle.h"
 
 namespace tact::narrowphase {
 namespace {

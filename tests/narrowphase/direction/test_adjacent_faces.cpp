@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "narrowphase/direction/adjacent_faces.h"
-#include "tests/support/minkowski_oracle.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/oracles/minkowski_oracle.h"
 
 namespace tact::narrowphase {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "narrowphase/direction/contact_direction.h"
 #include "narrowphase/direction/face_triangle.h"
-#include "tests/support/clustered.h"
-#include "tests/support/generators.h"
-#include "tests/support/hostile_hulls.h"
-#include "tests/support/minkowski_oracle.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/hostile_hulls.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/clustered.h"
+#include "tests/support/oracles/minkowski_oracle.h"
 
 namespace tact::narrowphase {
 namespace {

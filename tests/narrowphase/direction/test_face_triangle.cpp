@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "narrowphase/direction/face_triangle.h"
-#include "tests/support/minkowski_oracle.h"
+#include "tests/support/oracles/minkowski_oracle.h"
 
 namespace tact::narrowphase {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "narrowphase/direction/contact_direction.h"
 #include "narrowphase/hull/gjk.h"
-#include "tests/support/clustered.h"
-#include "tests/support/generators.h"
-#include "tests/support/hostile_hulls.h"
-#include "tests/support/known_shapes.h"
-#include "tests/support/minkowski_oracle.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/hostile_hulls.h"
+#include "tests/support/generators/known_shapes.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/clustered.h"
+#include "tests/support/oracles/minkowski_oracle.h"
 
 namespace tact::narrowphase {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "narrowphase/hull/hull_verdict.h"
-#include "tests/support/clustered.h"
-#include "tests/support/hull_oracle.h"
-#include "tests/support/minkowski_oracle.h"
-#include "tests/support/random.h"
-#include "tests/support/touching_hulls.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/generators/touching_hulls.h"
+#include "tests/support/inside/clustered.h"
+#include "tests/support/oracles/hull_oracle.h"
+#include "tests/support/oracles/minkowski_oracle.h"
 
 namespace tact::narrowphase {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "narrowphase/hull/kdop.h"
-#include "tests/support/point_soup.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/point_soup.h"
+#include "tests/support/generators/random.h"
 
 namespace tact::narrowphase {
 namespace {

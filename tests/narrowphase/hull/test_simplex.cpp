@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "narrowphase/hull/simplex.h"
-#include "tests/support/random.h"
-#include "tests/support/triangle_oracle.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/oracles/triangle_oracle.h"
 
 namespace tact::narrowphase {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/motion/meeting.h"
-#include "tests/support/facet_filters.h"
-#include "tests/support/motion_queries.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/facet_filters.h"
+#include "tests/support/inside/motion_queries.h"
 
 namespace tact::tests {
 namespace {

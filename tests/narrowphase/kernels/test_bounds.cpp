@@ -5,8 +5,8 @@
 
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/mesh/box_arrays.h"
-#include "tests/support/facet_filters.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/facet_filters.h"
 
 namespace tact::narrowphase {
 namespace {

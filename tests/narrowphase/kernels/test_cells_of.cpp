@@ -6,9 +6,9 @@
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/mesh/clustered_mesh.h"
 #include "narrowphase/triangles/block_pair.h"
-#include "tests/support/clustered.h"
-#include "tests/support/facet_blocks.h"
-#include "tests/support/facet_filters.h"
+#include "tests/support/inside/clustered.h"
+#include "tests/support/inside/facet_blocks.h"
+#include "tests/support/inside/facet_filters.h"
 
 namespace tact::narrowphase {
 namespace {

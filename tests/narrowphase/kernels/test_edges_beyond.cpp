@@ -8,8 +8,8 @@
 
 #include "narrowphase/contact_points/nearest.h"
 #include "narrowphase/kernels/kernels.h"
-#include "tests/support/facet_filters.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/facet_filters.h"
 
 namespace tact::tests {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "narrowphase/kernels/kernels.h"
-#include "tests/support/facet_filters.h"
-#include "tests/support/triangle_oracle.h"
-#include "tests/support/triangle_pairs.h"
+#include "tests/support/generators/triangle_pairs.h"
+#include "tests/support/inside/facet_filters.h"
+#include "tests/support/oracles/triangle_oracle.h"
 
 namespace tact::tests {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "narrowphase/kernels/kernels.h"
-#include "tests/support/facet_filters.h"
+#include "tests/support/inside/facet_filters.h"
 
 namespace tact::narrowphase {
 namespace {

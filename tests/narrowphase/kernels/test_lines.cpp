@@ -11,10 +11,10 @@
 #include "narrowphase/queries/prepared_segment.h"
 #include "narrowphase/queries/segment_batch.h"
 #include "narrowphase/triangles/triangle_triangle.h"
-#include "tests/support/clustered.h"
-#include "tests/support/facet_filters.h"
-#include "tests/support/generators.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/clustered.h"
+#include "tests/support/inside/facet_filters.h"
 
 namespace tact::narrowphase {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "narrowphase/kernels/kernels.h"
-#include "tests/support/facet_blocks.h"
-#include "tests/support/facet_filters.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/facet_blocks.h"
+#include "tests/support/inside/facet_filters.h"
 
 namespace tact::narrowphase {
 namespace {

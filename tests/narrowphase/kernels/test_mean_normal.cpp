@@ -2,8 +2,8 @@
 
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/mesh/clustered_mesh.h"
-#include "tests/support/facet_filters.h"
-#include "tests/support/local_clusters.h"
+#include "tests/support/inside/facet_filters.h"
+#include "tests/support/inside/local_clusters.h"
 
 namespace tact::narrowphase {
 namespace {

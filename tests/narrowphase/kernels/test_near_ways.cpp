@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "narrowphase/kernels/kernels.h"
-#include "tests/support/facet_filters.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/facet_filters.h"
 
 namespace tact::narrowphase {
 namespace {

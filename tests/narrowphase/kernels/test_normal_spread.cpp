@@ -4,10 +4,10 @@
 
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/mesh/clustered_mesh.h"
-#include "tests/support/clustered.h"
-#include "tests/support/facet_filters.h"
-#include "tests/support/generators.h"
-#include "tests/support/local_clusters.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/inside/clustered.h"
+#include "tests/support/inside/facet_filters.h"
+#include "tests/support/inside/local_clusters.h"
 
 namespace tact::narrowphase {
 namespace {

@@ -9,10 +9,10 @@
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/mesh/clustered_mesh.h"
 #include "narrowphase/mesh/features.h"
-#include "tests/support/clustered.h"
-#include "tests/support/facet_blocks.h"
-#include "tests/support/facet_filters.h"
-#include "tests/support/generators.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/inside/clustered.h"
+#include "tests/support/inside/facet_blocks.h"
+#include "tests/support/inside/facet_filters.h"
 
 namespace tact::narrowphase {
 namespace {

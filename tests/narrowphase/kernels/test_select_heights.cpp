@@ -5,9 +5,9 @@
 
 #include "engine/base/vec3.h"
 #include "narrowphase/kernels/kernels.h"
-#include "tests/support/facet_filters.h"
-#include "tests/support/point_soup.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/point_soup.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/facet_filters.h"
 
 namespace tact::narrowphase {
 namespace {

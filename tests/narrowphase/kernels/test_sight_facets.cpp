@@ -9,9 +9,9 @@
 
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/triangles/triangle_triangle.h"
-#include "tests/support/facet_filters.h"
-#include "tests/support/local_clusters.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/facet_filters.h"
+#include "tests/support/inside/local_clusters.h"
 
 namespace tact::narrowphase {
 namespace {

@@ -3,13 +3,11 @@
 #include <cmath>
 #include <vector>
 
-#include "narrowphase/hull/support.h"
 #include "narrowphase/mesh/clustered_mesh.h"
-#include "narrowphase/mesh/position_problem.h"
 #include "narrowphase/mesh/refit.h"
-#include "tests/support/clustered.h"
-#include "tests/support/generators.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/clustered.h"
 
 namespace tact::narrowphase {
 namespace {
@@ -137,69 +135,6 @@ TEST(ClusteredMesh, ThreadsDoNotChangeBoxes) {
   two.validate();
   for (int c = 0; c < one.cluster_count(); ++c) {
     EXPECT_EQ(one.cluster_boxes()[c], two.cluster_boxes()[c]);
-  }
-}
-
-TEST(FindPositionProblem, NamesTheFirst) {
-  Mesh mesh = tests::box({0, 0, 0}, {1, 1, 1});
-  const auto look = [&] { return find_position_problem(mesh.positions.data(), 8, 0x1p300); };
-  EXPECT_EQ(look().kind, PositionProblem::none);
-  mesh.positions(2, 5) = -0x1.1p300;
-  EXPECT_EQ(look().kind, PositionProblem::out_of_range);
-  EXPECT_EQ(look().value, -0x1.1p300);
-  mesh.positions(1, 5) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(look().kind, PositionProblem::non_finite);
-  EXPECT_EQ(look().source_vertex, 5);
-  EXPECT_EQ(look().axis, 1);
-  EXPECT_TRUE(std::isnan(look().value));
-}
-
-TEST(Support, IsThatOfAFullScanBitForBit) {
-  tests::Random random(7);
-  for (const Mesh& mesh : many()) {
-    const ClusteredMesh clusters = clustered(mesh);
-    for (int i = 0; i < 100; ++i) {
-      // Every tenth direction is an axis or a diagonal: many vertices tie.
-      const auto tie = [&] { return random.below(3) - 1.0; };
-      const Vec3 n = i % 10 == 0 ? Vec3{tie(), tie(), tie()} : random.direction();
-      const Vec3 origin = random.in_cube(1.0);
-      const Support expected = support_by_full_scan(clusters, n, origin);
-      const Support found = support(clusters, n, origin);
-      EXPECT_EQ(found.vertex, expected.vertex);
-      EXPECT_EQ(found.height, expected.height);
-      for (int v = 0; v < clusters.vertex_count(); ++v) {
-        const double height = dot(n, clusters.position(v) - origin);
-        EXPECT_LE(height, expected.height);
-        if (height == expected.height) {
-          EXPECT_LE(clusters.source_vertex(expected.vertex), clusters.source_vertex(v));
-        }
-      }
-    }
-  }
-}
-
-// In one group of clusters, in several, and in more than are looked at together.
-TEST(Support, LooksAtAllGroups) {
-  tests::Random random(8);
-  std::vector<std::int32_t> reaching;
-  for (const int cells : {10, 100, 530}) {
-    const ClusteredMesh mesh = clustered(tests::wrinkled_sheet(cells, 2.0, 0.3, 3));
-    for (int i = 0; i < 20; ++i) {
-      const Vec3 n = random.direction(), origin = random.in_cube(1.0);
-      const Support top = support_by_full_scan(mesh, n, origin);
-      EXPECT_EQ(support(mesh, n, origin).vertex, top.vertex);
-      EXPECT_FALSE(stays_below(mesh, n, origin, top.height));
-      EXPECT_TRUE(stays_below(mesh, n, origin, std::nextafter(top.height, HUGE_VAL)));
-
-      const double height = top.height - random.uniform(0.0, 1.0);
-      select_vertices(mesh, n, origin, height, reaching);
-      std::vector<std::int32_t> expected;
-      for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
-        if (dot(n, mesh.position(v) - origin) >= height) expected.push_back(v);
-      }
-      ASSERT_EQ(reaching, expected) << cells << " cells, direction " << i;
-      EXPECT_FALSE(expected.empty());
-    }
   }
 }
 

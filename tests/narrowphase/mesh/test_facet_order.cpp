@@ -5,8 +5,8 @@
 
 #include "narrowphase/mesh/cluster_quality.h"
 #include "narrowphase/mesh/facet_order.h"
-#include "tests/support/clustered.h"
-#include "tests/support/generators.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/inside/clustered.h"
 
 namespace tact::narrowphase {
 namespace {

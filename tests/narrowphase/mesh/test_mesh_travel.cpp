@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "narrowphase/mesh/refit.h"
-#include "tests/support/clustered.h"
-#include "tests/support/generators.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/clustered.h"
 
 namespace tact::narrowphase {
 namespace {

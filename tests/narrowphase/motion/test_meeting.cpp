@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "narrowphase/motion/meeting.h"
-#include "tests/support/motion_queries.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/motion_queries.h"
 
 namespace tact::tests {
 namespace {

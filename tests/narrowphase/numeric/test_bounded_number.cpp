@@ -5,7 +5,7 @@
 
 #include "narrowphase/numeric/bounded_number.h"
 #include "narrowphase/numeric/double_parts.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/random.h"
 
 namespace tact::narrowphase {
 namespace {

@@ -18,8 +18,8 @@
 #include <xmmintrin.h>
 #endif
 
-#include "tests/support/triangle_oracle.h"
-#include "tests/support/triangle_pairs.h"
+#include "tests/support/generators/triangle_pairs.h"
+#include "tests/support/oracles/triangle_oracle.h"
 
 namespace tact::narrowphase {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "narrowphase/self/cluster_neighbors.h"
-#include "tests/support/clustered.h"
-#include "tests/support/folds.h"
-#include "tests/support/generators.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/folds.h"
+#include "tests/support/inside/clustered.h"
 
 namespace tact::narrowphase {
 namespace {

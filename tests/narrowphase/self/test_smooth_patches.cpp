@@ -7,12 +7,12 @@
 
 #include "narrowphase/mesh/refit.h"
 #include "narrowphase/self/smooth_patches.h"
-#include "tests/support/clustered.h"
-#include "tests/support/folds.h"
-#include "tests/support/generators.h"
-#include "tests/support/oracle.h"
-#include "tests/support/point_oracle.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/folds.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/clustered.h"
+#include "tests/support/oracles/facet_pair_oracle.h"
+#include "tests/support/oracles/point_oracle.h"
 
 namespace tact::narrowphase {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "narrowphase/triangles/block_pair.h"
-#include "tests/support/clustered.h"
-#include "tests/support/facet_blocks.h"
+#include "tests/support/inside/clustered.h"
+#include "tests/support/inside/facet_blocks.h"
 
 namespace tact::narrowphase {
 namespace {

@@ -15,8 +15,8 @@
 #include <sanitizer/lsan_interface.h>
 #endif
 
-#include "tests/support/allocation_hook.h"
-#include "tests/support/random.h"
+#include "tests/support/environment/allocation_hook.h"
+#include "tests/support/generators/random.h"
 
 namespace tact::narrowphase {
 namespace {

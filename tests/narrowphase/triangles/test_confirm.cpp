@@ -9,10 +9,10 @@
 #include "narrowphase/mesh/refit.h"
 #include "narrowphase/triangles/confirm.h"
 #include "narrowphase/triangles/triangle_triangle.h"
-#include "tests/support/clustered.h"
-#include "tests/support/generators.h"
-#include "tests/support/random.h"
-#include "tests/support/tunings.h"
+#include "tests/support/checks/tunings.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/clustered.h"
 
 namespace tact::narrowphase {
 namespace {

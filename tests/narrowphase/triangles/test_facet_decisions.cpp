@@ -9,10 +9,10 @@
 
 #include "narrowphase/triangles/lattice.h"
 #include "narrowphase/triangles/triangle_triangle.h"
-#include "tests/support/clustered.h"
-#include "tests/support/facet_blocks.h"
-#include "tests/support/generators.h"
-#include "tests/support/random.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/clustered.h"
+#include "tests/support/inside/facet_blocks.h"
 
 namespace tact::narrowphase {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "narrowphase/mesh/cluster_quality.h"
 #include "narrowphase/mesh/refit.h"
-#include "tests/support/clustered.h"
-#include "tests/support/generators.h"
-#include "tests/support/oracle.h"
-#include "tests/support/random.h"
-#include "tests/support/surfaces.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/inside/clustered.h"
+#include "tests/support/inside/surfaces.h"
+#include "tests/support/oracles/facet_pair_oracle.h"
 
 namespace tact::narrowphase {
 namespace {

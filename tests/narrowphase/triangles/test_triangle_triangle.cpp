@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "narrowphase/triangles/triangle_triangle.h"
-#include "tests/support/facet_filters.h"
-#include "tests/support/triangle_oracle.h"
-#include "tests/support/triangle_pairs.h"
+#include "tests/support/generators/triangle_pairs.h"
+#include "tests/support/inside/facet_filters.h"
+#include "tests/support/oracles/triangle_oracle.h"
 
 namespace tact::narrowphase {
 namespace {

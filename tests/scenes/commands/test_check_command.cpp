@@ -14,8 +14,8 @@
 #include "scenes/commands/report_json.h"
 #include "scenes/commands/usage_error.h"
 #include "scenes/files/body_files.h"
-#include "tests/support/generators.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/environment/temporary_folder.h"
+#include "tests/support/generators/bodies.h"
 
 namespace tact::scenes {
 namespace {

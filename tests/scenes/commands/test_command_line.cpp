@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/support/temporary_folder.h"
+#include "tests/support/environment/temporary_folder.h"
 
 namespace tact::scenes {
 namespace {

@@ -7,7 +7,7 @@
 #include "scenes/commands/replay_command.h"
 #include "scenes/commands/run_command.h"
 #include "scenes/files/file_error.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/environment/temporary_folder.h"
 
 namespace tact::scenes {
 namespace {

@@ -17,7 +17,7 @@
 #include "scenes/commands/run_command.h"
 #include "scenes/commands/scenes_command.h"
 #include "scenes/commands/usage_error.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/environment/temporary_folder.h"
 
 namespace tact::scenes {
 namespace {

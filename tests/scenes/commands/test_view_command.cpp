@@ -8,9 +8,9 @@
 #include "scenes/commands/usage_error.h"
 #include "scenes/commands/view_command.h"
 #include "scenes/files/file_error.h"
-#include "tests/support/generators.h"
+#include "tests/support/environment/temporary_folder.h"
+#include "tests/support/generators/bodies.h"
 #include "tests/support/mesh.h"
-#include "tests/support/temporary_folder.h"
 
 namespace tact::scenes {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "scenes/dynamics/simulation.h"
 #include "scenes/library/catalog.h"
-#include "tests/support/motion_by_brute_force.h"
+#include "tests/support/oracles/motion_by_brute_force.h"
 
 namespace tact::scenes {
 namespace {

@@ -10,7 +10,7 @@
 #include "scenes/export/vtk.h"
 #include "scenes/files/file_error.h"
 #include "tests/scenes/picture_bodies.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/environment/temporary_folder.h"
 
 using namespace tact::scenes;
 using tact::tests::TemporaryFolder;

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "scenes/files/body_files.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/environment/temporary_folder.h"
 
 namespace tact::scenes {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "scenes/files/mesh_file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/environment/temporary_folder.h"
 
 namespace tact::scenes {
 namespace {

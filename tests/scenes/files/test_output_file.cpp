@@ -6,7 +6,7 @@
 
 #include "scenes/files/file_error.h"
 #include "scenes/files/output_file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/environment/temporary_folder.h"
 
 namespace tact::scenes {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "tests/scenes/mesh_bytes.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/environment/temporary_folder.h"
 
 namespace tact::scenes {
 namespace {

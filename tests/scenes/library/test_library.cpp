@@ -10,7 +10,7 @@
 #include "scenes/dynamics/shape.h"
 #include "scenes/library/catalog.h"
 #include "scenes/library/shapes.h"
-#include "tests/support/oracle.h"
+#include "tests/support/oracles/facet_pair_oracle.h"
 
 namespace tact::scenes {
 namespace {

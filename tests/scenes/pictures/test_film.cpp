@@ -7,7 +7,7 @@
 #include "scenes/pictures/film.h"
 #include "scenes/pictures/png_file.h"
 #include "scenes/pictures/program.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/environment/temporary_folder.h"
 
 using namespace tact::scenes;
 using tact::tests::TemporaryFolder;

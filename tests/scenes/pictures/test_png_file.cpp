@@ -7,7 +7,7 @@
 
 #include "scenes/files/file_error.h"
 #include "scenes/pictures/png_file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/environment/temporary_folder.h"
 
 using namespace tact::scenes;
 using tact::tests::TemporaryFolder;

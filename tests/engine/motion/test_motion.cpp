@@ -1,0 +1,331 @@
+// World::detect_motion(): sets against brute force, and what it promises of the world.
+#include <gtest/gtest.h>
+#include <tact/tact.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/environment/allocation_hook.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/oracles/motion_by_brute_force.h"
+
+namespace tact::tests {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+std::map<ImpactKey, double> impacts_of(const MotionReport& report, BodyId a, BodyId b) {
+  std::map<ImpactKey, double> found;
+  for (const Impact& impact : report.impacts()) {
+    if (impact.a != a || impact.b != b) continue;
+    EXPECT_TRUE(found.emplace(ImpactKey{impact.kind, impact.a_vertices, impact.b_vertices}, impact.time).second);
+  }
+  return found;
+}
+
+// A motion that no rigid body makes.
+Eigen::Matrix3Xd moved(const Mesh& mesh, Vec3 way, double wildness, Random& random) {
+  Eigen::Matrix3Xd end = mesh.positions;
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3 p = way + wildness * random.in_ball();
+    end.col(v) += Eigen::Vector3d(p.x, p.y, p.z);
+  }
+  return end;
+}
+
+struct Couple {
+  const char* name;
+  MovingMesh a, b;
+};
+
+std::vector<Couple> couples() {
+  Random random(11);
+  std::vector<Couple> all;
+  const auto add = [&](const char* name, const Mesh& a, Vec3 way_a, const Mesh& b, Vec3 way_b, double wildness) {
+    all.push_back({name, {a, moved(a, way_a, wildness, random)}, {b, moved(b, way_b, wildness, random)}});
+  };
+  const Mesh ball = blob(3, 1.0, 0.2, 1), other = translated(blob(3, 1.0, 0.2, 2), {3.0, 0.2, 0.1});
+  add("balls that pass through each other", ball, {4, 0, 0}, other, {-4, 0, 0}, 0.0);
+  add("balls that graze", ball, {0.6, 0, 0}, other, {-0.6, 0, 0}, 0.05);
+  add("balls that overlap", ball, {0.1, 0, 0}, translated(other, {-1.8, 0, 0}), {-0.1, 0, 0}, 0.01);
+  add("a sheet that a ball falls through", translated(icosphere(2), {0, 0, 3}), {0.1, 0.2, -7}, sheet(24, 24, 6, 6),
+      {0, 0, 0.5}, 0.02);
+  add("boxes on a grid, face to face", gridded_box({0, 0, 0}, {1, 1, 1}, 4), {0.5, 0, 0},
+      gridded_box({1, 0, 0}, {2, 1, 1}, 4), {0, 0.25, 0}, 0.0);
+  add("boxes on a grid that meet", gridded_box({0, 0, 0}, {1, 1, 1}, 4), {2, 0, 0},
+      gridded_box({1.5, 0.25, 0}, {2.5, 1.25, 1}, 4), {0, 0, 0}, 0.0);
+  add("soups", soup(120, 1.0, 3), {0.5, 0, 0}, soup(120, 1.0, 4), {-0.5, 0, 0}, 0.3);
+  add("soups with facets without area", lattice_soup(150, 3, 5), {1, 1, 0}, lattice_soup(150, 3, 6), {0, 0, 1}, 0.0);
+  add("needles", needles(100, 1e4, 7), {0.3, 0, 0}, needles(100, 1e4, 8), {-0.3, 0.1, 0}, 0.1);
+  return all;
+}
+
+TEST(DetectMotion, SetsEqualBruteForceForAnyNumberOfThreads) {
+  for (const Couple& couple : couples()) {
+    for (const double margin : {0.0, 0.02}) {
+      const auto expected = impacts_by_brute_force(couple.a, couple.b, 2 * margin);
+      EXPECT_FALSE(expected.empty()) << couple.name;
+      for (const int threads : {1, 2, 3}) {
+        tact::World world({.threads = threads});
+        const BodyId a =
+            world.add_body({.positions = couple.a.begin.positions, .facets = couple.a.begin.facets, .margin = margin});
+        const BodyId b =
+            world.add_body({.positions = couple.b.begin.positions, .facets = couple.b.begin.facets, .margin = margin});
+        world.detect();
+        world.set_positions(a, couple.a.end);
+        world.set_positions(b, couple.b.end);
+        const MotionReport& report = world.detect_motion();
+        EXPECT_EQ(impacts_of(report, a, b), expected) << couple.name << ", " << threads << " threads";
+        EXPECT_EQ(report.first_time(), report.pairs()[0].first_time);
+        EXPECT_EQ(report.pairs()[0].impacts.size(), report.impacts().size());
+      }
+    }
+  }
+}
+
+TEST(DetectMotion, OfABodyWithItselfEqualsBruteForce) {
+  Random random(12);
+  for (const Mesh& mesh : {crumpled(sheet(16, 16, 1, 1), 5), blob(3, 1.0, 0.3, 6), soup(150, 1.0, 9)}) {
+    const MovingMesh moving{mesh, moved(mesh, {1, 0, 0}, 0.2, random)};
+    for (const double margin : {0.0, 0.01}) {
+      const auto expected = self_impacts_by_brute_force(moving, 2 * margin);
+      EXPECT_GT(expected.size(), 10u);
+      tact::World world({.threads = 2});
+      const BodyId id = world.add_body({.positions = mesh.positions,
+                                        .facets = mesh.facets,
+                                        .surface = Surface::sheet,
+                                        .margin = margin,
+                                        .self_contact = true});
+      world.detect();
+      world.set_positions(id, moving.end);
+      EXPECT_EQ(impacts_of(world.detect_motion(), id, id), expected);
+      world.set_self_contact(id, false);
+      EXPECT_TRUE(world.detect_motion().impacts().empty());
+    }
+  }
+}
+
+struct BallAndWall {
+  tact::World world;
+  Mesh ball = translated(icosphere(1, 0.1), {0, 0, 1}), wall = sheet(4, 4, 4, 4);
+  BodyId flying = world.add_body({.positions = ball.positions, .facets = ball.facets});
+  BodyId standing = world.add_body(
+      {.positions = wall.positions, .facets = wall.facets, .surface = Surface::sheet, .motion = Motion::fixed});
+
+  void put(double z) { world.set_positions(flying, translated(ball, {0, 0, z - 1.0}).positions); }
+};
+
+TEST(DetectMotion, GoesFromTheLastStepHoweverOftenPositionsAreSet) {
+  BallAndWall scene;
+  scene.put(2.0);
+  EXPECT_EQ(scene.world.detect_motion().first_time(), kNever);  // no step has seen it: it stands
+  scene.put(1.0);
+  scene.world.detect();
+  EXPECT_EQ(scene.world.detect_motion().first_time(), kNever);
+  for (const double z : {0.5, -3.0, -1.0}) scene.put(z);
+  EXPECT_NEAR(scene.world.detect_motion().first_time(), 0.45, 1e-9);
+  scene.put(-3.0);
+  EXPECT_NEAR(scene.world.detect_motion().first_time(), 0.225, 1e-9);
+  EXPECT_NEAR(scene.world.detect_motion(Impacts::first).first_time(), 0.225, 1e-9);
+  scene.put(1.0);
+  EXPECT_EQ(scene.world.detect_motion().first_time(), kNever);
+  scene.put(-1.0);
+  scene.world.detect();
+  EXPECT_EQ(scene.world.detect_motion().first_time(), kNever);
+  scene.put(1.0);
+  EXPECT_NEAR(scene.world.detect_motion().first_time(), 0.45, 1e-9);
+}
+
+TEST(DetectMotion, PositionsThatAreRefusedChangeNothing) {
+  BallAndWall scene;
+  scene.world.detect();
+  Eigen::Matrix3Xd bad = scene.ball.positions;
+  bad(2, 3) = std::nan("");
+  EXPECT_THROW(scene.world.set_positions(scene.flying, bad), Error);
+  EXPECT_EQ(scene.world.detect_motion().first_time(), kNever);
+  scene.put(-1.0);
+  EXPECT_THROW(scene.world.set_positions(scene.flying, bad), Error);
+  EXPECT_NEAR(scene.world.detect_motion().first_time(), 0.45, 1e-9);
+}
+
+TEST(DetectMotion, MarginsLayersAndMovesOfOthersCount) {
+  BallAndWall scene;
+  scene.world.detect();
+  scene.put(-1.0);
+  scene.world.set_margin(scene.flying, 0.1);
+  EXPECT_NEAR(scene.world.detect_motion().first_time(), 0.40, 1e-9);
+  scene.world.set_margin(scene.standing, 0.1);
+  EXPECT_NEAR(scene.world.detect_motion().first_time(), 0.35, 1e-9);
+  scene.world.set_layers(scene.flying, 2, 2);
+  EXPECT_EQ(scene.world.detect_motion().first_time(), kNever);
+  EXPECT_EQ(scene.world.detect_motion().stats().body_pairs, 0);
+}
+
+TEST(DetectMotion, RemovedAndAddedBodies) {
+  BallAndWall scene;
+  scene.world.detect();
+  scene.put(-1.0);
+  const BodyId second =
+      scene.world.add_body({.positions = translated(scene.ball, {0, 0, -0.5}).positions, .facets = scene.ball.facets});
+  const MotionReport& report = scene.world.detect_motion();
+  ASSERT_EQ(report.pairs().size(), 2u);
+  EXPECT_EQ(report.pairs()[1].b, second);
+  scene.world.remove_body(scene.standing);
+  EXPECT_EQ(scene.world.detect_motion().pairs().size(), 1u);
+  scene.world.remove_body(scene.flying);
+  EXPECT_EQ(scene.world.detect_motion().first_time(), kNever);
+  const BodyId third = scene.world.add_body({.positions = scene.ball.positions, .facets = scene.ball.facets});
+  EXPECT_EQ(third.index, scene.flying.index);
+  scene.world.set_positions(third, translated(scene.ball, {0, 0, -5}).positions);
+  EXPECT_EQ(scene.world.detect_motion().first_time(), kNever);
+}
+
+TEST(DetectMotion, ChangesNoHistory) {
+  Random random(13);
+  const Mesh mesh = blob(3, 1.0, 0.2, 1);
+  tact::World plain({.threads = 2}), asked({.threads = 2});
+  std::vector<BodyId> ids;
+  for (int i = 0; i < 6; ++i) {
+    const Mesh body = translated(mesh, 3.0 * random.in_cube(1.0));
+    ids.push_back(plain.add_body({.positions = body.positions, .facets = body.facets}));
+    asked.add_body({.positions = body.positions, .facets = body.facets});
+  }
+  for (int step = 0; step < 12; ++step) {
+    for (std::size_t i = step % 2; i < ids.size(); i += 2) {
+      const Mesh body = translated(mesh, 3.0 * random.in_cube(1.0));
+      plain.set_positions(ids[i], body.positions);
+      asked.set_positions({ids[i].index, ids[i].generation, asked.bodies()[0].world}, body.positions);
+    }
+    asked.detect_motion(static_cast<Impacts>(step % 3));
+    ASSERT_EQ(plain.detect().hash(), asked.detect().hash()) << step;
+  }
+}
+
+TEST(DetectMotion, TheFirstIsTheFirstOfAll) {
+  for (const int threads : {1, 3}) {
+    Random random(14);
+    tact::World world({.threads = threads});
+    const Mesh mesh = blob(2, 1.0, 0.2, 1);
+    std::vector<BodyId> ids;
+    for (int i = 0; i < 16; ++i) {
+      const Mesh body = translated(mesh, 5.0 * random.in_cube(1.0));
+      ids.push_back(world.add_body({.positions = body.positions, .facets = body.facets}));
+    }
+    for (int step = 0; step < 2; ++step) {
+      world.detect();
+      for (const BodyId id : ids) world.set_positions(id, translated(mesh, 5.0 * random.in_cube(1.0)).positions);
+      std::vector<Impact> firsts;
+      for (const ImpactPair& pair : world.detect_motion().pairs()) firsts.push_back(pair.impacts[0]);
+      ASSERT_GT(firsts.size(), 5u);
+      const auto equal = [](const Impact& x, const Impact& y) {
+        return x.a == y.a && x.b == y.b && x.kind == y.kind && x.time == y.time && x.a_vertices == y.a_vertices &&
+               x.b_vertices == y.b_vertices;
+      };
+      const auto found = world.detect_motion(Impacts::first_of_pair).impacts();
+      EXPECT_TRUE(std::ranges::equal(found, firsts, equal));
+      const auto first = std::ranges::min_element(firsts, {}, &Impact::time);
+      const MotionReport& report = world.detect_motion(Impacts::first);
+      ASSERT_EQ(report.impacts().size(), 1u);
+      EXPECT_TRUE(equal(report.impacts()[0], *first));
+      EXPECT_EQ(report.first_time(), first->time);
+      const MotionStats alone = report.stats(), every = world.detect_motion().stats();
+      EXPECT_LT(2 * alone.candidates, every.candidates);
+      EXPECT_EQ(alone.cluster_pairs, every.cluster_pairs);
+    }
+  }
+}
+
+TEST(DetectMotion, AWorldThatMovesByTheFirstTimeNeverCrosses) {
+  Random random(15);
+  tact::World world({.threads = 2});
+  const Mesh mesh = blob(1, 0.3, 0.2, 1);
+  std::vector<BodyId> ids;
+  std::vector<Mesh> bodies;
+  for (int i = 0; i < 27; ++i) {
+    bodies.push_back(translated(mesh, {double(i % 3), double(i / 3 % 3), double(i / 9)}));
+    ids.push_back(world.add_body({.positions = bodies.back().positions, .facets = bodies.back().facets}));
+  }
+  ASSERT_EQ(world.detect().stats().facet_pairs, 0);
+  int stopped = 0;
+  for (int step = 0; step < 200; ++step) {
+    std::vector<Eigen::Matrix3Xd> ways;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const Vec3 way = 2.0 * random.in_ball();
+      ways.push_back(moved(mesh, way, 0.02, random) - mesh.positions);
+      world.set_positions(ids[i], bodies[i].positions + ways[i]);
+    }
+    const double first = world.detect_motion(Impacts::first).first_time();
+    stopped += first <= 1.0;
+    const double part = std::min(1.0, 0.999 * first);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      bodies[i].positions += part * ways[i];
+      world.set_positions(ids[i], bodies[i].positions);
+    }
+    ASSERT_EQ(world.detect_motion().first_time(), kNever) << step;
+    ASSERT_EQ(world.detect().stats().facet_pairs, 0) << step;
+  }
+  EXPECT_GT(stopped, 100);
+}
+
+// A ball falls on a wall. Each step it goes as far as nothing meets; where detect() finds it within the margins, it is
+// pushed to half their sum. It gets on at every step, comes to rest there, and never comes through.
+TEST(DetectMotion, ASolverThatStopsBeforeImpactsSettlesWithinTheMargins) {
+  constexpr double kStep = 1.0 / 60.0, kMargin = 0.01;
+  BallAndWall scene;
+  scene.world.set_margin(scene.flying, kMargin);
+  scene.world.set_margin(scene.standing, kMargin);
+  scene.world.detect();
+  double z = 1.0, velocity = 0.0, gap = 1.0;
+  int stalled = 0, in_contact = 0;
+  for (int step = 0; step < 300; ++step) {
+    velocity -= 9.81 * kStep;
+    if (gap < 2 * kMargin) velocity = std::max(velocity, 0.2 * (kMargin - gap) / kStep);
+    scene.put(z + kStep * velocity);
+    const double part = std::min(1.0, 0.99 * scene.world.detect_motion(Impacts::first).first_time());
+    stalled += part < 0.1 ? 1 : 0;
+    z += part * kStep * velocity;
+    scene.put(z);
+    const Report& report = scene.world.detect();
+    ASSERT_EQ(report.stats().facet_pairs, 0) << step;
+    gap = report.contacts().empty() ? 1.0 : -report.contacts()[0].depth;
+    in_contact += report.contacts().empty() ? 0 : 1;
+  }
+  EXPECT_LE(stalled, 3);
+  EXPECT_GT(in_contact, 200);
+  EXPECT_NEAR(gap, kMargin, 1e-6);
+}
+
+TEST(DetectMotion, SteadyStepsAllocateNothing) {
+  const Couple couple = couples()[0];
+  tact::World world({.threads = 1});
+  const BodyId a = world.add_body({.positions = couple.a.begin.positions, .facets = couple.a.begin.facets});
+  world.add_body({.positions = couple.b.begin.positions, .facets = couple.b.begin.facets});
+  // What a step besides allocates is asked elsewhere.
+  const auto allocations_of_step = [&] {
+    const long before = allocation_count();
+    world.set_positions(a, couple.a.end);
+    world.detect_motion();
+    world.set_positions(a, couple.a.begin.positions);
+    world.detect_motion(Impacts::first);
+    const long after = allocation_count();
+    world.detect();
+    return after - before;
+  };
+  for (int i = 0; i < 3; ++i) allocations_of_step();
+  EXPECT_EQ(allocations_of_step(), 0);
+}
+
+TEST(DetectMotion, RefusesWhatIsNoName) {
+  tact::World world;
+  try {
+    world.detect_motion(static_cast<Impacts>(3));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::bad_settings);
+  }
+  EXPECT_EQ(world.detect_motion().first_time(), kNever);
+}
+
+}  // namespace
+}  // namespace tact::tests

@@ -1,0 +1,154 @@
+// Contact of a body with itself, against oracles: facet pairs by CGAL, contact points by brute force.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/folds.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/oracles/facet_pair_oracle.h"
+#include "tests/support/oracles/point_oracle.h"
+
+namespace tact::tests {
+namespace {
+
+// A world with one body that is held against itself.
+class SelfWorld {
+ public:
+  SelfWorld(const Mesh& mesh, double margin, int threads = 2)
+      : world_({.threads = threads, .outputs = {.points = margin > 0.0}}),
+        id_(world_.add_body({.positions = mesh.positions,
+                             .facets = mesh.facets,
+                             .surface = Surface::sheet,
+                             .margin = margin,
+                             .self_contact = true})) {}
+  void move_to(const Mesh& mesh) { world_.set_positions(id_, mesh.positions); }
+  // Null where the body is not in contact with itself.
+  const Contact* detect() {
+    const Report& report = world_.detect();
+    hash_ = report.hash();
+    return report.contacts().empty() ? nullptr : &report.contacts()[0];
+  }
+  std::vector<FacetPair> facet_pairs() {
+    const Contact* contact = detect();
+    if (contact == nullptr) return {};
+    return {contact->facet_pairs().begin(), contact->facet_pairs().end()};
+  }
+  std::uint64_t hash() const { return hash_; }
+
+ private:
+  World world_;
+  BodyId id_;
+  std::uint64_t hash_ = 0;
+};
+
+void expect_points_of_brute_force(SelfWorld& world, const Mesh& mesh, double margin, const std::string& what) {
+  const double band = 1e-12 * extent(mesh);
+  const auto expected = self_points_by_brute_force(mesh, 2 * margin, band);
+  std::set<PointKey> seen;
+  if (const Contact* contact = world.detect()) {
+    for (const ContactPoint& point : contact->points()) {
+      const PointKey key{point.kind, point.a_vertices, point.b_vertices};
+      const auto known = expected.find(key);
+      ASSERT_NE(known, expected.end()) << what << ", vertex " << point.a_vertices[0] << ", gap " << point.gap;
+      EXPECT_TRUE(seen.insert(key).second) << what;
+      EXPECT_NEAR(point.gap, known->second.gap, 10 * band) << what;
+    }
+  }
+  for (const auto& [key, point] : expected)
+    ASSERT_TRUE(!point.certain || seen.contains(key)) << what << ", gap " << point.gap;
+}
+
+// A sheet on its way into a roll: the clusters are those of the flat sheet.
+Mesh half_rolled(int cells_x, int cells_y, double part) {
+  const Mesh roll = rolled_sheet(cells_x, cells_y, 2.2 * part + 1e-3, 0.12 / (part + 0.1), 0.05);
+  return jittered(roll, 0.002, static_cast<std::uint64_t>(1000 * part));
+}
+
+TEST(SelfContactPoints, EqualBruteForce) {
+  for (std::uint64_t seed = 0; seed < 2; ++seed) {
+    for (const auto& [name, mesh] : folded_meshes(10, seed)) {
+      for (const double margin : {0.002, 0.03}) {
+        SelfWorld world(mesh, margin);
+        expect_points_of_brute_force(world, mesh, margin, name + ", margin " + std::to_string(margin));
+      }
+    }
+  }
+}
+
+TEST(SelfContactPoints, OfASheetThatIsRolledUpEqualBruteForce) {
+  const double margin = 0.04;
+  SelfWorld world(half_rolled(30, 8, 0.0), margin);
+  std::size_t points = 0;
+  for (const double part : {0.2, 0.6, 0.8, 1.0}) {
+    const Mesh mesh = half_rolled(30, 8, part);
+    world.move_to(mesh);
+    expect_points_of_brute_force(world, mesh, margin, "part " + std::to_string(part));
+    const Contact* contact = world.detect();
+    points += contact == nullptr ? 0 : contact->points().size();
+  }
+  EXPECT_GT(points, 50u);
+}
+
+TEST(SelfContactPoints, OfFlatSheetsAndConvexBodiesAreNone) {
+  const auto expect_none = [](const Mesh& mesh, double edge, const std::string& what) {
+    for (const double margin : {1e-6 * edge, 0.01 * edge, 0.1 * edge, 0.5 * edge, 2.0 * edge, 5.0 * edge}) {
+      SelfWorld world(mesh, margin);
+      EXPECT_EQ(world.detect(), nullptr) << what << ", margin " << margin / edge << " edges";
+    }
+  };
+  for (const int cells : {1, 7, 40, 90}) {
+    const Mesh flat = sheet(cells, cells, 1.0, 1.0);
+    expect_none(flat, 1.0 / cells, "sheet of " + std::to_string(cells));
+    expect_none(rotated(flat, Random(1).rotation()), 1.0 / cells, "turned sheet of " + std::to_string(cells));
+    expect_none(jittered(flat, 1e-3 / cells, 1), 1.0 / cells, "uneven sheet of " + std::to_string(cells));
+  }
+  for (const int cuts : {2, 3, 4}) expect_none(icosphere(cuts), 1.1 / (1 << cuts), "sphere");
+  expect_none(gridded_box({-1, -1, -1}, {1, 1, 1}, 20), 0.1, "box");
+  for (const double margin : {1e-6, 0.01, 0.1}) {
+    SelfWorld world(centered_box({1, 1, 1}), margin);
+    EXPECT_EQ(world.detect(), nullptr) << "coarse box, margin " << margin;
+  }
+}
+
+TEST(SelfContactFacets, EqualTheOracleWhole) {
+  std::size_t pairs = 0;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    for (const auto& [name, mesh] : folded_meshes(30, seed)) {
+      const auto expected = self_facet_pairs_by_oracle(mesh);
+      EXPECT_TRUE(same_facet_pairs(expected, SelfWorld(mesh, 0.0).facet_pairs())) << name << ", seed " << seed;
+      pairs += expected.size();
+    }
+  }
+  EXPECT_GT(pairs, 10000u);
+}
+
+TEST(SelfContactFacets, EqualTheOracleInBrokenMeshes) {
+  for (std::uint64_t seed = 0; seed < 2; ++seed) {
+    for (const auto& [name, whole] : folded_meshes(20, seed)) {
+      const Mesh mesh = broken(whole, seed);
+      EXPECT_TRUE(same_facet_pairs(self_facet_pairs_by_oracle(mesh), SelfWorld(mesh, 0.0).facet_pairs()))
+          << name << ", seed " << seed;
+    }
+  }
+}
+
+TEST(SelfContactFacets, OfASheetThatIsRolledUpEqualTheOracle) {
+  SelfWorld one(half_rolled(80, 30, 0.0), 0.01, 1), two(half_rolled(80, 30, 0.0), 0.01, 2);
+  for (int step = 1; step <= 10; ++step) {
+    Mesh mesh = half_rolled(80, 30, 0.1 * step);
+    if (step % 2 == 0) mesh = jittered(mesh, 0.03, 1);  // layers cross
+    one.move_to(mesh);
+    two.move_to(mesh);
+    const auto expected = self_facet_pairs_by_oracle(mesh);
+    EXPECT_TRUE(same_facet_pairs(expected, one.facet_pairs())) << "step " << step;
+    EXPECT_TRUE(same_facet_pairs(expected, two.facet_pairs())) << "step " << step;
+    EXPECT_EQ(one.hash(), two.hash());
+  }
+}
+
+}  // namespace
+}  // namespace tact::tests

@@ -1,0 +1,220 @@
+// Contact points of bodies that cross themselves: closed forms, brute force, memory, invariances.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "tests/support/checks/detection.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/folds.h"
+#include "tests/support/generators/random.h"
+#include "tests/support/oracles/self_crossing_oracle.h"
+
+namespace tact::tests {
+namespace {
+
+// A world with one body that is held against itself.
+class CrossingWorld {
+ public:
+  CrossingWorld(const Mesh& mesh, Surface surface, double margin, int threads = 2)
+      : surface_(surface),
+        margin_(margin),
+        world_({.threads = threads, .outputs = {.points = true}}),
+        id_(world_.add_body({.positions = mesh.positions,
+                             .facets = mesh.facets,
+                             .surface = surface,
+                             .margin = margin,
+                             .self_contact = true})) {}
+  // Valid until the next call.
+  std::span<const ContactPoint> at(const Mesh& mesh) {
+    last_.assign(points_.begin(), points_.end());
+    world_.set_positions(id_, mesh.positions);
+    const Report& report = world_.detect();
+    hash_ = report.hash();
+    points_ = report.contacts().empty() ? std::span<const ContactPoint>() : report.contacts()[0].points();
+    return points_;
+  }
+  // Holds the points of the last at() against brute force, whose memory they are, too.
+  void expect_points_of_brute_force(const Mesh& mesh, const std::string& what) {
+    const double band = 1e-12 * extent(mesh);
+    const auto expected = self_points_with_gaps(mesh, surface_, 2 * margin_, band, last_);
+    std::map<PointKey, double> seen;
+    for (const ContactPoint& point : points_) {
+      const PointKey key{point.kind, point.a_vertices, point.b_vertices};
+      const auto known = expected.find(key);
+      ASSERT_NE(known, expected.end()) << what << ": " << name(key) << ", gap " << point.gap;
+      EXPECT_TRUE(seen.emplace(key, point.gap).second) << what << ": " << name(key) << " twice";
+      EXPECT_NEAR(point.gap, known->second.gap, 10 * band) << what << ": " << name(key);
+      crossed_ += point.gap < 0.0 ? 1 : 0;
+      crossed_edges_ += point.gap < 0.0 && point.kind == FeaturePair::edge_edge ? 1 : 0;
+    }
+    for (const auto& [key, point] : expected) {
+      ASSERT_TRUE(!point.certain || seen.contains(key)) << what << ": " << name(key) << ", gap " << point.gap;
+    }
+  }
+  int crossed() const { return crossed_; }
+  int crossed_edges() const { return crossed_edges_; }
+  std::uint64_t hash() const { return hash_; }
+
+ private:
+  static std::string name(const PointKey& key) {
+    std::string text = std::get<0>(key) == FeaturePair::edge_edge ? "edges" : "vertex";
+    for (const auto& vertices : {std::get<1>(key), std::get<2>(key)}) {
+      for (const int v : vertices) text += v < 0 ? "" : " " + std::to_string(v);
+      text += ",";
+    }
+    return text;
+  }
+
+  Surface surface_;
+  double margin_;
+  World world_;
+  BodyId id_;
+  std::span<const ContactPoint> points_;
+  std::vector<ContactPoint> last_;
+  int crossed_ = 0, crossed_edges_ = 0;
+  std::uint64_t hash_ = 0;
+};
+
+constexpr int kStrip = 41;  // vertices along the strip
+
+// A strip that lies folded over itself: its second half 5 cm above its first one, with a dent so deep.
+Mesh dented_strip(double depth) {
+  Mesh strip = sheet(kStrip - 1, 9, 4.0, 0.9);
+  for (int v = 0; v < strip.vertex_count(); ++v) {
+    const double x = strip.positions(0, v) + 2.0, y = strip.positions(1, v);
+    const double turn = std::clamp(x - 1.5, 0.0, 1.0) * std::numbers::pi, back = std::max(0.0, x - 2.5);
+    strip.positions.col(v) << std::min(x, 1.5) + 0.3 * std::sin(turn) - 1.0173 * back, 1.001 * y + 0.013 * back,
+        0.025 * (1.0 - std::cos(turn));
+    const double from_dent = std::hypot(strip.positions(0, v) - 0.713, strip.positions(1, v) - 0.027);
+    if (v % kStrip > 26) strip.positions(2, v) -= depth * std::exp(-20.0 * from_dent * from_dent);
+  }
+  return strip;
+}
+
+// What holds of any point: its gap is the distance of its two places along its normal.
+void expect_places_to_agree(std::span<const ContactPoint> points, const Mesh& mesh) {
+  for (const ContactPoint& point : points) {
+    const Vec3 way =
+        weighted(mesh, point.b_vertices, point.b_weights) - weighted(mesh, point.a_vertices, point.a_weights);
+    EXPECT_NEAR(point.normal.norm(), 1.0, 1e-12);
+    EXPECT_NEAR(point.normal.dot(Eigen::Vector3d(way.x, way.y, way.z)), point.gap, 1e-12);
+    EXPECT_NEAR(norm(way), std::abs(point.gap), 1e-12);
+  }
+}
+
+// The dent goes through the lower layer, which is level: every vertex below it has its height as its gap, until the
+// dent comes up again.
+TEST(SelfGaps, OfADentThroughALevelLayerAreItsDepth) {
+  CrossingWorld world(dented_strip(0.0), Surface::sheet, 0.0);
+  world.at(dented_strip(0.02));
+  std::map<int, std::uint64_t> ids;
+  for (const double depth : {0.04, 0.06, 0.08, 0.11, 0.13, 0.12, 0.08, 0.06}) {
+    const Mesh strip = dented_strip(depth);
+    const auto points = world.at(strip);
+    expect_places_to_agree(points, strip);
+    std::map<int, double> gaps;
+    for (const ContactPoint& point : points) {
+      if (point.kind != FeaturePair::vertex_facet || point.gap >= 0.0) continue;
+      const int v = point.a_vertices[0];
+      EXPECT_TRUE(gaps.emplace(v, point.gap).second) << depth;
+      const bool is_upper = v % kStrip > 26;
+      EXPECT_GT(is_upper ? -point.normal.z() : point.normal.z(), 0.5) << depth;
+      if (is_upper) {
+        EXPECT_EQ(ids.try_emplace(v, point.id).first->second, point.id) << depth;
+      }
+    }
+    int below = 0;
+    for (int v = 0; v < strip.vertex_count(); ++v) {
+      if (v % kStrip <= 26) continue;
+      const double height = strip.positions(2, v);
+      ASSERT_EQ(gaps.contains(v), height < 0.0) << depth << ", vertex " << v << " at " << height;
+      if (height >= 0.0) continue;
+      EXPECT_NEAR(gaps.at(v), height, 1e-12) << depth;
+      ++below;
+    }
+    EXPECT_EQ(below > 0, depth > 0.05) << depth;
+  }
+}
+
+// The same without a step before: most of what crosses is above.
+TEST(SelfGaps, OfACrossingThatIsNewLeadToTheLongerSide) {
+  const Mesh strip = dented_strip(0.07);
+  CrossingWorld world(strip, Surface::sheet, 0.0);
+  int crossed = 0;
+  for (const ContactPoint& point : world.at(strip)) {
+    if (point.kind != FeaturePair::vertex_facet || point.gap >= 0.0) continue;
+    const int v = point.a_vertices[0];
+    EXPECT_GT(v % kStrip > 26 ? -point.normal.z() : point.normal.z(), 0.5);
+    ++crossed;
+  }
+  EXPECT_GT(crossed, 3);
+}
+
+TEST(SelfGaps, OfASheetWithAMarginAreNone) {
+  CrossingWorld world(dented_strip(0.0), Surface::sheet, 0.02);
+  for (const double depth : {0.02, 0.04, 0.06, 0.08}) {
+    const auto points = world.at(dented_strip(depth));
+    EXPECT_GT(points.size(), 30u);
+    for (const ContactPoint& point : points) EXPECT_GE(point.gap, 0.0);
+  }
+}
+
+// A closed body: a torus so thick that it meets itself in the middle.
+TEST(SelfGaps, OfAClosedBodyLeadOut) {
+  const Mesh thin = jittered(torus(32, 8, 1.0, 0.9), 1e-4, 1), thick = jittered(torus(32, 8, 1.0, 1.06), 1e-4, 1);
+  CrossingWorld world(thin, Surface::closed, 0.01);
+  world.at(thin);
+  int found = 0;
+  for (const ContactPoint& point : world.at(thick)) found += point.gap < 0.0 ? 1 : 0;
+  EXPECT_GT(found, 10);
+  world.expect_points_of_brute_force(thick, "torus");
+}
+
+// A sheet with a margin has no negative gaps. What is open counts as closed, too: the rule is of normals alone.
+Surface surface_for(double margin) { return margin > 0.0 ? Surface::closed : Surface::sheet; }
+
+TEST(SelfGaps, EqualBruteForceWithoutMemory) {
+  int crossed = 0, edges = 0;
+  for (std::uint64_t seed = 0; seed < 2; ++seed) {
+    for (const auto& [name, mesh] : folded_meshes(8, seed)) {
+      for (const double margin : {0.0, 0.01}) {
+        const Mesh uneven = jittered(mesh, 0.02, seed);
+        CrossingWorld world(uneven, surface_for(margin), margin);
+        world.at(uneven);
+        world.expect_points_of_brute_force(uneven, name + ", margin " + std::to_string(margin));
+        if (HasFatalFailure()) return;
+        crossed += world.crossed(), edges += world.crossed_edges();
+      }
+    }
+  }
+  EXPECT_GT(crossed, 200);
+  EXPECT_GT(edges, 20);
+}
+
+// A fan that closes, with layers that sink into each other, and come out.
+TEST(SelfGaps, EqualBruteForceFromStepToStep) {
+  int crossed = 0, edges = 0;
+  for (std::uint64_t seed = 0; seed < 2; ++seed) {
+    for (const double margin : {0.0, 0.01}) {
+      const Surface surface = surface_for(margin);
+      const auto fan_at = [&](double angle, double noise) { return jittered(fan_fold(12, 8, 3, angle), noise, seed); };
+      CrossingWorld one(fan_at(1.4, 0.0), surface, margin, 1), two(fan_at(1.4, 0.0), surface, margin, 2);
+      for (const double noise : {0.002, 0.01, 0.02, 0.04, 0.06, 0.04, 0.02, 0.005}) {
+        const Mesh mesh = fan_at(1.54, noise);
+        one.at(mesh);
+        two.at(mesh);
+        EXPECT_EQ(one.hash(), two.hash());
+        one.expect_points_of_brute_force(mesh, "noise " + std::to_string(noise));
+        if (HasFatalFailure()) return;
+      }
+      crossed += one.crossed(), edges += one.crossed_edges();
+    }
+  }
+  EXPECT_GT(crossed, 200);
+  EXPECT_GT(edges, 20);
+}
+
+}  // namespace
+}  // namespace tact::tests

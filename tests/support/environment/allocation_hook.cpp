@@ -1,0 +1,64 @@
+#include "tests/support/environment/allocation_hook.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+constexpr long kNever = -1;
+std::atomic<long> allocations{0};
+std::atomic<long> until_failure{kNever};  // or the number of allocations that still succeed
+std::atomic<bool> fail_for_good{false};
+std::atomic<bool> has_failed{false};
+
+[[maybe_unused]] void* allocate(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  if (until_failure > kNever && until_failure.fetch_sub(1) <= 0) {
+    until_failure = fail_for_good ? 0 : kNever;
+    has_failed = true;
+    throw std::bad_alloc();
+  }
+  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
+  void* memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+#ifndef TACT_KEEP_OPERATOR_NEW
+void* operator new(std::size_t size) { return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__); }
+void* operator new[](std::size_t size) { return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return allocate(size, static_cast<std::size_t>(alignment));
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return allocate(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+#endif
+
+namespace tact::tests {
+
+long allocation_count() { return allocations; }
+
+void fail_allocation(long number, bool for_good) {
+  has_failed = false;
+  fail_for_good = for_good;
+  until_failure = number;
+}
+
+bool stop_failing() {
+  until_failure = kNever;
+  return has_failed;
+}
+
+}  // namespace tact::tests

@@ -1,0 +1,102 @@
+#include "tests/support/hashes/hash_scenes.h"
+
+#include <span>
+#include <vector>
+
+#include "tests/support/generators/bodies.h"
+#include "tests/support/generators/body_pairs.h"
+#include "tests/support/hashes/hash_scene_list.h"
+#include "tests/support/hashes/scene_player.h"
+
+namespace tact::tests {
+namespace {
+
+// Steps over `bodies`, all of which drift and tremble, and a few of which stand still in each step.
+SceneHashes play(std::span<const Mesh> bodies, const Settings& settings, int steps, double speed) {
+  ScenePlayer player(settings);
+  for (const Mesh& body : bodies) player.add({.mesh = body});
+  Random random(bodies.size());
+  for (int step = 0; step < steps; ++step) {
+    player.step();
+    player.drift(speed, random);
+  }
+  return player.hashes();
+}
+
+SceneHashes crowd(int threads) { return play(crowd_of_blobs(60, 1), {.threads = threads}, 6, 0.1); }
+
+SceneHashes everything(int threads) {
+  const Settings settings{
+      .threads = threads, .direction = DirectionPolicy::smallest, .outputs = {.zones = true, .patches = true}};
+  return play(mixed_crowd(40, 1), settings, 4, 0.05);
+}
+
+SceneHashes surgery(int threads) {
+  const std::vector<Mesh> bodies = {organ(1), translated(tool(), {0.1, 0.0, 0.1}), wrinkled_sheet(20, 1.5, 0.3, 1)};
+  return play(bodies, {.threads = threads, .outputs = {.zones = true}}, 12, 0.02);
+}
+
+SceneHashes as_in_the_paper(int threads) {
+  return play(crowd_of_blobs(30, 2), {.threads = threads, .accuracy = Accuracy::paper}, 4, 0.1);
+}
+
+SceneHashes hulls_alone(int threads) {
+  return play(crowd_of_blobs(60, 3), {.threads = threads, .accuracy = Accuracy::hulls}, 4, 0.1);
+}
+
+SceneHashes wall(int threads) { return play(brick_wall(6, 10), {.threads = threads}, 2, 0.0); }
+
+// Bodies so large that one pair is shared out among the threads, and sheets of so many clusters that trees find their
+// pairs.
+SceneHashes large(int threads) {
+  const std::vector<Mesh> bodies = {soup(12000, 1.0, 1), soup(10000, 1.0, 2), wrinkled_sheet(190, 2.0, 0.02, 3),
+                                    wrinkled_sheet(190, 2.0, 0.02, 4)};
+  return play(bodies, {.threads = threads}, 2, 0.01);
+}
+
+constexpr HashScene kScenes[] = {
+    {"crowd", crowd, {0x93538d9c4ec3cc4b, 0x271d56502165e527, 0x34a12a61384a9bd5}},
+    {"everything", everything, {0x23b2383b90bc8d06, 0x20bd806eade2e0fc, 0x5c425457e9dd823b}},
+    {"surgery", surgery, {0x77997138121fdaff, 0xe7488da143c14c84, 0x940e0e4a8141c8f5}},
+    {"as_in_the_paper", as_in_the_paper, {0x7e43618e08008598, 0x3700745f7c7ebc4b, 0xfc3e8592dac366cb}},
+    {"hulls_alone", hulls_alone, {0xc9d4f7a4a0389528, 0x41f80414c23f4714, 0xa6c0dc80fab03bc2}},
+    {"wall", wall, {0x0c6eb35572444384, 0x9e6d15c0a91a0336, 0x37cf5f49c603ea96}},
+    {"large", large, {0x3590805f1b5293f3, 0x25b10be5e2ffb539, 0xe5c0571f6aa85dca}},
+    {"gaps", play_gaps, {0x226da8b997b92c69, 0x75699318a174a03b, 0x1a6aa0815526bdbe}},
+    {"crossings", play_crossings, {0x0528a3698275ee17, 0x1a6d22f84539da59, 0x1c14ac75fbbcf5dc}},
+    {"stacked_sheets", play_stacked_sheets, {0xaea09c5b16a99730, 0x79b5a10ff5b3971c, 0x6a50cc664de8b070}},
+    {"parallel_edges", play_parallel_edges, {0xb73af5575e4efb67, 0xc86c8a6a9b0bda9c, 0x2c76a15944cb759b}},
+    {"cut_sheets", play_cut_sheets, {0x67f0b38a243e8e46, 0x8deb89122b7a56bf, 0xd92ce6203d1100d4}},
+    {"nested", play_nested, {0xdcf8c587c860beee, 0xf6791ba90c23c16a, 0x5ebda215f5a1f981}},
+    {"degenerate", play_degenerate, {0xe8d4ebf10c3f0a71, 0x1a279372df96e2d4, 0xa8e709c1def8362c}},
+    {"many_clusters", play_many_clusters, {0x94c71db2c4ae80e7, 0xe16160f84d82201b, 0x432acad1301454d2}},
+    {"cluster_trees", play_cluster_trees, {0xe5a0c064ba9fd125, 0xcfafd40c0e8f7d82, 0xcf71da5e5d6701c5}},
+    {"self_sheets", play_self_sheets, {0xf1e3b6964d32e90f, 0xe9667ec0fa74ad19, 0x66fdbcca5cf4a203}},
+    {"self_closed", play_self_closed, {0x98113465e5c75c4c, 0x40f32af01ddfa9bc, 0xa8f9ad635c5f977d}},
+    {"self_facets", play_self_facets, {0xea72b6c4e1c3afd6, 0xc9db73ed90ba3471, 0xecfd7a83994ce168}},
+    {"self_large", play_self_large, {0xe4445769b752d988, 0x5a9e816a5dec8af6, 0x08e1799353e210cb}},
+    {"impacts", play_impacts, {0xe2c3a93ce99eacd5, 0x3dd6e0c0f7ba84e6, 0x12623f3cc108e37c}},
+    {"impacts_of_cloth", play_impacts_of_cloth, {0x71dbf15bc518c10d, 0xfcaecbd615efde7a, 0x0bf2097feeda140e}},
+    {"first_impacts", play_first_impacts, {0xd701d096bffb2928, 0xa843d91b87d7ecde, 0xd7399c245f70254f}},
+    {"impacts_large", play_impacts_large, {0x81650dd764ba98d8, 0xbdee4915b8bbf100, 0xbd4d102e550ed59d}},
+    {"poses", play_poses, {0xa53bb7c5946e5fee, 0xa35c11f3d05f39b5, 0xd3fa76d68bf27224}},
+    {"patches", play_patches, {0x30e82c19816d7ac3, 0x220996d299243962, 0xe5377800b8d10796}},
+    {"patches_of_facets", play_patches_of_facets, {0xa4d80bed9f6d95e5, 0x12977d74b932a5df, 0xd02f0422b86b6cfe}},
+    {"clamp", play_clamp, {0xdfe382b4f6d19895, 0xcae3485a70b4c9a0, 0x6a445c6bb493fd19}},
+    {"calls", play_calls, {0x464788704595c448, 0xb5dbc04e4f3d69c8, 0x274285fc46539871}},
+    {"rays", play_rays, {0x0d82f994797a6870, 0x16efdecaf8e7c7f0, 0x45c615af16c86bb9}},
+    {"closest_points", play_closest_points, {0x713a500a470a7034, 0x3992ad2d478fb1ce, 0x5858da22f40ed15b}},
+    {"boxes", play_boxes, {0x8d60221edbf116cf, 0xd2c8721bd83262c6, 0x6cfaf97b17f96814}},
+    {"inside", play_inside, {0x7f0c935580d9d901, 0xe15d9007a8d245fb, 0x387197bb83336c85}},
+    {"touching", play_touching, {0x1b607f4a781cb3f0, 0x0fd672af250978bb, 0x232192a8efccb565}},
+    {"touching_bare", play_touching_bare, {0x35703feb31b8f1da, 0xbd1d9fa960c6e6b3, 0x92a6b5b71acdba5f}},
+    {"self_touching", play_self_touching, {0x13d62fd34f3e2778, 0x565ef41e3bcbe0d3, 0x80b4e8ce6769d835}},
+    {"query_ties", play_query_ties, {0x0000000000000000, 0x5445f477404b0c33, 0xeb356a3f320a967e}},
+    {"many_bodies", play_many_bodies, {0x738615855d37eedb, 0x6159cc6cf8fb8a03, 0xff9116338403ee26}},
+};
+
+}  // namespace
+
+std::span<const HashScene> hash_scenes() { return kScenes; }
+
+}  // namespace tact::tests

@@ -1,0 +1,24 @@
+// A test mesh as the narrow phase takes it.
+#pragma once
+
+#include "narrowphase/mesh/clustered_mesh.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/mesh.h"
+
+namespace tact::tests {
+
+inline narrowphase::ClusteredMesh clustered(const Mesh& mesh) {
+  return {{mesh.positions.data(), static_cast<std::size_t>(mesh.positions.size())},
+          {mesh.facets.data(), static_cast<std::size_t>(mesh.facets.size())}};
+}
+
+inline narrowphase::ClusteredMesh clustered_box(Vec3 lower, Vec3 upper) { return clustered(box(lower, upper)); }
+
+// The order in which its facets stand in the clusters.
+inline std::vector<int> facet_order_of(const Mesh& mesh) {
+  return narrowphase::facet_order({mesh.positions.data(), static_cast<std::size_t>(mesh.positions.size())},
+                                  {mesh.facets.data(), static_cast<std::size_t>(mesh.facets.size())},
+                                  mesh.vertex_count());
+}
+
+}  // namespace tact::tests

@@ -1,0 +1,66 @@
+#include "tests/support/oracles/triangle_oracle.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Exact_rational.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/intersections.h>
+
+#include <algorithm>
+#include <variant>
+
+namespace tact::tests {
+namespace {
+
+using Filtered = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Rational = CGAL::Exact_rational;
+using Exact = CGAL::Simple_cartesian<Rational>;
+
+Exact::Point_3 exact(const Vec3& p) { return {Rational(p.x), Rational(p.y), Rational(p.z)}; }
+Filtered::Point_3 filtered(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+bool has_area(const Triangle& t) { return !CGAL::collinear(filtered(t[0]), filtered(t[1]), filtered(t[2])); }
+
+using Figure = std::variant<Exact::Point_3, Exact::Segment_3, Exact::Triangle_3>;
+
+Figure figure(const Triangle& t) {
+  const Exact::Point_3 p = exact(t[0]);
+  const Exact::Point_3 q = exact(t[1]);
+  const Exact::Point_3 r = exact(t[2]);
+  if (!CGAL::collinear(p, q, r)) return Exact::Triangle_3(p, q, r);
+  const auto [low, high] = std::minmax({p, q, r});
+  if (low == high) return low;
+  return Exact::Segment_3(low, high);
+}
+
+}  // namespace
+
+int rational_orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Rational px = Rational(a.x) - Rational(d.x), py = Rational(a.y) - Rational(d.y),
+                 pz = Rational(a.z) - Rational(d.z);
+  const Rational qx = Rational(b.x) - Rational(d.x), qy = Rational(b.y) - Rational(d.y),
+                 qz = Rational(b.z) - Rational(d.z);
+  const Rational rx = Rational(c.x) - Rational(d.x), ry = Rational(c.y) - Rational(d.y),
+                 rz = Rational(c.z) - Rational(d.z);
+  const Rational determinant = px * (qy * rz - qz * ry) + py * (qz * rx - qx * rz) + pz * (qx * ry - qy * rx);
+  return static_cast<int>(CGAL::sign(determinant));
+}
+
+int rational_orient2d(const Point2& a, const Point2& b, const Point2& c) {
+  const Rational determinant = (Rational(a.x) - Rational(c.x)) * (Rational(b.y) - Rational(c.y)) -
+                               (Rational(a.y) - Rational(c.y)) * (Rational(b.x) - Rational(c.x));
+  return static_cast<int>(CGAL::sign(determinant));
+}
+
+bool cgal_meet(const Triangle& a, const Triangle& b) {
+  if (has_area(a) && has_area(b)) {
+    return CGAL::do_intersect(Filtered::Triangle_3(filtered(a[0]), filtered(a[1]), filtered(a[2])),
+                              Filtered::Triangle_3(filtered(b[0]), filtered(b[1]), filtered(b[2])));
+  }
+  return rational_meet(a, b);
+}
+
+bool rational_meet(const Triangle& a, const Triangle& b) {
+  return std::visit([](const auto& p, const auto& q) { return CGAL::do_intersect(p, q); }, figure(a), figure(b));
+}
+
+}  // namespace tact::tests
