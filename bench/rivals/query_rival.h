@@ -36,7 +36,6 @@ class QueryRival {
 };
 
 // The body outlives the rival. At most `threads` threads run.
-std::unique_ptr<QueryRival> make_tact_queries(const WorkloadBody& body, int threads);
 std::unique_ptr<QueryRival> make_embree_queries(const WorkloadBody& body, int threads);
 std::unique_ptr<QueryRival> make_fcl_queries(const WorkloadBody& body, int threads);
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "bench/answer_line.h"
 #include "bench/measure.h"
 #include "bench/rivals/rival.h"
 #include "bench/table.h"
@@ -257,7 +258,7 @@ int run_rivals(const BenchOptions& options) {
   }
   if (rows.empty()) throw std::runtime_error("no workload's name holds '" + options.only + "'");
   print_summary(rows, threads, options.out);
-  fmt::print("hash of all answers {:016x}\n", hash);
+  print_answer_line(hash);
   if (!options.out.empty()) plot_factors(rows, threads, options.out);
   if (!agree) fmt::print(stderr, "tact-bench: answers differ where they must be equal\n");
   return agree ? 0 : 1;

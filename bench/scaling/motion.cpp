@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "bench/answer_line.h"
 #include "bench/measure.h"
 #include "bench/rivals/inclusion.h"
 #include "bench/table.h"
@@ -75,7 +76,20 @@ Measured measure(MotionRunner& runner, Impacts wanted, int threads, double budge
   return result;
 }
 
-Table measure_leaps(const std::vector<Leaps>& all, const std::string& only, int threads, double budget_ms) {
+// The impacts of all kinds, which must not depend on the number of threads, are added to `answers`.
+void add_answers(MotionRunner& one, MotionRunner& several, const std::string& name, tests::AnswerHash& answers) {
+  for (const Impacts wanted : {Impacts::all, Impacts::first_of_pair, Impacts::first}) {
+    tests::AnswerHash of_one, of_several;
+    of_one.add(one.detect(wanted));
+    of_several.add(several.detect(wanted));
+    if (of_one.hashes() != of_several.hashes())
+      throw std::runtime_error(fmt::format("motion of {}: the answers depend on the number of threads", name));
+    answers.add(one.detect(wanted));
+  }
+}
+
+Table measure_leaps(const std::vector<Leaps>& all, const std::string& only, int threads, double budget_ms,
+                    tests::AnswerHash& answers) {
   Table table({"workload", "facets", "pairs of bodies", "candidates", "left by the filter %", "impacts", "1 thread ms",
                fmt::format("{} threads ms", threads), "first only ms", "ns a candidate"});
   for (const Leaps& leaps : all) {
@@ -84,6 +98,7 @@ Table measure_leaps(const std::vector<Leaps>& all, const std::string& only, int 
     MotionRunner one(workload, 1), several(workload, threads);
     one.go(0, leaps.frames);
     several.go(0, leaps.frames);
+    add_answers(one, several, leaps.name, answers);
     const auto [ms, stats] = measure(one, Impacts::all, 1, budget_ms);
     const double first_ms = measure(one, Impacts::first, 1, budget_ms).ms;
     const double several_ms = measure(several, Impacts::all, threads, budget_ms).ms;
@@ -130,7 +145,7 @@ void check_against_rival(const MotionReport& report, const InclusionResult& riva
                                          report.impacts().size(), more));
 }
 
-Table measure_growth(bool quick, double budget_ms) {
+Table measure_growth(bool quick, double budget_ms, tests::AnswerHash& answers) {
   Table table({"two spheres", "candidates", "impacts", "tact ms", "inclusion ms", "factor", "ns a candidate"});
   std::vector<double> facets, times;
   for (const int frequency : quick ? std::vector{4, 8} : std::vector{8, 16, 32, 64, 128}) {
@@ -141,6 +156,7 @@ Table measure_growth(bool quick, double budget_ms) {
     world.detect();
     world.set_positions(a, couple.a.end);
     world.set_positions(b, couple.b.end);
+    answers.add(world.detect_motion());
     const bool with_rival = frequency <= 32;
     double rival_ms = 0.0;
     if (with_rival) {
@@ -196,6 +212,7 @@ int run_motion(const BenchOptions& options) {
   fmt::print("{}\n\n", machine_line(threads));
   measure_queries();
   const bool quick = options.quick;
+  tests::AnswerHash answers;
   const Table leaps = measure_leaps(
       {
           {"cloth on a sphere", [=] { return cloth(quick ? 16 : 80, 24); }, 3},
@@ -206,11 +223,15 @@ int run_motion(const BenchOptions& options) {
           {"two blobs of 20,480", [=] { return large_pair(quick ? 8 : 32, 24); }, 3},
           {"a chain of rings", [=] { return chain(quick ? 8 : 60, 24); }, 3},
       },
-      options.only, threads, budget_ms);
+      options.only, threads, budget_ms, answers);
   leaps.print();
-  if (!options.only.empty()) return 0;
-  const Table growth = measure_growth(quick, budget_ms);
+  if (!options.only.empty()) {
+    print_answer_line(answers);
+    return 0;
+  }
+  const Table growth = measure_growth(quick, budget_ms, answers);
   growth.print();
+  print_answer_line(answers);
   if (!options.out.empty()) {
     leaps.write_csv(options.out / "motion.csv");
     growth.write_csv(options.out / "motion_growth.csv");

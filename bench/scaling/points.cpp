@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/answer_line.h"
 #include "bench/measure.h"
 #include "bench/rivals/near_points.h"
 #include "bench/table.h"
@@ -145,7 +146,9 @@ struct PointTimes {
   double fastest() const { return std::min(embree, cgal); }
 };
 
-PointTimes measure(const Workload& workload, const std::string& name, double budget_ms, int checked_frames) {
+// Adds all answers to `answers`.
+PointTimes measure(const Workload& workload, const std::string& name, double budget_ms, int checked_frames,
+                   tests::AnswerHash& answers) {
   const std::vector<double> margins = margins_of(workload);
   PointRunner without(workload, margins, {}), with(workload, margins, {.points = true}),
       with_patches(workload, margins, {.patches = true, .points = true});
@@ -161,9 +164,10 @@ PointTimes measure(const Workload& workload, const std::string& name, double bud
     signs->step(frame);
     check_signs(report, workload, signs->crossed(), name);
     result.crosses |= any_cross(report);
-    without.step(frame);
-    with_patches.step(frame);
+    answers.add(report);
+    answers.add(without.step(frame));
   }
+  for (int frame = 0; frame < workload.frames; ++frame) answers.add(with_patches.step(frame));
   std::vector<double> times[6], points;
   int frame = 0;
   double expected_ms = 1.0;
@@ -201,11 +205,12 @@ int run_points(const BenchOptions& options) {
   Table table({"workload", "points", "without ms", "with ms", "ratio", "and patches ms", "Embree's boxes ms",
                "CGAL's boxes ms", "factor", "and signs ms", "factor with signs"});
   bool any = false;
+  tests::AnswerHash answers;
   for (const NamedWorkload& named : rival_workloads(options.quick ? Size::small : Size::full)) {
     if (named.name.find(options.only) == std::string::npos) continue;
     any = true;
     fmt::print(stderr, "{}\n", named.name);
-    const PointTimes m = measure(named.make(), named.name, budget_ms, options.quick ? 4 : 2);
+    const PointTimes m = measure(named.make(), named.name, budget_ms, options.quick ? 4 : 2, answers);
     table.add({named.name, fmt::format("{:.0f}", m.points), three_digits(m.without), three_digits(m.with),
                three_digits(m.with / m.without), three_digits(m.with_patches), three_digits(m.embree),
                three_digits(m.cgal), three_digits(m.fastest() / m.with), three_digits(m.signs),
@@ -213,6 +218,7 @@ int run_points(const BenchOptions& options) {
   }
   if (!any) throw std::runtime_error("no workload's name holds '" + options.only + "'");
   table.print();
+  print_answer_line(answers);
   if (!options.out.empty()) table.write_csv(options.out / "points.csv");
   return 0;
 }

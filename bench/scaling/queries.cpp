@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/answer_line.h"
 #include "bench/measure.h"
 #include "bench/random.h"
 #include "bench/rivals/query_rival.h"
@@ -44,6 +45,8 @@ class TactQueries : public QueryRival {
   }
 
   const std::vector<QueryAnswer>& answers() const override { return answers_; }
+  std::span<const RayHit> hits() const { return hits_; }
+  std::span<const ClosestPoint> closest() const { return closest_; }
 
  private:
   World world_;
@@ -96,13 +99,18 @@ class QueryContest {
  public:
   QueryContest(const WorkloadBody& body, int threads, double budget_ms)
       : body_(body), threads_(threads), budget_ms_(budget_ms) {
-    all_ = {make_tact_queries(body, threads), make_embree_queries(body, threads), make_fcl_queries(body, threads)};
+    auto tact = std::make_unique<TactQueries>(body, threads);
+    tact_ = tact.get();
+    all_ = {std::move(tact), make_embree_queries(body, threads), make_fcl_queries(body, threads)};
   }
 
-  void add_row(QueryKind kind, int count, Table& table) {
+  // With one thread the answers are added to `all_answers`.
+  void add_row(QueryKind kind, int count, Table& table, tests::AnswerHash& all_answers) {
     const QuerySet set = queries_about(body_.frames[0].rowwise().mean(), count);
     std::array<bool, kQueryContestants> answers{};
     for (std::size_t k = 0; k < kQueryContestants; ++k) answers[k] = step(k, kind, set, 1);
+    if (threads_ == 1 && kind == QueryKind::rays) all_answers.add(tact_->hits());
+    if (threads_ == 1 && kind == QueryKind::points) all_answers.add(tact_->closest());
     const auto check = [&](QueryContestant rival, double tolerance) {
       return answers[rival] && kind != QueryKind::refit_alone
                  ? differing(all_[kQueryTact]->answers(), all_[rival]->answers(), tolerance)
@@ -153,14 +161,11 @@ class QueryContest {
   const WorkloadBody& body_;
   int threads_;
   double budget_ms_;
+  const TactQueries* tact_ = nullptr;  // the first of them
   std::array<std::unique_ptr<QueryRival>, kQueryContestants> all_;
 };
 
 }  // namespace
-
-std::unique_ptr<QueryRival> make_tact_queries(const WorkloadBody& body, int threads) {
-  return std::make_unique<TactQueries>(body, threads);
-}
 
 int run_queries(const BenchOptions& options) {
   const int threads = thread_count(options.threads);
@@ -171,18 +176,20 @@ int run_queries(const BenchOptions& options) {
   constexpr int kQueryFrames = 4;
   Table table({"queries", "facets", "a step", "threads", "tact ms", "Embree ms", "FCL ms", "rival / tact",
                "differ from Embree"});
+  tests::AnswerHash answers;
   for (const int frequency : frequencies) {
     const Workload workload = large_pair(frequency, kQueryFrames);
     for (int t = 1; t <= threads; t *= 2) {
       QueryContest contest(workload.bodies[0], t, options.quick ? 5.0 : 200.0);
-      contest.add_row(QueryKind::refit_alone, 0, table);
+      contest.add_row(QueryKind::refit_alone, 0, table, answers);
       for (const QueryKind kind : {QueryKind::rays, QueryKind::points}) {
         if (std::string(kQueryNames[static_cast<std::size_t>(kind)]).find(options.only) == std::string::npos) continue;
-        for (const int count : counts) contest.add_row(kind, count, table);
+        for (const int count : counts) contest.add_row(kind, count, table, answers);
       }
     }
   }
   table.print();
+  print_answer_line(answers);
   if (!options.out.empty()) table.write_csv(options.out / "queries.csv");
   return 0;
 }

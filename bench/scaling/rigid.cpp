@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/answer_line.h"
 #include "bench/measure.h"
 #include "bench/table.h"
 #include "bench/workloads/workloads.h"
@@ -139,7 +140,8 @@ StepTimes median_of(const std::vector<StepTimes>& steps) {
   return {median(set), median(detect)};
 }
 
-void add_row(const Scene& scene, int threads, double budget_ms, Table& table) {
+// With one thread the answers are added to `answers`.
+void add_row(const Scene& scene, int threads, double budget_ms, Table& table, tests::AnswerHash& answers) {
   constexpr int kFrames = 4;
   const TurningBodies bodies(scene.make(), kFrames);
   Player by_pose(bodies, Given::poses, threads), by_vertices(bodies, Given::vertices, threads),
@@ -149,6 +151,7 @@ void add_row(const Scene& scene, int threads, double budget_ms, Table& table) {
     for (Player* const player : {&by_pose, &by_vertices, &computed}) player->step(frame);
     if (by_pose.report().hash() != by_vertices.report().hash())
       throw std::runtime_error(scene.name + ": the answers differ");
+    if (threads == 1) answers.add(by_pose.report());
     placed = by_pose.report().stats().placed_bodies;
   }
   std::vector<StepTimes> pose_steps, vertex_steps, computed_steps;
@@ -182,11 +185,13 @@ int run_rigid(const BenchOptions& options) {
   Table table({"bodies that turn", "bodies", "placed a step", "threads", "set vertices ms", "detect ms",
                "compute and set vertices ms", "set poses ms", "detect and place ms", "poses / vertices", "at least",
                "poses / computed vertices"});
+  tests::AnswerHash answers;
   for (const Scene& scene : scenes) {
     if (scene.name.find(options.only) == std::string::npos) continue;
-    for (int t = 1; t <= threads; t *= 2) add_row(scene, t, budget_ms, table);
+    for (int t = 1; t <= threads; t *= 2) add_row(scene, t, budget_ms, table, answers);
   }
   table.print();
+  print_answer_line(answers);
   if (!options.out.empty()) table.write_csv(options.out / "rigid.csv");
   return 0;
 }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "bench/answer_line.h"
 #include "bench/measure.h"
 #include "bench/rivals/rival.h"
 #include "bench/table.h"
@@ -45,11 +46,13 @@ class TactWithPoints : public Rival {
  public:
   TactWithPoints(const Workload& workload, int threads)
       : runner_(workload, {.threads = threads, .outputs = {.points = true}}, TactRunner::Against::self, kSelfMargin) {}
-  void step(int frame) override { runner_.step(frame); }
+  void step(int frame) override { report_ = &runner_.step(frame); }
   std::vector<FacetMeeting> meetings() const override { return {}; }
+  const Report& report() const { return *report_; }
 
  private:
   TactRunner runner_;
+  const Report* report_ = nullptr;
 };
 
 enum SelfContestant : std::size_t { kTact, kPoints, kEmbree, kEmbreePlain, kCgal, kContestants };
@@ -60,12 +63,14 @@ struct SelfTimes {
   bool plain_is_right = true;
 };
 
+// Adds all answers to `answers`.
 SelfTimes measure_self(const Workload& workload, const std::string& name, int threads, double budget_ms,
-                       int checked_frames) {
+                       int checked_frames, tests::AnswerHash& answers) {
+  auto with_points = std::make_unique<TactWithPoints>(workload, threads);
+  const TactWithPoints& points = *with_points;
   const std::array<std::unique_ptr<Rival>, kContestants> all = {
-      make_tact_self(workload, threads), std::make_unique<TactWithPoints>(workload, threads),
-      make_embree_self(workload, threads), make_embree_self_plain(workload, threads),
-      make_cgal_self(workload, threads)};
+      make_tact_self(workload, threads), std::move(with_points), make_embree_self(workload, threads),
+      make_embree_self_plain(workload, threads), make_cgal_self(workload, threads)};
   SelfTimes times;
   std::vector<double> counts;
   for (int k = 0; k < checked_frames; ++k) {
@@ -73,6 +78,10 @@ SelfTimes measure_self(const Workload& workload, const std::string& name, int th
     for (const std::unique_ptr<Rival>& one : all) one->step(frame);
     const std::vector<FacetMeeting> own = all[kTact]->meetings();
     counts.push_back(static_cast<double>(own.size()));
+    for (const FacetMeeting& m : own) {
+      answers.add_feature(static_cast<std::uint32_t>(m.facet_a));
+      answers.add_feature(static_cast<std::uint32_t>(m.facet_b));
+    }
     for (const SelfContestant rival : {kEmbree, kCgal}) {
       if (all[rival]->meetings() != own)
         throw std::runtime_error(
@@ -81,6 +90,10 @@ SelfTimes measure_self(const Workload& workload, const std::string& name, int th
     times.plain_is_right = times.plain_is_right && all[kEmbreePlain]->meetings() == own;
   }
   times.pairs = median(counts);
+  for (int frame = 0; frame < workload.frames; ++frame) {
+    all[kPoints]->step(frame);
+    answers.add(points.report());
+  }
   std::array<std::vector<double>, kContestants> samples;
   int frame = 0;
   std::array<double, kContestants> expected_ms{};
@@ -108,12 +121,13 @@ int run_self(const BenchOptions& options) {
                "CGAL ms", "factor", "of plain"});
   std::vector<double> facets, times;  // of the cloths
   bool any = false;
+  tests::AnswerHash answers;
   for (const SelfRow& row : self_rows(options.quick)) {
     if (row.name.find(options.only) == std::string::npos) continue;
     const Workload workload = row.make();
     if (workload.bodies.empty()) continue;
     any = true;
-    const SelfTimes m = measure_self(workload, row.name, 1, budget_ms, options.quick ? 2 : 3);
+    const SelfTimes m = measure_self(workload, row.name, 1, budget_ms, options.quick ? 2 : 3, answers);
     const auto count = static_cast<double>(workload.facet_count());
     if (row.name.starts_with("cloth")) {
       facets.push_back(count);
@@ -128,6 +142,7 @@ int run_self(const BenchOptions& options) {
   table.print();
   if (facets.size() > 1)
     fmt::print("time of the cloths grows with facets to the power of {:.2f}\n", fitted_exponent(facets, times));
+  print_answer_line(answers);
   if (!options.out.empty()) table.write_csv(options.out / "self.csv");
   return 0;
 }
