@@ -133,17 +133,17 @@ SceneHashes play_query_ties(int threads) {
     box.upper = box.lower + Eigen::Vector3d(0.5 * x, 0.25 * y, 0.25 * random.below(5));
   }
   std::vector<RayHit> hits(rays.size());
-  world.rays(rays, hits);
+  world.cast_rays(rays, hits);
   player.hash().add(hits);
   std::vector<ClosestPoint> closest(points.size());
   world.closest_points(points, closest);
   player.hash().add(closest);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    player.hash().add(world.ray(rays[i]));
-    player.hash().add(world.all_hits(rays[i]));
+    player.hash().add(world.cast_ray(rays[i]));
+    player.hash().add(world.cast_ray_all(rays[i]));
     player.hash().add(world.closest_point(points[i]));
     player.hash().add(world.overlap_box(boxes[i]));
-    player.hash().add(world.inside(points[i]));
+    player.hash().add(world.bodies_containing(points[i]));
   }
   return player.hashes();
 }
@@ -164,7 +164,7 @@ SceneHashes play_many_bodies(int threads) {
     }
     player.add({.mesh = scaled(rigid ? translated(blob, -middle) : blob, 0.7, rigid ? Vec3{} : middle),
                 .margin = player.size() % 3 == 0 ? 0.0 : 0.05,
-                .motion = rigid ? Motion::rigid : Motion::moving});
+                .motion = rigid ? Motion::rigid : Motion::deformable});
   }
   for (int step = 0; step < 3; ++step) {
     player.pose(which, turns, moves);
