@@ -160,13 +160,8 @@ void PointFinder::add_edges(int e, int f, bool in_one_cluster) {
 }
 
 void PointFinder::look_at_edges(int e, int f) {
-  const auto ends = [](const ScaledMesh& m, int edge) {
-    const EdgeVertices vertices = m.features.edge(edge);
-    return EdgeEnds{m.position(vertices[0]), m.position(vertices[1])};
-  };
-  const EdgeEnds at_e = ends(a_, e), at_f = ends(b_, f);
-  const auto nearest =
-      nearest_between_edges(at_e, a_.around(a_.features.opposite(e)), at_f, b_.around(b_.features.opposite(f)), reach_);
+  const EdgeEnds at_e = a_.ends(e);
+  const auto nearest = nearest_between_edges(at_e, a_.beside(e), b_.ends(f), b_.beside(f), reach_);
   if (nearest) add_edge_point(e, at_e, f, *nearest);
 }
 

@@ -32,6 +32,12 @@ struct ScaledMesh {
     const double length = norm(normal);
     return length > 0.0 ? (1.0 / length) * normal : Vec3{};
   }
+  EdgeEnds ends(int edge) const {
+    const EdgeVertices vertices = features.edge(edge);
+    return {position(vertices[0]), position(vertices[1])};
+  }
+  /// The third vertices of the facets that have an edge.
+  ScaledVertices beside(int edge) const { return around(features.opposite(edge)); }
   ScaledVertices around(std::span<const int> vertices) const { return {mesh.points(), vertices, scale}; }
 };
 

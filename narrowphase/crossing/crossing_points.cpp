@@ -10,11 +10,6 @@ namespace {
 
 double negative(double distance) { return distance > 0.0 ? -distance : 0.0; }
 
-EdgeEnds ends_of(const ScaledMesh& m, int edge) {
-  const EdgeVertices ends = m.features.edge(edge);
-  return {m.position(ends[0]), m.position(ends[1])};
-}
-
 // How far apart edges that have passed each other may be. Of one mesh the last step may tell of more than `within`.
 double farthest_edges(const Crossing& c) { return c.of_itself ? kAnywhere : c.within; }
 
@@ -103,7 +98,7 @@ bool are_of_two_parts(const Crossing& c, int edge_a, int edge_b, const Nearest& 
   if (nearest.distance > c.within && !(dot(c.sides.last_points().side(source_b, source_a), nearest.normal) > 0.0))
     return false;
   const EdgeVertices e = m.features.edge(edge_a), f = m.features.edge(edge_b);
-  const EdgeEnds at_e = ends_of(m, edge_a);
+  const EdgeEnds at_e = m.ends(edge_a);
   const Vec3 on_e = nearest.first[0] * at_e.p + nearest.first[1] * at_e.q;
   return !too_near_along(m, c.reach, {e, on_e}, {f, on_e - nearest.distance * nearest.normal}, ways);
 }
@@ -111,8 +106,7 @@ bool are_of_two_parts(const Crossing& c, int edge_a, int edge_b, const Nearest& 
 std::optional<FeaturePoint> point_of_passed_edges(const Crossing& c, int edge_a, int edge_b, SurfaceWays& ways) {
   const ScaledMesh a = c.a().scaled(), b = c.b().scaled();
   const auto nearest =
-      crossing_between_edges(ends_of(a, edge_a), a.around(a.features.opposite(edge_a)), ends_of(b, edge_b),
-                             b.around(b.features.opposite(edge_b)), farthest_edges(c));
+      crossing_between_edges(a.ends(edge_a), a.beside(edge_a), b.ends(edge_b), b.beside(edge_b), farthest_edges(c));
   if (!nearest || dot(nearest->normal, facing_of_edges(c, edge_a, edge_b)) <= kFaces) return {};
   if (c.of_itself && !are_of_two_parts(c, edge_a, edge_b, *nearest, ways)) return {};
   return point_of_edges(*nearest, a, edge_a, b, edge_b, negative(nearest->distance / a.scale));
@@ -215,7 +209,7 @@ std::optional<FeaturePoint> CrossingPoints::point_through(const Crossing& c, con
   const int edge = hits[0].edge;
   const bool of_a = &own == &c.a();
   const ScaledMesh surface = body.scaled();
-  EdgeThrough through(ends_of(own.scaled(), edge));
+  EdgeThrough through(own.scaled().ends(edge));
   for (const EdgeHit& hit : hits) through.add_hit(surface.triangle(surface.mesh.facet_of_source(hit.facet)));
   std::optional<FeaturePoint> best;
   const auto look_at = [&](int edge_a, int edge_b) {

@@ -37,8 +37,8 @@ std::array<int, 3> source_corners(const ClusteredMesh& mesh, int source_facet) {
 
 std::array<double, 2> heights_of_ends(const ScaledMesh& mesh, const EdgeHit& hit, Vec3 normal) {
   const Vec3 corner = mesh.position(mesh.features.corners(mesh.mesh.facet_of_source(hit.facet))[0]);
-  const EdgeVertices ends = mesh.features.edge(hit.edge);
-  return {dot(normal, mesh.position(ends[0]) - corner), dot(normal, mesh.position(ends[1]) - corner)};
+  const EdgeEnds ends = mesh.ends(hit.edge);
+  return {dot(normal, ends.p - corner), dot(normal, ends.q - corner)};
 }
 
 void LastPoints::take(std::span<const FeaturePoint> points) {

@@ -40,11 +40,11 @@ class Cut {
   /// Sorted, each once.
   std::span<const EdgeHit> hits() const { return hits_; }
   std::span<const EdgeHit> hits_of(const EdgeVertices& source_vertices) const;
-  /// Does an edge meet a facet?
+  /// Whether an edge meets a facet.
   bool is_cut(const EdgeVertices& source_vertices) const { return !hits_of(source_vertices).empty(); }
   /// The same of the edge between two vertices, by the mesh's numbers.
   bool is_cut_between(int v, int w) const;
-  /// Is a vertex, by the caller's number, past the other surface?
+  /// Whether a vertex, by the caller's number, is past the other surface.
   bool is_past(int source_vertex) const { return state_[source_vertex] == kPast; }
   /// What is past it, by the mesh's numbers: connected vertices stand together.
   std::span<const int> past() const { return past_; }

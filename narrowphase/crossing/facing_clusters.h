@@ -18,7 +18,7 @@ class FacingClusters {
   /// After the last one.
   void merge_groups(const ClusteredMesh& mesh);
 
-  /// Does the kernel rank_block() certainly leave out every facet there?
+  /// Whether the kernel rank_block() certainly leaves out every facet there.
   bool cluster_turned_away(int cluster, const FacingNormals& facing) const {
     return turned_away(clusters_[cluster], facing);
   }

@@ -24,7 +24,7 @@ struct ExitThrough {
   Vec3 normal;          // of the facet, of any length
   double height = 0.0;  // of the vertex: its sign tells the side, that of `normal` if it is positive
 
-  /// Is the vertex on the other side than `facing` shows to?
+  /// Whether the vertex is on the other side than `facing` shows to.
   bool is_beyond(Vec3 facing) const {
     const double along = dot(normal, facing);
     return (along > 0.0 && height < 0.0) || (along < 0.0 && height > 0.0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace tact::narrowphase {
@@ -10,6 +11,19 @@ namespace {
 
 // Facets with a common edge may be as far from a vertex as each other, but for some roundings; lengths are near 1.
 constexpr double kRounding = 1e-13;
+
+// To a few roundings, the same on every processor, which atan2() is not.
+double angle_between(Vec3 p, Vec3 q) {
+  const double sine = norm(cross(p, q)), cosine = dot(p, q), length = std::sqrt(sine * sine + cosine * cosine);
+  if (length == 0.0) return 0.0;
+  double tangent = sine / (std::abs(cosine) + length);  // of half the acute angle
+  for (int halving = 0; halving < 3; ++halving) tangent /= 1.0 + std::sqrt(1.0 + tangent * tangent);
+  // The series of the inverse tangent: below tan(pi / 32) its ninth term is less than a rounding.
+  double sum = 0.0;
+  for (int odd = 15; odd > 0; odd -= 2) sum = 1.0 / odd - tangent * tangent * sum;
+  const double acute = 16.0 * tangent * sum;
+  return cosine < 0.0 ? std::numbers::pi - acute : acute;
+}
 
 bool has_place(const Corners& corners, const PlaceOnFeature& place) {
   return std::ranges::all_of(place.used(), [&](int w) { return std::ranges::find(corners, w) != corners.end(); });
@@ -62,7 +76,7 @@ Vec3 PartExitFinder::normal_at(const ScaledMesh& mesh, const NearestExit& exit) 
     }
     const Vec3 p = mesh.position(c[(k + 1) % 3]) - mesh.position(c[k]),
                q = mesh.position(c[(k + 2) % 3]) - mesh.position(c[k]);
-    sum = sum + std::atan2(norm(cross(p, q)), dot(p, q)) * normal;
+    sum = sum + angle_between(p, q) * normal;
   }
   return is_edge && at_edge == 1 ? Vec3{} : sum;
 }

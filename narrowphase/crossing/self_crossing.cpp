@@ -27,8 +27,8 @@ double SelfCrossing::longest_exit() const {
   const ScaledMesh mesh = own.scaled();
   double longest = 0.0;
   for (const EdgeHit& hit : own.cut.hits()) {
-    const EdgeVertices ends = mesh.features.edge(hit.edge);
-    longest = std::max(longest, norm(mesh.position(ends[1]) - mesh.position(ends[0])));
+    const EdgeEnds ends = mesh.ends(hit.edge);
+    longest = std::max(longest, norm(ends.q - ends.p));
   }
   return longest;
 }

@@ -40,7 +40,7 @@ LinePlaces places_of_lines(const EdgeEnds& e, const EdgeEnds& f) {
   return {s, std::sqrt(square), s > 0 && s < 1 && t > 0 && t < 1};
 }
 
-// An edge that runs through a wrinkled ball: whatever edge of the ball is nearest to its inside, between the first and
+// An edge through a wrinkled ball: whatever edge of the ball is nearest to its inside, between the first and
 // the last facet that it meets, is among those that are found, and most others are not.
 TEST(EdgesBeside, HoldEveryEdgeThatIsNearestToThePartInside) {
   Random random(8);
@@ -55,20 +55,20 @@ TEST(EdgesBeside, HoldEveryEdgeThatIsNearestToThePartInside) {
     const Vec3 middle = 0.95 * normalized(random.in_cube(1.0)),
                along = (trial % 4 == 0 ? 4.0 : 0.6) * random.in_cube(1.0);
     const Segment edge{middle - along, middle + along};
-    EdgeThrough running({scale * edge[0], scale * edge[1]});
+    EdgeThrough through({scale * edge[0], scale * edge[1]});
     std::vector<long double> places;
     PredicateCounts counts;
     for (int f = 0; f < ball.facet_count(); ++f) {
       const Triangle t = ball.triangle(f);
       if (!segment_triangle_meet(edge, t, counts)) continue;
-      running.add_hit(surface.triangle(f));
+      through.add_hit(surface.triangle(f));
       const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
       places.push_back(dot(normal, t[0] - edge[0]) / dot(normal, edge[1] - edge[0]));
     }
     if (places.size() < 2) continue;
     ++runs;
     const auto [first, last] = std::ranges::minmax(places);
-    const auto found = beside.find(running, surface, within);
+    const auto found = beside.find(through, surface, within);
     const std::vector<int> listed(found.begin(), found.end());
     EXPECT_TRUE(std::ranges::is_sorted(listed));
     for (int f = 0; f < features.edge_count(); ++f) {
