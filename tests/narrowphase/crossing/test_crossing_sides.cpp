@@ -39,7 +39,8 @@ TEST(LastPoints, TellTheSideFromTheOtherToTheOwnFeature) {
   point.normal = {0.0, 0.0, 1.0};
   LastPoints last;
   last.take({&point, 1});
-  const std::array vertex{3}, facet{5, 6, 7}, beyond{8, 9, 10};
+  const std::array vertex{3};
+  const std::array facet{5, 6, 7}, beyond{8, 9, 10};
   EXPECT_EQ(last.side(vertex, facet), (Vec3{0.0, 0.0, -1.0}));
   EXPECT_EQ(last.side(facet, vertex), (Vec3{0.0, 0.0, 1.0}));
   EXPECT_EQ(last.side(vertex, beyond), Vec3{});
