@@ -38,6 +38,7 @@ void clear_answers(PairRecord& record) {
   record.facet_pairs.clear();
   std::swap(record.points, record.last_points);
   record.points.clear();
+  record.touching = false;
 }
 
 }  // namespace
@@ -66,7 +67,7 @@ void PairStage::run(PairTable& table, Bodies& bodies, const Settings& settings, 
   const auto look_at_next = [&](std::size_t i, int thread) {
     if (prefetch.pays()) prefetch.prefetch_after(i);
     PairRecord& record = *moved[i].record;
-    moved[i].touched = touches(record);
+    moved[i].touched = record.touching;
     const PairInput pair(bodies, record.a, record.b, settings);
     look_at(pair, record, table, device, thread);
     table.note_result(moved[i]);

@@ -5,6 +5,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/pair/facet_pair_sort.h"
+#include "engine/touching.h"
 
 namespace tact {
 
@@ -45,6 +46,7 @@ void SelfStage::run(Bodies& bodies, const Settings& settings, bool all, PointSta
                    bodies.tuning(), settings.threads, device);
     if (settings.accuracy != Accuracy::hulls) find_facet_pairs(one, bodies, settings.threads);
     if (settings.outputs.points) find_points(one, bodies, settings, points);
+    one.touching = is_touching(one.facet_pairs, one.points, bodies.reach(slot, slot), settings.accuracy);
   };
   if (all) {
     const auto slots = static_cast<std::uint32_t>(bodies.boxes().size());
@@ -107,7 +109,9 @@ void SelfStage::select() {
   same_ = contacts_ == last_contacts_;
   std::swap(touching_, last_touching_);
   touching_.clear();
-  for (const SelfRecord* one : contacts_) touching_.push_back(one->body);
+  for (const SelfRecord* one : contacts_) {
+    if (one->touching) touching_.push_back(one->body);
+  }
   // Both ascend by slot, which comes first in an id.
   const auto without = [](const std::vector<BodyId>& those, const std::vector<BodyId>& others,
                           std::vector<ContactEvent>& events) {

@@ -28,6 +28,7 @@ struct SelfRecord {
   std::unique_ptr<narrowphase::SelfCrossing> crossing;  // made when facets meet for the first time
   PatchMemory patches;
   bool looked_at = false;  // in this step
+  bool touching = false;   // see is_touching()
   bool in_contact() const { return !facet_pairs.empty() || !points.empty(); }
 };
 

@@ -28,7 +28,7 @@ void Step::regroup(Bodies& bodies, int threads) {
 const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh_ms) {
   Timer timer(settings.outputs.trace ? 0.0 : base::TickCounter::tick_ms());  // a trace wants times, not durations alone
   const TraceEvent::Time begin = timer.start();
-  if (forgotten_) start_afresh();
+  if (forgotten_) start_from_scratch();
   writer_.note_sources(bodies, table_, settings);
   StepStats& stats = writer_.stats() = {};
   stats.regrouped_bodies = std::exchange(regrouped_, 0);
@@ -39,7 +39,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   } else {
     look_at_pairs(bodies, settings, timer, stats);
   }
-  writer_.write(table_, self_, settings.threads);
+  writer_.write(table_, self_, bodies, settings);
   count_bodies(bodies, stats);
   count_pairs(table_, stats);
   stats.named_excluded_pairs = static_cast<std::int64_t>(table_.excluded());
@@ -102,7 +102,7 @@ void Step::make_trace(TraceEvent::Time begin, TraceEvent::Time end, const Settin
   trace_.forget_refreshes();
 }
 
-void Step::start_afresh() {
+void Step::start_from_scratch() {
   sweep_ = {};
   table_ = {};
   pair_stage_.forget();

@@ -38,7 +38,7 @@ class Step {
   StepTrace& trace() { return trace_; }
 
  private:
-  void start_afresh();
+  void start_from_scratch();
   void keep_last_answers();
   void look_at_pairs(Bodies& bodies, const Settings& settings, base::Timer& timer, StepStats& stats);
   void find_patches(const Bodies& bodies, const Settings& settings);

@@ -127,7 +127,7 @@ void Bodies::set_motion(BodyId id, Motion motion) {
   if (motion != Motion::fixed && (motion == Motion::rigid) != body.mesh.is_rigid())
     throw Error(ErrorCode::wrong_motion, quoted(body.name) + (body.mesh.is_rigid() ? " was" : " was not") +
                                              " added as rigid: its motion cannot be " +
-                                             (motion == Motion::rigid ? "rigid" : "moving"));
+                                             (motion == Motion::rigid ? "rigid" : "deformable"));
   broadphase::Filter changed = filter(id);
   changed.fixed = motion == Motion::fixed;
   set_filter(id, changed);
@@ -149,7 +149,8 @@ void Bodies::set_excluded(BodyId a, BodyId b, bool excluded) {
 
 bool Bodies::excluded(BodyId a, BodyId b) const {
   at(a), at(b);
-  if (a == b) throw Error(ErrorCode::bad_settings, quoted(at(a).name) + ": a pair is of two bodies; see self_contact");
+  if (a == b)
+    throw Error(ErrorCode::invalid_argument, quoted(at(a).name) + ": a pair is of two bodies; see self_contact");
   return excluded_.contains(slots_of(a, b));
 }
 

@@ -22,7 +22,7 @@ struct OpenedFacets {
 
 void finish(const CulledPair& culled, OpenedFacets opened, const ConfirmCounts& confirmed, int threads,
             PairWork& work) {
-  if (culled.turned) {
+  if (culled.swapped) {
     std::swap(opened.a, opened.b);
     for (FacetPair& pair : culled.record->facet_pairs) std::swap(pair.a, pair.b);
   }

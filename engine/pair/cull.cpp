@@ -39,19 +39,19 @@ void count_clusters(const CulledPair& culled, PairCounts& counts) {
 // Surfaces that lie on each other: that with more clusters is A, whose clusters are looked at one after the other.
 void prepare_surfaces(const PairInput& pair, PairRecord& record, PairWork& work) {
   CulledPair& culled = work.culled;
-  culled.turned = false;
+  culled.swapped = false;
   culled.history = nullptr;
   const bool zones = pair.settings.accuracy == Accuracy::paper || pair.settings.outputs.zones;
   culled.as_surfaces = !zones && worth_as_surfaces(culled.confirm_input(pair.tuning), culled.cluster_pairs.size());
   if (!culled.as_surfaces) return;
-  culled.turned = culled.kept_a.count() < culled.kept_b.count();
-  if (culled.turned) turn(culled.cluster_pairs, culled.kept_b.count(), work.cluster_pair_work);
+  culled.swapped = culled.kept_a.count() < culled.kept_b.count();
+  if (culled.swapped) turn(culled.cluster_pairs, culled.kept_b.count(), work.cluster_pair_work);
   if (!pair.tuning.carries_surfaces) return;
   if (record.surfaces == nullptr) record.surfaces = std::make_unique<SurfaceHistory>();
   SurfaceHistory& history = *record.surfaces;
   if (history.start(culled.confirm_input(pair.tuning), culled.cluster_pairs)) culled.history = &history;
-  if (history.wants_travel_of_a()) work.keep_travel.push_back(culled.turned ? record.b : record.a);
-  if (history.wants_travel_of_b()) work.keep_travel.push_back(culled.turned ? record.a : record.b);
+  if (history.wants_travel_of_a()) work.keep_travel.push_back(culled.swapped ? record.b : record.a);
+  if (history.wants_travel_of_b()) work.keep_travel.push_back(culled.swapped ? record.a : record.b);
 }
 
 }  // namespace

@@ -43,11 +43,11 @@ struct CulledPair {
   narrowphase::KeptClusters kept_a, kept_b;
   std::vector<narrowphase::ClusterPair> cluster_pairs;
   bool as_surfaces = false;  ///< see surface_pairs.h
-  bool turned = false;       ///< for stage 6 the second body is A, and the first is B: so in cluster_pairs
+  bool swapped = false;      ///< for stage 6 the second body is A, and the first is B: so in cluster_pairs
   narrowphase::SurfaceHistory* history = nullptr;  ///< of the record, if it is of use in this step
 
   narrowphase::ConfirmInput confirm_input(const base::Tuning& tuning) const {
-    if (turned) return {b, a, criteria_b, criteria_a, &kept_b, &kept_a, as_surfaces, history, &tuning};
+    if (swapped) return {b, a, criteria_b, criteria_a, &kept_b, &kept_a, as_surfaces, history, &tuning};
     return {a, b, criteria_a, criteria_b, &kept_a, &kept_b, as_surfaces, history, &tuning};
   }
 };

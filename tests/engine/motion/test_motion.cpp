@@ -322,7 +322,7 @@ TEST(DetectMotion, RefusesWhatIsNoName) {
     world.detect_motion(static_cast<Impacts>(3));
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_settings);
+    EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
   }
   EXPECT_EQ(world.detect_motion().first_time(), kNever);
 }

@@ -1,4 +1,4 @@
-#include "engine/facet_fates.h"
+#include "engine/facet_outcomes.h"
 
 #include <algorithm>
 #include <tuple>
@@ -9,7 +9,7 @@
 #include "engine/pair/cull.h"
 #include "engine/pair/pair_table.h"
 #include "engine/step_report.h"
-#include "narrowphase/criteria/facet_fates.h"
+#include "narrowphase/criteria/facet_outcomes.h"
 
 namespace tact {
 namespace {
@@ -32,30 +32,30 @@ Box first_bounds_of_a(const CulledPair& culled) {
 }
 
 // Of a pair that was culled and confirmed.
-FacetFates fates_of(const PairWork& work) {
+FacetOutcomes outcomes_of(const PairWork& work) {
   const CulledPair& culled = work.culled;
   std::vector<std::int32_t> opened_a = indices_of(work.search.opened_a(), culled);
   std::vector<std::int32_t> opened_b = indices_of(work.search.opened_b(), culled);
-  if (culled.turned) std::swap(opened_a, opened_b);
-  FacetFates fates{.a = criteria_fates({.mesh = culled.a,
-                                        .criteria = culled.criteria_a,
-                                        .first_box = culled.b->box(),
-                                        .last_box = culled.kept_b.bounds,
-                                        .kept = &culled.kept_a,
-                                        .opened = opened_a,
-                                        .whole = culled.as_surfaces}),
-                   .b = criteria_fates({.mesh = culled.b,
-                                        .criteria = culled.criteria_b,
-                                        .first_box = first_bounds_of_a(culled),
-                                        .last_box = culled.kept_a.bounds,
-                                        .kept = &culled.kept_b,
-                                        .opened = opened_b,
-                                        .whole = culled.as_surfaces})};
+  if (culled.swapped) std::swap(opened_a, opened_b);
+  FacetOutcomes outcomes{.a = criteria_outcomes({.mesh = culled.a,
+                                                 .criteria = culled.criteria_a,
+                                                 .first_box = culled.b->box(),
+                                                 .last_box = culled.kept_b.bounds,
+                                                 .kept = &culled.kept_a,
+                                                 .opened = opened_a,
+                                                 .whole = culled.as_surfaces}),
+                         .b = criteria_outcomes({.mesh = culled.b,
+                                                 .criteria = culled.criteria_b,
+                                                 .first_box = first_bounds_of_a(culled),
+                                                 .last_box = culled.kept_a.bounds,
+                                                 .kept = &culled.kept_b,
+                                                 .opened = opened_b,
+                                                 .whole = culled.as_surfaces})};
   for (const FacetPair& pair : culled.record->facet_pairs) {
-    fates.a[pair.a] = FacetFate::meets;
-    fates.b[pair.b] = FacetFate::meets;
+    outcomes.a[pair.a] = FacetOutcome::meets;
+    outcomes.b[pair.b] = FacetOutcome::meets;
   }
-  return fates;
+  return outcomes;
 }
 
 // Stages 5 and 6 of the last step once more; the answers go to `again`.
@@ -79,31 +79,31 @@ const PairRecord* record_of(PairTable& table, BodyId a, BodyId b) {
 
 }  // namespace
 
-struct FacetFateFinder::Work {
+struct FacetOutcomeFinder::Work {
   const StepReport* report;
   PairRecord record;  // of what is done once more
   PairWork pair;
   EmbreeDevice device;
 };
 
-FacetFateFinder::FacetFateFinder(const Report& report) : work_(std::make_unique<Work>()) {
+FacetOutcomeFinder::FacetOutcomeFinder(const Report& report) : work_(std::make_unique<Work>()) {
   work_->report = static_cast<const StepReport*>(&report);
   work_->pair.prefetches = false;
 }
 
-FacetFateFinder::~FacetFateFinder() = default;
+FacetOutcomeFinder::~FacetOutcomeFinder() = default;
 
-std::optional<FacetFates> FacetFateFinder::find(const Contact& contact) {
+std::optional<FacetOutcomes> FacetOutcomeFinder::find(const Contact& contact) {
   const StepReport& report = *work_->report;
   if (report.table == nullptr || contact.a == contact.b || report.settings->accuracy == Accuracy::hulls) return {};
   const PairRecord* record = record_of(*report.table, contact.a, contact.b);
   if (record == nullptr || !record->hulls_overlap) return {};
   const PairInput pair(*report.bodies, contact.a, contact.b, *report.settings);
   repeat(*record, pair, work_->record, work_->device, work_->pair);
-  return fates_of(work_->pair);
+  return outcomes_of(work_->pair);
 }
 
-std::vector<int> FacetFateFinder::clusters(BodyId body) const {
+std::vector<int> FacetOutcomeFinder::clusters(BodyId body) const {
   const ClusteredMesh& mesh = work_->report->bodies->at(body).mesh;
   std::vector<int> clusters(static_cast<std::size_t>(mesh.facet_count()));
   for (int i = 0; i < mesh.facet_count(); ++i) {
