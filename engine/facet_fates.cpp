@@ -8,7 +8,7 @@
 #include "engine/pair/confirm.h"
 #include "engine/pair/cull.h"
 #include "engine/pair/pair_table.h"
-#include "engine/step_report.h"
+#include "engine/report_writer.h"
 #include "narrowphase/criteria/facet_fates.h"
 
 namespace tact {
@@ -36,7 +36,7 @@ FacetFates fates_of(const PairWork& work) {
   const CulledPair& culled = work.culled;
   std::vector<std::int32_t> opened_a = indices_of(work.search.opened_a(), culled);
   std::vector<std::int32_t> opened_b = indices_of(work.search.opened_b(), culled);
-  if (culled.turned) std::swap(opened_a, opened_b);
+  if (culled.swapped) std::swap(opened_a, opened_b);
   FacetFates fates{.a = criteria_fates({.mesh = culled.a,
                                         .criteria = culled.criteria_a,
                                         .first_box = culled.b->box(),
@@ -58,14 +58,14 @@ FacetFates fates_of(const PairWork& work) {
   return fates;
 }
 
-// Stages 5 and 6 of the last step once more; the answers go to `again`.
-void repeat(const PairRecord& record, const PairInput& pair, PairRecord& again, EmbreeDevice& device, PairWork& work) {
+// Stages 5 and 6 of the last step once more; the answers go to the record of `pair`.
+void repeat(const PairRecord& record, const PairTask& pair, EmbreeDevice& device) {
   const MinkowskiDifference& m = pair.difference;
   const Slab slab =
       make_slab(record.history.direction, m.origin(), record.slab_lower, record.slab_upper, m.vertex_height_error());
-  again.facet_pairs.clear();
-  cull(pair, slab, again, device, work);
-  if (!work.culled.cluster_pairs.empty()) confirm(pair.tuning, work);
+  pair.record.facet_pairs.clear();
+  cull(pair, slab, device);
+  if (!pair.work.culled.cluster_pairs.empty()) confirm(pair.tuning, pair.work);
 }
 
 // The record of a pair of the table; null if it is none.
@@ -80,31 +80,32 @@ const PairRecord* record_of(PairTable& table, BodyId a, BodyId b) {
 }  // namespace
 
 struct FacetFateFinder::Work {
-  const StepReport* report;
+  const ReportSources* sources;
   PairRecord record;  // of what is done once more
   PairWork pair;
   EmbreeDevice device;
 };
 
 FacetFateFinder::FacetFateFinder(const Report& report) : work_(std::make_unique<Work>()) {
-  work_->report = static_cast<const StepReport*>(&report);
+  work_->sources = report.sources_;
   work_->pair.prefetches = false;
 }
 
 FacetFateFinder::~FacetFateFinder() = default;
 
 std::optional<FacetFates> FacetFateFinder::find(const Contact& contact) {
-  const StepReport& report = *work_->report;
-  if (report.table == nullptr || contact.a == contact.b || report.settings->accuracy == Accuracy::hulls) return {};
-  const PairRecord* record = record_of(*report.table, contact.a, contact.b);
+  const ReportSources* const sources = work_->sources;
+  if (sources == nullptr || contact.a == contact.b || sources->settings->accuracy == Accuracy::hulls) return {};
+  const PairRecord* record = record_of(*sources->table, contact.a, contact.b);
   if (record == nullptr || !record->hulls_overlap) return {};
-  const PairInput pair(*report.bodies, contact.a, contact.b, *report.settings);
-  repeat(*record, pair, work_->record, work_->device, work_->pair);
+  work_->record.a = contact.a;
+  work_->record.b = contact.b;
+  repeat(*record, PairTask(*sources->bodies, work_->record, *sources->settings, work_->pair), work_->device);
   return fates_of(work_->pair);
 }
 
 std::vector<int> FacetFateFinder::clusters(BodyId body) const {
-  const ClusteredMesh& mesh = work_->report->bodies->at(body).mesh;
+  const ClusteredMesh& mesh = work_->sources->bodies->at(body).mesh;
   std::vector<int> clusters(static_cast<std::size_t>(mesh.facet_count()));
   for (int i = 0; i < mesh.facet_count(); ++i) {
     clusters[i] = mesh.facet_of_source(i) / kClusterSize;

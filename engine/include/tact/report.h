@@ -178,6 +178,7 @@ class TACT_API Report {
 
  private:
   friend class ReportWriter;
+  friend class FacetFateFinder;
   Report(Report&&) = default;
   Report& operator=(Report&&) = default;
   std::vector<Contact> contacts_;
@@ -187,6 +188,7 @@ class TACT_API Report {
   std::vector<PatchEvent> patch_events_;
   StepStats stats_;
   std::vector<TraceEvent> trace_;
+  const struct ReportSources* sources_ = nullptr;
 };
 
 }  // namespace tact
