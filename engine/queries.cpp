@@ -30,7 +30,7 @@ narrowphase::Segment segment_of(const Ray& ray) { return {point_of(ray.from), po
 
 // Calls visit(body) for the bodies that are asked and whose box wants(box), until it returns false.
 template <class Wants, class Visit>
-void for_each_body(const Bodies& bodies, const Asked& asked, const Wants& wants, const Visit& visit) {
+void for_each_body(const Bodies& bodies, const QueryFilter& asked, const Wants& wants, const Visit& visit) {
   const broadphase::Filter filter{asked.layer, asked.mask, false};
   const std::span<const Box> boxes = bodies.boxes();
   for (std::uint32_t slot = 0; slot < boxes.size(); ++slot) {
@@ -41,7 +41,7 @@ void for_each_body(const Bodies& bodies, const Asked& asked, const Wants& wants,
 
 // The same for those whose box overlaps `box`.
 template <class Visit>
-void for_each_body_near(const Bodies& bodies, const Asked& asked, const Box& box, const Visit& visit) {
+void for_each_body_near(const Bodies& bodies, const QueryFilter& asked, const Box& box, const Visit& visit) {
   for_each_body(
       bodies, asked, [&](const Box& one) { return overlaps(one, box); }, visit);
 }
@@ -74,10 +74,10 @@ RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted) {
   const narrowphase::Segment segment = segment_of(ray);
   const narrowphase::PreparedSegment line(segment);
   RayHit best;
-  best.time = 1.0;
-  for_each_body_near(bodies, ray.asked, box_of(segment), [&](const Body& body) {
-    const auto hit = wanted == RayHits::any ? any_hit(body.mesh, line) : first_hit(body.mesh, line, best.time);
-    if (hit && (best.facet < 0 || hit->time < best.time)) best = hit_of(body, *hit);
+  best.fraction = 1.0;
+  for_each_body_near(bodies, ray.filter, box_of(segment), [&](const Body& body) {
+    const auto hit = wanted == RayHits::any ? any_hit(body.mesh, line) : first_hit(body.mesh, line, best.fraction);
+    if (hit && (best.facet < 0 || hit->time < best.fraction)) best = hit_of(body, *hit);
     return !(hit && wanted == RayHits::any);
   });
   return best.facet >= 0 ? best : RayHit{};
@@ -114,7 +114,7 @@ void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<
     std::array<narrowphase::FirstHitQuery*, narrowphase::kLinesAtATime> asked;
     std::size_t count = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      const broadphase::Filter filter{rays[i].asked.layer, rays[i].asked.mask, false};
+      const broadphase::Filter filter{rays[i].filter.layer, rays[i].filter.mask, false};
       if (overlaps(bodies.boxes()[slot], boxes[i]) && broadphase::tested(bodies.filters()[slot], filter))
         asked[count++] = &queries[i];
     }
@@ -125,7 +125,7 @@ void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<
     for (std::size_t k = 0; k < count; ++k) {
       const auto i = static_cast<std::size_t>(asked[k] - queries.data());
       const auto& hit = asked[k]->hit;
-      if (hit && (hits[i].facet < 0 || hit->time < hits[i].time)) hits[i] = hit_of(body, *hit);
+      if (hit && (hits[i].facet < 0 || hit->time < hits[i].fraction)) hits[i] = hit_of(body, *hit);
     }
   }
 }
@@ -135,13 +135,13 @@ std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray) {
   const narrowphase::PreparedSegment line(segment);
   std::vector<RayHit> all;
   std::vector<FacetHit> hits;
-  for_each_body_near(bodies, ray.asked, box_of(segment), [&](const Body& body) {
+  for_each_body_near(bodies, ray.filter, box_of(segment), [&](const Body& body) {
     hits.clear();
     append_hits(body.mesh, line, hits);
     for (const FacetHit& hit : hits) all.push_back(hit_of(body, hit));
     return true;
   });
-  std::ranges::sort(all, {}, [](const RayHit& hit) { return std::tuple(hit.time, hit.body, hit.facet); });
+  std::ranges::sort(all, {}, [](const RayHit& hit) { return std::tuple(hit.fraction, hit.body, hit.facet); });
   return all;
 }
 
@@ -157,7 +157,7 @@ ClosestPoint find_closest_point(const Bodies& bodies, const PointQuery& query) {
     }
     return true;
   };
-  for_each_body(bodies, query.asked, wants, [&](const Body& body) {
+  for_each_body(bodies, query.filter, wants, [&](const Body& body) {
     const auto nearest = nearest_facet(body.mesh, point, within);
     if (!nearest || (best.facet >= 0 && nearest->distance >= best.distance)) return true;
     best = {body.id, nearest->facet, nearest->distance, nearest->weight};
@@ -171,7 +171,7 @@ std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuery& query
   const Box box{point_of(query.lower), point_of(query.upper)};
   std::vector<FacetOfBody> found;
   std::vector<int> facets;
-  for_each_body_near(bodies, query.asked, box, [&](const Body& body) {
+  for_each_body_near(bodies, query.filter, box, [&](const Body& body) {
     facets.clear();
     append_facets_in_box(body.mesh, box, facets);
     std::ranges::sort(facets);
@@ -184,7 +184,7 @@ std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuery& query
 std::vector<BodyId> find_around(const Bodies& bodies, const PointQuery& query) {
   const Vec3 point = point_of(query.point);
   std::vector<BodyId> found;
-  for_each_body_near(bodies, query.asked, {point, point}, [&](const Body& body) {
+  for_each_body_near(bodies, query.filter, {point, point}, [&](const Body& body) {
     if (body.surface == Surface::closed && contains(body.mesh, point)) found.push_back(body.id);
     return true;
   });

@@ -28,7 +28,7 @@ void Step::regroup(Bodies& bodies, int threads) {
 const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh_ms) {
   Timer timer(settings.outputs.trace ? 0.0 : base::TickCounter::tick_ms());  // a trace wants times, not durations alone
   const TraceEvent::Time begin = timer.start();
-  if (forgotten_) start_afresh();
+  if (forgotten_) start_from_scratch();
   PairTable& table = stages_->table;
   writer_.note_sources(bodies, table, settings);
   StepStats& stats = writer_.stats() = {};
@@ -121,7 +121,7 @@ void Step::make_trace(TraceEvent::Time begin, TraceEvent::Time end, const Settin
   trace_.forget_refreshes();
 }
 
-void Step::start_afresh() {
+void Step::start_from_scratch() {
   stages_ = std::make_unique<Stages>();
   writer_.forget();
   all_ = true;

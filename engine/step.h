@@ -48,7 +48,7 @@ class Step {
     PointStage points;
     SelfStage selves;
   };
-  void start_afresh();
+  void start_from_scratch();
   void keep_last_answers();
   void look_at_what_moved(Bodies& bodies, const Settings& settings, base::Timer& timer, StepStats& stats);
   void find_patches(const Bodies& bodies, const Settings& settings);

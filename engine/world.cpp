@@ -291,13 +291,13 @@ void answer_all(OfWorld& world, std::span<const Query> queries, std::span<Answer
 
 }  // namespace
 
-RayHit World::ray(const Ray& ray, RayHits wanted) const {
+RayHit World::cast_ray(const Ray& ray, RayHits wanted) const {
   RayHit hit;
-  rays({&ray, 1}, {&hit, 1}, wanted);
+  cast_rays({&ray, 1}, {&hit, 1}, wanted);
   return hit;
 }
 
-void World::rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted) const {
+void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted) const {
   Implementation& i = implementation();
   check_name(wanted, RayHits::any, "hits");
   // Fewer do not open the same clusters often enough.
@@ -317,7 +317,7 @@ void World::rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits want
   });
 }
 
-std::vector<RayHit> World::all_hits(const Ray& ray) const {
+std::vector<RayHit> World::cast_ray_all(const Ray& ray) const {
   const Implementation& i = implementation();
   check_query(ray);
   const base::FloatingPointMode mode;
@@ -342,7 +342,7 @@ std::vector<FacetOfBody> World::overlap_box(const BoxQuery& query) const {
   return with_memory(kNoMemoryForAnswers, [&] { return find_in_box(i.bodies, query); });
 }
 
-std::vector<BodyId> World::inside(const PointQuery& query) const {
+std::vector<BodyId> World::bodies_containing(const PointQuery& query) const {
   const Implementation& i = implementation();
   check_query(query);
   const base::FloatingPointMode mode;
@@ -354,7 +354,7 @@ void World::overlap_boxes(std::span<const BoxQuery> queries, std::span<std::vect
   answer_all(i, queries, answers, [&](const BoxQuery& query) { return find_in_box(i.bodies, query); });
 }
 
-void World::inside_each(std::span<const PointQuery> queries, std::span<std::vector<BodyId>> answers) const {
+void World::bodies_containing_each(std::span<const PointQuery> queries, std::span<std::vector<BodyId>> answers) const {
   Implementation& i = implementation();
   answer_all(i, queries, answers, [&](const PointQuery& query) { return find_around(i.bodies, query); });
 }
@@ -369,7 +369,7 @@ Surface World::surface(BodyId body) const { return implementation().bodies.at(bo
 Motion World::motion(BodyId body) const {
   const Bodies& bodies = implementation().bodies;
   if (bodies.filter(body).fixed) return Motion::fixed;
-  return bodies.at(body).mesh.is_rigid() ? Motion::rigid : Motion::moving;
+  return bodies.at(body).mesh.is_rigid() ? Motion::rigid : Motion::deformable;
 }
 std::uint32_t World::group(BodyId body) const { return implementation().bodies.filter(body).group; }
 

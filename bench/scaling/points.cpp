@@ -42,7 +42,7 @@ class PointRunner {
       ids_.push_back(world_.add_body({.positions = body.positions(0),
                                       .facets = body.facets,
                                       .surface = body.surface,
-                                      .motion = body.fixed() ? Motion::fixed : Motion::moving,
+                                      .motion = body.fixed() ? Motion::fixed : Motion::deformable,
                                       .mask = body.mask,
                                       .margin = margins[k]}));
     }

@@ -127,7 +127,7 @@ void Bodies::set_motion(BodyId id, Motion motion) {
   if (motion != Motion::fixed && (motion == Motion::rigid) != body.mesh.is_rigid())
     throw Error(ErrorCode::wrong_motion, quoted(body.name) + (body.mesh.is_rigid() ? " was" : " was not") +
                                              " added as rigid: its motion cannot be " +
-                                             (motion == Motion::rigid ? "rigid" : "moving"));
+                                             (motion == Motion::rigid ? "rigid" : "deformable"));
   broadphase::Filter changed = filter(id);
   changed.fixed = motion == Motion::fixed;
   set_filter(id, changed);

@@ -110,7 +110,7 @@ void TactSolver::add(btSoftBody& body, tact::Surface surface) {
 void TactSolver::add(btRigidBody& body, const Mesh& mesh) {
   const tact::BodyId id = world_.add_body({.positions = moved(mesh.positions, body.getWorldTransform()),
                                            .facets = mesh.facets,
-                                           .motion = body.isStaticObject() ? tact::Motion::fixed : tact::Motion::moving,
+                                           .motion = body.isStaticObject() ? tact::Motion::fixed : tact::Motion::deformable,
                                            .layer = kRigidLayer,
                                            .mask = kSoftLayer,  // two rigid bodies are Bullet's
                                            .external_id = participants_.size(),

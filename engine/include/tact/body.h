@@ -27,7 +27,7 @@ enum class Surface {
 
 /// Does a body move?
 enum class Motion {
-  moving,  ///< its positions can be set
+  deformable,  ///< its positions can be set
   fixed,   ///< its positions cannot be set; two fixed bodies are never tested against each other
   rigid,   ///< it keeps its shape: World::set_pose() turns and moves it, positions cannot be set
 };
@@ -42,7 +42,7 @@ struct BodyDefinition {
   /// all. A vertex that no facet uses touches nothing; it must be finite and in range as all are.
   Facets facets;
   Surface surface = Surface::closed;
-  Motion motion = Motion::moving;
+  Motion motion = Motion::deformable;
   std::string name = {};             ///< for messages; empty: "body <index>"
   std::uint32_t layer = 1;           ///< the layers this body is on, a bit each
   std::uint32_t mask = 0xffffffffu;  ///< the layers it is tested against; a pair needs both masks to agree

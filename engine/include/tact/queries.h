@@ -11,7 +11,7 @@
 namespace tact {
 
 /// Which bodies are asked: those whose layer has a bit in `mask`, and whose mask has one in `layer`, as between bodies.
-struct Asked {
+struct QueryFilter {
   std::uint32_t layer = 0xffffffffu;
   std::uint32_t mask = 0xffffffffu;
 };
@@ -20,7 +20,7 @@ struct Asked {
 struct Ray {
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
-  Asked asked = {};
+  QueryFilter filter = {};
 };
 
 enum class RayHits {
@@ -33,15 +33,15 @@ enum class RayHits {
 struct RayHit {
   BodyId body;
   int facet = -1;                   ///< negative: nothing was hit
-  double time = 0.0;                ///< where, as a part of the way: from + time * (to - from)
-  std::array<double, 3> weights{};  ///< of the facet's corners at that place; not negative, their sum is 1
+  double fraction = 0.0;                ///< where, as a part of the way: from + fraction * (to - from)
+  std::array<double, 3> barycentric{};  ///< of the facet's corners at that place; not negative, their sum is 1
 };
 
 /// A point, metres, and how far away the answer may be.
 struct PointQuery {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double within = std::numeric_limits<double>::infinity();
-  Asked asked = {};
+  QueryFilter filter = {};
 };
 
 /// The nearest place of all surfaces; of equally near ones the least by body and facet. Right to 1e-12 of the distance
@@ -50,14 +50,14 @@ struct ClosestPoint {
   BodyId body;
   int facet = -1;                                             ///< negative: nothing is as near as was asked
   double distance = std::numeric_limits<double>::infinity();  ///< metres
-  std::array<double, 3> weights{};                            ///< of the facet's corners at the nearest place
+  std::array<double, 3> barycentric{};                            ///< of the facet's corners at the nearest place
 };
 
 /// A box, metres; closed.
 struct BoxQuery {
   Eigen::Vector3d lower = Eigen::Vector3d::Zero();
   Eigen::Vector3d upper = Eigen::Vector3d::Zero();
-  Asked asked = {};
+  QueryFilter filter = {};
 };
 
 /// A facet of a body.

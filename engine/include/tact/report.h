@@ -178,7 +178,7 @@ class TACT_API Report {
 
  private:
   friend class ReportWriter;
-  friend class FacetFateFinder;
+  friend class FacetOutcomeFinder;
   Report(Report&&) = default;
   Report& operator=(Report&&) = default;
   std::vector<Contact> contacts_;

@@ -143,20 +143,20 @@ class TACT_API World {
   ///
   /// Errors: non_finite_position, position_out_of_range, bad_settings (see queries.h; the message tells which of many
   /// queries), wrong_size (there are not as many answers as queries), out_of_memory. Nothing is answered then.
-  RayHit ray(const Ray& ray, RayHits wanted = RayHits::first) const;
-  void rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted = RayHits::first) const;
+  RayHit cast_ray(const Ray& ray, RayHits wanted = RayHits::first) const;
+  void cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted = RayHits::first) const;
   /// All facets that a ray meets, sorted by time, body and facet.
-  std::vector<RayHit> all_hits(const Ray& ray) const;
+  std::vector<RayHit> cast_ray_all(const Ray& ray) const;
   ClosestPoint closest_point(const PointQuery& query) const;
   void closest_points(std::span<const PointQuery> queries, std::span<ClosestPoint> answers) const;
   /// The facets that share a point with a box, decided exactly; sorted by body and facet.
   std::vector<FacetOfBody> overlap_box(const BoxQuery& query) const;
   /// The closed bodies that a point is in, or on the surface of, decided exactly by how often each winds around it.
   /// `within` is not used.
-  std::vector<BodyId> inside(const PointQuery& query) const;
+  std::vector<BodyId> bodies_containing(const PointQuery& query) const;
   /// Many of these at once, an answer each: what it held is replaced.
   void overlap_boxes(std::span<const BoxQuery> queries, std::span<std::vector<FacetOfBody>> answers) const;
-  void inside_each(std::span<const PointQuery> queries, std::span<std::vector<BodyId>> answers) const;
+  void bodies_containing_each(std::span<const PointQuery> queries, std::span<std::vector<BodyId>> answers) const;
 
   /// Who is told of every call that changes the world from now on, a Recorder say; null: nobody. The observer outlives
   /// the world, also one that this world is moved to, or is taken away before. It sees the world whole: it is set

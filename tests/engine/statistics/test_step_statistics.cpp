@@ -93,7 +93,7 @@ TEST(Statistics, PairsThatLayersOrFixedBodiesExclude) {
   };
   add(0.0, Motion::fixed, 1, 1);
   add(0.1, Motion::fixed, 1, 1);
-  const BodyId other_layer = add(0.2, Motion::moving, 2, 2);
+  const BodyId other_layer = add(0.2, Motion::deformable, 2, 2);
   EXPECT_EQ(world.detect().stats().excluded_pairs, 3);
   world.set_positions(other_layer, translated(kSphere, {0.3, 0, 0}).positions);
   EXPECT_EQ(world.detect().stats().excluded_pairs, 2);

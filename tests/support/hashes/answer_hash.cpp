@@ -129,15 +129,15 @@ void AnswerHash::add(const MotionReport& report) {
 void AnswerHash::add(const RayHit& hit) {
   add(hit.body);
   add_vertices(std::array{hit.facet});
-  add(hit.time);
-  for (const double weight : hit.weights) add(weight);
+  add(hit.fraction);
+  for (const double weight : hit.barycentric) add(weight);
 }
 
 void AnswerHash::add(const ClosestPoint& closest) {
   add(closest.body);
   add_vertices(std::array{closest.facet});
   add(closest.distance);
-  for (const double weight : closest.weights) add(weight);
+  for (const double weight : closest.barycentric) add(weight);
 }
 
 void AnswerHash::add(std::span<const RayHit> hits) {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/facet_fates.h"
+#include "engine/facet_outcomes.h"
 #include "tests/support/checks/detection.h"
 #include "tests/support/generators/bodies.h"
 
@@ -20,7 +20,7 @@ using Vector = Eigen::Matrix<long double, 3, 1>;
 
 constexpr std::array kBothAccuracies = {Accuracy::paper, Accuracy::exact};
 
-// Folded sheets, and closed bodies with folds: all fates occur.
+// Folded sheets, and closed bodies with folds: all outcomes occur.
 std::vector<Mesh> crowd(std::uint64_t seed) {
   return {blob(3, 1.0, 0.3, seed), translated(icosphere(3), {1.2, 0.4, 0.2}), wrinkled_sheet(24, 3.0, 0.3, seed),
           translated(torus(32, 16, 1.0, 0.4), {0.3, 0.9, 0.4})};
@@ -30,14 +30,14 @@ Settings with_zones(Accuracy accuracy, int threads = 1) {
   return {.threads = threads, .accuracy = accuracy, .outputs = {.zones = true}};
 }
 
-std::array<std::int64_t, kFacetFates> counts_of(const std::vector<FacetFate>& fates) {
-  std::array<std::int64_t, kFacetFates> counts{};
-  for (const FacetFate fate : fates) ++counts[static_cast<std::size_t>(fate)];
+std::array<std::int64_t, kFacetOutcomes> counts_of(const std::vector<FacetOutcome>& outcomes) {
+  std::array<std::int64_t, kFacetOutcomes> counts{};
+  for (const FacetOutcome outcome : outcomes) ++counts[static_cast<std::size_t>(outcome)];
   return counts;
 }
 
-std::int64_t count(const std::vector<FacetFate>& fates, FacetFate fate) {
-  return std::count(fates.begin(), fates.end(), fate);
+std::int64_t count(const std::vector<FacetOutcome>& outcomes, FacetOutcome outcome) {
+  return std::count(outcomes.begin(), outcomes.end(), outcome);
 }
 
 std::vector<bool> facets_that_meet(const Contact& contact, int FacetPair::*side, std::size_t facets) {
@@ -46,46 +46,46 @@ std::vector<bool> facets_that_meet(const Contact& contact, int FacetPair::*side,
   return meets;
 }
 
-void expect_same_meeting_facets(const std::vector<FacetFate>& fates, const std::vector<bool>& meets) {
-  ASSERT_EQ(fates.size(), meets.size());
-  for (std::size_t i = 0; i < meets.size(); ++i) EXPECT_EQ(fates[i] == FacetFate::meets, meets[i]) << i;
+void expect_same_meeting_facets(const std::vector<FacetOutcome>& outcomes, const std::vector<bool>& meets) {
+  ASSERT_EQ(outcomes.size(), meets.size());
+  for (std::size_t i = 0; i < meets.size(); ++i) EXPECT_EQ(outcomes[i] == FacetOutcome::meets, meets[i]) << i;
 }
 
-TEST(FacetFates, AddUpToTheCountsOfTheReport) {
+TEST(FacetOutcomes, AddUpToTheCountsOfTheReport) {
   for (const Accuracy accuracy : kBothAccuracies) {
     const std::vector<Mesh> bodies = crowd(7);
     World world(with_zones(accuracy));
     add_bodies(world, bodies);
     const Report& report = world.detect();
-    FacetFateFinder finder(report);
-    std::array<std::int64_t, kFacetFates> sums{};
+    FacetOutcomeFinder finder(report);
+    std::array<std::int64_t, kFacetOutcomes> sums{};
     for (const Contact& contact : report.contacts()) {
-      const std::optional<FacetFates> fates = finder.find(contact);
-      ASSERT_TRUE(fates);
-      const auto& [a, b] = *fates;
+      const std::optional<FacetOutcomes> outcomes = finder.find(contact);
+      ASSERT_TRUE(outcomes);
+      const auto& [a, b] = *outcomes;
       EXPECT_EQ(a.size(), world.facet_count(contact.a));
-      EXPECT_EQ(count(a, FacetFate::kept) + count(a, FacetFate::meets), contact.kept_facets_a);
-      EXPECT_EQ(count(b, FacetFate::kept) + count(b, FacetFate::meets), contact.kept_facets_b);
+      EXPECT_EQ(count(a, FacetOutcome::kept) + count(a, FacetOutcome::meets), contact.kept_facets_a);
+      EXPECT_EQ(count(b, FacetOutcome::kept) + count(b, FacetOutcome::meets), contact.kept_facets_b);
       expect_same_meeting_facets(a, facets_that_meet(contact, &FacetPair::a, a.size()));
       expect_same_meeting_facets(b, facets_that_meet(contact, &FacetPair::b, b.size()));
       for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += counts_of(a)[k] + counts_of(b)[k];
     }
     const StepStats& stats = report.stats();
-    const auto sum = [&](FacetFate fate) { return sums[static_cast<std::size_t>(fate)]; };
-    EXPECT_EQ(sum(FacetFate::facing_away), stats.facets_facing_away);
-    EXPECT_EQ(sum(FacetFate::outside_zone), stats.facets_outside_zone);
-    EXPECT_EQ(sum(FacetFate::kept) + sum(FacetFate::meets), stats.kept_facets);
-    EXPECT_GT(sum(FacetFate::outside_box), 0);
-    EXPECT_GT(sum(FacetFate::outside_slab), 0);
-    EXPECT_GT(sum(FacetFate::far), 0);
-    EXPECT_GT(sum(FacetFate::meets), 0);
+    const auto sum = [&](FacetOutcome outcome) { return sums[static_cast<std::size_t>(outcome)]; };
+    EXPECT_EQ(sum(FacetOutcome::facing_away), stats.facets_facing_away);
+    EXPECT_EQ(sum(FacetOutcome::outside_zone), stats.facets_outside_zone);
+    EXPECT_EQ(sum(FacetOutcome::kept) + sum(FacetOutcome::meets), stats.kept_facets);
+    EXPECT_GT(sum(FacetOutcome::outside_box), 0);
+    EXPECT_GT(sum(FacetOutcome::outside_slab), 0);
+    EXPECT_GT(sum(FacetOutcome::far), 0);
+    EXPECT_GT(sum(FacetOutcome::meets), 0);
     if (accuracy == Accuracy::paper) {
-      EXPECT_GT(sum(FacetFate::facing_away), 0);
-      EXPECT_GT(sum(FacetFate::outside_zone), 0);
+      EXPECT_GT(sum(FacetOutcome::facing_away), 0);
+      EXPECT_GT(sum(FacetOutcome::outside_zone), 0);
     }
     // Dropped whole or one by one: never fewer than the facets of opened clusters.
-    EXPECT_GE(sum(FacetFate::outside_slab), stats.facets_outside_slab);
-    EXPECT_GE(sum(FacetFate::outside_box), stats.facets_outside_box);
+    EXPECT_GE(sum(FacetOutcome::outside_slab), stats.facets_outside_slab);
+    EXPECT_GE(sum(FacetOutcome::outside_box), stats.facets_outside_box);
   }
 }
 
@@ -128,50 +128,50 @@ struct Side {
   }
 };
 
-void expect_fate(const Side& side, int facet, FacetFate fate) {
+void expect_outcome(const Side& side, int facet, FacetOutcome outcome) {
   constexpr long double kRounding = 1e-12L;
   const bool low = side.highest(facet) < side.plane - kRounding;
   const bool outside = side.distance_from_axis(facet) > side.other_zone.radius + kRounding;
-  switch (fate) {
-    case FacetFate::outside_slab: EXPECT_LT(side.highest(facet), side.plane + kRounding) << facet; break;
-    case FacetFate::facing_away:
+  switch (outcome) {
+    case FacetOutcome::outside_slab: EXPECT_LT(side.highest(facet), side.plane + kRounding) << facet; break;
+    case FacetOutcome::facing_away:
       EXPECT_LE(side.rise(facet), kRounding) << facet;
       EXPECT_FALSE(low) << facet;
       break;
-    case FacetFate::outside_zone:
+    case FacetOutcome::outside_zone:
       EXPECT_GT(side.distance_from_axis(facet), side.other_zone.radius - kRounding) << facet;
       EXPECT_FALSE(low) << facet;
       break;
-    case FacetFate::kept:
-    case FacetFate::meets:
+    case FacetOutcome::kept:
+    case FacetOutcome::meets:
       EXPECT_FALSE(low) << facet;
       EXPECT_FALSE(outside) << facet;
       break;
-    case FacetFate::outside_box:
-    case FacetFate::far: EXPECT_GE(facet, 0); break;
+    case FacetOutcome::outside_box:
+    case FacetOutcome::far: EXPECT_GE(facet, 0); break;
   }
 }
 
-TEST(FacetFates, AreTrue) {
+TEST(FacetOutcomes, AreTrue) {
   for (const Accuracy accuracy : kBothAccuracies) {
     const std::vector<Mesh> bodies = crowd(3);
     World world(with_zones(accuracy));
     add_bodies(world, bodies);
     const Report& report = world.detect();
-    FacetFateFinder finder(report);
+    FacetOutcomeFinder finder(report);
     for (const Contact& contact : report.contacts()) {
       const Vector n = contact.direction.cast<long double>();
       const Side a{&bodies[contact.a.index], n, static_cast<long double>(contact.plane_b), contact.zone_b};
       const Side b{&bodies[contact.b.index], -n, -static_cast<long double>(contact.plane_a), contact.zone_a};
-      const FacetFates fates = finder.find(contact).value();
-      for (std::size_t i = 0; i < fates.a.size(); ++i) expect_fate(a, static_cast<int>(i), fates.a[i]);
-      for (std::size_t i = 0; i < fates.b.size(); ++i) expect_fate(b, static_cast<int>(i), fates.b[i]);
+      const FacetOutcomes outcomes = finder.find(contact).value();
+      for (std::size_t i = 0; i < outcomes.a.size(); ++i) expect_outcome(a, static_cast<int>(i), outcomes.a[i]);
+      for (std::size_t i = 0; i < outcomes.b.size(); ++i) expect_outcome(b, static_cast<int>(i), outcomes.b[i]);
     }
   }
 }
 
 // Bodies that deform over many steps: carried directions, scrambled vertices, pairs that are kept.
-void expect_fates_that_add_up(bool zones) {
+void expect_outcomes_that_add_up(bool zones) {
   std::vector<Mesh> bodies = crowd(11);
   World world({.threads = 1, .outputs = {.zones = zones}});
   const std::vector<BodyId> ids = add_bodies(world, bodies);
@@ -183,68 +183,68 @@ void expect_fates_that_add_up(bool zones) {
       world.set_positions(ids[i], bodies[i].positions);
     }
     const Report& report = world.detect();
-    FacetFateFinder finder(report);
+    FacetOutcomeFinder finder(report);
     for (const Contact& contact : report.contacts()) {
-      const FacetFates fates = finder.find(contact).value();
-      const auto kept_a = count(fates.a, FacetFate::kept) + count(fates.a, FacetFate::meets);
-      const auto kept_b = count(fates.b, FacetFate::kept) + count(fates.b, FacetFate::meets);
+      const FacetOutcomes outcomes = finder.find(contact).value();
+      const auto kept_a = count(outcomes.a, FacetOutcome::kept) + count(outcomes.a, FacetOutcome::meets);
+      const auto kept_b = count(outcomes.b, FacetOutcome::kept) + count(outcomes.b, FacetOutcome::meets);
       EXPECT_GE(kept_a, contact.kept_facets_a) << step;
       EXPECT_GE(kept_b, contact.kept_facets_b) << step;
       // What a step remembers of surfaces that lie on each other keeps fewer; with zones nothing is taken for such.
       if (zones) {
         EXPECT_EQ(kept_a + kept_b, contact.kept_facets_a + contact.kept_facets_b) << step;
       }
-      expect_same_meeting_facets(fates.a, facets_that_meet(contact, &FacetPair::a, fates.a.size()));
+      expect_same_meeting_facets(outcomes.a, facets_that_meet(contact, &FacetPair::a, outcomes.a.size()));
     }
     kept += report.stats().kept_pairs;
   }
   EXPECT_GT(kept, 0);
 }
 
-TEST(FacetFates, AddUpInEveryStep) {
-  expect_fates_that_add_up(true);
-  expect_fates_that_add_up(false);
+TEST(FacetOutcomes, AddUpInEveryStep) {
+  expect_outcomes_that_add_up(true);
+  expect_outcomes_that_add_up(false);
 }
 
-TEST(FacetFates, AreTheSameForAnyNumberOfThreads) {
-  std::vector<FacetFates> found;
+TEST(FacetOutcomes, AreTheSameForAnyNumberOfThreads) {
+  std::vector<FacetOutcomes> found;
   for (const int threads : {1, 3}) {
     World world(with_zones(Accuracy::exact, threads));
     add_bodies(world, {{icosphere(5), translated(icosphere(5), {1.5, 0.3, 0.1})}});  // large: cut into ranges
     const Report& report = world.detect();
     ASSERT_EQ(report.contacts().size(), 1u);
-    found.push_back(FacetFateFinder(report).find(report.contacts()[0]).value());
-    EXPECT_EQ(count(found.back().a, FacetFate::kept) + count(found.back().a, FacetFate::meets),
+    found.push_back(FacetOutcomeFinder(report).find(report.contacts()[0]).value());
+    EXPECT_EQ(count(found.back().a, FacetOutcome::kept) + count(found.back().a, FacetOutcome::meets),
               report.contacts()[0].kept_facets_a);
   }
   EXPECT_EQ(found[0].a, found[1].a);
   EXPECT_EQ(found[0].b, found[1].b);
 }
 
-TEST(FacetFates, AreThereWhereFacetsWereLookedAt) {
+TEST(FacetOutcomes, AreThereWhereFacetsWereLookedAt) {
   World world(with_zones(Accuracy::exact));
   const auto ids = add_bodies(
       world, {{icosphere(1), translated(icosphere(1), {1.5, 0, 0}), translated(icosphere(1), {1.7, 1.3, 0})}});
-  const auto has_fates = [&](std::size_t a, std::size_t b) {
+  const auto has_outcomes = [&](std::size_t a, std::size_t b) {
     const Report& report = world.detect();
     const Contact* contact = report.find_contact(ids[a], ids[b]);
-    return contact != nullptr && FacetFateFinder(report).find(*contact).has_value();
+    return contact != nullptr && FacetOutcomeFinder(report).find(*contact).has_value();
   };
-  EXPECT_TRUE(has_fates(0, 1));
-  EXPECT_TRUE(has_fates(0, 1)) << "nothing moved";
+  EXPECT_TRUE(has_outcomes(0, 1));
+  EXPECT_TRUE(has_outcomes(0, 1)) << "nothing moved";
   world.set_settings({.threads = 1, .accuracy = Accuracy::hulls});
-  EXPECT_FALSE(has_fates(0, 1));
+  EXPECT_FALSE(has_outcomes(0, 1));
   // Margins make the hulls of bodies that are apart a contact, of which no facet was looked at.
   world.set_settings(with_zones(Accuracy::exact));
   for (const BodyId id : ids) world.set_margin(id, 0.2);
   ASSERT_NE(world.detect().find_contact(ids[0], ids[2]), nullptr);
-  EXPECT_FALSE(has_fates(0, 2));
+  EXPECT_FALSE(has_outcomes(0, 2));
 }
 
 TEST(Clusters, HoldUpTo64FacetsEachAndAll) {
   World world;
   const auto ids = add_bodies(world, {{icosphere(3)}});
-  const std::vector<int> clusters = FacetFateFinder(world.detect()).clusters(ids[0]);
+  const std::vector<int> clusters = FacetOutcomeFinder(world.detect()).clusters(ids[0]);
   ASSERT_EQ(clusters.size(), world.facet_count(ids[0]));
   std::map<int, int> sizes;
   for (const int cluster : clusters) ++sizes[cluster];

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/facet_fate.h"
+#include "engine/base/facet_outcome.h"
 #include "narrowphase/criteria/criteria.h"
 
 namespace tact::narrowphase {
@@ -20,7 +20,7 @@ struct CulledBody {
   bool whole = false;                    // no criterion was asked of their facets: surfaces that lie on each other
 };
 
-// The fate of each facet, in the order in which the mesh was given; FacetFate::kept for those that may meet another.
-std::vector<FacetFate> criteria_fates(const CulledBody& body);
+// The outcome of each facet, in the order in which the mesh was given; FacetOutcome::kept for those that may meet another.
+std::vector<FacetOutcome> criteria_outcomes(const CulledBody& body);
 
 }  // namespace tact::narrowphase

@@ -1,4 +1,4 @@
-#include "engine/facet_fates.h"
+#include "engine/facet_outcomes.h"
 
 #include <algorithm>
 #include <tuple>
@@ -9,7 +9,7 @@
 #include "engine/pair/cull.h"
 #include "engine/pair/pair_table.h"
 #include "engine/report_writer.h"
-#include "narrowphase/criteria/facet_fates.h"
+#include "narrowphase/criteria/facet_outcomes.h"
 
 namespace tact {
 namespace {
@@ -32,19 +32,19 @@ Box first_bounds_of_a(const CulledPair& culled) {
 }
 
 // Of a pair that was culled and confirmed.
-FacetFates fates_of(const PairWork& work) {
+FacetOutcomes outcomes_of(const PairWork& work) {
   const CulledPair& culled = work.culled;
   std::vector<std::int32_t> opened_a = indices_of(work.search.opened_a(), culled);
   std::vector<std::int32_t> opened_b = indices_of(work.search.opened_b(), culled);
   if (culled.swapped) std::swap(opened_a, opened_b);
-  FacetFates fates{.a = criteria_fates({.mesh = culled.a,
+  FacetOutcomes outcomes{.a = criteria_outcomes({.mesh = culled.a,
                                         .criteria = culled.criteria_a,
                                         .first_box = culled.b->box(),
                                         .last_box = culled.kept_b.bounds,
                                         .kept = &culled.kept_a,
                                         .opened = opened_a,
                                         .whole = culled.as_surfaces}),
-                   .b = criteria_fates({.mesh = culled.b,
+                   .b = criteria_outcomes({.mesh = culled.b,
                                         .criteria = culled.criteria_b,
                                         .first_box = first_bounds_of_a(culled),
                                         .last_box = culled.kept_a.bounds,
@@ -52,10 +52,10 @@ FacetFates fates_of(const PairWork& work) {
                                         .opened = opened_b,
                                         .whole = culled.as_surfaces})};
   for (const FacetPair& pair : culled.record->facet_pairs) {
-    fates.a[pair.a] = FacetFate::meets;
-    fates.b[pair.b] = FacetFate::meets;
+    outcomes.a[pair.a] = FacetOutcome::meets;
+    outcomes.b[pair.b] = FacetOutcome::meets;
   }
-  return fates;
+  return outcomes;
 }
 
 // Stages 5 and 6 of the last step once more; the answers go to the record of `pair`.
@@ -79,21 +79,21 @@ const PairRecord* record_of(PairTable& table, BodyId a, BodyId b) {
 
 }  // namespace
 
-struct FacetFateFinder::Work {
+struct FacetOutcomeFinder::Work {
   const ReportSources* sources;
   PairRecord record;  // of what is done once more
   PairWork pair;
   EmbreeDevice device;
 };
 
-FacetFateFinder::FacetFateFinder(const Report& report) : work_(std::make_unique<Work>()) {
+FacetOutcomeFinder::FacetOutcomeFinder(const Report& report) : work_(std::make_unique<Work>()) {
   work_->sources = report.sources_;
   work_->pair.prefetches = false;
 }
 
-FacetFateFinder::~FacetFateFinder() = default;
+FacetOutcomeFinder::~FacetOutcomeFinder() = default;
 
-std::optional<FacetFates> FacetFateFinder::find(const Contact& contact) {
+std::optional<FacetOutcomes> FacetOutcomeFinder::find(const Contact& contact) {
   const ReportSources* const sources = work_->sources;
   if (sources == nullptr || contact.a == contact.b || sources->settings->accuracy == Accuracy::hulls) return {};
   const PairRecord* record = record_of(*sources->table, contact.a, contact.b);
@@ -101,10 +101,10 @@ std::optional<FacetFates> FacetFateFinder::find(const Contact& contact) {
   work_->record.a = contact.a;
   work_->record.b = contact.b;
   repeat(*record, PairTask(*sources->bodies, work_->record, *sources->settings, work_->pair), work_->device);
-  return fates_of(work_->pair);
+  return outcomes_of(work_->pair);
 }
 
-std::vector<int> FacetFateFinder::clusters(BodyId body) const {
+std::vector<int> FacetOutcomeFinder::clusters(BodyId body) const {
   const ClusteredMesh& mesh = work_->sources->bodies->at(body).mesh;
   std::vector<int> clusters(static_cast<std::size_t>(mesh.facet_count()));
   for (int i = 0; i < mesh.facet_count(); ++i) {

@@ -8,7 +8,7 @@ namespace tact {
 
 /// What became of a facet of one of two bodies whose hulls overlap: the first thing that ruled it out. All but the last
 /// two are dropped; what is kept is tested against the facets of the other body.
-enum class FacetFate : std::uint8_t {
+enum class FacetOutcome : std::uint8_t {
   outside_box,   ///< it, or its whole cluster, lies outside the box of what is left of the other body
   outside_slab,  ///< criterion 2: it, or its whole cluster, lies before the other's contact plane
   far,           ///< no cluster of the other body is near its cluster
@@ -17,12 +17,12 @@ enum class FacetFate : std::uint8_t {
   kept,          ///< left after the criteria; meets no facet
   meets          ///< left after the criteria, and meets a facet
 };
-inline constexpr int kFacetFates = 7;
+inline constexpr int kFacetOutcomes = 7;
 
 /// Of every facet of two bodies, in the order in which each was added.
-struct FacetFates {
-  std::vector<FacetFate> a;
-  std::vector<FacetFate> b;
+struct FacetOutcomes {
+  std::vector<FacetOutcome> a;
+  std::vector<FacetOutcome> b;
 };
 
 }  // namespace tact

@@ -11,21 +11,21 @@
 #include <optional>
 #include <vector>
 
-#include "engine/base/facet_fate.h"
+#include "engine/base/facet_outcome.h"
 
 namespace tact {
 
-class TACT_API FacetFateFinder {
+class TACT_API FacetOutcomeFinder {
  public:
   // `report` is one of World::detect(), and outlives the finder.
-  explicit FacetFateFinder(const Report& report);
-  ~FacetFateFinder();
+  explicit FacetOutcomeFinder(const Report& report);
+  ~FacetOutcomeFinder();
 
   // Of a contact of the report; nothing at Accuracy::hulls, where the hulls are apart, and of a body with itself. Kept
   // and meeting facets are as many as Contact::kept_facets_a and kept_facets_b tell, except of surfaces that lie on
   // each other where zones are not asked for: what a step remembers of them is not asked again, and more are kept.
   // Errors: out_of_memory, backend_failure.
-  std::optional<FacetFates> find(const Contact& contact);
+  std::optional<FacetOutcomes> find(const Contact& contact);
   // The cluster of each facet of a body, counted from 0, as the last step grouped them. Errors: stale_body,
   // foreign_body.
   std::vector<int> clusters(BodyId body) const;
