@@ -38,19 +38,19 @@ FacetOutcomes outcomes_of(const PairWork& work) {
   std::vector<std::int32_t> opened_b = indices_of(work.search.opened_b(), culled);
   if (culled.swapped) std::swap(opened_a, opened_b);
   FacetOutcomes outcomes{.a = criteria_outcomes({.mesh = culled.a,
-                                        .criteria = culled.criteria_a,
-                                        .first_box = culled.b->box(),
-                                        .last_box = culled.kept_b.bounds,
-                                        .kept = &culled.kept_a,
-                                        .opened = opened_a,
-                                        .whole = culled.as_surfaces}),
-                   .b = criteria_outcomes({.mesh = culled.b,
-                                        .criteria = culled.criteria_b,
-                                        .first_box = first_bounds_of_a(culled),
-                                        .last_box = culled.kept_a.bounds,
-                                        .kept = &culled.kept_b,
-                                        .opened = opened_b,
-                                        .whole = culled.as_surfaces})};
+                                                 .criteria = culled.criteria_a,
+                                                 .first_box = culled.b->box(),
+                                                 .last_box = culled.kept_b.bounds,
+                                                 .kept = &culled.kept_a,
+                                                 .opened = opened_a,
+                                                 .whole = culled.as_surfaces}),
+                         .b = criteria_outcomes({.mesh = culled.b,
+                                                 .criteria = culled.criteria_b,
+                                                 .first_box = first_bounds_of_a(culled),
+                                                 .last_box = culled.kept_a.bounds,
+                                                 .kept = &culled.kept_b,
+                                                 .opened = opened_b,
+                                                 .whole = culled.as_surfaces})};
   for (const FacetPair& pair : culled.record->facet_pairs) {
     outcomes.a[pair.a] = FacetOutcome::meets;
     outcomes.b[pair.b] = FacetOutcome::meets;

@@ -19,6 +19,7 @@ void clear_answers(PairRecord& record) {
   record.facet_pairs.clear();
   std::swap(record.points, record.last_points);
   record.points.clear();
+  record.touching = false;
 }
 
 }  // namespace
@@ -48,7 +49,7 @@ void PairStage::run(PairTable& table, Bodies& bodies, const Settings& settings, 
   const PairPrefetch prefetch(bodies, moved, grain, settings.threads);
   const auto look_at_next = [&](std::size_t i, int thread) {
     if (prefetch.pays()) prefetch.prefetch_after(i);
-    moved[i].touched = touches(*moved[i].record);
+    moved[i].touched = moved[i].record->touching;
     look_at(PairTask(bodies, *moved[i].record, settings, work_[thread]), table, device, thread);
     table.note_result(moved[i]);
   };

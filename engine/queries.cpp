@@ -28,22 +28,22 @@ void check_point(const Eigen::Vector3d& point, const char* what) {
 Vec3 point_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 narrowphase::Segment segment_of(const Ray& ray) { return {point_of(ray.from), point_of(ray.to)}; }
 
-// Calls visit(body) for the bodies that are asked and whose box wants(box), until it returns false.
+// Calls visit(body) for the bodies that `filter` admits and whose box wants(box), until it returns false.
 template <class Wants, class Visit>
-void for_each_body(const Bodies& bodies, const QueryFilter& asked, const Wants& wants, const Visit& visit) {
-  const broadphase::Filter filter{asked.layer, asked.mask, false};
+void for_each_body(const Bodies& bodies, const QueryFilter& filter, const Wants& wants, const Visit& visit) {
+  const broadphase::Filter of_query{filter.layer, filter.mask, false};
   const std::span<const Box> boxes = bodies.boxes();
   for (std::uint32_t slot = 0; slot < boxes.size(); ++slot) {
-    if (boxes[slot].empty() || !wants(boxes[slot]) || !broadphase::tested(bodies.filters()[slot], filter)) continue;
+    if (boxes[slot].empty() || !wants(boxes[slot]) || !broadphase::tested(bodies.filters()[slot], of_query)) continue;
     if (!visit(bodies.placed(slot))) return;
   }
 }
 
 // The same for those whose box overlaps `box`.
 template <class Visit>
-void for_each_body_near(const Bodies& bodies, const QueryFilter& asked, const Box& box, const Visit& visit) {
+void for_each_body_near(const Bodies& bodies, const QueryFilter& filter, const Box& box, const Visit& visit) {
   for_each_body(
-      bodies, asked, [&](const Box& one) { return overlaps(one, box); }, visit);
+      bodies, filter, [&](const Box& one) { return overlaps(one, box); }, visit);
 }
 
 Box box_of(const narrowphase::Segment& segment) { return extended({segment[0], segment[0]}, segment[1]); }
@@ -60,14 +60,14 @@ void check_query(const Ray& ray) {
 void check_query(const PointQuery& query) {
   check_point(query.point, "a point");
   if (!(query.within >= 0.0))
-    throw Error(ErrorCode::bad_settings, "within is " + base::text_of(query.within) + ", not at least 0");
+    throw Error(ErrorCode::invalid_argument, "within is " + base::text_of(query.within) + ", not at least 0");
 }
 
 void check_query(const BoxQuery& query) {
   check_point(query.lower, "the lower corner of a box");
   check_point(query.upper, "the upper corner of a box");
   if ((query.lower.array() > query.upper.array()).any())
-    throw Error(ErrorCode::bad_settings, "the lower corner of a box is above its upper one");
+    throw Error(ErrorCode::invalid_argument, "the lower corner of a box is above its upper one");
 }
 
 RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted) {
@@ -111,20 +111,20 @@ void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<
   }
   for (std::uint32_t slot = 0; slot < bodies.boxes().size(); ++slot) {
     if (bodies.boxes()[slot].empty()) continue;
-    std::array<narrowphase::FirstHitQuery*, narrowphase::kLinesAtATime> asked;
+    std::array<narrowphase::FirstHitQuery*, narrowphase::kLinesAtATime> of_body;
     std::size_t count = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const broadphase::Filter filter{rays[i].filter.layer, rays[i].filter.mask, false};
       if (overlaps(bodies.boxes()[slot], boxes[i]) && broadphase::tested(bodies.filters()[slot], filter))
-        asked[count++] = &queries[i];
+        of_body[count++] = &queries[i];
     }
     if (count == 0) continue;
     const Body& body = bodies.placed(slot);
-    narrowphase::ask_first_hits(body.mesh, room.tree(slot), {asked.data(), count});
+    narrowphase::ask_first_hits(body.mesh, room.tree(slot), {of_body.data(), count});
     // A hit is of the first body that has one as early.
     for (std::size_t k = 0; k < count; ++k) {
-      const auto i = static_cast<std::size_t>(asked[k] - queries.data());
-      const auto& hit = asked[k]->hit;
+      const auto i = static_cast<std::size_t>(of_body[k] - queries.data());
+      const auto& hit = of_body[k]->hit;
       if (hit && (hits[i].facet < 0 || hit->time < hits[i].fraction)) hits[i] = hit_of(body, *hit);
     }
   }

@@ -29,7 +29,7 @@ class ReportWriter {
   std::vector<PatchEvent>& patch_events() { return report_.patch_events_; }
 
   /// Candidate pairs, contacts and events as the records have them now, and the counts of contacts.
-  void write(PairTable& table, const SelfStage& self, int threads);
+  void write(PairTable& table, const SelfStage& self, const Bodies& bodies, const Settings& settings);
   /// The next report is the first.
   void forget();
   /// Where the answers of this step come from: they must outlive the report.
@@ -59,7 +59,7 @@ class ReportWriter {
   void list_contacts(const PairTable& table, const SelfStage& self);
   void carry_contacts(PairTable& table, int threads);
   void write_candidates(const PairTable& table, bool same);
-  void write_contacts(PairTable& table, int threads);
+  void write_contacts(PairTable& table, const Bodies& bodies, const Settings& settings);
   void write_events(const PairTable& table, const SelfStage& self);
   void add_thread_totals();
 

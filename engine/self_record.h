@@ -20,6 +20,7 @@ struct SelfRecord {
   std::vector<narrowphase::ClusterPair> may_meet, may_contact;  ///< see narrowphase::SelfClusters
   std::unique_ptr<narrowphase::SelfCrossing> crossing;          ///< made when facets meet for the first time
   PatchMemory patches;
+  bool touching = false;  ///< see is_touching()
 };
 
 inline bool in_contact(const SelfRecord& record) { return !record.facet_pairs.empty() || !record.points.empty(); }

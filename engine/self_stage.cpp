@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/pair/facet_pair_sort.h"
+#include "engine/touching.h"
 
 namespace tact {
 
@@ -98,7 +99,9 @@ void SelfStage::find_facet_pairs(const Bodies& bodies, const Settings& settings,
     sort(*record, mesh_of(*record), work_[thread].sorter, 1);
   };
   large_.begin();
-  const auto clusters_of = [&](std::size_t i) { return mesh_of(*looked_at_[i]).cluster_boxes().size(); };
+  const auto clusters_of = [&](std::size_t i) {
+    return static_cast<std::size_t>(mesh_of(*looked_at_[i]).cluster_count());
+  };
   for_each_item(looked_at_.size(), settings.threads, clusters_of, prepare);
   large_.search(settings.threads, [&](const Large::Shared& shared, Large::Range& range, int thread) {
     search(*shared.item, range.begin, range.end, range.found, thread);
@@ -112,16 +115,23 @@ void SelfStage::find_facet_pairs(const Bodies& bodies, const Settings& settings,
 }
 
 // What changed is told by ids: of records that came and went one may lie where another was.
-void SelfStage::finish() {
+void SelfStage::finish(const Bodies& bodies, const Settings& settings) {
+  for (SelfRecord* const one : looked_at_) {
+    const double reach = bodies.reach(one->body.index, one->body.index);
+    one->touching = is_touching(one->facet_pairs, one->points, reach, settings.accuracy);
+  }
   contacts_.clear();
+  std::swap(in_contact_, last_in_contact_);
   std::swap(touching_, last_touching_);
+  in_contact_.clear();
   touching_.clear();
   for (const std::unique_ptr<SelfRecord>& one : records_) {
     if (one == nullptr || !in_contact(*one)) continue;
     contacts_.push_back(one.get());
-    touching_.push_back(one->body);
+    in_contact_.push_back(one->body);
+    if (one->touching) touching_.push_back(one->body);
   }
-  same_ = touching_ == last_touching_;
+  same_ = in_contact_ == last_in_contact_;
   // Both ascend by slot, which comes first in an id.
   const auto without = [](const std::vector<BodyId>& those, const std::vector<BodyId>& others,
                           std::vector<ContactEvent>& events) {

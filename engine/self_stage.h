@@ -26,7 +26,7 @@ class SelfStage {
   /// The bodies that the last run() looked at, ascending by slot.
   std::span<SelfRecord* const> looked_at() const { return looked_at_; }
   /// Lists the contacts, once the points of those are known.
-  void finish();
+  void finish(const Bodies& bodies, const Settings& settings);
   /// Nothing has changed.
   void keep();
   /// The bodies in contact with themselves, ascending by slot.
@@ -57,7 +57,7 @@ class SelfStage {
   std::vector<SelfRecord*> looked_at_;
   std::vector<std::uint32_t> slots_;  // of those
   std::vector<const SelfRecord*> contacts_;
-  std::vector<BodyId> touching_, last_touching_;
+  std::vector<BodyId> in_contact_, last_in_contact_, touching_, last_touching_;
   std::vector<ContactEvent> began_, ended_;
   std::vector<PatchEvent> gone_patches_;
   bool same_ = true;

@@ -40,7 +40,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   } else {
     look_at_what_moved(bodies, settings, timer, stats);
   }
-  writer_.write(table, stages_->selves, settings.threads);
+  writer_.write(table, stages_->selves, bodies, settings);
   count_bodies(bodies, stats);
   count_pairs(table, stats);
   stats.named_excluded_pairs = static_cast<std::int64_t>(table.excluded());
@@ -79,7 +79,7 @@ void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, Timer& t
     points.find(selves.looked_at(), bodies, settings, device_);
     stats.self_points_ms = timer.lap();
   }
-  selves.finish();
+  selves.finish(bodies, settings);
   find_patches(bodies, settings);
   if (settings.outputs.patches) stats.patches_ms = timer.lap();
 }

@@ -38,8 +38,8 @@ Settings checked(Settings settings) {
   }
   if (settings.iteration_limit < 1)
     refuse("iteration_limit is " + std::to_string(settings.iteration_limit) + ", not at least 1");
-  check_name(settings.accuracy, Accuracy::exact, "accuracy");
-  check_name(settings.direction, DirectionPolicy::smallest, "direction");
+  check_name(settings.accuracy, Accuracy::exact, "accuracy", ErrorCode::bad_settings);
+  check_name(settings.direction, DirectionPolicy::smallest, "direction", ErrorCode::bad_settings);
   if (settings.threads == 0) settings.threads = base::default_threads();
   return settings;
 }
@@ -226,15 +226,16 @@ const Report& World::detect() {
   const base::Workers::Scope scope(i.workers);
   i.regroup();
   const double refresh_ms = std::exchange(i.refresh_ms, 0.0);
-  const Report& report = with_memory("detect ran out of memory; the next call starts afresh", [&]() -> const Report& {
-    try {
-      return i.step.run(i.bodies, i.settings, refresh_ms);
-    } catch (...) {
-      i.step.forget();
-      i.bodies.mark_all_changed();
-      throw;
-    }
-  });
+  const Report& report =
+      with_memory("detect ran out of memory; the next call starts from scratch", [&]() -> const Report& {
+        try {
+          return i.step.run(i.bodies, i.settings, refresh_ms);
+        } catch (...) {
+          i.step.forget();
+          i.bodies.mark_all_changed();
+          throw;
+        }
+      });
   i.observe([&](WorldObserver& observer) { observer.step_ended(report); });
   tell_limits(report, i.bodies, i.settings.on_message);
   return report;

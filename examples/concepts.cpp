@@ -96,7 +96,7 @@ void points_and_margins() {
   }
   // [part points]
   const tact::Contact contact = world.detect().contacts()[0];
-  expect(!contact.touching(), "no facets meet: the surfaces are 6 mm apart");
+  expect(contact.facet_pairs().empty(), "no facets meet: the surfaces are 6 mm apart");
   expect(contact.points().size() >= 4, "the four upper corners of the cube are near the sheet");
   for (const tact::ContactPoint& point : contact.points()) expect(near(point.gap, 0.006), "the gap is 6 mm");
 }

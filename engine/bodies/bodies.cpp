@@ -149,7 +149,8 @@ void Bodies::set_excluded(BodyId a, BodyId b, bool excluded) {
 
 bool Bodies::excluded(BodyId a, BodyId b) const {
   at(a), at(b);
-  if (a == b) throw Error(ErrorCode::bad_settings, quoted(at(a).name) + ": a pair is of two bodies; see self_contact");
+  if (a == b)
+    throw Error(ErrorCode::invalid_argument, quoted(at(a).name) + ": a pair is of two bodies; see self_contact");
   return excluded_.contains(slots_of(a, b));
 }
 

@@ -58,7 +58,7 @@ class Bodies {
   void set_motion(BodyId id, Motion motion);
   void set_group(BodyId id, std::uint32_t group);
   void set_excluded(BodyId a, BodyId b, bool excluded);
-  // Errors: stale_body, foreign_body, bad_settings (one body twice).
+  // Errors: stale_body, foreign_body, invalid_argument (one body twice).
   bool excluded(BodyId a, BodyId b) const;
   void set_margin(BodyId id, double margin);
   void set_self_contact(BodyId id, bool wanted);

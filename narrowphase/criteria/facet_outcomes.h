@@ -20,7 +20,8 @@ struct CulledBody {
   bool whole = false;                    // no criterion was asked of their facets: surfaces that lie on each other
 };
 
-// The outcome of each facet, in the order in which the mesh was given; FacetOutcome::kept for those that may meet another.
+// The outcome of each facet, in the order in which the mesh was given; FacetOutcome::kept for those that may meet
+// another.
 std::vector<FacetOutcome> criteria_outcomes(const CulledBody& body);
 
 }  // namespace tact::narrowphase

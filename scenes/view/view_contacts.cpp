@@ -106,8 +106,8 @@ void put_contact(const Contact& contact, const std::optional<FacetOutcomes>& out
                  PointsInView points, ViewBytes& out) {
   out.add_count(place(contact.a));
   out.add_count(place(contact.b));
-  out.add_byte(
-      static_cast<std::uint8_t>(static_cast<int>(contact.source) | (contact.limit_reached ? 4 : 0) | (outcomes ? 8 : 0)));
+  out.add_byte(static_cast<std::uint8_t>(static_cast<int>(contact.source) | (contact.limit_reached ? 4 : 0) |
+                                         (outcomes ? 8 : 0)));
   put_vector(contact.direction, out);
   out.add_double(contact.depth);
   out.add_double(contact.plane_a);

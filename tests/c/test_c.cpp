@@ -203,7 +203,7 @@ TEST(C, TellsMotionAndAnswersQueriesAsCpp) {
   EXPECT_EQ(bodies[ends[0]].index, flying.index);
   EXPECT_EQ(tact_world_bodies_containing_each(c.world, points, 2, bodies, 4, nullptr), TACT_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(tact_world_cast_ray(c.world, nullptr, TACT_RAY_FIRST, &hit), TACT_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(tact_world_cast_ray(c.world, &ray, 7, &hit), TACT_ERROR_BAD_SETTINGS);
+  EXPECT_EQ(tact_world_cast_ray(c.world, &ray, 7, &hit), TACT_ERROR_INVALID_ARGUMENT);
 }
 
 // Two bodies that touch, and one of which nothing is near.
@@ -367,7 +367,7 @@ TEST(WrongUseOfC, BodiesThatAreStaleOrForeign) {
   ASSERT_EQ(tact_world_remove_body(one.world, one.a), TACT_OK);
   expect_failure(tact_world_set_positions(one.world, one.a, &positions), TACT_ERROR_STALE_BODY, "removed");
   expect_failure(tact_world_remove_body(one.world, {0, 0, 0}), TACT_ERROR_STALE_BODY, "names no body");
-  expect_failure(tact_world_set_motion(one.world, one.b, 77), TACT_ERROR_BAD_SETTINGS, "motion");
+  expect_failure(tact_world_set_motion(one.world, one.b, 77), TACT_ERROR_INVALID_ARGUMENT, "motion");
 }
 
 TEST(WrongUseOfC, NullPointers) {

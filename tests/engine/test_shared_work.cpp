@@ -1,12 +1,12 @@
 // The scheduler of a stage: each cluster pair of each item is searched once, whoever does it, and gathered in order.
-#include "engine/shared_work.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "engine/shared_work.h"
 
 namespace tact::tests {
 namespace {
@@ -111,10 +111,9 @@ TEST(SharedWork, BeginsRangesInTheOrderOfAKey) {
     for (Work::Range& range : work.ranges(shared)) range.found = key++;
   }
   std::vector<std::pair<double, std::size_t>> order;
-  work.search_by([](const Work::Range& range) { return range.found; }, 1,
-                 [&](const Work::Shared& shared, const Work::Range& range, int) {
-                   order.emplace_back(range.found, shared.item);
-                 });
+  work.search_by(
+      [](const Work::Range& range) { return range.found; }, 1,
+      [&](const Work::Shared& shared, const Work::Range& range, int) { order.emplace_back(range.found, shared.item); });
   EXPECT_EQ(order.size(), work.range_count());
   EXPECT_TRUE(std::ranges::is_sorted(order));
 }

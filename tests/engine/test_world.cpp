@@ -254,7 +254,7 @@ TEST_F(WorldOfThree, ChangesMotion) {
   world_.set_positions(floor_, translated(floor_mesh_, {0.0, 0.0, 0.01}).positions);
   EXPECT_TRUE(std::ranges::equal(world_.detect().began(), std::vector<ContactEvent>{{left_, floor_}}));
   EXPECT_EQ(report.contacts().size(), 3u);
-  EXPECT_TRUE(throws_error([&] { world_.set_motion(left_, static_cast<Motion>(3)); }, ErrorCode::bad_settings,
+  EXPECT_TRUE(throws_error([&] { world_.set_motion(left_, static_cast<Motion>(3)); }, ErrorCode::invalid_argument,
                            {"left", "motion", "3"}));
 }
 

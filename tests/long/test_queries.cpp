@@ -41,8 +41,8 @@ std::size_t differing_together(const World& world, std::span<const Ray> rays) {
   std::size_t differing = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const RayHit &one = hits[i], alone = world.cast_ray(rays[i]);
-    differing +=
-        !(one.body == alone.body && one.facet == alone.facet && one.fraction == alone.fraction && one.barycentric == alone.barycentric);
+    differing += !(one.body == alone.body && one.facet == alone.facet && one.fraction == alone.fraction &&
+                   one.barycentric == alone.barycentric);
   }
   return differing;
 }
@@ -155,7 +155,8 @@ class Block {
     note(kPoint, exact < 1e-12L);
     const double off = static_cast<double>(std::abs(answer.distance - exact)) / size;
     const double place =
-        std::abs(norm(weighted(facet_at(mesh_, answer.facet), answer.barycentric) - p) - static_cast<double>(exact)) / size;
+        std::abs(norm(weighted(facet_at(mesh_, answer.facet), answer.barycentric) - p) - static_cast<double>(exact)) /
+        size;
     result_.worst_distance = std::max({result_.worst_distance, off, place});
     expect(off <= 1e-12 && place <= 1e-12,
            "a nearest point is off by " + std::to_string(std::max(off, place) * 1e12) + "e-12");

@@ -90,8 +90,8 @@ export class Panel {
     const { head } = this.app.run, s = (name) => this.app.run.stat(name, frame.index);
     const alive = frame.positions.filter((p) => p !== null).length;
     const touching = s("touching_contacts"), points = frame.contacts.reduce((n, c) => n + c.points.length, 0);
-    const told = head.settings.accuracy === "hulls" ? "At accuracy hulls nobody looks at facets."
-      : touching === 0 ? (points === 0 ? "No facets meet." : `Thick surfaces touch at ${plural(points, "contact point")}; no facets meet.`) : `${plural(touching, "pair touches", "pairs touch")}: ${plural(s("facet_pairs"), "pair of facets meets", "pairs of facets meet")}.`;
+    const told = head.settings.accuracy === "hulls" ? "Accuracy hulls computes no facet pairs."
+      : touching === 0 ? "Nothing touches." : s("facet_pairs") === 0 ? `${plural(touching, "pair touches", "pairs touch")} at ${plural(points, "contact point")}; no facets meet.` : `${plural(touching, "pair touches", "pairs touch")}: ${plural(s("facet_pairs"), "pair of facets meets", "pairs of facets meet")}.`;
     return element("header", {},
       element("h1", {}, visible(head.title)),
       element("p", { class: "quiet" }, `${head.kind} · tact ${head.tact} · accuracy ${head.settings.accuracy}${head.interrupted ? " · interrupted" : ""}`),

@@ -64,15 +64,16 @@ tact_error tact_world_cast_ray(tact_world world, const tact_ray* ray, int32_t wa
   return tact_world_cast_rays(world, ray, 1, wanted, hit);
 }
 
-tact_error tact_world_cast_rays(tact_world world, const tact_ray* rays, size_t count, int32_t wanted, tact_ray_hit* hits) {
+tact_error tact_world_cast_rays(tact_world world, const tact_ray* rays, size_t count, int32_t wanted,
+                                tact_ray_hit* hits) {
   return changing(world, [&](WorldEntry& entry) {
     entry.world.cast_rays(as_cpp<const tact::Ray>(rays, count), as_cpp<tact::RayHit>(hits, count),
-                     static_cast<tact::RayHits>(wanted));
+                          static_cast<tact::RayHits>(wanted));
   });
 }
 
 tact_error tact_world_cast_ray_all(tact_world world, const tact_ray* ray, tact_ray_hit* hits, size_t capacity,
-                               size_t* count) {
+                                   size_t* count) {
   return changing(world, [&](WorldEntry& entry) {
     check_not_null(count);
     write(entry.world.cast_ray_all(as_cpp<const tact::Ray>(ray, 1)[0]), hits, capacity, count);
@@ -87,8 +88,8 @@ tact_error tact_world_overlap_box(tact_world world, const tact_box_query* query,
   });
 }
 
-tact_error tact_world_bodies_containing(tact_world world, const tact_point_query* query, tact_body* bodies, size_t capacity,
-                             size_t* count) {
+tact_error tact_world_bodies_containing(tact_world world, const tact_point_query* query, tact_body* bodies,
+                                        size_t capacity, size_t* count) {
   return changing(world, [&](WorldEntry& entry) {
     check_not_null(count);
     write(entry.world.bodies_containing(as_cpp<const tact::PointQuery>(query, 1)[0]), bodies, capacity, count);
@@ -104,8 +105,8 @@ tact_error tact_world_overlap_boxes(tact_world world, const tact_box_query* quer
   });
 }
 
-tact_error tact_world_bodies_containing_each(tact_world world, const tact_point_query* queries, size_t count, tact_body* bodies,
-                                  size_t capacity, size_t* ends) {
+tact_error tact_world_bodies_containing_each(tact_world world, const tact_point_query* queries, size_t count,
+                                             tact_body* bodies, size_t capacity, size_t* ends) {
   return changing(world, [&](WorldEntry& entry) {
     write_each<tact::PointQuery, tact::BodyId>(
         queries, count, bodies, capacity, ends,

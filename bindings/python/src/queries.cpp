@@ -36,7 +36,8 @@ py::array_t<int> facet_column(std::span<const Answer> answers) {
   return column_of<int>(answers, [](const Answer& answer) { return answer.facet; });
 }
 HitArrays hit_arrays(std::span<const RayHit> hits) {
-  return {body_column(hits), facet_column(hits), column_of<double>(hits, [](const RayHit& hit) { return hit.fraction; }),
+  return {body_column(hits), facet_column(hits),
+          column_of<double>(hits, [](const RayHit& hit) { return hit.fraction; }),
           rows_of_three<double>(hits, &RayHit::barycentric)};
 }
 
@@ -47,11 +48,11 @@ std::vector<Eigen::Vector3d> points_of(py::handle given) {
   return points;
 }
 
-std::vector<Ray> rays_of(py::handle from, py::handle to, const QueryFilter& asked) {
+std::vector<Ray> rays_of(py::handle from, py::handle to, const QueryFilter& filter) {
   const std::vector<Eigen::Vector3d> begin = points_of(from), end = points_of(to);
   if (begin.size() != end.size()) throw py::value_error("from_ and to have different lengths");
   std::vector<Ray> rays;
-  for (std::size_t i = 0; i < begin.size(); ++i) rays.push_back({begin[i], end[i], asked});
+  for (std::size_t i = 0; i < begin.size(); ++i) rays.push_back({begin[i], end[i], filter});
   return rays;
 }
 
@@ -64,7 +65,7 @@ HitArrays cast_rays(SharedWorld& world, py::handle from, py::handle to, bool any
 }
 
 HitArrays cast_ray_all(SharedWorld& world, const Eigen::Vector3d& from, const Eigen::Vector3d& to, std::uint32_t layer,
-                   std::uint32_t mask) {
+                       std::uint32_t mask) {
   std::vector<RayHit> hits;
   world.compute([&](World& w) { hits = w.cast_ray_all({from, to, {layer, mask}}); });
   return hit_arrays(hits);
@@ -96,7 +97,8 @@ py::array_t<std::int64_t> overlap_box(SharedWorld& world, const Eigen::Vector3d&
   return facet_rows(found);
 }
 
-std::vector<BodyId> bodies_containing(SharedWorld& world, const Eigen::Vector3d& point, std::uint32_t layer, std::uint32_t mask) {
+std::vector<BodyId> bodies_containing(SharedWorld& world, const Eigen::Vector3d& point, std::uint32_t layer,
+                                      std::uint32_t mask) {
   std::vector<BodyId> found;
   world.compute([&](World& w) { found = w.bodies_containing({.point = point, .filter = {layer, mask}}); });
   return found;
@@ -116,7 +118,7 @@ std::vector<py::array_t<std::int64_t>> overlap_boxes(SharedWorld& world, py::han
 }
 
 std::vector<std::vector<BodyId>> bodies_containing_each(SharedWorld& world, py::handle points, std::uint32_t layer,
-                                             std::uint32_t mask) {
+                                                        std::uint32_t mask) {
   std::vector<PointQuery> queries;
   for (const Eigen::Vector3d& point : points_of(points)) queries.push_back({.point = point, .filter = {layer, mask}});
   std::vector<std::vector<BodyId>> found(queries.size());
@@ -153,7 +155,8 @@ void define_queries(py::module_& module, WorldClass& world) {
            "(N, 2) int64: BodyId.index and facet of what shares a point with the box")
       .def("overlap_boxes", overlap_boxes, py::arg("lower"), py::arg("upper"), py::kw_only(), layer, mask,
            "the same of many boxes, (N, 3) both: a list of arrays")
-      .def("bodies_containing", bodies_containing, py::arg("point"), py::kw_only(), layer, mask, "the closed bodies that a point is in")
+      .def("bodies_containing", bodies_containing, py::arg("point"), py::kw_only(), layer, mask,
+           "the closed bodies that a point is in")
       .def("bodies_containing_each", bodies_containing_each, py::arg("points"), py::kw_only(), layer, mask,
            "the same of many points, (N, 3): a list of lists");
 }

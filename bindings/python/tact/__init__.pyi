@@ -39,6 +39,7 @@ class ErrorCode:
     bad_recording: ClassVar[ErrorCode]
     wrong_motion: ClassVar[ErrorCode]
     not_a_rotation: ClassVar[ErrorCode]
+    invalid_argument: ClassVar[ErrorCode]
     name: str
     value: int
     def __init__(self, value: int) -> None: ...

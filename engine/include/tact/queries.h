@@ -32,7 +32,7 @@ enum class RayHits {
 /// no ray slips through between two. Where it does is right to 1e-12 of the size of facet and ray.
 struct RayHit {
   BodyId body;
-  int facet = -1;                   ///< negative: nothing was hit
+  int facet = -1;                       ///< negative: nothing was hit
   double fraction = 0.0;                ///< where, as a part of the way: from + fraction * (to - from)
   std::array<double, 3> barycentric{};  ///< of the facet's corners at that place; not negative, their sum is 1
 };
@@ -50,7 +50,7 @@ struct ClosestPoint {
   BodyId body;
   int facet = -1;                                             ///< negative: nothing is as near as was asked
   double distance = std::numeric_limits<double>::infinity();  ///< metres
-  std::array<double, 3> barycentric{};                            ///< of the facet's corners at the nearest place
+  std::array<double, 3> barycentric{};                        ///< of the facet's corners at the nearest place
 };
 
 /// A box, metres; closed.

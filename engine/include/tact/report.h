@@ -116,8 +116,9 @@ struct Contact {
 
   /// The facets that meet, sorted; empty at Accuracy::hulls.
   std::span<const FacetPair> facet_pairs() const { return facet_pairs_; }
-  /// Does any facet of a meet one of b? At Accuracy::hulls nobody looked: false.
-  bool touching() const { return !facet_pairs_.empty(); }
+  /// Whether facets meet or, with Outputs::points, a point's gap is below the sum of margins. Always false at
+  /// Accuracy::hulls, which computes no facet pairs.
+  bool touching() const { return touching_; }
   /// Where surfaces are nearest to each other, if Outputs::points is set; sorted by kind, then by features.
   std::span<const ContactPoint> points() const { return points_; }
   /// Filled if Outputs::patches is set; ordered by their first facet pair, those without by their first point.
@@ -128,6 +129,7 @@ struct Contact {
   std::span<const FacetPair> facet_pairs_;
   std::span<const Patch> patches_;
   std::span<const ContactPoint> points_;
+  bool touching_ = false;
 };
 
 /// Two bodies whose boxes overlap.

@@ -15,7 +15,7 @@ namespace {
 Pose random_pose(tests::Random& random, double reach) {
   Pose pose;
   const tests::Rotation rotation = random.rotation();
-  for (int axis = 0; axis < 3; ++axis) pose.rows[axis] = {rotation(axis, 0), rotation(axis, 1), rotation(axis, 2)};
+  for (int axis = 0; axis < 3; ++axis) pose.rows[axis] = rotation.row[axis];
   pose.translation = random.in_cube(reach);
   return pose;
 }

@@ -61,7 +61,7 @@ void AnswerHash::add(const Contact& contact) {
   add(contact.a);
   add(contact.b);
   features_.add(number_of(contact.containment));
-  features_.add(contact.touching() ? 1 : 0);
+  features_.add(contact.facet_pairs().empty() ? 0 : 1);
   add(contact.direction);
   add_signed(contact.depth);
   add(contact.plane_a);

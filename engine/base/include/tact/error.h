@@ -30,6 +30,7 @@ enum class ErrorCode {
   bad_recording,          ///< bytes that are no recording, or one that does not play; the message says at which byte
   wrong_motion,           ///< positions were set on a rigid body, or a pose on one that is not
   not_a_rotation,         ///< the matrix of a pose turns nothing: it is not orthonormal to 1e-9, or mirrors
+  invalid_argument,       ///< an argument has no meaning, such as an unknown enumeration value or a negative margin
 };
 
 /// The name of `code` as it stands in the enumeration, such as "stale_body".
