@@ -115,10 +115,10 @@ void SelfStage::find_facet_pairs(const Bodies& bodies, const Settings& settings,
 }
 
 // What changed is told by ids: of records that came and went one may lie where another was.
-void SelfStage::finish(const Bodies& bodies, const Settings& settings) {
+void SelfStage::finish(const Bodies& bodies) {
   for (SelfRecord* const one : looked_at_) {
     const double reach = bodies.reach(one->body.index, one->body.index);
-    one->touching = is_touching(one->facet_pairs, one->points, reach, settings.accuracy);
+    one->touching = is_touching(one->facet_pairs, one->points, reach);
   }
   contacts_.clear();
   std::swap(in_contact_, last_in_contact_);

@@ -26,7 +26,7 @@ class SelfStage {
   /// The bodies that the last run() looked at, ascending by slot.
   std::span<SelfRecord* const> looked_at() const { return looked_at_; }
   /// Lists the contacts, once the points of those are known.
-  void finish(const Bodies& bodies, const Settings& settings);
+  void finish(const Bodies& bodies);
   /// Nothing has changed.
   void keep();
   /// The bodies in contact with themselves, ascending by slot.

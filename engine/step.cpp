@@ -79,7 +79,7 @@ void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, Timer& t
     points.find(selves.looked_at(), bodies, settings, device_);
     stats.self_points_ms = timer.lap();
   }
-  selves.finish(bodies, settings);
+  selves.finish(bodies);
   find_patches(bodies, settings);
   if (settings.outputs.patches) stats.patches_ms = timer.lap();
 }
