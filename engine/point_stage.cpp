@@ -137,51 +137,42 @@ void sort_by_the_rest(std::span<std::uint64_t> order, const PointKeys& keys, con
 
 }  // namespace
 
-// The vertices that have crossed need no search for what is near them.
-void PointStage::begin_crossing(const Bodies& bodies, Prepared& prepared) {
+// What of the bodies has crossed, before what is near is searched.
+narrowphase::NearRules PointStage::find_crossing(const Bodies& bodies, Prepared& prepared) {
   const Wanted& wanted = *prepared.wanted;
-  prepared.crossed = {};
-  if (wanted.record == nullptr || !cross_each_other(*wanted.record, wanted.reach)) return;
+  if (wanted.self != nullptr) return {.crossing = find_self_crossing(bodies, prepared)};
   const PairRecord& record = *wanted.record;
+  if (!cross_each_other(record, wanted.reach)) return {.touching = direction_of(record)};
   carry(record, FeaturePair::vertex_facet, prepared.carried_a);
   carry(record, FeaturePair::facet_vertex, prepared.carried_b);
-  prepared.crossed = prepared.crossing.begin({.a = bodies.featured(wanted.a),
-                                              .b = bodies.featured(wanted.b),
-                                              .surface_a = kind_of(bodies.in_slot(wanted.a)),
-                                              .surface_b = kind_of(bodies.in_slot(wanted.b)),
-                                              .direction = direction_of(record),
-                                              .depth = record.contact.depth,
-                                              .facet_pairs = record.facet_pairs,
-                                              .carried_a = prepared.carried_a,
-                                              .carried_b = prepared.carried_b});
+  return {.crossing = &prepared.crossing.find({.a = bodies.featured(wanted.a),
+                                               .b = bodies.featured(wanted.b),
+                                               .surface_a = kind_of(bodies.in_slot(wanted.a)),
+                                               .surface_b = kind_of(bodies.in_slot(wanted.b)),
+                                               .direction = direction_of(record),
+                                               .depth = record.contact.depth,
+                                               .facet_pairs = record.facet_pairs,
+                                               .carried_a = prepared.carried_a,
+                                               .carried_b = prepared.carried_b})};
 }
 
-void PointStage::cross_itself(const Wanted& wanted, const Bodies& bodies, Work& work) {
-  work.last.clear();
-  for (const ContactPoint& point : wanted.self->last_points) work.last.push_back(to_feature_point(point));
-  wanted.self->crossing->run({.mesh = bodies.featured(wanted.a),
-                              .surface = kind_of(bodies.in_slot(wanted.a)),
-                              .reach = wanted.reach,
-                              .facet_pairs = wanted.self->facet_pairs,
-                              .last = work.last},
-                             work.found);
-}
-
-void PointStage::finish_crossing(const Bodies& bodies, Prepared& prepared, Work& work) {
+const narrowphase::Crossing* PointStage::find_self_crossing(const Bodies& bodies, Prepared& prepared) {
   const Wanted& wanted = *prepared.wanted;
-  if (wanted.self != nullptr) {
-    if (crosses_itself(*wanted.self, bodies)) cross_itself(wanted, bodies, work);
-    return;
-  }
-  if (cross_each_other(*wanted.record, wanted.reach)) {
-    prepared.crossing.finish(work.found);
-    return;
-  }
-  // What touches in a vertex or an edge has no side of its own.
-  const base::Vec3 contact = direction_of(*wanted.record);
-  for (FeaturePoint& point : work.found) {
-    if (point.gap == 0.0 && dot(point.normal, contact) < 0.0) point.normal = -point.normal;
-  }
+  if (!crosses_itself(*wanted.self, bodies)) return nullptr;
+  prepared.last.clear();
+  for (const ContactPoint& point : wanted.self->last_points) prepared.last.push_back(to_feature_point(point));
+  return &wanted.self->crossing->find({.mesh = bodies.featured(wanted.a),
+                                       .surface = kind_of(bodies.in_slot(wanted.a)),
+                                       .reach = wanted.reach,
+                                       .facet_pairs = wanted.self->facet_pairs,
+                                       .last = prepared.last});
+}
+
+// Once the points of near features are in work.found.
+void PointStage::finish(const Prepared& prepared, const Step& step, int threads, Work& work) {
+  const narrowphase::Crossing* const crossing = prepared.rules.crossing;
+  if (crossing != nullptr) work.crossing_points.append(*crossing, work.found);
+  publish(*prepared.wanted, step, threads, work);
 }
 
 // In an order that depends on features alone.
@@ -258,7 +249,7 @@ void PointStage::find_points(std::size_t i, const Step& step, Work& work) {
   const bool large = is_large(cost, wanted_.size(), threads, step.bodies.tuning());
   const std::size_t own_end = threads == 1 ? wanted_.size() : i - i % step.grain + step.grain;
   if (!large && step.prefetches && i + 1 < std::min(own_end, wanted_.size())) look_ahead(i + 1, step, work);
-  begin_crossing(step.bodies, prepared);
+  prepared.rules = find_crossing(step.bodies, prepared);
   if (large) {
     large_.put_aside(work.prepared[i % 2], prepared.cluster_pairs,
                      count_of_ranges(cost, threads, step.bodies.tuning()));
@@ -266,15 +257,14 @@ void PointStage::find_points(std::size_t i, const Step& step, Work& work) {
   }
   work.found.clear();
   search(prepared, prepared.cluster_pairs, step, narrowphase::ContactPointSearch::Given::all, work.found, work);
-  finish_crossing(step.bodies, prepared, work);
-  publish(wanted_[i], step, 1, work);
+  finish(prepared, step, 1, work);
 }
 
 void PointStage::search(const Prepared& prepared, std::span<const ClusterPair> pairs, const Step& step,
                         narrowphase::ContactPointSearch::Given given, std::vector<FeaturePoint>& found, Work& work) {
   const Wanted& wanted = *prepared.wanted;
   work.search.run(step.bodies.featured(wanted.a), step.bodies.featured(wanted.b), wanted.reach, pairs, found,
-                  prepared.crossed, given);
+                  prepared.rules, given);
 }
 
 void PointStage::find_wanted(Bodies& bodies, const Settings& settings, narrowphase::EmbreeDevice& device) {
@@ -308,8 +298,7 @@ void PointStage::find_wanted(Bodies& bodies, const Settings& settings, narrowpha
     work.found.clear();
     for (const Large::Range& range : large_.ranges(shared))
       work.found.insert(work.found.end(), range.found.begin(), range.found.end());
-    finish_crossing(bodies, *shared.item, work);
-    publish(*shared.item->wanted, step, threads, work);
+    finish(*shared.item, step, threads, work);
   });
 }
 

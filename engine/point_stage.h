@@ -16,7 +16,8 @@
 #include "engine/self_record.h"
 #include "engine/shared_work.h"
 #include "narrowphase/contact_points/contact_points.h"
-#include "narrowphase/contact_points/crossing.h"
+#include "narrowphase/crossing/crossing_points.h"
+#include "narrowphase/crossing/pair_crossing.h"
 
 namespace tact {
 
@@ -44,16 +45,18 @@ class PointStage {
     const Wanted* wanted = nullptr;
     narrowphase::NearClusters near;
     std::span<const narrowphase::ClusterPair> cluster_pairs;
-    narrowphase::CrossingSearch crossing;
+    narrowphase::PairCrossing crossing;
     std::vector<narrowphase::CarriedNormal> carried_a, carried_b;
-    narrowphase::CrossedVertices crossed;
+    std::vector<narrowphase::FeaturePoint> last;  // points of one body, in the last step
+    narrowphase::NearRules rules;
   };
   /// Memory of a thread, used again.
   struct Work {
     std::array<std::unique_ptr<Prepared>, 2> prepared;  // of items with even numbers, and with odd ones
     std::size_t ahead = 0;                              // the item that is prepared already, and one more; 0: none
     narrowphase::ContactPointSearch search;
-    std::vector<narrowphase::FeaturePoint> found, last;
+    narrowphase::CrossingPoints crossing_points;
+    std::vector<narrowphase::FeaturePoint> found;
     base::KeySorter sorter;
     std::vector<std::size_t> blocks;  // of points to publish: where they begin, and where the last one ends
     PatchFinder patches;
@@ -75,9 +78,9 @@ class PointStage {
   static void search(const Prepared& prepared, std::span<const narrowphase::ClusterPair> pairs, const Step& step,
                      narrowphase::ContactPointSearch::Given given, std::vector<narrowphase::FeaturePoint>& found,
                      Work& work);
-  static void begin_crossing(const Bodies& bodies, Prepared& prepared);
-  static void finish_crossing(const Bodies& bodies, Prepared& prepared, Work& work);
-  static void cross_itself(const Wanted& wanted, const Bodies& bodies, Work& work);
+  static narrowphase::NearRules find_crossing(const Bodies& bodies, Prepared& prepared);
+  static const narrowphase::Crossing* find_self_crossing(const Bodies& bodies, Prepared& prepared);
+  static void finish(const Prepared& prepared, const Step& step, int threads, Work& work);
   static void publish(const Wanted& wanted, const Step& step, int threads, Work& work);
 
   std::vector<Wanted> wanted_;

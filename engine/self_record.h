@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/patch_set.h"
-#include "narrowphase/self/self_crossing.h"
+#include "narrowphase/crossing/self_crossing.h"
 
 namespace tact {
 
