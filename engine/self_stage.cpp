@@ -46,7 +46,7 @@ void SelfStage::run(Bodies& bodies, const Settings& settings, bool all, PointSta
                    bodies.tuning(), settings.threads, device);
     if (settings.accuracy != Accuracy::hulls) find_facet_pairs(one, bodies, settings.threads);
     if (settings.outputs.points) find_points(one, bodies, settings, points);
-    one.touching = is_touching(one.facet_pairs, one.points, bodies.reach(slot, slot), settings.accuracy);
+    one.touching = is_touching(one.facet_pairs, one.points, bodies.reach(slot, slot));
   };
   if (all) {
     const auto slots = static_cast<std::uint32_t>(bodies.boxes().size());

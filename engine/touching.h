@@ -2,7 +2,6 @@
 #pragma once
 
 #include <tact/report.h>
-#include <tact/settings.h>
 
 #include <algorithm>
 #include <span>
@@ -11,9 +10,7 @@ namespace tact {
 
 /// Decides Contact::touching() from what a step found of two bodies, or of one with itself, whose margins add up to
 /// `reach`.
-inline bool is_touching(std::span<const FacetPair> facet_pairs, std::span<const ContactPoint> points, double reach,
-                        Accuracy accuracy) {
-  if (accuracy == Accuracy::hulls) return false;
+inline bool is_touching(std::span<const FacetPair> facet_pairs, std::span<const ContactPoint> points, double reach) {
   return !facet_pairs.empty() ||
          std::ranges::any_of(points, [&](const ContactPoint& point) { return point.gap < reach; });
 }

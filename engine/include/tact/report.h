@@ -116,7 +116,7 @@ struct Contact {
 
   /// The facets that meet, sorted; empty at Accuracy::hulls.
   std::span<const FacetPair> facet_pairs() const { return facet_pairs_; }
-  /// Whether facets meet or, with Outputs::points, a point's gap is below the sum of margins. Always false at
+  /// Whether facets meet or, with Outputs::points, a point's gap is below the sum of margins. Points alone decide at
   /// Accuracy::hulls, which computes no facet pairs.
   bool touching() const { return touching_; }
   /// Where surfaces are nearest to each other, if Outputs::points is set; sorted by kind, then by features.
