@@ -83,7 +83,7 @@ constexpr HashScene kScenes[] = {
     {"patches", play_patches, {0x30e82c19816d7ac3, 0x220996d299243962, 0xe5377800b8d10796}},
     {"patches_of_facets", play_patches_of_facets, {0xa4d80bed9f6d95e5, 0x12977d74b932a5df, 0xd02f0422b86b6cfe}},
     {"clamp", play_clamp, {0xdfe382b4f6d19895, 0xcae3485a70b4c9a0, 0x6a445c6bb493fd19}},
-    {"calls", play_calls, {0x464788704595c448, 0xa9b9fb4909ebd791, 0x274285fc46539871}},
+    {"calls", play_calls, {0x464788704595c448, 0xb5dbc04e4f3d69c8, 0x274285fc46539871}},
     {"rays", play_rays, {0x0d82f994797a6870, 0x16efdecaf8e7c7f0, 0x45c615af16c86bb9}},
     {"closest_points", play_closest_points, {0x713a500a470a7034, 0x3992ad2d478fb1ce, 0x5858da22f40ed15b}},
     {"boxes", play_boxes, {0x8d60221edbf116cf, 0xd2c8721bd83262c6, 0x6cfaf97b17f96814}},
