@@ -28,7 +28,7 @@ Mesh facing_facets(const Mesh& mesh, Vec3 v, Vec3 facing, double cosine, double 
 
 // Many vertices of one surface, whose lengths are `scale` times as large in its own unit; so many that what is learned
 // of its clusters is used: the nearest place of brute force.
-void expect_ways_of_brute_force(const Mesh& mesh, double scale, std::uint64_t seed) {
+void expect_exits_of_brute_force(const Mesh& mesh, double scale, std::uint64_t seed) {
   Mesh in_other_unit = mesh;
   in_other_unit.positions *= 1.0 / scale;
   const ClusteredMesh clustered = tests::clustered(in_other_unit);
@@ -36,42 +36,42 @@ void expect_ways_of_brute_force(const Mesh& mesh, double scale, std::uint64_t se
   ExitFinder finder;
   finder.begin({clustered, features, scale});
   Random random(seed);
-  int ways = 0, none = 0, far = 0;
+  int exits = 0, none = 0, far = 0;
   for (int k = 0; k < 120; ++k) {
     const Vec3 v = 0.9 * random.in_ball(), facing = k % 3 == 0 ? Vec3{0.6, 0.0, 0.8} : random.direction();
     const double cosine = k % 2 == 0 ? 0.05 : 0.5, within = random.uniform(0.1, 2.0);
-    const auto way = finder.nearest_exit(v, facing, cosine, within, -1);
+    const auto exit = finder.nearest_exit(v, facing, cosine, within, -1);
     const Mesh certain = facing_facets(mesh, v, facing, cosine, -kBand);
     const Mesh possible = facing_facets(mesh, v, facing, cosine, kBand);
     const auto distance_to = [&](const Mesh& some) {
       return some.facet_count() == 0 ? 1e300 : static_cast<double>(tests::distance_by_brute_force(some, v));
     };
     const double most = distance_to(certain), least = distance_to(possible);
-    if (!way) {
+    if (!exit) {
       EXPECT_GT(most, within - 1e-12) << "point " << k;
       ++none;
       continue;
     }
-    ++ways;
-    far += way->distance > 0.5;
-    EXPECT_LE(way->distance, within);
-    EXPECT_LE(way->distance, most + 1e-12) << "point " << k;
-    EXPECT_GE(way->distance, least - 1e-12) << "point " << k;
+    ++exits;
+    far += exit->distance > 0.5;
+    EXPECT_LE(exit->distance, within);
+    EXPECT_LE(exit->distance, most + 1e-12) << "point " << k;
+    EXPECT_GE(exit->distance, least - 1e-12) << "point " << k;
   }
-  EXPECT_GT(ways, 50);
+  EXPECT_GT(exits, 50);
   EXPECT_GT(none, 5);
   EXPECT_GT(far, 10);
 }
 
 TEST(NearestExit, IsTheNearestFacingPlaceOfBruteForce) {
-  expect_ways_of_brute_force(tests::blob(4, 1.0, 0.3, 7), 1.0, 11);
-  expect_ways_of_brute_force(tests::icosphere(4), 1.0, 12);
+  expect_exits_of_brute_force(tests::blob(4, 1.0, 0.3, 7), 1.0, 11);
+  expect_exits_of_brute_force(tests::icosphere(4), 1.0, 12);
 }
 
 TEST(NearestExit, IsTheSameInOtherUnits) {
-  expect_ways_of_brute_force(tests::blob(3, 1.0, 0.3, 8), 0x1p300, 13);
-  expect_ways_of_brute_force(tests::blob(3, 1.0, 0.3, 9), 0x1p-300, 14);
-  expect_ways_of_brute_force(tests::blob(3, 1.0, 0.3, 9), 0x1p-450, 15);
+  expect_exits_of_brute_force(tests::blob(3, 1.0, 0.3, 8), 0x1p300, 13);
+  expect_exits_of_brute_force(tests::blob(3, 1.0, 0.3, 9), 0x1p-300, 14);
+  expect_exits_of_brute_force(tests::blob(3, 1.0, 0.3, 9), 0x1p-450, 15);
 }
 
 }  // namespace
