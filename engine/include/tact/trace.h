@@ -1,4 +1,4 @@
-// Which thread did what, and when.
+// What each thread did, and when.
 #pragma once
 
 #include <tact/body.h>
@@ -8,7 +8,7 @@
 
 namespace tact {
 
-/// A stretch of one thread's work. Those of a thread lie in each other or apart.
+/// A part of one thread's work. Those of a thread are nested or apart.
 struct TraceEvent {
   enum class Kind {
     refresh,       ///< stage 1: a call of World::set_positions since the last step, or grouping facets anew
