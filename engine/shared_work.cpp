@@ -5,11 +5,11 @@
 namespace tact {
 
 bool is_few(std::size_t items, int threads, const base::Tuning& tuning) {
-  return items < tuning.few_pairs_per_thread * static_cast<std::size_t>(threads);
+  return items < tuning.few_items_per_thread * static_cast<std::size_t>(threads);
 }
 
 bool is_large(std::size_t work, std::size_t items, int threads, const base::Tuning& tuning) {
-  return threads > 1 && work > (is_few(items, threads, tuning) ? tuning.large_of_few : tuning.large_pair);
+  return threads > 1 && work > (is_few(items, threads, tuning) ? tuning.large_of_few : tuning.large_item);
 }
 
 std::size_t count_of_ranges(std::size_t work, int threads, const base::Tuning& tuning) {

@@ -76,7 +76,10 @@ class Bodies {
   std::int64_t moved_vertices() const noexcept { return moved_vertices_; }
   // Is what a step reads of the bodies likely in the second level of the cache still, about 100 bytes a vertex? Then
   // nothing of it is asked for in advance.
-  bool stay_in_cache() const noexcept { return vertices_ <= 4096; }
+  bool stay_in_cache() const noexcept {
+    constexpr std::int64_t kMostVertices = 4096;  // 400 kB
+    return vertices_ <= kMostVertices;
+  }
   std::vector<BodyId> ids() const;
 
   double margin(std::uint32_t slot) const { return margins_[slot]; }

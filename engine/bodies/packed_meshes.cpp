@@ -14,8 +14,8 @@ using narrowphase::ClusteredMesh;
 
 // A large mesh is read from one end to the other as it is; a few fit into the cache.
 constexpr int kMostFacets = 1024, kMostVertices = 4096;  // the caller's
-constexpr std::size_t kMovedAtATime = 64;
-constexpr std::size_t kLine = 64;  // bytes: no two meshes share a line of the cache
+constexpr std::size_t kMovedAtATime = 64;                // meshes, at some hundred nanoseconds each
+constexpr std::size_t kLine = 64;                        // bytes: no two meshes share a line of the cache
 
 bool is_small(const ClusteredMesh& mesh) {
   return mesh.facet_count() <= kMostFacets && mesh.source_vertex_count() <= kMostVertices;

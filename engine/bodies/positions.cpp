@@ -14,12 +14,12 @@ namespace {
 
 using narrowphase::Refit;
 
-constexpr std::size_t kPrefetchDistance = 8;                                // bodies
-constexpr std::size_t kPublishedAtATime = 1024;                             // bodies
+constexpr std::size_t kPrefetchDistance = 8;     // bodies: as far ahead as memory takes to come
+constexpr std::size_t kPublishedAtATime = 1024;  // bodies, at some nanoseconds each
 constexpr std::size_t kRefittedBytes = sizeof(narrowphase::ClusteredMesh);  // of a Body, its first: what stage 1 reads
 // A body of so many facets is refitted by all threads: one among many, or one of a few that would not keep them busy.
 constexpr int kLargeBody = 32768, kLargeOfFew = 8192;  // facets
-constexpr std::size_t kFewPerThread = 4;
+constexpr std::size_t kFewPerThread = 4;               // as Tuning::few_items_per_thread
 
 }  // namespace
 

@@ -4,7 +4,6 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 #include <vector>
 
@@ -83,14 +82,21 @@ void RunTotals::print_times(std::ostream& out) const {
   line("engine", times_.engine_ms,
        fmt::format("{:.2f} detections; stages below, 3 to 6 are summed over threads",
                    per_step(static_cast<double>(detections_))));
-  const std::array<std::pair<const char*, double>, 7> stages = {{{"  1 refresh", stats_.refresh_ms},
-                                                                 {"  2 sweep", stats_.sweep_ms},
-                                                                 {"  3 hulls", stats_.hulls_ms},
-                                                                 {"  4 direction", stats_.direction_ms},
-                                                                 {"  5 cull", stats_.cull_ms},
-                                                                 {"  6 confirm", stats_.confirm_ms},
-                                                                 {"  7 report", stats_.report_ms}}};
-  for (const auto& [name, ms] : stages) fmt::print(out, "  {:<26} {:>9.3f}\n", name, per_step(ms));
+  const std::pair<const char*, double> stages[] = {{"  1 refresh", stats_.refresh_ms},
+                                                   {"  2 sweep", stats_.sweep_ms},
+                                                   {"  3 hulls", stats_.hulls_ms},
+                                                   {"  4 direction", stats_.direction_ms},
+                                                   {"  5 cull", stats_.cull_ms},
+                                                   {"  6 confirm", stats_.confirm_ms},
+                                                   {"  containment", stats_.containment_ms},
+                                                   {"  points", stats_.points_ms},
+                                                   {"  self: facet pairs", stats_.self_facets_ms},
+                                                   {"  self: points", stats_.self_points_ms},
+                                                   {"  patches", stats_.patches_ms},
+                                                   {"  7 report", stats_.report_ms}};
+  for (const auto& [name, ms] : stages) {
+    if (ms > 0.0) fmt::print(out, "  {:<26} {:>9.3f}\n", name, per_step(ms));
+  }
   line("scene: sleep", times_.sleep_ms, "");
   fmt::print(out, "  {:<26} {:>9.3f}\n", "all", per_step(total));
 }
