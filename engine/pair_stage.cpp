@@ -135,7 +135,8 @@ void PairStage::put_aside(CulledPair& culled, int threads, const base::Tuning& t
   ++large_count_;
 }
 
-// Is there a range that no thread has taken? Threads begin at either end: what a thread refitted is in its cache.
+// Returns whether there was a range that no thread had taken. Threads begin at either end: what a thread refitted is in
+// its cache.
 bool PairStage::confirm_next_range(const base::Tuning& tuning, int thread) {
   LargePair* pair = nullptr;
   std::size_t range = 0;

@@ -61,7 +61,7 @@ FeaturePoint to_feature_point(const ContactPoint& point) {
           .gap = point.gap};
 }
 
-// Do surfaces cross, or touch, of which nobody knows how near they are? Where hulls only touch, nothing has crossed.
+// Whether surfaces cross, or touch at a distance that is not known. Where hulls only touch, nothing has crossed.
 bool cross_each_other(const PairRecord& record, double reach) {
   return record.hulls_overlap && (!record.facet_pairs.empty() || record.contact.containment != Containment::none) &&
          (record.contact.depth > 0.0 || reach == 0.0);

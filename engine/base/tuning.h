@@ -19,7 +19,7 @@ struct Tuning {
   /// Small bodies, from which on their memory is packed into one piece. Estimated: 64 of them no longer fit into the
   /// first levels of a cache. What packing gains: bench/results/scaling/notes.md.
   std::size_t fewest_packed = 64;
-  /// Clusters, from which on those of a body are looked at, and its facets grouped anew if it pays.
+  /// Clusters, from which on those of a body are looked at, and its facets grouped again if it pays.
   std::size_t fewest_regrouped = 4;
   /// Moves of a body after which its clusters are looked at; twice as many after each try. Estimated: a look costs
   /// about as much as a refresh, so that it is 3 % of the time at most.
@@ -33,18 +33,18 @@ struct Tuning {
 
   /// Boxes, up to which each is compared with each. tact-bench broadphase: break-even at about 20.
   std::size_t few_boxes = 16;
-  /// Is the order of the last step the start of the next?
+  /// Whether the order of the last step is the start of the next.
   bool carries_order = true;
 
   // Hulls and direction (stages 3 and 4)
 
-  /// Are pairs asked whether an axis of their 18-DOPs separates them? tact-bench stages: 10 to 21 ns a pair, against
+  /// Whether the 18-DOPs of pairs are tested for a separating axis. tact-bench stages: 10 to 21 ns a pair, against
   /// 100 and more for the direction that separated it last.
   bool separates_by_kdop = true;
-  /// Does a pair start from where GJK and the search for the direction ended in the last step? (Its direction is
+  /// Whether a pair starts where GJK and the search for the direction ended in the last step. (Its direction is
   /// carried in any case: it is a part of the answer.)
   bool carries_hulls = true;
-  /// Are clusters asked for the vertex that is farthest in a direction, or all vertices?
+  /// Whether the farthest vertex in a direction is found through clusters, or among all vertices.
   bool support_by_clusters = true;
 
   // Cull (stage 5)
@@ -70,21 +70,21 @@ struct Tuning {
 
   /// Pairs of clusters, from which on two bodies may be taken to lie on each other (narrowphase/triangles/confirm.cpp).
   std::size_t worth_as_surfaces = 128;
-  /// Do such bodies remember how far apart their clusters were?
+  /// Whether such bodies remember how far apart their clusters were.
   bool carries_surfaces = true;
-  /// Is a cluster opened only where facets of the other body are near?
+  /// Whether a cluster is opened only where facets of the other body are near.
   bool asks_near_facets = true;
   /// Facets of two blocks, from which on those near the other block are looked for first.
   std::size_t few_in_blocks = 48;
   /// Facet pairs of two blocks, from which on their corners are made floats.
   std::size_t worth_floats = 32;
-  /// Facets near one, from which on its plane is asked which of them it leaves aside; deciding fewer is as cheap.
+  /// Facets near one, from which on its plane tells which of them it leaves aside; deciding fewer is as cheap.
   std::size_t worth_a_plane = 6;
-  /// Are facet pairs decided many at a time before exact predicates decide what is left?
+  /// Whether facet pairs are decided many at a time before exact predicates decide what is left.
   bool decides_many = true;
 };
 
-/// What is used where nobody says otherwise.
+/// The default values.
 inline constexpr Tuning kTuning{};
 
 }  // namespace tact::base

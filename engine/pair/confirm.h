@@ -34,10 +34,10 @@ struct LargePair {
 /// The facet pairs of `work.culled`, sorted, and the numbers of kept facets, into its record.
 void confirm(const base::Tuning& tuning, PairWork& work);
 
-/// Are these so few pairs for a step that a thread may be left with nothing to do?
+/// Whether a step has so few pairs that a thread may be left with nothing to do.
 bool is_few(std::size_t pairs, int threads, const base::Tuning& tuning);
 
-/// Does it pay to share out the pair among threads, one of `pairs` pairs that a step looks at?
+/// Whether sharing out the pair among threads pays, one of `pairs` pairs that a step looks at.
 bool is_large(const CulledPair& culled, std::size_t pairs, int threads, const base::Tuning& tuning);
 
 /// Searches the i-th range. All of them together, and gather_ranges(), give the answer of confirm().

@@ -6,7 +6,7 @@
 namespace tact {
 
 /// Replaces what `work.culled` holds by what the criteria leave of the pair. At Accuracy::paper, or where zones are
-/// asked for, also fills the zones of the record's contact. Errors: backend_failure, out_of_memory.
+/// requested, also fills the zones of the record's contact. Errors: backend_failure, out_of_memory.
 void cull(const PairInput& pair, const narrowphase::Slab& slab, PairRecord& record, narrowphase::EmbreeDevice& device,
           PairWork& work);
 

@@ -8,7 +8,7 @@ namespace {
 
 using namespace narrowphase;
 
-// Do the vertices that showed the hulls to overlap in the last step show it still? No support query.
+// Whether the vertices that showed the hulls to overlap in the last step still do. No support query.
 bool still_overlap(const PairInput& pair, const PairRecord& record, PairWork& work, HullTest& test) {
   const PairHistory& history = record.history;
   test.surface_is_placed = history.has_surface && record.surface->face_count > 0 &&
@@ -17,7 +17,7 @@ bool still_overlap(const PairInput& pair, const PairRecord& record, PairWork& wo
   return history.kind == PairHistory::Kind::overlapping && holds_origin(pair.difference, history.hulls);
 }
 
-// Does the direction of the last step separate the hulls still, by more than the margins and what rounding may be?
+// Whether the direction of the last step still separates the hulls, by more than the margins and the rounding.
 bool still_separated(const PairInput& pair, const PairHistory& history, PairCounts& counts) {
   const MinkowskiDifference& m = pair.difference;
   const int a = history.hulls.a[0], b = history.hulls.b[0];

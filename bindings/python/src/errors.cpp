@@ -45,9 +45,9 @@ void define_errors(py::module_& module) {
   g_error = PyErr_NewExceptionWithDoc("tact.Error",
                                       "Data that a world cannot take; `code` is an ErrorCode. The world is as it was.",
                                       PyExc_RuntimeError, nullptr);
-  g_stale_report = PyErr_NewExceptionWithDoc(
-      "tact.StaleReportError", "A report was asked for something after its world's next detect() or set_settings().",
-      PyExc_RuntimeError, nullptr);
+  g_stale_report = PyErr_NewExceptionWithDoc("tact.StaleReportError",
+                                             "A report was used after its world's next detect() or set_settings().",
+                                             PyExc_RuntimeError, nullptr);
   module.add_object("Error", py::reinterpret_borrow<py::object>(g_error));
   module.add_object("StaleReportError", py::reinterpret_borrow<py::object>(g_stale_report));
   py::register_exception_translator([](std::exception_ptr thrown) {
