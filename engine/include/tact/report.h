@@ -160,6 +160,7 @@ class TACT_API Report {
 
  private:
   friend class ReportWriter;
+  friend class FacetOutcomeFinder;
   Report(Report&&) = default;
   Report& operator=(Report&&) = default;
   std::vector<Contact> contacts_;
@@ -169,6 +170,7 @@ class TACT_API Report {
   std::vector<PatchEvent> patch_events_;
   StepStats stats_;
   std::vector<TraceEvent> trace_;
+  const struct ReportSources* sources_ = nullptr;
 };
 
 }  // namespace tact
