@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kAllLanes = 0xffffu;  // one bit a lane
 inline constexpr double kLargestFloat = std::numeric_limits<float>::max();
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Has the box points? One that is empty along any axis overlaps nothing.
+// Whether the box has points. One that is empty along any axis overlaps nothing.
 inline bool occupied(const Box& box) {
   return box.lower.x <= box.upper.x && box.lower.y <= box.upper.y && box.lower.z <= box.upper.z;
 }
@@ -50,7 +50,7 @@ inline float to_float(double x, double origin) {
   return static_cast<float>(offset < -kLargestFloat ? -kLargestFloat : kLargestFloat < offset ? kLargestFloat : offset);
 }
 
-// Does the float give back the double? Equal floats of which both do mean equal doubles.
+// Whether the float gives back the double. Equal floats that both do mean equal doubles.
 inline bool is_exact(float value, double x, double origin) { return static_cast<double>(value) + origin == x; }
 
 }  // namespace tact::broadphase

@@ -22,7 +22,7 @@ constexpr double kOrderCost = 40.0;        // what ordering costs for each block
 constexpr std::size_t kFewChanged = 4;  // with fewer than 1 / kFewChanged of the boxes changed, the cost tells nothing
 constexpr std::size_t kThin = 12;       // a batch of fewer than 1 / kThin of the boxes has a block for each box, since
                                         // sixteen of them would span many blocks of the others; break-even at 12
-constexpr std::size_t kSparse = 4;      // the order is made anew when fewer than 1 / kSparse of its boxes are left
+constexpr std::size_t kSparse = 4;  // the order is made from scratch when fewer than 1 / kSparse of its boxes are left
 
 constexpr FloatBox kEmpty{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 constexpr FloatBox kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
@@ -188,7 +188,7 @@ void BlockTree::note_cost(std::size_t block_pairs, std::size_t changed_count) {
 
 bool BlockTree::worn_out() const { return excess_ > kOrderCost * static_cast<double>(levels_[0].blocks.size()); }
 
-// Have most boxes left, if `weight` times the known leavers have?
+// Whether most boxes have left, if `weight` times the known leavers have.
 bool BlockTree::most_left(std::size_t weight) const {
   std::size_t leavers = 0;
   std::size_t count = 0;

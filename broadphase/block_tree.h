@@ -29,7 +29,7 @@ class BlockTree {
 
   // Tells the tree what it cost to find the pairs of the last update, in pairs of blocks. The excess over the first
   // such cost since the order was made is added up. When the sum reaches the cost of making an order, the order is made
-  // anew: in the worst case twice the cost of an order made at the best moments.
+  // from scratch: in the worst case twice the cost of an order made at the best moments.
   void note_cost(std::size_t block_pairs, std::size_t changed_count);
 
   std::size_t level_count() const { return level_count_; }
@@ -42,7 +42,8 @@ class BlockTree {
   // The index of the box in each lane of a block of level 0; kNone where there is none.
   const std::uint32_t* members(std::size_t block) const { return &members_[block * kLanes]; }
 
-  // Does each box that is not empty stand in exactly one lane, unaltered, and are all bounds those of what is below?
+  // Whether each box that is not empty stands in exactly one lane, unaltered, and all bounds are those of what is
+  // below.
   bool validate(std::span<const Box> boxes) const;
 
   static constexpr std::uint32_t kNone = 0xffffffffu;

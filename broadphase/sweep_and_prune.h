@@ -27,12 +27,12 @@ class SweepAndPrune {
                                     const base::Tuning& tuning = base::kTuning);
 
   std::span<const IndexPair> pairs() const { return pairs_; }
-  // Did the last call change the pairs?
+  // Whether the last call changed the pairs.
   bool pairs_changed() const { return pairs_changed_; }
   // How many overlapping pairs with a changed box the filters kept out of the last answer.
   std::size_t excluded() const { return excluded_; }
 
-  // Does what is kept between calls agree with `boxes`, those of the last call? For tests.
+  // Whether what is kept between calls agrees with `boxes`, those of the last call. For tests.
   bool validate(std::span<const Box> boxes) const { return !tree_is_current_ || tree_.validate(boxes); }
 
  private:
@@ -44,7 +44,7 @@ class SweepAndPrune {
   void merge(std::span<const IndexPair> fresh, std::size_t box_count);
 
   BlockTree tree_;
-  bool tree_is_current_ = true;  // does it hold the boxes of the last call? Of few boxes it does not
+  bool tree_is_current_ = true;  // whether it holds the boxes of the last call: not of few boxes
   BlockJoin join_;
   PairSorter sorter_;
   std::vector<IndexPair> few_;            // of few boxes, those in which one changed

@@ -1,4 +1,4 @@
-// Is a coordinate one that a world takes?
+// Validates a coordinate.
 #pragma once
 
 #include <tact/body.h>

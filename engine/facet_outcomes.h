@@ -2,7 +2,7 @@
 // and for tests. No part of the package: its header is not installed.
 //
 // The engine keeps nothing for it. What the last step did is done once more with the engine's own criteria, so a report
-// can be asked until bodies are added, removed or set.
+// serves until bodies are added, removed or set.
 #pragma once
 
 #include <tact/report.h>
@@ -23,7 +23,7 @@ class TACT_API FacetOutcomeFinder {
 
   // Of a contact of the report; nothing at Accuracy::hulls, where the hulls are apart, and of a body with itself. Kept
   // and meeting facets are as many as Contact::kept_facets_a and kept_facets_b tell, except of surfaces that lie on
-  // each other where zones are not asked for: what a step remembers of them is not asked again, and more are kept.
+  // each other where zones are not requested: what a step remembers of them is not used, and more are kept.
   // Errors: out_of_memory, backend_failure.
   std::optional<FacetOutcomes> find(const Contact& contact);
   // The cluster of each facet of a body, counted from 0, as the last step grouped them. Errors: stale_body,

@@ -1,4 +1,4 @@
-// Queries to all bodies: those whose box has to do with it, one after the other.
+// Runs a query on every body whose box it reaches.
 #pragma once
 
 #include <tact/queries.h>
@@ -19,7 +19,7 @@ void check_query(const PointQuery& query);
 void check_query(const BoxQuery& query);
 
 RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted);
-/// Begins to ask for the first hits of many rays of the bodies as they are now.
+/// Begins the search for the first hits of many rays.
 void begin_rays(const Bodies& bodies, std::size_t rays, int threads, narrowphase::SegmentBatch& room);
 /// Answers some of them, up to kLinesAtATime, each as find_hit().
 void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<RayHit> hits,

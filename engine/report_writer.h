@@ -66,7 +66,7 @@ class ReportWriter {
   Report report_;
   ReportSources sources_ = {};
   std::vector<Reported> reported_;      // the contacts of the report, in its order
-  bool has_self_ = false;               // is any of a body with itself?
+  bool has_self_ = false;               // whether any is of a body with itself
   std::vector<Contact> last_contacts_;  // of the last report, while a new one is made
   Totals totals_;                       // of the contacts of the report
   std::vector<Totals> thread_totals_;   // scratch

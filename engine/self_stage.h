@@ -37,7 +37,7 @@ class SelfStage {
   /// Bodies that began to touch themselves in the last step, or ceased to; those that are no more among them.
   std::span<const ContactEvent> began() const { return began_; }
   std::span<const ContactEvent> ended() const { return ended_; }
-  /// Are these the bodies of the step before?
+  /// Whether these are the bodies of the step before.
   bool same_contacts() const { return same_; }
 
  private:

@@ -175,7 +175,8 @@ class SharedWork {
     return shared;
   }
 
-  // Is there a range that no thread has taken? Threads begin at either end: what a thread refitted is in its cache.
+  // Returns whether there was a range that no thread had taken. Threads begin at either end: what a thread refitted is
+  // in its cache.
   template <class Search>
   bool search_next(int thread, const Search& search) {
     Left next{};

@@ -26,7 +26,7 @@ class Step {
   /// took, milliseconds.
   const Report& run(Bodies& bodies, const Settings& settings, double refresh_ms);
 
-  /// Groups the facets anew of bodies whose clusters have lost their shape; what pairs remember stays. A part of stage
+  /// Groups the facets again of bodies whose clusters have lost their shape; what pairs remember stays. A part of stage
   /// 1, before run(). If it fails, nothing has changed.
   void regroup(Bodies& bodies, int threads);
 

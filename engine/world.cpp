@@ -74,7 +74,7 @@ struct World::Implementation {
   Bodies bodies{next_world(), tuning};
   Step step;
   narrowphase::SegmentBatch segment_batch;
-  std::unique_ptr<MotionStage> motion = nullptr;  // made when it is first asked for
+  std::unique_ptr<MotionStage> motion = nullptr;  // made by the first detect_motion()
   double refresh_ms = 0.0;                        // since the last step
   WorldObserver* observer = nullptr;
 

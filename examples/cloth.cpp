@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 constexpr int kSide = 24;          // vertices along a side of the cloth
 constexpr double kSpacing = 0.06;  // metres
 constexpr double kRadius = 0.35;   // of the ball, metres
-constexpr double kMargin = 0.005;  // half the thickness of every surface, metres
+constexpr double kMargin = 0.005;  // of every body, metres; surfaces are kept apart by the sum of two
 constexpr double kFriction = 0.4;
 constexpr double kSubstep = 1.0 / 720.0;  // seconds: in one, nothing may move farther than two margins
 constexpr int kSubsteps = 1800;

@@ -87,7 +87,7 @@ void points_and_margins() {
   world.add_body({.positions = sheet.positions,
                   .facets = sheet.facets,
                   .surface = tact::Surface::sheet,
-                  .margin = 0.005,  // half a thickness: nearer than 0.01 m to the floor is in contact
+                  .margin = 0.005,  // two add up: points are seen from 0.01 m above the floor on
                   .self_contact = true});
   for (const tact::Contact& contact : world.detect().contacts()) {
     for (const tact::ContactPoint& point : contact.points()) {

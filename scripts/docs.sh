@@ -10,6 +10,7 @@ mkdir -p build/docs
 cp -r docs/pages $pages
 mkdir -p $pages/pictures
 /usr/bin/python3 docs/pictures.py $pages/pictures
+/usr/bin/python3 docs/rule_pictures.py $pages/pictures
 cp scenes/pictures.png $pages/pictures/scenes.png
 cp bench/results/rivals/rivals.png bench/results/error/error_{hulls,meshes}.png bench/results/idle/skipped.png \
    bench/results/scaling/scaling_{growth,strong}.png $pages/pictures/

@@ -33,7 +33,7 @@ struct MeshMethodKind {
   std::string library;
   std::string setting;
   Minimum minimum = Minimum::smallest;
-  bool pairs = true;   // it is asked for facet pairs
+  bool pairs = true;   // it finds facet pairs
   bool depth = false;  // and for depth and direction
   std::function<std::unique_ptr<Rival>(const Workload&)> make;
 };

@@ -162,7 +162,7 @@ class Cgal : public BoxRival {
 std::unique_ptr<BoxRival> make_box_tact(std::size_t count, int threads) {
   return std::make_unique<Tact>(count, threads, Memory::kept);
 }
-std::unique_ptr<BoxRival> make_box_tact_afresh(std::size_t count, int threads) {
+std::unique_ptr<BoxRival> make_box_tact_from_scratch(std::size_t count, int threads) {
   return std::make_unique<Tact>(count, threads, Memory::forgotten);
 }
 std::unique_ptr<BoxRival> make_box_embree_refit(std::size_t count, int threads) {
@@ -178,7 +178,7 @@ std::unique_ptr<BoxRival> make_box_cgal(std::size_t count, int threads) {
 std::span<const BoxRivalKind> box_rivals() {
   static constexpr std::array kKinds{
       BoxRivalKind{"tact", make_box_tact},
-      BoxRivalKind{"tact afresh", make_box_tact_afresh},
+      BoxRivalKind{"tact from scratch", make_box_tact_from_scratch},
       BoxRivalKind{"Embree refit", make_box_embree_refit, false},
       BoxRivalKind{"Embree rebuild", make_box_embree_rebuild},
       BoxRivalKind{"CGAL", make_box_cgal},

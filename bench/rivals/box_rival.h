@@ -32,7 +32,7 @@ class BoxRival {
 // Each for `count` boxes and at most `threads` threads.
 std::unique_ptr<BoxRival> make_box_tact(std::size_t count, int threads);
 // The same, forgetting everything after each step.
-std::unique_ptr<BoxRival> make_box_tact_afresh(std::size_t count, int threads);
+std::unique_ptr<BoxRival> make_box_tact_from_scratch(std::size_t count, int threads);
 std::unique_ptr<BoxRival> make_box_embree_refit(std::size_t count, int threads);
 std::unique_ptr<BoxRival> make_box_embree_rebuild(std::size_t count, int threads);
 std::unique_ptr<BoxRival> make_box_cgal(std::size_t count, int threads);

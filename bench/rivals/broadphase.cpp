@@ -133,7 +133,7 @@ class Run {
         own = times.median;
         cells.push_back(three_digits(times.least));
         medians_[fmt::format("{},{}", name_of(kind), threads)].push_back(own);
-      } else if (rival.make != make_box_tact_afresh && (fastest == 0.0 || times.median < fastest)) {
+      } else if (rival.make != make_box_tact_from_scratch && (fastest == 0.0 || times.median < fastest)) {
         fastest = times.median;
       }
     }

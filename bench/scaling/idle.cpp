@@ -82,8 +82,8 @@ std::vector<Skip> skips(const Workload& pile) {
       {"pairs that layers exclude: all", changed([](WorkloadBody& body, std::size_t) { body.mask = 0; }), one, all},
       {"bodies that are apart: all", apart, one, all},
       {"facets: hulls only", pile, hulls, all},
-      {"no skip, but zones asked for", pile, zones, all},
-      {"no skip, but patches asked for", pile, patches, all},
+      {"no skip, but zones requested", pile, zones, all},
+      {"no skip, but patches requested", pile, patches, all},
   };
 }
 

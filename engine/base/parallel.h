@@ -64,7 +64,7 @@ class FirstException {
   std::exception_ptr exception_;
 };
 
-// What parallel_for() does for a thread that is left without items, if nobody says otherwise.
+// What parallel_for() does by default for a thread that is left without items.
 struct Nothing {
   void operator()(int) const {}
 };

@@ -6,7 +6,8 @@
 
 namespace tact::base {
 
-// Does the processor promise an invariant time stamp counter (Intel, Software Developer's Manual, 3B, chapter 18.17)?
+// Whether the processor promises an invariant time stamp counter (Intel, Software Developer's Manual, 3B,
+// chapter 18.17).
 bool TickCounter::exists() {
 #if defined(__x86_64__)
   static const bool promised = [] {

@@ -19,7 +19,7 @@ struct Tuning {
   /// Small bodies, from which on their memory is packed into one piece. Estimated: 64 of them no longer fit into the
   /// first levels of a cache. What packing gains: bench/results/scaling/notes.md.
   std::size_t fewest_packed = 64;
-  /// Clusters, from which on those of a body are looked at, and its facets grouped anew if it pays. Estimated.
+  /// Clusters, from which on those of a body are looked at, and its facets grouped again if it pays. Estimated.
   std::size_t fewest_regrouped = 4;
   /// Moves of a body after which its clusters are looked at; twice as many after each try. Estimated: a look costs
   /// about as much as a refresh, so that it is 3 % of the time at most.
@@ -85,7 +85,7 @@ struct Tuning {
   bool decides_many = true;
 };
 
-/// What is used where nobody says otherwise.
+/// The default values.
 inline constexpr Tuning kTuning{};
 
 }  // namespace tact::base

@@ -36,7 +36,7 @@ struct alignas(64) Body {
   Surface surface = Surface::closed;
   std::uint64_t external_id = 0;
   bool self_contact = false;
-  std::unique_ptr<const narrowphase::Features> features = nullptr;           // made when points are first asked for
+  std::unique_ptr<const narrowphase::Features> features = nullptr;           // made when points are first requested
   std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors = nullptr;  // when it is first held against itself
   std::vector<double> begin = {};  // where it was in the last step, once it has moved twice since: a placement
 };
@@ -64,7 +64,7 @@ class Bodies {
   void set_self_contact(BodyId id, bool wanted);
 
   bool contains(BodyId id) const noexcept;
-  // Was a body ever added, one that is gone included?
+  // Whether a body was ever added, also one that was removed.
   bool ever_held_any() const noexcept { return !slots_.empty(); }
   // Errors: stale_body, foreign_body.
   const Body& at(BodyId id) const;
@@ -74,8 +74,8 @@ class Bodies {
   // Vertices of all bodies, and of those that moved.
   std::int64_t vertices() const noexcept { return vertices_; }
   std::int64_t moved_vertices() const noexcept { return moved_vertices_; }
-  // Is what a step reads of the bodies likely in the second level of the cache still, about 100 bytes a vertex? Then
-  // nothing of it is asked for in advance.
+  // Whether what a step reads of the bodies, about 100 bytes a vertex, is likely in the second level of the cache
+  // still. Then nothing of it is prefetched.
   bool stay_in_cache() const noexcept {
     constexpr std::int64_t kMostVertices = 4096;  // 400 kB
     return vertices_ <= kMostVertices;
@@ -89,7 +89,7 @@ class Bodies {
   narrowphase::FeaturedMesh featured(std::uint32_t slot) const {
     return {&in_slot(slot).mesh, in_slot(slot).features.get()};
   }
-  // Has a body other positions than in the last step? The body and its way since.
+  // Whether a body has other positions than in the last step; and the body with its way since.
   bool on_its_way(std::uint32_t slot) const { return slots_[slot].begin != Begin::here; }
   narrowphase::MovingMesh moving(std::uint32_t slot) const;
   // Makes the features that are missing of some bodies, which may be named more than once, in parallel.
@@ -98,7 +98,7 @@ class Bodies {
   void make_neighbors(std::span<const std::uint32_t> slots, int threads);
   const narrowphase::ClusterNeighbors& neighbors(std::uint32_t slot) const { return *in_slot(slot).neighbors; }
 
-  // Rigid bodies are placed by their poses when somebody looks at them. Is there any?
+  // Whether there are rigid bodies. They are placed by their poses when a call needs their vertices.
   bool any_rigid() const { return rigid_count_ > 0; }
   // The body, placed. Several threads may call this.
   const Body& placed(std::uint32_t slot) const {
@@ -117,7 +117,7 @@ class Bodies {
     if (slots_[slot].knows_box) return placed_boxes_[slot];
     return base::grown(placed(slot).mesh.box(), margins_[slot]);
   }
-  // Is any body held against itself?
+  // Whether any body is tested against itself.
   bool any_self_contact() const { return self_count_ > 0; }
   bool is_rigid(std::uint32_t slot) const { return slots_[slot].rigid != nullptr; }
   // A box with its margin of where a body was in the last step: its box, if it is not rigid or place_ways() placed it.
@@ -140,15 +140,15 @@ class Bodies {
   std::span<const std::uint32_t> changed() const { return changed_; }
   bool moved(std::uint32_t slot) const { return slots_[slot].changed; }
   bool used(std::uint32_t slot) const { return slots_[slot].body != nullptr; }
-  // Was any body removed since end_step()? Another may stand in its slot.
+  // Whether any body was removed since end_step(). Another may stand in its slot.
   bool removed_any() const { return removed_any_; }
 
-  // A body that was grouped anew: what numbers its vertices have now, each under the number that it had.
+  // A body that was grouped again: which numbers its vertices have now, each under the number that it had.
   struct Regrouped {
     BodyId id;
     std::vector<int> numbers;
   };
-  // Have the clusters of any body lost their shape?
+  // Whether the clusters of any body have lost their shape.
   bool any_decayed() const { return groupings_.any_decayed(); }
   // Groups the facets of these bodies by where they are now, if it gains something. Sorted by slot. If it fails,
   // nothing has changed.
@@ -172,7 +172,7 @@ class Bodies {
     std::uint32_t generation = 0;
     std::int32_t vertex_count = 0;  // the caller's; with `fixed`, so that a batch can be looked over without the bodies
     bool fixed = false;
-    bool knows_box = false;  // of a rigid body: is its entry of placed_boxes_ that of its pose?
+    bool knows_box = false;  // of a rigid body: whether its entry of placed_boxes_ is that of its pose
     bool to_place = false;
     bool changed = false;
     bool seen = false;  // by a step

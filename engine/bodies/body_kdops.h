@@ -1,4 +1,4 @@
-// The k-DOPs of bodies, of those that somebody wants to know: an entry a slot.
+// The k-DOPs of those bodies that a pair test needs: an entry a slot.
 #pragma once
 
 #include <cstddef>
@@ -28,12 +28,12 @@ class BodyKdops {
   }
   void resize(std::size_t slots) { entries_.resize(slots), known_.resize(slots), wanted_.resize(slots); }
 
-  // The k-DOP of a body where it is now, or null if nobody wanted to know it.
+  // The k-DOP of a body where it is now, or null if no test needed it.
   const narrowphase::Kdop* of(std::uint32_t slot) const { return known_[slot] != 0 ? &entries_[slot] : nullptr; }
   bool is_wanted(std::uint32_t slot) const { return wanted_[slot] != 0; }
 
-  // Is it found while the positions of the body are in the cache, when it moves next? Found afterwards, all of them,
-  // the pile of 4,000 blobs of tact-bench rivals takes 6 % longer.
+  // Whether it is found while the positions of the body are in the cache, when it moves next. Found afterwards, all of
+  // them, the pile of 4,000 blobs of tact-bench rivals takes 6 % longer.
   void want(std::uint32_t slot, bool wanted) {
     if (wanted && wanted_[slot] == 0 && known_[slot] == 0) missing_.push_back(slot);
     wanted_[slot] = wanted ? 1 : 0;

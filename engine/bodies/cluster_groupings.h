@@ -26,7 +26,7 @@ class ClusterGroupings {
   void start(std::uint32_t slot, double quality) { entries_[slot] = {.quality = quality}; }
   void forget(std::uint32_t slot) { std::erase(decayed_, slot); }
 
-  // Is the quality of a mesh looked at when it moves next? It is every so many moves, of meshes with enough clusters.
+  // Whether the quality of a mesh is computed when it moves next: every n-th move, of meshes with enough clusters.
   bool looks_next(std::uint32_t slot, const narrowphase::ClusteredMesh& mesh) const {
     return entries_[slot].moves + 1 == moves_to_look(entries_[slot]) &&
            static_cast<std::size_t>(mesh.cluster_count()) >= tuning_->fewest_regrouped;
@@ -51,7 +51,7 @@ class ClusterGroupings {
     std::ranges::sort(decayed_);
     return decayed_;
   }
-  // It was tried to group them anew, and their quality is this now. The next try comes later.
+  // It was tried to group them again, and their quality is this now. The next try comes later.
   void note_try(std::uint32_t slot, double quality) {
     entries_[slot].quality = quality;
     entries_[slot].tries = static_cast<std::uint8_t>(std::min(entries_[slot].tries + 1, kMostDoublings));
@@ -71,7 +71,7 @@ class ClusterGroupings {
   struct Entry {
     double quality = 0.0;     // when the clusters were made, or could not be made better
     std::uint16_t moves = 0;  // since they were last looked at
-    std::uint8_t tries = 0;   // to group anew: the more there were, the longer until the next look
+    std::uint8_t tries = 0;   // to group again: the more there were, the longer until the next look
     bool decayed = false;
   };
   int moves_to_look(const Entry& entry) const { return tuning_->moves_to_look << entry.tries; }

@@ -8,7 +8,7 @@
 
 namespace tact {
 
-// Are the columns doubles, or ints, one after the other, so that they are read where they are?
+// Whether the columns are doubles, or ints, one after the other, so that they are read where they are.
 template <class Scalar>
 bool is_packed(const Columns<Scalar>& columns);
 

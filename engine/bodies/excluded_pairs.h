@@ -14,7 +14,7 @@ class ExcludedPairs {
  public:
   bool empty() const { return pairs_.empty(); }
   bool contains(const broadphase::IndexPair& pair) const { return std::ranges::binary_search(pairs_, pair); }
-  // Were others excluded before end_step()?
+  // Whether other pairs were excluded before end_step().
   bool changed() const { return changed_; }
 
   // A pair that is not there yet.

@@ -16,8 +16,8 @@ class PackedMeshes {
   // A world's meshes come and go: those that come have memory of their own, those that go leave holes.
   void add(const narrowphase::ClusteredMesh& mesh);
   void remove(const narrowphase::ClusteredMesh& mesh);
-  // Are so many small ones out of place, or so much of the memory holes, that it is worth to pack all anew? Of n bodies
-  // that come one by one each is moved a few times at most.
+  // Whether so many small ones are out of place, or so much of the memory is holes, that packing all again pays. Of n
+  // bodies that come one by one each is moved a few times at most.
   bool is_due(const base::Tuning& tuning) const;
   // Moves the small ones of all meshes of the world next to each other, in their order; until that is done they take
   // twice the memory. If it fails, nothing has changed.

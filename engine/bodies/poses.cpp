@@ -168,7 +168,7 @@ void Bodies::note_to_place(std::uint32_t index) {
   slot.to_place = true;
 }
 
-// What the step wants of the body besides is found while it is in the cache. Was it not placed yet?
+// Finds what the step needs of the body besides, while it is in the cache. Returns whether it was not placed before.
 bool Bodies::place_in_cache(std::uint32_t index) {
   ClusteredMesh& mesh = slots_[index].body->mesh;
   const bool was_placed = mesh.is_placed();

@@ -1,4 +1,4 @@
-// Groups the facets of bodies anew whose clusters have lost their shape.
+// Groups the facets of bodies again whose clusters have lost their shape.
 #include <optional>
 #include <utility>
 

@@ -6,7 +6,7 @@
 namespace tact {
 
 /// Replaces what `pair.work.culled` holds by what the criteria leave of the pair. At Accuracy::paper, or where zones
-/// are asked for, also fills the zones of the record's contact. Errors: backend_failure, out_of_memory.
+/// are requested, also fills the zones of the record's contact. Errors: backend_failure, out_of_memory.
 void cull(const PairTask& pair, const narrowphase::Slab& slab, narrowphase::EmbreeDevice& device);
 
 }  // namespace tact

@@ -20,7 +20,7 @@ struct MovedPair {
   PairRecord* record = nullptr;
   std::uint32_t place = 0;  ///< among the candidates
   bool touched = false;     ///< in the step before
-  bool changed = false;     ///< is it in contact now and was not in the step before, or the other way around?
+  bool changed = false;     ///< whether it came into contact in this step, or out of it
   bool separated = false;   ///< by an axis of the k-DOPs
 };
 
@@ -60,9 +60,9 @@ class PairTable {
   void note_result(MovedPair& pair);
   // Whether a pair that was looked at touches. The records of pairs that stayed apart are not read.
   bool touches_now(const MovedPair& pair) const { return entries_[pair.place].in_contact && pair.record->touching; }
-  // Do its hulls overlap, or are they nearer than their margins?
+  // Whether its hulls overlap or are nearer than the margins.
   bool in_contact(std::size_t place) const { return entries_[place].in_contact; }
-  // Are the pairs in contact those of the last step?
+  // Whether the pairs in contact are those of the last step.
   bool same_contacts() const;
 
   // Pairs that touched and are no candidates any more.
@@ -102,7 +102,7 @@ class PairTable {
   std::vector<ContactEvent> gone_;
   std::vector<PatchEvent> gone_patches_;
   bool same_pairs_ = false;
-  bool had_rigid_ = false;  // were there rigid bodies in the last step?
+  bool had_rigid_ = false;  // whether there were rigid bodies in the last step
 };
 
 }  // namespace tact

@@ -15,7 +15,7 @@ class PairPrefetch {
 
   /// Prefetches what pairs after the i-th need; a thread calls it before it looks at the i-th.
   void prefetch_after(std::size_t i) const;
-  /// Does it pay? Not where all bodies are likely in the cache.
+  /// Whether it pays: not where all bodies are likely in the cache.
   bool pays() const { return pays_; }
 
  private:

@@ -1,4 +1,4 @@
-// The first query of stage 3, to all pairs in one pass: does an axis of an 18-DOP separate the bodies?
+// The first part of stage 3, of all pairs in one pass: separates bodies by an axis of their 18-DOPs.
 #pragma once
 
 #include "engine/bodies/bodies.h"

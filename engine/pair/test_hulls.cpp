@@ -8,7 +8,7 @@ namespace {
 
 using namespace narrowphase;
 
-// Do the vertices that showed the hulls to overlap in the last step show it still? No support query.
+// Whether the vertices that showed the hulls to overlap in the last step still do. No support query.
 bool still_overlap(const PairTask& pair, HullTest& test) {
   const PairRecord& record = pair.record;
   const PairHistory& history = record.history;
@@ -18,7 +18,7 @@ bool still_overlap(const PairTask& pair, HullTest& test) {
   return history.kind == PairHistory::Kind::overlapping && holds_origin(pair.difference, history.hulls);
 }
 
-// Does the direction of the last step separate the hulls still, by more than the margins and what rounding may be?
+// Whether the direction of the last step still separates the hulls, by more than the margins and the rounding.
 bool still_separated(const PairTask& pair) {
   const PairHistory& history = pair.record.history;
   const MinkowskiDifference& m = pair.difference;

@@ -1,4 +1,4 @@
-// Stage 3: do the hulls of a pair overlap?
+// Stage 3: decides whether the hulls of a pair overlap.
 #pragma once
 
 #include "engine/pair/pair_work.h"
@@ -12,7 +12,7 @@ struct HullTest {
   bool surface_is_placed = false;  ///< PairWork::smallest holds the record's surface, where the bodies are now
 };
 
-/// What showed the hulls to overlap in the last step is asked first; or the direction that separated them, with a plane
+/// What showed the hulls to overlap in the last step is tried first; or the direction that separated them, with a plane
 /// and then one support query a body; then GJK, from where it ended in the last step, and integers where it cannot
 /// tell. If they are apart, a direction that separates them is left in the record's history, and the record is near if
 /// they are nearer than the margins.

@@ -15,11 +15,11 @@
 //   motion    u8 8, body, u8 motion
 //   margin    u8 9, body, f64 metres; this and the next two since version 3. After the body is added, if it is not 0,
 //             and wherever it changed
-//   self      u8 10, body, u8: is it held against itself? Likewise
+//   self      u8 10, body, u8: whether it is tested against itself. Likewise
 //   points    u8 11; after settings whose Outputs::points is set, which a record of settings alone unsets
 //   group     u8 12, body, u32 group; this and the next since version 4. After the body is added, if it is in one, and
 //             wherever it changed
-//   excluded  u8 13, body, body, u8: are they?
+//   excluded  u8 13, body, body, u8: whether they are
 //   poses     u8 14, u64 bodies, and for each: body, 9 f64 of the rotation, row by row, 3 f64 of the translation; since
 //             version 5, as is the motion `rigid`
 //

@@ -10,7 +10,7 @@ import numpy as np
 import tact
 
 SIDE, SPACING = 30, 0.05  # vertices along a side of the cloth, metres
-RADIUS, MARGIN = 0.4, 0.005  # of the ball, half the thickness of every surface, metres
+RADIUS, MARGIN = 0.4, 0.005  # of the ball, of every body; metres
 FRICTION, STEP, SUBSTEPS = 0.4, 1 / 60, 12
 
 

@@ -241,8 +241,8 @@ void add_check_command(CLI::App& program) {
       ->allow_extra_args(false);
   command
       ->add_option("--margin", options->margins,
-                   "Half a thickness in metres, of every body or of one; surfaces closer than the sum of two margins "
-                   "are in contact; may be repeated")
+                   "The margin in metres, of every body or of one: how far ahead of a surface points are seen; may be "
+                   "repeated")
       ->type_name("[NAME=]M")
       ->allow_extra_args(false);
   command->add_option("--self", options->selves, "Hold this body against itself, too, or all; may be repeated")

@@ -12,10 +12,10 @@
 //
 // `a` and `b` are places in `bodies`. `pairs` are the candidate pairs, sorted by (a, b); one whose hulls are apart has
 // only "hulls_overlap":false and an empty "facet_pairs". "source" tells how the direction was found: "carried", "fresh"
-// or "smallest"; "outcomes" how many facets of each body had each FacetOutcome, where they were asked for;
+// or "smallest"; "outcomes" how many facets of each body had each FacetOutcome, where they were requested;
 // "limit_reached" whether it is only the best that was found before a limit. At Accuracy::hulls every "facet_pairs" is
 // null. `stats` and `times_ms` have the names of <tact/statistics.h>, the times without their "_ms". `impacts` are
-// those since the frame before, sorted by bodies and then by time, where they are asked for; `first_time` is null if
+// those since the frame before, sorted by bodies and then by time, where they are requested; `first_time` is null if
 // there is none. `interrupted` is there only if Ctrl-C ended the frames. Numbers read back to the same double. A name
 // that is not UTF-8 has U+FFFD in the place of each wrong byte.
 #pragma once

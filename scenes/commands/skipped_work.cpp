@@ -55,10 +55,10 @@ void add_facets(const StepStats& s, Ledger& ledger) {
 void add_outputs(const StepStats& s, const Settings& settings, Ledger& ledger) {
   const bool has_facets = settings.accuracy != Accuracy::hulls;
   const bool has_zones = settings.outputs.zones || settings.accuracy == Accuracy::paper;
-  if (!has_facets) ledger.add("stages 5 and 6", s.contacts, "facet pairs were not asked for", kNotMeasured);
+  if (!has_facets) ledger.add("stages 5 and 6", s.contacts, "facet pairs were not requested", kNotMeasured);
   if (has_facets) ledger.add("Embree", s.contacts - s.tree_pairs, "the clusters are few: a plain loop", kNotMeasured);
-  if (has_facets && !has_zones) ledger.add("zones", s.contacts, "not asked for", kNotMeasured);
-  if (!settings.outputs.patches) ledger.add("patches", s.touching_contacts, "not asked for", kNotMeasured);
+  if (has_facets && !has_zones) ledger.add("zones", s.contacts, "not requested", kNotMeasured);
+  if (!settings.outputs.patches) ledger.add("patches", s.touching_contacts, "not requested", kNotMeasured);
 }
 
 std::string time_each_text(double ms) {

@@ -12,7 +12,7 @@ struct ContactMarks {
   bool facets = true;            // the facets that meet, and those with contact points
   bool directions = true;        // an arrow a touching contact, from a to b
   bool hulls = false;            // arrows also where only hulls meet, from the middle of a's box
-  bool zones = false;            // the disks around the impact zones; the world must have been asked for them
+  bool zones = false;            // the disks around the impact zones; the world must have computed them
   double shortest_arrow = 0.12;  // an arrow is as long as the contact is deep, but not shorter than this share of the
                                  // diagonal of the smaller body's box
   double longest_arrow = 1.0;    // nor longer than this share of it

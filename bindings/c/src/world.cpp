@@ -22,7 +22,7 @@ class CExecutor : public Executor {
   tact_executor executor_;
 };
 
-// A function of C that is told of messages.
+// A function of C that takes messages.
 struct CMessages {
   tact_message_function function;
   void* user;

@@ -34,7 +34,7 @@ class PythonDrawer : public DebugDrawer {
 };
 
 void define_options(py::module_& module) {
-  py::class_<DebugColor>(module, "DebugColor", "Each 0 to 1; alpha 1 covers what is behind.")
+  py::class_<DebugColor>(module, "DebugColor", "A colour; an alpha of 1 covers what is behind.")
       .def(py::init([](float red, float green, float blue, float alpha) {
              return DebugColor{red, green, blue, alpha};
            }),
@@ -44,7 +44,7 @@ void define_options(py::module_& module) {
       .def_readwrite("blue", &DebugColor::blue)
       .def_readwrite("alpha", &DebugColor::alpha);
   using Options = DebugDrawOptions;
-  py::class_<Options>(module, "DebugDrawOptions", "What World.debug_draw() draws, and in which colour.")
+  py::class_<Options>(module, "DebugDrawOptions", "What is drawn, and in which colour.")
       .def(py::init([](const py::kwargs& given) {
         py::object options = py::cast(Options{});
         for (const auto& [name, value] : given) options.attr(name) = value;  // AttributeError for what is none

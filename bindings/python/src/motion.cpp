@@ -41,19 +41,21 @@ MotionArrays motion_arrays(const MotionReport& report) {
 }
 
 void define_motion(py::module_& module) {
-  py::enum_<Impacts>(module, "Impacts", "What detect_motion() looks for. Less is faster.")
+  py::enum_<Impacts>(module, "Impacts", "Which impacts World.detect_motion() finds.")
       .value("all", Impacts::all, "every pair of features that meets")
-      .value("first_of_pair", Impacts::first_of_pair, "of each pair of bodies the earliest")
-      .value("first", Impacts::first, "the earliest of all");
+      .value("first_of_pair", Impacts::first_of_pair, "the earliest of each pair of bodies; faster")
+      .value("first", Impacts::first, "the earliest of all; the fastest");
   py::class_<MotionArrays>(module, "MotionReport",
-                           "What meets between two steps, a row an impact, sorted by bodies and then by time.")
-      .def_readonly("first_time", &MotionArrays::first_time, "the earliest time, 0 to 1; inf if nothing meets")
+                           "What World.detect_motion() found. A row an impact, sorted by bodies and then by time.")
+      .def_readonly("first_time", &MotionArrays::first_time,
+                    "the earliest time of all, 0 to 1; infinity if nothing meets")
       .def_readonly("bodies", &MotionArrays::bodies, "(N, 2) int64: BodyId.index of the two bodies")
       .def_readonly("kinds", &MotionArrays::kinds, "(N,) uint8: values of FeaturePair")
-      .def_readonly("times", &MotionArrays::times, "(N,): when first, 0 to 1; never late")
-      .def_readonly("a_vertices", &MotionArrays::a_vertices, "(N, 3) int32: vertices of a; -1 fills up")
-      .def_readonly("b_vertices", &MotionArrays::b_vertices, "(N, 3) int32: vertices of b; -1 fills up")
-      .def_readonly("stats", &MotionArrays::stats, "counts, and times in milliseconds, by name")
+      .def_readonly("times", &MotionArrays::times,
+                    "(N,): the part of the way, 0 to 1, at which they first meet; never later than the true time")
+      .def_readonly("a_vertices", &MotionArrays::a_vertices, "(N, 3): vertices of the feature of a; -1 fills up")
+      .def_readonly("b_vertices", &MotionArrays::b_vertices, "(N, 3): vertices of the feature of b; -1 fills up")
+      .def_readonly("stats", &MotionArrays::stats, "counts and times. By name, times in milliseconds")
       .def("__len__", [](const MotionArrays& motion) { return motion.times.size(); })
       .def("__repr__", [](const MotionArrays& motion) {
         return "<tact.MotionReport of " + std::to_string(motion.times.size()) + " impacts, first at " +

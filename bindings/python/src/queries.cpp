@@ -132,33 +132,39 @@ void define_queries(py::module_& module, WorldClass& world) {
   py::class_<HitArrays>(module, "RayHits", "Facets that rays meet, a row a hit.")
       .def_readonly("bodies", &HitArrays::bodies, "(N,) int64: BodyId.index; -1 where nothing was hit")
       .def_readonly("facets", &HitArrays::facets, "(N,) int32; -1 where nothing was hit")
-      .def_readonly("fractions", &HitArrays::fractions, "(N,): from_ + fraction * (to - from_)")
-      .def_readonly("barycentric", &HitArrays::barycentric, "(N, 3): of the facet's corners there")
+      .def_readonly("fractions", &HitArrays::fractions, "(N,): the place on the ray: from_ + fraction * (to - from_)")
+      .def_readonly("barycentric", &HitArrays::barycentric,
+                    "(N, 3): the place on the facet: weights of its corners, not negative, with a sum of 1")
       .def("__len__", [](const HitArrays& hits) { return hits.facets.size(); });
-  py::class_<ClosestArrays>(module, "ClosestPoints", "The nearest places of all surfaces, a row a point.")
+  py::class_<ClosestArrays>(
+      module, "ClosestPoints",
+      "The nearest place of all surfaces; of equally near ones the least by body and facet. A row a point.")
       .def_readonly("bodies", &ClosestArrays::bodies, "(N,) int64: BodyId.index; -1 where nothing is as near")
       .def_readonly("facets", &ClosestArrays::facets, "(N,) int32; -1 where nothing is as near")
-      .def_readonly("distances", &ClosestArrays::distances, "(N,): metres; inf where nothing is as near")
-      .def_readonly("barycentric", &ClosestArrays::barycentric, "(N, 3): of the facet's corners there")
+      .def_readonly("distances", &ClosestArrays::distances, "(N,): metres; infinity where no facet is within reach")
+      .def_readonly("barycentric", &ClosestArrays::barycentric,
+                    "(N, 3): the place on the facet: weights of its corners, not negative, with a sum of 1")
       .def("__len__", [](const ClosestArrays& points) { return points.facets.size(); });
   const auto layer = py::arg("layer") = 0xffffffffu;
   const auto mask = py::arg("mask") = 0xffffffffu;
   world
       .def("cast_rays", cast_rays, py::arg("from_"), py::arg("to"), py::kw_only(), py::arg("any") = false, layer, mask,
-           "the first facet that each ray meets, or any; (N, 3) both, metres")
+           "answers many rays in parallel. The first facet that each meets, or any; (N, 3) both, metres")
       .def("cast_ray_all", cast_ray_all, py::arg("from_"), py::arg("to"), py::kw_only(), layer, mask,
-           "all facets that a ray meets, sorted by time")
+           "all facets that a ray meets, sorted by fraction, body and facet")
       .def("closest_points", closest_points, py::arg("points"), py::kw_only(),
            py::arg("within") = std::numeric_limits<double>::infinity(), layer, mask,
-           "the nearest place of all surfaces to each point; (N, 3), metres")
+           "finds the nearest places to many points in parallel. (N, 3), metres")
       .def("overlap_box", overlap_box, py::arg("lower"), py::arg("upper"), py::kw_only(), layer, mask,
-           "(N, 2) int64: BodyId.index and facet of what shares a point with the box")
+           "the facets that share a point with a box, decided exactly; sorted by body and facet. (N, 2): BodyId.index "
+           "and facet")
       .def("overlap_boxes", overlap_boxes, py::arg("lower"), py::arg("upper"), py::kw_only(), layer, mask,
-           "the same of many boxes, (N, 3) both: a list of arrays")
+           "finds the facets in many boxes in parallel. (N, 3) both; an array a box")
       .def("bodies_containing", bodies_containing, py::arg("point"), py::kw_only(), layer, mask,
-           "the closed bodies that a point is in")
+           "the closed bodies that contain a point or have it on their surface, decided exactly; ignores `within`")
       .def("bodies_containing_each", bodies_containing_each, py::arg("points"), py::kw_only(), layer, mask,
-           "the same of many points, (N, 3): a list of lists");
+           "finds the bodies that contain many points in parallel. (N, 3); a list a "
+           "point");
 }
 
 }  // namespace tact::python

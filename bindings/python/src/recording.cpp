@@ -90,11 +90,12 @@ void define_recording(py::module_& module, WorldClass& world) {
   py::class_<PlayedStep>(module, "PlayedStep", "A step that was run again.")
       .def_readonly("number", &PlayedStep::number, "from 0")
       .def_readonly("byte", &PlayedStep::byte, "where its hash stands in the recording")
-      .def_readonly("recorded", &PlayedStep::recorded, "hash of the report then; None if the step had no answer")
+      .def_readonly("recorded", &PlayedStep::recorded,
+                    "the hash of the recorded report. None if the step failed or the program ended in it")
       .def_readonly("now", &PlayedStep::now, "hash of the report now")
       .def_property_readonly("same", &PlayedStep::same)
       .def("__repr__", text_of);
-  py::class_<Player>(module, "RecordingPlayer", "Runs a recording again: iterate over its steps.")
+  py::class_<Player>(module, "RecordingPlayer", "Runs a recording again, step by step. Iterate over its steps.")
       .def(py::init<const std::filesystem::path&, std::optional<int>>(), py::arg("path"), py::kw_only(),
            py::arg("threads") = std::nullopt, "threads: None for as many as the recording had")
       .def("__iter__", [](py::object self) { return self; })
@@ -105,9 +106,8 @@ void define_recording(py::module_& module, WorldClass& world) {
              return *step;
            })
       .def_property_readonly("world", &Player::world, "the world that the steps are made in")
-      .def_property_readonly(
-          "cut_at", &Player::cut_at,
-          "the byte of the record that is cut off; None if the recording is whole, or not yet played")
+      .def_property_readonly("cut_at", &Player::cut_at,
+                             "the byte of the record that the end of the recording cuts off. Known at the end")
       .def_property_readonly("recorded_by", &Player::recorded_by, "the version of tact that wrote it");
 }
 

@@ -72,30 +72,40 @@ PatchArrays patch_arrays(const Patch& patch) {
 }
 
 void define_parts(py::module_& module) {
-  py::class_<ZoneDisk>(module, "ZoneDisk", "The disk around an impact zone, across the contact direction.")
+  py::class_<ZoneDisk>(module, "ZoneDisk", "The smallest disk around an impact zone, seen along the contact direction.")
       .def_property_readonly(
-          "center", [](const ZoneDisk& zone) { return vector_of(zone.center); }, "(3,), metres")
-      .def_readonly("radius", &ZoneDisk::radius, "metres; negative if there is none");
-  py::class_<PatchArrays>(module, "Patch", "A connected set of facet pairs and contact points.")
-      .def_readonly("id", &PatchArrays::id, "lasts from step to step")
-      .def_readonly("point", &PatchArrays::point, "(3,), metres")
-      .def_readonly("direction", &PatchArrays::direction, "(3,), unit, from a to b")
-      .def_readonly("depth", &PatchArrays::depth, "metres")
-      .def_readonly("area", &PatchArrays::area, "square metres")
-      .def_readonly("facet_pairs", &PatchArrays::facet_pairs, "rows of Contact.facet_pairs")
-      .def_readonly("points", &PatchArrays::points, "rows of Contact.points")
-      .def_readonly("spanning", &PatchArrays::spanning, "at most four of the points, the deepest first");
-  py::enum_<PatchEvent::Kind>(module, "PatchEventKind", "What became of a patch.")
-      .value("began", PatchEvent::Kind::began)
-      .value("split", PatchEvent::Kind::split, "it came off another, which persists")
-      .value("merged", PatchEvent::Kind::merged, "it went into another")
-      .value("ended", PatchEvent::Kind::ended);
-  py::class_<PatchEvent>(module, "PatchEvent", "What became of a patch in this step.")
+          "center", [](const ZoneDisk& zone) { return vector_of(zone.center); }, "(3,): metres")
+      .def_readonly("radius", &ZoneDisk::radius, "metres; negative where no zone is computed or it is empty");
+  py::class_<PatchArrays>(
+      module, "Patch",
+      "A connected set of facet pairs and contact points: a place where two bodies touch or nearly do.")
+      .def_readonly("id", &PatchArrays::id,
+                    "the same in the next step if both share most of their vertices; never given out twice by a world")
+      .def_readonly("point", &PatchArrays::point,
+                    "(3,): the middle of its points, or of the boxes that its facet pairs have in common; metres")
+      .def_readonly(
+          "direction", &PatchArrays::direction,
+          "(3,): unit vector from a to b: the mean normal of its points, weighted by depth, or of its facets, by area")
+      .def_readonly(
+          "depth", &PatchArrays::depth,
+          "metres: minus the smallest gap of its points, or how far b moves along `direction` to part its facet pairs")
+      .def_readonly("area", &PatchArrays::area,
+                    "the area of the convex hull of its points, seen along `direction`; square metres")
+      .def_readonly("facet_pairs", &PatchArrays::facet_pairs, "indices into Contact.facet_pairs, ascending")
+      .def_readonly("points", &PatchArrays::points, "indices into Contact.points, ascending")
+      .def_readonly("spanning", &PatchArrays::spanning,
+                    "at most four of `points`, the deepest first, then those that span the most area; -1 fills up");
+  py::enum_<PatchEvent::Kind>(module, "PatchEventKind", "What became of the patch.")
+      .value("began", PatchEvent::Kind::began, "it is new")
+      .value("split", PatchEvent::Kind::split, "it is new, and was a part of the patch `other`, which persists")
+      .value("merged", PatchEvent::Kind::merged, "it became a part of the patch `other`")
+      .value("ended", PatchEvent::Kind::ended, "it is gone");
+  py::class_<PatchEvent>(module, "PatchEvent", "A change of a patch in this step.")
       .def_readonly("a", &PatchEvent::a)
       .def_readonly("b", &PatchEvent::b)
       .def_readonly("kind", &PatchEvent::kind)
       .def_readonly("patch", &PatchEvent::patch, "its id")
-      .def_readonly("other", &PatchEvent::other, "the patch that it came off, or went into; or 0");
+      .def_readonly("other", &PatchEvent::other, "the id of the other patch, or 0");
 }
 
 // Contact points as arrays, a row a point. They are copies.
@@ -119,34 +129,47 @@ PointArrays point_arrays(std::span<const ContactPoint> points) {
 }
 
 void define_points(py::module_& module) {
-  py::enum_<FeaturePair>(module, "FeaturePair", "Between which features a contact point lies.")
-      .value("vertex_facet", FeaturePair::vertex_facet, "a vertex of a; a facet of b, an edge or a corner of it")
-      .value("facet_vertex", FeaturePair::facet_vertex, "a facet of a, an edge or a corner of it; a vertex of b")
-      .value("edge_edge", FeaturePair::edge_edge, "an edge of a and one of b");
-  py::class_<PointArrays>(module, "ContactPoints", "Where two surfaces are nearest to each other, a row a point.")
+  py::enum_<FeaturePair>(module, "FeaturePair", "The features of bodies a and b that are nearest, or that meet.")
+      .value("vertex_facet", FeaturePair::vertex_facet, "a vertex of a, a facet of b")
+      .value("facet_vertex", FeaturePair::facet_vertex, "a facet of a, a vertex of b")
+      .value("edge_edge", FeaturePair::edge_edge, "an edge of each");
+  py::class_<PointArrays>(module, "ContactPoints",
+                          "A point on each of two surfaces, where features are nearest or have crossed. A row a point.")
       .def_readonly("kinds", &PointArrays::kinds, "(N,) uint8: values of FeaturePair")
-      .def_readonly("patches", &PointArrays::patches, "(N,) int32: points connected by common vertices")
-      .def_readonly("a_vertices", &PointArrays::a_vertices, "(N, 3) int32: vertices of a; -1 fills up")
-      .def_readonly("b_vertices", &PointArrays::b_vertices, "(N, 3) int32: vertices of b; -1 fills up")
-      .def_readonly("a_weights", &PointArrays::a_weights, "(N, 3): their weights; the sum of a row is 1")
-      .def_readonly("b_weights", &PointArrays::b_weights, "(N, 3): their weights; the sum of a row is 1")
-      .def_readonly("normals", &PointArrays::normals, "(N, 3): unit, from a to b")
-      .def_readonly("gaps", &PointArrays::gaps, "(N,): metres; negative where surfaces have crossed")
-      .def_readonly("ids", &PointArrays::ids, "(N,) uint64: the same while these features are near each other")
+      .def_readonly(
+          "patches", &PointArrays::patches,
+          "(N,): the number of its patch, counted from 0: an index into Contact.patches, if Settings.patches is set")
+      .def_readonly("a_vertices", &PointArrays::a_vertices,
+                    "(N, 3): vertices of the smallest feature of a that holds the point; -1 fills up")
+      .def_readonly("b_vertices", &PointArrays::b_vertices, "(N, 3): the same of b")
+      .def_readonly("a_weights", &PointArrays::a_weights,
+                    "(N, 3): weights of the vertices of a, not negative, with a sum of 1")
+      .def_readonly("b_weights", &PointArrays::b_weights, "(N, 3): the same of b")
+      .def_readonly(
+          "normals", &PointArrays::normals,
+          "(N, 3): unit vector from the point of a to that of b; the normal of a facet where the two coincide")
+      .def_readonly(
+          "gaps", &PointArrays::gaps,
+          "(N,): the distance of the two points along the normal, metres; negative where the surfaces have crossed")
+      .def_readonly("ids", &PointArrays::ids,
+                    "(N,): the same in every step in which these features are near: a key for impulses")
       .def("__len__", [](const PointArrays& points) { return points.gaps.size(); });
 }
 
 void define_contact(py::module_& module) {
   py::class_<ContactHandle>(module, "Contact",
-                            "Two bodies whose convex hulls overlap. Arrays that it gives stay valid.")
+                            "Two bodies whose convex hulls overlap or touch, decided exactly, or are nearer than the "
+                            "sum of the margins. Arrays that it gives stay valid.")
       .def_property_readonly("a", contact_field(&Contact::a))
       .def_property_readonly("b", contact_field(&Contact::b))
       .def_property_readonly(
           "direction", [](const ContactHandle& contact) { return vector_of(contact->direction); },
-          "(3,), unit, from a to b")
-      .def_property_readonly("depth", contact_field(&Contact::depth), "overlap of the hulls along `direction`, metres")
+          "(3,): unit vector from a to b: moving b by depth * direction separates the hulls")
+      .def_property_readonly(
+          "depth", contact_field(&Contact::depth),
+          "the overlap of the hulls along `direction`, metres; minus their distance where they are apart")
       .def_property_readonly("containment", contact_field(&Contact::containment),
-                             "is one body wholly inside the other, so that no facets meet?")
+                             "which body lies wholly inside the other, decided exactly; the direction leads out of it")
       .def_property_readonly("source", contact_field(&Contact::source))
       .def_property_readonly("iterations", contact_field(&Contact::iterations))
       .def_property_readonly("limit_reached", contact_field(&Contact::limit_reached))
@@ -160,13 +183,13 @@ void define_contact(py::module_& module) {
       .def_property_readonly("kept_facets_b", contact_field(&Contact::kept_facets_b))
       .def_property_readonly(
           "facet_pairs", [](const ContactHandle& contact) { return facet_pair_array(contact->facet_pairs()); },
-          "(N, 2) int32: the facets that meet, sorted")
+          "(N, 2): the facets that meet, sorted; empty at Accuracy.hulls")
       .def_property_readonly(
           "points", [](const ContactHandle& contact) { return point_arrays(contact->points()); },
-          "ContactPoints, filled if Settings.points is set")
+          "the points, if Settings.points is set; sorted by kind, then by features")
       .def_property_readonly(
           "touching", [](const ContactHandle& contact) { return contact->touching(); },
-          "does any facet of a meet one of b?")
+          "whether facets meet, or a point's gap is below the sum of the margins")
       .def_property_readonly(
           "patches",
           [](const ContactHandle& contact) {
@@ -174,7 +197,7 @@ void define_contact(py::module_& module) {
             for (const Patch& patch : contact->patches()) list.append(patch_arrays(patch));
             return list;
           },
-          "filled if Settings.patches is set")
+          "the patches, if Settings.patches is set; sorted by first facet pair, then by first point")
       .def("__repr__", contact_text);
 }
 
@@ -207,8 +230,9 @@ void define_report(py::module_& module) {
   define_parts(module);
   define_points(module);
   define_contact(module);
-  py::class_<ReportHandle>(module, "Report", "What a step found, until the next one. Arrays that it gives stay valid.")
-      .def_property_readonly("contacts", contacts_of, "pairs whose hulls overlap, sorted by (a, b)")
+  py::class_<ReportHandle>(
+      module, "Report", "What World.detect() found. It is valid until the next step; arrays that it gives stay valid.")
+      .def_property_readonly("contacts", contacts_of, "the contacts, sorted by (a, b)")
       .def("find_contact", find_contact, py::arg("a"), py::arg("b"), "the contact of two bodies, or None")
       .def_property_readonly(
           "bodies",
@@ -233,7 +257,7 @@ void define_report(py::module_& module) {
             return column_of<double>(report->contacts(), [](const Contact& contact) { return contact.depth; });
           },
           "(C,): the depth of each contact, metres")
-      .def_property_readonly("candidate_pairs", candidates_of, "(a, b, hulls_overlap) of the pairs whose boxes overlap")
+      .def_property_readonly("candidate_pairs", candidates_of, "the pairs whose boxes overlap, sorted by (a, b)")
       .def_property_readonly(
           "began", [](const ReportHandle& report) { return events_of(report->began()); },
           "pairs (a, b) that touch now and did not")
@@ -246,13 +270,13 @@ void define_report(py::module_& module) {
             const auto events = report->patch_events();
             return std::vector<PatchEvent>(events.begin(), events.end());
           },
-          "what became of patches, if Settings.patches is set")
+          "the changes of patches, if Settings.patches is set; sorted by (a, b), ends before beginnings")
       .def_property_readonly(
           "stats", [](const ReportHandle& report) { return stats_of(*report); },
-          "counts, and times in milliseconds, by name")
+          "counts and times of the step. By name, times in milliseconds")
       .def(
           "hash", [](const ReportHandle& report) { return report->hash(); },
-          "a number made from every bit of the answers")
+          "a number made from every bit of candidate pairs, contacts, facet pairs and points")
       .def("__len__", [](const ReportHandle& report) { return report->contacts().size(); })
       .def("__repr__", report_text);
 }

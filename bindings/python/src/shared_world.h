@@ -17,7 +17,7 @@ namespace tact::python {
 
 namespace py = pybind11;
 
-/// Becomes tact.StaleReportError: a report, or a part of it, was asked for after its step.
+/// Becomes tact.StaleReportError: a report, or a part of it, was used after its step.
 class StaleReport : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -88,7 +88,7 @@ class SharedWorld {
   bool busy_ = false;
 };
 
-/// A report, or something in it, that is asked for only while it is the world's last.
+/// A report, or something in it, that is used only while it is the world's last.
 template <class Shown>
 class OfReport {
  public:

@@ -17,27 +17,30 @@ std::string text_of(const BodyId& id) {
 }
 
 void define_enums(py::module_& module) {
-  py::enum_<Surface>(module, "Surface", "What a mesh is the surface of.")
+  py::enum_<Surface>(module, "Surface", "What the facets of a body are.")
       .value("closed", Surface::closed, "a solid's surface, facets counter-clockwise seen from outside")
       .value("sheet", Surface::sheet, "cloth: no inside, both sides count");
-  py::enum_<Motion>(module, "Motion", "Whether a body's positions can be set.")
-      .value("deformable", Motion::deformable, "they can")
-      .value("fixed", Motion::fixed, "they cannot; two fixed bodies are never tested against each other")
-      .value("rigid", Motion::rigid, "it keeps its shape: set_pose() turns and moves it");
+  py::enum_<Motion>(module, "Motion", "How a body moves.")
+      .value("deformable", Motion::deformable, "World.set_positions() moves its vertices")
+      .value("fixed", Motion::fixed, "nothing moves it; two fixed bodies are never tested against each other")
+      .value("rigid", Motion::rigid, "World.set_pose() turns and moves it, and its shape stays");
   py::enum_<Accuracy>(module, "Accuracy", "What a report promises of its pairs.")
-      .value("hulls", Accuracy::hulls, "direction and depth of the convex hulls; no facets")
-      .value("paper", Accuracy::paper, "the three criteria of the paper; may miss facet pairs")
+      .value("hulls", Accuracy::hulls,
+             "overlap, direction and depth of the convex hulls; neither zones nor facet pairs")
+      .value("paper", Accuracy::paper, "the paper's three criteria, then confirmation; may miss facet pairs")
       .value("exact", Accuracy::exact, "every facet pair that meets and no other");
   py::enum_<DirectionPolicy>(module, "DirectionPolicy", "Where the contact direction of a pair comes from.")
-      .value("carried", DirectionPolicy::carried, "from the pair's direction of the last step")
-      .value("smallest", DirectionPolicy::smallest, "the smallest separation of the hulls, anew in every step");
-  py::enum_<Containment>(module, "Containment", "Is one of two bodies wholly inside the other?")
-      .value("none", Containment::none)
-      .value("a_in_b", Containment::a_in_b)
-      .value("b_in_a", Containment::b_in_a);
+      .value("carried", DirectionPolicy::carried,
+             "the direction of the last step, so that a body leaves the way it came in")
+      .value("smallest", DirectionPolicy::smallest, "the smallest separation of the hulls, from scratch in every step");
+  py::enum_<Containment>(module, "Containment",
+                         "Which of two bodies lies wholly inside the other, so that no facets meet.")
+      .value("none", Containment::none, "neither, or Accuracy.hulls")
+      .value("a_in_b", Containment::a_in_b, "a lies inside b, a closed body")
+      .value("b_in_a", Containment::b_in_a, "b lies inside a, a closed body");
   py::enum_<DirectionSource>(module, "DirectionSource", "How a contact direction was found.")
       .value("carried", DirectionSource::carried, "from the direction of the last step")
-      .value("fresh", DirectionSource::fresh, "from the direction that separated the hulls before")
+      .value("fresh", DirectionSource::fresh, "from the direction that last separated the hulls")
       .value("smallest", DirectionSource::smallest, "as the smallest separation of the hulls");
 }
 
@@ -46,7 +49,7 @@ void define_enums(py::module_& module) {
 void define_types(py::module_& module) {
   define_enums(module);
   module.attr("LARGEST_COORDINATE") = kLargestCoordinate;
-  py::class_<BodyId>(module, "BodyId", "Names a body of one world. It is never given out twice.")
+  py::class_<BodyId>(module, "BodyId", "Names a body of one world. No id is given out twice.")
       .def_readonly("index", &BodyId::index, "bodies of a report are ordered by it")
       .def_readonly("generation", &BodyId::generation)
       .def(py::self == py::self)

@@ -143,11 +143,12 @@ void output(py::class_<Settings>& settings, const char* name, const char* text) 
 
 void define_messages(py::module_& module) {
   py::enum_<MessageKind>(module, "MessageKind", "What a message is about.")
-      .value("direction_limit", MessageKind::direction_limit, "the search for a contact's direction stopped at a limit")
-      .value("gjk_limit", MessageKind::gjk_limit, "GJK stopped at its limit for pairs that are no contacts");
-  py::class_<Message>(module, "Message", "What a world says while it works. Valid during the call.")
+      .value("direction_limit", MessageKind::direction_limit,
+             "the search for the direction of a contact stopped at a limit")
+      .value("gjk_limit", MessageKind::gjk_limit, "GJK stopped at its limit for pairs that are taken to be apart");
+  py::class_<Message>(module, "Message", "A limit that a step reached. Valid during the call.")
       .def_readonly("kind", &Message::kind)
-      .def_readonly("a", &Message::a, "the pair, where it is about one; else no body")
+      .def_readonly("a", &Message::a, "the first body of the pair, or no body")
       .def_readonly("b", &Message::b)
       .def_property_readonly(
           "text", [](const Message& message) { return std::string(message.text); }, "one sentence")
@@ -176,7 +177,7 @@ std::pair<py::array_t<double>, py::array_t<double>> bounds_of(SharedWorld& world
 
 void define_settings(py::module_& module) {
   const Settings defaults;
-  py::class_<Settings> settings(module, "Settings", "What a world promises and how much of the machine it uses.");
+  py::class_<Settings> settings(module, "Settings", "How a world works.");
   settings
       .def(py::init(&make_settings), py::kw_only(), py::arg("threads") = defaults.threads,
            py::arg("accuracy") = defaults.accuracy, py::arg("direction") = defaults.direction,
@@ -189,7 +190,8 @@ void define_settings(py::module_& module) {
       .def_readwrite("gjk_tolerance", &Settings::gjk_tolerance, "relative gap at which GJK stops, 1e-15 to 0.1")
       .def_readwrite("iteration_limit", &Settings::iteration_limit, "shifted calls of GJK a pair and step, at least 1")
       .def_readwrite("on_message", &Settings::on_message,
-                     "called by detect() with a Message for each limit that it reached; must not use the world")
+                     "called for each limit that a step reached; the report has the same as flags and counts. It must "
+                     "not use the world")
       .def("__repr__", settings_text);
   output<&Outputs::zones>(settings, "zones", "compute Contact.zone_a and zone_b");
   output<&Outputs::points>(settings, "points", "compute Contact.points");
@@ -207,9 +209,7 @@ auto of_body(SharedWorld& world, BodyId body) {
 void define_world(py::module_& module) {
   define_messages(module);
   define_settings(module);
-  WorldClass class_of_world(module, "World",
-                            "A set of bodies and the contacts among them. One thread uses it at a time; it gives the "
-                            "interpreter free while it computes.");
+  WorldClass class_of_world(module, "World", "A set of bodies and the contacts among them.");
   class_of_world.def(py::init<const Settings&>(), py::arg("settings") = Settings{})
       .def_property_readonly(
           "settings", [](SharedWorld& world) { return world.use().settings(); }, "a copy; see set_settings()")
@@ -218,17 +218,16 @@ void define_world(py::module_& module) {
            py::arg("surface") = Surface::closed, py::arg("motion") = Motion::deformable, py::arg("name") = "",
            py::arg("layer") = 1u, py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0,
            py::arg("self_contact") = false, py::arg("group") = 0u,
-           "positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside")
+           "adds a body; copies its mesh and groups the facets into clusters. Positions: (V, 3) in metres; facets: (F, "
+           "3), vertices counter-clockwise seen from outside")
       .def(
           "remove_body", [](SharedWorld& world, BodyId body) { world.use().remove_body(body); }, py::arg("body"))
       .def("set_positions", set_positions, py::arg("body"), py::arg("positions"), "positions: (V, 3) in metres")
       .def("set_positions", set_many_positions, py::arg("positions"),
            "{body: (V, 3) in metres}: all of them or, after an error, none")
-      .def(
-          "set_pose", set_pose, py::arg("body"), py::arg("rotation"), py::arg("translation"),
-          "of a rigid body: a vertex that was added at p stands at rotation @ p + translation; (3, 3), and (3,) metres")
-      .def("set_poses", set_poses, py::arg("poses"),
-           "{body: (rotation, translation)}: all of them or, after an error, none")
+      .def("set_pose", set_pose, py::arg("body"), py::arg("rotation"), py::arg("translation"),
+           "places a rigid body: a vertex added at p stands at rotation * p + translation. (3, 3), and (3,) metres")
+      .def("set_poses", set_poses, py::arg("poses"), "places many rigid bodies in parallel, all or none")
       .def("set_poses", set_pose_arrays, py::arg("bodies"), py::arg("rotations"), py::arg("translations"),
            "the same as arrays: N bodies, (N, 3, 3), and (N, 3) metres")
       .def(
@@ -239,11 +238,12 @@ void define_world(py::module_& module) {
           py::arg("body"), py::arg("layer"), py::arg("mask"))
       .def(
           "set_group", [](SharedWorld& world, BodyId body, std::uint32_t group) { world.use().set_group(body, group); },
-          py::arg("body"), py::arg("group"), "bodies of one group are not tested against each other; 0: in none")
+          py::arg("body"), py::arg("group"), "sets the group of a body")
       .def(
           "set_excluded",
           [](SharedWorld& world, BodyId a, BodyId b, bool excluded) { world.use().set_excluded(a, b, excluded); },
-          py::arg("a"), py::arg("b"), py::arg("excluded"), "are the two bodies left out, whatever their layers?")
+          py::arg("a"), py::arg("b"), py::arg("excluded"),
+          "sets whether two bodies are excluded from tests, whatever their layers: the two sides of a joint, say")
       .def(
           "excluded", [](SharedWorld& world, BodyId a, BodyId b) { return world.use().excluded(a, b); }, py::arg("a"),
           py::arg("b"))
@@ -254,7 +254,8 @@ void define_world(py::module_& module) {
       .def(
           "detect_motion", [](SharedWorld& world, Impacts wanted) { return detect_motion(world, wanted); },
           py::arg("wanted") = Impacts::all,
-          "what meets between the positions of the last detect() and those set since; it changes nothing")
+          "finds what meets between the positions of the last detect() and the current ones, every vertex moving "
+          "straight")
       .def(
           "contains", [](SharedWorld& world, BodyId body) { return world.use().contains(body); }, py::arg("body"))
       .def_property_readonly("body_count", [](SharedWorld& world) { return world.use().body_count(); })
@@ -265,7 +266,7 @@ void define_world(py::module_& module) {
       .def("layer", of_body<&World::layer>, py::arg("body"))
       .def("mask", of_body<&World::mask>, py::arg("body"))
       .def("group", of_body<&World::group>, py::arg("body"))
-      .def("margin", of_body<&World::margin>, py::arg("body"), "half the body's thickness, metres")
+      .def("margin", of_body<&World::margin>, py::arg("body"), "the margin of a body, metres")
       .def("self_contact", of_body<&World::self_contact>, py::arg("body"), "is the body held against itself?")
       .def(
           "set_margin", [](SharedWorld& world, BodyId body, double margin) { world.use().set_margin(body, margin); },
@@ -279,7 +280,9 @@ void define_world(py::module_& module) {
       .def("positions", positions_of, py::arg("body"),
            "a copy, (V, 3) in metres, as they were set last; NaN for a vertex that no facet uses")
       .def("facets", facets_of, py::arg("body"), "a copy, (F, 3), as it was given")
-      .def("bounds", bounds_of, py::arg("body"), "lower and upper corner of the body's box with its margin, metres")
+      .def("bounds", bounds_of, py::arg("body"),
+           "the box of a body with its margin, metres; without a facet, lower is above upper. Two arrays, lower and "
+           "upper")
       .def("__len__", [](SharedWorld& world) { return world.use().body_count(); })
       .def("__repr__", [](SharedWorld& world) {
         return "<tact.World of " + std::to_string(world.use().body_count()) + " bodies>";

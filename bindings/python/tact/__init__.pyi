@@ -14,15 +14,15 @@ LARGEST_COORDINATE: float
 """The largest size of a coordinate, metres."""
 
 class Error(RuntimeError):
-    """Data that a world cannot take. The world is as it was."""
+    """The exception of every public function. `code` is an ErrorCode. The world is as it was."""
 
     code: ErrorCode
 
 class StaleReportError(RuntimeError):
-    """A report was asked for something after its world's next detect() or set_settings()."""
+    """A report was used after its world's next detect() or set_settings()."""
 
 class ErrorCode:
-    """What is wrong with the data of a call."""
+    """What was wrong with the data of a call."""
 
     non_finite_position: ClassVar[ErrorCode]
     position_out_of_range: ClassVar[ErrorCode]
@@ -47,7 +47,7 @@ class ErrorCode:
     def __hash__(self) -> int: ...
 
 class Surface:
-    """What a mesh is the surface of."""
+    """What the facets of a body are."""
 
     closed: ClassVar[Surface]
     sheet: ClassVar[Surface]
@@ -58,7 +58,7 @@ class Surface:
     def __hash__(self) -> int: ...
 
 class Motion:
-    """Whether a body's positions can be set."""
+    """How a body moves."""
 
     deformable: ClassVar[Motion]
     fixed: ClassVar[Motion]
@@ -93,7 +93,7 @@ class DirectionPolicy:
     def __hash__(self) -> int: ...
 
 class Containment:
-    """Is one of two bodies wholly inside the other?"""
+    """Which of two bodies lies wholly inside the other, so that no facets meet."""
 
     none: ClassVar[Containment]
     a_in_b: ClassVar[Containment]
@@ -117,7 +117,7 @@ class DirectionSource:
     def __hash__(self) -> int: ...
 
 class BodyId:
-    """Names a body of one world. It is never given out twice."""
+    """Names a body of one world. No id is given out twice."""
 
     @property
     def index(self) -> int: ...
@@ -137,20 +137,20 @@ class MessageKind:
     def __int__(self) -> int: ...
 
 class Message:
-    """What a world says while it works. Valid during the call."""
+    """A limit that a step reached. Valid during the call."""
 
     @property
     def kind(self) -> MessageKind: ...
     @property
     def a(self) -> BodyId:
-        """the pair, where it is about one; else no body"""
+        """the first body of the pair, or no body"""
     @property
     def b(self) -> BodyId: ...
     @property
     def text(self) -> str: ...
 
 class Settings:
-    """What a world promises and how much of the machine it uses."""
+    """How a world works."""
 
     threads: int
     accuracy: Accuracy
@@ -161,7 +161,7 @@ class Settings:
     patches: bool
     points: bool
     on_message: Optional[Callable[[Message], None]]
-    """called by detect() for each limit that it reached; must not use the world"""
+    """called for each limit that a step reached; the report has the same as flags and counts. It must not use the world"""
     def __init__(
         self,
         *,
@@ -177,45 +177,45 @@ class Settings:
     ) -> None: ...
 
 class ZoneDisk:
-    """The disk around an impact zone, across the contact direction."""
+    """The smallest disk around an impact zone, seen along the contact direction."""
 
     @property
     def center(self) -> Floats:
-        """(3,), metres"""
+        """(3,): metres"""
     @property
     def radius(self) -> float:
-        """metres; negative if there is none"""
+        """metres; negative where no zone is computed or it is empty"""
 
 class Patch:
-    """A connected set of facet pairs and contact points."""
+    """A connected set of facet pairs and contact points: a place where two bodies touch or nearly do."""
 
     @property
     def id(self) -> int:
-        """lasts from step to step"""
+        """the same in the next step if both share most of their vertices; never given out twice by a world"""
     @property
     def point(self) -> Floats:
-        """(3,), metres"""
+        """(3,): the middle of its points, or of the boxes that its facet pairs have in common; metres"""
     @property
     def direction(self) -> Floats:
-        """(3,), unit, from a to b"""
+        """(3,): unit vector from a to b: the mean normal of its points, weighted by depth, or of its facets, by area"""
     @property
     def depth(self) -> float:
-        """metres"""
+        """metres: minus the smallest gap of its points, or how far b moves along `direction` to part its facet pairs"""
     @property
     def area(self) -> float:
-        """square metres"""
+        """the area of the convex hull of its points, seen along `direction`; square metres"""
     @property
     def facet_pairs(self) -> Ints:
-        """rows of Contact.facet_pairs"""
+        """indices into Contact.facet_pairs, ascending"""
     @property
     def points(self) -> Ints:
-        """rows of Contact.points"""
+        """indices into Contact.points, ascending"""
     @property
     def spanning(self) -> Ints:
-        """at most four of the points, the deepest first"""
+        """at most four of `points`, the deepest first, then those that span the most area; -1 fills up"""
 
 class PatchEventKind:
-    """What became of a patch."""
+    """What became of the patch."""
 
     began: ClassVar[PatchEventKind]
     split: ClassVar[PatchEventKind]
@@ -228,7 +228,7 @@ class PatchEventKind:
     def __hash__(self) -> int: ...
 
 class PatchEvent:
-    """What became of a patch in this step."""
+    """A change of a patch in this step."""
 
     @property
     def a(self) -> BodyId: ...
@@ -241,10 +241,10 @@ class PatchEvent:
         """its id"""
     @property
     def other(self) -> int:
-        """the patch that it came off, or went into; or 0"""
+        """the id of the other patch, or 0"""
 
 class FeaturePair:
-    """Between which features a contact point lies."""
+    """The features of bodies a and b that are nearest, or that meet."""
 
     vertex_facet: ClassVar[FeaturePair]
     facet_vertex: ClassVar[FeaturePair]
@@ -256,39 +256,39 @@ class FeaturePair:
     def __hash__(self) -> int: ...
 
 class ContactPoints:
-    """Where two surfaces are nearest to each other, a row a point."""
+    """A point on each of two surfaces, where features are nearest or have crossed. A row a point."""
 
     @property
     def kinds(self) -> npt.NDArray[np.uint8]:
         """(N,): values of FeaturePair"""
     @property
     def patches(self) -> Ints:
-        """(N,): points connected by common vertices"""
+        """(N,): the number of its patch, counted from 0: an index into Contact.patches, if Settings.patches is set"""
     @property
     def a_vertices(self) -> Ints:
-        """(N, 3): vertices of a; -1 fills up"""
+        """(N, 3): vertices of the smallest feature of a that holds the point; -1 fills up"""
     @property
     def b_vertices(self) -> Ints:
-        """(N, 3): vertices of b; -1 fills up"""
+        """(N, 3): the same of b"""
     @property
     def a_weights(self) -> Floats:
-        """(N, 3): their weights; the sum of a row is 1"""
+        """(N, 3): weights of the vertices of a, not negative, with a sum of 1"""
     @property
     def b_weights(self) -> Floats:
-        """(N, 3): their weights; the sum of a row is 1"""
+        """(N, 3): the same of b"""
     @property
     def normals(self) -> Floats:
-        """(N, 3): unit, from a to b"""
+        """(N, 3): unit vector from the point of a to that of b; the normal of a facet where the two coincide"""
     @property
     def gaps(self) -> Floats:
-        """(N,): metres"""
+        """(N,): the distance of the two points along the normal, metres; negative where the surfaces have crossed"""
     @property
     def ids(self) -> npt.NDArray[np.uint64]:
-        """(N,): the same while these features are near each other"""
+        """(N,): the same in every step in which these features are near: a key for impulses"""
     def __len__(self) -> int: ...
 
 class Contact:
-    """Two bodies whose convex hulls overlap. Arrays that it gives stay valid."""
+    """Two bodies whose convex hulls overlap or touch, decided exactly, or are nearer than the sum of the margins. Arrays that it gives stay valid."""
 
     @property
     def a(self) -> BodyId: ...
@@ -296,13 +296,13 @@ class Contact:
     def b(self) -> BodyId: ...
     @property
     def direction(self) -> Floats:
-        """(3,), unit, from a to b"""
+        """(3,): unit vector from a to b: moving b by depth * direction separates the hulls"""
     @property
     def depth(self) -> float:
-        """overlap of the hulls along `direction`, metres"""
+        """the overlap of the hulls along `direction`, metres; minus their distance where they are apart"""
     @property
     def containment(self) -> Containment:
-        """is one body wholly inside the other, so that no facets meet?"""
+        """which body lies wholly inside the other, decided exactly; the direction leads out of it"""
     @property
     def source(self) -> DirectionSource: ...
     @property
@@ -323,23 +323,23 @@ class Contact:
     def kept_facets_b(self) -> int: ...
     @property
     def facet_pairs(self) -> Ints:
-        """(N, 2): the facets that meet, sorted"""
+        """(N, 2): the facets that meet, sorted; empty at Accuracy.hulls"""
     @property
     def points(self) -> ContactPoints:
-        """filled if Settings.points is set"""
+        """the points, if Settings.points is set; sorted by kind, then by features"""
     @property
     def touching(self) -> bool:
-        """does any facet of a meet one of b?"""
+        """whether facets meet, or a point's gap is below the sum of the margins"""
     @property
     def patches(self) -> list[Patch]:
-        """filled if Settings.patches is set"""
+        """the patches, if Settings.patches is set; sorted by first facet pair, then by first point"""
 
 class Report:
-    """What a step found, until the next one. Arrays that it gives stay valid."""
+    """What World.detect() found. It is valid until the next step; arrays that it gives stay valid."""
 
     @property
     def contacts(self) -> list[Contact]:
-        """pairs whose hulls overlap, sorted by (a, b)"""
+        """the contacts, sorted by (a, b)"""
     def find_contact(self, a: BodyId, b: BodyId) -> Optional[Contact]: ...
     @property
     def bodies(self) -> npt.NDArray[np.int64]:
@@ -352,23 +352,23 @@ class Report:
         """(C,): the depth of each contact, metres"""
     @property
     def candidate_pairs(self) -> list[tuple[BodyId, BodyId, bool]]:
-        """(a, b, hulls_overlap) of the pairs whose boxes overlap"""
+        """the pairs whose boxes overlap, sorted by (a, b)"""
     @property
     def began(self) -> list[tuple[BodyId, BodyId]]: ...
     @property
     def ended(self) -> list[tuple[BodyId, BodyId]]: ...
     @property
     def patch_events(self) -> list[PatchEvent]:
-        """what became of patches, if Settings.patches is set"""
+        """the changes of patches, if Settings.patches is set; sorted by (a, b), ends before beginnings"""
     @property
     def stats(self) -> dict[str, float]:
-        """counts, and times in milliseconds, by name"""
+        """counts and times of the step. By name, times in milliseconds"""
     def hash(self) -> int:
-        """a number made from every bit of the answers"""
+        """a number made from every bit of candidate pairs, contacts, facet pairs and points"""
     def __len__(self) -> int: ...
 
 class Impacts:
-    """What detect_motion() looks for. Less is faster."""
+    """Which impacts World.detect_motion() finds."""
 
     all: ClassVar[Impacts]
     first_of_pair: ClassVar[Impacts]
@@ -380,11 +380,11 @@ class Impacts:
     def __hash__(self) -> int: ...
 
 class MotionReport:
-    """What meets between two steps, a row an impact, sorted by bodies and then by time."""
+    """What World.detect_motion() found. A row an impact, sorted by bodies and then by time."""
 
     @property
     def first_time(self) -> float:
-        """the earliest time, 0 to 1; inf if nothing meets"""
+        """the earliest time of all, 0 to 1; infinity if nothing meets"""
     @property
     def bodies(self) -> npt.NDArray[np.int64]:
         """(N, 2): BodyId.index of the two bodies"""
@@ -393,16 +393,16 @@ class MotionReport:
         """(N,): values of FeaturePair"""
     @property
     def times(self) -> Floats:
-        """(N,): when first, 0 to 1; never late"""
+        """(N,): the part of the way, 0 to 1, at which they first meet; never later than the true time"""
     @property
     def a_vertices(self) -> Ints:
-        """(N, 3): vertices of a; -1 fills up"""
+        """(N, 3): vertices of the feature of a; -1 fills up"""
     @property
     def b_vertices(self) -> Ints:
-        """(N, 3): vertices of b; -1 fills up"""
+        """(N, 3): vertices of the feature of b; -1 fills up"""
     @property
     def stats(self) -> dict[str, float]:
-        """counts, and times in milliseconds, by name"""
+        """counts and times. By name, times in milliseconds"""
     def __len__(self) -> int: ...
 
 class RayHits:
@@ -416,14 +416,14 @@ class RayHits:
         """(N,); -1 where nothing was hit"""
     @property
     def fractions(self) -> Floats:
-        """(N,): from_ + fraction * (to - from_)"""
+        """(N,): the place on the ray: from_ + fraction * (to - from_)"""
     @property
     def barycentric(self) -> Floats:
-        """(N, 3): of the facet's corners there"""
+        """(N, 3): the place on the facet: weights of its corners, not negative, with a sum of 1"""
     def __len__(self) -> int: ...
 
 class ClosestPoints:
-    """The nearest places of all surfaces, a row a point."""
+    """The nearest place of all surfaces; of equally near ones the least by body and facet. A row a point."""
 
     @property
     def bodies(self) -> npt.NDArray[np.int64]:
@@ -433,10 +433,10 @@ class ClosestPoints:
         """(N,); -1 where nothing is as near"""
     @property
     def distances(self) -> Floats:
-        """(N,): metres; inf where nothing is as near"""
+        """(N,): metres; infinity where no facet is within reach"""
     @property
     def barycentric(self) -> Floats:
-        """(N, 3): of the facet's corners there"""
+        """(N, 3): the place on the facet: weights of its corners, not negative, with a sum of 1"""
     def __len__(self) -> int: ...
 
 class PlayedStep:
@@ -448,14 +448,14 @@ class PlayedStep:
     def byte(self) -> int: ...
     @property
     def recorded(self) -> Optional[int]:
-        """hash of the report then; None if the step had no answer"""
+        """the hash of the recorded report. None if the step failed or the program ended in it"""
     @property
     def now(self) -> int: ...
     @property
     def same(self) -> bool: ...
 
 class RecordingPlayer:
-    """Runs a recording again: iterate over its steps."""
+    """Runs a recording again, step by step. Iterate over its steps."""
 
     def __init__(self, path: str | os.PathLike[str], *, threads: Optional[int] = None) -> None: ...
     def __iter__(self) -> Iterator[PlayedStep]: ...
@@ -464,7 +464,7 @@ class RecordingPlayer:
     def world(self) -> World: ...
     @property
     def cut_at(self) -> Optional[int]:
-        """the byte of the record that is cut off; None if the recording is whole, or not yet played"""
+        """the byte of the record that the end of the recording cuts off. Known at the end"""
     @property
     def recorded_by(self) -> str: ...
 
@@ -474,7 +474,7 @@ class _DebugDrawer(Protocol):
     def text(self, at: Floats, words: str, color: tuple[float, float, float, float]) -> None: ...
 
 class DebugColor:
-    """Each 0 to 1; alpha 1 covers what is behind."""
+    """A colour; an alpha of 1 covers what is behind."""
 
     red: float
     green: float
@@ -483,7 +483,7 @@ class DebugColor:
     def __init__(self, red: float = 0.0, green: float = 0.0, blue: float = 0.0, alpha: float = 1.0) -> None: ...
 
 class DebugDrawOptions:
-    """What World.debug_draw() draws, and in which colour: see tact/debug_draw.h."""
+    """What is drawn, and in which colour."""
 
     surfaces: bool
     boxes: bool
@@ -531,30 +531,30 @@ class World:
         self_contact: bool = False,
         group: int = 0,
     ) -> BodyId:
-        """positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside"""
+        """adds a body; copies its mesh and groups the facets into clusters. Positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside"""
     def remove_body(self, body: BodyId) -> None: ...
     @overload
     def set_positions(self, body: BodyId, positions: npt.NDArray[np.floating]) -> None: ...
     @overload
     def set_positions(self, positions: dict[BodyId, npt.NDArray[np.floating]]) -> None: ...
     def set_pose(self, body: BodyId, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> None:
-        """of a rigid body: a vertex that was added at p stands at rotation @ p + translation; (3, 3), and (3,) metres"""
+        """places a rigid body: a vertex added at p stands at rotation * p + translation. (3, 3), and (3,) metres"""
     @overload
     def set_poses(self, poses: dict[BodyId, tuple[npt.ArrayLike, npt.ArrayLike]]) -> None:
-        """{body: (rotation, translation)}: all of them or, after an error, none"""
+        """places many rigid bodies in parallel, all or none"""
     @overload
     def set_poses(self, bodies: Sequence[BodyId], rotations: npt.ArrayLike, translations: npt.ArrayLike) -> None:
-        """the same as arrays: N bodies, (N, 3, 3), and (N, 3) metres"""
+        """places many rigid bodies in parallel, all or none"""
     def set_layers(self, body: BodyId, layer: int, mask: int) -> None: ...
     def set_group(self, body: BodyId, group: int) -> None:
-        """bodies of one group are not tested against each other; 0: in none"""
+        """sets the group of a body"""
     def set_excluded(self, a: BodyId, b: BodyId, excluded: bool) -> None:
-        """are the two bodies left out, whatever their layers?"""
+        """sets whether two bodies are excluded from tests, whatever their layers: the two sides of a joint, say"""
     def excluded(self, a: BodyId, b: BodyId) -> bool: ...
     def set_motion(self, body: BodyId, motion: Motion) -> None: ...
     def detect(self) -> Report: ...
     def detect_motion(self, wanted: Impacts = ...) -> MotionReport:
-        """what meets between the positions of the last detect() and those set since; it changes nothing"""
+        """finds what meets between the positions of the last detect() and the current ones, every vertex moving straight"""
     def cast_rays(
         self,
         from_: npt.NDArray[np.floating],
@@ -564,7 +564,7 @@ class World:
         layer: int = 0xFFFFFFFF,
         mask: int = 0xFFFFFFFF,
     ) -> RayHits:
-        """the first facet that each ray meets, or any; (N, 3) both, metres"""
+        """answers many rays in parallel. The first facet that each meets, or any; (N, 3) both, metres"""
     def cast_ray_all(
         self,
         from_: npt.ArrayLike,
@@ -573,7 +573,7 @@ class World:
         layer: int = 0xFFFFFFFF,
         mask: int = 0xFFFFFFFF,
     ) -> RayHits:
-        """all facets that a ray meets, sorted by time"""
+        """all facets that a ray meets, sorted by fraction, body and facet"""
     def closest_points(
         self,
         points: npt.NDArray[np.floating],
@@ -582,7 +582,7 @@ class World:
         layer: int = 0xFFFFFFFF,
         mask: int = 0xFFFFFFFF,
     ) -> ClosestPoints:
-        """the nearest place of all surfaces to each point; (N, 3), metres"""
+        """finds the nearest places to many points in parallel. (N, 3), metres"""
     def overlap_box(
         self,
         lower: npt.ArrayLike,
@@ -591,11 +591,11 @@ class World:
         layer: int = 0xFFFFFFFF,
         mask: int = 0xFFFFFFFF,
     ) -> npt.NDArray[np.int64]:
-        """(N, 2): BodyId.index and facet of what shares a point with the box"""
+        """the facets that share a point with a box, decided exactly; sorted by body and facet. (N, 2): BodyId.index and facet"""
     def bodies_containing(
         self, point: npt.ArrayLike, *, layer: int = 0xFFFFFFFF, mask: int = 0xFFFFFFFF
     ) -> list[BodyId]:
-        """the closed bodies that a point is in"""
+        """the closed bodies that contain a point or have it on their surface, decided exactly; ignores `within`"""
     def overlap_boxes(
         self,
         lower: npt.NDArray[np.floating],
@@ -604,11 +604,11 @@ class World:
         layer: int = 0xFFFFFFFF,
         mask: int = 0xFFFFFFFF,
     ) -> list[npt.NDArray[np.int64]]:
-        """overlap_box() of many boxes, (N, 3) both"""
+        """finds the facets in many boxes in parallel. (N, 3) both; an array a box"""
     def bodies_containing_each(
         self, points: npt.NDArray[np.floating], *, layer: int = 0xFFFFFFFF, mask: int = 0xFFFFFFFF
     ) -> list[list[BodyId]]:
-        """bodies_containing() of many points, (N, 3)"""
+        """finds the bodies that contain many points in parallel. (N, 3); a list a point"""
     def contains(self, body: BodyId) -> bool: ...
     @property
     def body_count(self) -> int: ...
@@ -621,7 +621,7 @@ class World:
     def mask(self, body: BodyId) -> int: ...
     def group(self, body: BodyId) -> int: ...
     def margin(self, body: BodyId) -> float:
-        """half the body's thickness, metres"""
+        """the margin of a body, metres"""
     def self_contact(self, body: BodyId) -> bool: ...
     def set_margin(self, body: BodyId, margin: float) -> None: ...
     def set_self_contact(self, body: BodyId, wanted: bool) -> None: ...
@@ -632,7 +632,7 @@ class World:
     def facets(self, body: BodyId) -> Ints:
         """a copy, (F, 3), as it was given"""
     def bounds(self, body: BodyId) -> tuple[Floats, Floats]:
-        """lower and upper corner of the body's box with its margin, metres"""
+        """the box of a body with its margin, metres; without a facet, lower is above upper. Two arrays, lower and upper"""
     def record(self, path: str | os.PathLike[str]) -> None:
         """writes all that enters the world to a file that `tact replay` runs again; before the first body is added"""
     def stop_recording(self) -> None:

@@ -44,7 +44,7 @@ struct BodyDefinition {
   Facets facets;
   Surface surface = Surface::closed;
   Motion motion = Motion::deformable;
-  std::string name = {};             ///< for messages; empty: "body <index>"
+  std::string name = {};             ///< for messages; by default "body <index>"
   std::uint32_t layer = 1;           ///< the layers that the body is on, a bit each
   std::uint32_t mask = 0xffffffffu;  ///< the layers that the body is tested against; a pair needs both masks
   /// Bodies of one group are not tested against each other. 0 is no group.

@@ -16,7 +16,7 @@ namespace tact {
 ///     p_a = sum over k of a_weights[k] * position of vertex a_vertices[k] of a
 struct ContactPoint {
   FeaturePair kind = FeaturePair::vertex_facet;
-  /// The index of its patch in Contact::patches(), where Outputs::patches is set; else a number of connected points.
+  /// The number of its patch, counted from 0: an index into Contact::patches(), if Outputs::patches is set.
   int patch = 0;
   /// Vertices of the smallest feature of a that holds the point; -1 fills up. Those of edges ascend.
   std::array<int, 3> a_vertices{-1, -1, -1};
@@ -30,7 +30,7 @@ struct ContactPoint {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   /// The distance of the two points along the normal, metres; negative where the surfaces have crossed.
   double gap = 0.0;
-  /// The same in every step in which these features are near each other: a key for values such as impulses.
+  /// The same in every step in which these features are near: a key for impulses.
   std::uint64_t id = 0;
 };
 

@@ -32,7 +32,7 @@ struct Impact {
   std::array<int, 3> b_vertices{-1, -1, -1};  ///< vertices of the feature of b; -1 fills up
 };
 
-/// Two bodies, or one twice, with at least one impact.
+/// Two bodies, or one with itself, with at least one impact.
 struct ImpactPair {
   BodyId a;                         ///< a.index <= b.index
   BodyId b;                         ///< the second body

@@ -51,7 +51,7 @@ struct PointQuery {
 struct ClosestPoint {
   BodyId body;                                                ///< the body of the facet
   int facet = -1;                                             ///< negative: no facet is within reach
-  double distance = std::numeric_limits<double>::infinity();  ///< metres
+  double distance = std::numeric_limits<double>::infinity();  ///< metres; infinity where no facet is within reach
   std::array<double, 3>
       barycentric{};  ///< the place on the facet: weights of its corners, not negative, with a sum of 1
 };

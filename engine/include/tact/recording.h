@@ -55,7 +55,7 @@ class TACT_API Recorder final : public WorldObserver {
 struct PlayedStep {
   int number = 0;        ///< counted from 0
   std::size_t byte = 0;  ///< where its hash stands in the recording, or the size of the recording
-  /// The hash of the recorded report; none if the step failed or the program ended in it.
+  /// The hash of the recorded report. None if the step failed or the program ended in it.
   std::optional<std::uint64_t> recorded;
   std::uint64_t now = 0;  ///< the hash of the report now
   /// Whether both hashes are equal.
@@ -77,12 +77,12 @@ class TACT_API RecordingPlayer {
   RecordingPlayer(RecordingPlayer&&) noexcept;
   RecordingPlayer& operator=(RecordingPlayer&&) noexcept;
 
-  /// Runs the calls up to and with the next detect(); returns nothing at the end. Errors: bad_recording, and those of
-  /// detect().
+  /// Runs the calls up to and with the next step. Returns nothing at the end. Errors: bad_recording, and those of
+  /// World::detect().
   std::optional<PlayedStep> next();
 
-  /// Returns the byte of the record that the end cuts off, once next() returned nothing; none if the recording is
-  /// whole.
+  /// Returns the byte of the record that the end of the recording cuts off. None if the recording is whole, or next()
+  /// has not come to its end.
   std::optional<std::size_t> cut_at() const;
 
   /// Returns the world that the calls are made in.

@@ -84,7 +84,7 @@ struct Contact {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   /// The overlap of the hulls along `direction`, metres; minus their distance where they are apart.
   double depth = 0.0;
-  /// Which body lies wholly inside the other, decided exactly; `direction` and `depth` then lead out of it.
+  /// Which body lies wholly inside the other, decided exactly; the direction leads out of it.
   Containment containment = Containment::none;
   DirectionSource source = DirectionSource::fresh;  ///< how `direction` was found when a body last moved
   int iterations = 0;                               ///< shifted calls of GJK that it took
@@ -98,7 +98,7 @@ struct Contact {
 
   /// Returns the facets that meet, sorted; empty at Accuracy::hulls.
   std::span<const FacetPair> facet_pairs() const { return facet_pairs_; }
-  /// Whether facets meet or, with Outputs::points, a point's gap is below the sum of the margins.
+  /// Whether facets meet, or a point's gap is below the sum of the margins.
   bool touching() const { return touching_; }
   /// Returns the points, if Outputs::points is set; sorted by kind, then by features.
   std::span<const ContactPoint> points() const { return points_; }
@@ -137,7 +137,8 @@ class TACT_API Report {
 
   /// Returns the contacts, sorted by (a, b).
   std::span<const Contact> contacts() const { return contacts_; }
-  /// Returns the contact of two bodies, in either order, or null. It takes the logarithm of the number of contacts.
+  /// Returns the contact of two bodies, in either order, if they have one. Else null. It takes the logarithm of the
+  /// number of contacts.
   const Contact* find_contact(BodyId a, BodyId b) const noexcept;
   /// Returns the pairs whose boxes overlap, sorted by (a, b).
   std::span<const CandidatePair> candidate_pairs() const { return candidate_pairs_; }

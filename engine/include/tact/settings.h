@@ -11,7 +11,7 @@ namespace tact {
 /// What a report promises of its pairs.
 enum class Accuracy {
   hulls,  ///< overlap, direction and depth of the convex hulls; neither zones nor facet pairs
-  paper,  ///< the paper's three criteria, then confirmation; may miss facet pairs on folds, spikes and clamped bodies
+  paper,  ///< the paper's three criteria, then confirmation; may miss facet pairs
   exact,  ///< every facet pair that meets and no other
 };
 
@@ -32,8 +32,8 @@ struct Outputs {
 
 /// How a world works. World::set_settings() checks it.
 struct Settings {
-  /// Threads, 0 to 1024. 0 uses as many as the machine offers; World::settings() returns the number. While other
-  /// programs keep the processor busy, fewer are used.
+  /// The number of threads, 0 to 1024. 0 uses as many as the machine offers; World::settings() returns the number.
+  /// While other programs keep the processor busy, fewer are used.
   int threads = 0;
   Accuracy accuracy = Accuracy::exact;                   ///< what is promised of facet pairs
   DirectionPolicy direction = DirectionPolicy::carried;  ///< where contact directions come from

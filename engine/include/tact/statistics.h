@@ -1,79 +1,74 @@
-// What a step did and how long it took: a plain struct, filled anew by every step.
+// Counts and times of a step.
 #pragma once
 
 #include <cstdint>
 
 namespace tact {
 
-/// Counts and times of one step. facet_box_pairs, triangle_tests and exact_predicates depend on how a large pair is
-/// shared out, and so on the number of threads; all other counts do not.
+/// Counts and times of one step; kStepCounts and kStepTimes have a sentence on each. Only facet_box_pairs,
+/// triangle_tests and exact_predicates depend on the number of threads.
 struct StepStats {
-  std::int64_t bodies = 0;          ///< bodies in the world
-  std::int64_t moved_bodies = 0;    ///< bodies that were added or whose positions, pose, layers or motion changed
-  std::int64_t vertices = 0;        ///< vertices of the bodies in the world
-  std::int64_t moved_vertices = 0;  ///< vertices of the moved bodies
-  std::int64_t placed_bodies = 0;   ///< rigid bodies whose vertices were computed from their pose, as others came near
-  /// moved bodies whose clusters had lost their shape: their facets were grouped anew
+  std::int64_t bodies = 0;
+  std::int64_t moved_bodies = 0;
+  std::int64_t vertices = 0;
+  std::int64_t moved_vertices = 0;
+  std::int64_t placed_bodies = 0;
   std::int64_t regrouped_bodies = 0;
-  /// overlapping boxes, one moved, that layers, groups or two fixed bodies exclude
   std::int64_t excluded_pairs = 0;
-  std::int64_t named_excluded_pairs = 0;   ///< overlapping boxes of pairs that World::set_excluded() excludes
-  std::int64_t candidate_pairs = 0;        ///< pairs of bodies whose boxes overlap
-  std::int64_t kept_pairs = 0;             ///< candidate pairs in which neither body moved: the last result was kept
-  std::int64_t kdop_separated_pairs = 0;   ///< new pairs, or apart before, whose 18-DOPs an axis separates
-  std::int64_t still_separated_pairs = 0;  ///< pairs that the last separating direction still separates
-  /// pairs whose hulls the last step's vertices still show to overlap
+  std::int64_t named_excluded_pairs = 0;
+  std::int64_t candidate_pairs = 0;
+  std::int64_t kept_pairs = 0;
+  std::int64_t kdop_separated_pairs = 0;
+  std::int64_t still_separated_pairs = 0;
   std::int64_t still_overlapping_pairs = 0;
-  std::int64_t separated_pairs = 0;       ///< other pairs whose hulls GJK found to be apart
-  std::int64_t contacts = 0;              ///< pairs whose hulls overlap
-  std::int64_t carried_directions = 0;    ///< contact directions found from the last step's
-  std::int64_t fresh_directions = 0;      ///< contact directions found from the one that separated the hulls before
-  std::int64_t smallest_directions = 0;   ///< contact directions that are the smallest separation
-  std::int64_t direction_iterations = 0;  ///< shifted calls of GJK
-  std::int64_t gjk_iterations = 0;        ///< support queries of GJK, a vertex of each body
-  std::int64_t limits_reached = 0;        ///< pairs in which GJK or the direction stopped at a limit
-  std::int64_t clusters = 0;              ///< clusters of the bodies in contact, once a contact
-  /// clusters dropped whole: outside the box of what is left of the other
+  std::int64_t separated_pairs = 0;
+  std::int64_t contacts = 0;
+  std::int64_t carried_directions = 0;
+  std::int64_t fresh_directions = 0;
+  std::int64_t smallest_directions = 0;
+  std::int64_t direction_iterations = 0;
+  std::int64_t gjk_iterations = 0;
+  std::int64_t limits_reached = 0;
+  std::int64_t clusters = 0;
   std::int64_t clusters_outside_box = 0;
-  std::int64_t clusters_outside_slab = 0;  ///< clusters dropped whole by criterion 2, outside the slab
-  std::int64_t opened_clusters = 0;        ///< clusters of which a cluster of the other body is near
-  std::int64_t opened_facets = 0;          ///< facets of the opened clusters: those dropped next, and those kept
-  std::int64_t facets = 0;                 ///< facets of the bodies in contact, once a contact
-  std::int64_t facets_facing_away = 0;     ///< facets dropped by criterion 1, facing away (paper only)
-  std::int64_t facets_outside_slab = 0;    ///< facets dropped by criterion 2, outside the slab
-  std::int64_t facets_outside_box = 0;     ///< other facets dropped: outside the box of what is left of the other
-  std::int64_t facets_outside_zone = 0;    ///< facets dropped by criterion 3, outside the impact zone
-  std::int64_t kept_facets = 0;            ///< facets left after the criteria
-  std::int64_t cluster_pairs = 0;          ///< pairs of clusters whose boxes overlap
-  std::int64_t tree_pairs = 0;         ///< contacts whose cluster pairs were found by trees rather than a plain loop
-  std::int64_t facet_box_pairs = 0;    ///< pairs of facets whose boxes overlap or nearly do
-  std::int64_t triangle_tests = 0;     ///< pairs of facets that doubles could not decide
-  std::int64_t exact_predicates = 0;   ///< orientation predicates that needed integers
-  std::int64_t facet_pairs = 0;        ///< pairs of facets that meet
-  std::int64_t touching_contacts = 0;  ///< contacts with at least one facet pair
+  std::int64_t clusters_outside_slab = 0;
+  std::int64_t opened_clusters = 0;
+  std::int64_t opened_facets = 0;
+  std::int64_t facets = 0;
+  std::int64_t facets_facing_away = 0;
+  std::int64_t facets_outside_slab = 0;
+  std::int64_t facets_outside_box = 0;
+  std::int64_t facets_outside_zone = 0;
+  std::int64_t kept_facets = 0;
+  std::int64_t cluster_pairs = 0;
+  std::int64_t tree_pairs = 0;
+  std::int64_t facet_box_pairs = 0;
+  std::int64_t triangle_tests = 0;
+  std::int64_t exact_predicates = 0;
+  std::int64_t facet_pairs = 0;
+  std::int64_t touching_contacts = 0;
 
-  // Milliseconds. The stages 3 to 6 run pair by pair on all threads: theirs are sums over threads. The wall times and
-  // those of stages 1, 2 and 7 add up to that of the step.
-  double refresh_ms = 0.0;       ///< stage 1: setting positions since the last step, and grouping facets anew
-  double regroup_ms = 0.0;       ///< the part of stage 1 in which facets were grouped anew
-  double sweep_ms = 0.0;         ///< stage 2: candidate pairs
-  double hulls_ms = 0.0;         ///< stage 3: do the hulls overlap, summed over threads; and from one pair to the next
-  double kdop_ms = 0.0;          ///< the part of stage 3 in which the 18-DOPs are compared, once for all threads
-  double gjk_ms = 0.0;           ///< the part of stage 3 in which pairs needed GJK
-  double direction_ms = 0.0;     ///< stage 4: contact direction and depth, summed over threads
-  double cull_ms = 0.0;          ///< stage 5: zones and criteria, summed over threads
-  double confirm_ms = 0.0;       ///< stage 6: facet pairs, summed over threads
-  double narrow_phase_ms = 0.0;  ///< stages 3 to 6 together, wall time
-  double containment_ms = 0.0;   ///< bodies that are wholly inside others, wall time
-  double points_ms = 0.0;        ///< contact points of pairs of bodies, wall time
-  double self_facets_ms = 0.0;   ///< facet pairs of bodies with themselves, wall time
-  double self_points_ms = 0.0;   ///< contact points of bodies with themselves, wall time
-  double patches_ms = 0.0;       ///< patches, wall time
-  double report_ms = 0.0;        ///< stage 7: the report
-  double total_ms = 0.0;         ///< the whole step, refresh included
+  // Milliseconds. Those of stages 3 to 6 are sums over threads; the others are wall times and add up to the step.
+  double refresh_ms = 0.0;
+  double regroup_ms = 0.0;
+  double sweep_ms = 0.0;
+  double hulls_ms = 0.0;
+  double kdop_ms = 0.0;
+  double gjk_ms = 0.0;
+  double direction_ms = 0.0;
+  double cull_ms = 0.0;
+  double confirm_ms = 0.0;
+  double narrow_phase_ms = 0.0;
+  double containment_ms = 0.0;
+  double points_ms = 0.0;
+  double self_facets_ms = 0.0;
+  double self_points_ms = 0.0;
+  double patches_ms = 0.0;
+  double report_ms = 0.0;
+  double total_ms = 0.0;
 };
 
-/// A field of StepStats: its name, where it is, and a sentence on it.
+/// A field of StepStats: its name, its place and a sentence on it.
 template <class Value>
 struct StepStatsField {
   const char* name;
@@ -81,7 +76,7 @@ struct StepStatsField {
   const char* text;
 };
 
-/// Every count, in the order of the struct: what printing, JSON, CSV and averages are made from.
+/// All counts, in the order of the struct.
 inline constexpr StepStatsField<std::int64_t> kStepCounts[] = {
     {"bodies", &StepStats::bodies, "bodies in the world"},
     {"moved_bodies", &StepStats::moved_bodies,
@@ -91,7 +86,7 @@ inline constexpr StepStatsField<std::int64_t> kStepCounts[] = {
     {"placed_bodies", &StepStats::placed_bodies,
      "rigid bodies whose vertices were computed from their pose, as others came near"},
     {"regrouped_bodies", &StepStats::regrouped_bodies,
-     "moved bodies whose clusters had lost their shape: their facets were grouped anew"},
+     "moved bodies whose clusters had lost their shape: their facets were grouped again"},
     {"excluded_pairs", &StepStats::excluded_pairs,
      "overlapping boxes, one moved, that layers, groups or two fixed bodies exclude"},
     {"named_excluded_pairs", &StepStats::named_excluded_pairs,
@@ -105,7 +100,8 @@ inline constexpr StepStatsField<std::int64_t> kStepCounts[] = {
     {"still_overlapping_pairs", &StepStats::still_overlapping_pairs,
      "pairs whose hulls the last step's vertices still show to overlap"},
     {"separated_pairs", &StepStats::separated_pairs, "other pairs whose hulls GJK found to be apart"},
-    {"contacts", &StepStats::contacts, "pairs whose hulls overlap"},
+    {"contacts", &StepStats::contacts,
+     "pairs whose hulls overlap or are nearer than their margins, and bodies that touch or near themselves"},
     {"carried_directions", &StepStats::carried_directions, "contact directions found from the last step's"},
     {"fresh_directions", &StepStats::fresh_directions,
      "contact directions found from the one that separated the hulls before"},
@@ -133,16 +129,16 @@ inline constexpr StepStatsField<std::int64_t> kStepCounts[] = {
     {"triangle_tests", &StepStats::triangle_tests, "pairs of facets that doubles could not decide"},
     {"exact_predicates", &StepStats::exact_predicates, "orientation predicates that needed integers"},
     {"facet_pairs", &StepStats::facet_pairs, "pairs of facets that meet"},
-    {"touching_contacts", &StepStats::touching_contacts, "contacts with at least one facet pair"},
+    {"touching_contacts", &StepStats::touching_contacts, "contacts that touch: see Contact::touching()"},
 };
 
-/// Every time, milliseconds each.
+/// All times, milliseconds.
 inline constexpr StepStatsField<double> kStepTimes[] = {
-    {"refresh_ms", &StepStats::refresh_ms, "stage 1: setting positions since the last step, and grouping facets anew"},
-    {"regroup_ms", &StepStats::regroup_ms, "the part of stage 1 in which facets were grouped anew"},
+    {"refresh_ms", &StepStats::refresh_ms, "stage 1: setting positions since the last step, and grouping facets again"},
+    {"regroup_ms", &StepStats::regroup_ms, "the part of stage 1 in which facets were grouped again"},
     {"sweep_ms", &StepStats::sweep_ms, "stage 2: candidate pairs"},
     {"hulls_ms", &StepStats::hulls_ms,
-     "stage 3: do the hulls overlap, summed over threads; and from one pair to the next"},
+     "stage 3: whether the hulls overlap, summed over threads, with the way to the next pair"},
     {"kdop_ms", &StepStats::kdop_ms, "the part of stage 3 in which the 18-DOPs are compared, once for all threads"},
     {"gjk_ms", &StepStats::gjk_ms, "the part of stage 3 in which pairs needed GJK"},
     {"direction_ms", &StepStats::direction_ms, "stage 4: contact direction and depth, summed over threads"},
@@ -158,13 +154,13 @@ inline constexpr StepStatsField<double> kStepTimes[] = {
     {"total_ms", &StepStats::total_ms, "the whole step, refresh included"},
 };
 
-/// Calls visit(name, description, value) for every count of `stats`, a std::int64_t each.
+/// Calls visit(name, sentence, value) for each count of `stats`, a std::int64_t.
 template <class Stats, class Visit>
 void for_each_count(Stats&& stats, Visit&& visit) {
   for (const auto& field : kStepCounts) visit(field.name, field.text, stats.*field.value);
 }
 
-/// Calls visit(name, description, value) for every time of `stats`, a double in milliseconds each.
+/// Calls visit(name, sentence, value) for each time of `stats`, a double.
 template <class Stats, class Visit>
 void for_each_time(Stats&& stats, Visit&& visit) {
   for (const auto& field : kStepTimes) visit(field.name, field.text, stats.*field.value);

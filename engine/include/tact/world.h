@@ -58,7 +58,7 @@ class TACT_API World {
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// Returns the settings, valid as long as the world.
+  /// Returns the settings. They are valid as long as the world.
   const Settings& settings() const;
   /// Sets the settings for the next step, which looks at every pair again. Errors: bad_settings.
   void set_settings(const Settings& settings);
@@ -126,9 +126,9 @@ class TACT_API World {
   std::vector<FacetOfBody> overlap_box(const BoxQuery& query) const;
   /// Returns the closed bodies that contain a point or have it on their surface, decided exactly; ignores `within`.
   std::vector<BodyId> bodies_containing(const PointQuery& query) const;
-  /// Finds the facets in many boxes in parallel; replaces what the answers held.
+  /// Finds the facets in many boxes in parallel. It replaces what the answers held.
   void overlap_boxes(std::span<const BoxQuery> queries, std::span<std::vector<FacetOfBody>> answers) const;
-  /// Finds the bodies that contain many points in parallel; replaces what the answers held.
+  /// Finds the bodies that contain many points in parallel. It replaces what the answers held.
   void bodies_containing_each(std::span<const PointQuery> queries, std::span<std::vector<BodyId>> answers) const;
 
   /// Sets the observer of all mutating calls, which outlives the world; null removes it. Errors: wrong_order (bodies
@@ -146,17 +146,18 @@ class TACT_API World {
 
   /// Returns the name of a body, valid until the body is removed.
   const std::string& name(BodyId body) const;
-  Surface surface(BodyId body) const;            ///< what its facets are
-  Motion motion(BodyId body) const;              ///< how it moves
-  std::uint32_t layer(BodyId body) const;        ///< the layers that it is on
-  std::uint32_t mask(BodyId body) const;         ///< the layers that it is tested against
-  std::uint32_t group(BodyId body) const;        ///< its group, or 0
-  bool excluded(BodyId a, BodyId b) const;       ///< whether set_excluded() excludes the two; also invalid_argument
-  std::uint64_t external_id(BodyId body) const;  ///< the program's own number
-  double margin(BodyId body) const;              ///< metres
-  bool self_contact(BodyId body) const;          ///< whether it is tested against itself
-  std::size_t vertex_count(BodyId body) const;   ///< as it was added
-  std::size_t facet_count(BodyId body) const;    ///< as it was added
+  Surface surface(BodyId body) const;      ///< what the facets of a body are
+  Motion motion(BodyId body) const;        ///< how a body moves
+  std::uint32_t layer(BodyId body) const;  ///< the layers that a body is on
+  std::uint32_t mask(BodyId body) const;   ///< the layers that a body is tested against
+  std::uint32_t group(BodyId body) const;  ///< the group of a body, or 0
+  /// Whether set_excluded() excludes two bodies. Errors: also invalid_argument (one body twice).
+  bool excluded(BodyId a, BodyId b) const;
+  std::uint64_t external_id(BodyId body) const;  ///< the number that the program gave a body
+  double margin(BodyId body) const;              ///< the margin of a body, metres
+  bool self_contact(BodyId body) const;          ///< whether a body is tested against itself
+  std::size_t vertex_count(BodyId body) const;   ///< the number of vertices that were added
+  std::size_t facet_count(BodyId body) const;    ///< the number of facets that were added
 
   /// Copies the current positions of a body, 3 x V metres, column by column; a vertex that no facet uses is NaN.
   /// Errors: also wrong_size.

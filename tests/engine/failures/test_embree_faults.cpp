@@ -44,7 +44,7 @@ class WorldWithEmbree : public ::testing::Test {
 
   void detect_again() { world_.set_settings(world_.settings()); }
 
-  // After an error the world starts afresh.
+  // After an error the world starts from scratch.
   void expect_fresh_answer() {
     const Report& report = world_.detect();
     EXPECT_EQ(report.stats().tree_pairs, 1);

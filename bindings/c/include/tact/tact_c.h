@@ -36,26 +36,26 @@
 extern "C" {
 #endif
 
-/** What a function returns. The numbers never change; new ones may come. */
+/** What was wrong with the data of a call. What a function returns: the numbers never change; new ones may come. */
 typedef enum tact_error {
   TACT_OK = 0,
   TACT_ERROR_NON_FINITE_POSITION = 1,   /**< a coordinate is NaN or infinite */
-  TACT_ERROR_POSITION_OUT_OF_RANGE = 2, /**< a coordinate is larger than 2^300 in size */
+  TACT_ERROR_POSITION_OUT_OF_RANGE = 2, /**< a coordinate has a magnitude above 2^300 */
   TACT_ERROR_FACET_OUT_OF_RANGE = 3,    /**< a facet names a vertex that the body does not have */
-  TACT_ERROR_WRONG_SIZE = 4,            /**< the number of positions is not the body's of vertices */
+  TACT_ERROR_WRONG_SIZE = 4,            /**< a matrix or an array has the wrong size */
   TACT_ERROR_TOO_LARGE = 5,             /**< more than 2^29 - 1 vertices or facets, or 2^32 - 1 bodies */
-  TACT_ERROR_STALE_BODY = 6,            /**< the body was removed, or was never given out */
-  TACT_ERROR_FOREIGN_BODY = 7,          /**< the body is another world's */
-  TACT_ERROR_FIXED_BODY = 8,            /**< positions or a pose were set on a body that is fixed */
-  TACT_ERROR_BAD_SETTINGS = 9,          /**< a setting has no meaning; the message says which */
-  TACT_ERROR_WRONG_ORDER = 10,          /**< a body named twice in one batch, or a report before the first step */
+  TACT_ERROR_STALE_BODY = 6,            /**< the body was removed, or never added */
+  TACT_ERROR_FOREIGN_BODY = 7,          /**< the body is of another world */
+  TACT_ERROR_FIXED_BODY = 8,            /**< positions or a pose were set on a body whose motion is fixed */
+  TACT_ERROR_BAD_SETTINGS = 9,          /**< a setting is out of range; the message names it */
+  TACT_ERROR_WRONG_ORDER = 10,          /**< a call came at the wrong time, or a batch names a body twice */
   TACT_ERROR_OUT_OF_MEMORY = 11,        /**< an allocation failed */
-  TACT_ERROR_BACKEND_FAILURE = 12,      /**< Embree reported an error */
-  TACT_ERROR_BAD_RECORDING = 13,        /**< bytes that are no recording, or one that does not play */
-  TACT_ERROR_WRONG_MOTION = 14,         /**< positions were set on a rigid body, or a pose on one that is not */
+  TACT_ERROR_BACKEND_FAILURE = 12,      /**< Embree reported an error; the message holds its code */
+  TACT_ERROR_BAD_RECORDING = 13,        /**< the bytes are no recording, or one that does not play */
+  TACT_ERROR_WRONG_MOTION = 14,         /**< positions were set on a rigid body, or a pose on a deformable one */
   TACT_ERROR_NOT_A_ROTATION = 15,       /**< the matrix of a pose is not orthonormal to 1e-9, or mirrors */
-  TACT_ERROR_INVALID_ARGUMENT = 16,     /**< an argument has no meaning, such as a negative margin */
-  TACT_ERROR_INVALID_HANDLE = 100,      /**< the world was destroyed, or is none */
+  TACT_ERROR_INVALID_ARGUMENT = 16,     /**< an argument is out of range, such as a negative margin */
+  TACT_ERROR_INVALID_HANDLE = 100,      /**< the handle names no world or player */
   TACT_ERROR_NULL_ARGUMENT = 101,       /**< a pointer is null that must not be */
   TACT_ERROR_WRONG_STRUCT_SIZE = 102,   /**< struct_size is not that of a version of this library */
   TACT_ERROR_BUSY = 103,                /**< another thread is in a function of the world */
@@ -66,7 +66,7 @@ typedef enum tact_error {
 
 /** The version of the library, such as "0.1.0". */
 TACT_C_API const char* tact_version(void);
-/** The name of an error, such as "stale_body"; "unknown" for a number that is none. */
+/** Gives the name of `code`, such as "stale_body". */
 TACT_C_API const char* tact_error_code_name(int error);
 /** What went wrong in the last call of this thread that failed: body, vertex, facet, setting. Never null; valid until
  *  the thread's next call that fails. */
@@ -77,17 +77,35 @@ typedef struct tact_world {
   uint64_t handle;
 } tact_world;
 
-/** Names a body of one world; never given out twice. {0, 0, 0}: none. */
+/** Names a body of one world. {0, 0, 0}: none. */
 typedef struct tact_body {
-  uint32_t index; /**< bodies of a report are ordered by it */
-  uint32_t generation;
-  uint32_t world;
+  uint32_t index;      /**< the order of bodies in a report */
+  uint32_t generation; /**< 0 in the id of no body */
+  uint32_t world;      /**< the world that gave the id out */
 } tact_body;
 
-typedef enum tact_accuracy { TACT_ACCURACY_HULLS = 0, TACT_ACCURACY_PAPER = 1, TACT_ACCURACY_EXACT = 2 } tact_accuracy;
-typedef enum tact_direction_policy { TACT_DIRECTION_CARRIED = 0, TACT_DIRECTION_SMALLEST = 1 } tact_direction_policy;
-typedef enum tact_surface { TACT_SURFACE_CLOSED = 0, TACT_SURFACE_SHEET = 1 } tact_surface;
-typedef enum tact_motion { TACT_MOTION_DEFORMABLE = 0, TACT_MOTION_FIXED = 1, TACT_MOTION_RIGID = 2 } tact_motion;
+/** What a report promises of its pairs. */
+typedef enum tact_accuracy {
+  TACT_ACCURACY_HULLS = 0, /**< overlap, direction and depth of the convex hulls; neither zones nor facet pairs */
+  TACT_ACCURACY_PAPER = 1, /**< the paper's three criteria, then confirmation; may miss facet pairs */
+  TACT_ACCURACY_EXACT = 2  /**< every facet pair that meets and no other */
+} tact_accuracy;
+/** Where the contact direction of a pair comes from. */
+typedef enum tact_direction_policy {
+  TACT_DIRECTION_CARRIED = 0, /**< the direction of the last step, so that a body leaves the way it came in */
+  TACT_DIRECTION_SMALLEST = 1 /**< the smallest separation of the hulls, from scratch in every step */
+} tact_direction_policy;
+/** What the facets of a body are. */
+typedef enum tact_surface {
+  TACT_SURFACE_CLOSED = 0, /**< a solid's surface, facets counter-clockwise seen from outside */
+  TACT_SURFACE_SHEET = 1   /**< cloth: no inside, both sides count */
+} tact_surface;
+/** How a body moves. */
+typedef enum tact_motion {
+  TACT_MOTION_DEFORMABLE = 0, /**< tact_world_set_positions() moves its vertices */
+  TACT_MOTION_FIXED = 1,      /**< nothing moves it; two fixed bodies are never tested against each other */
+  TACT_MOTION_RIGID = 2       /**< tact_world_set_pose() turns and moves it, and its shape stays */
+} tact_motion;
 typedef enum tact_number_kind {
   TACT_FLOAT32 = 0,
   TACT_FLOAT64 = 1,
@@ -104,33 +122,39 @@ typedef struct tact_executor {
   void* user;                                                     /**< outlives the world */
 } tact_executor;
 
-typedef enum tact_message_kind { TACT_MESSAGE_DIRECTION_LIMIT = 0, TACT_MESSAGE_GJK_LIMIT = 1 } tact_message_kind;
+/** What a message is about. */
+typedef enum tact_message_kind {
+  TACT_MESSAGE_DIRECTION_LIMIT = 0, /**< the search for the direction of a contact stopped at a limit */
+  TACT_MESSAGE_GJK_LIMIT = 1        /**< GJK stopped at its limit for pairs that are taken to be apart */
+} tact_message_kind;
 
-/** See tact::Message. */
+/** A limit that a step reached. */
 typedef struct tact_message {
-  int32_t kind; /**< tact_message_kind */
-  tact_body a;  /**< the pair, where it is about one; else no body */
-  tact_body b;
-  const char* text; /**< valid during the call */
+  int32_t kind;     /**< tact_message_kind */
+  tact_body a;      /**< the first body of the pair, or no body */
+  tact_body b;      /**< the second body of the pair, or no body */
+  const char* text; /**< a sentence with the names of the bodies; valid during the call */
 } tact_message;
 
 /** Called at the end of tact_world_detect(), by its thread; must not call the world. */
 typedef void (*tact_message_function)(void* user, const tact_message* message);
 
-/** See tact::Settings. */
+/** How a world works. */
 typedef struct tact_settings {
   uint32_t struct_size;
-  int32_t threads;         /**< 0 to 1024; 0: as many as OpenMP would use */
-  int32_t accuracy;        /**< tact_accuracy */
-  int32_t direction;       /**< tact_direction_policy */
-  double gjk_tolerance;    /**< 1e-15 to 0.1 */
-  int32_t iteration_limit; /**< at least 1 */
-  bool zones;              /**< outputs that are asked for */
-  bool patches;
-  bool trace;
+  int32_t threads;   /**< the number of threads, 0 to 1024. 0 uses as many as the machine offers; tact_world_settings()
+                        returns the number */
+  int32_t accuracy;  /**< tact_accuracy */
+  int32_t direction; /**< tact_direction_policy */
+  double gjk_tolerance;    /**< the relative gap at which GJK stops, 1e-15 to 0.1 */
+  int32_t iteration_limit; /**< shifted calls of GJK a pair and step, at least 1 */
+  bool zones;              /**< tact_contact.zone_a and zone_b */
+  bool patches;            /**< tact_contact_patch() and tact_report_patch_events() */
+  bool trace;              /**< tact_report_trace() */
   tact_executor executor;
-  bool points;                      /**< contact points */
-  tact_message_function on_message; /**< is told of each limit that a step reached; null: nobody */
+  bool points;                      /**< tact_contact_points() */
+  tact_message_function on_message; /**< called for each limit that a step reached; the report has the same as flags and
+                                       counts. May be null */
   void* message_user;               /**< what it is called with */
 } tact_settings;
 #define TACT_SETTINGS_INIT                                                                                            \
@@ -148,20 +172,20 @@ typedef struct tact_columns {
   int32_t kind; /**< tact_number_kind */
 } tact_columns;
 
-/** See tact::BodyDefinition. */
+/** What tact_world_add_body() adds. */
 typedef struct tact_body_definition {
   uint32_t struct_size;
   int32_t surface;        /**< tact_surface */
-  tact_columns positions; /**< metres */
-  tact_columns facets;    /**< indices of vertices, counter-clockwise seen from outside */
+  tact_columns positions; /**< 3 x V, metres; the rest shape of a rigid body */
+  tact_columns facets;    /**< 3 x F, indices of vertices */
   int32_t motion;         /**< tact_motion */
-  uint32_t layer;         /**< the layers this body is on, a bit each */
-  uint32_t mask;          /**< the layers it is tested against */
-  const char* name;       /**< for messages; null: "body <index>" */
-  uint64_t external_id;   /**< the program's own; nothing depends on it */
-  double margin;          /**< half a thickness, metres: surfaces closer than two margins are in contact */
-  bool self_contact;      /**< is the body held against itself, too? */
-  uint32_t group;         /**< bodies of one group are not tested against each other; 0: in none */
+  uint32_t layer;         /**< the layers that the body is on, a bit each */
+  uint32_t mask;          /**< the layers that the body is tested against; a pair needs both masks */
+  const char* name;       /**< for messages; by default "body <index>" */
+  uint64_t external_id;   /**< the program's own number; no answer depends on it */
+  double margin;          /**< how far ahead of the surface contact points are seen, metres, 0 to 2^300 */
+  bool self_contact;      /**< whether the body is tested against itself, too */
+  uint32_t group;         /**< bodies of one group are not tested against each other. 0 is no group */
 } tact_body_definition;
 #define TACT_BODY_DEFINITION_INIT                                                                  \
   {                                                                                                \
@@ -169,79 +193,105 @@ typedef struct tact_body_definition {
         {NULL, 0, 12, TACT_INT32}, TACT_MOTION_DEFORMABLE, 1u, 0xffffffffu, NULL, 0, 0.0, false, 0 \
   }
 
-/** New positions of one body. */
+/** New positions of one body, for tact_world_set_positions(). */
 typedef struct tact_positions_update {
-  tact_body body;
+  tact_body body; /**< the body */
   tact_columns positions;
 } tact_positions_update;
 
-/** A new pose of a rigid body: see tact::PoseUpdate. */
+/** A new pose of a rigid body, for tact_world_set_poses(). */
 typedef struct tact_pose_update {
-  tact_body body;
-  double rotation[9];    /**< row by row */
+  tact_body body;        /**< the body */
+  double rotation[9];    /**< of determinant +1. Row by row */
   double translation[3]; /**< metres */
 } tact_pose_update;
 
 /* The world. */
 
-/** `settings` may be null: the default. */
+/** Makes a world; `settings` may be null for the default. */
 TACT_C_API tact_error tact_world_create(const tact_settings* settings, tact_world* world);
+/** Destroys a world. */
 TACT_C_API tact_error tact_world_destroy(tact_world world);
+/** Gives the settings. */
 TACT_C_API tact_error tact_world_settings(tact_world world, tact_settings* settings);
+/** Sets the settings for the next step, which looks at every pair again. */
 TACT_C_API tact_error tact_world_set_settings(tact_world world, const tact_settings* settings);
+/** Adds a body; copies its mesh and groups the facets into clusters. */
 TACT_C_API tact_error tact_world_add_body(tact_world world, const tact_body_definition* definition, tact_body* body);
+/** Removes a body. */
 TACT_C_API tact_error tact_world_remove_body(tact_world world, tact_body body);
+/** Copies new positions of a body, 3 x V in metres; equal ones do not move it. */
 TACT_C_API tact_error tact_world_set_positions(tact_world world, tact_body body, const tact_columns* positions);
-/** Of many bodies, in parallel; all or none. */
+/** Copies new positions of many bodies in parallel, all or none. */
 TACT_C_API tact_error tact_world_set_positions_of_many(tact_world world, const tact_positions_update* updates,
                                                        size_t count);
-/** Turns and moves a rigid body: see tact::World::set_pose(). `rotation` has 9 numbers, row by row, `translation` 3. */
+/** Places a rigid body: a vertex added at p stands at rotation * p + translation. `rotation` has 9 numbers, row by row,
+ * `translation` 3. */
 TACT_C_API tact_error tact_world_set_pose(tact_world world, tact_body body, const double* rotation,
                                           const double* translation);
-/** Of many bodies, in parallel; all or none. */
+/** Places many rigid bodies in parallel, all or none. */
 TACT_C_API tact_error tact_world_set_poses(tact_world world, const tact_pose_update* updates, size_t count);
+/** Sets the layers of a body and those that it is tested against. */
 TACT_C_API tact_error tact_world_set_layers(tact_world world, tact_body body, uint32_t layer, uint32_t mask);
+/** Sets the group of a body. */
 TACT_C_API tact_error tact_world_set_group(tact_world world, tact_body body, uint32_t group);
-/** Are two bodies left out, whatever their layers: the two sides of a joint, say? */
+/** Sets whether two bodies are excluded from tests, whatever their layers: the two sides of a joint, say. */
 TACT_C_API tact_error tact_world_set_excluded(tact_world world, tact_body a, tact_body b, bool excluded);
+/** Sets how a body moves. */
 TACT_C_API tact_error tact_world_set_motion(tact_world world, tact_body body, int32_t motion);
+/** Sets how far ahead of a body's surface contact points are seen, metres. */
 TACT_C_API tact_error tact_world_set_margin(tact_world world, tact_body body, double margin);
+/** Sets whether a body is tested against itself. */
 TACT_C_API tact_error tact_world_set_self_contact(tact_world world, tact_body body, bool wanted);
-/** One step. The functions tact_report_... tell what it found. */
+/** Takes one step: finds the contacts of the current positions. The functions tact_report_... tell what it found. */
 TACT_C_API tact_error tact_world_detect(tact_world world);
-/** What meets between the positions of the last step and those set since; `wanted` is a tact_impacts. The functions
- *  tact_motion_... tell what it found. It changes nothing. */
+/** Finds what meets between the positions of the last tact_world_detect() and the current ones, every vertex moving
+ * straight. `wanted` is a tact_impacts. The functions tact_motion_... tell what it found. */
 TACT_C_API tact_error tact_world_detect_motion(tact_world world, int32_t wanted);
 
+/** Whether `body` names a body of this world. */
 TACT_C_API tact_error tact_world_contains(tact_world world, tact_body body, bool* contains);
+/** Gives the number of bodies. */
 TACT_C_API tact_error tact_world_body_count(tact_world world, size_t* count);
-/** Writes up to `capacity` bodies, in the order of their index, and how many there are. */
+/** Gives the bodies in the order of their index. Writes up to `capacity` of them, and how many there are. */
 TACT_C_API tact_error tact_world_bodies(tact_world world, tact_body* bodies, size_t capacity, size_t* count);
-/** Valid until the body is removed or the world destroyed. */
+/** Gives the name of a body, valid until the body is removed. */
 TACT_C_API tact_error tact_world_name(tact_world world, tact_body body, const char** name);
+/** What the facets of a body are. */
 TACT_C_API tact_error tact_world_surface(tact_world world, tact_body body, tact_surface* surface);
+/** How a body moves. */
 TACT_C_API tact_error tact_world_motion(tact_world world, tact_body body, tact_motion* motion);
+/** The group of a body, or 0. */
 TACT_C_API tact_error tact_world_group(tact_world world, tact_body body, uint32_t* group);
+/** Whether tact_world_set_excluded() excludes two bodies. */
 TACT_C_API tact_error tact_world_excluded(tact_world world, tact_body a, tact_body b, bool* excluded);
+/** The layers that a body is on. */
 TACT_C_API tact_error tact_world_layer(tact_world world, tact_body body, uint32_t* layer);
+/** The layers that a body is tested against. */
 TACT_C_API tact_error tact_world_mask(tact_world world, tact_body body, uint32_t* mask);
+/** The number that the program gave a body. */
 TACT_C_API tact_error tact_world_external_id(tact_world world, tact_body body, uint64_t* external_id);
+/** The margin of a body, metres. */
 TACT_C_API tact_error tact_world_margin(tact_world world, tact_body body, double* margin);
+/** Whether a body is tested against itself. */
 TACT_C_API tact_error tact_world_self_contact(tact_world world, tact_body body, bool* wanted);
+/** The number of vertices that were added. */
 TACT_C_API tact_error tact_world_vertex_count(tact_world world, tact_body body, size_t* count);
+/** The number of facets that were added. */
 TACT_C_API tact_error tact_world_facet_count(tact_world world, tact_body body, size_t* count);
 
-/** A box, metres. */
+/** A box. */
 typedef struct tact_bounds {
-  double lower[3];
-  double upper[3];
+  double lower[3]; /**< metres */
+  double upper[3]; /**< metres */
 } tact_bounds;
 
-/** The mesh as it was given, at the positions that were set last: three numbers a vertex or facet, into `room` numbers
- *  of the caller, as many as there are. A vertex that no facet uses has NaN for coordinates. */
+/** Copies the current positions of a body, 3 x V metres, column by column; a vertex that no facet uses is NaN. `room`
+ * counts the numbers of `coordinates`. */
 TACT_C_API tact_error tact_world_copy_positions(tact_world world, tact_body body, double* coordinates, size_t room);
+/** Copies the facets of a body, 3 x F indices, column by column. `room` counts the numbers of `corners`. */
 TACT_C_API tact_error tact_world_copy_facets(tact_world world, tact_body body, int* corners, size_t room);
-/** With its margin; where the body has no facet, lower is above upper. */
+/** Gives the box of a body with its margin, metres; without a facet, lower is above upper. */
 TACT_C_API tact_error tact_world_bounds(tact_world world, tact_body body, tact_bounds* bounds);
 
 /* Recordings: see tact/recording.h. */
@@ -250,82 +300,84 @@ TACT_C_API tact_error tact_world_bounds(tact_world world, tact_body body, tact_b
  *  whether the file holds all (TACT_ERROR_FILE). It also ends with the world. */
 TACT_C_API tact_error tact_world_record(tact_world world, const char* path);
 
-/** Runs a recording again. {0}: none. */
+/** Runs a recording again, step by step. {0}: none. */
 typedef struct tact_player {
   uint64_t handle;
 } tact_player;
 
-/** See tact::PlayedStep. */
+/** A step that was run again. */
 typedef struct tact_played_step {
   uint32_t struct_size;
-  int32_t number; /**< from 0 */
-  size_t byte;    /**< where its hash stands in the recording */
-  bool answered;  /**< did the step have an answer when it was recorded? */
-  uint64_t recorded;
-  uint64_t now; /**< hash of the report now */
+  int32_t number;    /**< counted from 0 */
+  size_t byte;       /**< where its hash stands in the recording, or the size of the recording */
+  bool answered;     /**< whether the step had an answer when it was recorded */
+  uint64_t recorded; /**< the hash of the recorded report */
+  uint64_t now;      /**< the hash of the report now */
 } tact_played_step;
 #define TACT_PLAYED_STEP_INIT \
   { (uint32_t)sizeof(tact_played_step), 0, 0, false, 0, 0 }
 
-/** `threads` of -1: as many as the recording had. */
+/** `threads` of -1 uses as many as the recording had. */
 TACT_C_API tact_error tact_player_open(const char* path, int32_t threads, tact_player* player);
 TACT_C_API tact_error tact_player_close(tact_player player);
-/** Runs the next step; `played` is false at the end. */
+/** Runs the calls up to and with the next step. `played` is false at the end. */
 TACT_C_API tact_error tact_player_next(tact_player player, tact_played_step* step, bool* played);
-/** Was the recording cut off, and in the record that begins at which byte? Known at the end. */
+/** Gives the byte of the record that the end of the recording cuts off. Known at the end. */
 TACT_C_API tact_error tact_player_cut_at(tact_player player, bool* cut, size_t* byte);
-/** The world that the steps are made in, with the report of the last; valid until the player is closed. */
+/** Gives the world that the calls are made in. */
 TACT_C_API tact_error tact_player_world(tact_player player, tact_world* world);
-/** The version of tact that wrote the recording; valid until the player is closed. */
+/** Gives the version of tact that wrote the recording. */
 TACT_C_API tact_error tact_player_recorded_by(tact_player player, const char** version);
 
 /* The report of the last step. */
 
+/** How a contact direction was found. */
 typedef enum tact_direction_source {
-  TACT_SOURCE_CARRIED = 0,
-  TACT_SOURCE_FRESH = 1,
-  TACT_SOURCE_SMALLEST = 2
+  TACT_SOURCE_CARRIED = 0, /**< from the direction of the last step */
+  TACT_SOURCE_FRESH = 1,   /**< from the direction that last separated the hulls */
+  TACT_SOURCE_SMALLEST = 2 /**< as the smallest separation of the hulls */
 } tact_direction_source;
 
-/** See tact::Containment. */
+/** Which of two bodies lies wholly inside the other, so that no facets meet. */
 typedef enum tact_containment {
-  TACT_CONTAINMENT_NONE = 0,
-  TACT_CONTAINMENT_A_IN_B = 1,
-  TACT_CONTAINMENT_B_IN_A = 2
+  TACT_CONTAINMENT_NONE = 0,   /**< neither, or TACT_ACCURACY_HULLS */
+  TACT_CONTAINMENT_A_IN_B = 1, /**< a lies inside b, a closed body */
+  TACT_CONTAINMENT_B_IN_A = 2  /**< b lies inside a, a closed body */
 } tact_containment;
 
-/** Facet `a` of the first body meets facet `b` of the second. */
+/** Two facets that share at least one point. */
 typedef struct tact_facet_pair {
-  int a;
-  int b;
+  int a; /**< facet of the first body */
+  int b; /**< facet of the second */
 } tact_facet_pair;
 
+/** The smallest disk around an impact zone, seen along the contact direction. */
 typedef struct tact_zone_disk {
   double center[3]; /**< metres */
-  double radius;    /**< metres; negative: none */
+  double radius;    /**< metres; negative where no zone is computed or it is empty */
 } tact_zone_disk;
 
-/** See tact::Contact. */
+/** Two bodies whose convex hulls overlap or touch, decided exactly, or are nearer than the sum of the margins. */
 typedef struct tact_contact {
   uint32_t struct_size;
-  tact_body a; /**< a.index < b.index */
-  tact_body b;
-  double direction[3]; /**< unit, from a to b: move b by depth * direction to part the hulls */
-  double depth;        /**< metres */
-  int32_t source;      /**< tact_direction_source */
-  int32_t iterations;
-  bool limit_reached;
-  bool touching; /**< does any facet of a meet one of b? */
-  double plane_a;
-  double plane_b;
-  tact_zone_disk zone_a;
-  tact_zone_disk zone_b;
-  int64_t kept_facets_a;
-  int64_t kept_facets_b;
-  const tact_facet_pair* facet_pairs; /**< sorted; the world's */
+  tact_body a;         /**< a.index <= b.index; equal to b for a body with itself */
+  tact_body b;         /**< the second body */
+  double direction[3]; /**< unit vector from a to b: moving b by depth * direction separates the hulls */
+  double depth;   /**< the overlap of the hulls along `direction`, metres; minus their distance where they are apart */
+  int32_t source; /**< tact_direction_source */
+  int32_t iterations;    /**< shifted calls of GJK that it took */
+  bool limit_reached;    /**< whether GJK or the direction stopped at a limit, with the best direction found */
+  bool touching;         /**< whether facets meet, or a point's gap is below the sum of the margins */
+  double plane_a;        /**< the contact plane direction * x = plane_a, the farthest that the hull of a reaches */
+  double plane_b;        /**< the contact plane direction * x = plane_b, the nearest that the hull of b reaches */
+  tact_zone_disk zone_a; /**< around the part of a between the planes */
+  tact_zone_disk zone_b; /**< around the part of b between the planes */
+  int64_t kept_facets_a; /**< facets of a left after the criteria */
+  int64_t kept_facets_b; /**< facets of b left after the criteria */
+  const tact_facet_pair* facet_pairs; /**< the facets that meet, sorted; empty at TACT_ACCURACY_HULLS */
   size_t facet_pair_count;
   size_t patch_count;  /**< see tact_contact_patch() */
-  int32_t containment; /**< tact_containment: is one body wholly inside the other? */
+  int32_t containment; /**< which body lies wholly inside the other, decided exactly; the direction leads out of it */
 } tact_contact;
 #define TACT_CONTACT_INIT                                                                                          \
   {                                                                                                                \
@@ -333,67 +385,76 @@ typedef struct tact_contact {
         {{0, 0, 0}, -1}, 0, 0, NULL, 0, 0, 0                                                                       \
   }
 
-/** See tact::Patch. */
+/** A connected set of facet pairs and contact points: a place where two bodies touch or nearly do. */
 typedef struct tact_patch {
   uint32_t struct_size;
-  double point[3];
-  double direction[3];
-  double depth;           /**< metres */
-  const int* facet_pairs; /**< indices into the contact's, ascending; the world's */
+  double point[3];     /**< the middle of its points, or of the boxes that its facet pairs have in common; metres */
+  double direction[3]; /**< unit vector from a to b: the mean normal of its points, weighted by depth, or of its facets,
+                          by area */
+  double depth; /**< metres: minus the smallest gap of its points, or how far b moves along `direction` to part its
+                   facet pairs */
+  const int* facet_pairs; /**< indices into tact_contact.facet_pairs, ascending */
   size_t facet_pair_count;
-  uint64_t id;       /**< lasts from step to step */
-  double area;       /**< square metres */
-  const int* points; /**< indices into the contact's, ascending; the world's */
+  uint64_t id; /**< the same in the next step if both share most of their vertices; never given out twice by a world */
+  double area; /**< the area of the convex hull of its points, seen along `direction`; square metres */
+  const int* points; /**< indices into tact_contact_points(), ascending */
   size_t point_count;
-  int spanning[4]; /**< at most four of the points, the deepest first; -1 fills up */
+  int spanning[4]; /**< at most four of `points`, the deepest first, then those that span the most area; -1 fills up */
 } tact_patch;
 #define TACT_PATCH_INIT                                                                               \
   {                                                                                                   \
     (uint32_t)sizeof(tact_patch), {0, 0, 0}, {0, 0, 0}, 0, NULL, 0, 0, 0, NULL, 0, { -1, -1, -1, -1 } \
   }
 
-typedef enum tact_feature_pair { TACT_VERTEX_FACET = 0, TACT_FACET_VERTEX = 1, TACT_EDGE_EDGE = 2 } tact_feature_pair;
+/** The features of bodies a and b that are nearest, or that meet. */
+typedef enum tact_feature_pair {
+  TACT_VERTEX_FACET = 0, /**< a vertex of a, a facet of b */
+  TACT_FACET_VERTEX = 1, /**< a facet of a, a vertex of b */
+  TACT_EDGE_EDGE = 2     /**< an edge of each */
+} tact_feature_pair;
 
-/** See tact::ContactPoint. */
+/** A point on each of two surfaces, where features are nearest or have crossed. */
 typedef struct tact_contact_point {
   int32_t kind; /**< tact_feature_pair */
-  int patch;
-  int a_vertices[3]; /**< -1 fills up */
-  int b_vertices[3];
-  double a_weights[3]; /**< not negative; the sum is 1 */
-  double b_weights[3];
-  double normal[3]; /**< unit, from a to b */
-  double gap;       /**< metres; negative where surfaces have crossed */
-  uint64_t id;      /**< the same while these features are near each other */
+  int patch; /**< the number of its patch, counted from 0: an index into tact_contact_patch(), if tact_settings.patches
+                is set */
+  int a_vertices[3];   /**< vertices of the smallest feature of a that holds the point; -1 fills up */
+  int b_vertices[3];   /**< the same of b */
+  double a_weights[3]; /**< weights of the vertices of a, not negative, with a sum of 1 */
+  double b_weights[3]; /**< the same of b */
+  double normal[3]; /**< unit vector from the point of a to that of b; the normal of a facet where the two coincide */
+  double gap;  /**< the distance of the two points along the normal, metres; negative where the surfaces have crossed */
+  uint64_t id; /**< the same in every step in which these features are near: a key for impulses */
 } tact_contact_point;
 
 /** Two bodies whose boxes overlap. */
 typedef struct tact_candidate_pair {
-  tact_body a;
-  tact_body b;
-  bool hulls_overlap;
+  tact_body a;        /**< a.index < b.index */
+  tact_body b;        /**< the second body */
+  bool hulls_overlap; /**< whether their hulls overlap or touch */
 } tact_candidate_pair;
 
-/** Two bodies, or one twice, that began to touch, or ceased to. */
+/** Two bodies, or one with itself, that began or ceased to touch in this step: see tact_contact.touching. */
 typedef struct tact_contact_event {
-  tact_body a;
-  tact_body b;
+  tact_body a; /**< a.index <= b.index */
+  tact_body b; /**< the second body */
 } tact_contact_event;
 
+/** What became of the patch. */
 typedef enum tact_patch_event_kind {
-  TACT_PATCH_BEGAN = 0,
-  TACT_PATCH_SPLIT = 1,
-  TACT_PATCH_MERGED = 2,
-  TACT_PATCH_ENDED = 3
+  TACT_PATCH_BEGAN = 0,  /**< it is new */
+  TACT_PATCH_SPLIT = 1,  /**< it is new, and was a part of the patch `other`, which persists */
+  TACT_PATCH_MERGED = 2, /**< it became a part of the patch `other` */
+  TACT_PATCH_ENDED = 3   /**< it is gone */
 } tact_patch_event_kind;
 
-/** See tact::PatchEvent. */
+/** A change of a patch in this step. */
 typedef struct tact_patch_event {
-  tact_body a;
-  tact_body b;
-  int32_t kind; /**< tact_patch_event_kind */
-  uint64_t patch;
-  uint64_t other;
+  tact_body a;    /**< a.index <= b.index */
+  tact_body b;    /**< the second body */
+  int32_t kind;   /**< tact_patch_event_kind */
+  uint64_t patch; /**< its id */
+  uint64_t other; /**< the id of the other patch, or 0 */
 } tact_patch_event;
 
 /** A count or a time of the step. */
@@ -405,7 +466,7 @@ typedef struct tact_statistic {
   double ms;     /**< 0 if it is a count */
 } tact_statistic;
 
-/** See tact::TraceEvent. Times are nanoseconds of the steady clock. */
+/** A part of one thread's work: see tact::TraceEvent. Times are nanoseconds of the steady clock. */
 typedef struct tact_trace_event {
   uint32_t struct_size;
   int32_t kind; /**< in the order of tact::TraceEvent::Kind */
@@ -419,171 +480,195 @@ typedef struct tact_trace_event {
 #define TACT_TRACE_EVENT_INIT \
   { (uint32_t)sizeof(tact_trace_event), 0, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, 0 }
 
-/** How many pairs of bodies have hulls that overlap. */
+/** Gives the contacts, sorted by (a, b). `count` is their number; each of them is tact_report_contact(). */
 TACT_C_API tact_error tact_report_contacts(tact_world world, size_t* count);
 /** The contact `index` of those, sorted by bodies. */
 TACT_C_API tact_error tact_report_contact(tact_world world, size_t index, tact_contact* contact);
-/** The index of the contact of two bodies, in either order; the number of contacts if their hulls are apart. */
+/** Gives the contact of two bodies, in either order, if they have one. The number of contacts stands for none. */
 TACT_C_API tact_error tact_report_find_contact(tact_world world, tact_body a, tact_body b, size_t* index);
 /** The patch `patch` of the contact `index`. */
 TACT_C_API tact_error tact_contact_patch(tact_world world, size_t index, size_t patch, tact_patch* result);
-/** The points of the contact `index`, if they were asked for; the world's. */
+/** Gives the points, if tact_settings.points is set; sorted by kind, then by features. */
 TACT_C_API tact_error tact_contact_points(tact_world world, size_t index, const tact_contact_point** points,
                                           size_t* count);
+/** Gives the pairs whose boxes overlap, sorted by (a, b). */
 TACT_C_API tact_error tact_report_candidate_pairs(tact_world world, const tact_candidate_pair** pairs, size_t* count);
-/** Pairs that touch now and did not in the last step, and the opposite. */
+/** Gives the contacts that touch now and did not in the last step, sorted by (a, b). */
 TACT_C_API tact_error tact_report_began(tact_world world, const tact_contact_event** events, size_t* count);
+/** Gives the contacts that touched in the last step and do not now, sorted by (a, b); ids of removed bodies are stale.
+ */
 TACT_C_API tact_error tact_report_ended(tact_world world, const tact_contact_event** events, size_t* count);
-/** What became of patches, if they are asked for; the world's. */
+/** Gives the changes of patches, if tact_settings.patches is set; sorted by (a, b), ends before beginnings. */
 TACT_C_API tact_error tact_report_patch_events(tact_world world, const tact_patch_event** events, size_t* count);
-/** Writes up to `capacity` statistics, counts and then times, and how many there are. */
+/** Gives counts and times of the step. Writes up to `capacity` of them, counts before times, and how many there are. */
 TACT_C_API tact_error tact_report_stats(tact_world world, tact_statistic* statistics, size_t capacity, size_t* count);
-/** How many trace events there are, and each of them. */
+/** Gives what each thread did, if tact_settings.trace is set; sorted by thread and time, outer events first. `count` is
+ * their number; each of them is tact_report_trace_event(). */
 TACT_C_API tact_error tact_report_trace(tact_world world, size_t* count);
 TACT_C_API tact_error tact_report_trace_event(tact_world world, size_t index, tact_trace_event* event);
-/** The number that two equal reports share, in C and C++. */
+/** Gives a number made from every bit of candidate pairs, contacts, facet pairs and points. */
 TACT_C_API tact_error tact_report_hash(tact_world world, uint64_t* hash);
 
 /* What tact_world_detect_motion() found; valid until it is called again. */
 
-typedef enum tact_impacts { TACT_IMPACTS_ALL = 0, TACT_IMPACTS_FIRST_OF_PAIR = 1, TACT_IMPACTS_FIRST = 2 } tact_impacts;
+/** Which impacts tact_world_detect_motion() finds. */
+typedef enum tact_impacts {
+  TACT_IMPACTS_ALL = 0,           /**< every pair of features that meets */
+  TACT_IMPACTS_FIRST_OF_PAIR = 1, /**< the earliest of each pair of bodies; faster */
+  TACT_IMPACTS_FIRST = 2          /**< the earliest of all; the fastest */
+} tact_impacts;
 
-/** See tact::Impact. */
+/** A vertex and a facet, or two edges, that meet between the last step and now. */
 typedef struct tact_impact {
-  tact_body a; /**< a.index <= b.index */
-  tact_body b;
+  tact_body a;       /**< a.index <= b.index; equal to b for a body with itself */
+  tact_body b;       /**< the second body */
   int32_t kind;      /**< tact_feature_pair */
-  double time;       /**< 0 to 1; never late */
-  int a_vertices[3]; /**< -1 fills up */
-  int b_vertices[3];
+  double time;       /**< the part of the way, 0 to 1, at which they first meet; never later than the true time */
+  int a_vertices[3]; /**< vertices of the feature of a; -1 fills up */
+  int b_vertices[3]; /**< vertices of the feature of b; -1 fills up */
 } tact_impact;
 
-/** See tact::ImpactPair. */
+/** Two bodies, or one with itself, with at least one impact. */
 typedef struct tact_impact_pair {
   uint32_t struct_size;
-  tact_body a;
-  tact_body b;
-  double first_time;
-  const tact_impact* impacts; /**< sorted by time; the world's */
+  tact_body a;                /**< a.index <= b.index */
+  tact_body b;                /**< the second body */
+  double first_time;          /**< the earliest time of the impacts */
+  const tact_impact* impacts; /**< sorted by time; valid as long as the report */
   size_t impact_count;
 } tact_impact_pair;
 #define TACT_IMPACT_PAIR_INIT \
   { (uint32_t)sizeof(tact_impact_pair), {0, 0, 0}, {0, 0, 0}, 0, NULL, 0 }
 
-/** See tact::MotionStats. */
+/** Counts and times, milliseconds, of tact_world_detect_motion(). */
 typedef struct tact_motion_statistics {
   uint32_t struct_size;
-  int64_t moved_bodies;
-  int64_t body_pairs;
-  int64_t cluster_pairs;
-  int64_t candidates;
-  int64_t searched;
-  int64_t spans;
+  int64_t moved_bodies;  /**< bodies with other positions than in the last step */
+  int64_t body_pairs;    /**< pairs of bodies whose swept boxes overlap, and bodies with themselves */
+  int64_t cluster_pairs; /**< pairs of clusters whose swept boxes overlap */
+  int64_t candidates;    /**< pairs of features whose swept boxes overlap */
+  int64_t searched;      /**< candidates that the filter left undecided */
+  int64_t spans;         /**< parts of the way that the search looked at */
   int64_t impacts;
-  double sweep_ms;
-  double search_ms;
+  double sweep_ms;  /**< the search for bodies that pass each other */
+  double search_ms; /**< all other work */
 } tact_motion_statistics;
 #define TACT_MOTION_STATISTICS_INIT \
   { (uint32_t)sizeof(tact_motion_statistics), 0, 0, 0, 0, 0, 0, 0, 0, 0 }
 
-/** The earliest time of all; infinity if nothing meets. */
+/** Gives the earliest time of all, 0 to 1; infinity if nothing meets. */
 TACT_C_API tact_error tact_motion_first_time(tact_world world, double* time);
-/** Sorted by bodies, then by time; the world's. */
+/** Gives the impacts, sorted by (a, b), time and features. */
 TACT_C_API tact_error tact_motion_impacts(tact_world world, const tact_impact** impacts, size_t* count);
-/** How many pairs of bodies meet, and each of them. */
+/** Gives the pairs of bodies that meet, sorted by (a, b). `count` is their number; each of them is tact_motion_pair().
+ */
 TACT_C_API tact_error tact_motion_pairs(tact_world world, size_t* count);
 TACT_C_API tact_error tact_motion_pair(tact_world world, size_t index, tact_impact_pair* pair);
+/** Gives counts and times. */
 TACT_C_API tact_error tact_motion_stats(tact_world world, tact_motion_statistics* statistics);
 
 /* Queries to the surfaces where they are now. */
 
-/** See tact::Ray. */
+/** A segment, ends included. */
 typedef struct tact_ray {
   double from[3]; /**< metres */
-  double to[3];
-  uint32_t layer; /**< bodies whose mask has one of these bits, */
-  uint32_t mask;  /**< and whose layer has one of these */
+  double to[3];   /**< metres */
+  uint32_t layer; /**< the layers that the query is on */
+  uint32_t mask;  /**< the layers that the query considers */
 } tact_ray;
 #define TACT_RAY_INIT \
   { {0, 0, 0}, {0, 0, 0}, 0xffffffffu, 0xffffffffu }
 
-typedef enum tact_ray_hits { TACT_RAY_FIRST = 0, TACT_RAY_ANY = 1 } tact_ray_hits;
+/** Which facet tact_world_cast_ray() returns. */
+typedef enum tact_ray_hits {
+  TACT_RAY_FIRST = 0, /**< the first facet on the way; of several at one place the least by body and facet */
+  TACT_RAY_ANY = 1    /**< some facet on the way; faster */
+} tact_ray_hits;
 
-/** See tact::RayHit. */
+/** A facet that a ray meets. */
 typedef struct tact_ray_hit {
-  tact_body body;
-  int facet;             /**< negative: nothing was hit */
-  double fraction;       /**< from + fraction * (to - from) */
-  double barycentric[3]; /**< of the facet's corners there */
+  tact_body body;        /**< the body of the facet */
+  int facet;             /**< negative: the ray meets nothing */
+  double fraction;       /**< the place on the ray: from + fraction * (to - from) */
+  double barycentric[3]; /**< the place on the facet: weights of its corners, not negative, with a sum of 1 */
 } tact_ray_hit;
 
-/** See tact::PointQuery. */
+/** A point, and how far the answer may be away. */
 typedef struct tact_point_query {
   double point[3]; /**< metres */
-  double within;   /**< metres */
-  uint32_t layer;
-  uint32_t mask;
+  double within;   /**< metres, at least 0 */
+  uint32_t layer;  /**< the layers that the query is on */
+  uint32_t mask;   /**< the layers that the query considers */
 } tact_point_query;
 #define TACT_POINT_QUERY_INIT \
   { {0, 0, 0}, HUGE_VAL, 0xffffffffu, 0xffffffffu }
 
-/** See tact::ClosestPoint. */
+/** The nearest place of all surfaces; of equally near ones the least by body and facet. */
 typedef struct tact_closest_point {
-  tact_body body;
-  int facet;       /**< negative: nothing is as near */
-  double distance; /**< metres */
-  double barycentric[3];
+  tact_body body;        /**< the body of the facet */
+  int facet;             /**< negative: no facet is within reach */
+  double distance;       /**< metres; infinity where no facet is within reach */
+  double barycentric[3]; /**< the place on the facet: weights of its corners, not negative, with a sum of 1 */
 } tact_closest_point;
 
-/** See tact::BoxQuery. */
+/** A closed box. */
 typedef struct tact_box_query {
   double lower[3]; /**< metres */
-  double upper[3];
-  uint32_t layer;
-  uint32_t mask;
+  double upper[3]; /**< metres, not below `lower` */
+  uint32_t layer;  /**< the layers that the query is on */
+  uint32_t mask;   /**< the layers that the query considers */
 } tact_box_query;
 #define TACT_BOX_QUERY_INIT TACT_RAY_INIT
 
 /** A facet of a body. */
 typedef struct tact_facet_of_body {
-  tact_body body;
-  int facet;
+  tact_body body; /**< the body of the facet */
+  int facet;      /**< counted from 0 */
 } tact_facet_of_body;
 
-/** `wanted` is a tact_ray_hits. */
+/** Gives the first facet that a ray meets, or any. `wanted` is a tact_ray_hits. */
 TACT_C_API tact_error tact_world_cast_ray(tact_world world, const tact_ray* ray, int32_t wanted, tact_ray_hit* hit);
-/** `count` rays and hits, on all threads. */
+/** Answers many rays in parallel. */
 TACT_C_API tact_error tact_world_cast_rays(tact_world world, const tact_ray* rays, size_t count, int32_t wanted,
                                            tact_ray_hit* hits);
-/** These three write up to `capacity` answers, sorted, and how many there are. */
+/** Gives all facets that a ray meets, sorted by fraction, body and facet. Writes up to `capacity` of them, and how many
+ * there are. */
 TACT_C_API tact_error tact_world_cast_ray_all(tact_world world, const tact_ray* ray, tact_ray_hit* hits,
                                               size_t capacity, size_t* count);
+/** Gives the facets that share a point with a box, decided exactly; sorted by body and facet. Writes up to `capacity`
+ * of them, and how many there are. */
 TACT_C_API tact_error tact_world_overlap_box(tact_world world, const tact_box_query* query, tact_facet_of_body* facets,
                                              size_t capacity, size_t* count);
+/** Gives the closed bodies that contain a point or have it on their surface, decided exactly; ignores `within`. Writes
+ * up to `capacity` of them, and how many there are. */
 TACT_C_API tact_error tact_world_bodies_containing(tact_world world, const tact_point_query* query, tact_body* bodies,
                                                    size_t capacity, size_t* count);
-/** `count` queries, on all threads. The answers follow each other: ends[i], one for each query, is where that to
- *  query i ends. Up to `capacity` are written; ends[count - 1] is how many there are. */
+/** Finds the facets in many boxes in parallel. Answers follow each other: that of query
+ * i ends at ends[i]. Up to `capacity` are written; ends[count - 1] is how many there are. */
 TACT_C_API tact_error tact_world_overlap_boxes(tact_world world, const tact_box_query* queries, size_t count,
                                                tact_facet_of_body* facets, size_t capacity, size_t* ends);
+/** Finds the bodies that contain many points in parallel. Laid out as by
+ * tact_world_overlap_boxes(). */
 TACT_C_API tact_error tact_world_bodies_containing_each(tact_world world, const tact_point_query* queries, size_t count,
                                                         tact_body* bodies, size_t capacity, size_t* ends);
+/** Gives the nearest place of all surfaces to a point. */
 TACT_C_API tact_error tact_world_closest_point(tact_world world, const tact_point_query* query,
                                                tact_closest_point* answer);
+/** Finds the nearest places to many points in parallel. */
 TACT_C_API tact_error tact_world_closest_points(tact_world world, const tact_point_query* queries, size_t count,
                                                 tact_closest_point* answers);
 
 /* Drawing what a step found: see tact/debug_draw.h. */
 
-/** Each 0 to 1. */
+/** A colour; an alpha of 1 covers what is behind. */
 typedef struct tact_debug_color {
-  float red;
-  float green;
-  float blue;
-  float alpha;
+  float red;   /**< 0 to 1 */
+  float green; /**< 0 to 1 */
+  float blue;  /**< 0 to 1 */
+  float alpha; /**< 0 to 1 */
 } tact_debug_color;
 
-/** Where it is drawn; positions are three metres each. */
+/** Takes the drawing, on the thread of tact_world_debug_draw(), which passes exceptions on. */
 typedef struct tact_debug_drawer {
   void (*line)(void* user, const double* from, const double* to, tact_debug_color color);
   void (*triangle)(void* user, const double* p, const double* q, const double* r, tact_debug_color color);
@@ -591,23 +676,23 @@ typedef struct tact_debug_drawer {
   void* user;
 } tact_debug_drawer;
 
-/** See tact::DebugDrawOptions. */
+/** What is drawn, and in which colour. */
 typedef struct tact_debug_draw_options {
   uint32_t struct_size;
-  bool surfaces;
-  bool boxes;
-  bool candidate_pairs;
-  bool directions;
-  bool planes;
-  bool zones;
-  bool kept_facets;
+  bool surfaces;        /**< every facet of every body, as lines */
+  bool boxes;           /**< the box of each body with its margin */
+  bool candidate_pairs; /**< a line between the centres of two bodies whose boxes overlap */
+  bool directions;      /**< the direction of each contact, as long as its depth, and the depth */
+  bool planes;          /**< the contact planes, as squares as wide as the bodies */
+  bool zones;           /**< the disks around impact zones */
+  bool kept_facets;     /**< the facets that the criteria kept, found once more */
   bool facet_pairs;
-  bool patches;
-  bool points;
-  bool names;
+  bool patches; /**< the direction of each patch, as long as its depth */
+  bool points;  /**< each contact point, as a line from a to b, and its normal */
+  bool names;   /**< the name of each body, at the top of its box */
   tact_debug_color surface;
   tact_debug_color box;
-  tact_debug_color moved_box;
+  tact_debug_color moved_box; /**< the box of a body with a candidate pair */
   tact_debug_color candidate;
   tact_debug_color direction;
   tact_debug_color plane;
@@ -619,7 +704,7 @@ typedef struct tact_debug_draw_options {
   tact_debug_color word;
 } tact_debug_draw_options;
 
-/** Fills in what is drawn, and in which colours, if nobody says otherwise; struct_size included. */
+/** Fills in the defaults of all fields, struct_size included. */
 TACT_C_API tact_error tact_debug_draw_defaults(tact_debug_draw_options* options);
 /** Draws what the last step found; `options` may be null: the default. */
 TACT_C_API tact_error tact_world_debug_draw(tact_world world, const tact_debug_drawer* drawer,

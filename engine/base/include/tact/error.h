@@ -26,10 +26,10 @@ enum class ErrorCode {
   wrong_order,            ///< a call came at the wrong time, or a batch names a body twice
   out_of_memory,          ///< an allocation failed
   backend_failure,        ///< Embree reported an error; the message holds its code
-  bad_recording,          ///< the bytes are no recording, or one that does not play; the message names the byte
+  bad_recording,          ///< the bytes are no recording, or one that does not play
   wrong_motion,           ///< positions were set on a rigid body, or a pose on a deformable one
   not_a_rotation,         ///< the matrix of a pose is not orthonormal to 1e-9, or mirrors
-  invalid_argument,       ///< an argument is out of range, such as an unknown enumeration value or a negative margin
+  invalid_argument,       ///< an argument is out of range, such as a negative margin
 };
 
 /// Returns the name of `code`, such as "stale_body".

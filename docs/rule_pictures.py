@@ -1,0 +1,212 @@
+"""Draws the rules of contact points, negative gaps and impacts, as SVG. Nearest places, gaps and times are computed.
+
+usage: rule_pictures.py FOLDER
+"""
+
+import math
+import pathlib
+import sys
+
+from pictures import BLUE, GOLD, INK, RED, SAND, SCALE, TEAL, Picture
+
+
+def nearest(p, line):
+    """The nearest place to p of each segment of a line, as (distance, place, parameter)."""
+    found = []
+    for a, b in zip(line, line[1:]):
+        way = (b[0] - a[0], b[1] - a[1])
+        t = ((p[0] - a[0]) * way[0] + (p[1] - a[1]) * way[1]) / (way[0] ** 2 + way[1] ** 2)
+        t = min(max(t, 0.0), 1.0)
+        place = (a[0] + t * way[0], a[1] + t * way[1])
+        found.append((math.dist(p, place), place, t))
+    return found
+
+
+def minima(p, line):
+    """The local minima of the distance from p along a line: inside a segment, or at a corner both ways."""
+    found = nearest(p, line)
+    places = []
+    for i, (distance, place, t) in enumerate(found):
+        after = found[i + 1] if i + 1 < len(found) else None
+        if 0.0 < t < 1.0 or (t == 1.0 and after is not None and after[2] == 0.0):
+            places.append((distance, place))
+    return places
+
+
+def gap(picture, p, q, words, shift=(0.12, 0.0), anchor="start"):
+    picture.arrow(p, q, RED, both=True, width=2)
+    picture.dot(p)
+    picture.dot(q)
+    middle = ((p[0] + q[0]) / 2 + shift[0], (p[1] + q[1]) / 2 + shift[1])
+    picture.text(middle, words, RED, anchor)
+
+
+def surface(picture, line, color, below=-2.25):
+    picture.path(line + [(line[-1][0], below), (line[0][0], below)], color, "none", 0, True, 0.35)
+    picture.path(line, closed=False, stroke=INK, width=3)
+
+
+def vertex_minima(file):
+    picture = Picture("A vertex has a point at each local minimum within the margins")
+    line = [(-4.0, 1.3), (-1.6, 1.0), (-0.7, -1.2), (0.2, -0.9), (1.2, -1.3), (2.0, 0.9), (4.0, 1.1)]
+    vertex, reach = (0.2, 0.3), 1.45
+    surface(picture, line, BLUE)
+    picture.path([(-0.3, 2.2), vertex, (0.7, 2.2)], SAND, INK, 2, True, 0.75)
+    x, y = picture.at(vertex)
+    picture.parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{reach * SCALE:.1f}" fill="none" stroke="{TEAL}" stroke-dasharray="6 4"/>')
+    for distance, place in minima(vertex, line):
+        if distance < reach:
+            gap(picture, vertex, place, f"{distance:.2f} m", (0.1, -0.12))
+        else:
+            picture.path([vertex, place], closed=False, stroke=TEAL, dash="4 3")
+            picture.text((place[0] + 0.12, place[1] - 0.1), f"{distance:.2f} m: beyond", TEAL)
+    picture.text((-3.8, 1.8), "the sum of the margins", TEAL)
+    picture.text((0.75, 1.95), "vertex of b")
+    picture.text((-3.8, -1.9), "surface of a")
+    picture.save(file)
+
+
+def smallest_feature(file):
+    picture = Picture("A point names the smallest feature that holds it")
+    line = [(-4.0, -1.2), (-0.4, -0.2), (4.0, -1.4)]
+    surface(picture, line, BLUE)
+    for vertex in ((-0.35, 0.9), (-2.3, 0.5), (2.0, 0.4)):
+        picture.path([(vertex[0] - 0.45, 2.0), vertex, (vertex[0] + 0.45, 2.0)], SAND, INK, 2, True, 0.75)
+        distance, place = min(minima(vertex, line))
+        gap(picture, vertex, place, f"{distance:.2f} m")
+    picture.text((-0.3, -0.95), "edge, in section: two vertices, once", INK, "middle")
+    picture.text((-2.4, -1.5), "facet: three vertices", INK, "middle")
+    picture.text((2.4, -1.6), "facet: three vertices", INK, "middle")
+    picture.save(file)
+
+
+def flat(p):
+    """A place in space as it is drawn."""
+    return p[0] + 0.45 * p[1], 0.35 * p[1] + p[2]
+
+
+def edge_pair(file):
+    picture = Picture("Two edges have a point where both insides are nearest")
+    a, b = ((-2.4, 0.3, -0.7), (2.2, -0.3, -0.9)), ((-0.5, -2.6, 0.9), (0.5, 2.4, 0.6))
+    u, v, w = ([y - x for x, y in zip(*pair)] for pair in (a, b, (b[0], a[0])))
+    dot = lambda x, y: sum(i * j for i, j in zip(x, y))
+    uu, uv, vv, uw, vw = dot(u, u), dot(u, v), dot(v, v), dot(u, w), dot(v, w)
+    s, t = (uv * vw - vv * uw) / (uu * vv - uv * uv), (uu * vw - uv * uw) / (uu * vv - uv * uv)
+    assert 0 < s < 1 and 0 < t < 1
+    p, q = ([x + k * y for x, y in zip(start, way)] for start, way, k in ((a[0], u, s), (b[0], v, t)))
+    picture.path([flat(a[0]), flat(a[1]), flat((2.0, -2.0, -1.2)), flat((-2.6, -1.4, -1.0))], BLUE, "none", 0, True, 0.4)
+    picture.path([flat(b[0]), flat(b[1]), flat((-3.2, 2.2, 1.9)), flat((-3.6, -2.4, 2.0))], SAND, "none", 0, True, 0.5)
+    picture.path([flat(x) for x in a], closed=False, width=4)
+    picture.path([flat(x) for x in b], closed=False, width=4)
+    gap(picture, flat(p), flat(q), f"gap {math.dist(p, q):.2f} m")
+    picture.text((-3.5, -0.5), "edge of a")
+    picture.text((1.3, 1.6), "edge of b")
+    picture.text((-3.8, -2.1), f"weights {1 - s:.2f}, {s:.2f} on a and {1 - t:.2f}, {t:.2f} on b")
+    picture.save(file)
+
+
+def crossed_closed(file):
+    picture = Picture("A vertex inside a closed body keeps the side that it came from")
+    wall = [(-4.0, 0.55), (4.0, 0.55), (4.0, -0.55), (-4.0, -0.55)]
+    picture.path(wall, BLUE, INK, 3, True, 0.35)
+    for x, y, words in ((-2.2, 0.25, "shallow"), (1.2, -0.3, "past the middle")):
+        vertex = (x, y)
+        picture.path([(x - 0.6, 2.0), vertex, (x + 0.6, 2.0)], SAND, INK, 2, True, 0.75)
+        gap(picture, vertex, (x, 0.55), f"gap {y - 0.55:.2f} m", (0.65, 0.25))
+        picture.text((x, 2.08), words, INK, "middle")
+    picture.path([(1.2, -0.3), (1.2, -0.55)], closed=False, stroke=TEAL, dash="4 3")
+    picture.text((1.35, -0.95), "nearer, but not the side it came from", TEAL, "middle")
+    picture.arrow((3.2, 1.9), (3.2, 1.0), GOLD)
+    picture.text((3.05, 1.4), "way in", GOLD, "end")
+    picture.text((-3.8, -1.9), "a: a thin closed body, in section")
+    picture.save(file)
+
+
+def crossed_sheet(file):
+    picture = Picture("The wrong side of a sheet is found along edges")
+    picture.path([(-2.6, 0.0), (2.6, 0.0)], closed=False, stroke=BLUE, width=5)
+    right = [(-3.4, 1.6), (-2.2, 1.3), (-1.0, 0.8)]
+    wrong = [(0.1, -0.5), (1.2, -0.8), (2.1, -0.55)]
+    picture.path(right + wrong, closed=False, stroke=INK, width=2)
+    for p in right:
+        picture.dot(p, TEAL)
+    for p in wrong:
+        gap(picture, p, (p[0], 0.0), f"{p[1]:.2f} m", (0.1, -0.05))
+    other = [(-2.4, -1.2), (-1.4, -1.5), (-0.4, -1.3)]
+    picture.path(other, closed=False, stroke=INK, width=2, dash="5 4")
+    for p in other:
+        picture.dot(p, TEAL)
+    picture.text((-3.9, -1.95), "no edge leads from here through a: no negative gap", TEAL)
+    picture.text((-0.25, 0.55), "cut edge", GOLD)
+    picture.arrow((-0.3, 0.5), (-0.36, 0.12), GOLD, width=2)
+    picture.text((2.7, 0.05), "a: a sheet", BLUE)
+    picture.text((-3.9, 2.0), "b, in section")
+    picture.save(file)
+
+
+def passed_edges(file):
+    picture = Picture("Edges that have passed each other have a negative gap")
+    a = [(-2.6, -1.6), (0.0, 0.45), (2.6, -1.6)]
+    b = [(-2.6, 1.9), (0.0, -0.35), (2.6, 1.9)]
+    picture.path(a, BLUE, INK, 2, True, 0.45)
+    picture.path(b, SAND, INK, 2, True, 0.6)
+    gap(picture, a[1], b[1], f"gap {b[1][1] - a[1][1]:.2f} m", (0.6, -0.05))
+    picture.arrow((-1.5, -0.1), (-1.5, 0.8))
+    picture.text((-1.65, 0.4), "normal", GOLD, "end")
+    picture.text((-0.1, -1.3), "a: an edge seen along it", INK, "middle")
+    picture.text((0.0, 1.6), "b: an edge across it", INK, "middle")
+    picture.text((-3.9, -2.05), "moving b by -gap * normal takes both points together")
+    picture.save(file)
+
+
+def impact_time(file):
+    """Distance over time of three pairs of features, and when each is an impact."""
+    picture = Picture("When features with margins meet")
+    reach, left, right, low = 1.0, -3.0, 3.4, -1.6
+    at = lambda t, d: (left + (right - left) * t, low + 1.6 * d)
+    picture.arrow(at(0, 0), at(1.08, 0), INK, width=1.5)
+    picture.arrow(at(0, 0), at(0, 2.3), INK, width=1.5)
+    picture.path([at(0, reach), at(1, reach)], closed=False, stroke=TEAL, dash="6 4")
+    picture.text((left - 0.1, at(0, reach)[1] - 0.05), "margins", TEAL, "end")
+    picture.text((left - 0.1, at(0, 2.1)[1]), "distance", INK, "end")
+    picture.text(at(1.0, -0.22), "time 1", INK, "middle")
+    picture.text(at(0.0, -0.22), "0", INK, "middle")
+    pairs = ((2.0, 1.9, reach, INK, "begins beyond: at the margins"), (0.6, 0.9, 0.06, BLUE, "begins nearer: at a tenth of that"), (0.6, -0.4, None, GOLD, "departs: no impact"))
+    for begin, speed, stop, color, words in pairs:
+        end = 1.0 if stop is None else min(1.0, begin / speed)
+        picture.path([at(0, begin), at(end, begin - speed * end)], closed=False, stroke=color, width=3)
+        if stop is not None:
+            time = (begin - stop) / speed
+            picture.dot(at(time, stop))
+            picture.text((at(time, stop)[0] + 0.12, at(time, stop)[1] + 0.12), f"{time:.2f}", RED)
+    picture.text(at(0.28, 1.65), pairs[0][4], INK)
+    picture.text(at(0.30, 0.42), pairs[1][4], BLUE)
+    picture.text(at(0.68, 0.68), pairs[2][4], GOLD)
+    picture.save(file)
+
+
+def safe_step(file):
+    picture = Picture("A step that stops before the first impact")
+    wall, half, start, end, margin = 1.2, 0.35, -2.8, 2.6, 0.3
+    picture.path([(wall, -1.8), (wall + 0.15, -1.8), (wall + 0.15, 1.8), (wall, 1.8)], BLUE, INK, 2)
+    picture.path([(wall - margin, -1.8), (wall - margin, 1.8)], closed=False, stroke=TEAL, dash="6 4")
+    first = (wall - margin - half - start) / (end - start)
+    free = min(1.0, 0.999 * first)
+    for x, opacity, dash in ((start, 0.9, ""), (start + free * (end - start), 0.55, ""), (end, 0.15, "5 4")):
+        picture.path([(x - half, -half), (x + half, -half), (x + half, half), (x - half, half)], SAND, INK, 2, True, opacity, dash)
+    picture.arrow((start, -0.8), (end, -0.8), INK, width=1.5)
+    picture.text((start, 0.6), "0", INK, "middle")
+    picture.text((start + free * (end - start), 0.6), f"{free:.3f}", RED, "middle")
+    picture.text((end, 0.6), "1", INK, "middle")
+    picture.text((wall - margin - 0.1, 1.6), "sum of the margins", TEAL, "end")
+    picture.save(file)
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1])
+    for draw in (vertex_minima, smallest_feature, edge_pair, crossed_closed, crossed_sheet, passed_edges, impact_time, safe_step):
+        draw(folder / f"{draw.__name__}.svg")
+
+
+if __name__ == "__main__":
+    main()
