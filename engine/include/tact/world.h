@@ -52,8 +52,9 @@ struct Bounds {
 ///   for (const tact::Contact& contact : world.detect().contacts()) ...
 ///
 /// Every function throws Error for data that it cannot take, and has then changed nothing (for detect(), which takes
-/// none, see there). A world is used by one thread at a time; different worlds may be used by different threads. The
-/// answers do not depend on the number of threads, nor on the floating-point mode of the caller.
+/// none, see there). Const functions of one world may be called by many threads at once, between the calls that change
+/// it; different worlds may be used by different threads. The answers do not depend on the number of threads, nor on
+/// the floating-point mode of the caller.
 class TACT_API World {
  public:
   /// Errors: bad_settings, out_of_memory.
@@ -138,8 +139,8 @@ class TACT_API World {
   const MotionReport& detect_motion(Impacts wanted = Impacts::all);
 
   /// Queries to the surfaces where they are now: at the positions that were set last, whether or not a step has seen
-  /// them. Bodies are asked in no tree, so nothing has to be kept up to date; each costs some nanoseconds a body, and
-  /// then what is near. Many queries at once are shared by all threads; they have the same answers.
+  /// them. A query looks for bodies in a tree over their boxes; after many bodies moved the first few queries scan all
+  /// boxes instead, then one of them updates the tree. The threads of the world share many queries of one call.
   ///
   /// Errors: non_finite_position, position_out_of_range, bad_settings (see queries.h; the message tells which of many
   /// queries), wrong_size (there are not as many answers as queries), out_of_memory. Nothing is answered then.
