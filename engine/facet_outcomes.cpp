@@ -8,7 +8,7 @@
 #include "engine/pair/confirm.h"
 #include "engine/pair/cull.h"
 #include "engine/pair/pair_table.h"
-#include "engine/step_report.h"
+#include "engine/report_writer.h"
 #include "narrowphase/criteria/facet_outcomes.h"
 
 namespace tact {
@@ -58,14 +58,14 @@ FacetOutcomes outcomes_of(const PairWork& work) {
   return outcomes;
 }
 
-// Stages 5 and 6 of the last step once more; the answers go to `again`.
-void repeat(const PairRecord& record, const PairInput& pair, PairRecord& again, EmbreeDevice& device, PairWork& work) {
+// Stages 5 and 6 of the last step once more; the answers go to the record of `pair`.
+void repeat(const PairRecord& record, const PairTask& pair, EmbreeDevice& device) {
   const MinkowskiDifference& m = pair.difference;
   const Slab slab =
       make_slab(record.history.direction, m.origin(), record.slab_lower, record.slab_upper, m.vertex_height_error());
-  again.facet_pairs.clear();
-  cull(pair, slab, again, device, work);
-  if (!work.culled.cluster_pairs.empty()) confirm(pair.tuning, work);
+  pair.record.facet_pairs.clear();
+  cull(pair, slab, device);
+  if (!pair.work.culled.cluster_pairs.empty()) confirm(pair.tuning, pair.work);
 }
 
 // The record of a pair of the table; null if it is none.
@@ -80,31 +80,32 @@ const PairRecord* record_of(PairTable& table, BodyId a, BodyId b) {
 }  // namespace
 
 struct FacetOutcomeFinder::Work {
-  const StepReport* report;
+  const ReportSources* sources;
   PairRecord record;  // of what is done once more
   PairWork pair;
   EmbreeDevice device;
 };
 
 FacetOutcomeFinder::FacetOutcomeFinder(const Report& report) : work_(std::make_unique<Work>()) {
-  work_->report = static_cast<const StepReport*>(&report);
+  work_->sources = report.sources_;
   work_->pair.prefetches = false;
 }
 
 FacetOutcomeFinder::~FacetOutcomeFinder() = default;
 
 std::optional<FacetOutcomes> FacetOutcomeFinder::find(const Contact& contact) {
-  const StepReport& report = *work_->report;
-  if (report.table == nullptr || contact.a == contact.b || report.settings->accuracy == Accuracy::hulls) return {};
-  const PairRecord* record = record_of(*report.table, contact.a, contact.b);
+  const ReportSources* const sources = work_->sources;
+  if (sources == nullptr || contact.a == contact.b || sources->settings->accuracy == Accuracy::hulls) return {};
+  const PairRecord* record = record_of(*sources->table, contact.a, contact.b);
   if (record == nullptr || !record->hulls_overlap) return {};
-  const PairInput pair(*report.bodies, contact.a, contact.b, *report.settings);
-  repeat(*record, pair, work_->record, work_->device, work_->pair);
+  work_->record.a = contact.a;
+  work_->record.b = contact.b;
+  repeat(*record, PairTask(*sources->bodies, work_->record, *sources->settings, work_->pair), work_->device);
   return outcomes_of(work_->pair);
 }
 
 std::vector<int> FacetOutcomeFinder::clusters(BodyId body) const {
-  const ClusteredMesh& mesh = work_->report->bodies->at(body).mesh;
+  const ClusteredMesh& mesh = work_->sources->bodies->at(body).mesh;
   std::vector<int> clusters(static_cast<std::size_t>(mesh.facet_count()));
   for (int i = 0; i < mesh.facet_count(); ++i) {
     clusters[i] = mesh.facet_of_source(i) / kClusterSize;

@@ -63,7 +63,7 @@ void ReportWriter::add_thread_totals() {
 }
 
 void ReportWriter::forget() {
-  static_cast<Report&>(report_) = Report();
+  report_ = Report();
   reported_ = {};
   has_self_ = false;
   last_contacts_ = {};

@@ -2,15 +2,22 @@
 #pragma once
 
 #include <tact/report.h>
+#include <tact/settings.h>
 
 #include <cstdint>
 #include <vector>
 
 #include "engine/pair/pair_table.h"
 #include "engine/self_stage.h"
-#include "engine/step_report.h"
 
 namespace tact {
+
+/// What the answers of a report came from: the world's.
+struct ReportSources {
+  const Bodies* bodies;
+  PairTable* table;
+  const Settings* settings;
+};
 
 /// Holds the report of a world. What a step did not look at stays as it is: those records, far apart in memory, are not
 /// read.
@@ -27,9 +34,8 @@ class ReportWriter {
   void forget();
   /// Where the answers of this step come from: they must outlive the report.
   void note_sources(const Bodies& bodies, PairTable& table, const Settings& settings) {
-    report_.bodies = &bodies;
-    report_.table = &table;
-    report_.settings = &settings;
+    sources_ = {&bodies, &table, &settings};
+    report_.sources_ = &sources_;
   }
 
  private:
@@ -57,7 +63,8 @@ class ReportWriter {
   void write_events(const PairTable& table, const SelfStage& self);
   void add_thread_totals();
 
-  StepReport report_;
+  Report report_;
+  ReportSources sources_ = {};
   std::vector<Reported> reported_;      // the contacts of the report, in its order
   bool has_self_ = false;               // is any of a body with itself?
   std::vector<Contact> last_contacts_;  // of the last report, while a new one is made

@@ -190,13 +190,13 @@ void Bodies::make_features(std::span<const std::uint32_t> slots, int threads) {
   });
 }
 
-const narrowphase::ClusterNeighbors& Bodies::neighbors(std::uint32_t slot) {
-  Body& body = *slots_[slot].body;
-  if (body.neighbors == nullptr) {
-    make_features({&slot, 1}, 1);
-    body.neighbors = std::make_unique<const narrowphase::ClusterNeighbors>(body.mesh, *body.features);
-  }
-  return *body.neighbors;
+void Bodies::make_neighbors(std::span<const std::uint32_t> slots, int threads) {
+  make_features(slots, threads);
+  base::parallel_for(slots.size(), 1, threads, [&](std::size_t i) {
+    Body& body = *slots_[slots[i]].body;
+    if (body.neighbors == nullptr)
+      body.neighbors = std::make_unique<const narrowphase::ClusterNeighbors>(body.mesh, *body.features);
+  });
 }
 
 void Bodies::set_filter(BodyId id, const broadphase::Filter& filter) {

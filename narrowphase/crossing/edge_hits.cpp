@@ -1,4 +1,4 @@
-#include "narrowphase/contact_points/edge_hits.h"
+#include "narrowphase/crossing/edge_hits.h"
 
 #include <algorithm>
 #include <bit>
@@ -9,14 +9,18 @@ namespace tact::narrowphase {
 
 namespace {
 
-Vec3 corner_of(const TrianglePairs& pairs, int mesh, int k, int pair) {
-  const auto& at = pairs.corner[mesh][k];
-  return {at[0][pair], at[1][pair], at[2][pair]};
-}
-
 Triangle triangle_of(const FeaturedMesh& m, int facet) {
   const Corners& c = m.features->corners(facet);
   return {m.mesh->position(c[0]), m.mesh->position(c[1]), m.mesh->position(c[2])};
+}
+
+Triangle triangle_in(const TrianglePairs& pairs, int mesh, int pair) {
+  Triangle triangle;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& at = pairs.corner[mesh][k];
+    triangle[k] = {at[0][pair], at[1][pair], at[2][pair]};
+  }
+  return triangle;
 }
 
 void set_corners(const Triangle& triangle, int mesh, TrianglePairs& pairs) {
@@ -26,11 +30,8 @@ void set_corners(const Triangle& triangle, int mesh, TrianglePairs& pairs) {
 }
 
 bool meets(const TrianglePairs& pairs, int mesh, int k, int pair, PredicateCounts& counts) {
-  const Segment segment{corner_of(pairs, mesh, k, pair), corner_of(pairs, mesh, (k + 1) % 3, pair)};
-  const int other = 1 - mesh;
-  return segment_triangle_meet(
-      segment, {corner_of(pairs, other, 0, pair), corner_of(pairs, other, 1, pair), corner_of(pairs, other, 2, pair)},
-      counts);
+  const Triangle own = triangle_in(pairs, mesh, pair);
+  return segment_triangle_meet({own[k], own[(k + 1) % 3]}, triangle_in(pairs, 1 - mesh, pair), counts);
 }
 
 void sort_once_each(std::vector<EdgeHit>& hits) {
@@ -60,22 +61,22 @@ void EdgeHitSearch::run(const FeaturedMesh& a, const FeaturedMesh& b, std::span<
   }
   decide(a, b, of_a, of_b);
   sort_once_each(of_a);
-  sort_once_each(of_b);
+  if (&of_a != &of_b) sort_once_each(of_b);
 }
 
 void EdgeHitSearch::decide(const FeaturedMesh& a, const FeaturedMesh& b, std::vector<EdgeHit>& of_a,
                            std::vector<EdgeHit>& of_b) {
   const EdgesThrough through = kernels().edges_through(triangles_);
-  // Of two meshes all facets that meet are known, so each facet with the edge tells the same: the first one is asked.
-  // Of one mesh the pairs of facets that share a vertex are missing.
-  const bool asks_first = a.mesh != b.mesh;
+  // Of two meshes all facets that meet are known, so the first facet with an edge tells the same as each other one. Of
+  // one mesh the pairs of facets that share a vertex are missing.
+  const bool first_tells = a.mesh != b.mesh;
   for (int edge = 0; edge < 6; ++edge) {
     const int mesh = edge / 3, k = edge % 3;
     const FeaturedMesh& own = mesh == 0 ? a : b;
     std::vector<EdgeHit>& hits = mesh == 0 ? of_a : of_b;
     for (std::uint64_t left = through.meeting[edge] | through.undecided[edge]; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left), facet = met_[i].facet[mesh];
-      if (asks_first && (own.features->firsts_of_facet(facet) >> k & 1) == 0) continue;
+      if (first_tells && (own.features->firsts_of_facet(facet) >> k & 1) == 0) continue;
       const int own_edge = own.features->facet_edge(facet, k);
       if (own_edge < 0) continue;
       if ((through.undecided[edge] >> i & 1) != 0 && !meets(triangles_, mesh, k, i, counts_)) continue;

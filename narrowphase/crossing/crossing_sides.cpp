@@ -1,4 +1,4 @@
-#include "narrowphase/self/crossing_sides.h"
+#include "narrowphase/crossing/crossing_sides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,9 +19,7 @@ bool have_common(std::span<const int> some, const std::array<int, 3>& others) {
 
 // The normal of the facet on whose side most of the edge is: 1 for all of it, 0 where the facet meets its middle.
 Vec3 longer_side(const ScaledMesh& mesh, const EdgeHit& hit, Vec3 normal) {
-  const Vec3 corner = mesh.position(mesh.mesh.corners(mesh.mesh.facet_of_source(hit.facet))[0]);
-  const EdgeVertices ends = mesh.features.edge(hit.edge);
-  const double p = dot(normal, mesh.position(ends[0]) - corner), q = dot(normal, mesh.position(ends[1]) - corner);
+  const auto [p, q] = heights_of_ends(mesh, hit, normal);
   const double length = std::abs(p) + std::abs(q);
   return length > 0.0 ? (p + q) / length * normal : Vec3{};
 }
@@ -35,6 +33,12 @@ Vec3 unit_normal_of_source(const ScaledMesh& mesh, int source_facet) {
 std::array<int, 3> source_corners(const ClusteredMesh& mesh, int source_facet) {
   const Corners c = mesh.corners(mesh.facet_of_source(source_facet));
   return {mesh.source_vertex(c[0]), mesh.source_vertex(c[1]), mesh.source_vertex(c[2])};
+}
+
+std::array<double, 2> heights_of_ends(const ScaledMesh& mesh, const EdgeHit& hit, Vec3 normal) {
+  const Vec3 corner = mesh.position(mesh.features.corners(mesh.mesh.facet_of_source(hit.facet))[0]);
+  const EdgeVertices ends = mesh.features.edge(hit.edge);
+  return {dot(normal, mesh.position(ends[0]) - corner), dot(normal, mesh.position(ends[1]) - corner)};
 }
 
 void LastPoints::take(std::span<const FeaturePoint> points) {
@@ -64,98 +68,78 @@ Vec3 LastPoints::side(std::span<const int> own, std::span<const int> other) cons
   return sum;
 }
 
-std::size_t CrossingLines::place(int source_facet) const {
-  return static_cast<std::size_t>(std::ranges::lower_bound(facets_, source_facet) - facets_.begin());
+const CrossingLines::Node& CrossingLines::node(int source_facet) const {
+  return *std::ranges::lower_bound(nodes_, source_facet, {}, &Node::facet);
 }
 
-CrossingLines::Found CrossingLines::root_of(std::size_t place) {
-  bool other_layer = false;
-  auto at = place;
-  while (node_[at].parent != static_cast<int>(at)) {
-    other_layer ^= node_[at].other_layer;
-    at = static_cast<std::size_t>(node_[at].parent);
-  }
-  // The way there is made short.
-  bool rest = other_layer;
-  for (auto i = place; i != at;) {
-    const Node was = node_[i];
-    node_[i].parent = static_cast<int>(at);
-    node_[i].other_layer = rest;
-    rest ^= was.other_layer;
-    i = static_cast<std::size_t>(was.parent);
-  }
-  return {static_cast<int>(at), other_layer};
-}
-
-// The root of a line is its least facet, and of the first layer.
-void CrossingLines::join(const FacetPair& pair) {
-  const Found a = root_of(place(pair.a)), b = root_of(place(pair.b));
-  const bool differ = a.other_layer == b.other_layer;  // then the roots must
-  if (a.root == b.root) {
-    if (differ) node_[a.root].mixed = true;
-    return;
-  }
-  const auto [first, second] = std::minmax(a.root, b.root);
-  node_[second].parent = first;
-  node_[second].other_layer = differ;
-  node_[first].mixed = node_[first].mixed || node_[second].mixed;
-}
-
+// From the least facet of each line, which is of the first layer.
 void CrossingLines::find(std::span<const FacetPair> pairs) {
-  facets_.clear();
-  for (const FacetPair& pair : pairs) facets_.insert(facets_.end(), {pair.a, pair.b});
-  std::ranges::sort(facets_);
-  facets_.erase(std::unique(facets_.begin(), facets_.end()), facets_.end());
-  node_.clear();
-  for (std::size_t i = 0; i < facets_.size(); ++i) node_.push_back({static_cast<int>(i), false, false, -1});
-  for (const FacetPair& pair : pairs) join(pair);
-  count_ = 0;
-  for (std::size_t i = 0; i < facets_.size(); ++i) {
-    const Found found = root_of(i);
-    if (found.root == static_cast<int>(i)) node_[i].line = static_cast<int>(count_++);
-    node_[i].line = node_[found.root].line;
-    node_[i].mixed = node_[found.root].mixed;
-    node_[i].other_layer = found.other_layer;
+  links_.clear();
+  nodes_.clear();
+  is_mixed_.clear();
+  for (const FacetPair& pair : pairs) links_.insert(links_.end(), {{pair.a, pair.b}, {pair.b, pair.a}});
+  std::ranges::sort(links_);
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (i == 0 || links_[i].first != links_[i - 1].first) nodes_.push_back({links_[i].first, static_cast<int>(i)});
+  }
+  const auto reach = [&](std::size_t at, int line, double layer) {
+    nodes_[at].line = line;
+    nodes_[at].layer = layer;
+    next_.push_back(static_cast<int>(at));
+  };
+  for (std::size_t first = 0; first < nodes_.size(); ++first) {
+    if (nodes_[first].line >= 0) continue;
+    const auto line = static_cast<int>(is_mixed_.size());
+    is_mixed_.push_back(0);
+    for (reach(first, line, 1.0); !next_.empty();) {
+      const Node from = nodes_[next_.back()];
+      next_.pop_back();
+      for (auto i = static_cast<std::size_t>(from.first_link); i < links_.size(); ++i) {
+        if (links_[i].first != from.facet) break;
+        const auto to = static_cast<std::size_t>(&node(links_[i].second) - nodes_.data());
+        if (nodes_[to].line < 0) reach(to, line, -from.layer);
+        if (nodes_[to].layer == from.layer) is_mixed_[line] = 1;
+      }
+    }
   }
 }
 
 double CrossingLines::layer_of(int source_facet) const {
-  const Node& node = node_[place(source_facet)];
-  return node.mixed ? 0.0 : node.other_layer ? -1.0 : 1.0;
+  const Node& one = node(source_facet);
+  return is_mixed_[one.line] != 0 ? 0.0 : one.layer;
 }
 
-void CrossingSides::find(const ScaledMesh& mesh, const SelfCrossingInput& input, std::span<const EdgeHit> hits) {
-  last_.take(input.last);
+void CrossingSides::find(const ScaledMesh& mesh, SurfaceKind surface, std::span<const FacetPair> pairs,
+                         std::span<const FeaturePoint> last, std::span<const EdgeHit> hits) {
+  last_.take(last);
   sides_.assign(hits.size(), {});
-  if (input.surface == SurfaceKind::sheet) return find_of_sheet(mesh, input, hits);
+  if (surface == SurfaceKind::sheet) return find_of_sheet(mesh, pairs, hits);
   for (std::size_t i = 0; i < hits.size(); ++i) sides_[i] = unit_normal_of_source(mesh, hits[i].facet);
 }
 
-// Turns what is guessed of a line around if fewer vertices then have crossed.
+// Turns what is guessed of a line around if fewer vertices are past it then.
 void CrossingSides::turn_guesses(const ScaledMesh& mesh, std::span<const EdgeHit> hits) {
   ends_.clear();
   for (const EdgeHit& hit : hits) {
     const int line = lines_.line_of(hit.facet);
     if (of_lines_[line] != Vec3{}) continue;
     const Vec3 normal = unit_normal_of_source(mesh, hit.facet);
-    const Vec3 corner = mesh.position(mesh.mesh.corners(mesh.mesh.facet_of_source(hit.facet))[0]);
     const double along = lines_.layer_of(hit.facet) * dot(normal, guesses_of_lines_[line]);
-    const EdgeVertices ends = mesh.features.edge(hit.edge);
-    for (std::size_t k = 0; k < 2; ++k)
-      ends_.emplace_back(line, along * dot(normal, mesh.position(ends[k]) - corner) < 0.0, hit.vertices[k]);
+    const auto heights = heights_of_ends(mesh, hit, normal);
+    for (std::size_t k = 0; k < 2; ++k) ends_.emplace_back(line, along * heights[k] < 0.0, hit.vertices[k]);
   }
   std::ranges::sort(ends_);
   ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());
-  more_crossed_.assign(lines_.count(), 0);
-  for (const auto& [line, has_crossed, vertex] : ends_) more_crossed_[line] += has_crossed ? 1 : -1;
+  more_past_.assign(lines_.count(), 0);
+  for (const auto& [line, is_past, vertex] : ends_) more_past_[line] += is_past ? 1 : -1;
   for (std::size_t line = 0; line < lines_.count(); ++line) {
-    if (more_crossed_[line] > 0) guesses_of_lines_[line] = -guesses_of_lines_[line];
+    if (more_past_[line] > 0) guesses_of_lines_[line] = -guesses_of_lines_[line];
   }
 }
 
-void CrossingSides::find_of_sheet(const ScaledMesh& mesh, const SelfCrossingInput& input,
+void CrossingSides::find_of_sheet(const ScaledMesh& mesh, std::span<const FacetPair> pairs,
                                   std::span<const EdgeHit> hits) {
-  lines_.find(input.facet_pairs);
+  lines_.find(pairs);
   guesses_.assign(hits.size(), {});
   of_lines_.assign(lines_.count(), {});
   guesses_of_lines_.assign(lines_.count(), {});

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "narrowphase/contact_points/way_out.h"
+#include "narrowphase/crossing/nearest_exit.h"
 #include "tests/support/inside/clustered.h"
 #include "tests/support/oracles/query_oracle.h"
 
@@ -33,14 +33,14 @@ void expect_ways_of_brute_force(const Mesh& mesh, double scale, std::uint64_t se
   in_other_unit.positions *= 1.0 / scale;
   const ClusteredMesh clustered = tests::clustered(in_other_unit);
   const Features features(clustered);
-  WayFinder finder;
+  ExitFinder finder;
   finder.begin({clustered, features, scale});
   Random random(seed);
   int ways = 0, none = 0, far = 0;
   for (int k = 0; k < 120; ++k) {
     const Vec3 v = 0.9 * random.in_ball(), facing = k % 3 == 0 ? Vec3{0.6, 0.0, 0.8} : random.direction();
     const double cosine = k % 2 == 0 ? 0.05 : 0.5, within = random.uniform(0.1, 2.0);
-    const auto way = finder.nearest_out(v, facing, cosine, within, -1);
+    const auto way = finder.nearest_exit(v, facing, cosine, within, -1);
     const Mesh certain = facing_facets(mesh, v, facing, cosine, -kBand);
     const Mesh possible = facing_facets(mesh, v, facing, cosine, kBand);
     const auto distance_to = [&](const Mesh& some) {
@@ -63,12 +63,12 @@ void expect_ways_of_brute_force(const Mesh& mesh, double scale, std::uint64_t se
   EXPECT_GT(far, 10);
 }
 
-TEST(WayOut, IsTheNearestFacingPlaceOfBruteForce) {
+TEST(NearestExit, IsTheNearestFacingPlaceOfBruteForce) {
   expect_ways_of_brute_force(tests::blob(4, 1.0, 0.3, 7), 1.0, 11);
   expect_ways_of_brute_force(tests::icosphere(4), 1.0, 12);
 }
 
-TEST(WayOut, IsTheSameInOtherUnits) {
+TEST(NearestExit, IsTheSameInOtherUnits) {
   expect_ways_of_brute_force(tests::blob(3, 1.0, 0.3, 8), 0x1p300, 13);
   expect_ways_of_brute_force(tests::blob(3, 1.0, 0.3, 9), 0x1p-300, 14);
   expect_ways_of_brute_force(tests::blob(3, 1.0, 0.3, 9), 0x1p-450, 15);

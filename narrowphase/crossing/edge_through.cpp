@@ -1,4 +1,4 @@
-#include "narrowphase/contact_points/running_edge.h"
+#include "narrowphase/crossing/edge_through.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ double largest_coordinate(const Box& box) {
 
 }  // namespace
 
-void RunningEdge::add_hit(const Triangle& facet) {
+void EdgeThrough::add_hit(const Triangle& facet) {
   if (is_whole_) return;
   const Vec3 p = facet[1] - facet[0], q = facet[2] - facet[0], normal = cross(p, q);
   const double square = norm_squared(normal), slope = dot(normal, along_);
@@ -39,7 +39,7 @@ void RunningEdge::add_hit(const Triangle& facet) {
   last_ = is_whole_ ? 1.0 : std::max(last_, place);
 }
 
-bool RunningEdge::reaches(const Box& box) const {
+bool EdgeThrough::reaches(const Box& box) const {
   double low = 0.0, high = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const double x = along_[axis] * (box.lower[axis] - from_[axis]), y = along_[axis] * (box.upper[axis] - from_[axis]);
@@ -49,26 +49,26 @@ bool RunningEdge::reaches(const Box& box) const {
   return low <= highest() && high >= lowest();
 }
 
-std::span<const int> EdgesBeside::find(const RunningEdge& running, const ScaledMesh& surface, double within) {
+std::span<const int> EdgesBeside::find(const EdgeThrough& through, const ScaledMesh& surface, double within) {
   edges_.clear();
-  const Box wide = grown(running.box(), within);
+  const Box wide = grown(through.box(), within);
   const Box near = grown(wide, 0x1p-40 * within + 0x1p-50 * largest_coordinate(wide));
   const double back = 1.0 / surface.scale;
   for_each_cluster_in(surface.mesh, {back * near.lower, back * near.upper}, [&](int cluster) {
     const Box box = surface.mesh.cluster_boxes()[cluster];
-    if (running.reaches({surface.scale * box.lower, surface.scale * box.upper}))
-      append_from(cluster, running, surface, bounds_of(near));
+    if (through.reaches({surface.scale * box.lower, surface.scale * box.upper}))
+      append_from(cluster, through, surface, bounds_of(near));
   });
   return edges_;
 }
 
-void EdgesBeside::append_from(int cluster, const RunningEdge& running, const ScaledMesh& surface,
+void EdgesBeside::append_from(int cluster, const EdgeThrough& through, const ScaledMesh& surface,
                               const BoxBounds& near) {
   points_.count = 0;
   kernels().place_points(surface.mesh.facets_of(cluster), surface.scale, near, &points_);
-  const double lowest = running.lowest(), highest = running.highest();
+  const double lowest = through.lowest(), highest = through.highest();
   for (int i = 0; i < points_.count; ++i) {
-    const double height = running.height(points_.at[0][i], points_.at[1][i], points_.at[2][i]);
+    const double height = through.height(points_.at[0][i], points_.at[1][i], points_.at[2][i]);
     const unsigned flags = (height < lowest ? kBelow : 0u) | (height > highest ? kAbove : 0u);
     points_.outside[i] = static_cast<std::uint8_t>(points_.outside[i] | flags);
   }

@@ -16,22 +16,13 @@
 
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
-#include "narrowphase/contact_points/contact_points.h"
-#include "narrowphase/contact_points/crossing.h"
-#include "narrowphase/contact_points/edge_hits.h"
+#include "narrowphase/contact_points/feature_point.h"
+#include "narrowphase/crossing/cut.h"
 
 namespace tact::narrowphase {
-
-/// A mesh that meets itself, in the words of the caller.
-struct SelfCrossingInput {
-  FeaturedMesh mesh;
-  SurfaceKind surface = SurfaceKind::sheet;
-  double reach = 0.0;  // metres; zero: only what crosses has points
-  std::span<const FacetPair> facet_pairs;
-  std::span<const FeaturePoint> last;  // points of the last step
-};
 
 /// Of the mesh with itself: which points of the last step have a vertex.
 class LastPoints {
@@ -55,55 +46,51 @@ class CrossingLines {
  public:
   void find(std::span<const FacetPair> pairs);
   /// Of a facet that meets another, by the caller's number: its line, counted from 0.
-  int line_of(int source_facet) const { return node_[place(source_facet)].line; }
+  int line_of(int source_facet) const { return node(source_facet).line; }
   /// 1 or -1, for the two layers; 0 where it meets its own.
   double layer_of(int source_facet) const;
-  std::size_t count() const { return count_; }
+  std::size_t count() const { return is_mixed_.size(); }
 
  private:
   struct Node {
-    int parent;
-    bool other_layer;  // than the parent
-    bool mixed;        // of a root: its layers meet themselves
-    int line;
+    int facet, first_link;
+    int line = -1;
+    double layer = 0.0;
   };
-  struct Found {
-    int root;
-    bool other_layer;
-  };
-  std::size_t place(int source_facet) const;
-  Found root_of(std::size_t place);
-  void join(const FacetPair& pair);
+  const Node& node(int source_facet) const;
 
-  std::vector<int> facets_;  // that meet others, sorted
-  std::vector<Node> node_;   // of each
-  std::size_t count_ = 0;
+  std::vector<std::pair<int, int>> links_;  // the pairs, both ways, sorted
+  std::vector<Node> nodes_;                 // of the facets that meet others, sorted
+  std::vector<int> next_;
+  std::vector<char> is_mixed_;  // of each line: its layers meet themselves
 };
 
-/// Memory of it, used again.
+/// Buffers are reused.
 class CrossingSides {
  public:
-  /// `mesh` is that of `input`. Every hit is of a facet pair of it.
-  void find(const ScaledMesh& mesh, const SelfCrossingInput& input, std::span<const EdgeHit> hits);
+  /// `last` are the points of the last step, which stay as long as this is used. Every hit is of one of the `pairs`.
+  void find(const ScaledMesh& mesh, SurfaceKind surface, std::span<const FacetPair> pairs,
+            std::span<const FeaturePoint> last, std::span<const EdgeHit> hits);
   /// Of each hit: to which side of the facet the edge belongs, a unit vector; zero where nothing tells.
   std::span<const Vec3> sides() const { return sides_; }
   const LastPoints& last_points() const { return last_; }
 
  private:
-  void find_of_sheet(const ScaledMesh& mesh, const SelfCrossingInput& input, std::span<const EdgeHit> hits);
-
+  void find_of_sheet(const ScaledMesh& mesh, std::span<const FacetPair> pairs, std::span<const EdgeHit> hits);
   void turn_guesses(const ScaledMesh& mesh, std::span<const EdgeHit> hits);
 
   LastPoints last_;
   CrossingLines lines_;
   std::vector<Vec3> sides_, guesses_, of_lines_, guesses_of_lines_;
-  std::vector<std::tuple<int, bool, int>> ends_;  // line, has the vertex crossed, vertex
-  std::vector<int> more_crossed_;                 // of each line: so many more than have not
+  std::vector<std::tuple<int, bool, int>> ends_;  // line, is the vertex past it, vertex
+  std::vector<int> more_past_;                    // of each line: so many more than are not
 };
 
 /// The unit normal of a facet by the caller's number, zero if it has no area.
 Vec3 unit_normal_of_source(const ScaledMesh& mesh, int source_facet);
 /// Its corners, likewise.
 std::array<int, 3> source_corners(const ClusteredMesh& mesh, int source_facet);
+/// How high the ends of the edge are above the facet that it meets, times the length of `normal`, which is the facet's.
+std::array<double, 2> heights_of_ends(const ScaledMesh& mesh, const EdgeHit& hit, Vec3 normal);
 
 }  // namespace tact::narrowphase

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "narrowphase/contact_points/facing_clusters.h"
+#include "narrowphase/crossing/facing_clusters.h"
 #include "narrowphase/mesh/open_in_box.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/random.h"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "narrowphase/contact_points/running_edge.h"
+#include "narrowphase/crossing/edge_through.h"
 #include "narrowphase/triangles/triangle_triangle.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/random.h"
@@ -55,7 +55,7 @@ TEST(EdgesBeside, HoldEveryEdgeThatIsNearestToThePartInside) {
     const Vec3 middle = 0.95 * normalized(random.in_cube(1.0)),
                along = (trial % 4 == 0 ? 4.0 : 0.6) * random.in_cube(1.0);
     const Segment edge{middle - along, middle + along};
-    RunningEdge running({scale * edge[0], scale * edge[1]});
+    EdgeThrough running({scale * edge[0], scale * edge[1]});
     std::vector<long double> places;
     PredicateCounts counts;
     for (int f = 0; f < ball.facet_count(); ++f) {
@@ -88,9 +88,9 @@ TEST(EdgesBeside, HoldEveryEdgeThatIsNearestToThePartInside) {
 }
 
 // A facet along which the edge runs tells nothing: the whole edge is looked at.
-TEST(RunningEdge, IsWholeWhereAFacetIsMetAtNextToNoAngle) {
-  RunningEdge cut({{0, 0, 0}, {1, 0, 0}}), flat = cut;
-  for (RunningEdge* one : {&cut, &flat}) {
+TEST(EdgeThrough, IsWholeWhereAFacetIsMetAtNextToNoAngle) {
+  EdgeThrough cut({{0, 0, 0}, {1, 0, 0}}), flat = cut;
+  for (EdgeThrough* one : {&cut, &flat}) {
     one->add_hit({Vec3{0.4, -1, -1}, Vec3{0.4, 1, -1}, Vec3{0.4, 0, 1}});
     one->add_hit({Vec3{0.6, -1, -1}, Vec3{0.6, 1, -1}, Vec3{0.6, 0, 1}});
   }

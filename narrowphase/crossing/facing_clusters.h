@@ -7,10 +7,10 @@
 
 namespace tact::narrowphase {
 
-/// The boxes of the unit normals of clusters, and of groups. Memory is used again.
+/// The boxes of the unit normals of clusters, and of groups. Buffers are reused.
 class FacingClusters {
  public:
-  /// Forgets all.
+  /// Forgets all of them.
   void clear() { clusters_.clear(); }
   bool are_known() const { return !clusters_.empty(); }
   /// Takes the next cluster, in their order, by all its facets. A normal that rounding may turn counts as any.

@@ -1,4 +1,4 @@
-#include "narrowphase/self/facets_around.h"
+#include "narrowphase/crossing/part_exit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,10 @@ namespace {
 
 // Facets with a common edge may be as far from a vertex as each other, but for some roundings; lengths are near 1.
 constexpr double kRounding = 1e-13;
+
+bool has_place(const Corners& corners, const PlaceOnFeature& place) {
+  return std::ranges::all_of(place.used(), [&](int w) { return std::ranges::find(corners, w) != corners.end(); });
+}
 
 }  // namespace
 
@@ -36,22 +40,22 @@ std::span<const int> FacetsAround::operator[](int source_vertex) const {
   return std::span(facets_).subspan(begin_[v], begin_[v + 1] - begin_[v]);
 }
 
-Vec3 NearestAround::normal_at(const ScaledMesh& mesh, const WayOut& way) const {
-  if (way.feature[2] >= 0) return mesh.unit_normal(way.facet);
-  const bool is_edge = way.feature[1] >= 0;
+Vec3 PartExitFinder::normal_at(const ScaledMesh& mesh, const NearestExit& exit) const {
+  if (exit.place.vertices[2] >= 0) return mesh.unit_normal(exit.facet);
+  const bool is_edge = exit.place.vertices[1] >= 0;
   Vec3 sum;
   int at_edge = 0;
-  for (const int source : around_[mesh.mesh.source_vertex(way.feature[0])]) {
+  for (const int source : around_[mesh.mesh.source_vertex(exit.place.vertices[0])]) {
     const int facet = mesh.mesh.facet_of_source(source);
     const Corners c = mesh.mesh.corners(facet);
     const Vec3 normal = mesh.unit_normal(facet);
     if (is_edge) {
-      if (std::ranges::find(c, way.feature[1]) == c.end()) continue;
+      if (std::ranges::find(c, exit.place.vertices[1]) == c.end()) continue;
       ++at_edge;
       sum = sum + normal;
       continue;
     }
-    const auto k = static_cast<std::size_t>(std::ranges::find(c, way.feature[0]) - c.begin());
+    const auto k = static_cast<std::size_t>(std::ranges::find(c, exit.place.vertices[0]) - c.begin());
     for (const std::size_t side : {k, (k + 2) % 3}) {
       const int edge = mesh.features.facet_edge(facet, static_cast<int>(side));
       if (edge >= 0 && mesh.features.opposite(edge).size() == 1) return {};
@@ -63,40 +67,26 @@ Vec3 NearestAround::normal_at(const ScaledMesh& mesh, const WayOut& way) const {
   return is_edge && at_edge == 1 ? Vec3{} : sum;
 }
 
-bool NearestAround::is_beside(const ClusteredMesh& mesh, int vertex, const WayOut& way) const {
+bool PartExitFinder::is_beside(const ClusteredMesh& mesh, int vertex, const NearestExit& exit) const {
   return std::ranges::any_of(around_[mesh.source_vertex(vertex)], [&](int source) {
-    const Corners corners = mesh.corners(mesh.facet_of_source(source));
-    return std::ranges::all_of(way.feature,
-                               [&](int w) { return w < 0 || std::ranges::find(corners, w) != corners.end(); });
+    return has_place(mesh.corners(mesh.facet_of_source(source)), exit.place);
   });
 }
 
 // Of the facets at an edge or a vertex, rounding would choose: the caller's first one with an area counts.
-void NearestAround::choose_facet(const ScaledMesh& mesh, WayOut& way) const {
-  if (way.feature[2] >= 0) return;
-  for (const int source : around_[mesh.mesh.source_vertex(way.feature[0])]) {
+int PartExitFinder::facet_at(const ScaledMesh& mesh, const NearestExit& exit) const {
+  if (exit.place.vertices[2] >= 0) return exit.facet;
+  for (const int source : around_[mesh.mesh.source_vertex(exit.place.vertices[0])]) {
     const int facet = mesh.mesh.facet_of_source(source);
-    const Corners corners = mesh.mesh.corners(facet);
-    std::array<double, 3> weight{};
-    int found = 0;
-    for (std::size_t i = 0; i < 2 && way.feature[i] >= 0; ++i) {
-      const auto k = static_cast<std::size_t>(std::ranges::find(corners, way.feature[i]) - corners.begin());
-      if (k == corners.size()) break;
-      weight[k] = way.feature_weight[i];
-      ++found;
-    }
-    const bool has_all = found == (way.feature[1] < 0 ? 1 : 2);
-    if (!has_all || !way_to_facet(mesh, facet, {})) continue;
-    way.facet = facet;
-    way.weight = weight;
-    return;
+    if (has_place(mesh.mesh.corners(facet), exit.place) && mesh.unit_normal(facet) != Vec3{}) return facet;
   }
+  return exit.facet;
 }
 
-std::optional<WayOut> NearestAround::find(const ScaledMesh& mesh, int vertex, int from) {
+std::optional<NearestExit> PartExitFinder::find(const ScaledMesh& mesh, int vertex, int from) {
   const Vec3 v = mesh.position(vertex);
   seen_.resize(static_cast<std::size_t>(mesh.mesh.facet_count()));
-  std::optional<WayOut> best;
+  std::optional<NearestExit> best;
   double within = 0.0;
   const auto look_at = [&](int source) {
     if (std::exchange(seen_[source], 1) != 0) return;
@@ -104,14 +94,14 @@ std::optional<WayOut> NearestAround::find(const ScaledMesh& mesh, int vertex, in
     const int facet = mesh.mesh.facet_of_source(source);
     const Corners corners = mesh.mesh.corners(facet);
     if (std::ranges::find(corners, vertex) != corners.end()) return;
-    const auto way = way_to_facet(mesh, facet, v);
-    if (!way) return;
-    if (reached_.size() == 1) within = way->distance * (1.0 + kRounding) + kRounding;
-    if (way->distance > within) return;
+    const auto exit = exit_to_facet(mesh, facet, v);
+    if (!exit) return;
+    if (reached_.size() == 1) within = exit->distance * (1.0 + kRounding) + kRounding;
+    if (exit->distance > within) return;
     spread_.push_back(facet);
-    const bool better = !best || way->distance < best->distance ||
-                        (way->distance == best->distance && source < mesh.mesh.source_facet(best->facet));
-    if (better) best = way;
+    const bool better = !best || exit->distance < best->distance ||
+                        (exit->distance == best->distance && source < mesh.mesh.source_facet(best->facet));
+    if (better) best = exit;
   };
   look_at(mesh.mesh.source_facet(from));
   for (; !spread_.empty();) {
@@ -123,7 +113,7 @@ std::optional<WayOut> NearestAround::find(const ScaledMesh& mesh, int vertex, in
   }
   for (const int source : reached_) seen_[source] = 0;
   reached_.clear();
-  if (best) choose_facet(mesh, *best);
+  if (best) best->facet = facet_at(mesh, *best);
   return best;
 }
 

@@ -1,4 +1,4 @@
-#include "narrowphase/contact_points/facing_clusters.h"
+#include "narrowphase/crossing/facing_clusters.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Which edges of two meshes meet which facets of the other one.
+// Which edges of two meshes meet which facets of the other one, or those of one mesh which facets of its own.
 #pragma once
 
 #include <tact/facet_pair.h>
@@ -29,10 +29,11 @@ struct EdgeHit {
   }
 };
 
-/// Memory of the search, used again.
+/// Buffers are reused.
 class EdgeHitSearch {
  public:
-  /// Takes the facets that meet, by the caller's numbers. Sets what each mesh has, sorted, each once.
+  /// Takes the facets that meet, by the caller's numbers. Sets what each mesh has, sorted, each once; of one mesh both
+  /// are one list.
   void run(const FeaturedMesh& a, const FeaturedMesh& b, std::span<const FacetPair> pairs, std::vector<EdgeHit>& of_a,
            std::vector<EdgeHit>& of_b);
 
