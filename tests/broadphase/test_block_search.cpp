@@ -13,8 +13,6 @@ namespace {
 
 using base::Vec3;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // Those that overlap a box; each that is found is noted.
 struct Overlapping {
   Box around() const { return box; }

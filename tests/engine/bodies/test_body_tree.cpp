@@ -61,7 +61,7 @@ struct FewQueries {
   BoxQuery box;
 };
 
-std::uint32_t layer_of(std::size_t slot) { return slot % 4 == 0 ? 2 : 1; }
+std::uint32_t layer_of_slot(std::size_t slot) { return slot % 4 == 0 ? 2 : 1; }
 
 // A world with the same bodies in the same slots, of which nothing was asked yet.
 World copy_of(const std::vector<Standing>& bodies) {
@@ -69,7 +69,7 @@ World copy_of(const std::vector<Standing>& bodies) {
   std::vector<BodyId> gone;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Mesh& mesh = bodies[i].mesh;
-    const BodyId id = world.add_body({.positions = mesh.positions, .facets = mesh.facets, .layer = layer_of(i)});
+    const BodyId id = world.add_body({.positions = mesh.positions, .facets = mesh.facets, .layer = layer_of_slot(i)});
     if (!bodies[i].there) gone.push_back(id);
   }
   for (const BodyId id : gone) world.remove_body(id);
@@ -84,7 +84,7 @@ TEST(BodyTree, AnswersAreThoseOfAScan) {
   std::vector<BodyId> ids;
   for (const Mesh& mesh : crowd_of_blobs(kBodies, 5)) {
     ids.push_back(
-        world.add_body({.positions = mesh.positions, .facets = mesh.facets, .layer = layer_of(bodies.size())}));
+        world.add_body({.positions = mesh.positions, .facets = mesh.facets, .layer = layer_of_slot(bodies.size())}));
     bodies.push_back({mesh});
   }
   std::size_t found = 0;
