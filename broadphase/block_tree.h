@@ -32,6 +32,7 @@ class BlockTree {
   // from scratch: in the worst case twice the cost of an order made at the best moments.
   void note_cost(std::size_t block_pairs, std::size_t changed_count);
 
+  const Frame& frame() const { return frame_; }
   std::size_t level_count() const { return level_count_; }
   std::size_t block_count(std::size_t level) const { return levels_[level].blocks.size(); }
   const Block* blocks(std::size_t level) const { return levels_[level].blocks.data(); }

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <tuple>
 
+#include "broadphase/block_search.h"
 #include "engine/base/parallel.h"
 #include "engine/base/text.h"
 #include "engine/check_coordinate.h"
+#include "narrowphase/mesh/cluster_search.h"
 #include "narrowphase/queries/mesh_queries.h"
 
 namespace tact {
@@ -26,29 +30,202 @@ void check_point(const Eigen::Vector3d& point, const char* what) {
 }
 
 Vec3 point_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-narrowphase::Segment segment_of(const Ray& ray) { return {point_of(ray.from), point_of(ray.to)}; }
 
-// Calls visit(body) for the bodies that `filter` admits and whose box wants(box), until it returns false.
-template <class Wants, class Visit>
-void for_each_body(const Bodies& bodies, const QueryFilter& filter, const Wants& wants, const Visit& visit) {
-  const broadphase::Filter of_query{filter.layer, filter.mask, false};
-  const std::span<const Box> boxes = bodies.boxes();
-  for (std::uint32_t slot = 0; slot < boxes.size(); ++slot) {
-    if (boxes[slot].empty() || !wants(boxes[slot]) || !broadphase::tested(bodies.filters()[slot], of_query)) continue;
-    if (!visit(bodies.placed(slot))) return;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
+
+// Which bodies a query looks at: those in slots before `end`, and by their boxes, as BlockSearch has it.
+struct Search {
+  static constexpr bool kScansByRank = false;  // a scan takes boxes in the order of their slots
+  std::uint32_t end = kNoSlot;
+};
+
+// Those that a ray enters, not later than `latest`.
+struct RaySearch : Search {
+  explicit RaySearch(const Ray& ray)
+      : ends(extended({point_of(ray.from), point_of(ray.from)}, point_of(ray.to))),
+        line({point_of(ray.from), point_of(ray.to)}) {}
+
+  Box around() const { return ends; }
+  double rank(const Box& box) const { return overlaps(box, ends) ? line.entry(box) : kInfinity; }
+  bool wants(double entry) const { return entry <= latest; }
+
+  Box ends;
+  narrowphase::PreparedSegment line;
+  double latest = 1.0;
+};
+
+// Those that overlap a box.
+struct BoxSearch : Search {
+  explicit BoxSearch(const Box& wanted) : box(wanted) {}
+
+  Box around() const { return box; }
+  double rank(const Box& other) const { return overlaps(other, box) ? 0.0 : kInfinity; }
+  bool wants(double) const { return true; }
+
+  Box box;
+};
+
+// Those that are not farther from a point than `within`, metres, and along no axis than `most`.
+struct PointSearch : Search {
+  static constexpr bool kScansByRank = true;  // what is found early makes others too far away
+
+  explicit PointSearch(const PointQuery& query) : point(point_of(query.point)), most(query.within), within(most) {}
+
+  Box around() const {
+    Box box{point, point};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double by = most + 0x1p-48 * (most + std::abs(point[axis]));
+      box.lower[axis] -= by;
+      box.upper[axis] += by;
+    }
+    return grown(box, std::numeric_limits<double>::min());
   }
+  // The distance, but less than what nearest_facet() finds of any mesh in the box: that is off by some roundings of the
+  // distance from the farthest place of the box. Squares of lengths below 2^-500 may vanish.
+  double rank(const Box& box) const {
+    double square = 0.0, farthest = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double below = box.lower[axis] - point[axis], above = point[axis] - box.upper[axis];
+      const double away = std::max(std::max(below, above), 0.0);
+      if (away - 0x1p-50 * away > most) return kInfinity;  // rounded towards nearer, so that nothing is left out
+      square += away * away;
+      farthest = std::max(farthest, std::max(std::abs(below), std::abs(above)));
+    }
+    return std::sqrt(square) - (0x1p-44 * farthest + 0x1p-500);
+  }
+  bool wants(double distance) const { return distance <= within; }
+
+  Vec3 point;
+  double most;
+  double within;
+};
+
+// Calls visit(slot) for each body that a query considers and whose box a search wants, in no particular order: answers
+// are not to depend on it. visit() may narrow the search.
+template <class OfBoxes, class Visit>
+class BodySearch {
+ public:
+  BodySearch(const Bodies& bodies, const QueryFilter& filter, OfBoxes& search, const Visit& visit)
+      : bodies_(bodies), filter_{filter.layer, filter.mask, false}, search_(search), visit_(visit) {}
+
+  void run() {
+    const BodyTree& tree = bodies_.tree();
+    if (tree.is_current()) {
+      for (const std::uint32_t slot : tree.loose()) look_at(slot);
+      broadphase::BlockSearch(tree.blocks(), *this).run();
+    } else if constexpr (OfBoxes::kScansByRank) {
+      scan_by_rank();
+    } else {
+      for (std::uint32_t slot = 0; slot < std::min(search_.end, slot_count()); ++slot) look_at(slot);
+    }
+  }
+
+  Box around() const { return search_.around(); }
+  double rank(const Box& box) const { return search_.rank(box); }
+  double rank_of(std::uint32_t slot) const {
+    return slot < search_.end && !bodies_.tree().is_loose(slot) && considers(slot) ? rank(bodies_.boxes()[slot])
+                                                                                   : kInfinity;
+  }
+  bool wants(double rank) const { return search_.wants(rank); }
+  void visit(std::uint32_t slot) const { visit_(slot); }
+
+ private:
+  static constexpr std::uint32_t kAtATime = 64;  // boxes whose ranks are found before any body is looked at
+
+  void scan_by_rank() const {
+    std::array<double, kAtATime> ranks;
+    std::array<std::uint32_t, kAtATime> slots;
+    const auto wanted = [&](double rank) { return wants(rank); };
+    for (std::uint32_t begin = 0; begin < slot_count(); begin += kAtATime) {
+      int count = 0;
+      for (std::uint32_t slot = begin; slot < std::min(begin + kAtATime, slot_count()); ++slot) {
+        if (bodies_.boxes()[slot].empty()) continue;
+        const double of_box = rank(bodies_.boxes()[slot]);
+        if (!(of_box < kInfinity && wants(of_box) && considers(slot))) continue;
+        ranks[static_cast<std::size_t>(count)] = of_box;
+        slots[static_cast<std::size_t>(count++)] = slot;
+      }
+      narrowphase::take_by_rank(ranks.data(), slots.data(), count, wanted, visit_);
+    }
+  }
+  std::uint32_t slot_count() const { return static_cast<std::uint32_t>(bodies_.boxes().size()); }
+  bool considers(std::uint32_t slot) const { return broadphase::tested(bodies_.filters()[slot], filter_); }
+  void look_at(std::uint32_t slot) const {
+    const Box& box = bodies_.boxes()[slot];
+    if (box.empty() || slot >= search_.end) return;
+    const double of_box = rank(box);
+    if (of_box < kInfinity && wants(of_box) && considers(slot)) visit(slot);
+  }
+
+  const Bodies& bodies_;
+  const broadphase::Filter filter_;
+  OfBoxes& search_;
+  const Visit& visit_;
+};
+
+template <class OfBoxes, class Visit>
+void for_each_body(const Bodies& bodies, const QueryFilter& filter, OfBoxes& search, const Visit& visit) {
+  BodySearch(bodies, filter, search, visit).run();
 }
 
-// The same for those whose box overlaps `box`.
-template <class Visit>
-void for_each_body_near(const Bodies& bodies, const QueryFilter& filter, const Box& box, const Visit& visit) {
-  for_each_body(
-      bodies, filter, [&](const Box& one) { return overlaps(one, box); }, visit);
+// The slots of bodies whose box overlaps `box`, ascending.
+std::vector<std::uint32_t> slots_near(const Bodies& bodies, const QueryFilter& filter, const Box& box) {
+  std::vector<std::uint32_t> slots;
+  BoxSearch search(box);
+  for_each_body(bodies, filter, search, [&](std::uint32_t slot) { slots.push_back(slot); });
+  std::ranges::sort(slots);
+  return slots;
 }
-
-Box box_of(const narrowphase::Segment& segment) { return extended({segment[0], segment[0]}, segment[1]); }
 
 RayHit hit_of(const Body& body, const FacetHit& hit) { return {body.id, hit.facet, hit.time, hit.weight}; }
+
+// Is a hit of a body before the best one so far? Of equal times that of the lower slot is.
+bool is_before(const FacetHit& hit, std::uint32_t slot, const RayHit& best) {
+  return best.facet < 0 || std::tuple(hit.time, slot) < std::tuple(best.fraction, best.body.index);
+}
+
+// Replaces `best` by the first hit of a ray, if that is before it, of the bodies that have no tree in `batch`.
+void find_first_hit(const Bodies& bodies, const Ray& ray, const narrowphase::SegmentBatch* batch, RayHit& best) {
+  RaySearch search(ray);
+  if (best.facet >= 0) search.latest = best.fraction;
+  for_each_body(bodies, ray.filter, search, [&](std::uint32_t slot) {
+    if (batch != nullptr && batch->tree(slot) != nullptr) return;
+    const Body& body = bodies.placed(slot);
+    const auto hit = first_hit(body.mesh, search.line, search.latest);
+    if (!hit || !is_before(*hit, slot, best)) return;
+    best = hit_of(body, *hit);
+    search.latest = best.fraction;
+  });
+}
+
+// A hit of the body in the lowest slot that has one. Bodies are collected first, as the tree has them in no such order.
+RayHit find_any_hit(const Bodies& bodies, const Ray& ray) {
+  constexpr std::size_t kMost = 256;                                     // more than a ray meets in most worlds
+  const std::size_t at_a_time = bodies.tree().is_current() ? kMost : 1;  // a scan has them in that order
+  std::array<std::uint32_t, kMost> slots;
+  std::size_t count = 0;
+  RaySearch search(ray);
+  RayHit found;
+  const auto look_at_collected = [&] {
+    std::sort(slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t i = 0; i < count && slots[i] < search.end; ++i) {
+      const Body& body = bodies.placed(slots[i]);
+      const auto hit = any_hit(body.mesh, search.line);
+      if (!hit) continue;
+      found = hit_of(body, *hit);
+      search.end = slots[i];
+    }
+    count = 0;
+  };
+  for_each_body(bodies, ray.filter, search, [&](std::uint32_t slot) {
+    slots[count++] = slot;
+    if (count == at_a_time) look_at_collected();
+  });
+  look_at_collected();
+  return found;
+}
 
 }  // namespace
 
@@ -71,16 +248,10 @@ void check_query(const BoxQuery& query) {
 }
 
 RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted) {
-  const narrowphase::Segment segment = segment_of(ray);
-  const narrowphase::PreparedSegment line(segment);
+  if (wanted == RayHits::any) return find_any_hit(bodies, ray);
   RayHit best;
-  best.fraction = 1.0;
-  for_each_body_near(bodies, ray.filter, box_of(segment), [&](const Body& body) {
-    const auto hit = wanted == RayHits::any ? any_hit(body.mesh, line) : first_hit(body.mesh, line, best.fraction);
-    if (hit && (best.facet < 0 || hit->time < best.fraction)) best = hit_of(body, *hit);
-    return !(hit && wanted == RayHits::any);
-  });
-  return best.facet >= 0 ? best : RayHit{};
+  find_first_hit(bodies, ray, nullptr, best);
+  return best;
 }
 
 void begin_rays(const Bodies& bodies, std::size_t rays, int threads, narrowphase::SegmentBatch& room) {
@@ -109,61 +280,57 @@ void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<
     }
     hits[i] = {};
   }
-  for (std::uint32_t slot = 0; slot < bodies.boxes().size(); ++slot) {
-    if (bodies.boxes()[slot].empty()) continue;
-    std::array<narrowphase::FirstHitQuery*, narrowphase::kLinesAtATime> of_body;
+  for (const std::size_t mesh : room.meshes()) {
+    const auto slot = static_cast<std::uint32_t>(mesh);
+    std::array<narrowphase::FirstHitQuery*, narrowphase::kLinesAtATime> asked;
     std::size_t count = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const broadphase::Filter filter{rays[i].filter.layer, rays[i].filter.mask, false};
       if (overlaps(bodies.boxes()[slot], boxes[i]) && broadphase::tested(bodies.filters()[slot], filter))
-        of_body[count++] = &queries[i];
+        asked[count++] = &queries[i];
     }
     if (count == 0) continue;
     const Body& body = bodies.placed(slot);
-    narrowphase::ask_first_hits(body.mesh, room.tree(slot), {of_body.data(), count});
-    // A hit is of the first body that has one as early.
+    narrowphase::ask_first_hits(body.mesh, room.tree(slot), {asked.data(), count});
     for (std::size_t k = 0; k < count; ++k) {
-      const auto i = static_cast<std::size_t>(of_body[k] - queries.data());
-      const auto& hit = of_body[k]->hit;
-      if (hit && (hits[i].facet < 0 || hit->time < hits[i].fraction)) hits[i] = hit_of(body, *hit);
+      const auto i = static_cast<std::size_t>(asked[k] - queries.data());
+      const auto& hit = asked[k]->hit;
+      if (hit && is_before(*hit, slot, hits[i])) hits[i] = hit_of(body, *hit);
     }
   }
+  if (room.meshes().size() == bodies.count()) return;
+  for (std::size_t i = 0; i < rays.size(); ++i) find_first_hit(bodies, rays[i], &room, hits[i]);
 }
 
 std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray) {
-  const narrowphase::Segment segment = segment_of(ray);
-  const narrowphase::PreparedSegment line(segment);
+  RaySearch search(ray);
   std::vector<RayHit> all;
   std::vector<FacetHit> hits;
-  for_each_body_near(bodies, ray.filter, box_of(segment), [&](const Body& body) {
+  for_each_body(bodies, ray.filter, search, [&](std::uint32_t slot) {
+    const Body& body = bodies.placed(slot);
     hits.clear();
-    append_hits(body.mesh, line, hits);
+    append_hits(body.mesh, search.line, hits);
     for (const FacetHit& hit : hits) all.push_back(hit_of(body, hit));
-    return true;
   });
   std::ranges::sort(all, {}, [](const RayHit& hit) { return std::tuple(hit.fraction, hit.body, hit.facet); });
   return all;
 }
 
 ClosestPoint find_closest_point(const Bodies& bodies, const PointQuery& query) {
-  const Vec3 point = point_of(query.point);
+  // What is as near as the best so far is not lost by rounding.
+  constexpr double kAsNear = 1.0 + 0x1p-40;
+  PointSearch search(query);
   ClosestPoint best;
-  double within = query.within;
-  const auto wants = [&](const Box& box) {
-    for (int axis = 0; axis < 3; ++axis) {
-      // Rounded towards nearer, so that nothing is left out.
-      const double away = std::max(box.lower[axis] - point[axis], point[axis] - box.upper[axis]);
-      if (away - 0x1p-50 * std::abs(away) > within) return false;
-    }
-    return true;
-  };
-  for_each_body(bodies, query.filter, wants, [&](const Body& body) {
-    const auto nearest = nearest_facet(body.mesh, point, within);
-    if (!nearest || (best.facet >= 0 && nearest->distance >= best.distance)) return true;
+  const auto look_at = [&](std::uint32_t slot) {
+    const Body& body = bodies.placed(slot);
+    const auto nearest = nearest_facet(body.mesh, search.point, search.within);
+    if (!nearest) return;
+    const auto order = [](double distance, std::uint32_t of_slot) { return std::tuple(distance, of_slot); };
+    if (best.facet >= 0 && order(nearest->distance, slot) >= order(best.distance, best.body.index)) return;
     best = {body.id, nearest->facet, nearest->distance, nearest->weight};
-    within = nearest->distance;
-    return true;
-  });
+    search.within = std::min(search.within, kAsNear * best.distance);
+  };
+  for_each_body(bodies, query.filter, search, look_at);
   return best;
 }
 
@@ -171,23 +338,23 @@ std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuery& query
   const Box box{point_of(query.lower), point_of(query.upper)};
   std::vector<FacetOfBody> found;
   std::vector<int> facets;
-  for_each_body_near(bodies, query.filter, box, [&](const Body& body) {
+  for (const std::uint32_t slot : slots_near(bodies, query.filter, box)) {
+    const Body& body = bodies.placed(slot);
     facets.clear();
     append_facets_in_box(body.mesh, box, facets);
     std::ranges::sort(facets);
     for (const int facet : facets) found.push_back({body.id, facet});
-    return true;
-  });
+  }
   return found;
 }
 
 std::vector<BodyId> find_around(const Bodies& bodies, const PointQuery& query) {
   const Vec3 point = point_of(query.point);
   std::vector<BodyId> found;
-  for_each_body_near(bodies, query.filter, {point, point}, [&](const Body& body) {
+  for (const std::uint32_t slot : slots_near(bodies, query.filter, {point, point})) {
+    const Body& body = bodies.placed(slot);
     if (body.surface == Surface::closed && contains(body.mesh, point)) found.push_back(body.id);
-    return true;
-  });
+  }
   return found;
 }
 

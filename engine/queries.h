@@ -1,4 +1,5 @@
-// Runs a query on every body whose box it reaches.
+// Queries of all bodies at once. Bodies are found by their boxes, in a tree (bodies/body_tree.h) or by a scan, and
+// answers depend on neither. Any number of threads may call these.
 #pragma once
 
 #include <tact/queries.h>
@@ -19,7 +20,7 @@ void check_query(const PointQuery& query);
 void check_query(const BoxQuery& query);
 
 RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted);
-/// Begins the search for the first hits of many rays.
+/// Prepares what many rays need of the bodies as they are now; `room` is the caller's alone.
 void begin_rays(const Bodies& bodies, std::size_t rays, int threads, narrowphase::SegmentBatch& room);
 /// Answers some of them, up to kLinesAtATime, each as find_hit().
 void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<RayHit> hits,

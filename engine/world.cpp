@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/base/pool.h"
 #include "engine/base/text.h"
 #include "engine/base/timer.h"
 #include "engine/bodies/bodies.h"
@@ -73,7 +74,7 @@ struct World::Implementation {
   base::Workers workers;
   Bodies bodies{next_world(), tuning};
   Step step;
-  narrowphase::SegmentBatch segment_batch;
+  base::Pool<narrowphase::SegmentBatch> segment_batches;
   std::unique_ptr<MotionStage> motion = nullptr;  // made by the first detect_motion()
   double refresh_ms = 0.0;                        // since the last step
   WorldObserver* observer = nullptr;
@@ -131,7 +132,7 @@ const Settings& World::settings() const { return implementation().settings; }
 void World::set_settings(const Settings& settings) {
   Implementation& i = implementation();
   i.settings = checked(settings);
-  if (i.workers.executor() != i.settings.executor.get()) i.workers = base::Workers(i.settings.executor);
+  if (i.workers.executor() != i.settings.executor.get()) i.workers.restart(i.settings.executor);
   i.step.look_at_all();
   i.observe([&](WorldObserver& observer) { observer.settings_changed(i.settings); });
 }
@@ -277,6 +278,16 @@ void check_queries(std::span<const Query> queries, std::size_t answers) {
   }
 }
 
+// Answers one query by find().
+template <class OfWorld, class Find>
+auto answer_one(const OfWorld& world, const Find& find) {
+  const base::FloatingPointMode mode;
+  return with_memory(kNoMemoryForAnswers, [&] {
+    world.bodies.expect_queries(1);
+    return find();
+  });
+}
+
 // Answers each query by find(query), on all threads.
 template <class OfWorld, class Query, class Answer, class Find>
 void answer_all(OfWorld& world, std::span<const Query> queries, std::span<Answer> answers, const Find& find) {
@@ -285,6 +296,7 @@ void answer_all(OfWorld& world, std::span<const Query> queries, std::span<Answer
   const base::FloatingPointMode mode;
   const base::Workers::Scope scope(world.workers);
   with_memory(kNoMemoryForAnswers, [&] {
+    world.bodies.expect_queries(queries.size());
     base::parallel_for(queries.size(), kAtATime, world.settings.threads,
                        [&](std::size_t i) { answers[i] = find(queries[i]); });
   });
@@ -301,19 +313,21 @@ RayHit World::cast_ray(const Ray& ray, RayHits wanted) const {
 void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted) const {
   Implementation& i = implementation();
   check_name(wanted, RayHits::any, "hits");
-  // Fewer do not open the same clusters often enough.
-  constexpr std::size_t kFewestTogether = 64;
-  if (wanted != RayHits::first || rays.size() < kFewestTogether)
+  // Fewer do not open the same clusters often enough, nor do rays of which not even one is for each body.
+  const std::size_t fewest_together = std::max<std::size_t>(64, i.bodies.count());
+  if (wanted != RayHits::first || rays.size() < fewest_together)
     return answer_all(i, rays, hits, [&](const Ray& ray) { return find_hit(i.bodies, ray, wanted); });
   check_queries(rays, hits.size());
   const base::FloatingPointMode mode;
   const base::Workers::Scope scope(i.workers);
   with_memory(kNoMemoryForAnswers, [&] {
     constexpr std::size_t kAtATime = narrowphase::kLinesAtATime;
-    begin_rays(i.bodies, rays.size(), i.settings.threads, i.segment_batch);
+    const base::Pool<narrowphase::SegmentBatch>::Loan batch(i.segment_batches);
+    i.bodies.expect_queries(rays.size());
+    begin_rays(i.bodies, rays.size(), i.settings.threads, *batch);
     base::parallel_for((rays.size() + kAtATime - 1) / kAtATime, 1, i.settings.threads, [&](std::size_t block) {
       const std::size_t begin = block * kAtATime, count = std::min(kAtATime, rays.size() - begin);
-      find_first_hits(i.bodies, rays.subspan(begin, count), hits.subspan(begin, count), i.segment_batch);
+      find_first_hits(i.bodies, rays.subspan(begin, count), hits.subspan(begin, count), *batch);
     });
   });
 }
@@ -321,8 +335,7 @@ void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits
 std::vector<RayHit> World::cast_ray_all(const Ray& ray) const {
   const Implementation& i = implementation();
   check_query(ray);
-  const base::FloatingPointMode mode;
-  return with_memory(kNoMemoryForAnswers, [&] { return find_all_hits(i.bodies, ray); });
+  return answer_one(i, [&] { return find_all_hits(i.bodies, ray); });
 }
 
 ClosestPoint World::closest_point(const PointQuery& query) const {
@@ -339,15 +352,13 @@ void World::closest_points(std::span<const PointQuery> queries, std::span<Closes
 std::vector<FacetOfBody> World::overlap_box(const BoxQuery& query) const {
   const Implementation& i = implementation();
   check_query(query);
-  const base::FloatingPointMode mode;
-  return with_memory(kNoMemoryForAnswers, [&] { return find_in_box(i.bodies, query); });
+  return answer_one(i, [&] { return find_in_box(i.bodies, query); });
 }
 
 std::vector<BodyId> World::bodies_containing(const PointQuery& query) const {
   const Implementation& i = implementation();
   check_query(query);
-  const base::FloatingPointMode mode;
-  return with_memory(kNoMemoryForAnswers, [&] { return find_around(i.bodies, query); });
+  return answer_one(i, [&] { return find_around(i.bodies, query); });
 }
 
 void World::overlap_boxes(std::span<const BoxQuery> queries, std::span<std::vector<FacetOfBody>> answers) const {
@@ -403,6 +414,7 @@ void check_room(std::span<Number> room, std::size_t needed, const std::string& n
 }  // namespace
 
 void World::copy_positions(BodyId body, std::span<double> coordinates) const {
+  const base::FloatingPointMode mode;
   const Body& asked = implementation().bodies.at(body);
   check_room(coordinates, 3 * static_cast<std::size_t>(asked.mesh.source_vertex_count()), asked.name);
   std::ranges::fill(coordinates, std::numeric_limits<double>::quiet_NaN());
@@ -424,6 +436,7 @@ void World::copy_facets(BodyId body, std::span<int> corners) const {
 }
 
 Bounds World::bounds(BodyId body) const {
+  const base::FloatingPointMode mode;
   const Bodies& bodies = implementation().bodies;
   const base::Box box = bodies.exact_box(bodies.at(body).id.index);
   return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};

@@ -14,6 +14,7 @@
 #include "bench/measure.h"
 #include "bench/random.h"
 #include "bench/rivals/query_rival.h"
+#include "bench/scaling/many_bodies.h"
 #include "bench/table.h"
 #include "bench/workloads/workloads.h"
 
@@ -189,6 +190,7 @@ int run_queries(const BenchOptions& options) {
     }
   }
   table.print();
+  measure_many_bodies(options);
   print_answer_line(answers);
   if (!options.out.empty()) table.write_csv(options.out / "queries.csv");
   return 0;

@@ -1,4 +1,4 @@
-// The three loops in which the time goes, compiled for each instruction set and chosen when the program runs. All
+// The loops in which the time goes, compiled for each instruction set and chosen when the program runs. All
 // instruction sets give the same answer: they compare, subtract and convert, and round alike.
 #pragma once
 
@@ -24,6 +24,9 @@ struct Overlaps {
 
 struct Kernels {
   const char* name;
+
+  // The lanes that overlap a box.
+  std::uint32_t (*find_lanes)(const Block& block, const FloatBox& box);
 
   // For each of `count` pairs of different blocks, or of a block with itself, writes the lanes of the first that
   // overlap the bounds of the second. Known in advance, they keep the loops over lanes from waiting for comparisons.

@@ -36,6 +36,10 @@ LaneOverlap overlapping_lanes(const Block& block, const float* lower, const floa
   return found;
 }
 
+std::uint32_t find_lanes(const Block& block, const FloatBox& box) {
+  return overlapping_lanes<1>(block, box.lower, box.upper).closed;
+}
+
 void find_rows(const Block* blocks, const IndexPair* pairs, std::size_t count, std::uint16_t* rows) {
   for (std::size_t i = 0; i < count; ++i) {
     const FloatBox& bounds = blocks[pairs[i].b].bounds;
@@ -189,7 +193,11 @@ std::uint32_t refit_lanes(Block& block, const double* boxes, const std::uint32_t
 }
 
 constexpr Kernels all_kernels(const char* name) {
-  return {.name = name, .find_rows = find_rows, .find_overlaps = find_overlaps, .refit_lanes = refit_lanes};
+  return {.name = name,
+          .find_lanes = find_lanes,
+          .find_rows = find_rows,
+          .find_overlaps = find_overlaps,
+          .refit_lanes = refit_lanes};
 }
 
 }  // namespace

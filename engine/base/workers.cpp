@@ -23,7 +23,15 @@ constexpr double kLongestPause_ms = 5000.0;  // what is lost in trying is no par
 
 thread_local constinit Workers* Workers::current_ = nullptr;
 
+void Workers::restart(std::shared_ptr<Executor> executor) {
+  executor_ = std::move(executor);
+  limit_ = kNoLimit;
+  doublings_ = 0;
+  pause_ms_ = left_ms_ = good_ms_ = 0.0;
+}
+
 void Workers::note(int threads, int wanted, double loop_ms, double lost_ms) {
+  const std::lock_guard lock(noting_);
   if (threads > 1 && lost_ms > kLost_ms && lost_ms > kLostPart * loop_ms) {
     pause_ms_ = std::min(kFirstPause * static_cast<double>(1 << doublings_) * lost_ms, kLongestPause_ms);
     left_ms_ = pause_ms_;
@@ -33,7 +41,8 @@ void Workers::note(int threads, int wanted, double loop_ms, double lost_ms) {
   } else if (limited()) {
     left_ms_ -= loop_ms;
     if (left_ms_ > 0.0) return;
-    limit_ = 2 * limit_ < wanted ? 2 * limit_ : kNoLimit;
+    const int doubled = 2 * limit_;
+    limit_ = doubled < wanted ? doubled : kNoLimit;
     left_ms_ = pause_ms_;
   } else if (doublings_ > 0) {
     good_ms_ += loop_ms;

@@ -4,9 +4,13 @@
 
 #include <tact/executor.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <utility>
 
 namespace tact::base {
 
@@ -14,6 +18,8 @@ namespace tact::base {
 // milliseconds beside a busy program (tact-bench busy). Nothing in OpenMP lets it go on. So what is lost that way is
 // measured, and the next loops use fewer threads: until they have worked for some multiple of what was lost, and twice
 // as long each time that happens again.
+//
+// Loops that several threads begin at once may be the work of the same Workers.
 class Workers {
  public:
   using Clock = std::chrono::steady_clock;
@@ -24,9 +30,11 @@ class Workers {
   static Workers* current() { return current_; }
 
   Executor* executor() const { return executor_.get(); }
+  // Starts from nothing, with another executor or with OpenMP's threads. No loop runs meanwhile.
+  void restart(std::shared_ptr<Executor> executor);
   // As many threads of `wanted` as a loop should use now.
-  int allowed(int wanted) const { return wanted < limit_ ? wanted : limit_; }
-  bool limited() const { return limit_ != kNoLimit; }
+  int allowed(int wanted) const { return std::min(wanted, limit_.load(std::memory_order_relaxed)); }
+  bool limited() const { return limit_.load(std::memory_order_relaxed) != kNoLimit; }
   // A loop took `loop_ms` on `threads` of `wanted` threads; of it the caller was idle for `lost_ms`, because another
   // thread did not run.
   void note(int threads, int wanted, double loop_ms, double lost_ms);
@@ -48,7 +56,8 @@ class Workers {
   static thread_local constinit Workers* current_;
 
   std::shared_ptr<Executor> executor_;
-  int limit_ = kNoLimit;
+  std::atomic<int> limit_{kNoLimit};
+  std::mutex noting_;  // of the limit and of what follows
   int doublings_ = 0;
   double pause_ms_ = 0.0;  // the last pause: to work with fewer threads
   double left_ms_ = 0.0;   // of it

@@ -75,14 +75,14 @@ BodyId Bodies::add(const BodyDefinition& definition) {
 void Bodies::make_room_for(std::uint32_t slot) {
   const std::size_t slots = std::max<std::size_t>(slots_.size(), slot + 1);
   make_room(slots_, slots), make_room(boxes_, slots), make_room(filters_, slots), make_room(margins_, slots);
-  kdops_.make_room(slots), groupings_.make_room(slots);
+  kdops_.make_room(slots), groupings_.make_room(slots), tree_.make_room(slots);
   make_room(changed_, slots), make_room(free_, slots);
 }
 
 void Bodies::add_slot() {
   const std::size_t slots = slots_.size() + 1;
   slots_.resize(slots), boxes_.resize(slots), filters_.resize(slots), margins_.resize(slots);
-  kdops_.resize(slots), groupings_.resize(slots);
+  kdops_.resize(slots), groupings_.resize(slots), tree_.resize(slots);
 }
 
 void Bodies::remove(BodyId id) {
@@ -250,6 +250,7 @@ void Bodies::mark_moved(std::uint32_t slot) {
 }
 
 void Bodies::mark_changed(std::uint32_t slot) {
+  tree_.note_change(slot);
   if (slots_[slot].changed) return;
   slots_[slot].changed = true;
   changed_.push_back(slot);

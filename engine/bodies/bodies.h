@@ -14,6 +14,7 @@
 #include "broadphase/sweep_and_prune.h"
 #include "engine/base/tuning.h"
 #include "engine/bodies/body_kdops.h"
+#include "engine/bodies/body_tree.h"
 #include "engine/bodies/checks.h"
 #include "engine/bodies/cluster_groupings.h"
 #include "engine/bodies/columns.h"
@@ -130,6 +131,9 @@ class Bodies {
   // rigid bodies may be larger.
   std::span<const base::Box> boxes() const { return boxes_; }
   std::span<const broadphase::Filter> filters() const { return filters_; }
+  // Where queries look for boxes. So many of them are about to come; any thread may say so.
+  const BodyTree& tree() const { return tree_; }
+  void expect_queries(std::size_t count) const { tree_.expect(count, boxes_); }
   const BodyKdops& kdops() const { return kdops_; }
   void want_kdop(std::uint32_t slot, bool wanted) { kdops_.want(slot, wanted); }
   // Finds those that are wanted and not known.
@@ -236,6 +240,7 @@ class Bodies {
   std::vector<base::Box> boxes_;
   std::vector<broadphase::Filter> filters_;
   std::vector<double> margins_;
+  BodyTree tree_;
   BodyKdops kdops_;
   ClusterGroupings groupings_;
   std::vector<std::uint32_t> changed_;

@@ -10,34 +10,30 @@ using narrowphase::SeparatingDiagonal;
 
 constexpr std::size_t kPairsAtATime = 2048;  // of a few nanoseconds each
 
-// Of bodies with margins it matters how far apart they are.
-bool may_be_separated(const PairTable& table, const Bodies& bodies, const MovedPair& pair) {
-  const CandidatePair& candidate = table.candidates()[pair.place];
-  return !table.in_contact(pair.place) && bodies.reach(candidate.a.index, candidate.b.index) == 0.0;
-}
-
 // Both bodies of a pair that was apart, or is new, know their k-DOPs, whatever other pairs they have: what is found of
 // a pair depends on no other. Bodies that moved and have no such pair need not know theirs when they move next.
 void find_missing_kdops(const PairTable& table, Bodies& bodies, int threads) {
   for (const std::uint32_t slot : bodies.changed()) bodies.want_kdop(slot, false);
   for (const MovedPair& pair : table.moved()) {
-    if (!may_be_separated(table, bodies, pair)) continue;
+    if (table.in_contact(pair.place)) continue;
     bodies.want_kdop(table.candidates()[pair.place].a.index, true);
     bodies.want_kdop(table.candidates()[pair.place].b.index, true);
   }
   bodies.find_kdops(threads);
 }
 
-// Asks the axis that separated the pair last, then the others; notes which one does.
+// Does an axis show that the pair is farther apart than its margins? The one that did last is looked at first, then the
+// others; notes which one does.
 bool is_separated(const MovedPair& pair, const Bodies& bodies, PairTable& table) {
-  if (!may_be_separated(table, bodies, pair)) return false;
+  if (table.in_contact(pair.place)) return false;
   const CandidatePair& candidate = table.candidates()[pair.place];
   const auto *a = bodies.kdops().of(candidate.a.index), *b = bodies.kdops().of(candidate.b.index);
   const bool known = a != nullptr && b != nullptr;
+  const double reach = bodies.reach(candidate.a.index, candidate.b.index);
   SeparatingDiagonal& axis = table.separating_axis(pair.place);
   const SeparatingDiagonal last = axis;
-  if (known && narrowphase::separates(last, *a, *b)) return true;
-  axis = known ? narrowphase::separating_diagonal(*a, *b) : SeparatingDiagonal{0};
+  if (known && narrowphase::separates(last, *a, *b, reach)) return true;
+  axis = known ? narrowphase::separating_diagonal(*a, *b, reach) : SeparatingDiagonal{0};
   if (axis != 0) return true;
   if (last != 0) {
     pair.record->history.kind = PairHistory::Kind::separated;

@@ -3,7 +3,9 @@
 // k-DOPs", 1998). The axes are those of the boxes; here are the diagonals. They cost a sum of two coordinates a vertex
 // and a comparison a pair.
 //
-// The answer is certain: rounding keeps the order of two sums, so sums that differ when rounded differ in truth.
+// The answer is certain. Rounding keeps the order of two sums: sums that differ when rounded differ in truth. By how
+// much they differ is wrong by a roundoff of each, and of the difference; bodies are apart by a distance only with 2^11
+// roundoffs of their size to spare, so that GJK, which rounds more often, finds them no nearer.
 #pragma once
 
 #include "engine/base/vec3.h"
@@ -17,14 +19,12 @@ Kdop kdop_of(const ClusteredMesh& mesh);
 /// A diagonal that separates two bodies, from a to b: k + 1 along diagonal k of Kdop, -k - 1 against it, 0 for none.
 using SeparatingDiagonal = std::int8_t;
 
-/// The diagonal with the widest gap between `a` and `b`; of equal gaps the first.
-SeparatingDiagonal separating_diagonal(const Kdop& a, const Kdop& b);
+/// The diagonal with the widest gap between `a` and `b`, if they are farther apart along it than `reach`, metres; of
+/// equal gaps the first.
+SeparatingDiagonal separating_diagonal(const Kdop& a, const Kdop& b, double reach);
 
-/// True if the diagonal separates them.
-inline bool separates(SeparatingDiagonal diagonal, const Kdop& a, const Kdop& b) {
-  return diagonal > 0 ? a.upper[diagonal - 1] < b.lower[diagonal - 1]
-                      : diagonal < 0 && b.upper[-diagonal - 1] < a.lower[-diagonal - 1];
-}
+/// Are they farther apart along the diagonal than `reach`, metres?
+bool separates(SeparatingDiagonal diagonal, const Kdop& a, const Kdop& b, double reach);
 
 /// The unit vector from a to b along a diagonal that separates them.
 base::Vec3 direction_of(SeparatingDiagonal diagonal);

@@ -3,10 +3,31 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "narrowphase/queries/nearest_weights.h"
 
 namespace tact::narrowphase {
+
+double PreparedSegment::entry(const Box& box) const {
+  double first = 0.0, last = 1.0;
+  bool meets = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double from = slabs_.from[axis], inverse = slabs_.inverse[axis];
+    const double enter = inverse >= 0.0 ? box.lower[axis] : box.upper[axis];
+    const double leave = inverse >= 0.0 ? box.upper[axis] : box.lower[axis];
+    if (inverse != 0.0) {
+      first = std::max(first, (enter - from) * inverse);
+      last = std::min(last, (leave - from) * inverse);
+    } else if (slabs_.stays[axis]) {
+      meets = meets && enter <= from && from <= leave;
+    }
+  }
+  // Rounding is that of rank_by_entry().
+  first = first * (1.0 - 0x1p-50) - 0x1p-1000;
+  last = last * (1.0 + 0x1p-50) + 0x1p-1000;
+  return meets && first <= last ? first : std::numeric_limits<double>::infinity();
+}
 
 std::uint64_t PreparedSegment::facets_seen(const ClusteredMesh& mesh, int cluster) const {
   const ClusterFacets facets = mesh.facets_of(cluster);
@@ -38,7 +59,7 @@ PreparedSegment::PreparedSegment(const Segment& segment) : segment_(segment) {
 }
 
 // When it enters a triangle's box, as in rank_by_entry(): not earlier than any box around that one, rounding included.
-double PreparedSegment::entry(const Triangle& triangle) const {
+double PreparedSegment::entry_into(const Triangle& triangle) const {
   double first = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const double inverse = slabs_.inverse[axis];
@@ -51,7 +72,7 @@ double PreparedSegment::entry(const Triangle& triangle) const {
 }
 
 CommonPlace PreparedSegment::not_before_entry(CommonPlace place, const Triangle& triangle) const {
-  place.time = std::min(std::max(place.time, entry(triangle)), 1.0);
+  place.time = std::min(std::max(place.time, entry_into(triangle)), 1.0);
   return place;
 }
 

@@ -16,6 +16,9 @@ class PreparedSegment {
 
   /// As the kernels take it.
   const SegmentSlabs& slabs() const { return slabs_; }
+  /// When it enters a box, as rank_by_entry() has it: not later than any place in the box where it meets a triangle.
+  /// Infinite if it misses the box. That of a box around another one is not later.
+  double entry(const Box& box) const;
   /// A bit for each facet of a cluster that it may meet.
   std::uint64_t facets_seen(const ClusteredMesh& mesh, int cluster) const;
 
@@ -26,7 +29,7 @@ class PreparedSegment {
 
  private:
   std::optional<CommonPlace> meet_exactly(const Triangle& triangle, PredicateCounts& counts) const;
-  double entry(const Triangle& triangle) const;
+  double entry_into(const Triangle& triangle) const;
   CommonPlace not_before_entry(CommonPlace place, const Triangle& triangle) const;
 
   Segment segment_;

@@ -55,8 +55,8 @@ void write_each(const QueryOfC* queries, size_t count, AnswerOfC* to, size_t cap
 }  // namespace
 }  // namespace tact::c
 
-using tact::c::as_cpp, tact::c::body_of, tact::c::changing, tact::c::check_not_null, tact::c::WorldEntry,
-    tact::c::write, tact::c::write_each;
+using tact::c::as_cpp, tact::c::body_of, tact::c::check_not_null, tact::c::reading, tact::c::WorldEntry, tact::c::write,
+    tact::c::write_each;
 
 extern "C" {
 
@@ -66,7 +66,7 @@ tact_error tact_world_cast_ray(tact_world world, const tact_ray* ray, int32_t wa
 
 tact_error tact_world_cast_rays(tact_world world, const tact_ray* rays, size_t count, int32_t wanted,
                                 tact_ray_hit* hits) {
-  return changing(world, [&](WorldEntry& entry) {
+  return reading(world, [&](const WorldEntry& entry) {
     entry.world.cast_rays(as_cpp<const tact::Ray>(rays, count), as_cpp<tact::RayHit>(hits, count),
                           static_cast<tact::RayHits>(wanted));
   });
@@ -74,7 +74,7 @@ tact_error tact_world_cast_rays(tact_world world, const tact_ray* rays, size_t c
 
 tact_error tact_world_cast_ray_all(tact_world world, const tact_ray* ray, tact_ray_hit* hits, size_t capacity,
                                    size_t* count) {
-  return changing(world, [&](WorldEntry& entry) {
+  return reading(world, [&](const WorldEntry& entry) {
     check_not_null(count);
     write(entry.world.cast_ray_all(as_cpp<const tact::Ray>(ray, 1)[0]), hits, capacity, count);
   });
@@ -82,7 +82,7 @@ tact_error tact_world_cast_ray_all(tact_world world, const tact_ray* ray, tact_r
 
 tact_error tact_world_overlap_box(tact_world world, const tact_box_query* query, tact_facet_of_body* facets,
                                   size_t capacity, size_t* count) {
-  return changing(world, [&](WorldEntry& entry) {
+  return reading(world, [&](const WorldEntry& entry) {
     check_not_null(count);
     write(entry.world.overlap_box(as_cpp<const tact::BoxQuery>(query, 1)[0]), facets, capacity, count);
   });
@@ -90,7 +90,7 @@ tact_error tact_world_overlap_box(tact_world world, const tact_box_query* query,
 
 tact_error tact_world_bodies_containing(tact_world world, const tact_point_query* query, tact_body* bodies,
                                         size_t capacity, size_t* count) {
-  return changing(world, [&](WorldEntry& entry) {
+  return reading(world, [&](const WorldEntry& entry) {
     check_not_null(count);
     write(entry.world.bodies_containing(as_cpp<const tact::PointQuery>(query, 1)[0]), bodies, capacity, count);
   });
@@ -98,7 +98,7 @@ tact_error tact_world_bodies_containing(tact_world world, const tact_point_query
 
 tact_error tact_world_overlap_boxes(tact_world world, const tact_box_query* queries, size_t count,
                                     tact_facet_of_body* facets, size_t capacity, size_t* ends) {
-  return changing(world, [&](WorldEntry& entry) {
+  return reading(world, [&](const WorldEntry& entry) {
     write_each<tact::BoxQuery, tact::FacetOfBody>(
         queries, count, facets, capacity, ends,
         [&](const auto& asked, auto& answers) { entry.world.overlap_boxes(asked, answers); });
@@ -107,7 +107,7 @@ tact_error tact_world_overlap_boxes(tact_world world, const tact_box_query* quer
 
 tact_error tact_world_bodies_containing_each(tact_world world, const tact_point_query* queries, size_t count,
                                              tact_body* bodies, size_t capacity, size_t* ends) {
-  return changing(world, [&](WorldEntry& entry) {
+  return reading(world, [&](const WorldEntry& entry) {
     write_each<tact::PointQuery, tact::BodyId>(
         queries, count, bodies, capacity, ends,
         [&](const auto& asked, auto& answers) { entry.world.bodies_containing_each(asked, answers); });
@@ -120,7 +120,7 @@ tact_error tact_world_closest_point(tact_world world, const tact_point_query* qu
 
 tact_error tact_world_closest_points(tact_world world, const tact_point_query* queries, size_t count,
                                      tact_closest_point* answers) {
-  return changing(world, [&](WorldEntry& entry) {
+  return reading(world, [&](const WorldEntry& entry) {
     entry.world.closest_points(as_cpp<const tact::PointQuery>(queries, count),
                                as_cpp<tact::ClosestPoint>(answers, count));
   });

@@ -4,9 +4,11 @@
 #include <tact/tact.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "engine/world_tuning.h"
 #include "narrowphase/hull/gjk.h"
 #include "tests/support/checks/detection.h"
 #include "tests/support/generators/bodies.h"
@@ -186,6 +188,55 @@ TEST(SeparatedPairs, OfAJostlingCrowdAreApart) {
   }
   EXPECT_GT(separated, 20'000);
   EXPECT_GT(contacts, 5'000);
+}
+
+// What is farther apart along a diagonal than the margins together is settled there; what is nearer is looked at.
+TEST(SeparatedPairs, MarginsAreTakenOff) {
+  const double apart = std::sqrt(2.0) * 1.6 - 2.0 * kBall.positions.col(0).norm();  // of balls, about
+  for (const double margin : {0.0, 0.1, 0.45 * apart, 0.6 * apart, 1.0}) {
+    World world({.outputs = {.points = true}});
+    add_ball(world, 0, 0, 0);
+    world.set_margin(add_ball(world, 1.6, 1.6, 0), margin);
+    world.set_margin(world.bodies()[0], margin);
+    const Report& report = world.detect();
+    EXPECT_EQ(report.stats().kdop_separated_pairs, 2.0 * margin < 0.95 * apart ? 1 : 0) << margin;
+    EXPECT_EQ(report.contacts().size(), 2.0 * margin > apart ? 1U : 0U) << margin;
+  }
+}
+
+// Reports are those of a world that does without, while balls with margins come near, touch and part.
+TEST(SeparatedPairs, OfBodiesWithMarginsChangesNoReport) {
+  const Mesh ball = scaled(icosphere(1), 0.4);
+  World with({.outputs = {.points = true}}), without({.outputs = {.points = true}});
+  base::Tuning tuning;
+  tuning.separates_by_kdop = false;
+  WorldTuning::set(without, tuning);
+  std::vector<Mesh> balls;
+  std::vector<BodyId> ids, same_ids;
+  Random random(6);
+  for (int i = 0; i < 125; ++i) {
+    balls.push_back(translated(ball, {1.0 * (i % 5), 1.0 * (i / 5 % 5), 1.0 * (i / 25)}));
+    const double margin = i % 3 == 0 ? 0.0 : 0.06;
+    for (World* world : {&with, &without}) {
+      const BodyId id = world->add_body({.positions = balls.back().positions, .facets = ball.facets, .margin = margin});
+      (world == &with ? ids : same_ids).push_back(id);
+    }
+  }
+  std::int64_t separated = 0, near = 0;
+  for (int step = 0; step < 20; ++step) {
+    const Report &report = with.detect(), &expected = without.detect();
+    ASSERT_EQ(report.hash(), expected.hash()) << "step " << step;
+    EXPECT_EQ(expected.stats().kdop_separated_pairs, 0);
+    separated += report.stats().kdop_separated_pairs;
+    near += static_cast<std::int64_t>(report.contacts().size());
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+      balls[i] = translated(balls[i], random.in_cube(0.03));
+      with.set_positions(ids[i], balls[i].positions);
+      without.set_positions(same_ids[i], balls[i].positions);
+    }
+  }
+  EXPECT_GT(separated, 1000);
+  EXPECT_GT(near, 1000);
 }
 
 }  // namespace

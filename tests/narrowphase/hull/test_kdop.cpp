@@ -46,8 +46,8 @@ TEST(SeparatingDiagonal, SeparatesBeforeRounding) {
     }
     const Kdop a = scalar_kernels()->kdop(points[0].arrays(), 3);
     const Kdop b = scalar_kernels()->kdop(points[1].arrays(), 3);
-    const int found = separating_diagonal(a, b);
-    EXPECT_EQ(separating_diagonal(b, a) != 0, found != 0);
+    const int found = separating_diagonal(a, b, 0.0);
+    EXPECT_EQ(separating_diagonal(b, a, 0.0) != 0, found != 0);
     if (found == 0) {
       for (std::size_t k = 0; k < 6; ++k) touching += upper[0][k] == lower[1][k] || upper[1][k] == lower[0][k];
       continue;
@@ -55,8 +55,8 @@ TEST(SeparatingDiagonal, SeparatesBeforeRounding) {
     ++separated;
     const auto k = static_cast<std::size_t>(std::abs(found) - 1);
     ASSERT_TRUE(found > 0 ? upper[0][k] < lower[1][k] : upper[1][k] < lower[0][k]) << "repeat " << repeat;
-    ASSERT_TRUE(separates(static_cast<SeparatingDiagonal>(found), a, b));
-    ASSERT_FALSE(separates(static_cast<SeparatingDiagonal>(-found), a, b));
+    ASSERT_TRUE(separates(static_cast<SeparatingDiagonal>(found), a, b, 0.0));
+    ASSERT_FALSE(separates(static_cast<SeparatingDiagonal>(-found), a, b, 0.0));
   }
   EXPECT_GT(separated, 1000);
   EXPECT_GT(touching, 1000);
@@ -76,8 +76,16 @@ TEST(SeparatingDiagonal, TheWidestGapPartsFromAToB) {
           a.add(5, 6, 7);
           b.add(5 + offset.x, 6 + offset.y, 7 + offset.z);
           const SeparatingDiagonal diagonal =
-              separating_diagonal(scalar_kernels()->kdop(a.arrays(), 1), scalar_kernels()->kdop(b.arrays(), 1));
+              separating_diagonal(scalar_kernels()->kdop(a.arrays(), 1), scalar_kernels()->kdop(b.arrays(), 1), 0.0);
           ASSERT_NE(diagonal, 0);
+          const auto reaches = [&](double reach) {
+            const Kdop of_a = scalar_kernels()->kdop(a.arrays(), 1), of_b = scalar_kernels()->kdop(b.arrays(), 1);
+            EXPECT_EQ(separating_diagonal(of_a, of_b, reach) == 0, !separates(diagonal, of_a, of_b, reach));
+            return !separates(diagonal, of_a, of_b, reach);
+          };
+          EXPECT_FALSE(reaches(std::sqrt(2.0) - 1e-10));
+          EXPECT_TRUE(reaches(std::sqrt(2.0)));  // a few roundings are to spare
+          EXPECT_TRUE(reaches(1.5));
           const Vec3 n = direction_of(diagonal);
           EXPECT_NEAR(dot(n, n), 1.0, 1e-15);
           EXPECT_NEAR(dot(n, offset), std::sqrt(2.0), 1e-15);
@@ -93,9 +101,10 @@ TEST(SeparatingDiagonal, IsNoneForBodiesThatTouch) {
   a.add(1, 0, 0);
   b.add(1, 0, 0);
   b.add(2, 0, 0);
-  EXPECT_EQ(separating_diagonal(scalar_kernels()->kdop(a.arrays(), 2), scalar_kernels()->kdop(b.arrays(), 2)), 0);
+  EXPECT_EQ(separating_diagonal(scalar_kernels()->kdop(a.arrays(), 2), scalar_kernels()->kdop(b.arrays(), 2), 0.0), 0);
   for (SeparatingDiagonal diagonal = -6; diagonal <= 6; ++diagonal) {
-    EXPECT_FALSE(separates(diagonal, scalar_kernels()->kdop(a.arrays(), 2), scalar_kernels()->kdop(b.arrays(), 2)));
+    EXPECT_FALSE(
+        separates(diagonal, scalar_kernels()->kdop(a.arrays(), 2), scalar_kernels()->kdop(b.arrays(), 2), 0.0));
   }
 }
 
