@@ -127,8 +127,8 @@ void MotionStage::find_clusters(const Bodies& bodies, int threads, Impacts wante
   base::parallel_for(passing_.size(), grain, threads, [&](std::size_t i, int thread) {
     Passing& one = passing_[i];
     Memory& memory = memory_[thread];
-    const auto pairs =
-        memory.passing.find(bodies.moving(one.a), bodies.moving(one.b), one.reach, bodies.tuning(), device_);
+    const narrowphase::MovingMesh a = bodies.moving(one.a), b = bodies.moving(one.b);
+    const auto pairs = memory.passing.find(a.boxes(), b.boxes(), one.reach, bodies.tuning(), device_);
     const std::size_t begin = memory.clusters.size();
     memory.clusters.insert(memory.clusters.end(), pairs.begin(), pairs.end());
     memory.cluster_pairs += static_cast<std::int64_t>(pairs.size());

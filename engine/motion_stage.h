@@ -42,7 +42,7 @@ class MotionStage {
   };
   /// Memory of a thread, used again.
   struct Memory {
-    narrowphase::PassingClusters passing;
+    narrowphase::ClusterPairFinder passing;
     std::vector<narrowphase::ClusterPair> clusters;
     std::vector<TimedPair> timed;  // scratch
     std::int64_t cluster_pairs = 0;

@@ -217,8 +217,9 @@ PointStage::Prepared& PointStage::find_near(std::size_t i, const Step& step, Wor
   if (wanted.self != nullptr) {
     prepared.cluster_pairs = wanted.self->may_contact;
   } else if (wanted.reach > 0.0) {
-    prepared.cluster_pairs = prepared.near.find(step.bodies.featured(wanted.a), step.bodies.featured(wanted.b),
-                                                wanted.reach, step.bodies.tuning(), step.device);
+    prepared.cluster_pairs =
+        prepared.near.find({.mesh = step.bodies.featured(wanted.a).mesh}, {.mesh = step.bodies.featured(wanted.b).mesh},
+                           wanted.reach, step.bodies.tuning(), step.device);
   }
   return prepared;
 }

@@ -43,7 +43,7 @@ class PointStage {
   /// What is known of one of those before its points are searched.
   struct Prepared {
     const Wanted* wanted = nullptr;
-    narrowphase::NearClusters near;
+    narrowphase::ClusterPairFinder near;
     std::span<const narrowphase::ClusterPair> cluster_pairs;
     narrowphase::PairCrossing crossing;
     std::vector<narrowphase::CarriedNormal> carried_a, carried_b;

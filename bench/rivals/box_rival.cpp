@@ -15,7 +15,7 @@
 #include "bench/rivals/cgal_box.h"
 #include "broadphase/sweep_and_prune.h"
 #include "engine/base/parallel.h"
-#include "narrowphase/triangles/embree.h"
+#include "narrowphase/pairs/embree.h"
 
 namespace tact::bench {
 namespace {

@@ -1,7 +1,7 @@
 // Embree used directly for collisions: user geometry, the only kind that rtcCollide takes, in scenes that are refitted
 // (dynamic, of low build quality, geometry of refit quality: other settings rebuild in every commit). Boxes are rounded
 // outward to floats without nextafterf(), which would cost twice the rest. What rtcCollide proposes is decided exactly.
-#include "narrowphase/triangles/embree.h"
+#include "narrowphase/pairs/embree.h"
 
 #include <emmintrin.h>
 #include <tbb/enumerable_thread_specific.h>

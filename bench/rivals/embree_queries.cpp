@@ -12,7 +12,7 @@
 
 #include "bench/rivals/nearest_in_triangle.h"
 #include "bench/rivals/query_rival.h"
-#include "narrowphase/triangles/embree.h"
+#include "narrowphase/pairs/embree.h"
 
 namespace tact::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include "bench/meeting_lists.h"
 #include "bench/rivals/near_bodies.h"
 #include "bench/rivals/nearest_in_triangle.h"
-#include "narrowphase/triangles/embree.h"
+#include "narrowphase/pairs/embree.h"
 
 namespace tact::bench {
 namespace {

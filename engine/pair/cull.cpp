@@ -29,7 +29,7 @@ void find_criteria(const PairTask& pair, const Slab& slab) {
 
 void count_clusters(const CulledPair& culled, PairCounts& counts) {
   const std::int64_t clusters = culled.a->cluster_count() + culled.b->cluster_count();
-  const std::int64_t outside_slab = culled.kept_a.outside_slab + culled.kept_b.outside_slab;
+  const std::int64_t outside_slab = culled.kept_a.too_low + culled.kept_b.too_low;
   counts.facets += culled.a->facet_count() + culled.b->facet_count();
   counts.clusters += clusters;
   counts.clusters_outside_slab += outside_slab;
@@ -48,7 +48,7 @@ void prepare_surfaces(const PairTask& pair) {
   culled.as_surfaces = !zones && worth_as_surfaces(culled.confirm_input(pair.tuning), culled.cluster_pairs.size());
   if (!culled.as_surfaces) return;
   culled.swapped = culled.kept_a.count() < culled.kept_b.count();
-  if (culled.swapped) turn(culled.cluster_pairs, culled.kept_b.count(), work.cluster_pair_work);
+  if (culled.swapped) work.join.exchange_meshes(culled.cluster_pairs, culled.kept_b.count());
   if (!pair.tuning.carries_surfaces) return;
   if (record.surfaces == nullptr) record.surfaces = std::make_unique<SurfaceHistory>();
   SurfaceHistory& history = *record.surfaces;
@@ -72,10 +72,9 @@ void cull(const PairTask& pair, const Slab& slab, EmbreeDevice& device) {
   if (work.prefetches) prefetch_facets(a, culled.kept_a);
   cull_clusters(b, culled.criteria_b, culled.kept_a.bounds, culled.kept_b);
   if (work.prefetches) prefetch_facets(b, culled.kept_b);
-  cull_again(culled.kept_b.bounds, culled.kept_a);
-  const bool trees = find_cluster_pairs(culled.kept_a, culled.kept_b, pair.tuning, device, culled.cluster_pairs,
-                                        work.cluster_pair_work);
-  work.counts.tree_pairs += trees ? 1 : 0;
+  keep_again(culled.kept_b.bounds, culled.kept_a);
+  work.join.run(culled.kept_a, culled.kept_b, BoxPairs::all, pair.tuning, device, culled.cluster_pairs);
+  work.counts.tree_pairs += work.join.uses_trees() ? 1 : 0;
   count_clusters(culled, work.counts);
   prepare_surfaces(pair);
 }

@@ -12,6 +12,7 @@
 #include "narrowphase/depth/smallest_separation.h"
 #include "narrowphase/direction/minkowski_face.h"
 #include "narrowphase/hull/minkowski_difference.h"
+#include "narrowphase/pairs/cluster_join.h"
 #include "narrowphase/triangles/confirm.h"
 
 namespace tact {
@@ -42,7 +43,7 @@ struct PairWork {
   narrowphase::FaceFinder faces;
   narrowphase::SmallestMemory smallest;
   std::vector<narrowphase::Point2> zone_points;
-  narrowphase::ClusterPairWork cluster_pair_work;
+  narrowphase::ClusterJoin join;
   bool prefetches = true;  ///< the memory of facets, see Bodies::stay_in_cache()
   CulledPair culled;
   narrowphase::FacetPairSearch search;

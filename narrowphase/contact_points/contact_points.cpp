@@ -2,34 +2,24 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "narrowphase/contact_points/open_features.h"
 #include "narrowphase/contact_points/point_finder.h"
 #include "narrowphase/contact_points/waiting_edges.h"
+#include "narrowphase/pairs/open_clusters.h"
 
 namespace tact::narrowphase {
 
 namespace {
 
-double largest_coordinate(const Box& box) {
-  double largest = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-    largest = std::max({largest, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
-  return largest;
-}
-
-// A reach that box tests, which round, can take.
-double box_reach(double reach, double largest) { return reach * (1.0 + 0x1p-40) + 0x1p-50 * largest; }
-
 // So many pairs share a grid: its cells stay small beside the facets.
 constexpr std::size_t kPairsOfGrid = 256;
 
 // Memory of the search.
-struct OpenClusters {
-  static constexpr int kOfB = 16;  // clusters of b that stay open: neighbours come soon again
+struct OpenPairs {
+  static constexpr int kOfB = 16;  // clusters of b that stay open, 34 kB each
   OpenFeatures a;
-  OpenFeatures b[kOfB];
+  OpenClusters<OpenFeatures, kOfB> b;
 };
 
 // The clusters of b, if they are few, and where each is open.
@@ -39,7 +29,7 @@ class FewClusters {
   bool take(std::span<const ClusterPair> pairs) {
     for (const ClusterPair& pair : pairs) {
       if (place_of(pair.b) < count_) continue;
-      if (count_ == OpenClusters::kOfB) return false;
+      if (count_ == OpenPairs::kOfB) return false;
       cluster_[count_++] = pair.b;
     }
     return true;
@@ -53,7 +43,7 @@ class FewClusters {
   int place_of(int cluster) const {
     return static_cast<int>(std::find(cluster_, cluster_ + count_, cluster) - cluster_);
   }
-  int cluster_[OpenClusters::kOfB], open_[OpenClusters::kOfB], count_ = 0;
+  int cluster_[OpenPairs::kOfB], open_[OpenPairs::kOfB], count_ = 0;
 };
 
 // Some cluster pairs, sorted, and the grid that they share.
@@ -73,29 +63,28 @@ class ClusterSearch {
   }
 
   // Pair by pair.
-  void run(OpenClusters& open, PointFinder& finder) const {
-    open.a.cluster = -1;
-    for (OpenFeatures& one : open.b) one.cluster = -1;
+  void run(OpenPairs& open, PointFinder& finder) const {
+    open.a.clear();
+    open.b.close();
     for (const ClusterPair& pair : pairs_) {
-      OpenFeatures& b = open.b[pair.b % OpenClusters::kOfB];
       if (open.a.cluster != pair.a) open.a.open(a_, pair.a, near_b_, grid_, wide_);
-      if (b.cluster != pair.b) b.open(b_, pair.b, near_a_, grid_, 0.0);
-      finder.search(open.a, b);
+      const auto open_b = [&](OpenFeatures& b) { b.open(b_, pair.b, near_a_, grid_, 0.0); };
+      finder.search(open.a, open.b.get(pair.b, open_b));
     }
   }
 
   // Bodies that touch in a small place have a few facets there in each of several clusters: as many clusters as there
   // is room for are searched at once. The pairs are all that there are, so that no other search finds the same points.
-  void run_together(FewClusters& of_b, OpenClusters& open, PointFinder& finder) const {
-    open.b[0].clear();
+  void run_together(FewClusters& of_b, OpenPairs& open, PointFinder& finder) const {
+    open.b.place(0).clear();
     for (int i = 0, last = 0; i < of_b.count(); ++i) {
-      if (!open.b[last].append(b_, of_b.cluster(i), near_a_, grid_, 0.0))
-        open.b[++last].open(b_, of_b.cluster(i), near_a_, grid_, 0.0);
+      if (!open.b.place(last).append(b_, of_b.cluster(i), near_a_, grid_, 0.0))
+        open.b.place(++last).open(b_, of_b.cluster(i), near_a_, grid_, 0.0);
       of_b.set_open(i, last);
     }
     std::uint32_t near = 0;  // a bit for each of `open.b`
     const auto search = [&] {
-      for (; near != 0; near &= near - 1) finder.search(open.a, open.b[std::countr_zero(near)]);
+      for (; near != 0; near &= near - 1) finder.search(open.a, open.b.place(std::countr_zero(near)));
     };
     open.a.clear();
     for (std::size_t i = 0; i < pairs_.size();) {
@@ -124,17 +113,8 @@ class ClusterSearch {
 
 }  // namespace
 
-std::span<const ClusterPair> NearClusters::find(const FeaturedMesh& a, const FeaturedMesh& b, double reach,
-                                                const base::Tuning& tuning, EmbreeDevice& device) {
-  const double both = box_reach(reach, std::max(largest_coordinate(a.mesh->box()), largest_coordinate(b.mesh->box())));
-  const auto box_of = [](const ClusteredMesh& mesh, int c) { return mesh.cluster_boxes()[c]; };
-  return finder_.find(
-      *a.mesh, [&](int c) { return inflated(box_of(*a.mesh, c), both); },  //
-      *b.mesh, [&](int c) { return box_of(*b.mesh, c); }, b.mesh->box(), tuning, device);
-}
-
 struct ContactPointSearch::Memory {
-  OpenClusters open;
+  OpenPairs open;
   WaitingEdges edges;
   SurfaceWays ways;
 };

@@ -7,20 +7,9 @@
 #include <vector>
 
 #include "narrowphase/contact_points/feature_point.h"
-#include "narrowphase/triangles/cluster_pairs.h"
+#include "narrowphase/pairs/cluster_pairs.h"
 
 namespace tact::narrowphase {
-
-/// The cluster pairs of `a` and `b` that come within `reach` (metres); for one mesh with itself each pair once, the
-/// smaller first.
-class NearClusters {
- public:
-  std::span<const ClusterPair> find(const FeaturedMesh& a, const FeaturedMesh& b, double reach,
-                                    const base::Tuning& tuning, EmbreeDevice& device);
-
- private:
-  ClusterPairFinder finder_;
-};
 
 struct Crossing;
 

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "narrowphase/contact_points/scaled_mesh.h"
+#include "narrowphase/pairs/box_reach.h"
 
 namespace tact::narrowphase {
-
-inline Box inflated(const Box& box, double by) { return {box.lower - Vec3{by, by, by}, box.upper + Vec3{by, by, by}}; }
 
 /// A bit for each of `count` features.
 inline std::uint64_t all_of(int count) { return count == 0 ? 0 : ~std::uint64_t{0} >> (64 - count); }

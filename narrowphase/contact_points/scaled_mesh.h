@@ -1,19 +1,15 @@
 // A mesh in a unit of length in which distances neither vanish nor overflow.
 #pragma once
 
-#include <algorithm>
-
 #include "narrowphase/contact_points/nearest.h"
 #include "narrowphase/mesh/features.h"
 #include "narrowphase/numeric/unit_scale.h"
+#include "narrowphase/pairs/box_reach.h"
 
 namespace tact::narrowphase {
 
 /// Scales the longest side of a box to between 1 and 2.
-inline double unit_scale_of(const Box& box) {
-  const Vec3 size = box.upper - box.lower;
-  return unit_scale(std::max({size.x, size.y, size.z}));
-}
+inline double unit_scale_of(const Box& box) { return unit_scale(longest_side(box)); }
 
 struct ScaledMesh {
   const ClusteredMesh& mesh;

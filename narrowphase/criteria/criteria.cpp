@@ -5,15 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "narrowphase/mesh/chosen_groups.h"
-#include "narrowphase/mesh/prefetch.h"
-
 namespace tact::narrowphase {
 
 namespace {
-
-// The facets of so many clusters, some 1.5 kB each, are prefetched; to prefetch more costs more than it saves.
-constexpr std::size_t kMostPrefetched = 64;
 
 Criteria make_criteria(const Slab& slab, Vec3 outward, double plane, const ImpactZone* other_zone, bool facing_away) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -37,9 +31,9 @@ Criteria make_criteria(const Slab& slab, Vec3 outward, double plane, const Impac
   return criteria;
 }
 
-CullPlanes cull_planes(const Criteria& criteria, const Box& box) {
+HeightAxis height_axis(const Criteria& criteria) {
   const Vec3 n = criteria.outward, o = criteria.origin;
-  return {.axis = {n.x, n.y, n.z, o.x, o.y, o.z}, .lowest = criteria.lowest, .box = bounds_of(box)};
+  return {n.x, n.y, n.z, o.x, o.y, o.z};
 }
 
 std::uint64_t lowest_bits(int count) { return count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1; }
@@ -104,51 +98,13 @@ Criteria criteria_for_b(const Slab& slab, const ImpactZone* zone_a, bool facing_
 }
 
 void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Box& other, KeptClusters& kept) {
-  const CullPlanes planes = cull_planes(criteria, other);
-  const auto meeting = [&](int begin, int count, std::int32_t* chosen) {
-    return kernels().select_overlapping(mesh.group_boxes().pointers(begin), count, planes.box, chosen);
-  };
-  kept.cluster.clear();
-  kept.outside_slab = 0;
-  for_chosen_groups(mesh, meeting, [&](int group) {
-    const int begin = mesh.cluster_begin(group), count = mesh.cluster_end(group) - begin;
-    std::int32_t chosen[kGroupSize];
-    const Culled culled = kernels().cull_boxes(mesh.cluster_boxes().pointers(begin), count, planes, chosen);
-    for (int i = 0; i < culled.left; ++i) kept.cluster.push_back(begin + chosen[i]);
-    kept.outside_slab += culled.low;
-  });
-  kept.boxes.resize(kept.cluster.size());
-  Box bounds;
-  for (std::size_t i = 0; i < kept.cluster.size(); ++i) {
-    const Box box = mesh.cluster_boxes()[kept.cluster[i]];
-    kept.boxes.set(i, box);
-    bounds = merged(bounds, intersection(box, other));
-  }
-  kept.bounds = bounds;
-}
-
-void prefetch_facets(const ClusteredMesh& mesh, const KeptClusters& kept) {
-  if (kept.cluster.size() > kMostPrefetched) return;
-  for (const std::int32_t cluster : kept.cluster) prefetch_facets(mesh, cluster);
-}
-
-void cull_again(const Box& other, KeptClusters& kept) {
-  std::size_t found = 0;
-  Box bounds;
-  for (std::size_t i = 0; i < kept.cluster.size(); ++i) {
-    const Box box = kept.boxes[i];
-    if (!overlaps(box, other)) continue;
-    bounds = merged(bounds, intersection(box, other));
-    kept.cluster[found] = kept.cluster[i];
-    kept.boxes.set(found++, box);
-  }
-  kept.bounds = bounds;
-  kept.cluster.resize(found);
+  const LeastHeight plane{.axis = height_axis(criteria), .lowest = criteria.lowest};
+  keep_clusters({.mesh = &mesh, .least_height = &plane}, 0.0, other, kept);
 }
 
 bool append_facets(const ClusteredMesh& mesh, int cluster, const Criteria& criteria, const Box& other, KeptFacets& kept,
                    CullCounts& counts) {
-  const CullPlanes planes = cull_planes(criteria, other);
+  const CullPlanes planes{.axis = height_axis(criteria), .lowest = criteria.lowest, .box = bounds_of(other)};
   const ClusterFacets facets = mesh.facets_of(cluster);
   const int before = kept.block.count;
   const Culled opened = kernels().open_cluster(facets, planes, &kept.block);

@@ -14,9 +14,9 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "narrowphase/criteria/impact_zone.h"
+#include "narrowphase/pairs/kept_clusters.h"
 
 namespace tact::narrowphase {
 
@@ -45,27 +45,13 @@ struct CullCounts {
   CullCounts& operator+=(const CullCounts& one);
 };
 
-// The clusters of a body that can hold a touching facet, ascending, with their boxes.
-struct KeptClusters {
-  std::vector<std::int32_t> cluster;
-  BoxArrays boxes;                // of the clusters in this list, in its order
-  Box bounds;                     // of all of them, clipped to what they were held against
-  std::int64_t outside_slab = 0;  // clusters that criterion 2 dropped
-
-  int count() const { return static_cast<int>(cluster.size()); }
-};
-
 // The criteria for A and for B. `zone_a` and `zone_b` may be null: criterion 3 is then not applied.
 Criteria criteria_for_a(const Slab& slab, const ImpactZone* zone_b, bool facing_away);
 Criteria criteria_for_b(const Slab& slab, const ImpactZone* zone_a, bool facing_away);
 
-// The clusters of `mesh` that reach up to the other's plane and whose box meets `other`. Replaces the contents of
-// `kept`.
+// The clusters of `mesh` that reach up to the other's plane, the others being too low, and whose box meets `other`.
+// Replaces the contents of `kept`.
 void cull_clusters(const ClusteredMesh& mesh, const Criteria& criteria, const Box& other, KeptClusters& kept);
-// Prefetches the facets of the kept clusters.
-void prefetch_facets(const ClusteredMesh& mesh, const KeptClusters& kept);
-// Drops from `kept` the clusters whose box misses `other`.
-void cull_again(const Box& other, KeptClusters& kept);
 
 // Facets that may touch, of one or more clusters.
 struct KeptFacets {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "narrowphase/mesh/cluster_search.h"
+#include "narrowphase/pairs/box_reach.h"
 
 namespace tact::narrowphase {
 
@@ -16,13 +17,6 @@ constexpr unsigned kBelow = 1u << 6, kAbove = 1u << 7;
 // which the edge meets the facet's plane is wrong by some 2^-50 of the facet's size times the square of the inverse of
 // the sine, which is 2^-17 of the edge.
 constexpr double kSine = 0x1p-10, kLongest = 0x1p13;
-
-double largest_coordinate(const Box& box) {
-  double largest = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-    largest = std::max({largest, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
-  return largest;
-}
 
 }  // namespace
 

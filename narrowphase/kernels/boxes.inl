@@ -55,13 +55,21 @@ struct BoxPack {
       upper[axis] = spread(box.upper[axis]);
     }
   }
-  unsigned overlap(const double* const* low, const double* const* high, int i) const {
-    Mask all = both(less_equal(load(low[0] + i), upper[0]), less_equal(lower[0], load(high[0] + i)));
-    for (int axis = 1; axis < 3; ++axis) {
-      all =
-          both(all, both(less_equal(load(low[axis] + i), upper[axis]), less_equal(lower[axis], load(high[axis] + i))));
-    }
-    return bits(all);
+  Mask overlap(int axis, Pack low, Pack high) const {
+    return both(less_equal(low, upper[axis]), less_equal(lower[axis], high));
+  }
+  unsigned overlap(const BoxPointers& boxes, int i) const {
+    const auto along = [&](int axis) {
+      return overlap(axis, load(boxes.lower[axis] + i), load(boxes.upper[axis] + i));
+    };
+    return bits(both(both(along(0), along(1)), along(2)));
+  }
+  unsigned overlap_swept(const BoxPointers& begin, const BoxPointers& end, int i) const {
+    const auto along = [&](int axis) {
+      return overlap(axis, min(load(begin.lower[axis] + i), load(end.lower[axis] + i)),
+                     max(load(begin.upper[axis] + i), load(end.upper[axis] + i)));
+    };
+    return bits(both(both(along(0), along(1)), along(2)));
   }
 };
 
@@ -69,8 +77,17 @@ int select_overlapping(const BoxPointers& boxes, int count, const BoxBounds& box
   const BoxPack pack(box);
   int found = 0;
   for (int i = 0; i < count; i += kWidth) {
-    found = append(pack.overlap(boxes.lower, boxes.upper, i) & lanes_left(count - i), i, indices, found);
+    found = append(pack.overlap(boxes, i) & lanes_left(count - i), i, indices, found);
   }
+  return found;
+}
+
+int select_swept(const BoxPointers& begin, const BoxPointers& end, int count, const BoxBounds& box,
+                 std::int32_t* indices) {
+  const BoxPack pack(box);
+  int found = 0;
+  for (int i = 0; i < count; i += kWidth)
+    found = append(pack.overlap_swept(begin, end, i) & lanes_left(count - i), i, indices, found);
   return found;
 }
 
@@ -83,7 +100,7 @@ Culled cull_boxes(const BoxPointers& boxes, int count, const CullPlanes& planes,
                                 far_corner(planes.axis.nz, 2)};
   Culled culled{0, 0};
   for (int i = 0; i < count; i += kWidth) {
-    const unsigned meeting = box.overlap(boxes.lower, boxes.upper, i) & lanes_left(count - i);
+    const unsigned meeting = box.overlap(boxes, i) & lanes_left(count - i);
     const unsigned low = meeting & bits(less(height(far_corners, i), lowest));
     culled.left = append(meeting & ~low, i, indices, culled.left);
     culled.low += __builtin_popcount(low);

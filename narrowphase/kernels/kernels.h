@@ -43,6 +43,9 @@ struct Kernels {
 
   // Writes the indices i < count of boxes that overlap `box` (closed), ascending; returns how many.
   int (*select_overlapping)(const BoxPointers& boxes, int count, const BoxBounds& box, std::int32_t* indices);
+  // The same of boxes that move straight from `begin` to `end`: those that overlap the box of all that one passes.
+  int (*select_swept)(const BoxPointers& begin, const BoxPointers& end, int count, const BoxBounds& box,
+                      std::int32_t* indices);
   // The same of boxes that the planes leave. A box that misses that of the planes does not count as too low.
   Culled (*cull_boxes)(const BoxPointers& boxes, int count, const CullPlanes& planes, std::int32_t* indices);
 

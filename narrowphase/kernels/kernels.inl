@@ -33,6 +33,7 @@ constexpr Kernels all_kernels(const char* name) {
           .select_heights = select_heights,
           .highest_point = highest_point,
           .select_overlapping = select_overlapping,
+          .select_swept = select_swept,
           .cull_boxes = cull_boxes,
           .open_cluster = open_cluster,
           .open_whole = open_whole,

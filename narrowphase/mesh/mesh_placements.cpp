@@ -13,7 +13,10 @@ MeshPlacements::MeshPlacements(double* const (&memory)[2], const MeshCounts& cou
       before_(memory[1]) {}
 
 Placement MeshPlacements::in(const double* memory) const {
-  return {{memory, memory + stride_, memory + 2 * stride_}, cluster_boxes_in(memory), box_in(memory)};
+  return {{memory, memory + stride_, memory + 2 * stride_},
+          cluster_boxes_in(memory),
+          group_boxes_in(memory),
+          box_in(memory)};
 }
 
 void MeshPlacements::keep_before(double* memory) const { std::copy_n(before_, used(), memory); }

@@ -14,7 +14,8 @@ namespace tact::narrowphase {
 struct Placement {
   PointArrays points{};
   BoxView cluster_boxes;
-  Box box;  ///< of all facets; empty if there is none
+  BoxView group_boxes;  ///< if there are several groups
+  Box box;              ///< of all facets; empty if there is none
 };
 
 class MeshPlacements {

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
 
 #include "engine/base/parallel.h"
 #include "narrowphase/numeric/unit_scale.h"
+#include "narrowphase/pairs/box_reach.h"
+#include "narrowphase/pairs/open_clusters.h"
 
 namespace tact::narrowphase {
 
@@ -28,10 +31,8 @@ struct Cut {
 
 // A cluster that stays open: where its vertices are at time 0 and 1, owned ones first. All lengths here are scaled.
 struct MovingCluster {
-  const ClusteredMesh* mesh = nullptr;
   int cluster = -1;
-  Box box;        // on the way
-  Box at_end[2];  // at time 0 and 1
+  Box box_at[2];  // at time 0 and 1
   int vertex_count = 0;
   double at[2][3][kMostVertices];  // time, axis
   VertexWays ways;                 // as far as asked for last; of no vertex: never asked for
@@ -39,25 +40,22 @@ struct MovingCluster {
 
   // On the way up to a time.
   Box box_until(double time) const {
-    if (time == 1.0) return box;
-    const auto at_time = [&](Vec3 begin, Vec3 end) { return begin + time * (end - begin); };
-    return merged(at_end[0], {at_time(at_end[0].lower, at_end[1].lower), at_time(at_end[0].upper, at_end[1].upper)});
+    const auto& [begin, end] = box_at;
+    if (time == 1.0) return merged(begin, end);
+    return merged(begin,
+                  {begin.lower + time * (end.lower - begin.lower), begin.upper + time * (end.upper - begin.upper)});
   }
 };
 
 void open(const MovingMesh& m, int cluster, double scale, MovingCluster& opened) {
   const ClusterFacets facets = m.mesh->facets_of(cluster);
-  opened.mesh = m.mesh;
   opened.cluster = cluster;
-  const Box box = m.cluster_box(cluster);
-  opened.box = {scale * box.lower, scale * box.upper};
-  const auto c = static_cast<std::size_t>(cluster);
-  const Box begin = m.begin.cluster_boxes[c], end = m.mesh->cluster_boxes()[c];
-  opened.at_end[0] = {scale * begin.lower, scale * begin.upper};
-  opened.at_end[1] = {scale * end.lower, scale * end.upper};
   opened.vertex_count = facets.owned_count + facets.borrowed_count;
   const PointArrays points[2] = {m.begin.points, facets.points};
+  const BoxView boxes[2] = {m.begin.cluster_boxes, m.mesh->cluster_boxes()};
   for (int time = 0; time < 2; ++time) {
+    const Box box = boxes[time][cluster];
+    opened.box_at[time] = {scale * box.lower, scale * box.upper};
     const double* const from[3] = {points[time].x, points[time].y, points[time].z};
     for (int axis = 0; axis < 3; ++axis) {
       double* const to = opened.at[time][axis];
@@ -94,7 +92,7 @@ struct NearFeatures {
   FeatureWays vertices, edges, facets;
   int vertex_begin = 0, edge_begin = 0, facet_begin = 0;  // the first of the cluster in the mesh
 
-  // Is there any? Where no facet is near, no vertex nor edge of one is.
+  // False if there are none: where no facet is near, no vertex nor edge of one is.
   bool take(const MovingMesh& m, MovingCluster& from, const Cut& cut, const Box& near);
 
  private:
@@ -125,13 +123,6 @@ bool NearFeatures::take(const MovingMesh& m, MovingCluster& from, const Cut& cut
   return true;
 }
 
-double largest_coordinate(const Box& box) {
-  double largest = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-    largest = std::max({largest, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
-  return largest;
-}
-
 // Grown so far that no rounding of a sum with `reach` matters.
 Box grown_generously(const Box& box, double reach) {
   return reach == 0.0 ? box : base::grown(box, reach + 0x1p-50 * (largest_coordinate(box) + reach));
@@ -146,27 +137,19 @@ struct Waiting {
   } pair[MovingPolygons::kCapacity];
 };
 
-constexpr std::size_t kOpened = 16;  // clusters of each side that stay open: they come soon again
+// Clusters of a mesh that stay open, 22 kB each.
+struct OpenMesh {
+  const ClusteredMesh* mesh = nullptr;
+  OpenClusters<MovingCluster, 16> clusters;
 
-// Clusters that stay open until others take their place.
-class OpenClusters {
- public:
-  void close() {
-    for (MovingCluster& one : clusters_) one.mesh = nullptr;
+  void begin(const ClusteredMesh* next) {
+    if (std::exchange(mesh, next) != next) clusters.close();
   }
-  MovingCluster& get(const MovingMesh& m, int cluster, double scale) {
-    MovingCluster& one = clusters_[static_cast<std::size_t>(cluster) % kOpened];
-    if (one.mesh != m.mesh || one.cluster != cluster) open(m, cluster, scale, one);
-    return one;
-  }
-
- private:
-  MovingCluster clusters_[kOpened];
 };
 
 struct SearchMemory {
   double scale = 1.0;  // to lengths of at most 2
-  OpenClusters a, b;
+  OpenMesh a, b;
   NearFeatures near_a, near_b;
   Waiting facets, edges;
   MeetingSearch meeting;
@@ -186,6 +169,8 @@ class ImpactSearch {
         found_(found),
         counts_(counts) {
     scale_ = memory.scale;
+    memory.a.begin(a.mesh);
+    memory.b.begin(b.mesh);
     scaled_reach_ = reach > 0.0 ? std::max(scale_ * reach, std::numeric_limits<double>::denorm_min()) : 0.0;
     memory.facets.polygons.corners = 3;
     memory.edges.polygons.corners = 4;
@@ -193,9 +178,9 @@ class ImpactSearch {
   }
 
   void search(const ClusterPair& pair) {
-    MovingCluster &of_a = memory_.a.get(a_, pair.a, scale_), &of_b = memory_.b.get(b_, pair.b, scale_);
+    MovingCluster &of_a = opened(a_, pair.a, memory_.a), &of_b = opened(b_, pair.b, memory_.b);
     NearFeatures &a = memory_.near_a, &b = memory_.near_b;
-    const Cut cut = cut_of(merged(of_a.box, of_b.box));
+    const Cut cut = cut_of(merged(of_a.box_until(1.0), of_b.box_until(1.0)));
     const auto near = [&](const MovingCluster& cluster) {
       return grown_generously(cluster.box_until(cut.until), scaled_reach_ + cut.wider);
     };
@@ -213,6 +198,10 @@ class ImpactSearch {
   }
 
  private:
+  MovingCluster& opened(const MovingMesh& m, int cluster, OpenMesh& memory) const {
+    return memory.clusters.get(cluster, [&](MovingCluster& one) { open(m, cluster, scale_, one); });
+  }
+
   template <class Visit>
   void for_each_near(const FeatureWays& ones, const FeatureWays& others, const Visit& visit) {
     if (others.count == 0) return;
@@ -282,8 +271,7 @@ class ImpactSearch {
     if (first_ == nullptr) return {};
     const double until = first_->load(std::memory_order_relaxed) + kEarlier;
     if (!(until < 1.0)) return {};
-    const Vec3 size = all.upper - all.lower;
-    return {until, kNearly * std::max({size.x, size.y, size.z}) + 0x1p-50 * largest_coordinate(all)};
+    return {until, kNearly * longest_side(all) + 0x1p-50 * largest_coordinate(all)};
   }
 
   void added(Waiting& waiting) {
@@ -356,8 +344,7 @@ double earliest_time(const MovingMesh& a, int cluster_a, const MovingMesh& b, in
   };
   const auto box_a = boxes(a, cluster_a), box_b = boxes(b, cluster_b);
   const Box all = merged(merged(box_a[0], box_a[1]), merged(box_b[0], box_b[1]));
-  const Vec3 size = all.upper - all.lower;
-  const double nearly = kNearly * std::max({size.x, size.y, size.z}) + reach;
+  const double nearly = kNearly * longest_side(all) + reach;
   double latest = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool a_is_lower : {true, false}) {
@@ -375,13 +362,6 @@ double earliest_time(const MovingMesh& a, int cluster_a, const MovingMesh& b, in
   return std::max(latest - kEarlier, 0.0);
 }
 
-std::span<const ClusterPair> PassingClusters::find(const MovingMesh& a, const MovingMesh& b, double reach,
-                                                   const base::Tuning& tuning, EmbreeDevice& device) {
-  return finder_.find(
-      *a.mesh, [&](int c) { return base::grown(a.cluster_box(c), reach); },  //
-      *b.mesh, [&](int c) { return b.cluster_box(c); }, b.box(), tuning, device);
-}
-
 struct ImpactFinder::Memory : SearchMemory {};
 
 ImpactFinder::ImpactFinder() : memory_(std::make_unique<Memory>()) {}
@@ -390,10 +370,9 @@ ImpactFinder::ImpactFinder(ImpactFinder&&) noexcept = default;
 ImpactFinder& ImpactFinder::operator=(ImpactFinder&&) noexcept = default;
 
 void ImpactFinder::begin(const Box& all) {
-  const Vec3 size = all.upper - all.lower;
-  memory_->scale = unit_scale(std::max({size.x, size.y, size.z}));
-  memory_->a.close();
-  memory_->b.close();
+  memory_->scale = unit_scale(longest_side(all));
+  memory_->a.begin(nullptr);
+  memory_->b.begin(nullptr);
 }
 
 void ImpactFinder::run(const MovingMesh& a, const MovingMesh& b, double reach, std::span<const ClusterPair> pairs,

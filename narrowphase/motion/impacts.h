@@ -14,7 +14,7 @@
 
 #include "narrowphase/mesh/features.h"
 #include "narrowphase/motion/meeting.h"
-#include "narrowphase/triangles/cluster_pairs.h"
+#include "narrowphase/pairs/cluster_pairs.h"
 
 namespace tact::narrowphase {
 
@@ -26,12 +26,8 @@ struct MovingMesh {
 
   Vec3 begin_of(int vertex) const { return {begin.points.x[vertex], begin.points.y[vertex], begin.points.z[vertex]}; }
   MovingVertex vertex(int v) const { return {{begin_of(v), mesh->position(v)}}; }
-  /// The box of all places that it, or a cluster, passes.
-  Box box() const { return merged(begin.box, mesh->box()); }
-  Box cluster_box(int cluster) const {
-    const auto c = static_cast<std::size_t>(cluster);
-    return merged(begin.cluster_boxes[c], mesh->cluster_boxes()[c]);
-  }
+  /// Of all places that its clusters pass; valid as long as this is.
+  ClusterBoxes boxes() const { return {.mesh = mesh, .begin = &begin}; }
 };
 
 /// Two features that meet. Vertices have the caller's numbers: those of an edge ascend, those of a facet stand in its
@@ -65,16 +61,6 @@ struct MotionCounts {
 /// metres. Their boxes go straight: the time at which these come within reach of each other, less what rounding and the
 /// search for a meeting may make an impact earlier (meeting.h).
 double earliest_time(const MovingMesh& a, int cluster_a, const MovingMesh& b, int cluster_b, double reach);
-
-/// The cluster pairs of two meshes, or of one twice, that come within `reach` (metres) of each other on their ways.
-class PassingClusters {
- public:
-  std::span<const ClusterPair> find(const MovingMesh& a, const MovingMesh& b, double reach, const base::Tuning& tuning,
-                                    EmbreeDevice& device);
-
- private:
-  ClusterPairFinder finder_;
-};
 
 /// One for each thread; its memory is reused.
 class ImpactFinder {

@@ -16,18 +16,16 @@ constexpr std::size_t kAtATime = 64;
 void SelfClusters::find(const SelfMesh& self, double reach, const base::Tuning& tuning, int threads,
                         EmbreeDevice& device) {
   const ClusteredMesh& mesh = *self.featured.mesh;
-  const auto box_of = [&](int c) { return mesh.cluster_boxes()[c]; };
+  const BoxView boxes = mesh.cluster_boxes();
   const bool wants_points = reach > 0.0;
-  const std::span<const ClusterPair> near =
-      wants_points ? near_.find(self.featured, self.featured, reach, tuning, device)
-                   : overlapping_.find(mesh, box_of, mesh, box_of, mesh.box(), tuning, device);
+  const std::span<const ClusterPair> near = finder_.find({.mesh = &mesh}, {.mesh = &mesh}, reach, tuning, device);
   judge(self, near, wants_points ? SelfVerdict::never_contact : SelfVerdict::never_meet, threads);
   may_meet_.clear();
   may_contact_.clear();
   for (std::size_t i = 0; i < near.size(); ++i) {
     const ClusterPair& pair = near[i];
     if (wants_points && verdicts_[i] != SelfVerdict::never_contact) may_contact_.push_back(pair);
-    if (verdicts_[i] == SelfVerdict::open && overlaps(box_of(pair.a), box_of(pair.b))) may_meet_.push_back(pair);
+    if (verdicts_[i] == SelfVerdict::open && overlaps(boxes[pair.a], boxes[pair.b])) may_meet_.push_back(pair);
   }
 }
 

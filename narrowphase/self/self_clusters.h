@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "narrowphase/contact_points/contact_points.h"
+#include "narrowphase/pairs/cluster_pairs.h"
 #include "narrowphase/self/smooth_patches.h"
-#include "narrowphase/triangles/cluster_pairs.h"
 
 namespace tact::narrowphase {
 
@@ -20,7 +20,7 @@ struct SelfMesh {
 /// is nothing to find. The smaller cluster comes first; each cluster with itself is a pair, too. Memory is used again.
 class SelfClusters {
  public:
-  /// `reach` in metres; zero: no contact points are wanted. Errors: those of find_cluster_pairs().
+  /// `reach` in metres; zero: no contact points are wanted. Errors: those of ClusterPairFinder::find().
   void find(const SelfMesh& self, double reach, const base::Tuning& tuning, int threads, EmbreeDevice& device);
 
   /// Those whose boxes overlap and whose facets may meet. Sorted, as those below.
@@ -35,8 +35,7 @@ class SelfClusters {
   SelfVerdict from_centers(const ClusterNeighbors& neighbors, const ClusterPair& pair) const;
   void judge(const SelfMesh& self, std::span<const ClusterPair> near, SelfVerdict wanted, int threads);
 
-  ClusterPairFinder overlapping_;
-  NearClusters near_;
+  ClusterPairFinder finder_;
   SmoothPatches patches_;
   std::vector<SmoothPatches::Judge> judges_;  // a thread each
   std::vector<SelfVerdict> verdicts_;         // of the near pairs

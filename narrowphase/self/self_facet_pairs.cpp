@@ -4,6 +4,8 @@
 #include <bit>
 #include <utility>
 
+#include "narrowphase/pairs/open_clusters.h"
+
 namespace tact::narrowphase {
 
 namespace {
@@ -92,20 +94,10 @@ bool exclude_sharing(OpenFacets& a, const Places& places_in_a, OpenFacets& b, st
 struct SelfFacetSearch::Memory {
   // Clusters that stay open, 14 kB each, of which 8 are used: neighbours come soon again. With 32 the rolled sheet of
   // 13 k took 1.22 ms instead of 1.17, with 128 as much.
-  static constexpr std::size_t kOpened = 64;
-  OpenFacets opened[kOpened + 1];    // and one that would have the place of the other of a pair
-  int cluster_in[kOpened + 1] = {};  // which one is there; beside them, as to ask for it should read nothing of them
-  Places places;                     // in the first cluster of a pair
+  OpenClusters<OpenFacets, 64> opened;
+  Places places;  // in the first cluster of a pair
   std::uint64_t excluded[kClusterSize];
   BlockPair blocks;
-
-  // In any place but that of `other`.
-  OpenFacets& open(const ClusteredMesh& mesh, int cluster, const Grid& grid, const OpenFacets* other) {
-    std::size_t place = static_cast<std::size_t>(cluster) % kOpened;
-    if (&opened[place] == other) place = kOpened;
-    if (std::exchange(cluster_in[place], cluster) != cluster) opened[place].open(mesh, cluster, grid);
-    return opened[place];
-  }
 };
 
 SelfFacetSearch::SelfFacetSearch() : memory_(std::make_unique<Memory>()) {}
@@ -117,16 +109,20 @@ void SelfFacetSearch::run(const ClusteredMesh& mesh, std::span<const ClusterPair
                           std::vector<FacetPair>& found) {
   Memory& m = *memory_;
   const Grid grid = grid_over(bounds_of(mesh.box()), kLastCell);
-  std::ranges::fill(m.cluster_in, -1);
+  m.opened.close();
+  const auto open = [&](int cluster, const OpenFacets* beside) -> OpenFacets& {
+    return m.opened.get(
+        cluster, [&](OpenFacets& one) { one.open(mesh, cluster, grid); }, beside);
+  };
   OpenFacets* first = nullptr;
   int first_cluster = -1;
   ConfirmCounts counts;
   for (const ClusterPair& pair : pairs) {
     if (std::exchange(first_cluster, pair.a) != pair.a) {
-      first = &m.open(mesh, pair.a, grid, nullptr);
+      first = &open(pair.a, nullptr);
       m.places.choose(*first, mesh.vertex_count());
     }
-    OpenFacets &a = *first, &b = pair.b == pair.a ? a : m.open(mesh, pair.b, grid, first);
+    OpenFacets &a = *first, &b = pair.b == pair.a ? a : open(pair.b, first);
     const Box box_a = mesh.cluster_boxes()[pair.a], box_b = mesh.cluster_boxes()[pair.b];
     const CellBox common = cells_of(grid, bounds_of(intersection(box_a, box_b)));
     const std::uint64_t near_a = kernels().near_facets(a.block.cells, a.facets, common),

@@ -7,8 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "narrowphase/mesh/clustered_mesh.h"
+#include "narrowphase/pairs/cluster_pair.h"
 #include "narrowphase/triangles/block_pair.h"
-#include "narrowphase/triangles/cluster_pairs.h"
 
 namespace tact::narrowphase {
 

@@ -47,8 +47,8 @@
 #include <array>
 #include <vector>
 
+#include "narrowphase/pairs/cluster_pair.h"
 #include "narrowphase/self/cluster_neighbors.h"
-#include "narrowphase/triangles/cluster_pairs.h"
 
 namespace tact::narrowphase {
 

@@ -1,16 +1,10 @@
 #include "narrowphase/triangles/confirm.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace tact::narrowphase {
 
 namespace {
-
-// Pairs of boxes, up to which all are compared, at half a nanosecond to one each; of more, runs of boxes first, which
-// of 8,000 boxes and 1,300 leaves 0.3 ms where a tree over the boxes themselves took 1.1 (tact-bench rivals, drape 606
-// k).
-constexpr std::size_t kFewBoxPairs = 4096;
 
 // Two bodies are taken to lie on each other if one of them keeps a quarter of its clusters (tact-bench rivals: cloth
 // 13 k 1.2 times as fast, sheets in layers 2.5; but two of 500 k, in shallow overlap, 0.87) and a cluster has few
@@ -21,38 +15,6 @@ constexpr std::size_t kMostNeighbours = 16, kMostOfCoarser = 256;
 constexpr int kMostOfBody = 4;
 
 }  // namespace
-
-bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, const base::Tuning& tuning, EmbreeDevice& device,
-                        std::vector<ClusterPair>& pairs, ClusterPairWork& work, BoxPairs wanted) {
-  pairs.clear();
-  const std::size_t all = a.cluster.size() * b.cluster.size();
-  const bool forest = all > tuning.largest_loop;
-  if (all == 0) return false;
-  if (forest || all > kFewBoxPairs) {
-    work.join.run(a.boxes, a.count(), b.boxes, b.count(), forest ? RunJoin::Runs::forest : RunJoin::Runs::loop, wanted,
-                  device, pairs);
-    return forest;
-  }
-  std::vector<std::int32_t>& found = work.found;
-  found.resize(b.count());
-  for (std::int32_t i = 0; i < a.count(); ++i) {
-    const int first = wanted == BoxPairs::ascending ? std::min(i, b.count()) : 0;
-    const auto count = static_cast<std::size_t>(kernels().select_overlapping(
-        b.boxes.view().pointers(first), b.count() - first, a.boxes.bounds(static_cast<std::size_t>(i)), found.data()));
-    for (std::size_t k = 0; k < count; ++k) pairs.push_back({i, first + found[k]});
-  }
-  return false;
-}
-
-void turn(std::vector<ClusterPair>& pairs, int clusters, ClusterPairWork& work) {
-  std::vector<std::int32_t>& place = work.found;
-  place.assign(static_cast<std::size_t>(clusters) + 1, 0);
-  for (const ClusterPair& pair : pairs) ++place[static_cast<std::size_t>(pair.b) + 1];
-  std::partial_sum(place.begin(), place.end(), place.begin());
-  work.pairs.resize(pairs.size());
-  for (const ClusterPair& pair : pairs) work.pairs[place[pair.b]++] = {pair.b, pair.a};
-  std::swap(work.pairs, pairs);
-}
 
 bool worth_as_surfaces(const ConfirmInput& input, std::size_t cluster_pairs) {
   if (cluster_pairs < input.tuning->worth_as_surfaces) return false;

@@ -1,4 +1,4 @@
-// Which facets meet: cluster pairs, then facet pairs, then exact decisions on the doubles as they are.
+// Which facets of cluster pairs meet: facet pairs, then exact decisions on the doubles as they are.
 #pragma once
 
 #include <tact/facet_pair.h>
@@ -10,28 +10,10 @@
 #include "engine/base/tuning.h"
 #include "narrowphase/criteria/criteria.h"
 #include "narrowphase/triangles/block_pair.h"
-#include "narrowphase/triangles/cluster_forest.h"
 #include "narrowphase/triangles/confirm_input.h"
-#include "narrowphase/triangles/run_join.h"
 #include "narrowphase/triangles/surface_pairs.h"
 
 namespace tact::narrowphase {
-
-// Memory for finding cluster pairs, used again and again.
-struct ClusterPairWork {
-  std::vector<std::int32_t> found;
-  std::vector<ClusterPair> pairs;
-  RunJoin join;
-};
-
-// The pairs of kept clusters whose boxes overlap, sorted: by a loop over boxes where they are few, by Embree's trees
-// where they are many; of them those that are wanted. Says whether trees were used. `pairs` is replaced, `work` lends
-// its memory.
-bool find_cluster_pairs(const KeptClusters& a, const KeptClusters& b, const base::Tuning& tuning, EmbreeDevice& device,
-                        std::vector<ClusterPair>& pairs, ClusterPairWork& work, BoxPairs wanted = BoxPairs::all);
-
-// The same pairs with A and B exchanged, sorted again. There are `clusters` kept clusters of B.
-void turn(std::vector<ClusterPair>& pairs, int clusters, ClusterPairWork& work);
 
 // Do so many cluster pairs show that surfaces lie on each other? Where bodies meet in a small part, the criteria leave
 // few facets of each cluster.

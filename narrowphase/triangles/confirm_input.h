@@ -5,12 +5,13 @@
 
 #include "engine/base/tuning.h"
 #include "narrowphase/criteria/criteria.h"
+#include "narrowphase/pairs/cluster_pair.h"
 
 namespace tact::narrowphase {
 
 class SurfaceHistory;
 
-// Two bodies after the criteria.
+// Two bodies after the criteria. Of their cluster pairs each has indices into kept_a and kept_b.
 struct ConfirmInput {
   const ClusteredMesh* a = nullptr;
   const ClusteredMesh* b = nullptr;
@@ -20,12 +21,6 @@ struct ConfirmInput {
   bool as_surfaces = false;           // see surface_pairs.h; without criterion 1 and zones only
   SurfaceHistory* history = nullptr;  // of the pair, if it is kept: it has started
   const base::Tuning* tuning = &base::kTuning;
-};
-
-// A cluster of A and one of B whose boxes overlap: indices into kept_a and kept_b.
-struct ClusterPair {
-  std::int32_t a = 0;
-  std::int32_t b = 0;
 };
 
 // What the criteria did to a kept cluster that was opened.

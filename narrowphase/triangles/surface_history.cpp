@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "narrowphase/pairs/box_reach.h"
+
 namespace tact::narrowphase {
 
 namespace {
@@ -23,11 +25,7 @@ double side_of(const ClusteredMesh& mesh) {
   const int step = (mesh.cluster_count() + kMeasured - 1) / kMeasured;
   double sum = 0.0;
   int count = 0;
-  for (int c = 0; c < mesh.cluster_count(); c += step, ++count) {
-    const Box box = mesh.cluster_boxes()[c];
-    const Vec3 size = box.upper - box.lower;
-    sum += std::max({size.x, size.y, size.z});
-  }
+  for (int c = 0; c < mesh.cluster_count(); c += step, ++count) sum += longest_side(mesh.cluster_boxes()[c]);
   return sum / count;
 }
 

@@ -8,6 +8,7 @@
 
 #include "narrowphase/numeric/frame.h"
 #include "narrowphase/numeric/unit_scale.h"
+#include "narrowphase/pairs/box_reach.h"
 #include "narrowphase/triangles/surface_history.h"
 
 namespace tact::narrowphase {
@@ -92,9 +93,8 @@ OpenedCluster all_of(const ClusteredMesh& mesh, int cluster, std::int32_t index)
 void SurfacePairSearch::run(const ConfirmInput& input, const std::vector<ClusterPair>& pairs, std::size_t begin,
                             std::size_t end, std::vector<FacetPair>& found, ConfirmCounts& counts) {
   const Box all = merged(input.a->box(), input.b->box());
-  const Vec3 size = all.upper - all.lower;
   bounds_ = bounds_of(all);
-  scale_ = unit_scale(std::max({size.x, size.y, size.z}));
+  scale_ = unit_scale(longest_side(all));
   opened_a_.clear();
   opened_b_.clear();
   open_a_.count = open_b_.count = 0;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "narrowphase/triangles/embree.h"
+#include "narrowphase/pairs/embree.h"
 
 namespace tact::scenes {
 

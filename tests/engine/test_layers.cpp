@@ -92,7 +92,7 @@ TEST(Layers, IncludeOnlyWhatLiesBelow) {
   for (const Include& include : includes) {
     const std::string from = layer_of(include.file), to = layer_of(include.header);
     if (to.empty() || to == from) continue;
-    const bool draws_with_embree = from == "scenes" && include.header == "narrowphase/triangles/embree.h";
+    const bool draws_with_embree = from == "scenes" && include.header == "narrowphase/pairs/embree.h";
     EXPECT_TRUE(kMayInclude.at(from).contains(to) || draws_with_embree)
         << include.file << " includes " << include.header;
   }
@@ -133,7 +133,7 @@ TEST(Layers, OpenMpStandsInOneHeader) {
 }
 
 TEST(Layers, EmbreeIsKnownToTheNarrowPhaseAlone) {
-  const std::string header = "narrowphase/triangles/embree.h";
+  const std::string header = "narrowphase/pairs/embree.h";
   int found = 0;
   for (const Include& include : all_includes()) {
     if (!in_engine(include.file)) continue;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "narrowphase/triangles/embree.h"
+#include "narrowphase/pairs/embree.h"
 #include "tests/support/checks/detection.h"
 #include "tests/support/generators/bodies.h"
 

@@ -39,8 +39,8 @@ std::vector<FeaturePoint> points_between(const ClusteredMesh& a, const Clustered
   const Features features_a(a), features_b(b);
   const FeaturedMesh featured_a{&a, &features_a}, featured_b{&b, &a == &b ? &features_a : &features_b};
   EmbreeDevice device;
-  NearClusters near;
-  const std::span<const ClusterPair> pairs = near.find(featured_a, featured_b, reach, base::kTuning, device);
+  ClusterPairFinder near;
+  const std::span<const ClusterPair> pairs = near.find({.mesh = &a}, {.mesh = &b}, reach, base::kTuning, device);
   std::vector<FeaturePoint> found, together;
   ContactPointSearch search;
   search.run(featured_a, featured_b, reach, pairs, found);

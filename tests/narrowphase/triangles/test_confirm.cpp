@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "narrowphase/hull/minkowski_difference.h"
 #include "narrowphase/mesh/refit.h"
+#include "narrowphase/pairs/cluster_join.h"
 #include "narrowphase/triangles/confirm.h"
 #include "narrowphase/triangles/triangle_triangle.h"
 #include "tests/support/checks/tunings.h"
@@ -19,87 +19,6 @@ namespace {
 
 using tests::Mesh;
 using tests::Random;
-
-KeptClusters all_clusters(const ClusteredMesh& mesh) {
-  KeptClusters kept;
-  cull_clusters(mesh, {.outward = {0, 0, 1}, .lowest = -std::numeric_limits<double>::infinity()}, mesh.box(), kept);
-  return kept;
-}
-
-std::vector<std::pair<int, int>> as_pairs(const std::vector<ClusterPair>& pairs) {
-  std::vector<std::pair<int, int>> result;
-  for (const ClusterPair& p : pairs) result.emplace_back(p.a, p.b);
-  return result;
-}
-
-// In one group of clusters, in several, and in more than are looked at together.
-TEST(CullClusters, FindsTheClustersWhoseBoxMeets) {
-  Random random(31);
-  KeptClusters kept;
-  for (const int cells : {10, 100, 530}) {
-    const ClusteredMesh mesh = tests::clustered(tests::wrinkled_sheet(cells, 2.0, 0.3, 2));
-    std::size_t most = 0;
-    for (int k = 0; k < 100; ++k) {
-      const Vec3 corner{random.uniform(-1.2, 1.2), random.uniform(-1.2, 1.2), random.uniform(-0.3, 0.3)};
-      const double edge = k % 10 == 0 ? 3.0 : random.uniform(0.0, 0.5);
-      const Box box{corner, corner + Vec3{edge, edge, edge}};
-      cull_clusters(mesh, {.outward = {0, 0, 1}, .lowest = -std::numeric_limits<double>::infinity()}, box, kept);
-      std::vector<std::int32_t> expected;
-      for (std::int32_t c = 0; c < mesh.cluster_count(); ++c) {
-        if (overlaps(mesh.cluster_boxes()[c], box)) expected.push_back(c);
-      }
-      ASSERT_EQ(kept.cluster, expected) << cells << " cells, box " << k;
-      most = std::max(most, expected.size());
-    }
-    EXPECT_GT(3 * most, static_cast<std::size_t>(mesh.cluster_count()));
-  }
-}
-
-TEST(ClusterPairs, LoopAndForestAgree) {
-  ClusterPairWork scratch;
-  EmbreeDevice device;
-  for (const double offset : {0.0, 1e9}) {
-    const Mesh sheet = tests::translated(tests::wrinkled_sheet(200, 2.0, 0.3, 1), {offset, 0, 0});
-    const ClusteredMesh a = tests::clustered(sheet),
-                        b = tests::clustered(tests::translated(tests::icosphere(5, 0.8), {offset, 0, 0.1}));
-    const KeptClusters kept_a = all_clusters(a), kept_b = all_clusters(b);
-    std::vector<ClusterPair> loop, forest;
-    EXPECT_FALSE(find_cluster_pairs(kept_a, kept_b, tests::kPlain, device, loop, scratch));
-    EXPECT_TRUE(find_cluster_pairs(kept_a, kept_b, tests::kForced, device, forest, scratch));
-    EXPECT_GT(loop.size(), 100u);
-    EXPECT_EQ(as_pairs(loop), as_pairs(forest));
-  }
-}
-
-// Of a mesh with itself, of few clusters, in runs and by trees.
-TEST(ClusterPairs, AscendingOnesAreThoseOfAll) {
-  ClusterPairWork scratch;
-  EmbreeDevice device;
-  for (const int cells : {3, 40, 100, 200}) {
-    const ClusteredMesh mesh = tests::clustered(tests::wrinkled_sheet(cells, 2.0, 0.3, 1));
-    const KeptClusters kept = all_clusters(mesh);
-    for (const base::Tuning& tuning : {tests::kPlain, tests::kForced}) {
-      std::vector<ClusterPair> all, ascending;
-      find_cluster_pairs(kept, kept, tuning, device, all, scratch);
-      find_cluster_pairs(kept, kept, tuning, device, ascending, scratch, BoxPairs::ascending);
-      std::erase_if(all, [](const ClusterPair& pair) { return pair.b < pair.a; });
-      EXPECT_EQ(as_pairs(ascending), as_pairs(all)) << cells;
-      EXPECT_GE(ascending.size(), kept.cluster.size());
-    }
-  }
-}
-
-TEST(ClusterPairs, EmbreeIsNotStartedByALoop) {
-  ClusterPairWork scratch;
-  EmbreeDevice device;
-  const ClusteredMesh a = tests::clustered(tests::icosphere(3));
-  const KeptClusters kept = all_clusters(a);
-  std::vector<ClusterPair> pairs;
-  find_cluster_pairs(kept, kept, base::kTuning, device, pairs, scratch);
-  EXPECT_FALSE(device.started());
-  find_cluster_pairs(kept, kept, tests::kForced, device, pairs, scratch);
-  EXPECT_TRUE(device.started());
-}
 
 // Facet pairs through the criteria of `exact` along n, whether or not n is a contact direction. Reuses its memory.
 class ThroughCriteria {
@@ -122,8 +41,8 @@ class ThroughCriteria {
                        .tuning = &tuning};
     cull_clusters(a, input.criteria_a, b.box(), kept_a_);
     cull_clusters(b, input.criteria_b, kept_a_.bounds, kept_b_);
-    cull_again(kept_b_.bounds, kept_a_);
-    find_cluster_pairs(kept_a_, kept_b_, tuning, device_, pairs_, scratch_);
+    keep_again(kept_b_.bounds, kept_a_);
+    join_.run(kept_a_, kept_b_, BoxPairs::all, tuning, device_, pairs_);
     ConfirmCounts counts;
     search_.run(input, pairs_, 0, pairs_.size(), found_, counts);
     std::sort(found_.begin(), found_.end());
@@ -135,7 +54,7 @@ class ThroughCriteria {
   KeptClusters kept_a_, kept_b_;
   std::vector<Point2> points_;
   std::vector<ClusterPair> pairs_;
-  ClusterPairWork scratch_;
+  ClusterJoin join_;
   FacetPairSearch search_;
   std::vector<FacetPair> found_;
 };

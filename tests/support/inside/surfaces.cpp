@@ -12,7 +12,7 @@ const std::vector<FacetPair>& SurfaceSearch::operator()(const ClusteredMesh& a, 
   const Criteria all{.outward = {0, 0, 1}, .lowest = -std::numeric_limits<double>::infinity()};
   cull_clusters(a, all, b.box(), kept_a_);
   cull_clusters(b, all, kept_a_.bounds, kept_b_);
-  find_cluster_pairs(kept_a_, kept_b_, base::kTuning, device_, pairs_, work_);
+  join_.run(kept_a_, kept_b_, BoxPairs::all, base::kTuning, device_, pairs_);
   ConfirmInput input{.a = &a, .b = &b, .criteria_a = all, .criteria_b = all, .kept_a = &kept_a_, .kept_b = &kept_b_};
   input.as_surfaces = true;
   if (history != nullptr && history->start(input, pairs_)) input.history = history;

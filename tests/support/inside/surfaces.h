@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "narrowphase/pairs/cluster_join.h"
 #include "narrowphase/triangles/confirm.h"
 #include "narrowphase/triangles/surface_history.h"
 
@@ -24,7 +25,7 @@ class SurfaceSearch {
   narrowphase::EmbreeDevice device_;
   narrowphase::KeptClusters kept_a_, kept_b_;
   std::vector<narrowphase::ClusterPair> pairs_;
-  narrowphase::ClusterPairWork work_;
+  narrowphase::ClusterJoin join_;
   narrowphase::SurfacePairSearch search_;
   narrowphase::ConfirmCounts counts_;
   std::vector<FacetPair> found_;

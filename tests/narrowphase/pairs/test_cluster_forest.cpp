@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "narrowphase/triangles/cluster_forest.h"
-#include "narrowphase/triangles/embree.h"
+#include "narrowphase/pairs/cluster_forest.h"
+#include "narrowphase/pairs/embree.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 #include <sanitizer/lsan_interface.h>
@@ -42,11 +42,11 @@ BoxList random_boxes(int count, double size) {
 
 // Does a query with each box find what a loop finds?
 ::testing::AssertionResult finds_all_overlaps(const ClusterForest& forest, const BoxList& list) {
-  std::vector<std::int32_t> found;
+  std::vector<std::int32_t> stack, found;
   for (int i = 0; i < list.count; ++i) {
     const Box box = list.boxes[i];
     found.clear();
-    forest.query(box, found);
+    forest.query(box, stack, found);
     std::sort(found.begin(), found.end());
     std::vector<std::int32_t> expected;
     for (int k = 0; k < list.count; ++k) {

@@ -1,4 +1,4 @@
-#include "narrowphase/triangles/cluster_forest.h"
+#include "narrowphase/pairs/cluster_forest.h"
 
 #include <tact/error.h>
 
@@ -7,7 +7,8 @@
 #include <string>
 
 #include "narrowphase/numeric/unit_scale.h"
-#include "narrowphase/triangles/embree.h"
+#include "narrowphase/pairs/box_reach.h"
+#include "narrowphase/pairs/embree.h"
 
 namespace tact::narrowphase {
 
@@ -88,9 +89,8 @@ void ClusterForest::build(EmbreeDevice& device, BoxView boxes, int count) {
   nodes_.reserve(count);
   Box whole;
   for (int i = 0; i < count; ++i) whole = merged(whole, boxes[i]);
-  const Vec3 origin = 0.5 * whole.lower + 0.5 * whole.upper, size = whole.upper - whole.lower;
-  const double largest = std::max({size.x, size.y, size.z});
-  const double scale = unit_scale(largest);
+  const Vec3 origin = 0.5 * whole.lower + 0.5 * whole.upper;
+  const double scale = unit_scale(longest_side(whole));
   const auto embree = static_cast<RTCDevice>(device.get());
   Builder builder{*this};
   std::array<RTCBuildPrimitive, kBoxesPerTree> primitives;
@@ -163,21 +163,21 @@ std::int32_t ClusterForest::halve(int begin, int end) {
   return node;
 }
 
-void ClusterForest::query(const Box& box, std::vector<std::int32_t>& found) const {
-  stack_.clear();
+void ClusterForest::query(const Box& box, std::vector<std::int32_t>& stack, std::vector<std::int32_t>& found) const {
+  stack.clear();
   for (std::size_t i = 0; i < roots_.size(); ++i) {
-    if (overlaps(root_boxes_[i], box)) stack_.push_back(roots_[i]);
+    if (overlaps(root_boxes_[i], box)) stack.push_back(roots_[i]);
   }
-  while (!stack_.empty()) {
-    const std::int32_t child = stack_.back();
-    stack_.pop_back();
+  while (!stack.empty()) {
+    const std::int32_t child = stack.back();
+    stack.pop_back();
     if (child < 0) {
       found.push_back(~child);
       continue;
     }
     const Node& node = nodes_[child];
     for (int k = 0; k < 2; ++k) {
-      if (overlaps(node.box[k], box)) stack_.push_back(node.child[k]);
+      if (overlaps(node.box[k], box)) stack.push_back(node.child[k]);
     }
   }
 }

@@ -38,8 +38,8 @@ class ClusterForest {
   // A forest over boxes 0 <= i < count. Errors: backend_failure, out_of_memory.
   void build(EmbreeDevice& device, BoxView boxes, int count);
 
-  // Appends, in no particular order, the indices of the boxes that overlap `box`.
-  void query(const Box& box, std::vector<std::int32_t>& found) const;
+  // Appends, in no particular order, the indices of the boxes that overlap `box`. `stack` lends memory.
+  void query(const Box& box, std::vector<std::int32_t>& stack, std::vector<std::int32_t>& found) const;
 
  private:
   // An inner node has two children, each a node (>= 0) or a box (~index < 0), and the boxes of both.
@@ -53,7 +53,6 @@ class ClusterForest {
   std::vector<Node> nodes_;
   std::vector<std::int32_t> roots_;
   std::vector<Box> root_boxes_;
-  mutable std::vector<std::int32_t> stack_;
 };
 
 }  // namespace tact::narrowphase

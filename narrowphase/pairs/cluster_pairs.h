@@ -1,0 +1,53 @@
+// The one generator of what is near: the pairs of clusters of two meshes, or of one with itself, whose boxes overlap.
+// Boxes are those of the clusters where they are, grown by a reach, or swept along the ways of their vertices. Of each
+// mesh the clusters near the other are kept first (kept_clusters.h), then joined (cluster_join.h).
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "narrowphase/pairs/box_reach.h"
+#include "narrowphase/pairs/cluster_join.h"
+
+namespace tact::narrowphase {
+
+/// Its memory is used again: one for each thread, or one for each pair of meshes whose ranges threads share.
+class ClusterPairFinder {
+ public:
+  /// The pairs that come within `reach` (metres) of each other, sorted. Of one mesh, for which both boxes are the same,
+  /// each pair once, the smaller cluster first, each cluster with itself among them. Valid until the next call. Errors:
+  /// those of ClusterForest::build().
+  std::span<const ClusterPair> find(const ClusterBoxes& a, const ClusterBoxes& b, double reach,
+                                    const base::Tuning& tuning, EmbreeDevice& device) {
+    pairs_.clear();
+    find_range(0, begin(a, b, reach, tuning, device), memory_, pairs_);
+    return pairs_;
+  }
+
+  /// The same in ranges. begin() keeps what is near, after which `a` and `b` are not needed, and returns the number of
+  /// runs of which find_range() finds the pairs: each run is a few clusters of A. Not to be moved until the last range.
+  int begin(const ClusterBoxes& a, const ClusterBoxes& b, double reach, const base::Tuning& tuning,
+            EmbreeDevice& device) {
+    const Box box_a = a.box(), box_b = b.box();
+    keep_clusters(a, box_reach(reach, std::max(largest_coordinate(box_a), largest_coordinate(box_b))), box_b, kept_a_);
+    keep_clusters(b, 0.0, kept_a_.bounds, kept_b_);
+    return join_.begin(kept_a_, kept_b_, a.mesh == b.mesh ? BoxPairs::ascending : BoxPairs::all, tuning, device);
+  }
+  /// Appends the pairs of the runs begin <= r < end, sorted: those of one range after the other are those of find().
+  /// Many threads may call it at once, each with a memory of its own.
+  void find_range(int begin, int end, ClusterJoin::Memory& memory, std::vector<ClusterPair>& pairs) const {
+    const std::size_t before = pairs.size();
+    join_.find(begin, end, memory, pairs);
+    for (ClusterPair& pair : std::span(pairs).subspan(before))
+      pair = {kept_a_.cluster[pair.a], kept_b_.cluster[pair.b]};
+  }
+
+ private:
+  KeptClusters kept_a_, kept_b_;
+  ClusterJoin join_;
+  ClusterJoin::Memory memory_;
+  std::vector<ClusterPair> pairs_;
+};
+
+}  // namespace tact::narrowphase
