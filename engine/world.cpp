@@ -145,6 +145,7 @@ BodyId World::add_body(const BodyDefinition& definition) {
 }
 
 void World::remove_body(BodyId body) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.bodies.remove(body);
   i.observe([&](WorldObserver& observer) { observer.body_removed(body); });
@@ -194,18 +195,21 @@ void World::set_excluded(BodyId a, BodyId b, bool excluded) {
 }
 
 void World::set_motion(BodyId body, Motion motion) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.bodies.set_motion(body, motion);
   i.observe([&](WorldObserver& observer) { observer.motion_set(body, motion); });
 }
 
 void World::set_margin(BodyId body, double margin) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.bodies.set_margin(body, margin);
   i.observe([&](WorldObserver& observer) { observer.margin_set(body, margin); });
 }
 
 void World::set_self_contact(BodyId body, bool wanted) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.bodies.set_self_contact(body, wanted);
   i.observe([&](WorldObserver& observer) { observer.self_contact_set(body, wanted); });
@@ -402,6 +406,7 @@ void check_room(std::span<Number> room, std::size_t needed, const std::string& n
 }  // namespace
 
 void World::copy_positions(BodyId body, std::span<double> coordinates) const {
+  const base::FloatingPointMode mode;
   const Body& asked = implementation().bodies.at(body);
   check_room(coordinates, 3 * static_cast<std::size_t>(asked.mesh.source_vertex_count()), asked.name);
   std::ranges::fill(coordinates, std::numeric_limits<double>::quiet_NaN());
@@ -423,6 +428,7 @@ void World::copy_facets(BodyId body, std::span<int> corners) const {
 }
 
 Bounds World::bounds(BodyId body) const {
+  const base::FloatingPointMode mode;
   const Bodies& bodies = implementation().bodies;
   const base::Box box = bodies.exact_box(bodies.at(body).id.index);
   return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};

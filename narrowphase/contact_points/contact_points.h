@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "narrowphase/contact_points/nearest.h"
+#include "narrowphase/distance/nearest.h"
 #include "narrowphase/mesh/features.h"
 #include "narrowphase/triangles/cluster_pairs.h"
 

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "narrowphase/distance/edge_edge.h"
 #include "narrowphase/numeric/unit_scale.h"
 #include "narrowphase/queries/mesh_queries.h"
 
@@ -335,8 +336,9 @@ Vec3 CrossingSearch::facing_of_edges(int edge_a, int edge_b) const {
 
 bool CrossingSearch::passed_point(int edge_a, int edge_b, FeaturePoint& point) const {
   const ScaledMesh a = a_.scaled(scale_), b = b_.scaled(scale_);
-  const auto nearest = crossing_between_edges(ends_of(a, edge_a), a.around(a.features.opposite(edge_a)),
-                                              ends_of(b, edge_b), b.around(b.features.opposite(edge_b)), limit_);
+  const auto nearest =
+      nearest_between_edges(ends_of(a, edge_a), a.around(a.features.opposite(edge_a)), ends_of(b, edge_b),
+                            b.around(b.features.opposite(edge_b)), limit_, EdgeSide::passed);
   if (!nearest || dot(nearest->normal, facing_of_edges(edge_a, edge_b)) <= kFaces) return false;
   const EdgeVertices ends_a = source_ends(a_.mesh, edge_a), ends_b = source_ends(b_.mesh, edge_b);
   point = point_of_edges(*nearest, {ends_a[0], ends_a[1], -1}, {ends_b[0], ends_b[1], -1}, edge_a, edge_b,

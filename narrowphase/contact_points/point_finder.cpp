@@ -5,7 +5,9 @@
 #include <numbers>
 #include <utility>
 
-#include "narrowphase/contact_points/facet_border.h"
+#include "narrowphase/distance/edge_edge.h"
+#include "narrowphase/distance/facet_border.h"
+#include "narrowphase/distance/vertex_facet.h"
 
 namespace tact::narrowphase {
 

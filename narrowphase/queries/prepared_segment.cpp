@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "narrowphase/queries/nearest_weights.h"
+#include "narrowphase/distance/vertex_facet.h"
 
 namespace tact::narrowphase {
 

@@ -1,8 +1,9 @@
 #include "narrowphase/self/facets_around.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+
+#include "narrowphase/numeric/angle.h"
 
 namespace tact::narrowphase {
 
@@ -58,7 +59,7 @@ Vec3 NearestAround::normal_at(const ScaledMesh& mesh, const WayOut& way) const {
     }
     const Vec3 p = mesh.position(c[(k + 1) % 3]) - mesh.position(c[k]),
                q = mesh.position(c[(k + 2) % 3]) - mesh.position(c[k]);
-    sum = sum + std::atan2(norm(cross(p, q)), dot(p, q)) * normal;
+    sum = sum + angle_between(p, q) * normal;
   }
   return is_edge && at_edge == 1 ? Vec3{} : sum;
 }

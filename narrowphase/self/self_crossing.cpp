@@ -4,6 +4,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "narrowphase/distance/edge_edge.h"
 #include "narrowphase/numeric/unit_scale.h"
 
 namespace tact::narrowphase {
@@ -229,8 +230,8 @@ std::optional<FeaturePoint> SelfCrossing::passed_point(const EdgePair& edges) {
   const EdgeVertices e = m.features.edge(edges.first), f = m.features.edge(edges.second);
   if (share_a_vertex(e, f)) return {};
   const EdgeEnds at_e{m.position(e[0]), m.position(e[1])}, at_f{m.position(f[0]), m.position(f[1])};
-  const auto nearest = crossing_between_edges(at_e, m.around(m.features.opposite(edges.first)), at_f,
-                                              m.around(m.features.opposite(edges.second)), kAnywhere);
+  const auto nearest = nearest_between_edges(at_e, m.around(m.features.opposite(edges.first)), at_f,
+                                             m.around(m.features.opposite(edges.second)), kAnywhere, EdgeSide::passed);
   if (!nearest || nearest->distance <= kTouches || dot(nearest->normal, sides_of(edges)) <= kFaces) return {};
   const EdgeVertices a = source_ends(edges.first), b = source_ends(edges.second);
   if (nearest->distance > limit_ && !(dot(sides_.last_points().side(b, a), nearest->normal) > 0.0)) return {};

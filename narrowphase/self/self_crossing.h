@@ -26,8 +26,8 @@
 #include <span>
 #include <vector>
 
-#include "narrowphase/contact_points/surface_distance.h"
 #include "narrowphase/contact_points/vertex_places.h"
+#include "narrowphase/distance/surface_distance.h"
 #include "narrowphase/self/crossing_sides.h"
 #include "narrowphase/self/facets_around.h"
 
