@@ -121,8 +121,8 @@ std::vector<PairSet> pair_sets(bool quick) {
                [](StabilityRandom& r, std::vector<TestPair>& pairs) {
                  const double x = 0.25 * r.below(4), y = 0.25 * r.below(4);
                  const Eigen::Matrix3d turn = r.rotation();
-                 add_box_pairs(turned(box_shape({0, 0, 0}, {1, 1, 1}), turn),
-                               turned(box_shape({x, y, 1}, {x + 1, y + 1, 2}), turn), pairs);
+                 add_box_pairs(rotated(box_shape({0, 0, 0}, {1, 1, 1}), turn),
+                               rotated(box_shape({x, y, 1}, {x + 1, y + 1, 2}), turn), pairs);
                }),
       repeated("sheets in one plane", times,
                [](StabilityRandom& r, std::vector<TestPair>& pairs) {

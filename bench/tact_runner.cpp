@@ -39,7 +39,7 @@ TactRunner::TactRunner(const Workload& workload, const Settings& settings, Again
     ids_.push_back(world_.add_body({.positions = body.positions(0),
                                     .facets = body.facets,
                                     .surface = body.surface,
-                                    .motion = body.fixed() ? Motion::fixed : Motion::moving,
+                                    .motion = body.fixed() ? Motion::fixed : Motion::deformable,
                                     .mask = against == Against::self ? 0 : body.mask,
                                     .margin = margin,
                                     .self_contact = against == Against::self}));

@@ -108,7 +108,7 @@ void for_each_lane(std::uint32_t lanes, const Work& work) {
 void BlockTree::update(std::span<const Box> boxes, std::span<const std::uint32_t> changed,
                        std::span<const std::uint8_t> is_changed, int threads) {
   for (Level& level : levels_) std::fill(level.active.begin(), level.active.end(), std::uint16_t{0});
-  if (worn_out() || !keep_order(boxes, changed, threads)) start_afresh(boxes);
+  if (worn_out() || !keep_order(boxes, changed, threads)) start_from_scratch(boxes);
   const std::size_t first_new = place_arrivals(boxes, is_changed, threads);
   refit_upper_levels(first_new, threads);
 }
@@ -203,7 +203,7 @@ bool BlockTree::most_left(std::size_t weight) const {
 }
 
 // Takes all boxes out, in the order of their indices: reading them so is much faster than block by block.
-void BlockTree::start_afresh(std::span<const Box> boxes) {
+void BlockTree::start_from_scratch(std::span<const Box> boxes) {
   batches_.clear();
   resize_leaves(0);
   arriving_.clear();

@@ -66,7 +66,7 @@ class BlockTree {
   bool worn_out() const;
   bool keep_order(std::span<const Box> boxes, std::span<const std::uint32_t> changed, int threads);
   bool most_left(std::size_t weight) const;
-  void start_afresh(std::span<const Box> boxes);
+  void start_from_scratch(std::span<const Box> boxes);
   void collect_leavers(std::span<const Box> boxes);
   std::size_t place_arrivals(std::span<const Box> boxes, std::span<const std::uint8_t> is_changed, int threads);
   void absorb_last_batch();

@@ -7,12 +7,13 @@
 
 namespace tact {
 
-// Is `value` one of the names of its enumeration, the last of which is `last`? `what` is it of? Errors: bad_settings.
+// Refuses a `value` that its enumeration, the last name of which is `last`, does not have. `what` is the argument or
+// setting of that value. Errors: `code`.
 template <class Name>
-void check_name(Name value, Name last, const std::string& what) {
+void check_name(Name value, Name last, const std::string& what, ErrorCode code = ErrorCode::invalid_argument) {
   const int number = static_cast<int>(value);
   if (number >= 0 && number <= static_cast<int>(last)) return;
-  throw Error(ErrorCode::bad_settings, what + " is " + std::to_string(number) + ", which is none of its names");
+  throw Error(code, what + " is " + std::to_string(number) + ", an unknown value");
 }
 
 }  // namespace tact

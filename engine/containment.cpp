@@ -1,7 +1,7 @@
 #include "engine/containment.h"
 
 #include "engine/base/parallel.h"
-#include "narrowphase/contact_points/crossing.h"
+#include "narrowphase/crossing/pair_crossing.h"
 
 namespace tact {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <tuple>
 
@@ -16,8 +15,8 @@ namespace {
 
 using narrowphase::FeatureImpact;
 
-// What a thread takes at a time: a pair of clusters takes some microseconds, to find those of two small bodies one.
-constexpr std::size_t kClusterPairsAtATime = 16, kBodyPairsAtATime = 8;
+// Microseconds that a pair of clusters takes at least (tact-bench motion).
+constexpr std::size_t kCost = 2;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -96,60 +95,68 @@ void MotionStage::make_features(Bodies& bodies, int threads) {
   bodies.make_features(slots_, threads);
 }
 
+std::span<const narrowphase::ClusterPair> MotionStage::clusters_of(const Passing& passing) const {
+  return std::span(memory_[passing.thread].clusters).subspan(passing.begin, passing.end - passing.begin);
+}
+
 // Sorts the cluster pairs of a thread from `begin` on by the time from which they may meet, and leaves out those that
 // never do.
-void MotionStage::sort_by_time(const Passing& passing, const Bodies& bodies, std::size_t begin, Work& work) {
-  work.timed.clear();
-  for (const narrowphase::ClusterPair& pair : std::span(work.clusters).subspan(begin)) {
+void MotionStage::sort_by_time(const Passing& passing, const Bodies& bodies, std::size_t begin, Memory& memory) {
+  memory.timed.clear();
+  for (const narrowphase::ClusterPair& pair : std::span(memory.clusters).subspan(begin)) {
     const double earliest =
         narrowphase::earliest_time(bodies.moving(passing.a), pair.a, bodies.moving(passing.b), pair.b, passing.reach);
-    if (earliest <= 1.0) work.timed.push_back({earliest, pair});
+    if (earliest <= 1.0) memory.timed.push_back({earliest, pair});
   }
-  std::ranges::sort(work.timed, {}, [](const TimedPair& t) { return std::tuple(t.earliest, t.pair.a, t.pair.b); });
-  work.clusters.resize(begin);
-  for (const TimedPair& one : work.timed) work.clusters.push_back(one.pair);
+  std::ranges::sort(memory.timed, {}, [](const TimedPair& t) { return std::tuple(t.earliest, t.pair.a, t.pair.b); });
+  memory.clusters.resize(begin);
+  for (const TimedPair& one : memory.timed) memory.clusters.push_back(one.pair);
 }
 
 void MotionStage::find_clusters(const Bodies& bodies, int threads, Impacts wanted) {
-  work_.resize(threads);
-  for (Work& work : work_) {
-    work.clusters.clear();
-    work.cluster_pairs = 0;
+  memory_.resize(threads);
+  for (Memory& memory : memory_) {
+    memory.clusters.clear();
+    memory.cluster_pairs = 0;
   }
-  base::parallel_for(passing_.size(), kBodyPairsAtATime, threads, [&](std::size_t i, int thread) {
+  const auto facets_of = [&](std::size_t i) {
+    const Passing& one = passing_[i];
+    return std::min(bodies.in_slot(one.a).mesh.facet_count(), bodies.in_slot(one.b).mesh.facet_count());
+  };
+  const std::size_t grain = items_at_a_time(passing_.size(), threads, bodies.tuning(), facets_of);
+  base::parallel_for(passing_.size(), grain, threads, [&](std::size_t i, int thread) {
     Passing& one = passing_[i];
-    Work& work = work_[thread];
+    Memory& memory = memory_[thread];
     const auto pairs =
-        work.passing.find(bodies.moving(one.a), bodies.moving(one.b), one.reach, bodies.tuning(), device_);
-    const std::size_t begin = work.clusters.size();
-    work.clusters.insert(work.clusters.end(), pairs.begin(), pairs.end());
-    work.cluster_pairs += static_cast<std::int64_t>(pairs.size());
-    if (wanted != Impacts::all) sort_by_time(one, bodies, begin, work);
-    one.clusters = {static_cast<std::size_t>(thread), begin, work.clusters.size()};
+        memory.passing.find(bodies.moving(one.a), bodies.moving(one.b), one.reach, bodies.tuning(), device_);
+    const std::size_t begin = memory.clusters.size();
+    memory.clusters.insert(memory.clusters.end(), pairs.begin(), pairs.end());
+    memory.cluster_pairs += static_cast<std::int64_t>(pairs.size());
+    if (wanted != Impacts::all) sort_by_time(one, bodies, begin, memory);
+    one.thread = static_cast<std::size_t>(thread);
+    one.begin = begin;
+    one.end = memory.clusters.size();
   });
-  cut_into_parts(bodies, wanted);
+  cut_into_ranges(bodies, wanted);
 }
 
-// Where only the first impact counts, parts that may meet early are searched first: what is found leaves out most
-// others.
-void MotionStage::cut_into_parts(const Bodies& bodies, Impacts wanted) {
-  parts_.clear();
+// Into the smallest that are worth a thread: a pair takes far longer where something meets.
+void MotionStage::cut_into_ranges(const Bodies& bodies, Impacts wanted) {
+  const std::size_t at_a_time = std::max<std::size_t>(bodies.tuning().fewest_in_range / kCost, 1);
+  work_.begin();
   for (std::size_t i = 0; i < passing_.size(); ++i) {
     const Passing& one = passing_[i];
-    const Range& all = one.clusters;
-    for (std::size_t at = all.begin; at < all.end; at += kClusterPairsAtATime) {
-      double earliest = 0.0;
-      if (wanted != Impacts::all) {
-        const narrowphase::ClusterPair& first = work_[all.thread].clusters[at];
-        earliest = narrowphase::earliest_time(bodies.moving(one.a), first.a, bodies.moving(one.b), first.b, one.reach);
-      }
-      parts_.push_back({i, at, std::min(at + kClusterPairsAtATime, all.end), earliest});
+    const std::span<const narrowphase::ClusterPair> clusters = clusters_of(one);
+    std::size_t item = i;
+    const Work::Shared& shared = work_.put_aside(item, clusters, (clusters.size() + at_a_time - 1) / at_a_time);
+    if (wanted == Impacts::all) continue;
+    for (Work::Range& range : work_.ranges(shared)) {
+      if (range.begin == range.end) continue;
+      const narrowphase::ClusterPair& first = clusters[range.begin];
+      range.found.earliest =
+          narrowphase::earliest_time(bodies.moving(one.a), first.a, bodies.moving(one.b), first.b, one.reach);
     }
   }
-  order_.resize(parts_.size());
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  if (wanted != Impacts::all)
-    std::ranges::sort(order_, {}, [&](std::size_t i) { return std::pair(parts_[i].earliest, i); });
 }
 
 void MotionStage::search(const Bodies& bodies, int threads, Impacts wanted) {
@@ -158,40 +165,39 @@ void MotionStage::search(const Bodies& bodies, int threads, Impacts wanted) {
   for (std::size_t i = 0; i < firsts; ++i) first_[i] = kNever;
   base::Box all;
   for (const Passing& one : passing_) all = merged(all, merged(way_box(bodies, one.a), way_box(bodies, one.b)));
-  for (Work& work : work_) {
-    work.finder.begin(all);
-    work.impacts.clear();
-    work.counts = {};
+  for (Memory& memory : memory_) {
+    memory.finder.begin(all);
+    memory.counts = {};
   }
   // Of bodies that meet at the very beginning the first pair is reported: what comes after it need not be searched.
   std::atomic<std::size_t> meets_at_once = passing_.size();
-  base::parallel_for(parts_.size(), 1, threads, [&](std::size_t i, int thread) {
-    Part& part = parts_[order_[i]];
-    const Passing& one = passing_[part.passing];
-    Work& work = work_[thread];
-    const std::span<const narrowphase::ClusterPair> clusters = work_[one.clusters.thread].clusters;
-    std::atomic<double>* const first = firsts == 0 ? nullptr : &first_[firsts == 1 ? 0 : part.passing];
-    const std::size_t begin = work.impacts.size();
-    part.impacts = {static_cast<std::size_t>(thread), begin, begin};
-    if (wanted == Impacts::first && part.passing > meets_at_once.load(std::memory_order_relaxed)) return;
-    work.finder.run(bodies.moving(one.a), bodies.moving(one.b), one.reach,
-                    clusters.subspan(part.begin, part.end - part.begin), first, work.impacts, work.counts);
-    part.impacts.end = work.impacts.size();
-    const auto found = std::span(work.impacts).subspan(begin);
+  const auto search_range = [&](const Work::Shared& shared, Work::Range& range, int thread) {
+    const std::size_t place = shared.item;
+    const Passing& one = passing_[place];
+    Memory& memory = memory_[thread];
+    std::vector<FeatureImpact>& found = range.found.impacts;
+    std::atomic<double>* const first = firsts == 0 ? nullptr : &first_[firsts == 1 ? 0 : place];
+    found.clear();
+    if (wanted == Impacts::first && place > meets_at_once.load(std::memory_order_relaxed)) return;
+    memory.finder.run(bodies.moving(one.a), bodies.moving(one.b), one.reach,
+                      clusters_of(one).subspan(range.begin, range.end - range.begin), first, found, memory.counts);
     if (wanted == Impacts::first &&
         std::ranges::any_of(found, [](const FeatureImpact& impact) { return impact.time == 0.0; }))
-      base::lower_to(meets_at_once, part.passing);
-  });
+      base::lower_to(meets_at_once, place);
+  };
+  // Where only the first impact counts, what may meet early is searched first: what is found leaves out most others.
+  if (wanted == Impacts::all) {
+    work_.search(threads, search_range);
+  } else {
+    work_.search_by([](const Work::Range& range) { return range.found.earliest; }, threads, search_range);
+  }
 }
 
-// Puts the impacts of a pair of bodies into gathered_, in order. `part` is its first part, and then that of the next.
-void MotionStage::gather(std::size_t passing, std::size_t& part) {
+// Puts the impacts of a pair of bodies into gathered_, in order.
+void MotionStage::gather(const Work::Shared& shared) {
   gathered_.clear();
-  for (; part < parts_.size() && parts_[part].passing == passing; ++part) {
-    const auto [thread, begin, end] = parts_[part].impacts;
-    const std::span found = std::span(work_[thread].impacts).subspan(begin, end - begin);
-    gathered_.insert(gathered_.end(), found.begin(), found.end());
-  }
+  for (const Work::Range& range : work_.ranges(shared))
+    gathered_.insert(gathered_.end(), range.found.impacts.begin(), range.found.impacts.end());
   std::ranges::sort(gathered_, std::less<>());
 }
 
@@ -199,9 +205,8 @@ void MotionStage::make_report(const Bodies& bodies, Impacts wanted) {
   report_.impacts_.clear();
   report_.pairs_.clear();
   report_.first_time_ = kNever;
-  std::size_t part = 0;
-  for (std::size_t i = 0; i < passing_.size(); ++i) {
-    gather(i, part);
+  for (const Work::Shared& shared : work_.items()) {
+    gather(shared);
     if (gathered_.empty()) continue;
     const double first = gathered_.front().time;
     if (wanted == Impacts::first) {
@@ -211,9 +216,11 @@ void MotionStage::make_report(const Bodies& bodies, Impacts wanted) {
     }
     if (wanted != Impacts::all) gathered_.resize(1);
     report_.first_time_ = std::min(report_.first_time_, first);
-    const BodyId a = bodies.in_slot(passing_[i].a).id, b = bodies.in_slot(passing_[i].b).id;
+    const Passing& one = passing_[shared.item];
+    const BodyId a = bodies.in_slot(one.a).id, b = bodies.in_slot(one.b).id;
     report_.pairs_.push_back({a, b, first, {}});
-    for (const FeatureImpact& one : gathered_) report_.impacts_.push_back({a, b, one.kind, one.time, one.a, one.b});
+    for (const FeatureImpact& impact : gathered_)
+      report_.impacts_.push_back({a, b, impact.kind, impact.time, impact.a, impact.b});
   }
   std::span<const Impact> left = report_.impacts_;
   for (ImpactPair& pair : report_.pairs_) {
@@ -223,11 +230,11 @@ void MotionStage::make_report(const Bodies& bodies, Impacts wanted) {
     left = left.subspan(size);
   }
   report_.stats_.impacts = static_cast<std::int64_t>(report_.impacts_.size());
-  for (const Work& work : work_) {
-    report_.stats_.cluster_pairs += work.cluster_pairs;
-    report_.stats_.candidates += work.counts.candidates;
-    report_.stats_.searched += work.counts.searched;
-    report_.stats_.spans += work.counts.spans;
+  for (const Memory& memory : memory_) {
+    report_.stats_.cluster_pairs += memory.cluster_pairs;
+    report_.stats_.candidates += memory.counts.candidates;
+    report_.stats_.searched += memory.counts.searched;
+    report_.stats_.spans += memory.counts.spans;
   }
 }
 

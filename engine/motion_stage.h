@@ -7,10 +7,12 @@
 
 #include <atomic>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "broadphase/sweep_and_prune.h"
 #include "engine/bodies/bodies.h"
+#include "engine/shared_work.h"
 #include "narrowphase/motion/impacts.h"
 
 namespace tact {
@@ -20,35 +22,31 @@ class MotionStage {
   const MotionReport& run(Bodies& bodies, const Settings& settings, Impacts wanted);
 
  private:
-  /// Some of what a thread found.
-  struct Range {
-    std::size_t thread = 0, begin = 0, end = 0;
-  };
   /// Two bodies, or one twice, of which one moves.
   struct Passing {
     std::uint32_t a = 0, b = 0;
     double reach = 0.0;
-    Range clusters = {};
+    // Where their cluster pairs are: those of a thread.
+    std::size_t thread = 0, begin = 0, end = 0;
   };
-  /// Some cluster pairs of two bodies, what a thread takes at a time, and where their impacts are.
-  struct Part {
-    std::size_t passing = 0, begin = 0, end = 0;
+  /// What was found in a range of cluster pairs.
+  struct Found {
     double earliest = 0.0;  // no impact in it is earlier
-    Range impacts = {};
+    std::vector<narrowphase::FeatureImpact> impacts;
   };
+  using Work = SharedWork<std::size_t, Found>;  // of the place among those that pass
   /// A cluster pair and the time before which nothing meets in it.
   struct TimedPair {
     double earliest;
     narrowphase::ClusterPair pair;
   };
   /// Memory of a thread, used again.
-  struct Work {
+  struct Memory {
     narrowphase::PassingClusters passing;
     std::vector<narrowphase::ClusterPair> clusters;
     std::vector<TimedPair> timed;  // scratch
     std::int64_t cluster_pairs = 0;
     narrowphase::ImpactFinder finder;
-    std::vector<narrowphase::FeatureImpact> impacts;
     narrowphase::MotionCounts counts;
   };
 
@@ -58,11 +56,12 @@ class MotionStage {
   base::Box way_box(const Bodies& bodies, std::uint32_t slot) const;
   void make_features(Bodies& bodies, int threads);
   void find_clusters(const Bodies& bodies, int threads, Impacts wanted);
-  static void sort_by_time(const Passing& passing, const Bodies& bodies, std::size_t begin, Work& work);
-  void cut_into_parts(const Bodies& bodies, Impacts wanted);
+  static void sort_by_time(const Passing& passing, const Bodies& bodies, std::size_t begin, Memory& memory);
+  std::span<const narrowphase::ClusterPair> clusters_of(const Passing& passing) const;
+  void cut_into_ranges(const Bodies& bodies, Impacts wanted);
   void search(const Bodies& bodies, int threads, Impacts wanted);
   void make_report(const Bodies& bodies, Impacts wanted);
-  void gather(std::size_t passing, std::size_t& part);
+  void gather(const Work::Shared& shared);
 
   broadphase::SweepAndPrune sweep_;
   std::vector<base::Box> boxes_;             // of the ways, a slot each
@@ -70,9 +69,8 @@ class MotionStage {
   std::vector<std::uint32_t> changed_;
   std::vector<Passing> passing_;
   std::vector<std::uint32_t> slots_;  // scratch
-  std::vector<Part> parts_;
-  std::vector<std::size_t> order_;          // in which parts are searched
-  std::vector<Work> work_;                  // of each thread
+  Work work_;
+  std::vector<Memory> memory_;              // of each thread
   std::vector<std::atomic<double>> first_;  // of each pair that passes, or of all
   std::vector<narrowphase::FeatureImpact> gathered_;
   narrowphase::EmbreeDevice device_;

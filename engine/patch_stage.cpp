@@ -10,6 +10,8 @@ namespace tact {
 
 namespace {
 
+constexpr std::size_t kPairsAtATime = 4;  // some microseconds each where there are patches
+
 base::Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 // Those of this step become those of the last.
@@ -23,7 +25,7 @@ PatchSet& begin(PatchMemory& memory) {
 
 void PatchStage::find(std::span<const MovedPair> moved, const Bodies& bodies, const Settings& settings) {
   finders_.resize(settings.threads);
-  base::parallel_for(moved.size(), 4, settings.threads, [&](std::size_t i, int thread) {
+  base::parallel_for(moved.size(), kPairsAtATime, settings.threads, [&](std::size_t i, int thread) {
     PairRecord& record = *moved[i].record;
     const bool any = in_contact(record) && (!record.facet_pairs.empty() || !record.points.empty());
     if (record.patches == nullptr) {
@@ -42,14 +44,21 @@ void PatchStage::find(std::span<const MovedPair> moved, const Bodies& bodies, co
   });
 }
 
-void PatchStage::find_self(const Body& body, double reach, std::span<const FacetPair> facet_pairs,
-                           std::span<ContactPoint> points, PatchMemory& memory) {
-  if (finders_.empty()) finders_.resize(1);
-  PatchSet& set = begin(memory);
-  if (!facet_pairs.empty() || !points.empty())
-    finders_[0].find(
-        {.a = body, .b = body, .direction = {0, 0, 1}, .reach = reach, .facet_pairs = facet_pairs, .points = points},
-        set);
+void PatchStage::find(std::span<SelfRecord* const> selves, const Bodies& bodies, const Settings& settings) {
+  finders_.resize(settings.threads);
+  base::parallel_for(selves.size(), 1, settings.threads, [&](std::size_t i, int thread) {
+    SelfRecord& record = *selves[i];
+    PatchSet& set = begin(record.patches);
+    if (!in_contact(record)) return;
+    const std::uint32_t slot = record.body.index;
+    finders_[thread].find({.a = bodies.in_slot(slot),
+                           .b = bodies.in_slot(slot),
+                           .direction = {0, 0, 1},
+                           .reach = bodies.reach(slot, slot),
+                           .facet_pairs = record.facet_pairs,
+                           .points = record.points},
+                          set);
+  });
 }
 
 void PatchStage::count_shared(const PatchMemory& memory) {
@@ -119,6 +128,10 @@ void PatchStage::name(std::span<const MovedPair> moved, std::vector<PatchEvent>&
   for (const MovedPair& pair : moved) {
     if (pair.record->patches != nullptr) name(pair.record->a, pair.record->b, *pair.record->patches, events);
   }
+}
+
+void PatchStage::name(std::span<SelfRecord* const> selves, std::vector<PatchEvent>& events) {
+  for (SelfRecord* const one : selves) name(one->body, one->body, one->patches, events);
 }
 
 }  // namespace tact

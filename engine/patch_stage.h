@@ -10,6 +10,7 @@
 #include "engine/bodies/bodies.h"
 #include "engine/pair/pair_table.h"
 #include "engine/patches.h"
+#include "engine/self_record.h"
 
 namespace tact {
 
@@ -17,14 +18,13 @@ class PatchStage {
  public:
   /// Finds the patches of the pairs of `moved` that are in contact, each into its record.
   void find(std::span<const MovedPair> moved, const Bodies& bodies, const Settings& settings);
-  /// Those of a body with itself.
-  void find_self(const Body& body, double reach, std::span<const FacetPair> facet_pairs, std::span<ContactPoint> points,
-                 PatchMemory& memory);
+  /// Those of bodies with themselves.
+  void find(std::span<SelfRecord* const> selves, const Bodies& bodies, const Settings& settings);
 
   /// Of two steps, and in this order for the pairs of a step: gives patches the ids of those that they were, or new
   /// ones, and notes what became of them.
-  void name(BodyId a, BodyId b, PatchMemory& memory, std::vector<PatchEvent>& events);
   void name(std::span<const MovedPair> moved, std::vector<PatchEvent>& events);
+  void name(std::span<SelfRecord* const> selves, std::vector<PatchEvent>& events);
 
  private:
   /// A patch of this step and one of the last that have vertices in common.
@@ -32,6 +32,7 @@ class PatchStage {
     int shared = 0;
     int now = 0, last = 0;
   };
+  void name(BodyId a, BodyId b, PatchMemory& memory, std::vector<PatchEvent>& events);
   void count_shared(const PatchMemory& memory);
 
   std::vector<PatchFinder> finders_;  // a thread each

@@ -1,6 +1,7 @@
 #include "engine/point_stage.h"
 
 #include <algorithm>
+#include <bit>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -15,11 +16,11 @@ namespace {
 using narrowphase::ClusterPair;
 using narrowphase::FeaturePoint;
 
-// A pair of so many cluster pairs is searched by all threads: a pair takes some microseconds, to wake a thread as much.
-constexpr std::size_t kLargePair = 64;
-constexpr std::size_t kRangesPerThread = 4;
-// So many pairs a thread takes at a time: it prefetches the next one of them while it searches one.
-constexpr std::size_t kPairsAtATime = 8;
+// Microseconds that a pair of clusters takes (tact-bench points).
+constexpr std::size_t kCost = 4;
+// Points, up to which a comparison sorts them faster than digits do; and those that a thread publishes at a time, at
+// some 50 ns each.
+constexpr std::size_t kFewPoints = 256, kPublishedAtATime = 1024;
 
 // The finisher of SplitMix64 (Steele, Lea, Flood, 2014).
 std::uint64_t mixed(std::uint64_t word) {
@@ -67,6 +68,13 @@ bool cross_each_other(const PairRecord& record, double reach) {
          (record.contact.depth > 0.0 || reach == 0.0);
 }
 
+// A sheet with a margin keeps the side on which it is: see ContactPoint.
+bool crosses_itself(const SelfRecord& record, const Bodies& bodies) {
+  const std::uint32_t slot = record.body.index;
+  const bool has_side = bodies.in_slot(slot).surface == Surface::closed || bodies.reach(slot, slot) == 0.0;
+  return has_side && !record.facet_pairs.empty();
+}
+
 // What the vertices of one body remember of the last step, those of its points that were nearest.
 void carry(const PairRecord& record, FeaturePair kind, std::vector<narrowphase::CarriedNormal>& carried) {
   carried.clear();
@@ -94,110 +102,138 @@ narrowphase::SurfaceKind kind_of(const Body& body) {
   return body.surface == Surface::closed ? narrowphase::SurfaceKind::closed : narrowphase::SurfaceKind::sheet;
 }
 
+// Where a point stands by its kind and first vertex, then by where it was found: what tells most points apart, in one
+// word.
+class PointKeys {
+ public:
+  PointKeys(int vertices, std::size_t points)
+      : vertex_bits_(std::bit_width(static_cast<unsigned>(vertices))), place_bits_(std::bit_width(points)) {}
+
+  std::uint64_t key(const FeaturePoint& point, std::size_t place) const {
+    const auto first = static_cast<std::uint64_t>(point.a[0] + 1);  // of -1: 0
+    return ((static_cast<std::uint64_t>(point.kind) << vertex_bits_ | first) << place_bits_) | place;
+  }
+  std::size_t place(std::uint64_t key) const { return key & ((std::uint64_t{1} << place_bits_) - 1); }
+  bool same_first(std::uint64_t one, std::uint64_t other) const { return one >> place_bits_ == other >> place_bits_; }
+  int bits() const { return kKindBits + vertex_bits_ + place_bits_; }
+
+ private:
+  static constexpr int kKindBits = 2;
+  int vertex_bits_, place_bits_;
+};
+
+// Sorts keys by features where the kind and the first vertex are the same.
+void sort_by_the_rest(std::span<std::uint64_t> order, const PointKeys& keys, const std::vector<FeaturePoint>& found) {
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    while (end < order.size() && keys.same_first(order[begin], order[end])) ++end;
+    if (end - begin > 1) {
+      std::sort(order.begin() + begin, order.begin() + end, [&](std::uint64_t one, std::uint64_t other) {
+        const FeaturePoint &x = found[keys.place(one)], &y = found[keys.place(other)];
+        return std::tie(x.a, x.b, one) < std::tie(y.a, y.b, other);
+      });
+    }
+  }
+}
+
 }  // namespace
 
-// The vertices that have crossed, which need no search for what is near them.
-narrowphase::CrossedVertices PointStage::begin_crossing(const Wanted& wanted, const Bodies& bodies, Work& work) {
-  if (wanted.record == nullptr || !cross_each_other(*wanted.record, wanted.reach)) return {};
+// What of the bodies has crossed, before what is near is searched.
+narrowphase::NearRules PointStage::find_crossing(const Bodies& bodies, Prepared& prepared) {
+  const Wanted& wanted = *prepared.wanted;
+  if (wanted.self != nullptr) return {.crossing = find_self_crossing(bodies, prepared)};
   const PairRecord& record = *wanted.record;
-  carry(record, FeaturePair::vertex_facet, work.carried_a);
-  carry(record, FeaturePair::facet_vertex, work.carried_b);
-  return work.crossing.begin({.a = bodies.featured(wanted.a),
-                              .b = bodies.featured(wanted.b),
-                              .surface_a = kind_of(bodies.in_slot(wanted.a)),
-                              .surface_b = kind_of(bodies.in_slot(wanted.b)),
-                              .direction = direction_of(record),
-                              .depth = record.contact.depth,
-                              .facet_pairs = record.facet_pairs,
-                              .carried_a = work.carried_a,
-                              .carried_b = work.carried_b});
+  if (!cross_each_other(record, wanted.reach)) return {.touching = direction_of(record)};
+  carry(record, FeaturePair::vertex_facet, prepared.carried_a);
+  carry(record, FeaturePair::facet_vertex, prepared.carried_b);
+  return {.crossing = &prepared.crossing.find({.a = bodies.featured(wanted.a),
+                                               .b = bodies.featured(wanted.b),
+                                               .surface_a = kind_of(bodies.in_slot(wanted.a)),
+                                               .surface_b = kind_of(bodies.in_slot(wanted.b)),
+                                               .direction = direction_of(record),
+                                               .depth = record.contact.depth,
+                                               .facet_pairs = record.facet_pairs,
+                                               .carried_a = prepared.carried_a,
+                                               .carried_b = prepared.carried_b})};
 }
 
-void PointStage::cross_itself(const Wanted& wanted, const Bodies& bodies, Work& work) {
-  work.last.clear();
-  for (const ContactPoint& point : wanted.self->last_points) work.last.push_back(to_feature_point(point));
-  wanted.self->crossing->run({.mesh = bodies.featured(wanted.a),
-                              .surface = kind_of(bodies.in_slot(wanted.a)),
-                              .reach = wanted.reach,
-                              .facet_pairs = wanted.self->facet_pairs,
-                              .last = work.last},
-                             work.found);
+const narrowphase::Crossing* PointStage::find_self_crossing(const Bodies& bodies, Prepared& prepared) {
+  const Wanted& wanted = *prepared.wanted;
+  if (!crosses_itself(*wanted.self, bodies)) return nullptr;
+  prepared.last.clear();
+  for (const ContactPoint& point : wanted.self->last_points) prepared.last.push_back(to_feature_point(point));
+  return &wanted.self->crossing->find({.mesh = bodies.featured(wanted.a),
+                                       .surface = kind_of(bodies.in_slot(wanted.a)),
+                                       .reach = wanted.reach,
+                                       .facet_pairs = wanted.self->facet_pairs,
+                                       .last = prepared.last});
 }
 
-void PointStage::finish_crossing(const Wanted& wanted, Work& work) {
-  if (wanted.record == nullptr) return;
-  if (cross_each_other(*wanted.record, wanted.reach)) {
-    work.crossing.finish(work.found);
-    return;
-  }
-  // What touches in a vertex or an edge has no side of its own.
-  const base::Vec3 contact = direction_of(*wanted.record);
-  for (FeaturePoint& point : work.found) {
-    if (point.gap == 0.0 && dot(point.normal, contact) < 0.0) point.normal = -point.normal;
-  }
+// Once the points of near features are in work.found.
+void PointStage::finish(const Prepared& prepared, const Step& step, int threads, Work& work) {
+  const narrowphase::Crossing* const crossing = prepared.rules.crossing;
+  if (crossing != nullptr) work.crossing_points.append(*crossing, work.found);
+  publish(*prepared.wanted, step, threads, work);
 }
 
-// In an order that depends on features alone. Points are large: what is sorted is what tells most of them apart.
-void PointStage::publish(const Wanted& wanted, const Bodies& bodies, Work& work) const {
+// In an order that depends on features alone.
+void PointStage::publish(const Wanted& wanted, const Step& step, int threads, Work& work) {
   const std::vector<FeaturePoint>& found = work.found;
-  work.order.clear();
-  const auto rank = [](int vertex) { return std::uint64_t{static_cast<std::uint32_t>(vertex + 1)}; };  // of -1: 0
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const auto& a = found[i].a;
-    work.order.push_back({static_cast<std::uint64_t>(found[i].kind) << 32 | rank(a[0]), rank(a[1]) << 32 | rank(a[2]),
-                          static_cast<std::uint32_t>(i)});
+  const Body &a = step.bodies.in_slot(wanted.a), &b = step.bodies.in_slot(wanted.b);
+  const PointKeys keys(a.mesh.source_vertex_count(), found.size());
+  std::span<std::uint64_t> order = work.sorter.keys(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) order[i] = keys.key(found[i], i);
+  if (found.size() <= kFewPoints) {
+    std::ranges::sort(order);
+  } else {
+    order = work.sorter.sort(keys.bits(), threads);
   }
-  std::sort(work.order.begin(), work.order.end(), [&](const PointOrder& one, const PointOrder& other) {
-    if (one.kind_and_first != other.kind_and_first) return one.kind_and_first < other.kind_and_first;
-    if (one.others != other.others) return one.others < other.others;
-    return found[one.place].b < found[other.place].b;
-  });
-  const Body &a = bodies.in_slot(wanted.a), &b = bodies.in_slot(wanted.b);
   std::vector<ContactPoint>& points = *wanted.points;
-  points.clear();
   if (points.capacity() < found.size()) points.reserve(found.size() + found.size() / 4);
-  for (const PointOrder& one : work.order) points.push_back(to_point(found[one.place], a.id, b.id));
-  if (numbers_patches_) work.patches.number({}, points, &a, &b);
-}
-
-void PointStage::select(std::span<const MovedPair> moved, const Bodies& bodies) {
-  wanted_.clear();
-  for (const MovedPair& pair : moved) {
-    PairRecord& record = *pair.record;
-    const double reach = bodies.reach(record.a.index, record.b.index);
-    if ((in_contact(record) && reach > 0.0) || cross_each_other(record, reach))
-      wanted_.push_back({record.a.index, record.b.index, reach, &record.points, &record});
+  points.resize(found.size());
+  // Into blocks, between two that differ in kind or first vertex.
+  work.blocks.assign(1, 0);
+  for (std::size_t at = 0; at < order.size(); work.blocks.push_back(at)) {
+    at = std::min(at + kPublishedAtATime, order.size());
+    while (at < order.size() && keys.same_first(order[at - 1], order[at])) ++at;
   }
+  base::parallel_for(work.blocks.size() - 1, 1, threads, [&](std::size_t block) {
+    const std::size_t begin = work.blocks[block], end = work.blocks[block + 1];
+    sort_by_the_rest(order.subspan(begin, end - begin), keys, found);
+    for (std::size_t i = begin; i < end; ++i) points[i] = to_point(found[keys.place(order[i])], a.id, b.id);
+  });
+  if (!step.settings.outputs.patches) work.patches.number({}, points, &a, &b);  // or that is done with the facet pairs
 }
 
-void PointStage::make_features(Bodies& bodies, int threads) {
-  slots_.clear();
-  for (const auto& one : wanted_) slots_.insert(slots_.end(), {one.a, one.b});
-  bodies.make_features(slots_, threads);
-}
-
-// Those of the i-th pair, found already or now.
-std::span<const ClusterPair> PointStage::near_clusters(std::size_t i, const Bodies& bodies, Work& work,
-                                                       narrowphase::EmbreeDevice& device) const {
-  if (work.ahead == i + 1) return work.ahead_pairs;
+// Finds the cluster pairs of the i-th item, unless they are known.
+PointStage::Prepared& PointStage::find_near(std::size_t i, const Step& step, Work& work) const {
+  std::unique_ptr<Prepared>& slot = work.prepared[i % 2];
+  if (slot == nullptr) slot = std::make_unique<Prepared>();
+  Prepared& prepared = *slot;
+  if (work.ahead == i + 1) return prepared;
   const Wanted& wanted = wanted_[i];
-  if (!(wanted.reach > 0.0)) return {};
-  return work.near[i % 2].find(bodies.featured(wanted.a), bodies.featured(wanted.b), wanted.reach, bodies.tuning(),
-                               device);
+  prepared.wanted = &wanted;
+  prepared.cluster_pairs = {};
+  if (wanted.self != nullptr) {
+    prepared.cluster_pairs = wanted.self->may_contact;
+  } else if (wanted.reach > 0.0) {
+    prepared.cluster_pairs = prepared.near.find(step.bodies.featured(wanted.a), step.bodies.featured(wanted.b),
+                                                wanted.reach, step.bodies.tuning(), step.device);
+  }
+  return prepared;
 }
 
-// Finds those of a pair, and prefetches what its search reads of them.
-void PointStage::look_ahead(std::size_t i, const Bodies& bodies, Work& work, narrowphase::EmbreeDevice& device) const {
-  work.ahead_pairs = near_clusters(i, bodies, work, device);
+// Finds those of an item, and prefetches what its search reads of them.
+void PointStage::look_ahead(std::size_t i, const Step& step, Work& work) const {
+  const std::span<const ClusterPair> pairs = find_near(i, step, work).cluster_pairs;
   work.ahead = i + 1;
   const auto prefetch = [](const narrowphase::FeaturedMesh& m, int cluster) {
     narrowphase::prefetch_facets(*m.mesh, cluster);
     m.features->prefetch(*m.mesh, cluster);
   };
-  const auto a = bodies.featured(wanted_[i].a), b = bodies.featured(wanted_[i].b);
+  const auto a = step.bodies.featured(wanted_[i].a), b = step.bodies.featured(wanted_[i].b);
   int last_a = -1;
   std::uint64_t done_b = 0;  // by the last bits of their numbers
-  for (const ClusterPair& pair : work.ahead_pairs) {
+  for (const ClusterPair& pair : pairs) {
     if (pair.a != last_a) prefetch(a, last_a = pair.a);
     const std::uint64_t bit = std::uint64_t{1} << (pair.b % 64);
     if ((done_b & bit) == 0) prefetch(b, pair.b);
@@ -205,74 +241,90 @@ void PointStage::look_ahead(std::size_t i, const Bodies& bodies, Work& work, nar
   }
 }
 
-void PointStage::run(std::span<const MovedPair> moved, Bodies& bodies, const Settings& settings,
-                     narrowphase::EmbreeDevice& device) {
-  numbers_patches_ = !settings.outputs.patches;  // or that is done with the facet pairs
-  select(moved, bodies);
-  make_features(bodies, settings.threads);
-  work_.resize(settings.threads);
-  is_large_.assign(wanted_.size(), false);
-  for (Work& work : work_) work.ahead = 0;
-  const bool prefetches = !bodies.stay_in_cache();
-  // Few pairs are shared out one by one.
-  const std::size_t grain =
-      wanted_.size() < 4 * kPairsAtATime * static_cast<std::size_t>(settings.threads) ? 1 : kPairsAtATime;
-  base::parallel_for(wanted_.size(), grain, settings.threads, [&](std::size_t i, int thread) {
-    Work& work = work_[thread];
-    const Wanted& wanted = wanted_[i];
-    const auto a = bodies.featured(wanted.a), b = bodies.featured(wanted.b);
-    work.found.clear();
-    const std::span<const ClusterPair> pairs = near_clusters(i, bodies, work, device);
-    is_large_[i] = settings.threads > 1 && pairs.size() > kLargePair;
-    if (is_large_[i]) return;
-    const std::size_t own_end = settings.threads == 1 ? wanted_.size() : i - i % grain + grain;
-    if (prefetches && i + 1 < std::min(own_end, wanted_.size())) look_ahead(i + 1, bodies, work, device);
-    const narrowphase::CrossedVertices crossed = begin_crossing(wanted, bodies, work);
-    work.search.run(a, b, wanted.reach, pairs, work.found, crossed, narrowphase::ContactPointSearch::Given::all);
-    finish_crossing(wanted, work);
-    publish(wanted, bodies, work);
-  });
-  for (std::size_t i = 0; i < wanted_.size(); ++i) {
-    if (!is_large_[i]) continue;
-    const Wanted& wanted = wanted_[i];
-    search_in_ranges(wanted, bodies,
-                     work_[0].near[0].find(bodies.featured(wanted.a), bodies.featured(wanted.b), wanted.reach,
-                                           bodies.tuning(), device),
-                     settings.threads);
+// A large item is put aside when it is known what of it has crossed.
+void PointStage::find_points(std::size_t i, const Step& step, Work& work) {
+  const int threads = step.settings.threads;
+  Prepared& prepared = find_near(i, step, work);
+  const std::size_t cost = kCost * prepared.cluster_pairs.size();
+  const bool large = is_large(cost, wanted_.size(), threads, step.bodies.tuning());
+  const std::size_t own_end = threads == 1 ? wanted_.size() : i - i % step.grain + step.grain;
+  if (!large && step.prefetches && i + 1 < std::min(own_end, wanted_.size())) look_ahead(i + 1, step, work);
+  prepared.rules = find_crossing(step.bodies, prepared);
+  if (large) {
+    large_.put_aside(work.prepared[i % 2], prepared.cluster_pairs,
+                     count_of_ranges(cost, threads, step.bodies.tuning()));
+    return;
   }
+  work.found.clear();
+  search(prepared, prepared.cluster_pairs, step, narrowphase::ContactPointSearch::Given::all, work.found, work);
+  finish(prepared, step, 1, work);
 }
 
-void PointStage::run_self(const Self& self, Bodies& bodies, const Settings& settings,
-                          std::vector<ContactPoint>& points) {
-  points.clear();
-  if (self.cluster_pairs.empty() && self.crossing == nullptr) return;
-  numbers_patches_ = !settings.outputs.patches;
-  wanted_.assign(
-      1,
-      {.a = self.slot, .b = self.slot, .reach = bodies.reach(self.slot, self.slot), .points = &points, .self = &self});
-  make_features(bodies, settings.threads);
+void PointStage::search(const Prepared& prepared, std::span<const ClusterPair> pairs, const Step& step,
+                        narrowphase::ContactPointSearch::Given given, std::vector<FeaturePoint>& found, Work& work) {
+  const Wanted& wanted = *prepared.wanted;
+  work.search.run(step.bodies.featured(wanted.a), step.bodies.featured(wanted.b), wanted.reach, pairs, found,
+                  prepared.rules, given);
+}
+
+void PointStage::find_wanted(Bodies& bodies, const Settings& settings, narrowphase::EmbreeDevice& device) {
+  slots_.clear();
+  for (const Wanted& one : wanted_) slots_.insert(slots_.end(), {one.a, one.b});
+  bodies.make_features(slots_, settings.threads);
   work_.resize(settings.threads);
-  search_in_ranges(wanted_[0], bodies, self.cluster_pairs, settings.threads);
+  for (Work& work : work_) work.ahead = 0;
+  const auto facets_of = [&](std::size_t i) {
+    return std::min(bodies.in_slot(wanted_[i].a).mesh.facet_count(), bodies.in_slot(wanted_[i].b).mesh.facet_count());
+  };
+  const Step step{.bodies = bodies,
+                  .settings = settings,
+                  .device = device,
+                  .grain = items_at_a_time(wanted_.size(), settings.threads, bodies.tuning(), facets_of),
+                  .prefetches = !bodies.stay_in_cache()};
+  const auto search_range = [&](const Large::Shared& shared, Large::Range& range, int thread) {
+    const Prepared& prepared = *shared.item;
+    range.found.clear();
+    search(prepared, prepared.cluster_pairs.subspan(range.begin, range.end - range.begin), step,
+           narrowphase::ContactPointSearch::Given::some, range.found, work_[thread]);
+  };
+  const bool few = is_few(wanted_.size(), settings.threads, bodies.tuning());
+  large_.begin();
+  large_.prepare(
+      wanted_.size(), step.grain, settings.threads, few,
+      [&](std::size_t i, int thread) { find_points(i, step, work_[thread]); }, search_range);
+  large_.search(settings.threads, search_range);
+  large_.gather(settings.threads, [&](Large::Shared& shared, int thread, int threads) {
+    Work& work = work_[thread];
+    work.found.clear();
+    for (const Large::Range& range : large_.ranges(shared))
+      work.found.insert(work.found.end(), range.found.begin(), range.found.end());
+    finish(*shared.item, step, threads, work);
+  });
 }
 
-void PointStage::search_in_ranges(const Wanted& wanted, const Bodies& bodies, std::span<const ClusterPair> pairs,
-                                  int threads) {
-  const auto a = bodies.featured(wanted.a), b = bodies.featured(wanted.b);
-  const std::size_t ranges =
-      std::clamp<std::size_t>(pairs.size() / 8, 1, kRangesPerThread * static_cast<std::size_t>(threads));
-  if (ranges_.size() < ranges) ranges_.resize(ranges);
-  const narrowphase::CrossedVertices crossed = begin_crossing(wanted, bodies, work_[0]);
-  base::parallel_for(ranges, 1, threads, [&](std::size_t i, int thread) {
-    const std::size_t begin = pairs.size() * i / ranges, end = pairs.size() * (i + 1) / ranges;
-    ranges_[i].clear();
-    work_[thread].search.run(a, b, wanted.reach, pairs.subspan(begin, end - begin), ranges_[i], crossed);
-  });
-  std::vector<FeaturePoint>& found = work_[0].found;
-  found.clear();
-  for (std::size_t i = 0; i < ranges; ++i) found.insert(found.end(), ranges_[i].begin(), ranges_[i].end());
-  finish_crossing(wanted, work_[0]);
-  if (wanted.self != nullptr && wanted.self->crossing != nullptr) cross_itself(wanted, bodies, work_[0]);
-  publish(wanted, bodies, work_[0]);
+void PointStage::find(std::span<const MovedPair> moved, Bodies& bodies, const Settings& settings,
+                      narrowphase::EmbreeDevice& device) {
+  wanted_.clear();
+  for (const MovedPair& pair : moved) {
+    PairRecord& record = *pair.record;
+    const double reach = bodies.reach(record.a.index, record.b.index);
+    if ((in_contact(record) && reach > 0.0) || cross_each_other(record, reach))
+      wanted_.push_back({record.a.index, record.b.index, reach, &record.points, &record, nullptr});
+  }
+  find_wanted(bodies, settings, device);
+}
+
+void PointStage::find(std::span<SelfRecord* const> selves, Bodies& bodies, const Settings& settings,
+                      narrowphase::EmbreeDevice& device) {
+  wanted_.clear();
+  for (SelfRecord* const one : selves) {
+    const bool crosses = crosses_itself(*one, bodies);
+    if (one->may_contact.empty() && !crosses) continue;
+    if (crosses && one->crossing == nullptr) one->crossing = std::make_unique<narrowphase::SelfCrossing>();
+    const std::uint32_t slot = one->body.index;
+    wanted_.push_back({slot, slot, bodies.reach(slot, slot), &one->points, nullptr, one});
+  }
+  find_wanted(bodies, settings, device);
 }
 
 }  // namespace tact

@@ -4,15 +4,20 @@
 #include <tact/contact_point.h>
 #include <tact/settings.h>
 
+#include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "engine/base/key_sort.h"
 #include "engine/bodies/bodies.h"
 #include "engine/pair/pair_table.h"
 #include "engine/patches.h"
+#include "engine/self_record.h"
+#include "engine/shared_work.h"
 #include "narrowphase/contact_points/contact_points.h"
-#include "narrowphase/contact_points/crossing.h"
-#include "narrowphase/self/self_crossing.h"
+#include "narrowphase/crossing/crossing_points.h"
+#include "narrowphase/crossing/pair_crossing.h"
 
 namespace tact {
 
@@ -20,63 +25,68 @@ class PointStage {
  public:
   /// Finds the points of every pair of `moved` that is in contact and has a margin, or facets that meet, or of which
   /// one body is inside the other; each into its record.
-  void run(std::span<const MovedPair> moved, Bodies& bodies, const Settings& settings,
-           narrowphase::EmbreeDevice& device);
-  /// A body with itself.
-  struct Self {
-    std::uint32_t slot = 0;
-    std::span<const narrowphase::ClusterPair> cluster_pairs;
-    std::span<const FacetPair> facet_pairs;
-    std::span<const ContactPoint> last_points;
-    narrowphase::SelfCrossing* crossing = nullptr;  // if facets meet
-  };
-  /// Its points into `points`, on all threads.
-  void run_self(const Self& self, Bodies& bodies, const Settings& settings, std::vector<ContactPoint>& points);
+  void find(std::span<const MovedPair> moved, Bodies& bodies, const Settings& settings,
+            narrowphase::EmbreeDevice& device);
+  /// The same of bodies with themselves, of which the facet pairs and the cluster pairs that may have points are known.
+  void find(std::span<SelfRecord* const> selves, Bodies& bodies, const Settings& settings,
+            narrowphase::EmbreeDevice& device);
 
  private:
-  /// What a point is sorted by first, and where it is.
-  struct PointOrder {
-    std::uint64_t kind_and_first, others;
-    std::uint32_t place;
-  };
-  /// Memory of a thread, used again.
-  struct Work {
-    narrowphase::NearClusters near[2];  // of pairs with even numbers, and with odd ones
-    std::size_t ahead = 0;              // the pair that `near` knows already, and one more; 0: none
-    std::span<const narrowphase::ClusterPair> ahead_pairs;
-    narrowphase::ContactPointSearch search;
-    narrowphase::CrossingSearch crossing;
-    std::vector<narrowphase::CarriedNormal> carried_a, carried_b;
-    std::vector<narrowphase::FeaturePoint> found, last;
-    std::vector<PointOrder> order;
-    PatchFinder patches;
-  };
   /// Two bodies, or one twice.
   struct Wanted {
     std::uint32_t a = 0, b = 0;
     double reach = 0.0;
     std::vector<ContactPoint>* points = nullptr;
     const PairRecord* record = nullptr;  // of two bodies
-    const Self* self = nullptr;          // of one
+    const SelfRecord* self = nullptr;    // of one
   };
-  void select(std::span<const MovedPair> moved, const Bodies& bodies);
-  void make_features(Bodies& bodies, int threads);
-  std::span<const narrowphase::ClusterPair> near_clusters(std::size_t i, const Bodies& bodies, Work& work,
-                                                          narrowphase::EmbreeDevice& device) const;
-  void look_ahead(std::size_t i, const Bodies& bodies, Work& work, narrowphase::EmbreeDevice& device) const;
-  void publish(const Wanted& wanted, const Bodies& bodies, Work& work) const;
-  static narrowphase::CrossedVertices begin_crossing(const Wanted& wanted, const Bodies& bodies, Work& work);
-  static void finish_crossing(const Wanted& wanted, Work& work);
-  static void cross_itself(const Wanted& wanted, const Bodies& bodies, Work& work);
-  void search_in_ranges(const Wanted& wanted, const Bodies& bodies, std::span<const narrowphase::ClusterPair> pairs,
-                        int threads);
+  /// What is known of one of those before its points are searched.
+  struct Prepared {
+    const Wanted* wanted = nullptr;
+    narrowphase::NearClusters near;
+    std::span<const narrowphase::ClusterPair> cluster_pairs;
+    narrowphase::PairCrossing crossing;
+    std::vector<narrowphase::CarriedNormal> carried_a, carried_b;
+    std::vector<narrowphase::FeaturePoint> last;  // points of one body, in the last step
+    narrowphase::NearRules rules;
+  };
+  /// Memory of a thread, used again.
+  struct Work {
+    std::array<std::unique_ptr<Prepared>, 2> prepared;  // of items with even numbers, and with odd ones
+    std::size_t ahead = 0;                              // the item that is prepared already, and one more; 0: none
+    narrowphase::ContactPointSearch search;
+    narrowphase::CrossingPoints crossing_points;
+    std::vector<narrowphase::FeaturePoint> found;
+    base::KeySorter sorter;
+    std::vector<std::size_t> blocks;  // of points to publish: where they begin, and where the last one ends
+    PatchFinder patches;
+  };
+  using Large = SharedWork<std::unique_ptr<Prepared>, std::vector<narrowphase::FeaturePoint>>;
+  /// What all items of a step have in common.
+  struct Step {
+    const Bodies& bodies;
+    const Settings& settings;
+    narrowphase::EmbreeDevice& device;
+    std::size_t grain;  // items that a thread takes at a time: it prefetches the next one while it searches one
+    bool prefetches;
+  };
+
+  void find_wanted(Bodies& bodies, const Settings& settings, narrowphase::EmbreeDevice& device);
+  Prepared& find_near(std::size_t i, const Step& step, Work& work) const;
+  void look_ahead(std::size_t i, const Step& step, Work& work) const;
+  void find_points(std::size_t i, const Step& step, Work& work);
+  static void search(const Prepared& prepared, std::span<const narrowphase::ClusterPair> pairs, const Step& step,
+                     narrowphase::ContactPointSearch::Given given, std::vector<narrowphase::FeaturePoint>& found,
+                     Work& work);
+  static narrowphase::NearRules find_crossing(const Bodies& bodies, Prepared& prepared);
+  static const narrowphase::Crossing* find_self_crossing(const Bodies& bodies, Prepared& prepared);
+  static void finish(const Prepared& prepared, const Step& step, int threads, Work& work);
+  static void publish(const Wanted& wanted, const Step& step, int threads, Work& work);
 
   std::vector<Wanted> wanted_;
   std::vector<std::uint32_t> slots_;  // scratch
   std::vector<Work> work_;            // a thread each
-  bool numbers_patches_ = true;
-  std::vector<char> is_large_;  // of the wanted ones
-  std::vector<std::vector<narrowphase::FeaturePoint>> ranges_;
+  Large large_;
 };
 
 }  // namespace tact

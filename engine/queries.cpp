@@ -28,22 +28,22 @@ void check_point(const Eigen::Vector3d& point, const char* what) {
 Vec3 point_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 narrowphase::Segment segment_of(const Ray& ray) { return {point_of(ray.from), point_of(ray.to)}; }
 
-// Calls visit(body) for the bodies that are asked and whose box wants(box), until it returns false.
+// Calls visit(body) for the bodies that `filter` admits and whose box wants(box), until it returns false.
 template <class Wants, class Visit>
-void for_each_body(const Bodies& bodies, const Asked& asked, const Wants& wants, const Visit& visit) {
-  const broadphase::Filter filter{asked.layer, asked.mask, false};
+void for_each_body(const Bodies& bodies, const QueryFilter& filter, const Wants& wants, const Visit& visit) {
+  const broadphase::Filter of_query{filter.layer, filter.mask, false};
   const std::span<const Box> boxes = bodies.boxes();
   for (std::uint32_t slot = 0; slot < boxes.size(); ++slot) {
-    if (boxes[slot].empty() || !wants(boxes[slot]) || !broadphase::tested(bodies.filters()[slot], filter)) continue;
+    if (boxes[slot].empty() || !wants(boxes[slot]) || !broadphase::tested(bodies.filters()[slot], of_query)) continue;
     if (!visit(bodies.placed(slot))) return;
   }
 }
 
 // The same for those whose box overlaps `box`.
 template <class Visit>
-void for_each_body_near(const Bodies& bodies, const Asked& asked, const Box& box, const Visit& visit) {
+void for_each_body_near(const Bodies& bodies, const QueryFilter& filter, const Box& box, const Visit& visit) {
   for_each_body(
-      bodies, asked, [&](const Box& one) { return overlaps(one, box); }, visit);
+      bodies, filter, [&](const Box& one) { return overlaps(one, box); }, visit);
 }
 
 Box box_of(const narrowphase::Segment& segment) { return extended({segment[0], segment[0]}, segment[1]); }
@@ -60,24 +60,24 @@ void check_query(const Ray& ray) {
 void check_query(const PointQuery& query) {
   check_point(query.point, "a point");
   if (!(query.within >= 0.0))
-    throw Error(ErrorCode::bad_settings, "within is " + base::text_of(query.within) + ", not at least 0");
+    throw Error(ErrorCode::invalid_argument, "within is " + base::text_of(query.within) + ", not at least 0");
 }
 
 void check_query(const BoxQuery& query) {
   check_point(query.lower, "the lower corner of a box");
   check_point(query.upper, "the upper corner of a box");
   if ((query.lower.array() > query.upper.array()).any())
-    throw Error(ErrorCode::bad_settings, "the lower corner of a box is above its upper one");
+    throw Error(ErrorCode::invalid_argument, "the lower corner of a box is above its upper one");
 }
 
 RayHit find_hit(const Bodies& bodies, const Ray& ray, RayHits wanted) {
   const narrowphase::Segment segment = segment_of(ray);
   const narrowphase::PreparedSegment line(segment);
   RayHit best;
-  best.time = 1.0;
-  for_each_body_near(bodies, ray.asked, box_of(segment), [&](const Body& body) {
-    const auto hit = wanted == RayHits::any ? any_hit(body.mesh, line) : first_hit(body.mesh, line, best.time);
-    if (hit && (best.facet < 0 || hit->time < best.time)) best = hit_of(body, *hit);
+  best.fraction = 1.0;
+  for_each_body_near(bodies, ray.filter, box_of(segment), [&](const Body& body) {
+    const auto hit = wanted == RayHits::any ? any_hit(body.mesh, line) : first_hit(body.mesh, line, best.fraction);
+    if (hit && (best.facet < 0 || hit->time < best.fraction)) best = hit_of(body, *hit);
     return !(hit && wanted == RayHits::any);
   });
   return best.facet >= 0 ? best : RayHit{};
@@ -111,21 +111,21 @@ void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<
   }
   for (std::uint32_t slot = 0; slot < bodies.boxes().size(); ++slot) {
     if (bodies.boxes()[slot].empty()) continue;
-    std::array<narrowphase::FirstHitQuery*, narrowphase::kLinesAtATime> asked;
+    std::array<narrowphase::FirstHitQuery*, narrowphase::kLinesAtATime> of_body;
     std::size_t count = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      const broadphase::Filter filter{rays[i].asked.layer, rays[i].asked.mask, false};
+      const broadphase::Filter filter{rays[i].filter.layer, rays[i].filter.mask, false};
       if (overlaps(bodies.boxes()[slot], boxes[i]) && broadphase::tested(bodies.filters()[slot], filter))
-        asked[count++] = &queries[i];
+        of_body[count++] = &queries[i];
     }
     if (count == 0) continue;
     const Body& body = bodies.placed(slot);
-    narrowphase::ask_first_hits(body.mesh, room.tree(slot), {asked.data(), count});
+    narrowphase::ask_first_hits(body.mesh, room.tree(slot), {of_body.data(), count});
     // A hit is of the first body that has one as early.
     for (std::size_t k = 0; k < count; ++k) {
-      const auto i = static_cast<std::size_t>(asked[k] - queries.data());
-      const auto& hit = asked[k]->hit;
-      if (hit && (hits[i].facet < 0 || hit->time < hits[i].time)) hits[i] = hit_of(body, *hit);
+      const auto i = static_cast<std::size_t>(of_body[k] - queries.data());
+      const auto& hit = of_body[k]->hit;
+      if (hit && (hits[i].facet < 0 || hit->time < hits[i].fraction)) hits[i] = hit_of(body, *hit);
     }
   }
 }
@@ -135,13 +135,13 @@ std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray) {
   const narrowphase::PreparedSegment line(segment);
   std::vector<RayHit> all;
   std::vector<FacetHit> hits;
-  for_each_body_near(bodies, ray.asked, box_of(segment), [&](const Body& body) {
+  for_each_body_near(bodies, ray.filter, box_of(segment), [&](const Body& body) {
     hits.clear();
     append_hits(body.mesh, line, hits);
     for (const FacetHit& hit : hits) all.push_back(hit_of(body, hit));
     return true;
   });
-  std::ranges::sort(all, {}, [](const RayHit& hit) { return std::tuple(hit.time, hit.body, hit.facet); });
+  std::ranges::sort(all, {}, [](const RayHit& hit) { return std::tuple(hit.fraction, hit.body, hit.facet); });
   return all;
 }
 
@@ -157,7 +157,7 @@ ClosestPoint find_closest_point(const Bodies& bodies, const PointQuery& query) {
     }
     return true;
   };
-  for_each_body(bodies, query.asked, wants, [&](const Body& body) {
+  for_each_body(bodies, query.filter, wants, [&](const Body& body) {
     const auto nearest = nearest_facet(body.mesh, point, within);
     if (!nearest || (best.facet >= 0 && nearest->distance >= best.distance)) return true;
     best = {body.id, nearest->facet, nearest->distance, nearest->weight};
@@ -171,7 +171,7 @@ std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuery& query
   const Box box{point_of(query.lower), point_of(query.upper)};
   std::vector<FacetOfBody> found;
   std::vector<int> facets;
-  for_each_body_near(bodies, query.asked, box, [&](const Body& body) {
+  for_each_body_near(bodies, query.filter, box, [&](const Body& body) {
     facets.clear();
     append_facets_in_box(body.mesh, box, facets);
     std::ranges::sort(facets);
@@ -184,7 +184,7 @@ std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuery& query
 std::vector<BodyId> find_around(const Bodies& bodies, const PointQuery& query) {
   const Vec3 point = point_of(query.point);
   std::vector<BodyId> found;
-  for_each_body_near(bodies, query.asked, {point, point}, [&](const Body& body) {
+  for_each_body_near(bodies, query.filter, {point, point}, [&](const Body& body) {
     if (body.surface == Surface::closed && contains(body.mesh, point)) found.push_back(body.id);
     return true;
   });

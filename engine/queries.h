@@ -12,8 +12,8 @@
 
 namespace tact {
 
-/// Errors: non_finite_position, position_out_of_range, bad_settings (a box whose lower corner is above its upper one, a
-/// distance that is negative or not a number).
+/// Errors: non_finite_position, position_out_of_range, invalid_argument (a box whose lower corner is above its upper
+/// one, a distance that is negative or not a number).
 void check_query(const Ray& ray);
 void check_query(const PointQuery& query);
 void check_query(const BoxQuery& query);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/touching.h"
 
 namespace tact {
 
@@ -35,6 +36,7 @@ void ReportWriter::Totals::add(const Totals& other) {
 
 void ReportWriter::fill(Contact& contact, const PairRecord& record) {
   contact = record.contact;
+  contact.touching_ = record.touching;
   contact.points_ = record.points;
   contact.facet_pairs_ = record.facet_pairs;
   if (record.patches != nullptr) contact.patches_ = record.patches->now.patches;
@@ -43,6 +45,7 @@ void ReportWriter::fill(Contact& contact, const PairRecord& record) {
 void ReportWriter::fill(Contact& contact, const SelfRecord& record) {
   contact = Contact{};
   contact.a = contact.b = record.body;
+  contact.touching_ = record.touching;
   contact.facet_pairs_ = record.facet_pairs;
   contact.points_ = record.points;
   contact.patches_ = record.patches.now.patches;
@@ -60,7 +63,7 @@ void ReportWriter::add_thread_totals() {
 }
 
 void ReportWriter::forget() {
-  static_cast<Report&>(report_) = Report();
+  report_ = Report();
   reported_ = {};
   has_self_ = false;
   last_contacts_ = {};
@@ -68,15 +71,15 @@ void ReportWriter::forget() {
   thread_totals_ = {};
 }
 
-void ReportWriter::write(PairTable& table, const SelfStage& self, int threads) {
-  thread_totals_.resize(threads);
+void ReportWriter::write(PairTable& table, const SelfStage& self, const Bodies& bodies, const Settings& settings) {
+  thread_totals_.resize(settings.threads);
   const bool same = table.same_contacts() && self.same_contacts();
   write_candidates(table, same);
   if (!same) {
     list_contacts(table, self);
-    carry_contacts(table, threads);
+    carry_contacts(table, settings.threads);
   }
-  write_contacts(table, threads);
+  write_contacts(table, bodies, settings);
   write_events(table, self);
   StepStats& stats = report_.stats_;
   stats.contacts = static_cast<std::int64_t>(report_.contacts_.size());
@@ -125,6 +128,7 @@ void ReportWriter::carry_contacts(PairTable& table, int threads) {
       place = std::exchange(table.place_in_report(reported_[i].place), static_cast<std::uint32_t>(i));
     if (place == PairTable::kNowhere) {
       contact.facet_pairs_ = {};
+      contact.touching_ = false;
     } else {
       contact = last_contacts_[place];
       thread_totals_[thread].add(contact, 1);
@@ -135,12 +139,14 @@ void ReportWriter::carry_contacts(PairTable& table, int threads) {
 }
 
 // Those that the step looked at.
-void ReportWriter::write_contacts(PairTable& table, int threads) {
+void ReportWriter::write_contacts(PairTable& table, const Bodies& bodies, const Settings& settings) {
   const std::span<const MovedPair> moved = table.moved();
-  base::parallel_for(moved.size(), contacts_at_a_time(moved.size()), threads, [&](std::size_t i, int thread) {
+  base::parallel_for(moved.size(), contacts_at_a_time(moved.size()), settings.threads, [&](std::size_t i, int thread) {
     if (!table.in_contact(moved[i].place)) return;
-    Contact& contact = report_.contacts_[table.place_in_report(moved[i].place)];
-    replace(contact, *moved[i].record, thread_totals_[thread]);
+    PairRecord& record = *moved[i].record;
+    const double reach = bodies.reach(record.a.index, record.b.index);
+    record.touching = is_touching(record.facet_pairs, record.points, reach);
+    replace(report_.contacts_[table.place_in_report(moved[i].place)], record, thread_totals_[thread]);
   });
   add_thread_totals();
   for (std::size_t i = 0; i < reported_.size() && has_self_; ++i) {

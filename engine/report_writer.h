@@ -2,15 +2,22 @@
 #pragma once
 
 #include <tact/report.h>
+#include <tact/settings.h>
 
 #include <cstdint>
 #include <vector>
 
 #include "engine/pair/pair_table.h"
 #include "engine/self_stage.h"
-#include "engine/step_report.h"
 
 namespace tact {
+
+/// What the answers of a report came from: the world's.
+struct ReportSources {
+  const Bodies* bodies;
+  PairTable* table;
+  const Settings* settings;
+};
 
 /// Holds the report of a world. What a step did not look at stays as it is: those records, far apart in memory, are not
 /// read.
@@ -22,14 +29,13 @@ class ReportWriter {
   std::vector<PatchEvent>& patch_events() { return report_.patch_events_; }
 
   /// Candidate pairs, contacts and events as the records have them now, and the counts of contacts.
-  void write(PairTable& table, const SelfStage& self, int threads);
+  void write(PairTable& table, const SelfStage& self, const Bodies& bodies, const Settings& settings);
   /// The next report is the first.
   void forget();
   /// Where the answers of this step come from: they must outlive the report.
   void note_sources(const Bodies& bodies, PairTable& table, const Settings& settings) {
-    report_.bodies = &bodies;
-    report_.table = &table;
-    report_.settings = &settings;
+    sources_ = {&bodies, &table, &settings};
+    report_.sources_ = &sources_;
   }
 
  private:
@@ -53,11 +59,12 @@ class ReportWriter {
   void list_contacts(const PairTable& table, const SelfStage& self);
   void carry_contacts(PairTable& table, int threads);
   void write_candidates(const PairTable& table, bool same);
-  void write_contacts(PairTable& table, int threads);
+  void write_contacts(PairTable& table, const Bodies& bodies, const Settings& settings);
   void write_events(const PairTable& table, const SelfStage& self);
   void add_thread_totals();
 
-  StepReport report_;
+  Report report_;
+  ReportSources sources_ = {};
   std::vector<Reported> reported_;      // the contacts of the report, in its order
   bool has_self_ = false;               // is any of a body with itself?
   std::vector<Contact> last_contacts_;  // of the last report, while a new one is made

@@ -3,111 +3,135 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/base/parallel.h"
 #include "engine/pair/facet_pair_sort.h"
+#include "engine/touching.h"
 
 namespace tact {
 
 namespace {
 
-// Cluster pairs that one of several threads takes at a time: one takes 0.5 us, and between two ranges clusters are
-// opened twice. With 64 the rolled sheet of 13 k took 1.35 ms instead of 1.22. A thread alone takes all of them: 0.754
-// to 0.725 ms.
-constexpr std::size_t kPairsAtATime = 256;
+// Microseconds that a pair of clusters takes (tact-bench self).
+constexpr std::size_t kCost = 1;
+
+void sort(SelfRecord& record, const narrowphase::ClusteredMesh& mesh, base::KeySorter& sorter, int threads) {
+  sort_facet_pairs(record.facet_pairs, mesh.facet_count(), mesh.facet_count(), sorter, threads);
+}
 
 }  // namespace
 
-void SelfStage::run(Bodies& bodies, const Settings& settings, bool all, PointStage& points,
-                    narrowphase::EmbreeDevice& device) {
+void SelfStage::run(Bodies& bodies, const Settings& settings, bool all, narrowphase::EmbreeDevice& device) {
+  keep();
+  if (!bodies.any_self_contact() && records_.empty()) return;
+  select(bodies, all, settings.threads);
+  find_facet_pairs(bodies, settings, device);
+}
+
+void SelfStage::keep() {
+  looked_at_.clear();
   gone_patches_.clear();
   began_.clear();
   ended_.clear();
-  if (!bodies.any_self_contact() && records_.empty()) return;
-  const auto look_at = [&](std::uint32_t slot) {
-    const bool is_wanted = bodies.used(slot) && bodies.in_slot(slot).self_contact;
-    if (slot < records_.size() && records_[slot] != nullptr &&
-        (!is_wanted || records_[slot]->body != bodies.in_slot(slot).id)) {
-      SelfRecord& gone = *records_[slot];
-      gone.patches.end_all(gone.body, gone.body, gone_patches_);
-      records_[slot].reset();
-    }
-    if (!is_wanted) return;
-    bodies.placed(slot);
-    any_ = true;
-    SelfRecord& one = record(slot);
-    one.body = bodies.in_slot(slot).id;
-    one.facet_pairs.clear();
-    std::swap(one.points, one.last_points);
-    one.points.clear();
-    one.looked_at = true;
-    const narrowphase::ClusterNeighbors& neighbors = bodies.neighbors(slot);
-    clusters_.find({bodies.featured(slot), &neighbors}, settings.outputs.points ? bodies.reach(slot, slot) : 0.0,
-                   bodies.tuning(), settings.threads, device);
-    if (settings.accuracy != Accuracy::hulls) find_facet_pairs(one, bodies, settings.threads);
-    if (settings.outputs.points) find_points(one, bodies, settings, points);
-  };
+  same_ = true;
+}
+
+void SelfStage::select(Bodies& bodies, bool all, int threads) {
+  slots_.clear();
   if (all) {
     const auto slots = static_cast<std::uint32_t>(bodies.boxes().size());
-    for (std::uint32_t slot = 0; slot < slots; ++slot) look_at(slot);
+    for (std::uint32_t slot = 0; slot < slots; ++slot) select(slot, bodies);
   } else {
-    for (const std::uint32_t slot : bodies.changed()) look_at(slot);
+    for (const std::uint32_t slot : bodies.changed()) select(slot, bodies);
   }
-  if (any_) {
-    select();
-  } else {
-    same_ = true;
-  }
+  std::ranges::sort(looked_at_, {}, [](const SelfRecord* one) { return one->body.index; });
+  bodies.make_neighbors(slots_, threads);
 }
 
-SelfRecord& SelfStage::record(std::uint32_t slot) {
-  if (records_.size() <= slot) records_.resize(slot + 1);
-  if (records_[slot] == nullptr) records_[slot] = std::make_unique<SelfRecord>();
-  return *records_[slot];
+void SelfStage::select(std::uint32_t slot, Bodies& bodies) {
+  const bool is_wanted = bodies.used(slot) && bodies.in_slot(slot).self_contact;
+  if (records_.size() <= slot) {
+    if (!is_wanted) return;
+    records_.resize(slot + 1);
+  }
+  std::unique_ptr<SelfRecord>& record = records_[slot];
+  if (record != nullptr && (!is_wanted || record->body != bodies.in_slot(slot).id)) {
+    record->patches.end_all(record->body, record->body, gone_patches_);
+    record.reset();
+  }
+  if (!is_wanted) return;
+  bodies.placed(slot);
+  if (record == nullptr) record = std::make_unique<SelfRecord>();
+  record->body = bodies.in_slot(slot).id;
+  record->facet_pairs.clear();
+  record->may_contact.clear();
+  std::swap(record->points, record->last_points);
+  record->points.clear();
+  looked_at_.push_back(record.get());
+  slots_.push_back(slot);
 }
 
-void SelfStage::find_facet_pairs(SelfRecord& record, const Bodies& bodies, int threads) {
-  const narrowphase::ClusteredMesh& mesh = bodies.in_slot(record.body.index).mesh;
-  const auto pairs = clusters_.may_meet();
-  const std::size_t at_a_time = threads == 1 ? std::max<std::size_t>(pairs.size(), 1) : kPairsAtATime;
-  const std::size_t ranges = (pairs.size() + at_a_time - 1) / at_a_time;
-  if (ranges_.size() < ranges) ranges_.resize(ranges);
-  if (searches_.size() < static_cast<std::size_t>(threads)) searches_.resize(threads);
-  base::parallel_for(ranges, 1, threads, [&](std::size_t i, int thread) {
-    const std::size_t begin = i * at_a_time, count = std::min(at_a_time, pairs.size() - begin);
-    ranges_[i].clear();
-    searches_[thread].run(mesh, pairs.subspan(begin, count), bodies.tuning(), ranges_[i]);
+void SelfStage::find_facet_pairs(const Bodies& bodies, const Settings& settings, narrowphase::EmbreeDevice& device) {
+  const base::Tuning& tuning = bodies.tuning();
+  const auto mesh_of = [&](const SelfRecord& record) -> const narrowphase::ClusteredMesh& {
+    return bodies.in_slot(record.body.index).mesh;
+  };
+  if (work_.size() < static_cast<std::size_t>(settings.threads)) work_.resize(settings.threads);
+  const auto search = [&](const SelfRecord& record, std::size_t begin, std::size_t end, std::vector<FacetPair>& found,
+                          int thread) {
+    found.clear();
+    work_[thread].search.run(mesh_of(record), std::span(record.may_meet).subspan(begin, end - begin), tuning, found);
+  };
+  const auto prepare = [&](std::size_t i, int thread, int threads) {
+    SelfRecord*& record = looked_at_[i];
+    const std::uint32_t slot = record->body.index;
+    narrowphase::SelfClusters& clusters = work_[thread].clusters;
+    clusters.find({bodies.featured(slot), &bodies.neighbors(slot)},
+                  settings.outputs.points ? bodies.reach(slot, slot) : 0.0, tuning, threads, device);
+    record->may_contact.assign(clusters.may_contact().begin(), clusters.may_contact().end());
+    if (settings.accuracy == Accuracy::hulls) return;
+    record->may_meet.assign(clusters.may_meet().begin(), clusters.may_meet().end());
+    const std::size_t cost = kCost * record->may_meet.size();
+    if (is_large(cost, looked_at_.size(), settings.threads, tuning)) {
+      SelfRecord* item = record;
+      large_.put_aside(item, record->may_meet, count_of_ranges(cost, settings.threads, tuning));
+      return;
+    }
+    search(*record, 0, record->may_meet.size(), record->facet_pairs, thread);
+    sort(*record, mesh_of(*record), work_[thread].sorter, 1);
+  };
+  large_.begin();
+  const auto clusters_of = [&](std::size_t i) {
+    return static_cast<std::size_t>(mesh_of(*looked_at_[i]).cluster_count());
+  };
+  for_each_item(looked_at_.size(), settings.threads, clusters_of, prepare);
+  large_.search(settings.threads, [&](const Large::Shared& shared, Large::Range& range, int thread) {
+    search(*shared.item, range.begin, range.end, range.found, thread);
   });
-  for (std::size_t i = 0; i < ranges; ++i)
-    record.facet_pairs.insert(record.facet_pairs.end(), ranges_[i].begin(), ranges_[i].end());
-  sort_facet_pairs(record.facet_pairs, mesh.facet_count(), mesh.facet_count(), sorter_, threads);
+  large_.gather(settings.threads, [&](const Large::Shared& shared, int thread, int threads) {
+    SelfRecord& record = *shared.item;
+    for (const Large::Range& range : large_.ranges(shared))
+      record.facet_pairs.insert(record.facet_pairs.end(), range.found.begin(), range.found.end());
+    sort(record, mesh_of(record), work_[thread].sorter, threads);
+  });
 }
 
-void SelfStage::find_points(SelfRecord& record, Bodies& bodies, const Settings& settings, PointStage& points) {
-  // A sheet with a margin keeps the side on which it is: see ContactPoint.
-  const std::uint32_t slot = record.body.index;
-  const bool has_side = bodies.in_slot(slot).surface == Surface::closed || bodies.reach(slot, slot) == 0.0;
-  const bool crosses = has_side && !record.facet_pairs.empty();
-  if (crosses && record.crossing == nullptr) record.crossing = std::make_unique<narrowphase::SelfCrossing>();
-  points.run_self({.slot = slot,
-                   .cluster_pairs = clusters_.may_contact(),
-                   .facet_pairs = record.facet_pairs,
-                   .last_points = record.last_points,
-                   .crossing = crosses ? record.crossing.get() : nullptr},
-                  bodies, settings, record.points);
-}
-
-void SelfStage::select() {
-  std::swap(contacts_, last_contacts_);
-  contacts_.clear();
-  any_ = false;
-  for (const std::unique_ptr<SelfRecord>& one : records_) {
-    any_ = any_ || one != nullptr;
-    if (one != nullptr && one->in_contact()) contacts_.push_back(one.get());
+// What changed is told by ids: of records that came and went one may lie where another was.
+void SelfStage::finish(const Bodies& bodies) {
+  for (SelfRecord* const one : looked_at_) {
+    const double reach = bodies.reach(one->body.index, one->body.index);
+    one->touching = is_touching(one->facet_pairs, one->points, reach);
   }
-  same_ = contacts_ == last_contacts_;
+  contacts_.clear();
+  std::swap(in_contact_, last_in_contact_);
   std::swap(touching_, last_touching_);
+  in_contact_.clear();
   touching_.clear();
-  for (const SelfRecord* one : contacts_) touching_.push_back(one->body);
+  for (const std::unique_ptr<SelfRecord>& one : records_) {
+    if (one == nullptr || !in_contact(*one)) continue;
+    contacts_.push_back(one.get());
+    in_contact_.push_back(one->body);
+    if (one->touching) touching_.push_back(one->body);
+  }
+  same_ = in_contact_ == last_in_contact_;
   // Both ascend by slot, which comes first in an id.
   const auto without = [](const std::vector<BodyId>& those, const std::vector<BodyId>& others,
                           std::vector<ContactEvent>& events) {
@@ -117,16 +141,6 @@ void SelfStage::select() {
   };
   without(touching_, last_touching_, began_);
   without(last_touching_, touching_, ended_);
-}
-
-void SelfStage::find_patches(const Bodies& bodies, PatchStage& stage, std::vector<PatchEvent>& events) {
-  events.insert(events.end(), gone_patches_.begin(), gone_patches_.end());
-  for (const std::unique_ptr<SelfRecord>& one : records_) {
-    if (one == nullptr || !std::exchange(one->looked_at, false)) continue;
-    const std::uint32_t slot = one->body.index;
-    stage.find_self(bodies.in_slot(slot), bodies.reach(slot, slot), one->facet_pairs, one->points, one->patches);
-    stage.name(one->body, one->body, one->patches, events);
-  }
 }
 
 void SelfStage::forget_patches() {

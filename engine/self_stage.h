@@ -1,8 +1,6 @@
-// Bodies that are held against themselves: their contacts, from step to step.
+// Bodies that are held against themselves: their facet pairs, and their contacts from step to step.
 #pragma once
 
-#include <tact/contact_point.h>
-#include <tact/facet_pair.h>
 #include <tact/settings.h>
 
 #include <cstdint>
@@ -13,62 +11,58 @@
 #include "engine/base/key_sort.h"
 #include "engine/bodies/bodies.h"
 #include "engine/patch_stage.h"
-#include "engine/point_stage.h"
+#include "engine/self_record.h"
+#include "engine/shared_work.h"
 #include "narrowphase/self/self_clusters.h"
-#include "narrowphase/self/self_crossing.h"
 #include "narrowphase/self/self_facet_pairs.h"
 
 namespace tact {
 
-/// What was found of a body with itself in the last step in which it had moved.
-struct SelfRecord {
-  BodyId body;
-  std::vector<FacetPair> facet_pairs;  // sorted, a < b
-  std::vector<ContactPoint> points, last_points;
-  std::unique_ptr<narrowphase::SelfCrossing> crossing;  // made when facets meet for the first time
-  PatchMemory patches;
-  bool looked_at = false;  // in this step
-  bool in_contact() const { return !facet_pairs.empty() || !points.empty(); }
-};
-
 class SelfStage {
  public:
-  /// Looks at every body that wants it and has changed since the last step, or at all of them.
-  void run(Bodies& bodies, const Settings& settings, bool all, PointStage& points, narrowphase::EmbreeDevice& device);
+  /// Looks at every body that wants it and has changed since the last step, or at all of them: finds the facet pairs,
+  /// and the cluster pairs that may have contact points.
+  void run(Bodies& bodies, const Settings& settings, bool all, narrowphase::EmbreeDevice& device);
+  /// The bodies that the last run() looked at, ascending by slot.
+  std::span<SelfRecord* const> looked_at() const { return looked_at_; }
+  /// Lists the contacts, once the points of those are known.
+  void finish(const Bodies& bodies);
   /// Nothing has changed.
-  void keep() {
-    same_ = true;
-    began_.clear();
-    ended_.clear();
-  }
+  void keep();
   /// The bodies in contact with themselves, ascending by slot.
   std::span<const SelfRecord* const> contacts() const { return contacts_; }
-  /// Finds and names the patches of the bodies that were looked at.
-  void find_patches(const Bodies& bodies, PatchStage& stage, std::vector<PatchEvent>& events);
+  /// What patches bodies had that are not looked at any more.
+  std::span<const PatchEvent> gone_patches() const { return gone_patches_; }
   void forget_patches();
-  /// Bodies that began to touch themselves in the last run(), or ceased to; those that are no more among them.
+  /// Bodies that began to touch themselves in the last step, or ceased to; those that are no more among them.
   std::span<const ContactEvent> began() const { return began_; }
   std::span<const ContactEvent> ended() const { return ended_; }
   /// Are these the bodies of the step before?
   bool same_contacts() const { return same_; }
 
  private:
-  SelfRecord& record(std::uint32_t slot);
-  void find_facet_pairs(SelfRecord& record, const Bodies& bodies, int threads);
-  void find_points(SelfRecord& record, Bodies& bodies, const Settings& settings, PointStage& points);
-  void select();
+  /// Memory of a thread, used again.
+  struct Work {
+    narrowphase::SelfClusters clusters;
+    narrowphase::SelfFacetSearch search;
+    base::KeySorter sorter;
+  };
+  using Large = SharedWork<SelfRecord*, std::vector<FacetPair>>;
+
+  void select(Bodies& bodies, bool all, int threads);
+  void select(std::uint32_t slot, Bodies& bodies);
+  void find_facet_pairs(const Bodies& bodies, const Settings& settings, narrowphase::EmbreeDevice& device);
 
   std::vector<std::unique_ptr<SelfRecord>> records_;  // by slot; null where none is wanted
-  std::vector<const SelfRecord*> contacts_, last_contacts_;
-  std::vector<BodyId> touching_, last_touching_;
+  std::vector<SelfRecord*> looked_at_;
+  std::vector<std::uint32_t> slots_;  // of those
+  std::vector<const SelfRecord*> contacts_;
+  std::vector<BodyId> in_contact_, last_in_contact_, touching_, last_touching_;
   std::vector<ContactEvent> began_, ended_;
   std::vector<PatchEvent> gone_patches_;
   bool same_ = true;
-  bool any_ = false;
-  narrowphase::SelfClusters clusters_;
-  std::vector<narrowphase::SelfFacetSearch> searches_;  // a thread each
-  std::vector<std::vector<FacetPair>> ranges_;
-  base::KeySorter sorter_;
+  std::vector<Work> work_;  // a thread each
+  Large large_;
 };
 
 }  // namespace tact

@@ -5,6 +5,7 @@
 #include <tact/settings.h>
 
 #include <cstdint>
+#include <memory>
 
 #include "broadphase/sweep_and_prune.h"
 #include "engine/bodies/bodies.h"
@@ -38,18 +39,22 @@ class Step {
   StepTrace& trace() { return trace_; }
 
  private:
-  void start_afresh();
+  /// What is found of a step, and what the next one starts from.
+  struct Stages {
+    broadphase::SweepAndPrune sweep;
+    PairTable table;
+    PairStage pairs;
+    ContainmentStage containment;
+    PointStage points;
+    SelfStage selves;
+  };
+  void start_from_scratch();
   void keep_last_answers();
-  void look_at_pairs(Bodies& bodies, const Settings& settings, base::Timer& timer, StepStats& stats);
+  void look_at_what_moved(Bodies& bodies, const Settings& settings, base::Timer& timer, StepStats& stats);
   void find_patches(const Bodies& bodies, const Settings& settings);
   void make_trace(TraceEvent::Time begin, TraceEvent::Time end, const Settings& settings);
 
-  broadphase::SweepAndPrune sweep_;
-  PairTable table_;
-  PairStage pair_stage_;
-  ContainmentStage containment_;
-  PointStage points_;
-  SelfStage self_;
+  std::unique_ptr<Stages> stages_ = std::make_unique<Stages>();
   PatchStage patches_;
   ReportWriter writer_;
   StepTrace trace_;

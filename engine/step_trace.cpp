@@ -1,8 +1,11 @@
 #include "engine/step_trace.h"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 #include <utility>
+
+#include "engine/step_statistics.h"
 
 namespace tact {
 
@@ -13,7 +16,8 @@ using Time = TraceEvent::Time;
 
 // Pairs that take less are joined to one event, so that a trace grows with time rather than with pairs.
 constexpr Time::duration kLongPair = std::chrono::microseconds(20);
-constexpr std::size_t kEventsOfStep = 6, kEventsOfPair = 5;  // at most, refreshes and ranges apart
+constexpr std::size_t kEventsOfStep = 4 + std::size(kStageTimes),
+                      kEventsOfPair = 5;  // at most, refreshes and ranges apart
 
 Time::duration duration_of(double ms) {
   return std::chrono::round<Time::duration>(std::chrono::duration<double, std::milli>(ms));
@@ -46,17 +50,19 @@ void add_pair(const PairRecord& record, Time latest, std::vector<TraceEvent>& ev
 }
 
 // Stage 6 of all large pairs, on the thread that called, and the ranges, each on its own.
-void add_ranges(Time begin, std::span<const std::unique_ptr<LargePair>> large, std::vector<TraceEvent>& events) {
-  if (large.empty()) return;
+void add_ranges(Time begin, const LargePairs& large, std::vector<TraceEvent>& events) {
+  const auto pairs = large.items();
+  if (pairs.empty()) return;
   TraceEvent all{.kind = Kind::confirm, .begin = begin, .end = begin};
-  if (large.size() == 1) all.a = large[0]->culled.record->a, all.b = large[0]->culled.record->b;
-  for (const auto& pair : large) {
-    const PairRecord& record = *pair->culled.record;
-    for (const ConfirmedRange& range : pair->used_ranges()) {
-      events.push_back({Kind::range, range.thread, range.begin, range.end, record.a, record.b,
-                        static_cast<std::int64_t>(range.found.size())});
+  if (pairs.size() == 1) all.a = pairs[0].item.record->a, all.b = pairs[0].item.record->b;
+  for (const LargePairs::Shared& pair : pairs) {
+    const PairRecord& record = *pair.item.record;
+    for (const LargePairs::Range& range : large.ranges(pair)) {
+      const ConfirmedRange& one = range.found;
+      events.push_back({Kind::range, one.thread, one.begin, one.end, record.a, record.b,
+                        static_cast<std::int64_t>(one.found.size())});
     }
-    all.end = std::max(all.end, pair->end);
+    all.end = std::max(all.end, pair.item.end);
     all.count += facet_pairs_of(record);
   }
   events.push_back(all);
@@ -64,14 +70,14 @@ void add_ranges(Time begin, std::span<const std::unique_ptr<LargePair>> large, s
 
 void add_stages(Time begin, Time end, const StepStats& stats, std::vector<TraceEvent>& events) {
   events.push_back({Kind::detect, 0, begin, end});
-  for (const auto& [kind, ms] : {std::pair{Kind::sweep, stats.sweep_ms},
-                                 {Kind::narrow_phase, stats.narrow_phase_ms},
-                                 {Kind::report, stats.report_ms}}) {
-    if (ms == 0.0) continue;  // nothing moved
+  const auto add = [&](Kind kind, double ms) {
+    if (ms == 0.0) return;  // nothing moved
     const Time stage_end = begin + duration_of(ms);
     events.push_back({kind, 0, begin, stage_end});
     begin = stage_end;
-  }
+  };
+  for (const StageTime& stage : kStageTimes) add(stage.kind, stats.*stage.ms);
+  add(Kind::report, stats.report_ms);
 }
 
 bool before(const TraceEvent& x, const TraceEvent& y) {
@@ -82,9 +88,7 @@ bool before(const TraceEvent& x, const TraceEvent& y) {
 
 void StepTrace::make(Time begin, Time end, const StepStats& stats, std::span<const MovedPair> pairs,
                      const PairStage& narrow_phase, std::vector<TraceEvent>& events) {
-  std::size_t most = refreshes_.size() + kEventsOfStep + kEventsOfPair * pairs.size();
-  for (const auto& pair : narrow_phase.large()) most += pair->range_count;
-  events.reserve(most);
+  events.reserve(refreshes_.size() + kEventsOfStep + kEventsOfPair * pairs.size() + narrow_phase.large().range_count());
   events.assign(refreshes_.begin(), refreshes_.end());
   add_stages(begin, end, stats, events);
   add_pairs(pairs, events);

@@ -38,8 +38,8 @@ Settings checked(Settings settings) {
   }
   if (settings.iteration_limit < 1)
     refuse("iteration_limit is " + std::to_string(settings.iteration_limit) + ", not at least 1");
-  check_name(settings.accuracy, Accuracy::exact, "accuracy");
-  check_name(settings.direction, DirectionPolicy::smallest, "direction");
+  check_name(settings.accuracy, Accuracy::exact, "accuracy", ErrorCode::bad_settings);
+  check_name(settings.direction, DirectionPolicy::smallest, "direction", ErrorCode::bad_settings);
   if (settings.threads == 0) settings.threads = base::default_threads();
   return settings;
 }
@@ -230,15 +230,16 @@ const Report& World::detect() {
   const base::Workers::Scope scope(i.workers);
   i.regroup();
   const double refresh_ms = std::exchange(i.refresh_ms, 0.0);
-  const Report& report = with_memory("detect ran out of memory; the next call starts afresh", [&]() -> const Report& {
-    try {
-      return i.step.run(i.bodies, i.settings, refresh_ms);
-    } catch (...) {
-      i.step.forget();
-      i.bodies.mark_all_changed();
-      throw;
-    }
-  });
+  const Report& report =
+      with_memory("detect ran out of memory; the next call starts from scratch", [&]() -> const Report& {
+        try {
+          return i.step.run(i.bodies, i.settings, refresh_ms);
+        } catch (...) {
+          i.step.forget();
+          i.bodies.mark_all_changed();
+          throw;
+        }
+      });
   i.observe([&](WorldObserver& observer) { observer.step_ended(report); });
   tell_limits(report, i.bodies, i.settings.on_message);
   return report;
@@ -295,13 +296,13 @@ void answer_all(OfWorld& world, std::span<const Query> queries, std::span<Answer
 
 }  // namespace
 
-RayHit World::ray(const Ray& ray, RayHits wanted) const {
+RayHit World::cast_ray(const Ray& ray, RayHits wanted) const {
   RayHit hit;
-  rays({&ray, 1}, {&hit, 1}, wanted);
+  cast_rays({&ray, 1}, {&hit, 1}, wanted);
   return hit;
 }
 
-void World::rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted) const {
+void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted) const {
   Implementation& i = implementation();
   check_name(wanted, RayHits::any, "hits");
   // Fewer do not open the same clusters often enough.
@@ -321,7 +322,7 @@ void World::rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits want
   });
 }
 
-std::vector<RayHit> World::all_hits(const Ray& ray) const {
+std::vector<RayHit> World::cast_ray_all(const Ray& ray) const {
   const Implementation& i = implementation();
   check_query(ray);
   const base::FloatingPointMode mode;
@@ -346,7 +347,7 @@ std::vector<FacetOfBody> World::overlap_box(const BoxQuery& query) const {
   return with_memory(kNoMemoryForAnswers, [&] { return find_in_box(i.bodies, query); });
 }
 
-std::vector<BodyId> World::inside(const PointQuery& query) const {
+std::vector<BodyId> World::bodies_containing(const PointQuery& query) const {
   const Implementation& i = implementation();
   check_query(query);
   const base::FloatingPointMode mode;
@@ -358,7 +359,7 @@ void World::overlap_boxes(std::span<const BoxQuery> queries, std::span<std::vect
   answer_all(i, queries, answers, [&](const BoxQuery& query) { return find_in_box(i.bodies, query); });
 }
 
-void World::inside_each(std::span<const PointQuery> queries, std::span<std::vector<BodyId>> answers) const {
+void World::bodies_containing_each(std::span<const PointQuery> queries, std::span<std::vector<BodyId>> answers) const {
   Implementation& i = implementation();
   answer_all(i, queries, answers, [&](const PointQuery& query) { return find_around(i.bodies, query); });
 }
@@ -373,7 +374,7 @@ Surface World::surface(BodyId body) const { return implementation().bodies.at(bo
 Motion World::motion(BodyId body) const {
   const Bodies& bodies = implementation().bodies;
   if (bodies.filter(body).fixed) return Motion::fixed;
-  return bodies.at(body).mesh.is_rigid() ? Motion::rigid : Motion::moving;
+  return bodies.at(body).mesh.is_rigid() ? Motion::rigid : Motion::deformable;
 }
 std::uint32_t World::group(BodyId body) const { return implementation().bodies.filter(body).group; }
 

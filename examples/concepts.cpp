@@ -96,7 +96,7 @@ void points_and_margins() {
   }
   // [part points]
   const tact::Contact contact = world.detect().contacts()[0];
-  expect(!contact.touching(), "no facets meet: the surfaces are 6 mm apart");
+  expect(contact.facet_pairs().empty(), "no facets meet: the surfaces are 6 mm apart");
   expect(contact.points().size() >= 4, "the four upper corners of the cube are near the sheet");
   for (const tact::ContactPoint& point : contact.points()) expect(near(point.gap, 0.006), "the gap is 6 mm");
 }
@@ -126,11 +126,11 @@ void queries() {
   // [part queries]
   tact::World world;
   world.add_body({.positions = mesh.positions, .facets = mesh.facets});
-  const tact::RayHit hit = world.ray({.from = {0.3, 0.4, 5}, .to = {0.3, 0.4, -5}});
+  const tact::RayHit hit = world.cast_ray({.from = {0.3, 0.4, 5}, .to = {0.3, 0.4, -5}});
   const tact::ClosestPoint closest = world.closest_point({.point = {0.3, 0.4, 1.2}});
-  const bool is_inside = !world.inside({.point = {0.5, 0.5, 0.5}}).empty();
+  const bool is_inside = !world.bodies_containing({.point = {0.5, 0.5, 0.5}}).empty();
   // [part queries]
-  expect(near(hit.time, 0.4), "the ray meets the top after 4 of 10 metres");
+  expect(near(hit.fraction, 0.4), "the ray meets the top after 4 of 10 metres");
   expect(near(closest.distance, 0.2), "the point is 0.2 m above the cube");
   expect(is_inside, "the middle is inside");
 }

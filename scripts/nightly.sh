@@ -12,12 +12,14 @@ scripts/build.sh release
 TACT_LONG_CGAL_PAIRS=100000000 TACT_LONG_RATIONAL_PAIRS=1000000 build/release/tests/long/test_predicates_long
 TACT_LONG_HULL_PAIRS=1000000 build/release/tests/long/test_directions_long
 TACT_LONG_MOTION_QUERIES=10000000 build/release/tests/long/test_motion_long
-TACT_LONG_QUESTIONS=1000000 build/release/tests/long/test_queries_long
+TACT_LONG_QUERIES=1000000 build/release/tests/long/test_queries_long
 TACT_LONG_POINT_PAIRS=5000 build/release/tests/long/test_points_long
 TACT_LONG_SELF_SEEDS=100 build/release/tests/long/test_self_long
 TACT_SOAK_STEPS=1000000 build/release/tests/long/test_soak_long
 TACT_LONG_SCENES_FULL=1 build/release/tests/long/test_scenes_long
-TACT_INSTRUCTION_SET=avx2 build/release/tests/test_engine --gtest_brief=1
+for set in scalar avx2; do
+  TACT_INSTRUCTION_SET=$set build/release/tests/test_engine --gtest_brief=1
+done
 build/release/bench/tact-bench stability
 scripts/lint.sh all
 scripts/build.sh debug

@@ -52,7 +52,7 @@ TruthMesh aligned_box(StabilityRandom& random) {
   return box_shape(-half, half);
 }
 
-TruthMesh turned_box(StabilityRandom& random) { return turned(aligned_box(random), random.rotation()); }
+TruthMesh rotated_box(StabilityRandom& random) { return rotated(aligned_box(random), random.rotation()); }
 
 HullRow row(const char* name, int pairs, int frames, std::uint64_t seed, const MakeHull& make) {
   HullRow result{name, frames, {}};
@@ -71,7 +71,7 @@ std::vector<HullRow> hull_rows(bool quick) {
   const int pairs = quick ? 4 : 32, frames = quick ? 4 : 12;
   std::vector<HullRow> rows{
       row("boxes, aligned", pairs, frames, 1, aligned_box),
-      row("boxes, turned", pairs, frames, 2, turned_box),
+      row("boxes, turned", pairs, frames, 2, rotated_box),
       row("hulls of 8 vertices", pairs, frames, 3, hull_of_points(8)),
       row("hulls of 32 vertices", pairs, frames, 4, hull_of_points(32)),
       row("hulls of 128 vertices", pairs, frames, 5, hull_of_points(128)),
@@ -79,7 +79,7 @@ std::vector<HullRow> hull_rows(bool quick) {
   if (!quick) {
     rows.push_back(row("hulls of 1000 vertices", 8, frames, 6, hull_of_points(1000)));
     rows.push_back(row("spheres of 642 vertices", 8, frames, 7,
-                       [](StabilityRandom& random) { return turned(ball_shape(3), random.rotation()); }));
+                       [](StabilityRandom& random) { return rotated(ball_shape(3), random.rotation()); }));
   }
   return rows;
 }

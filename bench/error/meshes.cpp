@@ -37,7 +37,7 @@ class TactMeshes : public HullRival {
       ids_.push_back(world_.add_body({.positions = body.positions(0),
                                       .facets = body.facets,
                                       .surface = body.surface,
-                                      .motion = body.fixed() ? Motion::fixed : Motion::moving}));
+                                      .motion = body.fixed() ? Motion::fixed : Motion::deformable}));
     }
   }
 

@@ -111,7 +111,7 @@ std::vector<RecallKind> recall_kinds(bool quick) {
       kind("boxes, turned", cases,
            [](StabilityRandom& r) {
              const TruthMesh box = box_shape({-1, -1, -1}, {1, 1, 1});
-             return RecallCase{{{box}, {moved(turned(box, r.rotation()), 1.2 * shallow(r))}}};
+             return RecallCase{{{box}, {moved(rotated(box, r.rotation()), 1.2 * shallow(r))}}};
            }),
       kind("lumps", cases,
            [](StabilityRandom& r) {
@@ -128,8 +128,8 @@ std::vector<RecallKind> recall_kinds(bool quick) {
            }),
       kind("sheets", cases,
            [](StabilityRandom& r) {
-             return RecallCase{{{turned(sheet_shape(8), r.rotation()), Surface::sheet},
-                                {turned(sheet_shape(8), r.rotation()), Surface::sheet}}};
+             return RecallCase{{{rotated(sheet_shape(8), r.rotation()), Surface::sheet},
+                                {rotated(sheet_shape(8), r.rotation()), Surface::sheet}}};
            }),
       kind("soups", cases,
            [](StabilityRandom& r) {

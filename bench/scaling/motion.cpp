@@ -42,7 +42,7 @@ class MotionRunner {
       ids_.push_back(world_.add_body({.positions = body.frames[0],
                                       .facets = body.facets,
                                       .surface = body.surface,
-                                      .motion = body.fixed() ? Motion::fixed : Motion::moving,
+                                      .motion = body.fixed() ? Motion::fixed : Motion::deformable,
                                       .mask = body.mask}));
     }
   }

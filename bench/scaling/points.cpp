@@ -42,7 +42,7 @@ class PointRunner {
       ids_.push_back(world_.add_body({.positions = body.positions(0),
                                       .facets = body.facets,
                                       .surface = body.surface,
-                                      .motion = body.fixed() ? Motion::fixed : Motion::moving,
+                                      .motion = body.fixed() ? Motion::fixed : Motion::deformable,
                                       .mask = body.mask,
                                       .margin = margins[k]}));
     }
@@ -76,7 +76,7 @@ void check_against_rival(const Report& report, const std::vector<NearPoint>& riv
   std::set<std::pair<int, int>> crossing;
   for (const Contact& contact : report.contacts()) {
     const std::pair bodies(static_cast<int>(contact.a.index), static_cast<int>(contact.b.index));
-    if (contact.touching() || contact.containment != Containment::none) crossing.insert(bodies);
+    if (!contact.facet_pairs().empty() || contact.containment != Containment::none) crossing.insert(bodies);
     for (const ContactPoint& point : contact.points()) {
       if (point.gap > 0.0)
         own.push_back({bodies.first, bodies.second, point.kind, point.a_vertices, point.b_vertices, point.gap});
@@ -105,7 +105,7 @@ void check_signs(const Report& report, const Workload& workload, const std::vect
   constexpr double kOnSurface = 1e-9;  // metres
   std::vector<CrossedVertex> own;
   for (const Contact& contact : report.contacts()) {
-    if (!contact.touching()) continue;
+    if (contact.facet_pairs().empty()) continue;
     const auto a = static_cast<int>(contact.a.index), b = static_cast<int>(contact.b.index);
     for (const ContactPoint& point : contact.points()) {
       if (point.gap > -kOnSurface || point.kind == FeaturePair::edge_edge) continue;
@@ -134,7 +134,7 @@ void check_signs(const Report& report, const Workload& workload, const std::vect
 }
 
 bool any_cross(const Report& report) {
-  return std::ranges::any_of(report.contacts(), [](const Contact& contact) { return contact.touching(); });
+  return std::ranges::any_of(report.contacts(), [](const Contact& contact) { return !contact.facet_pairs().empty(); });
 }
 
 // Medians over the frames, all contestants taking turns, so that what disturbs one disturbs all.

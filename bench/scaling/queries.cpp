@@ -30,10 +30,10 @@ class TactQueries : public QueryRival {
 
   bool ask(std::span<const Ray> rays) override {
     hits_.resize(rays.size());
-    world_.rays(rays, hits_);
+    world_.cast_rays(rays, hits_);
     answers_.resize(rays.size());
     for (std::size_t i = 0; i < rays.size(); ++i)
-      answers_[i] = {hits_[i].facet, hits_[i].time * (rays[i].to - rays[i].from).norm()};
+      answers_[i] = {hits_[i].facet, hits_[i].fraction * (rays[i].to - rays[i].from).norm()};
     return true;
   }
 

@@ -70,7 +70,7 @@ class Player {
  public:
   Player(const TurningBodies& bodies, Given given, int threads)
       : bodies_(bodies), given_(given), threads_(threads), world_({.threads = threads}) {
-    const Motion motion = given == Given::poses ? Motion::rigid : Motion::moving;
+    const Motion motion = given == Given::poses ? Motion::rigid : Motion::deformable;
     for (std::size_t i = 0; i < bodies.rest.size(); ++i) {
       const BodyId id = world_.add_body({.positions = bodies.rest[i], .facets = bodies.facets[i], .motion = motion});
       positions_.push_back({id, bodies.rest[i]});

@@ -18,7 +18,7 @@ StabilityCase ordinary(StabilityRandom& random) {
     case 0: return {{{ball_shape(1)}, {moved(ball_shape(1), by)}}};
     case 1:
       return {{{box_shape({-1, -1, -1}, {1, 1, 1})},
-               {moved(turned(box_shape({-1, -1, -1}, {1, 1, 1}), random.rotation()), by)}}};
+               {moved(rotated(box_shape({-1, -1, -1}, {1, 1, 1}), random.rotation()), by)}}};
     case 2: return {{{box_shape({-1, -1, -1}, {1, 1, 1})}, {box_shape({-0.5, -0.75, 0.5}, {1.5, 0.25, 2.0})}}};
     case 3: return {{{stretched(sheet_shape(6), {3, 3, 1}), Surface::sheet}, {moved(ball_shape(1), 0.5 * by)}}};
     case 4:
@@ -26,8 +26,8 @@ StabilityCase ordinary(StabilityRandom& random) {
     case 5: return {{{lumpy_shape(2, 0.4, random)}, {moved(lumpy_shape(2, 0.4, random), by)}}};
     case 6: return {{{hull_shape(12, random)}, {moved(hull_shape(9, random), by)}}};
     default:
-      return {{{turned(sheet_shape(5), random.rotation()), Surface::sheet},
-               {moved(turned(sheet_shape(4), random.rotation()), 0.3 * by), Surface::sheet}}};
+      return {{{rotated(sheet_shape(5), random.rotation()), Surface::sheet},
+               {moved(rotated(sheet_shape(4), random.rotation()), 0.3 * by), Surface::sheet}}};
   }
 }
 
@@ -84,7 +84,7 @@ StabilityCase slender_bodies(std::uint64_t seed) {
   for (StabilityBody& body : c.bodies) {
     const double thin = 1.0 / large_aspect(random);
     const Vector3d factors = random.below(2) ? Vector3d{1.0, thin, thin} : Vector3d{1.0, 1.0, thin};
-    body.mesh = turned(stretched(body.mesh, factors), random.rotation());
+    body.mesh = rotated(stretched(body.mesh, factors), random.rotation());
     if (random.below(3) == 0) break;
   }
   return c;
@@ -100,7 +100,7 @@ StabilityBody degenerate_body(int kind, StabilityRandom& random) {
     case 3: return {moved(stretched(sheet_shape(3), {0, 2, 0}), at), Surface::sheet};
     case 4: return {moved(stretched(ball_shape(0), {0, 0, 0}), at)};
     case 5: return {triangle_shape(at, at, at), Surface::sheet};
-    case 6: return {turned(moved(sheet_shape(3), at), random.rotation()), Surface::sheet};
+    case 6: return {rotated(moved(sheet_shape(3), at), random.rotation()), Surface::sheet};
     default: return {moved(ball_shape(1), at)};
   }
 }
@@ -240,7 +240,7 @@ StabilityCase sudden_teleports(std::uint64_t seed) {
       switch (random.below(4)) {
         case 0: break;
         case 1: moves[i] = mesh.positions; break;
-        case 2: moves[i] = moved(turned(mesh, random.rotation()), random.in_cube(0.7)).positions; break;
+        case 2: moves[i] = moved(rotated(mesh, random.rotation()), random.in_cube(0.7)).positions; break;
         default: moves[i] = moved(mesh, std::pow(10.0, random.below(7)) * random.direction()).positions;
       }
     }

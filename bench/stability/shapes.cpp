@@ -193,7 +193,7 @@ TruthMesh stretched(TruthMesh mesh, const Eigen::Vector3d& factors) {
   return mesh;
 }
 
-TruthMesh turned(TruthMesh mesh, const Eigen::Matrix3d& rotation) {
+TruthMesh rotated(TruthMesh mesh, const Eigen::Matrix3d& rotation) {
   mesh.positions = rotation * mesh.positions;
   return mesh;
 }

@@ -42,7 +42,7 @@ TruthMesh triangle_shape(const Eigen::Vector3d& p, const Eigen::Vector3d& q, con
 
 TruthMesh moved(TruthMesh mesh, const Eigen::Vector3d& by);
 TruthMesh stretched(TruthMesh mesh, const Eigen::Vector3d& factors);
-TruthMesh turned(TruthMesh mesh, const Eigen::Matrix3d& rotation);
+TruthMesh rotated(TruthMesh mesh, const Eigen::Matrix3d& rotation);
 // Every facet with its corners in the opposite order.
 TruthMesh inside_out(TruthMesh mesh);
 // One mesh with the vertices and facets of both.

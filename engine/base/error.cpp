@@ -19,6 +19,7 @@ const char* error_code_name(ErrorCode code) {
     case ErrorCode::bad_recording: return "bad_recording";
     case ErrorCode::wrong_motion: return "wrong_motion";
     case ErrorCode::not_a_rotation: return "not_a_rotation";
+    case ErrorCode::invalid_argument: return "invalid_argument";
   }
   return "unknown";
 }

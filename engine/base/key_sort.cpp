@@ -24,7 +24,7 @@ std::span<std::uint64_t> KeySorter::keys(std::size_t count) {
   return {from_.data(), count};
 }
 
-std::span<const std::uint64_t> KeySorter::sort(int bits, int threads) {
+std::span<std::uint64_t> KeySorter::sort(int bits, int threads) {
   const int most = count_ < kSlice ? kFewDigitBits : kDigitBits;
   const int passes = (bits + most - 1) / most, digit_bits = (bits + passes - 1) / passes;
   for (int i = 0; i < passes && count_ > 1; ++i) pass(i * digit_bits, digit_bits, threads);

@@ -14,7 +14,7 @@ class KeySorter {
   std::span<std::uint64_t> keys(std::size_t count);
   // The keys, sorted; all are below 2^bits. Valid until the next call. A radix sort from the lowest digit up, stable,
   // so that it needs no comparison.
-  std::span<const std::uint64_t> sort(int bits, int threads);
+  std::span<std::uint64_t> sort(int bits, int threads);
 
  private:
   void pass(int shift, int bits, int threads);

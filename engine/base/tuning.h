@@ -67,6 +67,10 @@ struct Tuning {
   std::size_t worth_threads = 1024;
   /// Pairs of clusters a range at least: ten times what it takes to wake a thread.
   std::size_t fewest_in_range = 32;
+  /// Ranges of an item for each thread at most, so that threads end together.
+  std::size_t ranges_per_thread = 4;
+  /// Pairs of bodies that a thread takes at a time.
+  std::size_t fewest_at_a_time = 4, most_at_a_time = 64;
 
   /// Pairs of clusters, from which on two bodies may be taken to lie on each other (narrowphase/triangles/confirm.cpp).
   std::size_t worth_as_surfaces = 128;

@@ -127,7 +127,7 @@ void Bodies::set_motion(BodyId id, Motion motion) {
   if (motion != Motion::fixed && (motion == Motion::rigid) != body.mesh.is_rigid())
     throw Error(ErrorCode::wrong_motion, quoted(body.name) + (body.mesh.is_rigid() ? " was" : " was not") +
                                              " added as rigid: its motion cannot be " +
-                                             (motion == Motion::rigid ? "rigid" : "moving"));
+                                             (motion == Motion::rigid ? "rigid" : "deformable"));
   broadphase::Filter changed = filter(id);
   changed.fixed = motion == Motion::fixed;
   set_filter(id, changed);
@@ -149,7 +149,8 @@ void Bodies::set_excluded(BodyId a, BodyId b, bool excluded) {
 
 bool Bodies::excluded(BodyId a, BodyId b) const {
   at(a), at(b);
-  if (a == b) throw Error(ErrorCode::bad_settings, quoted(at(a).name) + ": a pair is of two bodies; see self_contact");
+  if (a == b)
+    throw Error(ErrorCode::invalid_argument, quoted(at(a).name) + ": a pair is of two bodies; see self_contact");
   return excluded_.contains(slots_of(a, b));
 }
 
@@ -189,13 +190,13 @@ void Bodies::make_features(std::span<const std::uint32_t> slots, int threads) {
   });
 }
 
-const narrowphase::ClusterNeighbors& Bodies::neighbors(std::uint32_t slot) {
-  Body& body = *slots_[slot].body;
-  if (body.neighbors == nullptr) {
-    make_features({&slot, 1}, 1);
-    body.neighbors = std::make_unique<const narrowphase::ClusterNeighbors>(body.mesh, *body.features);
-  }
-  return *body.neighbors;
+void Bodies::make_neighbors(std::span<const std::uint32_t> slots, int threads) {
+  make_features(slots, threads);
+  base::parallel_for(slots.size(), 1, threads, [&](std::size_t i) {
+    Body& body = *slots_[slots[i]].body;
+    if (body.neighbors == nullptr)
+      body.neighbors = std::make_unique<const narrowphase::ClusterNeighbors>(body.mesh, *body.features);
+  });
 }
 
 void Bodies::set_filter(BodyId id, const broadphase::Filter& filter) {

@@ -58,7 +58,7 @@ class Bodies {
   void set_motion(BodyId id, Motion motion);
   void set_group(BodyId id, std::uint32_t group);
   void set_excluded(BodyId a, BodyId b, bool excluded);
-  // Errors: stale_body, foreign_body, bad_settings (one body twice).
+  // Errors: stale_body, foreign_body, invalid_argument (one body twice).
   bool excluded(BodyId a, BodyId b) const;
   void set_margin(BodyId id, double margin);
   void set_self_contact(BodyId id, bool wanted);
@@ -91,8 +91,9 @@ class Bodies {
   narrowphase::MovingMesh moving(std::uint32_t slot) const;
   // Makes the features that are missing of some bodies, which may be named more than once, in parallel.
   void make_features(std::span<const std::uint32_t> slots, int threads);
-  // Made, with its features, when they are first asked for.
-  const narrowphase::ClusterNeighbors& neighbors(std::uint32_t slot);
+  // The same of their neighbours, and the features of these; each body is named once.
+  void make_neighbors(std::span<const std::uint32_t> slots, int threads);
+  const narrowphase::ClusterNeighbors& neighbors(std::uint32_t slot) const { return *in_slot(slot).neighbors; }
 
   // Rigid bodies are placed by their poses when somebody looks at them. Is there any?
   bool any_rigid() const { return rigid_count_ > 0; }

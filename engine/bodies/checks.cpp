@@ -54,7 +54,7 @@ void check_array(const Facets& facets, const std::string& name) { check_columns(
 
 void check_margin(double margin, const std::string& name) {
   if (margin >= 0.0 && margin <= kLargestCoordinate) return;
-  throw Error(ErrorCode::bad_settings, quoted(name) + ": margin is " + base::text_of(margin) + ", not 0 to 2^300");
+  throw Error(ErrorCode::invalid_argument, quoted(name) + ": margin is " + base::text_of(margin) + ", not 0 to 2^300");
 }
 
 void check_counts(std::ptrdiff_t vertices, std::ptrdiff_t facets, std::size_t bodies, const std::string& name) {

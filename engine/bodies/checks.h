@@ -1,4 +1,4 @@
-// Is what a caller gives as a body one that a world takes? Each check names what is wrong.
+// Validates a BodyDefinition. The message of each check says what is wrong.
 #pragma once
 
 #include <tact/body.h>
@@ -18,7 +18,7 @@ void check_facets(std::span<const int> corners, const Facets& given, std::ptrdif
 // Errors: wrong_size. Not of the shape 3 x N, null, or of a kind of number that `what` cannot have.
 void check_array(const Positions& positions, const std::string& name);
 void check_array(const Facets& facets, const std::string& name);
-// Errors: bad_settings.
+// Errors: invalid_argument.
 void check_margin(double margin, const std::string& name);
 // Errors: too_large.
 void check_counts(std::ptrdiff_t vertices, std::ptrdiff_t facets, std::size_t bodies, const std::string& name);

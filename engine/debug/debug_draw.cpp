@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/facet_fates.h"
+#include "engine/facet_outcomes.h"
 
 namespace tact {
 namespace {
@@ -54,7 +54,7 @@ class Drawing {
  public:
   Drawing(const World& world, const Report& report, DebugDrawer& drawer, const DebugDrawOptions& options)
       : world_(world), report_(report), drawer_(drawer), options_(options) {
-    if (options.kept_facets) fates_.emplace(report);
+    if (options.kept_facets) outcomes_.emplace(report);
   }
 
   void draw() {
@@ -90,7 +90,7 @@ class Drawing {
   void draw_contact(const Contact& contact) {
     const bool with_itself = contact.a == contact.b;
     if (!with_itself) draw_hulls(contact);
-    if (fates_) draw_kept_facets(contact);
+    if (outcomes_) draw_kept_facets(contact);
     if (options_.facet_pairs) draw_facet_pairs(contact);
     if (options_.patches) {
       for (const Patch& patch : contact.patches())
@@ -122,11 +122,11 @@ class Drawing {
   }
 
   void draw_kept_facets(const Contact& contact) {
-    const std::optional<FacetFates> fates = fates_->find(contact);
-    if (!fates) return;
-    for (const auto& [body, of_facets] : {std::pair{contact.a, &fates->a}, std::pair{contact.b, &fates->b}}) {
+    const std::optional<FacetOutcomes> outcomes = outcomes_->find(contact);
+    if (!outcomes) return;
+    for (const auto& [body, of_facets] : {std::pair{contact.a, &outcomes->a}, std::pair{contact.b, &outcomes->b}}) {
       for (std::size_t f = 0; f < of_facets->size(); ++f) {
-        if ((*of_facets)[f] == FacetFate::kept || (!options_.facet_pairs && (*of_facets)[f] == FacetFate::meets))
+        if ((*of_facets)[f] == FacetOutcome::kept || (!options_.facet_pairs && (*of_facets)[f] == FacetOutcome::meets))
           draw_triangle(mesh_of(body), static_cast<int>(f), options_.kept);
       }
     }
@@ -231,7 +231,7 @@ class Drawing {
   const Report& report_;
   DebugDrawer& drawer_;
   const DebugDrawOptions& options_;
-  std::optional<FacetFateFinder> fates_;
+  std::optional<FacetOutcomeFinder> outcomes_;
   std::unordered_map<BodyId, Mesh> meshes_;
 };
 

@@ -5,9 +5,8 @@
 
 namespace tact {
 
-/// Replaces what `work.culled` holds by what the criteria leave of the pair. At Accuracy::paper, or where zones are
-/// asked for, also fills the zones of the record's contact. Errors: backend_failure, out_of_memory.
-void cull(const PairInput& pair, const narrowphase::Slab& slab, PairRecord& record, narrowphase::EmbreeDevice& device,
-          PairWork& work);
+/// Replaces what `pair.work.culled` holds by what the criteria leave of the pair. At Accuracy::paper, or where zones
+/// are asked for, also fills the zones of the record's contact. Errors: backend_failure, out_of_memory.
+void cull(const PairTask& pair, const narrowphase::Slab& slab, narrowphase::EmbreeDevice& device);
 
 }  // namespace tact

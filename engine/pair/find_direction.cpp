@@ -18,7 +18,8 @@ struct FoundDirection {
 };
 
 // The surface that the search for the smallest separation starts from and leaves, if every step searches.
-SurfaceShape* surface_of(const PairInput& pair, PairRecord& record) {
+SurfaceShape* surface_of(const PairTask& pair) {
+  PairRecord& record = pair.record;
   if (pair.settings.direction != DirectionPolicy::smallest || !pair.tuning.carries_hulls) return nullptr;
   if (record.surface == nullptr) record.surface = std::make_unique<SurfaceShape>();
   if (!record.history.has_surface) record.surface->face_count = 0;
@@ -26,22 +27,21 @@ SurfaceShape* surface_of(const PairInput& pair, PairRecord& record) {
   return record.surface.get();
 }
 
-FoundDirection carried_direction(const PairInput& pair, const PairRecord& record, const DirectionSettings& settings,
-                                 PairWork& work) {
-  const PairHistory& history = record.history;
+FoundDirection carried_direction(const PairTask& pair, const DirectionSettings& settings) {
+  const PairHistory& history = pair.record.history;
   const bool was_overlapping = history.kind == PairHistory::Kind::overlapping;
-  const GjkSimplex face = was_overlapping && pair.tuning.carries_hulls ? record.face : GjkSimplex{};
-  return {contact_direction(pair.difference, history.direction, face, settings, work.faces),
+  const GjkSimplex face = was_overlapping && pair.tuning.carries_hulls ? pair.record.face : GjkSimplex{};
+  return {contact_direction(pair.difference, history.direction, face, settings, pair.work.faces),
           was_overlapping ? DirectionSource::carried : DirectionSource::fresh};
 }
 
-FoundDirection smallest_direction(const PairInput& pair, const HullTest& hulls, PairRecord& record,
-                                  const DirectionSettings& settings, PairWork& work) {
-  const PairHistory& history = record.history;
+FoundDirection smallest_direction(const PairTask& pair, const HullTest& hulls, const DirectionSettings& settings) {
+  const PairHistory& history = pair.record.history;
+  PairWork& work = pair.work;
   const bool is_new = history.kind == PairHistory::Kind::none;
   const SmallestStart start{.preferred = is_new ? Vec3{0.0, 0.0, 1.0} : history.direction,
                             .hulls = history.hulls,
-                            .shape = surface_of(pair, record),
+                            .shape = surface_of(pair),
                             .is_placed = hulls.surface_is_placed};
   const SmallestSeparation smallest = smallest_separation(pair.difference, start, work.smallest);
   work.counts.gjk_iterations += smallest.support_queries;
@@ -51,12 +51,11 @@ FoundDirection smallest_direction(const PairInput& pair, const HullTest& hulls, 
   return direction;
 }
 
-FoundDirection search_direction(const PairInput& pair, const HullTest& hulls, PairRecord& record, PairWork& work) {
+FoundDirection search_direction(const PairTask& pair, const HullTest& hulls) {
   const DirectionSettings settings{{pair.settings.gjk_tolerance}, pair.settings.iteration_limit};
-  const bool is_new = record.history.kind == PairHistory::Kind::none;
-  return !is_new && pair.settings.direction == DirectionPolicy::carried
-             ? carried_direction(pair, record, settings, work)
-             : smallest_direction(pair, hulls, record, settings, work);
+  const bool is_new = pair.record.history.kind == PairHistory::Kind::none;
+  return !is_new && pair.settings.direction == DirectionPolicy::carried ? carried_direction(pair, settings)
+                                                                        : smallest_direction(pair, hulls, settings);
 }
 
 // The planes go through the vertices that the last support query of the direction found.
@@ -66,12 +65,11 @@ Slab slab_of(const MinkowskiDifference& m, const ContactDirection& found) {
   return make_slab(found.n, m.origin(), lower, upper, m.vertex_height_error());
 }
 
-void fill_contact(const PairInput& pair, const HullTest& hulls, const FoundDirection& direction, const Slab& slab,
-                  PairRecord& record) {
-  Contact& contact = record.contact;
+void fill_contact(const PairTask& pair, const HullTest& hulls, const FoundDirection& direction, const Slab& slab) {
+  Contact& contact = pair.record.contact;
   contact = Contact{};
-  contact.a = record.a;
-  contact.b = record.b;
+  contact.a = pair.record.a;
+  contact.b = pair.record.b;
   contact.direction = {slab.n.x, slab.n.y, slab.n.z};
   contact.depth = std::max(0.0, direction.found.height / pair.difference.scale());
   contact.source = direction.source;
@@ -92,9 +90,10 @@ void count_contact(const Contact& contact, PairCounts& counts) {
 
 }  // namespace
 
-Slab find_direction(const PairInput& pair, const HullTest& hulls, PairRecord& record, PairWork& work) {
-  const FoundDirection direction = search_direction(pair, hulls, record, work);
-  work.counts.gjk_iterations += direction.found.support_queries;
+Slab find_direction(const PairTask& pair, const HullTest& hulls) {
+  PairRecord& record = pair.record;
+  const FoundDirection direction = search_direction(pair, hulls);
+  pair.work.counts.gjk_iterations += direction.found.support_queries;
   record.hulls_overlap = true;
   record.near = false;
   record.history.kind = PairHistory::Kind::overlapping;
@@ -103,8 +102,8 @@ Slab find_direction(const PairInput& pair, const HullTest& hulls, PairRecord& re
   const Slab slab = slab_of(pair.difference, direction.found);
   record.slab_lower = slab.lower;
   record.slab_upper = slab.upper;
-  fill_contact(pair, hulls, direction, slab, record);
-  count_contact(record.contact, work.counts);
+  fill_contact(pair, hulls, direction, slab);
+  count_contact(record.contact, pair.work.counts);
   return slab;
 }
 

@@ -9,6 +9,6 @@ namespace tact {
 /// Fills the record's contact and returns the slab between the contact planes. A pair that was in contact starts from
 /// the direction of the last step, one that was apart from the direction that separated it, one that is new from its
 /// smallest separation.
-narrowphase::Slab find_direction(const PairInput& pair, const HullTest& hulls, PairRecord& record, PairWork& work);
+narrowphase::Slab find_direction(const PairTask& pair, const HullTest& hulls);
 
 }  // namespace tact

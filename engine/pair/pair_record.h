@@ -42,6 +42,7 @@ struct alignas(64) PairRecord {
   bool hulls_overlap = false;
   bool near = false;            ///< the hulls are apart by less than the sum of the margins
   bool was_in_contact = false;  ///< in the step before: last_points are of that
+  bool touching = false;        ///< see is_touching()
   PairHistory history;
   PairTimes times;
   // Of pairs whose hulls overlap; for others the vectors are empty and the rest is old.
@@ -58,10 +59,5 @@ struct alignas(64) PairRecord {
 };
 
 inline bool in_contact(const PairRecord& record) { return record.hulls_overlap || record.near; }
-
-/// By facets or by points.
-inline bool touches(const PairRecord& record) {
-  return in_contact(record) && (!record.facet_pairs.empty() || !record.points.empty());
-}
 
 }  // namespace tact

@@ -116,7 +116,7 @@ PairRecord& PairTable::new_record(BodyId a, BodyId b) {
   record.a = a;
   record.b = b;
   record.history = {};
-  record.hulls_overlap = record.near = false;
+  record.hulls_overlap = record.near = record.touching = false;
   record.facet_pairs.clear();
   record.points.clear();
   record.surfaces.reset();
@@ -124,7 +124,7 @@ PairRecord& PairTable::new_record(BodyId a, BodyId b) {
 }
 
 void PairTable::retire(PairRecord& record) {
-  if (touches(record)) gone_.push_back({record.a, record.b});
+  if (record.touching) gone_.push_back({record.a, record.b});
   if (record.patches != nullptr) record.patches->end_all(record.a, record.b, gone_patches_);
   const std::size_t room = record.facet_pairs.capacity();
   room_ = std::min(std::max(room_, room), kLargestRoom);

@@ -58,8 +58,8 @@ class PairTable {
   std::size_t excluded() const { return excluded_; }
   // Takes over what a step found of a pair. Different pairs may be noted by different threads.
   void note_result(MovedPair& pair);
-  // Does it touch, once it was looked at? Pairs that are apart and were are not read.
-  bool touches_now(const MovedPair& pair) const { return entries_[pair.place].in_contact && touches(*pair.record); }
+  // Whether a pair that was looked at touches. The records of pairs that stayed apart are not read.
+  bool touches_now(const MovedPair& pair) const { return entries_[pair.place].in_contact && pair.record->touching; }
   // Do its hulls overlap, or are they nearer than their margins?
   bool in_contact(std::size_t place) const { return entries_[place].in_contact; }
   // Are the pairs in contact those of the last step?

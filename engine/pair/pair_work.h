@@ -1,4 +1,4 @@
-// What the stages of a pair hand to each other: the two bodies, what the criteria leave of them, a thread's memory.
+// What the stages of a pair get, and hand to each other.
 #pragma once
 
 #include <tact/settings.h>
@@ -16,24 +16,6 @@
 
 namespace tact {
 
-/// Two bodies as the stages of a pair see them.
-struct PairInput {
-  PairInput(const Bodies& bodies, BodyId id_a, BodyId id_b, const Settings& of_world)
-      : a(bodies.in_slot(id_a.index)),
-        b(bodies.in_slot(id_b.index)),
-        difference(a.mesh, b.mesh, bodies.tuning()),
-        reach(bodies.reach(id_a.index, id_b.index)),
-        settings(of_world),
-        tuning(bodies.tuning()) {}
-
-  const Body& a;
-  const Body& b;
-  narrowphase::MinkowskiDifference difference;  ///< of their hulls
-  double reach;                                 ///< the sum of their margins, metres: hulls nearer than this are near
-  const Settings& settings;
-  const base::Tuning& tuning;
-};
-
 /// What stage 5 leaves of a pair for stage 6.
 struct CulledPair {
   PairRecord* record = nullptr;
@@ -43,11 +25,12 @@ struct CulledPair {
   narrowphase::KeptClusters kept_a, kept_b;
   std::vector<narrowphase::ClusterPair> cluster_pairs;
   bool as_surfaces = false;  ///< see surface_pairs.h
-  bool turned = false;       ///< for stage 6 the second body is A, and the first is B: so in cluster_pairs
+  bool swapped = false;      ///< for stage 6 the second body is A, and the first is B: so in cluster_pairs
   narrowphase::SurfaceHistory* history = nullptr;  ///< of the record, if it is of use in this step
+  TraceEvent::Time end;                            ///< of a large pair: when its facet pairs stood in the record
 
   narrowphase::ConfirmInput confirm_input(const base::Tuning& tuning) const {
-    if (turned) return {b, a, criteria_b, criteria_a, &kept_b, &kept_a, as_surfaces, history, &tuning};
+    if (swapped) return {b, a, criteria_b, criteria_a, &kept_b, &kept_a, as_surfaces, history, &tuning};
     return {a, b, criteria_a, criteria_b, &kept_a, &kept_b, as_surfaces, history, &tuning};
   }
 };
@@ -64,6 +47,29 @@ struct PairWork {
   CulledPair culled;
   narrowphase::FacetPairSearch search;
   base::KeySorter sorter;
+  std::vector<char> seen_b;  ///< scratch: by kept cluster of B, of a large pair
+};
+
+/// What a stage of a pair gets: the two bodies, what the pair keeps, and the memory of the thread.
+struct PairTask {
+  PairTask(const Bodies& bodies, PairRecord& of_pair, const Settings& of_world, PairWork& of_thread)
+      : a(bodies.in_slot(of_pair.a.index)),
+        b(bodies.in_slot(of_pair.b.index)),
+        difference(a.mesh, b.mesh, bodies.tuning()),
+        reach(bodies.reach(of_pair.a.index, of_pair.b.index)),
+        settings(of_world),
+        tuning(bodies.tuning()),
+        record(of_pair),
+        work(of_thread) {}
+
+  const Body& a;
+  const Body& b;
+  narrowphase::MinkowskiDifference difference;  ///< of their hulls
+  double reach;                                 ///< the sum of their margins, metres: hulls nearer than this are near
+  const Settings& settings;
+  const base::Tuning& tuning;
+  PairRecord& record;
+  PairWork& work;
 };
 
 }  // namespace tact

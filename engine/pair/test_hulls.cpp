@@ -9,20 +9,22 @@ namespace {
 using namespace narrowphase;
 
 // Do the vertices that showed the hulls to overlap in the last step show it still? No support query.
-bool still_overlap(const PairInput& pair, const PairRecord& record, PairWork& work, HullTest& test) {
+bool still_overlap(const PairTask& pair, HullTest& test) {
+  const PairRecord& record = pair.record;
   const PairHistory& history = record.history;
   test.surface_is_placed = history.has_surface && record.surface->face_count > 0 &&
-                           work.smallest.surface.start(pair.difference, *record.surface);
+                           pair.work.smallest.surface.start(pair.difference, *record.surface);
   if (test.surface_is_placed) return true;
   return history.kind == PairHistory::Kind::overlapping && holds_origin(pair.difference, history.hulls);
 }
 
 // Does the direction of the last step separate the hulls still, by more than the margins and what rounding may be?
-bool still_separated(const PairInput& pair, const PairHistory& history, PairCounts& counts) {
+bool still_separated(const PairTask& pair) {
+  const PairHistory& history = pair.record.history;
   const MinkowskiDifference& m = pair.difference;
   const int a = history.hulls.a[0], b = history.hulls.b[0];
   if (pair.reach == 0.0 && m.separated_by_plane(history.direction, a, b)) return true;
-  ++counts.gjk_iterations;
+  ++pair.work.counts.gjk_iterations;
   const double height = dot(history.direction, m.support(history.direction, m.vertex(a, b)).point);
   return height < -(m.height_error() + m.scale() * pair.reach);
 }
@@ -50,7 +52,9 @@ void set_near(PairRecord& record, double distance, double plane_a, double plane_
 }
 
 // In doubles, and in integers where these cannot tell.
-HullTest test_by_gjk(const PairInput& pair, bool carries, PairRecord& record, PairCounts& counts) {
+HullTest test_by_gjk(const PairTask& pair, bool carries) {
+  PairRecord& record = pair.record;
+  PairCounts& counts = pair.work.counts;
   const MinkowskiDifference& m = pair.difference;
   PairHistory& history = record.history;
   const GjkResult hulls = gjk(m, {}, carries ? history.hulls : GjkSimplex{}, {pair.settings.gjk_tolerance});
@@ -81,22 +85,23 @@ HullTest test_by_gjk(const PairInput& pair, bool carries, PairRecord& record, Pa
 
 }  // namespace
 
-HullTest test_hulls(const PairInput& pair, PairRecord& record, PairWork& work) {
+HullTest test_hulls(const PairTask& pair) {
+  PairRecord& record = pair.record;
+  PairCounts& counts = pair.work.counts;
   // What the last step knew of a pair is a start from which less is to be done; its direction is more than that.
   const bool carries = pair.tuning.carries_hulls;
   HullTest test;
-  if (carries && still_overlap(pair, record, work, test)) {
-    ++work.counts.still_overlapping;
+  if (carries && still_overlap(pair, test)) {
+    ++counts.still_overlapping;
     test.overlap = true;
     return test;
   }
-  if (carries && record.history.kind == PairHistory::Kind::separated &&
-      still_separated(pair, record.history, work.counts)) {
-    ++work.counts.still_separated;
+  if (carries && record.history.kind == PairHistory::Kind::separated && still_separated(pair)) {
+    ++counts.still_separated;
     set_apart(record, record.history.direction);
     return test;
   }
-  return test_by_gjk(pair, carries, record, work.counts);
+  return test_by_gjk(pair, carries);
 }
 
 }  // namespace tact

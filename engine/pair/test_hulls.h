@@ -16,6 +16,6 @@ struct HullTest {
 /// and then one support query a body; then GJK, from where it ended in the last step, and integers where it cannot
 /// tell. If they are apart, a direction that separates them is left in the record's history, and the record is near if
 /// they are nearer than the margins.
-HullTest test_hulls(const PairInput& pair, PairRecord& record, PairWork& work);
+HullTest test_hulls(const PairTask& pair);
 
 }  // namespace tact

@@ -65,10 +65,10 @@ double Measure::deepest(const Scene& scene) const {
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     const Eigen::Matrix3Xd positions = scene.positions(scene.bodies()[i]);
     for (Eigen::Index v = 0; v < positions.cols(); ++v) {
-      const tact::Asked others{.mask = ~world_.layer(ids_[i])};
-      for (const tact::BodyId outer : world_.inside({.point = positions.col(v), .asked = others})) {
-        const tact::Asked that{.mask = world_.layer(outer)};
-        deepest = std::max(deepest, world_.closest_point({.point = positions.col(v), .asked = that}).distance);
+      const tact::QueryFilter others{.mask = ~world_.layer(ids_[i])};
+      for (const tact::BodyId outer : world_.bodies_containing({.point = positions.col(v), .filter = others})) {
+        const tact::QueryFilter that{.mask = world_.layer(outer)};
+        deepest = std::max(deepest, world_.closest_point({.point = positions.col(v), .filter = that}).distance);
       }
     }
   }

@@ -108,13 +108,14 @@ void TactSolver::add(btSoftBody& body, tact::Surface surface) {
 }
 
 void TactSolver::add(btRigidBody& body, const Mesh& mesh) {
-  const tact::BodyId id = world_.add_body({.positions = moved(mesh.positions, body.getWorldTransform()),
-                                           .facets = mesh.facets,
-                                           .motion = body.isStaticObject() ? tact::Motion::fixed : tact::Motion::moving,
-                                           .layer = kRigidLayer,
-                                           .mask = kSoftLayer,  // two rigid bodies are Bullet's
-                                           .external_id = participants_.size(),
-                                           .margin = settings_.thickness / 2});
+  const tact::BodyId id =
+      world_.add_body({.positions = moved(mesh.positions, body.getWorldTransform()),
+                       .facets = mesh.facets,
+                       .motion = body.isStaticObject() ? tact::Motion::fixed : tact::Motion::deformable,
+                       .layer = kRigidLayer,
+                       .mask = kSoftLayer,  // two rigid bodies are Bullet's
+                       .external_id = participants_.size(),
+                       .margin = settings_.thickness / 2});
   participants_.push_back({.id = id, .rigid = &body, .local = mesh.positions});
 }
 // [part add]

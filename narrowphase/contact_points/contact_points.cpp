@@ -7,7 +7,6 @@
 #include "narrowphase/contact_points/open_features.h"
 #include "narrowphase/contact_points/point_finder.h"
 #include "narrowphase/contact_points/waiting_edges.h"
-#include "narrowphase/numeric/unit_scale.h"
 
 namespace tact::narrowphase {
 
@@ -147,14 +146,13 @@ ContactPointSearch& ContactPointSearch::operator=(ContactPointSearch&&) noexcept
 
 void ContactPointSearch::run(const FeaturedMesh& a, const FeaturedMesh& b, double reach,
                              std::span<const ClusterPair> pairs, std::vector<FeaturePoint>& found,
-                             const CrossedVertices& crossed, Given given) {
+                             const NearRules& rules, Given given) {
   const Box whole = merged(a.mesh->box(), b.mesh->box());
-  const Vec3 size = whole.upper - whole.lower;
-  const double scale = unit_scale(std::max({size.x, size.y, size.z}));
+  const double scale = unit_scale_of(whole);
   const ScaledMesh scaled_a{*a.mesh, *a.features, scale}, scaled_b{*b.mesh, *b.features, scale};
   const double wide = box_reach(scale * reach, scale * std::max(largest_coordinate(a.mesh->box()),  //
                                                                 largest_coordinate(b.mesh->box())));
-  PointFinder finder(scaled_a, scaled_b, scale * reach, crossed, memory_->edges, memory_->ways, found);
+  PointFinder finder(scaled_a, scaled_b, scale * reach, rules, memory_->edges, memory_->ways, found);
   FewClusters few;
   const bool together = given == Given::all && a.mesh != b.mesh && pairs.size() <= kPairsOfGrid && few.take(pairs);
   for (; !pairs.empty(); pairs = pairs.subspan(std::min(pairs.size(), kPairsOfGrid))) {

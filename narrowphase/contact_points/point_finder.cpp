@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <numbers>
 #include <utility>
 
+#include "narrowphase/crossing/crossing_points.h"
 #include "narrowphase/distance/edge_edge.h"
 #include "narrowphase/distance/facet_border.h"
 #include "narrowphase/distance/vertex_facet.h"
@@ -15,12 +15,12 @@ namespace {
 
 Vec3 point_of(const ClusterPoints& points, int i) { return {points.at[0][i], points.at[1][i], points.at[2][i]}; }
 
-std::uint64_t without_crossed(std::uint64_t some, const OpenFeatures& one, int block,
-                              std::span<const std::uint64_t> crossed) {
+// Without those that have a bit in `left_out`, one for each vertex of the mesh.
+std::uint64_t without(std::span<const std::uint64_t> left_out, std::uint64_t some, const FeatureBlock& vertices) {
   std::uint64_t rest = some;
-  for (std::uint64_t left = some; left != 0; left &= left - 1) {
-    const auto vertex = static_cast<std::size_t>(one.vertices[block].feature[std::countr_zero(left)]);
-    if ((crossed[vertex / 64] >> vertex % 64 & 1) != 0) rest &= ~(left & -left);
+  for (std::uint64_t left = left_out.empty() ? 0 : some; left != 0; left &= left - 1) {
+    const auto vertex = static_cast<std::size_t>(vertices.feature[std::countr_zero(left)]);
+    if ((left_out[vertex / 64] >> vertex % 64 & 1) != 0) rest &= ~(left & -left);
   }
   return rest;
 }
@@ -57,11 +57,13 @@ PointFinder::Near PointFinder::near_facets(const OpenFeatures& one, const CellBo
 void PointFinder::from_vertices(const OpenFeatures& one, const OpenFeatures& other, const Near& near,
                                 FeaturePair kind) {
   std::uint64_t met[FeatureBlock::kCapacity], inside[FeatureBlock::kCapacity];
+  const bool of_a = kind == FeaturePair::vertex_facet;
+  std::span<const std::uint64_t> left_out;
+  if (rules_.crossing != nullptr) left_out = rules_.crossing->surfaces[of_a ? 0 : 1].without_near_points;
   for (int block = 0; block < one.vertex_blocks; ++block) {
     const FeatureBlock& vertices = one.vertices[block];
     std::uint64_t some = kernels().near_facets(vertices.cells, all_of(vertices.count), near.cells);
-    const auto crossed = kind == FeaturePair::vertex_facet ? crossed_.a : crossed_.b;
-    if (!crossed.empty()) some = without_crossed(some, one, block, crossed);
+    some = without(left_out, some, vertices);
     std::uint64_t left = kernels().near_vertices({one.points, vertices, some},
                                                  {other.points, other.facets, near.facets}, reach_, met, inside);
     for (; left != 0; left &= left - 1) {
@@ -69,8 +71,8 @@ void PointFinder::from_vertices(const OpenFeatures& one, const OpenFeatures& oth
       for (std::uint64_t rest = met[i]; rest != 0; rest &= rest - 1) {
         const int k = std::countr_zero(rest);
         const auto corner = [&](int c) { return point_of(other.points, other.facets.corner[c][k]); };
-        const VertexAndFacet pair{kind == FeaturePair::vertex_facet ? a_ : b_,
-                                  kind == FeaturePair::vertex_facet ? b_ : a_,
+        const VertexAndFacet pair{of_a ? a_ : b_,
+                                  of_a ? b_ : a_,
                                   kind,
                                   vertices.feature[i],
                                   other.facets.feature[k],
@@ -117,20 +119,16 @@ void PointFinder::look_at_border(const VertexAndFacet& one) {
 
 void PointFinder::add_vertex_point(const VertexAndFacet& pair, std::span<const int> feature, const Nearest& nearest) {
   const auto& [m, surface, kind, vertex, facet, v, corner] = pair;
-  if (same_ && along_surface({&vertex, 1}, v, feature, v + nearest.distance * nearest.normal)) return;
-  FeaturePoint point;
-  point.kind = kind;
-  point.gap = nearest.distance / m.scale;
-  const bool of_a = kind == FeaturePair::vertex_facet;
-  auto& own = of_a ? point.a : point.b;
-  auto& others = of_a ? point.b : point.a;
-  own = source_vertices(m.mesh, {&vertex, 1});
-  others = source_vertices(surface.mesh, feature);
-  (of_a ? point.weight_a : point.weight_b) = {1.0, 0.0, 0.0};
-  std::ranges::copy(nearest.weight, (of_a ? point.weight_b : point.weight_a).begin());
-  const Vec3 normal = nearest.normal == Vec3{} ? -facet_normal(surface, facet) : nearest.normal;
-  point.normal = of_a ? normal : -normal;
-  found_.push_back(point);
+  const Vec3 way = nearest.normal == Vec3{} ? -facet_normal(surface, facet) : nearest.normal;
+  if (same_) {
+    if (rules_.crossing != nullptr && leads_back(*rules_.crossing, m.mesh.source_vertex(vertex), way)) return;
+    const Vec3 place = v + nearest.distance * nearest.normal;
+    if (too_near_along(a_, reach_, {{&vertex, 1}, v}, {feature, place}, ways_)) return;
+  }
+  PlaceOnFeature place;
+  std::ranges::copy(feature, place.vertices.begin());
+  std::ranges::copy(nearest.weight, place.weight.begin());
+  add(point_of_vertex(kind, m.mesh, vertex, surface.mesh, place, way, nearest.distance / m.scale));
 }
 
 void PointFinder::between_edges(const OpenFeatures& a, const Near& near_a, const OpenFeatures& b, const Near& near_b) {
@@ -177,22 +175,22 @@ void PointFinder::look_at_edges(int e, int f) {
 void PointFinder::add_edge_point(int edge_e, const EdgeEnds& at_e, int edge_f, const Nearest& nearest) {
   const EdgeVertices e = a_.features.edge(edge_e), f = b_.features.edge(edge_f);
   const Vec3 on_e = nearest.first[0] * at_e.p + nearest.first[1] * at_e.q;
-  if (same_ && along_surface(e, on_e, f, on_e + nearest.distance * nearest.normal)) return;
-  FeaturePoint point = point_of_edges(nearest, source_vertices(a_.mesh, e), source_vertices(b_.mesh, f), edge_e, edge_f,
-                                      nearest.distance / a_.scale);
+  if (same_ && too_near_along(a_, reach_, {e, on_e}, {f, on_e + nearest.distance * nearest.normal}, ways_)) return;
+  FeaturePoint point = point_of_edges(nearest, a_, edge_e, b_, edge_f, nearest.distance / a_.scale);
   if (same_ && point.b < point.a) {
     std::swap(point.a, point.b);
     std::swap(point.weight_a, point.weight_b);
     std::swap(point.edge_a, point.edge_b);
     point.normal = -point.normal;
   }
-  found_.push_back(point);
+  if (rules_.crossing == nullptr) return add(point);
+  if (const auto other = point_of_near_edges(*rules_.crossing, point, ways_)) add(*other);
 }
 
-// Is the way along the edges of the mesh from one point to the other too short for a contact?
-bool PointFinder::along_surface(std::span<const int> from, Vec3 from_point, std::span<const int> to, Vec3 to_point) {
-  const double limit = 0.5 * std::numbers::pi * reach_;
-  return surface_distance_below(limit, a_.mesh, a_.features, a_.scale, {from, from_point}, {to, to_point}, ways_);
+// What touches in a vertex or an edge has no side of its own.
+void PointFinder::add(FeaturePoint point) {
+  if (point.gap == 0.0 && dot(point.normal, rules_.touching) < 0.0) point.normal = -point.normal;
+  found_.push_back(point);
 }
 
 }  // namespace tact::narrowphase

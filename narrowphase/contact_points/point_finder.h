@@ -14,11 +14,11 @@ namespace tact::narrowphase {
 class PointFinder {
  public:
   /// Memory is lent by `waiting` and `ways`; points are appended to `found`.
-  PointFinder(const ScaledMesh& a, const ScaledMesh& b, double reach, const CrossedVertices& crossed,
-              WaitingEdges& waiting, SurfaceWays& ways, std::vector<FeaturePoint>& found)
+  PointFinder(const ScaledMesh& a, const ScaledMesh& b, double reach, const NearRules& rules, WaitingEdges& waiting,
+              SurfaceWays& ways, std::vector<FeaturePoint>& found)
       : a_(a),
         b_(b),
-        crossed_(crossed),
+        rules_(rules),
         same_(&a.mesh == &b.mesh),
         reach_(reach),
         found_(found),
@@ -56,10 +56,10 @@ class PointFinder {
   void add_edges(int e, int f, bool in_one_cluster);
   void look_at_edges(int e, int f);
   void add_edge_point(int edge_e, const EdgeEnds& at_e, int edge_f, const Nearest& nearest);
-  bool along_surface(std::span<const int> from, Vec3 from_point, std::span<const int> to, Vec3 to_point);
+  void add(FeaturePoint point);
 
   const ScaledMesh a_, b_;
-  const CrossedVertices crossed_;
+  const NearRules rules_;
   const bool same_;
   const double reach_;
   std::vector<FeaturePoint>& found_;

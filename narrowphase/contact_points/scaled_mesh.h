@@ -1,10 +1,19 @@
 // A mesh in a unit of length in which distances neither vanish nor overflow.
 #pragma once
 
+#include <algorithm>
+
 #include "narrowphase/distance/nearest.h"
 #include "narrowphase/mesh/features.h"
+#include "narrowphase/numeric/unit_scale.h"
 
 namespace tact::narrowphase {
+
+/// Scales the longest side of a box to between 1 and 2.
+inline double unit_scale_of(const Box& box) {
+  const Vec3 size = box.upper - box.lower;
+  return unit_scale(std::max({size.x, size.y, size.z}));
+}
 
 struct ScaledMesh {
   const ClusteredMesh& mesh;

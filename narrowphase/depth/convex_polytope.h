@@ -31,7 +31,7 @@ class ConvexPolytope {
   const std::vector<Face>& faces() const { return faces_; }
   Vec3 corner(int face, int k) const;
 
-  // Does p lie strictly outside the plane of `face`?
+  // True if p lies strictly outside the plane of `face`.
   bool is_beyond(int face, Vec3 p) const;
   // The first face that p lies beyond, or -1 if p is in the polytope.
   int face_below(Vec3 p) const;

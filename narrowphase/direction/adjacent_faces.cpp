@@ -69,8 +69,8 @@ std::optional<Vec3> AdjacentFaces::lowest(const SupportedFace& face, double near
 }
 
 // Turns about the axis along the side, to the next face; and by small angles where that is not lower, for
-// it may be a sliver with a lower face behind it. Is that face turned so little that a small turn ends beyond it, where
-// a corner of the side may be the highest?
+// it may be a sliver with a lower face behind it. Returns whether that face is turned so little that a small turn ends
+// beyond it, where a corner of the side may be the highest.
 bool AdjacentFaces::turn_over_side(const SupportedFace& face, std::size_t side) {
   const Vec3 axis_point = in_space(face, face.polygon->corner[side]), outward = outward_of_side(*face.polygon, side);
   if (!(norm_squared(outward) > 0.0)) return false;
@@ -89,7 +89,7 @@ void AdjacentFaces::go_around(const SupportedFace& face, Vec3 corner) {
   if (!go_around(face, corner, Way::counter_clockwise)) go_around(face, corner, Way::clockwise);
 }
 
-// Did it come back to where it began?
+// True if it came back to where it began.
 bool AdjacentFaces::go_around(const SupportedFace& face, Vec3 corner, Way way) {
   Vec3 n = face.n;
   double height = face.height;

@@ -1,4 +1,4 @@
-// The faces of M next to the one that a direction supports: is one of them lower? With this the search for a contact
+// Finds a lower face of M among those next to the one that a direction supports. With this the search for a contact
 // direction leaves an edge or a corner, or a face near whose border the projection of the origin lies.
 #pragma once
 
@@ -28,7 +28,7 @@ class AdjacentFaces {
   std::optional<Vec3> lowest(const SupportedFace& face, double near);
 
   int support_queries() const { return support_queries_; }
-  // Did lowest() find nothing, but left corners out?
+  // True if lowest() found nothing and left corners out.
   bool limit_reached() const { return limit_reached_; }
 
  private:

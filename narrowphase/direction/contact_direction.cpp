@@ -66,8 +66,8 @@ class DirectionSearch {
     return m_.support(n, top_);
   }
 
-  // Is the projection still in the last step's face, or in one a few steps away? If not, the search goes on from the
-  // lower of `start` and what was tried.
+  // True if the projection is still in the last step's face, or in one a few steps away. If not, the search continues
+  // from the lower of `start` and what was tried.
   bool stay_near(const GjkSimplex& face, Vec3 start) {
     std::optional<Vec3> n = face_normal(m_, face, start);
     if (!n || !(dot(*n, start) > 0.0)) {
@@ -104,7 +104,7 @@ class DirectionSearch {
     return stay_below(start);
   }
 
-  // Goes back to `start` if that is lower than what was found. Is the search finished?
+  // Returns to `start` if that is lower than what was found. True if the search is finished.
   bool stay_below(Vec3 start) {
     const ContactDirection found = best_;
     const MinkowskiVertex top = top_;
@@ -151,7 +151,7 @@ class DirectionSearch {
     if (!finished_ && !(best_.height < height - tolerance_)) leave_or_finish();
   }
 
-  // Does no vertex of M lie beyond the face, whose normal is n?
+  // True if no vertex of M lies beyond the face, whose normal is n.
   bool supported_by(const GjkSimplex& face) const {
     return best_.height <= dot(best_.n, m_.vertex(face.a[0], face.b[0]).point) + tolerance_;
   }

@@ -1,5 +1,5 @@
-// The face of M that a direction supports, seen along the direction. Does it hold the *projection*, that of the origin
-// on the supporting plane? Which faces lie next to it?
+// The face of M that a direction supports, seen along the direction; whether it holds the *projection*, that of the
+// origin on the supporting plane; and the faces next to it.
 #pragma once
 
 #include <vector>

@@ -97,7 +97,6 @@ bool certainly_none(const LinePair<double>& lines, double limit) {
   if (size_squared(aside) >
       limit * limit * length * (1.0 + kTurned) + lines.square * (1.0 + 1.0 / kTurned) + 0x1p-40 * (between * length))
     return true;
-  if (lines.square == 0.0) return false;
   const auto is_beside = [&](double place, double on_other) {
     const double size = between * on_other * lines.size_squared;
     return certain_sign(place, size) < 0 ||

@@ -1,6 +1,7 @@
 #include "narrowphase/distance/surface_distance.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace tact::narrowphase {
 
@@ -29,6 +30,12 @@ bool surface_distance_below(double limit, const ClusteredMesh& mesh, const Featu
     for (const int next : features.neighbors(vertex)) reach(length + norm(position(next) - position(vertex)), next);
   }
   return false;
+}
+
+bool too_near_along(const ScaledMesh& mesh, double reach, const PointOnSurface& from, const PointOnSurface& to,
+                    SurfaceWays& ways) {
+  const double limit = 0.5 * std::numbers::pi * reach;
+  return reach > 0.0 && surface_distance_below(limit, mesh.mesh, mesh.features, mesh.scale, from, to, ways);
 }
 
 }  // namespace tact::narrowphase

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "narrowphase/mesh/features.h"
+#include "narrowphase/contact_points/scaled_mesh.h"
 
 namespace tact::narrowphase {
 
@@ -25,5 +25,10 @@ struct SurfaceWays {
 /// with a plain list, as a reach is a few edges.
 bool surface_distance_below(double limit, const ClusteredMesh& mesh, const Features& features, double scale,
                             const PointOnSurface& from, const PointOnSurface& to, SurfaceWays& ways);
+
+/// Whether two places of one mesh are too near along it to have a contact: nearer than the places that are one `reach`
+/// apart on a sheet folded as tightly as its thickness lets it. False for a reach of zero.
+bool too_near_along(const ScaledMesh& mesh, double reach, const PointOnSurface& from, const PointOnSurface& to,
+                    SurfaceWays& ways);
 
 }  // namespace tact::narrowphase

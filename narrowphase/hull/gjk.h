@@ -39,8 +39,8 @@ struct GjkSettings {
   int query_limit = 1000;    ///< support queries; a guard that no known input reaches
 };
 
-// Is the origin certainly strictly inside the tetrahedron of four vertices of M? Then the hulls overlap. False for
-// fewer than four.
+// True if the origin is certainly strictly inside the tetrahedron of four vertices of M; then the hulls overlap. False
+// for fewer than four.
 bool holds_origin(const MinkowskiDifference& m, const GjkSimplex& simplex);
 
 // The distance of `point` (scaled) from M. `start` may hold vertices from an earlier search, or nothing.

@@ -185,7 +185,7 @@ class NearestPart {
     });
   }
 
-  // Were all signs certain, and is the direction of use?
+  // True if all signs were certain and the direction is of use.
   bool reduce_bounded() {
     BoundedNumber::unclear() = false;
     bounded_.reduce();

@@ -1,4 +1,4 @@
-// Do two hulls share a point? Exactly, for all coordinates up to 2^300 in size: GJK once more, with certain signs.
+// Whether two hulls share a point, exactly, for all coordinates up to 2^300 in size: GJK once more, with certain signs.
 //
 // Doubles decide wherever the bounds of their rounding allow it, see gjk.h. This is for the rest: hulls that touch, and
 // hulls that overlap or are apart by some 1e-15 of their size. Signs come from integers of 128 bits where coordinates

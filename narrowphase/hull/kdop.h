@@ -20,7 +20,7 @@ using SeparatingDiagonal = std::int8_t;
 /// The diagonal with the widest gap between `a` and `b`; of equal gaps the first.
 SeparatingDiagonal separating_diagonal(const Kdop& a, const Kdop& b);
 
-/// Does the diagonal separate them?
+/// True if the diagonal separates them.
 inline bool separates(SeparatingDiagonal diagonal, const Kdop& a, const Kdop& b) {
   return diagonal > 0 ? a.upper[diagonal - 1] < b.lower[diagonal - 1]
                       : diagonal < 0 && b.upper[-diagonal - 1] < a.lower[-diagonal - 1];

@@ -27,8 +27,8 @@ class MinkowskiDifference {
   MinkowskiVertex support(Vec3 direction) const;
   // The same vertex, found sooner if `near` is close to it.
   MinkowskiVertex support(Vec3 direction, const MinkowskiVertex& near) const;
-  // Does the plane across `direction` (unit) half-way between vertex a of A and vertex b of B have all of A below it
-  // and all of B above? If so, the hulls are separated. Cheaper than a support query.
+  // True if the plane across `direction` (unit) half-way between vertex a of A and vertex b of B has all of A below it
+  // and all of B above: it separates the hulls. Cheaper than a support query.
   bool separated_by_plane(Vec3 direction, int a, int b) const;
   // The point of M that vertices `a` and `b` make.
   MinkowskiVertex vertex(int a, int b) const { return {scale_ * (a_->position(a) - b_->position(b)), a, b}; }

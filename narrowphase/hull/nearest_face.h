@@ -54,7 +54,7 @@ class NearestFace {
     carrier_count_ = count;
   }
 
-  // Is the origin on the same side of every face as the corner across from it, or in its plane?
+  // True if the origin is on the same side of every face as the corner across from it, or in its plane.
   bool inside_tetrahedron() const {
     return same_side(0, 1, 2, 3) && same_side(0, 1, 3, 2) && same_side(0, 2, 3, 1) && same_side(1, 2, 3, 0);
   }
@@ -65,7 +65,7 @@ class NearestFace {
     return of_corner != 0 && (of_origin == 0 || of_origin == of_corner);
   }
 
-  // Is the nearest point in the triangle, not on its border? Not if it has no area.
+  // True if the nearest point is inside the triangle, not on its border. False if it has no area.
   bool triangle(int i, int j, int k) {
     const Edge e = y(j) - y(i), f = y(k) - y(i);
     const auto n = cross(e, f);
@@ -97,7 +97,7 @@ class NearestFace {
     return holds_origin_ || is_nearest(Direction(-y(i)), {i, i, i});
   }
 
-  // Is no corner beyond those of a face along d, which is across the face?
+  // True if no corner is beyond those of a face along d, which is across the face.
   bool is_nearest(const Direction& d, const std::array<int, 3>& face) {
     for (int k = 0; k < count_; ++k) {
       const bool is_of_face = k == face[0] || k == face[1] || k == face[2];

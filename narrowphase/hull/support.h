@@ -22,7 +22,7 @@ PointArrays far_corners(BoxView boxes, Vec3 n);
 Support support(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, int near = -1);
 Support support_by_full_scan(const ClusteredMesh& mesh, Vec3 n, Vec3 origin);
 
-// Is every vertex lower than `height`?
+// True if every vertex is lower than `height`.
 bool stays_below(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double height);
 
 // The vertices whose computed height n · (position - origin) is at least `height`, by cluster. Replaces the contents of

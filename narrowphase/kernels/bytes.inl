@@ -10,8 +10,8 @@
 namespace tact::narrowphase {
 namespace {
 
-// For each facet i < count: have the flags of its three corners, flags[corner[k][i]], no bit in common (a bit in
-// `none`), or the lowest bit (a bit in `lowest`)?
+// For each facet i < count a bit in `none` if the flags of its three corners, flags[corner[k][i]], have no bit in
+// common, and a bit in `lowest` if they have the lowest bit in common.
 struct CommonFlags {
   std::uint64_t none, lowest;
 };

@@ -116,7 +116,7 @@ void leave_aside(const FloatCorners& few, std::uint64_t some, const FloatCorners
   }
 }
 
-// Where floats leave half of the pairs open, they are asked no more.
+// If the float filter leaves more than half undecided, later blocks skip it.
 PairMatches match_float_pairs(const FloatCorners& a, const FloatCorners& b, const FacetPairList& pairs,
                               const double* gap) {
   const LooseSigns<float> signs(spread(float_rounding(a, b, gap)));

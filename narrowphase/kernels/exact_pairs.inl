@@ -59,7 +59,7 @@ struct ExactSigns {
   }
 };
 
-// Does a side of `t`, which turns to the left where `left` is set, have all of `other` strictly beyond it?
+// Lanes in which a side of `t`, which turns to the left where `left` is set, has all of `other` strictly beyond it.
 template <class Real>
 inline MaskOf<Real> has_side_before(const PointPack<Real>* t, MaskOf<Real> left, const PointPack<Real>* other) {
   MaskOf<Real> beyond_any = differ(left, left);

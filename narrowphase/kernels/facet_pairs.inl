@@ -179,8 +179,8 @@ inline Determinant turn(const PointPack<double>& a, const PointPack<double>& b, 
   return {sub(left, right), rounding_of(size), size};
 }
 
-// Certainly: does some side of `t`, which turns to the left where `left` is set, have all of `other` strictly beyond
-// it? Has every side something of it that is not?
+// Lanes in which, certainly, some side of `t`, which turns to the left where `left` is set, has all of `other` strictly
+// beyond it; and lanes in which no side has.
 struct SideSeparation {
   Mask some = mask_of(0), none = mask_of(kAllLanes);
 

@@ -79,7 +79,7 @@ struct Kernels {
   std::uint64_t (*near_facets)(const FacetCells& facets, std::uint64_t candidates, const CellBox& cells);
   // The cells that the facets with a bit in `some` reach; of no meaning if there is none.
   CellBox (*cells_of)(const FacetCells& facets, std::uint64_t some);
-  // Is there a facet of `block` with a bit in `candidates` that reaches into `cells` and whose plane may cut `box`?
+  // True if a facet of `block` with a bit in `candidates` reaches into `cells` and its plane may cut `box`.
   // `box` reaches `cells`; these facets and `box` lie in the box `bounds`.
   bool (*any_near)(const FacetBlock& block, std::uint64_t candidates, const CellBox& cells, const BoxBounds& box,
                    const BoxBounds& bounds);
@@ -99,8 +99,8 @@ struct Kernels {
   // Sorts up to kMostSorted pairs, all different.
   void (*sort_pairs)(FacetPair* pairs, int count);
 
-  // Is every coordinate of every corner a whole number of steps? A step is a power of two; coordinates are below 2^51
-  // steps.
+  // True if every coordinate of every corner is a whole number of steps. A step is a power of two; coordinates are
+  // below 2^51 steps.
   bool (*on_lattice)(const FacetBlock& block, double step);
 
   // The corners of the facets that have a bit; those of the others are undefined.
@@ -189,7 +189,7 @@ struct Kernels {
   void (*rank_block)(const FacetBlock& block, const double* point, double scale, double most,
                      const FacingNormals* facing, FacetDistances* facets);
 
-  // Does a closed polygon certainly come to no point twice? Its room is written.
+  // True if a closed polygon certainly passes no point twice. Writes to its room.
   bool (*comes_nowhere_twice)(FlatPolygon* polygon);
 
   // Writes a bit for each side of the box that a vertex stays beyond, a byte a vertex; up to 8 bytes more are written.

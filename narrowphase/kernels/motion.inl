@@ -49,7 +49,7 @@ struct PolygonLanes {
     least = add(reach_, mul(size, spread(kRounding)));
   }
 
-  // Do all corners stay on one side?
+  // Lanes in which all corners stay on one side.
   Mask apart_along(const VectorPack& direction) const {
     Pack low = dot(direction, corner[0][0]), high = low;
     for (int k = 1; k < 2 * kCorners; ++k) {
@@ -76,7 +76,7 @@ struct PolygonLanes {
     return apart;
   }
 
-  // Does the volume that the corners span with the origin keep its sign?
+  // Lanes in which the volume that the corners span with the origin keeps its sign.
   Mask apart_by_volume() const {
     const VectorPack e0 = sub(corner[0][1], corner[0][0]), e1 = sub(corner[1][1], corner[1][0]);
     const VectorPack f0 = sub(corner[0][kCorners - 1], corner[0][0]), f1 = sub(corner[1][kCorners - 1], corner[1][0]);

@@ -97,7 +97,7 @@ struct PiecesMeet {
   unsigned yes, no, by_zero;
 };
 
-// Do triangles meet? By the sides of their planes, then by their pieces of the common line. A policy says what is known
+// Whether triangles meet: by the sides of their planes, then by their pieces of the common line. A policy says what is known
 // of the signs of determinants:
 //   loose  each is off by the same, at most (clear_pairs.inl)
 //   exact  nothing is rounded (exact_pairs.inl)

@@ -44,7 +44,7 @@ inline Mask boxes_lie_apart(const FlatPack& a, const FlatPack& b, const FlatPack
 // errors times `size`; roundings of products and sums add 2 at most, and squares of errors next to nothing.
 inline double least_turn(const FlatPolygon& polygon) { return 16.0 * polygon.error * polygon.size; }
 
-// Edge i runs from vertex i to the next one. Have all edges nothing in common with the next one but a vertex?
+// Edge i runs from vertex i to the next one. True if each edge has only a vertex in common with the next one.
 bool has_no_spike(const FlatPolygon& polygon, Pack least) {
   for (int i = 0; i < polygon.count; i += kWidth) {
     const FlatPack p = points_from(polygon, i), q = points_from(polygon, i + 1), r = points_from(polygon, i + 2);
@@ -85,7 +85,7 @@ struct alignas(64) EdgeBoxes {
   }
 };
 
-// Does edge i certainly lie apart from those edges from k on that have a bit?
+// True if edge i certainly lies apart from those edges from k on that have a bit.
 inline bool lies_apart(const FlatPolygon& polygon, int i, int k, unsigned edges, Pack least) {
   const FlatPack a = point_at(polygon, i), b = point_at(polygon, i + 1);
   const Pack gap = spread(4.0 * polygon.error);

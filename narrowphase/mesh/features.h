@@ -55,7 +55,7 @@ class Features {
   std::span<const int> neighbors(int vertex) const { return part(neighbors_, neighbors_begin_, vertex); }
   /// The vertex that has a number of the caller's; -1 if no facet uses it.
   int vertex_of_source(int source_vertex) const { return vertex_of_source_[source_vertex]; }
-  /// A vertex of each part that hangs together by edges.
+  /// A vertex of each part connected by edges.
   std::span<const int> one_of_each_part() const { return one_of_each_part_; }
 
   /// Prefetches what is known of a cluster's edges, facets and vertices.
@@ -93,7 +93,7 @@ struct FeaturedMesh {
 /// The caller's numbers of up to three vertices; -1 fills up.
 std::array<int, 3> source_vertices(const ClusteredMesh& mesh, std::span<const int> vertices);
 
-/// Have two edges a vertex in common?
+/// True if two edges have a vertex in common.
 inline bool share_a_vertex(const EdgeVertices& e, const EdgeVertices& f) {
   return e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1];
 }

@@ -13,8 +13,8 @@ struct PositionProblem {
   double value = 0.0;
 };
 
-/// Looks at 3 x `count` coordinates, column by column: is each finite and at most `largest` in size? Each is read once,
-/// so that what is told of it holds even if another thread writes to it.
+/// Finds the first of 3 x `count` coordinates, column by column, that is not finite or larger than `largest`. Each is
+/// read once, so that the report holds even if another thread writes to it.
 PositionProblem find_position_problem(const double* positions, std::size_t count, double largest);
 
 }  // namespace tact::narrowphase

@@ -395,7 +395,7 @@ std::optional<double> FinestSpan::first_open_part(const MovingPolygon& polygon, 
 
 namespace {
 
-// Do double_doubles see the origin in the plane of the polygon all the time between two?
+// True if, in double-doubles, the origin is in the plane of the polygon all the time between `from` and `to`.
 bool stays_in_plane(const MovingPolygon& polygon, double scale, double from, double to) {
   const auto corner = corners_on<DoubleDouble>(polygon, scale, from, to);
   const Way<DoubleDouble> e = corner[1] - corner[0], f = corner[polygon.count - 1] - corner[0];

@@ -34,14 +34,14 @@ class FinestSpan {
   std::vector<ThinPart> thin_parts_;
 };
 
-/// Does it hold the origin at some time between a little before `from` and a little after `to`? In doubles, which
+/// Whether it holds the origin at some time between a little before `from` and a little after `to`. In doubles, which
 /// cannot always tell.
 enum class Verdict { no, yes, unknown };
 Verdict holds_origin_near(const MovingPolygon& polygon, double scale, double from, double to);
 
-/// Of a polygon whose plane goes through the origin all the time, as that of two edges that stay in one plane: does it
-/// hold the origin, and since when? The sides alone tell. Newton's method finds when one turns to the origin last, and
-/// when one turns away first; coefficients prove that the origin is beyond them before and after.
+/// For a polygon whose plane goes through the origin all the time, as that of two edges that stay in one plane: whether
+/// it holds the origin, and since when. The sides alone decide. Newton's method finds when one turns to the origin
+/// last, and when one turns away first; coefficients prove that the origin is beyond them before and after.
 struct MeetingInPlane {
   Verdict verdict = Verdict::unknown;
   double from = 0.0;  // it does not hold the origin before this; yes: it does since then, or up to 2^-35 later

@@ -232,7 +232,7 @@ void MeetingSearch::add_between(double from, double to, const Moment& middle) {
   if (first > from) add(first);
 }
 
-// Is the polygon no farther away than the bounds of rounding?
+// True if the polygon is within the bounds of rounding.
 bool MeetingSearch::is_near(const Moment& m) const {
   for (int i = 0; i < count_; ++i) {
     if (dot(m.direction, m.corner[i]) < reach_ + 4.0 * kDotRounding) return true;

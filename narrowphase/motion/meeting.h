@@ -55,7 +55,7 @@ class MeetingSearch {
     double time = 0.0;
     Vec3 corner[4];
     Vec3 direction;        // unit or zero: from the origin to the nearest point of the polygon
-    bool covered = false;  // is all time since the moment before left out?
+    bool covered = false;  // all time since the moment before is left out
   };
   // The volume that the corners span with the origin: Bernstein coefficients on a span, and a bound of their rounding.
   struct Volume {

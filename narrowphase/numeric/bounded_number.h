@@ -23,7 +23,7 @@ class BoundedNumber {
     if (!is_zero()) unclear() = true;
     return 0;
   }
-  // Of this thread: was any sign not certain since this was reset?
+  // Of this thread: true if any sign was uncertain since this was reset.
   static bool& unclear() {
     static thread_local constinit bool value = false;
     return value;

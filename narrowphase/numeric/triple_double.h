@@ -16,8 +16,8 @@ struct TripleDouble {
   TripleDouble() = default;
   TripleDouble(double value) : head(value) {}  // NOLINT: a double is one, without rounding
 
-  // The sum of some doubles that grow from the first to the last. Each pass leaves the rounded sum in the last place, and
-  // what rounding took from it in those before: two passes, or three where the largest may cancel.
+  // The sum of some doubles that grow from the first to the last. Each pass leaves the rounded sum in the last place,
+  // and what rounding took from it in those before: two passes, or three where the largest may cancel.
   template <int kPasses, std::size_t kCount>
   static TripleDouble sum_of(double (&part)[kCount]) {
     for (int pass = 0; pass < kPasses; ++pass) {

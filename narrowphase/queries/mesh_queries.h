@@ -43,8 +43,8 @@ std::optional<NearestFacet> nearest_facet(const ClusteredMesh& mesh, Vec3 point,
 /// Appends the facets, by the caller's numbers, that share a point with a box, as closed sets; decided exactly.
 void append_facets_in_box(const ClusteredMesh& mesh, const Box& box, std::vector<int>& facets);
 
-/// Is the point inside a closed mesh, or on its surface? Decided exactly, by how often the surface winds around it: a
-/// half-line along x, moved off all edges by amounts that are smaller than any number (Edelsbrunner and Mücke,
+/// True if the point is inside a closed mesh or on its surface. Decided exactly, by how often the surface winds around
+/// it: a half-line along x, moved off all edges by amounts that are smaller than any number (Edelsbrunner and Mücke,
 /// "Simulation of Simplicity", 1990), counts the facets that it leaves through minus those that it enters through.
 /// Where the mesh has holes the answer is that of some filling.
 bool contains(const ClusteredMesh& mesh, Vec3 point);

@@ -135,7 +135,7 @@ std::size_t SurfacePairSearch::take(const ClusteredMesh& mesh, int cluster, std:
   return end;
 }
 
-// Are all pairs of a cluster of A as far apart as the last step's certificates say? Hands these on.
+// True if all pairs of a cluster of A are as far apart as the last step's certificates say. Keeps these.
 bool SurfacePairSearch::still_apart(const ConfirmInput& input, std::span<const ClusterPair> pairs, std::size_t first,
                                     ConfirmCounts& counts) {
   const std::span<const SurfaceHistory::Certificate> last = input.history->last();

@@ -43,7 +43,7 @@ std::optional<Projection> find_projection(const Vec3& a, const Vec3& b, const Ve
   return std::nullopt;
 }
 
-// Are all `points` strictly on the side `side` (+1 left, -1 right) of the line from a to b?
+// True if all `points` are strictly on the side `side` (+1 left, -1 right) of the line from a to b.
 template <std::size_t N>
 bool all_on_side(const Point2& a, const Point2& b, int side, const std::array<Point2, N>& points,
                  PredicateCounts& counts) {
@@ -183,7 +183,7 @@ bool segment_triangle_meet(const Segment& segment, const Triangle& triangle, Pre
     if (!projection) return segment_segment_meet(segment, ends_of(triangle), counts);
     return coplanar_meet(segment, triangle, *projection, counts);
   }
-  // The line of the segment crosses the plane in one point: is it on the same side of all edges?
+  // The line of the segment crosses the plane in one point, which must be on the same side of all edges.
   const int ab = orient3d(p, q, a, b, counts);
   const int bc = orient3d(p, q, b, c, counts);
   if (ab * bc < 0) return false;

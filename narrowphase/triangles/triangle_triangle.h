@@ -1,4 +1,5 @@
-// Do two triangles meet? Closed sets, decided exactly; a triangle without area is the segment or the point that it is.
+// Whether two triangles meet, as closed sets, decided exactly; a triangle without area is the segment or the point that
+// it is.
 //
 // Only signs of determinants decide (predicates.h), so the domain and the accuracy are theirs: there is no epsilon, and
 // no point is constructed. Every answer is the same for any order of corners and of arguments.
@@ -14,18 +15,18 @@ namespace tact::narrowphase {
 // The two ends, which may be one point.
 using Segment = std::array<Vec3, 2>;
 
-// Do `a` and `b` share at least one point? After Guigue and Devillers, "Fast and Robust Triangle-Triangle Overlap Test
-// Using Orientation Predicates", 2003: if all corners of one are strictly on one side of the other's plane, at most six
-// orient3d tell; if the triangles cross each other's planes, two more.
+// True if `a` and `b` share at least one point. After Guigue and Devillers, "Fast and Robust Triangle-Triangle Overlap
+// Test Using Orientation Predicates", 2003: if all corners of one are strictly on one side of the other's plane, at
+// most six orient3d tell; if the triangles cross each other's planes, two more.
 bool triangle_triangle_meet(const Triangle& a, const Triangle& b, PredicateCounts& counts);
 
 // The same where it is known that the corners of `a` lie in the plane of `b`, or that `b` has no area.
 bool coplanar_triangles_meet(const Triangle& a, const Triangle& b, PredicateCounts& counts);
 
-// Do `segment` and `triangle` share at least one point?
+// True if `segment` and `triangle` share at least one point.
 bool segment_triangle_meet(const Segment& segment, const Triangle& triangle, PredicateCounts& counts);
 
-// Do `a` and `b` share at least one point?
+// True if `a` and `b` share at least one point.
 bool segment_segment_meet(const Segment& a, const Segment& b, PredicateCounts& counts);
 
 }  // namespace tact::narrowphase

@@ -194,7 +194,8 @@ void check(const CheckOptions& options, std::ostream& out) {
   std::optional<ViewPage> page;
   if (!options.view.file.empty()) page.emplace(options.view, title_of(bodies), out);
   std::optional<JsonReport> json;
-  if (json_file) json.emplace(json_file->stream(), world, page ? JsonReport::Fates::counts : JsonReport::Fates::none);
+  if (json_file)
+    json.emplace(json_file->stream(), world, page ? JsonReport::Outcomes::counts : JsonReport::Outcomes::none);
   std::optional<TableReport> table;
   if (options.json != "-" && options.table) table.emplace(out, world);
 

@@ -69,7 +69,7 @@ void LostPairs::add_step(const Simulation& simulation) {
   const Report& paper = paper_.detect();
   std::vector<FacetPair> missing;
   for (const Contact& contact : exact_report_->contacts()) {
-    if (!contact.touching()) continue;
+    if (contact.facet_pairs().empty()) continue;
     const auto pairs = contact.facet_pairs();
     const Contact* told = paper.find_contact(paper_ids_[contact.a.index], paper_ids_[contact.b.index]);
     const auto seen = told != nullptr ? told->facet_pairs() : std::span<const FacetPair>();

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-#include "engine/facet_fates.h"
+#include "engine/facet_outcomes.h"
 #include "scenes/commands/json_text.h"
 
 namespace tact::scenes {
@@ -94,25 +94,25 @@ Json patches_json(const Contact* contact) {
   return patches;
 }
 
-const char* fate_name(FacetFate fate) {
-  switch (fate) {
-    case FacetFate::outside_box: return "outside_box";
-    case FacetFate::outside_slab: return "outside_slab";
-    case FacetFate::far: return "far";
-    case FacetFate::facing_away: return "facing_away";
-    case FacetFate::outside_zone: return "outside_zone";
-    case FacetFate::kept: return "kept";
-    case FacetFate::meets: return "meets";
+const char* outcome_name(FacetOutcome outcome) {
+  switch (outcome) {
+    case FacetOutcome::outside_box: return "outside_box";
+    case FacetOutcome::outside_slab: return "outside_slab";
+    case FacetOutcome::far: return "far";
+    case FacetOutcome::facing_away: return "facing_away";
+    case FacetOutcome::outside_zone: return "outside_zone";
+    case FacetOutcome::kept: return "kept";
+    case FacetOutcome::meets: return "meets";
   }
   return "unknown";
 }
 
-// How many facets had each fate.
-Json fates_json(const std::vector<FacetFate>& fates) {
-  std::array<std::int64_t, kFacetFates> counts{};
-  for (const FacetFate fate : fates) ++counts[static_cast<std::size_t>(fate)];
+// How many facets had each outcome.
+Json outcomes_json(const std::vector<FacetOutcome>& outcomes) {
+  std::array<std::int64_t, kFacetOutcomes> counts{};
+  for (const FacetOutcome outcome : outcomes) ++counts[static_cast<std::size_t>(outcome)];
   Json json = Json::object();
-  for (std::size_t i = 0; i < counts.size(); ++i) json[fate_name(static_cast<FacetFate>(i))] = counts[i];
+  for (std::size_t i = 0; i < counts.size(); ++i) json[outcome_name(static_cast<FacetOutcome>(i))] = counts[i];
   return json;
 }
 
@@ -120,7 +120,7 @@ Json fates_json(const std::vector<FacetFate>& fates) {
 struct PairParts {
   bool facets = false;
   bool points = false;
-  FacetFateFinder* finder = nullptr;  // null: no fates
+  FacetOutcomeFinder* finder = nullptr;  // null: no outcomes
 };
 
 // A body with itself has no direction.
@@ -146,8 +146,8 @@ Json pair_json(const CandidatePair& pair, const Contact* contact, const PairPart
     json["kept_facets"] = Json::array({contact->kept_facets_a, contact->kept_facets_b});
     if (contact->containment != Containment::none)
       json["contained"] = contact->containment == Containment::a_in_b ? "a" : "b";
-    const std::optional<FacetFates> fates = parts.finder != nullptr ? parts.finder->find(*contact) : std::nullopt;
-    if (fates) json["fates"] = Json::array({fates_json(fates->a), fates_json(fates->b)});
+    const std::optional<FacetOutcomes> outcomes = parts.finder != nullptr ? parts.finder->find(*contact) : std::nullopt;
+    if (outcomes) json["outcomes"] = Json::array({outcomes_json(outcomes->a), outcomes_json(outcomes->b)});
   }
   if (!parts.facets) {
     json["facet_pairs"] = nullptr;
@@ -226,11 +226,11 @@ std::string feature_pair_name(FeaturePair kind) {
 
 std::string hash_text(const Report& report) { return fmt::format("{:016x}", report.hash()); }
 
-JsonReport::JsonReport(std::ostream& out, const World& world, Fates fates)
+JsonReport::JsonReport(std::ostream& out, const World& world, Outcomes outcomes)
     : out_(out),
       has_facets_(world.settings().accuracy != Accuracy::hulls),
       has_points_(world.settings().outputs.points),
-      fates_(fates) {
+      outcomes_(outcomes) {
   out_ << "{\"tact\":" << json_text(TACT_VERSION)
        << ",\"accuracy\":" << json_text(accuracy_name(world.settings().accuracy))
        << ",\"threads\":" << world.settings().threads << ",\n \"bodies\":" << json_text(bodies_json(world))
@@ -238,8 +238,8 @@ JsonReport::JsonReport(std::ostream& out, const World& world, Fates fates)
 }
 
 void JsonReport::add_frame(int frame, const Report& report, const MotionReport* motion) {
-  std::optional<FacetFateFinder> finder;
-  if (fates_ == Fates::counts) finder.emplace(report);
+  std::optional<FacetOutcomeFinder> finder;
+  if (outcomes_ == Outcomes::counts) finder.emplace(report);
   Json json = {{"frame", frame},
                {"hash", hash_text(report)},
                {"pairs", pairs_json(report, {has_facets_, has_points_, finder ? &*finder : nullptr})},

@@ -5,19 +5,19 @@
 //    "frames":[{"frame":0,"hash":"<16 hexadecimal digits>",
 //      "pairs":[{"a":0,"b":1,"hulls_overlap":true,"direction":[x,y,z],"depth":d,
 //                "source":"carried","iterations":k,"limit_reached":false,"kept_facets":[ka,kb],
-//                "fates":[{"outside_box":n,...,"meets":n},{...}],"facet_pairs":[[fa,fb],...]},...],
+//                "outcomes":[{"outside_box":n,...,"meets":n},{...}],"facet_pairs":[[fa,fb],...]},...],
 //      "stats":{"bodies":2,...},"times_ms":{"refresh":0.1,...},
 //      "impacts":[{"bodies":[0,1],"kind":"edge-edge","a":[1,2],"b":[7,9],"time":t},...],"first_time":t}],
 //    "interrupted":true}
 //
 // `a` and `b` are places in `bodies`. `pairs` are the candidate pairs, sorted by (a, b); one whose hulls are apart has
 // only "hulls_overlap":false and an empty "facet_pairs". "source" tells how the direction was found: "carried", "fresh"
-// or "smallest"; "fates" how many facets of each body had each FacetFate, where they were asked for; "limit_reached"
-// whether it is only the best that was found before a limit. At Accuracy::hulls every "facet_pairs" is null. `stats`
-// and `times_ms` have the names of <tact/statistics.h>, the times without their "_ms". `impacts` are those since the
-// frame before, sorted by bodies and then by time, where they are asked for; `first_time` is null if there is none.
-// `interrupted` is there only if Ctrl-C ended the frames. Numbers read back to the same double. A name that is not
-// UTF-8 has U+FFFD in the place of each wrong byte.
+// or "smallest"; "outcomes" how many facets of each body had each FacetOutcome, where they were asked for;
+// "limit_reached" whether it is only the best that was found before a limit. At Accuracy::hulls every "facet_pairs" is
+// null. `stats` and `times_ms` have the names of <tact/statistics.h>, the times without their "_ms". `impacts` are
+// those since the frame before, sorted by bodies and then by time, where they are asked for; `first_time` is null if
+// there is none. `interrupted` is there only if Ctrl-C ended the frames. Numbers read back to the same double. A name
+// that is not UTF-8 has U+FFFD in the place of each wrong byte.
 #pragma once
 
 #include <tact/motion.h>
@@ -44,11 +44,11 @@ std::string hash_text(const Report& report);
 // Writes frame by frame, a line each, so that a long run takes no memory.
 class JsonReport {
  public:
-  enum class Fates { none, counts };  // what became of facets, which takes longer than to find the pairs
+  enum class Outcomes { none, counts };  // what became of facets, which takes longer than to find the pairs
 
   // Writes what comes before the frames. `world` must hold all the bodies of the run, in its settings the number of
   // threads that is to be told. `out` must outlive the report.
-  JsonReport(std::ostream& out, const World& world, Fates fates = Fates::none);
+  JsonReport(std::ostream& out, const World& world, Outcomes outcomes = Outcomes::none);
   // `motion` is what met since the frame before, or null.
   void add_frame(int frame, const Report& report, const MotionReport* motion = nullptr);
   // Writes what comes after the frames.
@@ -58,7 +58,7 @@ class JsonReport {
   std::ostream& out_;
   bool has_facets_;
   bool has_points_;
-  Fates fates_;
+  Outcomes outcomes_;
   bool first_ = true;
 };
 

@@ -29,7 +29,7 @@ RunOutputs::RunOutputs(const OutputOptions& options, const std::string& title, c
   if (!options.json.empty()) {
     json_file_.emplace(options.json, out);
     json_.emplace(json_file_->stream(), world,
-                  options.view.file.empty() ? JsonReport::Fates::none : JsonReport::Fates::counts);
+                  options.view.file.empty() ? JsonReport::Outcomes::none : JsonReport::Outcomes::counts);
   }
   if (!options.contacts.empty()) contacts_.emplace(options.contacts, out, Appears::at_once);
   if (!options.states.empty()) states_.emplace(options.states, out, Appears::at_once);

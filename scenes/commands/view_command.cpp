@@ -79,7 +79,7 @@ void view_recording(const ViewCommandOptions& options, const ViewOptions& page_o
     const std::optional<PlayedStep> step = of_recording(name, [&] { return player.next(); });
     if (!step || step->number > page_options.to) break;
     page.add_step(step->number, std::nullopt, player.world(), player.report());
-    if (json_file && !json) json.emplace(json_file->stream(), player.world(), JsonReport::Fates::counts);
+    if (json_file && !json) json.emplace(json_file->stream(), player.world(), JsonReport::Outcomes::counts);
     if (json) json->add_frame(step->number, player.report());
   }
   if (const std::optional<std::size_t> cut = player.cut_at()) {

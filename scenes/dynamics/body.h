@@ -51,7 +51,7 @@ struct Body {
   Eigen::Matrix3Xi facets{3, 0};
   Topology topology;
   Surface surface = Surface::closed;
-  Motion motion = Motion::moving;
+  Motion motion = Motion::deformable;
 
   std::vector<Vec3> positions;         // metres
   std::vector<Vec3> velocities;        // metres a second

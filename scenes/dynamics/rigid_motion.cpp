@@ -37,7 +37,7 @@ void RigidMotion::end_substep(double h) {
   velocity_ = (1.0 / h) * shift_;
   spin_ = (1.0 / h) * turn_;
   center_ = center_ + shift_;
-  rotation_ = turned(rotation_, turn_);
+  rotation_ = rotated(rotation_, turn_);
   turn_matrices();
 }
 

@@ -41,7 +41,7 @@ inline Matrix matrix(const Quaternion& q) {
 }
 
 // `q`, then turned about `by` by its length, radians.
-inline Quaternion turned(const Quaternion& q, Vec3 by) {
+inline Quaternion rotated(const Quaternion& q, Vec3 by) {
   const double angle = norm(by);
   if (!(angle > 0.0)) return q;
   const double s = std::sin(0.5 * angle) / angle;

@@ -18,7 +18,7 @@ Quaternion rotation_of(const Matrix& m, Quaternion rotation) {
     const double scale = std::abs(dot(r[0], columns[0]) + dot(r[1], columns[1]) + dot(r[2], columns[2]));
     if (!(scale > 0.0)) break;
     const Vec3 turn = (1.0 / scale) * torque;
-    rotation = turned(rotation, turn);
+    rotation = rotated(rotation, turn);
     if (norm(turn) < kSmallTurn) break;
   }
   return rotation;

@@ -52,7 +52,7 @@ Scene make_clamp(int /*size*/) {
   scene.shown = base::Box{{-0.27, -0.15, 0.0}, {0.27, 0.12, 0.76}};
   scene.paper = "a body touched from two opposite sides is excluded; criterion 1 then drops true contacts";
   const Mesh clamp = clamp_mesh(p);
-  scene.add(make_rigid("clamp", clamp, p.steel, Motion::moving), {.shading = Shading::flat});
+  scene.add(make_rigid("clamp", clamp, p.steel, Motion::deformable), {.shading = Shading::flat});
   scene.add(make_soft("ball", moved(sphere(3, p.radius), {0.0, 0.0, p.radius + 0.007}), p.ball));
   scene.add(make_rigid("ground", box({-1.0, -1.0, -0.2}, {1.0, 1.0, 0.0}, 0.2), p.ground, Motion::fixed),
             {.visible = false});

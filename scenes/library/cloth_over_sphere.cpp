@@ -30,7 +30,7 @@ Scene make_cloth_over_sphere(int size) {
   scene.view = {.azimuth = 30.0, .elevation = 18.0};
   scene.ground = 0.0;
   scene.add(make_rigid("sphere", moved(sphere(4, p.radius), {0.0, 0.0, p.height}), p.ball, Motion::fixed));
-  const Mesh cloth = turned(grid_sheet(size, size, p.cloth_side, p.cloth_side), {0.0, 0.0, 1.0}, p.turn);
+  const Mesh cloth = rotated(grid_sheet(size, size, p.cloth_side, p.cloth_side), {0.0, 0.0, 1.0}, p.turn);
   Body body = make_cloth("cloth", moved(cloth, {0.05, 0.0, p.height + p.radius + p.drop}), p.cloth);
   body.self_contact = true;
   scene.add(std::move(body));

@@ -71,9 +71,9 @@ Scene make_liver_and_tool(int /*size*/) {
   scene.shown = base::Box{{-0.14, -0.11, 0.0}, {0.14, 0.1, 0.16}};
   scene.paper = "500 facets at 12 steps a second, about 1 iteration a contact";
   const Mesh organ = moved(shaped_globe(p.around, p.rings, liver), {0.0, 0.0, 0.032});
-  const Mesh tool = turned(rod(p.tool_radius, p.tool_length), {1.0, 0.0, 0.0}, p.tilt);
+  const Mesh tool = rotated(rod(p.tool_radius, p.tool_length), {1.0, 0.0, 0.0}, p.tilt);
   scene.add(make_soft("liver", organ, p.organ));
-  scene.add(make_rigid("tool", tool, p.steel, Motion::moving));
+  scene.add(make_rigid("tool", tool, p.steel, Motion::deformable));
   scene.add(make_rigid("table", box({-0.5, -0.5, -0.1}, {0.5, 0.5, 0.0}, 0.05), p.table, Motion::fixed),
             {.visible = false});
   const double left = top_of(scene.bodies[0], -0.06, 0.0), right = top_of(scene.bodies[0], 0.06, 0.0);

@@ -114,7 +114,7 @@ Scene make_pile(int size) {
     const Vec3 jitter{random.between(-loose, loose), random.between(-loose, loose), random.between(-loose, loose)};
     const Vec3 center = step * (cell + Vec3{0.5, 0.5, 0.6}) - Vec3{half, half, 0.0} + jitter;
     const Shape& shape = kShapes[random.bits() % kShapes.size()];
-    const Mesh mesh = moved(turned(scaled(mesh_of(shape, p.widest), 0.5 * p.body_size), random), center);
+    const Mesh mesh = moved(rotated(scaled(mesh_of(shape, p.widest), 0.5 * p.body_size), random), center);
     const std::string name = shape.name + (" " + std::to_string(i));
     scene.add(i % p.rigid == 2 ? make_hard(name, mesh, p.soft) : make_soft(name, mesh, p.soft));
   }

@@ -204,22 +204,22 @@ Mesh scaled(Mesh mesh, double factor) {
   return mesh;
 }
 
-Vec3 turned(Vec3 p, Vec3 axis, double angle) {
+Vec3 rotated(Vec3 p, Vec3 axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return c * p + s * cross(axis, p) + ((1.0 - c) * dot(axis, p)) * axis;
 }
 
-Mesh turned(Mesh mesh, Vec3 axis, double angle) {
-  for (Vec3& p : mesh.positions) p = turned(p, axis, angle);
+Mesh rotated(Mesh mesh, Vec3 axis, double angle) {
+  for (Vec3& p : mesh.positions) p = rotated(p, axis, angle);
   return mesh;
 }
 
-Mesh turned(Mesh mesh, Random& random) {
+Mesh rotated(Mesh mesh, Random& random) {
   const double z = random.between(-1.0, 1.0);
   const double longitude = random.between(0.0, 2.0 * std::numbers::pi);
   const double r = std::sqrt(1.0 - z * z);
   const Vec3 axis{r * std::cos(longitude), r * std::sin(longitude), z};
-  return turned(std::move(mesh), axis, random.between(0.0, 2.0 * std::numbers::pi));
+  return rotated(std::move(mesh), axis, random.between(0.0, 2.0 * std::numbers::pi));
 }
 
 }  // namespace tact::scenes

@@ -31,10 +31,10 @@ Mesh torus(int around, int across, double ring, double tube);
 Mesh moved(Mesh mesh, Vec3 by);
 Mesh scaled(Mesh mesh, double factor);
 // Turned by a random rotation about the origin.
-Mesh turned(Mesh mesh, Random& random);
+Mesh rotated(Mesh mesh, Random& random);
 // Turned about the axis through the origin by `angle`, radians; `axis` is a unit vector.
-Mesh turned(Mesh mesh, Vec3 axis, double angle);
+Mesh rotated(Mesh mesh, Vec3 axis, double angle);
 // `p` turned in the same way.
-Vec3 turned(Vec3 p, Vec3 axis, double angle);
+Vec3 rotated(Vec3 p, Vec3 axis, double angle);
 
 }  // namespace tact::scenes

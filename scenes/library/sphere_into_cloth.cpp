@@ -48,7 +48,7 @@ Scene make_sphere_into_cloth(int size) {
   const double half = 0.5 * p.cloth_side;
   scene.shown = base::Box{{-half, -half, 0.0}, {half, half, p.highest + p.radius}};
   const std::vector<Vec3> ball = sphere(4, p.radius).positions;
-  scene.add(make_rigid("sphere", sphere(4, p.radius), p.ball, Motion::moving));
+  scene.add(make_rigid("sphere", sphere(4, p.radius), p.ball, Motion::deformable));
   scene.add(hung_cloth(p, size));
   scene.script = [p, ball](double time, std::vector<Body>& bodies) {
     const double z = p.lowest + (p.highest - p.lowest) * smooth_step((time - p.rest_time) / p.rise_time);

@@ -54,7 +54,7 @@ Scene make_wheel_on_ground(int size) {
   scene.paper = "of the larger body only the facets close to the smaller one are looked at";
   const double outer = p.radius + p.tube;
   const double z = height_at(p.start, 0.0) + outer + 0.03;
-  const Mesh wheel = turned(torus(48, 14, p.radius, p.tube), {1.0, 0.0, 0.0}, 0.5 * std::numbers::pi);
+  const Mesh wheel = rotated(torus(48, 14, p.radius, p.tube), {1.0, 0.0, 0.0}, 0.5 * std::numbers::pi);
   Body tyre = make_soft("wheel", moved(wheel, {p.start, 0.0, z}), p.tyre);
   const Vec3 spin{0.0, p.speed / outer, 0.0};
   for (std::size_t v = 0; v < tyre.positions.size(); ++v) {

@@ -11,7 +11,7 @@ double diagonal(const PictureBody& body) {
   return (body.positions.rowwise().maxCoeff() - body.positions.rowwise().minCoeff()).norm();
 }
 
-bool meets(const Contact& contact) { return contact.touching() || !contact.points().empty(); }
+bool meets(const Contact& contact) { return !contact.facet_pairs().empty() || !contact.points().empty(); }
 
 // The middle of the box around the facets and points of `body`, a of the contact, that meet, or around all of it if
 // none does.

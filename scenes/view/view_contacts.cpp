@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/facet_fates.h"
+#include "engine/facet_outcomes.h"
 
 namespace tact::scenes {
 namespace {
@@ -39,13 +39,13 @@ void put_facet_pairs(std::span<const FacetPair> pairs, ViewBytes& out) {
   }
 }
 
-// Runs of facets with one fate: eight times the length, and the fate.
-void put_fates(const std::vector<FacetFate>& fates, ViewBytes& out) {
-  out.add_count(fates.size());
-  for (std::size_t i = 0; i < fates.size();) {
+// Runs of facets with one outcome: eight times the length, and the outcome.
+void put_outcomes(const std::vector<FacetOutcome>& outcomes, ViewBytes& out) {
+  out.add_count(outcomes.size());
+  for (std::size_t i = 0; i < outcomes.size();) {
     const std::size_t begin = i;
-    while (i < fates.size() && fates[i] == fates[begin]) ++i;
-    out.add_count(8 * (i - begin) + static_cast<std::size_t>(fates[begin]));
+    while (i < outcomes.size() && outcomes[i] == outcomes[begin]) ++i;
+    out.add_count(8 * (i - begin) + static_cast<std::size_t>(outcomes[begin]));
   }
 }
 
@@ -102,12 +102,12 @@ void put_points(const Contact& contact, PointsInView which, ViewBytes& out) {
   for (const int point : chosen) put_point(contact.points()[point], last_a, last_b, out);
 }
 
-void put_contact(const Contact& contact, const std::optional<FacetFates>& fates, const PlaceInView& place,
+void put_contact(const Contact& contact, const std::optional<FacetOutcomes>& outcomes, const PlaceInView& place,
                  PointsInView points, ViewBytes& out) {
   out.add_count(place(contact.a));
   out.add_count(place(contact.b));
-  out.add_byte(
-      static_cast<std::uint8_t>(static_cast<int>(contact.source) | (contact.limit_reached ? 4 : 0) | (fates ? 8 : 0)));
+  out.add_byte(static_cast<std::uint8_t>(static_cast<int>(contact.source) | (contact.limit_reached ? 4 : 0) |
+                                         (outcomes ? 8 : 0)));
   put_vector(contact.direction, out);
   out.add_double(contact.depth);
   out.add_double(contact.plane_a);
@@ -118,9 +118,9 @@ void put_contact(const Contact& contact, const std::optional<FacetFates>& fates,
   out.add_count(static_cast<std::uint64_t>(contact.kept_facets_a));
   out.add_count(static_cast<std::uint64_t>(contact.kept_facets_b));
   put_facet_pairs(contact.facet_pairs(), out);
-  if (fates) {
-    put_fates(fates->a, out);
-    put_fates(fates->b, out);
+  if (outcomes) {
+    put_outcomes(outcomes->a, out);
+    put_outcomes(outcomes->b, out);
   }
   put_patches(contact.patches(), out);
   put_points(contact, points, out);
@@ -135,7 +135,7 @@ void write_contacts(const Report& report, const PlaceInView& place, PointsInView
     out.add_count(place(pair.b));
   }
   out.add_count(report.contacts().size());
-  FacetFateFinder finder(report);
+  FacetOutcomeFinder finder(report);
   for (const Contact& contact : report.contacts()) put_contact(contact, finder.find(contact), place, points, out);
 }
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/facet_fates.h"
+#include "engine/facet_outcomes.h"
 #include "scenes/commands/json_text.h"
 #include "scenes/commands/report_json.h"
 #include "scenes/commands/skipped_work.h"
@@ -33,7 +33,7 @@ Json settings_json(const Settings& settings, bool few_points) {
           {"patches", settings.outputs.patches},
           {"points", settings.outputs.points},
           {"few_points", few_points},
-          {"fates", settings.accuracy != Accuracy::hulls}};
+          {"outcomes", settings.accuracy != Accuracy::hulls}};
 }
 
 Json bodies_json(const std::vector<ViewedBody>& bodies, int frames) {
@@ -145,7 +145,7 @@ void ViewPage::add_step(int step, std::optional<double> time, const World& world
 
 // Of new bodies, and where facets were grouped anew; of all bodies also after steps that were left out.
 void ViewPage::note_clusters(const Report& report, bool all) {
-  const FacetFateFinder finder(report);
+  const FacetOutcomeFinder finder(report);
   all = all || options_.every > 1;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     ViewedBody& body = bodies_[i];

@@ -18,7 +18,7 @@ namespace tact::scenes {
 struct BodyForView {
   std::string name = {};
   Surface surface = Surface::closed;
-  Motion motion = Motion::moving;
+  Motion motion = Motion::deformable;
   double opacity = 1.0;                          // at first; 0: hidden
   Eigen::Ref<const Eigen::Matrix3Xd> positions;  // 3 x V, metres
   const Eigen::Matrix3Xi& facets;

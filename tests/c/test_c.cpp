@@ -162,32 +162,32 @@ TEST(C, TellsMotionAndAnswersQueriesAsCpp) {
   tact_ray ray = TACT_RAY_INIT;
   ray.from[2] = 5.0, ray.to[2] = -5.0;
   tact_ray_hit hit;
-  ASSERT_EQ(tact_world_ray(c.world, &ray, TACT_RAY_FIRST, &hit), TACT_OK);
-  const RayHit expected = cpp.ray({{0, 0, 5}, {0, 0, -5}});
+  ASSERT_EQ(tact_world_cast_ray(c.world, &ray, TACT_RAY_FIRST, &hit), TACT_OK);
+  const RayHit expected = cpp.cast_ray({{0, 0, 5}, {0, 0, -5}});
   EXPECT_EQ(hit.facet, expected.facet);
-  EXPECT_EQ(hit.time, expected.time);
+  EXPECT_EQ(hit.fraction, expected.fraction);
   EXPECT_EQ(expected.body, b);
   EXPECT_EQ(hit.body.index, standing.index);
   std::vector<tact_ray_hit> hits(2);
-  ASSERT_EQ(tact_world_all_hits(c.world, &ray, hits.data(), hits.size(), &count), TACT_OK);
-  EXPECT_EQ(count, cpp.all_hits({{0, 0, 5}, {0, 0, -5}}).size());
-  EXPECT_EQ(hits[1].time, cpp.all_hits({{0, 0, 5}, {0, 0, -5}})[1].time);
-  tact_point_query point = TACT_POINT_QUESTION_INIT;
+  ASSERT_EQ(tact_world_cast_ray_all(c.world, &ray, hits.data(), hits.size(), &count), TACT_OK);
+  EXPECT_EQ(count, cpp.cast_ray_all({{0, 0, 5}, {0, 0, -5}}).size());
+  EXPECT_EQ(hits[1].fraction, cpp.cast_ray_all({{0, 0, 5}, {0, 0, -5}})[1].fraction);
+  tact_point_query point = TACT_POINT_QUERY_INIT;
   point.point[0] = 0.05, point.point[1] = 0.02, point.point[2] = -2.0;
   tact_closest_point closest;
   ASSERT_EQ(tact_world_closest_point(c.world, &point, &closest), TACT_OK);
   EXPECT_EQ(closest.distance, cpp.closest_point({.point = {0.05, 0.02, -2.0}}).distance);
   tact_body body;
-  ASSERT_EQ(tact_world_inside(c.world, &point, &body, 1, &count), TACT_OK);
+  ASSERT_EQ(tact_world_bodies_containing(c.world, &point, &body, 1, &count), TACT_OK);
   EXPECT_EQ(count, 1u);
   EXPECT_EQ(body.index, flying.index);
-  tact_box_query box = TACT_BOX_QUESTION_INIT;
+  tact_box_query box = TACT_BOX_QUERY_INIT;
   box.upper[0] = box.upper[1] = box.upper[2] = 0.5;
   ASSERT_EQ(tact_world_overlap_box(c.world, &box, nullptr, 0, &count), TACT_OK);
   EXPECT_EQ(count, cpp.overlap_box({.upper = {0.5, 0.5, 0.5}}).size());
   // Many at once: an empty answer among others, and room for a part of them.
   const size_t in_box = count;
-  tact_box_query boxes[3] = {box, TACT_BOX_QUESTION_INIT, box};
+  tact_box_query boxes[3] = {box, TACT_BOX_QUERY_INIT, box};
   boxes[1].lower[0] = boxes[1].upper[0] = 1e3;
   std::vector<tact_facet_of_body> facets(in_box + 1);
   size_t ends[3];
@@ -196,14 +196,14 @@ TEST(C, TellsMotionAndAnswersQueriesAsCpp) {
   EXPECT_EQ(ends[1], in_box);
   EXPECT_EQ(ends[2], 2 * in_box);
   EXPECT_EQ(facets[0].facet, facets[in_box].facet);
-  const tact_point_query points[2] = {TACT_POINT_QUESTION_INIT, point};
+  const tact_point_query points[2] = {TACT_POINT_QUERY_INIT, point};
   tact_body bodies[4];
-  ASSERT_EQ(tact_world_inside_each(c.world, points, 2, bodies, 4, ends), TACT_OK);
+  ASSERT_EQ(tact_world_bodies_containing_each(c.world, points, 2, bodies, 4, ends), TACT_OK);
   EXPECT_EQ(ends[1] - ends[0], 1u);
   EXPECT_EQ(bodies[ends[0]].index, flying.index);
-  EXPECT_EQ(tact_world_inside_each(c.world, points, 2, bodies, 4, nullptr), TACT_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(tact_world_ray(c.world, nullptr, TACT_RAY_FIRST, &hit), TACT_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(tact_world_ray(c.world, &ray, 7, &hit), TACT_ERROR_BAD_SETTINGS);
+  EXPECT_EQ(tact_world_bodies_containing_each(c.world, points, 2, bodies, 4, nullptr), TACT_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(tact_world_cast_ray(c.world, nullptr, TACT_RAY_FIRST, &hit), TACT_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(tact_world_cast_ray(c.world, &ray, 7, &hit), TACT_ERROR_INVALID_ARGUMENT);
 }
 
 // Two bodies that touch, and one of which nothing is near.
@@ -367,7 +367,7 @@ TEST(WrongUseOfC, BodiesThatAreStaleOrForeign) {
   ASSERT_EQ(tact_world_remove_body(one.world, one.a), TACT_OK);
   expect_failure(tact_world_set_positions(one.world, one.a, &positions), TACT_ERROR_STALE_BODY, "removed");
   expect_failure(tact_world_remove_body(one.world, {0, 0, 0}), TACT_ERROR_STALE_BODY, "names no body");
-  expect_failure(tact_world_set_motion(one.world, one.b, 77), TACT_ERROR_BAD_SETTINGS, "motion");
+  expect_failure(tact_world_set_motion(one.world, one.b, 77), TACT_ERROR_INVALID_ARGUMENT, "motion");
 }
 
 TEST(WrongUseOfC, NullPointers) {

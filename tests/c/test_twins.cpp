@@ -115,11 +115,11 @@ TEST(TwinsInC, OfEachField) {
   expect_twins_of_fields("recording.h", "struct PlayedStep {", "tact_played_step", {});
   expect_twins_of_fields("debug_draw.h", "struct DebugDrawOptions {", "tact_debug_draw_options", {});
   expect_twins_of_fields("debug_draw.h", "struct DebugColor {", "tact_debug_color", {});
-  expect_twins_of_fields("queries.h", "struct Ray {", "tact_ray", {"asked"});
+  expect_twins_of_fields("queries.h", "struct Ray {", "tact_ray", {"filter"});
   expect_twins_of_fields("queries.h", "struct RayHit {", "tact_ray_hit", {});
-  expect_twins_of_fields("queries.h", "struct PointQuery {", "tact_point_query", {"asked"});
+  expect_twins_of_fields("queries.h", "struct PointQuery {", "tact_point_query", {"filter"});
   expect_twins_of_fields("queries.h", "struct ClosestPoint {", "tact_closest_point", {});
-  expect_twins_of_fields("queries.h", "struct BoxQuery {", "tact_box_query", {"asked"});
+  expect_twins_of_fields("queries.h", "struct BoxQuery {", "tact_box_query", {"filter"});
   expect_twins_of_fields("queries.h", "struct FacetOfBody {", "tact_facet_of_body", {});
   expect_twins_of_fields("motion.h", "struct Impact {", "tact_impact", {});
   expect_twins_of_fields("motion.h", "struct ImpactPair {", "tact_impact_pair", {});

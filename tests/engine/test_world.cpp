@@ -22,7 +22,7 @@ TEST_F(WorldOfThree, KnowsItsBodies) {
   EXPECT_EQ(world_.bodies(), (std::vector<BodyId>{left_, right_, floor_}));
   EXPECT_EQ(world_.name(left_), "left");
   EXPECT_EQ(world_.motion(floor_), Motion::fixed);
-  EXPECT_EQ(world_.motion(left_), Motion::moving);
+  EXPECT_EQ(world_.motion(left_), Motion::deformable);
   EXPECT_EQ(world_.surface(left_), Surface::closed);
   EXPECT_EQ(world_.vertex_count(left_), 162u);
   EXPECT_EQ(world_.facet_count(left_), 320u);
@@ -250,11 +250,11 @@ TEST_F(WorldOfThree, ChangesMotion) {
   EXPECT_EQ(report.candidate_pairs().size(), 2u);
   EXPECT_TRUE(std::ranges::equal(report.ended(), std::vector<ContactEvent>{{left_, floor_}}));
 
-  world_.set_motion(floor_, Motion::moving);
+  world_.set_motion(floor_, Motion::deformable);
   world_.set_positions(floor_, translated(floor_mesh_, {0.0, 0.0, 0.01}).positions);
   EXPECT_TRUE(std::ranges::equal(world_.detect().began(), std::vector<ContactEvent>{{left_, floor_}}));
   EXPECT_EQ(report.contacts().size(), 3u);
-  EXPECT_TRUE(throws_error([&] { world_.set_motion(left_, static_cast<Motion>(3)); }, ErrorCode::bad_settings,
+  EXPECT_TRUE(throws_error([&] { world_.set_motion(left_, static_cast<Motion>(3)); }, ErrorCode::invalid_argument,
                            {"left", "motion", "3"}));
 }
 

@@ -12,6 +12,7 @@
 #include "tests/support/environment/environment.h"
 #include "tests/support/generators/hostile_hulls.h"
 #include "tests/support/generators/touching_hulls.h"
+#include "tests/support/inside/mesh_through.h"
 #include "tests/support/oracles/hull_oracle.h"
 #include "tests/support/oracles/minkowski_oracle.h"
 

@@ -1,7 +1,7 @@
 // Rays, nearest points, boxes and what is inside, hard ones, against brute force: sets from CGAL's exact predicates,
 // places and distances in long doubles. Rays that are asked together are held, bit for bit, against each asked alone.
 // Not part of the ordinary tests: how many is read from the environment.
-//   TACT_LONG_QUESTIONS  4000 if not set
+//   TACT_LONG_QUERIES  4000 if not set
 //   TACT_LONG_SEED       which queries, 1 if not set
 #include <gtest/gtest.h>
 #include <tact/tact.h>
@@ -37,12 +37,12 @@ struct BlockResult {
 // How many of the answers to rays asked together are not those, to the last bit, to each asked alone.
 std::size_t differing_together(const World& world, std::span<const Ray> rays) {
   std::vector<RayHit> hits(rays.size());
-  world.rays(rays, hits);
+  world.cast_rays(rays, hits);
   std::size_t differing = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const RayHit &one = hits[i], alone = world.ray(rays[i]);
-    differing +=
-        !(one.body == alone.body && one.facet == alone.facet && one.time == alone.time && one.weights == alone.weights);
+    const RayHit &one = hits[i], alone = world.cast_ray(rays[i]);
+    differing += !(one.body == alone.body && one.facet == alone.facet && one.fraction == alone.fraction &&
+                   one.barycentric == alone.barycentric);
   }
   return differing;
 }
@@ -88,7 +88,7 @@ class Block {
   }
 
  private:
-  static constexpr Asked kMesh{.mask = 1}, kSolid{.mask = 2};
+  static constexpr QueryFilter kMesh{.mask = 1}, kSolid{.mask = 2};
 
   void ask() {
     const int kind = random_.below(8);
@@ -107,9 +107,9 @@ class Block {
 
   void ask_ray() {
     Ray ray = hard_ray(mesh_, random_);
-    ray.asked = kMesh;
+    ray.filter = kMesh;
     rays_.push_back(ray);
-    const std::vector<RayHit> all = world_.all_hits(ray);
+    const std::vector<RayHit> all = world_.cast_ray_all(ray);
     std::vector<int> facets;
     for (const RayHit& hit : all) {
       facets.push_back(hit.facet);
@@ -118,10 +118,10 @@ class Block {
     std::ranges::sort(facets);
     note(kRay, !facets.empty());
     expect(facets == hit_facets(mesh_, ray), "a ray meets other facets");
-    const RayHit first = world_.ray(ray), any = world_.ray(ray, RayHits::any);
+    const RayHit first = world_.cast_ray(ray), any = world_.cast_ray(ray, RayHits::any);
     expect((first.facet < 0) == all.empty() && (any.facet < 0) == all.empty(), "a ray hits and does not");
     if (all.empty()) return;
-    expect(first.facet == all[0].facet && first.time == all[0].time, "the first hit is not the first of all");
+    expect(first.facet == all[0].facet && first.fraction == all[0].fraction, "the first hit is not the first of all");
     expect(std::ranges::count(facets, any.facet) == 1, "any hit is none of all");
   }
 
@@ -134,28 +134,29 @@ class Block {
     long double size = way.norm(), sum = 0.0L;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vector corner = vector_of(t[k]).cast<long double>();
-      on_facet += static_cast<long double>(hit.weights[k]) * corner;
+      on_facet += static_cast<long double>(hit.barycentric[k]) * corner;
       size = std::max(size, (corner - from).norm());
-      sum += hit.weights[k];
-      expect(hit.weights[k] >= 0.0, "a weight is negative");
+      sum += hit.barycentric[k];
+      expect(hit.barycentric[k] >= 0.0, "a weight is negative");
     }
-    const Vector on_ray = from + static_cast<long double>(hit.time) * way;
+    const Vector on_ray = from + static_cast<long double>(hit.fraction) * way;
     const double off = size > 0 ? static_cast<double>((on_ray - on_facet).norm() / size) : 0.0;
     result_.worst_place = std::max(result_.worst_place, off);
     expect(off <= 1e-12, "a hit is off by " + std::to_string(off * 1e12) + "e-12");
     expect(std::abs(sum - 1.0L) <= 1e-12L, "weights do not add up to 1");
-    expect(hit.time >= 0.0 && hit.time <= 1.0, "a time is " + std::to_string(hit.time));
+    expect(hit.fraction >= 0.0 && hit.fraction <= 1.0, "a time is " + std::to_string(hit.fraction));
   }
 
   void ask_point() {
     const Vec3 p = hard_point(mesh_, random_);
-    const ClosestPoint answer = world_.closest_point({.point = vector_of(p), .asked = kMesh});
+    const ClosestPoint answer = world_.closest_point({.point = vector_of(p), .filter = kMesh});
     const long double exact = distance_by_brute_force(mesh_, p);
     const double size = norm(p) + extent_;
     note(kPoint, exact < 1e-12L);
     const double off = static_cast<double>(std::abs(answer.distance - exact)) / size;
     const double place =
-        std::abs(norm(weighted(facet_at(mesh_, answer.facet), answer.weights) - p) - static_cast<double>(exact)) / size;
+        std::abs(norm(weighted(facet_at(mesh_, answer.facet), answer.barycentric) - p) - static_cast<double>(exact)) /
+        size;
     result_.worst_distance = std::max({result_.worst_distance, off, place});
     expect(off <= 1e-12 && place <= 1e-12,
            "a nearest point is off by " + std::to_string(std::max(off, place) * 1e12) + "e-12");
@@ -163,7 +164,7 @@ class Block {
 
   void ask_box() {
     BoxQuery box = hard_box(mesh_, random_);
-    box.asked = kMesh;
+    box.filter = kMesh;
     std::vector<int> facets;
     for (const FacetOfBody& one : world_.overlap_box(box)) facets.push_back(one.facet);
     note(kBox, !facets.empty());
@@ -172,7 +173,7 @@ class Block {
 
   void ask_inside() {
     const Vec3 p = random_.chance(0.5) ? hard_point(solid_, random_) : 1.2 * random_.in_cube(1.0);
-    const std::vector<BodyId> found = world_.inside({.point = vector_of(p), .asked = kSolid});
+    const std::vector<BodyId> found = world_.bodies_containing({.point = vector_of(p), .filter = kSolid});
     const bool expected = is_inside(solid_, p, random_);
     note(kInside, expected);
     expect(expected ? found == std::vector{closed_} : found.empty(),
@@ -189,7 +190,7 @@ class Block {
 };
 
 TEST(LongQueries, EqualBruteForce) {
-  const std::uint64_t count = from_environment("TACT_LONG_QUESTIONS", 4000);
+  const std::uint64_t count = from_environment("TACT_LONG_QUERIES", 4000);
   const std::uint64_t seed = from_environment("TACT_LONG_SEED", 1);
   std::vector<BlockResult> blocks((count + kBlock - 1) / kBlock);
   base::parallel_for(blocks.size(), 1, base::default_threads(), [&](std::size_t i) {
@@ -236,7 +237,7 @@ Mesh some_large_mesh(Random& random) {
 }
 
 TEST(LongQueries, ManyRaysToLargeMeshesAnswerAsEachAlone) {
-  const std::uint64_t count = from_environment("TACT_LONG_QUESTIONS", 4000);
+  const std::uint64_t count = from_environment("TACT_LONG_QUERIES", 4000);
   const std::uint64_t seed = from_environment("TACT_LONG_SEED", 1);
   std::vector<std::size_t> differing((count + kTogether - 1) / kTogether);
   base::parallel_for(differing.size(), 1, base::default_threads(), [&](std::size_t i) {
@@ -253,7 +254,7 @@ TEST(LongQueries, ManyRaysToLargeMeshesAnswerAsEachAlone) {
     std::vector<Ray> rays;
     for (std::uint64_t k = 0; k < kTogether; ++k) {
       Ray ray = hard_ray(meshes[random.below(2)], random);
-      ray.asked.mask = static_cast<std::uint32_t>(1 + random.below(3));
+      ray.filter.mask = static_cast<std::uint32_t>(1 + random.below(3));
       rays.push_back(ray);
     }
     differing[i] = differing_together(world, rays);

@@ -64,7 +64,7 @@ struct LiveBody {
   BodyId id;
   std::size_t shape = 0;
   Mesh mesh;
-  Motion motion = Motion::moving;
+  Motion motion = Motion::deformable;
 };
 
 class Life {
@@ -116,7 +116,7 @@ class Life {
     LiveBody body;
     body.shape = static_cast<std::size_t>(random_.below(static_cast<int>(shapes_.size())));
     body.mesh = anywhere(shapes_[body.shape]);
-    body.motion = random_.chance(0.1) ? Motion::fixed : Motion::moving;
+    body.motion = random_.chance(0.1) ? Motion::fixed : Motion::deformable;
     body.id = world_.add_body({.positions = body.mesh.positions, .facets = body.mesh.facets, .motion = body.motion});
     bodies_.push_back(std::move(body));
   }

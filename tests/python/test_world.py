@@ -132,7 +132,7 @@ def test_bodies_and_what_they_are(two):
     world, left, right = two
     assert world.bodies == [left, right] and len(world) == world.body_count == 2
     assert (world.name(left), world.vertex_count(left), world.facet_count(left)) == ("left", 4, 4)
-    assert world.surface(left) == tact.Surface.closed and world.motion(left) == tact.Motion.moving
+    assert world.surface(left) == tact.Surface.closed and world.motion(left) == tact.Motion.deformable
     world.set_layers(left, 2, 4)
     assert (world.layer(left), world.mask(left)) == (2, 4)
     assert world.detect().contacts == []
@@ -198,20 +198,20 @@ def test_motion_tells_when_a_body_passes_through_a_sheet():
 
 def test_queries_have_the_answers_of_closed_forms(two):
     world, left, right = two
-    hits = world.rays(np.array([[0.1, 0.1, 5.0], [9.0, 9.0, 5.0]]), np.array([[0.1, 0.1, -5.0], [9.0, 9.0, -5.0]]))
+    hits = world.cast_rays(np.array([[0.1, 0.1, 5.0], [9.0, 9.0, 5.0]]), np.array([[0.1, 0.1, -5.0], [9.0, 9.0, -5.0]]))
     assert hits.bodies[0] == left.index and hits.bodies[1] == hits.facets[1] == -1
-    assert 5.0 - 10.0 * hits.times[0] == pytest.approx(0.8, abs=1e-12)
-    assert len(world.all_hits([0.1, 0.1, 5.0], [0.1, 0.1, -5.0])) == 2
+    assert 5.0 - 10.0 * hits.fractions[0] == pytest.approx(0.8, abs=1e-12)
+    assert len(world.cast_ray_all([0.1, 0.1, 5.0], [0.1, 0.1, -5.0])) == 2
     closest = world.closest_points(np.array([[0.1, 0.1, -2.0]]))
-    assert closest.distances[0] == pytest.approx(2.0, abs=1e-14) and closest.weights[0].sum() == pytest.approx(1.0)
+    assert closest.distances[0] == pytest.approx(2.0, abs=1e-14) and closest.barycentric[0].sum() == pytest.approx(1.0)
     assert closest.bodies[0] == left.index
     assert world.closest_points(np.array([[0.1, 0.1, -2.0]]), within=1.0).facets[0] == -1
-    assert world.inside([0.1, 0.1, 0.1]) == [left]
-    assert world.inside([0.92, 0.02, 0.02]) == [left, right]
-    assert world.inside([0.92, 0.02, 0.02], mask=0) == []
+    assert world.bodies_containing([0.1, 0.1, 0.1]) == [left]
+    assert world.bodies_containing([0.92, 0.02, 0.02]) == [left, right]
+    assert world.bodies_containing([0.92, 0.02, 0.02], mask=0) == []
     np.testing.assert_array_equal(np.unique(world.overlap_box([-1, -1, -1], [2, 2, 2])[:, 0]), [left.index, right.index])
     with pytest.raises(tact.Error, match="query 0: the beginning of a ray has x = nan"):
-        world.rays(np.array([[np.nan, 0, 0]]), np.zeros((1, 3)))
+        world.cast_rays(np.array([[np.nan, 0, 0]]), np.zeros((1, 3)))
 
 
 def test_rigid_bodies_move_by_poses():
@@ -250,4 +250,4 @@ def test_many_queries_at_once(two):
     answers = world.overlap_boxes(lower, upper)
     np.testing.assert_array_equal(answers[0], world.overlap_box(lower[0], upper[0]))
     assert len(answers[0]) > 0 and answers[1].shape == (0, 2)
-    assert world.inside_each(np.array([[0.1, 0.1, 0.1], [0.92, 0.02, 0.02], [9, 9, 9]])) == [[left], [left, right], []]
+    assert world.bodies_containing_each(np.array([[0.1, 0.1, 0.1], [0.92, 0.02, 0.02], [9, 9, 9]])) == [[left], [left, right], []]

@@ -48,12 +48,12 @@ function readFacetPairs(reader) {
   return pairs;
 }
 
-/** Runs of facets with one fate: length and fate. */
-function readFates(reader) {
+/** Runs of facets with one outcome: length and outcome. */
+function readOutcomes(reader) {
   const facets = reader.count(), runs = [];
   for (let done = 0; done < facets; ) {
     const run = reader.count(), length = Math.floor(run / 8);
-    if (length === 0 || done + length > facets) throw new RangeError("fates of more facets than there are");
+    if (length === 0 || done + length > facets) throw new RangeError("outcomes of more facets than there are");
     runs.push(length, run % 8);
     done += length;
   }
@@ -111,8 +111,8 @@ function readContact(reader) {
   contact.keptA = reader.count();
   contact.keptB = reader.count();
   contact.pairs = readFacetPairs(reader);
-  contact.fatesA = flags & 8 ? readFates(reader) : null;
-  contact.fatesB = flags & 8 ? readFates(reader) : null;
+  contact.outcomesA = flags & 8 ? readOutcomes(reader) : null;
+  contact.outcomesB = flags & 8 ? readOutcomes(reader) : null;
   contact.patches = times(reader.count(), () => readPatch(reader));
   const lastA = [0, 0, 0], lastB = [0, 0, 0];
   contact.points = times(reader.count(), () => readPoint(reader, lastA, lastB));

@@ -40,7 +40,7 @@ class App {
       pair: null, // bodies
       facet: null, // over all bodies
       point: null, // of the pair
-      show: new Set(["direction", "fates", "points", run.head.settings.zones ? "zones" : "planes"]),
+      show: new Set(["direction", "outcomes", "points", run.head.settings.zones ? "zones" : "planes"]),
       clusters: false,
       wire: true,
       isolate: true,
@@ -118,10 +118,10 @@ class App {
     const { state, frame } = this, chosen = this.chosen();
     const contacts = chosen !== null ? [chosen] : frame.contacts;
     const surface = this.stage.surface;
-    surface.showFates(contacts);
+    surface.showOutcomes(contacts);
     if (state.clusters) surface.showClusters(state.frame);
-    surface.shared.colouring.value = state.clusters ? 2 : state.show.has("fates") ? 1 : 0;
-    surface.behind.visible = state.show.has("fates") && !state.clusters;
+    surface.shared.colouring.value = state.clusters ? 2 : state.show.has("outcomes") ? 1 : 0;
+    surface.behind.visible = state.show.has("outcomes") && !state.clusters;
     surface.shared.wire.value = state.wire ? 1 : 0;
     surface.highlight(state.facet, this.facetsBeside(contacts));
     const fades = chosen !== null && state.isolate;
@@ -171,7 +171,7 @@ class App {
 
   toggle(key) {
     if (!this.state.show.delete(key)) this.state.show.add(key);
-    if (key === "fates") this.state.clusters = false;
+    if (key === "outcomes") this.state.clusters = false;
     this.showAll();
   }
 

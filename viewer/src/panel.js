@@ -1,7 +1,7 @@
 // The column beside the picture: what touches in this step, how it was found, and what is selected.
 import { byId, count, css, element, length, milliseconds, plural } from "./dom.js";
 import { kMostDetailed } from "./marks.js";
-import { FATES, FEATURES, SOURCES, fateCounts, fateOf, visible } from "./run.js";
+import { OUTCOMES, FEATURES, SOURCES, outcomeCounts, outcomeOf, visible } from "./run.js";
 
 const kMostRows = 200;
 
@@ -22,7 +22,7 @@ const METHOD = [
   { key: "zones", name: "Impact zones", digit: "5", needs: "zones",
     step: () => "disks around the parts in the slab",
     pair: (c) => (c.zoneA && c.zoneB ? `radii ${length(c.zoneA.radius)} and ${length(c.zoneB.radius)}` : "not computed") },
-  { key: "fates", name: "Facets", digit: "6",
+  { key: "outcomes", name: "Facets", digit: "6",
     step: (s) => `${count(s("kept_facets"))} kept in this step, ${plural(s("facet_pairs"), "pair")} meet`,
     pair: (c) => `${count(c.keptA)} and ${count(c.keptB)} kept, ${plural(c.pairs.length / 2, "pair")} meet` },
   { key: "patches", name: "Patches", digit: "7", needs: "patches",
@@ -90,8 +90,8 @@ export class Panel {
     const { head } = this.app.run, s = (name) => this.app.run.stat(name, frame.index);
     const alive = frame.positions.filter((p) => p !== null).length;
     const touching = s("touching_contacts"), points = frame.contacts.reduce((n, c) => n + c.points.length, 0);
-    const told = head.settings.accuracy === "hulls" ? "At accuracy hulls nobody looks at facets."
-      : touching === 0 ? (points === 0 ? "No facets meet." : `Thick surfaces touch at ${plural(points, "contact point")}; no facets meet.`) : `${plural(touching, "pair touches", "pairs touch")}: ${plural(s("facet_pairs"), "pair of facets meets", "pairs of facets meet")}.`;
+    const told = head.settings.accuracy === "hulls" ? "Accuracy hulls computes no facet pairs."
+      : touching === 0 ? "Nothing touches." : s("facet_pairs") === 0 ? `${plural(touching, "pair touches", "pairs touch")} at ${plural(points, "contact point")}; no facets meet.` : `${plural(touching, "pair touches", "pairs touch")}: ${plural(s("facet_pairs"), "pair of facets meets", "pairs of facets meet")}.`;
     return element("header", {},
       element("h1", {}, visible(head.title)),
       element("p", { class: "quiet" }, `${head.kind} · tact ${head.tact} · accuracy ${head.settings.accuracy}${head.interrupted ? " · interrupted" : ""}`),
@@ -115,34 +115,34 @@ export class Panel {
 
   // What became of the facets: of the pair that is selected, or of all pairs in contact.
   facets(frame, chosen) {
-    const contacts = (chosen !== null ? [chosen] : frame.contacts).filter((c) => c.fatesA !== null);
+    const contacts = (chosen !== null ? [chosen] : frame.contacts).filter((c) => c.outcomesA !== null);
     if (contacts.length === 0) return section("What became of the facets", element("p", { class: "quiet" }, "Nothing: no hulls overlap here."));
-    const sums = (side) => FATES.map((_, k) => contacts.reduce((n, c) => n + c[side][k], 0));
-    for (const c of contacts) c.countsA ??= fateCounts(c.fatesA), c.countsB ??= fateCounts(c.fatesB);
+    const sums = (side) => OUTCOMES.map((_, k) => contacts.reduce((n, c) => n + c[side][k], 0));
+    for (const c of contacts) c.countsA ??= outcomeCounts(c.outcomesA), c.countsB ??= outcomeCounts(c.outcomesB);
     const a = sums("countsA"), b = sums("countsB"), all = a.map((n, k) => n + b[k]), total = all.reduce((x, y) => x + y, 0);
-    const bar = element("div", { class: "bar" }, ...FATES.map((fate, k) =>
-      element("i", { style: `flex-grow:${all[k] / total};background:${css(fate.color)}`, title: `${fate.name}: ${all[k]}` })));
-    const rows = FATES.map((fate, k) => {
+    const bar = element("div", { class: "bar" }, ...OUTCOMES.map((outcome, k) =>
+      element("i", { style: `flex-grow:${all[k] / total};background:${css(outcome.color)}`, title: `${outcome.name}: ${all[k]}` })));
+    const rows = OUTCOMES.map((outcome, k) => {
       const cells = chosen !== null ? [a[k], b[k]] : [all[k]];
-      return element("tr", { title: fate.why, class: all[k] === 0 ? "none" : null },
-        element("th", {}, element("i", { class: "swatch", style: `background:${css(fate.color)}` }), fate.name),
-        ...cells.map((n, side) => element("td", { "data-fate": fate.key, "data-side": side, "data-value": n }, count(n))));
+      return element("tr", { title: outcome.why, class: all[k] === 0 ? "none" : null },
+        element("th", {}, element("i", { class: "swatch", style: `background:${css(outcome.color)}` }), outcome.name),
+        ...cells.map((n, side) => element("td", { "data-outcome": outcome.key, "data-side": side, "data-value": n }, count(n))));
     });
     const heads = chosen !== null ? [this.name(chosen.a), this.name(chosen.b)] : [contacts.length === 1 ? "facets" : `of ${contacts.length} pairs`];
     return section("What became of the facets", bar,
-      element("table", { id: "fates" }, element("tr", {}, element("th"), ...heads.map((h) => element("td", { class: "quiet name" }, h))), ...rows));
+      element("table", { id: "outcomes" }, element("tr", {}, element("th"), ...heads.map((h) => element("td", { class: "quiet name" }, h))), ...rows));
   }
 
   facet(frame) {
     const { app } = this, body = app.run.bodyOfFacet(app.state.facet), number = app.state.facet - app.run.bodies[body].firstFacet;
     const rows = [];
     for (const contact of frame.contacts.filter((c) => c.a === body || c.b === body)) {
-      const isA = contact.a === body, runs = isA ? contact.fatesA : contact.fatesB, other = isA ? contact.b : contact.a;
+      const isA = contact.a === body, runs = isA ? contact.outcomesA : contact.outcomesB, other = isA ? contact.b : contact.a;
       const met = app.facetsMet(contact, body, number);
       if (runs === null && met.length === 0) continue;
-      const fate = runs === null ? FATES.length - 1 : fateOf(runs, number);
-      rows.push(element("tr", {}, element("th", {}, element("i", { class: "swatch", style: `background:${css(FATES[fate].color)}` }), `against ${this.name(other)}`),
-        element("td", { "data-facet-fate": FATES[fate].key, title: FATES[fate].why }, `${FATES[fate].name}${met.length > 0 ? `: ${met.slice(0, 8).join(", ")}${met.length > 8 ? " …" : ""}` : ""}`)));
+      const outcome = runs === null ? OUTCOMES.length - 1 : outcomeOf(runs, number);
+      rows.push(element("tr", {}, element("th", {}, element("i", { class: "swatch", style: `background:${css(OUTCOMES[outcome].color)}` }), `against ${this.name(other)}`),
+        element("td", { "data-facet-outcome": OUTCOMES[outcome].key, title: OUTCOMES[outcome].why }, `${OUTCOMES[outcome].name}${met.length > 0 ? `: ${met.slice(0, 8).join(", ")}${met.length > 8 ? " …" : ""}` : ""}`)));
     }
     const cluster = app.run.clustersOf(body, frame.index)?.[number];
     return section(`Facet ${number} of ${this.name(body)}`, element("table", { id: "facet", class: "facts" },

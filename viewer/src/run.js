@@ -2,7 +2,7 @@
 import { ByteReader } from "./bytes.js";
 import { readChunk, readContacts } from "./chunk.js";
 
-export const FATES = [
+export const OUTCOMES = [
   { key: "outside_box", name: "outside the box", color: [0.62, 0.66, 0.72], why: "outside the box of what is left of the other body" },
   { key: "outside_slab", name: "outside the slab", color: [0.33, 0.52, 0.86], why: "before the other's contact plane" },
   { key: "far", name: "nothing near", color: [0.42, 0.68, 0.6], why: "no cluster of the other body is near its cluster" },
@@ -162,15 +162,15 @@ export class Run {
   }
 }
 
-/** How many facets had each fate. */
-export function fateCounts(runs) {
-  const counts = FATES.map(() => 0);
+/** How many facets had each outcome. */
+export function outcomeCounts(runs) {
+  const counts = OUTCOMES.map(() => 0);
   for (let i = 0; i < runs.length; i += 2) counts[runs[i + 1]] += runs[i];
   return counts;
 }
 
-/** The fate of one facet. */
-export function fateOf(runs, facet) {
+/** The outcome of one facet. */
+export function outcomeOf(runs, facet) {
   let end = 0;
   for (let i = 0; i < runs.length; i += 2) {
     end += runs[i];

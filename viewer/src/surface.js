@@ -1,7 +1,7 @@
-// The surfaces of all bodies in one draw call: positions, fates and looks come from textures, so that a step changes
+// The surfaces of all bodies in one draw call: positions, outcomes and looks come from textures, so that a step changes
 // textures alone. The same geometry drawn with numbers for colours tells which facet is under the mouse.
 import * as THREE from "three";
-import { FATES } from "./run.js";
+import { OUTCOMES } from "./run.js";
 
 const kWidth = 2048; // texels in a row
 
@@ -33,7 +33,7 @@ const VERTEX = `
     vec4 seen = modelViewMatrix * vec4(texel(positions, int(position)).xyz, 1.0);
     place = seen.xyz;
     gl_Position = projectionMatrix * seen;
-    bool met = facet.r * 255.0 > ${FATES.length - 1}.0 - 0.5;
+    bool met = facet.r * 255.0 > ${OUTCOMES.length - 1}.0 - 0.5;
     bool hidden = look.a < 0.01 || (pass == 3.0 && !met) || (pass == 0.0 && look.a < 0.99) || (pass == 1.0 && look.a >= 0.99);
     if (hidden) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
   }
@@ -41,8 +41,8 @@ const VERTEX = `
 
 const FRAGMENT = `
   ${COMMON}
-  uniform vec3 fateColors[${FATES.length}];
-  uniform float colouring;  // 0: bodies, 1: fates, 2: clusters
+  uniform vec3 outcomeColors[${OUTCOMES.length}];
+  uniform float colouring;  // 0: bodies, 1: outcomes, 2: clusters
   uniform float wire;
   uniform vec3 up;          // in view space
   in vec3 place;
@@ -58,14 +58,14 @@ const FRAGMENT = `
     float key = max(dot(normal, normalize(vec3(-0.45, 0.65, 0.75))), 0.0);
     float fill = max(dot(normal, normalize(vec3(0.8, 0.1, 0.5))), 0.0);
     float light = 0.34 + 0.58 * key + 0.16 * fill + 0.12 * dot(normal, up);
-    int fate = int(facet.r * 255.0 + 0.5);
+    int outcome = int(facet.r * 255.0 + 0.5);
     vec3 base = look.rgb;
     float alpha = look.a;
     if (colouring > 1.5) base = mix(hue(facet.g * 0.9961), vec3(0.9), 0.15);
-    else if (colouring > 0.5 && fate > 0) {
-      base = mix(fateColors[fate], look.rgb, fate < 5 ? 0.25 : 0.0);
-      light = mix(light, 1.0, fate > 5 ? 0.35 : fate > 4 ? 0.15 : 0.0);
-      if (fate > 4) alpha = max(alpha, 0.9);
+    else if (colouring > 0.5 && outcome > 0) {
+      base = mix(outcomeColors[outcome], look.rgb, outcome < 5 ? 0.25 : 0.0);
+      light = mix(light, 1.0, outcome > 5 ? 0.35 : outcome > 4 ? 0.15 : 0.0);
+      if (outcome > 4) alpha = max(alpha, 0.9);
     }
     vec3 shaded = base * light;
     vec3 d = fwidth(corner);
@@ -81,7 +81,7 @@ const FRAGMENT = `
 
 const BEHIND = `
   ${COMMON}
-  uniform vec3 fateColors[${FATES.length}];
+  uniform vec3 outcomeColors[${OUTCOMES.length}];
   in vec3 place;
   in vec3 corner;
   flat in vec4 look;
@@ -92,7 +92,7 @@ const BEHIND = `
     vec3 d = fwidth(corner);
     vec3 edge = smoothstep(vec3(0.0), d * 1.4, corner);
     float line = 1.0 - min(min(edge.x, edge.y), edge.z);
-    color = vec4(pow(fateColors[${FATES.length - 1}], vec3(0.4545)), 0.1 + 0.24 * line);
+    color = vec4(pow(outcomeColors[${OUTCOMES.length - 1}], vec3(0.4545)), 0.1 + 0.24 * line);
   }
 `;
 
@@ -130,7 +130,7 @@ export class Surface {
       positions: { value: this.positions },
       facets: { value: this.facets },
       looks: { value: this.looks },
-      fateColors: { value: FATES.map((fate) => new THREE.Color(...fate.color)).map((c) => c.convertSRGBToLinear()) },
+      outcomeColors: { value: OUTCOMES.map((outcome) => new THREE.Color(...outcome.color)).map((c) => c.convertSRGBToLinear()) },
       colouring: { value: 1 },
       wire: { value: 1 },
       up: { value: new THREE.Vector3(0, 0, 1) },
@@ -235,25 +235,25 @@ export class Surface {
     return b.used;
   }
 
-  /** Fates of facets: the farthest that each came in the given contacts. */
-  showFates(contacts) {
+  /** Outcomes of facets: the farthest that each came in the given contacts. */
+  showOutcomes(contacts) {
     const to = this.facets.image.data, { bodies } = this.run;
     for (let i = 0; i < to.length; i += 4) to[i] = 0;
     const apply = (runs, body) => {
       if (runs === null) return;
       let facet = bodies[body].firstFacet;
       for (let i = 0; i < runs.length; i += 2) {
-        const end = facet + runs[i], fate = runs[i + 1];
-        for (; facet < end; ++facet) if (fate > to[4 * facet]) to[4 * facet] = fate;
+        const end = facet + runs[i], outcome = runs[i + 1];
+        for (; facet < end; ++facet) if (outcome > to[4 * facet]) to[4 * facet] = outcome;
       }
     };
     for (const contact of contacts) {
-      apply(contact.fatesA, contact.a);
-      apply(contact.fatesB, contact.b);
-      if (contact.fatesA !== null) continue;
+      apply(contact.outcomesA, contact.a);
+      apply(contact.outcomesB, contact.b);
+      if (contact.outcomesA !== null) continue;
       for (let i = 0; i < contact.pairs.length; i += 2) { // a body with itself
-        to[4 * (bodies[contact.a].firstFacet + contact.pairs[i])] = FATES.length - 1;
-        to[4 * (bodies[contact.b].firstFacet + contact.pairs[i + 1])] = FATES.length - 1;
+        to[4 * (bodies[contact.a].firstFacet + contact.pairs[i])] = OUTCOMES.length - 1;
+        to[4 * (bodies[contact.b].firstFacet + contact.pairs[i + 1])] = OUTCOMES.length - 1;
       }
     }
     this.facets.needsUpdate = true;

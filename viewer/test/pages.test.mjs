@@ -16,7 +16,7 @@ const SCENES = {
   "sphere-in-cloth": ["--frames", "40"],
   "wheel-on-ground": ["--frames", "60"],
 };
-const FATES = ["outside_box", "outside_slab", "far", "facing_away", "outside_zone", "kept", "meets"];
+const OUTCOMES = ["outside_box", "outside_slab", "far", "facing_away", "outside_zone", "kept", "meets"];
 
 before(open);
 after(close);
@@ -42,12 +42,12 @@ async function expectPair(page, contact) {
   assert.equal(numberIn(await page.textContent('#pair [data-fact="facet pairs"]')), contact.facet_pairs.length);
   const kept = (await page.textContent('#pair [data-fact="kept facets"]')).split(" and ").map(numberIn);
   assert.deepEqual(kept, contact.kept_facets);
-  if (contact.fates === undefined) return assert.equal(await page.locator("#fates").count(), 0); // nearer than the margins, no more
+  if (contact.outcomes === undefined) return assert.equal(await page.locator("#outcomes").count(), 0); // nearer than the margins, no more
   for (const side of [0, 1]) {
-    const cells = await page.$$eval(`#fates td[data-side="${side}"]`, (found) => found.map((cell) => [cell.dataset.fate, cell.textContent]));
-    assert.deepEqual(Object.fromEntries(cells.map(([fate, text]) => [fate, numberIn(text)])), contact.fates[side]);
-    assert.deepEqual(cells.map(([fate]) => fate), FATES);
-    assert.equal(contact.fates[side].kept + contact.fates[side].meets, kept[side]);
+    const cells = await page.$$eval(`#outcomes td[data-side="${side}"]`, (found) => found.map((cell) => [cell.dataset.outcome, cell.textContent]));
+    assert.deepEqual(Object.fromEntries(cells.map(([outcome, text]) => [outcome, numberIn(text)])), contact.outcomes[side]);
+    assert.deepEqual(cells.map(([outcome]) => outcome), OUTCOMES);
+    assert.equal(contact.outcomes[side].kept + contact.outcomes[side].meets, kept[side]);
   }
 }
 
@@ -85,7 +85,7 @@ async function expectPick(page, contacts) {
   await page.mouse.click(target.x, target.y);
   const name = await page.evaluate((body) => window.tactView.run.bodies[body].name, target.body);
   assert.equal(await page.locator("section:has(#facet) h2").textContent(), `Facet ${target.facet} of ${name}`);
-  const told = await page.$$eval('#facet [data-facet-fate="meets"]', (cells) => cells.map((cell) => cell.textContent));
+  const told = await page.$$eval('#facet [data-facet-outcome="meets"]', (cells) => cells.map((cell) => cell.textContent));
   const expected = contacts.map(({ a, b, facet_pairs: met }) => (a === target.body ? met.filter(([fa]) => fa === target.facet).map(([, fb]) => fb)
     : b === target.body ? met.filter(([, fb]) => fb === target.facet).map(([fa]) => fa) : [])).filter((met) => met.length > 0);
   assert.deepEqual(told, expected.map((met) => `meets: ${met.slice(0, 8).join(", ")}${met.length > 8 ? " …" : ""}`));

@@ -8,18 +8,18 @@ namespace tact::c {
 namespace {
 
 static_assert(sizeof(tact_ray) == sizeof(Ray) && offsetof(tact_ray, to) == offsetof(Ray, to) &&
-              offsetof(tact_ray, layer) == offsetof(Ray, asked));
+              offsetof(tact_ray, layer) == offsetof(Ray, filter));
 static_assert(sizeof(tact_ray_hit) == sizeof(RayHit) && offsetof(tact_ray_hit, facet) == offsetof(RayHit, facet) &&
-              offsetof(tact_ray_hit, time) == offsetof(RayHit, time) &&
-              offsetof(tact_ray_hit, weights) == offsetof(RayHit, weights));
+              offsetof(tact_ray_hit, fraction) == offsetof(RayHit, fraction) &&
+              offsetof(tact_ray_hit, barycentric) == offsetof(RayHit, barycentric));
 static_assert(sizeof(tact_point_query) == sizeof(PointQuery) &&
               offsetof(tact_point_query, within) == offsetof(PointQuery, within) &&
-              offsetof(tact_point_query, layer) == offsetof(PointQuery, asked));
+              offsetof(tact_point_query, layer) == offsetof(PointQuery, filter));
 static_assert(sizeof(tact_closest_point) == sizeof(ClosestPoint) &&
               offsetof(tact_closest_point, distance) == offsetof(ClosestPoint, distance) &&
-              offsetof(tact_closest_point, weights) == offsetof(ClosestPoint, weights));
+              offsetof(tact_closest_point, barycentric) == offsetof(ClosestPoint, barycentric));
 static_assert(sizeof(tact_box_query) == sizeof(BoxQuery) &&
-              offsetof(tact_box_query, layer) == offsetof(BoxQuery, asked));
+              offsetof(tact_box_query, layer) == offsetof(BoxQuery, filter));
 static_assert(sizeof(tact_facet_of_body) == sizeof(FacetOfBody) &&
               offsetof(tact_facet_of_body, facet) == offsetof(FacetOfBody, facet));
 
@@ -60,22 +60,23 @@ using tact::c::as_cpp, tact::c::body_of, tact::c::changing, tact::c::check_not_n
 
 extern "C" {
 
-tact_error tact_world_ray(tact_world world, const tact_ray* ray, int32_t wanted, tact_ray_hit* hit) {
-  return tact_world_rays(world, ray, 1, wanted, hit);
+tact_error tact_world_cast_ray(tact_world world, const tact_ray* ray, int32_t wanted, tact_ray_hit* hit) {
+  return tact_world_cast_rays(world, ray, 1, wanted, hit);
 }
 
-tact_error tact_world_rays(tact_world world, const tact_ray* rays, size_t count, int32_t wanted, tact_ray_hit* hits) {
+tact_error tact_world_cast_rays(tact_world world, const tact_ray* rays, size_t count, int32_t wanted,
+                                tact_ray_hit* hits) {
   return changing(world, [&](WorldEntry& entry) {
-    entry.world.rays(as_cpp<const tact::Ray>(rays, count), as_cpp<tact::RayHit>(hits, count),
-                     static_cast<tact::RayHits>(wanted));
+    entry.world.cast_rays(as_cpp<const tact::Ray>(rays, count), as_cpp<tact::RayHit>(hits, count),
+                          static_cast<tact::RayHits>(wanted));
   });
 }
 
-tact_error tact_world_all_hits(tact_world world, const tact_ray* ray, tact_ray_hit* hits, size_t capacity,
-                               size_t* count) {
+tact_error tact_world_cast_ray_all(tact_world world, const tact_ray* ray, tact_ray_hit* hits, size_t capacity,
+                                   size_t* count) {
   return changing(world, [&](WorldEntry& entry) {
     check_not_null(count);
-    write(entry.world.all_hits(as_cpp<const tact::Ray>(ray, 1)[0]), hits, capacity, count);
+    write(entry.world.cast_ray_all(as_cpp<const tact::Ray>(ray, 1)[0]), hits, capacity, count);
   });
 }
 
@@ -87,11 +88,11 @@ tact_error tact_world_overlap_box(tact_world world, const tact_box_query* query,
   });
 }
 
-tact_error tact_world_inside(tact_world world, const tact_point_query* query, tact_body* bodies, size_t capacity,
-                             size_t* count) {
+tact_error tact_world_bodies_containing(tact_world world, const tact_point_query* query, tact_body* bodies,
+                                        size_t capacity, size_t* count) {
   return changing(world, [&](WorldEntry& entry) {
     check_not_null(count);
-    write(entry.world.inside(as_cpp<const tact::PointQuery>(query, 1)[0]), bodies, capacity, count);
+    write(entry.world.bodies_containing(as_cpp<const tact::PointQuery>(query, 1)[0]), bodies, capacity, count);
   });
 }
 
@@ -104,12 +105,12 @@ tact_error tact_world_overlap_boxes(tact_world world, const tact_box_query* quer
   });
 }
 
-tact_error tact_world_inside_each(tact_world world, const tact_point_query* queries, size_t count, tact_body* bodies,
-                                  size_t capacity, size_t* ends) {
+tact_error tact_world_bodies_containing_each(tact_world world, const tact_point_query* queries, size_t count,
+                                             tact_body* bodies, size_t capacity, size_t* ends) {
   return changing(world, [&](WorldEntry& entry) {
     write_each<tact::PointQuery, tact::BodyId>(
         queries, count, bodies, capacity, ends,
-        [&](const auto& asked, auto& answers) { entry.world.inside_each(asked, answers); });
+        [&](const auto& asked, auto& answers) { entry.world.bodies_containing_each(asked, answers); });
   });
 }
 

@@ -39,7 +39,9 @@ void define_errors(py::module_& module) {
       .value("backend_failure", ErrorCode::backend_failure, "Embree reported an error")
       .value("bad_recording", ErrorCode::bad_recording, "bytes that are no recording, or one that does not play")
       .value("wrong_motion", ErrorCode::wrong_motion, "positions of a rigid body, or a pose of one that is not")
-      .value("not_a_rotation", ErrorCode::not_a_rotation, "a matrix that is not orthonormal to 1e-9, or mirrors");
+      .value("not_a_rotation", ErrorCode::not_a_rotation, "a matrix that is not orthonormal to 1e-9, or mirrors")
+      .value("invalid_argument", ErrorCode::invalid_argument,
+             "an argument has no meaning, such as an unknown enumeration value or a negative margin");
   g_error = PyErr_NewExceptionWithDoc("tact.Error",
                                       "Data that a world cannot take; `code` is an ErrorCode. The world is as it was.",
                                       PyExc_RuntimeError, nullptr);

@@ -17,12 +17,12 @@ namespace {
 struct HitArrays {
   py::array_t<std::int64_t> bodies;
   py::array_t<int> facets;
-  py::array_t<double> times, weights;
+  py::array_t<double> fractions, barycentric;
 };
 struct ClosestArrays {
   py::array_t<std::int64_t> bodies;
   py::array_t<int> facets;
-  py::array_t<double> distances, weights;
+  py::array_t<double> distances, barycentric;
 };
 
 template <class Answer>
@@ -36,8 +36,9 @@ py::array_t<int> facet_column(std::span<const Answer> answers) {
   return column_of<int>(answers, [](const Answer& answer) { return answer.facet; });
 }
 HitArrays hit_arrays(std::span<const RayHit> hits) {
-  return {body_column(hits), facet_column(hits), column_of<double>(hits, [](const RayHit& hit) { return hit.time; }),
-          rows_of_three<double>(hits, &RayHit::weights)};
+  return {body_column(hits), facet_column(hits),
+          column_of<double>(hits, [](const RayHit& hit) { return hit.fraction; }),
+          rows_of_three<double>(hits, &RayHit::barycentric)};
 }
 
 std::vector<Eigen::Vector3d> points_of(py::handle given) {
@@ -47,11 +48,11 @@ std::vector<Eigen::Vector3d> points_of(py::handle given) {
   return points;
 }
 
-std::vector<Ray> rays_of(py::handle from, py::handle to, const Asked& asked) {
+std::vector<Ray> rays_of(py::handle from, py::handle to, const QueryFilter& filter) {
   const std::vector<Eigen::Vector3d> begin = points_of(from), end = points_of(to);
   if (begin.size() != end.size()) throw py::value_error("from_ and to have different lengths");
   std::vector<Ray> rays;
-  for (std::size_t i = 0; i < begin.size(); ++i) rays.push_back({begin[i], end[i], asked});
+  for (std::size_t i = 0; i < begin.size(); ++i) rays.push_back({begin[i], end[i], filter});
   return rays;
 }
 
@@ -59,14 +60,14 @@ HitArrays cast_rays(SharedWorld& world, py::handle from, py::handle to, bool any
                     std::uint32_t mask) {
   const std::vector<Ray> rays = rays_of(from, to, {layer, mask});
   std::vector<RayHit> hits(rays.size());
-  world.compute([&](World& w) { w.rays(rays, hits, any ? RayHits::any : RayHits::first); });
+  world.compute([&](World& w) { w.cast_rays(rays, hits, any ? RayHits::any : RayHits::first); });
   return hit_arrays(hits);
 }
 
-HitArrays all_hits(SharedWorld& world, const Eigen::Vector3d& from, const Eigen::Vector3d& to, std::uint32_t layer,
-                   std::uint32_t mask) {
+HitArrays cast_ray_all(SharedWorld& world, const Eigen::Vector3d& from, const Eigen::Vector3d& to, std::uint32_t layer,
+                       std::uint32_t mask) {
   std::vector<RayHit> hits;
-  world.compute([&](World& w) { hits = w.all_hits({from, to, {layer, mask}}); });
+  world.compute([&](World& w) { hits = w.cast_ray_all({from, to, {layer, mask}}); });
   return hit_arrays(hits);
 }
 
@@ -79,7 +80,7 @@ ClosestArrays closest_points(SharedWorld& world, py::handle points, double withi
   const std::span<const ClosestPoint> all = answers;
   return {body_column(all), facet_column(all),
           column_of<double>(all, [](const ClosestPoint& one) { return one.distance; }),
-          rows_of_three<double>(all, &ClosestPoint::weights)};
+          rows_of_three<double>(all, &ClosestPoint::barycentric)};
 }
 
 py::array_t<std::int64_t> facet_rows(const std::vector<FacetOfBody>& found) {
@@ -96,9 +97,10 @@ py::array_t<std::int64_t> overlap_box(SharedWorld& world, const Eigen::Vector3d&
   return facet_rows(found);
 }
 
-std::vector<BodyId> inside(SharedWorld& world, const Eigen::Vector3d& point, std::uint32_t layer, std::uint32_t mask) {
+std::vector<BodyId> bodies_containing(SharedWorld& world, const Eigen::Vector3d& point, std::uint32_t layer,
+                                      std::uint32_t mask) {
   std::vector<BodyId> found;
-  world.compute([&](World& w) { found = w.inside({.point = point, .asked = {layer, mask}}); });
+  world.compute([&](World& w) { found = w.bodies_containing({.point = point, .filter = {layer, mask}}); });
   return found;
 }
 
@@ -115,12 +117,12 @@ std::vector<py::array_t<std::int64_t>> overlap_boxes(SharedWorld& world, py::han
   return answers;
 }
 
-std::vector<std::vector<BodyId>> inside_each(SharedWorld& world, py::handle points, std::uint32_t layer,
-                                             std::uint32_t mask) {
+std::vector<std::vector<BodyId>> bodies_containing_each(SharedWorld& world, py::handle points, std::uint32_t layer,
+                                                        std::uint32_t mask) {
   std::vector<PointQuery> queries;
-  for (const Eigen::Vector3d& point : points_of(points)) queries.push_back({.point = point, .asked = {layer, mask}});
+  for (const Eigen::Vector3d& point : points_of(points)) queries.push_back({.point = point, .filter = {layer, mask}});
   std::vector<std::vector<BodyId>> found(queries.size());
-  world.compute([&](World& w) { w.inside_each(queries, found); });
+  world.compute([&](World& w) { w.bodies_containing_each(queries, found); });
   return found;
 }
 
@@ -130,21 +132,21 @@ void define_queries(py::module_& module, WorldClass& world) {
   py::class_<HitArrays>(module, "RayHits", "Facets that rays meet, a row a hit.")
       .def_readonly("bodies", &HitArrays::bodies, "(N,) int64: BodyId.index; -1 where nothing was hit")
       .def_readonly("facets", &HitArrays::facets, "(N,) int32; -1 where nothing was hit")
-      .def_readonly("times", &HitArrays::times, "(N,): from_ + time * (to - from_)")
-      .def_readonly("weights", &HitArrays::weights, "(N, 3): of the facet's corners there")
+      .def_readonly("fractions", &HitArrays::fractions, "(N,): from_ + fraction * (to - from_)")
+      .def_readonly("barycentric", &HitArrays::barycentric, "(N, 3): of the facet's corners there")
       .def("__len__", [](const HitArrays& hits) { return hits.facets.size(); });
   py::class_<ClosestArrays>(module, "ClosestPoints", "The nearest places of all surfaces, a row a point.")
       .def_readonly("bodies", &ClosestArrays::bodies, "(N,) int64: BodyId.index; -1 where nothing is as near")
       .def_readonly("facets", &ClosestArrays::facets, "(N,) int32; -1 where nothing is as near")
       .def_readonly("distances", &ClosestArrays::distances, "(N,): metres; inf where nothing is as near")
-      .def_readonly("weights", &ClosestArrays::weights, "(N, 3): of the facet's corners there")
+      .def_readonly("barycentric", &ClosestArrays::barycentric, "(N, 3): of the facet's corners there")
       .def("__len__", [](const ClosestArrays& points) { return points.facets.size(); });
   const auto layer = py::arg("layer") = 0xffffffffu;
   const auto mask = py::arg("mask") = 0xffffffffu;
   world
-      .def("rays", cast_rays, py::arg("from_"), py::arg("to"), py::kw_only(), py::arg("any") = false, layer, mask,
+      .def("cast_rays", cast_rays, py::arg("from_"), py::arg("to"), py::kw_only(), py::arg("any") = false, layer, mask,
            "the first facet that each ray meets, or any; (N, 3) both, metres")
-      .def("all_hits", all_hits, py::arg("from_"), py::arg("to"), py::kw_only(), layer, mask,
+      .def("cast_ray_all", cast_ray_all, py::arg("from_"), py::arg("to"), py::kw_only(), layer, mask,
            "all facets that a ray meets, sorted by time")
       .def("closest_points", closest_points, py::arg("points"), py::kw_only(),
            py::arg("within") = std::numeric_limits<double>::infinity(), layer, mask,
@@ -153,8 +155,9 @@ void define_queries(py::module_& module, WorldClass& world) {
            "(N, 2) int64: BodyId.index and facet of what shares a point with the box")
       .def("overlap_boxes", overlap_boxes, py::arg("lower"), py::arg("upper"), py::kw_only(), layer, mask,
            "the same of many boxes, (N, 3) both: a list of arrays")
-      .def("inside", inside, py::arg("point"), py::kw_only(), layer, mask, "the closed bodies that a point is in")
-      .def("inside_each", inside_each, py::arg("points"), py::kw_only(), layer, mask,
+      .def("bodies_containing", bodies_containing, py::arg("point"), py::kw_only(), layer, mask,
+           "the closed bodies that a point is in")
+      .def("bodies_containing_each", bodies_containing_each, py::arg("points"), py::kw_only(), layer, mask,
            "the same of many points, (N, 3): a list of lists");
 }
 

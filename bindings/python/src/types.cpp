@@ -21,7 +21,7 @@ void define_enums(py::module_& module) {
       .value("closed", Surface::closed, "a solid's surface, facets counter-clockwise seen from outside")
       .value("sheet", Surface::sheet, "cloth: no inside, both sides count");
   py::enum_<Motion>(module, "Motion", "Whether a body's positions can be set.")
-      .value("moving", Motion::moving, "they can")
+      .value("deformable", Motion::deformable, "they can")
       .value("fixed", Motion::fixed, "they cannot; two fixed bodies are never tested against each other")
       .value("rigid", Motion::rigid, "it keeps its shape: set_pose() turns and moves it");
   py::enum_<Accuracy>(module, "Accuracy", "What a report promises of its pairs.")

@@ -215,7 +215,7 @@ void define_world(py::module_& module) {
           "settings", [](SharedWorld& world) { return world.use().settings(); }, "a copy; see set_settings()")
       .def("set_settings", set_settings, py::arg("settings"), "takes effect with the next step")
       .def("add_body", add_body, py::arg("positions"), py::arg("facets"), py::kw_only(),
-           py::arg("surface") = Surface::closed, py::arg("motion") = Motion::moving, py::arg("name") = "",
+           py::arg("surface") = Surface::closed, py::arg("motion") = Motion::deformable, py::arg("name") = "",
            py::arg("layer") = 1u, py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0,
            py::arg("self_contact") = false, py::arg("group") = 0u,
            "positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside")

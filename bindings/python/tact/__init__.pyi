@@ -39,6 +39,7 @@ class ErrorCode:
     bad_recording: ClassVar[ErrorCode]
     wrong_motion: ClassVar[ErrorCode]
     not_a_rotation: ClassVar[ErrorCode]
+    invalid_argument: ClassVar[ErrorCode]
     name: str
     value: int
     def __init__(self, value: int) -> None: ...
@@ -59,7 +60,7 @@ class Surface:
 class Motion:
     """Whether a body's positions can be set."""
 
-    moving: ClassVar[Motion]
+    deformable: ClassVar[Motion]
     fixed: ClassVar[Motion]
     rigid: ClassVar[Motion]
     name: str
@@ -414,10 +415,10 @@ class RayHits:
     def facets(self) -> Ints:
         """(N,); -1 where nothing was hit"""
     @property
-    def times(self) -> Floats:
-        """(N,): from_ + time * (to - from_)"""
+    def fractions(self) -> Floats:
+        """(N,): from_ + fraction * (to - from_)"""
     @property
-    def weights(self) -> Floats:
+    def barycentric(self) -> Floats:
         """(N, 3): of the facet's corners there"""
     def __len__(self) -> int: ...
 
@@ -434,7 +435,7 @@ class ClosestPoints:
     def distances(self) -> Floats:
         """(N,): metres; inf where nothing is as near"""
     @property
-    def weights(self) -> Floats:
+    def barycentric(self) -> Floats:
         """(N, 3): of the facet's corners there"""
     def __len__(self) -> int: ...
 
@@ -554,7 +555,7 @@ class World:
     def detect(self) -> Report: ...
     def detect_motion(self, wanted: Impacts = ...) -> MotionReport:
         """what meets between the positions of the last detect() and those set since; it changes nothing"""
-    def rays(
+    def cast_rays(
         self,
         from_: npt.NDArray[np.floating],
         to: npt.NDArray[np.floating],
@@ -564,7 +565,7 @@ class World:
         mask: int = 0xFFFFFFFF,
     ) -> RayHits:
         """the first facet that each ray meets, or any; (N, 3) both, metres"""
-    def all_hits(
+    def cast_ray_all(
         self,
         from_: npt.ArrayLike,
         to: npt.ArrayLike,
@@ -591,7 +592,7 @@ class World:
         mask: int = 0xFFFFFFFF,
     ) -> npt.NDArray[np.int64]:
         """(N, 2): BodyId.index and facet of what shares a point with the box"""
-    def inside(
+    def bodies_containing(
         self, point: npt.ArrayLike, *, layer: int = 0xFFFFFFFF, mask: int = 0xFFFFFFFF
     ) -> list[BodyId]:
         """the closed bodies that a point is in"""
@@ -604,10 +605,10 @@ class World:
         mask: int = 0xFFFFFFFF,
     ) -> list[npt.NDArray[np.int64]]:
         """overlap_box() of many boxes, (N, 3) both"""
-    def inside_each(
+    def bodies_containing_each(
         self, points: npt.NDArray[np.floating], *, layer: int = 0xFFFFFFFF, mask: int = 0xFFFFFFFF
     ) -> list[list[BodyId]]:
-        """inside() of many points, (N, 3)"""
+        """bodies_containing() of many points, (N, 3)"""
     def contains(self, body: BodyId) -> bool: ...
     @property
     def body_count(self) -> int: ...

@@ -11,11 +11,11 @@
 
 namespace tact {
 
-/// Names a body of one world. An id is never given out twice: the id of a removed body stays stale for ever.
+/// Names a body of one world. No id is given out twice: that of a removed body stays stale.
 struct BodyId {
-  std::uint32_t index = 0;       ///< bodies of a report are ordered by it
-  std::uint32_t generation = 0;  ///< 0: no body
-  std::uint32_t world = 0;       ///< the world that gave it out
+  std::uint32_t index = 0;       ///< the order of bodies in a report
+  std::uint32_t generation = 0;  ///< 0 in the id of no body
+  std::uint32_t world = 0;       ///< the world that gave the id out
   friend constexpr auto operator<=>(const BodyId&, const BodyId&) = default;
 };
 
@@ -25,36 +25,34 @@ enum class Surface {
   sheet,   ///< cloth: no inside, both sides count
 };
 
-/// Does a body move?
+/// How a body moves.
 enum class Motion {
-  moving,  ///< its positions can be set
-  fixed,   ///< its positions cannot be set; two fixed bodies are never tested against each other
-  rigid,   ///< it keeps its shape: World::set_pose() turns and moves it, positions cannot be set
+  deformable,  ///< World::set_positions() moves its vertices
+  fixed,       ///< nothing moves it; two fixed bodies are never tested against each other
+  rigid,       ///< World::set_pose() turns and moves it, and its shape stays
 };
 
-/// The largest size of a coordinate, 2^300 metres. Anything smaller, subnormal numbers included, is decided exactly.
+/// The largest magnitude of a coordinate, 2^300 metres. All smaller numbers, subnormal ones included, are decided
+/// exactly.
 inline constexpr double kLargestCoordinate = 0x1p300;
 
-/// How to add a body. Only positions and facets are needed.
+/// What World::add_body() adds. Positions and facets have no default.
 struct BodyDefinition {
-  Positions positions;  ///< 3 x V, metres; of a rigid body its rest shape, where it stands at first
-  /// 3 x F, indices of vertices. Any triangle soup is accepted: repeated vertices, facets without area, no facet at
-  /// all. A vertex that no facet uses touches nothing; it must be finite and in range as all are.
+  Positions positions;  ///< 3 x V, metres; the rest shape of a rigid body
+  /// 3 x F, indices of vertices. Any triangle soup is accepted, also one of no facet. A vertex that no facet uses
+  /// touches nothing.
   Facets facets;
   Surface surface = Surface::closed;
-  Motion motion = Motion::moving;
+  Motion motion = Motion::deformable;
   std::string name = {};             ///< for messages; empty: "body <index>"
-  std::uint32_t layer = 1;           ///< the layers this body is on, a bit each
-  std::uint32_t mask = 0xffffffffu;  ///< the layers it is tested against; a pair needs both masks to agree
-  /// Bodies of one group are not tested against each other: the parts of a machine, say. 0: in no group.
+  std::uint32_t layer = 1;           ///< the layers that the body is on, a bit each
+  std::uint32_t mask = 0xffffffffu;  ///< the layers that the body is tested against; a pair needs both masks
+  /// Bodies of one group are not tested against each other. 0 is no group.
   std::uint32_t group = 0;
-  std::uint64_t external_id = 0;  ///< the program's own, see World::external_id(); nothing depends on it
-  /// Half a thickness, metres, 0 to kLargestCoordinate: surfaces closer than the sum of two margins are in contact.
-  /// It is how far ahead contact points are seen, too: what moves farther than that sum from one detect() to the next
-  /// may cross before it has a point. A solver may take a larger margin than its thickness and keep surfaces at the
-  /// smaller distance, by ContactPoint::gap; World::detect_motion() finds what crosses at any speed.
+  std::uint64_t external_id = 0;  ///< the program's own number; no answer depends on it
+  /// How far ahead of the surface contact points are seen, metres, 0 to kLargestCoordinate. Those of two bodies add up.
   double margin = 0.0;
-  bool self_contact = false;  ///< is the body held against itself, too? See Contact
+  bool self_contact = false;  ///< whether the body is tested against itself, too
 };
 
 }  // namespace tact

@@ -1,5 +1,4 @@
-// What a program passes as a matrix of three rows: a matrix of Eigen, or arrays of its own. Does not need Eigen unless
-// its matrices are passed.
+// Matrices of three rows: of Eigen, or arrays of the program. Eigen is needed only where its matrices are passed.
 #pragma once
 
 #include <array>
@@ -24,7 +23,7 @@ class Matrix;
 
 namespace tact {
 
-// What stands behind a matrix of Eigen, or a class derived from one; and is it a Ref, which may hold what it shows?
+// The type of an expression of Eigen, and whether it is a Ref, which may hold a copy.
 template <class Derived>
 std::type_identity<Derived> eigen_type(const Eigen::DenseBase<Derived>&);
 template <class Type>
@@ -34,16 +33,15 @@ inline constexpr bool kIsEigenRef<Eigen::Ref<Matrix, kOptions, Stride>> = true;
 inline constexpr int kEigenDynamic = -1;              // Eigen::Dynamic
 inline constexpr unsigned kEigenDirectAccess = 0x40;  // Eigen::DirectAccessBit
 
-// Can every `Number` be written as a `Scalar`?
+// Whether every `Number` is a `Scalar` exactly.
 template <class Number, class Scalar>
 inline constexpr bool kFits = std::numeric_limits<Number>::digits <= std::numeric_limits<Scalar>::digits &&
                               (std::numeric_limits<Number>::is_integer || !std::numeric_limits<Scalar>::is_integer);
 
-/// The numbers that an array of a program can hold: coordinates are float32 or float64, indices int32, uint32 or
-/// uint16.
+/// The types of numbers in arrays: float32 or float64 for coordinates, the others for indices.
 enum class NumberKind : std::uint8_t { float32, float64, int32, uint32, uint16 };
 
-/// Which of them `Number` is; only for `Scalar` = double the first two, for int the others.
+/// Returns the kind of `Number`, one of those that `Scalar` admits.
 template <class Number, class Scalar>
 constexpr NumberKind number_kind() {
   if constexpr (std::is_same_v<Scalar, double>) {
@@ -58,24 +56,19 @@ constexpr NumberKind number_kind() {
   }
 }
 
-/// A 3 x N matrix: a column a vertex, or a facet. Made from any matrix or expression of Eigen, or by strided(). One
-/// whose columns lie whole in memory (a Matrix3X, a Map, the top rows of a larger one) is looked at where it is, and
-/// must stay there as long as this is used. Anything else, an expression, a temporary matrix or Ref, one that is
-/// row-major or of other numbers, is held by this and its copies. (A temporary block or Map is a view too: what it
-/// shows must stay.)
+/// A 3 x N matrix, a column a vertex or a facet. Of a lasting matrix of Eigen with whole columns of `Scalar` it is a
+/// view; temporary, row-major and converted matrices are copied, and kept by it and its copies.
 template <class Scalar>
 class Columns {
   using Matrix = Eigen::Matrix<Scalar, 3, kEigenDynamic, 0, 3, kEigenDynamic>;
 
  public:
-  /// Looks at `count` columns of an array, three numbers each, that begin every `stride_bytes` from `first` on: the
-  /// positions in vertices of 32 bytes, say. Coordinates are float or double; floats widen exactly. Indices are of 32
-  /// bits, or unsigned of 16. Nothing is copied, and the array must stay as long as this is used.
+  /// Views `count` columns of three numbers each, `stride_bytes` apart, in an array that stays. Floats widen exactly.
   template <class Number>
   static Columns strided(const Number* first, std::size_t count, std::size_t stride_bytes = 3 * sizeof(Number)) {
     return of_kind(number_kind<Number, Scalar>(), first, count, stride_bytes);
   }
-  /// The same where the kind of the numbers is known when the program runs. It must be one of `Scalar`'s.
+  /// Views an array of a kind that is known when the program runs.
   static Columns of_kind(NumberKind kind, const void* first, std::size_t count, std::size_t stride_bytes) {
     Columns columns;
     columns.data_ = first;
@@ -109,16 +102,16 @@ class Columns {
     }
   }
 
-  std::ptrdiff_t rows() const { return rows_; }  ///< 3, or what was given is refused
+  std::ptrdiff_t rows() const { return rows_; }  ///< 3, or a world refuses the matrix
   std::ptrdiff_t cols() const { return cols_; }
   NumberKind kind() const { return kind_; }
   const void* first() const { return data_; }                    ///< the first number
-  std::ptrdiff_t stride_bytes() const { return stride_bytes_; }  ///< from a column to the next
-  /// The first number and the numbers from a column to the next, if they are Scalars; else null.
+  std::ptrdiff_t stride_bytes() const { return stride_bytes_; }  ///< the distance of columns
+  /// Returns the first number if all are `Scalar`s, else null.
   const Scalar* data() const { return kind_ == kOwnKind ? static_cast<const Scalar*>(data_) : nullptr; }
   std::ptrdiff_t stride() const { return stride_bytes_ / static_cast<std::ptrdiff_t>(sizeof(Scalar)); }
 
-  /// The numbers of a column, from 0 on, whatever they are stored as. Indices of 2^31 and more wrap.
+  /// Returns the numbers of column `i`. Indices of 2^31 and more wrap.
   std::array<Scalar, 3> column(std::ptrdiff_t i) const {
     const std::byte* const at = static_cast<const std::byte*>(data_) + i * stride_bytes_;
     switch (kind_) {

@@ -1,4 +1,4 @@
-// What can be asked of a world at any time: segments, nearest points, boxes, what is inside what.
+// Queries to the surfaces of a world: rays, nearest points, boxes, containment.
 #pragma once
 
 #include <tact/body.h>
@@ -10,60 +10,63 @@
 
 namespace tact {
 
-/// Which bodies are asked: those whose layer has a bit in `mask`, and whose mask has one in `layer`, as between bodies.
-struct Asked {
-  std::uint32_t layer = 0xffffffffu;
-  std::uint32_t mask = 0xffffffffu;
+/// Which bodies a query considers: those whose layer and `mask` have a common bit, as have their mask and `layer`.
+struct QueryFilter {
+  std::uint32_t layer = 0xffffffffu;  ///< the layers that the query is on
+  std::uint32_t mask = 0xffffffffu;   ///< the layers that the query considers
 };
 
-/// A ray from one point to another, metres. Its ends belong to it.
+/// A segment, ends included.
 struct Ray {
-  Eigen::Vector3d from = Eigen::Vector3d::Zero();
-  Eigen::Vector3d to = Eigen::Vector3d::Zero();
-  Asked asked = {};
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< metres
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< metres
+  QueryFilter filter = {};                         ///< which bodies it considers
 };
 
+/// Which facet World::cast_ray() returns.
 enum class RayHits {
-  first,  ///< the first facet; of several at one place the least by body and facet
-  any,    ///< some facet: is anything in the way? Faster
+  first,  ///< the first facet on the way; of several at one place the least by body and facet
+  any,    ///< some facet on the way; faster
 };
 
-/// A facet that a ray meets. Whether it does is decided exactly, edges and corners belong to the facets that have them:
-/// no ray slips through between two. Where it does is right to 1e-12 of the size of facet and ray.
+/// A facet that a ray meets. That it does is exact, so no ray slips through between facets. Numbers are right to 1e-12
+/// of the size of facet and ray.
 struct RayHit {
-  BodyId body;
-  int facet = -1;                   ///< negative: nothing was hit
-  double time = 0.0;                ///< where, as a part of the way: from + time * (to - from)
-  std::array<double, 3> weights{};  ///< of the facet's corners at that place; not negative, their sum is 1
+  BodyId body;            ///< the body of the facet
+  int facet = -1;         ///< negative: the ray meets nothing
+  double fraction = 0.0;  ///< the place on the ray: from + fraction * (to - from)
+  std::array<double, 3>
+      barycentric{};  ///< the place on the facet: weights of its corners, not negative, with a sum of 1
 };
 
-/// A point, metres, and how far away the answer may be.
+/// A point, and how far the answer may be away.
 struct PointQuery {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  double within = std::numeric_limits<double>::infinity();
-  Asked asked = {};
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();          ///< metres
+  double within = std::numeric_limits<double>::infinity();  ///< metres, at least 0
+  QueryFilter filter = {};                                  ///< which bodies it considers
 };
 
-/// The nearest place of all surfaces; of equally near ones the least by body and facet. Right to 1e-12 of the distance
-/// and the size of the bodies.
+/// The nearest place of all surfaces; of equally near ones the least by body and facet. Numbers are right to 1e-12 of
+/// the distance and the size of the bodies.
 struct ClosestPoint {
-  BodyId body;
-  int facet = -1;                                             ///< negative: nothing is as near as was asked
+  BodyId body;                                                ///< the body of the facet
+  int facet = -1;                                             ///< negative: no facet is within reach
   double distance = std::numeric_limits<double>::infinity();  ///< metres
-  std::array<double, 3> weights{};                            ///< of the facet's corners at the nearest place
+  std::array<double, 3>
+      barycentric{};  ///< the place on the facet: weights of its corners, not negative, with a sum of 1
 };
 
-/// A box, metres; closed.
+/// A closed box.
 struct BoxQuery {
-  Eigen::Vector3d lower = Eigen::Vector3d::Zero();
-  Eigen::Vector3d upper = Eigen::Vector3d::Zero();
-  Asked asked = {};
+  Eigen::Vector3d lower = Eigen::Vector3d::Zero();  ///< metres
+  Eigen::Vector3d upper = Eigen::Vector3d::Zero();  ///< metres, not below `lower`
+  QueryFilter filter = {};                          ///< which bodies it considers
 };
 
 /// A facet of a body.
 struct FacetOfBody {
-  BodyId body;
-  int facet = 0;
+  BodyId body;    ///< the body of the facet
+  int facet = 0;  ///< counted from 0
   friend bool operator==(const FacetOfBody&, const FacetOfBody&) = default;
 };
 

@@ -1,5 +1,4 @@
-/// Recordings: everything that entered a world and the hash of what it answered, to run it again later. `tact replay`
-/// plays them, too; one is what a bug report should hold.
+/// Recordings: all that entered a world and the hash of its answers, to run it again.
 ///
 ///     std::ofstream file("engine.tactrec", std::ios::binary);
 ///     tact::Recorder recorder(file);
@@ -19,15 +18,14 @@
 
 namespace tact {
 
-/// Writes a recording while a world is used. The input of a step is flushed before the step begins, so a program that
-/// dies leaves all that led there. Its answers are the same with and without a recorder.
+/// Writes a recording while a world is used. The input of a step is flushed before the step. The answers do not depend
+/// on it.
 class TACT_API Recorder final : public WorldObserver {
  public:
-  /// Writes the head. `out` must outlive the recorder, which in turn outlives the world or is taken away from it first.
-  /// Whether `out` took all is for its owner to ask at the end.
+  /// Writes the head. `out` outlives the recorder; its owner checks whether it took all.
   explicit Recorder(std::ostream& out);
 
-  /// What writing took in all, milliseconds.
+  /// Returns the time of all writing, milliseconds.
   double writing_ms() const { return writing_ms_; }
 
   void settings_changed(const Settings& settings) noexcept override;
@@ -45,7 +43,7 @@ class TACT_API Recorder final : public WorldObserver {
   void step_ended(const Report& report) noexcept override;
 
  private:
-  // Calls write(stream) and counts its time; where it throws, the stream is bad from then on.
+  // Calls write(stream) and adds up its time; an exception makes the stream bad.
   template <class Write>
   void write(const Write& write) noexcept;
 
@@ -55,45 +53,43 @@ class TACT_API Recorder final : public WorldObserver {
 
 /// A step that was run again.
 struct PlayedStep {
-  int number = 0;        ///< from 0
-  std::size_t byte = 0;  ///< where its hash stands in the recording; its size if there is none
-  /// Hash of the report then. None if the step had no answer: it failed, or the program ended in it.
+  int number = 0;        ///< counted from 0
+  std::size_t byte = 0;  ///< where its hash stands in the recording, or the size of the recording
+  /// The hash of the recorded report; none if the step failed or the program ended in it.
   std::optional<std::uint64_t> recorded;
-  std::uint64_t now = 0;  ///< hash of the report now
+  std::uint64_t now = 0;  ///< the hash of the report now
+  /// Whether both hashes are equal.
   bool same() const { return recorded == now; }
 };
 
 /// How a recording is run again.
 struct PlayOptions {
-  std::optional<int> threads = {};  ///< in place of those of the recording
-  Outputs outputs = {};             ///< besides those of the recording; zones and points change the hashes
+  std::optional<int> threads = {};  ///< used in place of those of the recording
+  Outputs outputs = {};             ///< added to those of the recording; zones and points change the hashes
 };
 
-/// Runs a recording again, step by step. It takes memory for what the recording holds, never for what it promises.
+/// Runs a recording again, step by step.
 class TACT_API RecordingPlayer {
  public:
-  /// Reads the head of `bytes`, which must outlive the player. Errors: bad_recording, with the byte.
+  /// Reads the head of `bytes`, which outlives the player. Errors: bad_recording.
   explicit RecordingPlayer(std::string_view bytes, const PlayOptions& options = {});
   ~RecordingPlayer();
   RecordingPlayer(RecordingPlayer&&) noexcept;
   RecordingPlayer& operator=(RecordingPlayer&&) noexcept;
 
-  /// Makes the calls up to the next detect(), and that one; nothing at the end of the recording, or of what is whole of
-  /// it: see cut_at(). Calls after the last detect() are made too.
-  /// Errors: bad_recording, with byte and step, for what is no recording or what the world refuses; and those of
+  /// Runs the calls up to and with the next detect(); returns nothing at the end. Errors: bad_recording, and those of
   /// detect().
   std::optional<PlayedStep> next();
 
-  /// Where the record begins that the end of a recording cuts off: that of a program that was killed, say. Known once
-  /// next() has returned nothing; none if the recording is whole.
+  /// Returns the byte of the record that the end cuts off, once next() returned nothing; none if the recording is
+  /// whole.
   std::optional<std::size_t> cut_at() const;
 
-  /// The world that the calls are made in: to look at, or to ask for more than the recording's program did. Calls that
-  /// change it change what the steps find. An observer that is set before the first next() is told of every body.
+  /// Returns the world that the calls are made in.
   World& world();
-  /// The report of the step that next() made last; before it has, an empty one.
+  /// Returns the report of the last step; empty before the first.
   const Report& report() const;
-  /// The version of tact that wrote the recording.
+  /// Returns the version of tact that wrote the recording.
   const std::string& recorded_by() const;
 
  private:

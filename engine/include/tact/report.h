@@ -1,6 +1,5 @@
-// What a step found. A report and everything in it is valid until the world's next detect(), set_settings() or
-// destruction, and may be read by many threads at once. To keep something for longer, copy it: a Contact's numbers, and
-// what its facet_pairs() and patches() show by itself, as a copied Contact or Patch still points to the world's.
+// What a step found. A report is valid until the world's next detect(), set_settings() or destruction; many threads may
+// read it at once. A copied Contact or Patch still views the world's data.
 #pragma once
 
 #include <tact/body.h>
@@ -21,106 +20,89 @@ namespace tact {
 /// How a contact direction was found.
 enum class DirectionSource {
   carried,   ///< from the direction of the last step
-  fresh,     ///< from the direction that separated the hulls when they were last apart
+  fresh,     ///< from the direction that last separated the hulls
   smallest,  ///< as the smallest separation of the hulls
 };
 
-/// Is one of two bodies wholly inside the other, a closed one, so that no facets meet?
+/// Which of two bodies lies wholly inside the other, so that no facets meet.
 enum class Containment {
-  none,
-  a_in_b,
-  b_in_a,
+  none,    ///< neither, or Accuracy::hulls
+  a_in_b,  ///< a lies inside b, a closed body
+  b_in_a,  ///< b lies inside a, a closed body
 };
 
-/// The disk around an impact zone, in the plane through `center` across the contact direction.
+/// The smallest disk around an impact zone, seen along the contact direction.
 struct ZoneDisk {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< metres
-  /// Metres; negative: not asked for, or the zone has no point, or Accuracy::hulls. At Accuracy::paper zones are
-  /// computed whether they are asked for or not.
-  double radius = -1.0;
+  double radius = -1.0;                              ///< metres; negative where no zone is computed or it is empty
 };
 
-/// A place where two bodies touch, or come nearer than their margins: a connected set of facet pairs and contact
-/// points. Facet pairs are neighbours if they share a facet; points, if they share a vertex of either body and their
-/// normals are not opposite; a point and a facet pair, if a vertex of the point is a corner of the facet. A body in a
-/// clamp has two.
+/// A connected set of facet pairs and contact points: a place where two bodies touch or nearly do. Facet pairs that
+/// share a facet are connected; points that share a vertex and whose normals are not opposite; and both where a point's
+/// vertex is a facet's corner.
 struct Patch {
-  /// The same in the next step, if most of the vertices that it shares with patches of that step are shared with this
-  /// one, and the other way around. Never given out twice by a world. See Report::patch_events().
+  /// The same in the next step if both share most of their vertices; never given out twice by a world.
   std::uint64_t id = 0;
-  /// The middle of its points, of those of facet pairs without points the centres of their common boxes; metres.
+  /// The middle of its points, or of the boxes that its facet pairs have in common; metres.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  /// Unit, from a to b. With points: the mean of their normals, each weighted by how much its gap is below the margins;
-  /// as points keep their side from step to step, so does it. Without: the mean normal of the facets, weighted by area.
-  /// The contact's direction if the mean is zero.
+  /// Unit vector from a to b: the mean normal of its points, weighted by depth, or of its facets, by area.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  /// With points: minus the smallest gap, so negative where the surfaces are apart. Without: moving b by
-  /// depth * direction parts every facet pair of the patch. Metres.
+  /// Metres: minus the smallest gap of its points, or how far b moves along `direction` to part its facet pairs.
   double depth = 0.0;
-  /// Of the convex hull of its points, or of the centres as above, seen along `direction`; square metres.
+  /// The area of the convex hull of its points, seen along `direction`; square metres.
   double area = 0.0;
-  std::span<const int> facet_pairs;  ///< indices into Contact::facet_pairs(), ascending; the world's
-  std::span<const int> points;       ///< indices into Contact::points(), ascending; the world's
-  /// At most four of the points, for solvers of rigid bodies: the deepest first, then those that span the most area.
-  /// Indices into Contact::points(); -1 fills up.
+  std::span<const int> facet_pairs;  ///< indices into Contact::facet_pairs(), ascending
+  std::span<const int> points;       ///< indices into Contact::points(), ascending
+  /// At most four of `points`, the deepest first, then those that span the most area; -1 fills up.
   std::array<int, 4> spanning{-1, -1, -1, -1};
 };
 
-/// What became of a patch in this step. One that is in Contact::patches() and in no event persists.
+/// A change of a patch in this step. A patch without an event persists.
 struct PatchEvent {
+  /// What became of the patch.
   enum class Kind {
-    began,   ///< where there was none
-    split,   ///< it is new, and came off the patch `other`, which persists
-    merged,  ///< it is no more, and went into the patch `other`
-    ended,   ///< it is no more
+    began,   ///< it is new
+    split,   ///< it is new, and was a part of the patch `other`, which persists
+    merged,  ///< it became a part of the patch `other`
+    ended,   ///< it is gone
   };
-  BodyId a;
-  BodyId b;
-  Kind kind = Kind::began;
-  std::uint64_t patch = 0;
-  std::uint64_t other = 0;
+  BodyId a;                 ///< a.index <= b.index
+  BodyId b;                 ///< the second body
+  Kind kind = Kind::began;  ///< what became of the patch
+  std::uint64_t patch = 0;  ///< its id
+  std::uint64_t other = 0;  ///< the id of the other patch, or 0
   friend bool operator==(const PatchEvent&, const PatchEvent&) = default;
 };
 
-/// Two bodies whose convex hulls overlap, touch, or are nearer than the sum of the bodies' margins. Whether they
-/// overlap or touch is decided exactly, whichever body was added first. Their facets need not: where bodies are not
-/// convex, a ball in a bowl say, ask touching() before they are pushed apart by `depth`, or ask for patches, which have
-/// depths of their own, or for points.
-///
-/// A body with itself, where BodyDefinition::self_contact asks for it, has a contact with a == b if facets meet that
-/// share no vertex, or if there are points. It has facet pairs, with facet a < facet b, points and patches; all else is
-/// empty.
+/// Two bodies whose convex hulls overlap or touch, decided exactly, or are nearer than the sum of the margins. Their
+/// surfaces may be apart: see touching(). With self-contact a body that touches or nears itself has a contact
+/// with a == b, with facet pairs, points and patches alone.
 struct Contact {
-  BodyId a;  ///< a.index <= b.index
-  BodyId b;  ///< the second body, or the first again
-  /// Unit, from a to b: moving b by depth * direction separates the hulls.
+  BodyId a;  ///< a.index <= b.index; equal to b for a body with itself
+  BodyId b;  ///< the second body
+  /// Unit vector from a to b: moving b by depth * direction separates the hulls.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  /// Overlap of the hulls along `direction`, metres. Negative where they are apart: their distance, and `direction` is
-  /// then that of the distance.
+  /// The overlap of the hulls along `direction`, metres; minus their distance where they are apart.
   double depth = 0.0;
-  /// Decided exactly, by a vertex of each part of the inner body's mesh, where no facets meet; none at Accuracy::hulls.
-  /// `direction` and `depth` then show the way out. A ball in a bowl is not contained, nor are linked rings: their
-  /// hulls overlap, and if they do not touch() they need no push.
+  /// Which body lies wholly inside the other, decided exactly; `direction` and `depth` then lead out of it.
   Containment containment = Containment::none;
-  /// Of the last step in which a body of the pair had moved, as all of the contact: nothing is done for pairs at rest.
-  DirectionSource source = DirectionSource::fresh;
-  int iterations = 0;          ///< shifted calls of GJK that it took
-  bool limit_reached = false;  ///< GJK or the direction stopped at a limit: the direction is the best found
-  /// Planes are as far from zero as the bodies, and rounded as coordinates there are; `depth` is not their difference.
-  double plane_a = 0.0;            ///< contact plane of a: direction · x = plane_a, the farthest that a's hull reaches
-  double plane_b = 0.0;            ///< contact plane of b: direction · x = plane_b, the nearest that b's hull reaches
-  ZoneDisk zone_a;                 ///< around the part of a between the planes
-  ZoneDisk zone_b;                 ///< around the part of b between the planes
-  std::int64_t kept_facets_a = 0;  ///< facets left after the criteria
-  std::int64_t kept_facets_b = 0;  ///< likewise
+  DirectionSource source = DirectionSource::fresh;  ///< how `direction` was found when a body last moved
+  int iterations = 0;                               ///< shifted calls of GJK that it took
+  bool limit_reached = false;  ///< whether GJK or the direction stopped at a limit, with the best direction found
+  double plane_a = 0.0;        ///< the contact plane direction * x = plane_a, the farthest that the hull of a reaches
+  double plane_b = 0.0;        ///< the contact plane direction * x = plane_b, the nearest that the hull of b reaches
+  ZoneDisk zone_a;             ///< around the part of a between the planes
+  ZoneDisk zone_b;             ///< around the part of b between the planes
+  std::int64_t kept_facets_a = 0;  ///< facets of a left after the criteria
+  std::int64_t kept_facets_b = 0;  ///< facets of b left after the criteria
 
-  /// The facets that meet, sorted; empty at Accuracy::hulls.
+  /// Returns the facets that meet, sorted; empty at Accuracy::hulls.
   std::span<const FacetPair> facet_pairs() const { return facet_pairs_; }
-  /// Does any facet of a meet one of b? At Accuracy::hulls nobody looked: false.
-  bool touching() const { return !facet_pairs_.empty(); }
-  /// Where surfaces are nearest to each other, if Outputs::points is set; sorted by kind, then by features.
+  /// Whether facets meet or, with Outputs::points, a point's gap is below the sum of the margins.
+  bool touching() const { return touching_; }
+  /// Returns the points, if Outputs::points is set; sorted by kind, then by features.
   std::span<const ContactPoint> points() const { return points_; }
-  /// Filled if Outputs::patches is set; ordered by their first facet pair, those without by their first point.
+  /// Returns the patches, if Outputs::patches is set; sorted by first facet pair, then by first point.
   std::span<const Patch> patches() const { return patches_; }
 
  private:
@@ -128,56 +110,56 @@ struct Contact {
   std::span<const FacetPair> facet_pairs_;
   std::span<const Patch> patches_;
   std::span<const ContactPoint> points_;
+  bool touching_ = false;
 };
 
 /// Two bodies whose boxes overlap.
 struct CandidatePair {
-  BodyId a;  ///< a.index < b.index
-  BodyId b;
-  bool hulls_overlap = false;
+  BodyId a;                    ///< a.index < b.index
+  BodyId b;                    ///< the second body
+  bool hulls_overlap = false;  ///< whether their hulls overlap or touch
   friend bool operator==(const CandidatePair&, const CandidatePair&) = default;
 };
 
-/// Two bodies, or one twice, that began to touch, or ceased to, in this step: their facets meet, or they have points.
-/// One of Report::contacts() that touches, and is in no event, persists.
+/// Two bodies, or one with itself, that began or ceased to touch in this step: see Contact::touching().
 struct ContactEvent {
-  BodyId a;
-  BodyId b;
+  BodyId a;  ///< a.index <= b.index
+  BodyId b;  ///< the second body
   friend bool operator==(const ContactEvent&, const ContactEvent&) = default;
 };
 
-/// What World::detect() found. Shown by reference; everything in it is sorted, and the same for any number of threads.
+/// What World::detect() found. All of it is sorted, and the same for any number of threads.
 class TACT_API Report {
  public:
   Report() = default;
-  Report(const Report&) = delete;  // what it shows is the world's: take a reference
+  Report(const Report&) = delete;  // views the world's data
   Report& operator=(const Report&) = delete;
 
-  /// Pairs whose hulls overlap or are nearer than their margins, and bodies that touch themselves, sorted by (a, b).
+  /// Returns the contacts, sorted by (a, b).
   std::span<const Contact> contacts() const { return contacts_; }
-  /// That of two bodies, in either order, or null if their hulls are apart. Takes the logarithm of how many there are.
+  /// Returns the contact of two bodies, in either order, or null. It takes the logarithm of the number of contacts.
   const Contact* find_contact(BodyId a, BodyId b) const noexcept;
-  /// Pairs whose boxes overlap, sorted by (a, b).
+  /// Returns the pairs whose boxes overlap, sorted by (a, b).
   std::span<const CandidatePair> candidate_pairs() const { return candidate_pairs_; }
-  /// Pairs that touch now, by facets or by points, and did not in the last step, sorted by (a, b); bodies with
-  /// themselves among them. Of a step that starts afresh (see World::detect), all that touch.
+  /// Returns the contacts that touch now and did not in the last step, sorted by (a, b).
   std::span<const ContactEvent> began() const { return began_; }
-  /// Pairs that touched in the last step and do not now, or of which a body was removed, sorted by (a, b). Ask
-  /// World::contains() before the ids are used: those of removed bodies are stale.
+  /// Returns the contacts that touched in the last step and do not now, sorted by (a, b); ids of removed bodies are
+  /// stale.
   std::span<const ContactEvent> ended() const { return ended_; }
-  /// What became of patches, if Outputs::patches is set: sorted by (a, b), what ended before what began.
+  /// Returns the changes of patches, if Outputs::patches is set; sorted by (a, b), ends before beginnings.
   std::span<const PatchEvent> patch_events() const { return patch_events_; }
+  /// Returns counts and times of the step.
   const StepStats& stats() const { return stats_; }
-  /// Filled if Outputs::trace is set; sorted by thread and time, an event before those within it.
+  /// Returns what each thread did, if Outputs::trace is set; sorted by thread and time, outer events first.
   std::span<const TraceEvent> trace() const { return trace_; }
 
-  /// A number made from every bit of the answers: candidate pairs; bodies of contacts by index, directions, depths,
-  /// planes, zones, facet pairs, points. Not from patches, nor from what was done to find them: sources, iterations,
-  /// kept facets, statistics. The same calls give the same hash, for any number of threads.
+  /// Returns a number made from every bit of candidate pairs, contacts, facet pairs and points. Equal calls give equal
+  /// numbers.
   std::uint64_t hash() const;
 
  private:
   friend class ReportWriter;
+  friend class FacetOutcomeFinder;
   Report(Report&&) = default;
   Report& operator=(Report&&) = default;
   std::vector<Contact> contacts_;
@@ -187,6 +169,7 @@ class TACT_API Report {
   std::vector<PatchEvent> patch_events_;
   StepStats stats_;
   std::vector<TraceEvent> trace_;
+  const struct ReportSources* sources_ = nullptr;
 };
 
 }  // namespace tact

@@ -52,7 +52,8 @@ struct StepStats {
   std::int64_t facet_pairs = 0;        ///< pairs of facets that meet
   std::int64_t touching_contacts = 0;  ///< contacts with at least one facet pair
 
-  // Milliseconds. The stages 3 to 6 run pair by pair on all threads: theirs are sums over threads.
+  // Milliseconds. The stages 3 to 6 run pair by pair on all threads: theirs are sums over threads. The wall times and
+  // those of stages 1, 2 and 7 add up to that of the step.
   double refresh_ms = 0.0;       ///< stage 1: setting positions since the last step, and grouping facets anew
   double regroup_ms = 0.0;       ///< the part of stage 1 in which facets were grouped anew
   double sweep_ms = 0.0;         ///< stage 2: candidate pairs
@@ -62,7 +63,12 @@ struct StepStats {
   double direction_ms = 0.0;     ///< stage 4: contact direction and depth, summed over threads
   double cull_ms = 0.0;          ///< stage 5: zones and criteria, summed over threads
   double confirm_ms = 0.0;       ///< stage 6: facet pairs, summed over threads
-  double narrow_phase_ms = 0.0;  ///< stages 3 to 6 together and patches, wall time
+  double narrow_phase_ms = 0.0;  ///< stages 3 to 6 together, wall time
+  double containment_ms = 0.0;   ///< bodies that are wholly inside others, wall time
+  double points_ms = 0.0;        ///< contact points of pairs of bodies, wall time
+  double self_facets_ms = 0.0;   ///< facet pairs of bodies with themselves, wall time
+  double self_points_ms = 0.0;   ///< contact points of bodies with themselves, wall time
+  double patches_ms = 0.0;       ///< patches, wall time
   double report_ms = 0.0;        ///< stage 7: the report
   double total_ms = 0.0;         ///< the whole step, refresh included
 };
@@ -142,7 +148,12 @@ inline constexpr StepStatsField<double> kStepTimes[] = {
     {"direction_ms", &StepStats::direction_ms, "stage 4: contact direction and depth, summed over threads"},
     {"cull_ms", &StepStats::cull_ms, "stage 5: zones and criteria, summed over threads"},
     {"confirm_ms", &StepStats::confirm_ms, "stage 6: facet pairs, summed over threads"},
-    {"narrow_phase_ms", &StepStats::narrow_phase_ms, "stages 3 to 6 together and patches, wall time"},
+    {"narrow_phase_ms", &StepStats::narrow_phase_ms, "stages 3 to 6 together, wall time"},
+    {"containment_ms", &StepStats::containment_ms, "bodies that are wholly inside others, wall time"},
+    {"points_ms", &StepStats::points_ms, "contact points of pairs of bodies, wall time"},
+    {"self_facets_ms", &StepStats::self_facets_ms, "facet pairs of bodies with themselves, wall time"},
+    {"self_points_ms", &StepStats::self_points_ms, "contact points of bodies with themselves, wall time"},
+    {"patches_ms", &StepStats::patches_ms, "patches, wall time"},
     {"report_ms", &StepStats::report_ms, "stage 7: the report"},
     {"total_ms", &StepStats::total_ms, "the whole step, refresh included"},
 };

@@ -1,4 +1,4 @@
-// Which thread did what, and when.
+// What each thread did, and when.
 #pragma once
 
 #include <tact/body.h>
@@ -8,7 +8,7 @@
 
 namespace tact {
 
-/// A stretch of one thread's work. Those of a thread lie in each other or apart.
+/// A part of one thread's work. Those of a thread are nested or apart.
 struct TraceEvent {
   enum class Kind {
     refresh,       ///< stage 1: a call of World::set_positions since the last step, or grouping facets anew
@@ -26,6 +26,11 @@ struct TraceEvent {
     small_pairs,   ///< pairs that took less, one after the other
     /// pairs that an axis of the 18-DOPs separates: all are asked at once, on all threads, shown on the one that called
     kdop_separated_pairs,
+    containment,  ///< bodies that are wholly inside others; this and those that follow on the thread that called
+    points,       ///< contact points of pairs of bodies
+    self_facets,  ///< facet pairs of bodies with themselves
+    self_points,  ///< contact points of bodies with themselves
+    patches,      ///< patches
     report,  ///< stage 7
   };
   /// When: on the system's steady clock.

@@ -20,27 +20,23 @@
 
 namespace tact {
 
-/// New positions of one body, for World::set_positions of many:
-///
-///   std::vector<tact::PositionsUpdate> updates;
-///   for (Cloth& cloth : cloths) updates.push_back({cloth.body, cloth.positions});
-///   world.set_positions(updates);
+/// New positions of one body, for World::set_positions().
 struct PositionsUpdate {
-  BodyId body;
+  BodyId body;          ///< the body
   Positions positions;  ///< 3 x V, metres
 };
 
-/// A new pose of a rigid body, for World::set_poses(): a vertex that was added at p stands at rotation p + translation.
+/// A new pose of a rigid body, for World::set_poses().
 struct PoseUpdate {
-  BodyId body;
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< metres
+  BodyId body;                                             ///< the body
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< of determinant +1
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();   ///< metres
 };
 
-/// A box, metres.
+/// A box.
 struct Bounds {
-  std::array<double, 3> lower;
-  std::array<double, 3> upper;
+  std::array<double, 3> lower;  ///< metres
+  std::array<double, 3> upper;  ///< metres
 };
 
 /// A set of bodies and the contacts among them.
@@ -51,145 +47,123 @@ struct Bounds {
 ///   world.set_positions(a, new_positions);
 ///   for (const tact::Contact& contact : world.detect().contacts()) ...
 ///
-/// Every function throws Error for data that it cannot take, and has then changed nothing (for detect(), which takes
-/// none, see there). A world is used by one thread at a time; different worlds may be used by different threads. The
-/// answers do not depend on the number of threads, nor on the floating-point mode of the caller.
+/// A function that throws Error has changed nothing; detect() says more. One thread at a time uses a world. The answers
+/// depend neither on the number of threads nor on the caller's floating-point mode.
 class TACT_API World {
  public:
-  /// Errors: bad_settings, out_of_memory.
+  /// Makes a world of no bodies. Errors: bad_settings, out_of_memory.
   explicit World(const Settings& settings = {});
   ~World();
-  /// A world that was moved from holds no body, and refuses all calls but these and those that never throw
-  /// (wrong_order).
+  /// Leaves a world behind that refuses all calls but destruction, assignment and those that never throw (wrong_order).
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// Valid as long as the world. (So is the name of a body, until the body is removed.)
+  /// Returns the settings, valid as long as the world.
   const Settings& settings() const;
-  /// Takes effect with the next step, which then looks at every pair anew; directions are carried on.
-  /// Errors: bad_settings.
+  /// Sets the settings for the next step, which looks at every pair again. Errors: bad_settings.
   void set_settings(const Settings& settings);
 
-  /// Copies the mesh and groups its facets into clusters, which is costly. detect() does that again for a body whose
-  /// facets have changed places so much that their groups have lost their shape (StepStats::regrouped_bodies).
-  /// Errors: wrong_size, non_finite_position, position_out_of_range, facet_out_of_range, too_large, bad_settings (a
-  /// surface or motion that is none), out_of_memory.
+  /// Adds a body; copies its mesh and groups the facets into clusters. Errors: wrong_size, non_finite_position,
+  /// position_out_of_range, facet_out_of_range, too_large, invalid_argument, out_of_memory.
   BodyId add_body(const BodyDefinition& definition);
-  /// Errors: stale_body, foreign_body.
+  /// Removes a body. Errors: stale_body, foreign_body.
   void remove_body(BodyId body);
 
-  /// Copies the new positions of a body, 3 x V in metres, V as when it was added. A body whose coordinates are all
-  /// equal to the old ones has not moved. Errors: stale_body, foreign_body, fixed_body, wrong_motion, wrong_size,
-  /// non_finite_position, position_out_of_range, out_of_memory.
+  /// Copies new positions of a body, 3 x V in metres; equal ones do not move it. Errors: stale_body, foreign_body,
+  /// fixed_body, wrong_motion, wrong_size, non_finite_position, position_out_of_range, out_of_memory.
   void set_positions(BodyId body, const Positions& positions);
-  /// The same for many bodies, in parallel; all or none. A body must not be named twice (wrong_order).
+  /// Copies new positions of many bodies in parallel, all or none. Errors: wrong_order (a body named twice), and as
+  /// above.
   void set_positions(std::span<const PositionsUpdate> updates);
 
-  /// Turns and moves a rigid body: a vertex that was added at p stands at R p + t from now on, whatever poses were set
-  /// before. Each coordinate is ((R0 p.x + R1 p.y) + R2 p.z) + t with the row R0, R1, R2 of R, every operation rounded
-  /// to double in this order; all answers are those of a body whose positions were set to these doubles. Vertices are
-  /// computed only of bodies that others come near, or that are asked for; a pose costs the same for a body of any
-  /// size. A body whose pose equals the old one has not moved.
-  ///
-  /// `rotation` must be orthonormal to 1e-9, determinant +1; it is used as it is. A vertex that no facet uses is not
-  /// looked at. Errors: stale_body, foreign_body, fixed_body, wrong_motion (the body is not rigid), not_a_rotation,
-  /// non_finite_position and position_out_of_range (the translation, or where a vertex would stand), out_of_memory.
+  /// Places a rigid body: a vertex added at p stands at rotation * p + translation. `rotation` is orthonormal to 1e-9.
+  /// The manual names the order of rounding. Errors: stale_body, foreign_body, fixed_body, wrong_motion,
+  /// not_a_rotation, non_finite_position, position_out_of_range, out_of_memory.
   void set_pose(BodyId body, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation);
-  /// The same for many bodies, in parallel; all or none. A body must not be named twice (wrong_order).
+  /// Places many rigid bodies in parallel, all or none. Errors: wrong_order (a body named twice), and as above.
   void set_poses(std::span<const PoseUpdate> updates);
 
-  /// The layers that a body is on, and those that it is tested against; see BodyDefinition. Errors: stale_body,
-  /// foreign_body.
+  /// Sets the layers of a body and those that it is tested against. Errors: stale_body, foreign_body.
   void set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask);
-  /// The group that a body is in; see BodyDefinition. Errors: stale_body, foreign_body.
+  /// Sets the group of a body. Errors: stale_body, foreign_body.
   void set_group(BodyId body, std::uint32_t group);
-  /// Are two bodies, in either order, left out whatever their layers: the two sides of a joint, say? They are tested
-  /// again if they are excluded no more, and forgotten when one of them is removed. Errors: stale_body, foreign_body,
-  /// bad_settings (one body twice).
+  /// Sets whether two bodies are excluded from tests, whatever their layers: the two sides of a joint, say. Errors:
+  /// stale_body, foreign_body, invalid_argument (one body twice).
   void set_excluded(BodyId a, BodyId b, bool excluded);
-  /// A body that moves from now on, or one that stays where it is. One that was added as rigid is rigid or fixed, any
-  /// other is moving or fixed. Errors: stale_body, foreign_body, bad_settings (a motion that is none), wrong_motion.
+  /// Sets how a body moves. One that was added as rigid is rigid or fixed, any other deformable or fixed. Errors:
+  /// stale_body, foreign_body, invalid_argument, wrong_motion.
   void set_motion(BodyId body, Motion motion);
 
-  /// Half the thickness of a body, metres, and whether it is held against itself; see BodyDefinition. Errors:
-  /// stale_body, foreign_body, bad_settings (a margin that is negative, not finite or larger than kLargestCoordinate).
+  /// Sets how far ahead of a body's surface contact points are seen, metres. Errors: stale_body, foreign_body,
+  /// invalid_argument.
   void set_margin(BodyId body, double margin);
+  /// Sets whether a body is tested against itself. Errors: stale_body, foreign_body.
   void set_self_contact(BodyId body, bool wanted);
 
-  /// One step: finds the contacts of the positions as they are now. Never throws for what positions can hold.
-  /// Errors: out_of_memory, backend_failure. Bodies and positions are then as they were, but the next call starts
-  /// afresh: it knows of no step before, so directions are not carried on, and all pairs that touch have begun to.
+  /// Takes one step: finds the contacts of the current positions. It does not throw for positions that set_positions()
+  /// accepted. Errors: out_of_memory, backend_failure; bodies stay, and the next step starts from scratch.
   const Report& detect();
 
-  /// What meets between the positions of the last detect() and those set since, every vertex moving straight from the
-  /// one to the other; a body that no detect() has seen stands where it is. Layers, masks, margins and self-contact
-  /// count as in detect(); pairs of which neither body moved, and bodies with themselves that did not, are not looked
-  /// at. It changes nothing: a later detect() takes its step as it would have.
-  ///
-  /// What is proved: nothing that meets is left out, whatever the doubles are; a time is never later than the true
-  /// one; what misses by more than 1e-11 of its size and way is not reported. See Impact.
-  ///
-  ///     world.set_positions(body, target);
-  ///     const double free = std::min(1.0, 0.999 * world.detect_motion(tact::Impacts::first).first_time());
-  ///     world.set_positions(body, start + free * (target - start));
-  ///     world.detect();
-  ///
-  /// Errors: bad_settings (`wanted` is none), out_of_memory, backend_failure.
+  /// Finds what meets between the positions of the last detect() and the current ones, every vertex moving straight. No
+  /// meeting is left out, and no time is late. It changes no later answer. The manual shows its use. Errors:
+  /// invalid_argument, out_of_memory, backend_failure.
   const MotionReport& detect_motion(Impacts wanted = Impacts::all);
 
-  /// Queries to the surfaces where they are now: at the positions that were set last, whether or not a step has seen
-  /// them. Bodies are asked in no tree, so nothing has to be kept up to date; each costs some nanoseconds a body, and
-  /// then what is near. Many queries at once are shared by all threads; they have the same answers.
-  ///
-  /// Errors: non_finite_position, position_out_of_range, bad_settings (see queries.h; the message tells which of many
-  /// queries), wrong_size (there are not as many answers as queries), out_of_memory. Nothing is answered then.
-  RayHit ray(const Ray& ray, RayHits wanted = RayHits::first) const;
-  void rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted = RayHits::first) const;
-  /// All facets that a ray meets, sorted by time, body and facet.
-  std::vector<RayHit> all_hits(const Ray& ray) const;
-  ClosestPoint closest_point(const PointQuery& query) const;
-  void closest_points(std::span<const PointQuery> queries, std::span<ClosestPoint> answers) const;
-  /// The facets that share a point with a box, decided exactly; sorted by body and facet.
-  std::vector<FacetOfBody> overlap_box(const BoxQuery& query) const;
-  /// The closed bodies that a point is in, or on the surface of, decided exactly by how often each winds around it.
-  /// `within` is not used.
-  std::vector<BodyId> inside(const PointQuery& query) const;
-  /// Many of these at once, an answer each: what it held is replaced.
-  void overlap_boxes(std::span<const BoxQuery> queries, std::span<std::vector<FacetOfBody>> answers) const;
-  void inside_each(std::span<const PointQuery> queries, std::span<std::vector<BodyId>> answers) const;
+  // Queries see the current positions, whether or not a step has. Errors of these: non_finite_position,
+  // position_out_of_range, invalid_argument, wrong_size (not as many answers as queries), out_of_memory.
 
-  /// Who is told of every call that changes the world from now on, a Recorder say; null: nobody. The observer outlives
-  /// the world, also one that this world is moved to, or is taken away before. It sees the world whole: it is set
-  /// before the first body is added. Errors: wrong_order (bodies were added, and `observer` is not null).
+  /// Returns the first facet that a ray meets, or any.
+  RayHit cast_ray(const Ray& ray, RayHits wanted = RayHits::first) const;
+  /// Answers many rays in parallel.
+  void cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted = RayHits::first) const;
+  /// Returns all facets that a ray meets, sorted by fraction, body and facet.
+  std::vector<RayHit> cast_ray_all(const Ray& ray) const;
+  /// Returns the nearest place of all surfaces to a point.
+  ClosestPoint closest_point(const PointQuery& query) const;
+  /// Finds the nearest places to many points in parallel.
+  void closest_points(std::span<const PointQuery> queries, std::span<ClosestPoint> answers) const;
+  /// Returns the facets that share a point with a box, decided exactly; sorted by body and facet.
+  std::vector<FacetOfBody> overlap_box(const BoxQuery& query) const;
+  /// Returns the closed bodies that contain a point or have it on their surface, decided exactly; ignores `within`.
+  std::vector<BodyId> bodies_containing(const PointQuery& query) const;
+  /// Finds the facets in many boxes in parallel; replaces what the answers held.
+  void overlap_boxes(std::span<const BoxQuery> queries, std::span<std::vector<FacetOfBody>> answers) const;
+  /// Finds the bodies that contain many points in parallel; replaces what the answers held.
+  void bodies_containing_each(std::span<const PointQuery> queries, std::span<std::vector<BodyId>> answers) const;
+
+  /// Sets the observer of all mutating calls, which outlives the world; null removes it. Errors: wrong_order (bodies
+  /// were added before).
   void set_observer(WorldObserver* observer);
 
-  /// Does `body` name a body of this world? Never throws.
+  /// Whether `body` names a body of this world. Never throws.
   bool contains(BodyId body) const noexcept;
+  /// Returns the number of bodies. Never throws.
   std::size_t body_count() const noexcept;
-  /// The bodies in the order of their index. Errors: out_of_memory.
+  /// Returns the bodies in the order of their index. Errors: out_of_memory.
   std::vector<BodyId> bodies() const;
 
-  /// Errors of these: stale_body, foreign_body.
-  const std::string& name(BodyId body) const;
-  Surface surface(BodyId body) const;
-  Motion motion(BodyId body) const;
-  std::uint32_t layer(BodyId body) const;
-  std::uint32_t mask(BodyId body) const;
-  std::uint32_t group(BodyId body) const;
-  bool excluded(BodyId a, BodyId b) const;  ///< and bad_settings: one body twice
-  std::uint64_t external_id(BodyId body) const;
-  double margin(BodyId body) const;
-  bool self_contact(BodyId body) const;
-  std::size_t vertex_count(BodyId body) const;
-  std::size_t facet_count(BodyId body) const;
+  // Errors of these: stale_body, foreign_body.
 
-  /// The mesh of a body as it was given, at the positions that were set last: 3 x V metres and 3 x F indices of
-  /// vertices, column by column. A vertex that no facet uses is not kept: its coordinates are NaN.
-  /// Errors: stale_body, foreign_body, wrong_size (there is not as much room as there are numbers).
+  /// Returns the name of a body, valid until the body is removed.
+  const std::string& name(BodyId body) const;
+  Surface surface(BodyId body) const;            ///< what its facets are
+  Motion motion(BodyId body) const;              ///< how it moves
+  std::uint32_t layer(BodyId body) const;        ///< the layers that it is on
+  std::uint32_t mask(BodyId body) const;         ///< the layers that it is tested against
+  std::uint32_t group(BodyId body) const;        ///< its group, or 0
+  bool excluded(BodyId a, BodyId b) const;       ///< whether set_excluded() excludes the two; also invalid_argument
+  std::uint64_t external_id(BodyId body) const;  ///< the program's own number
+  double margin(BodyId body) const;              ///< metres
+  bool self_contact(BodyId body) const;          ///< whether it is tested against itself
+  std::size_t vertex_count(BodyId body) const;   ///< as it was added
+  std::size_t facet_count(BodyId body) const;    ///< as it was added
+
+  /// Copies the current positions of a body, 3 x V metres, column by column; a vertex that no facet uses is NaN.
+  /// Errors: also wrong_size.
   void copy_positions(BodyId body, std::span<double> coordinates) const;
+  /// Copies the facets of a body, 3 x F indices, column by column. Errors: also wrong_size.
   void copy_facets(BodyId body, std::span<int> corners) const;
-  /// The box of a body with its margin, metres; where it has no facet, lower is above upper.
-  /// Errors: stale_body, foreign_body.
+  /// Returns the box of a body with its margin, metres; without a facet, lower is above upper.
   Bounds bounds(BodyId body) const;
 
  private:

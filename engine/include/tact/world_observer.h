@@ -1,4 +1,4 @@
-/// Who is told of everything that enters a world: see World::set_observer().
+/// Observers of a world: see World::set_observer().
 #pragma once
 
 #include <tact/body.h>
@@ -13,13 +13,13 @@ namespace tact {
 struct PositionsUpdate;
 struct PoseUpdate;
 
-/// Each function is called on the thread that called the world, once that call has succeeded; what a world refuses is
-/// not told. What the arguments point to is valid during the call. None may throw, nor call the world.
+/// Sees all mutating calls of a world. Each function is called on the thread of the call, once it has succeeded.
+/// Arguments are valid during the call. No function may throw or call the world.
 class TACT_API WorldObserver {
  public:
   virtual ~WorldObserver();
 
-  /// The settings when the observer is set, and whenever they change.
+  /// Called when the observer is set, and when settings change.
   virtual void settings_changed(const Settings& settings) noexcept;
   virtual void body_added(BodyId body, const BodyDefinition& definition) noexcept;
   virtual void body_removed(BodyId body) noexcept;
@@ -32,8 +32,9 @@ class TACT_API WorldObserver {
   virtual void margin_set(BodyId body, double margin) noexcept;
   virtual void self_contact_set(BodyId body, bool wanted) noexcept;
 
-  /// Before World::detect() begins, and when it has an answer; step_ended() is not called where it throws.
+  /// Called before World::detect() begins.
   virtual void step_begins() noexcept;
+  /// Called when World::detect() has an answer; not if it throws.
   virtual void step_ended(const Report& report) noexcept;
 };
 

@@ -123,13 +123,13 @@ class Twins {
     for (int i = 0; i < 8; ++i) {
       const Vec3 p = random_.in_cube(3.0 * size_), q = random_.in_cube(3.0 * size_);
       const Eigen::Vector3d from(p.x + away_, p.y - away_, p.z), to(q.x + away_, q.y - away_, q.z);
-      const RayHit x = rigid_.ray({.from = from, .to = to}), y = plain_.ray({.from = from, .to = to});
+      const RayHit x = rigid_.cast_ray({.from = from, .to = to}), y = plain_.cast_ray({.from = from, .to = to});
       ASSERT_EQ(x.facet, y.facet);
-      ASSERT_EQ(x.time, y.time);
+      ASSERT_EQ(x.fraction, y.fraction);
       const ClosestPoint u = rigid_.closest_point({.point = from}), v = plain_.closest_point({.point = from});
       ASSERT_EQ(u.facet, v.facet);
       ASSERT_EQ(u.distance, v.distance);
-      ASSERT_EQ(rigid_.inside({.point = from}).size(), plain_.inside({.point = from}).size());
+      ASSERT_EQ(rigid_.bodies_containing({.point = from}).size(), plain_.bodies_containing({.point = from}).size());
     }
     expect_same_rays();
     for (std::size_t i = 0; i < rest_.size(); ++i) {
@@ -150,13 +150,13 @@ class Twins {
       ray.to = {q.x + away_, q.y - away_, q.z};
     }
     std::vector<RayHit> x(rays.size()), y(rays.size());
-    rigid_.rays(rays, x);
-    plain_.rays(rays, y);
+    rigid_.cast_rays(rays, x);
+    plain_.cast_rays(rays, y);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       ASSERT_EQ(x[i].body.index, y[i].body.index);
       ASSERT_EQ(x[i].facet, y[i].facet);
-      ASSERT_EQ(x[i].time, y[i].time);
-      ASSERT_EQ(x[i].weights, y[i].weights);
+      ASSERT_EQ(x[i].fraction, y[i].fraction);
+      ASSERT_EQ(x[i].barycentric, y[i].barycentric);
     }
   }
 
@@ -344,7 +344,7 @@ TEST_F(RigidRefusal, PlacesThatAreTooFar) {
 TEST_F(RigidRefusal, WhatDoesNotFitTheMotion) {
   expect(ErrorCode::wrong_motion, "jelly", [&] { world_.set_pose(soft_, identity_, here_); });
   expect(ErrorCode::wrong_motion, "stone", [&] { world_.set_positions(rigid_, ball_.positions); });
-  expect(ErrorCode::wrong_motion, "stone", [&] { world_.set_motion(rigid_, Motion::moving); });
+  expect(ErrorCode::wrong_motion, "stone", [&] { world_.set_motion(rigid_, Motion::deformable); });
   expect(ErrorCode::wrong_motion, "jelly", [&] { world_.set_motion(soft_, Motion::rigid); });
   world_.set_motion(rigid_, Motion::fixed);
   world_.detect();

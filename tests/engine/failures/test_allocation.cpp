@@ -23,7 +23,7 @@
 namespace tact::tests {
 namespace {
 
-using tact::World;  // records nothing: a recording allocates
+using PlainWorld = tact::World;  // records nothing: a recording allocates
 
 enum class Outcome { finished, failed_unnoticed, threw };
 
@@ -43,7 +43,7 @@ Outcome call_short_of_memory(long number, bool for_good, const std::function<voi
 
 // A world and what it should hold.
 struct Scene {
-  World world{{.threads = 2, .outputs = {.zones = true, .patches = true, .trace = true}}};
+  PlainWorld world{{.threads = 2, .outputs = {.zones = true, .patches = true, .trace = true}}};
   std::vector<Mesh> bodies;
   std::vector<BodyId> ids;
   BodyId added;
@@ -164,7 +164,7 @@ TEST(Allocation, ThatFailsInABatchOfLargeBodiesMovesNone) {
   const std::vector<MeetingBodies> met_after = meeting_bodies_by_engine(after);
   for (long number = 0;; ++number) {
     ASSERT_LT(number, 1000);
-    World world({.threads = 2});
+    PlainWorld world({.threads = 2});
     const std::vector<BodyId> ids = add_bodies(world, before);
     const std::array updates = {PositionsUpdate{ids[0], after[0].positions},
                                 PositionsUpdate{ids[1], after[1].positions}};
@@ -184,7 +184,7 @@ TEST(Allocation, ThatFailsInEmbreeLeavesAUsableWorld) {
   const Mesh a = icosphere(6), b = translated(scaled(a, 0.98), {0.03, 0.01, 0.0});
   const std::vector<FacetPair> expected = facet_pairs_by_oracle(a, b);
   ASSERT_GT(expected.size(), 100u);
-  World world({.threads = 1});
+  PlainWorld world({.threads = 1});
   add_bodies(world, std::array{a, b});
   world.detect();
   int failures = 0;
@@ -205,7 +205,7 @@ TEST(Allocation, ThatFailsInEmbreeLeavesAUsableWorld) {
 
 TEST(Allocation, OfAWorldThatFailsLeavesNothing) {
   for (long number = 0; number < 1000; ++number) {
-    const Outcome outcome = call_short_of_memory(number, false, [] { World world; });
+    const Outcome outcome = call_short_of_memory(number, false, [] { PlainWorld world; });
     if (outcome == Outcome::finished) return;
   }
   FAIL() << "a world takes more than 1000 allocations";
@@ -230,7 +230,7 @@ struct Round {
     return allocation_count() - before;
   }
 
-  World world;
+  PlainWorld world;
   std::vector<BodyId> ids;
   std::vector<std::vector<Mesh>> frames;
 };
@@ -320,7 +320,7 @@ TEST(Allocation, ThatFailsWhileSmallBodiesArePackedLeavesAUsableWorld) {
   const std::vector<MeetingBodies> met = meeting_bodies_by_engine(after);
   for (long number = 0;; ++number) {
     ASSERT_LT(number, 1000);
-    World world({.threads = 2});
+    PlainWorld world({.threads = 2});
     const std::vector<BodyId> ids = add_bodies(world, before);
     std::vector<PositionsUpdate> updates;
     for (std::size_t i = 0; i < ids.size(); ++i) updates.push_back({ids[i], after[i].positions});
@@ -338,7 +338,7 @@ TEST(Allocation, ThatFailsWhileSmallBodiesArePackedLeavesAUsableWorld) {
 // went.
 TEST(Allocation, ManySmallBodiesArePackedOnce) {
   const Mesh mesh = icosphere(1);
-  World world({.threads = 1});
+  PlainWorld world({.threads = 1});
   std::vector<BodyId> ids = add_bodies(world, std::vector<Mesh>(100, mesh));
   int move = 0;
   const auto allocations_of_a_batch = [&] {
@@ -373,7 +373,7 @@ TEST(Allocation, ABodyThatCannotBeGroupedBetterIsTriedOnce) {
   const Mesh mesh = permuted(blob_in_any_order, vertices, facet_order_of(blob_in_any_order));
   Mesh point = mesh;
   point.positions.setZero();
-  World world({.threads = 1});
+  PlainWorld world({.threads = 1});
   const BodyId id = add_bodies(world, std::array{point})[0];
   world.detect();
   constexpr int kMoves = 200;
@@ -392,7 +392,7 @@ TEST(Allocation, ABodyThatCannotBeGroupedBetterIsTriedOnce) {
 // A pair with many facet pairs comes and goes, and each time a small pair that stays takes what it leaves.
 TEST(Allocation, RoomOfLargePairsThatAreGoneIsLimited) {
   const Mesh large = sheet(50, 50, 1.0, 1.0), small = icosphere(0);
-  World world({.threads = 1});
+  PlainWorld world({.threads = 1});
   const BodyId moving = add_bodies(world, std::array{large, large})[1];
   const auto meet = [&](bool together) {
     world.set_positions(moving, translated(large, {0.0, 0.0, together ? 0.0 : 5.0}).positions);
@@ -419,7 +419,7 @@ TEST(Allocation, RoomOfLargePairsThatAreGoneIsLimited) {
 #endif
 
 TEST(Allocation, StepsAtRestTakeNone) {
-  World world({.outputs = {.zones = true, .patches = true}});
+  PlainWorld world({.outputs = {.zones = true, .patches = true}});
   add_bodies(world, crowd_of_blobs(20, 1));
   world.detect();
   const long before = allocation_count();

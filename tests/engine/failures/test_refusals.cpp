@@ -216,8 +216,8 @@ TEST(World, RefusesASurfaceOrMotionThatIsNone) {
                     .motion = static_cast<Motion>(motion),
                     .name = "odd"});
   };
-  EXPECT_TRUE(throws_error([&] { add(2, 0); }, ErrorCode::bad_settings, {"odd", "surface", "2"}));
-  EXPECT_TRUE(throws_error([&] { add(0, -1); }, ErrorCode::bad_settings, {"odd", "motion", "-1"}));
+  EXPECT_TRUE(throws_error([&] { add(2, 0); }, ErrorCode::invalid_argument, {"odd", "surface", "2"}));
+  EXPECT_TRUE(throws_error([&] { add(0, -1); }, ErrorCode::invalid_argument, {"odd", "motion", "-1"}));
   EXPECT_EQ(world.body_count(), 0u);
   EXPECT_NO_THROW(add(1, 1));
 }

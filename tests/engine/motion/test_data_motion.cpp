@@ -17,7 +17,7 @@ std::map<ImpactKey, double> all_impacts(const MotionReport& report) {
 }
 
 // That cloth was simulated without crossing the sphere: with a margin there are impacts.
-constexpr double kMargin = 0.02;
+constexpr double kClothMargin = 0.02;
 
 TEST(DataMotion, OfAClothThatFallsOnASphereEqualsBruteForce) {
   TACT_SKIP_WITHOUT_DATA();
@@ -27,15 +27,15 @@ TEST(DataMotion, OfAClothThatFallsOnASphereEqualsBruteForce) {
   for (const std::size_t leap : {2u, 4u, 8u}) {
     tact::World world({.threads = 2});
     const BodyId id = world.add_body(
-        {.positions = cloth.frames[0], .facets = cloth.facets, .surface = Surface::sheet, .margin = kMargin});
-    world.add_body({.positions = sphere.positions, .facets = sphere.facets, .margin = kMargin});
+        {.positions = cloth.frames[0], .facets = cloth.facets, .surface = Surface::sheet, .margin = kClothMargin});
+    world.add_body({.positions = sphere.positions, .facets = sphere.facets, .margin = kClothMargin});
     std::size_t impacts = 0;
     for (std::size_t frame = 12; frame + leap < cloth.frames.size(); frame += 12) {
       world.set_positions(id, cloth.frames[frame]);
       world.detect();
       world.set_positions(id, cloth.frames[frame + leap]);
       const MovingMesh moving{{cloth.frames[frame], cloth.facets}, cloth.frames[frame + leap]};
-      const auto expected = impacts_by_brute_force(moving, still, 2 * kMargin);
+      const auto expected = impacts_by_brute_force(moving, still, 2 * kClothMargin);
       impacts += expected.size();
       ASSERT_EQ(all_impacts(world.detect_motion()), expected) << "frame " << frame << ", leap " << leap;
     }

@@ -316,7 +316,7 @@ TEST(Filters, OfGroupsAndOfPairsByName) {
   EXPECT_EQ(d.index, c.index);
   EXPECT_FALSE(world.excluded(a, d));
   EXPECT_EQ(pairs(), (Pairs{{a, b}, {a, d}, {b, d}}));
-  EXPECT_TRUE(throws_error([&] { world.set_excluded(a, a, true); }, ErrorCode::bad_settings, {"part"}));
+  EXPECT_TRUE(throws_error([&] { world.set_excluded(a, a, true); }, ErrorCode::invalid_argument, {"part"}));
   EXPECT_TRUE(throws_error([&] { world.set_excluded(a, c, true); }, ErrorCode::stale_body));
   EXPECT_TRUE(throws_error([&] { world.set_group(c, 1); }, ErrorCode::stale_body));
 }

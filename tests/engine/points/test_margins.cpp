@@ -96,11 +96,11 @@ TEST(Margins, BadOnesAreRefusedByName) {
   const Mesh mesh = cube(1.0, {});
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double bad : {-1e-300, kInfinity, std::nan(""), 0x1.8p300}) {
-    EXPECT_TRUE(
-        throws_error([&] { world.add_body(definition(mesh, bad)); }, ErrorCode::bad_settings, {"body 0", "margin"}));
+    EXPECT_TRUE(throws_error([&] { world.add_body(definition(mesh, bad)); }, ErrorCode::invalid_argument,
+                             {"body 0", "margin"}));
   }
   const BodyId body = world.add_body(definition(mesh, 0x1p300));
-  EXPECT_TRUE(throws_error([&] { world.set_margin(body, -1.0); }, ErrorCode::bad_settings, {"body 0", "-1"}));
+  EXPECT_TRUE(throws_error([&] { world.set_margin(body, -1.0); }, ErrorCode::invalid_argument, {"body 0", "-1"}));
   EXPECT_EQ(world.margin(body), 0x1p300);
   EXPECT_EQ(world.body_count(), 1u);
 }

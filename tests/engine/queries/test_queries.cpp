@@ -24,28 +24,29 @@ TEST(Queries, RaysEqualRationalArithmetic) {
     std::vector<Ray> rays;
     for (int i = 0; i < 150; ++i) rays.push_back(random_ray(mesh, random));
     std::vector<RayHit> firsts(rays.size());
-    world.rays(rays, firsts);
+    world.cast_rays(rays, firsts);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const Vec3 from = point_of(rays[i].from), to = point_of(rays[i].to);
       std::set<int> expected, found;
       for (int f = 0; f < mesh.facet_count(); ++f) {
         if (cgal_meet({from, to, to}, facet_at(mesh, f))) expected.insert(f);
       }
-      const std::vector<RayHit> all = world.all_hits(rays[i]);
+      const std::vector<RayHit> all = world.cast_ray_all(rays[i]);
       for (const RayHit& hit : all) {
         EXPECT_EQ(hit.body, id);
         found.insert(hit.facet);
-        const Vec3 on_ray = from + hit.time * (to - from), on_facet = weighted(facet_at(mesh, hit.facet), hit.weights);
+        const Vec3 on_ray = from + hit.fraction * (to - from),
+                   on_facet = weighted(facet_at(mesh, hit.facet), hit.barycentric);
         EXPECT_LT(norm(on_ray - on_facet), 1e-12 * (1.0 + norm(to - from))) << "ray " << i;
-        EXPECT_TRUE(hit.time >= 0.0 && hit.time <= 1.0);
+        EXPECT_TRUE(hit.fraction >= 0.0 && hit.fraction <= 1.0);
       }
       ASSERT_EQ(found, expected) << "ray " << i;
       hits += all.size();
       EXPECT_EQ(firsts[i].facet < 0, all.empty());
-      EXPECT_EQ(world.ray(rays[i], RayHits::any).facet < 0, all.empty());
+      EXPECT_EQ(world.cast_ray(rays[i], RayHits::any).facet < 0, all.empty());
       if (all.empty()) continue;
       EXPECT_EQ(firsts[i].facet, all[0].facet);
-      EXPECT_EQ(firsts[i].time, all[0].time);
+      EXPECT_EQ(firsts[i].fraction, all[0].fraction);
     }
   }
   EXPECT_GT(hits, 500u);
@@ -68,12 +69,12 @@ TEST(Queries, ManyRaysAtOnceAnswerAsEachAlone) {
       for (int step = 0; step < 2; ++step) {
         world.set_positions(other, step == 0 ? mesh.positions : beside);
         for (const RayHits wanted : {RayHits::first, RayHits::any}) {
-          world.rays(rays, hits, wanted);
+          world.cast_rays(rays, hits, wanted);
           std::size_t found = 0;
           for (std::size_t i = 0; i < rays.size(); ++i) {
-            const RayHit alone = world.ray(rays[i], wanted);
-            ASSERT_TRUE(hits[i].body == alone.body && hits[i].facet == alone.facet && hits[i].time == alone.time &&
-                        hits[i].weights == alone.weights)
+            const RayHit alone = world.cast_ray(rays[i], wanted);
+            ASSERT_TRUE(hits[i].body == alone.body && hits[i].facet == alone.facet &&
+                        hits[i].fraction == alone.fraction && hits[i].barycentric == alone.barycentric)
                 << "ray " << i << " on " << threads << " threads";
             found += alone.facet >= 0;
           }
@@ -82,7 +83,7 @@ TEST(Queries, ManyRaysAtOnceAnswerAsEachAlone) {
       }
       if (threads == 1) expected = hits;
       EXPECT_TRUE(std::ranges::equal(hits, expected, [](const RayHit& a, const RayHit& b) {
-        return a.facet == b.facet && a.time == b.time && a.weights == b.weights;
+        return a.facet == b.facet && a.fraction == b.fraction && a.barycentric == b.barycentric;
       }));
     }
   }
@@ -109,10 +110,11 @@ TEST(Queries, ManyRaysThroughManyLayersAnswerAsEachAlone) {
     if (random.chance(0.5)) std::swap(ray.from, ray.to);
   }
   std::vector<RayHit> hits(rays.size());
-  world.rays(rays, hits);
+  world.cast_rays(rays, hits);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const RayHit alone = world.ray(rays[i]);
-    EXPECT_TRUE(hits[i].facet == alone.facet && hits[i].time == alone.time && hits[i].weights == alone.weights);
+    const RayHit alone = world.cast_ray(rays[i]);
+    EXPECT_TRUE(hits[i].facet == alone.facet && hits[i].fraction == alone.fraction &&
+                hits[i].barycentric == alone.barycentric);
     EXPECT_EQ(hits[i].facet / 2, rays[i].from.z() < 0.0 ? 0 : kLayers - 1);
   }
 }
@@ -133,7 +135,7 @@ TEST(Queries, NearestPointsEqualBruteForce) {
       const Vec3 p = point_of(queries[i].point);
       const double expected = static_cast<double>(distance_by_brute_force(mesh, p));
       EXPECT_NEAR(answers[i].distance, expected, 1e-12);
-      EXPECT_NEAR(norm(weighted(facet_at(mesh, answers[i].facet), answers[i].weights) - p), expected, 1e-12);
+      EXPECT_NEAR(norm(weighted(facet_at(mesh, answers[i].facet), answers[i].barycentric) - p), expected, 1e-12);
       PointQuery nearer = queries[i];
       nearer.within = 0.5 * expected;
       EXPECT_TRUE(expected == 0.0 || world.closest_point(nearer).facet < 0);
@@ -185,7 +187,7 @@ TEST(Queries, WhatIsInsideIsCountedByItsWinding) {
   const BodyId ball_id = world.add_body({.positions = ball.positions, .facets = ball.facets, .layer = 4});
   const BodyId open = world.add_body({.positions = grid.positions, .facets = grid.facets, .surface = Surface::sheet});
   const auto is_in = [&](Vec3 p, BodyId id) {
-    const std::vector<BodyId> found = world.inside({.point = vector_of(p)});
+    const std::vector<BodyId> found = world.bodies_containing({.point = vector_of(p)});
     EXPECT_FALSE(std::ranges::count(found, open));
     return std::ranges::count(found, id) == 1;
   };
@@ -217,13 +219,13 @@ TEST(Queries, LayersMasksAndPositionsThatWereSet) {
   const Mesh ball = icosphere(1);
   const BodyId a = world.add_body({.positions = ball.positions, .facets = ball.facets, .layer = 2});
   const Ray ray{{0, 0, 5}, {0, 0, -5}};
-  EXPECT_EQ(world.ray(ray).body, a);
-  EXPECT_LT(world.ray({ray.from, ray.to, {.mask = 1}}).facet, 0);
-  EXPECT_EQ(world.ray({ray.from, ray.to, {.mask = 2}}).body, a);
+  EXPECT_EQ(world.cast_ray(ray).body, a);
+  EXPECT_LT(world.cast_ray({ray.from, ray.to, {.mask = 1}}).facet, 0);
+  EXPECT_EQ(world.cast_ray({ray.from, ray.to, {.mask = 2}}).body, a);
   world.set_layers(a, 2, 8);
-  EXPECT_LT(world.ray({ray.from, ray.to, {.layer = 4}}).facet, 0);
+  EXPECT_LT(world.cast_ray({ray.from, ray.to, {.layer = 4}}).facet, 0);
   world.set_positions(a, translated(ball, {9, 0, 0}).positions);
-  EXPECT_LT(world.ray(ray).facet, 0);
+  EXPECT_LT(world.cast_ray(ray).facet, 0);
   EXPECT_NEAR(world.closest_point({.point = {9, 0, 3}}).distance, 2.0, 0.2);
   world.remove_body(a);
   EXPECT_LT(world.closest_point({.point = {9, 0, 3}}).facet, 0);
@@ -235,13 +237,13 @@ TEST(Queries, HugeAndTinyBodies) {
     Mesh ball = icosphere(2);
     ball.positions *= unit;
     world.add_body({.positions = ball.positions, .facets = ball.facets});
-    const RayHit hit = world.ray({{0.1 * unit, 0.2 * unit, 5 * unit}, {0.1 * unit, 0.2 * unit, -5 * unit}});
+    const RayHit hit = world.cast_ray({{0.1 * unit, 0.2 * unit, 5 * unit}, {0.1 * unit, 0.2 * unit, -5 * unit}});
     ASSERT_GE(hit.facet, 0) << unit;
-    EXPECT_NEAR(hit.time, 0.4, 0.01) << unit;
+    EXPECT_NEAR(hit.fraction, 0.4, 0.01) << unit;
     const ClosestPoint closest = world.closest_point({.point = {0, 0, 3 * unit}});
     ASSERT_GE(closest.facet, 0) << unit;
     EXPECT_NEAR(closest.distance / unit, 2.0, 0.01) << unit;
-    EXPECT_EQ(world.inside({.point = {0.1 * unit, 0, 0}}).size(), 1u) << unit;
+    EXPECT_EQ(world.bodies_containing({.point = {0.1 * unit, 0, 0}}).size(), 1u) << unit;
   }
 }
 
@@ -258,16 +260,16 @@ TEST(Queries, RefusalsNameTheQuery) {
   std::vector<Ray> rays(3);
   rays[2].to.y() = std::nan("");
   std::vector<RayHit> hits(3);
-  EXPECT_EQ(code_of([&] { world.rays(rays, hits); }),
+  EXPECT_EQ(code_of([&] { world.cast_rays(rays, hits); }),
             "non_finite_position: query 2: the end of a ray has y = nan, which is not finite");
   hits.resize(2);
-  EXPECT_EQ(code_of([&] { world.rays(rays, hits); }), "wrong_size: 3 queries, but room for 2 answers");
-  EXPECT_EQ(code_of([&] { world.closest_point({.within = -1.0}); }).substr(0, 12), "bad_settings");
+  EXPECT_EQ(code_of([&] { world.cast_rays(rays, hits); }), "wrong_size: 3 queries, but room for 2 answers");
+  EXPECT_EQ(code_of([&] { world.closest_point({.within = -1.0}); }).substr(0, 16), "invalid_argument");
   EXPECT_EQ(code_of([&] {
               world.overlap_box({.lower = {1, 0, 0}, .upper = {0, 0, 0}});
-            }).substr(0, 12),
-            "bad_settings");
-  EXPECT_EQ(code_of([&] { world.inside({.point = {1e300, 0, 0}}); }).substr(0, 21), "position_out_of_range");
+            }).substr(0, 16),
+            "invalid_argument");
+  EXPECT_EQ(code_of([&] { world.bodies_containing({.point = {1e300, 0, 0}}); }).substr(0, 21), "position_out_of_range");
 }
 
 }  // namespace

@@ -52,9 +52,9 @@ std::vector<std::uint64_t> make_calls(World& world) {
                            .mask = mask});
   };
   const BodyId a = add({0, 0, 0}, Motion::fixed, ~0u);
-  const BodyId b = add({2, 0.1, 0.1}, Motion::moving, ~0u);
-  const BodyId c = add({0.1, 0.2, 0.1}, Motion::moving, ~0u);
-  const BodyId e = add({0.2, 0.1, 0.1}, Motion::moving, 2u);
+  const BodyId b = add({2, 0.1, 0.1}, Motion::deformable, ~0u);
+  const BodyId c = add({0.1, 0.2, 0.1}, Motion::deformable, ~0u);
+  const BodyId e = add({0.2, 0.1, 0.1}, Motion::deformable, 2u);
   std::vector<std::uint64_t> hashes;
   for (int step = 0; step < 6; ++step) {
     // Columns that do not follow each other in memory.
@@ -65,13 +65,13 @@ std::vector<std::uint64_t> make_calls(World& world) {
     world.set_positions(updates);
     if (step == 3) {
       world.remove_body(c);
-      add({0.05, 0.05, 0.3}, Motion::moving, ~0u);
+      add({0.05, 0.05, 0.3}, Motion::deformable, ~0u);
       world.set_settings({.threads = 1, .accuracy = Accuracy::paper, .outputs = {.zones = true, .patches = true}});
     }
     if (step == 4) world.set_layers(e, 3u, 0u);
     if (step == 5) {
       world.set_layers(e, 3u, 2u);
-      world.set_motion(a, Motion::moving);
+      world.set_motion(a, Motion::deformable);
     }
     hashes.push_back(world.detect().hash());
   }
@@ -149,7 +149,7 @@ TEST(Recording, PlaysTheBodiesAsTheyWere) {
   EXPECT_EQ(player.world().settings().accuracy, Accuracy::paper);
   EXPECT_TRUE(player.world().settings().outputs.patches);
   EXPECT_FALSE(player.world().contains(bodies[2]));
-  EXPECT_EQ(player.world().motion(bodies[0]), Motion::moving);
+  EXPECT_EQ(player.world().motion(bodies[0]), Motion::deformable);
   EXPECT_EQ(player.world().mask(bodies[3]), 2u);
 }
 

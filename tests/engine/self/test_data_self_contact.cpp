@@ -24,9 +24,9 @@ std::vector<std::string> all_names() {
   return names;
 }
 
-class SelfWorld {
+class FileWithItself {
  public:
-  explicit SelfWorld(const Mesh& mesh)
+  explicit FileWithItself(const Mesh& mesh)
       : id_(world_.add_body({.positions = mesh.positions, .facets = mesh.facets, .self_contact = true})) {}
   std::vector<FacetPair> at(const Eigen::Matrix3Xd& positions) {
     world_.set_positions(id_, positions);
@@ -56,7 +56,7 @@ TEST(DataSelfContact, FacetPairsOfEveryFileAreThoseOfCgal) {
   int held_by_cgal = 0;
   for (const std::string& name : all_names()) {
     const Mesh mesh = read_data(name);
-    const std::vector<FacetPair> found = SelfWorld(mesh).facet_pairs();
+    const std::vector<FacetPair> found = FileWithItself(mesh).facet_pairs();
     ASSERT_TRUE(same_facet_pairs(self_facet_pairs_by_oracle(mesh), found)) << name;
     if (const auto expected = self_facet_pairs_by_cgal(mesh)) {
       ASSERT_TRUE(same_facet_pairs(*expected, found)) << name;
@@ -75,12 +75,12 @@ TEST(DataSelfContact, FacetPairsOfCrushedAndBrokenFilesAreThoseOfCgal) {
     if (mesh.facet_count() > 8000) continue;  // CGAL would take half a minute
     const Mesh flat = crushed(mesh, ++seed);
     const auto expected = self_facet_pairs_by_oracle(flat);
-    ASSERT_TRUE(same_facet_pairs(expected, SelfWorld(flat).facet_pairs())) << "crushed " << name;
+    ASSERT_TRUE(same_facet_pairs(expected, FileWithItself(flat).facet_pairs())) << "crushed " << name;
     if (const auto by_cgal = self_facet_pairs_by_cgal(flat)) {
       ASSERT_TRUE(same_facet_pairs(*by_cgal, expected)) << "crushed " << name;
     }
     const Mesh worse = broken(flat, seed);
-    ASSERT_TRUE(same_facet_pairs(self_facet_pairs_by_oracle(worse), SelfWorld(worse).facet_pairs()))
+    ASSERT_TRUE(same_facet_pairs(self_facet_pairs_by_oracle(worse), FileWithItself(worse).facet_pairs()))
         << "broken " << name;
     pairs += expected.size();
   }
@@ -93,7 +93,7 @@ TEST(DataSelfContact, PosesOfAToyHaveTheKnownNumberOfPairs) {
   const Sequence toy = read_data_sequence("seq_toy_poses");
   const std::vector<std::size_t> known = {117, 46, 41, 41, 0, 84, 0, 100, 4, 73, 93};
   ASSERT_EQ(toy.frames.size(), known.size());
-  SelfWorld world({toy.frames[0], toy.facets});
+  FileWithItself world({toy.frames[0], toy.facets});
   for (std::size_t frame = 0; frame < known.size(); ++frame)
     EXPECT_EQ(world.at(toy.frames[frame]).size(), known[frame]) << "pose " << frame + 1;
 }
@@ -103,7 +103,7 @@ TEST(DataSelfContact, FacetPairsOfMovingFilesAreThoseOfCgal) {
   TACT_SKIP_WITHOUT_DATA();
   for (const char* folder : {"seq_cloth_on_sphere", "seq_toy_poses"}) {
     const Sequence moving = read_data_sequence(folder);
-    SelfWorld world({moving.frames[0], moving.facets});
+    FileWithItself world({moving.frames[0], moving.facets});
     for (std::size_t frame = 0; frame < moving.frames.size(); frame += 5) {
       const Mesh mesh{moving.frames[frame], moving.facets};
       for (const Mesh& one : {mesh, crushed(mesh, frame)}) {

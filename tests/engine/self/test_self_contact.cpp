@@ -150,5 +150,74 @@ TEST(SelfContactFacets, OfASheetThatIsRolledUpEqualTheOracle) {
   }
 }
 
+std::vector<BodyId> add_folded_bodies(World& world) {
+  std::vector<BodyId> ids;
+  double x = 0.0;
+  for (const int cells : {10, 60, 12, 14, 40, 8}) {
+    const Mesh mesh = jittered(half_rolled(cells, 20, 1.0), 0.03, 1);
+    ids.push_back(world.add_body({.positions = translated(mesh, {x, 0.0, 0.0}).positions,
+                                  .facets = mesh.facets,
+                                  .surface = Surface::sheet,
+                                  .margin = 0.005,
+                                  .self_contact = true}));
+    x += 10.0;
+  }
+  return ids;
+}
+
+// Large and small ones, side by side and cut into ranges.
+TEST(SelfContact, OfManyBodiesIsTheSameForAnyNumberOfThreads) {
+  World alone({.threads = 1, .outputs = {.points = true}});
+  const std::vector<BodyId> ids = add_folded_bodies(alone);
+  const Report& expected = alone.detect();
+  ASSERT_EQ(expected.contacts().size(), ids.size());
+  for (const int threads : {2, 3, 8}) {
+    World world({.threads = threads, .outputs = {.points = true}});
+    add_folded_bodies(world);
+    EXPECT_EQ(world.detect().hash(), expected.hash()) << threads << " threads";
+    world.set_settings(world.settings());  // looks at all of them again
+    EXPECT_EQ(world.detect().hash(), alone.detect().hash()) << threads << " threads";
+    alone.set_settings(alone.settings());
+    alone.detect();
+  }
+}
+
+// Two facets of one body that cross.
+BodyId add_crossed_facets(World& world, bool self_contact) {
+  Eigen::Matrix3Xd positions(3, 6);
+  Eigen::Matrix3Xi facets(3, 2);
+  positions << 0, 1, 0, 0.2, 0.2, 0.2,  //
+      0, 0, 1, 0.2, 0.3, 0.2,           //
+      0, 0, 0, -1, 1, 1;
+  facets << 0, 3, 1, 4, 2, 5;
+  return world.add_body(
+      {.positions = positions, .facets = facets, .surface = Surface::sheet, .self_contact = self_contact});
+}
+
+// The record of the one may lie where that of the other was.
+TEST(SelfContact, GoesFromOneBodyToAnotherBetweenTwoSteps) {
+  World world({.threads = 1}), fresh({.threads = 1});
+  const BodyId a = add_crossed_facets(world, false), b = add_crossed_facets(world, true);
+  const BodyId fresh_a = add_crossed_facets(fresh, true);
+  add_crossed_facets(fresh, false);
+  ASSERT_NE(world.detect().find_contact(b, b), nullptr);
+  world.set_self_contact(b, false);
+  world.set_self_contact(a, true);
+  const Report& report = world.detect();
+  ASSERT_NE(report.find_contact(a, a), nullptr);
+  EXPECT_EQ(report.find_contact(b, b), nullptr);
+  ASSERT_EQ(report.began().size(), 1u);
+  EXPECT_EQ(report.began()[0].a, a);
+  ASSERT_EQ(report.ended().size(), 1u);
+  EXPECT_EQ(report.ended()[0].a, b);
+  const Report& expected = fresh.detect();
+  ASSERT_NE(expected.find_contact(fresh_a, fresh_a), nullptr);
+  ASSERT_EQ(report.contacts().size(), expected.contacts().size());
+  for (std::size_t i = 0; i < expected.contacts().size(); ++i) {
+    EXPECT_EQ(report.contacts()[i].a.index, expected.contacts()[i].a.index);
+    EXPECT_EQ(report.contacts()[i].b.index, expected.contacts()[i].b.index);
+  }
+}
+
 }  // namespace
 }  // namespace tact::tests

@@ -22,7 +22,7 @@ struct ModelBody {
   BodyId id;
   Mesh mesh;
   Surface surface = Surface::closed;
-  Motion motion = Motion::moving;
+  Motion motion = Motion::deformable;
   std::uint32_t layer = 1;
   std::uint32_t mask = ~0u;
 };
@@ -75,7 +75,7 @@ class Player {
     bodies_.push_back(std::move(body));
   }
 
-  Motion any_motion() { return random_.chance(0.2) ? Motion::fixed : Motion::moving; }
+  Motion any_motion() { return random_.chance(0.2) ? Motion::fixed : Motion::deformable; }
 
   void choose_layers(ModelBody& body) {
     body.layer = 1u << random_.below(3);
@@ -117,7 +117,7 @@ class Player {
   ModelBody* random_moving_body() {
     if (bodies_.empty()) return nullptr;
     ModelBody& body = bodies_[random_.below(static_cast<int>(bodies_.size()))];
-    return body.motion == Motion::moving ? &body : nullptr;
+    return body.motion == Motion::deformable ? &body : nullptr;
   }
 
   void move() {

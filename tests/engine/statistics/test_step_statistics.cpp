@@ -12,6 +12,7 @@
 #include "tests/support/checks/detection.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/body_pairs.h"
+#include "tests/support/generators/folds.h"
 
 namespace tact::tests {
 namespace {
@@ -92,7 +93,7 @@ TEST(Statistics, PairsThatLayersOrFixedBodiesExclude) {
   };
   add(0.0, Motion::fixed, 1, 1);
   add(0.1, Motion::fixed, 1, 1);
-  const BodyId other_layer = add(0.2, Motion::moving, 2, 2);
+  const BodyId other_layer = add(0.2, Motion::deformable, 2, 2);
   EXPECT_EQ(world.detect().stats().excluded_pairs, 3);
   world.set_positions(other_layer, translated(kSphere, {0.3, 0, 0}).positions);
   EXPECT_EQ(world.detect().stats().excluded_pairs, 2);
@@ -137,6 +138,28 @@ TEST(Statistics, ClustersAndFacetsAddUp) {
   EXPECT_EQ(found[0].clusters_outside_slab, found[1].clusters_outside_slab);
   EXPECT_EQ(found[0].opened_clusters, found[1].opened_clusters);
   EXPECT_EQ(found[0].opened_facets, found[1].opened_facets);
+}
+
+// Every stage has work here; the stages that all threads do together add up to the step.
+TEST(Statistics, TimesOfTheStagesAddUpToTheStep) {
+  for (const int threads : {1, 2}) {
+    World world({.threads = threads, .outputs = {.patches = true, .points = true}});
+    const Mesh cloth = jittered(rolled_sheet(30, 10, 2.2, 0.12, 0.05), 0.03, 1), small = scaled(kSphere, 0.1);
+    for (const Mesh& mesh : {kSphere, translated(kSphere, {1.5, 0.0, 0.0}), small})
+      world.add_body({.positions = mesh.positions, .facets = mesh.facets, .margin = 0.01});
+    world.add_body({.positions = cloth.positions,
+                    .facets = cloth.facets,
+                    .surface = Surface::sheet,
+                    .margin = 0.01,
+                    .self_contact = true});
+    const StepStats& s = world.detect().stats();
+    for (const double ms : {s.refresh_ms, s.sweep_ms, s.narrow_phase_ms, s.containment_ms, s.points_ms,
+                            s.self_facets_ms, s.self_points_ms, s.patches_ms, s.report_ms})
+      EXPECT_GT(ms, 0.0);
+    EXPECT_NEAR(s.refresh_ms + s.sweep_ms + s.narrow_phase_ms + s.containment_ms + s.points_ms + s.self_facets_ms +
+                    s.self_points_ms + s.patches_ms + s.report_ms,
+                s.total_ms, 1e-9);
+  }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "tests/support/checks/detection.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/body_pairs.h"
+#include "tests/support/generators/folds.h"
 
 namespace tact::tests {
 namespace {
@@ -65,21 +66,33 @@ TEST(Trace, IsEmptyUnlessAskedFor) {
 
 TEST(Trace, HoldsTheStagesOfAStepAndTheirTimes) {
   for (const int threads : {1, 2}) {
-    World world({.threads = threads, .outputs = {.trace = true}});
+    World world({.threads = threads, .outputs = {.patches = true, .points = true, .trace = true}});
     const std::vector<Mesh> bodies = crowd_of_blobs(30, 1);
     const std::vector<BodyId> ids = add_bodies(world, bodies);
+    const Mesh cloth = rolled_sheet(30, 10, 2.2, 0.12, 0.05);
+    const BodyId self = world.add_body({.positions = cloth.positions,
+                                        .facets = cloth.facets,
+                                        .surface = Surface::sheet,
+                                        .margin = 0.01,
+                                        .self_contact = true});
     world.detect();
+    world.set_positions(self, translated(cloth, {0.01, 0, 0}).positions);
     for (std::size_t i = 0; i < 3; ++i) world.set_positions(ids[i], translated(bodies[i], {0.01, 0, 0}).positions);
     const Report& report = world.detect();
     const StepStats& stats = report.stats();
     EXPECT_TRUE(is_nested(report.trace()));
-    EXPECT_EQ(events_of(report, Kind::refresh).size(), 3u);
+    EXPECT_EQ(events_of(report, Kind::refresh).size(), 4u);
     double refresh_ms = 0.0;
     for (const TraceEvent& event : events_of(report, Kind::refresh)) refresh_ms += ms(event);
     EXPECT_NEAR(refresh_ms, stats.refresh_ms, 1e-5);
     double stages_ms = 0.0;
     for (const auto& [kind, expected] : {std::pair{Kind::sweep, stats.sweep_ms},
                                          {Kind::narrow_phase, stats.narrow_phase_ms},
+                                         {Kind::containment, stats.containment_ms},
+                                         {Kind::points, stats.points_ms},
+                                         {Kind::self_facets, stats.self_facets_ms},
+                                         {Kind::self_points, stats.self_points_ms},
+                                         {Kind::patches, stats.patches_ms},
                                          {Kind::report, stats.report_ms}}) {
       const std::vector<TraceEvent> found = events_of(report, kind);
       ASSERT_EQ(found.size(), 1u) << static_cast<int>(kind);

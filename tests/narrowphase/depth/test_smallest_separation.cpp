@@ -8,6 +8,7 @@
 
 #include "narrowphase/depth/smallest_separation.h"
 #include "narrowphase/mesh/refit.h"
+#include "tests/support/inside/mesh_through.h"
 #include "tests/support/oracles/minkowski_oracle.h"
 
 namespace tact::narrowphase {

@@ -7,6 +7,7 @@
 
 #include "narrowphase/direction/adjacent_faces.h"
 #include "tests/support/generators/random.h"
+#include "tests/support/inside/mesh_through.h"
 #include "tests/support/oracles/minkowski_oracle.h"
 
 namespace tact::narrowphase {

@@ -11,6 +11,7 @@
 #include "tests/support/generators/hostile_hulls.h"
 #include "tests/support/generators/random.h"
 #include "tests/support/inside/clustered.h"
+#include "tests/support/inside/mesh_through.h"
 #include "tests/support/oracles/minkowski_oracle.h"
 
 namespace tact::narrowphase {

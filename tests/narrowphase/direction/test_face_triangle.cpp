@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "narrowphase/direction/face_triangle.h"
+#include "tests/support/inside/mesh_through.h"
 #include "tests/support/oracles/minkowski_oracle.h"
 
 namespace tact::narrowphase {

@@ -10,6 +10,7 @@
 #include "tests/support/generators/known_shapes.h"
 #include "tests/support/generators/random.h"
 #include "tests/support/inside/clustered.h"
+#include "tests/support/inside/mesh_through.h"
 #include "tests/support/oracles/minkowski_oracle.h"
 
 namespace tact::narrowphase {

@@ -7,6 +7,7 @@
 #include "tests/support/generators/random.h"
 #include "tests/support/generators/touching_hulls.h"
 #include "tests/support/inside/clustered.h"
+#include "tests/support/inside/mesh_through.h"
 #include "tests/support/oracles/hull_oracle.h"
 #include "tests/support/oracles/minkowski_oracle.h"
 

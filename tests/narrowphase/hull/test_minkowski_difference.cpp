@@ -44,7 +44,7 @@ TEST(MinkowskiDifference, HeightsAreThoseOfAllVerticesButForTheBound) {
         const double error =
             std::fabs(static_cast<double>(height(n, vertex.point) - m.scale() * height_by_brute_force(a, b, n)));
         EXPECT_LE(error, m.height_error()) << "size " << size;
-        EXPECT_LE(norm(vertex.point), m.size() * (1.0 + 1e-12));
+        EXPECT_LE(norm(vertex.point), 2.0 * m.size() * (1.0 + 1e-12));
         EXPECT_EQ(m.support(n, vertex).point, vertex.point) << "a vertex to begin with changes nothing";
       }
     }

@@ -32,7 +32,7 @@ Mesh draped(int cells, double phase) {
   return cloth;
 }
 
-std::vector<FacetPair> turned(std::vector<FacetPair> pairs) {
+std::vector<FacetPair> swapped(std::vector<FacetPair> pairs) {
   for (FacetPair& pair : pairs) std::swap(pair.a, pair.b);
   std::ranges::sort(pairs);
   return pairs;
@@ -52,7 +52,7 @@ TEST(SurfacePairs, AreThoseOfTheOracleWhateverTheBodies) {
     for (const double scale : {1.0, 0x1p-200, 0x1p200}) {
       const ClusteredMesh one = clustered(tests::scaled(a, scale)), other = clustered(tests::scaled(b, scale));
       EXPECT_EQ(search(one, other), expected) << "seed " << seed << " scale " << scale;
-      EXPECT_EQ(turned(search(other, one)), expected) << "seed " << seed << " scale " << scale;
+      EXPECT_EQ(swapped(search(other, one)), expected) << "seed " << seed << " scale " << scale;
     }
   }
   EXPECT_GT(meeting, 10000u);
@@ -74,7 +74,7 @@ TEST(SurfacePairs, AreThoseOfTheOracleOnDrapes) {
       EXPECT_GT(search.cluster_pairs(), 150u);
       EXPECT_LT(search.counts().facet_box_pairs, 16 * static_cast<std::int64_t>(expected.size()));
       EXPECT_EQ(search(cloth, sphere, nullptr, 7), expected);
-      EXPECT_EQ(turned(search(sphere, cloth)), expected);
+      EXPECT_EQ(swapped(search(sphere, cloth)), expected);
     }
   }
 }

@@ -107,7 +107,7 @@ TEST(ImpactResponse, NothingCrossesInAPileDroppedFromTenMetres) {
 // is beside it.
 TEST(ImpactResponse, WhatMeetsStaysAndTheRestGoesOn) {
   const auto sheet = [](double height, double shift) {
-    return make_rigid("sheet", moved(grid_sheet(6, 6, 1.0, 1.0), {shift, shift, height}), {}, Motion::moving);
+    return make_rigid("sheet", moved(grid_sheet(6, 6, 1.0, 1.0), {shift, shift, height}), {}, Motion::deformable);
   };
   std::vector<Body> bodies{sheet(0.0, 0.0), sheet(0.1, 0.3)};
   World world;

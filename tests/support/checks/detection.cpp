@@ -30,7 +30,7 @@ std::vector<MeetingBodies> meeting_bodies(const Report& report, std::span<const 
   for (std::size_t i = 0; i < ids.size(); ++i) number[ids[i]] = static_cast<int>(i);
   std::vector<MeetingBodies> result;
   for (const Contact& contact : report.contacts()) {
-    if (!contact.touching()) continue;
+    if (contact.facet_pairs().empty()) continue;
     MeetingBodies pair{number.at(contact.a), number.at(contact.b), {}};
     for (const FacetPair f : contact.facet_pairs()) {
       pair.facet_pairs.push_back(pair.a < pair.b ? f : FacetPair{f.b, f.a});

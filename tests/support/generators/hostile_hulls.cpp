@@ -9,6 +9,7 @@
 #include "narrowphase/direction/contact_direction.h"
 #include "narrowphase/mesh/refit.h"
 #include "tests/support/generators/random.h"
+#include "tests/support/inside/mesh_through.h"
 #include "tests/support/oracles/minkowski_oracle.h"
 
 namespace tact::tests {

@@ -61,7 +61,7 @@ void AnswerHash::add(const Contact& contact) {
   add(contact.a);
   add(contact.b);
   features_.add(number_of(contact.containment));
-  features_.add(contact.touching() ? 1 : 0);
+  features_.add(contact.facet_pairs().empty() ? 0 : 1);
   add(contact.direction);
   add_signed(contact.depth);
   add(contact.plane_a);
@@ -129,15 +129,15 @@ void AnswerHash::add(const MotionReport& report) {
 void AnswerHash::add(const RayHit& hit) {
   add(hit.body);
   add_vertices(std::array{hit.facet});
-  add(hit.time);
-  for (const double weight : hit.weights) add(weight);
+  add(hit.fraction);
+  for (const double weight : hit.barycentric) add(weight);
 }
 
 void AnswerHash::add(const ClosestPoint& closest) {
   add(closest.body);
   add_vertices(std::array{closest.facet});
   add(closest.distance);
-  for (const double weight : closest.weights) add(weight);
+  for (const double weight : closest.barycentric) add(weight);
 }
 
 void AnswerHash::add(std::span<const RayHit> hits) {

@@ -41,4 +41,11 @@ SceneHashes play_closest_points(int threads);
 SceneHashes play_boxes(int threads);
 SceneHashes play_inside(int threads);
 
+// hash_scenes_borders.cpp
+SceneHashes play_touching(int threads);
+SceneHashes play_touching_bare(int threads);
+SceneHashes play_self_touching(int threads);
+SceneHashes play_query_ties(int threads);
+SceneHashes play_many_bodies(int threads);
+
 }  // namespace tact::tests

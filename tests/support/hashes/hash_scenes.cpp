@@ -88,6 +88,11 @@ constexpr HashScene kScenes[] = {
     {"closest_points", play_closest_points, {0x713a500a470a7034, 0x3992ad2d478fb1ce, 0x5858da22f40ed15b}},
     {"boxes", play_boxes, {0x8d60221edbf116cf, 0xd2c8721bd83262c6, 0x6cfaf97b17f96814}},
     {"inside", play_inside, {0x7f0c935580d9d901, 0xe15d9007a8d245fb, 0x387197bb83336c85}},
+    {"touching", play_touching, {0x1b607f4a781cb3f0, 0x0fd672af250978bb, 0x232192a8efccb565}},
+    {"touching_bare", play_touching_bare, {0x35703feb31b8f1da, 0xbd1d9fa960c6e6b3, 0x92a6b5b71acdba5f}},
+    {"self_touching", play_self_touching, {0x13d62fd34f3e2778, 0x565ef41e3bcbe0d3, 0x80b4e8ce6769d835}},
+    {"query_ties", play_query_ties, {0x0000000000000000, 0x5445f477404b0c33, 0xeb356a3f320a967e}},
+    {"many_bodies", play_many_bodies, {0x738615855d37eedb, 0x6159cc6cf8fb8a03, 0xff9116338403ee26}},
 };
 
 }  // namespace

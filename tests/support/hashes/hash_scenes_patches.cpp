@@ -93,7 +93,7 @@ SceneHashes play_calls(int threads) {
   player.add({.mesh = blob(1, 0.9, 0.2, 77), .margin = 0.1});
   world.set_motion(player.id(0), Motion::fixed);
   player.step();
-  world.set_motion(player.id(0), Motion::moving);
+  world.set_motion(player.id(0), Motion::deformable);
   world.set_layers(player.id(2), 1, 0xffffffffu);
   for (std::size_t i = 6; i < 12; ++i) world.set_excluded(player.id(5), player.id(i), false);
   player.step();

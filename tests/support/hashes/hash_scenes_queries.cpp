@@ -71,18 +71,18 @@ SceneHashes play_rays(int threads) {
       Ray& ray = rays.emplace_back();
       ray.from = eigen_of(any_place(player, random));
       ray.to = eigen_of(any_place(player, random));
-      if (i % 10 == 0) ray.asked = {.layer = 1, .mask = 2};
+      if (i % 10 == 0) ray.filter = {.layer = 1, .mask = 2};
       if (i % 20 == 5) ray.to = ray.from + eigen_of({0.0, 0.0, random.uniform(-9.0, 9.0)});
       if (i % 50 == 7) ray.to = ray.from;
     }
-    for (int i = 0; i < 40; ++i) player.hash().add(world.ray(rays[static_cast<std::size_t>(i)]));
+    for (int i = 0; i < 40; ++i) player.hash().add(world.cast_ray(rays[static_cast<std::size_t>(i)]));
     std::vector<RayHit> hits(rays.size());
-    world.rays(rays, hits);
+    world.cast_rays(rays, hits);
     player.hash().add(hits);
     // Of RayHits::any, which facet it is may change.
-    world.rays(rays, hits, RayHits::any);
+    world.cast_rays(rays, hits, RayHits::any);
     for (const RayHit& hit : hits) player.hash().add_feature(hit.facet >= 0 ? 1 : 0);
-    for (std::size_t i = 0; i < rays.size(); i += 4) player.hash().add(world.all_hits(rays[i]));
+    for (std::size_t i = 0; i < rays.size(); i += 4) player.hash().add(world.cast_ray_all(rays[i]));
   });
 }
 
@@ -95,7 +95,7 @@ SceneHashes play_closest_points(int threads) {
       point.point = eigen_of(any_place(player, random));
       if (i % 3 == 0) point.point += eigen_of(random.in_cube(1e-3));
       if (i % 4 == 0) point.within = random.uniform(0.0, 1.0);
-      if (i % 10 == 0) point.asked = {.layer = 1, .mask = 2};
+      if (i % 10 == 0) point.filter = {.layer = 1, .mask = 2};
       if (i % 50 == 9) point.point *= 1000.0;
     }
     for (std::size_t i = 0; i < 40; ++i) player.hash().add(world.closest_point(points[i]));
@@ -114,10 +114,10 @@ SceneHashes play_boxes(int threads) {
       Vec3 size = random.in_ball();
       for (int axis = 0; axis < 3; ++axis) size[axis] = i % 7 == axis ? 0.0 : size[axis] * size[axis];
       if (i % 20 == 3) size = {};
-      boxes.push_back({.lower = eigen_of(p), .upper = eigen_of(p + size), .asked = {}});
-      if (i % 10 == 0) boxes.back().asked = {.layer = 1, .mask = 2};
+      boxes.push_back({.lower = eigen_of(p), .upper = eigen_of(p + size), .filter = {}});
+      if (i % 10 == 0) boxes.back().filter = {.layer = 1, .mask = 2};
     }
-    boxes.push_back({.lower = {-9.0, -9.0, -9.0}, .upper = {9.0, 9.0, 9.0}, .asked = {}});
+    boxes.push_back({.lower = {-9.0, -9.0, -9.0}, .upper = {9.0, 9.0, 9.0}, .filter = {}});
     for (std::size_t i = 0; i < 40; ++i) player.hash().add(world.overlap_box(boxes[i]));
     std::vector<std::vector<FacetOfBody>> answers(boxes.size());
     world.overlap_boxes(boxes, answers);
@@ -132,11 +132,11 @@ SceneHashes play_inside(int threads) {
     for (int i = 0; i < 400; ++i) {
       PointQuery& point = points.emplace_back();
       point.point = eigen_of(any_place(player, random));
-      if (i % 10 == 0) point.asked = {.layer = 1, .mask = 2};
+      if (i % 10 == 0) point.filter = {.layer = 1, .mask = 2};
     }
-    for (std::size_t i = 0; i < 40; ++i) player.hash().add(world.inside(points[i]));
+    for (std::size_t i = 0; i < 40; ++i) player.hash().add(world.bodies_containing(points[i]));
     std::vector<std::vector<BodyId>> answers(points.size());
-    world.inside_each(points, answers);
+    world.bodies_containing_each(points, answers);
     for (const std::vector<BodyId>& answer : answers) player.hash().add(answer);
   });
 }

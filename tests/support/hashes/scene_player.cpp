@@ -23,7 +23,7 @@ BodyId ScenePlayer::add(const SceneBody& body) {
                                   .margin = body.margin,
                                   .self_contact = body.self_contact}));
   bodies_.push_back(body.mesh);
-  moves_.push_back(body.motion == Motion::moving);
+  moves_.push_back(body.motion == Motion::deformable);
   return ids_.back();
 }
 

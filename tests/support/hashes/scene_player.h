@@ -19,7 +19,7 @@ struct SceneBody {
   Surface surface = Surface::closed;
   double margin = 0.0;
   bool self_contact = false;
-  Motion motion = Motion::moving;
+  Motion motion = Motion::deformable;
   std::uint32_t layer = 1;
 };
 

@@ -195,16 +195,4 @@ bool is_local_minimum(std::span<const Vec3> a, std::span<const Vec3> b, Vec3 n, 
   return true;
 }
 
-narrowphase::ClusteredMesh mesh_through(std::span<const Vec3> points) {
-  std::vector<double> positions;
-  std::vector<int> facets;
-  const int count = static_cast<int>(points.size());
-  for (int i = 0; i < count; ++i) {
-    const Vec3& p = points[i];
-    positions.insert(positions.end(), {p.x, p.y, p.z});
-    facets.insert(facets.end(), {i, (i + 1) % count, (i + 2) % count});
-  }
-  return {positions, facets};
-}
-
 }  // namespace tact::tests

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "engine/base/vec3.h"
-#include "narrowphase/mesh/clustered_mesh.h"
 
 namespace tact::tests {
 
@@ -31,8 +30,5 @@ SmallestHeight smallest_height(std::span<const Vec3> a, std::span<const Vec3> b,
 // Is w at n not larger by more than `tolerance` (metres) than at any of 64 turns of n by each of 1e-2, 1e-3, ... 1e-7
 // radians? The turns are the same for the same n.
 bool is_local_minimum(std::span<const Vec3> a, std::span<const Vec3> b, Vec3 n, double tolerance);
-
-// A mesh that uses every one of `points` (at least one). Only its hull means anything.
-narrowphase::ClusteredMesh mesh_through(std::span<const Vec3> points);
 
 }  // namespace tact::tests

@@ -54,6 +54,7 @@ typedef enum tact_error {
   TACT_ERROR_BAD_RECORDING = 13,        /**< bytes that are no recording, or one that does not play */
   TACT_ERROR_WRONG_MOTION = 14,         /**< positions were set on a rigid body, or a pose on one that is not */
   TACT_ERROR_NOT_A_ROTATION = 15,       /**< the matrix of a pose is not orthonormal to 1e-9, or mirrors */
+  TACT_ERROR_INVALID_ARGUMENT = 16,     /**< an argument has no meaning, such as a negative margin */
   TACT_ERROR_INVALID_HANDLE = 100,      /**< the world was destroyed, or is none */
   TACT_ERROR_NULL_ARGUMENT = 101,       /**< a pointer is null that must not be */
   TACT_ERROR_WRONG_STRUCT_SIZE = 102,   /**< struct_size is not that of a version of this library */
@@ -86,7 +87,7 @@ typedef struct tact_body {
 typedef enum tact_accuracy { TACT_ACCURACY_HULLS = 0, TACT_ACCURACY_PAPER = 1, TACT_ACCURACY_EXACT = 2 } tact_accuracy;
 typedef enum tact_direction_policy { TACT_DIRECTION_CARRIED = 0, TACT_DIRECTION_SMALLEST = 1 } tact_direction_policy;
 typedef enum tact_surface { TACT_SURFACE_CLOSED = 0, TACT_SURFACE_SHEET = 1 } tact_surface;
-typedef enum tact_motion { TACT_MOTION_MOVING = 0, TACT_MOTION_FIXED = 1, TACT_MOTION_RIGID = 2 } tact_motion;
+typedef enum tact_motion { TACT_MOTION_DEFORMABLE = 0, TACT_MOTION_FIXED = 1, TACT_MOTION_RIGID = 2 } tact_motion;
 typedef enum tact_number_kind {
   TACT_FLOAT32 = 0,
   TACT_FLOAT64 = 1,
@@ -162,10 +163,10 @@ typedef struct tact_body_definition {
   bool self_contact;      /**< is the body held against itself, too? */
   uint32_t group;         /**< bodies of one group are not tested against each other; 0: in none */
 } tact_body_definition;
-#define TACT_BODY_DEFINITION_INIT                                                              \
-  {                                                                                            \
-    (uint32_t)sizeof(tact_body_definition), TACT_SURFACE_CLOSED, {NULL, 0, 24, TACT_FLOAT64},  \
-        {NULL, 0, 12, TACT_INT32}, TACT_MOTION_MOVING, 1u, 0xffffffffu, NULL, 0, 0.0, false, 0 \
+#define TACT_BODY_DEFINITION_INIT                                                                  \
+  {                                                                                                \
+    (uint32_t)sizeof(tact_body_definition), TACT_SURFACE_CLOSED, {NULL, 0, 24, TACT_FLOAT64},      \
+        {NULL, 0, 12, TACT_INT32}, TACT_MOTION_DEFORMABLE, 1u, 0xffffffffu, NULL, 0, 0.0, false, 0 \
   }
 
 /** New positions of one body. */
@@ -511,9 +512,9 @@ typedef enum tact_ray_hits { TACT_RAY_FIRST = 0, TACT_RAY_ANY = 1 } tact_ray_hit
 /** See tact::RayHit. */
 typedef struct tact_ray_hit {
   tact_body body;
-  int facet;         /**< negative: nothing was hit */
-  double time;       /**< from + time * (to - from) */
-  double weights[3]; /**< of the facet's corners there */
+  int facet;             /**< negative: nothing was hit */
+  double fraction;       /**< from + fraction * (to - from) */
+  double barycentric[3]; /**< of the facet's corners there */
 } tact_ray_hit;
 
 /** See tact::PointQuery. */
@@ -523,7 +524,7 @@ typedef struct tact_point_query {
   uint32_t layer;
   uint32_t mask;
 } tact_point_query;
-#define TACT_POINT_QUESTION_INIT \
+#define TACT_POINT_QUERY_INIT \
   { {0, 0, 0}, HUGE_VAL, 0xffffffffu, 0xffffffffu }
 
 /** See tact::ClosestPoint. */
@@ -531,7 +532,7 @@ typedef struct tact_closest_point {
   tact_body body;
   int facet;       /**< negative: nothing is as near */
   double distance; /**< metres */
-  double weights[3];
+  double barycentric[3];
 } tact_closest_point;
 
 /** See tact::BoxQuery. */
@@ -541,7 +542,7 @@ typedef struct tact_box_query {
   uint32_t layer;
   uint32_t mask;
 } tact_box_query;
-#define TACT_BOX_QUESTION_INIT TACT_RAY_INIT
+#define TACT_BOX_QUERY_INIT TACT_RAY_INIT
 
 /** A facet of a body. */
 typedef struct tact_facet_of_body {
@@ -550,23 +551,23 @@ typedef struct tact_facet_of_body {
 } tact_facet_of_body;
 
 /** `wanted` is a tact_ray_hits. */
-TACT_C_API tact_error tact_world_ray(tact_world world, const tact_ray* ray, int32_t wanted, tact_ray_hit* hit);
+TACT_C_API tact_error tact_world_cast_ray(tact_world world, const tact_ray* ray, int32_t wanted, tact_ray_hit* hit);
 /** `count` rays and hits, on all threads. */
-TACT_C_API tact_error tact_world_rays(tact_world world, const tact_ray* rays, size_t count, int32_t wanted,
-                                      tact_ray_hit* hits);
+TACT_C_API tact_error tact_world_cast_rays(tact_world world, const tact_ray* rays, size_t count, int32_t wanted,
+                                           tact_ray_hit* hits);
 /** These three write up to `capacity` answers, sorted, and how many there are. */
-TACT_C_API tact_error tact_world_all_hits(tact_world world, const tact_ray* ray, tact_ray_hit* hits, size_t capacity,
-                                          size_t* count);
+TACT_C_API tact_error tact_world_cast_ray_all(tact_world world, const tact_ray* ray, tact_ray_hit* hits,
+                                              size_t capacity, size_t* count);
 TACT_C_API tact_error tact_world_overlap_box(tact_world world, const tact_box_query* query, tact_facet_of_body* facets,
                                              size_t capacity, size_t* count);
-TACT_C_API tact_error tact_world_inside(tact_world world, const tact_point_query* query, tact_body* bodies,
-                                        size_t capacity, size_t* count);
+TACT_C_API tact_error tact_world_bodies_containing(tact_world world, const tact_point_query* query, tact_body* bodies,
+                                                   size_t capacity, size_t* count);
 /** `count` queries, on all threads. The answers follow each other: ends[i], one for each query, is where that to
  *  query i ends. Up to `capacity` are written; ends[count - 1] is how many there are. */
 TACT_C_API tact_error tact_world_overlap_boxes(tact_world world, const tact_box_query* queries, size_t count,
                                                tact_facet_of_body* facets, size_t capacity, size_t* ends);
-TACT_C_API tact_error tact_world_inside_each(tact_world world, const tact_point_query* queries, size_t count,
-                                             tact_body* bodies, size_t capacity, size_t* ends);
+TACT_C_API tact_error tact_world_bodies_containing_each(tact_world world, const tact_point_query* queries, size_t count,
+                                                        tact_body* bodies, size_t capacity, size_t* ends);
 TACT_C_API tact_error tact_world_closest_point(tact_world world, const tact_point_query* query,
                                                tact_closest_point* answer);
 TACT_C_API tact_error tact_world_closest_points(tact_world world, const tact_point_query* queries, size_t count,

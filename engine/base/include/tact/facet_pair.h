@@ -5,8 +5,7 @@
 
 namespace tact {
 
-/// Facet `a` of the first body and facet `b` of the second share at least one point. Facets count from 0 in the order
-/// in which the body was added.
+/// Two facets that share at least one point. Facets count from 0 in the order in which the body was added.
 struct FacetPair {
   int a = -1;  ///< facet of the first body
   int b = -1;  ///< facet of the second

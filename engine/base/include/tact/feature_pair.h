@@ -1,4 +1,4 @@
-// Which features of two surfaces are meant: of a contact point, or of an impact.
+// Which features of two surfaces a contact point or an impact is of.
 #pragma once
 
 namespace tact {

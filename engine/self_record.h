@@ -1,0 +1,28 @@
+// What is kept of a body that is held against itself, from step to step.
+#pragma once
+
+#include <tact/contact_point.h>
+#include <tact/facet_pair.h>
+
+#include <memory>
+#include <vector>
+
+#include "engine/patch_set.h"
+#include "narrowphase/crossing/self_crossing.h"
+
+namespace tact {
+
+/// Of the last step in which the body had moved.
+struct SelfRecord {
+  BodyId body;
+  std::vector<FacetPair> facet_pairs;  ///< sorted, a < b
+  std::vector<ContactPoint> points, last_points;
+  std::vector<narrowphase::ClusterPair> may_meet, may_contact;  ///< see narrowphase::SelfClusters
+  std::unique_ptr<narrowphase::SelfCrossing> crossing;          ///< made when facets meet for the first time
+  PatchMemory patches;
+  bool touching = false;  ///< see is_touching()
+};
+
+inline bool in_contact(const SelfRecord& record) { return !record.facet_pairs.empty() || !record.points.empty(); }
+
+}  // namespace tact

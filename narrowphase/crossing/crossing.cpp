@@ -1,0 +1,27 @@
+#include "narrowphase/crossing/crossing.h"
+
+namespace tact::narrowphase {
+
+void CrossedSurface::begin(const FeaturedMesh& of, SurfaceKind kind, double sign_of_exits, double unit) {
+  mesh = of;
+  surface = kind;
+  sign = sign_of_exits;
+  scale = unit;
+  exits.clear(mesh.mesh->source_vertex_count());
+  without_near_points.clear();
+}
+
+EdgeVertices CrossedSurface::source_ends(int edge) const {
+  const EdgeVertices ends = mesh.features->edge(edge);
+  return {mesh.mesh->source_vertex(ends[0]), mesh.mesh->source_vertex(ends[1])};
+}
+
+Vec3 CrossedSurface::exits_of(int edge) const {
+  Vec3 sum;
+  for (const int v : source_ends(edge)) {
+    if (const NearestExit* exit = exits.find(v)) sum = sum + exit->direction;
+  }
+  return sum;
+}
+
+}  // namespace tact::narrowphase

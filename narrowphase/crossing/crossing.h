@@ -1,0 +1,59 @@
+// What of two surfaces is past the other one, or what of a mesh is past itself.
+//
+// PairCrossing finds it for two bodies, SelfCrossing for one: by the edges that meet facets (edge_hits), the patches
+// and the vertices past the surface (cut), and the nearest exit of each vertex (nearest_exit, part_exit, spread_past).
+// Then crossing_points makes points of it, for both.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "narrowphase/crossing/crossing_sides.h"
+#include "narrowphase/crossing/cut.h"
+#include "narrowphase/crossing/nearest_exit.h"
+#include "narrowphase/crossing/vertex_table.h"
+
+namespace tact::narrowphase {
+
+/// Facets that stand along a direction to 3 degrees do not face it: rounding would choose between them.
+inline constexpr double kFaces = 0.05;
+/// What is nearer to its own mesh touches it: rounding would choose its side. Lengths are near 1.
+inline constexpr double kTouches = 1e-12;
+/// Beyond both meshes, whose lengths are at most 2.
+inline constexpr double kAnywhere = 16.0;
+
+/// A surface, and what of it is past the other one.
+struct CrossedSurface {
+  FeaturedMesh mesh;
+  SurfaceKind surface = SurfaceKind::closed;
+  double sign = -1.0;  // times the direction of an exit: the normal from a to b
+  double scale = 1.0;
+  Cut cut;
+  VertexTable<NearestExit> exits;                  // of vertices past the other surface
+  std::vector<std::uint64_t> without_near_points;  // a bit for each vertex, by the mesh's numbers; empty: none
+
+  void begin(const FeaturedMesh& of, SurfaceKind kind, double sign_of_exits, double unit);
+  ScaledMesh scaled() const { return {*mesh.mesh, *mesh.features, scale}; }
+  EdgeVertices source_ends(int edge) const;
+  /// The sum of the directions of the exits that an edge's ends have.
+  Vec3 exits_of(int edge) const;
+};
+
+/// Const calls may come from many threads.
+struct Crossing {
+  CrossedSurface surfaces[2];  // of one mesh with itself only the first
+  bool of_itself = false;
+  double within = 0.0;  // scaled; no exit is longer, nor the way between edges that have passed each other
+  // Of two bodies:
+  Vec3 direction;  // of the contact, unit, from a to b
+  // Of one mesh with itself:
+  double reach = 0.0;   // scaled
+  CrossingSides sides;  // of its edge hits; points of the last step that tell of a side allow ways longer than `within`
+
+  const CrossedSurface& a() const { return surfaces[0]; }
+  const CrossedSurface& b() const { return surfaces[of_itself ? 0 : 1]; }
+  /// Of one mesh with itself: the side of `hit`, which is one of its hits.
+  Vec3 side_of(const EdgeHit& hit) const { return sides.sides()[&hit - a().cut.hits().data()]; }
+};
+
+}  // namespace tact::narrowphase

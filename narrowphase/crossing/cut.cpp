@@ -1,0 +1,163 @@
+#include "narrowphase/crossing/cut.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "narrowphase/queries/mesh_queries.h"
+
+namespace tact::narrowphase {
+
+void Cut::begin(const FeaturedMesh& own, std::span<const FacetPair> pairs, Which which) {
+  clear(own);
+  // A facet comes again soon; to take it again changes nothing.
+  std::array<int, 64> recent;
+  recent.fill(-1);
+  const auto take = [&](int source) {
+    int& known = recent[static_cast<std::size_t>(source) % recent.size()];
+    if (source != known) take_facet(known = source);
+  };
+  for (const FacetPair& pair : pairs) {
+    if (which != Which::b) take(pair.a);
+    if (which != Which::a) take(pair.b);
+  }
+}
+
+void Cut::take_facet(int source_facet) {
+  const ClusteredMesh& mesh = *own_.mesh;
+  const Corners& corners = own_.features->corners(mesh.facet_of_source(source_facet));
+  const int first = mesh.source_vertex(corners[0]);
+  for (const int v : corners) {
+    const int source_vertex = mesh.source_vertex(v);
+    if (state_[source_vertex] == kUnknown) {
+      touch(source_vertex);
+      state_[source_vertex] = kRing;
+      ring_.push_back(v);
+    }
+    join(source_vertex, first);
+  }
+}
+
+void Cut::order_hits() {
+  for (std::size_t i = hits_.size(); i-- > 0;) first_hit_[hits_[i].vertices[0]] = static_cast<int>(i);
+}
+
+std::span<const EdgeHit> Cut::hits_of(const EdgeVertices& source_vertices) const {
+  const int first = first_hit_[source_vertices[0]];
+  if (first < 0) return {};
+  const std::uint64_t key = EdgeHit{source_vertices}.key();
+  auto begin = static_cast<std::size_t>(first);
+  while (begin < hits_.size() && hits_[begin].key() < key) ++begin;
+  std::size_t end = begin;
+  while (end < hits_.size() && hits_[end].key() == key) ++end;
+  return std::span(hits_).subspan(begin, end - begin);
+}
+
+bool Cut::is_cut_between(int v, int w) const {
+  const auto [first, second] = std::minmax({own_.mesh->source_vertex(v), own_.mesh->source_vertex(w)});
+  return is_cut({first, second});
+}
+
+void Cut::touch(int source_vertex) {
+  touched_.push_back(source_vertex);
+  parent_[source_vertex] = source_vertex;
+}
+
+int Cut::root_of(int source_vertex) const {
+  while (parent_[source_vertex] != source_vertex) source_vertex = parent_[source_vertex];
+  return source_vertex;
+}
+
+// The root of a set is its least number; the way there is halved.
+void Cut::join(int source_vertex, int other_source_vertex) {
+  const auto root = [&](int v) {
+    for (; parent_[v] != v; v = parent_[v]) parent_[v] = parent_[parent_[v]];
+    return v;
+  };
+  const auto [first, second] = std::minmax({root(source_vertex), root(other_source_vertex)});
+  parent_[second] = first;
+}
+
+void Cut::number_patches() {
+  patch_count_ = 0;
+  for (const int v : touched_) {
+    if (parent_[v] == v) patch_[v] = patch_count_++;
+  }
+}
+
+int Cut::patch_of(int source_vertex) const { return parent_[source_vertex] < 0 ? -1 : patch_[root_of(source_vertex)]; }
+
+void Cut::clear(const FeaturedMesh& own) {
+  for (const int v : touched_) {
+    state_[v] = kUnknown;
+    parent_[v] = first_hit_[v] = -1;
+  }
+  const auto count = static_cast<std::size_t>(own.mesh->source_vertex_count());
+  if (state_.size() < count) {
+    state_.resize(count, kUnknown);
+    parent_.resize(count, -1);
+    patch_.resize(count, -1);
+    first_hit_.resize(count, -1);
+  }
+  own_ = own;
+  touched_.clear();
+  ring_.clear();
+  past_.clear();
+  patch_count_ = 0;
+}
+
+void Cut::find_inside(const ClusteredMesh& other) {
+  const ClusteredMesh& mesh = *own_.mesh;
+  for (const int v : ring_) {
+    if (state(v) != kRing) continue;
+    if (contains(other, mesh.position(v))) {
+      flood_inside(v);
+    } else {
+      flood_outside(v);
+    }
+  }
+  // Parts of the mesh of which no edge is cut.
+  const auto parts = own_.features->one_of_each_part();
+  if (parts.size() == 1 && !ring_.empty()) return;
+  for (const int v : parts) {
+    if (state(v) != kUnknown || !base::contains(other.box(), mesh.position(v))) continue;
+    if (contains(other, mesh.position(v))) flood_inside(v);
+  }
+}
+
+void Cut::add_past(int vertex, int from_source_vertex) {
+  const int source = own_.mesh->source_vertex(vertex);
+  if (state_[source] == kUnknown) touch(source);
+  state_[source] = kPast;
+  past_.push_back(vertex);
+  if (from_source_vertex >= 0) join(source, from_source_vertex);
+}
+
+void Cut::flood_inside(int vertex) {
+  const std::size_t first = past_.size();
+  add_past(vertex, -1);
+  for (std::size_t i = first; i < past_.size(); ++i) {
+    const int from = past_[i];
+    for (const int to : own_.features->neighbors(from)) {
+      const State known = state(to);
+      if (known != kUnknown && known != kRing) continue;
+      // An edge that is cut has both ends in the ring.
+      if (known == kRing && is_cut_between(from, to)) continue;
+      add_past(to, own_.mesh->source_vertex(from));
+    }
+  }
+}
+
+void Cut::flood_outside(int vertex) {
+  state(vertex) = kOutside;
+  for (next_.assign(1, vertex); !next_.empty();) {
+    const int from = next_.back();
+    next_.pop_back();
+    for (const int to : own_.features->neighbors(from)) {
+      if (state(to) != kRing || is_cut_between(from, to)) continue;
+      state(to) = kOutside;
+      next_.push_back(to);
+    }
+  }
+}
+
+}  // namespace tact::narrowphase

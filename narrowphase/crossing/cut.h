@@ -1,0 +1,82 @@
+// How one surface is cut by another one: its edges that meet facets, the vertices past the other surface, and the
+// patches that both make up.
+#pragma once
+
+#include <tact/facet_pair.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "narrowphase/crossing/edge_hits.h"
+#include "narrowphase/mesh/features.h"
+
+namespace tact::narrowphase {
+
+/// Past a closed surface is what is inside it; a sheet has two sides, and what is past it is on the wrong one.
+enum class SurfaceKind { closed, sheet };
+
+/// A mesh as another one, or itself, cuts it. Buffers are reused.
+class Cut {
+ public:
+  /// Which facets of each pair are of the mesh.
+  enum class Which { a, b, both };
+
+  /// Takes the facets that meet, by the caller's numbers. Its edges that meet facets are then to be put into
+  /// edge_hits().
+  void begin(const FeaturedMesh& own, std::span<const FacetPair> pairs, Which which);
+  std::vector<EdgeHit>& edge_hits() { return hits_; }
+  /// After edge_hits() are there: finds where those of a vertex begin.
+  void order_hits();
+  /// After it: finds the vertices that are inside the closed mesh `other` or on its surface. Exact: one vertex of those
+  /// that are connected by edges is tested, and edges that meet no facet lead to the others. What is looked at is what
+  /// is inside, and the corners of facets that meet.
+  void find_inside(const ClusteredMesh& other);
+  /// Adds a vertex, by the mesh's number, that is beyond a surface without an inside, and its number of the caller to
+  /// the patch of another one, if that is not negative.
+  void add_past(int vertex, int from_source_vertex);
+
+  /// Sorted, each once.
+  std::span<const EdgeHit> hits() const { return hits_; }
+  std::span<const EdgeHit> hits_of(const EdgeVertices& source_vertices) const;
+  /// Does an edge meet a facet?
+  bool is_cut(const EdgeVertices& source_vertices) const { return !hits_of(source_vertices).empty(); }
+  /// The same of the edge between two vertices, by the mesh's numbers.
+  bool is_cut_between(int v, int w) const;
+  /// Is a vertex, by the caller's number, past the other surface?
+  bool is_past(int source_vertex) const { return state_[source_vertex] == kPast; }
+  /// What is past it, by the mesh's numbers: connected vertices stand together.
+  std::span<const int> past() const { return past_; }
+
+  /// Corners of facets that meet are in one patch if a facet joins them, and with them what is past the other surface
+  /// and connected to them by edges. Counted from 0; negative for other vertices. After number_patches().
+  void number_patches();
+  int patch_of(int source_vertex) const;
+  int patch_count() const { return patch_count_; }
+
+ private:
+  enum State : std::uint8_t { kUnknown, kRing, kOutside, kPast };
+
+  void clear(const FeaturedMesh& own);
+  void take_facet(int source_facet);
+  State& state(int vertex) { return state_[own_.mesh->source_vertex(vertex)]; }
+  void touch(int source_vertex);
+  void join(int source_vertex, int other_source_vertex);
+  int root_of(int source_vertex) const;
+  void flood_inside(int vertex);
+  void flood_outside(int vertex);
+
+  FeaturedMesh own_;
+  std::vector<EdgeHit> hits_;
+  std::vector<int> ring_;  // the corners of the facets that meet, by the mesh's numbers
+  std::vector<int> past_, next_;
+  std::vector<State> state_;    // by the caller's number, as the next two
+  std::vector<int> parent_;     // of sets that are patches; -1: in none
+  std::vector<int> patch_;      // of roots
+  std::vector<int> first_hit_;  // of the edges that have the vertex as their first one; -1: none
+  std::vector<int> touched_;    // vertices of which these are set
+  int patch_count_ = 0;
+};
+
+}  // namespace tact::narrowphase

@@ -1,0 +1,186 @@
+#include "narrowphase/crossing/pair_crossing.h"
+
+#include <algorithm>
+
+#include "narrowphase/queries/mesh_queries.h"
+
+namespace tact::narrowphase {
+
+namespace {
+
+// A vertex keeps to facets within 60 degrees of its last normal: a wall at a right angle to them stays another side
+// however the body turns in a step.
+constexpr double kSameSide = 0.5;
+// The facets through which a part comes in agree on a direction if their mean normal is so long: those of a cap of 37
+// degrees do, two walls at a right angle do not.
+constexpr double kAgree = 0.8;
+// How far beyond the hulls' depth an exit may seem to be by rounding; lengths are near 1.
+constexpr double kDepthRounding = 1e-12;
+// Less than every cosine: each facet faces a direction by so much.
+constexpr double kFacesAnything = -2.0;
+
+void set_without_near_points(CrossedSurface& own) {
+  own.without_near_points.assign(static_cast<std::size_t>(own.mesh.mesh->vertex_count()) / 64 + 1, 0);
+  for (const int source : own.exits.vertices()) {
+    const auto vertex = static_cast<std::size_t>(own.mesh.features->vertex_of_source(source));
+    own.without_near_points[vertex / 64] |= std::uint64_t{1} << vertex % 64;
+  }
+}
+
+}  // namespace
+
+bool is_contained(const FeaturedMesh& inner, const ClusteredMesh& outer) {
+  const Box &in = inner.mesh->box(), &out = outer.box();
+  if (in.empty() || !contains(out, in.lower) || !contains(out, in.upper)) return false;
+  return std::ranges::all_of(inner.features->one_of_each_part(),
+                             [&](int v) { return contains(outer, inner.mesh->position(v)); });
+}
+
+const Crossing& PairCrossing::find(const PairCrossingInput& input) {
+  begin(input);
+  auto& [a, b] = crossing_.surfaces;
+  a.cut.begin(a.mesh, input.facet_pairs, Cut::Which::a);
+  b.cut.begin(b.mesh, input.facet_pairs, Cut::Which::b);
+  edge_hits_.run(a.mesh, b.mesh, input.facet_pairs, a.cut.edge_hits(), b.cut.edge_hits());
+  a.cut.order_hits();
+  b.cut.order_hits();
+  // Inside a closed mesh first: the exits from it tell on which side of a sheet it belongs.
+  const bool into_a_first = a.surface == SurfaceKind::closed && b.surface == SurfaceKind::sheet;
+  find_past(into_a_first ? b : a, into_a_first ? a : b);
+  find_past(into_a_first ? a : b, into_a_first ? b : a);
+  set_without_near_points(a);
+  set_without_near_points(b);
+  return crossing_;
+}
+
+void PairCrossing::begin(const PairCrossingInput& input) {
+  const double scale = unit_scale_of(merged(input.a.mesh->box(), input.b.mesh->box()));
+  crossing_.within = scale * input.depth + kDepthRounding;
+  crossing_.direction = input.direction;
+  crossing_.surfaces[0].begin(input.a, input.surface_a, -1.0, scale);
+  crossing_.surfaces[1].begin(input.b, input.surface_b, 1.0, scale);
+  for (const bool of_b : {false, true}) {
+    carried_[of_b].clear((of_b ? input.b : input.a).mesh->source_vertex_count());
+    for (const CarriedNormal& one : of_b ? input.carried_b : input.carried_a) carried_[of_b].add(one.vertex, one);
+  }
+}
+
+void PairCrossing::find_past(CrossedSurface& own, const CrossedSurface& other) {
+  if (other.surface == SurfaceKind::closed) {
+    find_exits(own, other);
+  } else {
+    find_exits_through(own, other);
+  }
+}
+
+// In the order of the caller's numbers, so that sums do not depend on how facets are grouped.
+void PairCrossing::find_patch_directions(CrossedSurface& own, const CrossedSurface& other) {
+  own.cut.number_patches();
+  patches_.assign(own.cut.patch_count(), {});
+  for (const CarriedNormal& one : carried(own).values()) {
+    const int patch = own.cut.patch_of(one.vertex);
+    if (patch < 0) continue;
+    Vec3& sum = one.gap < 0.0 ? patches_[patch].of_past : patches_[patch].of_others;
+    sum = sum + own.sign * one.normal;
+  }
+  for (const EdgeHit& hit : own.cut.hits()) add_entry(own, other, hit, patches_[own.cut.patch_of(hit.vertices[0])]);
+  for (PatchDirection& one : patches_) {
+    const bool agree = one.entries > 0 && norm(one.entered) > kAgree * one.entries;
+    one.facing = one.of_past != Vec3{}     ? one.of_past
+                 : one.of_others != Vec3{} ? one.of_others
+                 : agree                   ? one.entered
+                                           : own.sign * crossing_.direction;
+    one.facing = normalized(one.facing);
+  }
+}
+
+void PairCrossing::add_entry(const CrossedSurface& own, const CrossedSurface& other, const EdgeHit& hit,
+                             PatchDirection& patch) {
+  const int facet = other.mesh.mesh->facet_of_source(hit.facet);
+  if (other.surface == SurfaceKind::closed) {
+    patch.entered = patch.entered + other.scaled().unit_normal(facet);
+    ++patch.entries;
+  } else if (own.surface == SurfaceKind::closed) {
+    for (const int corner : other.mesh.features->corners(facet)) {
+      const int source = other.mesh.mesh->source_vertex(corner);
+      const NearestExit* exit = other.exits.find(source);
+      const CarriedNormal* last = carried(other).find(source);
+      if (exit == nullptr || (last != nullptr && last->gap < 0.0)) continue;
+      patch.entered = patch.entered - exit->direction;
+      ++patch.entries;
+    }
+  }
+}
+
+Vec3 PairCrossing::facing_of_patch(const CrossedSurface& own, int source_vertex) const {
+  const int patch = own.cut.patch_of(source_vertex);
+  return patch < 0 ? own.sign * crossing_.direction : patches_[patch].facing;
+}
+
+std::optional<Vec3> PairCrossing::facing_of_vertex(const CrossedSurface& own, int source_vertex,
+                                                   SurfaceKind other) const {
+  const CarriedNormal* last = carried(own).find(source_vertex);
+  if (last == nullptr) return {};
+  const Vec3 facing = own.sign * last->normal;
+  if (other == SurfaceKind::sheet) return facing;
+  if (last->gap >= 0.0 && dot(facing, facing_of_patch(own, source_vertex)) < 0.0) return {};
+  return facing;
+}
+
+void PairCrossing::find_exits(CrossedSurface& own, const CrossedSurface& other) {
+  own.cut.find_inside(*other.mesh.mesh);
+  if (own.cut.past().empty()) return;
+  find_patch_directions(own, other);
+  Box around;
+  for (const int vertex : own.cut.past()) around = extended(around, own.mesh.mesh->position(vertex));
+  exits_.begin(other.scaled(), around, crossing_.within);
+  int hint = -1;
+  for (const int vertex : own.cut.past()) {
+    const auto exit = exit_inside(own, other, vertex, hint);
+    if (!exit) continue;
+    hint = exit->facet;
+    own.exits.add(own.mesh.mesh->source_vertex(vertex), *exit);
+  }
+}
+
+std::optional<NearestExit> PairCrossing::exit_inside(const CrossedSurface& own, const CrossedSurface& other, int vertex,
+                                                     int hint) {
+  const int source = own.mesh.mesh->source_vertex(vertex);
+  const Vec3 v = own.scaled().position(vertex), facing = facing_of_patch(own, source);
+  const double within = crossing_.within;
+  std::optional<NearestExit> exit;
+  if (const auto last = facing_of_vertex(own, source, SurfaceKind::closed))
+    exit = exits_.nearest_exit(v, *last, kSameSide, within, hint);
+  if (!exit) exit = exits_.nearest_exit(v, facing, kFaces, within, hint);
+  if (!exit) exit = exit_along(other.scaled(), v, own.sign * crossing_.direction, within);
+  // A surface with holes may not be met.
+  if (!exit) exit = exits_.nearest_exit(v, facing, kFacesAnything, kAnywhere, hint);
+  return exit;
+}
+
+void PairCrossing::find_exits_through(CrossedSurface& own, const CrossedSurface& sheet) {
+  find_patch_directions(own, sheet);
+  const ScaledMesh surface = sheet.scaled(), from = own.scaled();
+  exits_.begin(surface);
+  through_.clear(own.mesh.mesh->source_vertex_count());
+  spread_.begin(own, surface, 0.0, [&](const EdgeHit& hit, std::size_t end) {
+    const int v = hit.vertices[end];
+    const auto last = facing_of_vertex(own, v, SurfaceKind::sheet);
+    return last ? *last : facing_of_patch(own, v);
+  });
+  spread_.run(own, surface, [&](const ReachedVertex& one) -> std::optional<NearestExit> {
+    // Found once: a vertex that is not beyond the sheet is reached again and again.
+    const auto* through = through_.find(one.source_vertex);
+    if (through == nullptr) {
+      const int hint = surface.mesh.facet_of_source(one.facet);
+      const auto nearest = exits_.nearest_exit_through(from.position(one.vertex), crossing_.within, hint);
+      through = through_.add(one.source_vertex, nearest);
+    }
+    const CarriedNormal* last = carried(own).find(one.source_vertex);
+    const Vec3 facing = last != nullptr && last->gap > 0.0 ? own.sign * last->normal : one.facing;
+    if (!*through || !(*through)->is_beyond(facing)) return {};
+    return (*through)->exit;
+  });
+}
+
+}  // namespace tact::narrowphase

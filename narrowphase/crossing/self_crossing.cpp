@@ -1,0 +1,52 @@
+#include "narrowphase/crossing/self_crossing.h"
+
+#include <algorithm>
+
+namespace tact::narrowphase {
+
+const Crossing& SelfCrossing::find(const SelfCrossingInput& input) {
+  CrossedSurface& own = crossing_.surfaces[0];
+  own.begin(input.mesh, input.surface, -1.0, unit_scale_of(input.mesh.mesh->box()));
+  crossing_.of_itself = true;
+  crossing_.reach = own.scale * input.reach;
+  if (exits_ == nullptr) exits_ = std::make_unique<PartExitFinder>(*input.mesh.mesh);
+  own.cut.begin(own.mesh, input.facet_pairs, Cut::Which::both);
+  edge_hits_.run(own.mesh, own.mesh, input.facet_pairs, own.cut.edge_hits(), own.cut.edge_hits());
+  own.cut.order_hits();
+  crossing_.within = longest_exit();
+  const ScaledMesh mesh = own.scaled();
+  crossing_.sides.find(mesh, own.surface, input.facet_pairs, input.last, own.cut.hits());
+  spread_.begin(own, mesh, kFaces, [&](const EdgeHit& hit, std::size_t) { return crossing_.side_of(hit); });
+  spread_.run(own, mesh, [&](const ReachedVertex& one) { return exit_of(one); });
+  return crossing_;
+}
+
+double SelfCrossing::longest_exit() const {
+  const CrossedSurface& own = crossing_.a();
+  if (own.surface == SurfaceKind::closed) return kAnywhere;
+  const ScaledMesh mesh = own.scaled();
+  double longest = 0.0;
+  for (const EdgeHit& hit : own.cut.hits()) {
+    const EdgeVertices ends = mesh.features.edge(hit.edge);
+    longest = std::max(longest, norm(mesh.position(ends[1]) - mesh.position(ends[0])));
+  }
+  return longest;
+}
+
+std::optional<NearestExit> SelfCrossing::exit_of(const ReachedVertex& reached) {
+  const ScaledMesh mesh = crossing_.a().scaled();
+  const auto exit = exits_->find(mesh, reached.vertex, mesh.mesh.facet_of_source(reached.facet));
+  if (!exit || exit->distance <= kTouches) return {};
+  if (exits_->is_beside(mesh.mesh, reached.vertex, *exit)) return {};
+  const double height = -dot(exits_->normal_at(mesh, *exit), exit->direction);
+  const double along = dot(mesh.unit_normal(exit->facet), reached.facing);
+  if (!(along > 0.0 ? height < 0.0 : along < 0.0 && height > 0.0)) return {};
+  const auto corners = source_corners(mesh.mesh, mesh.mesh.source_facet(exit->facet));
+  const double known = dot(crossing_.sides.last_points().side({&reached.source_vertex, 1}, corners), exit->direction);
+  if (known < 0.0 || (known == 0.0 && exit->distance > crossing_.within)) return {};
+  const Vec3 v = mesh.position(reached.vertex), place = v + exit->distance * exit->direction;
+  if (too_near_along(mesh, crossing_.reach, {{&reached.vertex, 1}, v}, {exit->place.used(), place}, ways_)) return {};
+  return exit;
+}
+
+}  // namespace tact::narrowphase

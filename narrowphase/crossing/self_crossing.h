@@ -1,0 +1,54 @@
+// Which vertices of a mesh are past a part of it, and their exits.
+//
+// A vertex is past a part if it is the end of an edge that meets a facet, and not on the side of crossing_sides.h,
+// decided exactly; or if it is connected to such a vertex by an edge that meets nothing, and on the same side of the
+// same part. The part is what is connected to that facet, or to the one with the exit of the vertex next to it, within
+// the ball around the vertex that just reaches that facet (PartExitFinder): so a layer behind it is another part. The
+// exit is the nearest place of the part. A vertex has none if the place is on the border of the mesh or on a facet that
+// has the vertex, if points of the last step between the vertex and that place tell of the other side, or if place and
+// vertex are too near along the surface to have a contact. Of several parts the one counts that is reached by the
+// fewest edges, and of these the nearest.
+//
+// A sheet has no inside that would end what is past it. So an exit through one is no farther than the longest edge that
+// meets a facet is long; but farther where points of the last step between the vertex and the place tell of this side.
+// The same holds of edges.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "narrowphase/crossing/crossing.h"
+#include "narrowphase/crossing/part_exit.h"
+#include "narrowphase/crossing/spread_past.h"
+#include "narrowphase/distance/surface_distance.h"
+
+namespace tact::narrowphase {
+
+/// A mesh that meets itself, in the words of the caller.
+struct SelfCrossingInput {
+  FeaturedMesh mesh;
+  SurfaceKind surface = SurfaceKind::sheet;
+  double reach = 0.0;  // metres; zero: only what crosses has points
+  std::span<const FacetPair> facet_pairs;
+  std::span<const FeaturePoint> last;  // points of the last step
+};
+
+/// Of one mesh: what is kept of it depends on its facets alone. Buffers are reused.
+class SelfCrossing {
+ public:
+  /// What `input` refers to stays as long as the crossing is used: until the next call.
+  const Crossing& find(const SelfCrossingInput& input);
+
+ private:
+  double longest_exit() const;
+  std::optional<NearestExit> exit_of(const ReachedVertex& reached);
+
+  Crossing crossing_;
+  std::unique_ptr<PartExitFinder> exits_;
+  EdgeHitSearch edge_hits_;
+  SpreadPast spread_;
+  SurfaceWays ways_;
+};
+
+}  // namespace tact::narrowphase
