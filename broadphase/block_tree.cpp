@@ -80,7 +80,10 @@ Frame central_frame(std::span<const Box> boxes, std::span<const std::uint32_t> i
     for (std::size_t i = 0; i < keys.size(); ++i)
       keys[i] = boxes[indices[i * indices.size() / keys.size()]].lower[axis];
     std::sort(keys.begin(), keys.end());
-    const double grid = std::exp2(std::ceil(std::log2(keys[48] - keys[16] + std::numeric_limits<double>::min())));
+    const double spread = keys[48] - keys[16] + std::numeric_limits<double>::min();
+    int exponent = 0;
+    const bool is_power = std::frexp(spread, &exponent) == 0.5;
+    const double grid = std::ldexp(1.0, is_power ? exponent - 1 : exponent);
     const double origin = std::round(keys[32] / grid) * grid;
     frame.origin[axis] = std::isfinite(origin) ? origin : 0.0;
   }

@@ -299,12 +299,14 @@ void PatchFinder::span(const PatchInput& input, Patch& patch, double scale) {
   double farthest_out = -1.0;
   for (std::size_t i = 0; i < patch.points.size(); ++i) {
     const double above = patch.depth + input.points[patch.points[i]].gap;
-    const double out = std::hypot(flat_[i].x, flat_[i].y);
+    const double out = narrowphase::length_of({flat_[i].x, flat_[i].y, 0.0});
     if (scale * above <= kSpansNothing && out > farthest_out) chosen[0] = i, farthest_out = out;
   }
   const PlanePoint p = flat_[chosen[0]];
   std::size_t count = 1;
-  const auto [second, length] = farthest([&](PlanePoint r) { return std::hypot(r.x - p.x, r.y - p.y); });
+  const auto [second, length] = farthest([&](PlanePoint r) {
+    return narrowphase::length_of({r.x - p.x, r.y - p.y, 0.0});
+  });
   if (length > kSpansNothing) {
     chosen[count++] = second;
     const PlanePoint q = flat_[second];

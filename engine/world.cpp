@@ -146,6 +146,7 @@ BodyId World::add_body(const BodyDefinition& definition) {
 }
 
 void World::remove_body(BodyId body) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.bodies.remove(body);
   i.observe([&](WorldObserver& observer) { observer.body_removed(body); });
@@ -195,18 +196,21 @@ void World::set_excluded(BodyId a, BodyId b, bool excluded) {
 }
 
 void World::set_motion(BodyId body, Motion motion) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.bodies.set_motion(body, motion);
   i.observe([&](WorldObserver& observer) { observer.motion_set(body, motion); });
 }
 
 void World::set_margin(BodyId body, double margin) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.bodies.set_margin(body, margin);
   i.observe([&](WorldObserver& observer) { observer.margin_set(body, margin); });
 }
 
 void World::set_self_contact(BodyId body, bool wanted) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.bodies.set_self_contact(body, wanted);
   i.observe([&](WorldObserver& observer) { observer.self_contact_set(body, wanted); });

@@ -11,7 +11,9 @@
 
 #include "bench/rivals/near_points.h"
 #include "broadphase/sweep_and_prune.h"
-#include "narrowphase/contact_points/nearest.h"
+#include "narrowphase/distance/edge_edge.h"
+#include "narrowphase/distance/facet_border.h"
+#include "narrowphase/distance/vertex_facet.h"
 #include "narrowphase/mesh/features.h"
 #include "narrowphase/mesh/refit.h"
 

@@ -207,6 +207,7 @@ class Drawing {
   void draw_disk(const ZoneDisk& disk, const Vector3d& n) {
     if (disk.radius < 0.0) return;
     const Vector3d u = disk.radius * n.unitOrthogonal(), v = n.cross(u);
+    // Drawn alone: no answer depends on the last digits of cosines, which differ between C libraries.
     const auto rim = [&](int side) -> Vector3d {
       const double angle = 2.0 * std::numbers::pi * side / kCircleSides;
       return disk.center + std::cos(angle) * u + std::sin(angle) * v;

@@ -4,8 +4,10 @@
 #include <bit>
 #include <utility>
 
-#include "narrowphase/contact_points/facet_border.h"
 #include "narrowphase/crossing/crossing_points.h"
+#include "narrowphase/distance/edge_edge.h"
+#include "narrowphase/distance/facet_border.h"
+#include "narrowphase/distance/vertex_facet.h"
 
 namespace tact::narrowphase {
 

@@ -6,8 +6,8 @@
 
 #include "narrowphase/contact_points/contact_points.h"
 #include "narrowphase/contact_points/open_features.h"
-#include "narrowphase/contact_points/surface_distance.h"
 #include "narrowphase/contact_points/waiting_edges.h"
+#include "narrowphase/distance/surface_distance.h"
 
 namespace tact::narrowphase {
 

@@ -1,7 +1,7 @@
 // A mesh in a unit of length in which distances neither vanish nor overflow.
 #pragma once
 
-#include "narrowphase/contact_points/nearest.h"
+#include "narrowphase/distance/nearest.h"
 #include "narrowphase/mesh/features.h"
 #include "narrowphase/numeric/unit_scale.h"
 #include "narrowphase/pairs/box_reach.h"

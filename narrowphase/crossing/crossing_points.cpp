@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "narrowphase/distance/edge_edge.h"
 #include "narrowphase/queries/mesh_queries.h"
 
 namespace tact::narrowphase {
@@ -105,8 +106,8 @@ bool are_of_two_parts(const Crossing& c, int edge_a, int edge_b, const Nearest& 
 
 std::optional<FeaturePoint> point_of_passed_edges(const Crossing& c, int edge_a, int edge_b, SurfaceWays& ways) {
   const ScaledMesh a = c.a().scaled(), b = c.b().scaled();
-  const auto nearest =
-      crossing_between_edges(a.ends(edge_a), a.beside(edge_a), b.ends(edge_b), b.beside(edge_b), farthest_edges(c));
+  const auto nearest = nearest_between_edges(a.ends(edge_a), a.beside(edge_a), b.ends(edge_b), b.beside(edge_b),
+                                             farthest_edges(c), EdgeSide::passed);
   if (!nearest || dot(nearest->normal, facing_of_edges(c, edge_a, edge_b)) <= kFaces) return {};
   if (c.of_itself && !are_of_two_parts(c, edge_a, edge_b, *nearest, ways)) return {};
   return point_of_edges(*nearest, a, edge_a, b, edge_b, negative(nearest->distance / a.scale));

@@ -27,10 +27,10 @@
 #include <utility>
 #include <vector>
 
-#include "narrowphase/contact_points/surface_distance.h"
 #include "narrowphase/contact_points/waiting_edges.h"
 #include "narrowphase/crossing/crossing.h"
 #include "narrowphase/crossing/edge_through.h"
+#include "narrowphase/distance/surface_distance.h"
 
 namespace tact::narrowphase {
 

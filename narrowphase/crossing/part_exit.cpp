@@ -1,9 +1,9 @@
 #include "narrowphase/crossing/part_exit.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "narrowphase/numeric/angle.h"
 
 namespace tact::narrowphase {
 
@@ -11,19 +11,6 @@ namespace {
 
 // Facets with a common edge may be as far from a vertex as each other, but for some roundings; lengths are near 1.
 constexpr double kRounding = 1e-13;
-
-// To a few roundings, the same on every processor, which atan2() is not.
-double angle_between(Vec3 p, Vec3 q) {
-  const double sine = norm(cross(p, q)), cosine = dot(p, q), length = std::sqrt(sine * sine + cosine * cosine);
-  if (length == 0.0) return 0.0;
-  double tangent = sine / (std::abs(cosine) + length);  // of half the acute angle
-  for (int halving = 0; halving < 3; ++halving) tangent /= 1.0 + std::sqrt(1.0 + tangent * tangent);
-  // The series of the inverse tangent: below tan(pi / 32) its ninth term is less than a rounding.
-  double sum = 0.0;
-  for (int odd = 15; odd > 0; odd -= 2) sum = 1.0 / odd - tangent * tangent * sum;
-  const double acute = 16.0 * tangent * sum;
-  return cosine < 0.0 ? std::numbers::pi - acute : acute;
-}
 
 bool has_place(const Corners& corners, const PlaceOnFeature& place) {
   return std::ranges::all_of(place.used(), [&](int w) { return std::ranges::find(corners, w) != corners.end(); });

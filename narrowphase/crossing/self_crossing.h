@@ -18,10 +18,10 @@
 #include <optional>
 #include <span>
 
-#include "narrowphase/contact_points/surface_distance.h"
 #include "narrowphase/crossing/crossing.h"
 #include "narrowphase/crossing/part_exit.h"
 #include "narrowphase/crossing/spread_past.h"
+#include "narrowphase/distance/surface_distance.h"
 
 namespace tact::narrowphase {
 

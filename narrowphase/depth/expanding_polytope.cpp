@@ -36,7 +36,7 @@ bool collinear(Vec3 p, Vec3 q, Vec3 r) {
 // The unit vector along e × f, if that can be told.
 std::optional<Vec3> normal_across(const DoubleDoubleVec3& e, const DoubleDoubleVec3& f) {
   const Vec3 n = double_double_cross(e, f);
-  if (!(norm(n) > kSmallestSine * norm(e.head) * norm(f.head))) return std::nullopt;
+  if (!(norm(n) > kSmallestSine * norm(heads(e)) * norm(heads(f)))) return std::nullopt;
   return unit_vector(n);
 }
 
@@ -128,7 +128,9 @@ class PolytopeExpansion {
     query_seed(across.u);
     query_seed(across.v);
     const auto distance = [&](Vec3 x) {
-      return collinear(p, q, x) ? 0.0 : norm(double_double_cross(double_double_difference(x, p), {along, {}}));
+      return collinear(p, q, x)
+                 ? 0.0
+                 : norm(double_double_cross(double_double_difference(x, p), {{along.x}, {along.y}, {along.z}}));
     };
     const auto r = best_seed(distance);
     const Vec3 preferred_across = preferred_ - dot(preferred_, along) * along;

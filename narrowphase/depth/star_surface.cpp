@@ -91,7 +91,7 @@ bool StarSurface::sharpen(int face) {
   const DoubleDoubleVec3 side = double_double_difference(vertices_[f.corner[1]].point, p);
   const DoubleDoubleVec3 other = double_double_difference(vertices_[f.corner[2]].point, p);
   const Vec3 n = double_double_cross(side, other);
-  if (!(norm(n) > kSmallestSine * norm(side.head) * norm(other.head))) return false;
+  if (!(norm(n) > kSmallestSine * norm(heads(side)) * norm(heads(other)))) return false;
   f.normal = unit_vector(n);
   f.distance = dot(f.normal, p);
   f.error = kDistanceRoundings * kUnitRoundoff * sum_of_sizes(p);

@@ -19,7 +19,7 @@ constexpr double kSameFace = 1e-13;      // between unit normals
 // The tangent along which the height of a polygon's only corner falls fastest; any if the projection is the corner.
 Vec3 away_from_corner(const FacePolygon& polygon) {
   const Point2 c = polygon.corner[0];
-  const double distance = std::hypot(c.x, c.y);
+  const double distance = length_of(c);
   return distance > 0.0 ? (-c.x / distance) * polygon.u - (c.y / distance) * polygon.v : polygon.u;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "narrowphase/numeric/double_double.h"
 #include "narrowphase/numeric/frame.h"
 
 namespace tact::narrowphase {
@@ -155,9 +156,11 @@ void FaceFinder::project(const MinkowskiDifference& m, Vec3 n) {
   drop_repeated(polygon_.corner);  // what lies within a rounding of the base: between them is no side
 }
 
+double length_of(Point2 v) { return length_of(Vec3{v.x, v.y, 0.0}); }
+
 double distance_from_side(const FacePolygon& polygon, std::size_t side) {
   const Point2 from = polygon.corner[side], along = minus(corner_at(polygon.corner, side + 1), from);
-  return cross2(along, {-from.x, -from.y}) / std::hypot(along.x, along.y);
+  return cross2(along, {-from.x, -from.y}) / length_of(along);
 }
 
 Vec3 outward_of_side(const FacePolygon& polygon, std::size_t side) {
@@ -166,18 +169,18 @@ Vec3 outward_of_side(const FacePolygon& polygon, std::size_t side) {
 }
 
 std::size_t nearest_corner(const FacePolygon& polygon, Point2 point) {
-  const auto distance = [&](Point2 c) { return std::hypot(c.x - point.x, c.y - point.y); };
+  const auto distance = [&](Point2 c) { return length_of(minus(c, point)); };
   return static_cast<std::size_t>(std::ranges::min_element(polygon.corner, {}, distance) - polygon.corner.begin());
 }
 
 double margin_of_projection(const FacePolygon& polygon) {
   const std::vector<Point2>& c = polygon.corner;
-  if (c.size() == 1) return -std::hypot(c[0].x, c[0].y);
+  if (c.size() == 1) return -length_of(c[0]);
   double margin = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < c.size(); ++i) margin = std::min(margin, distance_from_side(polygon, i));
   if (c.size() == 2) {  // the projection may lie in the line of an edge, but beyond its ends
     const Point2 side = minus(c[1], c[0]);
-    const double length = std::hypot(side.x, side.y), along = -(c[0].x * side.x + c[0].y * side.y) / length;
+    const double length = length_of(side), along = -(c[0].x * side.x + c[0].y * side.y) / length;
     margin = std::min({margin, along, length - along});
   }
   return margin;

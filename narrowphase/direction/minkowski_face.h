@@ -24,6 +24,7 @@ double distance_from_side(const FacePolygon& polygon, std::size_t side);
 // Across n and the side, away from the polygon; unit, or not numbers for a side without length.
 Vec3 outward_of_side(const FacePolygon& polygon, std::size_t side);
 
+double length_of(Point2 v);
 Point2 corner_at(const std::vector<Point2>& polygon, std::size_t i);  // i may be beyond the last: it goes around
 std::size_t nearest_corner(const FacePolygon& polygon, Point2 point);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "narrowphase/hull/simplex.h"
+#include "narrowphase/distance/simplex.h"
 
 namespace tact::narrowphase {
 
@@ -41,10 +41,10 @@ class GjkSearch {
       closed_ = result_.distance - result_.lower_bound <= gap;
       // Only where the last direction itself closes the bounds: it then separates M from the point by as much.
       if (result_.distance - height <= gap) break;
-      // Without progress the simplex is thin and doubles have lost the nearest point: go on in quadruple precision.
+      // Without progress the simplex is thin and doubles have lost the nearest point: go on in triple-doubles.
       if (holds(next.a, next.b) || !advance(next)) {
-        if (in_quad_) break;
-        in_quad_ = true;
+        if (in_triple_) break;
+        in_triple_ = true;
         reduce();
       }
     }
@@ -83,7 +83,7 @@ class GjkSearch {
 
   // Keeps the vertices that carry the nearest point.
   void reduce() {
-    closest_ = in_quad_ ? simplex_closest_in_quad(points_) : simplex_closest(points_);
+    closest_ = in_triple_ ? simplex_closest_in_triple(points_) : simplex_closest(points_);
     inside_ = closest_.carrier_count == 4;
     for (std::size_t i = 0; i < static_cast<std::size_t>(closest_.carrier_count); ++i) {
       const auto from = static_cast<std::size_t>(closest_.carrier[i]);
@@ -101,7 +101,7 @@ class GjkSearch {
     result_.distance = norm(closest_.point);
     const double error = m_.height_error();
     // More digits do not know that the vertices of M are rounded.
-    if (inside_ && (!in_quad_ || tetrahedron_holds_origin(points_))) {
+    if (inside_ && (!in_triple_ || tetrahedron_holds_origin(points_))) {
       result_.status = GjkStatus::overlapping;
     } else if (result_.lower_bound > error) {
       result_.status = GjkStatus::apart;
@@ -120,7 +120,7 @@ class GjkSearch {
   MinkowskiVertex last_;  // found, or of the start
   bool inside_ = false;
   bool closed_ = false;
-  bool in_quad_ = false;
+  bool in_triple_ = false;
   GjkResult result_;
 };
 

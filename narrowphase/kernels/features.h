@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "narrowphase/distance/rounding.h"
 #include "narrowphase/kernels/facets.h"
 
 namespace tact::narrowphase {
@@ -80,7 +81,7 @@ struct alignas(64) EdgePairs {
   int count = 0;
 };
 
-// The side that edges are on: as nearest_between_edges() and crossing_between_edges() ask.
+// The side that edges are on: see nearest_between_edges().
 enum class EdgeSide { before, passed };
 
 // Facets of two meshes that meet, by pairs.
@@ -97,13 +98,5 @@ struct EdgesThrough {
   std::uint64_t meeting[6];  // it certainly meets the other facet
   std::uint64_t undecided[6];
 };
-
-// Bounds what the sign of a product of lengths loses in doubles, relative to that product: see
-// contact_points/nearest.cpp.
-inline constexpr double kSignRounding = 256 * 0x1p-53;
-
-// Two edges of which the squared sine is smaller are nearly parallel: doubles do not tell where their lines are
-// nearest.
-inline constexpr double kNearlyParallel = 1e-8;
 
 }  // namespace tact::narrowphase

@@ -2,6 +2,8 @@
 // set.
 #pragma once
 
+#include "narrowphase/distance/edge_edge.inl"
+#include "narrowphase/distance/vertex_facet.inl"
 #include "narrowphase/kernels/boxes.inl"
 #include "narrowphase/kernels/bytes.inl"
 #include "narrowphase/kernels/clear_pairs.inl"

@@ -4,13 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "narrowphase/numeric/double_double.h"
+
 namespace tact::narrowphase {
 
 namespace {
 
 // A coordinate of a placed vertex, and of the placed center, is off by at most four roundoffs of |R0 p.x| + |R1 p.y| +
-// |R2 p.z| + |t| each, and the difference of vertex and center at rest by one of their size: twice that, rounded up. A
-// row of R is longer than 1 by 1e-9 at most. Products that vanish may be off by the least number besides.
+// |R2 p.z| + |t| each, the difference of vertex and center at rest by one of their size, and its length by three: twice
+// that, rounded up. A row of R is longer than 1 by 1e-9 at most. Products that vanish may be off by the least number
+// besides.
 constexpr double kRoundings = 4e-15;
 constexpr double kLongestRow = 1.0 + 4e-9;
 constexpr double kVanishing = 64.0 * std::numeric_limits<double>::denorm_min();
@@ -31,8 +34,7 @@ void RigidPose::begin(const PointArrays& rest, int vertex_count, const Box& rest
   if (rest_box.empty()) return;
   center_ = 0.5 * rest_box.lower + 0.5 * rest_box.upper;
   for (int v = 0; v < vertex_count; ++v) {
-    const Vec3 from_center = Vec3{rest.x[v], rest.y[v], rest.z[v]} - center_;
-    radius_ = std::max(radius_, std::hypot(from_center.x, from_center.y, from_center.z));
+    radius_ = std::max(radius_, length_of(Vec3{rest.x[v], rest.y[v], rest.z[v]} - center_));
   }
 }
 

@@ -34,42 +34,20 @@ constexpr double kRoundingOf<DoubleDouble> = 0x1p-86;
 double head_of(double x) { return x; }
 double head_of(DoubleDouble x) { return x.head; }
 double scaled(double x, double by) { return x * by; }
-double number(double head, double, double) { return head; }
-DoubleDouble number(double head, double tail, DoubleDouble) { return {head, tail}; }
+double number(DoubleDouble x, double) { return x.head; }
+DoubleDouble number(DoubleDouble x, DoubleDouble) { return x; }
 using narrowphase::scaled;
 
+NumberVector<double> scaled(const NumberVector<double>& v, double by) { return by * v; }
+
 template <class Number>
-struct Vector {
-  Number x, y, z;
-};
-template <class Number>
-Vector<Number> operator+(const Vector<Number>& a, const Vector<Number>& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-template <class Number>
-Vector<Number> operator-(const Vector<Number>& a, const Vector<Number>& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-template <class Number>
-Vector<Number> scaled(const Vector<Number>& a, double by) {
-  return {scaled(a.x, by), scaled(a.y, by), scaled(a.z, by)};
-}
-template <class Number>
-Number dot(const Vector<Number>& a, const Vector<Number>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-template <class Number>
-Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <class Number>
-double size_of(const Vector<Number>& a) {
+double size_of(const NumberVector<Number>& a) {
   return std::max({std::abs(head_of(a.x)), std::abs(head_of(a.y)), std::abs(head_of(a.z))});
 }
 
 // A vector at the ends of a span between which it is linear.
 template <class Number>
-using Way = std::array<Vector<Number>, 2>;
+using Way = std::array<NumberVector<Number>, 2>;
 template <class Number>
 Way<Number> operator-(const Way<Number>& a, const Way<Number>& b) {
   return {a[0] - b[0], a[1] - b[1]};
@@ -81,7 +59,7 @@ double size_of(const Way<Number>& a) {
 
 // Bernstein coefficients on a span.
 template <class Number>
-using Quadratic = std::array<Vector<Number>, 3>;
+using Quadratic = std::array<NumberVector<Number>, 3>;
 template <class Number>
 Quadratic<Number> cross(const Way<Number>& a, const Way<Number>& b) {
   return {cross(a[0], b[0]), scaled(cross(a[0], b[1]) + cross(a[1], b[0]), 0.5), cross(a[1], b[1])};
@@ -111,7 +89,7 @@ struct Polynomial {
     auto& c = second.coefficient;
     for (std::size_t left = kCount; left-- > 1;) {
       for (std::size_t i = 0; i < left; ++i)
-        c[i] = t == 0.5 ? scaled(c[i] + c[i + 1], 0.5) : c[i] + number(t, 0.0, Number{}) * (c[i + 1] - c[i]);
+        c[i] = t == 0.5 ? scaled(c[i] + c[i + 1], 0.5) : c[i] + number({t}, Number{}) * (c[i + 1] - c[i]);
       coefficient[kCount - left] = c[0];
     }
     return second;
@@ -125,7 +103,7 @@ struct Polynomial {
 
 template <class Number>
 Number times(double factor, const Number& x) {
-  return number(factor, 0.0, Number{}) * x;
+  return number({factor}, Number{}) * x;
 }
 
 // The corners of a polygon at both ends of a span, scaled.
@@ -133,14 +111,12 @@ template <class Number>
 std::array<Way<Number>, 4> corners_on(const MovingPolygon& polygon, double scale, double from, double to) {
   std::array<Way<Number>, 4> corners;
   const auto vector = [&](const DoubleDoubleVec3& v) {
-    return scaled(Vector<Number>{number(v.head.x, v.tail.x, Number{}), number(v.head.y, v.tail.y, Number{}),
-                                 number(v.head.z, v.tail.z, Number{})},
-                  scale);
+    return scaled(NumberVector<Number>{number(v.x, Number{}), number(v.y, Number{}), number(v.z, Number{})}, scale);
   };
   for (int i = 0; i < polygon.count; ++i) {
-    const Vector<Number> begin = vector(polygon.corner[0][i]), way = vector(polygon.corner[1][i]) - begin;
+    const NumberVector<Number> begin = vector(polygon.corner[0][i]), way = vector(polygon.corner[1][i]) - begin;
     const auto at = [&](double time) {
-      return begin + Vector<Number>{times(time, way.x), times(time, way.y), times(time, way.z)};
+      return begin + NumberVector<Number>{times(time, way.x), times(time, way.y), times(time, way.z)};
     };
     corners[i] = {at(from), at(to)};
   }

@@ -58,11 +58,11 @@ Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double 
   count_ = polygon.count;
   double largest = 0.0;
   for (const auto& corners : polygon.corner) {
-    for (int i = 0; i < count_; ++i) largest = std::max(largest, largest_size(corners[i].head));
+    for (int i = 0; i < count_; ++i) largest = std::max(largest, largest_size(heads(corners[i])));
   }
   scale_ = unit_scale(largest);
   for (int time = 0; time < 2; ++time) {
-    for (int i = 0; i < count_; ++i) at_[time][i] = scale_ * polygon.corner[time][i].head;
+    for (int i = 0; i < count_; ++i) at_[time][i] = scale_ * heads(polygon.corner[time][i]);
   }
   reach_ = std::min(scale_ * reach, kLargestReach);
 
@@ -148,7 +148,7 @@ bool MeetingSearch::is_decided_at_once(const MovingPolygon& polygon, Span& span,
 std::optional<double> MeetingSearch::first_exact_crossing(const MovingPolygon& polygon) const {
   std::optional<double> first;
   for (int i = 0; i < count_; ++i) {
-    const Vec3 &p = polygon.corner[0][i].head, &q = polygon.corner[1][i].head;
+    const Vec3 p = heads(polygon.corner[0][i]), q = heads(polygon.corner[1][i]);
     if (p == Vec3{}) return 0.0;
     int zeros = 0, other = 0;
     for (int axis = 0; axis < 3; ++axis) {

@@ -5,10 +5,7 @@ namespace tact::narrowphase {
 namespace {
 
 bool are_one(const MovingPolygon& polygon, int i, int k) {
-  const auto equal = [](const DoubleDoubleVec3& p, const DoubleDoubleVec3& q) {
-    return p.head == q.head && p.tail == q.tail;
-  };
-  return equal(polygon.corner[0][i], polygon.corner[0][k]) && equal(polygon.corner[1][i], polygon.corner[1][k]);
+  return polygon.corner[0][i] == polygon.corner[0][k] && polygon.corner[1][i] == polygon.corner[1][k];
 }
 
 void take_out_repeated(MovingPolygon& polygon) {

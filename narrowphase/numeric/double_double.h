@@ -1,11 +1,14 @@
-// Double-double arithmetic, a number as the sum of two doubles, for the normals of thin triangles: differences and
-// cross products of points.
+// Double-double arithmetic, a number as the sum of two doubles: for signs and places near which doubles lose all
+// digits, and for the normals of thin triangles.
 //
 // The normal of a triangle whose corners nearly lie on a line is a difference of nearly equal products: in plain
 // doubles its direction is off by the aspect of the triangle times the rounding. Here it is right to the last bits.
 #pragma once
 
+#include <cmath>
+
 #include "engine/base/vec3.h"
+#include "narrowphase/numeric/number_vector.h"
 
 namespace tact::narrowphase {
 
@@ -16,6 +19,7 @@ using base::Vec3;
 struct DoubleDouble {
   double head = 0.0;
   double tail = 0.0;
+  friend bool operator==(const DoubleDouble&, const DoubleDouble&) = default;
 };
 
 // head + tail == a + b (Knuth).
@@ -64,23 +68,39 @@ inline DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
 // Exact for a power of two.
 inline DoubleDouble scaled(DoubleDouble a, double by) { return {a.head * by, a.tail * by}; }
 
-// The same, component by component.
-struct DoubleDoubleVec3 {
-  Vec3 head;
-  Vec3 tail;
-};
+// Right to 2^-100 of itself.
+inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
+  const double first = a.head / b.head;
+  const DoubleDouble rest = a - DoubleDouble{first} * b;
+  return fast_two_sum(first, rest.head / b.head);
+}
+
+// Of a number that is not negative; right to 2^-100 of itself.
+inline DoubleDouble square_root(DoubleDouble a) {
+  const double root = std::sqrt(a.head);
+  if (!(root > 0.0)) return {};
+  const DoubleDouble rest = a - two_product(root, root);
+  return fast_two_sum(root, rest.head / (2.0 * root));
+}
+
+using DoubleDoubleVec3 = NumberVector<DoubleDouble>;
+
+inline Vec3 heads(const DoubleDoubleVec3& v) { return {v.x.head, v.y.head, v.z.head}; }
+inline DoubleDoubleVec3 scaled(const DoubleDoubleVec3& v, double by) {
+  return {scaled(v.x, by), scaled(v.y, by), scaled(v.z, by)};
+}
 
 // p - q, exactly.
-DoubleDoubleVec3 double_double_difference(Vec3 p, Vec3 q);
-
-// p - q, each component to 2^-104 of itself and of its operands.
-DoubleDoubleVec3 operator-(const DoubleDoubleVec3& p, const DoubleDoubleVec3& q);
+inline DoubleDoubleVec3 double_double_difference(Vec3 p, Vec3 q) {
+  return {two_sum(p.x, -q.x), two_sum(p.y, -q.y), two_sum(p.z, -q.z)};
+}
 
 // p × q, each component to 2^-52 of itself and 2^-100 of |p||q|. Components must be zero or between 2^-450 and 2^450 in
 // size.
-Vec3 double_double_cross(const DoubleDoubleVec3& p, const DoubleDoubleVec3& q);
+inline Vec3 double_double_cross(const DoubleDoubleVec3& p, const DoubleDoubleVec3& q) { return heads(cross(p, q)); }
 
-// v / |v| for any finite v but zero, however large or small.
+// |v| and v / |v| for any finite v but zero, however large or small. The length is off by at most 2^-51 of itself.
+double length_of(Vec3 v);
 Vec3 unit_vector(Vec3 v);
 
 }  // namespace tact::narrowphase

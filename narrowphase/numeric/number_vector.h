@@ -12,6 +12,7 @@ template <class Number>
 struct NumberVector {
   Number x, y, z;
 
+  friend bool operator==(const NumberVector&, const NumberVector&) = default;
   bool is_zero() const { return all_zero(x, y, z); }
   NumberVector operator-() const { return {-x, -y, -z}; }
   friend NumberVector operator+(const NumberVector& p, const NumberVector& q) {

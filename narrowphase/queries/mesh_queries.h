@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "narrowphase/distance/vertex_facet.h"
 #include "narrowphase/mesh/clustered_mesh.h"
-#include "narrowphase/queries/nearest_weights.h"
 #include "narrowphase/queries/prepared_segment.h"
 
 namespace tact::narrowphase {

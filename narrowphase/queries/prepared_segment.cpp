@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "narrowphase/queries/nearest_weights.h"
+#include "narrowphase/distance/vertex_facet.h"
 
 namespace tact::narrowphase {
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "narrowphase/distance/segment_facet.h"
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/mesh/box_arrays.h"
-#include "narrowphase/queries/exact_place.h"
 
 namespace tact::narrowphase {
 

@@ -279,21 +279,26 @@ bool SmoothPatches::Judge::continues(const Region& region) {
   return true;
 }
 
-// In radians.
-double SmoothPatches::Judge::most_inward_turn() const {
-  double turn = 0.0, most = 0.0;
-  for (std::size_t i = 1; i < ends_.size(); ++i) {
+// Its cosine; zero or less if it may be a right angle. The turn so far, at least 0 and less than a right angle, is kept
+// as a cosine and a sine. Each edge adds less than 180 degrees to it or takes up to 180 away, so the sign of the sine
+// tells if less than nothing is left, and that of the cosine if it is no longer acute. Each edge adds some four
+// roundings: of thousands that is far less than kSlack.
+double SmoothPatches::Judge::cosine_of_inward_turn() const {
+  double cosine = 1.0, sine = 0.0, least = 1.0;
+  for (std::size_t i = 1; i < ends_.size() && least > 0.0; ++i) {
     const End &one = ends_[i - 1], &next = ends_[i];
-    if (one.side.to != next.side.from) {
-      turn = 0.0;
-      continue;
-    }
     const double ux = one.to.x - one.from.x, uy = one.to.y - one.from.y;
     const double wx = next.to.x - next.from.x, wy = next.to.y - next.from.y;
-    turn = std::max(0.0, turn - std::atan2(ux * wy - uy * wx, ux * wx + uy * wy));
-    most = std::max(most, turn);
+    const double along = ux * wx + uy * wy, inward = uy * wx - ux * wy;
+    const double length = std::sqrt(along * along + inward * inward);
+    const double more_cosine = along / length, more_sine = inward / length;
+    const double turned = sine * more_cosine + cosine * more_sine;
+    cosine = cosine * more_cosine - sine * more_sine;
+    sine = turned;
+    if (one.side.to != next.side.from || (more_sine < 0.0 && sine <= 0.0)) cosine = 1.0, sine = 0.0;
+    least = length > 0.0 ? std::min(least, cosine) : 0.0;
   }
-  return most;
+  return least;
 }
 
 SelfVerdict SmoothPatches::Judge::operator()(const SmoothPatches& patches, const ClusteredMesh& mesh,
@@ -323,8 +328,8 @@ SelfVerdict SmoothPatches::Judge::look(const SmoothPatches& patches, const Clust
     x = {};
     for (const End& end : ends_) x = x + (mesh.position(end.side.to) - mesh.position(end.side.from));
   }
-  const double inward = most_inward_turn(), tangent = std::sqrt(1.0 - least_cosine * least_cosine) / least_cosine;
-  return inward < 1.5 && tangent < std::cos(inward) - kSlack ? SelfVerdict::never_contact : SelfVerdict::never_meet;
+  const double tangent = std::sqrt(1.0 - least_cosine * least_cosine) / least_cosine;
+  return tangent < cosine_of_inward_turn() - kSlack ? SelfVerdict::never_contact : SelfVerdict::never_meet;
 }
 
 }  // namespace tact::narrowphase

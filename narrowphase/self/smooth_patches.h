@@ -137,7 +137,7 @@ class SmoothPatches {
     SelfVerdict look(const SmoothPatches& patches, const ClusteredMesh& mesh, const ClusterNeighbors& neighbors,
                      std::span<const int> clusters, Vec3 up, double least_cosine);
     bool continues(const Region& region);
-    double most_inward_turn() const;
+    double cosine_of_inward_turn() const;
 
     // Of each cluster: mark_ if it is one of the patch, mark_ + 1 if it is one of those that were asked for.
     std::vector<int> marks_;

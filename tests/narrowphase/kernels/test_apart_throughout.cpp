@@ -37,13 +37,13 @@ TEST(ApartThroughout, LeavesOutNothingThatMeets) {
         const MovingPolygon polygon = query.polygon();
         double size = 0.0;
         for (const auto& corners : polygon.corner) {
-          for (int i = 0; i < polygon.count; ++i) size = std::max(size, norm(corners[i].head));
+          for (int i = 0; i < polygon.count; ++i) size = std::max(size, norm(heads(corners[i])));
         }
         if (size > 2.0) continue;
         for (int time = 0; time < 2; ++time) {
           for (int i = 0; i < polygon.count; ++i) {
             for (int axis = 0; axis < 3; ++axis)
-              polygons.corner[time][i][axis][polygons.count] = polygon.corner[time][i].head[axis];
+              polygons.corner[time][i][axis][polygons.count] = heads(polygon.corner[time][i])[axis];
           }
         }
         ++polygons.count;

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <vector>
 
-#include "narrowphase/contact_points/nearest.h"
+#include "narrowphase/distance/edge_edge.h"
 #include "narrowphase/kernels/kernels.h"
 #include "tests/support/generators/random.h"
 #include "tests/support/inside/facet_filters.h"
@@ -87,8 +87,7 @@ TEST(EdgesBeyond, LeaveOutNoPoint) {
       };
       const int third_a[2] = {pairs.vertex[0][2][i], pairs.vertex[0][3][i]};
       const int third_b[2] = {pairs.vertex[1][2][i], pairs.vertex[1][3][i]};
-      const auto find =
-          side == EdgeSide::before ? narrowphase::nearest_between_edges : narrowphase::crossing_between_edges;
+      const auto find = narrowphase::nearest_between_edges;
       const bool has_point =
           find(ends(a, 0), {a.arrays(), third_a, 0.5}, ends(b, 1), {b.arrays(), third_b, 0.5}, 0.5 * reach).has_value();
       const bool is_near = find(ends(a, 0), {}, ends(b, 1), {}, 0.5 * reach).has_value();

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "narrowphase/contact_points/nearest.h"
+#include "narrowphase/distance/vertex_facet.h"
 #include "narrowphase/kernels/kernels.h"
 #include "tests/support/generators/random.h"
 #include "tests/support/inside/facet_filters.h"

@@ -17,8 +17,8 @@ Vec3 cross_of_sides(Vec3 p, Vec3 q, Vec3 r) {
 
 TEST(DoubleDoubleVec3, DifferenceLosesNothing) {
   const auto d = double_double_difference({1.0, 1e16, 0x1p-60}, {0x1p-80, 1.0, 1.0});
-  EXPECT_EQ(d.head, (Vec3{1.0, 1e16, -1.0}));
-  EXPECT_EQ(d.tail, (Vec3{-0x1p-80, -1.0, 0x1p-60}));
+  EXPECT_EQ(heads(d), (Vec3{1.0, 1e16, -1.0}));
+  EXPECT_EQ((Vec3{d.x.tail, d.y.tail, d.z.tail}), (Vec3{-0x1p-80, -1.0, 0x1p-60}));
 }
 
 // Coordinates of 50 bits on a grid: 128-bit integers tell the cross product exactly.

@@ -1,11 +1,16 @@
-// The place of a triangle that is nearest to a point, as weights of its corners.
+// Where a facet is nearest to a vertex, or to any point.
 #pragma once
 
 #include <array>
+#include <optional>
 
+#include "narrowphase/distance/nearest.h"
 #include "narrowphase/mesh/clustered_mesh.h"
 
 namespace tact::narrowphase {
+
+/// The minimum of the distance from `v` inside the facet with these corners, if there is one nearer than `limit`.
+std::optional<Nearest> nearest_inside_facet(Vec3 v, const Vec3 (&corner)[3], double limit);
 
 inline Vec3 place_of(const Triangle& t, const std::array<double, 3>& w) {
   return w[0] * t[0] + w[1] * t[1] + w[2] * t[2];

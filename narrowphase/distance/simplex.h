@@ -22,7 +22,7 @@ struct SimplexClosest {
   int carrier_count = 0;         // 4: the origin lies inside the tetrahedron
   // Of up to three points of the carrier in `point`: none is negative, and they sum to 1 but for rounding.
   std::array<double, 4> weight{};
-  // |point|², and what rounding took from it where the search computed in quadruple precision, else zero. For
+  // |point|², and what rounding took from it where the search computed in triple-doubles, else zero. For
   // comparisons.
   double distance_squared = 0.0;
   double distance_squared_tail = 0.0;
@@ -41,10 +41,10 @@ SimplexClosest simplex_closest(const SimplexPoints& simplex);
 // off by a rounding? False where rounding could decide.
 bool tetrahedron_holds_origin(const SimplexPoints& simplex);
 
-// simplex_closest() in quadruple precision, some fifty times slower: for simplices so thin that doubles lose the point.
-SimplexClosest simplex_closest_in_quad(const SimplexPoints& simplex);
+// simplex_closest() in triple-doubles, some fifty times slower: for simplices so thin that doubles lose the point.
+SimplexClosest simplex_closest_in_triple(const SimplexPoints& simplex);
 
-// The weights of four points around the origin, in quadruple precision: the weighted sum of the points is the origin,
+// The weights of four points around the origin, from triple-doubles: the weighted sum of the points is the origin,
 // but for rounding. Where the tetrahedron is too flat to tell, the weights of the nearest point of its faces.
 std::array<double, 4> origin_weights(const SimplexPoints& simplex);
 

@@ -1,52 +1,26 @@
-#include "narrowphase/hull/simplex.h"
+#include "narrowphase/distance/simplex.h"
 
-#include <cmath>
-#include <limits>
 #include <type_traits>
 #include <utility>
+
+#include "narrowphase/numeric/triple_double.h"
 
 namespace tact::narrowphase {
 
 namespace {
 
-#if defined(__SIZEOF_FLOAT128__)
-__extension__ typedef __float128 Quad;
-#else
-typedef long double Quad;
-static_assert(std::numeric_limits<Quad>::digits > 110, "a quadruple has more than twice the digits of a double");
-#endif
-
+// Bounds the relative error of an operation on lengths near 1. Triple-doubles lose 2^-150: so much to spare leaves the
+// weights of thin triangles right.
 template <class Scalar>
-struct Vector {
-  Scalar x, y, z;
-};
+constexpr double kRoundoff = 0x1p-110;
+template <>
+constexpr double kRoundoff<double> = 0x1p-53;
 
-template <class Scalar>
-Vector<Scalar> operator-(const Vector<Scalar>& a, const Vector<Scalar>& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-template <class Scalar>
-Scalar dot(const Vector<Scalar>& a, const Vector<Scalar>& b) {
-  return (a.x * b.x + a.y * b.y) + a.z * b.z;
-}
-
-template <class Scalar>
-Vector<Scalar> cross(const Vector<Scalar>& a, const Vector<Scalar>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-// a + s e.
-template <class Scalar>
-Vector<Scalar> along(const Vector<Scalar>& a, Scalar s, const Vector<Scalar>& e) {
-  return {a.x + s * e.x, a.y + s * e.y, a.z + s * e.z};
-}
-
-// Looks for the face of a simplex that is nearest to the origin. `roundoff` bounds the relative error of an operation.
+// Looks for the face of a simplex that is nearest to the origin.
 template <class Scalar>
 class ClosestFace {
  public:
-  ClosestFace(const SimplexPoints& simplex, double roundoff) : count_(simplex.count), roundoff_(roundoff) {
+  explicit ClosestFace(const SimplexPoints& simplex) : count_(simplex.count) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i)
       y_[i] = {simplex.point[i].x, simplex.point[i].y, simplex.point[i].z};
   }
@@ -65,7 +39,7 @@ class ClosestFace {
   }
 
   SimplexClosest run_on_faces() {
-    for (int i = 0; i < count_; ++i) offer(y(i), {i, 0, 0, 0}, 1, {1, 0, 0});
+    for (int i = 0; i < count_; ++i) offer(y(i), {i, 0, 0, 0}, 1, {1.0, 0.0, 0.0});
     for (int i = 0; i < count_; ++i) {
       for (int j = i + 1; j < count_; ++j) edge(i, j);
     }
@@ -82,12 +56,12 @@ class ClosestFace {
   std::array<double, 4> origin_weights() {
     std::array<Scalar, 4> share{volume(1, 2, 3), volume(0, 2, 3), volume(0, 1, 3), volume(0, 1, 2)};
     const Scalar sum = (share[0] + share[1]) + (share[2] + share[3]);
-    for (Scalar& one : share) one /= sum;
+    for (Scalar& one : share) one = one / sum;
     const auto [from, to] = longest_edge();
     const Point edge = y(to) - y(from);
     const Scalar back = dot(weighted(share), edge) / dot(edge, edge);
-    share[from] += back;
-    share[to] -= back;
+    share[from] = share[from] + back;
+    share[to] = share[to] - back;
     const Point origin = weighted(share);
     const SimplexClosest on_faces = run_on_faces();
     std::array<double, 4> weights{};
@@ -100,19 +74,19 @@ class ClosestFace {
   }
 
  private:
-  using Point = Vector<Scalar>;
+  using Point = NumberVector<Scalar>;
 
   const Point& y(int i) const { return y_[i]; }
 
   Point weighted(const std::array<Scalar, 4>& weight) const {
-    Point sum{0, 0, 0};
-    for (int i = 0; i < 4; ++i) sum = along(sum, weight[i], y(i));
+    Point sum{0.0, 0.0, 0.0};
+    for (int i = 0; i < 4; ++i) sum = sum + weight[i] * y(i);
     return sum;
   }
 
   std::pair<int, int> longest_edge() const {
     std::pair longest{0, 1};
-    Scalar most = 0;
+    Scalar most = 0.0;
     for (int i = 0; i < count_; ++i) {
       for (int j = i + 1; j < count_; ++j) {
         const Point e = y(j) - y(i);
@@ -125,21 +99,21 @@ class ClosestFace {
   void edge(int i, int j) {
     const Point e = y(j) - y(i);
     const Scalar length = dot(e, e), t = -dot(y(i), e);
-    if (!(t > 0 && t < length)) return;
+    if (!(t > 0.0 && t < length)) return;
     const Scalar share = t / length;
-    offer(along(y(i), share, e), {i, j, 0, 0}, 2, {(length - t) / length, share, 0});
+    offer(y(i) + share * e, {i, j, 0, 0}, 2, {(length - t) / length, share, 0.0});
   }
 
   // The projection of the origin on the triangle's plane has the weights s and t of the second and third corner over
   // the area. It lies inside if all three weights are positive. A triangle whose normal is noise is left to its edges.
   void triangle(int i, int j, int k) {
-    const Point e = y(j) - y(i), f = y(k) - y(i), n = cross(e, f), zero{0, 0, 0}, o = zero - y(i);
-    const Scalar area = dot(n, n), sine = 1e3 * roundoff_;
+    const Point e = y(j) - y(i), f = y(k) - y(i), n = cross(e, f), o = -y(i);
+    const Scalar area = dot(n, n), sine = 1e3 * kRoundoff<Scalar>;
     if (!(area > sine * sine * dot(e, e) * dot(f, f))) return;
     const Scalar s = dot(cross(o, f), n), t = dot(cross(e, o), n);
-    if (!(s > 0 && t > 0 && s + t < area)) return;
+    if (!(s > 0.0 && t > 0.0 && s + t < area)) return;
     const Scalar of_j = s / area, of_k = t / area;
-    offer(kHasSpareDigits ? along(zero, dot(n, y(i)) / area, n) : along(along(y(i), of_j, e), of_k, f), {i, j, k, 0}, 3,
+    offer(kHasSpareDigits ? (dot(n, y(i)) / area) * n : (y(i) + of_j * e) + of_k * f, {i, j, k, 0}, 3,
           {(area - (s + t)) / area, of_j, of_k});
   }
 
@@ -169,14 +143,14 @@ class ClosestFace {
   bool same_side(int i, int j, int k, int opposite, Scalar sizes) const {
     const Point e = y(j) - y(i), f = y(k) - y(i), n = cross(e, f);
     const Scalar origin = -dot(n, y(i)), corner = dot(n, y(opposite) - y(i));
-    const Scalar error = 11 * roundoff_ * (size(e) * size(f)) * sizes + kVanishing;
+    const Scalar error = 11.0 * kRoundoff<Scalar> * (size(e) * size(f)) * sizes + kVanishing;
     return (origin > error && corner > error) || (origin < -error && corner < -error);
   }
 
   // Six times that of the tetrahedron of three points and the origin.
   Scalar volume(int i, int j, int k) const { return absolute(dot(cross(y(j) - y(i), y(k) - y(i)), y(i))); }
 
-  static Scalar absolute(Scalar a) { return a < 0 ? -a : a; }
+  static Scalar absolute(Scalar a) { return a < 0.0 ? -a : a; }
 
   // |x| + |y| + |z|, not below the length.
   static Scalar size(const Point& p) { return absolute(p.x) + absolute(p.y) + absolute(p.z); }
@@ -184,30 +158,29 @@ class ClosestFace {
   static constexpr double kVanishing = 0x1p-1000;
   // Rounding moves a thin triangle's weighted sum along the triangle, by the roundoff over its sine: too far for a
   // triangle that is 1e-14 away. The projection along the normal has the right direction; in doubles it may lie outside
-  // of the triangle, in quadruple precision it does not.
+  // of the triangle, in triple-doubles it does not.
   static constexpr bool kHasSpareDigits = !std::is_same_v<Scalar, double>;
 
   std::array<Point, 4> y_;
   int count_;
-  double roundoff_;
   SimplexClosest best_;
-  Scalar distance_ = 0;
+  Scalar distance_ = 0.0;
 };
 
 }  // namespace
 
-SimplexClosest simplex_closest(const SimplexPoints& simplex) { return ClosestFace<double>(simplex, 0x1p-53).run(); }
+SimplexClosest simplex_closest(const SimplexPoints& simplex) { return ClosestFace<double>(simplex).run(); }
 
 bool tetrahedron_holds_origin(const SimplexPoints& simplex) {
-  return ClosestFace<double>(simplex, 0x1p-53).inside_tetrahedron();
+  return ClosestFace<double>(simplex).inside_tetrahedron();
 }
 
 std::array<double, 4> origin_weights(const SimplexPoints& simplex) {
-  return ClosestFace<Quad>(simplex, 0x1p-110).origin_weights();
+  return ClosestFace<TripleDouble>(simplex).origin_weights();
 }
 
-SimplexClosest simplex_closest_in_quad(const SimplexPoints& simplex) {
-  return ClosestFace<Quad>(simplex, 0x1p-110).run();
+SimplexClosest simplex_closest_in_triple(const SimplexPoints& simplex) {
+  return ClosestFace<TripleDouble>(simplex).run();
 }
 
 }  // namespace tact::narrowphase

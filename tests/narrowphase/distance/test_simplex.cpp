@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "narrowphase/hull/simplex.h"
+#include "narrowphase/distance/simplex.h"
 #include "tests/support/generators/random.h"
 #include "tests/support/oracles/triangle_oracle.h"
 
@@ -91,7 +91,7 @@ TEST(Simplex, WeightsGiveTheNearestPoint) {
     const SimplexPoints points = degenerate_simplex(random, 1 + i % 4, power_of_ten(random, -18, 0));
     const double size = size_of(points);
     for (const bool wide : {false, true}) {
-      const SimplexClosest closest = wide ? simplex_closest_in_quad(points) : simplex_closest(points);
+      const SimplexClosest closest = wide ? simplex_closest_in_triple(points) : simplex_closest(points);
       if (closest.carrier_count == 4) {
         ++inside;
         continue;

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "narrowphase/contact_points/facet_border.h"
+#include "narrowphase/distance/facet_border.h"
 #include "tests/support/generators/random.h"
 
 namespace tact::narrowphase {

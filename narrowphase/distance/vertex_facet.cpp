@@ -1,14 +1,35 @@
-#include "narrowphase/queries/nearest_weights.h"
+#include "narrowphase/distance/vertex_facet.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
-#include "narrowphase/numeric/double_double.h"
+#include "narrowphase/distance/signs.h"
 #include "narrowphase/numeric/unit_scale.h"
 
 namespace tact::narrowphase {
+
+std::optional<Nearest> nearest_inside_facet(Vec3 v, const Vec3 (&corner)[3], double limit) {
+  const Vec3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  const double square = norm_squared(normal), along = dot(normal, v - corner[0]);
+  // Most vertices are too far, or beside the facet: that needs no root.
+  if (square == 0.0 || along * along > limit * limit * square * (1.0 + 0x1p-40)) return {};
+  for (int k = 0; k < 3; ++k) {
+    if (side_of_edge(v, corner[(k + 1) % 3], corner[(k + 2) % 3], corner[k]) <= 0) return {};
+  }
+  const double length = std::sqrt(square), height = along / length;
+  if (!(std::abs(height) < limit)) return {};
+  Nearest nearest{.normal = (height < 0.0 ? 1.0 / length : -1.0 / length) * normal, .distance = std::abs(height)};
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 p = corner[(k + 1) % 3], q = corner[(k + 2) % 3];
+    nearest.weight[k] = std::max(0.0, dot(normal, cross(q - p, v - p)));
+    sum += nearest.weight[k];
+  }
+  for (double& weight : nearest.weight) weight /= sum;
+  return nearest;
+}
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "narrowphase/contact_points/surface_distance.h"
+#include "narrowphase/distance/surface_distance.h"
 
 #include <algorithm>
 #include <numbers>

@@ -1,12 +1,12 @@
-#include "narrowphase/queries/exact_place.h"
+#include "narrowphase/distance/segment_facet.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
+#include "narrowphase/distance/vertex_facet.h"
 #include "narrowphase/numeric/wide_vector.h"
-#include "narrowphase/queries/nearest_weights.h"
 
 namespace tact::narrowphase {
 

@@ -1,17 +1,44 @@
-#include "narrowphase/contact_points/facet_border.h"
+#include "narrowphase/distance/facet_border.h"
 
 #include <algorithm>
+
+#include "narrowphase/distance/signs.h"
 
 namespace tact::narrowphase {
 
 namespace {
 
-// Is a value above the bound at which nearest.cpp calls its sign certain?
 bool certainly_positive(double value, double size_squared) {
-  return value > 0.0 && value * value > kSignRounding * kSignRounding * size_squared;
+  return value > 0.0 && certain_sign(value, size_squared) > 0;
 }
 
+Vec3 direction_or_zero(Vec3 v, double length) { return length > 0.0 ? (1.0 / length) * v : Vec3{}; }
+
 }  // namespace
+
+std::optional<Nearest> nearest_inside_edge(Vec3 v, Vec3 p, Vec3 q, const ScaledVertices& third, double limit) {
+  const Vec3 edge = q - p;
+  const double place = dot(v - p, edge), length = dot(edge, edge);
+  if (!(place > 0.0 && place < length)) return {};
+  const double t = place / length;
+  // From the nearer end, so that the product is as short as can be.
+  const Vec3 way = t < 0.5 ? t * edge - (v - p) : (t - 1.0) * edge - (v - q);
+  const double distance = norm(way);
+  if (!(distance < limit)) return {};
+  for (std::size_t i = 0; i < third.size(); ++i) {
+    if (side_of_edge(v, p, q, third[i]) > 0) return {};
+  }
+  return Nearest{.normal = direction_or_zero(way, distance), .distance = distance, .weight = {1.0 - t, t}};
+}
+
+std::optional<Nearest> nearest_in_vertex(Vec3 v, Vec3 w, const ScaledVertices& neighbors, double limit) {
+  const double distance = norm(w - v);
+  if (!(distance < limit)) return {};
+  for (std::size_t i = 0; i < neighbors.size(); ++i) {
+    if (sign_along(w, neighbors[i], w, v) > 0) return {};
+  }
+  return Nearest{.normal = direction_or_zero(w - v, distance), .distance = distance, .weight = {1.0}};
+}
 
 unsigned border_of(Vec3 v, const Vec3 (&corner)[3], double limit) {
   Vec3 away[3], side[3];

@@ -1,0 +1,87 @@
+// The loops over pairs of edges: the twin of edge_edge.cpp for many of them.
+#pragma once
+
+#include <cstdint>
+
+#include "narrowphase/kernels/features.inl"
+#include "narrowphase/kernels/kernels.h"
+#include "narrowphase/kernels/lanes.inl"
+
+namespace tact::narrowphase {
+namespace {
+
+// The same operations in the same order as LinePair in edge_edge.cpp, so that both see the same places;
+// the distance has room for another rounding. Edges that change places change signs at most.
+struct EdgeLanes {
+  VectorPack across;
+  Pack square, height;
+  Mask clear, beyond;
+
+  EdgeLanes(const QuadLanes& q, Pack reach_squared) {
+    const Pack zero = spread(0.0);
+    const VectorPack u = sub(q.point[1], q.point[0]), w = sub(q.point[3], q.point[2]), r = sub(q.point[2], q.point[0]);
+    across = cross(u, w);
+    const Pack s = dot(cross(r, w), across), t = dot(cross(r, u), across);
+    square = dot(across, across);
+    height = dot(across, r);
+    clear = less(mul(spread(kNearlyParallel), mul(dot(u, u), dot(w, w))), square);
+    const Mask beside =
+        either(either(less_equal(s, zero), less_equal(square, s)), either(less_equal(t, zero), less_equal(square, t)));
+    const Mask far = less(mul(reach_squared, square), mul(height, height));
+    beyond = both(clear, either(beside, far));
+  }
+
+  // Leads a facet from `end` to `third` certainly along the way, which is `across` times a sign? Twice the
+  // bound there.
+  Mask leads(Pack sign, const VectorPack& end, const VectorPack& third) const {
+    const VectorPack to = sub(third, end);
+    const Pack rise = mul(sign, dot(across, to));
+    const Pack bound = mul(spread(4.0 * kSignRounding * kSignRounding), mul(square, dot(to, to)));
+    return both(less(spread(0.0), rise), less(bound, mul(rise, rise)));
+  }
+};
+
+inline Pack edge_reach_squared(double reach) { return spread(reach * reach * (1.0 + 0x1p-40)); }
+
+std::uint64_t edges_beyond(const EdgePairs& pairs, const PointArrays& a, const PointArrays& b, double scale,
+                           double reach, EdgeSide side) {
+  const Pack reach_squared = edge_reach_squared(reach), unit = spread(scale);
+  const Pack one = spread(1.0), opposite = spread(-1.0), zero = spread(0.0);
+  std::uint64_t all = 0;
+  for (int i = 0; i < pairs.count; i += kWidth) {
+    const auto point = [&](int mesh, int k) {
+      const PointArrays& at = mesh == 0 ? a : b;
+      const std::int32_t* const vertex = pairs.vertex[mesh][k] + i;
+      return VectorPack{mul(unit, gather(at.x, vertex)), mul(unit, gather(at.y, vertex)),
+                        mul(unit, gather(at.z, vertex))};
+    };
+    const QuadLanes q{{point(0, 0), point(0, 1), point(1, 0), point(1, 1)}};
+    const EdgeLanes edges(q, reach_squared);
+    // Which way the point's normal goes along `across`. Edges that nearly touch may be seen from both sides.
+    const Mask below = less(edges.height, zero);
+    const Pack sign = side == EdgeSide::before ? select(below, opposite, one) : select(below, one, opposite);
+    const Pack back = sub(zero, sign);
+    const Mask has_side = less(mul(spread(0x1p-400), edges.square), mul(edges.height, edges.height));
+    const Mask leads =
+        either(either(edges.leads(sign, q.point[0], point(0, 2)), edges.leads(sign, q.point[0], point(0, 3))),
+               either(edges.leads(back, q.point[2], point(1, 2)), edges.leads(back, q.point[2], point(1, 3))));
+    const Mask none = either(edges.beyond, both(both(edges.clear, has_side), leads));
+    all |= static_cast<std::uint64_t>(bits(none) & lanes_left(pairs.count - i)) << i;
+  }
+  return all;
+}
+
+std::uint64_t near_edges(const PlacedFeatures& few, const PlacedFeatures& many, double reach, std::uint64_t* near) {
+  const Pack reach_squared = edge_reach_squared(reach);
+  const std::uint64_t shared = for_listed_pairs<2, 2>(few, many, near, [&](const auto& pairs, int i) {
+    const EdgeLanes edges(pairs.lanes(few.points, many.points, i), reach_squared);
+    for (unsigned left = ~bits(edges.beyond) & lanes_left(pairs.count - i); left != 0; left &= left - 1) {
+      const int lane = __builtin_ctz(left);
+      near[pairs.few[i + lane]] |= std::uint64_t{1} << pairs.many[i + lane];
+    }
+  });
+  return with_any(shared, near);
+}
+
+}  // namespace
+}  // namespace tact::narrowphase
