@@ -47,8 +47,8 @@ struct Bounds {
 ///   world.set_positions(a, new_positions);
 ///   for (const tact::Contact& contact : world.detect().contacts()) ...
 ///
-/// A function that throws Error has changed nothing; detect() says more. One thread at a time uses a world. The answers
-/// depend neither on the number of threads nor on the caller's floating-point mode.
+/// A function that throws Error has changed nothing; see detect(). One thread at a time uses a world. Neither threads
+/// nor the caller's floating-point mode change answers.
 class TACT_API World {
  public:
   /// Makes a world of no bodies. Errors: bad_settings, out_of_memory.
