@@ -267,7 +267,7 @@ void define_world(py::module_& module) {
       .def("mask", of_body<&World::mask>, py::arg("body"))
       .def("group", of_body<&World::group>, py::arg("body"))
       .def("margin", of_body<&World::margin>, py::arg("body"), "the margin of a body, metres")
-      .def("self_contact", of_body<&World::self_contact>, py::arg("body"), "is the body held against itself?")
+      .def("self_contact", of_body<&World::self_contact>, py::arg("body"), "whether a body is tested against itself")
       .def(
           "set_margin", [](SharedWorld& world, BodyId body, double margin) { world.use().set_margin(body, margin); },
           py::arg("body"), py::arg("margin"))

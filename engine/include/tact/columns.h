@@ -56,8 +56,8 @@ constexpr NumberKind number_kind() {
   }
 }
 
-/// A 3 x N matrix, a column a vertex or a facet. Of a lasting matrix of Eigen with whole columns of `Scalar` it is a
-/// view; temporary, row-major and converted matrices are copied, and kept by it and its copies.
+/// A 3 x N matrix, a column a vertex or a facet. It views a lasting matrix of Eigen that has whole columns of `Scalar`.
+/// It holds a copy of any other: temporary, row-major or converted.
 template <class Scalar>
 class Columns {
   using Matrix = Eigen::Matrix<Scalar, 3, kEigenDynamic, 0, 3, kEigenDynamic>;

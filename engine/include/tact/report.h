@@ -37,9 +37,9 @@ struct ZoneDisk {
   double radius = -1.0;                              ///< metres; negative where no zone is computed or it is empty
 };
 
-/// A connected set of facet pairs and contact points: a place where two bodies touch or nearly do. Facet pairs that
-/// share a facet are connected; points that share a vertex and whose normals are not opposite; and both where a point's
-/// vertex is a facet's corner.
+/// A connected set of facet pairs and contact points: a place where two bodies touch or nearly do. Facet pairs with a
+/// common facet are connected. So are points with a common vertex, unless their normals are opposite, and a point and a
+/// facet pair with a common vertex.
 struct Patch {
   /// The same in the next step if both share most of their vertices; never given out twice by a world.
   std::uint64_t id = 0;
