@@ -9,7 +9,7 @@ sets=("")
 [[ $(uname -m) == x86_64 ]] && sets+=("$avx2" "$avx512")
 checked=0
 failed=0
-for header in {narrowphase,broadphase}/kernels/*.{h,inl}; do
+for header in {narrowphase,broadphase}/kernels/*.{h,inl} narrowphase/distance/{rounding.h,*.inl}; do
   for set in "${sets[@]}"; do
     [[ $header == *_avx2.h && $set != "$avx2" || $header == *_avx512.h && $set != "$avx512" ]] && continue
     # shellcheck disable=SC2086  # a set is several options
