@@ -120,7 +120,8 @@ std::optional<Nearest> between(const LinePair<double>& lines, const Sides& at, d
 }
 
 // Nearly parallel edges, whose lengths are scaled to near 1 by two powers of two. Their distance hardly changes along
-// them, so it is measured from the place on e to its foot on f.
+// them, so it is measured from the place on e to its foot on f. Where double-doubles do not tell that the place is
+// inside both, at an end or between lines turned by less than some 2^-45, there is none: points of the ends are near.
 std::optional<Nearest> fine_between(const LinePair<DoubleDouble>& lines, double scale_e, double scale_f,
                                     const Sides& at, double limit) {
   const double rounding = lines.rounding();
