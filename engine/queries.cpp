@@ -181,7 +181,7 @@ std::vector<std::uint32_t> slots_near(const Bodies& bodies, const QueryFilter& f
 
 RayHit hit_of(const Body& body, const FacetHit& hit) { return {body.id, hit.facet, hit.time, hit.weight}; }
 
-// Is a hit of a body before the best one so far? Of equal times that of the lower slot is.
+// Whether a hit of a body is before the best one so far. Of equal times that of the lower slot is.
 bool is_before(const FacetHit& hit, std::uint32_t slot, const RayHit& best) {
   return best.facet < 0 || std::tuple(hit.time, slot) < std::tuple(best.fraction, best.body.index);
 }

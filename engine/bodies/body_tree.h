@@ -25,10 +25,10 @@ class BodyTree {
   // The box of a slot has changed, come or gone.
   void note_change(std::uint32_t slot);
 
-  // So many queries are about to scan these boxes: is it time to update the tree? Any thread may call this.
+  // Counts queries that are about to scan these boxes; returns whether to update the tree. Any thread may call this.
   void expect(std::size_t queries, std::span<const base::Box> boxes) const;
 
-  // Does the tree hold all boxes but the loose ones? If not, nothing below is to be read.
+  // Whether the tree holds all boxes but the loose ones. If not, nothing below is to be read.
   bool is_current() const { return state_.load(std::memory_order_acquire) == State::current; }
   const broadphase::BlockTree& blocks() const { return *tree_; }
   // Slots that changed since; the tree has the boxes that they had.
@@ -38,8 +38,8 @@ class BodyTree {
  private:
   // Boxes up to which a scan takes as long as to walk down the tree: four blocks. tact-bench queries.
   static constexpr std::size_t kFewBoxes = 64;
-  // An update takes about as long as so many scans: 15 ns a box, 170 where it orders them anew, against 1 for a ray and
-  // 10 for a nearest point. tact-bench queries.
+  // An update takes about as long as so many scans: 15 ns a box, 170 where it orders them from scratch, against 1 for a
+  // ray and 10 for a nearest point. tact-bench queries.
   static constexpr std::size_t kScansOfUpdate = 8;
   // With fewer than 1 / kFewLoose of the boxes loose, a query scans these besides.
   static constexpr std::size_t kFewLoose = 16;

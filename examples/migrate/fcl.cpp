@@ -59,17 +59,17 @@ Pairs by_fcl() {
   second.object->computeAABB();
   manager.update();
   // Ask.
-  struct Asked {
+  struct Collisions {
     fcl::CollisionRequestd request{std::numeric_limits<std::size_t>::max(), true};
     fcl::CollisionResultd result;
-  } asked;
-  manager.collide(&asked, [](fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
-    auto& of = *static_cast<Asked*>(data);
+  } collisions;
+  manager.collide(&collisions, [](fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
+    auto& of = *static_cast<Collisions*>(data);
     fcl::collide(a, b, of.request, of.result);
     return false;
   });
-  for (std::size_t i = 0; i < asked.result.numContacts(); ++i) {
-    const fcl::Contactd& contact = asked.result.getContact(i);
+  for (std::size_t i = 0; i < collisions.result.numContacts(); ++i) {
+    const fcl::Contactd& contact = collisions.result.getContact(i);
     const bool in_order = contact.o1 == bodies[0].model.get();
     found.emplace(static_cast<int>(in_order ? contact.b1 : contact.b2),
                   static_cast<int>(in_order ? contact.b2 : contact.b1));

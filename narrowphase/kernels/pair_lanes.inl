@@ -97,8 +97,8 @@ struct PiecesMeet {
   unsigned yes, no, by_zero;
 };
 
-// Whether triangles meet: by the sides of their planes, then by their pieces of the common line. A policy says what is known
-// of the signs of determinants:
+// Whether triangles meet: by the sides of their planes, then by their pieces of the common line. A policy says what is
+// known of the signs of determinants:
 //   loose  each is off by the same, at most (clear_pairs.inl)
 //   exact  nothing is rounded (exact_pairs.inl)
 //   tight  each by a bound of its own (facet_pairs.inl)

@@ -154,8 +154,7 @@ void add_mesh_options(CLI::App& command, CheckOptions& check) {
   command.add_option("--sheet", check.sheets, "Meshes: this body is a sheet; may be repeated")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  command
-      .add_option("--margin", check.margins, "Meshes: the margin in metres, as of tact check; may be repeated")
+  command.add_option("--margin", check.margins, "Meshes: the margin in metres, as of tact check; may be repeated")
       ->type_name("[NAME=]M")
       ->allow_extra_args(false);
   command.add_option("--self", check.selves, "Meshes: hold this body against itself, too, or all; may be repeated")

@@ -303,7 +303,7 @@ TEST(TwinSentences, OfPython) {
     if (const auto of_row = rows.find(type); of_row != rows.end() && twin == cpp.end()) {
       const std::string plural = of_row->second + member;
       twin = cpp.find(plural);
-      for (const std::string& end : {"es", "s"}) {
+      for (const std::string end : {"es", "s"}) {
         if (twin == cpp.end() && plural.ends_with(end)) twin = cpp.find(plural.substr(0, plural.size() - end.size()));
       }
     }

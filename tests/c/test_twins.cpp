@@ -15,7 +15,8 @@
 namespace tact::tests {
 namespace {
 
-std::string text_of(const std::string& path) {
+// Without its comments.
+std::string code_of(const std::string& path) {
   std::ifstream file(std::filesystem::path(TACT_SOURCE_DIR) / path);
   EXPECT_TRUE(file) << path;
   std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -66,8 +67,8 @@ const std::string kHeader = "bindings/c/include/tact/tact_c.h", kInterface = "en
 
 void expect_twins_of_functions(const std::string& header, const std::string& type, const std::string& prefix,
                                const std::map<std::string, std::string>& renamed) {
-  const std::set<std::string> twins = functions_in(text_of(kHeader));
-  const std::set<std::string> functions = functions_in(body_of(text_of(kInterface + header), type));
+  const std::set<std::string> twins = functions_in(code_of(kHeader));
+  const std::set<std::string> functions = functions_in(body_of(code_of(kInterface + header), type));
   EXPECT_FALSE(functions.empty());
   for (const std::string& name : functions) {
     const auto found = renamed.find(name);
@@ -78,8 +79,8 @@ void expect_twins_of_functions(const std::string& header, const std::string& typ
 
 void expect_twins_of_fields(const std::string& header, const std::string& type, const std::string& struct_of_c,
                             const std::set<std::string>& absent) {
-  const std::string c = body_of(text_of(kHeader), "typedef struct " + struct_of_c + " {");
-  const std::set<std::string> fields = fields_in(body_of(text_of(kInterface + header), type));
+  const std::string c = body_of(code_of(kHeader), "typedef struct " + struct_of_c + " {");
+  const std::set<std::string> fields = fields_in(body_of(code_of(kInterface + header), type));
   EXPECT_FALSE(fields.empty());
   for (const std::string& name : fields) {
     if (absent.contains(name)) continue;
@@ -127,7 +128,7 @@ TEST(TwinsInC, OfEachField) {
 }
 
 TEST(TwinsInC, OfEachError) {
-  const std::string c = text_of(kHeader);
+  const std::string c = code_of(kHeader);
   for (int code = 0; std::string(error_code_name(ErrorCode(code))) != "unknown"; ++code) {
     const std::string name = error_code_name(ErrorCode(code));
     std::string twin = "TACT_ERROR_";

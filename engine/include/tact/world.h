@@ -47,8 +47,8 @@ struct Bounds {
 ///   world.set_positions(a, new_positions);
 ///   for (const tact::Contact& contact : world.detect().contacts()) ...
 ///
-/// A function that throws Error has changed nothing; see detect(). Many threads may call const functions of one world at
-/// once, between calls that change it. Neither threads nor the caller's floating-point mode change answers.
+/// A function that throws Error has changed nothing; see detect(). Many threads may call const functions of one world
+/// at once, between calls that change it. Neither threads nor the caller's floating-point mode change answers.
 class TACT_API World {
  public:
   /// Makes a world of no bodies. Errors: bad_settings, out_of_memory.

@@ -87,10 +87,12 @@ TEST(EdgesBeyond, LeaveOutNoPoint) {
       };
       const int third_a[2] = {pairs.vertex[0][2][i], pairs.vertex[0][3][i]};
       const int third_b[2] = {pairs.vertex[1][2][i], pairs.vertex[1][3][i]};
-      const auto find = narrowphase::nearest_between_edges;
-      const bool has_point =
-          find(ends(a, 0), {a.arrays(), third_a, 0.5}, ends(b, 1), {b.arrays(), third_b, 0.5}, 0.5 * reach).has_value();
-      const bool is_near = find(ends(a, 0), {}, ends(b, 1), {}, 0.5 * reach).has_value();
+      const auto has_point_beside = [&](const narrowphase::ScaledVertices& of_a,
+                                        const narrowphase::ScaledVertices& of_b) {
+        return narrowphase::nearest_between_edges(ends(a, 0), of_a, ends(b, 1), of_b, 0.5 * reach).has_value();
+      };
+      const bool has_point = has_point_beside({a.arrays(), third_a, 0.5}, {b.arrays(), third_b, 0.5});
+      const bool is_near = has_point_beside({}, {});
       points += has_point ? 1 : 0;
       if ((beyond >> i & 1) == 0) {
         ++kept;

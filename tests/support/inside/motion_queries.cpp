@@ -25,8 +25,9 @@ double distance_at(const MovingPolygon& polygon, double time) {
   long double size = 0.0L, least = 0.0L;
   std::array<LongVector, 4> p;
   for (int i = 0; i < polygon.count; ++i) {
+    const Vec3 corner[2] = {narrowphase::heads(polygon.corner[0][i]), narrowphase::heads(polygon.corner[1][i])};
     for (int axis = 0; axis < 3; ++axis) {
-      const long double begin = polygon.corner[0][i].head[axis], end = polygon.corner[1][i].head[axis];
+      const long double begin = corner[0][axis], end = corner[1][axis];
       p[i][axis] = begin + time * (end - begin);
       size = std::max({size, std::abs(begin), std::abs(end)});
     }
