@@ -89,7 +89,7 @@ TEST(EdgesBeyond, LeaveOutNoPoint) {
       const int third_b[2] = {pairs.vertex[1][2][i], pairs.vertex[1][3][i]};
       const auto has_point_beside = [&](const narrowphase::ScaledVertices& of_a,
                                         const narrowphase::ScaledVertices& of_b) {
-        return narrowphase::nearest_between_edges(ends(a, 0), of_a, ends(b, 1), of_b, 0.5 * reach).has_value();
+        return narrowphase::nearest_between_edges(ends(a, 0), of_a, ends(b, 1), of_b, 0.5 * reach, side).has_value();
       };
       const bool has_point = has_point_beside({a.arrays(), third_a, 0.5}, {b.arrays(), third_b, 0.5});
       const bool is_near = has_point_beside({}, {});
