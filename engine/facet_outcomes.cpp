@@ -16,7 +16,7 @@ namespace {
 
 using namespace narrowphase;
 
-// None was opened where no pairs of clusters were left.
+// Empty where no pairs of clusters were left.
 std::vector<std::int32_t> indices_of(const std::vector<OpenedCluster>& opened, const CulledPair& culled) {
   std::vector<std::int32_t> indices;
   if (culled.cluster_pairs.empty()) return indices;
@@ -68,7 +68,7 @@ void repeat(const PairRecord& record, const PairTask& pair, EmbreeDevice& device
   if (!pair.work.culled.cluster_pairs.empty()) confirm(pair.tuning, pair.work);
 }
 
-// The record of a pair of the table; null if it is none.
+// The record of a pair of the table, or null.
 const PairRecord* record_of(PairTable& table, BodyId a, BodyId b) {
   const std::span<const CandidatePair> candidates = table.candidates();
   const auto place = std::ranges::lower_bound(candidates, std::tuple(a, b), {},

@@ -14,7 +14,7 @@ namespace tact {
 
 namespace {
 
-// What it found in the last step, points are remembered.
+// Drops what the last step found; its points become the last ones.
 void clear_answers(PairRecord& record) {
   record.facet_pairs.clear();
   std::swap(record.points, record.last_points);

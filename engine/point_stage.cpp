@@ -53,7 +53,7 @@ ContactPoint to_point(const FeaturePoint& found, BodyId a, BodyId b) {
   return point;
 }
 
-// What lasts of it.
+// The part of a point that is carried to the next step.
 FeaturePoint to_feature_point(const ContactPoint& point) {
   return {.kind = point.kind,
           .a = point.a_vertices,
@@ -202,7 +202,8 @@ void PointStage::publish(const Wanted& wanted, const Step& step, int threads, Wo
     sort_by_the_rest(order.subspan(begin, end - begin), keys, found);
     for (std::size_t i = begin; i < end; ++i) points[i] = to_point(found[keys.place(order[i])], a.id, b.id);
   });
-  if (!step.settings.outputs.patches) work.patches.number({}, points, &a, &b);  // or that is done with the facet pairs
+  if (!step.settings.outputs.patches)
+    work.patches.number({}, points, &a, &b);  // otherwise the patch stage numbers them, with the facet pairs
 }
 
 // Finds the cluster pairs of the i-th item, unless they are known.

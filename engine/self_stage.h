@@ -1,4 +1,4 @@
-// Bodies that are held against themselves: their facet pairs, and their contacts from step to step.
+// Bodies with self-contact: their facet pairs, and their contacts from step to step.
 #pragma once
 
 #include <tact/settings.h>

@@ -26,7 +26,7 @@ void Step::regroup(Bodies& bodies, int threads) {
 }
 
 const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh_ms) {
-  Timer timer(settings.outputs.trace ? 0.0 : base::TickCounter::tick_ms());  // a trace wants times, not durations alone
+  Timer timer(settings.outputs.trace ? 0.0 : base::TickCounter::tick_ms());  // a trace needs points in time
   const TraceEvent::Time begin = timer.start();
   if (forgotten_) start_from_scratch();
   PairTable& table = stages_->table;
@@ -47,7 +47,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   bodies.end_step();
   all_ = false;
   const double report_ms = timer.lap();
-  if (!at_rest) stats.report_ms = report_ms;  // at rest the step is no more than this call
+  if (!at_rest) stats.report_ms = report_ms;  // at rest the step is this call alone
   stats.refresh_ms = refresh_ms;
   stats.total_ms = refresh_ms + report_ms;
   for (const StageTime& stage : kStageTimes) stats.total_ms += stats.*stage.ms;

@@ -88,7 +88,7 @@ HullTest test_by_gjk(const PairTask& pair, bool carries) {
 HullTest test_hulls(const PairTask& pair) {
   PairRecord& record = pair.record;
   PairCounts& counts = pair.work.counts;
-  // What the last step knew of a pair is a start from which less is to be done; its direction is more than that.
+  // The last step's result shortens the search; its direction is a part of the answer and is always carried.
   const bool carries = pair.tuning.carries_hulls;
   HullTest test;
   if (carries && still_overlap(pair, test)) {

@@ -48,9 +48,9 @@ double distance_squared(Point2 p, Point2 a, Point2 b) {
 
 double turn(Point2 a, Point2 b, Point2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-// Does the disk reach the triangle? Distances from its centre round by less than 1e-14 of themselves; the disk is
-// widened by that. A point of a side, a.x + t * ex, also rounds by a roundoff of |a.x|, a quarter of the slab's error.
-// That fits: the disk is wider by 2 such errors, of which the facet's projection needs sqrt(2).
+// True if the disk reaches the triangle. Distances from its centre round by less than 1e-14 of themselves; the disk is
+// widened by that. A point of a side, a.x + t * ex, also rounds by a roundoff of |a.x|, at most e / 4 of the slab's
+// error e. The disk is wider by 2 e already, and sqrt(2) e, for the facet's projection, + e / 4 < 2 e.
 bool meets(const Disk& disk, Point2 a, Point2 b, Point2 c) {
   if (disk.radius < 0.0) return false;
   const double reach =

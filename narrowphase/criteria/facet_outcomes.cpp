@@ -32,7 +32,7 @@ class OutcomeWriter {
     }
   }
 
-  // Each criterion is asked alone with those before it: what passes it fails the next at the earliest.
+  // Each criterion is applied with those before it: what passes it fails the next at the earliest.
   void open(int cluster) {
     Criteria criteria = body_.criteria;
     criteria.facing_away = criteria.zone = false;

@@ -83,7 +83,7 @@ class CrossingSides {
   CrossingLines lines_;
   std::vector<Vec3> sides_, guesses_, of_lines_, guesses_of_lines_;
   std::vector<std::tuple<int, bool, int>> ends_;  // line, is the vertex past it, vertex
-  std::vector<int> more_past_;                    // of each line: so many more than are not
+  std::vector<int> more_past_;                    // of each line: vertices past it minus the others
 };
 
 /// The unit normal of a facet by the caller's number, zero if it has no area.

@@ -197,7 +197,7 @@ void ExitFinder::open_clusters(const FacingNormals* facing, const Wants& wants, 
   for_each_cluster_by_rank(mesh, rank, wants, open, SkipTurnedAway{facing_clusters_, *facing});
 }
 
-// The nearest place in the facets that count. `facing`, if any, leaves out only what does not count.
+// The nearest place in the facets that count. `facing`, if given, skips facets that do not count.
 template <class Counts>
 std::optional<PlaceInFacet> ExitFinder::search(Vec3 v, double within, int hint, const FacingNormals* facing,
                                                const Counts& counts) {
@@ -214,7 +214,7 @@ std::optional<PlaceInFacet> ExitFinder::search(Vec3 v, double within, int hint, 
     least = place.distance;
   };
   if (hint >= 0) look_at(hint, SeenFacet(m.triangle(hint), v));
-  // In the unit of the mesh, where the scaled lengths are as they are but for a power of two.
+  // In the unit of the mesh, from which scaled lengths differ by a power of two.
   const Vec3 at = (1.0 / m.scale) * v;
   const double point[3] = {at.x, at.y, at.z};
   const double rounding = 0x1p-50 * largest_of(v);

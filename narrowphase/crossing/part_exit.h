@@ -42,7 +42,7 @@ class PartExitFinder {
 
   FacetsAround around_;
   std::vector<char> seen_;    // by the caller's number
-  std::vector<int> reached_;  // of which that is set
+  std::vector<int> reached_;  // the vertices that are set in seen_
   std::vector<int> spread_;
 };
 

@@ -51,7 +51,7 @@ class StarSurface {
   // Computes the plane of a face in double-double; false if it has no normal.
   bool sharpen(int face);
 
-  // Writes the surface that is left; writes that there is none if it is too large.
+  // Writes the surface that is left, or an empty one if it is too large.
   void save(SurfaceShape& shape);
 
   // Faces keep their numbers; those that were replaced are marked as removed.

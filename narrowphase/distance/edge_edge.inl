@@ -31,8 +31,8 @@ struct EdgeLanes {
     beyond = both(clear, either(beside, far));
   }
 
-  // Leads a facet from `end` to `third` certainly along the way, which is `across` times a sign? Twice the
-  // bound there.
+  // Lanes in which a facet certainly leads from `end` to `third` along the way, which is `across` times a sign. Twice
+  // the bound there.
   Mask leads(Pack sign, const VectorPack& end, const VectorPack& third) const {
     const VectorPack to = sub(third, end);
     const Pack rise = mul(sign, dot(across, to));

@@ -25,7 +25,7 @@ class ClosestFace {
       y_[i] = {simplex.point[i].x, simplex.point[i].y, simplex.point[i].z};
   }
 
-  // Is the origin strictly inside, on the same side of every face as the fourth corner?
+  // True if the origin is strictly inside, on the same side of every face as the fourth corner.
   bool inside_tetrahedron() const {
     const Scalar sizes = (size(y(0)) + size(y(1))) + (size(y(2)) + size(y(3)));
     return same_side(0, 1, 2, 3, sizes) && same_side(0, 1, 3, 2, sizes) && same_side(0, 2, 3, 1, sizes) &&

@@ -37,8 +37,8 @@ struct SimplexClosest {
 // tried but those without extent; the nearest wins, of equals the one with fewer points. count >= 1.
 SimplexClosest simplex_closest(const SimplexPoints& simplex);
 
-// Does the origin certainly lie strictly inside the tetrahedron of four points, even if each coordinate of a point is
-// off by a rounding? False where rounding could decide.
+// True if the origin certainly lies strictly inside the tetrahedron of four points, even if each coordinate of a point
+// is off by a rounding. False where rounding could decide.
 bool tetrahedron_holds_origin(const SimplexPoints& simplex);
 
 // simplex_closest() in triple-doubles, some fifty times slower: for simplices so thin that doubles lose the point.

@@ -20,8 +20,8 @@ struct SurfaceWays {
   std::vector<std::pair<double, int>> reached;  // length of the way, vertex
 };
 
-/// Is there a way shorter than `limit` that leads from one point to a vertex of its feature, along edges, and from a
-/// vertex of the other's feature to the other point? Lengths and points are scaled by `scale`. After Dijkstra, 1959,
+/// True if a path shorter than `limit` leads from one point to a vertex of its feature, along edges, and from a vertex
+/// of the other's feature to the other point. Lengths and points are scaled by `scale`. After Dijkstra, 1959,
 /// with a plain list, as a reach is a few edges.
 bool surface_distance_below(double limit, const ClusteredMesh& mesh, const Features& features, double scale,
                             const PointOnSurface& from, const PointOnSurface& to, SurfaceWays& ways);

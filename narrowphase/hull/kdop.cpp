@@ -20,8 +20,8 @@ double size_of(const Kdop& kdop) {
   return size;
 }
 
-// Does a gap along a diagonal show that two bodies are farther apart than `reach`, metres? A diagonal is a sum of two
-// coordinates, so a metre along it is the root of two.
+// True if a gap along a diagonal shows that two bodies are farther apart than `reach`, metres. A diagonal is a sum of
+// two coordinates, so a metre along it is the root of two.
 bool is_beyond(double gap, double reach, const Kdop& a, const Kdop& b) {
   if (reach == 0.0) return gap > 0.0;
   const double least = std::numbers::sqrt2 * reach;

@@ -23,7 +23,7 @@ using SeparatingDiagonal = std::int8_t;
 /// equal gaps the first.
 SeparatingDiagonal separating_diagonal(const Kdop& a, const Kdop& b, double reach);
 
-/// Are they farther apart along the diagonal than `reach`, metres?
+/// True if they are farther apart along the diagonal than `reach`, metres.
 bool separates(SeparatingDiagonal diagonal, const Kdop& a, const Kdop& b, double reach);
 
 /// The unit vector from a to b along a diagonal that separates them.

@@ -53,7 +53,7 @@ struct LooseSigns {
   }
 };
 
-// Scaling the axes does not change the sign of a determinant, so where two facets meet is asked of their corners in a
+// Scaling the axes does not change the sign of a determinant, so two facets are tested by their corners in a
 // grid of one cell, between 0 and 1 along each axis.
 void float_corners(const FacetBlock& block, std::uint64_t facets, const Grid& grid, FloatCorners* corners) {
   Pack extent[3] = {spread(0.0), spread(0.0), spread(0.0)};

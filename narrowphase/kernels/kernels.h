@@ -54,7 +54,7 @@ struct Kernels {
   Culled (*open_cluster)(const ClusterFacets& cluster, const CullPlanes& planes, FacetBlock* block);
 
   // Puts all facets of a cluster into `block`, which held others: their corners and the cells of their boxes. Boxes,
-  // normals and numbers are left as they were: nobody needs them who looks at all pairs of facets.
+  // normals and numbers are left as they were, as tests of all pairs of facets do without them.
   void (*open_whole)(const ClusterFacets& cluster, const Grid& grid, FacetBlock* block);
 
   // Of the normals of a cluster's facets, each as long as twice its area; all is zero if their sum is, or if the sine

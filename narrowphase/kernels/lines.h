@@ -1,4 +1,4 @@
-// What the loops of many rays that are asked together read and write: a tree over the facets of a mesh, and sixteen
+// What the loops over a batch of rays read and write: a tree over the facets of a mesh, and sixteen
 // segments that descend it. Floats are about the middle of the mesh, in a unit in which no coordinate of it exceeds 1.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The loops over lines that are asked together: which boxes of a mesh each enters, which is next, which facets it may
+// The loops over segments of one batch: which boxes of a mesh each enters, which is next, which facets it may
 // meet. Lines do not wait for each other: what one of them needs last is computed while the next begins.
 #pragma once
 
@@ -344,7 +344,7 @@ inline std::int32_t take_next(int line, LineBlock* block) {
 }
 
 // In rounds: all segments take what they enter next, then those leaves are tested, and those without a facet go on.
-// Whether one goes on is not to be guessed: lists are written without a branch.
+// Branches on it would be mispredicted: lists are written without one.
 void find_facets(const LineTree& tree, const std::uint8_t* lines, int count, LineBlock* block) {
   std::uint8_t asking[LineBlock::kLines];
   for (int i = 0; i < count; ++i) asking[i] = lines[i];

@@ -113,7 +113,7 @@ Vec3 ClusteredMesh::position_by_pose(int vertex) const {
 }
 
 void ClusteredMesh::keep_travel(bool keep) {
-  if (rigid_ != nullptr) keep = false;  // nobody counts how far its clusters go
+  if (rigid_ != nullptr) keep = false;  // the travel of its clusters is not kept
   unasked_refits_ = 0;
   if (keep == keeps_travel_) return;
   if (travel_ == nullptr) travel_ = std::make_unique<MeshTravel>(*this);

@@ -35,7 +35,7 @@ struct MovingCluster {
   Box box_at[2];  // at time 0 and 1
   int vertex_count = 0;
   double at[2][3][kMostVertices];  // time, axis
-  VertexWays ways;                 // as far as asked for last; of no vertex: never asked for
+  VertexWays ways;                 // up to the last cut; of no vertex before the first
   Cut cut;
 
   // On the way up to a time.
@@ -92,7 +92,7 @@ struct NearFeatures {
   FeatureWays vertices, edges, facets;
   int vertex_begin = 0, edge_begin = 0, facet_begin = 0;  // the first of the cluster in the mesh
 
-  // False if there are none: where no facet is near, no vertex nor edge of one is.
+  // False if none is near: a vertex or an edge is near only where a facet is.
   bool take(const MovingMesh& m, MovingCluster& from, const Cut& cut, const Box& near);
 
  private:

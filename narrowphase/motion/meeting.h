@@ -9,7 +9,7 @@
 // matter for that. Spans without a certificate are halved, the earlier half first. Where the polygon is as near as
 // doubles can tell, or the span is as short as kFinestSpan of the step, double_doubles go on; what is left then counts
 // as a meeting, at its beginning. A corner that goes exactly through the origin is a meeting: all that is left to prove
-// is that there is none before. Hence
+// is that none comes before. Hence
 //   - a time is never later than the true one;
 //   - a polygon that misses the origin by more than 1e-11 of its size and way never counts, and most often one that
 //     misses it by 1e-25;

@@ -1,7 +1,7 @@
 // Trees over many boxes, built by Embree, for the pairs of bodies whose clusters are too many for a plain loop.
 //
-// Embree proposes the topology only; the boxes in the nodes are ours, in doubles, so a query misses nothing and reports
-// nothing else, however far from zero the bodies are. Its rtcCollide is not used: boxes there are floats, its threads
+// Embree proposes the topology only; the boxes in the nodes are ours, in doubles, so a query reports exactly the boxes
+// that overlap, however far from zero the bodies are. Its rtcCollide is not used: boxes there are floats, its threads
 // are not ours, and every call allocates. As no scene is made, none of the ways in which scenes fail can occur: empty
 // ones, flags that differ, boxes beyond 1.8e18, a refit of what is not a number.
 #pragma once

@@ -1,5 +1,5 @@
-// The clusters of a mesh that a search keeps: those whose boxes reach what they are held against. Groups of clusters
-// are asked first.
+// The clusters of a mesh that a search keeps: those whose boxes reach the other mesh. Groups of clusters are tested
+// first.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct LeastHeight {
 struct ClusterBoxes {
   const ClusteredMesh* mesh = nullptr;
   const Placement* begin = nullptr;           // if not null, the boxes are swept: from there to where the mesh is
-  const LeastHeight* least_height = nullptr;  // if not null, what it leaves out is not kept; without `begin` only
+  const LeastHeight* least_height = nullptr;  // if not null, clusters below it are dropped; requires begin == nullptr
 
   Box box() const { return begin == nullptr ? mesh->box() : merged(begin->box, mesh->box()); }
   Box operator[](int cluster) const {

@@ -33,7 +33,7 @@ class OpenClusters {
 
  private:
   Opened opened_[kPlaces + 1];  // and one that would have the place of `beside`
-  int cluster_[kPlaces + 1];    // apart from them, as to ask for a cluster should read nothing of another
+  int cluster_[kPlaces + 1];    // apart from them, so that a look-up reads nothing of another cluster
 };
 
 }  // namespace tact::narrowphase

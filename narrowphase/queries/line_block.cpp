@@ -19,7 +19,7 @@ void ask_alone(const ClusteredMesh& mesh, FirstHitQuery& query) {
   if (const auto hit = first_hit(mesh, PreparedSegment(query.segment), query.latest)) query.take(*hit);
 }
 
-// Segments that are asked of one mesh together.
+// Segments that are cast at one mesh together.
 class Block {
  public:
   Block(const ClusteredMesh& mesh, const LineTree& tree, std::span<FirstHitQuery* const> queries)

@@ -1,4 +1,4 @@
-// Many segments that are asked for their first facet together, a few at a time: each step is done for all of them
+// The first facets of many segments, a few segments at a time: each step is done for all of them
 // before the next, so that the processor need not wait for, nor guess, what one of them turns out to be.
 //
 // What a segment may meet is found in floats, from the tree that SegmentBatch has; what it meets is decided as for one

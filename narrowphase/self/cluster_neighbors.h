@@ -47,8 +47,9 @@ class ClusterNeighbors {
   static constexpr int kMostAround = 128;
   /// The corners at which a cluster meets others, ascending.
   std::span<const int> corners_of(int cluster) const { return part(corners_of_, corners_of_begin_, cluster); }
-  /// Does a facet of the cluster name a vertex twice, or lie at an edge that is not that of one facet, or of two that
-  /// run through it in opposite directions? Or has it more neighbours than can be listed? Its rims are not complete.
+  /// True if a facet of the cluster names a vertex twice, or lies at an edge that does not belong to one facet, or to
+  /// two that run through it in opposite directions, or if it has more neighbours than can be listed. Its rims are then
+  /// incomplete.
   bool irregular(int cluster) const { return irregular_[cluster] != 0; }
 
  private:

@@ -24,8 +24,8 @@ struct OpenFacets {
     facets = ~std::uint64_t{0} >> (kClusterSize - block.count);
     listed_ = false;
   }
-  // Which facets have each of the vertices, owned ones first. Listed when first asked for: most clusters are held
-  // against others only that are far along the surface.
+  // Which facets have each of the vertices, owned ones first. Listed at the first use: most clusters are paired
+  // only with others that are far along the surface.
   const std::uint64_t* with_vertex() {
     if (std::exchange(listed_, true)) return with_vertex_;
     std::fill_n(with_vertex_, source.owned_count + source.borrowed_count, 0);

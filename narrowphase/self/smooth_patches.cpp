@@ -184,7 +184,8 @@ SmoothPatches::Judge::Region SmoothPatches::Judge::region_of(const ClusteredMesh
   return region;
 }
 
-// Does the way from one point to another lie beyond one of the region's sides between x and y? `above`: on that of y.
+// True if the line from one point to another lies beyond one of the region's sides between x and y; `above`: on that of
+// y.
 bool SmoothPatches::Judge::lies_beyond(const Region& region, const Flat& p, const Flat& q, bool& above) {
   const auto along_p = between(p), along_q = between(q);
   for (int k = 0; k < kBetween; ++k) {
@@ -194,7 +195,7 @@ bool SmoothPatches::Judge::lies_beyond(const Region& region, const Flat& p, cons
   return false;
 }
 
-// Does a rim lie beyond one side of the region, and cross the ray no more often one way than the other? By its box.
+// True if a rim lies beyond one side of the region and crosses the ray as often one way as the other. By its box.
 bool SmoothPatches::Judge::passes_by(const RimBox& rim, const View& view, const Region& region) const {
   const Flat middle = seen(view, rim.middle);
   const double half_x = half_along(rim, view.x), half_y = half_along(rim, view.y);
@@ -260,8 +261,8 @@ SmoothPatches::Judge::Boundary SmoothPatches::Judge::walk(const SmoothPatches& p
   return ends_.empty() ? Boundary::avoids : Boundary::ends;
 }
 
-// Do strips that run from all ends against y continue the surface, and avoid the rays at the ends of chains the region?
-// Sorts the ends along x.
+// True if strips that run from all ends against y continue the surface, and the rays at the ends of chains avoid the
+// region. Sorts the ends along x.
 bool SmoothPatches::Judge::continues(const Region& region) {
   std::ranges::sort(ends_, {}, [](const End& end) { return end.from.x; });
   const auto avoids = [&](const Flat& p) {

@@ -28,15 +28,15 @@
 // them is at most d / cos m long, and p is left at a rate of at least d (cos m - tan² t / cos m): tan t < cos m will
 // do.
 //
-// **Where D is not needed.** Is the boundary one closed line that, seen along v, does not come to any place twice, no
-// point is covered more than once, as no winding number about such a line is beyond 1. Then facets of P meet only where
-// they share a vertex, those at the boundary among them. For a point x of two facets that is not seen on the boundary 1
-// holds as it stands. If x is seen on it, within an edge, that edge's facet covers all of P's side around x, and no
-// other facet holds x. At a vertex of it that do the facets around the vertex, which go from the one of its two edges
-// to the other, and all that hold x are among them.
+// **Where D is not needed.** If the boundary is one closed line that, seen along v, does not come to any place twice,
+// no point is covered more than once, as no winding number about such a line is beyond 1. Then facets of P meet only
+// where they share a vertex, those at the boundary among them. For a point x of two facets that is not seen on the
+// boundary 1 holds as it stands. If x is seen on it, within an edge, that edge's facet covers all of P's side around x,
+// and no other facet holds x. At a vertex of it that do the facets around the vertex, which go from the one of its two
+// edges to the other, and all that hold x are among them.
 //
 // **How it is tested.** For some clusters that lie together, P is all clusters around them, v the mean of their axes,
-// and D a polygon around those that were asked for. In tight turns such a P leaves the half space of v, and P is three
+// and D a polygon around the given ones. In tight turns such a P leaves the half space of v, and P is three
 // or four clusters that meet at a vertex, without D. Cones bound the normals of each cluster. All is computed in
 // doubles, with bounds of rounding (kSlack, kViewSlack), and what they cannot tell is not proved.
 //
@@ -77,7 +77,7 @@ class SmoothPatches {
   void begin(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors);
   void look_at(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, int cluster);
 
-  /// Do facets of the clusters at a corner that share no vertex certainly not meet? Shown without D.
+  /// True if facets of the clusters at a corner that share no vertex certainly do not meet. Shown without D.
   bool never_meet_at(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, int corner) const;
 
   /// Memory of a thread, used again.
@@ -139,7 +139,7 @@ class SmoothPatches {
     bool continues(const Region& region);
     double cosine_of_inward_turn() const;
 
-    // Of each cluster: mark_ if it is one of the patch, mark_ + 1 if it is one of those that were asked for.
+    // Of each cluster: mark_ if it is one of the patch, mark_ + 1 if it is one of the given ones.
     std::vector<int> marks_;
     int mark_ = 0;
     std::vector<int> patch_;

@@ -59,7 +59,8 @@ void FacetPairSearch::run(const ConfirmInput& input, const std::vector<ClusterPa
   finish_block(input, found, counts);
 }
 
-// May some facet of a cluster of B meet something in a box, which reaches `cells`? Its box and the facets' planes tell.
+// True if some facet of a cluster of B may meet something in a box, which reaches `cells`, by its box and the planes of
+// the facets.
 bool FacetPairSearch::reaches_b(const ConfirmInput& input, std::int32_t index, const Box& box, const CellBox& cells) {
   const PlaceInB place = open_b(input, index);
   if (place.facets == 0) return false;

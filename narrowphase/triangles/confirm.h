@@ -15,8 +15,8 @@
 
 namespace tact::narrowphase {
 
-// Do so many cluster pairs show that surfaces lie on each other? Where bodies meet in a small part, the criteria leave
-// few facets of each cluster.
+// True if so many cluster pairs show that surfaces lie on each other. Where bodies meet in a small part, the criteria
+// leave few facets of each cluster.
 bool worth_as_surfaces(const ConfirmInput& input, std::size_t cluster_pairs);
 
 // Tests the facets of cluster pairs; one for each thread, its memory reused.

@@ -22,8 +22,8 @@ namespace {
 constexpr double kHeightError = 0x1p-21, kPlaceError = 0x1p-20;
 constexpr double kLeastError = 1e-36;  // of what vanishes in floats
 
-// Cells of the grid over a cluster of A: some are left free on both sides for what lies beyond it. None is so small
-// that rounding could move a facet into these.
+// Cells of the grid over a cluster of A: some are left free on both sides for what lies beyond it. Each is so large
+// that rounding cannot move a facet into these.
 constexpr double kMostCells = 32000.0, kFreeCells = 2.0, kSmallestCell = 0x1p-18;
 constexpr std::int16_t kLast = static_cast<std::int16_t>(kLastCell), kLastOfA = kLast - 1;
 constexpr CellBox kAllCells{{0, 0, 0}, {kLast, kLast, kLast}};
