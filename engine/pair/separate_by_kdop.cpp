@@ -22,8 +22,8 @@ void find_missing_kdops(const PairTable& table, Bodies& bodies, int threads) {
   bodies.find_kdops(threads);
 }
 
-// Whether an axis shows that the pair is farther apart than its margins. The one that did last is looked at first, then the
-// others; notes which one does.
+// Whether an axis shows that the pair is farther apart than its margins. The one that did last is looked at first, then
+// the others; notes which one does.
 bool is_separated(const MovedPair& pair, const Bodies& bodies, PairTable& table) {
   if (table.in_contact(pair.place)) return false;
   const CandidatePair& candidate = table.candidates()[pair.place];
