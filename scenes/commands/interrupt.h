@@ -1,4 +1,4 @@
-// Ctrl-C as a query, so that a long run can end with what was done so far.
+// Ctrl-C as a flag, so that a long run can end with what was done so far.
 #pragma once
 
 #include <csignal>

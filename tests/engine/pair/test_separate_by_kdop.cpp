@@ -215,7 +215,7 @@ TEST(SeparatedPairs, OfBodiesWithMarginsChangesNoReport) {
   std::vector<BodyId> ids, same_ids;
   Random random(6);
   for (int i = 0; i < 125; ++i) {
-    balls.push_back(translated(ball, {1.0 * (i % 5), 1.0 * (i / 5 % 5), 1.0 * (i / 25)}));
+    balls.push_back(translated(ball, {0.9 * (i % 5), 0.9 * (i / 5 % 5), 0.9 * (i / 25)}));
     const double margin = i % 3 == 0 ? 0.0 : 0.06;
     for (World* world : {&with, &without}) {
       const BodyId id = world->add_body({.positions = balls.back().positions, .facets = ball.facets, .margin = margin});
