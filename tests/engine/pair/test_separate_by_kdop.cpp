@@ -235,8 +235,8 @@ TEST(SeparatedPairs, OfBodiesWithMarginsChangesNoReport) {
       without.set_positions(same_ids[i], balls[i].positions);
     }
   }
-  EXPECT_GT(separated, 100);
-  EXPECT_GT(near, 100);
+  EXPECT_GT(separated, 1000);
+  EXPECT_GT(near, 1000);
 }
 
 }  // namespace
