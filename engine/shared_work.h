@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <deque>
 #include <mutex>
-#include <ranges>
 #include <span>
 #include <utility>
 #include <vector>
@@ -140,10 +139,10 @@ class SharedWork {
   }
 
   /// What is shared out.
-  auto items() const { return std::views::counted(items_.begin(), static_cast<std::ptrdiff_t>(items_in_use_)); }
+  auto items() const { return part(items_, 0, items_in_use_); }
   std::size_t range_count() const { return ranges_in_use_; }
-  auto ranges(const Shared& shared) const { return part(ranges_, shared); }
-  auto ranges(const Shared& shared) { return part(ranges_, shared); }
+  auto ranges(const Shared& shared) const { return part(ranges_, shared.first, shared.count); }
+  auto ranges(const Shared& shared) { return part(ranges_, shared.first, shared.count); }
 
  private:
   struct Left {
@@ -152,9 +151,19 @@ class SharedWork {
     std::size_t place;
   };
 
-  static auto part(auto& ranges, const Shared& shared) {
-    return std::views::counted(ranges.begin() + static_cast<std::ptrdiff_t>(shared.first),
-                               static_cast<std::ptrdiff_t>(shared.count));
+  // Clang 14 does not take libstdc++'s views over a deque.
+  template <class Iterator>
+  struct Part {
+    Iterator first, last;
+    Iterator begin() const { return first; }
+    Iterator end() const { return last; }
+    std::size_t size() const { return static_cast<std::size_t>(last - first); }
+    bool empty() const { return first == last; }
+    auto& front() const { return *first; }
+  };
+  static auto part(auto& all, std::size_t first, std::size_t count) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
+    return Part<decltype(all.begin())>{begin, begin + static_cast<std::ptrdiff_t>(count)};
   }
 
   Shared& add(std::span<const narrowphase::ClusterPair> pairs, std::size_t ranges) {

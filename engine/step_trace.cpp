@@ -54,7 +54,7 @@ void add_ranges(Time begin, const LargePairs& large, std::vector<TraceEvent>& ev
   const auto pairs = large.items();
   if (pairs.empty()) return;
   TraceEvent all{.kind = Kind::confirm, .begin = begin, .end = begin};
-  if (pairs.size() == 1) all.a = pairs[0].item.record->a, all.b = pairs[0].item.record->b;
+  if (pairs.size() == 1) all.a = pairs.front().item.record->a, all.b = pairs.front().item.record->b;
   for (const LargePairs::Shared& pair : pairs) {
     const PairRecord& record = *pair.item.record;
     for (const LargePairs::Range& range : large.ranges(pair)) {
