@@ -13,7 +13,7 @@ namespace tact::narrowphase {
 
 struct Crossing;
 
-/// What the search for near features is told of the surfaces as a whole.
+/// What the search for near features knows of both surfaces.
 struct NearRules {
   const Crossing* crossing = nullptr;  // if they cross: what is past the other surface has no such points
   Vec3 touching{};  // if they do not: where a gap is zero, the normal is turned along it; zero: it stays as it is

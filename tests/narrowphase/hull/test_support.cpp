@@ -12,20 +12,9 @@
 namespace tact::narrowphase {
 namespace {
 
-// Whose vertices are often equally high, or of very different size.
-std::vector<tests::Mesh> meshes_with_ties() {
-  return {tests::box({0, 0, 0}, {1, 2, 3}),
-          tests::blob(3, 1.0, 0.3, 1),
-          tests::wrinkled_sheet(40, 2.0, 0.2, 2),
-          tests::lattice_soup(500, 2, 3),
-          tests::wrinkled_sheet(60, 2.0, 0.2, 2),
-          tests::needles(100, 1e9, 4),
-          tests::sheet(1, 1, 1.0, 1.0)};
-}
-
 TEST(Support, IsThatOfAFullScanBitForBit) {
   tests::Random random(7);
-  for (const tests::Mesh& mesh : meshes_with_ties()) {
+  for (const tests::Mesh& mesh : tests::meshes_with_ties()) {
     const ClusteredMesh clusters = tests::clustered(mesh);
     for (int i = 0; i < 100; ++i) {
       // Every tenth direction is an axis or a diagonal: many vertices tie.

@@ -15,18 +15,8 @@ namespace {
 using tests::clustered;
 using tests::Mesh;
 
-std::vector<Mesh> many() {
-  return {tests::box({0, 0, 0}, {1, 2, 3}),
-          tests::blob(3, 1.0, 0.3, 1),
-          tests::wrinkled_sheet(40, 2.0, 0.2, 2),
-          tests::lattice_soup(500, 2, 3),
-          tests::wrinkled_sheet(60, 2.0, 0.2, 2),
-          tests::needles(100, 1e9, 4),
-          tests::sheet(1, 1, 1.0, 1.0)};
-}
-
 TEST(ClusteredMesh, IsValidForAnyMesh) {
-  for (const Mesh& mesh : many()) {
+  for (const Mesh& mesh : tests::meshes_with_ties()) {
     const ClusteredMesh clusters = clustered(mesh);
     EXPECT_NO_THROW(clusters.validate());
     EXPECT_EQ(clusters.facet_count(), mesh.facet_count());
@@ -55,7 +45,7 @@ TEST(ClusteredMesh, AnUnusedVertexDoesNotCount) {
 }
 
 TEST(ClusteredMesh, MovesAndSaysSo) {
-  for (const Mesh& mesh : many()) {
+  for (const Mesh& mesh : tests::meshes_with_ties()) {
     ClusteredMesh clusters = clustered(mesh);
     EXPECT_EQ(refit(clusters, mesh.positions.data()), Refit::same);
     Mesh moved = tests::crumpled(mesh, 11);
@@ -94,7 +84,7 @@ TEST(ClusteredMesh, RefusesBadPositionsAndStaysAsItWas) {
 }
 
 TEST(ClusteredMesh, IsTakenBackToWhereItWas) {
-  for (const Mesh& mesh : many()) {
+  for (const Mesh& mesh : tests::meshes_with_ties()) {
     ClusteredMesh clusters = clustered(mesh);
     const base::Box box = clusters.box();
     EXPECT_EQ(refit(clusters, tests::crumpled(mesh, 11).positions.data()), Refit::changed);
