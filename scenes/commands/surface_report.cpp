@@ -21,7 +21,7 @@ std::string place_text(int number) { return fmt::to_string(number); }
 std::string place_text(const std::array<int, 2>& two) { return fmt::format("{}-{}", two[0], two[1]); }
 std::string place_text(const FacetPair& two) { return fmt::format("{}-{}", two.a, two.b); }
 
-// "    border edges       4: 0-1, 1-2, 2-3, 0-3"
+// "    border edges                   4: 0-1, 1-2, 2-3, 0-3"
 template <class Place>
 void print_fault(std::ostream& out, const char* name, const std::vector<Place>& places) {
   if (places.empty()) return;
@@ -29,7 +29,7 @@ void print_fault(std::ostream& out, const char* name, const std::vector<Place>& 
   for (std::size_t i = 0; i < std::min(places.size(), kNamedPlaces); ++i)
     text += (i == 0 ? "" : ", ") + place_text(places[i]);
   if (places.size() > kNamedPlaces) text += ", ...";
-  fmt::print(out, "    {:<22}{:>8}: {}\n", name, places.size(), text);
+  fmt::print(out, "    {:<26}{:>6}: {}\n", name, places.size(), text);
 }
 
 std::vector<int> inside_out_of(const SurfaceCheck& check) {
