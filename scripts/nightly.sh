@@ -2,8 +2,8 @@
 # What is too long for every change: a hundred million hard triangle pairs, a million of hulls, ten million of moving
 # features, a million questions, five thousand pairs of bodies with contact points, a hundred sets of folded sheets, a
 # soak of a million steps, the scenes until they rest, a thousand cases of every kind of hardship, clang-tidy over the
-# whole library, the tests with assertions on, against a shared library and under the sanitizers, and the fuzzing of the
-# readers.
+# whole library, the tests with assertions on, against a shared library, without Embree and OpenMP and under the
+# sanitizers, and the fuzzing of the readers.
 # usage: scripts/nightly.sh [SECONDS of fuzzing a format, 600 if not given]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -26,5 +26,7 @@ scripts/build.sh debug
 ctest --preset debug -j 2
 scripts/build.sh shared
 ctest --preset shared -j 2
+scripts/build.sh plain
+ctest --preset plain -j 2
 scripts/sanitize.sh all
 scripts/fuzz.sh "${1:-600}"

@@ -1,9 +1,13 @@
-// The one place with OpenMP in it, or with the threads of a program that brings its own (workers.h). An item writes
-// only to a slot of its own, so nothing depends on the number of threads; an exception is caught in its item and the
-// one of the lowest index is thrown again after the loop.
+// The one place with OpenMP in it, or with the threads of a program that brings its own (workers.h), or with a pool of
+// threads where OpenMP was left out. An item writes only to a slot of its own, so nothing depends on the number of
+// threads; an exception is caught in its item and the one of the lowest index is thrown again after the loop.
 #pragma once
 
+#if !defined(TACT_WITHOUT_OPENMP)
 #include <omp.h>
+#else
+#include <thread>
+#endif
 
 #include <algorithm>
 #include <array>
@@ -16,12 +20,21 @@
 #include <type_traits>
 
 #include "engine/base/floating_point_mode.h"
+#if defined(TACT_WITHOUT_OPENMP)
+#include "engine/base/thread_pool.h"
+#endif
 #include "engine/base/workers.h"
 
 namespace tact::base {
 
 // The number of threads that `threads = 0` stands for.
-inline int default_threads() { return omp_get_max_threads(); }
+inline int default_threads() {
+#if !defined(TACT_WITHOUT_OPENMP)
+  return omp_get_max_threads();
+#else
+  return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 1024u));
+#endif
+}
 
 // How many neighbouring items to give out at a time: few enough that threads end together, and up to `most` of them,
 // so that what an item asks memory for is wanted by the same thread.
@@ -142,6 +155,7 @@ void lower_to(std::atomic<Value>& least, Value value) {
   }
 }
 
+#if !defined(TACT_WITHOUT_OPENMP)
 // Calls run(thread) on `threads` threads of OpenMP. What it loses by threads that are not allowed to run is noted: the
 // wait before the caller's own work (for threads that have not left the last loop) and after the last work of all, and
 // of that between, as much as some thread did not run.
@@ -175,6 +189,7 @@ void run_on_openmp(int threads, int wanted, Workers* workers, const Run& run) {
   const double ended_ms = own_end_ms + after_own_ms;  // the last work
   workers->note(threads, wanted, end_ms, own_begin_ms + end_ms - ended_ms + std::min(after_own_ms, delay_ms.load()));
 }
+#endif
 
 // Calls run(thread) for each of `threads` on the threads of a program. What it leaves out is done here.
 template <class Run>
@@ -210,10 +225,18 @@ void parallel_for(std::size_t count, std::size_t grain, int threads, const Work&
   const int allowed = workers != nullptr ? workers->allowed(threads) : threads;
   SharedLoop<Work, Afterwards> loop(count, grain, allowed, work, afterwards);
   const auto run = [&](int thread) { loop.run(thread); };
-  if (workers != nullptr && workers->executor() != nullptr) {
+  Executor* executor = workers != nullptr ? workers->executor() : nullptr;
+#if defined(TACT_WITHOUT_OPENMP)
+  if (executor == nullptr) executor = &ThreadPool::shared();
+#endif
+  if (executor != nullptr) {
     const auto tasks = std::min({loop.blocks(), static_cast<std::size_t>(threads), std::size_t{1024}});
-    run_on_executor(static_cast<int>(tasks), *workers->executor(), run);
-  } else if (allowed <= 1) {
+    run_on_executor(static_cast<int>(tasks), *executor, run);
+    loop.failed().rethrow();
+    return;
+  }
+#if !defined(TACT_WITHOUT_OPENMP)
+  if (allowed <= 1) {
     const auto begin = Workers::Clock::now();
     run(0);
     workers->note(1, threads, std::chrono::duration<double, std::milli>(Workers::Clock::now() - begin).count(), 0.0);
@@ -221,6 +244,7 @@ void parallel_for(std::size_t count, std::size_t grain, int threads, const Work&
     run_on_openmp(allowed, threads, workers, run);
   }
   loop.failed().rethrow();
+#endif
 }
 
 }  // namespace tact::base
