@@ -13,5 +13,6 @@
 #include <tact/settings.h>
 #include <tact/statistics.h>
 #include <tact/version.h>
+#include <tact/weld.h>
 #include <tact/world.h>
 #include <tact/world_observer.h>
