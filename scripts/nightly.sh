@@ -3,8 +3,8 @@
 # features, a million questions, five thousand pairs of bodies with contact points, a hundred sets of folded sheets, a
 # soak of a million steps, the scenes until they rest, a thousand cases of every kind of hardship, clang-tidy over the
 # whole library, the tests with assertions on, against a shared library, without Embree and OpenMP and under the
-# sanitizers, and the fuzzing of the readers.
-# usage: scripts/nightly.sh [SECONDS of fuzzing a format, 600 if not given]
+# sanitizers, and the fuzzing of the readers and of the interface for C, an hour each.
+# usage: scripts/nightly.sh [SECONDS of fuzzing a format, 3600 if not given]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh program tests bench sanitizers
@@ -17,6 +17,7 @@ TACT_LONG_POINT_PAIRS=5000 build/release/tests/long/test_points_long
 TACT_LONG_SELF_SEEDS=100 build/release/tests/long/test_self_long
 TACT_SOAK_STEPS=1000000 build/release/tests/long/test_soak_long
 TACT_LONG_SCENES_FULL=1 build/release/tests/long/test_scenes_long
+TACT_PRINTED_IN_FULL=1 build/release/tests/test_scenes --gtest_filter='PrintedCommands.*'
 for set in scalar avx2; do
   TACT_INSTRUCTION_SET=$set build/release/tests/test_engine --gtest_brief=1
 done
@@ -29,4 +30,4 @@ ctest --preset shared -j 2
 scripts/build.sh plain
 ctest --preset plain -j 2
 scripts/sanitize.sh all
-scripts/fuzz.sh "${1:-600}"
+scripts/fuzz.sh "${1:-3600}"

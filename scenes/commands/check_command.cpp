@@ -8,7 +8,9 @@
 #include <CLI/Validators.hpp>
 #include <algorithm>
 #include <charconv>
+#include <functional>
 #include <iostream>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -18,30 +20,35 @@
 
 #include "engine/base/parallel.h"
 #include "scenes/commands/common_options.h"
+#include "scenes/commands/counted.h"
 #include "scenes/commands/failures.h"
 #include "scenes/commands/interrupt.h"
 #include "scenes/commands/progress_line.h"
 #include "scenes/commands/report_json.h"
 #include "scenes/commands/report_table.h"
+#include "scenes/commands/standard_error.h"
 #include "scenes/commands/surface_report.h"
 #include "scenes/commands/usage_error.h"
 #include "scenes/files/body_files.h"
 #include "scenes/files/named_files.h"
 #include "scenes/files/output_file.h"
+#include "scenes/files/weld_frames.h"
 
 namespace tact::scenes {
 namespace {
 
 constexpr const char* kCheckExamples =
-    R"(A folder is one moving body: its mesh files in the order of their names, a file a
-frame; all folders must hold the same number of frames. A single file stands still.
-All files are read before the first step and held in memory: 24 bytes a vertex and frame.
-A body's name is its file's or folder's name; a repeated one gets #2 and so on.
+    R"(A folder is one moving body: its mesh files in the order of their names, frame_2 before
+frame_10, a file a frame; all folders must hold the same number of frames. A single file
+stands still. All files are read before the first step and held in memory: 24 bytes a
+vertex and frame. A body's name is its file's or folder's name; a repeated one gets #2 and
+so on. Options take a name without its ending, too, where only one body has it.
 
 Examples:
   tact check spot.ply fish.obj
   tact check sphere.obj cloth_frames/ --sheet cloth_frames --json contacts.json
   tact check part.stl part.stl --sheet part.stl#2 --accuracy hulls
+  tact check scan.obj --weld --self scan
   tact check a.off b.off c.off --json - | python3 -m json.tool
   tact check cloth/ ball.obj --sheet cloth --self cloth --margin 0.004 --points --json -
   tact check upper_arm.obj lower_arm.obj table.obj --exclude upper_arm lower_arm
@@ -50,19 +57,40 @@ Examples:
 std::vector<BodyFrames> bodies_of(const CheckOptions& options) {
   const int most_frames = options.frames > 0 ? options.frames : std::numeric_limits<int>::max();
   std::optional<ProgressLine> line;
-  return read_bodies(options.meshes, most_frames, [&](int done, int all) {
+  std::vector<BodyFrames> bodies = read_bodies(options.meshes, most_frames, [&](int done, int all) {
     if (!line) line.emplace("reading file", all, ProgressLine::Beside::nothing);
     line->show(done);
   });
+  if (options.weld) std::for_each(bodies.begin(), bodies.end(), weld_frames);
+  return bodies;
 }
 
-// The body that an option names.
+template <class Bodies>
+std::string names_of(const Bodies& bodies) {
+  std::string names;
+  for (const BodyFrames& body : bodies) names += (names.empty() ? "" : ", ") + body.name;
+  return names;
+}
+
+// "part#2" for "part.stl#2".
+std::string without_ending(const BodyFrames& body) {
+  if (body.moves) return body.name;
+  const std::filesystem::path file = body.files.front().filename();
+  return file.stem().string() + body.name.substr(file.string().size());
+}
+
+// The body that an option names, with its ending or without.
 BodyFrames& body_named(const std::string& option, const std::string& name, std::vector<BodyFrames>& bodies) {
   const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const BodyFrames& b) { return b.name == name; });
   if (found != bodies.end()) return *found;
-  std::string names;
-  for (const BodyFrames& body : bodies) names += (names.empty() ? "" : ", ") + body.name;
-  throw UsageError(fmt::format("{} {}: no body has this name; the bodies are: {}", option, name, names));
+  std::vector<std::reference_wrapper<BodyFrames>> fitting;
+  std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(fitting),
+               [&](const BodyFrames& b) { return without_ending(b) == name; });
+  if (fitting.size() == 1) return fitting.front();
+  if (fitting.empty())
+    throw UsageError(fmt::format("{} {}: no body has this name; the bodies are: {}", option, name, names_of(bodies)));
+  throw UsageError(
+      fmt::format("{} {}: the name without its ending of several bodies: {}", option, name, names_of(fitting)));
 }
 
 void mark_sheets(const std::vector<std::string>& sheets, std::vector<BodyFrames>& bodies) {
@@ -158,10 +186,30 @@ void set_frame(const std::vector<BodyFrames>& bodies, const std::vector<BodyId>&
   world.set_positions(updates);
 }
 
-ViewTitle title_of(const std::vector<BodyFrames>& bodies) {
-  std::string names;
-  for (const BodyFrames& body : bodies) names += (names.empty() ? "" : ", ") + body.name;
-  return {.name = names, .kind = "meshes"};
+ViewTitle title_of(const std::vector<BodyFrames>& bodies) { return {.name = names_of(bodies), .kind = "meshes"}; }
+
+// The file of each body, if one of them moves.
+std::vector<std::string> files_of(const std::vector<BodyFrames>& bodies, int frame) {
+  std::vector<std::string> files;
+  if (frame_count(bodies) == 0) return files;
+  for (const BodyFrames& body : bodies) files.push_back(body.files[body.moves ? frame : 0].string());
+  return files;
+}
+
+std::vector<Weld> welds_of(const CheckOptions& options, const std::vector<BodyFrames>& bodies) {
+  std::vector<Weld> welds;
+  if (!options.weld) return welds;
+  for (const BodyFrames& body : bodies) welds.push_back(body.weld);
+  return welds;
+}
+
+void print_welds(const std::vector<BodyFrames>& bodies, std::ostream& out) {
+  for (const BodyFrames& body : bodies) {
+    fmt::print(out, "welded {}: {} of {} merged with another", body.name, body.weld.merged_vertices,
+               counted(body.positions.front().cols() + body.weld.merged_vertices, "vertex", "vertices"));
+    if (body.weld.collapsed_facets > 0) fmt::print(out, ", {} collapsed", counted(body.weld.collapsed_facets, "facet"));
+    fmt::print(out, "\n");
+  }
 }
 
 int frames_to_step(const CheckOptions& options, const std::vector<BodyFrames>& bodies) {
@@ -173,6 +221,9 @@ int frames_to_step(const CheckOptions& options, const std::vector<BodyFrames>& b
 
 void check(const CheckOptions& options, std::ostream& out) {
   std::vector<BodyFrames> bodies = bodies_of(options);
+  for (const BodyFrames& body : bodies) {
+    for (const std::string& warning : body.warnings) print_warning(warning);
+  }
   mark_sheets(options.sheets, bodies);
   mark_selves(options.selves, bodies);
   set_margins(options.margins, bodies);
@@ -197,11 +248,13 @@ void check(const CheckOptions& options, std::ostream& out) {
   std::optional<JsonReport> json;
   if (json_file)
     json.emplace(json_file->stream(), world, page ? JsonReport::Outcomes::counts : JsonReport::Outcomes::none,
-                 options.surfaces ? JsonReport::Surfaces::checked : JsonReport::Surfaces::taken);
+                 options.surfaces ? JsonReport::Surfaces::checked : JsonReport::Surfaces::taken,
+                 welds_of(options, bodies));
   std::optional<TableReport> table;
   if (options.json != "-" && options.table) {
     if (options.surfaces) print_surfaces(out, world);
     table.emplace(out, world);
+    if (options.weld) print_welds(bodies, out);
   }
 
   const int frames = frames_to_step(options, bodies);
@@ -211,7 +264,7 @@ void check(const CheckOptions& options, std::ostream& out) {
     if (frame > 0) set_frame(bodies, ids, frame, world);
     const MotionReport* const motion = options.impacts && frame > 0 ? &world.detect_motion() : nullptr;
     const Report& report = world.detect();
-    if (json) json->add_frame(frame, report, motion);
+    if (json) json->add_frame(frame, report, motion, files_of(bodies, frame));
     if (table) table->add_frame(frame, report, motion);
     if (page) page->add_step(frame, std::nullopt, world, report);
     progress.show(frame + 1);
@@ -258,6 +311,8 @@ void add_check_command(CLI::App& program) {
                    "Do not hold these two bodies against each other, the sides of a joint, say; may be repeated")
       ->type_name("NAME NAME")
       ->allow_extra_args(false);
+  command->add_flag("--weld", options->weld,
+                    "Vertices with equal positions, in every frame, are one: for meshes with a vertex a corner");
   command->add_flag("--points", options->outputs.points,
                     "Find the contact points: where surfaces are nearest within their margins (in --json)");
   command->add_flag("--impacts", options->impacts,

@@ -24,6 +24,7 @@ struct CheckOptions {
   std::vector<std::pair<std::string, std::string>> excluded = {};  // bodies that are not held against each other
   Outputs outputs = {};                                            // points; for the page also zones and patches
   bool impacts = false;                                            // what meets between a frame and the next
+  bool weld = false;                                               // vertices with equal positions are one
   bool surfaces = false;                                           // what each surface is, before the first frame
   Accuracy accuracy = Accuracy::exact;
   int threads = 0;          // 0: as many as OpenMP would use
@@ -34,7 +35,8 @@ struct CheckOptions {
   bool table = true;        // print what touches
 };
 
-// Reads all files first, so that nothing is written if one is bad; then steps one world through the frames. Without
+// Reads all files first, so that nothing is written if one is bad; then steps one world through the frames. What was
+// read all the same, though it is odd, is a warning on standard error. Without
 // "-" for JSON, tables go to `out`. SIGINT ends it after the frame. Errors: FileError, UsageError (a name that is no
 // body, an output that is a mesh or another output), Error.
 void check(const CheckOptions& options, std::ostream& out);

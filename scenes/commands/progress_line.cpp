@@ -4,8 +4,9 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "scenes/commands/standard_error.h"
 
 namespace tact::scenes {
 namespace {
@@ -36,12 +37,12 @@ void ProgressLine::show(int done, std::string_view note) {
   if (!wanted_ || now < next_) return;
   next_ = now + std::chrono::milliseconds(100);
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  fmt::print(stderr, "\r{}\x1b[K", progress_text(unit_, done, all_, seconds, note));
+  write_error(fmt::format("\r{}\x1b[K", progress_text(unit_, done, all_, seconds, note)));
   shown_ = true;
 }
 
 void ProgressLine::clear() {
-  if (shown_) fmt::print(stderr, "\r\x1b[K");
+  if (shown_) write_error("\r\x1b[K");
   shown_ = false;
 }
 

@@ -34,8 +34,7 @@ void replay(const ReplayOptions& options, std::ostream& out) {
   const MappedFile file(options.recording);
   const std::string name = options.recording.string();
   base::Timer timer;
-  RecordingPlayer player =
-      of_recording(name, [&] { return RecordingPlayer(file.bytes(), {.threads = options.threads, .outputs = {}}); });
+  RecordingPlayer player = open_recording(file.bytes(), name, {.threads = options.threads, .outputs = {}});
   int steps = 0;
   int different = 0;
   std::optional<PlayedStep> first;

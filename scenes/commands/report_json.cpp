@@ -17,7 +17,7 @@ namespace {
 
 Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
-Json bodies_json(const World& world, JsonReport::Surfaces surfaces) {
+Json bodies_json(const World& world, JsonReport::Surfaces surfaces, const std::vector<Weld>& welds) {
   Json bodies = Json::array();
   for (const BodyId body : world.bodies()) {
     bodies.push_back({{"name", world.name(body)},
@@ -25,6 +25,10 @@ Json bodies_json(const World& world, JsonReport::Surfaces surfaces) {
                       {"facets", world.facet_count(body)},
                       {"surface", surface_name(world.surface(body))}});
     if (surfaces == JsonReport::Surfaces::checked) bodies.back()["check"] = surface_json(world.check_surface(body));
+    if (bodies.size() > welds.size()) continue;
+    const Weld& weld = welds[bodies.size() - 1];
+    bodies.back()["merged_vertices"] = weld.merged_vertices;
+    bodies.back()["collapsed_facets"] = weld.collapsed_facets;
   }
   return bodies;
 }
@@ -228,18 +232,20 @@ std::string feature_pair_name(FeaturePair kind) {
 
 std::string hash_text(const Report& report) { return fmt::format("{:016x}", report.hash()); }
 
-JsonReport::JsonReport(std::ostream& out, const World& world, Outcomes outcomes, Surfaces surfaces)
+JsonReport::JsonReport(std::ostream& out, const World& world, Outcomes outcomes, Surfaces surfaces,
+                       const std::vector<Weld>& welds)
     : out_(out),
       has_facets_(world.settings().accuracy != Accuracy::hulls),
       has_points_(world.settings().outputs.points),
       outcomes_(outcomes) {
   out_ << "{\"tact\":" << json_text(TACT_VERSION)
        << ",\"accuracy\":" << json_text(accuracy_name(world.settings().accuracy))
-       << ",\"threads\":" << world.settings().threads << ",\n \"bodies\":" << json_text(bodies_json(world, surfaces))
-       << ",\n \"frames\":[";
+       << ",\"threads\":" << world.settings().threads
+       << ",\n \"bodies\":" << json_text(bodies_json(world, surfaces, welds)) << ",\n \"frames\":[";
 }
 
-void JsonReport::add_frame(int frame, const Report& report, const MotionReport* motion) {
+void JsonReport::add_frame(int frame, const Report& report, const MotionReport* motion,
+                           const std::vector<std::string>& files) {
   std::optional<FacetOutcomeFinder> finder;
   if (outcomes_ == Outcomes::counts) finder.emplace(report);
   Json json = {{"frame", frame},
@@ -251,6 +257,7 @@ void JsonReport::add_frame(int frame, const Report& report, const MotionReport* 
     json["impacts"] = impacts_json(*motion);
     json["first_time"] = motion->impacts().empty() ? Json(nullptr) : Json(motion->first_time());
   }
+  if (!files.empty()) json["files"] = files;
   out_ << (first_ ? "\n" : ",\n") << json_text(json);
   first_ = false;
 }

@@ -7,7 +7,8 @@
 //                "source":"carried","iterations":k,"limit_reached":false,"kept_facets":[ka,kb],
 //                "outcomes":[{"outside_box":n,...,"meets":n},{...}],"facet_pairs":[[fa,fb],...]},...],
 //      "stats":{"bodies":2,...},"times_ms":{"refresh":0.1,...},
-//      "impacts":[{"bodies":[0,1],"kind":"edge-edge","a":[1,2],"b":[7,9],"time":t},...],"first_time":t}],
+//      "impacts":[{"bodies":[0,1],"kind":"edge-edge","a":[1,2],"b":[7,9],"time":t},...],"first_time":t,
+//      "files":["cloth/frame_2.obj","ball.obj"]}],
 //    "interrupted":true}
 //
 // `a` and `b` are places in `bodies`. `pairs` are the candidate pairs, sorted by (a, b); one whose hulls are apart has
@@ -16,8 +17,10 @@
 // "limit_reached" whether it is only the best that was found before a limit. At Accuracy::hulls every "facet_pairs" is
 // null. `stats` and `times_ms` have the names of <tact/statistics.h>, the times without their "_ms". `impacts` are
 // those since the frame before, sorted by bodies and then by time, where they are requested; `first_time` is null if
-// there is none. `interrupted` is there only if Ctrl-C ended the frames. Numbers read back to the same double. A name
-// that is not UTF-8 has U+FFFD in the place of each wrong byte.
+// there is none. `files` names the file of each body, where a folder moves one. A body of `tact check --weld` tells
+// how many vertices merged with an earlier one, "merged_vertices", and "collapsed_facets". `interrupted` is there only
+// if Ctrl-C ended the frames. Numbers read back to the same double. A name that is not UTF-8 has U+FFFD in the place of
+// each wrong byte.
 #pragma once
 
 #include <tact/motion.h>
@@ -27,8 +30,10 @@
 
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "scenes/commands/interrupt.h"
+#include "scenes/files/body_files.h"
 
 namespace tact::scenes {
 
@@ -48,11 +53,12 @@ class JsonReport {
   enum class Surfaces { taken, checked };  // whether bodies have a "check": see surface_report.h
 
   // Writes what comes before the frames. `world` must hold all the bodies of the run, in its settings the number of
-  // threads that is to be told. `out` must outlive the report.
+  // threads that is to be told. `welds` are those of the bodies, or none. `out` must outlive the report.
   JsonReport(std::ostream& out, const World& world, Outcomes outcomes = Outcomes::none,
-             Surfaces surfaces = Surfaces::taken);
-  // `motion` is what met since the frame before, or null.
-  void add_frame(int frame, const Report& report, const MotionReport* motion = nullptr);
+             Surfaces surfaces = Surfaces::taken, const std::vector<Weld>& welds = {});
+  // `motion` is what met since the frame before, or null; `files` are those of the bodies, or none.
+  void add_frame(int frame, const Report& report, const MotionReport* motion = nullptr,
+                 const std::vector<std::string>& files = {});
   // Writes what comes after the frames.
   void finish(Ending ending = Ending::complete);
 

@@ -36,6 +36,9 @@ constexpr const char* kRunExamples =
     "  tact run pile --size 1000 --frames 100 --no-pictures\n"
     "  tact run bullets --continuous";
 
+// What --view without a name stands for.
+constexpr const char* kPageOfScene = "tact-SCENE.html";
+
 const SceneEntry& entry_of(const RunOptions& options) {
   const SceneEntry* entry = find_scene(options.scene);
   if (entry == nullptr) throw UsageError(fmt::format("{}: no such scene (tact scenes lists them)", options.scene));
@@ -172,13 +175,16 @@ void add_run_command(CLI::App& program) {
   command
       ->add_option("--view", outputs.view.file,
                    "Write a page for the browser that plays the run; zones and patches are then found, too")
-      ->type_name("FILE.html")
+      ->type_name("[FILE.html]")
+      ->expected(0, 1)
+      ->default_str(kPageOfScene)
       ->check(refuse_empty_name);
   add_page_options(*command, outputs.view);
   add_trace_option(*command, outputs.trace);
   add_record_option(*command, options->record);
   command->callback([options, no_pictures] {
     options->outputs.pictures = !*no_pictures;
+    if (options->outputs.view.file == kPageOfScene) options->outputs.view.file = page_of(options->scene);
     options->outputs.view.every = std::max(options->outputs.every, 1);
     run(*options, std::cout);
   });

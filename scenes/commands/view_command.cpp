@@ -55,7 +55,7 @@ std::string stem_of(const std::string& what) {
 
 ViewOptions named_page(const ViewCommandOptions& options) {
   ViewOptions page = options.page;
-  if (page.file.empty()) page.file = "tact-" + stem_of(options.what.front()) + ".html";
+  if (page.file.empty()) page.file = page_of(stem_of(options.what.front()));
   return page;
 }
 
@@ -72,8 +72,7 @@ void view_recording(const ViewCommandOptions& options, const ViewOptions& page_o
   ViewPage page(page_options, {.name = std::filesystem::path(name).filename().string(), .kind = "recording"}, out);
   Outputs outputs = options.outputs;
   outputs.zones = true;
-  RecordingPlayer player = of_recording(
-      name, [&] { return RecordingPlayer(file.bytes(), {.threads = options.threads, .outputs = outputs}); });
+  RecordingPlayer player = open_recording(file.bytes(), name, {.threads = options.threads, .outputs = outputs});
   std::optional<JsonReport> json;
   while (!interrupt.requested()) {
     const std::optional<PlayedStep> step = of_recording(name, [&] { return player.next(); });
@@ -151,6 +150,7 @@ void check_use(const ViewCommandOptions& options) {
 }
 
 void add_mesh_options(CLI::App& command, CheckOptions& check) {
+  command.add_flag("--weld", check.weld, "Meshes: vertices with equal positions are one");
   command.add_option("--sheet", check.sheets, "Meshes: this body is a sheet; may be repeated")
       ->type_name("NAME")
       ->allow_extra_args(false);
@@ -180,6 +180,8 @@ void view(const ViewCommandOptions& options, std::ostream& out) {
   }
   if (options.opens) open_page(page.file, out);
 }
+
+std::string page_of(const std::string& name) { return "tact-" + name + ".html"; }
 
 void add_page_options(CLI::App& command, ViewOptions& page) {
   constexpr int kMost = std::numeric_limits<int>::max();

@@ -37,6 +37,8 @@ void view(const ViewCommandOptions& options, std::ostream& out);
 
 // Adds the subcommand `view` to `program`; to parse it is to run it.
 void add_view_command(CLI::App& program);
+// The page that is written where no other is named: tact-NAME.html.
+std::string page_of(const std::string& name);
 // --every, --from, --to and --largest, of a page.
 void add_page_options(CLI::App& command, ViewOptions& page);
 

@@ -29,19 +29,20 @@ class BinaryReader final : public Source {
     offset_ += raw.size();
     return std::bit_cast<Number>(raw);
   }
-  // Skips `count` bytes; fails if there are fewer.
-  void skip(std::uint64_t count) {
-    require(count);
-    offset_ += count;
+  // Skips `count` values of `size` bytes each; fails if there are fewer.
+  void skip(std::uint64_t count, std::size_t size = 1) {
+    require(count, size);
+    offset_ += count * size;
   }
   std::size_t bytes_left() const { return bytes_.size() - offset_; }
+  // The number that was read last is the one that a message is about.
+  std::int64_t place() const override { return static_cast<std::int64_t>(last_); }
 
  private:
-  // The number that was read last is the one that a message is about.
-  std::string place() const override { return ": byte " + std::to_string(last_); }
-  void require(std::uint64_t count) {
+  std::string place_text(std::int64_t place) const override { return ": byte " + std::to_string(place); }
+  void require(std::uint64_t count, std::size_t size = 1) {
     last_ = offset_;
-    if (bytes_left() < count) fail("the file ends too early, after " + std::to_string(bytes_.size()) + " bytes");
+    if (bytes_left() / size < count) fail("the file ends too early, after " + std::to_string(bytes_.size()) + " bytes");
   }
 
   std::size_t offset_;

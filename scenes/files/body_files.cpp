@@ -8,6 +8,7 @@
 
 #include "scenes/commands/counted.h"
 #include "scenes/files/mesh_file.h"
+#include "scenes/files/natural_order.h"
 
 namespace tact::scenes {
 namespace {
@@ -33,8 +34,9 @@ Listing list_files(const fs::path& path) {
   if (error) throw FileError(fmt::format("{}: cannot be listed: {}", path.string(), error.message()));
   if (listing.files.empty())
     throw FileError(path.string() + ": the folder holds no mesh file (.obj, .off, .ply, .stl)");
-  std::sort(listing.files.begin(), listing.files.end(),
-            [](const fs::path& a, const fs::path& b) { return a.filename().native() < b.filename().native(); });
+  std::sort(listing.files.begin(), listing.files.end(), [](const fs::path& a, const fs::path& b) {
+    return comes_before(a.filename().native(), b.filename().native());
+  });
   return listing;
 }
 
@@ -76,36 +78,49 @@ void check_frame_counts(const std::vector<fs::path>& paths, const std::vector<Li
   }
 }
 
-// Fails unless `mesh`, of `file`, differs from the first frame of `body` in its positions alone.
-void check_topology(const BodyFrames& body, const MeshFile& mesh, const fs::path& file) {
+// Fails unless `mesh`, of `file`, differs from the first frame of `body`, with polygons as the fans `facets`, in its
+// positions alone.
+void check_topology(const BodyFrames& body, const Eigen::Matrix3Xi& facets, const MeshFile& mesh,
+                    const fs::path& file) {
   const std::string first = body.files.front().string();
   const Eigen::Index vertices = body.positions.front().cols();
   if (mesh.positions.cols() != vertices) {
     throw FileError(fmt::format("{}: {} vertices, but the first frame, {}, has {}", file.string(),
                                 mesh.positions.cols(), first, vertices));
   }
-  if (mesh.facets.cols() != body.facets.cols()) {
+  if (mesh.facets.cols() != facets.cols()) {
     throw FileError(fmt::format("{}: {} facets, but the first frame, {}, has {}", file.string(), mesh.facets.cols(),
-                                first, body.facets.cols()));
+                                first, facets.cols()));
   }
   for (Eigen::Index f = 0; f < mesh.facets.cols(); ++f) {
-    if (mesh.facets.col(f) == body.facets.col(f)) continue;
+    if (mesh.facets.col(f) == facets.col(f)) continue;
     throw FileError(
         fmt::format("{}: facet {} has other vertices than in the first frame, {}", file.string(), f, first));
   }
 }
 
-// `read` is called after each file.
+// Adds the warnings of a file; of many the first few.
+void add_warnings(std::vector<std::string>&& warnings, BodyFrames& body) {
+  constexpr std::size_t kMost = 10;
+  for (std::string& warning : warnings) {
+    if (body.warnings.size() < kMost) body.warnings.push_back(std::move(warning));
+  }
+}
+
+// The polygons of later frames are split as those of the first. `read` is called after each file.
 template <class Read>
 BodyFrames read_frames(std::string name, const Listing& listing, const Read& read) {
   BodyFrames body{.name = std::move(name), .moves = listing.is_folder};
+  Eigen::Matrix3Xi fans;
   for (std::size_t i = 0; i < listing.files.size(); ++i) {
-    MeshFile mesh = read_mesh_file(listing.files[i]);
+    MeshFile mesh = read_mesh_file(listing.files[i], i == 0 ? Split::by_shape : Split::fans);
     if (i == 0) {
       body.facets = std::move(mesh.facets);
+      fans = std::move(mesh.fans);
     } else {
-      check_topology(body, mesh, listing.files[i]);
+      check_topology(body, fans.cols() > 0 ? fans : body.facets, mesh, listing.files[i]);
     }
+    add_warnings(std::move(mesh.warnings), body);
     body.files.push_back(listing.files[i]);
     body.positions.push_back(std::move(mesh.positions));
     read();

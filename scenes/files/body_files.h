@@ -14,6 +14,12 @@
 
 namespace tact::scenes {
 
+// What became of vertices with equal positions.
+struct Weld {
+  int merged_vertices = 0;   // with an earlier one
+  int collapsed_facets = 0;  // which have a vertex twice that had three
+};
+
 // A body as files give it: one mesh file stands still, a folder moves, a file a frame.
 struct BodyFrames {
   std::string name;                               // of the file or folder; "#2", "#3" ... after it if it comes again
@@ -24,15 +30,17 @@ struct BodyFrames {
   bool moves = false;   // was it a folder?
   double margin = 0.0;  // metres
   bool self_contact = false;
+  Weld weld = {};                          // of weld_frames()
+  std::vector<std::string> warnings = {};  // of its files, a line each; of many the first few
 };
 
 // Is told that `done` of `all` files are read: before the first one, and after each.
 using ReadProgress = std::function<void(int done, int all)>;
 
-// The bodies of `paths`, in their order. Of a folder the mesh files are taken, in the order of their names as bytes, up
-// to `most_frames` of them; other files, and those whose names begin with a dot, are ignored. All frames are held: 24
-// bytes a vertex and frame. Errors: FileError, also for a folder without a mesh file, frames of different topology and
-// folders with different numbers of files.
+// The bodies of `paths`, in their order. Of a folder the mesh files are taken, in the order of their names, numbers in
+// them by their value, up to `most_frames` of them; other files, and those whose names begin with a dot, are ignored.
+// All frames are held: 24 bytes a vertex and frame. Errors: FileError, also for a folder without a mesh file, frames of
+// different topology and folders with different numbers of files.
 std::vector<BodyFrames> read_bodies(
     const std::vector<std::filesystem::path>& paths, int most_frames = std::numeric_limits<int>::max(),
     const ReadProgress& progress = [](int, int) {});

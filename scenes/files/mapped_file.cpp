@@ -32,6 +32,7 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
   if (file.number < 0) fail(path, "cannot be opened");
   struct stat status {};
   if (fstat(file.number, &status) != 0) fail(path, "cannot be read");
+  if (S_ISDIR(status.st_mode)) throw FileError(path.string() + ": a folder, not a file");
   if (!S_ISREG(status.st_mode)) throw FileError(path.string() + ": not a file");
   if (status.st_size == 0) return;  // which cannot be mapped
   const auto size = static_cast<std::size_t>(status.st_size);

@@ -12,15 +12,15 @@ namespace {
 
 // A corner that names a vertex further down in the file.
 struct ForwardReference {
-  std::int64_t line;
+  std::int64_t place;
   int facet;
   std::int64_t vertex;  // from 0
 };
 
 class ObjReader {
  public:
-  ObjReader(std::string_view bytes, const std::string& file)
-      : text_(bytes, file, {.comment = '#', .backslash_joins_lines = true}), builder_(text_) {}
+  ObjReader(std::string_view bytes, const std::string& file, Split split)
+      : text_(bytes, file, {.comment = '#', .backslash_joins_lines = true}), builder_(text_, split) {}
 
   MeshFile read() {
     while (text_.seek_token()) {
@@ -55,7 +55,11 @@ class ObjReader {
     corners_.clear();
     text_.set_item("facet", builder_.facet_count());
     while (const auto token = text_.token()) corners_.push_back(read_corner(*token));
-    builder_.add_polygon(corners_);
+    if (corners_.empty()) {
+      text_.warn("a face without corners is left out");
+    } else {
+      builder_.add_polygon(corners_);
+    }
     text_.clear_item();
   }
 
@@ -90,7 +94,7 @@ class ObjReader {
     }
     const std::int64_t vertex = index - 1;
     if (vertex >= builder_.vertex_count())
-      forward_references_.push_back({text_.line(), builder_.facet_count(), vertex});
+      forward_references_.push_back({text_.place(), builder_.facet_count(), vertex});
     return static_cast<int>(vertex);
   }
 
@@ -100,8 +104,8 @@ class ObjReader {
 
   [[noreturn]] void fail_corner(const ForwardReference& reference) {
     text_.set_item("facet", reference.facet);
-    text_.fail_at_line(reference.line, fmt::format("names vertex {}, counted from 1, but the file has {}",
-                                                   reference.vertex + 1, vertices_text(builder_.vertex_count())));
+    text_.fail_at(reference.place, fmt::format("names vertex {}, counted from 1, but the file has {}",
+                                               reference.vertex + 1, vertices_text(builder_.vertex_count())));
   }
 
   TextReader text_;
@@ -112,6 +116,8 @@ class ObjReader {
 
 }  // namespace
 
-MeshFile parse_obj(std::string_view bytes, const std::string& file) { return ObjReader(bytes, file).read(); }
+MeshFile parse_obj(std::string_view bytes, const std::string& file, Split split) {
+  return ObjReader(bytes, file, split).read();
+}
 
 }  // namespace tact::scenes

@@ -14,7 +14,7 @@ struct TypeName {
   PlyType type;
 };
 
-constexpr std::array<TypeName, 16> kTypeNames = {{
+constexpr std::array<TypeName, 18> kTypeNames = {{
     {"char", PlyType::int8},
     {"int8", PlyType::int8},
     {"uchar", PlyType::uint8},
@@ -27,6 +27,8 @@ constexpr std::array<TypeName, 16> kTypeNames = {{
     {"int32", PlyType::int32},
     {"uint", PlyType::uint32},
     {"uint32", PlyType::uint32},
+    {"int64", PlyType::int64},
+    {"uint64", PlyType::uint64},
     {"float", PlyType::float32},
     {"float32", PlyType::float32},
     {"double", PlyType::float64},
@@ -90,11 +92,21 @@ void check_vertex(const TextReader& text, const PlyElement& element) {
   }
 }
 
-void check_face(const TextReader& text, const PlyElement& element) {
+bool has_corner_name(const PlyProperty& property) {
+  return property.name == "vertex_indices" || property.name == "vertex_index";
+}
+
+// Of faces, or of strips.
+void check_corners(const TextReader& text, const PlyElement& element) {
   const auto lists = std::count_if(element.properties.begin(), element.properties.end(), is_ply_corner_list);
-  if (lists != 1) {
-    text.fail(fmt::format("the element face has {} lists vertex_indices or vertex_index, one is needed", lists));
+  if (lists == 1) return;
+  for (const PlyProperty& property : element.properties) {
+    if (!has_corner_name(property) || is_ply_corner_list(property)) continue;
+    text.fail(fmt::format("{} of the element {} is {}, not a list of integers", property.name, element.name,
+                          property.size_type ? "a list of float or double" : "one number"));
   }
+  text.fail(
+      fmt::format("the element {} has {} lists vertex_indices or vertex_index, one is needed", element.name, lists));
 }
 
 void check_header(const TextReader& text, PlyHeader& header, bool has_encoding) {
@@ -105,23 +117,20 @@ void check_header(const TextReader& text, PlyHeader& header, bool has_encoding) 
       check_vertex(text, element);
       header.vertices = element.count;
       has_vertex = true;
-    } else if (element.name == "face") {
-      check_face(text, element);
-    } else if (element.name == "tristrips" && element.count > 0) {
-      text.fail("triangle strips are not read");
+    } else if (element.name == "face" || element.name == "tristrips") {
+      check_corners(text, element);
     }
   }
   if (!has_vertex) text.fail("the header has no element vertex");
 }
 
-// The end of the header's last line is that of its first, so that a binary body may begin with any byte.
+// A binary body may begin with any byte. So \r\n after end_header ends its line, but where the first line ends with \r
+// alone.
 std::size_t body_offset(const TextReader& text, std::string_view bytes) {
-  const std::size_t first_end = std::min(bytes.find_first_of("\r\n"), bytes.size());
-  const std::size_t length = bytes.substr(first_end).starts_with("\r\n") ? 2 : 1;
-  if (!bytes.substr(text.offset()).starts_with(bytes.substr(first_end, length))) {
-    text.fail("expected the same end of line after end_header as in the first line");
-  }
-  return text.offset() + length;
+  const std::string_view first_end = bytes.substr(std::min(bytes.find_first_of("\r\n"), bytes.size()));
+  const bool lone_returns = first_end.starts_with('\r') && !first_end.starts_with("\r\n");
+  if (text.offset() == bytes.size()) text.fail("the file ends with end_header, without an end of its line");
+  return text.offset() + (bytes.substr(text.offset()).starts_with("\r\n") && !lone_returns ? 2 : 1);
 }
 
 }  // namespace
@@ -135,6 +144,8 @@ std::size_t ply_type_size(PlyType type) {
     case PlyType::int32:
     case PlyType::uint32:
     case PlyType::float32: return 4;
+    case PlyType::int64:
+    case PlyType::uint64:
     case PlyType::float64: return 8;
   }
   return 0;
@@ -147,15 +158,14 @@ std::optional<std::size_t> ply_axis(const PlyProperty& property) {
 }
 
 bool is_ply_corner_list(const PlyProperty& property) {
-  return property.size_type && is_integer(property.type) &&
-         (property.name == "vertex_indices" || property.name == "vertex_index");
+  return property.size_type && is_integer(property.type) && has_corner_name(property);
 }
 
 PlyHeader read_ply_header(TextReader& text, std::string_view bytes) {
   PlyHeader header;
   bool has_encoding = false;
   const std::string_view magic = text.expect_token("ply");
-  if (magic != "ply") text.fail_expected("ply", magic);
+  if (magic != "ply" && magic != "PLY") text.fail_expected("ply", magic);
   text.expect_line_end();
   while (text.seek_token()) {
     const std::string_view keyword = *text.token();

@@ -13,7 +13,7 @@
 namespace tact::scenes {
 
 enum class PlyEncoding { text, little_endian, big_endian };
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
 struct PlyProperty {
   std::string name;
@@ -35,7 +35,7 @@ struct PlyHeader {
 };
 
 // Reads the header at the front of `text`, which holds `bytes`. Fails unless it has a vertex with scalars x, y and z,
-// and, if it has a face, that has one list of integers that is_ply_corner_list.
+// and, if it has faces or strips, they have one list of integers that is_ply_corner_list.
 PlyHeader read_ply_header(TextReader& text, std::string_view bytes);
 
 std::size_t ply_type_size(PlyType type);

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "scenes/commands/counted.h"
+
 namespace tact::scenes {
 
 void Source::set_item(std::string_view kind, std::int64_t index) {
@@ -9,10 +13,27 @@ void Source::set_item(std::string_view kind, std::int64_t index) {
   item_index_ = index;
 }
 
-void Source::fail(const std::string& message) const {
+std::string Source::message_at(std::int64_t place, const std::string& message) const {
   const std::string item =
       item_kind_.empty() ? std::string() : fmt::format("{} {}: ", printable(item_kind_), item_index_);
-  throw FileError(fmt::format("{}{}: {}{}", file_, place(), item, message));
+  return fmt::format("{}{}: {}{}", file_, place_text(place), item, message);
+}
+
+void Source::fail_at(std::int64_t place, const std::string& message) const {
+  throw FileError(message_at(place, message));
+}
+
+void Source::warn(const std::string& message) {
+  constexpr std::size_t kKept = 3;
+  ++warning_count_;
+  if (warnings_.size() < kKept) warnings_.push_back(message_at(place(), message));
+}
+
+std::vector<std::string> Source::warnings() const {
+  std::vector<std::string> all = warnings_;
+  const std::int64_t left_out = warning_count_ - static_cast<std::int64_t>(warnings_.size());
+  if (left_out > 0) all.push_back(fmt::format("{}: {} like these", file_, counted(left_out, "more warning")));
+  return all;
 }
 
 std::string printable(std::string_view text, std::size_t longest) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scenes/files/file_error.h"
 
@@ -22,17 +23,29 @@ class Source {
   void set_item(std::string_view kind, std::int64_t index);
   void clear_item() { item_kind_ = {}; }
 
+  // The line or byte that is being read.
+  virtual std::int64_t place() const = 0;
   // Throws FileError "<file><place>: <item>: <message>".
-  [[noreturn]] void fail(const std::string& message) const;
+  [[noreturn]] void fail(const std::string& message) const { fail_at(place(), message); }
+  // The same about what was read before, at `place`.
+  [[noreturn]] void fail_at(std::int64_t place, const std::string& message) const;
+  // Keeps a message of the same form about what is read all the same; of many the first few.
+  void warn(const std::string& message);
+  // The messages that were kept, and how many were not.
+  std::vector<std::string> warnings() const;
 
  protected:
   // Such as ":12" for a line, ": byte 312" for a byte.
-  virtual std::string place() const = 0;
+  virtual std::string place_text(std::int64_t place) const = 0;
 
   std::string_view bytes_;
 
  private:
+  std::string message_at(std::int64_t place, const std::string& message) const;
+
   std::string file_;
+  std::vector<std::string> warnings_;
+  std::int64_t warning_count_ = 0;
   std::string_view item_kind_;
   std::int64_t item_index_ = 0;
 };

@@ -1,12 +1,15 @@
 // STL, text and binary.
 #include <fmt/format.h>
+#include <tact/weld.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <unordered_map>
-#include <vector>
+#include <limits>
+#include <optional>
+#include <utility>
 
+#include "scenes/commands/counted.h"
 #include "scenes/files/binary_reader.h"
 #include "scenes/files/mesh_builder.h"
 #include "scenes/files/mesh_file.h"
@@ -18,41 +21,24 @@ namespace {
 constexpr std::size_t kHeadSize = 84;   // 80 bytes of anything, then the number of facets
 constexpr std::size_t kFacetSize = 50;  // normal, three corners, two bytes of attributes
 
-using PositionBits = std::array<std::uint64_t, 3>;
-
-struct PositionHash {
-  std::size_t operator()(const PositionBits& bits) const {
-    std::uint64_t hash = 0;
-    for (const std::uint64_t word : bits) {
-      hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
-      hash ^= hash >> 32;
-    }
-    return hash;
-  }
-};
-
 // Some programs write the words of a text in capitals.
 bool same_word(std::string_view text, std::string_view lower_case) {
   return std::equal(text.begin(), text.end(), lower_case.begin(), lower_case.end(),
                     [](char t, char c) { return t == c || (t >= 'A' && t <= 'Z' && t - 'A' + 'a' == c); });
 }
 
-// Gives corners with equal bits one vertex; the numbers follow the file, so the order within the map never shows.
-class CornerMerger {
- public:
-  explicit CornerMerger(MeshBuilder& builder) : builder_(builder) {}
+// Every corner is a vertex of its own, until the end: of the last three.
+void add_facet(MeshBuilder& builder) {
+  const int end = builder.vertex_count();
+  builder.add_polygon({end - 3, end - 2, end - 1});
+}
 
-  int vertex(const std::array<double, 3>& position) {
-    const auto bits = std::bit_cast<PositionBits>(position);
-    const auto [entry, is_new] = numbers_.try_emplace(bits, builder_.vertex_count());
-    if (is_new) builder_.add_vertex(position);
-    return entry->second;
-  }
-
- private:
-  MeshBuilder& builder_;
-  std::unordered_map<PositionBits, int, PositionHash> numbers_;
-};
+MeshFile welded(MeshFile mesh) {
+  WeldedMesh welded = weld(mesh.positions, mesh.facets);
+  mesh.positions = std::move(welded.positions);
+  mesh.facets = std::move(welded.facets);
+  return mesh;
+}
 
 std::uint64_t binary_size(std::string_view bytes, const std::string& file) {
   BinaryReader head(bytes, file, kHeadSize - 4, std::endian::little);
@@ -74,6 +60,28 @@ bool is_text(std::string_view bytes, const std::string& file) {
   return first && same_word(*first, "solid");
 }
 
+// How many facets follow the head. Streaming programs leave a count of 0 or 2^32 - 1.
+std::uint64_t count_facets(std::string_view bytes, BinaryReader& binary) {
+  const std::uint64_t promised = binary.read<std::uint32_t>(), room = bytes.size() - kHeadSize;
+  const std::uint64_t whole = room / kFacetSize, surplus = room % kFacetSize;
+  if (promised * kFacetSize == room) return promised;
+  const auto is_zero = [](char c) { return c == '\0'; };
+  const std::string_view first = bytes.substr(kHeadSize, kFacetSize);
+  if ((promised == 0 || promised == std::numeric_limits<std::uint32_t>::max()) && whole > 0 && surplus == 0 &&
+      !std::all_of(first.begin(), first.end(), is_zero)) {
+    binary.warn(fmt::format("promises {} facets; all {} that follow are read", promised, whole));
+    return whole;
+  }
+  if (promised > 0 && promised <= whole && surplus > 0) {
+    binary.warn(fmt::format("promises {}, and {} follow them: not read",
+                            counted(static_cast<std::int64_t>(promised), "facet"),
+                            counted(static_cast<std::int64_t>(room - promised * kFacetSize), "more byte")));
+    return promised;
+  }
+  binary.fail(fmt::format("promises {} facets, which take {} bytes, but the file has {}", promised,
+                          kHeadSize + promised * kFacetSize, bytes.size()));
+}
+
 MeshFile parse_binary(std::string_view bytes, const std::string& file) {
   if (bytes.size() < kHeadSize) {
     throw FileError(
@@ -81,65 +89,121 @@ MeshFile parse_binary(std::string_view bytes, const std::string& file) {
                     bytes.size(), kHeadSize));
   }
   BinaryReader binary(bytes, file, kHeadSize - 4, std::endian::little);
-  const std::uint32_t count = binary.read<std::uint32_t>();
-  if (binary_size(bytes, file) != bytes.size()) {
-    binary.fail(fmt::format("promises {} facets, which take {} bytes, but the file has {}", count,
-                            binary_size(bytes, file), bytes.size()));
-  }
-  MeshBuilder builder(binary);
-  CornerMerger merger(builder);
-  std::vector<int> corners(3);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    binary.set_item("facet", i);
+  const std::uint64_t count = count_facets(bytes, binary);
+  MeshBuilder builder(binary, Split::fans);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    binary.set_item("facet", static_cast<std::int64_t>(i));
     binary.skip(12);  // the normal
-    for (int& corner : corners) {
+    for (int corner = 0; corner < 3; ++corner) {
       std::array<double, 3> position;
       for (double& value : position) value = static_cast<double>(binary.read<float>());
-      corner = merger.vertex(position);
+      builder.add_vertex(position);
     }
-    builder.add_polygon(corners);
+    add_facet(builder);
     binary.skip(2);  // attributes
   }
-  return builder.mesh();
+  return welded(builder.mesh());
 }
 
-// The words of a text may be spread over lines in any way.
+// The words of a text may be spread over lines in any way, all on one line included; what is usually one word, such as
+// endfacet, may be two.
 class TextStl {
  public:
-  TextStl(std::string_view bytes, const std::string& file)
-      : text_(bytes, file, {}), builder_(text_), merger_(builder_), corners_(3) {}
+  TextStl(std::string_view bytes, const std::string& file) : text_(bytes, file, {}), builder_(text_, Split::fans) {}
 
   MeshFile read() {
-    while (text_.seek_token()) {
-      expect("solid");
-      text_.skip_line();
-      while (same_word(next_word("facet or endsolid"), "facet")) read_facet();
-      if (!same_word(word_, "endsolid")) text_.fail_expected("facet or endsolid", word_);
-      text_.skip_line();
-    }
-    return builder_.mesh();
+    text_.seek_token();
+    text_.token();  // solid
+    for (bool more = true; more;) more = read_solid();
+    return welded(builder_.mesh());
   }
 
  private:
-  // After the word facet.
+  // What comes after the word solid, and the next such word, if there is one.
+  bool read_solid() {
+    skip_name();
+    const int facets_before = builder_.facet_count();
+    for (;;) {
+      if (!text_.seek_token()) {
+        if (builder_.facet_count() == facets_before) text_.fail_expected("facet or endsolid", std::nullopt);
+        text_.warn("the file ends without endsolid: it may have been cut");
+        return false;
+      }
+      next_word("facet or endsolid");
+      if (same_word(word_, "facet")) {
+        read_facet();
+      } else if (same_word(word_, "color")) {
+        text_.skip_numbers();
+      } else if (same_word(word_, "solid")) {
+        text_.warn("a solid begins before the endsolid of the last one");
+        return true;
+      } else if (is_end_of("solid")) {
+        return seek_solid();
+      } else {
+        text_.fail_expected("facet or endsolid", word_);
+      }
+    }
+  }
+
+  // The name of a solid ends with its line, or where its first facet stands on the same line.
+  void skip_name() {
+    const TextReader::Mark line = text_.mark();
+    for (TextReader::Mark before = line; const auto word = text_.token(); before = text_.mark()) {
+      if (!same_word(*word, "facet")) continue;
+      const TextReader::Mark after = text_.mark();
+      const auto next = text_.token();
+      const bool is_facet = next && (same_word(*next, "outer") || (same_word(*next, "normal") && begins_normal()));
+      if (is_facet) return text_.go_back(before);
+      text_.go_back(after);
+    }
+    text_.go_back(line);
+    text_.skip_line();
+  }
+
+  bool begins_normal() {
+    const auto word = text_.token();
+    return word && (parse_number(*word) || same_word(*word, "outer"));
+  }
+
+  // After endsolid and a name: the word solid on this line, if a facet stands there, too, or on the next one that has
+  // words, if any.
+  bool seek_solid() {
+    while (const auto word = text_.token()) {
+      if (!same_word(*word, "solid")) continue;
+      const TextReader::Mark here = text_.mark();
+      skip_name();
+      if (text_.token()) {
+        text_.go_back(here);
+        return true;
+      }
+    }
+    if (!text_.seek_token()) return false;
+    expect("solid");
+    return true;
+  }
+
+  // After the word facet. The normal is often nan where a facet has no area, and may be missing.
   void read_facet() {
     text_.set_item("facet", builder_.facet_count());
-    expect("normal");
-    for (int i = 0; i < 3; ++i) next_word("three numbers after normal");  // often nan where a facet has no area
-    expect("outer");
+    next_word("normal or outer");
+    if (same_word(word_, "normal")) {
+      next_word("three numbers after normal");
+      for (int i = 0; i < 3 && !same_word(word_, "outer"); ++i) next_word("three numbers after normal, and outer");
+    }
+    if (!same_word(word_, "outer")) text_.fail_expected("outer", word_);
     expect("loop");
-    for (int& corner : corners_) {
+    for (int corner = 0; corner < 3; ++corner) {
       expect("vertex");
       std::array<double, 3> position;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         text_.seek_token();
         position[axis] = text_.number("a number", std::string_view("xyz").substr(axis, 1));
       }
-      corner = merger_.vertex(position);
+      builder_.add_vertex(position);
     }
-    expect("endloop");
-    expect("endfacet");
-    builder_.add_polygon(corners_);
+    expect_end_of("loop");
+    expect_end_of("facet");
+    add_facet(builder_);
     text_.clear_item();
   }
 
@@ -151,11 +215,19 @@ class TextStl {
   void expect(std::string_view word) {
     if (!same_word(next_word(word), word)) text_.fail_expected(word, word_);
   }
+  // Whether the last word is "end" and `what` in one, or in two.
+  bool is_end_of(std::string_view what) {
+    if (same_word(word_, "end")) return same_word(next_word(what), what);
+    return word_.size() > 3 && same_word(word_.substr(0, 3), "end") && same_word(word_.substr(3), what);
+  }
+  void expect_end_of(std::string_view what) {
+    const std::string word = "end" + std::string(what);
+    next_word(word);
+    if (!is_end_of(what)) text_.fail_expected(word, word_);
+  }
 
   TextReader text_;
   MeshBuilder builder_;
-  CornerMerger merger_;
-  std::vector<int> corners_;
   std::string_view word_;
 };
 

@@ -31,13 +31,36 @@ bool is_below_one(std::string_view number) {
   return exponent < first - point;  // a sum with the exponent could overflow
 }
 
+// Fortran's exponent of a double: 1.5D+00. Nothing: the number has none.
+std::optional<std::string> with_plain_exponent(std::string_view number) {
+  constexpr std::size_t kLongest = 400;
+  const std::size_t d = number.find_first_of("dD");
+  if (d == std::string_view::npos || number.size() > kLongest) return std::nullopt;
+  if (number.substr(0, d).find_first_not_of("+-.0123456789") != std::string_view::npos) return std::nullopt;
+  std::string plain(number);
+  plain[d] = 'e';
+  return plain;
+}
+
+// What a token that is no number seems to be.
+std::string_view seems_to_be(std::string_view token) {
+  if (token.find("\xc2\xa0") != std::string_view::npos) return ", which holds a no-break space";
+  const std::size_t comma = token.find(',');
+  const bool decimal = comma != std::string_view::npos && comma > 0 && comma + 1 < token.size() &&
+                       token.find_first_not_of("+-.,0123456789eE") == std::string_view::npos;
+  return decimal ? ", with a comma where a number has a point" : "";
+}
+
 }  // namespace
 
 std::optional<double> parse_number(std::string_view text) {
   text = without_plus(text);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end != text.data() + text.size()) return std::nullopt;
+  if (end != text.data() + text.size()) {
+    const auto plain = with_plain_exponent(text);
+    return plain ? parse_number(*plain) : std::nullopt;
+  }
   if (error == std::errc()) return value;
   if (error == std::errc::result_out_of_range && is_below_one(text)) return text.starts_with('-') ? -0.0 : 0.0;
   return std::nullopt;
@@ -67,6 +90,11 @@ bool TextReader::joins_lines(std::size_t at) const {
   return syntax_.backslash_joins_lines && bytes_[at] == '\\' && line_end_length(at + 1) > 0;
 }
 
+// 1.#INF, as some programs write what is not finite, is one token.
+bool TextReader::begins_comment(std::size_t at) const {
+  return syntax_.comment != '\0' && bytes_[at] == syntax_.comment && (at == 0 || bytes_[at - 1] != '.');
+}
+
 void TextReader::skip_blanks() {
   while (offset_ < bytes_.size()) {
     if (is_blank(bytes_[offset_])) {
@@ -74,9 +102,8 @@ void TextReader::skip_blanks() {
     } else if (joins_lines(offset_)) {
       offset_ += 1 + line_end_length(offset_ + 1);
       ++line_;
-    } else if (syntax_.comment != '\0' && bytes_[offset_] == syntax_.comment) {
-      offset_ = std::min(bytes_.find_first_of("\r\n", offset_), bytes_.size());
-      return;
+    } else if (begins_comment(offset_)) {
+      return skip_line();
     } else {
       return;
     }
@@ -98,17 +125,14 @@ std::optional<std::string_view> TextReader::token() {
   skip_blanks();
   const std::size_t begin = offset_;
   while (offset_ < bytes_.size() && !is_blank(bytes_[offset_]) && line_end_length(offset_) == 0 &&
-         !joins_lines(offset_)) {
+         !joins_lines(offset_) && !begins_comment(offset_)) {
     ++offset_;
   }
   if (offset_ == begin) return std::nullopt;
   return bytes_.substr(begin, offset_ - begin);
 }
 
-void TextReader::skip_line() {
-  while (token()) {
-  }
-}
+void TextReader::skip_line() { offset_ = std::min(bytes_.find_first_of("\r\n", offset_), bytes_.size()); }
 
 void TextReader::skip_numbers() {
   while (const auto text = token()) {
@@ -143,15 +167,10 @@ std::int64_t TextReader::integer(std::string_view what, std::string_view subject
 void TextReader::fail_expected(std::string_view what, std::optional<std::string_view> found,
                                std::string_view subject) const {
   const std::string purpose = subject.empty() ? std::string() : " for " + printable(subject);
-  const std::string text = found                      ? in_quotes(*found)
+  const std::string text = found                      ? in_quotes(*found).append(seems_to_be(*found))
                            : offset_ >= bytes_.size() ? "the end of the file"
                                                       : "the end of the line";
   fail(fmt::format("expected {}{}, found {}", what, purpose, text));
-}
-
-void TextReader::fail_at_line(std::int64_t line, const std::string& message) {
-  line_ = line;
-  fail(message);
 }
 
 }  // namespace tact::scenes

@@ -125,6 +125,7 @@ TEST(TwinsInC, OfEachField) {
   expect_twins_of_fields("motion.h", "struct Impact {", "tact_impact", {});
   expect_twins_of_fields("motion.h", "struct ImpactPair {", "tact_impact_pair", {});
   expect_twins_of_fields("motion.h", "struct MotionStats {", "tact_motion_statistics", {});
+  expect_twins_of_fields("weld.h", "struct WeldedMesh {", "tact_welded_mesh", {});
 }
 
 TEST(TwinsInC, OfEachError) {

@@ -1,4 +1,6 @@
+#include <filesystem>
 #include <iterator>
+#include <system_error>
 
 #include "handles.h"
 
@@ -10,10 +12,15 @@ constexpr Failure kCannotWrite{TACT_ERROR_FILE,
                                "no right to write, or a full disk"};
 
 std::string bytes_of_file(const char* path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file || file.bad()) throw Failure{TACT_ERROR_FILE, "the recording cannot be read"};
-  return bytes;
+  std::error_code not_there;
+  if (std::filesystem::is_directory(path, not_there)) throw Failure{TACT_ERROR_FILE, "the recording is a folder"};
+  try {
+    std::ifstream file(path, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    if (file) return bytes;
+  } catch (const std::ios_base::failure&) {  // the iterator lets errors of reading through
+  }
+  throw Failure{TACT_ERROR_FILE, "the recording cannot be read"};
 }
 
 // Calls work(entry) while no other thread is in a function of the player or of its world.

@@ -319,4 +319,19 @@ tact_error tact_world_bounds(tact_world world, tact_body body, tact_bounds* boun
     std::ranges::copy(found.upper, bounds->upper);
   });
 }
+
+tact_error tact_weld(const tact_columns* positions, const tact_columns* facets, tact_welded_mesh* mesh) {
+  return guarded([&] {
+    check_not_null(positions, facets, mesh);
+    tact::c::check_struct_size(*mesh);
+    const tact::WeldedMesh welded =
+        tact::weld(columns_of<tact::Positions>(*positions), columns_of<tact::Facets>(*facets));
+    if (mesh->positions != nullptr) std::copy_n(welded.positions.data(), welded.positions.size(), mesh->positions);
+    if (mesh->facets != nullptr) std::copy_n(welded.facets.data(), welded.facets.size(), mesh->facets);
+    if (mesh->vertex_of != nullptr) std::ranges::copy(welded.vertex_of, mesh->vertex_of);
+    mesh->vertices = static_cast<int32_t>(welded.positions.cols());
+    mesh->merged_vertices = welded.merged_vertices;
+    mesh->collapsed_facets = welded.collapsed_facets;
+  });
+}
 }

@@ -18,5 +18,6 @@ void define_surface_check(pybind11::module_& module, WorldClass& world);
 void define_recording(pybind11::module_& module, WorldClass& world);
 void define_debug_draw(pybind11::module_& module, WorldClass& world);
 void define_world(pybind11::module_& module);
+void define_weld(pybind11::module_& module);
 
 }  // namespace tact::python

@@ -11,4 +11,5 @@ PYBIND11_MODULE(_tact, module) {
   tact::python::define_report(module);
   tact::python::define_motion(module);
   tact::python::define_world(module);
+  tact::python::define_weld(module);
 }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "bindings.h"
 #include "shared_world.h"
@@ -39,9 +40,17 @@ void SharedWorld::stop_recording() {
 namespace {
 
 std::string bytes_of_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (file && !file.bad()) return bytes;
+  std::error_code not_there;
+  if (std::filesystem::is_directory(path, not_there)) {
+    PyErr_SetString(PyExc_IsADirectoryError, ("the recording is a folder: " + path.string()).c_str());
+    throw py::error_already_set();
+  }
+  try {
+    std::ifstream file(path, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    if (file) return bytes;
+  } catch (const std::ios_base::failure&) {  // the iterator lets errors of reading through
+  }
   PyErr_SetString(PyExc_OSError, ("the recording cannot be read: " + path.string()).c_str());
   throw py::error_already_set();
 }

@@ -693,3 +693,25 @@ class World:
     def debug_draw(self, report: Report, drawer: _DebugDrawer, options: DebugDrawOptions = ...) -> None:
         """draws a report of this world"""
     def __len__(self) -> int: ...
+
+class WeldedMesh:
+    """A mesh in which no two vertices have equal positions."""
+
+    @property
+    def positions(self) -> Floats:
+        """(V, 3): of each place the first vertex that was given. Metres"""
+    @property
+    def facets(self) -> Ints:
+        """(F, 3): all that were given, in their order"""
+    @property
+    def vertex_of(self) -> Ints:
+        """for each vertex that was given, its vertex in this mesh"""
+    @property
+    def merged_vertices(self) -> int:
+        """how many vertices became one with an earlier vertex"""
+    @property
+    def collapsed_facets(self) -> int:
+        """how many facets have a vertex twice that had three"""
+
+def weld(positions: npt.ArrayLike, facets: npt.ArrayLike) -> WeldedMesh:
+    """a mesh without the vertices that repeat an earlier position; 0 and -0 are equal"""

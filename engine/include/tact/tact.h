@@ -14,5 +14,6 @@
 #include <tact/statistics.h>
 #include <tact/surface_check.h>
 #include <tact/version.h>
+#include <tact/weld.h>
 #include <tact/world.h>
 #include <tact/world_observer.h>

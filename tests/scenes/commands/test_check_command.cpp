@@ -168,7 +168,87 @@ TEST_F(CheckCommand, SheetsAreNamed) {
   EXPECT_EQ(bodies[1]["name"], "a.obj#2");
   EXPECT_EQ(bodies[1]["surface"], "sheet");
   EXPECT_EQ(bodies[2]["surface"], "sheet");
-  EXPECT_THROW(check_json({.meshes = {a_}, .sheets = {"a"}}), UsageError);
+  EXPECT_THROW(check_json({.meshes = {a_}, .sheets = {"c"}}), UsageError);
+}
+
+// The names of files without their endings are understood where only one body has them.
+TEST_F(CheckCommand, NamesNeedNoEnding) {
+  const auto stl = folder_.write("a.stl", "solid\nendsolid\n");
+  const auto folder = folder_.write("moves/1.obj", tetrahedron_at(5, 5, 5)).parent_path();
+  const auto dotted = folder_.write("v1.2.obj", tetrahedron_at(0, 0, 0));
+  const Json json = check_json({.meshes = {b_, b_, c_, folder, dotted},
+                                .sheets = {"b#2", "c"},
+                                .margins = {"v1.2=0.5", "moves=0.1"},
+                                .selves = {"b"},
+                                .excluded = {{"b", "b#2"}}});
+  const Json& bodies = json["bodies"];
+  EXPECT_EQ(bodies[0]["surface"], "closed");
+  EXPECT_EQ(bodies[1]["surface"], "sheet");
+  EXPECT_EQ(bodies[2]["surface"], "sheet");
+  EXPECT_EQ(json["frames"][0]["stats"]["named_excluded_pairs"], 1);
+  const auto message = [](const CheckOptions& options) -> std::string {
+    std::ostringstream out;
+    try {
+      check(options, out);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message({.meshes = {a_, stl}, .sheets = {"a"}}),
+            "--sheet a: the name without its ending of several bodies: a.obj, a.stl");
+  EXPECT_EQ(message({.meshes = {a_, stl}, .sheets = {"a.stl"}}), "");
+  EXPECT_EQ(message({.meshes = {dotted}, .sheets = {"v1"}}),
+            "--sheet v1: no body has this name; the bodies are: v1.2.obj");
+  // A name that is a body's own is that body's, though it is another's without its ending.
+  const auto shadow = folder_.write("a/1.obj", tetrahedron_at(0, 0, 0)).parent_path();
+  EXPECT_EQ(check_json({.meshes = {a_, shadow}, .sheets = {"a"}})["bodies"][1]["surface"], "sheet");
+}
+
+// frame_10 came before frame_2: what meets between 6 and 7 met in three other frames.
+TEST_F(CheckCommand, FramesHaveNaturalOrderAndTheJsonNamesTheirFiles) {
+  const auto wall = folder_.write("wall.obj", "v -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n");
+  for (int frame = 1; frame <= 12; ++frame) {
+    std::ostringstream mesh;
+    for (const char* corner : {"0 0 ", "1 0 ", "0 1 "}) mesh << "v " << corner << 6.5 - frame << "\n";
+    folder_.write("fall/frame_" + std::to_string(frame) + ".obj", mesh.str() + "f 1 2 3\n");
+  }
+  const auto fall = folder_.path() / "fall";
+  const Json frames = check_json({.meshes = {fall, wall}, .sheets = {"fall", "wall"}, .impacts = true})["frames"];
+  ASSERT_EQ(frames.size(), 12u);
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(frames[i]["files"],
+              Json::array({(fall / ("frame_" + std::to_string(i + 1) + ".obj")).string(), wall.string()}));
+    EXPECT_EQ(i > 0 && !frames[i]["first_time"].is_null(), i == 6) << i;
+  }
+  EXPECT_EQ(frames[6]["first_time"], 0.5);
+  EXPECT_FALSE(check_json({.meshes = {a_, b_}})["frames"][0].contains("files"));
+}
+
+// A vertex per corner: its facets, which share edges, met as strangers.
+TEST_F(CheckCommand, WeldsAndCounts) {
+  std::string corners;
+  int count = 0;
+  for (const char* facet : {"0 0 0,0 1 0,1 0 0", "0 0 0,1 0 0,0 0 1", "0 0 0,-0 0 1,0 1 0", "1 0 0,0 1 0,0 0 1"}) {
+    std::istringstream vertices(facet);
+    for (std::string vertex; std::getline(vertices, vertex, ',');) corners += "v " + vertex + "\n";
+    corners +=
+        "f " + std::to_string(count + 1) + " " + std::to_string(count + 2) + " " + std::to_string(count + 3) + "\n";
+    count += 3;
+  }
+  const auto soup = folder_.write("soup.obj", corners);
+  const auto self_pairs = [&](bool weld) {
+    const Json json = check_json({.meshes = {soup}, .selves = {"soup"}, .weld = weld});
+    EXPECT_EQ(json["bodies"][0]["vertices"], weld ? 4 : 12);
+    EXPECT_EQ(json["bodies"][0].contains("merged_vertices"), weld);
+    if (weld) EXPECT_EQ(json["bodies"][0]["merged_vertices"], 8);
+    return json["frames"][0]["stats"]["facet_pairs"].get<int>();
+  };
+  EXPECT_EQ(self_pairs(false), 6);
+  EXPECT_EQ(self_pairs(true), 0);
+  std::ostringstream out;
+  check({.meshes = {soup}, .weld = true}, out);
+  EXPECT_NE(out.str().find("welded soup.obj: 8 of 12 vertices merged with another\n"), std::string::npos) << out.str();
 }
 
 TEST_F(CheckCommand, SurfacesAreChecked) {

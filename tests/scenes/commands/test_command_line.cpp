@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <tact/version.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -108,6 +109,80 @@ TEST_F(CommandLine, WhatStandardOutputDoesNotTakeIsAnError) {
     EXPECT_EQ(outcome.status, 1) << command;
     EXPECT_EQ(outcome.error, "tact: standard output: cannot be written to its end\n") << command;
   }
+}
+
+// Standard error is closed, full, or a pipe that nobody reads: the status is the same, and nothing else takes the line.
+TEST_F(CommandLine, WhatStandardErrorDoesNotTakeChangesNoStatus) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  constexpr int kUnread = 9;  // a digit, as the shell knows no longer numbers
+  ASSERT_EQ(dup2(ends[1], kUnread), kUnread);
+  for (const int end : ends) close(end);
+  folder_.write("empty_face.obj", "v 0 0 0\nf\n");
+  for (const std::string to : {" 2>/dev/full", " 2>&-", " 2>&- <&-", " 2>&9"}) {
+    EXPECT_EQ(run("check nope.obj" + to).status, 1) << to;
+    EXPECT_EQ(run("replay nope" + to).status, 1) << to;
+    EXPECT_EQ(run("nope" + to).status, 2) << to;
+    EXPECT_EQ(run("check a.obj --json" + to).status, 2) << to;
+    EXPECT_EQ(run("check a.obj b.off empty_face.obj --json r.json --record r" + to).status, 0) << to;
+    EXPECT_TRUE(nlohmann::json::accept(tests::contents(folder_.path() / "r.json"))) << to;
+  }
+  close(kUnread);
+}
+
+// A file that is opened later does not take the place of standard output.
+TEST_F(CommandLine, ClosedStandardOutputIsAnError) {
+  for (const std::string closed : {">&-", ">&- <&-"}) {
+    const Outcome outcome = run("check a.obj b.off --json r.json " + closed);
+    EXPECT_EQ(outcome.status, 1) << closed;
+    EXPECT_EQ(outcome.error, "tact: standard output: cannot be written to its end\n") << closed;
+    EXPECT_TRUE(nlohmann::json::accept(tests::contents(folder_.path() / "r.json"))) << closed;
+  }
+}
+
+TEST_F(CommandLine, WarningsGoToStandardErrorAndTheMeshIsRead) {
+  folder_.write("empty_face.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf\n");
+  const Outcome outcome = run("check empty_face.obj b.off --json -");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.error, "tact: warning: empty_face.obj:5: facet 1: a face without corners is left out\n");
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["bodies"][0]["facets"], 1);
+}
+
+// An option is no other option's value, and a page needs no name.
+TEST_F(CommandLine, OptionsAreNotTakenForValues) {
+  const std::string pile = "run pile --size 1 --frames 1 ";
+  for (const std::string option : {"--json", "--contacts", "--states", "--gltf", "--vtk", "--trace", "--record",
+                                   "--out", "--size", "--every", "--from", "--largest", "--threads", "--accuracy"})
+    expect_refusal("run pile " + option + " --no-pictures", 2,
+                   option + ": its value is missing; --no-pictures is taken for an option");
+  expect_refusal("check a.obj b.off --sheet --points", 2, "--sheet: its value is missing");
+  expect_refusal("check a.obj b.off --self --weld", 2, "--self: its value is missing");
+  expect_refusal("check a.obj b.off --margin --nothing", 2, "--margin: its value is missing");
+  expect_refusal("check a.obj b.off --exclude a.obj --points", 2, "--exclude: its value is missing");
+  expect_refusal("view pile --out --frames 1", 2, "--out: its value is missing");
+  expect_refusal("replay r --threads -h", 2, "--threads: its value is missing");
+  EXPECT_EQ(run("check a.obj --json=--points").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "--points"));
+  for (const std::string& line : {pile + "--view --no-pictures", "run --size 1 --frames 1 --no-pictures --view pile"}) {
+    std::filesystem::remove(folder_.path() / "tact-pile.html");
+    EXPECT_EQ(run(line).status, 0) << line;
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "tact-pile.html")) << line;
+  }
+  EXPECT_EQ(run(pile + "--view --out o4").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "o4"));
+  EXPECT_EQ(run(pile + "--no-pictures --view page.html").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "page.html"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "--no-pictures"));
+}
+
+TEST_F(CommandLine, WhatIsNoRecordingIsNamed) {
+  folder_.write("folder/readme", "x");
+  folder_.write("page.tactrec", "<!doctype html>\n");
+  folder_.write("empty.tactrec", "");
+  expect_refusal("replay folder", 1, "folder: a folder, not a file");
+  expect_refusal("replay page.tactrec", 1, "page.tactrec: not a recording but an HTML page");
+  expect_refusal("replay empty.tactrec", 1, "empty.tactrec: the file is empty");
+  expect_refusal("replay a.obj", 1, "a.obj: byte 0: not a recording");
 }
 
 TEST_F(CommandLine, AnOutputThatFailsAtTheEndOfARunTakesNothingElseWithIt) {

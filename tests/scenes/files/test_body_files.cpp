@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "scenes/files/body_files.h"
+#include "scenes/files/weld_frames.h"
 #include "tests/support/environment/temporary_folder.h"
 
 namespace tact::scenes {
@@ -50,6 +51,51 @@ TEST(BodyFiles, AFolderMovesInTheOrderOfItsNames) {
   ASSERT_EQ(frame_count(bodies), 3);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(bodies[0].positions[i](0, 0), static_cast<double>(i + 1));
   EXPECT_EQ(bodies[0].files[0].filename(), "f_01.off");
+}
+
+// By bytes, frame_10 came before frame_2.
+TEST(BodyFiles, FramesGoByTheirNumbers) {
+  const tests::TemporaryFolder folder;
+  for (int frame = 1; frame <= 12; ++frame)
+    folder.write("seq/frame_" + std::to_string(frame) + ".obj", triangle_at(frame));
+  const auto bodies = read_bodies({folder.path() / "seq"});
+  ASSERT_EQ(frame_count(bodies), 12);
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(bodies[0].positions[i](0, 0), static_cast<double>(i + 1));
+}
+
+// The dart turns inside out: by its own shape, the last frame would be split along the other diagonal, and one between
+// crosses itself.
+TEST(BodyFiles, PolygonsOfAllFramesAreSplitAsInTheFirst) {
+  const tests::TemporaryFolder folder;
+  for (const int y : {1, 3, 5, -9}) {
+    folder.write("seq/" + std::to_string(y + 10) + ".obj",
+                 "v 0 4 0\nv 0 0 0\nv 4 0 0\nv " + std::to_string(y) + " 1 0\nf 1 2 3 4\n");
+  }
+  folder.write("seq/0.obj", "v 0 4 0\nv 0 0 0\nv 4 0 0\nv 1 1 0\nf 1 2 3 4\n");
+  const auto bodies = read_bodies({folder.path() / "seq"});
+  ASSERT_EQ(frame_count(bodies), 5);
+  ASSERT_EQ(bodies[0].facets.cols(), 2);
+  for (const auto& facet : bodies[0].facets.colwise())
+    EXPECT_TRUE((facet.array() == 3).any() && (facet.array() == 1).any());
+}
+
+TEST(BodyFiles, WeldsWhatIsOneInEveryFrame) {
+  const tests::TemporaryFolder folder;
+  const std::string facets = "f 1 2 3\nf 4 5 6\n";
+  // Vertices 0 and 3, and 1 and 5, are at one place; 1 and 5 part in the second frame.
+  folder.write("seq/1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -0 0 0\nv 0 0 1\nv 1 0 0\n" + facets);
+  folder.write("seq/2.obj", "v 2 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 0 0 1\nv 1 0 3\n" + facets);
+  auto bodies = read_bodies({folder.path() / "seq"});
+  weld_frames(bodies[0]);
+  EXPECT_EQ(bodies[0].weld.merged_vertices, 1);
+  EXPECT_EQ(bodies[0].weld.collapsed_facets, 0);
+  EXPECT_EQ(bodies[0].facets, (Eigen::Matrix3Xi(3, 2) << 0, 0, 1, 3, 2, 4).finished());
+  ASSERT_EQ(bodies[0].positions[1].cols(), 5);
+  EXPECT_EQ(bodies[0].positions[1](0, 0), 2);
+  EXPECT_EQ(bodies[0].positions[1](2, 4), 3);
+  auto collapsing = read_bodies({folder.write("c.obj", "v 0 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n")});
+  weld_frames(collapsing[0]);
+  EXPECT_EQ(collapsing[0].weld.collapsed_facets, 1);
 }
 
 TEST(BodyFiles, ReadsNoMoreFramesThanAsked) {

@@ -71,7 +71,7 @@ TEST(MeshFile, RefusesWhatIsNoMeshFile) {
   const tests::TemporaryFolder folder;
   const std::string here = folder.path().string();
   EXPECT_EQ(refusal_of_file(here + "/none.obj"), here + "/none.obj: no such file or folder");
-  EXPECT_EQ(refusal_of_file(here), here + ": not a file");
+  EXPECT_EQ(refusal_of_file(here), here + ": a folder, not a file");
   EXPECT_EQ(refusal_of_file(folder.write("e.obj", "")), here + "/e.obj: the file is empty");
   EXPECT_EQ(refusal_of_file(folder.write("mesh.txt", "v 0 0 0")),
             here + "/mesh.txt: not a mesh file: its name does not end in .obj, .off, .ply or .stl");

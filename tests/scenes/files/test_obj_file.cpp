@@ -23,7 +23,7 @@ TEST(ObjFile, ReadsVerticesAndFacets) {
 }
 
 TEST(ObjFile, SplitsPolygonsIntoFansInTheOrderOfTheFile) {
-  const MeshFile mesh = parse_obj(kThree + "v 1 1 0\nv 2 2 0\nf 2 3 4 5 1\nf 1 2 3\n", "m");
+  const MeshFile mesh = parse_obj(kThree + "v -1 1 0\nv -1 0 0\nf 2 3 4 5 1\nf 1 2 3\n", "m");
   EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{1, 2, 3}, {1, 3, 4}, {1, 4, 0}, {0, 1, 2}}));
 }
 
@@ -55,6 +55,24 @@ TEST(ObjFile, ReadsEveryKindOfLineEnd) {
   }
 }
 
+// What others write and has one meaning.
+TEST(ObjFile, TakesCommentsThatTouchNumbersPathsOfWindowsAndExponentsOfFortran) {
+  const std::vector<Corners> one{{0, 1, 2}};
+  EXPECT_EQ(tests::facets_of(parse_obj("v 0 0 0# c\nv 1 0 0 #c\nv 0 1 0\nf 1 2 3# c\n", "m")), one);
+  EXPECT_EQ(tests::facets_of(parse_obj("mtllib C:\\models\\\n" + kThree + "usemtl a\\\nf 1 2 3\n", "m")), one);
+  const MeshFile mesh = parse_obj("v 0.5D+00 1D1 -2d0\nv 1 0 \\\r\n0\nv 0 1 0\nf 1 \\\n 2 3\n", "m");
+  EXPECT_EQ(tests::positions_of(mesh)[0], (Point{0.5, 10, -2}));
+}
+
+TEST(ObjFile, LeavesFacesWithoutCornersOutWithAWarning) {
+  const MeshFile mesh = parse_obj(kThree + "f 1 2 3\nf\nf # none\nf\nf\nf\nf 3 2 1\n", "m");
+  EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {2, 1, 0}}));
+  EXPECT_EQ(mesh.warnings,
+            (std::vector<std::string>{
+                "m:5: facet 1: a face without corners is left out", "m:6: facet 1: a face without corners is left out",
+                "m:7: facet 1: a face without corners is left out", "m: 2 more warnings like these"}));
+}
+
 TEST(ObjFile, RefusesNamingTheLine) {
   EXPECT_EQ(obj_refusal(""), "m: the file is empty");
   EXPECT_EQ(obj_refusal("hello\nworld\n"), "m:3: the file ends without a vertex");
@@ -64,6 +82,11 @@ TEST(ObjFile, RefusesNamingTheLine) {
   EXPECT_EQ(obj_refusal("v 0 0 0 red\n"), "m:1: vertex 0: expected a number or the end of the line, found 'red'");
   EXPECT_EQ(obj_refusal("\nv 0 nan 0\n"), "m:2: vertex 0: y is nan, not a finite number");
   EXPECT_EQ(obj_refusal("v 0 0 -inf\n"), "m:1: vertex 0: z is -inf, not a finite number");
+  EXPECT_EQ(obj_refusal("v 0,5 0 0\n"),
+            "m:1: vertex 0: expected a number for x, found '0,5', with a comma where a number has a point");
+  EXPECT_EQ(obj_refusal("v 0 0 0\xc2\xa0\n"),
+            "m:1: vertex 0: expected a number for z, found '0\\xc2\\xa0', which holds a no-break space");
+  EXPECT_EQ(obj_refusal("v 0 0 1.#INF\n"), "m:1: vertex 0: expected a number for z, found '1.#INF'");
   EXPECT_EQ(obj_refusal("v 1e400 0 0\n"), "m:1: vertex 0: expected a number for x, found '1e400'");
   EXPECT_EQ(obj_refusal("v 0 0 0\nv 1e200 0 0\n"),
             "m:2: vertex 1: x is 1e+200, larger in size than the largest coordinate, 2^300");

@@ -32,12 +32,37 @@ TEST(OffFile, SkipsNormalsAndColours) {
   EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}}));
 }
 
+// Where lines do not hold a vertex or a polygon each, numbers may stand on any lines.
+TEST(OffFile, ReadsFreeLines) {
+  const std::vector<Corners> quad{{0, 1, 2}, {0, 2, 3}};
+  for (const char* bytes : {"OFF\n4 1 0\n0 0 0 1 0 0 1 1 0 0 1 0\n4 0 1 2 3\n",
+                            "OFF\n4 1 0\n0 0\n0\n1 0 0\n1 1\n0 0 1 0\n4 0 1\n2 3 255 0 0\n",
+                            "OFF 4 1 0\n0\n0\n0\n1\n0\n0\n1\n1\n0\n0\n1\n0\n4\n0\n1\n2\n3\n",
+                            "NOFF\n4 1 0\n0 0 0\n0 0 1\n1 0 0\n0 0 1\n1 1 0 0 0 1 0 1 0 0 0 1\n4 0 1 2 3 # c\n",
+                            "STOFF\n4 1 0\n0 0 0\n.5 .5\n1 0 0\n1 0\n1 1 0\n0 1\n0 1 0\n1 1\n4 0 1 2 3\n"}) {
+    const MeshFile mesh = parse_off(bytes, "m");
+    EXPECT_EQ(tests::positions_of(mesh), (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}})) << bytes;
+    EXPECT_EQ(tests::facets_of(mesh), quad) << bytes;
+  }
+}
+
+// A number too few would shift all others: it is refused, even where the rest could be read as a mesh.
+TEST(OffFile, FreeLinesMissNoNumber) {
+  EXPECT_EQ(off_refusal("OFF\n5 2 0\n0 0\n1 0 0\n1 1 0\n0 1 0\n2 1 0\n4 3 0 1 2\n4 0 1 2 3\n"),
+            "m:3: vertex 0: expected a number for z, found the end of the line");
+  EXPECT_EQ(off_refusal("COFF\n3 1 0\n0 0 0 1 1 1 1 1 0 0 1 1 1 1 0 1 0 1 1 1 1\n3 0 1 2\n"),
+            "m:5: vertex 2: expected a number for x, found the end of the file");
+  EXPECT_EQ(off_refusal("OFF\n3 1 0\n0 0 0 1 0 0 0 1 0 3 0 1 2\n"),
+            "m:4: vertex 1: expected a number for x, found the end of the file");
+}
+
 TEST(OffFile, ANothingIsAMesh) { EXPECT_EQ(parse_off("OFF\n0 0 0\n", "m").facets.cols(), 0); }
 
 TEST(OffFile, RefusesNamingTheLine) {
   const std::string head = "OFF\n4 1 0\n" + kOffVertices;
   EXPECT_EQ(off_refusal("# nothing\n"), "m:2: expected OFF, found the end of the file");
-  EXPECT_EQ(off_refusal("solid x\n"), "m:1: expected OFF, or the number of vertices, found 'solid'");
+  EXPECT_EQ(off_refusal("solid x\n"), "m: not an OFF file but an STL file");
+  EXPECT_EQ(off_refusal("mesh x\n"), "m:1: expected OFF, or the number of vertices, found 'mesh'");
   EXPECT_EQ(off_refusal("XOFF\n"), "m:1: expected OFF, or the numbers of vertices and polygons, found 'XOFF'");
   EXPECT_EQ(off_refusal("4OFF\n1 0 0\n0 0 0 1\n"), "m:1: '4OFF': only three coordinates are read");
   EXPECT_EQ(off_refusal("OFF BINARY\n"), "m:1: binary OFF is not read");
@@ -60,7 +85,8 @@ TEST(OffFile, RefusesNamingTheLine) {
             "m:7: facet 0: expected the index of a vertex, found the end of the line");
   EXPECT_EQ(off_refusal(head + "3 0 1 2 red\n"), "m:7: facet 0: expected a number or the end of the line, found 'red'");
   EXPECT_EQ(off_refusal(head), "m:7: facet 0: expected the number of corners, found the end of the file");
-  EXPECT_EQ(off_refusal(head + "3 0 1 2\n3 0 1 2\n"), "m:8: expected the end of the file, found '3'");
+  EXPECT_EQ(off_refusal(head + "3 0 1 2\n3 0 1 2\n"),
+            "m:8: expected the end of the file after the 1 polygon, found '3'");
 }
 
 }  // namespace

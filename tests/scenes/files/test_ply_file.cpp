@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -78,6 +79,61 @@ TEST(PlyFile, ReadsBothByteOrdersAfterEveryLineEnd) {
   }
 }
 
+TEST(PlyFile, TheLastLineOfTheHeaderMayEndOtherwise) {
+  const std::string head =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty char x\nproperty char y\nproperty char z\n";
+  // A body that begins like an end of line.
+  EXPECT_EQ(tests::positions_of(parse_ply(head + "end_header\n\r\n\n", "m")), (std::vector<Point>{{13, 10, 10}}));
+  EXPECT_EQ(tests::positions_of(parse_ply(head + "end_header\r\n\n\r\n", "m")), (std::vector<Point>{{10, 13, 10}}));
+  EXPECT_EQ(tests::positions_of(parse_ply(head + "end_header\r\1\2\3", "m")), (std::vector<Point>{{1, 2, 3}}));
+  std::string returns = head + "end_header\r";
+  std::replace(returns.begin(), returns.end(), '\n', '\r');
+  EXPECT_EQ(tests::positions_of(parse_ply(returns + "\n\2\3", "m")), (std::vector<Point>{{10, 2, 3}}));
+}
+
+TEST(PlyFile, ReadsIndicesOf64Bits) {
+  const std::vector<Corners> one{{0, 1, 2}};
+  for (const char* type : {"int64", "uint64"}) {
+    const std::string list = std::string("property list uint64 ") + type + " vertex_indices\n";
+    EXPECT_EQ(tests::facets_of(parse_ply(kPly + "element vertex 4\n" + kXyz + "element face 1\n" + list +
+                                             "end_header\n" + kPlyVertices + "3 0 1 2\n",
+                                         "m")),
+              one);
+    const std::string head =
+        "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty int64 x\nproperty uint64 y\nproperty char z\n"
+        "property list uchar uint64 tags\nelement face 1\n" +
+        list + "end_header\n";
+    const auto wide = [](std::uint64_t value) { return bytes_of(value, std::endian::big); };
+    std::string body;
+    for (int i = 0; i < 3; ++i) body += wide(~std::uint64_t{0}) + wide(std::uint64_t{1} << 63) + "\1\1" + wide(7);
+    const MeshFile mesh = parse_ply(head + body + wide(3) + wide(0) + wide(1) + wide(2), "m");
+    EXPECT_EQ(tests::positions_of(mesh)[0], (Point{-1, 0x1p63, 1}));
+    EXPECT_EQ(tests::facets_of(mesh), one);
+    EXPECT_NE(ply_refusal(head + body + wide(std::uint64_t{1} << 62) + wide(0)).find("the file ends too early"),
+              std::string::npos);
+    const std::string large = ply_refusal(head + body + wide(3) + wide(0) + wide(1) + wide(std::uint64_t{1} << 63));
+    EXPECT_TRUE(large.ends_with(": names vertex -9223372036854775808, counted from 0, but the file has 3 vertices") ||
+                large.ends_with(": vertex_indices holds 9223372036854775808, too large for any file"))
+        << large;
+  }
+  // A length whose bytes are more than can be counted.
+  const std::string huge = "ply\nformat binary_little_endian 1.0\nelement vertex 0\n" + kXyz +
+                           "element tag 1\nproperty list int64 double t\nend_header\n";
+  EXPECT_NE(ply_refusal(huge + bytes_of(std::int64_t{1} << 61)).find("the file ends too early"), std::string::npos);
+}
+
+TEST(PlyFile, ReadsStrips) {
+  const std::string head = kPly + "element vertex 6\n" + kXyz + "element tristrips 2\nproperty list int int " +
+                           "vertex_indices\nend_header\n" + kPlyVertices + "2 0 0\n2 1 0\n";
+  const MeshFile mesh = parse_ply(head + "9 0 1 3 2 -1 4 5 2 -1\n7 0 1 3 3 2 2 5\n", "m");
+  EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 3}, {3, 1, 2}, {4, 5, 2}, {0, 1, 3}}));
+  EXPECT_EQ(tests::facets_of(parse_ply(head + "0\n6 0 1 3 3 2 5\n", "m")),
+            (std::vector<Corners>{{0, 1, 3}, {2, 3, 5}}));
+  EXPECT_EQ(ply_refusal(head + "5 0 1 2 -1 3\n0\n"), "m:16: tristrips 0: has 1 of the 3 corners that a polygon needs");
+  EXPECT_EQ(ply_refusal(head + "4 0 1 2 -2\n0\n"),
+            "m:16: tristrips 0: names vertex -2, counted from 0, but the file has 6 vertices");
+}
+
 TEST(PlyFile, EveryShorterBinaryFileIsRefused) {
   const std::string whole = binary_ply(std::endian::little, "\n");
   for (std::size_t size = 0; size < whole.size(); ++size) {
@@ -100,8 +156,9 @@ TEST(PlyFile, RefusesBinaryNamingTheByte) {
   EXPECT_EQ(ply_refusal(binary_points("2", two)), "m: byte " + std::to_string(header.size() + 40) +
                                                       ": vertex 1: the file ends too early, after " +
                                                       std::to_string(header.size() + 40) + " bytes");
-  EXPECT_EQ(ply_refusal(binary_points("0", "xy")),
-            "m: byte " + std::to_string(header.size()) + ": 2 more bytes than the header promises");
+  const MeshFile surplus = parse_ply(binary_points("0", "xy"), "m");
+  EXPECT_EQ(surplus.warnings, std::vector<std::string>{"m: byte " + std::to_string(header.size()) +
+                                                       ": 2 more bytes than the header promises: not read"});
 }
 
 TEST(PlyFile, PromisesTakeNoMemory) {
@@ -117,7 +174,8 @@ TEST(PlyFile, PromisesTakeNoMemory) {
 
 TEST(PlyFile, RefusesTextNamingTheLine) {
   EXPECT_EQ(ply_refusal(kHead + "0 0 0\n1 0\n"), "m:12: vertex 1: expected a number for z, found the end of the file");
-  EXPECT_EQ(ply_refusal(kHead + "0 0 0\n1 0 0 5\n"), "m:11: vertex 1: expected the end of the line, found '5'");
+  EXPECT_EQ(ply_refusal(kHead + "0 0 0\n1 0 0 5\n"),
+            "m:11: vertex 1: expected the end of the line after what the header names, found '5'");
   EXPECT_EQ(ply_refusal(kHead + "0 0 0\n1 nan 0\n"), "m:11: vertex 1: y is nan, not a finite number");
   EXPECT_EQ(ply_refusal(kHead + kPlyVertices + "3 0 1 4\n"),
             "m:14: facet 0: names vertex 4, counted from 0, but the file has 4 vertices");
@@ -138,6 +196,7 @@ TEST(PlyFile, MessagesStayShortAndPrintable) {
 }
 
 TEST(PlyFile, RefusesHeadersNamingTheLine) {
+  EXPECT_EQ(ply_refusal("PLY\nformat ascii 1.0\nelement vertex 0\n" + kXyz + "end_header\n"), "accepted");
   EXPECT_EQ(ply_refusal("plyx\n"), "m:1: expected ply, found 'plyx'");
   EXPECT_EQ(ply_refusal("ply\nformat ascii 2.0\n"), "m:2: expected the version 1.0, found '2.0'");
   EXPECT_EQ(ply_refusal("ply\nformat utf8 1.0\n"),
@@ -159,8 +218,11 @@ TEST(PlyFile, RefusesHeadersNamingTheLine) {
             "m:6: the element vertex has no number z");
   EXPECT_EQ(ply_refusal(kPly + "element vertex 0\n" + kXyz + "element face 1\nproperty int n\nend_header\n"),
             "m:9: the element face has 0 lists vertex_indices or vertex_index, one is needed");
-  EXPECT_EQ(ply_refusal(kPly + "element vertex 0\n" + kXyz + "element tristrips 1\n" + kList + "end_header\n"),
-            "m:9: triangle strips are not read");
+  EXPECT_EQ(ply_refusal(kPly + "element vertex 0\n" + kXyz + "element tristrips 1\nproperty int n\nend_header\n"),
+            "m:9: the element tristrips has 0 lists vertex_indices or vertex_index, one is needed");
+  EXPECT_EQ(ply_refusal(kPly + "element vertex 0\n" + kXyz + "element face 1\nproperty list uchar float " +
+                        "vertex_indices\nend_header\n"),
+            "m:9: vertex_indices of the element face is a list of float or double, not a list of integers");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -52,12 +53,67 @@ TEST(StlFile, ReadsTextAndMergesEqualCorners) {
   EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {1, 0, 3}}));
 }
 
-TEST(StlFile, VerticesWithOtherBitsAreOthers) {
+TEST(StlFile, VerticesAtOtherPlacesAreOthersAndBothZerosAreOne) {
   const MeshFile mesh =
-      parse_stl("solid\n" + text_facet("0 0 0", "-0 0 0", "0 0 0.1") +
-                    text_facet("0 0 0.10000000000000000555", "0 0 0.10000000000000002", "0 0 0") + "endsolid",
+      parse_stl("solid\n" + text_facet("-0 0 0", "0 0 1e-310", "0 0 0.1") +
+                    text_facet("0 0 0.10000000000000000555", "0 0 0.10000000000000002", "0 -0 -0.0") + "endsolid",
                 "m");
   EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}, {2, 3, 0}}));
+  EXPECT_TRUE(std::signbit(mesh.positions(0, 0))) << "a vertex has the coordinates that come first";
+}
+
+// What others write and has one meaning; `normal` with or without numbers, and all that may be on one line.
+TEST(StlFile, ReadsWhatOthersLeaveOutOrAdd) {
+  const std::string loop = " outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet ";
+  for (const std::string& bytes :
+       {"solid a facet normal 0 0 1" + loop + "endsolid a", "solid facet" + loop + "endsolid",
+        "solid a facet normal" + loop + "endsolid\n", "solid\nfacet\n" + loop + "\nendsolid\n",
+        "solid facet of a facet normal nan nan nan" + loop + "endsolid facet\n",
+        "solid a\ncolor 0.5 0.5 0.5\nfacet normal 0 0 1" + loop + "\nCOLOR 1 0 0\nendsolid",
+        std::string("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nend loop\n"
+                    "end facet\nend solid a\n"),
+        "solid facet normal of it\nfacet normal 0 0 1" + loop + "endsolid solid of it"}) {
+    const MeshFile mesh = parse_stl(bytes, "m");
+    EXPECT_EQ(tests::facets_of(mesh), (std::vector<Corners>{{0, 1, 2}})) << bytes;
+    EXPECT_TRUE(mesh.warnings.empty()) << bytes;
+  }
+  const std::string two = "solid a facet normal 0 0 1" + loop + "endsolid a solid b facet" + loop + "endsolid b";
+  EXPECT_EQ(parse_stl(two, "m").facets.cols(), 2);
+}
+
+TEST(StlFile, WarnsOfASolidWithoutEnd) {
+  const std::string open = "solid s\n" + text_facet("0 0 0", "1 0 0", "0 1 0");
+  const MeshFile cut = parse_stl(open, "m");
+  EXPECT_EQ(tests::facets_of(cut), (std::vector<Corners>{{0, 1, 2}}));
+  EXPECT_EQ(cut.warnings, std::vector<std::string>{"m:9: the file ends without endsolid: it may have been cut"});
+  const MeshFile joined = parse_stl(open + open + "endsolid\n", "m");
+  EXPECT_EQ(joined.facets.cols(), 2);
+  EXPECT_EQ(joined.warnings, std::vector<std::string>{"m:9: a solid begins before the endsolid of the last one"});
+}
+
+// Streaming programs do not know the number of facets when they write it.
+TEST(StlFile, ReadsFacetsThatAreNotCounted) {
+  std::string bytes = binary_stl({kFirst, kSecond});
+  for (const std::uint32_t count : {0u, 0xffffffffu}) {
+    bytes.replace(80, 4, bytes_of(count));
+    const MeshFile mesh = parse_stl(bytes, "m");
+    EXPECT_EQ(mesh.facets.cols(), 2);
+    EXPECT_EQ(mesh.warnings, std::vector<std::string>{"m: byte 80: promises " + std::to_string(count) +
+                                                      " facets; all 2 that follow are read"});
+    EXPECT_NE(stl_refusal(bytes + "x"), "accepted");
+  }
+  EXPECT_EQ(parse_stl(binary_stl({}), "m").facets.cols(), 0);
+}
+
+TEST(StlFile, WarnsOfSurplusBytes) {
+  const MeshFile mesh = parse_stl(binary_stl({kFirst, kSecond}) + "xy", "m");
+  EXPECT_EQ(mesh.facets.cols(), 2);
+  EXPECT_EQ(mesh.warnings,
+            std::vector<std::string>{"m: byte 80: promises 2 facets, and 2 more bytes follow them: not read"});
+  std::string more = binary_stl({kFirst, kSecond, kFirst});
+  more.replace(80, 4, bytes_of(std::uint32_t{2}));
+  EXPECT_EQ(stl_refusal(more), "m: byte 80: promises 2 facets, which take 184 bytes, but the file has 234")
+      << "a whole facet more: which of both is wrong?";
 }
 
 TEST(StlFile, ReadsTextOfAnyLayoutAndManySolids) {
@@ -79,7 +135,6 @@ TEST(StlFile, RefusesBinaryNamingTheByte) {
   const std::string whole = binary_stl({kFirst, kSecond});
   EXPECT_EQ(stl_refusal(whole.substr(0, 183)),
             "m: byte 80: promises 2 facets, which take 184 bytes, but the file has 183");
-  EXPECT_EQ(stl_refusal(whole + "x"), "m: byte 80: promises 2 facets, which take 184 bytes, but the file has 185");
   EXPECT_EQ(stl_refusal(std::string(80, ' ') + "\xff\xff\xff\xff"),
             "m: byte 80: promises 4294967295 facets, which take 214748364834 bytes, but the file has 84");
   EXPECT_EQ(stl_refusal("junk"),
@@ -95,7 +150,7 @@ TEST(StlFile, EveryShorterBinaryFileIsRefused) {
 
 TEST(StlFile, RefusesTextNamingTheLine) {
   const std::string good = "solid s\n" + text_facet("0 0 0", "1 0 0", "0 1 0");  // 8 lines
-  EXPECT_EQ(stl_refusal(good), "m:9: expected facet or endsolid, found the end of the file");
+  EXPECT_EQ(stl_refusal("solid s\n"), "m:2: expected facet or endsolid, found the end of the file");
   EXPECT_EQ(stl_refusal(good + "endsolid\njunk\n"), "m:10: expected solid, found 'junk'");
   EXPECT_EQ(stl_refusal(good + "face\n"), "m:9: expected facet or endsolid, found 'face'");
   EXPECT_EQ(stl_refusal(good + text_facet("0 0 0", "1 x 0", "0 1 0")),
@@ -118,7 +173,7 @@ TEST(StlFile, OfZerosIsRefusedByNameAtOnce) {
     read_mesh_file(path);
     FAIL() << "it was read";
   } catch (const FileError& error) {
-    EXPECT_NE(std::string(error.what()).find("zeros.stl: byte 80: promises 0 facets"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("zeros.stl: not an STL file but bytes of zero"), std::string::npos)
         << error.what();
   }
 }

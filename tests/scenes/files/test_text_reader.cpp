@@ -51,6 +51,15 @@ TEST(ParseNumber, TooSmallIsZeroAndTooLargeIsNone) {
   EXPECT_FALSE(parse_number("1" + std::string(400, '0')));
 }
 
+TEST(ParseNumber, TakesExponentsOfFortran) {
+  EXPECT_EQ(parse_number("0.5D+00"), 0.5);
+  EXPECT_EQ(parse_number("-1.25d-2"), -0.0125);
+  EXPECT_EQ(parse_number("+3D2"), 300.0);
+  EXPECT_EQ(parse_number("1D-400"), 0.0);
+  for (const char* text : {"D2", "1D", "1D2D3", "1D1.5", "1e2D3", "0xD", "1 D2", "nanD2", "1D400"})
+    EXPECT_FALSE(parse_number(text)) << text;
+}
+
 TEST(ParseNumber, IsOneNumberFromEndToEnd) {
   for (const char* text :
        {"", "+", "-", ".", "e5", "1e", "1.2.3", "1,5", "0x10", "+-1", "++1", "--1", " 1", "1 ", "1f", "12abc"}) {
@@ -68,7 +77,7 @@ TEST(ParseInteger, TakesWholeIntegersOnly) {
 TEST(TextReader, CountsLinesOfEveryKind) {
   TextReader text("a\nb\r\nc\rd\n\n  e", "m", {});
   std::string seen;
-  while (text.seek_token()) seen += fmt::format("{}{} ", *text.token(), text.line());
+  while (text.seek_token()) seen += fmt::format("{}{} ", *text.token(), text.place());
   EXPECT_EQ(seen, "a1 b2 c3 d4 e6 ");
 }
 
@@ -77,10 +86,30 @@ TEST(TextReader, SkipsCommentsAndJoinsLines) {
                   {.comment = '#', .backslash_joins_lines = true});
   std::string seen;
   while (text.seek_token()) {
-    while (const auto token = text.token()) seen += fmt::format("{}{} ", *token, text.line());
+    while (const auto token = text.token()) seen += fmt::format("{}{} ", *token, text.place());
     seen += "| ";
   }
-  EXPECT_EQ(seen, "one1 | three2 four3 five#six4 | ");
+  EXPECT_EQ(seen, "one1 | three2 four3 five4 | ");
+}
+
+// 1.#INF is what some programs write: no number with a comment behind it.
+TEST(TextReader, ACommentMayTouchWhatIsBeforeIt) {
+  TextReader text("1# one\n2.5#\n1.#INF 3 \\\n4", "m", {.comment = '#', .backslash_joins_lines = true});
+  std::string seen;
+  while (text.seek_token()) {
+    while (const auto token = text.token()) seen += fmt::format("{} ", *token);
+    seen += "| ";
+  }
+  EXPECT_EQ(seen, "1 | 2.5 | 1.#INF 3 4 | ");
+}
+
+// A path of Windows at the end of a line that is skipped.
+TEST(TextReader, SkippedLinesAreNotJoined) {
+  TextReader text("mtllib C:\\models\\\nnext", "m", {.comment = '#', .backslash_joins_lines = true});
+  EXPECT_EQ(text.token(), "mtllib");
+  text.skip_line();
+  ASSERT_TRUE(text.seek_token());
+  EXPECT_EQ(text.token(), "next");
 }
 
 TEST(TextReader, SaysWhatItExpectedAndFound) {

@@ -320,6 +320,24 @@ typedef struct tact_surface_fault {
 TACT_C_API tact_error tact_world_check_surface(tact_world world, tact_body body, double sliver, bool* solid,
                                                tact_surface_fault* faults, size_t capacity, size_t* count);
 
+/* Meshes: see tact/weld.h. */
+
+/** A mesh in which no two vertices have equal positions. */
+typedef struct tact_welded_mesh {
+  uint32_t struct_size;
+  int32_t vertices;         /**< how many vertices are left */
+  int32_t merged_vertices;  /**< how many vertices became one with an earlier vertex */
+  int32_t collapsed_facets; /**< how many facets have a vertex twice that had three */
+  double* positions;        /**< of each place the first vertex that was given. Room for 3 x V given ones, or null */
+  int* facets;              /**< all that were given, in their order. Room for 3 x F, or null */
+  int* vertex_of;           /**< for each vertex that was given, its vertex in this mesh. Room for V, or null */
+} tact_welded_mesh;
+#define TACT_WELDED_MESH_INIT \
+  { (uint32_t)sizeof(tact_welded_mesh), 0, 0, 0, NULL, NULL, NULL }
+
+/** Gives a mesh without the vertices that repeat an earlier position; 0 and -0 are equal. */
+TACT_C_API tact_error tact_weld(const tact_columns* positions, const tact_columns* facets, tact_welded_mesh* mesh);
+
 /* Recordings: see tact/recording.h. */
 
 /** Records everything that enters the world to the file `path`, from before its first body on; null ends it and tells
