@@ -3,6 +3,7 @@
 
 #include <tact/settings.h>
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -25,6 +26,9 @@ class PatchStage {
   /// ones, and notes what became of them.
   void name(std::span<const MovedPair> moved, std::vector<PatchEvent>& events);
   void name(std::span<SelfRecord* const> selves, std::vector<PatchEvent>& events);
+  /// The last id that was given out; and from which on new ones are.
+  std::uint64_t last_id() const { return last_id_; }
+  void give_ids_after(std::uint64_t id) { last_id_ = id; }
 
  private:
   /// A patch of this step and one of the last that have vertices in common.

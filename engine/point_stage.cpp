@@ -173,6 +173,8 @@ const narrowphase::Crossing* PointStage::find_self_crossing(const Bodies& bodies
 void PointStage::finish(const Prepared& prepared, const Step& step, int threads, Work& work) {
   const narrowphase::Crossing* const crossing = prepared.rules.crossing;
   if (crossing != nullptr) work.crossing_points.append(*crossing, work.found);
+  if (SelfRecord* const self = prepared.wanted->self; self != nullptr && crossing != nullptr)
+    self->point_limit_reached = crossing->limit_reached;
   publish(*prepared.wanted, step, threads, work);
 }
 

@@ -38,7 +38,7 @@ class PointStage {
     double reach = 0.0;
     std::vector<ContactPoint>* points = nullptr;
     const PairRecord* record = nullptr;  // of two bodies
-    const SelfRecord* self = nullptr;    // of one
+    SelfRecord* self = nullptr;          // of one
   };
   /// What is known of one of those before its points are searched.
   struct Prepared {

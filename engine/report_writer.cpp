@@ -26,12 +26,16 @@ void make_room(std::vector<T>& vector, std::size_t count, std::size_t spare) {
 
 void ReportWriter::Totals::add(const Contact& contact, std::int64_t times) {
   facet_pairs += times * static_cast<std::int64_t>(contact.facet_pairs().size());
+  points += times * static_cast<std::int64_t>(contact.points().size());
   touching += contact.touching() ? times : 0;
+  point_limits += contact.point_limit_reached ? times : 0;
 }
 
 void ReportWriter::Totals::add(const Totals& other) {
   facet_pairs += other.facet_pairs;
+  points += other.points;
   touching += other.touching;
+  point_limits += other.point_limits;
 }
 
 void ReportWriter::fill(Contact& contact, const PairRecord& record) {
@@ -48,6 +52,7 @@ void ReportWriter::fill(Contact& contact, const SelfRecord& record) {
   contact.touching_ = record.touching;
   contact.facet_pairs_ = record.facet_pairs;
   contact.points_ = record.points;
+  contact.point_limit_reached = record.point_limit_reached;
   contact.patches_ = record.patches.now.patches;
 }
 
@@ -62,14 +67,7 @@ void ReportWriter::add_thread_totals() {
   for (Totals& totals : thread_totals_) totals_.add(std::exchange(totals, {}));
 }
 
-void ReportWriter::forget() {
-  report_ = Report();
-  reported_ = {};
-  has_self_ = false;
-  last_contacts_ = {};
-  totals_ = {};
-  thread_totals_ = {};
-}
+void ReportWriter::forget() { *this = ReportWriter(); }
 
 void ReportWriter::write(PairTable& table, const SelfStage& self, const Bodies& bodies, const Settings& settings) {
   thread_totals_.resize(settings.threads);
@@ -84,6 +82,8 @@ void ReportWriter::write(PairTable& table, const SelfStage& self, const Bodies& 
   StepStats& stats = report_.stats_;
   stats.contacts = static_cast<std::int64_t>(report_.contacts_.size());
   stats.facet_pairs = totals_.facet_pairs;
+  stats.points = totals_.points;
+  stats.point_limits_reached = totals_.point_limits;
   stats.touching_contacts = totals_.touching;
 }
 
@@ -127,8 +127,7 @@ void ReportWriter::carry_contacts(PairTable& table, int threads) {
     if (reported_[i].self == nullptr)
       place = std::exchange(table.place_in_report(reported_[i].place), static_cast<std::uint32_t>(i));
     if (place == PairTable::kNowhere) {
-      contact.facet_pairs_ = {};
-      contact.touching_ = false;
+      contact = Contact{};
     } else {
       contact = last_contacts_[place];
       thread_totals_[thread].add(contact, 1);

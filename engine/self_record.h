@@ -20,7 +20,8 @@ struct SelfRecord {
   std::vector<narrowphase::ClusterPair> may_meet, may_contact;  ///< see narrowphase::SelfClusters
   std::unique_ptr<narrowphase::SelfCrossing> crossing;          ///< made when facets meet for the first time
   PatchMemory patches;
-  bool touching = false;  ///< see is_touching()
+  bool touching = false;             ///< see is_touching()
+  bool point_limit_reached = false;  ///< see Contact
 };
 
 inline bool in_contact(const SelfRecord& record) { return !record.facet_pairs.empty() || !record.points.empty(); }

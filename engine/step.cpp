@@ -44,7 +44,11 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   count_bodies(bodies, stats);
   count_pairs(table, stats);
   stats.named_excluded_pairs = static_cast<std::int64_t>(table.excluded());
+  if (settings.outputs.trace) trace_.make_room_for(table.moved(), stages_->pairs, writer_.trace());
+  if (discarded_) throw Discarded{};
+  // From here on nothing fails.
   bodies.end_step();
+  last_patch_ = stages_->patches.last_id();
   all_ = false;
   const double report_ms = timer.lap();
   if (!at_rest) stats.report_ms = report_ms;  // at rest the step is this call alone
@@ -57,7 +61,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
 
 // Stages 2 to 6, and what is found of their facet pairs.
 void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, Timer& timer, StepStats& stats) {
-  auto& [sweep, table, pairs, containment, points, selves] = *stages_;
+  auto& [sweep, table, pairs, containment, points, selves, patches] = *stages_;
   sweep.update(bodies.boxes(), bodies.filters(), bodies.changed(), settings.threads, bodies.tuning());
   bodies.place(sweep.pairs(), settings.threads);
   table.update(sweep, bodies, all_);
@@ -80,7 +84,7 @@ void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, Timer& t
     stats.self_points_ms = timer.lap();
   }
   selves.finish(bodies);
-  find_patches(bodies, settings);
+  find_patches(patches, bodies, settings);
   if (settings.outputs.patches) stats.patches_ms = timer.lap();
 }
 
@@ -92,17 +96,17 @@ void Step::keep_last_answers() {
   writer_.patch_events().clear();
 }
 
-void Step::find_patches(const Bodies& bodies, const Settings& settings) {
+void Step::find_patches(PatchStage& patches, const Bodies& bodies, const Settings& settings) {
   PairTable& table = stages_->table;
   SelfStage& selves = stages_->selves;
   std::vector<PatchEvent>& events = writer_.patch_events();
   events.assign(table.gone_patches().begin(), table.gone_patches().end());
   if (settings.outputs.patches) {
-    patches_.find(table.moved(), bodies, settings);
-    patches_.name(table.moved(), events);
+    patches.find(table.moved(), bodies, settings);
+    patches.name(table.moved(), events);
     events.insert(events.end(), selves.gone_patches().begin(), selves.gone_patches().end());
-    patches_.find(selves.looked_at(), bodies, settings);
-    patches_.name(selves.looked_at(), events);
+    patches.find(selves.looked_at(), bodies, settings);
+    patches.name(selves.looked_at(), events);
   } else if (all_) {
     for (const MovedPair& pair : table.moved()) pair.record->patches.reset();
     selves.forget_patches();
@@ -123,6 +127,7 @@ void Step::make_trace(TraceEvent::Time begin, TraceEvent::Time end, const Settin
 
 void Step::start_from_scratch() {
   stages_ = std::make_unique<Stages>();
+  stages_->patches.give_ids_after(last_patch_);
   writer_.forget();
   all_ = true;
   forgotten_ = false;

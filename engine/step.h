@@ -23,8 +23,10 @@ namespace tact {
 class Step {
  public:
   /// Looks at every pair with a body that changed, and keeps the result of all others. `refresh_ms` is what stage 1
-  /// took, milliseconds.
+  /// took, milliseconds. If it throws, forget() is to be called; the bodies have changed as they had before.
   const Report& run(Bodies& bodies, const Settings& settings, double refresh_ms);
+  /// Of the last run(); if that failed at its end, what it found.
+  const Report& last_report() const { return writer_.report(); }
 
   /// Groups the facets again of bodies whose clusters have lost their shape; what pairs remember stays. A part of stage
   /// 1, before run(). If it fails, nothing has changed.
@@ -33,13 +35,20 @@ class Step {
   /// The next step looks at every pair; directions are carried on.
   void look_at_all() { all_ = true; }
   /// The next step starts from nothing: after a step that failed half-way. Allocates nothing.
-  void forget() noexcept { forgotten_ = true; }
+  void forget() noexcept {
+    forgotten_ = true;
+    discarded_ = false;
+  }
+  /// The next run() throws Discarded when all is found.
+  void discard() { discarded_ = true; }
+  struct Discarded {};
 
   /// Where stage 1 is noted, if Outputs::trace is set.
   StepTrace& trace() { return trace_; }
 
  private:
-  /// What is found of a step, and what the next one starts from.
+  /// What is found of a step, and what the next one starts from. A step that fails may leave any of it half-way: all
+  /// of it is made anew. What stands beside it is complete between any two statements of run().
   struct Stages {
     broadphase::SweepAndPrune sweep;
     PairTable table;
@@ -47,22 +56,23 @@ class Step {
     ContainmentStage containment;
     PointStage points;
     SelfStage selves;
+    PatchStage patches;
   };
   void start_from_scratch();
   void keep_last_answers();
   void look_at_what_moved(Bodies& bodies, const Settings& settings, base::Timer& timer, StepStats& stats);
-  void find_patches(const Bodies& bodies, const Settings& settings);
+  void find_patches(PatchStage& patches, const Bodies& bodies, const Settings& settings);
   void make_trace(TraceEvent::Time begin, TraceEvent::Time end, const Settings& settings);
 
   std::unique_ptr<Stages> stages_ = std::make_unique<Stages>();
-  PatchStage patches_;
-  ReportWriter writer_;
+  ReportWriter writer_;  // keeps its place: a caller has the report; forget() makes the rest of it anew
   StepTrace trace_;
   narrowphase::EmbreeDevice device_;
   std::int64_t regrouped_ = 0;  // bodies, for the next step, and how long that took
   double regroup_ms_ = 0.0;
+  std::uint64_t last_patch_ = 0;  // id that a step gave out which did not fail
   bool all_ = true;
-  bool forgotten_ = false;
+  bool forgotten_ = false, discarded_ = false;
 };
 
 }  // namespace tact

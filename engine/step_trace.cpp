@@ -86,9 +86,14 @@ bool before(const TraceEvent& x, const TraceEvent& y) {
 
 }  // namespace
 
+void StepTrace::make_room_for(std::span<const MovedPair> pairs, const PairStage& narrow_phase,
+                              std::vector<TraceEvent>& events) {
+  events.reserve(refreshes_.size() + kEventsOfStep + kEventsOfPair * pairs.size() + narrow_phase.large().range_count());
+  by_thread_.reserve(pairs.size());
+}
+
 void StepTrace::make(Time begin, Time end, const StepStats& stats, std::span<const MovedPair> pairs,
                      const PairStage& narrow_phase, std::vector<TraceEvent>& events) {
-  events.reserve(refreshes_.size() + kEventsOfStep + kEventsOfPair * pairs.size() + narrow_phase.large().range_count());
   events.assign(refreshes_.begin(), refreshes_.end());
   add_stages(begin, end, stats, events);
   add_pairs(pairs, events);

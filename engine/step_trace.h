@@ -24,6 +24,8 @@ class StepTrace {
   void add_refresh(Time begin, Time end) { refreshes_.push_back({TraceEvent::Kind::refresh, 0, begin, end}); }
   void forget_refreshes() { refreshes_.clear(); }
 
+  // What make() takes of memory: after this it cannot fail.
+  void make_room_for(std::span<const MovedPair> pairs, const PairStage& narrow_phase, std::vector<TraceEvent>& events);
   // Replaces `events` by those of a step from `begin` to `end`, with the refreshes before it, sorted by thread and
   // time; an event stands before those within it. `pairs` are those that the step looked at and no k-DOP separates.
   void make(Time begin, Time end, const StepStats& stats, std::span<const MovedPair> pairs,

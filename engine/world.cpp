@@ -13,11 +13,13 @@
 #include "engine/base/timer.h"
 #include "engine/bodies/bodies.h"
 #include "engine/check_name.h"
+#include "engine/failed_step.h"
 #include "engine/messages.h"
 #include "engine/motion_stage.h"
 #include "engine/queries.h"
 #include "engine/step.h"
 #include "engine/surface_check.h"
+#include "engine/with_memory.h"
 #include "engine/world_tuning.h"
 
 namespace tact {
@@ -44,25 +46,6 @@ Settings checked(Settings settings) {
   check_name(settings.direction, DirectionPolicy::smallest, "direction", ErrorCode::bad_settings);
   if (settings.threads == 0) settings.threads = base::default_threads();
   return settings;
-}
-
-// There may be no memory for the message either.
-[[noreturn]] void refuse_memory(const char* what) {
-  try {
-    throw Error(ErrorCode::out_of_memory, what);
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::out_of_memory, {});
-  }
-}
-
-// Calls `work`; a failed allocation becomes the error that the interface names.
-template <class Work>
-decltype(auto) with_memory(const char* what, const Work& work) {
-  try {
-    return work();
-  } catch (const std::bad_alloc&) {
-    refuse_memory(what);
-  }
 }
 
 }  // namespace
@@ -97,6 +80,14 @@ struct World::Implementation {
     if (settings.outputs.trace) step.trace().add_refresh(begin, timer.start());
   }
 
+  // Calls change(), and tell(observer) once it has succeeded.
+  template <class Change, class Tell>
+  void change(const Change& change, const Tell& tell) {
+    const base::FloatingPointMode mode;
+    with_memory(change);
+    observe(tell);
+  }
+
   template <class Set>
   void set_positions(const Set& set) {
     const base::Workers::Scope scope(workers);
@@ -112,6 +103,25 @@ struct World::Implementation {
       bodies.keep_groups();
     }
   }
+
+  const Report& detect() {
+    observe([](WorldObserver& told) { told.step_begins(); });
+    try {
+      return with_memory("detect ran out of memory; the next call starts from scratch", [&]() -> const Report& {
+        const base::FloatingPointMode mode;
+        const base::Workers::Scope scope(workers);
+        regroup();
+        const Report& report = step.run(bodies, settings, refresh_ms);
+        refresh_ms = 0.0;
+        return report;
+      });
+    } catch (...) {
+      step.forget();
+      bodies.mark_all_changed();
+      observe([](WorldObserver& told) { told.step_failed(); });
+      throw;
+    }
+  }
 };
 
 World::World(const Settings& settings)
@@ -122,8 +132,13 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 World::Implementation& World::implementation() const {
-  if (implementation_ == nullptr) throw Error(ErrorCode::wrong_order, "the world was moved to another");
+  if (implementation_ == nullptr)
+    with_memory([] { throw Error(ErrorCode::wrong_order, "the world was moved to another"); });
   return *implementation_;
+}
+
+const Body& World::body_of(BodyId body) const {
+  return with_memory([&]() -> const Body& { return implementation().bodies.at(body); });
 }
 
 void WorldTuning::set(const World& world, const base::Tuning& tuning) { world.implementation().tuning = tuning; }
@@ -132,7 +147,7 @@ const Settings& World::settings() const { return implementation().settings; }
 
 void World::set_settings(const Settings& settings) {
   Implementation& i = implementation();
-  i.settings = checked(settings);
+  i.settings = with_memory([&] { return checked(settings); });
   if (i.workers.executor() != i.settings.executor.get()) i.workers.restart(i.settings.executor);
   i.step.look_at_all();
   i.observe([&](WorldObserver& observer) { observer.settings_changed(i.settings); });
@@ -147,10 +162,8 @@ BodyId World::add_body(const BodyDefinition& definition) {
 }
 
 void World::remove_body(BodyId body) {
-  const base::FloatingPointMode mode;
   Implementation& i = implementation();
-  i.bodies.remove(body);
-  i.observe([&](WorldObserver& observer) { observer.body_removed(body); });
+  i.change([&] { i.bodies.remove(body); }, [&](WorldObserver& observer) { observer.body_removed(body); });
 }
 
 void World::set_positions(BodyId body, const Positions& positions) {
@@ -180,79 +193,71 @@ void World::set_poses(std::span<const PoseUpdate> updates) {
 
 void World::set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask) {
   Implementation& i = implementation();
-  i.bodies.set_layers(body, layer, mask);
-  i.observe([&](WorldObserver& observer) { observer.layers_set(body, layer, mask); });
+  i.change([&] { i.bodies.set_layers(body, layer, mask); },
+           [&](WorldObserver& observer) { observer.layers_set(body, layer, mask); });
 }
 
 void World::set_group(BodyId body, std::uint32_t group) {
   Implementation& i = implementation();
-  i.bodies.set_group(body, group);
-  i.observe([&](WorldObserver& observer) { observer.group_set(body, group); });
+  i.change([&] { i.bodies.set_group(body, group); }, [&](WorldObserver& observer) { observer.group_set(body, group); });
 }
 
 void World::set_excluded(BodyId a, BodyId b, bool excluded) {
   Implementation& i = implementation();
-  i.bodies.set_excluded(a, b, excluded);
-  i.observe([&](WorldObserver& observer) { observer.excluded_set(a, b, excluded); });
+  i.change([&] { i.bodies.set_excluded(a, b, excluded); },
+           [&](WorldObserver& observer) { observer.excluded_set(a, b, excluded); });
 }
 
 void World::set_motion(BodyId body, Motion motion) {
-  const base::FloatingPointMode mode;
   Implementation& i = implementation();
-  i.bodies.set_motion(body, motion);
-  i.observe([&](WorldObserver& observer) { observer.motion_set(body, motion); });
+  i.change([&] { i.bodies.set_motion(body, motion); },
+           [&](WorldObserver& observer) { observer.motion_set(body, motion); });
 }
 
 void World::set_margin(BodyId body, double margin) {
-  const base::FloatingPointMode mode;
   Implementation& i = implementation();
-  i.bodies.set_margin(body, margin);
-  i.observe([&](WorldObserver& observer) { observer.margin_set(body, margin); });
+  i.change([&] { i.bodies.set_margin(body, margin); },
+           [&](WorldObserver& observer) { observer.margin_set(body, margin); });
 }
 
 void World::set_self_contact(BodyId body, bool wanted) {
-  const base::FloatingPointMode mode;
   Implementation& i = implementation();
-  i.bodies.set_self_contact(body, wanted);
-  i.observe([&](WorldObserver& observer) { observer.self_contact_set(body, wanted); });
+  i.change([&] { i.bodies.set_self_contact(body, wanted); },
+           [&](WorldObserver& observer) { observer.self_contact_set(body, wanted); });
 }
 
 void World::set_observer(WorldObserver* observer) {
   Implementation& i = implementation();
   if (observer != nullptr && i.bodies.ever_held_any())
-    throw Error(ErrorCode::wrong_order, "an observer is set before the first body is added");
+    with_memory([] { throw Error(ErrorCode::wrong_order, "an observer is set before the first body is added"); });
   i.observer = observer;
   i.observe([&](WorldObserver& told) { told.settings_changed(i.settings); });
 }
 
 const Report& World::detect() {
   Implementation& i = implementation();
-  i.observe([](WorldObserver& observer) { observer.step_begins(); });
-  const base::FloatingPointMode mode;
-  const base::Workers::Scope scope(i.workers);
-  i.regroup();
-  const double refresh_ms = std::exchange(i.refresh_ms, 0.0);
-  const Report& report =
-      with_memory("detect ran out of memory; the next call starts from scratch", [&]() -> const Report& {
-        try {
-          return i.step.run(i.bodies, i.settings, refresh_ms);
-        } catch (...) {
-          i.step.forget();
-          i.bodies.mark_all_changed();
-          throw;
-        }
-      });
+  const Report& report = i.detect();
   i.observe([&](WorldObserver& observer) { observer.step_ended(report); });
   tell_limits(report, i.bodies, i.settings.on_message);
   return report;
 }
 
+const Report& FailedStep::play(World& world) {
+  World::Implementation& i = world.implementation();
+  i.step.discard();
+  try {
+    i.detect();
+  } catch (const Step::Discarded&) {
+  }
+  return i.step.last_report();
+}
+
 const MotionReport& World::detect_motion(Impacts wanted) {
   Implementation& i = implementation();
-  check_name(wanted, Impacts::first, "impacts");
   const base::FloatingPointMode mode;
   const base::Workers::Scope scope(i.workers);
   return with_memory("detect_motion ran out of memory", [&]() -> const MotionReport& {
+    check_name(wanted, Impacts::first, "impacts");
     if (i.motion == nullptr) i.motion = std::make_unique<MotionStage>();
     try {
       return i.motion->run(i.bodies, i.settings, wanted);
@@ -284,10 +289,11 @@ void check_queries(std::span<const Query> queries, std::size_t answers) {
 }
 
 // Answers one query by find().
-template <class OfWorld, class Find>
-auto answer_one(const OfWorld& world, const Find& find) {
+template <class OfWorld, class Query, class Find>
+auto answer_one(const OfWorld& world, const Query& query, const Find& find) {
   const base::FloatingPointMode mode;
   return with_memory(kNoMemoryForAnswers, [&] {
+    check_query(query);
     world.bodies.expect_queries(1);
     return find();
   });
@@ -297,10 +303,10 @@ auto answer_one(const OfWorld& world, const Find& find) {
 template <class OfWorld, class Query, class Answer, class Find>
 void answer_all(OfWorld& world, std::span<const Query> queries, std::span<Answer> answers, const Find& find) {
   constexpr std::size_t kAtATime = 16;  // a query takes a microsecond or more
-  check_queries(queries, answers.size());
   const base::FloatingPointMode mode;
   const base::Workers::Scope scope(world.workers);
   with_memory(kNoMemoryForAnswers, [&] {
+    check_queries(queries, answers.size());
     world.bodies.expect_queries(queries.size());
     base::parallel_for(queries.size(), kAtATime, world.settings.threads,
                        [&](std::size_t i) { answers[i] = find(queries[i]); });
@@ -322,10 +328,10 @@ void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits
   const std::size_t fewest_together = std::max<std::size_t>(64, i.bodies.count());
   if (wanted != RayHits::first || rays.size() < fewest_together)
     return answer_all(i, rays, hits, [&](const Ray& ray) { return find_hit(i.bodies, ray, wanted); });
-  check_queries(rays, hits.size());
   const base::FloatingPointMode mode;
   const base::Workers::Scope scope(i.workers);
   with_memory(kNoMemoryForAnswers, [&] {
+    check_queries(rays, hits.size());
     constexpr std::size_t kAtATime = narrowphase::kLinesAtATime;
     const base::Pool<narrowphase::SegmentBatch>::Loan batch(i.segment_batches);
     i.bodies.expect_queries(rays.size());
@@ -339,8 +345,7 @@ void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits
 
 std::vector<RayHit> World::cast_ray_all(const Ray& ray) const {
   const Implementation& i = implementation();
-  check_query(ray);
-  return answer_one(i, [&] { return find_all_hits(i.bodies, ray); });
+  return answer_one(i, ray, [&] { return find_all_hits(i.bodies, ray); });
 }
 
 ClosestPoint World::closest_point(const PointQuery& query) const {
@@ -356,14 +361,12 @@ void World::closest_points(std::span<const PointQuery> queries, std::span<Closes
 
 std::vector<FacetOfBody> World::overlap_box(const BoxQuery& query) const {
   const Implementation& i = implementation();
-  check_query(query);
-  return answer_one(i, [&] { return find_in_box(i.bodies, query); });
+  return answer_one(i, query, [&] { return find_in_box(i.bodies, query); });
 }
 
 std::vector<BodyId> World::bodies_containing(const PointQuery& query) const {
   const Implementation& i = implementation();
-  check_query(query);
-  return answer_one(i, [&] { return find_around(i.bodies, query); });
+  return answer_one(i, query, [&] { return find_around(i.bodies, query); });
 }
 
 void World::overlap_boxes(std::span<const BoxQuery> queries, std::span<std::vector<FacetOfBody>> answers) const {
@@ -381,46 +384,49 @@ std::size_t World::body_count() const noexcept { return implementation_ ? implem
 std::vector<BodyId> World::bodies() const {
   return with_memory("listing the bodies ran out of memory", [&] { return implementation().bodies.ids(); });
 }
-const std::string& World::name(BodyId body) const { return implementation().bodies.at(body).name; }
-Surface World::surface(BodyId body) const { return implementation().bodies.at(body).surface; }
+const std::string& World::name(BodyId body) const { return body_of(body).name; }
+Surface World::surface(BodyId body) const { return body_of(body).surface; }
 Motion World::motion(BodyId body) const {
-  const Bodies& bodies = implementation().bodies;
-  if (bodies.filter(body).fixed) return Motion::fixed;
-  return bodies.at(body).mesh.is_rigid() ? Motion::rigid : Motion::deformable;
+  const Body& asked = body_of(body);
+  if (implementation().bodies.filters()[body.index].fixed) return Motion::fixed;
+  return asked.mesh.is_rigid() ? Motion::rigid : Motion::deformable;
 }
-std::uint32_t World::group(BodyId body) const { return implementation().bodies.filter(body).group; }
-
-bool World::excluded(BodyId a, BodyId b) const { return implementation().bodies.excluded(a, b); }
-
-std::uint32_t World::layer(BodyId body) const { return implementation().bodies.filter(body).layer; }
-std::uint32_t World::mask(BodyId body) const { return implementation().bodies.filter(body).mask; }
-std::uint64_t World::external_id(BodyId body) const { return implementation().bodies.at(body).external_id; }
-double World::margin(BodyId body) const {
-  const Bodies& bodies = implementation().bodies;
-  return bodies.margin(bodies.at(body).id.index);
+std::uint32_t World::group(BodyId body) const {
+  return implementation().bodies.filters()[body_of(body).id.index].group;
 }
-bool World::self_contact(BodyId body) const { return implementation().bodies.at(body).self_contact; }
+
+bool World::excluded(BodyId a, BodyId b) const {
+  return with_memory([&] { return implementation().bodies.excluded(a, b); });
+}
+
+std::uint32_t World::layer(BodyId body) const {
+  return implementation().bodies.filters()[body_of(body).id.index].layer;
+}
+std::uint32_t World::mask(BodyId body) const { return implementation().bodies.filters()[body_of(body).id.index].mask; }
+std::uint64_t World::external_id(BodyId body) const { return body_of(body).external_id; }
+double World::margin(BodyId body) const { return implementation().bodies.margin(body_of(body).id.index); }
+bool World::self_contact(BodyId body) const { return body_of(body).self_contact; }
 std::size_t World::vertex_count(BodyId body) const {
-  return static_cast<std::size_t>(implementation().bodies.at(body).mesh.source_vertex_count());
+  return static_cast<std::size_t>(body_of(body).mesh.source_vertex_count());
 }
-std::size_t World::facet_count(BodyId body) const {
-  return static_cast<std::size_t>(implementation().bodies.at(body).mesh.facet_count());
-}
+std::size_t World::facet_count(BodyId body) const { return static_cast<std::size_t>(body_of(body).mesh.facet_count()); }
 
 namespace {
 
 template <class Number>
 void check_room(std::span<Number> room, std::size_t needed, const std::string& name) {
   if (room.size() == needed) return;
-  throw Error(ErrorCode::wrong_size, "body '" + name + "': room for " + std::to_string(room.size()) + " numbers, not " +
-                                         std::to_string(needed));
+  with_memory([&] {
+    throw Error(ErrorCode::wrong_size, "body '" + name + "': room for " + std::to_string(room.size()) +
+                                           " numbers, not " + std::to_string(needed));
+  });
 }
 
 }  // namespace
 
 void World::copy_positions(BodyId body, std::span<double> coordinates) const {
   const base::FloatingPointMode mode;
-  const Body& asked = implementation().bodies.at(body);
+  const Body& asked = body_of(body);
   check_room(coordinates, 3 * static_cast<std::size_t>(asked.mesh.source_vertex_count()), asked.name);
   std::ranges::fill(coordinates, std::numeric_limits<double>::quiet_NaN());
   for (int vertex = 0; vertex < asked.mesh.vertex_count(); ++vertex) {
@@ -431,7 +437,7 @@ void World::copy_positions(BodyId body, std::span<double> coordinates) const {
 }
 
 void World::copy_facets(BodyId body, std::span<int> corners) const {
-  const Body& asked = implementation().bodies.at(body);
+  const Body& asked = body_of(body);
   check_room(corners, 3 * static_cast<std::size_t>(asked.mesh.facet_count()), asked.name);
   for (int facet = 0; facet < asked.mesh.facet_count(); ++facet) {
     const narrowphase::Corners of_facet = asked.mesh.corners(facet);
@@ -455,8 +461,7 @@ SurfaceCheck World::check_surface(BodyId body, double sliver) const {
 
 Bounds World::bounds(BodyId body) const {
   const base::FloatingPointMode mode;
-  const Bodies& bodies = implementation().bodies;
-  const base::Box box = bodies.exact_box(bodies.at(body).id.index);
+  const base::Box box = implementation().bodies.exact_box(body_of(body).id.index);
   return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
 }
 
@@ -474,5 +479,6 @@ void WorldObserver::margin_set(BodyId, double) noexcept {}
 void WorldObserver::self_contact_set(BodyId, bool) noexcept {}
 void WorldObserver::step_begins() noexcept {}
 void WorldObserver::step_ended(const Report&) noexcept {}
+void WorldObserver::step_failed() noexcept {}
 
 }  // namespace tact

@@ -1,9 +1,8 @@
 #!/bin/bash
-# What is too long for every change: a hundred million hard triangle pairs, a million of hulls, ten million of moving
-# features, a million questions, five thousand pairs of bodies with contact points, a hundred sets of folded sheets, a
-# soak of a million steps, the scenes until they rest, a thousand cases of every kind of hardship, clang-tidy over the
-# whole library, the tests with assertions on, against a shared library, without Embree and OpenMP and under the
-# sanitizers, and the fuzzing of the readers and of the interface for C, an hour each.
+# What is too long for every change: the long tests against their oracles, of which some have new seeds each night; the
+# scenes until they rest; the tests with the plainer instruction sets, with assertions on, against a shared library,
+# without Embree and OpenMP and under the sanitizers; clang-tidy over the whole library; the fuzzing of the readers and
+# of the interface for C, an hour each.
 # usage: scripts/nightly.sh [SECONDS of fuzzing a format, 3600 if not given]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -15,6 +14,11 @@ TACT_LONG_MOTION_QUERIES=10000000 build/release/tests/long/test_motion_long
 TACT_LONG_QUERIES=1000000 build/release/tests/long/test_queries_long
 TACT_LONG_POINT_PAIRS=5000 build/release/tests/long/test_points_long
 TACT_LONG_SELF_SEEDS=100 build/release/tests/long/test_self_long
+# With new seeds each night, which they print.
+for test in faults call_sequences; do
+  TACT_LONG_SEED=$(date +%Y%m%d) TACT_LONG_SECONDS=900 build/release/tests/long/test_${test}_long
+done
+TACT_LONG_SEED=$(date +%Y%m%d) TACT_LONG_FAULTS_LEFT_OUT=0 TACT_LONG_SECONDS=300 build/release/tests/long/test_faults_long
 TACT_SOAK_STEPS=1000000 build/release/tests/long/test_soak_long
 TACT_LONG_SCENES_FULL=1 build/release/tests/long/test_scenes_long
 TACT_PRINTED_IN_FULL=1 build/release/tests/test_scenes --gtest_filter='PrintedCommands.*'

@@ -196,6 +196,9 @@ class Bodies {
     double quality = 0.0;  // of the clusters, if it was time to look
   };
 
+  // regroup.cpp
+  Begin go_the_way(std::uint32_t slot, narrowphase::ClusteredMesh& anew) const;
+
   // bodies.cpp
   void make_room_for(std::uint32_t slot);
   void add_slot();
@@ -216,6 +219,7 @@ class Bodies {
   // Sets a pose that is good; returns whether it is another one.
   bool publish(const PoseUpdate& update);
   void note_to_place(std::uint32_t index);
+  void forget_to_place();
   bool place_in_cache(std::uint32_t index);
   void prefetch_poses(std::span<const PoseUpdate> updates, std::size_t i) const;
 
@@ -254,7 +258,7 @@ class Bodies {
   std::int64_t placed_count_ = 0;
   double farthest_rest_ = 0.0;                   // coordinate of rigid bodies that there were, or more
   std::vector<char> pose_changed_;               // scratch, of each update
-  std::vector<std::uint32_t> to_place_;          // scratch
+  std::vector<std::uint32_t> to_place_;          // scratch: those with Slot::to_place are among them
   std::vector<Update> updates_;                  // scratch
   std::vector<narrowphase::Kdop> new_kdops_;     // of those that know them
   std::vector<std::uint32_t> without_features_;  // scratch

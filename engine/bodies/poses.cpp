@@ -168,6 +168,12 @@ void Bodies::note_to_place(std::uint32_t index) {
   slot.to_place = true;
 }
 
+// A call that ran out of memory may have left some.
+void Bodies::forget_to_place() {
+  for (const std::uint32_t index : to_place_) slots_[index].to_place = false;
+  to_place_.clear();
+}
+
 // Finds what the step needs of the body besides, while it is in the cache. Returns whether it was not placed before.
 bool Bodies::place_in_cache(std::uint32_t index) {
   ClusteredMesh& mesh = slots_[index].body->mesh;
@@ -184,7 +190,7 @@ bool Bodies::place_in_cache(std::uint32_t index) {
 void Bodies::place(std::span<const broadphase::IndexPair> pairs, int threads) {
   if (!any_rigid()) return;
   placed_boxes_.resize(slots_.size());
-  to_place_.clear();
+  forget_to_place();
   for (const broadphase::IndexPair& pair : pairs) {
     if (slots_[pair.a].knows_box && slots_[pair.b].knows_box) continue;
     if (excluded_.contains(pair)) continue;
@@ -207,7 +213,7 @@ void Bodies::place(std::span<const broadphase::IndexPair> pairs, int threads) {
 }
 
 void Bodies::place_ways(std::span<const std::uint32_t> slots, int threads) {
-  to_place_.clear();
+  forget_to_place();
   for (const std::uint32_t slot : slots) note_to_place(slot);
   base::parallel_for(to_place_.size(), kPlacedAtATime, threads, [&](std::size_t i) {
     Slot& slot = slots_[to_place_[i]];

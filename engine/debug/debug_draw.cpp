@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <new>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "engine/facet_outcomes.h"
+#include "engine/with_memory.h"
 
 namespace tact {
 namespace {
@@ -240,11 +240,7 @@ class Drawing {
 DebugDrawer::~DebugDrawer() = default;
 
 void debug_draw(const World& world, const Report& report, DebugDrawer& drawer, const DebugDrawOptions& options) {
-  try {
-    Drawing(world, report, drawer, options).draw();
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::out_of_memory, "drawing ran out of memory");
-  }
+  with_memory("drawing ran out of memory", [&] { Drawing(world, report, drawer, options).draw(); });
 }
 
 }  // namespace tact

@@ -39,7 +39,8 @@ struct CulledPair {
 /// A thread's memory for the stages, used again from pair to pair, and its counts of all pairs in a step.
 struct PairWork {
   PairCounts counts;
-  std::vector<BodyId> keep_travel;  ///< bodies that lie on others: the travel of their clusters is kept from now on
+  std::vector<BodyId> keep_travel;   ///< bodies that lie on others: the travel of their clusters is kept from now on
+  std::vector<std::int32_t> chosen;  ///< scratch: vertices
   narrowphase::FaceFinder faces;
   narrowphase::SmallestMemory smallest;
   std::vector<narrowphase::Point2> zone_points;

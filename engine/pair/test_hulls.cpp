@@ -65,7 +65,7 @@ HullTest test_by_gjk(const PairTask& pair, bool carries) {
                 .took_gjk = true};
   base::Vec3 direction = -hulls.offset;
   if (hulls.status != GjkStatus::apart && hulls.status != GjkStatus::overlapping) {
-    const HullVerdict exact = hull_verdict(m, hulls.simplex);
+    const HullVerdict exact = hull_verdict(m, hulls.simplex, pair.work.chosen);
     counts.gjk_iterations += exact.support_queries;
     history.hulls = exact.simplex;
     test.overlap = !exact.apart;

@@ -18,6 +18,7 @@ class ByteReader {
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
 
   std::size_t position() const { return position_; }
+  void go_back_to(std::size_t position) { position_ = position; }
   std::size_t bytes_left() const { return bytes_.size() - position_; }
   // Where the number stands that was read last.
   std::size_t last() const { return last_; }

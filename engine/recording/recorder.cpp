@@ -184,4 +184,8 @@ void Recorder::step_ended(const Report& report) noexcept {
   });
 }
 
+void Recorder::step_failed() noexcept {
+  write([](std::ostream& out) { put(out, RecordKind::failed); });
+}
+
 }  // namespace tact

@@ -4,12 +4,20 @@
 #include <utility>
 #include <vector>
 
+#include "engine/failed_step.h"
 #include "engine/recording/byte_reader.h"
 #include "engine/recording/format.h"
+#include "engine/with_memory.h"
 
 namespace tact {
 
 using recording::ByteReader, recording::EndOfBytes, recording::RecordKind;
+
+namespace {
+
+constexpr const char* kNoMemory = "playing a recording ran out of memory";
+
+}  // namespace
 
 struct RecordingPlayer::Implementation {
   Implementation(std::string_view bytes, const PlayOptions& given) : reader(bytes), options(given) {
@@ -44,6 +52,9 @@ struct RecordingPlayer::Implementation {
       }
     } catch (const EndOfBytes&) {
       cut_at = record;
+    } catch (...) {
+      reader.go_back_to(record);
+      throw;
     }
     return std::nullopt;
   }
@@ -106,25 +117,32 @@ struct RecordingPlayer::Implementation {
         return make([&] { world->set_settings(settings); });
       }
       case RecordKind::detect:
-      case RecordKind::hash: break;
+      case RecordKind::hash:
+      case RecordKind::failed: break;
     }
-    fail("a hash that follows no step");
+    fail(kind == RecordKind::hash ? "a hash that follows no step" : "a failure that follows no step");
   }
 
   // A step without a hash behind it had no answer.
   PlayedStep detect() {
-    report = &world->detect();
+    ByteReader ahead = reader;
+    const auto behind = ahead.bytes_left() > 0 ? std::optional(ahead.read<std::uint8_t>()) : std::nullopt;
+    const bool failed = behind == static_cast<std::uint8_t>(RecordKind::failed);
+    report = &nothing;  // if the step fails
+    report = failed ? &FailedStep::play(*world) : &world->detect();
     PlayedStep step{.number = steps, .byte = reader.position(), .recorded = {}, .now = report->hash()};
     ++steps;
-    ByteReader ahead = reader;
-    if (ahead.bytes_left() < 1 + sizeof(std::uint64_t)) {
-      if (ahead.bytes_left() > 0) cut_at = ahead.position();
-      return step;
+    if (failed) {
+      reader = ahead;
+    } else if (behind == static_cast<std::uint8_t>(RecordKind::hash)) {
+      if (ahead.bytes_left() < sizeof(std::uint64_t)) {
+        cut_at = reader.position();
+        return step;
+      }
+      step.byte = ahead.position();
+      step.recorded = ahead.read<std::uint64_t>();
+      reader = ahead;
     }
-    if (ahead.read<std::uint8_t>() != static_cast<std::uint8_t>(RecordKind::hash)) return step;
-    step.byte = ahead.position();
-    step.recorded = ahead.read<std::uint64_t>();
-    reader = ahead;
     return step;
   }
 
@@ -257,12 +275,14 @@ struct RecordingPlayer::Implementation {
 };
 
 RecordingPlayer::RecordingPlayer(std::string_view bytes, const PlayOptions& options)
-    : implementation_(std::make_unique<Implementation>(bytes, options)) {}
+    : implementation_(with_memory(kNoMemory, [&] { return std::make_unique<Implementation>(bytes, options); })) {}
 RecordingPlayer::~RecordingPlayer() = default;
 RecordingPlayer::RecordingPlayer(RecordingPlayer&&) noexcept = default;
 RecordingPlayer& RecordingPlayer::operator=(RecordingPlayer&&) noexcept = default;
 
-std::optional<PlayedStep> RecordingPlayer::next() { return implementation_->next(); }
+std::optional<PlayedStep> RecordingPlayer::next() {
+  return with_memory(kNoMemory, [&] { return implementation_->next(); });
+}
 std::optional<std::size_t> RecordingPlayer::cut_at() const { return implementation_->cut_at; }
 World& RecordingPlayer::world() { return *implementation_->world; }
 const Report& RecordingPlayer::report() const { return *implementation_->report; }

@@ -172,11 +172,14 @@ void PointFinder::add_edge_point(int edge_e, const EdgeEnds& at_e, int edge_f, c
   const Vec3 on_e = nearest.first[0] * at_e.p + nearest.first[1] * at_e.q;
   if (same_ && too_near_along(a_, reach_, {e, on_e}, {f, on_e + nearest.distance * nearest.normal}, ways_)) return;
   FeaturePoint point = point_of_edges(nearest, a_, edge_e, b_, edge_f, nearest.distance / a_.scale);
-  if (same_ && point.b < point.a) {
-    std::swap(point.a, point.b);
-    std::swap(point.weight_a, point.weight_b);
-    std::swap(point.edge_a, point.edge_b);
-    point.normal = -point.normal;
+  if (same_) {
+    if (point.b < point.a) {
+      std::swap(point.a, point.b);
+      std::swap(point.weight_a, point.weight_b);
+      std::swap(point.edge_a, point.edge_b);
+      point.normal = -point.normal;
+    }
+    point.normal = point.normal + Vec3{};  // the sign of a zero would tell which edge was the first
   }
   if (rules_.crossing == nullptr) return add(point);
   if (const auto other = point_of_near_edges(*rules_.crossing, point, ways_)) add(*other);

@@ -47,7 +47,8 @@ struct Crossing {
   // Of two bodies:
   Vec3 direction;  // of the contact, unit, from a to b
   // Of one mesh with itself:
-  double reach = 0.0;   // scaled
+  double reach = 0.0;          // scaled
+  bool limit_reached = false;  // a vertex that is past the mesh has no exit: it is farther than `within`
   CrossingSides sides;  // of its edge hits; points of the last step that tell of a side allow ways longer than `within`
 
   const CrossedSurface& a() const { return surfaces[0]; }

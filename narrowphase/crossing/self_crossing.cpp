@@ -16,9 +16,16 @@ const Crossing& SelfCrossing::find(const SelfCrossingInput& input) {
   crossing_.within = longest_exit();
   const ScaledMesh mesh = own.scaled();
   crossing_.sides.find(mesh, own.surface, input.facet_pairs, input.last, own.cut.hits());
+  too_far_.clear();
   spread_.begin(own, mesh, kFaces, [&](const EdgeHit& hit, std::size_t) { return crossing_.side_of(hit); });
   spread_.run(own, mesh, [&](const ReachedVertex& one) { return exit_of(one); });
+  crossing_.limit_reached = any_too_far();
   return crossing_;
+}
+
+// A vertex that was reached in another way may have an exit all the same.
+bool SelfCrossing::any_too_far() const {
+  return std::ranges::any_of(too_far_, [&](int vertex) { return crossing_.a().exits.find(vertex) == nullptr; });
 }
 
 double SelfCrossing::longest_exit() const {
@@ -43,9 +50,13 @@ std::optional<NearestExit> SelfCrossing::exit_of(const ReachedVertex& reached) {
   if (!(along > 0.0 ? height < 0.0 : along < 0.0 && height > 0.0)) return {};
   const auto corners = source_corners(mesh.mesh, mesh.mesh.source_facet(exit->facet));
   const double known = dot(crossing_.sides.last_points().side({&reached.source_vertex, 1}, corners), exit->direction);
-  if (known < 0.0 || (known == 0.0 && exit->distance > crossing_.within)) return {};
+  if (known < 0.0) return {};
   const Vec3 v = mesh.position(reached.vertex), place = v + exit->distance * exit->direction;
   if (too_near_along(mesh, crossing_.reach, {{&reached.vertex, 1}, v}, {exit->place.used(), place}, ways_)) return {};
+  if (known == 0.0 && exit->distance > crossing_.within) {
+    too_far_.push_back(reached.source_vertex);
+    return {};
+  }
   return exit;
 }
 

@@ -10,13 +10,14 @@
 // fewest edges, and of these the nearest.
 //
 // A sheet has no inside that would end what is past it. So an exit through one is no farther than the longest edge that
-// meets a facet is long; but farther where points of the last step between the vertex and the place tell of this side.
-// The same holds of edges.
+// meets a facet is long, which is told as a limit; but farther where points of the last step between the vertex and the
+// place tell of this side. The same holds of edges.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "narrowphase/crossing/crossing.h"
 #include "narrowphase/crossing/part_exit.h"
@@ -42,6 +43,7 @@ class SelfCrossing {
 
  private:
   double longest_exit() const;
+  bool any_too_far() const;
   std::optional<NearestExit> exit_of(const ReachedVertex& reached);
 
   Crossing crossing_;
@@ -49,6 +51,7 @@ class SelfCrossing {
   EdgeHitSearch edge_hits_;
   SpreadPast spread_;
   SurfaceWays ways_;
+  std::vector<int> too_far_;  // vertices that had an exit longer than `within`, by the caller's numbers
 };
 
 }  // namespace tact::narrowphase

@@ -241,7 +241,8 @@ class NearestPart {
 
 class VerdictSearch {
  public:
-  VerdictSearch(const MinkowskiDifference& m, const GjkSimplex& start) : m_(m), nearest_(m) {
+  VerdictSearch(const MinkowskiDifference& m, const GjkSimplex& start, std::vector<std::int32_t>& chosen)
+      : m_(m), nearest_(m), chosen_(chosen) {
     verdict_.simplex = start;
     if (start.count > 0) return;
     const MinkowskiVertex any = m.support({1.0, 0.0, 0.0});
@@ -295,13 +296,13 @@ class VerdictSearch {
   const MinkowskiDifference& m_;
   NearestPart nearest_;
   HullVerdict verdict_;
-  std::vector<int> chosen_;
+  std::vector<std::int32_t>& chosen_;  // scratch
 };
 
 }  // namespace
 
-HullVerdict hull_verdict(const MinkowskiDifference& m, const GjkSimplex& start) {
-  return VerdictSearch(m, start).run();
+HullVerdict hull_verdict(const MinkowskiDifference& m, const GjkSimplex& start, std::vector<std::int32_t>& scratch) {
+  return VerdictSearch(m, start, scratch).run();
 }
 
 }  // namespace tact::narrowphase

@@ -7,6 +7,9 @@
 // on the last bit, 1.6 times (tact-bench rivals; with integers of any size alone 1.24 and 2.0).
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "narrowphase/hull/gjk.h"
 #include "narrowphase/hull/minkowski_difference.h"
 
@@ -22,7 +25,7 @@ struct HullVerdict {
   int support_queries = 0;
 };
 
-// `start` is where GJK ended, or nothing. It shortens the search and changes no verdict.
-HullVerdict hull_verdict(const MinkowskiDifference& m, const GjkSimplex& start);
+// `start` is where GJK ended, or nothing. It shortens the search and changes no verdict. `scratch` is memory.
+HullVerdict hull_verdict(const MinkowskiDifference& m, const GjkSimplex& start, std::vector<std::int32_t>& scratch);
 
 }  // namespace tact::narrowphase

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "narrowphase/mesh/prefetch.h"
 
@@ -99,17 +100,20 @@ void Features::find_neighbors(const ClusteredMesh& mesh) {
   }
 }
 
+// In the order of the caller's numbers: a point in an edge or a vertex that has no direction of its own takes the
+// normal of this facet, whatever the clusters.
 void Features::find_firsts(const ClusteredMesh& mesh) {
+  std::vector<char> edge_is_told(edges_.size(), 0), vertex_is_told(first_facet_of_vertex_.size(), 0);
+  const auto tell = [](char& is_told) { return std::exchange(is_told, 1) == 0; };
   firsts_of_facet_.assign(mesh.facet_count(), 0);
-  for (int f = 0; f < mesh.facet_count(); ++f) {
+  for (int source = 0; source < mesh.facet_count(); ++source) {
+    const int f = mesh.facet_of_source(source);
     const Corners& corners = corners_[f];
     unsigned firsts = 0;
     for (int k = 0; k < 3; ++k) {
-      const int edge = facet_edge(f, k), v = corners[k];
-      const bool edge_again = edge >= 0 && ((k > 0 && edge == facet_edge(f, 0)) || (k > 1 && edge == facet_edge(f, 1)));
-      if (edge >= 0 && !edge_again && first_facet_of_edge(edge) == f) firsts |= 1u << k;
-      const bool vertex_again = (k > 0 && v == corners[0]) || (k > 1 && v == corners[1]);
-      if (!vertex_again && first_facet_of_vertex(v) == f) firsts |= 8u << k;
+      const int edge = facet_edge(f, k);
+      if (edge >= 0 && tell(edge_is_told[edge])) firsts |= 1u << k;
+      if (tell(vertex_is_told[corners[k]])) firsts |= 8u << k;
     }
     firsts_of_facet_[f] = static_cast<std::uint8_t>(firsts);
   }

@@ -48,8 +48,8 @@ class Features {
   /// Among the facets that have an edge or a vertex, the first one.
   int first_facet_of_edge(int edge) const { return first_facet_of_edge_[edge]; }
   int first_facet_of_vertex(int vertex) const { return first_facet_of_vertex_[vertex]; }
-  /// Bit k: the edge from corner k has the facet as its first one; bit 3 + k: so has the vertex at corner k. Each edge
-  /// and vertex has a bit once.
+  /// Bit k: of the facets with the edge from corner k this one is the caller's first; bit 3 + k: the same of the vertex
+  /// at corner k. Each edge and vertex has a bit once.
   unsigned firsts_of_facet(int facet) const { return firsts_of_facet_[facet]; }
   /// The vertices that share an edge with a vertex, each once.
   std::span<const int> neighbors(int vertex) const { return part(neighbors_, neighbors_begin_, vertex); }

@@ -134,6 +134,7 @@ Json self_json(const Contact& contact, const PairParts& parts) {
   Json json = {{"a", contact.a.index}, {"b", contact.b.index}};
   json["facet_pairs"] = parts.facets ? facet_pairs_json(contact) : Json(nullptr);
   if (parts.points) {
+    json["point_limit_reached"] = contact.point_limit_reached;
     json["points"] = points_json(&contact);
     json["patches"] = patches_json(&contact);
   }

@@ -64,6 +64,7 @@ void expect_equal(const tact_contact& c, const Contact& cpp) {
   }
   EXPECT_EQ(c.patch_count, cpp.patches().size());
   EXPECT_EQ(c.containment, static_cast<int>(cpp.containment));
+  EXPECT_EQ(c.point_limit_reached, cpp.point_limit_reached);
 }
 
 void expect_equal_reports(tact_world c, const Report& cpp) {

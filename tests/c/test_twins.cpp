@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <regex>
 #include <set>
@@ -130,6 +131,8 @@ TEST(TwinsInC, OfEachField) {
 
 TEST(TwinsInC, OfEachError) {
   const std::string c = code_of(kHeader);
+  for (const int none : {std::numeric_limits<int>::min(), -1, std::numeric_limits<int>::max()})
+    EXPECT_STREQ(tact_error_code_name(none), "unknown");
   for (int code = 0; std::string(error_code_name(ErrorCode(code))) != "unknown"; ++code) {
     const std::string name = error_code_name(ErrorCode(code));
     std::string twin = "TACT_ERROR_";

@@ -74,7 +74,8 @@ TEST(VerdictsLong, TouchingHullsAreAsALinearProgramSays) {
       const MinkowskiDifference m(swapped ? b : a, swapped ? a : b);
       const GjkResult near = gjk(m, {}, {}, {});
       const bool is_certain = near.status == GjkStatus::apart || near.status == GjkStatus::overlapping;
-      const bool apart = is_certain ? near.status == GjkStatus::apart : hull_verdict(m, near.simplex).apart;
+      std::vector<std::int32_t> scratch;
+      const bool apart = is_certain ? near.status == GjkStatus::apart : hull_verdict(m, near.simplex, scratch).apart;
       EXPECT_EQ(apart, !meet) << pair.kind << ", pair " << i << (swapped ? ", swapped" : "");
       if (!is_certain) ++(apart ? parted : meeting);
     }

@@ -117,7 +117,9 @@ const char* tact_error_code_name(int error) {
     case TACT_ERROR_INDEX_OUT_OF_RANGE: return "index_out_of_range";
     case TACT_ERROR_INTERNAL: return "internal";
     case TACT_ERROR_FILE: return "file";
-    default: return tact::error_code_name(static_cast<tact::ErrorCode>(error - 1));
+    default: break;
   }
+  // Below, `error - 1` may overflow.
+  return error > TACT_OK ? tact::error_code_name(static_cast<tact::ErrorCode>(error - 1)) : "unknown";
 }
 }

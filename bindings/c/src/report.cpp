@@ -62,6 +62,7 @@ tact_contact contact_of(const Contact& contact) {
   show(contact.facet_pairs(), &result.facet_pairs, &result.facet_pair_count);
   result.patch_count = contact.patches().size();
   result.containment = static_cast<int>(contact.containment);
+  result.point_limit_reached = contact.point_limit_reached;
   return result;
 }
 

@@ -28,8 +28,9 @@ struct CMessages {
   void* user;
 
   void operator()(const Message& message) const {
-    const std::string text(message.text);
-    const tact_message told{static_cast<int>(message.kind), body_of(message.a), body_of(message.b), text.c_str()};
+    // A view of a std::string: it ends in a zero.
+    const tact_message told{static_cast<int>(message.kind), body_of(message.a), body_of(message.b),
+                            message.text.data()};
     function(user, &told);
   }
 };

@@ -173,6 +173,9 @@ void define_contact(py::module_& module) {
       .def_property_readonly("source", contact_field(&Contact::source))
       .def_property_readonly("iterations", contact_field(&Contact::iterations))
       .def_property_readonly("limit_reached", contact_field(&Contact::limit_reached))
+      .def_property_readonly(
+          "point_limit_reached", contact_field(&Contact::point_limit_reached),
+          "whether a sheet crosses itself deeper than its crossing edges are long: vertices there have no point")
       .def_property_readonly("plane_a", contact_field(&Contact::plane_a),
                              "the farthest that a's hull reaches along `direction`, metres")
       .def_property_readonly("plane_b", contact_field(&Contact::plane_b),

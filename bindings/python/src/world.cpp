@@ -145,7 +145,8 @@ void define_messages(py::module_& module) {
   py::enum_<MessageKind>(module, "MessageKind", "What a message is about.")
       .value("direction_limit", MessageKind::direction_limit,
              "the search for the direction of a contact stopped at a limit")
-      .value("gjk_limit", MessageKind::gjk_limit, "GJK stopped at its limit for pairs that are taken to be apart");
+      .value("gjk_limit", MessageKind::gjk_limit, "GJK stopped at its limit for pairs that are taken to be apart")
+      .value("point_limit", MessageKind::point_limit, "a body crosses itself deeper than its points are found");
   py::class_<Message>(module, "Message", "A limit that a step reached. Valid during the call.")
       .def_readonly("kind", &Message::kind)
       .def_readonly("a", &Message::a, "the first body of the pair, or no body")

@@ -131,6 +131,7 @@ class MessageKind:
 
     direction_limit: ClassVar[MessageKind]
     gjk_limit: ClassVar[MessageKind]
+    point_limit: ClassVar[MessageKind]
     name: str
     value: int
     def __init__(self, value: int) -> None: ...
@@ -309,6 +310,9 @@ class Contact:
     def iterations(self) -> int: ...
     @property
     def limit_reached(self) -> bool: ...
+    @property
+    def point_limit_reached(self) -> bool:
+        """whether a sheet crosses itself deeper than its crossing edges are long: vertices there have no point"""
     @property
     def plane_a(self) -> float: ...
     @property

@@ -12,6 +12,7 @@ namespace tact {
 enum class MessageKind {
   direction_limit,  ///< the search for the direction of a contact stopped at a limit
   gjk_limit,        ///< GJK stopped at its limit for pairs that are taken to be apart
+  point_limit,      ///< a body crosses itself deeper than its points are found
 };
 
 /// A limit that a step reached.
@@ -19,7 +20,7 @@ struct Message {
   MessageKind kind = MessageKind::direction_limit;
   BodyId a;               ///< the first body of the pair, or no body
   BodyId b;               ///< the second body of the pair, or no body
-  std::string_view text;  ///< a sentence with the names of the bodies; valid during the call
+  std::string_view text;  ///< a sentence with the names of the bodies; valid during the call, empty without memory
 };
 
 /// Called at the end of World::detect(), on its thread, in the order of the pairs. It must neither throw nor call the

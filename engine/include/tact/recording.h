@@ -41,6 +41,7 @@ class TACT_API Recorder final : public WorldObserver {
   void self_contact_set(BodyId body, bool wanted) noexcept override;
   void step_begins() noexcept override;
   void step_ended(const Report& report) noexcept override;
+  void step_failed() noexcept override;
 
  private:
   // Calls write(stream) and adds up its time; an exception makes the stream bad.
@@ -51,7 +52,7 @@ class TACT_API Recorder final : public WorldObserver {
   double writing_ms_ = 0.0;
 };
 
-/// A step that was run again.
+/// A step that was run again. After one that failed the next starts from scratch, as it did.
 struct PlayedStep {
   int number = 0;        ///< counted from 0
   std::size_t byte = 0;  ///< where its hash stands in the recording, or the size of the recording
@@ -71,14 +72,14 @@ struct PlayOptions {
 /// Runs a recording again, step by step.
 class TACT_API RecordingPlayer {
  public:
-  /// Reads the head of `bytes`, which outlives the player. Errors: bad_recording.
+  /// Reads the head of `bytes`, which outlives the player. Errors: bad_recording, out_of_memory.
   explicit RecordingPlayer(std::string_view bytes, const PlayOptions& options = {});
   ~RecordingPlayer();
   RecordingPlayer(RecordingPlayer&&) noexcept;
   RecordingPlayer& operator=(RecordingPlayer&&) noexcept;
 
   /// Runs the calls up to and with the next step. Returns nothing at the end. Errors: bad_recording, and those of
-  /// World::detect().
+  /// World::detect(); the next call makes the call that failed again.
   std::optional<PlayedStep> next();
 
   /// Returns the byte of the record that the end of the recording cuts off. None if the recording is whole, or next()

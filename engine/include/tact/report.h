@@ -89,10 +89,12 @@ struct Contact {
   DirectionSource source = DirectionSource::fresh;  ///< how `direction` was found when a body last moved
   int iterations = 0;                               ///< shifted calls of GJK that it took
   bool limit_reached = false;  ///< whether GJK or the direction stopped at a limit, with the best direction found
-  double plane_a = 0.0;        ///< the contact plane direction * x = plane_a, the farthest that the hull of a reaches
-  double plane_b = 0.0;        ///< the contact plane direction * x = plane_b, the nearest that the hull of b reaches
-  ZoneDisk zone_a;             ///< around the part of a between the planes
-  ZoneDisk zone_b;             ///< around the part of b between the planes
+  /// Whether a sheet crosses itself deeper than its crossing edges are long: vertices there have no point.
+  bool point_limit_reached = false;
+  double plane_a = 0.0;  ///< the contact plane direction * x = plane_a, the farthest that the hull of a reaches
+  double plane_b = 0.0;  ///< the contact plane direction * x = plane_b, the nearest that the hull of b reaches
+  ZoneDisk zone_a;       ///< around the part of a between the planes
+  ZoneDisk zone_b;       ///< around the part of b between the planes
   std::int64_t kept_facets_a = 0;  ///< facets of a left after the criteria
   std::int64_t kept_facets_b = 0;  ///< facets of b left after the criteria
 

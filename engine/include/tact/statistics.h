@@ -46,6 +46,8 @@ struct StepStats {
   std::int64_t triangle_tests = 0;
   std::int64_t exact_predicates = 0;
   std::int64_t facet_pairs = 0;
+  std::int64_t points = 0;
+  std::int64_t point_limits_reached = 0;
   std::int64_t touching_contacts = 0;
 
   // Milliseconds. Those of stages 3 to 6 are sums over threads; the others are wall times and add up to the step.
@@ -129,6 +131,9 @@ inline constexpr StepStatsField<std::int64_t> kStepCounts[] = {
     {"triangle_tests", &StepStats::triangle_tests, "pairs of facets that doubles could not decide"},
     {"exact_predicates", &StepStats::exact_predicates, "orientation predicates that needed integers"},
     {"facet_pairs", &StepStats::facet_pairs, "pairs of facets that meet"},
+    {"points", &StepStats::points, "contact points"},
+    {"point_limits_reached", &StepStats::point_limits_reached,
+     "contacts some of whose points are missing: see Contact::point_limit_reached"},
     {"touching_contacts", &StepStats::touching_contacts, "contacts that touch: see Contact::touching()"},
 };
 

@@ -172,9 +172,11 @@ class TACT_API World {
   Bounds bounds(BodyId body) const;
 
  private:
+  friend class FailedStep;
   friend class WorldTuning;
   struct Implementation;
   Implementation& implementation() const;
+  const struct Body& body_of(BodyId body) const;
   std::unique_ptr<Implementation> implementation_;
 };
 

@@ -36,6 +36,8 @@ class TACT_API WorldObserver {
   virtual void step_begins() noexcept;
   /// Called when World::detect() has an answer; not if it throws.
   virtual void step_ended(const Report& report) noexcept;
+  /// Called when World::detect() throws: the next step starts from scratch.
+  virtual void step_failed() noexcept;
 };
 
 }  // namespace tact

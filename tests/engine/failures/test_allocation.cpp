@@ -1,17 +1,21 @@
 // Memory: what happens when there is none, and how much a step takes once it is warm. operator new is replaced for the
 // whole test program: it counts, and fails where it is told to.
 #include <gtest/gtest.h>
+#include <tact/recording.h>
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <new>
 #include <numeric>
+#include <optional>
 #include <span>
+#include <sstream>
 #include <vector>
 
 #include "tests/support/checks/detection.h"
@@ -156,6 +160,89 @@ TEST_P(FailingAllocation, LeavesAUsableWorldWhenAllThatFollowFailToo) { fail_eve
 
 INSTANTIATE_TEST_SUITE_P(Operations, FailingAllocation, ::testing::Range<std::size_t>(0, 16));
 
+// A message whose text cannot be made is told without it: the step has its answer.
+TEST(Allocation, ThatFailsForTheTextOfAMessageLeavesTheMessage) {
+  int without_text = 0;
+  for (long number = 0; number < 300; ++number) {
+    std::int64_t told = 0, empty = 0;
+    PlainWorld world({.threads = 1, .iteration_limit = 1, .on_message = [&](const Message& message) {
+                        ++told;
+                        empty += message.text.empty() ? 1 : 0;
+                      }});
+    const std::vector<Mesh> bodies = {random_hull(30, 1), translated(random_hull(30, 2), {0.4, 0.3, 0.2})};
+    const std::vector<BodyId> ids = add_bodies(world, bodies);
+    world.detect();
+    world.set_positions(ids[1], random_hull(30, 3).positions);
+    told = empty = 0;
+    std::int64_t limits = 0;
+    const Outcome outcome =
+        call_short_of_memory(number, false, [&] { limits = world.detect().stats().limits_reached; });
+    if (outcome != Outcome::threw) {
+      EXPECT_EQ(told, limits) << "allocation " << number;
+      EXPECT_GT(limits, 0);
+    }
+    without_text += empty > 0 ? 1 : 0;
+    if (outcome == Outcome::finished) break;
+  }
+  EXPECT_GT(without_text, 0);
+}
+
+// Patches that a failed step was finding: the list of what is at each vertex is whole again.
+TEST(Allocation, ThatFailsWhilePatchesAreFoundLeavesAUsableWorld) {
+  const Mesh first = sheet(12, 12, 12.0, 12.0), second = translated(first, {0.3, 0.0, 0.1});
+  const Mesh less_near = translated(second, {0.0, 0.0, 0.01});
+  for (long number = 0;; ++number) {
+    ASSERT_LT(number, 2000);
+    PlainWorld world({.threads = 1, .outputs = {.patches = true, .points = true}});
+    std::vector<BodyId> ids;
+    for (const Mesh* const mesh : {&first, &second}) {
+      ids.push_back(world.add_body({.positions = mesh->positions,
+                                    .facets = mesh->facets,
+                                    .surface = Surface::sheet,
+                                    .margin = 0.1}));
+    }
+    const Outcome outcome = call_short_of_memory(number, false, [&] { world.detect(); });
+    world.set_positions(ids[1], less_near.positions);
+    const Report& report = world.detect();
+    ASSERT_EQ(report.contacts().size(), 1u) << "allocation " << number;
+    ASSERT_EQ(report.contacts()[0].patches().size(), 1u) << "allocation " << number;
+    if (outcome == Outcome::finished) break;
+  }
+}
+
+// What a player could not do for want of memory it does when it is asked again.
+TEST(Allocation, ThatFailsInAPlayerIsMadeUpFor) {
+  std::ostringstream out;
+  Recorder recorder(out);
+  int steps = 0;
+  {
+    PlainWorld world({.threads = 1});
+    world.set_observer(&recorder);
+    const std::vector<BodyId> ids = add_bodies(world, std::vector<Mesh>{icosphere(1), icosphere(1), icosphere(0)});
+    world.set_excluded(ids[0], ids[2], true);
+    for (; steps < 3; ++steps) {
+      world.set_positions(ids[1], translated(icosphere(1), {0.5 + 0.1 * steps, 0.1, 0.0}).positions);
+      world.detect();
+    }
+  }
+  const std::string bytes = out.str();
+  for (long number = 0;; ++number) {
+    ASSERT_LT(number, 5000);
+    std::optional<RecordingPlayer> player;
+    const auto play = [&] {
+      if (!player) player.emplace(bytes);
+      while (player->next()) {
+      }
+    };
+    const Outcome outcome = call_short_of_memory(number, false, play);
+    if (outcome == Outcome::threw) play();
+    EXPECT_FALSE(player->cut_at());
+    EXPECT_EQ(player->world().body_count(), 3u);
+    EXPECT_EQ(player->report().contacts().size(), 2u) << "allocation " << number;
+    if (outcome == Outcome::finished) break;
+  }
+}
+
 // Bodies so large that a batch moves one after the other, each on all threads: if a later one cannot be moved, none is.
 TEST(Allocation, ThatFailsInABatchOfLargeBodiesMovesNone) {
   const std::array before = {wrinkled_sheet(140, 2.0, 0.3, 1), wrinkled_sheet(140, 2.0, 0.3, 2)};
@@ -291,6 +378,17 @@ TEST(Allocation, SteadyStepsWithTreesTakeOnlyEmbrees) {
   const auto trees = static_cast<long>(round.frames.size()) * 2;  // of up to 512 clusters, of which a sheet has 1250
   EXPECT_GT(taken, 0);
   EXPECT_LE(taken, 3 * 2 * trees);  // in three rounds
+}
+
+// Two equal spheres, one of which slides to and fro: GJK leaves most steps to hull_verdict().
+TEST(Allocation, SteadyStepsOfHullsThatRoundingCannotTellTakeNone) {
+  for (const DirectionPolicy policy : {DirectionPolicy::carried, DirectionPolicy::smallest}) {
+    Round round({.threads = 1, .direction = policy}, {icosphere(1), icosphere(1)});
+    round.frames.clear();
+    for (int frame = -10; frame < 10; ++frame)
+      round.frames.push_back({icosphere(1), translated(icosphere(1), {0.06 * (10 - std::abs(frame)), 0.0, 0.0})});
+    EXPECT_EQ(fewest_allocations(round, 1), 0);
+  }
 }
 
 TEST(Allocation, SteadyBatchesTakeNone) {

@@ -18,7 +18,8 @@ using tests::mesh_through;
 
 bool apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   const ClusteredMesh mesh_a = mesh_through(a), mesh_b = mesh_through(b);
-  return hull_verdict(MinkowskiDifference(mesh_a, mesh_b), {}).apart;
+  std::vector<std::int32_t> scratch;
+  return hull_verdict(MinkowskiDifference(mesh_a, mesh_b), {}, scratch).apart;
 }
 
 TEST(HullOracle, KnowsPlainCases) {
@@ -77,7 +78,8 @@ TEST(HullVerdict, IsThatOfALinearProgram) {
         any.b[i] = random.below(m.b().vertex_count());
       }
       for (const GjkSimplex& start : {GjkSimplex{}, near.simplex, any}) {
-        const HullVerdict verdict = hull_verdict(m, start);
+        std::vector<std::int32_t> scratch;
+        const HullVerdict verdict = hull_verdict(m, start, scratch);
         ASSERT_EQ(verdict.apart, !meet) << pair.kind << ", seed " << seed << ", swapped " << swapped;
         expect_witness(m, verdict, seed);
       }

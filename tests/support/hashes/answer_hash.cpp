@@ -52,8 +52,8 @@ void AnswerHash::add(const Report& report) {
     add(event.a);
     add(event.b);
     features_.add(number_of(event.kind));
-    features_.add(event.patch);
-    features_.add(event.other);
+    features_.add(event.patch - first_patch_);
+    features_.add(event.other == 0 ? 0 : event.other - first_patch_);
   }
 }
 
@@ -94,7 +94,7 @@ void AnswerHash::add(const ContactPoint& point) {
 
 // The points that span most are chosen by areas, of which many are equal but for rounding.
 void AnswerHash::add(const Patch& patch) {
-  features_.add(patch.id);
+  features_.add(patch.id - first_patch_);
   features_.add(patch.facet_pairs.size());
   add_vertices(patch.facet_pairs);
   features_.add(patch.points.size());

@@ -49,6 +49,9 @@ class AnswerHash {
   // An answer that is no number: whether a ray of RayHits::any hits, say.
   void add_feature(std::uint64_t feature) { features_.add(feature); }
 
+  // Ids of patches count from here: those of a world that found others before.
+  void set_first_patch(std::uint64_t id) { first_patch_ = id; }
+
   AnswerHashes hashes() const { return {features_.value(), numbers_.value()}; }
 
  private:
@@ -63,6 +66,7 @@ class AnswerHash {
   void add(const Patch& patch);
 
   WordHash features_, numbers_;
+  std::uint64_t first_patch_ = 0;
 };
 
 }  // namespace tact::tests

@@ -18,6 +18,7 @@ inline std::uint64_t work_hash(const Report& report) {
     add(contact.source);
     add(contact.iterations);
     add(contact.limit_reached);
+    add(contact.point_limit_reached);
     add(contact.kept_facets_a);
     add(contact.kept_facets_b);
   }

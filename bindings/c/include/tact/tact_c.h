@@ -125,7 +125,8 @@ typedef struct tact_executor {
 /** What a message is about. */
 typedef enum tact_message_kind {
   TACT_MESSAGE_DIRECTION_LIMIT = 0, /**< the search for the direction of a contact stopped at a limit */
-  TACT_MESSAGE_GJK_LIMIT = 1        /**< GJK stopped at its limit for pairs that are taken to be apart */
+  TACT_MESSAGE_GJK_LIMIT = 1,       /**< GJK stopped at its limit for pairs that are taken to be apart */
+  TACT_MESSAGE_POINT_LIMIT = 2      /**< a body crosses itself deeper than its points are found */
 } tact_message_kind;
 
 /** A limit that a step reached. */
@@ -133,7 +134,7 @@ typedef struct tact_message {
   int32_t kind;     /**< tact_message_kind */
   tact_body a;      /**< the first body of the pair, or no body */
   tact_body b;      /**< the second body of the pair, or no body */
-  const char* text; /**< a sentence with the names of the bodies; valid during the call */
+  const char* text; /**< a sentence with the names of the bodies; valid during the call, empty without memory */
 } tact_message;
 
 /** Called at the end of tact_world_detect(), by its thread; must not call the world. */
@@ -422,11 +423,13 @@ typedef struct tact_contact {
   size_t facet_pair_count;
   size_t patch_count;  /**< see tact_contact_patch() */
   int32_t containment; /**< which body lies wholly inside the other, decided exactly; the direction leads out of it */
+  /** whether a sheet crosses itself deeper than its crossing edges are long: vertices there have no point */
+  bool point_limit_reached;
 } tact_contact;
 #define TACT_CONTACT_INIT                                                                                          \
   {                                                                                                                \
     (uint32_t)sizeof(tact_contact), {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0, 0, false, false, 0, 0, {{0, 0, 0}, -1}, \
-        {{0, 0, 0}, -1}, 0, 0, NULL, 0, 0, 0                                                                       \
+        {{0, 0, 0}, -1}, 0, 0, NULL, 0, 0, 0, false                                                                \
   }
 
 /** A connected set of facet pairs and contact points: a place where two bodies touch or nearly do. */
