@@ -1,5 +1,6 @@
 """Builds the package with CMake: what `pip install .` runs in this folder, offline with the system's tools."""
 
+import os
 import pathlib
 import re
 import shutil
@@ -27,10 +28,17 @@ class CMakeBuild(build_ext):
         if shutil.which("ninja"):  # a machine with Ninja need not have make
             options += ["-G", "Ninja"]
         subprocess.run(["cmake", "-S", PROJECT, "-B", build, *options], check=True)
-        subprocess.run(["cmake", "--build", build, "--target", "tact_python", "--parallel"], check=True)
+        subprocess.run(["cmake", "--build", build, "--target", "tact_python", *self.jobs()], check=True)
         subprocess.run(["cmake", "-E", "make_directory", target], check=True)
         for module in (build / "bindings/python/tact").glob("_tact.*.so"):
             self.copy_file(str(module), str(target / module.name))
+
+
+    def jobs(self):
+        """As many compilers at a time as build_ext --parallel says, or CMAKE_BUILD_PARALLEL_LEVEL, else as cmake likes."""
+        if self.parallel is not None:
+            return ["--parallel", str(self.parallel)]
+        return [] if os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL") else ["--parallel"]
 
 
 def version():

@@ -97,6 +97,7 @@ void put_points(const Contact& contact, PointsInView which, ViewBytes& out) {
     chosen.resize(contact.points().size());
     std::iota(chosen.begin(), chosen.end(), 0);
   }
+  out.add_count(contact.points().size());
   out.add_count(chosen.size());
   std::array<int, 3> last_a{}, last_b{};
   for (const int point : chosen) put_point(contact.points()[point], last_a, last_b, out);

@@ -22,7 +22,7 @@ namespace {
 
 // A chunk is what the page unpacks at a time: large enough to compress well, and done in some hundredths of a second.
 constexpr std::size_t kChunkBytes = std::size_t{2} << 20;
-constexpr int kFormat = 2;
+constexpr int kFormat = 3;
 constexpr double kMegabyte = 1e6;
 
 Json settings_json(const Settings& settings, bool few_points) {
@@ -83,6 +83,26 @@ Json ledger_json(const StepStats& sums, const Settings& settings) {
   return lines;
 }
 
+Json column_json(const std::vector<std::optional<double>>& values) {
+  Json column = Json::array();
+  for (const std::optional<double>& value : values) column.push_back(value ? Json(*value) : Json(nullptr));
+  return column;
+}
+
+std::int64_t point_count(const Report& report) {
+  std::size_t count = 0;
+  for (const Contact& contact : report.contacts()) count += contact.points().size();
+  return static_cast<std::int64_t>(count);
+}
+
+std::optional<double> least_gap(const Report& report) {
+  std::optional<double> least;
+  for (const Contact& contact : report.contacts()) {
+    for (const ContactPoint& point : contact.points()) least = std::min(least.value_or(point.gap), point.gap);
+  }
+  return least;
+}
+
 }  // namespace
 
 ViewPage::ViewPage(const ViewOptions& options, ViewTitle title, std::ostream& standard_output)
@@ -139,6 +159,8 @@ void ViewPage::add_step(int step, std::optional<double> time, const World& world
   columns_.step.push_back(step);
   columns_.time.push_back(time);
   columns_.hash.push_back(hash_text(report));
+  columns_.points.push_back(point_count(report));
+  columns_.least_gap.push_back(least_gap(report));
   columns_.stats.push_back(report.stats());
   write_frame(report);
 }
@@ -217,8 +239,6 @@ void ViewPage::write_head(Ending ending) {
   Json chunks = Json::array();
   for (const Chunk& chunk : chunks_)
     chunks.push_back({{"first", chunk.first}, {"count", chunk.count}, {"bytes", chunk.bytes}});
-  Json times = Json::array();
-  for (const std::optional<double>& time : columns_.time) times.push_back(time ? Json(*time) : Json(nullptr));
   const Json head = {{"format", kFormat},
                      {"tact", TACT_VERSION},
                      {"title", title_.name},
@@ -227,7 +247,12 @@ void ViewPage::write_head(Ending ending) {
                      {"steps", steps_},
                      {"interrupted", ending == Ending::interrupted},
                      {"bodies", bodies_json(bodies_, frames())},
-                     {"frames", {{"step", columns_.step}, {"time", times}, {"hash", columns_.hash}}},
+                     {"frames",
+                      {{"step", columns_.step},
+                       {"time", column_json(columns_.time)},
+                       {"hash", columns_.hash},
+                       {"points", columns_.points},
+                       {"least_gap", column_json(columns_.least_gap)}}},
                      {"statistics", statistics_json(columns_.stats)},
                      {"ledger", ledger_json(sums_, settings_)},
                      {"chunks", chunks}};

@@ -58,6 +58,8 @@ class ViewPage {
     std::vector<int> step;
     std::vector<std::optional<double>> time;
     std::vector<std::string> hash;
+    std::vector<std::int64_t> points;
+    std::vector<std::optional<double>> least_gap;  // of all points, metres
     std::vector<StepStats> stats;
   };
   struct Chunk {

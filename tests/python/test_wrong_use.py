@@ -20,13 +20,10 @@ def world():
 @pytest.mark.parametrize(
     "given, exception, says",
     [
-        ([[0, 0, 0]], TypeError, "list"),
-        (POSITIONS.astype(int), TypeError, "int64"),
+        ([[0, 0, 0]], tact.Error, "1 positions"),
+        (POSITIONS.astype(bool), TypeError, "bool"),
         (POSITIONS.T, ValueError, "transpose"),
         (POSITIONS.ravel(), ValueError, r"\(12,\)"),
-        (np.asfortranarray(POSITIONS), ValueError, "ascontiguousarray"),
-        (POSITIONS[::-1], ValueError, "ascontiguousarray"),
-        (POSITIONS.astype(">f8"), TypeError, ">f8"),
         (POSITIONS * np.nan, tact.Error, "vertex 0 has x"),
         (POSITIONS[:3], tact.Error, "3 positions"),
     ],
@@ -42,26 +39,11 @@ def test_bad_positions_are_refused(world, given, exception, says):
     assert world.detect().hash() == before
 
 
-@pytest.mark.parametrize(
-    "given, exception, says",
-    [
-        (FACETS.astype(float), TypeError, "float64"),
-        (FACETS[:, :2], ValueError, r"\(4, 2\)"),
-        (FACETS.astype(np.int64) + 2**40, ValueError, "facet 0 names vertex"),
-        (FACETS + 100, tact.Error, "facet 0 names vertex"),
-        (-FACETS, tact.Error, "facet 0 names vertex"),
-    ],
-)
-def test_bad_facets_are_refused(world, given, exception, says):
-    with pytest.raises(exception, match=says):
+@pytest.mark.parametrize("given", [FACETS + 100, -FACETS])
+def test_facets_of_vertices_that_are_none_are_refused(world, given):
+    with pytest.raises(tact.Error, match="facet 0 names vertex"):
         world.add_body(POSITIONS, given)
     assert len(world) == 0
-
-
-def test_integers_of_every_width_are_taken(world):
-    for numbers in (np.int8, np.uint8, np.uint16, np.int64, np.uint64):
-        world.add_body(POSITIONS, FACETS.astype(numbers))
-    assert len(world) == 5
 
 
 def test_errors_have_a_code(world):
@@ -230,23 +212,6 @@ def test_poses_of_wrong_bodies_are_refused(world):
     np.testing.assert_array_equal(world.positions(rigid), POSITIONS)
     world.set_motion(rigid, tact.Motion.rigid)
     world.set_poses([], np.zeros((0, 3, 3)), np.zeros((0, 3)))
-
-
-def test_positions_anywhere_in_memory_are_read(world):
-    bytes_ = np.zeros(POSITIONS.nbytes + 1, dtype=np.uint8)
-    odd = bytes_[1:].view(np.float64).reshape(-1, 3)  # no number stands where a processor would like it
-    odd[:] = POSITIONS
-    rows = np.zeros((4, 8))
-    rows[:, :3] = POSITIONS
-    hashes = set()
-    for given in (POSITIONS, odd, rows[:, :3]):
-        of_one = tact.World()
-        of_one.add_body(given, FACETS)
-        of_one.add_body(POSITIONS + [0.5, 0, 0], FACETS)
-        hashes.add(of_one.detect().hash())
-    assert len(hashes) == 1
-    with pytest.raises(ValueError, match="ascontiguousarray"):  # one row, shown four times
-        world.add_body(np.broadcast_to(POSITIONS[:1], (4, 3)), FACETS)
 
 
 def test_an_array_that_another_thread_writes_to_is_taken_or_refused(world):

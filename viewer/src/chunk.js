@@ -114,6 +114,7 @@ function readContact(reader) {
   contact.outcomesA = flags & 8 ? readOutcomes(reader) : null;
   contact.outcomesB = flags & 8 ? readOutcomes(reader) : null;
   contact.patches = times(reader.count(), () => readPatch(reader));
+  contact.pointCount = reader.count(); // with --few-points more than are listed
   const lastA = [0, 0, 0], lastB = [0, 0, 0];
   contact.points = times(reader.count(), () => readPoint(reader, lastA, lastB));
   contact.self = contact.a === contact.b;

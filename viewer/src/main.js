@@ -73,9 +73,12 @@ class App {
 
   // Where there is most to see.
   busiest() {
-    const score = (i) => 1e3 * this.run.stat("facet_pairs", i) + this.run.stat("contacts", i);
+    const scores = (i) => [this.run.stat("facet_pairs", i), this.run.head.frames.points[i], this.run.stat("contacts", i)];
     let best = 0;
-    for (let i = 1; i < this.run.count; ++i) if (score(i) > score(best)) best = i;
+    for (let i = 1; i < this.run.count; ++i) {
+      const more = scores(i), least = scores(best), k = more.findIndex((n, j) => n !== least[j]);
+      if (k >= 0 && more[k] > least[k]) best = i;
+    }
     return best;
   }
 

@@ -5,20 +5,31 @@ import { OUTCOMES, FEATURES, SOURCES, outcomeCounts, outcomeOf, visible } from "
 
 const kMostRows = 200;
 
+const sum = (contacts, of) => contacts.reduce((n, contact) => n + of(contact), 0);
+const overlapping = (frame) => frame.candidates.filter((pair) => pair.overlap).length;
+const apart = (contact) => !contact.self && contact.depth < 0; // within the margins
+
 /** What a stage of the method is called, which key shows it, and what it did: for a step, and for a pair. */
 const METHOD = [
   { key: "boxes", name: "Boxes", digit: "1",
-    step: (s) => `${plural(s("candidate_pairs"), "pair")} of boxes overlap`,
+    step: (s, frame) => `${plural(frame.candidates.length, "pair")} of boxes overlap`,
     pair: () => "the boxes of the two bodies overlap" },
   { key: "hulls", name: "Hulls", digit: "2",
-    step: (s) => `${plural(s("contacts"), "pair")} of convex hulls overlap`,
-    pair: (c) => (c.depth < 0 ? "the hulls are apart, within the margins" : "the convex hulls overlap") },
+    step: (s, frame) => {
+      const near = frame.contacts.filter(apart).length;
+      return `${plural(overlapping(frame), "pair")} of convex hulls overlap${near > 0 ? `, ${count(near)} more are within the margins` : ""}`;
+    },
+    pair: (c) => (apart(c) ? "the hulls are apart, within the margins" : "the convex hulls overlap") },
   { key: "direction", name: "Direction and depth", digit: "3",
-    step: (s) => `${count(s("carried_directions"))} carried on, ${count(s("fresh_directions") + s("smallest_directions"))} new`,
-    pair: (c) => `${length(c.depth)} along the arrow; ${SOURCES[c.source]}, ${plural(c.iterations, "iteration")}` },
+    step: (s, frame) => {
+      const found = frame.contacts.filter((c) => !c.self && !apart(c)), carried = found.filter((c) => SOURCES[c.source] === "carried").length;
+      return `${count(carried)} carried on, ${count(found.length - carried)} new`;
+    },
+    pair: (c) => (apart(c) ? `${length(-c.depth)} apart along the arrow`
+      : `${length(c.depth)} along the arrow; ${SOURCES[c.source]}, ${plural(c.iterations, "iteration")}`) },
   { key: "planes", name: "Planes and slab", digit: "4",
     step: () => "facets outside the slab between two planes cannot touch",
-    pair: (c) => `the slab is ${length(Math.abs(c.planeA - c.planeB))} thick` },
+    pair: (c) => (apart(c) ? `the planes are ${length(Math.abs(c.planeA - c.planeB))} apart` : `the slab is ${length(Math.abs(c.planeA - c.planeB))} thick`) },
   { key: "zones", name: "Impact zones", digit: "5", needs: "zones",
     step: () => "disks around the parts in the slab",
     pair: (c) => (c.zoneA && c.zoneB ? `radii ${length(c.zoneA.radius)} and ${length(c.zoneB.radius)}` : "not computed") },
@@ -26,11 +37,11 @@ const METHOD = [
     step: (s) => `${count(s("kept_facets"))} kept in this step, ${plural(s("facet_pairs"), "pair")} meet`,
     pair: (c) => `${count(c.keptA)} and ${count(c.keptB)} kept, ${plural(c.pairs.length / 2, "pair")} meet` },
   { key: "patches", name: "Patches", digit: "7", needs: "patches",
-    step: (s, cs) => plural(cs.reduce((n, c) => n + c.patches.length, 0), "patch", "patches"),
+    step: (s, frame) => plural(sum(frame.contacts, (c) => c.patches.length), "patch", "patches"),
     pair: (c) => plural(c.patches.length, "patch", "patches") },
   { key: "points", name: "Contact points", digit: "8", needs: "points",
-    step: (s, cs) => plural(cs.reduce((n, c) => n + c.points.length, 0), "point"),
-    pair: (c) => plural(c.points.length, "point") },
+    step: (s, frame) => plural(sum(frame.contacts, (c) => c.pointCount), "point"),
+    pair: (c) => plural(c.pointCount, "point") },
 ];
 export const STAGES = METHOD.map(({ key, digit, needs }) => ({ key, digit, needs }));
 
@@ -89,13 +100,13 @@ export class Panel {
   header(frame) {
     const { head } = this.app.run, s = (name) => this.app.run.stat(name, frame.index);
     const alive = frame.positions.filter((p) => p !== null).length;
-    const touching = s("touching_contacts"), points = frame.contacts.reduce((n, c) => n + c.points.length, 0);
+    const touching = s("touching_contacts"), points = sum(frame.contacts, (c) => c.pointCount);
     const told = head.settings.accuracy === "hulls" ? "Accuracy hulls computes no facet pairs."
-      : touching === 0 ? "Nothing touches." : s("facet_pairs") === 0 ? `${plural(touching, "pair touches", "pairs touch")} at ${plural(points, "contact point")}; no facets meet.` : `${plural(touching, "pair touches", "pairs touch")}: ${plural(s("facet_pairs"), "pair of facets meets", "pairs of facets meet")}.`;
+      : touching === 0 ? "Nothing touches." : s("facet_pairs") === 0 ? `${plural(touching, "pair touches", "pairs touch")}; no facets meet, ${plural(points, "contact point")}.` : `${plural(touching, "pair touches", "pairs touch")}: ${plural(s("facet_pairs"), "pair of facets meets", "pairs of facets meet")}.`;
     return element("header", {},
       element("h1", {}, visible(head.title)),
       element("p", { class: "quiet" }, `${head.kind} · tact ${head.tact} · accuracy ${head.settings.accuracy}${head.interrupted ? " · interrupted" : ""}`),
-      element("p", { id: "sentence" }, `${plural(alive, "body", "bodies")}: the boxes of ${plural(frame.candidates.length, "pair")} overlap, and the hulls of ${count(frame.candidates.filter((c) => c.overlap).length)}. `,
+      element("p", { id: "sentence" }, `${plural(alive, "body", "bodies")}: the boxes of ${plural(frame.candidates.length, "pair")} overlap, and the hulls of ${count(overlapping(frame))}. `,
         element("strong", {}, told)));
   }
 
@@ -104,7 +115,7 @@ export class Panel {
     const rows = METHOD.map((stage) => {
       const missing = stage.needs !== undefined && !app.run.head.settings[stage.needs];
       const tooMany = ["hulls", "planes", "zones"].includes(stage.key) && chosen === null && frame.contacts.length > kMostDetailed;
-      const text = missing ? "not in this run" : tooMany && app.state.show.has(stage.key) ? "select a pair to see it" : chosen !== null && !chosen.self ? stage.pair(chosen) : stage.step(s, frame.contacts);
+      const text = missing ? "not in this run" : tooMany && app.state.show.has(stage.key) ? "select a pair to see it" : chosen !== null && !chosen.self ? stage.pair(chosen) : stage.step(s, frame);
       return element("button", {
         class: "stage", "data-stage": stage.key, "aria-pressed": String(app.state.show.has(stage.key)), disabled: missing,
         onclick: () => app.toggle(stage.key),
@@ -116,7 +127,10 @@ export class Panel {
   // What became of the facets: of the pair that is selected, or of all pairs in contact.
   facets(frame, chosen) {
     const contacts = (chosen !== null ? [chosen] : frame.contacts).filter((c) => c.outcomesA !== null);
-    if (contacts.length === 0) return section("What became of the facets", element("p", { class: "quiet" }, "Nothing: no hulls overlap here."));
+    if (contacts.length === 0) {
+      const why = !this.app.run.head.settings.outcomes ? "Accuracy hulls computes no facet pairs." : chosen?.self ? "A body is compared with itself by other means." : "Nothing: no hulls overlap here.";
+      return section("What became of the facets", element("p", { class: "quiet" }, why));
+    }
     const sums = (side) => OUTCOMES.map((_, k) => contacts.reduce((n, c) => n + c[side][k], 0));
     for (const c of contacts) c.countsA ??= outcomeCounts(c.outcomesA), c.countsB ??= outcomeCounts(c.outcomesB);
     const a = sums("countsA"), b = sums("countsB"), all = a.map((n, k) => n + b[k]), total = all.reduce((x, y) => x + y, 0);
@@ -163,6 +177,7 @@ export class Panel {
       fact("kept facets", `${count(contact.keptA)} and ${count(contact.keptB)}`, [contact.keptA, contact.keptB]),
     ];
     facts.push(fact("facet pairs", count(contact.pairs.length / 2), contact.pairs.length / 2));
+    if (this.app.run.head.settings.points) facts.push(fact("contact points", count(contact.pointCount), contact.pointCount));
     return section(`The pair ${this.pairName(contact)}`, element("table", { id: "pair", class: "facts" }, ...facts),
       contact.pairs.length > 0 ? foldable(this.app, "pair-facets", "facet pairs", () => this.facetPairs(contact)) : null,
       contact.patches.length > 0 ? foldable(this.app, "pair-patches", "patches", () => this.patches(contact)) : null,
@@ -189,22 +204,25 @@ export class Panel {
       element("th", {}, FEATURES[point.kind]), element("td", { "data-gap": point.gap }, length(point.gap)),
       element("td", { title: vector(point.normal) }, point.patch), element("td", { class: "mono" }, point.id));
     return element("div", {}, element("table", { id: "points" }, element("tr", {}, ...["", "gap", "patch", "id"].map((h) => element("td", { class: "quiet" }, h))),
-      ...contact.points.slice(0, kMostRows).map(row)), this.more(contact.points.length));
+      ...contact.points.slice(0, kMostRows).map(row)), this.more(contact.points.length, contact.pointCount));
   }
 
-  more(all) {
-    return all > kMostRows ? element("p", { class: "quiet" }, `and ${count(all - kMostRows)} more`) : null;
+  more(held, all = held) {
+    const shown = Math.min(held, kMostRows);
+    return all > shown ? element("p", { class: "quiet" }, `and ${count(all - shown)} more`) : null;
   }
 
   pairs(frame, chosen) {
-    const contacts = [...frame.contacts].sort((x, y) => y.pairs.length - x.pairs.length || y.depth - x.depth);
+    const withPoints = this.app.run.head.settings.points;
+    const contacts = [...frame.contacts].sort((x, y) => y.pairs.length - x.pairs.length || y.pointCount - x.pointCount || y.depth - x.depth);
     const row = (contact) => element("tr", { class: "link", "aria-selected": String(contact === chosen), "data-pair": `${contact.a},${contact.b}`,
       onclick: () => this.app.selectPair(contact === chosen ? null : contact) },
       element("th", {}, this.swatch(contact.a), this.swatch(contact.b), this.pairName(contact)),
-      element("td", {}, contact.self ? "" : length(contact.depth)), element("td", { "data-pairs": contact.pairs.length / 2 }, count(contact.pairs.length / 2)));
+      element("td", {}, contact.self ? "" : length(contact.depth)), element("td", { "data-pairs": contact.pairs.length / 2 }, count(contact.pairs.length / 2)),
+      withPoints ? element("td", { "data-points": contact.pointCount }, count(contact.pointCount)) : null);
     return section(`Pairs in contact (${count(contacts.length)})`,
       contacts.length === 0 ? element("p", { class: "quiet" }, "None in this step.")
-        : element("table", { id: "pairs" }, element("tr", {}, ...["", "hulls", "facets"].map((h) => element("td", { class: "quiet" }, h))), ...contacts.slice(0, kMostRows).map(row)),
+        : element("table", { id: "pairs" }, element("tr", {}, ...["", "depth", "facets", ...(withPoints ? ["points"] : [])].map((h) => element("td", { class: "quiet" }, h))), ...contacts.slice(0, kMostRows).map(row)),
       this.more(contacts.length));
   }
 
@@ -242,7 +260,7 @@ export class Panel {
     const { bodies } = this.app.run, coarsest = bodies.reduce((most, body) => Math.max(most, body.step), 0);
     const cut = bodies.filter((body) => body.cut_off).length;
     return element("p", { class: "quiet", id: "notes" },
-      `Numbers are the program's. Positions are rounded for the picture alone, to ${length(coarsest)} at most; so are normals and gaps of contact points, to some 1e-5 and 1e-7 of their size. Hulls are those of rounded positions.`,
+      `Numbers are the program's. Positions are rounded for the picture alone, to ${length(coarsest)} at most; so are weights, normals and gaps of contact points, to some 2e-3, 1e-5 and 1e-7 of their size. Hulls are those of rounded positions.`,
       this.app.run.head.settings.few_points ? "Of each patch at most four contact points are shown, which span it (--few-points)." : null,
       cut > 0 ? ` ${plural(cut, "body", "bodies")} went too far away to be drawn where they are.` : null);
   }

@@ -1,14 +1,20 @@
 // The plots over time and the controls under them.
 import uPlot from "uplot";
+import { length } from "./dom.js";
 
-const STAGES = [
-  ["refresh_ms", "refresh", "#5b8def"],
-  ["sweep_ms", "boxes", "#4fb0c6"],
-  ["hulls_ms", "hulls", "#62c08b"],
-  ["direction_ms", "direction", "#e2c44d"],
-  ["cull_ms", "cull", "#f09a3e"],
-  ["confirm_ms", "confirm", "#ef5a4b"],
-  ["report_ms", "report", "#a77fd6"],
+/** The parts of a step's time: which columns of the statistics each is, its name and its colour. */
+export const TIMES = [
+  [["refresh_ms"], "refresh", "#5b8def"],
+  [["sweep_ms"], "boxes", "#4fb0c6"],
+  [["hulls_ms"], "hulls", "#62c08b"],
+  [["direction_ms"], "direction", "#e2c44d"],
+  [["cull_ms"], "cull", "#f09a3e"],
+  [["confirm_ms"], "confirm", "#ef5a4b"],
+  [["containment_ms"], "inside", "#8d6e63"],
+  [["points_ms"], "points", "#ff7ac8"],
+  [["self_facets_ms", "self_points_ms"], "self-contact", "#b04fd0"],
+  [["patches_ms"], "patches", "#9ccc65"],
+  [["report_ms"], "report", "#a77fd6"],
 ];
 const AXIS = { stroke: "#93a0b8", grid: { stroke: "#262e40", width: 1 }, ticks: { stroke: "#262e40", width: 1, size: 4 }, font: "11px system-ui" };
 
@@ -31,6 +37,13 @@ function compact(n) {
   return n >= 1e6 ? `${n / 1e6}M` : n >= 1e4 ? `${n / 1e3}k` : `${n}`;
 }
 
+// Zero is always in it; null: no step has a point.
+function gapRange(min, max) {
+  if (min === null) return [0, 1];
+  const low = Math.min(0, min), high = Math.max(0, max), room = 0.08 * (high - low) || 1e-3;
+  return [low - room, high + room];
+}
+
 export class Timeline {
   /** `seek(frame)` is called when a plot is clicked. */
   constructor(run, element, seek) {
@@ -39,12 +52,14 @@ export class Timeline {
     this.now = 0;
     const steps = run.head.frames.step;
     const marker = { draw: [(plot) => this.drawMarker(plot)] };
-    const counts = options("", [
-      { label: "facet pairs", stroke: "#fa5a4a", fill: "#fa5a4a22", width: 1.5, scale: "y" },
-      { label: "touching contacts", stroke: "#ffc24d", width: 1.5, scale: "contacts" },
-    ], {
-      scales: { contacts: { range: (u, min, max) => [0, Math.max(1, max * 1.15)] }, y: { range: (u, min, max) => [0, Math.max(1, max * 1.1)] } },
-      axes: [{ ...AXIS, size: 40, side: 1, scale: "contacts", grid: { show: false }, values: (u, v) => v.map(compact) }],
+    // What a run has of: its name, its colour, which scale it is drawn on, and its values.
+    const found = [
+      ["facet pairs", "#fa5a4a", "y", run.columns.get("facet_pairs").values],
+      ...(run.head.settings.points ? [["contact points", "#ffc24d", "y", run.head.frames.points], ["least gap", "#7fd3ff", "gap", run.head.frames.least_gap]] : []),
+    ];
+    const counts = options("", found.map(([label, stroke, scale]) => ({ label, stroke, scale, fill: scale === "y" ? `${stroke}22` : undefined, width: 1.5 })), {
+      scales: { y: { range: (u, min, max) => [0, Math.max(1, max * 1.1)] }, gap: { range: (u, min, max) => gapRange(min, max) } },
+      axes: [{ ...AXIS, size: 56, side: 1, scale: "gap", grid: { show: false }, values: (u, v) => v.map(length) }],
       hooks: marker,
     });
     counts.axes[1].values = (u, v) => v.map(compact);
@@ -52,13 +67,12 @@ export class Timeline {
     // A first step that groups facets, or one that the machine was busy in, would flatten all others.
     const sums = [...stacked.at(-1)].sort((x, y) => x - y), usual = 4 * sums[Math.floor(0.9 * (sums.length - 1))];
     const most = Math.min(sums.at(-1) * 1.1, usual > 0 ? usual : Infinity), cut = sums.at(-1) > most;
-    const times = options("", STAGES.map(([, label, color]) => ({ label, stroke: color, fill: `${color}66`, width: 1 })).reverse(),
+    const times = options("", TIMES.map(([, label, color]) => ({ label, stroke: color, fill: `${color}66`, width: 1 })).reverse(),
       { scales: { y: { range: () => [0, Math.max(1e-3, most)] } }, hooks: marker });
     this.plots = [
-      this.add("facet pairs <i style='--c:#fa5a4a'></i>, touching contacts <i style='--c:#ffc24d'></i>", counts,
-        [steps, run.columns.get("facet_pairs").values, run.columns.get("touching_contacts").values], seek),
-      this.add(`milliseconds a stage${cut ? ", the highest cut off" : ""}: ${STAGES.map(([, label, color]) => `<i style='--c:${color}'></i> ${label}`).join(" ")}`, times,
-        [steps, ...stacked.reverse()], seek),
+      this.add(found.map(([label, color]) => `${label} <i style='--c:${color}'></i>`).join(", "), counts, [steps, ...found.map((one) => one[3])], seek),
+      this.add(`ms${cut ? ", the highest cut off" : ""}: ${TIMES.map(([, label, color]) => `<i style='--c:${color}'></i> ${label}`).join(" ")}`, times,
+        [steps, ...stacked.reverse()], seek, "Milliseconds of a step. Hulls, direction, cull and confirm are summed over threads."),
     ];
     new ResizeObserver(() => this.resize()).observe(element);
     this.resize();
@@ -67,14 +81,15 @@ export class Timeline {
   // Sums up to each stage, so that filled curves lie over each other.
   stack(length) {
     let sum = new Array(length).fill(0);
-    return STAGES.map(([name]) => (sum = this.run.columns.get(name).values.map((ms, i) => sum[i] + ms)));
+    return TIMES.map(([names]) => (sum = sum.map((ms, i) => names.reduce((all, name) => all + this.run.columns.get(name).values[i], ms))));
   }
 
-  add(title, opts, data, seek) {
+  add(title, opts, data, seek, more = "") {
     const box = document.createElement("div"), label = document.createElement("div");
     box.className = "plot";
     label.className = "plot-title";
     label.innerHTML = title; // the page's own words
+    label.title = `${label.textContent.replace(/\s+/g, " ")}. ${more}`.trim();
     box.append(label);
     this.element.append(box);
     const plot = new uPlot(opts, data, box);

@@ -51,6 +51,56 @@ async function expectPair(page, contact) {
   }
 }
 
+const plural = (n, one, many = `${one}s`) => `${n} ${n === 1 ? one : many}`;
+const total = (list, of) => list.reduce((sum, one) => sum + of(one), 0);
+const pointsOf = (frame) => frame.pairs.flatMap((pair) => pair.points ?? []);
+
+// What the head and the method say of a step, in whole sentences, counted anew from the program's pairs.
+async function expectWords(page, frame, bodies) {
+  await page.keyboard.press("Escape");
+  const candidates = frame.pairs.filter((pair) => pair.a !== pair.b);
+  const overlap = candidates.filter((pair) => pair.hulls_overlap), near = candidates.filter((pair) => !pair.hulls_overlap && pair.direction !== undefined);
+  const facets = total(frame.pairs, (pair) => pair.facet_pairs?.length ?? 0), points = pointsOf(frame).length;
+  const carried = overlap.filter((pair) => pair.source === "carried").length, touching = plural(frame.stats.touching_contacts, "pair touches", "pairs touch");
+  const sentence = (await page.textContent("#sentence")).replaceAll("\u2009", "");
+  assert.ok(sentence.startsWith(`${plural(bodies.length, "body", "bodies")}: the boxes of ${plural(candidates.length, "pair")} overlap, and the hulls of ${overlap.length}. `), sentence);
+  assert.ok(sentence.endsWith(frame.stats.touching_contacts === 0 ? "Nothing touches." : facets === 0 ? `${touching}; no facets meet, ${plural(points, "contact point")}.`
+    : `${touching}: ${plural(facets, "pair of facets meets", "pairs of facets meet")}.`), sentence);
+  const told = async (stage) => {
+    const text = (await page.textContent(`[data-stage="${stage}"] .quiet`)).replaceAll("\u2009", "");
+    return ["not in this run", "select a pair to see it"].includes(text) ? null : text;
+  };
+  assert.equal(await told("boxes"), `${plural(candidates.length, "pair")} of boxes overlap`);
+  const hulls = await told("hulls");
+  if (hulls !== null) assert.equal(hulls, `${plural(overlap.length, "pair")} of convex hulls overlap${near.length > 0 ? `, ${near.length} more are within the margins` : ""}`);
+  assert.equal(await told("direction"), `${carried} carried on, ${overlap.length - carried} new`);
+  assert.equal(await told("outcomes"), `${frame.stats.kept_facets} kept in this step, ${plural(facets, "pair")} meet`);
+  for (const [stage, expected] of [["patches", plural(total(frame.pairs, (pair) => pair.patches?.length ?? 0), "patch", "patches")], ["points", plural(points, "point")]]) {
+    const text = await told(stage);
+    if (text !== null) assert.equal(text, expected);
+  }
+  const rows = await page.$$eval("#pairs tr[data-pair]", (found) => found.map((row) => [row.dataset.pair, row.querySelector("[data-pairs]").textContent, row.querySelector("[data-points]")?.textContent]));
+  const expected = frame.pairs.filter((pair) => pair.a === pair.b || pair.direction !== undefined).map((pair) => [`${pair.a},${pair.b}`, pair.facet_pairs.length, pair.points?.length]);
+  assert.deepEqual(rows.map(([pair, facetPairs, found]) => [pair, numberIn(facetPairs), found && numberIn(found)]).sort(), expected.sort());
+}
+
+// The plots: every step's counts, least gap and times, and no time of the program's is left out.
+const PARTS_OF_OTHERS = ["regroup", "kdop", "gjk", "narrow_phase", "total"];
+async function expectPlots(page, frames) {
+  const [counts, times] = await page.evaluate(() => window.tactView.timeline.plots.map(({ plot }) => plot.series.slice(1).map(({ label }, i) => [label, [...plot.data[i + 1]]])));
+  const found = Object.fromEntries(counts);
+  assert.deepEqual(found["facet pairs"], frames.map((frame) => total(frame.pairs, (pair) => pair.facet_pairs.length)));
+  if (frames.some((frame) => frame.pairs.some((pair) => pair.points !== undefined))) {
+    assert.deepEqual(found["contact points"], frames.map((frame) => pointsOf(frame).length));
+    assert.deepEqual(found["least gap"], frames.map((frame) => (pointsOf(frame).length > 0 ? Math.min(...pointsOf(frame).map((point) => point.gap)) : null)));
+  }
+  const sums = times[0][1]; // the highest of the curves that lie over each other
+  frames.forEach((frame, i) => {
+    const expected = total(Object.entries(frame.times_ms), ([name, ms]) => (PARTS_OF_OTHERS.includes(name) ? 0 : ms));
+    assert.ok(Math.abs(sums[i] - expected) <= 1e-9 * expected, `step ${i}: ${sums[i]} ms of ${expected}`);
+  });
+}
+
 // A click on a facet that meets another selects it and its pair, and tells which facets it meets.
 async function expectPick(page, contacts) {
   const target = await page.evaluate((pairs) => {
@@ -108,7 +158,7 @@ for (const [scene, options] of Object.entries(SCENES)) {
   test(scene, async () => {
     const file = inFolder(`${scene}.html`), json = inFolder(`${scene}.json`);
     tact("view", scene, ...options, "--out", file, "--json", json);
-    const { frames } = JSON.parse(readFileSync(json));
+    const { frames, bodies } = JSON.parse(readFileSync(json));
     const page = await openPage(file);
     const shown = async () => frames[Number(await page.getAttribute("#clock", "data-step"))];
     const busiest = await shown();
@@ -117,6 +167,8 @@ for (const [scene, options] of Object.entries(SCENES)) {
     const contacts = busiest.pairs.filter((pair) => pair.direction !== undefined);
     assert.equal(await page.locator("#pairs tr[data-pair]").count(), contacts.length);
     await expectStatistics(page, busiest);
+    await expectWords(page, busiest, bodies);
+    await expectPlots(page, frames);
     for (const contact of contacts.slice(0, 3)) await expectPair(page, contact);
     if (busiest.stats.facet_pairs > 0) await expectPick(page, contacts);
     await page.keyboard.press("ArrowLeft");
@@ -125,6 +177,7 @@ for (const [scene, options] of Object.entries(SCENES)) {
     await expectStatistics(page, before);
     await page.keyboard.press("Home");
     await expectStatistics(page, frames[0]);
+    await expectWords(page, frames[0], bodies);
     assert.deepEqual(page.complaints, []);
     await page.close();
   });

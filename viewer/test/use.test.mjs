@@ -82,6 +82,8 @@ test("of each patch the points that span it are enough", async () => {
   assert.ok(spanning.length > 0 && spanning.length < points.length);
   assert.deepEqual(shown, spanning.map((i) => [...points[i].a, -1, ...points[i].b]));
   assert.match(await page.textContent("#notes"), /at most four contact points/);
+  assert.match(await page.textContent("#sentence"), new RegExp(`${points.length} contact points`)); // counted are all
+  assert.equal(await page.getAttribute('#pair [data-fact="contact points"]', "data-value"), String(points.length));
   assert.deepEqual(page.complaints, []);
   await page.close();
 });

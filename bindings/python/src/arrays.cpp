@@ -1,94 +1,171 @@
 #include "arrays.h"
 
+#include <pybind11/stl.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 namespace tact::python {
 
 namespace {
 
-std::string shape_text(const py::array& array) { return py::str(array.attr("shape")); }
+std::string text_of(py::handle value) { return py::str(value); }
+std::string shape_text(const py::array& array) { return text_of(array.attr("shape")); }
 
-py::array array_from(py::handle given, const std::string& what, const char* numbers) {
-  if (!py::isinstance<py::array>(given))
-    throw py::type_error(what + " is a " + std::string(py::str(py::type::of(given).attr("__name__"))) +
-                         ", not a numpy array of " + numbers);
-  return py::reinterpret_borrow<py::array>(given);
+py::type_error holds_other_numbers(const py::array& array, const std::string& what, const char* wanted) {
+  return py::type_error(what + " holds " + text_of(array.dtype()) + ", not " + wanted);
 }
 
-void check_shape(const py::array& array, const std::string& what, const std::string& letter) {
-  if (array.ndim() == 2 && array.shape(1) == 3) return;
+bool is_plain_array(py::handle given) {
+  return reinterpret_cast<PyTypeObject*>(py::type::of(given).ptr()) == py::detail::npy_api::get().PyArray_Type_;
+}
+
+// What numpy makes of it, without masks, which it would drop.
+py::array array_from(py::handle given, const std::string& what) {
+  if (is_plain_array(given)) return py::reinterpret_borrow<py::array>(given);
+  if (py::isinstance<py::array>(given) && py::cast<bool>(py::module_::import("numpy.ma").attr("is_masked")(given)))
+    throw py::value_error(what + " has masked values: fill them in, or leave them out");
+  try {
+    const py::array array(py::object(py::module_::import("numpy").attr("asarray")(given)));
+    if (array.ndim() == 0) throw py::type_error(what + " is a " + type_name(given) + ", not an array");
+    return array;
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError)) throw;
+    throw py::value_error(what + " is no array: " + text_of(error.value()));  // rows of different lengths
+  }
+}
+
+// The three fields of a structured array that are a row, in their order; fields of one type, so that none is rounded.
+py::array rows_of_fields(const py::array& array, const std::string& what, bool are_coordinates) {
+  const py::list names(array.dtype().attr("names"));
+  py::list chosen;
+  if (are_coordinates && names.contains("x") && names.contains("y") && names.contains("z")) {
+    for (const char* name : {"x", "y", "z"}) chosen.append(name);
+  } else if (names.size() == 1 || (!are_coordinates && names.size() == 3)) {
+    chosen = names;
+  } else {
+    throw py::type_error(what + " is a structured array with the fields " + text_of(names) +
+                         (are_coordinates ? ", not x, y and z" : ", not three") + ": pass those that are meant");
+  }
+  const py::array part(py::object(array[chosen]));
+  const py::object fields = part.dtype().attr("fields");
+  for (const py::handle name : chosen) {
+    if (!fields[name][py::int_(0)].equal(fields[chosen[0]][py::int_(0)]))
+      throw py::type_error(what + " is a structured array whose fields have different types: " + text_of(part.dtype()));
+  }
+  return py::array(py::object(py::module_::import("numpy.lib.recfunctions").attr("structured_to_unstructured")(part)));
+}
+
+// An array of rows of three.
+py::array rows_from(py::handle given, const std::string& what, const char* letter, bool are_coordinates) {
+  py::array array = array_from(given, what);
+  if (array.dtype().has_fields()) array = rows_of_fields(array, what, are_coordinates);
+  if (array.ndim() == 1 && array.size() == 0 && !py::isinstance<py::array>(given))  // an empty list
+    return py::array_t<int>(std::vector<py::ssize_t>{0, 3});
+  if (array.ndim() == 2 && array.shape(1) == 3) return array;
   std::string message = what + " has shape " + shape_text(array) + ", not (" + letter + ", 3)";
-  if (array.ndim() == 2 && array.shape(0) == 3) message += ": pass its transpose, copied with numpy.ascontiguousarray";
+  if (array.ndim() == 2 && array.shape(0) == 3) message += ": pass its transpose";
   throw py::value_error(message);
 }
 
-// Rows that lie whole in memory, one after the other.
-template <class Number>
-void check_order(const py::array& array, const std::string& what) {
-  constexpr py::ssize_t kSize = sizeof(Number);
-  const bool whole_rows = array.shape(0) == 0 || array.strides(1) == kSize;
-  const bool ordered = array.shape(0) < 2 || (array.strides(0) >= 3 * kSize && array.strides(0) % kSize == 0);
-  if (!whole_rows || !ordered)
-    throw py::value_error(what +
-                          " does not hold its rows one after the other in memory: pass numpy.ascontiguousarray of it");
+// Whether an integer is one of the numbers of `To`.
+template <class To, class From>
+bool fits(From value) {
+  if constexpr (std::is_integral_v<To>) return std::in_range<To>(value);
+  constexpr double kBeyond = 2.0 * static_cast<double>(std::uint64_t{1} << (std::numeric_limits<From>::digits - 1));
+  const auto rounded = static_cast<double>(value);
+  return rounded < kBeyond && static_cast<From>(rounded) == value;
 }
 
-template <class Number>
-Eigen::Index stride_of(const py::array& array) {
-  return array.shape(0) < 2 ? 3 : array.strides(0) / static_cast<py::ssize_t>(sizeof(Number));
-}
-
-py::array checked_positions(py::handle given) {
-  const std::string what = "positions";
-  py::array array = array_from(given, what, "float64 or float32");
-  const bool narrow = py::isinstance<py::array_t<float>>(array);
-  if (!narrow && !py::isinstance<py::array_t<double>>(array))
-    throw py::type_error(what + " holds " + std::string(py::str(array.dtype())) + ", not float64 or float32");
-  check_shape(array, what, "V");
-  if (narrow) return py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
-  check_order<double>(array, what);
-  return array;
-}
-
-// Copies integers of another width, none of which may lose bits.
-py::array narrowed(const py::array& array) {
-  const auto wide = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>::ensure(array);
-  if (!wide) throw py::error_already_set();
-  py::array_t<int> result({wide.shape(0), py::ssize_t{3}});
-  const std::int64_t* from = wide.data();
-  int* to = result.mutable_data();
-  for (py::ssize_t i = 0; i < wide.size(); ++i) {
-    if (from[i] < std::numeric_limits<int>::min() || from[i] > std::numeric_limits<int>::max())
-      throw py::value_error("facet " + std::to_string(i / 3) + " names vertex " + std::to_string(from[i]) +
-                            ", which no body can have");
-    to[i] = static_cast<int>(from[i]);
+// Integers as other numbers; refuse(index, value as text) throws for one that does not fit.
+template <class To, class From, class Refuse>
+py::array_t<To> converted_from(const py::array& given, const Refuse& refuse) {
+  const py::array_t<From, py::array::c_style | py::array::forcecast> from(given);
+  py::array_t<To> to(std::vector<py::ssize_t>(from.shape(), from.shape() + from.ndim()));
+  To* numbers = to.mutable_data();
+  for (py::ssize_t i = 0; i < from.size(); ++i) {
+    if (!fits<To>(from.data()[i])) refuse(i, std::to_string(from.data()[i]));
+    numbers[i] = static_cast<To>(from.data()[i]);
   }
-  return result;
+  return to;
+}
+template <class To, class Refuse>
+py::array_t<To> converted(const py::array& given, const Refuse& refuse) {
+  return given.dtype().kind() == 'u' ? converted_from<To, std::uint64_t>(given, refuse)
+                                     : converted_from<To, std::int64_t>(given, refuse);
+}
+
+bool holds_integers(const py::array& array) { return array.dtype().kind() == 'i' || array.dtype().kind() == 'u'; }
+bool holds_floats(const py::array& array) {
+  return array.dtype().kind() == 'f' && array.itemsize() <= static_cast<py::ssize_t>(sizeof(double));
+}
+
+// Real numbers, each exactly, row by row.
+py::array_t<double> doubles_of(const py::array& array, const std::string& what) {
+  if (holds_floats(array)) return py::array_t<double, py::array::c_style | py::array::forcecast>(array);
+  if (!holds_integers(array)) throw holds_other_numbers(array, what, "numbers that a float64 holds");
+  return converted<double>(array, [&](py::ssize_t, const std::string& value) {
+    throw py::value_error(what + " holds " + value + ", which no float64 is");
+  });
+}
+
+template <class Number>
+bool has_whole_rows_of(const py::array& array) {
+  return py::isinstance<py::array_t<Number>>(array) && array.strides(1) == static_cast<py::ssize_t>(sizeof(Number));
+}
+
+py::array checked_positions(py::handle given, const std::string& what) {
+  const py::array array = rows_from(given, what, "V", true);
+  const bool as_it_is = has_whole_rows_of<double>(array) || has_whole_rows_of<float>(array);
+  return as_it_is ? array : doubles_of(array, what);
 }
 
 py::array checked_facets(py::handle given) {
   const std::string what = "facets";
-  py::array array = array_from(given, what, "integers");
-  const char kind = array.dtype().kind();
-  if (kind != 'i' && kind != 'u')
-    throw py::type_error(what + " holds " + std::string(py::str(array.dtype())) + ", not integers");
-  check_shape(array, what, "F");
-  if (!py::isinstance<py::array_t<int>>(array)) return narrowed(array);
-  check_order<int>(array, what);
-  return array;
+  const py::array array = rows_from(given, what, "F", false);
+  if (!holds_integers(array)) throw holds_other_numbers(array, what, "integers");
+  if (has_whole_rows_of<int>(array)) return array;
+  return converted<int>(array, [](py::ssize_t i, const std::string& value) {
+    throw py::value_error("facet " + std::to_string(i / 3) + " names vertex " + value + ", which no body can have");
+  });
+}
+
+template <class Scalar>
+Columns<Scalar> columns_of(const py::array& array, NumberKind kind) {
+  return Columns<Scalar>::of_kind(kind, array.data(), static_cast<std::size_t>(array.shape(0)),
+                                  static_cast<std::size_t>(array.strides(0)));  // Columns turns it back: it may be < 0
 }
 
 }  // namespace
 
-PositionsArgument::PositionsArgument(py::handle given)
-    : array_(checked_positions(given)),
-      map_(static_cast<const double*>(array_.data()), 3, array_.shape(0),
-           Eigen::OuterStride<>(stride_of<double>(array_))) {}
+std::string type_name(py::handle of) { return text_of(py::type::of(of).attr("__name__")); }
 
-FacetsArgument::FacetsArgument(py::handle given)
-    : array_(checked_facets(given)),
-      map_(static_cast<const int*>(array_.data()), 3, array_.shape(0), Eigen::OuterStride<>(stride_of<int>(array_))) {}
+PositionsArgument::PositionsArgument(py::handle given, const std::string& what)
+    : array_(checked_positions(given, what)) {}
+
+Positions PositionsArgument::columns() const {
+  return columns_of<double>(array_, array_.itemsize() == sizeof(float) ? NumberKind::float32 : NumberKind::float64);
+}
+
+FacetsArgument::FacetsArgument(py::handle given) : array_(checked_facets(given)) {}
+
+Facets FacetsArgument::columns() const { return columns_of<int>(array_, NumberKind::int32); }
+
+py::array_t<double> numbers_argument(py::handle given, const std::string& what, const std::vector<py::ssize_t>& shape) {
+  const py::array array = array_from(given, what);
+  if (!std::equal(array.shape(), array.shape() + array.ndim(), shape.begin(), shape.end()))
+    throw py::value_error(what + " has shape " + shape_text(array) + ", not " + text_of(py::tuple(py::cast(shape))));
+  return doubles_of(array, what);
+}
+
+Eigen::Vector3d vector_argument(py::handle given, const std::string& what) {
+  py::array array = array_from(given, what);
+  if (array.ndim() == 2 && array.size() == 3) array = array.reshape({3});
+  return Eigen::Map<const Eigen::Vector3d>(numbers_argument(array, what, {3}).data());
+}
 
 py::array_t<double> vector_of(const Eigen::Vector3d& vector) {
   py::array_t<double> array(3);

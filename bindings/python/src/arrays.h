@@ -1,4 +1,8 @@
 // Arrays of numpy as the engine takes them, and the engine's lists as arrays of numpy.
+//
+// What is given may be whatever numpy makes an array of: arrays of any strides and byte order, lists, structured
+// arrays, buffers. It is taken where it means one thing: each number is exactly one of the engine's, and it is clear
+// which three are a row. Where rows lie whole in memory they are read where they are, others are copied.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -7,39 +11,43 @@
 #include <Eigen/Core>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace tact::python {
 
 namespace py = pybind11;
 
-/// Vertices given as an array of shape (V, 3): float64 rows are read where they are, float32 rows are widened exactly.
-/// @throws TypeError if it is no array of these numbers, ValueError if its shape or its order is another.
+/// Vertices given as an array of shape (V, 3), or as a structured array with fields x, y and z, of real numbers.
+/// @throws TypeError if it holds no such numbers, ValueError if its shape is another or a float64 cannot hold one.
 class PositionsArgument {
  public:
-  explicit PositionsArgument(py::handle given);
+  /// `what`: what the caller calls it.
+  explicit PositionsArgument(py::handle given, const std::string& what = "positions");
   /// Valid as long as this.
-  Positions columns() const { return Positions(map_); }
-  using Map = Eigen::Map<const Eigen::Matrix3Xd, 0, Eigen::OuterStride<>>;
-  const Map& matrix() const { return map_; }
+  Positions columns() const;
 
  private:
   py::array array_;
-  Map map_;
 };
 
-/// Facets given as an array of shape (F, 3) of any integers: int32 rows are read where they are, others are copied.
-/// @throws TypeError, ValueError as above; ValueError also names a facet whose number does not fit in 32 bits.
+/// Facets given as an array of shape (F, 3), or as a structured array with three fields, of integers.
+/// @throws TypeError, ValueError as above; ValueError also names a facet with a number that does not fit in 32 bits.
 class FacetsArgument {
  public:
   explicit FacetsArgument(py::handle given);
   /// Valid as long as this.
-  Facets columns() const { return Facets(map_); }
+  Facets columns() const;
 
  private:
-  using Map = Eigen::Map<const Eigen::Matrix3Xi, 0, Eigen::OuterStride<>>;
   py::array array_;
-  Map map_;
 };
+
+/// Real numbers of a known shape, row by row. @throws TypeError, ValueError as above.
+py::array_t<double> numbers_argument(py::handle given, const std::string& what, const std::vector<py::ssize_t>& shape);
+/// Three coordinates, as a row or a column. @throws TypeError, ValueError as above.
+Eigen::Vector3d vector_argument(py::handle given, const std::string& what);
+/// The name of the type of something, for messages.
+std::string type_name(py::handle of);
 
 /// An array of its own with a row for each of `items`; row(item, numbers) writes the `width` numbers of a row. It
 /// cannot be written to.

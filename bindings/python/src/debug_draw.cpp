@@ -8,6 +8,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "interpreter.h"
 #include "shared_world.h"
 
 namespace tact::python {
@@ -18,14 +19,14 @@ class PythonDrawer : public DebugDrawer {
  public:
   explicit PythonDrawer(py::object object) : object_(std::move(object)) {}
   void line(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const DebugColor& color) override {
-    object_.attr("line")(vector_of(from), vector_of(to), color_of(color));
+    call_python(object_.attr("line"), vector_of(from), vector_of(to), color_of(color));
   }
   void triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r,
                 const DebugColor& color) override {
-    object_.attr("triangle")(vector_of(p), vector_of(q), vector_of(r), color_of(color));
+    call_python(object_.attr("triangle"), vector_of(p), vector_of(q), vector_of(r), color_of(color));
   }
   void text(const Eigen::Vector3d& at, std::string_view words, const DebugColor& color) override {
-    object_.attr("text")(vector_of(at), std::string(words), color_of(color));
+    call_python(object_.attr("text"), vector_of(at), std::string(words), color_of(color));
   }
 
  private:
@@ -83,11 +84,13 @@ void define_debug_draw(py::module_& module, WorldClass& world) {
       "debug_draw",
       [](SharedWorld& shared, const OfReport<Report>& report, py::object drawer, const DebugDrawOptions& options) {
         PythonDrawer to(std::move(drawer));
-        debug_draw(shared.use(), *report, to, options);
+        const SharedWorld::Reading reading(shared);  // the drawer may read the world
+        const auto drawn = report.held();
+        debug_draw(shared.read(), *drawn, to, options);
       },
       py::arg("report"), py::arg("drawer"), py::arg("options") = DebugDrawOptions{},
       "draws a report of this world with drawer.line(p, q, color), drawer.triangle(p, q, r, color) and "
-      "drawer.text(p, words, color)");
+      "drawer.text(p, words, color). The drawer can read the world and not change it");
 }
 
 }  // namespace tact::python

@@ -1,4 +1,3 @@
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <tact/queries.h>
 
@@ -41,15 +40,16 @@ HitArrays hit_arrays(std::span<const RayHit> hits) {
           rows_of_three<double>(hits, &RayHit::barycentric)};
 }
 
-std::vector<Eigen::Vector3d> points_of(py::handle given) {
-  const PositionsArgument argument(given);
+std::vector<Eigen::Vector3d> points_of(py::handle given, const char* what) {
+  const PositionsArgument argument(given, what);
+  const Positions columns = argument.columns();
   std::vector<Eigen::Vector3d> points;
-  for (const auto& point : argument.matrix().colwise()) points.emplace_back(point);
+  for (std::ptrdiff_t i = 0; i < columns.cols(); ++i) points.emplace_back(columns.column(i).data());
   return points;
 }
 
 std::vector<Ray> rays_of(py::handle from, py::handle to, const QueryFilter& filter) {
-  const std::vector<Eigen::Vector3d> begin = points_of(from), end = points_of(to);
+  const std::vector<Eigen::Vector3d> begin = points_of(from, "from_"), end = points_of(to, "to");
   if (begin.size() != end.size()) throw py::value_error("from_ and to have different lengths");
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < begin.size(); ++i) rays.push_back({begin[i], end[i], filter});
@@ -60,23 +60,23 @@ HitArrays cast_rays(SharedWorld& world, py::handle from, py::handle to, bool any
                     std::uint32_t mask) {
   const std::vector<Ray> rays = rays_of(from, to, {layer, mask});
   std::vector<RayHit> hits(rays.size());
-  world.compute([&](World& w) { w.cast_rays(rays, hits, any ? RayHits::any : RayHits::first); });
+  world.ask([&](const World& w) { w.cast_rays(rays, hits, any ? RayHits::any : RayHits::first); });
   return hit_arrays(hits);
 }
 
-HitArrays cast_ray_all(SharedWorld& world, const Eigen::Vector3d& from, const Eigen::Vector3d& to, std::uint32_t layer,
-                       std::uint32_t mask) {
+HitArrays cast_ray_all(SharedWorld& world, py::handle from, py::handle to, std::uint32_t layer, std::uint32_t mask) {
+  const Ray ray{vector_argument(from, "from_"), vector_argument(to, "to"), {layer, mask}};
   std::vector<RayHit> hits;
-  world.compute([&](World& w) { hits = w.cast_ray_all({from, to, {layer, mask}}); });
+  world.ask([&](const World& w) { hits = w.cast_ray_all(ray); });
   return hit_arrays(hits);
 }
 
 ClosestArrays closest_points(SharedWorld& world, py::handle points, double within, std::uint32_t layer,
                              std::uint32_t mask) {
   std::vector<PointQuery> queries;
-  for (const Eigen::Vector3d& point : points_of(points)) queries.push_back({point, within, {layer, mask}});
+  for (const Eigen::Vector3d& point : points_of(points, "points")) queries.push_back({point, within, {layer, mask}});
   std::vector<ClosestPoint> answers(queries.size());
-  world.compute([&](World& w) { w.closest_points(queries, answers); });
+  world.ask([&](const World& w) { w.closest_points(queries, answers); });
   const std::span<const ClosestPoint> all = answers;
   return {body_column(all), facet_column(all),
           column_of<double>(all, [](const ClosestPoint& one) { return one.distance; }),
@@ -90,28 +90,29 @@ py::array_t<std::int64_t> facet_rows(const std::vector<FacetOfBody>& found) {
   });
 }
 
-py::array_t<std::int64_t> overlap_box(SharedWorld& world, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
-                                      std::uint32_t layer, std::uint32_t mask) {
+py::array_t<std::int64_t> overlap_box(SharedWorld& world, py::handle lower, py::handle upper, std::uint32_t layer,
+                                      std::uint32_t mask) {
+  const BoxQuery query{vector_argument(lower, "lower"), vector_argument(upper, "upper"), {layer, mask}};
   std::vector<FacetOfBody> found;
-  world.compute([&](World& w) { found = w.overlap_box({lower, upper, {layer, mask}}); });
+  world.ask([&](const World& w) { found = w.overlap_box(query); });
   return facet_rows(found);
 }
 
-std::vector<BodyId> bodies_containing(SharedWorld& world, const Eigen::Vector3d& point, std::uint32_t layer,
-                                      std::uint32_t mask) {
+std::vector<BodyId> bodies_containing(SharedWorld& world, py::handle point, std::uint32_t layer, std::uint32_t mask) {
+  const PointQuery query{.point = vector_argument(point, "point"), .filter = {layer, mask}};
   std::vector<BodyId> found;
-  world.compute([&](World& w) { found = w.bodies_containing({.point = point, .filter = {layer, mask}}); });
+  world.ask([&](const World& w) { found = w.bodies_containing(query); });
   return found;
 }
 
 std::vector<py::array_t<std::int64_t>> overlap_boxes(SharedWorld& world, py::handle lower, py::handle upper,
                                                      std::uint32_t layer, std::uint32_t mask) {
-  const std::vector<Eigen::Vector3d> low = points_of(lower), high = points_of(upper);
+  const std::vector<Eigen::Vector3d> low = points_of(lower, "lower"), high = points_of(upper, "upper");
   if (low.size() != high.size()) throw py::value_error("lower and upper have different lengths");
   std::vector<BoxQuery> queries;
   for (std::size_t i = 0; i < low.size(); ++i) queries.push_back({low[i], high[i], {layer, mask}});
   std::vector<std::vector<FacetOfBody>> found(queries.size());
-  world.compute([&](World& w) { w.overlap_boxes(queries, found); });
+  world.ask([&](const World& w) { w.overlap_boxes(queries, found); });
   std::vector<py::array_t<std::int64_t>> answers;
   for (const std::vector<FacetOfBody>& one : found) answers.push_back(facet_rows(one));
   return answers;
@@ -120,9 +121,10 @@ std::vector<py::array_t<std::int64_t>> overlap_boxes(SharedWorld& world, py::han
 std::vector<std::vector<BodyId>> bodies_containing_each(SharedWorld& world, py::handle points, std::uint32_t layer,
                                                         std::uint32_t mask) {
   std::vector<PointQuery> queries;
-  for (const Eigen::Vector3d& point : points_of(points)) queries.push_back({.point = point, .filter = {layer, mask}});
+  for (const Eigen::Vector3d& point : points_of(points, "points"))
+    queries.push_back({.point = point, .filter = {layer, mask}});
   std::vector<std::vector<BodyId>> found(queries.size());
-  world.compute([&](World& w) { w.bodies_containing_each(queries, found); });
+  world.ask([&](const World& w) { w.bodies_containing_each(queries, found); });
   return found;
 }
 

@@ -70,7 +70,10 @@ class Player {
     return step;
   }
   const std::shared_ptr<SharedWorld>& world() const { return world_; }
-  std::optional<std::size_t> cut_at() const { return held_->player.cut_at(); }
+  std::optional<std::size_t> cut_at() const {
+    world_->read();  // refused while another thread plays
+    return held_->player.cut_at();
+  }
   const std::string& recorded_by() const { return held_->player.recorded_by(); }
 
  private:

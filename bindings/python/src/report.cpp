@@ -39,13 +39,13 @@ py::dict stats_of(const Report& report) {
 
 template <class Member>
 auto contact_field(Member Contact::*member) {
-  return [member](const ContactHandle& contact) { return (*contact).*member; };
+  return [member](const ContactHandle& contact) { return (*contact.held()).*member; };
 }
 
 std::string contact_text(const ContactHandle& contact) {
-  const Contact& c = *contact;
-  return "<tact.Contact of bodies " + std::to_string(c.a.index) + " and " + std::to_string(c.b.index) + ", depth " +
-         std::string(py::str(py::float_(c.depth))) + ", " + std::to_string(c.facet_pairs().size()) + " facet pairs>";
+  const auto c = contact.held();
+  return "<tact.Contact of bodies " + std::to_string(c->a.index) + " and " + std::to_string(c->b.index) + ", depth " +
+         std::string(py::str(py::float_(c->depth))) + ", " + std::to_string(c->facet_pairs().size()) + " facet pairs>";
 }
 
 // A patch as copies.
@@ -197,7 +197,8 @@ void define_contact(py::module_& module) {
           "patches",
           [](const ContactHandle& contact) {
             py::list list;
-            for (const Patch& patch : contact->patches()) list.append(patch_arrays(patch));
+            const auto held = contact.held();
+            for (const Patch& patch : held->patches()) list.append(patch_arrays(patch));
             return list;
           },
           "the patches, if Settings.patches is set; sorted by first facet pair, then by first point")
@@ -206,7 +207,8 @@ void define_contact(py::module_& module) {
 
 py::list contacts_of(const ReportHandle& report) {
   py::list list;
-  for (const Contact& contact : report->contacts()) list.append(report.part(contact));
+  const auto held = report.held();
+  for (const Contact& contact : held->contacts()) list.append(report.part(contact));
   return list;
 }
 
@@ -217,7 +219,8 @@ py::object find_contact(const ReportHandle& report, BodyId a, BodyId b) {
 
 py::list candidates_of(const ReportHandle& report) {
   py::list list;
-  for (const CandidatePair& pair : report->candidate_pairs())
+  const auto held = report.held();
+  for (const CandidatePair& pair : held->candidate_pairs())
     list.append(py::make_tuple(pair.a, pair.b, pair.hulls_overlap));
   return list;
 }
@@ -270,12 +273,13 @@ void define_report(py::module_& module) {
       .def_property_readonly(
           "patch_events",
           [](const ReportHandle& report) {
-            const auto events = report->patch_events();
+            const auto held = report.held();
+            const auto events = held->patch_events();
             return std::vector<PatchEvent>(events.begin(), events.end());
           },
           "the changes of patches, if Settings.patches is set; sorted by (a, b), ends before beginnings")
       .def_property_readonly(
-          "stats", [](const ReportHandle& report) { return stats_of(*report); },
+          "stats", [](const ReportHandle& report) { return stats_of(*report.held()); },
           "counts and times of the step. By name, times in milliseconds")
       .def(
           "hash", [](const ReportHandle& report) { return report->hash(); },

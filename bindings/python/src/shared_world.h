@@ -13,6 +13,8 @@
 #include <string>
 #include <utility>
 
+#include "interpreter.h"
+
 namespace tact::python {
 
 namespace py = pybind11;
@@ -30,15 +32,38 @@ struct FileRecording {
   Recorder recorder;
 };
 
-/// Every member is read and written by threads that hold the interpreter's lock, but for the world inside compute().
-class SharedWorld {
+/// Every member is read and written by threads that hold the interpreter's lock, but for the world inside compute() and
+/// ask().
+class SharedWorld : public std::enable_shared_from_this<SharedWorld> {
  public:
   explicit SharedWorld(const Settings& settings) : SharedWorld(std::make_shared<World>(settings)) {}
   explicit SharedWorld(std::shared_ptr<World> world) : world_(std::move(world)) {}
 
-  /// The world, for a call that keeps the lock. @throws Error wrong_order while another thread is in compute().
+  /// While it lives, the world can be read and not changed: whatever Python runs meanwhile, a drawer, a finalizer,
+  /// another thread, what is read stays. @throws Error wrong_order while the world is changed.
+  class Reading {
+   public:
+    explicit Reading(SharedWorld& shared) : shared_(shared) {
+      shared.read();
+      ++shared_.readers_;
+    }
+    ~Reading() { --shared_.readers_; }
+    Reading(const Reading&) = delete;
+    Reading& operator=(const Reading&) = delete;
+
+   private:
+    SharedWorld& shared_;
+  };
+
+  /// The world, for a call that keeps the lock and runs no Python. @throws Error wrong_order while another call uses
+  /// it.
   World& use() {
-    if (busy_) throw Error(ErrorCode::wrong_order, "the world is in use by another thread");
+    if (busy_ || readers_ > 0) throw in_use();
+    return *world_;
+  }
+  /// The same for a call that only reads. @throws Error wrong_order while another call changes it.
+  const World& read() const {
+    if (busy_) throw in_use();
     return *world_;
   }
   /// Calls work(world) without the lock, so that other threads of Python go on.
@@ -46,23 +71,19 @@ class SharedWorld {
   void compute(const Work& work) {
     World& world = use();
     const Busy busy(*this);
-    std::exception_ptr thrown;
-    // Not by a guard: where the interpreter ends meanwhile, taking the lock again ends this thread, by unwinding its
-    // stack, which no destructor lets pass.
-    PyThreadState* const thread = PyEval_SaveThread();
-    try {
-      work(world);
-    } catch (...) {
-      thrown = std::current_exception();
-    }
-    PyEval_RestoreThread(thread);
-    if (thrown) std::rethrow_exception(thrown);
+    without_lock([&] { work(world); });
+  }
+  /// The same for work that only reads: other threads can read, too.
+  template <class Work>
+  void ask(const Work& work) {
+    const Reading reading(*this);
+    without_lock([&] { work(std::as_const(*world_)); });
   }
   /// The report of the step that is made now; those of before are stale from here on.
   std::uint64_t next_report() { return ++report_; }
-  /// @throws StaleReport if it is not the last, Error wrong_order as use().
-  void check_report(std::uint64_t report) {
-    use();
+  /// @throws StaleReport if it is not the last, Error wrong_order as read().
+  void check_report(std::uint64_t report) const {
+    read();
     if (report != report_)
       throw StaleReport(
           "this report is of an earlier step: what it shows is gone with the next detect() or set_settings()");
@@ -74,6 +95,23 @@ class SharedWorld {
   void stop_recording();
 
  private:
+  static Error in_use() {
+    return {ErrorCode::wrong_order, "the world is in use by another thread, or by the call that this one comes from"};
+  }
+
+  template <class Work>
+  static void without_lock(const Work& work) {
+    std::exception_ptr thrown;
+    PyThreadState* const thread = PyEval_SaveThread();
+    try {
+      work();
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    waiting_at_exit([&] { PyEval_RestoreThread(thread); });
+    if (thrown) std::rethrow_exception(thrown);
+  }
+
   struct Busy {
     explicit Busy(SharedWorld& shared) : shared_(shared) { shared_.busy_ = true; }
     ~Busy() { shared_.busy_ = false; }
@@ -86,6 +124,7 @@ class SharedWorld {
   std::shared_ptr<World> world_;
   std::uint64_t report_ = 0;
   bool busy_ = false;
+  int readers_ = 0;
 };
 
 /// A report, or something in it, that is used only while it is the world's last.
@@ -94,12 +133,25 @@ class OfReport {
  public:
   OfReport(std::shared_ptr<SharedWorld> world, std::uint64_t report, const Shown* shown)
       : world_(std::move(world)), report_(report), shown_(shown) {}
+
+  /// What is shown, and stays while this lives.
+  class Held {
+   public:
+    explicit Held(const OfReport& shown) : reading_(*shown.world_), shown_(shown.shown_) {}
+    const Shown& operator*() const { return *shown_; }
+    const Shown* operator->() const { return shown_; }
+
+   private:
+    SharedWorld::Reading reading_;
+    const Shown* shown_;
+  };
   /// @throws StaleReport, Error wrong_order.
-  const Shown& operator*() const {
+  Held held() const {
     world_->check_report(report_);
-    return *shown_;
+    return Held(*this);
   }
-  const Shown* operator->() const { return &**this; }
+  /// The same for one expression.
+  Held operator->() const { return held(); }
   /// Something else in the same report.
   template <class Part>
   OfReport<Part> part(const Part& part) const {

@@ -1,5 +1,3 @@
-#include <pybind11/eigen.h>
-#include <pybind11/functional.h>
 #include <pybind11/stl.h>
 #include <tact/world.h>
 
@@ -11,6 +9,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "messages.h"
 #include "motion.h"
 #include "shared_world.h"
 
@@ -18,7 +17,12 @@ namespace tact::python {
 
 namespace {
 
-using SharedPointer = std::shared_ptr<SharedWorld>;
+BodyId body_of(py::handle given, const std::string& what) {
+  if (!py::isinstance<BodyId>(given))
+    throw py::type_error(what + " " + std::string(py::repr(given)) + " is a " + type_name(given) +
+                         ", not a tact.BodyId, which add_body() gives");
+  return py::cast<BodyId>(given);
+}
 
 BodyId add_body(SharedWorld& world, py::handle positions, py::handle facets, Surface surface, Motion motion,
                 const std::string& name, std::uint32_t layer, std::uint32_t mask, double margin, bool self_contact,
@@ -45,75 +49,82 @@ void set_positions(SharedWorld& world, BodyId body, py::handle positions) {
   world.compute([&](World& w) { w.set_positions(body, x.columns()); });
 }
 
+// Keys and values as they are now: what reads them may run Python, which may change the dict.
+std::vector<std::pair<py::object, py::object>> items_of(const py::dict& dict) {
+  std::vector<std::pair<py::object, py::object>> items;
+  for (const auto& [key, value] : dict)
+    items.emplace_back(py::reinterpret_borrow<py::object>(key), py::reinterpret_borrow<py::object>(value));
+  return items;
+}
+
 void set_many_positions(SharedWorld& world, const py::dict& positions) {
   std::vector<PositionsArgument> arguments;
   std::vector<PositionsUpdate> updates;
-  arguments.reserve(positions.size());
-  for (const auto& [body, array] : positions) {
+  for (const auto& [body, array] : items_of(positions)) {
+    const BodyId id = body_of(body, "positions: the key");
     arguments.emplace_back(array);
-    updates.push_back({py::cast<BodyId>(body), arguments.back().columns()});
+    updates.push_back({id, arguments.back().columns()});
   }
   world.compute([&](World& w) { w.set_positions(updates); });
 }
 
-void set_pose(SharedWorld& world, BodyId body, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {
-  world.compute([&](World& w) { w.set_pose(body, rotation, translation); });
+PoseUpdate pose_of(BodyId body, py::handle rotation, py::handle translation) {
+  const py::array_t<double> turn = numbers_argument(rotation, "rotation", {3, 3});
+  return {body, Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(turn.data()),
+          vector_argument(translation, "translation")};
 }
 
-PoseUpdate pose_of(py::handle body, py::handle pose) {
-  try {
-    const auto [rotation, translation] = py::cast<std::pair<Eigen::Matrix3d, Eigen::Vector3d>>(pose);
-    return {py::cast<BodyId>(body), rotation, translation};
-  } catch (const py::cast_error&) {
-    throw py::type_error("poses are not {body: (rotation of shape (3, 3), translation of shape (3,))}");
-  }
+void set_pose(SharedWorld& world, BodyId body, py::handle rotation, py::handle translation) {
+  const PoseUpdate pose = pose_of(body, rotation, translation);
+  world.compute([&](World& w) { w.set_pose(body, pose.rotation, pose.translation); });
 }
 
 void set_poses(SharedWorld& world, const py::dict& poses) {
   std::vector<PoseUpdate> updates;
-  for (const auto& [body, pose] : poses) updates.push_back(pose_of(body, pose));
+  for (const auto& [body, pose] : items_of(poses)) {
+    const BodyId id = body_of(body, "poses: the key");
+    const bool is_pair = py::isinstance<py::sequence>(pose) && py::len(pose) == 2;
+    if (!is_pair)
+      throw py::type_error("poses: the pose of " + std::string(py::repr(body)) + " is a " + type_name(pose) +
+                           ", not (rotation of shape (3, 3), translation of shape (3,))");
+    const py::sequence parts(pose);
+    updates.push_back(pose_of(id, py::object(parts[0]), py::object(parts[1])));
+  }
   world.compute([&](World& w) { w.set_poses(updates); });
 }
 
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
-void check_shape(const Numbers& array, const std::vector<py::ssize_t>& shape, const std::string& what) {
-  if (std::equal(array.shape(), array.shape() + array.ndim(), shape.begin(), shape.end())) return;
-  throw py::value_error(what + " has shape " + std::string(py::str(array.attr("shape"))) + ", not " +
-                        std::string(py::str(py::tuple(py::cast(shape)))));
-}
-
-void set_pose_arrays(SharedWorld& world, const std::vector<BodyId>& bodies, const Numbers& rotations,
-                     const Numbers& translations) {
-  const auto count = static_cast<py::ssize_t>(bodies.size());
-  check_shape(rotations, {count, 3, 3}, "rotations");
-  check_shape(translations, {count, 3}, "translations");
+void set_pose_arrays(SharedWorld& world, const py::iterable& bodies, py::handle rotations, py::handle translations) {
   std::vector<PoseUpdate> updates;
-  updates.reserve(bodies.size());
-  const double *rotation = rotations.data(), *translation = translations.data();
-  for (const BodyId& body : bodies) {
-    updates.push_back({body, Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation),
-                       Eigen::Map<const Eigen::Vector3d>(translation)});
+  for (const py::handle body : bodies) updates.push_back({.body = body_of(body, "bodies:")});
+  const auto count = static_cast<py::ssize_t>(updates.size());
+  const py::array_t<double> turns = numbers_argument(rotations, "rotations", {count, 3, 3}),
+                            moves = numbers_argument(translations, "translations", {count, 3});
+  const double *rotation = turns.data(), *translation = moves.data();
+  for (PoseUpdate& update : updates) {
+    update.rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation);
+    update.translation = Eigen::Map<const Eigen::Vector3d>(translation);
     rotation += 9, translation += 3;
   }
   world.compute([&](World& w) { w.set_poses(updates); });
 }
 
-OfReport<Report> detect(const SharedPointer& world) {
-  world->use();
-  const std::uint64_t report = world->next_report();
+OfReport<Report> detect(SharedWorld& world) {
+  world.use();
+  const std::uint64_t report = world.next_report();
   const Report* made = nullptr;
-  world->compute([&](World& w) { made = &w.detect(); });
-  return {world, report, made};
+  world.compute([&](World& w) { made = &w.detect(); });
+  return {world.shared_from_this(), report, made};
 }
 
 MotionArrays detect_motion(SharedWorld& world, Impacts wanted) {
   const MotionReport* made = nullptr;
   world.compute([&](World& w) { made = &w.detect_motion(wanted); });
+  const SharedWorld::Reading reading(world);
   return motion_arrays(*made);
 }
 
 void set_settings(SharedWorld& world, const Settings& settings) {
+  const MessageFunction last = world.read().settings().on_message;  // what it holds is let go when all is set
   world.use().set_settings(settings);
   world.next_report();
 }
@@ -124,14 +135,14 @@ std::string settings_text(const Settings& settings) {
 }
 
 Settings make_settings(int threads, Accuracy accuracy, DirectionPolicy direction, double gjk_tolerance,
-                       int iteration_limit, bool zones, bool patches, bool points, MessageFunction on_message) {
+                       int iteration_limit, bool zones, bool patches, bool points, const py::object& on_message) {
   return {.threads = threads,
           .accuracy = accuracy,
           .direction = direction,
           .gjk_tolerance = gjk_tolerance,
           .iteration_limit = iteration_limit,
           .outputs = {.zones = zones, .patches = patches, .points = points},
-          .on_message = std::move(on_message)};
+          .on_message = message_function(on_message)};
 }
 
 template <bool Outputs::*kMember>
@@ -141,38 +152,23 @@ void output(py::class_<Settings>& settings, const char* name, const char* text) 
       [](Settings& s, bool wanted) { s.outputs.*kMember = wanted; }, text);
 }
 
-void define_messages(py::module_& module) {
-  py::enum_<MessageKind>(module, "MessageKind", "What a message is about.")
-      .value("direction_limit", MessageKind::direction_limit,
-             "the search for the direction of a contact stopped at a limit")
-      .value("gjk_limit", MessageKind::gjk_limit, "GJK stopped at its limit for pairs that are taken to be apart")
-      .value("point_limit", MessageKind::point_limit, "a body crosses itself deeper than its points are found");
-  py::class_<Message>(module, "Message", "A limit that a step reached. Valid during the call.")
-      .def_readonly("kind", &Message::kind)
-      .def_readonly("a", &Message::a, "the first body of the pair, or no body")
-      .def_readonly("b", &Message::b)
-      .def_property_readonly(
-          "text", [](const Message& message) { return std::string(message.text); }, "one sentence")
-      .def("__repr__", [](const Message& message) { return "<tact.Message: " + std::string(message.text) + ">"; });
-}
-
 // The mesh of a body as arrays of its own.
 py::array_t<double> positions_of(SharedWorld& world, BodyId body) {
-  const World& asked = world.use();
+  const World& asked = world.read();
   py::array_t<double> rows({static_cast<py::ssize_t>(asked.vertex_count(body)), py::ssize_t{3}});
   asked.copy_positions(body, {rows.mutable_data(), static_cast<std::size_t>(rows.size())});
   return rows;
 }
 
 py::array_t<int> facets_of(SharedWorld& world, BodyId body) {
-  const World& asked = world.use();
+  const World& asked = world.read();
   py::array_t<int> rows({static_cast<py::ssize_t>(asked.facet_count(body)), py::ssize_t{3}});
   asked.copy_facets(body, {rows.mutable_data(), static_cast<std::size_t>(rows.size())});
   return rows;
 }
 
 std::pair<py::array_t<double>, py::array_t<double>> bounds_of(SharedWorld& world, BodyId body) {
-  const Bounds bounds = world.use().bounds(body);
+  const Bounds bounds = world.read().bounds(body);
   return {py::array_t<double>(3, bounds.lower.data()), py::array_t<double>(3, bounds.upper.data())};
 }
 
@@ -190,9 +186,11 @@ void define_settings(py::module_& module) {
       .def_readwrite("direction", &Settings::direction)
       .def_readwrite("gjk_tolerance", &Settings::gjk_tolerance, "relative gap at which GJK stops, 1e-15 to 0.1")
       .def_readwrite("iteration_limit", &Settings::iteration_limit, "shifted calls of GJK a pair and step, at least 1")
-      .def_readwrite("on_message", &Settings::on_message,
-                     "called for each limit that a step reached; the report has the same as flags and counts. It must "
-                     "not use the world")
+      .def_property(
+          "on_message", [](const Settings& s) { return python_function(s.on_message); },
+          [](Settings& s, const py::object& function) { s.on_message = message_function(function); },
+          "called for each limit that a step reached; the report has the same as flags and counts. The world refuses "
+          "its calls; what it raises comes out of detect(), after the step")
       .def("__repr__", settings_text);
   output<&Outputs::zones>(settings, "zones", "compute Contact.zone_a and zone_b");
   output<&Outputs::points>(settings, "points", "compute Contact.points");
@@ -202,7 +200,7 @@ void define_settings(py::module_& module) {
 // A function of World that takes a body and gives something of it.
 template <auto kFunction>
 auto of_body(SharedWorld& world, BodyId body) {
-  return (world.use().*kFunction)(body);
+  return (world.read().*kFunction)(body);
 }
 
 }  // namespace
@@ -213,7 +211,7 @@ void define_world(py::module_& module) {
   WorldClass class_of_world(module, "World", "A set of bodies and the contacts among them.");
   class_of_world.def(py::init<const Settings&>(), py::arg("settings") = Settings{})
       .def_property_readonly(
-          "settings", [](SharedWorld& world) { return world.use().settings(); }, "a copy; see set_settings()")
+          "settings", [](SharedWorld& world) { return world.read().settings(); }, "a copy; see set_settings()")
       .def("set_settings", set_settings, py::arg("settings"), "takes effect with the next step")
       .def("add_body", add_body, py::arg("positions"), py::arg("facets"), py::kw_only(),
            py::arg("surface") = Surface::closed, py::arg("motion") = Motion::deformable, py::arg("name") = "",
@@ -246,7 +244,7 @@ void define_world(py::module_& module) {
           py::arg("a"), py::arg("b"), py::arg("excluded"),
           "sets whether two bodies are excluded from tests, whatever their layers: the two sides of a joint, say")
       .def(
-          "excluded", [](SharedWorld& world, BodyId a, BodyId b) { return world.use().excluded(a, b); }, py::arg("a"),
+          "excluded", [](SharedWorld& world, BodyId a, BodyId b) { return world.read().excluded(a, b); }, py::arg("a"),
           py::arg("b"))
       .def(
           "set_motion", [](SharedWorld& world, BodyId body, Motion motion) { world.use().set_motion(body, motion); },
@@ -258,9 +256,9 @@ void define_world(py::module_& module) {
           "finds what meets between the positions of the last detect() and the current ones, every vertex moving "
           "straight")
       .def(
-          "contains", [](SharedWorld& world, BodyId body) { return world.use().contains(body); }, py::arg("body"))
-      .def_property_readonly("body_count", [](SharedWorld& world) { return world.use().body_count(); })
-      .def_property_readonly("bodies", [](SharedWorld& world) { return world.use().bodies(); })
+          "contains", [](SharedWorld& world, BodyId body) { return world.read().contains(body); }, py::arg("body"))
+      .def_property_readonly("body_count", [](SharedWorld& world) { return world.read().body_count(); })
+      .def_property_readonly("bodies", [](SharedWorld& world) { return world.read().bodies(); })
       .def("name", of_body<&World::name>, py::arg("body"))
       .def("surface", of_body<&World::surface>, py::arg("body"))
       .def("motion", of_body<&World::motion>, py::arg("body"))
@@ -284,9 +282,9 @@ void define_world(py::module_& module) {
       .def("bounds", bounds_of, py::arg("body"),
            "the box of a body with its margin, metres; without a facet, lower is above upper. Two arrays, lower and "
            "upper")
-      .def("__len__", [](SharedWorld& world) { return world.use().body_count(); })
+      .def("__len__", [](SharedWorld& world) { return world.read().body_count(); })
       .def("__repr__", [](SharedWorld& world) {
-        return "<tact.World of " + std::to_string(world.use().body_count()) + " bodies>";
+        return "<tact.World of " + std::to_string(world.read().body_count()) + " bodies>";
       });
   define_queries(module, class_of_world);
   define_surface_check(module, class_of_world);

@@ -1,7 +1,7 @@
 """Finds where many deformable triangle meshes touch."""
 
 import os
-from typing import Callable, ClassVar, Iterator, Optional, Protocol, Sequence, overload
+from typing import Callable, ClassVar, Iterable, Iterator, Optional, Protocol, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -138,7 +138,7 @@ class MessageKind:
     def __int__(self) -> int: ...
 
 class Message:
-    """A limit that a step reached. Valid during the call."""
+    """A limit that a step reached."""
 
     @property
     def kind(self) -> MessageKind: ...
@@ -162,7 +162,7 @@ class Settings:
     patches: bool
     points: bool
     on_message: Optional[Callable[[Message], None]]
-    """called for each limit that a step reached; the report has the same as flags and counts. It must not use the world"""
+    """called for each limit that a step reached; the report has the same as flags and counts. The world refuses its calls; what it raises comes out of detect(), after the step"""
     def __init__(
         self,
         *,
@@ -574,8 +574,8 @@ class World:
     def set_settings(self, settings: Settings) -> None: ...
     def add_body(
         self,
-        positions: npt.NDArray[np.floating],
-        facets: npt.NDArray[np.integer],
+        positions: npt.ArrayLike,
+        facets: npt.ArrayLike,
         *,
         surface: Surface = ...,
         motion: Motion = ...,
@@ -589,16 +589,16 @@ class World:
         """adds a body; copies its mesh and groups the facets into clusters. Positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside"""
     def remove_body(self, body: BodyId) -> None: ...
     @overload
-    def set_positions(self, body: BodyId, positions: npt.NDArray[np.floating]) -> None: ...
+    def set_positions(self, body: BodyId, positions: npt.ArrayLike) -> None: ...
     @overload
-    def set_positions(self, positions: dict[BodyId, npt.NDArray[np.floating]]) -> None: ...
+    def set_positions(self, positions: dict[BodyId, npt.ArrayLike]) -> None: ...
     def set_pose(self, body: BodyId, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> None:
         """places a rigid body: a vertex added at p stands at rotation * p + translation. (3, 3), and (3,) metres"""
     @overload
     def set_poses(self, poses: dict[BodyId, tuple[npt.ArrayLike, npt.ArrayLike]]) -> None:
         """places many rigid bodies in parallel, all or none"""
     @overload
-    def set_poses(self, bodies: Sequence[BodyId], rotations: npt.ArrayLike, translations: npt.ArrayLike) -> None:
+    def set_poses(self, bodies: Iterable[BodyId], rotations: npt.ArrayLike, translations: npt.ArrayLike) -> None:
         """places many rigid bodies in parallel, all or none"""
     def set_layers(self, body: BodyId, layer: int, mask: int) -> None: ...
     def set_group(self, body: BodyId, group: int) -> None:
@@ -612,8 +612,8 @@ class World:
         """finds what meets between the positions of the last detect() and the current ones, every vertex moving straight"""
     def cast_rays(
         self,
-        from_: npt.NDArray[np.floating],
-        to: npt.NDArray[np.floating],
+        from_: npt.ArrayLike,
+        to: npt.ArrayLike,
         *,
         any: bool = False,
         layer: int = 0xFFFFFFFF,
@@ -631,7 +631,7 @@ class World:
         """all facets that a ray meets, sorted by fraction, body and facet"""
     def closest_points(
         self,
-        points: npt.NDArray[np.floating],
+        points: npt.ArrayLike,
         *,
         within: float = ...,
         layer: int = 0xFFFFFFFF,
@@ -653,15 +653,15 @@ class World:
         """the closed bodies that contain a point or have it on their surface, decided exactly; ignores `within`"""
     def overlap_boxes(
         self,
-        lower: npt.NDArray[np.floating],
-        upper: npt.NDArray[np.floating],
+        lower: npt.ArrayLike,
+        upper: npt.ArrayLike,
         *,
         layer: int = 0xFFFFFFFF,
         mask: int = 0xFFFFFFFF,
     ) -> list[npt.NDArray[np.int64]]:
         """finds the facets in many boxes in parallel. (N, 3) both; an array a box"""
     def bodies_containing_each(
-        self, points: npt.NDArray[np.floating], *, layer: int = 0xFFFFFFFF, mask: int = 0xFFFFFFFF
+        self, points: npt.ArrayLike, *, layer: int = 0xFFFFFFFF, mask: int = 0xFFFFFFFF
     ) -> list[list[BodyId]]:
         """finds the bodies that contain many points in parallel. (N, 3); a list a point"""
     def contains(self, body: BodyId) -> bool: ...
@@ -695,7 +695,7 @@ class World:
     def stop_recording(self) -> None:
         """closes the file; OSError if it does not hold all"""
     def debug_draw(self, report: Report, drawer: _DebugDrawer, options: DebugDrawOptions = ...) -> None:
-        """draws a report of this world"""
+        """draws a report of this world, which the drawer can read and not change"""
     def __len__(self) -> int: ...
 
 class WeldedMesh:
