@@ -10,6 +10,7 @@
 #include <tact/queries.h>
 #include <tact/recording.h>
 #include <tact/report.h>
+#include <tact/report_arrays.h>
 #include <tact/settings.h>
 #include <tact/statistics.h>
 #include <tact/version.h>
