@@ -10,5 +10,7 @@ PYBIND11_MODULE(_tact, module) {
   tact::python::define_types(module);
   tact::python::define_report(module);
   tact::python::define_motion(module);
+  tact::python::define_solver(module);
+  tact::python::define_rotations(module);
   tact::python::define_world(module);
 }

@@ -287,6 +287,7 @@ void define_world(py::module_& module) {
       .def("__repr__", [](SharedWorld& world) {
         return "<tact.World of " + std::to_string(world.use().body_count()) + " bodies>";
       });
+  define_contact_sums(module, class_of_world);
   define_queries(module, class_of_world);
   define_recording(module, class_of_world);
   define_debug_draw(module, class_of_world);
