@@ -19,6 +19,7 @@ for test in faults call_sequences; do
   TACT_LONG_SEED=$(date +%Y%m%d) TACT_LONG_SECONDS=900 build/release/tests/long/test_${test}_long
 done
 TACT_LONG_SEED=$(date +%Y%m%d) TACT_LONG_FAULTS_LEFT_OUT=0 TACT_LONG_SECONDS=300 build/release/tests/long/test_faults_long
+TACT_LONG_STENCILS=100000 build/release/tests/long/test_solver_long
 TACT_SOAK_STEPS=1000000 build/release/tests/long/test_soak_long
 TACT_LONG_SCENES_FULL=1 build/release/tests/long/test_scenes_long
 TACT_PRINTED_IN_FULL=1 build/release/tests/test_scenes --gtest_filter='PrintedCommands.*'

@@ -27,7 +27,7 @@ packages_of() {
     python) echo pybind11-dev python3-dev python3-numpy python3-pip python3-setuptools python3-venv python3-wheel ;;
     program) echo g++ cmake ninja-build libeigen3-dev libembree-dev \
                   libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev zlib1g-dev libfreetype-dev fonts-dejavu-core webp ;;
-    tests) echo libgtest-dev libcgal-dev librapidcheck-dev pybind11-dev python3-dev python3-numpy python3-pytest python3-matplotlib ;;
+    tests) echo libgtest-dev libcgal-dev libboost-dev librapidcheck-dev pybind11-dev python3-dev python3-numpy python3-pytest python3-matplotlib python3-scipy ;;
     bullet) echo libbullet-dev pkg-config ;;
     docs) echo doxygen mkdocs mkdocs-material ;;
     bench) echo libcgal-dev libtbb-dev libfcl-dev libccd-dev libbullet-dev pkg-config gnuplot-nox ;;

@@ -34,7 +34,8 @@ void check_rotation(const Eigen::Matrix3d& r, const std::string& name) {
       const double product = (r(i, 0) * r(k, 0) + r(i, 1) * r(k, 1)) + r(i, 2) * r(k, 2);
       if (std::abs(product - (i == k ? 1.0 : 0.0)) <= kLargestSkew) continue;
       refuse("rows " + std::to_string(i) + " and " + std::to_string(k) + " have the scalar product " +
-             base::text_of(product));
+             base::text_of(product) +
+             "; nearest_rotation() takes what floats leave of one, and a scale belongs into the rest shape");
     }
   }
   const double determinant = r(0, 0) * (r(1, 1) * r(2, 2) - r(1, 2) * r(2, 1)) -

@@ -93,8 +93,9 @@ Sentences sentences_in(const std::string& header, const std::string& before, con
 
 Sentences sentences_of_cpp() {
   Sentences all;
-  for (const char* header : {"body", "contact_point", "debug_draw", "message", "motion", "queries", "recording",
-                             "report", "settings", "surface_check", "weld", "world"})
+  for (const char* header : {"body", "contact_point", "contact_sums", "debug_draw", "message", "motion", "queries",
+                             "recording", "report", "report_arrays", "settings", "solver/stencil", "surface_check",
+                             "weld", "world"})
     all.merge(sentences_in(text_of("engine/include/tact/" + std::string(header) + ".h"), "/// ", "///< "));
   for (const char* header : {"error", "facet_pair", "feature_pair"})
     all.merge(sentences_in(text_of("engine/base/include/tact/" + std::string(header) + ".h"), "/// ", "///< "));
@@ -164,6 +165,14 @@ constexpr Twin kTwins[] = {
     {"CandidatePair", "tact_candidate_pair", ""},
     {"ContactEvent", "tact_contact_event", ""},
     {"PatchEvent", "tact_patch_event", ""},
+    {"VertexOfBody", "tact_vertex_of_body", ""},
+    {"PointImpulse", "tact_point_impulse", ""},
+    {"ContactSum", "tact_contact_sum", ""},
+    {"PointArrays", "tact_point_arrays", ""},
+    {"FacetPairArrays", "tact_facet_pair_arrays", ""},
+    {"ImpactArrays", "tact_impact_arrays", ""},
+    {"StencilKind", "tact_stencil_kind", "TACT_STENCIL_"},
+    {"Stencil", "tact_stencil", ""},
     {"Impact", "tact_impact", ""},
     {"ImpactPair", "tact_impact_pair", ""},
     {"MotionStats", "tact_motion_statistics", ""},
@@ -282,10 +291,9 @@ Sentences sentences_of_stubs() {
 
 TEST(TwinSentences, OfPython) {
   // A row an answer, under the plural of the name that one answer has.
-  const std::map<std::string, std::string> rows{{"ContactPoints", "ContactPoint"},
-                                                {"RayHits", "RayHit"},
-                                                {"ClosestPoints", "ClosestPoint"},
-                                                {"MotionReport", "Impact"}};
+  const std::map<std::string, std::string> rows{{"ContactPoints", "ContactPoint"}, {"RayHits", "RayHit"},
+                                                {"ClosestPoints", "ClosestPoint"}, {"Stencils", "Stencil"},
+                                                {"ContactSums", "ContactSum"},     {"MotionReport", "Impact"}};
   // What has another meaning in Python, which has arrays where C++ has structs.
   const std::set<std::string> others{"RayHits",
                                      "RayHits::bodies",
@@ -294,7 +302,8 @@ TEST(TwinSentences, OfPython) {
                                      "ClosestPoints::facets",
                                      "MotionReport::bodies",
                                      "MotionReport::kinds",
-                                     "ContactPoints::kinds"};
+                                     "ContactPoints::kinds",
+                                     "Stencils::kinds"};
   const Sentences cpp = sentences_of_cpp(), python = sentences_of_stubs();
   int compared = 0;
   for (const auto& [name, sentence] : python) {

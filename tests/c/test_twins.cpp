@@ -123,6 +123,14 @@ TEST(TwinsInC, OfEachField) {
   expect_twins_of_fields("queries.h", "struct ClosestPoint {", "tact_closest_point", {});
   expect_twins_of_fields("queries.h", "struct BoxQuery {", "tact_box_query", {"filter"});
   expect_twins_of_fields("queries.h", "struct FacetOfBody {", "tact_facet_of_body", {});
+  for (const auto& [type, twin] : {std::pair("PointArrays", "tact_point_arrays"),
+                                   {"FacetPairArrays", "tact_facet_pair_arrays"},
+                                   {"ImpactArrays", "tact_impact_arrays"}})
+    expect_twins_of_fields("report_arrays.h", "struct " + std::string(type) + " {", twin, {});
+  expect_twins_of_fields("contact_sums.h", "struct ContactSum {", "tact_contact_sum", {"vertices"});
+  expect_twins_of_fields("contact_sums.h", "struct PointImpulse {", "tact_point_impulse", {});
+  expect_twins_of_fields("contact_sums.h", "struct VertexOfBody {", "tact_vertex_of_body", {});
+  expect_twins_of_fields("solver/stencil.h", "struct Stencil {", "tact_stencil", {});
   expect_twins_of_fields("motion.h", "struct Impact {", "tact_impact", {});
   expect_twins_of_fields("motion.h", "struct ImpactPair {", "tact_impact_pair", {});
   expect_twins_of_fields("motion.h", "struct MotionStats {", "tact_motion_statistics", {});

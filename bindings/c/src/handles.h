@@ -123,6 +123,28 @@ tact_error reading(tact_world world, const Work& work) noexcept {
   });
 }
 
+inline const Report& report_of(const WorldEntry& entry) {
+  if (entry.report == nullptr)
+    throw Failure{TACT_ERROR_WRONG_ORDER, "there is no report: no step since the world or its settings were made"};
+  return *entry.report;
+}
+
+// Calls work(report) with the report of the last step.
+template <class Work>
+tact_error with_report(tact_world world, const Work& work) noexcept {
+  return reading(world, [&](const WorldEntry& entry) { work(report_of(entry)); });
+}
+
+// Calls work(report) with what the last call of tact_world_detect_motion() found.
+template <class Work>
+tact_error with_motion(tact_world world, const Work& work) noexcept {
+  return reading(world, [&](const WorldEntry& entry) {
+    if (entry.motion == nullptr)
+      throw Failure{TACT_ERROR_WRONG_ORDER, "tact_world_detect_motion() was not called, or failed"};
+    work(*entry.motion);
+  });
+}
+
 // Version 0.1 is the first: no struct is smaller than it was there.
 template <class Struct>
 void check_struct_size(const Struct& given) {

@@ -11,16 +11,6 @@ static_assert(std::is_standard_layout_v<Impact> && sizeof(tact_impact) == sizeof
               offsetof(tact_impact, time) == offsetof(Impact, time) &&
               offsetof(tact_impact, b_vertices) == offsetof(Impact, b_vertices));
 
-// Calls work(report) with what the last call of tact_world_detect_motion() found.
-template <class Work>
-tact_error with_motion(tact_world world, const Work& work) noexcept {
-  return reading(world, [&](const WorldEntry& entry) {
-    if (entry.motion == nullptr)
-      throw Failure{TACT_ERROR_WRONG_ORDER, "tact_world_detect_motion() was not called, or failed"};
-    work(*entry.motion);
-  });
-}
-
 }  // namespace
 }  // namespace tact::c
 

@@ -24,16 +24,6 @@ static_assert(std::is_standard_layout_v<ContactPoint> && sizeof(tact_contact_poi
               offsetof(tact_contact_point, normal) == offsetof(ContactPoint, normal) &&
               offsetof(tact_contact_point, id) == offsetof(ContactPoint, id));
 
-// Calls work(report) with the report of the last step.
-template <class Work>
-tact_error with_report(tact_world world, const Work& work) noexcept {
-  return reading(world, [&](const WorldEntry& entry) {
-    if (entry.report == nullptr)
-      throw Failure{TACT_ERROR_WRONG_ORDER, "there is no report: no step since the world or its settings were made"};
-    work(*entry.report);
-  });
-}
-
 void put(const Eigen::Vector3d& from, double* to) { std::copy_n(from.data(), 3, to); }
 
 tact_zone_disk disk_of(const ZoneDisk& disk) {

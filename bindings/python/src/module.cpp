@@ -26,6 +26,8 @@ PYBIND11_MODULE(_tact, module) {
   tact::python::define_types(module);
   tact::python::define_report(module);
   tact::python::define_motion(module);
+  tact::python::define_solver(module);
+  tact::python::define_rotations(module);
   tact::python::define_world(module);
   tact::python::define_weld(module);
   refuse_unmade_objects(module);

@@ -1,7 +1,9 @@
 #include <pybind11/stl.h>
 #include <tact/report.h>
+#include <tact/report_arrays.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -156,6 +158,93 @@ void define_points(py::module_& module) {
       .def("__len__", [](const PointArrays& points) { return points.gaps.size(); });
 }
 
+// The points and facet pairs of a whole report. They are copies.
+struct AllPoints {
+  py::array_t<std::int64_t> bodies;
+  py::array_t<int> contacts;
+  py::array_t<std::uint8_t> kinds;
+  py::array_t<int> a_vertices, b_vertices;
+  py::array_t<double> a_weights, b_weights, normals, gaps;
+  py::array_t<std::uint64_t> ids, patch_ids;
+};
+struct AllFacetPairs {
+  py::array_t<std::int64_t> bodies;
+  py::array_t<int> contacts, facets;
+};
+
+template <class Number>
+std::span<Number> all_of(py::array_t<Number>& array) {
+  return {array.mutable_data(), static_cast<std::size_t>(array.size())};
+}
+
+template <class... Arrays>
+void protect(Arrays&... arrays) {
+  (arrays.attr("setflags")(py::arg("write") = false), ...);
+}
+
+// Indices of bodies are of 64 bits in Python, so that differences and -1 have their meaning.
+void widen(std::span<const std::uint32_t> from, std::span<std::int64_t> to) { std::ranges::copy(from, to.begin()); }
+
+AllPoints all_points(const ReportHandle& report) {
+  const std::size_t count = point_count(*report);
+  const auto n = static_cast<py::ssize_t>(count);
+  const std::array<py::ssize_t, 2> two{n, 2}, three{n, 3};
+  std::vector<std::uint32_t> bodies(2 * count);
+  AllPoints all{py::array_t<std::int64_t>(two), py::array_t<int>(n),          py::array_t<std::uint8_t>(n),
+                py::array_t<int>(three),        py::array_t<int>(three),      py::array_t<double>(three),
+                py::array_t<double>(three),     py::array_t<double>(three),   py::array_t<double>(n),
+                py::array_t<std::uint64_t>(n),  py::array_t<std::uint64_t>(n)};
+  copy_points(*report, {.bodies = bodies,
+                        .contacts = all_of(all.contacts),
+                        .kinds = all_of(all.kinds),
+                        .a_vertices = all_of(all.a_vertices),
+                        .b_vertices = all_of(all.b_vertices),
+                        .a_weights = all_of(all.a_weights),
+                        .b_weights = all_of(all.b_weights),
+                        .normals = all_of(all.normals),
+                        .gaps = all_of(all.gaps),
+                        .ids = all_of(all.ids),
+                        .patch_ids = all_of(all.patch_ids)});
+  widen(bodies, all_of(all.bodies));
+  protect(all.bodies, all.contacts, all.kinds, all.a_vertices, all.b_vertices, all.a_weights, all.b_weights,
+          all.normals, all.gaps, all.ids, all.patch_ids);
+  return all;
+}
+
+AllFacetPairs all_facet_pairs(const ReportHandle& report) {
+  const std::size_t count = facet_pair_count(*report);
+  const auto n = static_cast<py::ssize_t>(count);
+  const std::array<py::ssize_t, 2> two{n, 2};
+  std::vector<std::uint32_t> bodies(2 * count);
+  AllFacetPairs all{py::array_t<std::int64_t>(two), py::array_t<int>(n), py::array_t<int>(two)};
+  copy_facet_pairs(*report, {.bodies = bodies, .contacts = all_of(all.contacts), .facets = all_of(all.facets)});
+  widen(bodies, all_of(all.bodies));
+  protect(all.bodies, all.contacts, all.facets);
+  return all;
+}
+
+void define_arrays_of_report(py::module_& module) {
+  py::class_<AllPoints>(module, "PointArrays", "Arrays for the contact points of a whole report. A row a point.")
+      .def_readonly("bodies", &AllPoints::bodies, "(N, 2) int64: the index of body a and of body b, 2 a point")
+      .def_readonly("contacts", &AllPoints::contacts, "(N,): the number of its contact, counted from 0")
+      .def_readonly("kinds", &AllPoints::kinds, "(N,) uint8: which features these are, as numbers")
+      .def_readonly("a_vertices", &AllPoints::a_vertices, "(N, 3): vertices of a, 3 a point; -1 fills up")
+      .def_readonly("b_vertices", &AllPoints::b_vertices, "(N, 3): vertices of b, 3 a point; -1 fills up")
+      .def_readonly("a_weights", &AllPoints::a_weights, "(N, 3): weights of the vertices of a, 3 a point")
+      .def_readonly("b_weights", &AllPoints::b_weights, "(N, 3): weights of the vertices of b, 3 a point")
+      .def_readonly("normals", &AllPoints::normals, "(N, 3): unit vectors from a to b, 3 a point")
+      .def_readonly("gaps", &AllPoints::gaps, "(N,): metres; negative where the surfaces have crossed")
+      .def_readonly("ids", &AllPoints::ids, "(N,) uint64: the same in every step in which these features are near")
+      .def_readonly("patch_ids", &AllPoints::patch_ids,
+                    "(N,) uint64: ids of the patches, or 0 where patches are not requested")
+      .def("__len__", [](const AllPoints& points) { return points.gaps.size(); });
+  py::class_<AllFacetPairs>(module, "FacetPairArrays", "Arrays for the facet pairs of a whole report. A row a pair.")
+      .def_readonly("bodies", &AllFacetPairs::bodies, "(N, 2) int64: the index of body a and of body b, 2 a pair")
+      .def_readonly("contacts", &AllFacetPairs::contacts, "(N,): the number of its contact, counted from 0")
+      .def_readonly("facets", &AllFacetPairs::facets, "(N, 2): the facet of a and that of b, 2 a pair")
+      .def("__len__", [](const AllFacetPairs& pairs) { return pairs.contacts.size(); });
+}
+
 void define_contact(py::module_& module) {
   py::class_<ContactHandle>(module, "Contact",
                             "Two bodies whose convex hulls overlap or touch, decided exactly, or are nearer than the "
@@ -236,6 +325,7 @@ void define_report(py::module_& module) {
   define_parts(module);
   define_points(module);
   define_contact(module);
+  define_arrays_of_report(module);
   py::class_<ReportHandle>(
       module, "Report", "What World.detect() found. It is valid until the next step; arrays that it gives stay valid.")
       .def_property_readonly("contacts", contacts_of, "the contacts, sorted by (a, b)")
@@ -263,6 +353,8 @@ void define_report(py::module_& module) {
             return column_of<double>(report->contacts(), [](const Contact& contact) { return contact.depth; });
           },
           "(C,): the depth of each contact, metres")
+      .def_property_readonly("points", all_points, "the points of all contacts, in their order")
+      .def_property_readonly("facet_pairs", all_facet_pairs, "the facet pairs of all contacts, in their order")
       .def_property_readonly("candidate_pairs", candidates_of, "the pairs whose boxes overlap, sorted by (a, b)")
       .def_property_readonly(
           "began", [](const ReportHandle& report) { return events_of(report->began()); },

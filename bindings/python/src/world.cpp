@@ -286,6 +286,7 @@ void define_world(py::module_& module) {
       .def("__repr__", [](SharedWorld& world) {
         return "<tact.World of " + std::to_string(world.read().body_count()) + " bodies>";
       });
+  define_contact_sums(module, class_of_world);
   define_queries(module, class_of_world);
   define_surface_check(module, class_of_world);
   define_recording(module, class_of_world);

@@ -338,6 +338,114 @@ class Contact:
     def patches(self) -> list[Patch]:
         """the patches, if Settings.patches is set; sorted by first facet pair, then by first point"""
 
+class PointArrays:
+    """Arrays for the contact points of a whole report. A row a point."""
+
+    @property
+    def bodies(self) -> npt.NDArray[np.int64]:
+        """(N, 2): the index of body a and of body b, 2 a point"""
+    @property
+    def contacts(self) -> Ints:
+        """(N,): the number of its contact, counted from 0"""
+    @property
+    def kinds(self) -> npt.NDArray[np.uint8]:
+        """(N,): which features these are, as numbers"""
+    @property
+    def a_vertices(self) -> Ints:
+        """(N, 3): vertices of a, 3 a point; -1 fills up"""
+    @property
+    def b_vertices(self) -> Ints:
+        """(N, 3): vertices of b, 3 a point; -1 fills up"""
+    @property
+    def a_weights(self) -> Floats:
+        """(N, 3): weights of the vertices of a, 3 a point"""
+    @property
+    def b_weights(self) -> Floats:
+        """(N, 3): weights of the vertices of b, 3 a point"""
+    @property
+    def normals(self) -> Floats:
+        """(N, 3): unit vectors from a to b, 3 a point"""
+    @property
+    def gaps(self) -> Floats:
+        """(N,): metres; negative where the surfaces have crossed"""
+    @property
+    def ids(self) -> npt.NDArray[np.uint64]:
+        """(N,): the same in every step in which these features are near"""
+    @property
+    def patch_ids(self) -> npt.NDArray[np.uint64]:
+        """(N,): ids of the patches, or 0 where patches are not requested"""
+    def __len__(self) -> int: ...
+
+class FacetPairArrays:
+    """Arrays for the facet pairs of a whole report. A row a pair."""
+
+    @property
+    def bodies(self) -> npt.NDArray[np.int64]:
+        """(N, 2): the index of body a and of body b, 2 a pair"""
+    @property
+    def contacts(self) -> Ints:
+        """(N,): the number of its contact, counted from 0"""
+    @property
+    def facets(self) -> Ints:
+        """(N, 2): the facet of a and that of b, 2 a pair"""
+    def __len__(self) -> int: ...
+
+class StencilKind:
+    """The features that a stencil joins, in the order of its vertices."""
+
+    point_point: ClassVar[StencilKind]
+    point_edge: ClassVar[StencilKind]
+    point_facet: ClassVar[StencilKind]
+    edge_edge: ClassVar[StencilKind]
+    name: str
+    value: int
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+
+class Stencils:
+    """The vertices of a contact point and how it depends on them. A row a stencil; of tact/solver.h."""
+
+    @property
+    def kinds(self) -> npt.NDArray[np.uint8]:
+        """(N,): values of StencilKind"""
+    @property
+    def vertices(self) -> Ints:
+        """(N, 4): rows of the program's system; -1 fills up"""
+    @property
+    def weights(self) -> Floats:
+        """(N, 4): weights of the vertices, those of body a negative: the weighted sum of positions leads from a to b"""
+    @property
+    def normals(self) -> Floats:
+        """(N, 3): unit vector from a to b"""
+    @property
+    def gaps(self) -> Floats:
+        """(N,): metres; negative where the surfaces have crossed"""
+    @property
+    def ids(self) -> npt.NDArray[np.uint64]:
+        """(N,): that of the contact point"""
+    def evaluate_gaps(self, positions: npt.NDArray[np.floating]) -> tuple[Floats, Floats, Floats]:
+        """the gaps at positions (V, 3): values (N,), gradients (N, 4, 3), Hessians (N, 12, 12)"""
+    def barriers(
+        self, positions: npt.NDArray[np.floating], reach: float, *, rest: Optional[npt.NDArray[np.floating]] = None
+    ) -> tuple[Floats, Floats, Floats]:
+        """the barriers of gaps below `reach` metres; `rest` (V, 3) for the mollifier of nearly parallel edges. Hessians are positive semidefinite"""
+    def penalties(self, positions: npt.NDArray[np.floating], reach: float) -> tuple[Floats, Floats, Floats]:
+        """the penalties of gaps below `reach` metres"""
+    def friction(
+        self, moved: npt.NDArray[np.floating], limits: npt.ArrayLike, smoothing: float
+    ) -> tuple[Floats, Floats, Floats]:
+        """the potentials of friction for the ways `moved` (V, 3) of vertices, of at most `limits` (N,) newtons"""
+    def colors(self, moving: int) -> Ints:
+        """(N,): stencils of one colour share no vertex below `moving`"""
+    def effective_masses(self, inverse_masses: npt.ArrayLike) -> Floats:
+        """(N,): the mass that resists a push at the point, kg; infinity if no vertex moves"""
+    def add_gradients(self, gradients: Floats, moving: int) -> Floats:
+        """(moving, 3): the sum of gradients for each vertex below `moving`"""
+    def triplets(self, hessians: Floats, moving: int) -> tuple[Ints, Ints, Floats]:
+        """rows, columns and values of Hessians between vertices below `moving`: for scipy.sparse.coo_matrix"""
+    def __len__(self) -> int: ...
+
 class Report:
     """What World.detect() found. It is valid until the next step; arrays that it gives stay valid."""
 
@@ -354,6 +462,14 @@ class Report:
     @property
     def depths(self) -> Floats:
         """(C,): the depth of each contact, metres"""
+    @property
+    def points(self) -> PointArrays:
+        """the points of all contacts, in their order"""
+    @property
+    def facet_pairs(self) -> FacetPairArrays:
+        """the facet pairs of all contacts, in their order"""
+    def stencils(self, first_rows: dict[BodyId, int]) -> Stencils:
+        """the stencils of all points; `first_rows` has the row of each body's first vertex in the program's system"""
     @property
     def candidate_pairs(self) -> list[tuple[BodyId, BodyId, bool]]:
         """the pairs whose boxes overlap, sorted by (a, b)"""
@@ -565,6 +681,68 @@ class SurfaceCheck:
     def is_clean(self) -> bool:
         """whether every list of faults is empty; borders are none, nor are unused vertices"""
 
+class SumKind:
+    """What a sum is over."""
+
+    contact: ClassVar[SumKind]
+    patch: ClassVar[SumKind]
+    body: ClassVar[SumKind]
+    name: str
+    value: int
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+
+class ContactSums:
+    """The sum over the points of a contact, a patch or a body. A row a sum."""
+
+    @property
+    def kinds(self) -> npt.NDArray[np.uint8]:
+        """(N,): values of SumKind"""
+    @property
+    def bodies(self) -> npt.NDArray[np.int64]:
+        """(N, 2): BodyId.index of a and b; -1 for no body"""
+    @property
+    def patches(self) -> npt.NDArray[np.uint64]:
+        """(N,): the id of the patch, or 0"""
+    @property
+    def points(self) -> Ints:
+        """(N,): the number of contact points"""
+    @property
+    def areas(self) -> Floats:
+        """(N,): the areas of the patches, square metres; 0 where Settings.patches is not set"""
+    @property
+    def deepest_gaps(self) -> Floats:
+        """(N,): the smallest gap, metres; infinity without points"""
+    @property
+    def mean_gaps(self) -> Floats:
+        """(N,): metres"""
+    @property
+    def centers(self) -> Floats:
+        """(N, 3): the mean place of its points, metres"""
+    @property
+    def normals(self) -> Floats:
+        """(N, 3): the mean of the normals towards `b`, or towards the body of a sum over a body; shorter than 1 where they differ"""
+    @property
+    def forces(self) -> Floats:
+        """(N, 3): the sum of the impulses on `b`, or on the body"""
+    @property
+    def torques(self) -> Floats:
+        """(N, 3): their moment about `center`"""
+    @property
+    def first_vertices(self) -> npt.NDArray[np.int64]:
+        """(N + 1,): where the vertices of each sum begin in `vertices`, and the end"""
+    @property
+    def vertices(self) -> npt.NDArray[np.int64]:
+        """(M, 2): BodyId.index and vertex, of each sum each once, in order"""
+    def __len__(self) -> int: ...
+
+def nearest_rotation(matrix: npt.ArrayLike) -> Floats:
+    """(3, 3) or (N, 3, 3): the rotation nearest to a matrix that is orthonormal to 1e-5"""
+
+def rotation_of_quaternion(quaternion: npt.ArrayLike) -> Floats:
+    """(3, 3) or (N, 3, 3) of (4,) or (N, 4): the rotation of a quaternion x, y, z, w"""
+
 class World:
     """A set of bodies and the contacts among them."""
 
@@ -610,6 +788,10 @@ class World:
     def detect(self) -> Report: ...
     def detect_motion(self, wanted: Impacts = ...) -> MotionReport:
         """finds what meets between the positions of the last detect() and the current ones, every vertex moving straight"""
+    def sum_contacts(
+        self, report: Report, ids: npt.NDArray[np.uint64] = ..., impulses: npt.NDArray[np.floating] = ...
+    ) -> ContactSums:
+        """adds up the points of a world's last report, at the current positions. `ids` (N,) and `impulses` (N, 3) are of points"""
     def cast_rays(
         self,
         from_: npt.ArrayLike,

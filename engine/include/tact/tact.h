@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tact/body.h>
+#include <tact/contact_sums.h>
 #include <tact/debug_draw.h>
 #include <tact/error.h>
 #include <tact/executor.h>
@@ -10,6 +11,8 @@
 #include <tact/queries.h>
 #include <tact/recording.h>
 #include <tact/report.h>
+#include <tact/report_arrays.h>
+#include <tact/rotation.h>
 #include <tact/settings.h>
 #include <tact/statistics.h>
 #include <tact/surface_check.h>

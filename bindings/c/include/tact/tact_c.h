@@ -232,6 +232,11 @@ TACT_C_API tact_error tact_world_set_pose(tact_world world, tact_body body, cons
                                           const double* translation);
 /** Places many rigid bodies in parallel, all or none. */
 TACT_C_API tact_error tact_world_set_poses(tact_world world, const tact_pose_update* updates, size_t count);
+/** Gives the rotation nearest to a matrix that is orthonormal to 1e-5. Both have 9 numbers, row by row. See
+ * tact/rotation.h. */
+TACT_C_API tact_error tact_nearest_rotation(const double* matrix, double* rotation);
+/** Gives the rotation of a quaternion x, y, z, w whose length is 1 to 1e-5. `rotation` gets 9 numbers, row by row. */
+TACT_C_API tact_error tact_rotation_of_quaternion(const double* quaternion, double* rotation);
 /** Sets the layers of a body and those that it is tested against. */
 TACT_C_API tact_error tact_world_set_layers(tact_world world, tact_body body, uint32_t layer, uint32_t mask);
 /** Sets the group of a body. */
@@ -556,6 +561,101 @@ TACT_C_API tact_error tact_report_trace_event(tact_world world, size_t index, ta
 /** Gives a number made from every bit of candidate pairs, contacts, facet pairs and points. */
 TACT_C_API tact_error tact_report_hash(tact_world world, uint64_t* hash);
 
+/** Arrays for the contact points of a whole report. A null one is left out. */
+typedef struct tact_point_arrays {
+  uint32_t struct_size;
+  uint32_t* bodies;    /**< the index of body a and of body b, 2 a point */
+  int* contacts;       /**< the number of its contact, counted from 0 */
+  uint8_t* kinds;      /**< which features these are, as numbers */
+  int* a_vertices;     /**< vertices of a, 3 a point; -1 fills up */
+  int* b_vertices;     /**< vertices of b, 3 a point; -1 fills up */
+  double* a_weights;   /**< weights of the vertices of a, 3 a point */
+  double* b_weights;   /**< weights of the vertices of b, 3 a point */
+  double* normals;     /**< unit vectors from a to b, 3 a point */
+  double* gaps;        /**< metres; negative where the surfaces have crossed */
+  uint64_t* ids;       /**< the same in every step in which these features are near */
+  uint64_t* patch_ids; /**< ids of the patches, or 0 where patches are not requested */
+} tact_point_arrays;
+#define TACT_POINT_ARRAYS_INIT \
+  { (uint32_t)sizeof(tact_point_arrays), NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL }
+
+/** Arrays for the facet pairs of a whole report. A null one is left out. */
+typedef struct tact_facet_pair_arrays {
+  uint32_t struct_size;
+  uint32_t* bodies; /**< the index of body a and of body b, 2 a pair */
+  int* contacts;    /**< the number of its contact, counted from 0 */
+  int* facets;      /**< the facet of a and that of b, 2 a pair */
+} tact_facet_pair_arrays;
+#define TACT_FACET_PAIR_ARRAYS_INIT \
+  { (uint32_t)sizeof(tact_facet_pair_arrays), NULL, NULL, NULL }
+
+/** Gives the number of contact points of all contacts. */
+TACT_C_API tact_error tact_report_point_count(tact_world world, size_t* count);
+/** Gives the number of facet pairs of all contacts. */
+TACT_C_API tact_error tact_report_facet_pair_count(tact_world world, size_t* count);
+/** Fills arrays with the points of all contacts, in their order. `rows` is the number of points that they have room
+ * for: tact_report_point_count(). */
+TACT_C_API tact_error tact_report_copy_points(tact_world world, const tact_point_arrays* arrays, size_t rows);
+/** Fills arrays with the facet pairs of all contacts, in their order. `rows` is tact_report_facet_pair_count(). */
+TACT_C_API tact_error tact_report_copy_facet_pairs(tact_world world, const tact_facet_pair_arrays* arrays, size_t rows);
+
+/** A vertex of a body. */
+typedef struct tact_vertex_of_body {
+  tact_body body; /**< the body of the vertex */
+  int vertex;     /**< counted from 0 */
+} tact_vertex_of_body;
+
+/** What a solver did at a contact point: an impulse in N s, or a force in N. */
+typedef struct tact_point_impulse {
+  uint64_t id;       /**< tact_contact_point.id */
+  double impulse[3]; /**< on b; a has the opposite */
+} tact_point_impulse;
+
+/** What a sum is over. */
+typedef enum tact_sum_kind {
+  TACT_SUM_CONTACT = 0, /**< two bodies, or one with itself */
+  TACT_SUM_PATCH = 1,   /**< a patch of the contact before it */
+  TACT_SUM_BODY = 2     /**< all contacts of `a`; `b` is no body */
+} tact_sum_kind;
+
+/** The sum over the points of a contact, a patch or a body. */
+typedef struct tact_contact_sum {
+  int32_t kind;       /**< tact_sum_kind */
+  tact_body a;        /**< the first body */
+  tact_body b;        /**< the second body, which `normal` and `force` push */
+  uint64_t patch;     /**< the id of the patch, or 0 */
+  int points;         /**< the number of contact points */
+  double area;        /**< the areas of the patches, square metres; 0 where tact_settings.patches is not set */
+  double deepest_gap; /**< the smallest gap, metres; infinity without points */
+  double mean_gap;    /**< metres */
+  double center[3];   /**< the mean place of its points, metres */
+  double normal[3];   /**< the mean of the normals towards `b`, or towards the body of a sum over a body; shorter than 1
+                         where they differ */
+  double force[3];    /**< the sum of the impulses on `b`, or on the body */
+  double torque[3];   /**< their moment about `center` */
+  size_t first_vertex; /**< where the vertices that its points name begin, each once, in order */
+  size_t vertex_count;
+} tact_contact_sum;
+
+/** Room for what tact_report_sum_contacts() gives, and how much there is. */
+typedef struct tact_contact_sums {
+  uint32_t struct_size;
+  tact_contact_sum* sums; /**< each contact with points, followed by its patches; then the bodies of these, in the order
+                             of their index. May be null */
+  size_t sum_capacity;
+  size_t sum_count;
+  tact_vertex_of_body* vertices; /**< those of all sums. May be null */
+  size_t vertex_capacity;
+  size_t vertex_count;
+} tact_contact_sums;
+#define TACT_CONTACT_SUMS_INIT \
+  { (uint32_t)sizeof(tact_contact_sums), NULL, 0, 0, NULL, 0, 0 }
+
+/** Adds up the points of the last step, at the current positions. Points without an impulse have none; impulses without
+ * a point are left out. */
+TACT_C_API tact_error tact_report_sum_contacts(tact_world world, const tact_point_impulse* impulses, size_t count,
+                                               tact_contact_sums* sums);
+
 /* What tact_world_detect_motion() found; valid until it is called again. */
 
 /** Which impacts tact_world_detect_motion() finds. */
@@ -613,6 +713,74 @@ TACT_C_API tact_error tact_motion_pairs(tact_world world, size_t* count);
 TACT_C_API tact_error tact_motion_pair(tact_world world, size_t index, tact_impact_pair* pair);
 /** Gives counts and times. */
 TACT_C_API tact_error tact_motion_stats(tact_world world, tact_motion_statistics* statistics);
+
+/** Arrays for the impacts of a motion report. A null one is left out. */
+typedef struct tact_impact_arrays {
+  uint32_t struct_size;
+  uint32_t* bodies; /**< the index of body a and of body b, 2 an impact */
+  uint8_t* kinds;   /**< which features meet, as numbers */
+  double* times;    /**< the parts of the way, 0 to 1, at which they first meet */
+  int* a_vertices;  /**< vertices of a, 3 an impact; -1 fills up */
+  int* b_vertices;  /**< vertices of b, 3 an impact; -1 fills up */
+} tact_impact_arrays;
+#define TACT_IMPACT_ARRAYS_INIT \
+  { (uint32_t)sizeof(tact_impact_arrays), NULL, NULL, NULL, NULL, NULL }
+
+/** Fills arrays with the impacts of a motion report, in their order. `rows` is the count that tact_motion_impacts()
+ * gives. */
+TACT_C_API tact_error tact_motion_copy_impacts(tact_world world, const tact_impact_arrays* arrays, size_t rows);
+
+/* For solvers: see tact/solver.h. Positions are 3 numbers a vertex, of all vertices of the program's system. Of the
+ * arrays that are filled, null ones are left out: 1 number a stencil for values, 12 for gradients, 144 for Hessians. */
+
+/** The features that a stencil joins, in the order of its vertices. */
+typedef enum tact_stencil_kind {
+  TACT_STENCIL_POINT_POINT = 0, /**< two vertices */
+  TACT_STENCIL_POINT_EDGE = 1,  /**< a vertex, then two of an edge */
+  TACT_STENCIL_POINT_FACET = 2, /**< a vertex, then three of a facet */
+  TACT_STENCIL_EDGE_EDGE = 3    /**< two of an edge of a, then two of an edge of b */
+} tact_stencil_kind;
+
+/** The vertices of a contact point and how it depends on them. */
+typedef struct tact_stencil {
+  int32_t kind;        /**< tact_stencil_kind */
+  bool b_first;        /**< whether its first vertex is of body b, not of a */
+  int32_t vertices[4]; /**< rows of the program's system; -1 fills up */
+  double weights[4]; /**< weights of the vertices, those of body a negative: the weighted sum of positions leads from a
+                        to b */
+  double normal[3];  /**< unit vector from a to b */
+  double gap;        /**< metres; negative where the surfaces have crossed */
+  uint64_t id;       /**< that of the contact point */
+} tact_stencil;
+
+/** What the functions of many stencils fill. */
+typedef struct tact_terms {
+  double* values;    /**< a number a stencil */
+  double* gradients; /**< 12 numbers a stencil, three a vertex */
+  double* hessians;  /**< 144 numbers a stencil; those of barriers, penalties and friction are positive semidefinite */
+} tact_terms;
+
+/** Gives the stencils of all points of the last step, in its order; vertex v of the body of index i is row
+ * first_rows[i] + v. Writes up to `capacity` of them, and how many there are. */
+TACT_C_API tact_error tact_report_stencils(tact_world world, const int32_t* first_rows, size_t body_count,
+                                           tact_stencil* stencils, size_t capacity, size_t* count);
+/** Gives the gaps of stencils at positions of `vertex_count` vertices, metres. */
+TACT_C_API tact_error tact_stencil_gaps(const tact_stencil* stencils, size_t count, const double* positions,
+                                        size_t vertex_count, tact_terms terms);
+/** Gives the barriers of the gaps below `reach` metres, to be multiplied by a stiffness. `rest` are positions at rest
+ * for the mollifier of nearly parallel edges, or null for none. */
+TACT_C_API tact_error tact_stencil_barriers(const tact_stencil* stencils, size_t count, const double* positions,
+                                            const double* rest, size_t vertex_count, double reach, tact_terms terms);
+/** Gives the penalties of the gaps below `reach` metres, to be multiplied by a stiffness. */
+TACT_C_API tact_error tact_stencil_penalties(const tact_stencil* stencils, size_t count, const double* positions,
+                                             size_t vertex_count, double reach, tact_terms terms);
+/** Gives the potentials of friction for the ways `moved` of the vertices since the step began, with the largest force
+ * of each stencil in `limits`, newtons. Below `smoothing` metres the force grows smoothly. */
+TACT_C_API tact_error tact_stencil_friction(const tact_stencil* stencils, size_t count, const double* moved,
+                                            size_t vertex_count, const double* limits, double smoothing,
+                                            tact_terms terms);
+/** Gives a colour to each stencil; two of one colour share no vertex below `moving`. */
+TACT_C_API tact_error tact_stencil_colors(const tact_stencil* stencils, size_t count, size_t moving, int32_t* colors);
 
 /* Queries to the surfaces where they are now. */
 

@@ -1,0 +1,143 @@
+// What compiles Eigen's decompositions stands here alone: a program that calls none of it does not link it.
+#include <tact/solver.h>
+
+#include "handles.h"
+
+namespace tact::c {
+namespace {
+
+using solver::Corners, solver::Stencil, solver::Term;
+
+tact_stencil for_c(const Stencil& stencil) {
+  tact_stencil result{};
+  result.kind = static_cast<std::int32_t>(stencil.kind);
+  result.b_first = stencil.b_first;
+  std::ranges::copy(stencil.vertices, result.vertices);
+  std::copy_n(stencil.weights.data(), 4, result.weights);
+  std::copy_n(stencil.normal.data(), 3, result.normal);
+  result.gap = stencil.gap;
+  result.id = stencil.id;
+  return result;
+}
+
+// Throws for what no tact_report_stencils() gives, or a vertex that is not below `vertex_count`.
+Stencil from_c(const tact_stencil& given, size_t vertex_count) {
+  if (given.kind < 0 || given.kind > TACT_STENCIL_EDGE_EDGE)
+    throw Failure{TACT_ERROR_INVALID_ARGUMENT, "a stencil has an unknown kind"};
+  Stencil stencil{.kind = static_cast<solver::StencilKind>(given.kind),
+                  .b_first = given.b_first,
+                  .weights = Eigen::Vector4d(given.weights),
+                  .normal = Eigen::Vector3d(given.normal),
+                  .gap = given.gap,
+                  .id = given.id};
+  std::ranges::copy(given.vertices, stencil.vertices.begin());
+  for (int k = 0; k < stencil.size(); ++k) {
+    if (given.vertices[k] < 0 || static_cast<size_t>(given.vertices[k]) >= vertex_count)
+      throw Failure{TACT_ERROR_INDEX_OUT_OF_RANGE, "a stencil has a vertex that is not below the count"};
+  }
+  return stencil;
+}
+
+using Values = Eigen::Map<const Eigen::Matrix3Xd>;
+Values values_of(const double* numbers, size_t vertex_count) {
+  return Values(numbers, 3, static_cast<Eigen::Index>(vertex_count));
+}
+
+// Writes term(stencil, its number) of each stencil; nothing if one of them is refused.
+template <class TermOf>
+void fill(const tact_stencil* stencils, size_t count, size_t vertex_count, const tact_terms& terms,
+          const TermOf& term_of) {
+  if (count > 0) check_not_null(stencils);
+  for (size_t i = 0; i < count; ++i) from_c(stencils[i], vertex_count);
+  for (size_t i = 0; i < count; ++i) {
+    const Term term = term_of(from_c(stencils[i], vertex_count), i);
+    if (terms.values != nullptr) terms.values[i] = term.value;
+    if (terms.gradients != nullptr) std::copy_n(term.gradient.data(), 12, terms.gradients + 12 * i);
+    if (terms.hessians != nullptr) std::copy_n(term.hessian.data(), 144, terms.hessians + 144 * i);
+  }
+}
+
+// With its Hessian projected, if that is wanted.
+Term wanted(const Term& term, const tact_terms& terms) {
+  return terms.hessians != nullptr ? solver::projected(term) : term;
+}
+
+}  // namespace
+}  // namespace tact::c
+
+using tact::c::check_not_null, tact::c::fill, tact::c::guarded, tact::c::values_of, tact::c::wanted;
+using tact::solver::gather, tact::solver::Stencil;
+
+extern "C" {
+
+tact_error tact_report_stencils(tact_world world, const int32_t* first_rows, size_t body_count, tact_stencil* stencils,
+                                size_t capacity, size_t* count) {
+  return tact::c::with_report(world, [&](const tact::Report& report) {
+    check_not_null(count);
+    if (body_count > 0) check_not_null(first_rows);
+    if (capacity > 0) check_not_null(stencils);
+    const std::vector<Stencil> found = tact::solver::stencils(report, {first_rows, body_count});
+    for (size_t i = 0; i < std::min(capacity, found.size()); ++i) stencils[i] = tact::c::for_c(found[i]);
+    *count = found.size();
+  });
+}
+
+tact_error tact_stencil_gaps(const tact_stencil* stencils, size_t count, const double* positions, size_t vertex_count,
+                             tact_terms terms) {
+  return guarded([&] {
+    if (vertex_count > 0) check_not_null(positions);
+    const auto x = values_of(positions, vertex_count);
+    fill(stencils, count, vertex_count, terms,
+         [&](const Stencil& stencil, size_t) { return tact::solver::gap_of(stencil, gather(stencil, x)).distance; });
+  });
+}
+
+tact_error tact_stencil_barriers(const tact_stencil* stencils, size_t count, const double* positions,
+                                 const double* rest, size_t vertex_count, double reach, tact_terms terms) {
+  return guarded([&] {
+    if (vertex_count > 0) check_not_null(positions);
+    const auto x = values_of(positions, vertex_count);
+    fill(stencils, count, vertex_count, terms, [&](const Stencil& stencil, size_t) {
+      const double threshold =
+          rest == nullptr ? 0.0 : tact::solver::mollifier_threshold(gather(stencil, values_of(rest, vertex_count)));
+      return wanted(tact::solver::barrier_term(stencil, gather(stencil, x), reach, threshold), terms);
+    });
+  });
+}
+
+tact_error tact_stencil_penalties(const tact_stencil* stencils, size_t count, const double* positions,
+                                  size_t vertex_count, double reach, tact_terms terms) {
+  return guarded([&] {
+    if (vertex_count > 0) check_not_null(positions);
+    const auto x = values_of(positions, vertex_count);
+    fill(stencils, count, vertex_count, terms, [&](const Stencil& stencil, size_t) {
+      return wanted(tact::solver::penalty_term(stencil, gather(stencil, x), reach), terms);
+    });
+  });
+}
+
+tact_error tact_stencil_friction(const tact_stencil* stencils, size_t count, const double* moved, size_t vertex_count,
+                                 const double* limits, double smoothing, tact_terms terms) {
+  return guarded([&] {
+    if (vertex_count > 0) check_not_null(moved);
+    if (count > 0) check_not_null(limits);
+    const auto way = values_of(moved, vertex_count);
+    fill(stencils, count, vertex_count, terms, [&](const Stencil& stencil, size_t i) {
+      return tact::solver::friction_term(stencil, tact::solver::tangents(stencil.normal), gather(stencil, way),
+                                         limits[i], smoothing);
+    });
+  });
+}
+
+tact_error tact_stencil_colors(const tact_stencil* stencils, size_t count, size_t moving, int32_t* colors) {
+  return guarded([&] {
+    if (count > 0) check_not_null(stencils, colors);
+    std::vector<Stencil> all;
+    for (size_t i = 0; i < count; ++i) all.push_back(tact::c::from_c(stencils[i], INT32_MAX));
+    const tact::solver::Coloring coloring =
+        tact::solver::color(all, static_cast<int>(std::min<size_t>(moving, INT32_MAX)));
+    for (int c = 0; c < coloring.count(); ++c)
+      for (const int s : coloring.of(c)) colors[s] = c;
+  });
+}
+}

@@ -1,0 +1,99 @@
+#include <tact/contact_sums.h>
+
+#include <string>
+#include <vector>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "shared_world.h"
+
+namespace tact::python {
+
+namespace {
+
+// The sums of a step, a row a sum. They are copies.
+struct SumArrays {
+  py::array_t<std::uint8_t> kinds;
+  py::array_t<std::int64_t> bodies;
+  py::array_t<std::uint64_t> patches;
+  py::array_t<int> points;
+  py::array_t<double> areas, deepest_gaps, mean_gaps, centers, normals, forces, torques;
+  py::array_t<std::int64_t> first_vertices, vertices;
+};
+
+SumArrays arrays_of(const ContactSums& sums) {
+  const std::span<const ContactSum> all = sums.sums;
+  std::vector<std::size_t> begin{0};
+  for (const ContactSum& sum : all) begin.push_back(begin.back() + sum.vertices.size());
+  const auto column = [&](auto member) {
+    return column_of<double>(all, [member](const ContactSum& sum) { return sum.*member; });
+  };
+  return {column_of<std::uint8_t>(all, [](const ContactSum& sum) { return sum.kind; }),
+          rows_of<std::int64_t>(all, 2,
+                                [](const ContactSum& sum, std::int64_t* row) {
+                                  row[0] = sum.a.index;
+                                  row[1] = sum.kind == ContactSum::Kind::body ? -1 : std::int64_t{sum.b.index};
+                                }),
+          column_of<std::uint64_t>(all, [](const ContactSum& sum) { return sum.patch; }),
+          column_of<int>(all, [](const ContactSum& sum) { return sum.points; }),
+          column(&ContactSum::area),
+          column(&ContactSum::deepest_gap),
+          column(&ContactSum::mean_gap),
+          rows_of_three<double>(all, &ContactSum::center),
+          rows_of_three<double>(all, &ContactSum::normal),
+          rows_of_three<double>(all, &ContactSum::force),
+          rows_of_three<double>(all, &ContactSum::torque),
+          column_of<std::int64_t>(std::span<const std::size_t>(begin), [](std::size_t at) { return at; }),
+          rows_of<std::int64_t>(std::span<const VertexOfBody>(sums.vertices), 2,
+                                [](const VertexOfBody& one, std::int64_t* row) {
+                                  row[0] = one.body.index;
+                                  row[1] = one.vertex;
+                                })};
+}
+
+using Ids = py::array_t<std::uint64_t, py::array::c_style>;
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+SumArrays sum_contacts_of(SharedWorld& world, const OfReport<Report>& report, const Ids& ids, const Numbers& impulses) {
+  if (ids.ndim() != 1 || impulses.size() != 3 * ids.size())
+    throw py::value_error("ids and impulses have not the shapes (N,) and (N, 3)");
+  std::vector<PointImpulse> given;
+  for (py::ssize_t i = 0; i < ids.size(); ++i)
+    given.push_back({ids.data()[i], Eigen::Map<const Eigen::Vector3d>(impulses.data() + 3 * i)});
+  return arrays_of(sum_contacts(world.use(), *report, given));
+}
+
+}  // namespace
+
+void define_contact_sums(py::module_& module, WorldClass& world) {
+  py::enum_<ContactSum::Kind>(module, "SumKind", "What a sum is over.")
+      .value("contact", ContactSum::Kind::contact, "two bodies, or one with itself")
+      .value("patch", ContactSum::Kind::patch, "a patch of the contact before it")
+      .value("body", ContactSum::Kind::body, "all contacts of `a`; `b` is no body");
+  py::class_<SumArrays>(module, "ContactSums", "The sum over the points of a contact, a patch or a body. A row a sum.")
+      .def_readonly("kinds", &SumArrays::kinds, "(N,) uint8: values of SumKind")
+      .def_readonly("bodies", &SumArrays::bodies, "(N, 2) int64: BodyId.index of a and b; -1 for no body")
+      .def_readonly("patches", &SumArrays::patches, "(N,) uint64: the id of the patch, or 0")
+      .def_readonly("points", &SumArrays::points, "(N,): the number of contact points")
+      .def_readonly("areas", &SumArrays::areas,
+                    "(N,): the areas of the patches, square metres; 0 where Settings.patches is not set")
+      .def_readonly("deepest_gaps", &SumArrays::deepest_gaps, "(N,): the smallest gap, metres; infinity without points")
+      .def_readonly("mean_gaps", &SumArrays::mean_gaps, "(N,): metres")
+      .def_readonly("centers", &SumArrays::centers, "(N, 3): the mean place of its points, metres")
+      .def_readonly("normals", &SumArrays::normals,
+                    "(N, 3): the mean of the normals towards `b`, or towards the body of a sum over a body; shorter "
+                    "than 1 where they differ")
+      .def_readonly("forces", &SumArrays::forces, "(N, 3): the sum of the impulses on `b`, or on the body")
+      .def_readonly("torques", &SumArrays::torques, "(N, 3): their moment about `center`")
+      .def_readonly("first_vertices", &SumArrays::first_vertices,
+                    "(N + 1,) int64: where the vertices of each sum begin in `vertices`, and the end")
+      .def_readonly("vertices", &SumArrays::vertices,
+                    "(M, 2) int64: BodyId.index and vertex, of each sum each once, in order")
+      .def("__len__", [](const SumArrays& sums) { return sums.points.size(); });
+  world.def("sum_contacts", sum_contacts_of, py::arg("report"), py::arg("ids") = Ids(std::vector<py::ssize_t>{0}),
+            py::arg("impulses") = Numbers(std::vector<py::ssize_t>{0, 3}),
+            "adds up the points of a world's last report, at the current positions. `ids` (N,) and `impulses` (N, 3) "
+            "are of points");
+}
+
+}  // namespace tact::python

@@ -1,0 +1,222 @@
+#include <pybind11/stl.h>
+#include <tact/solver.h>
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "shared_world.h"
+
+namespace tact::python {
+
+namespace {
+
+using solver::Stencil, solver::Term;
+using Terms = std::tuple<py::array_t<double>, py::array_t<double>, py::array_t<double>>;
+
+// The stencils of a report. They are copies.
+struct Stencils {
+  std::vector<Stencil> all;
+  int last = -1;  // the greatest vertex
+
+  std::span<const Stencil> span() const { return all; }
+};
+
+Stencils stencils_of(const OfReport<Report>& report, const std::unordered_map<BodyId, int>& first_rows) {
+  std::vector<int> by_index;
+  for (const auto& [body, row] : first_rows) {
+    if (row < 0) throw py::value_error("a first row is negative");
+    if (body.index >= by_index.size()) by_index.resize(body.index + std::size_t{1}, -1);
+    by_index[body.index] = row;
+  }
+  for (const Contact& contact : report->contacts()) {
+    for (const BodyId body : {contact.a, contact.b})
+      if (!contact.points().empty() && !first_rows.contains(body))
+        throw py::key_error("the body of index " + std::to_string(body.index) + " has no first row");
+  }
+  Stencils stencils{solver::stencils(*report, by_index)};
+  for (const Stencil& stencil : stencils.all)
+    stencils.last = std::max(stencils.last, *std::ranges::max_element(stencil.vertices));
+  return stencils;
+}
+
+// A value of three numbers for every vertex of the stencils.
+PositionsArgument::Map checked(const Stencils& stencils, const PositionsArgument& values) {
+  if (values.matrix().cols() <= stencils.last)
+    throw py::value_error("there are " + std::to_string(values.matrix().cols()) + " rows, but vertex " +
+                          std::to_string(stencils.last) + " is in a stencil");
+  return values.matrix();
+}
+
+// term(stencil, its number) of each.
+template <class TermOf>
+Terms terms_of(const Stencils& stencils, const TermOf& term_of) {
+  const auto count = static_cast<py::ssize_t>(stencils.all.size());
+  Terms terms{py::array_t<double>(count), py::array_t<double>({count, py::ssize_t{4}, py::ssize_t{3}}),
+              py::array_t<double>({count, py::ssize_t{12}, py::ssize_t{12}})};
+  auto& [values, gradients, hessians] = terms;
+  double *value = values.mutable_data(), *gradient = gradients.mutable_data(), *hessian = hessians.mutable_data();
+  for (std::size_t i = 0; i < stencils.all.size(); ++i, gradient += 12, hessian += 144) {
+    const Term term = term_of(stencils.all[i], i);
+    *value++ = term.value;
+    solver::Vector12d::Map(gradient) = term.gradient;
+    solver::Matrix12d::Map(hessian) = term.hessian;
+  }
+  return terms;
+}
+
+Terms gaps(const Stencils& stencils, py::handle positions) {
+  const PositionsArgument given(positions);
+  const auto x = checked(stencils, given);
+  return terms_of(stencils, [&](const Stencil& stencil, std::size_t) {
+    return solver::gap_of(stencil, solver::gather(stencil, x)).distance;
+  });
+}
+
+Terms barriers(const Stencils& stencils, py::handle positions, double reach, py::handle rest) {
+  const PositionsArgument given(positions), at_rest(rest.is_none() ? positions : rest);
+  const auto x = checked(stencils, given), unloaded = checked(stencils, at_rest);
+  return terms_of(stencils, [&](const Stencil& stencil, std::size_t) {
+    const double threshold = rest.is_none() ? 0.0 : solver::mollifier_threshold(solver::gather(stencil, unloaded));
+    return solver::projected(solver::barrier_term(stencil, solver::gather(stencil, x), reach, threshold));
+  });
+}
+
+Terms penalties(const Stencils& stencils, py::handle positions, double reach) {
+  const PositionsArgument given(positions);
+  const auto x = checked(stencils, given);
+  return terms_of(stencils, [&](const Stencil& stencil, std::size_t) {
+    return solver::projected(solver::penalty_term(stencil, solver::gather(stencil, x), reach));
+  });
+}
+
+Terms friction(const Stencils& stencils, py::handle moved, const std::vector<double>& limits, double smoothing) {
+  const PositionsArgument given(moved);
+  const auto way = checked(stencils, given);
+  if (limits.size() != stencils.all.size()) throw py::value_error("limits has not a number for each stencil");
+  return terms_of(stencils, [&](const Stencil& stencil, std::size_t i) {
+    return solver::friction_term(stencil, solver::tangents(stencil.normal), solver::gather(stencil, way), limits[i],
+                                 smoothing);
+  });
+}
+
+py::array_t<int> colors(const Stencils& stencils, int moving) {
+  const solver::Coloring coloring = solver::color(stencils.all, moving);
+  py::array_t<int> result(static_cast<py::ssize_t>(stencils.all.size()));
+  for (int c = 0; c < coloring.count(); ++c)
+    for (const int s : coloring.of(c)) result.mutable_at(s) = c;
+  return result;
+}
+
+py::array_t<double> effective_masses(const Stencils& stencils, const std::vector<double>& inverse_masses) {
+  return column_of<double>(stencils.span(),
+                           [&](const Stencil& stencil) { return solver::effective_mass(stencil, inverse_masses); });
+}
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+void check_numbers(const Stencils& stencils, const Numbers& numbers, py::ssize_t each) {
+  if (numbers.size() != each * static_cast<py::ssize_t>(stencils.all.size()))
+    throw py::value_error("there are not " + std::to_string(each) + " numbers for each stencil");
+}
+
+py::array_t<double> add_gradients(const Stencils& stencils, const Numbers& gradients, int moving) {
+  check_numbers(stencils, gradients, 12);
+  py::array_t<double> sum({static_cast<py::ssize_t>(std::max(moving, 0)), py::ssize_t{3}});
+  Eigen::Map<Eigen::VectorXd> all(sum.mutable_data(), sum.size());
+  all.setZero();
+  for (std::size_t i = 0; i < stencils.all.size(); ++i)
+    solver::add_gradient(stencils.all[i], solver::Vector12d::Map(gradients.data() + 12 * i), all);
+  return sum;
+}
+
+// Rows, columns and values of the entries that move.
+std::tuple<py::array_t<int>, py::array_t<int>, py::array_t<double>> triplets(const Stencils& stencils,
+                                                                             const Numbers& hessians, int moving) {
+  check_numbers(stencils, hessians, 144);
+  std::vector<Eigen::Triplet<double>> found;
+  for (std::size_t i = 0; i < stencils.all.size(); ++i)
+    solver::append_triplets(stencils.all[i], solver::Matrix12d::Map(hessians.data() + 144 * i), moving, found);
+  const std::span<const Eigen::Triplet<double>> entries = found;
+  return {column_of<int>(entries, [](const auto& entry) { return entry.row(); }),
+          column_of<int>(entries, [](const auto& entry) { return entry.col(); }),
+          column_of<double>(entries, [](const auto& entry) { return entry.value(); })};
+}
+
+void define_arrays_of(py::class_<Stencils>& stencils) {
+  stencils
+      .def_property_readonly(
+          "kinds",
+          [](const Stencils& s) {
+            return column_of<std::uint8_t>(s.span(), [](const Stencil& stencil) { return stencil.kind; });
+          },
+          "(N,) uint8: values of StencilKind")
+      .def_property_readonly(
+          "vertices",
+          [](const Stencils& s) {
+            return rows_of<int>(s.span(), 4,
+                                [](const Stencil& stencil, int* row) { std::ranges::copy(stencil.vertices, row); });
+          },
+          "(N, 4): rows of the program's system; -1 fills up")
+      .def_property_readonly(
+          "weights",
+          [](const Stencils& s) {
+            return rows_of<double>(
+                s.span(), 4, [](const Stencil& stencil, double* row) { Eigen::Vector4d::Map(row) = stencil.weights; });
+          },
+          "(N, 4): weights of the vertices, those of body a negative: the weighted sum of positions leads from a to b")
+      .def_property_readonly(
+          "normals", [](const Stencils& s) { return rows_of_three<double>(s.span(), &Stencil::normal); },
+          "(N, 3): unit vector from a to b")
+      .def_property_readonly(
+          "gaps",
+          [](const Stencils& s) {
+            return column_of<double>(s.span(), [](const Stencil& stencil) { return stencil.gap; });
+          },
+          "(N,): metres; negative where the surfaces have crossed")
+      .def_property_readonly(
+          "ids",
+          [](const Stencils& s) {
+            return column_of<std::uint64_t>(s.span(), [](const Stencil& stencil) { return stencil.id; });
+          },
+          "(N,) uint64: that of the contact point")
+      .def("__len__", [](const Stencils& s) { return s.all.size(); });
+}
+
+}  // namespace
+
+void define_solver(py::module_& module) {
+  py::enum_<solver::StencilKind>(module, "StencilKind",
+                                 "The features that a stencil joins, in the order of its vertices.")
+      .value("point_point", solver::StencilKind::point_point, "two vertices")
+      .value("point_edge", solver::StencilKind::point_edge, "a vertex, then two of an edge")
+      .value("point_facet", solver::StencilKind::point_facet, "a vertex, then three of a facet")
+      .value("edge_edge", solver::StencilKind::edge_edge, "two of an edge of a, then two of an edge of b");
+  py::class_<Stencils> stencils(module, "Stencils",
+                                "The vertices of a contact point and how it depends on them. A row a stencil.");
+  define_arrays_of(stencils);
+  const auto positions = py::arg("positions"), reach = py::arg("reach"), moving = py::arg("moving");
+  stencils
+      .def("evaluate_gaps", gaps, positions,
+           "the gaps at positions (V, 3): values (N,), gradients (N, 4, 3), Hessians (N, 12, 12)")
+      .def("barriers", barriers, positions, reach, py::kw_only(), py::arg("rest") = py::none(),
+           "the barriers of gaps below `reach` metres; `rest` (V, 3) for the mollifier of nearly parallel edges. "
+           "Hessians are positive semidefinite")
+      .def("penalties", penalties, positions, reach, "the penalties of gaps below `reach` metres")
+      .def("friction", friction, py::arg("moved"), py::arg("limits"), py::arg("smoothing"),
+           "the potentials of friction for the ways `moved` (V, 3) of vertices, of at most `limits` (N,) newtons")
+      .def("colors", colors, moving, "(N,): stencils of one colour share no vertex below `moving`")
+      .def("effective_masses", effective_masses, py::arg("inverse_masses"),
+           "(N,): the mass that resists a push at the point, kg; infinity if no vertex moves")
+      .def("add_gradients", add_gradients, py::arg("gradients"), moving,
+           "(moving, 3): the sum of gradients for each vertex below `moving`")
+      .def("triplets", triplets, py::arg("hessians"), moving,
+           "rows, columns and values of Hessians between vertices below `moving`: for scipy.sparse.coo_matrix");
+  module.attr("Report").attr("stencils") = py::cpp_function(
+      stencils_of, py::name("stencils"), py::is_method(module.attr("Report")), py::arg("first_rows"),
+      "the stencils of all points; `first_rows` has the row of each body's first vertex in the program's system");
+}
+
+}  // namespace tact::python

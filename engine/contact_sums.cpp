@@ -1,0 +1,196 @@
+#include <tact/contact_sums.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "engine/base/floating_point_mode.h"
+#include "engine/base/vec3.h"
+
+namespace tact {
+
+namespace {
+
+using base::Vec3;
+
+// A point as a sum sees it.
+struct SeenPoint {
+  const ContactPoint* point = nullptr;
+  Vec3 place;         // in the middle of its two places
+  Vec3 impulse;       // on b
+  double sign = 1.0;  // -1 where the sum is over the body that is its a
+};
+
+Vec3 vec3(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+Eigen::Vector3d for_caller(Vec3 v) { return {v.x, v.y, v.z}; }
+
+// The positions of the bodies that have points.
+class Places {
+ public:
+  explicit Places(const World& world) : world_(world) {}
+
+  Vec3 middle(const Contact& contact, const ContactPoint& point) {
+    return 0.5 *
+           (place(contact.a, point.a_vertices, point.a_weights) + place(contact.b, point.b_vertices, point.b_weights));
+  }
+
+ private:
+  Vec3 place(BodyId body, const std::array<int, 3>& vertices, const std::array<double, 3>& weights) {
+    const std::vector<double>& x = positions(body);
+    Vec3 sum{0.0, 0.0, 0.0};
+    for (std::size_t k = 0; k < 3 && vertices[k] >= 0; ++k) {
+      const std::size_t at = 3 * static_cast<std::size_t>(vertices[k]);
+      sum = sum + weights[k] * Vec3{x[at], x[at + 1], x[at + 2]};
+    }
+    return sum;
+  }
+  const std::vector<double>& positions(BodyId body) {
+    const auto [at, fresh] = of_body_.try_emplace(body);
+    if (fresh) {
+      at->second.resize(3 * world_.vertex_count(body));
+      world_.copy_positions(body, at->second);
+    }
+    return at->second;
+  }
+
+  const World& world_;
+  std::map<BodyId, std::vector<double>> of_body_;
+};
+
+// Impulses by id.
+class ImpulsesById {
+ public:
+  explicit ImpulsesById(std::span<const PointImpulse> impulses) : sorted_(impulses.begin(), impulses.end()) {
+    std::ranges::sort(sorted_, {}, &PointImpulse::id);
+    const auto twice = std::ranges::adjacent_find(sorted_, {}, &PointImpulse::id);
+    if (twice != sorted_.end())
+      throw Error(ErrorCode::invalid_argument, "two impulses have the id " + std::to_string(twice->id));
+  }
+  Vec3 of(std::uint64_t id) const {
+    const auto found = std::ranges::lower_bound(sorted_, id, {}, &PointImpulse::id);
+    return found != sorted_.end() && found->id == id ? vec3(found->impulse) : Vec3{0.0, 0.0, 0.0};
+  }
+
+ private:
+  std::vector<PointImpulse> sorted_;
+};
+
+class Adder {
+ public:
+  Adder(const World& world, std::span<const PointImpulse> impulses) : places_(world), impulses_(impulses) {}
+
+  void add_contact(const Contact& contact) {
+    if (contact.points().empty()) return;
+    std::vector<SeenPoint> seen;
+    for (const ContactPoint& point : contact.points())
+      seen.push_back({&point, places_.middle(contact, point), impulses_.of(point.id)});
+    const std::size_t whole = result_.sums.size();
+    add({.kind = ContactSum::Kind::contact, .a = contact.a, .b = contact.b}, contact, seen);
+    for (const Patch& patch : contact.patches()) {
+      std::vector<SeenPoint> of_patch;
+      for (const int p : patch.points) of_patch.push_back(seen[static_cast<std::size_t>(p)]);
+      add({.kind = ContactSum::Kind::patch, .a = contact.a, .b = contact.b, .patch = patch.id, .area = patch.area},
+          contact, of_patch);
+      result_.sums[whole].area += patch.area;
+    }
+    remember(contact, seen, result_.sums[whole].area);
+  }
+
+  ContactSums finish() {
+    for (auto& [body, of] : of_bodies_) {
+      ContactSum sum{.kind = ContactSum::Kind::body, .a = body, .area = of.area};
+      vertices_ = std::move(of.vertices);
+      complete(sum, of.points);
+    }
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < result_.sums.size(); ++i) {
+      result_.sums[i].vertices = std::span(result_.vertices).subspan(at, counts_[i]);
+      at += counts_[i];
+    }
+    return std::move(result_);
+  }
+
+ private:
+  struct OfBody {
+    double area = 0.0;
+    std::vector<SeenPoint> points;
+    std::vector<VertexOfBody> vertices;
+  };
+
+  void add(ContactSum sum, const Contact& contact, const std::vector<SeenPoint>& seen) {
+    for (const SeenPoint& one : seen) name_vertices(contact, *one.point, vertices_);
+    complete(sum, seen);
+  }
+
+  static void name_vertices(const Contact& contact, const ContactPoint& point, std::vector<VertexOfBody>& into) {
+    for (const int v : point.a_vertices)
+      if (v >= 0) into.push_back({contact.a, v});
+    for (const int v : point.b_vertices)
+      if (v >= 0) into.push_back({contact.b, v});
+  }
+
+  // Fills in what the points add up to, and the vertices that stand in `vertices_`, which it empties.
+  void complete(ContactSum sum, const std::vector<SeenPoint>& seen) {
+    Vec3 places{0.0, 0.0, 0.0}, normals = places, force = places, moment = places;
+    double gaps = 0.0;
+    for (const SeenPoint& one : seen) {
+      const Vec3 push = one.sign * one.impulse;
+      sum.deepest_gap = std::min(sum.deepest_gap, one.point->gap);
+      gaps += one.point->gap;
+      places = places + one.place;
+      normals = normals + one.sign * vec3(one.point->normal);
+      force = force + push;
+    }
+    const double share = seen.empty() ? 0.0 : 1.0 / static_cast<double>(seen.size());
+    const Vec3 center = share * places;
+    for (const SeenPoint& one : seen) moment = moment + cross(one.place - center, one.sign * one.impulse);
+    sum.points = static_cast<int>(seen.size());
+    sum.mean_gap = share * gaps;
+    sum.center = for_caller(center);
+    sum.normal = for_caller(share * normals);
+    sum.force = for_caller(force);
+    sum.torque = for_caller(moment);
+    std::ranges::sort(vertices_);
+    vertices_.erase(std::ranges::unique(vertices_).begin(), vertices_.end());
+    counts_.push_back(vertices_.size());
+    result_.vertices.insert(result_.vertices.end(), vertices_.begin(), vertices_.end());
+    vertices_.clear();
+    result_.sums.push_back(sum);
+  }
+
+  // Both sides of a contact; a body with itself has each of its points on either.
+  void remember(const Contact& contact, const std::vector<SeenPoint>& seen, double area) {
+    for (const double sign : {-1.0, 1.0}) {
+      OfBody& body = of_bodies_[sign < 0.0 ? contact.a : contact.b];
+      if (contact.a != contact.b || sign < 0.0) body.area += area;
+      for (SeenPoint one : seen) {
+        one.sign = sign;
+        body.points.push_back(one);
+        for (const int v : sign < 0.0 ? one.point->a_vertices : one.point->b_vertices)
+          if (v >= 0) body.vertices.push_back({sign < 0.0 ? contact.a : contact.b, v});
+      }
+    }
+  }
+
+  Places places_;
+  ImpulsesById impulses_;
+  std::map<BodyId, OfBody> of_bodies_;
+  std::vector<VertexOfBody> vertices_;  // of the sum that is made
+  std::vector<std::size_t> counts_;     // of vertices of each sum
+  ContactSums result_;
+};
+
+}  // namespace
+
+ContactSums sum_contacts(const World& world, const Report& report, std::span<const PointImpulse> impulses) {
+  const base::FloatingPointMode mode;
+  try {
+    Adder adder(world, impulses);
+    for (const Contact& contact : report.contacts()) adder.add_contact(contact);
+    return adder.finish();
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::out_of_memory, "out of memory");
+  }
+}
+
+}  // namespace tact

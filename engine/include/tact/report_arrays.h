@@ -1,0 +1,57 @@
+// What a whole report holds, as arrays of the program: a row a point, a facet pair or an impact, over all bodies.
+#pragma once
+
+#include <tact/motion.h>
+#include <tact/report.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace tact {
+
+/// Arrays for the contact points of a whole report. An empty one is left out.
+struct PointArrays {
+  std::span<std::uint32_t> bodies = {};     ///< the index of body a and of body b, 2 a point
+  std::span<int> contacts = {};             ///< the number of its contact, counted from 0
+  std::span<std::uint8_t> kinds = {};       ///< which features these are, as numbers
+  std::span<int> a_vertices = {};           ///< vertices of a, 3 a point; -1 fills up
+  std::span<int> b_vertices = {};           ///< vertices of b, 3 a point; -1 fills up
+  std::span<double> a_weights = {};         ///< weights of the vertices of a, 3 a point
+  std::span<double> b_weights = {};         ///< weights of the vertices of b, 3 a point
+  std::span<double> normals = {};           ///< unit vectors from a to b, 3 a point
+  std::span<double> gaps = {};              ///< metres; negative where the surfaces have crossed
+  std::span<std::uint64_t> ids = {};        ///< the same in every step in which these features are near
+  std::span<std::uint64_t> patch_ids = {};  ///< ids of the patches, or 0 where patches are not requested
+};
+
+/// Arrays for the facet pairs of a whole report. An empty one is left out.
+struct FacetPairArrays {
+  std::span<std::uint32_t> bodies = {};  ///< the index of body a and of body b, 2 a pair
+  std::span<int> contacts = {};          ///< the number of its contact, counted from 0
+  std::span<int> facets = {};            ///< the facet of a and that of b, 2 a pair
+};
+
+/// Arrays for the impacts of a motion report. An empty one is left out.
+struct ImpactArrays {
+  std::span<std::uint32_t> bodies = {};  ///< the index of body a and of body b, 2 an impact
+  std::span<std::uint8_t> kinds = {};    ///< which features meet, as numbers
+  std::span<double> times = {};          ///< the parts of the way, 0 to 1, at which they first meet
+  std::span<int> a_vertices = {};        ///< vertices of a, 3 an impact; -1 fills up
+  std::span<int> b_vertices = {};        ///< vertices of b, 3 an impact; -1 fills up
+};
+
+/// Returns the number of contact points of all contacts.
+TACT_API std::size_t point_count(const Report& report);
+/// Returns the number of facet pairs of all contacts.
+TACT_API std::size_t facet_pair_count(const Report& report);
+
+/// Fills arrays with the points of all contacts, in their order. Errors: wrong_size (an array is neither empty nor has
+/// a row for each of point_count()).
+TACT_API void copy_points(const Report& report, const PointArrays& arrays);
+/// Fills arrays with the facet pairs of all contacts, in their order. Errors: wrong_size.
+TACT_API void copy_facet_pairs(const Report& report, const FacetPairArrays& arrays);
+/// Fills arrays with the impacts of a motion report, in their order. Errors: wrong_size.
+TACT_API void copy_impacts(const MotionReport& report, const ImpactArrays& arrays);
+
+}  // namespace tact

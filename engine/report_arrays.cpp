@@ -1,0 +1,125 @@
+#include <tact/report_arrays.h>
+
+#include <algorithm>
+#include <string>
+
+namespace tact {
+
+namespace {
+
+// Throws where an array is neither left out nor of `width` numbers a row.
+template <class Number>
+void check_size(std::span<Number> array, std::size_t rows, std::size_t width, const char* name) {
+  if (array.empty() || array.size() == rows * width) return;
+  throw Error(ErrorCode::wrong_size, std::string(name) + " has room for " + std::to_string(array.size()) +
+                                         " numbers, not for " + std::to_string(rows * width));
+}
+
+template <class Number, class Value>
+void put(std::span<Number> array, std::size_t row, Value value) {
+  if (!array.empty()) array[row] = static_cast<Number>(value);
+}
+
+template <class Number, class Values>
+void put_three(std::span<Number> array, std::size_t row, const Values& values) {
+  if (!array.empty()) std::copy_n(values.data(), 3, array.begin() + static_cast<std::ptrdiff_t>(3 * row));
+}
+
+template <class Number, class Value>
+void put_two(std::span<Number> array, std::size_t row, Value first, Value second) {
+  if (array.empty()) return;
+  array[2 * row] = static_cast<Number>(first);
+  array[2 * row + 1] = static_cast<Number>(second);
+}
+
+template <class List>
+std::size_t count_in_contacts(const Report& report, const List& list) {
+  std::size_t count = 0;
+  for (const Contact& contact : report.contacts()) count += list(contact).size();
+  return count;
+}
+
+std::uint64_t patch_id(const Contact& contact, const ContactPoint& point) {
+  const auto patch = static_cast<std::size_t>(point.patch);
+  return patch < contact.patches().size() ? contact.patches()[patch].id : 0;
+}
+
+}  // namespace
+
+std::size_t point_count(const Report& report) {
+  return count_in_contacts(report, [](const Contact& contact) { return contact.points(); });
+}
+
+std::size_t facet_pair_count(const Report& report) {
+  return count_in_contacts(report, [](const Contact& contact) { return contact.facet_pairs(); });
+}
+
+void copy_points(const Report& report, const PointArrays& arrays) {
+  const std::size_t rows = point_count(report);
+  check_size(arrays.bodies, rows, 2, "bodies");
+  check_size(arrays.contacts, rows, 1, "contacts");
+  check_size(arrays.kinds, rows, 1, "kinds");
+  check_size(arrays.a_vertices, rows, 3, "a_vertices");
+  check_size(arrays.b_vertices, rows, 3, "b_vertices");
+  check_size(arrays.a_weights, rows, 3, "a_weights");
+  check_size(arrays.b_weights, rows, 3, "b_weights");
+  check_size(arrays.normals, rows, 3, "normals");
+  check_size(arrays.gaps, rows, 1, "gaps");
+  check_size(arrays.ids, rows, 1, "ids");
+  check_size(arrays.patch_ids, rows, 1, "patch_ids");
+  std::size_t row = 0;
+  for (const Contact& contact : report.contacts()) {
+    const auto number = &contact - report.contacts().data();
+    for (const ContactPoint& point : contact.points()) {
+      put_two(arrays.bodies, row, contact.a.index, contact.b.index);
+      put(arrays.contacts, row, number);
+      put(arrays.kinds, row, point.kind);
+      put_three(arrays.a_vertices, row, point.a_vertices);
+      put_three(arrays.b_vertices, row, point.b_vertices);
+      put_three(arrays.a_weights, row, point.a_weights);
+      put_three(arrays.b_weights, row, point.b_weights);
+      put_three(arrays.normals, row, point.normal);
+      put(arrays.gaps, row, point.gap);
+      put(arrays.ids, row, point.id);
+      put(arrays.patch_ids, row, patch_id(contact, point));
+      ++row;
+    }
+  }
+}
+
+void copy_facet_pairs(const Report& report, const FacetPairArrays& arrays) {
+  const std::size_t rows = facet_pair_count(report);
+  check_size(arrays.bodies, rows, 2, "bodies");
+  check_size(arrays.contacts, rows, 1, "contacts");
+  check_size(arrays.facets, rows, 2, "facets");
+  std::size_t row = 0;
+  for (const Contact& contact : report.contacts()) {
+    const auto number = &contact - report.contacts().data();
+    for (const FacetPair& pair : contact.facet_pairs()) {
+      put_two(arrays.bodies, row, contact.a.index, contact.b.index);
+      put(arrays.contacts, row, number);
+      put_two(arrays.facets, row, pair.a, pair.b);
+      ++row;
+    }
+  }
+}
+
+void copy_impacts(const MotionReport& report, const ImpactArrays& arrays) {
+  const std::size_t rows = report.impacts().size();
+  check_size(arrays.bodies, rows, 2, "bodies");
+  check_size(arrays.kinds, rows, 1, "kinds");
+  check_size(arrays.times, rows, 1, "times");
+  check_size(arrays.a_vertices, rows, 3, "a_vertices");
+  check_size(arrays.b_vertices, rows, 3, "b_vertices");
+  std::size_t row = 0;
+  for (const Impact& impact : report.impacts()) {
+    put_two(arrays.bodies, row, impact.a.index, impact.b.index);
+    put(arrays.kinds, row, impact.kind);
+    put(arrays.times, row, impact.time);
+    put_three(arrays.a_vertices, row, impact.a_vertices);
+    put_three(arrays.b_vertices, row, impact.b_vertices);
+    ++row;
+  }
+}
+
+}  // namespace tact

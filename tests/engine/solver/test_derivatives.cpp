@@ -1,0 +1,23 @@
+// Gaps, barriers and their derivatives against differences in 50 digits; more of them in tests/long.
+#include <gtest/gtest.h>
+
+#include "tests/support/oracles/stencil_oracle.h"
+
+namespace tact::tests {
+namespace {
+
+TEST(SolverDerivatives, AreThoseOfDifferencesInFiftyDigits) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) EXPECT_EQ(wrong_terms(random_stencil(seed)), "") << "seed " << seed;
+}
+
+// A formula that is wrong by a millionth is found.
+TEST(SolverDerivatives, OfAnotherReachAreFound) {
+  const PlacedStencil right = random_stencil(1);
+  PlacedStencil wrong = right;
+  wrong.stencil.gap = -1.0;  // the other sign of a vertex and a vertex
+  wrong.stencil.normal = -wrong.stencil.normal;
+  EXPECT_NE(wrong_terms(wrong), "");
+}
+
+}  // namespace
+}  // namespace tact::tests
