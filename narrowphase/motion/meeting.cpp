@@ -76,14 +76,15 @@ Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double 
   while (!waiting_.empty()) {
     ++meeting.spans;
     const Moment& to = waiting_.back();
-    if (to.covered || is_left_out(from, to)) {
+    const double length = to.time - from.time;
+    const bool is_finest = reach_ > 0.0 && length <= kFinestSpan;
+    if (to.covered || is_left_out(from, to) || (is_finest && is_left_out_afresh(from, to))) {
       from = to;
       waiting_.pop_back();
       continue;
     }
     if (from.time > latest) return meeting;
-    const double length = to.time - from.time;
-    if (meeting.spans > kMostSpans || (length <= kFinestSpan && reach_ > 0.0)) {
+    if (meeting.spans > kMostSpans || is_finest) {
       meeting.time = from.time;
       return meeting;
     }
@@ -244,15 +245,23 @@ bool MeetingSearch::is_near(const Moment& m) const {
 std::optional<double> MeetingSearch::first_close_time(const MovingPolygon& polygon, double from, double to) {
   if (count_ > 2 && to - from <= kWideCrossing && holds_origin_near(polygon, scale_, from, to) == Verdict::yes)
     return from;
-  if (to - from <= kFinestSpan) {
-    // The directions of its ends may be those of a longer span.
-    if (is_left_out_by_direction(moment(from), moment(to))) return std::nullopt;
-  }
+  if (to - from <= kFinestSpan && is_left_out_by_direction(moment(from), moment(to))) return std::nullopt;
   return finest_.first_open_part(polygon, scale_, from, to);
 }
 
 bool MeetingSearch::is_left_out(const Moment& from, const Moment& to) const {
   return is_left_out_by_direction(from, to) || is_left_out_by_volume(from, to);
+}
+
+// Where a corner passes a corner the directions of the ends are those of longer spans, and leave the middle open
+// however far away the polygon is. Here they are those that the ends have now, together and each alone.
+bool MeetingSearch::is_left_out_afresh(const Moment& from, const Moment& to) const {
+  const Moment begin = moment(from.time), end = moment(to.time);
+  Moment as_begin = end, as_end = begin;
+  as_begin.direction = begin.direction;
+  as_end.direction = end.direction;
+  return is_left_out_by_direction(begin, end) || is_left_out_by_direction(begin, as_begin) ||
+         is_left_out_by_direction(as_end, end);
 }
 
 // The direction goes straight from the one to the other, and is nowhere longer than 1.

@@ -11,8 +11,8 @@
 // as a meeting, at its beginning. A corner that goes exactly through the origin is a meeting: all that is left to prove
 // is that none comes before. Hence
 //   - a time is never later than the true one;
-//   - a polygon that misses the origin by more than 1e-11 of its size and way never counts, and most often one that
-//     misses it by 1e-25;
+//   - a polygon that misses the origin, or stays beyond the reach, by more than 1e-11 of its size and way never counts,
+//     and most often one that misses the origin by 1e-25;
 //   - a time is earlier than the true one by more than kFinestSpan only if the polygon comes as near as that before.
 // The idea of bounding instead of solving, for boxes of parameters: Wang, Ferguson, Schneider, Jiang, Attene, Panozzo,
 // "A large-scale benchmark and an inclusion-based algorithm for continuous collision detection", 2021.
@@ -80,6 +80,7 @@ class MeetingSearch {
   bool is_near(const Moment& m) const;
   std::optional<double> first_close_time(const MovingPolygon& polygon, double from, double to);
   bool is_left_out(const Moment& from, const Moment& to) const;
+  bool is_left_out_afresh(const Moment& from, const Moment& to) const;
   bool is_left_out_by_direction(const Moment& from, const Moment& to) const;
   bool is_left_out_by_volume(const Moment& from, const Moment& to) const;
 

@@ -70,6 +70,38 @@ TEST(Meeting, AReachIsMetWhenItIsReached) {
   EXPECT_NEAR(search.first(facet_seen_from(vertex, facet), 0.998).time, 0.001, 1e-10);
 }
 
+// The nearer end of an edge passes a vertex at 0.1414: from the right its first coordinate separates them, then its
+// second.
+TEST(Meeting, ACornerThatPassesACornerComesNoNearer) {
+  const auto passing = [](double beside) {
+    const MovingVertex vertex{{{0, 0, 0}, {0, 0, 0}}};
+    const MovingVertex ends[2] = {{{{0.3, -beside, 0}, {-0.7, 1.0 - beside, 0}}},
+                                  {{{1.3, -beside, 0}, {0.3, 1.0 - beside, 0}}}};
+    return facet_seen_from(vertex, {ends[0], ends[1], ends[1]});
+  };
+  MeetingSearch search;
+  EXPECT_GT(search.first(passing(0.1), 0.1).time, 1.0);
+  EXPECT_GT(search.first(passing(0.1), 0.1414).time, 1.0);
+  EXPECT_NEAR(search.first(passing(0.1), 0.1415).time, 0.2, 0.01);
+  // Nearest at the corner, then inside the edge, which comes within 0.1 at 0.4.
+  EXPECT_NEAR(search.first(passing(0.5), 0.1).time, 0.4, 1e-10);
+}
+
+TEST(Meeting, QueriesWithAReachEqualAlgebraicNumbers) {
+  Random random(8);
+  MeetingSearch search;
+  int meeting = 0, missing = 0;
+  for (int i = 0; i < 1200; ++i) {
+    const MotionQuery query = i % 3 == 0 ? random_query(random) : query_past_corner(random);
+    const auto [answer, failure] = check_within(query, reach_for(query, random), search);
+    EXPECT_EQ(failure, "");
+    meeting += answer == QueryAnswer::meets;
+    missing += answer == QueryAnswer::misses;
+  }
+  EXPECT_GT(meeting, 200);
+  EXPECT_GT(missing, 200);
+}
+
 struct MeetingCounts {
   int meeting = 0, at_once = 0;  // of these, without a search of spans of time
 };

@@ -64,6 +64,12 @@ std::optional<TimeEnclosure> exact_time(const MotionQuery& query) {
                      : first_time_of_vertex_and_facet(v[0], {v[1], v[2], v[3]});
 }
 
+std::optional<TimeEnclosure> exact_time_within(const MotionQuery& query, double reach) {
+  const auto& v = query.vertices;
+  return query.edges ? first_time_within({v[0], v[1]}, {v[2], v[3]}, reach)
+                     : first_time_within(v[0], {v[1], v[2], v[3]}, reach);
+}
+
 MotionQuery random_query(Random& random) {
   MotionQuery query;
   query.edges = random.chance(0.5);
@@ -137,21 +143,113 @@ MotionQuery query_of_layers(Random& random) {
   return query;
 }
 
+// All coordinates are multiples of a tenth, as a program computes them.
+MotionQuery query_past_corner(Random& random) {
+  MotionQuery query;
+  query.edges = random.chance(0.7);
+  const bool is_fine = random.chance(0.5);  // so that nothing is rounded
+  const auto tenths = [&](int count) { return (is_fine ? 0.125 : 0.1) * count; };
+  const auto corner = [&] { return Vec3{tenths(random.below(3)), tenths(random.below(3)), tenths(random.below(2))}; };
+  const auto step = [&] { return tenths(10 * (random.below(3) - 1)); };
+  const Vec3 place{tenths(random.below(21) - 10), tenths(random.below(21) - 10), tenths(random.below(5) - 2)};
+  const Vec3 way{step(), step(), random.chance(0.3) ? step() : 0.0};
+  for (std::size_t i = 0; i < query.vertices.size(); ++i) {
+    const bool moves = i < (query.edges ? 2u : 1u);
+    auto& at = query.vertices[i].at;
+    at[0] = corner() + (moves ? place : Vec3{});
+    at[1] = at[0] + (moves ? way : Vec3{});
+  }
+  // An edge of a box is along an axis.
+  if (query.edges && random.chance(0.7)) {
+    for (const std::size_t first : {0u, 2u}) {
+      const int axis = random.below(3);
+      for (const int time : {0, 1}) {
+        query.vertices[first + 1].at[time] = query.vertices[first].at[time];
+        query.vertices[first + 1].at[time][axis] += tenths(10);
+      }
+    }
+  }
+  return query;
+}
+
+double reach_for(const MotionQuery& query, Random& random) {
+  const MovingPolygon polygon = query.polygon();
+  double size = 0.0;
+  for (const auto& corners : polygon.corner) {
+    for (int i = 0; i < polygon.count; ++i) size = std::max(size, norm(narrowphase::heads(corners[i])));
+  }
+  const double part = random.chance(0.3)   ? 0.125 * (1 + random.below(8))
+                      : random.chance(0.5) ? std::ldexp(random.uniform(), -random.below(24))
+                                           : distance_at(polygon, random.chance(0.5) ? 0.5 : random.uniform());
+  return random.chance(0.3) ? 0.1 * (1 + random.below(5)) : part * size;
+}
+
+namespace {
+
+// What is wrong with an answer.
+std::string failure_of(const std::string& what, const MotionQuery& query, double time,
+                       const std::optional<TimeEnclosure>& exact, double reach = 0.0) {
+  std::ostringstream text;
+  text.precision(17);
+  text << what << ": time " << time;
+  if (exact) text << ", the true one " << exact->low;
+  if (reach > 0.0) text << ", reach " << reach;
+  text << (query.edges ? "; edges" : "; vertex and facet");
+  for (const MovingVertex& vertex : query.vertices) {
+    for (const Vec3& p : vertex.at) text << "  " << p.x << " " << p.y << " " << p.z;
+  }
+  return text.str();
+}
+
+// The least and the largest reach that may count (MeetingSearch): that given, or the share of what is nearer, or but
+// next to nothing farther away, at the start; nothing where it is either by next to nothing.
+struct CountingReach {
+  double least, most;
+};
+std::optional<CountingReach> counting_reach(const MotionQuery& query, double reach, double near) {
+  const double above = (1.0 + narrowphase::kJustAbove) * reach;
+  const auto starts_within = [&](double distance) {
+    if (distance <= 0.0) return false;
+    const auto time = exact_time_within(query, distance);
+    return time && time->high == 0.0;
+  };
+  if (!starts_within(above + near)) return CountingReach{reach, reach + near};
+  if (!starts_within(above - near)) return std::nullopt;
+  const MovingPolygon polygon = query.polygon();
+  const double begin = distance_at(polygon, 0.0) * near / kNearlyMeets;
+  return CountingReach{std::max(narrowphase::kShareOfGap * (begin - 0.01 * near), 0.0),
+                       narrowphase::kShareOfGap * begin + near};
+}
+
+}  // namespace
+
+CheckedQuery check_within(const MotionQuery& query, double reach, narrowphase::MeetingSearch& search) {
+  const MovingPolygon polygon = query.polygon();
+  const double time = search.first(polygon, reach).time;
+  double size = 0.0;
+  for (const auto& corners : polygon.corner) {
+    for (int i = 0; i < polygon.count; ++i) {
+      const Vec3 p = narrowphase::heads(corners[i]);
+      size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+  }
+  const auto counts = counting_reach(query, reach, kNearlyMeets * size);
+  if (!counts) return {};
+  const auto exact = exact_time_within(query, counts->least), wide = exact_time_within(query, counts->most);
+  if (exact && !(time <= exact->high))
+    return {QueryAnswer::meets, failure_of(time > 1.0 ? "missed" : "late", query, time, exact, reach)};
+  if (time > 1.0) return {};
+  if (!wide) return {QueryAnswer::misses_but_counts, failure_of("reported, but stays beyond", query, time, {}, reach)};
+  constexpr double kEarly = 0x1p-40;
+  if (time < wide->low - kEarly) return {QueryAnswer::meets, failure_of("early", query, time, wide, reach)};
+  return {exact ? QueryAnswer::meets : QueryAnswer::misses_but_counts, {}};
+}
+
 CheckedQuery check(const MotionQuery& query, narrowphase::MeetingSearch& search) {
   const MovingPolygon polygon = query.polygon();
   const double time = search.first(polygon, 0.0).time;
   const auto exact = exact_time(query);
-  const auto failed = [&](const std::string& what) {
-    std::ostringstream text;
-    text.precision(17);
-    text << what << ": time " << time;
-    if (exact) text << ", the true one " << exact->low;
-    text << (query.edges ? "; edges" : "; vertex and facet");
-    for (const MovingVertex& vertex : query.vertices) {
-      for (const Vec3& p : vertex.at) text << "  " << p.x << " " << p.y << " " << p.z;
-    }
-    return text.str();
-  };
+  const auto failed = [&](const std::string& what) { return failure_of(what, query, time, exact); };
   if (!exact && time > 1.0) return {QueryAnswer::misses, {}};
   if (!exact) {
     const bool is_near = distance_at(polygon, time) < kNearlyMeets;

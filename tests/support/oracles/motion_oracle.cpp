@@ -203,7 +203,8 @@ int bernstein_sign_changes(const Polynomial& p) {
   int changes = 0, last = 0;
   Polynomial c = p;
   // Of degree n: the sum over k of C(i, k) / C(n, k) c[k]; times n!, that is the sum of C(i, k) k! (n - k)! c[k].
-  const auto factorial = [](std::size_t k) { return k < 2 ? 1 : k == 2 ? 2 : k == 3 ? 6 : k == 4 ? 24 : 120; };
+  constexpr int kFactorials[] = {1, 1, 2, 6, 24, 120, 720};
+  const auto factorial = [&](std::size_t k) { return kFactorials[k]; };
   const std::size_t n = p.size() - 1;
   for (std::size_t i = 0; i <= n; ++i) {
     Integer sum(0);
@@ -306,17 +307,20 @@ PolynomialVector cross(const PolynomialVector& a, const PolynomialVector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// The exponent of the lowest bit of any coordinate.
+// The exponent of its lowest bit; the largest int for zero.
+int lowest_bit(double x) {
+  if (x == 0.0) return std::numeric_limits<int>::max();
+  int exponent = 0;
+  const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
+  return exponent - 53 + std::countr_zero(static_cast<std::uint64_t>(mantissa));
+}
+
+// That of any coordinate.
 int lowest_bit(std::span<const MovingVertex> vertices) {
   int lowest = std::numeric_limits<int>::max();
   for (const MovingVertex& vertex : vertices) {
     for (const Vec3& p : vertex.at) {
-      for (int axis = 0; axis < 3; ++axis) {
-        if (p[axis] == 0.0) continue;
-        int exponent = 0;
-        const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(p[axis], &exponent), 53));
-        lowest = std::min(lowest, exponent - 53 + std::countr_zero(static_cast<std::uint64_t>(mantissa)));
-      }
+      for (int axis = 0; axis < 3; ++axis) lowest = std::min(lowest, lowest_bit(p[axis]));
     }
   }
   return lowest;
@@ -361,15 +365,66 @@ class ExactPolygon {
     if (holds_origin(begin)) return TimeEnclosure{0.0, 0.0};
     std::optional<Root> first;
     for (Root& root : candidates()) {
-      if (!holds_origin(root)) continue;
-      root.narrow(60);
-      if (!first || is_before(root.high, first->high)) first = root;
+      if (holds_origin(root)) take_earlier(root, first);
     }
+    return enclosure(first);
+  }
+
+  // The distance to the origin is at most `reach`, which is not zero.
+  std::optional<TimeEnclosure> first_time_within(const Integer& reach) {
+    const std::vector<Place> places = places_within(reach);
+    Root begin{{}, kBegin, kBegin, true};
+    const auto is_within = [&](const Place& place) {
+      return sign_at(place.beyond, begin) <= 0 && is_nearest(place, begin);
+    };
+    if (std::ranges::any_of(places, is_within)) return TimeEnclosure{0.0, 0.0};
+    std::optional<Root> first;
+    for (const Place& place : places) {
+      if (place.beyond.empty()) continue;  // then it begins to be the nearest where it is a place of less dimension
+      for (Root& root : roots_of(place.beyond)) {
+        if (is_nearest(place, root)) take_earlier(root, first);
+      }
+    }
+    return enclosure(first);
+  }
+
+ private:
+  // A corner, the line of a side or the plane.
+  struct Place {
+    Polynomial beyond;               // the square of its distance less that of the reach, times `square`
+    Polynomial square;               // of the side or the normal: positive where it has one
+    std::vector<Polynomial> inside;  // not negative where its place nearest to the origin is in the polygon
+  };
+
+  static bool is_nearest(const Place& place, Root& at) {
+    return sign_at(place.square, at) > 0 &&
+           std::ranges::all_of(place.inside, [&](const Polynomial& p) { return sign_at(p, at) >= 0; });
+  }
+  static void take_earlier(Root& root, std::optional<Root>& first) {
+    root.narrow(60);
+    if (!first || is_before(root.high, first->high)) first = root;
+  }
+  static std::optional<TimeEnclosure> enclosure(const std::optional<Root>& first) {
     if (!first) return std::nullopt;
     return TimeEnclosure{rounded(first->low, false), rounded(first->high, true)};
   }
 
- private:
+  std::vector<Place> places_within(const Integer& reach) {
+    const Polynomial square{reach * reach};
+    std::vector<Place> places;
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+      const PolynomialVector &corner = corners_[i], side = corners_[(i + 1) % corners_.size()] - corner,
+                             moment = cross(corner, side);
+      const Polynomial length = dot(side, side), along = dot(corner, side);
+      places.push_back({dot(corner, corner) - square, {Integer(1)}, {}});
+      places.push_back({dot(moment, moment) - square * length, length, {negative(along), length + along}});
+    }
+    make_sides();
+    const Polynomial area = dot(normal_, normal_);
+    places.push_back({volume_ * volume_ - square * area, area, inside_});
+    return places;
+  }
+
   // What is needed only where the volume vanishes.
   void make_sides() {
     if (!inside_.empty()) return;
@@ -435,19 +490,53 @@ class ExactPolygon {
 
 }  // namespace
 
-std::optional<TimeEnclosure> first_time_of_vertex_and_facet(const MovingVertex& vertex,
-                                                            const MovingVertex (&facet)[3]) {
-  const int unit = std::min(lowest_bit({&vertex, 1}), lowest_bit(facet));
+namespace {
+
+ExactPolygon polygon_of(const MovingVertex& vertex, const MovingVertex (&facet)[3], int unit) {
   std::vector<PolynomialVector> corners;
   for (const MovingVertex& corner : facet) corners.push_back(way_of(corner, unit) - way_of(vertex, unit));
-  return ExactPolygon(corners).first_time();
+  return ExactPolygon(corners);
+}
+
+ExactPolygon polygon_of(const MovingVertex (&edge)[2], const MovingVertex (&other)[2], int unit) {
+  const auto way = [&](const MovingVertex& vertex) { return way_of(vertex, unit); };
+  const auto p = way(edge[0]), q = way(edge[1]), r = way(other[0]), s = way(other[1]);
+  return ExactPolygon({r - p, s - p, s - q, r - q});
+}
+
+int unit_of(const MovingVertex& vertex, const MovingVertex (&facet)[3]) {
+  return std::min(lowest_bit({&vertex, 1}), lowest_bit(facet));
+}
+int unit_of(const MovingVertex (&edge)[2], const MovingVertex (&other)[2]) {
+  return std::min(lowest_bit(edge), lowest_bit(other));
+}
+
+template <class One, class Other>
+std::optional<TimeEnclosure> time_within(const One& one, const Other& other, double reach) {
+  const int unit = std::min(unit_of(one, other), lowest_bit(reach));
+  ExactPolygon polygon = polygon_of(one, other, unit);
+  return reach == 0.0 ? polygon.first_time() : polygon.first_time_within(in_units(reach, unit));
+}
+
+}  // namespace
+
+std::optional<TimeEnclosure> first_time_of_vertex_and_facet(const MovingVertex& vertex,
+                                                            const MovingVertex (&facet)[3]) {
+  return time_within(vertex, facet, 0.0);
 }
 
 std::optional<TimeEnclosure> first_time_of_edges(const MovingVertex (&edge)[2], const MovingVertex (&other)[2]) {
-  const int unit = std::min(lowest_bit(edge), lowest_bit(other));
-  const auto way = [&](const MovingVertex& vertex) { return way_of(vertex, unit); };
-  const auto p = way(edge[0]), q = way(edge[1]), r = way(other[0]), s = way(other[1]);
-  return ExactPolygon({r - p, s - p, s - q, r - q}).first_time();
+  return time_within(edge, other, 0.0);
+}
+
+std::optional<TimeEnclosure> first_time_within(const MovingVertex& vertex, const MovingVertex (&facet)[3],
+                                               double reach) {
+  return time_within(vertex, facet, reach);
+}
+
+std::optional<TimeEnclosure> first_time_within(const MovingVertex (&edge)[2], const MovingVertex (&other)[2],
+                                               double reach) {
+  return time_within(edge, other, reach);
 }
 
 }  // namespace tact::tests

@@ -21,4 +21,12 @@ std::optional<TimeEnclosure> first_time_of_vertex_and_facet(const narrowphase::M
 std::optional<TimeEnclosure> first_time_of_edges(const narrowphase::MovingVertex (&edge)[2],
                                                  const narrowphase::MovingVertex (&other)[2]);
 
+/// The first time at which they are at most `reach` apart, a double that is not negative: the square of the distance to
+/// a corner, the line of a side and the plane are quotients of polynomials, and a first time is a root of one of them
+/// less the square of the reach, where the nearest place is in that corner, side or plane.
+std::optional<TimeEnclosure> first_time_within(const narrowphase::MovingVertex& vertex,
+                                               const narrowphase::MovingVertex (&facet)[3], double reach);
+std::optional<TimeEnclosure> first_time_within(const narrowphase::MovingVertex (&edge)[2],
+                                               const narrowphase::MovingVertex (&other)[2], double reach);
+
 }  // namespace tact::tests
