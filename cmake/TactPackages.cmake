@@ -55,5 +55,12 @@ if(TARGET tact_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${runtime_package} (= ${PROJECT_VERSION}), python3-numpy, \
 python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor})")
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/bindings/blender/tact_blender DESTINATION share/blender/scripts/addons
+    COMPONENT blender FILES_MATCHING PATTERN "*.py")
+  list(APPEND CPACK_COMPONENTS_ALL blender)
+  set(CPACK_DEBIAN_BLENDER_PACKAGE_NAME blender-tact)
+  set(CPACK_DEBIAN_BLENDER_PACKAGE_SECTION graphics)
+  set(CPACK_DEBIAN_BLENDER_PACKAGE_ARCHITECTURE all)
+  set(CPACK_DEBIAN_BLENDER_PACKAGE_DEPENDS "python3-tact (= ${PROJECT_VERSION}), blender (>= 3.4)")
 endif()
 include(CPack)
