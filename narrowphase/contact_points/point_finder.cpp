@@ -26,8 +26,7 @@ std::uint64_t without(std::span<const std::uint64_t> left_out, std::uint64_t som
 }
 
 Vec3 facet_normal(const ScaledMesh& m, int facet) {
-  const Triangle t = m.triangle(facet);
-  const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+  const Vec3 normal = m.normal(facet);
   return normal == Vec3{} ? Vec3{0.0, 0.0, 1.0} : normalized(normal);
 }
 

@@ -25,6 +25,10 @@ inline constexpr double kSignRounding = 256 * 0x1p-53;
 inline constexpr double kFineRounding = 0x1p-92;
 inline constexpr double kEqualDistance = 0x1p-56;
 
+// Lengths are near 1. Products of lengths below this may have lost digits, or all: where one decides, it is computed
+// from what is scaled, and the kernels leave it.
+inline constexpr double kVanishing = 0x1p-900;
+
 // Two edges of which the squared sine is smaller are nearly parallel.
 inline constexpr double kNearlyParallel = 1e-8;
 
