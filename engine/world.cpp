@@ -114,8 +114,10 @@ struct World::Implementation {
 };
 
 World::World(const Settings& settings)
-    : implementation_(with_memory("making a world ran out of memory",
-                                  [&] { return std::make_unique<Implementation>(settings); })) {}
+    : implementation_(with_memory("making a world ran out of memory", [&] {
+        const base::FloatingPointMode mode;
+        return std::make_unique<Implementation>(settings);
+      })) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -130,6 +132,7 @@ void WorldTuning::set(const World& world, const base::Tuning& tuning) { world.im
 const Settings& World::settings() const { return implementation().settings; }
 
 void World::set_settings(const Settings& settings) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.settings = checked(settings);
   if (i.workers.executor() != i.settings.executor.get()) i.workers.restart(i.settings.executor);
@@ -153,18 +156,21 @@ void World::remove_body(BodyId body) {
 }
 
 void World::set_positions(BodyId body, const Positions& positions) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.set_positions([&] { i.bodies.set_positions(body, positions, i.settings.threads); });
   i.observe([&](WorldObserver& observer) { observer.positions_set(std::array{PositionsUpdate{body, positions}}); });
 }
 
 void World::set_positions(std::span<const PositionsUpdate> updates) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.set_positions([&] { i.bodies.set_positions(updates, i.settings.threads); });
   i.observe([&](WorldObserver& observer) { observer.positions_set(updates); });
 }
 
 void World::set_pose(BodyId body, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   const PoseUpdate update{body, rotation, translation};
   i.set_positions([&] { i.bodies.set_pose(update); });
@@ -172,24 +178,28 @@ void World::set_pose(BodyId body, const Eigen::Matrix3d& rotation, const Eigen::
 }
 
 void World::set_poses(std::span<const PoseUpdate> updates) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.set_positions([&] { i.bodies.set_poses(updates, i.settings.threads); });
   i.observe([&](WorldObserver& observer) { observer.poses_set(updates); });
 }
 
 void World::set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.bodies.set_layers(body, layer, mask);
   i.observe([&](WorldObserver& observer) { observer.layers_set(body, layer, mask); });
 }
 
 void World::set_group(BodyId body, std::uint32_t group) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.bodies.set_group(body, group);
   i.observe([&](WorldObserver& observer) { observer.group_set(body, group); });
 }
 
 void World::set_excluded(BodyId a, BodyId b, bool excluded) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.bodies.set_excluded(a, b, excluded);
   i.observe([&](WorldObserver& observer) { observer.excluded_set(a, b, excluded); });
@@ -217,6 +227,7 @@ void World::set_self_contact(BodyId body, bool wanted) {
 }
 
 void World::set_observer(WorldObserver* observer) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   if (observer != nullptr && i.bodies.ever_held_any())
     throw Error(ErrorCode::wrong_order, "an observer is set before the first body is added");
@@ -225,9 +236,9 @@ void World::set_observer(WorldObserver* observer) {
 }
 
 const Report& World::detect() {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.observe([](WorldObserver& observer) { observer.step_begins(); });
-  const base::FloatingPointMode mode;
   const base::Workers::Scope scope(i.workers);
   i.regroup();
   const double refresh_ms = std::exchange(i.refresh_ms, 0.0);
@@ -247,9 +258,9 @@ const Report& World::detect() {
 }
 
 const MotionReport& World::detect_motion(Impacts wanted) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   check_name(wanted, Impacts::first, "impacts");
-  const base::FloatingPointMode mode;
   const base::Workers::Scope scope(i.workers);
   return with_memory("detect_motion ran out of memory", [&]() -> const MotionReport& {
     if (i.motion == nullptr) i.motion = std::make_unique<MotionStage>();
@@ -285,7 +296,6 @@ void check_queries(std::span<const Query> queries, std::size_t answers) {
 // Answers one query by find().
 template <class OfWorld, class Find>
 auto answer_one(const OfWorld& world, const Find& find) {
-  const base::FloatingPointMode mode;
   return with_memory(kNoMemoryForAnswers, [&] {
     world.bodies.expect_queries(1);
     return find();
@@ -296,8 +306,8 @@ auto answer_one(const OfWorld& world, const Find& find) {
 template <class OfWorld, class Query, class Answer, class Find>
 void answer_all(OfWorld& world, std::span<const Query> queries, std::span<Answer> answers, const Find& find) {
   constexpr std::size_t kAtATime = 16;  // a query takes a microsecond or more
-  check_queries(queries, answers.size());
   const base::FloatingPointMode mode;
+  check_queries(queries, answers.size());
   const base::Workers::Scope scope(world.workers);
   with_memory(kNoMemoryForAnswers, [&] {
     world.bodies.expect_queries(queries.size());
@@ -315,6 +325,7 @@ RayHit World::cast_ray(const Ray& ray, RayHits wanted) const {
 }
 
 void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted) const {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   check_name(wanted, RayHits::any, "hits");
   // Fewer do not open the same clusters often enough, nor do rays of which not even one is for each body.
@@ -322,7 +333,6 @@ void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits
   if (wanted != RayHits::first || rays.size() < fewest_together)
     return answer_all(i, rays, hits, [&](const Ray& ray) { return find_hit(i.bodies, ray, wanted); });
   check_queries(rays, hits.size());
-  const base::FloatingPointMode mode;
   const base::Workers::Scope scope(i.workers);
   with_memory(kNoMemoryForAnswers, [&] {
     constexpr std::size_t kAtATime = narrowphase::kLinesAtATime;
@@ -337,6 +347,7 @@ void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits
 }
 
 std::vector<RayHit> World::cast_ray_all(const Ray& ray) const {
+  const base::FloatingPointMode mode;
   const Implementation& i = implementation();
   check_query(ray);
   return answer_one(i, [&] { return find_all_hits(i.bodies, ray); });
@@ -354,12 +365,14 @@ void World::closest_points(std::span<const PointQuery> queries, std::span<Closes
 }
 
 std::vector<FacetOfBody> World::overlap_box(const BoxQuery& query) const {
+  const base::FloatingPointMode mode;
   const Implementation& i = implementation();
   check_query(query);
   return answer_one(i, [&] { return find_in_box(i.bodies, query); });
 }
 
 std::vector<BodyId> World::bodies_containing(const PointQuery& query) const {
+  const base::FloatingPointMode mode;
   const Implementation& i = implementation();
   check_query(query);
   return answer_one(i, [&] { return find_around(i.bodies, query); });
@@ -395,6 +408,7 @@ std::uint32_t World::layer(BodyId body) const { return implementation().bodies.f
 std::uint32_t World::mask(BodyId body) const { return implementation().bodies.filter(body).mask; }
 std::uint64_t World::external_id(BodyId body) const { return implementation().bodies.at(body).external_id; }
 double World::margin(BodyId body) const {
+  const base::FloatingPointMode mode;
   const Bodies& bodies = implementation().bodies;
   return bodies.margin(bodies.at(body).id.index);
 }

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/floating_point_mode.h"
 #include "engine/recording/byte_reader.h"
 #include "engine/recording/format.h"
 
@@ -13,6 +14,7 @@ using recording::ByteReader, recording::EndOfBytes, recording::RecordKind;
 
 struct RecordingPlayer::Implementation {
   Implementation(std::string_view bytes, const PlayOptions& given) : reader(bytes), options(given) {
+    const base::FloatingPointMode mode;
     try {
       read_head(bytes);
       if (read_kind() != RecordKind::settings) fail("the first record is not one of settings");
@@ -262,7 +264,10 @@ RecordingPlayer::~RecordingPlayer() = default;
 RecordingPlayer::RecordingPlayer(RecordingPlayer&&) noexcept = default;
 RecordingPlayer& RecordingPlayer::operator=(RecordingPlayer&&) noexcept = default;
 
-std::optional<PlayedStep> RecordingPlayer::next() { return implementation_->next(); }
+std::optional<PlayedStep> RecordingPlayer::next() {
+  const base::FloatingPointMode mode;
+  return implementation_->next();
+}
 std::optional<std::size_t> RecordingPlayer::cut_at() const { return implementation_->cut_at; }
 World& RecordingPlayer::world() { return *implementation_->world; }
 const Report& RecordingPlayer::report() const { return *implementation_->report; }
