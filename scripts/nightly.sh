@@ -1,9 +1,9 @@
 #!/bin/bash
 # What is too long for every change: a hundred million hard triangle pairs, a million of hulls, ten million of moving
-# features, a million questions, five thousand pairs of bodies with contact points, a hundred sets of folded sheets, a
-# soak of a million steps, the scenes until they rest, a thousand cases of every kind of hardship, clang-tidy over the
-# whole library, the tests with assertions on, against a shared library and under the sanitizers, and the fuzzing of the
-# readers.
+# features, a million questions, five thousand pairs of bodies with contact points, twenty thousand small ones in
+# rational numbers, a hundred sets of folded sheets, a soak of a million steps, the scenes until they rest, a thousand
+# cases of every kind of hardship, clang-tidy over the whole library, the tests with assertions on, against a shared
+# library and under the sanitizers, and the fuzzing of the readers.
 # usage: scripts/nightly.sh [SECONDS of fuzzing a format, 600 if not given]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -13,7 +13,7 @@ TACT_LONG_CGAL_PAIRS=100000000 TACT_LONG_RATIONAL_PAIRS=1000000 build/release/te
 TACT_LONG_HULL_PAIRS=1000000 build/release/tests/long/test_directions_long
 TACT_LONG_MOTION_QUERIES=10000000 build/release/tests/long/test_motion_long
 TACT_LONG_QUERIES=1000000 build/release/tests/long/test_queries_long
-TACT_LONG_POINT_PAIRS=5000 build/release/tests/long/test_points_long
+TACT_LONG_POINT_PAIRS=5000 TACT_LONG_EXACT_POINT_PAIRS=20000 build/release/tests/long/test_points_long
 TACT_LONG_SELF_SEEDS=100 build/release/tests/long/test_self_long
 TACT_SOAK_STEPS=1000000 build/release/tests/long/test_soak_long
 TACT_LONG_SCENES_FULL=1 build/release/tests/long/test_scenes_long
