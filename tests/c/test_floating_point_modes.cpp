@@ -203,6 +203,9 @@ class EveryCallOfC {
       call([&] { return tact_world_copy_positions(world_, body, coordinates.data(), coordinates.size()); });
       call([&] { return tact_world_copy_facets(world_, body, corners.data(), corners.size()); });
       call([&] { return tact_world_bounds(world_, body, &bounds); });
+      size_t faults = 0;
+      call([&] { return tact_world_check_surface(world_, body, 1e-6, nullptr, nullptr, 0, &faults); });
+      tell(faults);
       tell(coordinates);
       tell({&margin, 1});
       tell(bounds.lower);

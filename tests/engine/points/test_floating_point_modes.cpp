@@ -286,6 +286,7 @@ class EveryCall {
       told_.add(bounds.lower);
       told_.add(bounds.upper);
       tell([&] { return world.margin(body); });
+      tell([&] { return world.check_surface(body).crossings.size(); });
       tell([&] {
         return std::uint64_t{world.contains(body)} + world.name(body).size() + world.vertex_count(body) +
                world.facet_count(body) + world.layer(body) + world.mask(body) + world.group(body) +
