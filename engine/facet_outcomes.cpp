@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/floating_point_mode.h"
 #include "engine/bodies/bodies.h"
 #include "engine/pair/confirm.h"
 #include "engine/pair/cull.h"
@@ -94,6 +95,7 @@ FacetOutcomeFinder::FacetOutcomeFinder(const Report& report) : work_(std::make_u
 FacetOutcomeFinder::~FacetOutcomeFinder() = default;
 
 std::optional<FacetOutcomes> FacetOutcomeFinder::find(const Contact& contact) {
+  const base::FloatingPointMode mode;
   const ReportSources* const sources = work_->sources;
   if (sources == nullptr || contact.a == contact.b || sources->settings->accuracy == Accuracy::hulls) return {};
   const PairRecord* record = record_of(*sources->table, contact.a, contact.b);

@@ -259,11 +259,13 @@ void begin_rays(const Bodies& bodies, std::size_t rays, int threads, narrowphase
   for (std::uint32_t slot = 0; slot < clusters.size(); ++slot)
     clusters[slot] = bodies.boxes()[slot].empty() ? 0 : bodies.in_slot(slot).mesh.cluster_count();
   room.begin(clusters, rays);
-  base::parallel_for(room.meshes().size(), 1, threads, [&](std::size_t k) {
+  // A tree takes some microseconds, a node one, a thread fifty to wake up.
+  constexpr std::size_t kTreesAtATime = 16, kNodesAtATime = 64;
+  base::parallel_for(room.meshes().size(), kTreesAtATime, threads, [&](std::size_t k) {
     const std::size_t slot = room.meshes()[k];
     room.make_tree(bodies.placed(static_cast<std::uint32_t>(slot)).mesh, slot);
   });
-  base::parallel_for(room.node_count(), 4, threads, [&](std::size_t i) { room.make_node(i); });
+  base::parallel_for(room.node_count(), kNodesAtATime, threads, [&](std::size_t i) { room.make_node(i); });
 }
 
 void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<RayHit> hits,

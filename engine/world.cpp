@@ -125,8 +125,10 @@ struct World::Implementation {
 };
 
 World::World(const Settings& settings)
-    : implementation_(with_memory("making a world ran out of memory",
-                                  [&] { return std::make_unique<Implementation>(settings); })) {}
+    : implementation_(with_memory("making a world ran out of memory", [&] {
+        const base::FloatingPointMode mode;
+        return std::make_unique<Implementation>(settings);
+      })) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -146,6 +148,7 @@ void WorldTuning::set(const World& world, const base::Tuning& tuning) { world.im
 const Settings& World::settings() const { return implementation().settings; }
 
 void World::set_settings(const Settings& settings) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.settings = with_memory([&] { return checked(settings); });
   if (i.workers.executor() != i.settings.executor.get()) i.workers.restart(i.settings.executor);
@@ -167,18 +170,21 @@ void World::remove_body(BodyId body) {
 }
 
 void World::set_positions(BodyId body, const Positions& positions) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.set_positions([&] { i.bodies.set_positions(body, positions, i.settings.threads); });
   i.observe([&](WorldObserver& observer) { observer.positions_set(std::array{PositionsUpdate{body, positions}}); });
 }
 
 void World::set_positions(std::span<const PositionsUpdate> updates) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.set_positions([&] { i.bodies.set_positions(updates, i.settings.threads); });
   i.observe([&](WorldObserver& observer) { observer.positions_set(updates); });
 }
 
 void World::set_pose(BodyId body, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   const PoseUpdate update{body, rotation, translation};
   i.set_positions([&] { i.bodies.set_pose(update); });
@@ -186,23 +192,27 @@ void World::set_pose(BodyId body, const Eigen::Matrix3d& rotation, const Eigen::
 }
 
 void World::set_poses(std::span<const PoseUpdate> updates) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.set_positions([&] { i.bodies.set_poses(updates, i.settings.threads); });
   i.observe([&](WorldObserver& observer) { observer.poses_set(updates); });
 }
 
 void World::set_layers(BodyId body, std::uint32_t layer, std::uint32_t mask) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.change([&] { i.bodies.set_layers(body, layer, mask); },
            [&](WorldObserver& observer) { observer.layers_set(body, layer, mask); });
 }
 
 void World::set_group(BodyId body, std::uint32_t group) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.change([&] { i.bodies.set_group(body, group); }, [&](WorldObserver& observer) { observer.group_set(body, group); });
 }
 
 void World::set_excluded(BodyId a, BodyId b, bool excluded) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.change([&] { i.bodies.set_excluded(a, b, excluded); },
            [&](WorldObserver& observer) { observer.excluded_set(a, b, excluded); });
@@ -227,6 +237,7 @@ void World::set_self_contact(BodyId body, bool wanted) {
 }
 
 void World::set_observer(WorldObserver* observer) {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   if (observer != nullptr && i.bodies.ever_held_any())
     with_memory([] { throw Error(ErrorCode::wrong_order, "an observer is set before the first body is added"); });
@@ -235,6 +246,7 @@ void World::set_observer(WorldObserver* observer) {
 }
 
 const Report& World::detect() {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   const Report& report = i.detect();
   i.observe([&](WorldObserver& observer) { observer.step_ended(report); });
@@ -253,8 +265,8 @@ const Report& FailedStep::play(World& world) {
 }
 
 const MotionReport& World::detect_motion(Impacts wanted) {
-  Implementation& i = implementation();
   const base::FloatingPointMode mode;
+  Implementation& i = implementation();
   const base::Workers::Scope scope(i.workers);
   return with_memory("detect_motion ran out of memory", [&]() -> const MotionReport& {
     check_name(wanted, Impacts::first, "impacts");
@@ -271,6 +283,9 @@ const MotionReport& World::detect_motion(Impacts wanted) {
 namespace {
 
 constexpr const char* kNoMemoryForAnswers = "answering ran out of memory";
+
+// Blocks of rays that a thread takes: some 40 microseconds, about what it takes another thread to wake up.
+constexpr std::size_t kRayBlocksAtATime = 16;
 
 // The message of an error tells which query it is of.
 template <class Query>
@@ -322,13 +337,13 @@ RayHit World::cast_ray(const Ray& ray, RayHits wanted) const {
 }
 
 void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted) const {
+  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   check_name(wanted, RayHits::any, "hits");
   // Fewer do not open the same clusters often enough, nor do rays of which not even one is for each body.
   const std::size_t fewest_together = std::max<std::size_t>(64, i.bodies.count());
   if (wanted != RayHits::first || rays.size() < fewest_together)
     return answer_all(i, rays, hits, [&](const Ray& ray) { return find_hit(i.bodies, ray, wanted); });
-  const base::FloatingPointMode mode;
   const base::Workers::Scope scope(i.workers);
   with_memory(kNoMemoryForAnswers, [&] {
     check_queries(rays, hits.size());
@@ -336,7 +351,8 @@ void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits
     const base::Pool<narrowphase::SegmentBatch>::Loan batch(i.segment_batches);
     i.bodies.expect_queries(rays.size());
     begin_rays(i.bodies, rays.size(), i.settings.threads, *batch);
-    base::parallel_for((rays.size() + kAtATime - 1) / kAtATime, 1, i.settings.threads, [&](std::size_t block) {
+    const std::size_t blocks = (rays.size() + kAtATime - 1) / kAtATime;
+    base::parallel_for(blocks, kRayBlocksAtATime, i.settings.threads, [&](std::size_t block) {
       const std::size_t begin = block * kAtATime, count = std::min(kAtATime, rays.size() - begin);
       find_first_hits(i.bodies, rays.subspan(begin, count), hits.subspan(begin, count), *batch);
     });
@@ -344,6 +360,7 @@ void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits
 }
 
 std::vector<RayHit> World::cast_ray_all(const Ray& ray) const {
+  const base::FloatingPointMode mode;
   const Implementation& i = implementation();
   return answer_one(i, ray, [&] { return find_all_hits(i.bodies, ray); });
 }
@@ -360,11 +377,13 @@ void World::closest_points(std::span<const PointQuery> queries, std::span<Closes
 }
 
 std::vector<FacetOfBody> World::overlap_box(const BoxQuery& query) const {
+  const base::FloatingPointMode mode;
   const Implementation& i = implementation();
   return answer_one(i, query, [&] { return find_in_box(i.bodies, query); });
 }
 
 std::vector<BodyId> World::bodies_containing(const PointQuery& query) const {
+  const base::FloatingPointMode mode;
   const Implementation& i = implementation();
   return answer_one(i, query, [&] { return find_around(i.bodies, query); });
 }

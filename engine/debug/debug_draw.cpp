@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/floating_point_mode.h"
 #include "engine/facet_outcomes.h"
 #include "engine/with_memory.h"
 
@@ -44,10 +45,11 @@ Vector3d upper(const Bounds& bounds) { return Eigen::Map<const Vector3d>(bounds.
 Vector3d middle(const Bounds& bounds) { return 0.5 * lower(bounds) + 0.5 * upper(bounds); }
 double size(const Bounds& bounds) { return (upper(bounds) - lower(bounds)).norm(); }
 
-std::string words_of(const char* format, double value) {
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
+// Not by printf, which rounds as the caller's x87 does.
+std::string metres(double value) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3).ptr;
+  return std::string(text.data(), end) + " m";
 }
 
 class Drawing {
@@ -108,7 +110,7 @@ class Drawing {
     const Vector3d n = contact.direction;
     if (options_.directions) {
       draw_arrow(at, contact.depth * n, options_.direction);
-      drawer_.text(at, words_of("%.3g m", contact.depth), options_.word);
+      drawer_.text(at, metres(contact.depth), options_.word);
     }
     if (options_.planes) {
       const double width = 0.5 * std::min(size(a), size(b));
@@ -240,6 +242,7 @@ class Drawing {
 DebugDrawer::~DebugDrawer() = default;
 
 void debug_draw(const World& world, const Report& report, DebugDrawer& drawer, const DebugDrawOptions& options) {
+  const base::FloatingPointMode mode;
   with_memory("drawing ran out of memory", [&] { Drawing(world, report, drawer, options).draw(); });
 }
 

@@ -6,6 +6,7 @@
 #include <ostream>
 #include <type_traits>
 
+#include "engine/base/floating_point_mode.h"
 #include "engine/base/timer.h"
 #include "engine/recording/format.h"
 
@@ -72,6 +73,7 @@ void put_addition(std::ostream& out, BodyId body, const BodyDefinition& definiti
 
 template <class Write>
 void Recorder::write(const Write& write) noexcept {
+  const base::FloatingPointMode mode;
   base::Timer timer;
   try {
     write(out_);

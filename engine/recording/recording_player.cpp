@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/failed_step.h"
+#include "engine/base/floating_point_mode.h"
 #include "engine/recording/byte_reader.h"
 #include "engine/recording/format.h"
 #include "engine/with_memory.h"
@@ -21,6 +22,7 @@ constexpr const char* kNoMemory = "playing a recording ran out of memory";
 
 struct RecordingPlayer::Implementation {
   Implementation(std::string_view bytes, const PlayOptions& given) : reader(bytes), options(given) {
+    const base::FloatingPointMode mode;
     try {
       read_head(bytes);
       if (read_kind() != RecordKind::settings) fail("the first record is not one of settings");
@@ -281,6 +283,7 @@ RecordingPlayer::RecordingPlayer(RecordingPlayer&&) noexcept = default;
 RecordingPlayer& RecordingPlayer::operator=(RecordingPlayer&&) noexcept = default;
 
 std::optional<PlayedStep> RecordingPlayer::next() {
+  const base::FloatingPointMode mode;
   return with_memory(kNoMemory, [&] { return implementation_->next(); });
 }
 std::optional<std::size_t> RecordingPlayer::cut_at() const { return implementation_->cut_at; }

@@ -26,8 +26,7 @@ std::uint64_t without(std::span<const std::uint64_t> left_out, std::uint64_t som
 }
 
 Vec3 facet_normal(const ScaledMesh& m, int facet) {
-  const Triangle t = m.triangle(facet);
-  const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+  const Vec3 normal = m.normal(facet);
   return normal == Vec3{} ? Vec3{0.0, 0.0, 1.0} : normalized(normal);
 }
 
@@ -86,15 +85,17 @@ void PointFinder::from_vertices(const OpenFeatures& one, const OpenFeatures& oth
 }
 
 void PointFinder::look_inside_facet(const VertexAndFacet& one) {
+  const Features& features = one.surface.features;
+  if ((features.firsts_of_facet(one.facet) & Features::kRepeatsFacet) != 0) return;
   if (const auto nearest = nearest_inside_facet(one.v, one.corner, reach_))
-    add_vertex_point(one, one.surface.features.corners(one.facet), *nearest);
+    add_vertex_point(one, features.corners(one.facet), *nearest);
 }
 
 // Points on those edges and vertices that have the facet as their first one.
 void PointFinder::look_at_border(const VertexAndFacet& one) {
   const int facet = one.facet;
   const Features& features = one.surface.features;
-  unsigned first = features.firsts_of_facet(facet);
+  unsigned first = features.firsts_of_facet(facet) & ~Features::kRepeatsFacet;
   if (first != 0) first &= border_of(one.v, one.corner, reach_);
   if (first == 0) return;
   const Corners& corners = features.corners(facet);

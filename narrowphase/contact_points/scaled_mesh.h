@@ -3,6 +3,7 @@
 
 #include "narrowphase/distance/nearest.h"
 #include "narrowphase/mesh/features.h"
+#include "narrowphase/numeric/double_double.h"
 #include "narrowphase/numeric/unit_scale.h"
 #include "narrowphase/pairs/box_reach.h"
 
@@ -21,10 +22,13 @@ struct ScaledMesh {
     const Corners& c = features.corners(facet);
     return {position(c[0]), position(c[1]), position(c[2])};
   }
-  /// Of a facet; zero if it has no area.
-  Vec3 unit_normal(int facet) const {
+  /// Along the normal of a facet, of any length; zero if it has no area.
+  Vec3 normal(int facet) const {
     const Triangle t = triangle(facet);
-    const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+    return moderate_cross(t[1] - t[0], t[2] - t[0]);
+  }
+  Vec3 unit_normal(int facet) const {
+    const Vec3 normal = this->normal(facet);
     const double length = norm(normal);
     return length > 0.0 ? (1.0 / length) * normal : Vec3{};
   }

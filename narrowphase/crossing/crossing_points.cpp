@@ -191,17 +191,22 @@ void CrossingPoints::append_edges_through(const Crossing& c, const CrossedSurfac
                                           std::vector<FeaturePoint>& found) {
   if (body.surface != SurfaceKind::closed) return;
   with_point_.clear();
+  touching_.clear();
   for (const FeaturePoint& point : found) {
-    if (point.kind == FeaturePair::edge_edge && point.gap < 0.0)
-      with_point_.push_back(&own == &c.a() ? point.edge_a : point.edge_b);
+    if (point.kind != FeaturePair::edge_edge) continue;
+    if (point.gap < 0.0) with_point_.push_back(&own == &c.a() ? point.edge_a : point.edge_b);
+    if (point.gap == 0.0) touching_.emplace_back(point.edge_a, point.edge_b);
   }
   std::ranges::sort(with_point_);
+  std::ranges::sort(touching_);
   const auto hits = own.cut.hits();
   for (std::size_t i = 0, end = 0; i < hits.size(); i = end) {
     for (end = i + 1; end < hits.size() && hits[end].edge == hits[i].edge;) ++end;
     if (end == i + 1 || std::ranges::binary_search(with_point_, hits[i].edge)) continue;
     if (own.cut.is_past(hits[i].vertices[0]) || own.cut.is_past(hits[i].vertices[1])) continue;
-    if (const auto point = point_through(c, own, hits.subspan(i, end - i), body)) found.push_back(*point);
+    const auto point = point_through(c, own, hits.subspan(i, end - i), body);
+    if (point && !std::ranges::binary_search(touching_, EdgePair(point->edge_a, point->edge_b)))
+      found.push_back(*point);
   }
 }
 

@@ -62,6 +62,7 @@ class CrossingPoints {
 
   std::vector<EdgePair> candidates_;
   std::vector<int> with_point_;
+  std::vector<EdgePair> touching_;  // edges with a point of gap zero
   WaitingEdges waiting_;
   EdgesBeside beside_;
   SurfaceWays ways_;

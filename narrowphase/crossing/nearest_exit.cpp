@@ -19,13 +19,15 @@ constexpr double kFlat = 1e-12;
 struct SeenFacet {
   Triangle t;  // from the vertex
   Vec3 normal;
-  double length = 0.0;  // of the normal, which need not be 1
-  double height = 0.0;  // of the vertex above the facet's plane
+  bool is_tiny = false;  // so that the normal is larger than twice the area
+  double length = 0.0;   // of the normal, which need not be 1
+  double height = 0.0;   // of the vertex above the facet's plane
 
   SeenFacet(const Triangle& facet, Vec3 v) {
     for (std::size_t k = 0; k < 3; ++k) t[k] = facet[k] - v;
-    normal = cross(t[1] - t[0], t[2] - t[0]);
+    normal = moderate_cross(t[1] - t[0], t[2] - t[0]);
     length = norm(normal);
+    is_tiny = normal != cross(t[1] - t[0], t[2] - t[0]);
     if (length > 0.0) height = -dot(normal, t[0]) / length;
   }
 };
@@ -38,7 +40,8 @@ constexpr double kSliver = 1e-4;
 std::array<double, 3> weights_of(const SeenFacet& seen) {
   const Vec3 p = seen.t[1] - seen.t[0], q = seen.t[2] - seen.t[0];
   const double square = seen.length * seen.length;
-  if (square <= kSliver * kSliver * norm_squared(p) * norm_squared(q)) return nearest_weights({}, seen.t);
+  if (seen.is_tiny || square <= kSliver * kSliver * norm_squared(p) * norm_squared(q))
+    return nearest_weights({}, seen.t);
   std::array<double, 3> weight;
   for (std::size_t i = 0; i < 3; ++i) {
     weight[i] = dot(cross(seen.t[(i + 1) % 3], seen.t[(i + 2) % 3]), seen.normal) / square;
@@ -65,8 +68,9 @@ PlaceInFacet nearest_place(const SeenFacet& seen, int facet) {
     place.distance = std::abs(seen.height);
     place.direction = seen.height > 0.0 ? -unit : unit;
   } else {
-    place.distance = norm(to);
-    place.direction = place.distance > 0.0 ? (1.0 / place.distance) * to : unit;
+    place.distance = length_of(to);
+    const bool is_short = place.distance < 0x1p-400;  // its inverse may overflow
+    place.direction = to == Vec3{} ? unit : is_short ? unit_vector(to) : (1.0 / place.distance) * to;
   }
   return place;
 }

@@ -119,9 +119,10 @@ std::optional<Nearest> between(const LinePair<double>& lines, const Sides& at, d
                   .first = {1.0 - of_e, of_e}});
 }
 
-// Nearly parallel edges, whose lengths are scaled to near 1 by two powers of two. Their distance hardly changes along
-// them, so it is measured from the place on e to its foot on f. Where double-doubles do not tell that the place is
-// inside both, at an end or between lines turned by less than some 2^-45, there is none: points of the ends are near.
+// Nearly parallel edges, or such short ones that products vanish, whose lengths are scaled to near 1 by two powers of
+// two. Their distance hardly changes along them, so it is measured from the place on e to its foot on f. Where
+// double-doubles do not tell that the place is inside both, at an end or between lines turned by less than some 2^-45,
+// there is none: points of the ends are near.
 std::optional<Nearest> fine_between(const LinePair<DoubleDouble>& lines, double scale_e, double scale_f,
                                     const Sides& at, double limit) {
   const double rounding = lines.rounding();
@@ -163,8 +164,10 @@ std::optional<Nearest> nearest_between_edges(const EdgeEnds& e, const ScaledVert
   const Sides at{e, f, third_e, third_f, side};
   const NumberVector<double> along_e = difference<double>(e.q, e.p), along_f = difference<double>(f.q, f.p);
   const LinePair<double> rough(along_e, along_f, difference<double>(f.p, e.p), cross(along_e, along_f));
-  if (rough.square > kNearlyParallel * rough.size_squared) return between(rough, at, limit);
-  if (certainly_none(rough, limit)) return {};
+  if (rough.size_squared > kVanishing) {
+    if (rough.square > kNearlyParallel * rough.size_squared) return between(rough, at, limit);
+    if (certainly_none(rough, limit)) return {};
+  }
   const double scale_e = scale_of(rough.u), scale_f = scale_of(rough.w);
   const DoubleDoubleVec3 u = scaled(double_double_difference(e.q, e.p), scale_e),
                          w = scaled(double_double_difference(f.q, f.p), scale_f), across = cross(u, w);

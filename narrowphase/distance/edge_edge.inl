@@ -24,7 +24,8 @@ struct EdgeLanes {
     const Pack s = dot(cross(r, w), across), t = dot(cross(r, u), across);
     square = dot(across, across);
     height = dot(across, r);
-    clear = less(mul(spread(kNearlyParallel), mul(dot(u, u), dot(w, w))), square);
+    const Pack size_squared = mul(dot(u, u), dot(w, w));
+    clear = both(less(spread(kVanishing), size_squared), less(mul(spread(kNearlyParallel), size_squared), square));
     const Mask beside =
         either(either(less_equal(s, zero), less_equal(square, s)), either(less_equal(t, zero), less_equal(square, t)));
     const Mask far = less(mul(reach_squared, square), mul(height, height));

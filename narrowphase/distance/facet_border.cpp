@@ -8,11 +8,16 @@ namespace tact::narrowphase {
 
 namespace {
 
+constexpr double kSmallLength = 0x1p-400;  // the squares of shorter ones may vanish
+
 bool certainly_positive(double value, double size_squared) {
   return value > 0.0 && certain_sign(value, size_squared) > 0;
 }
 
-Vec3 direction_or_zero(Vec3 v, double length) { return length > 0.0 ? (1.0 / length) * v : Vec3{}; }
+Vec3 direction_or_zero(Vec3 v, double length) {
+  if (length > kSmallLength) return (1.0 / length) * v;
+  return v == Vec3{} ? Vec3{} : unit_vector(v);
+}
 
 }  // namespace
 
@@ -23,7 +28,7 @@ std::optional<Nearest> nearest_inside_edge(Vec3 v, Vec3 p, Vec3 q, const ScaledV
   const double t = place / length;
   // From the nearer end, so that the product is as short as can be.
   const Vec3 way = t < 0.5 ? t * edge - (v - p) : (t - 1.0) * edge - (v - q);
-  const double distance = norm(way);
+  const double distance = length_of(way);
   if (!(distance < limit)) return {};
   for (std::size_t i = 0; i < third.size(); ++i) {
     if (side_of_edge(v, p, q, third[i]) > 0) return {};
@@ -32,7 +37,7 @@ std::optional<Nearest> nearest_inside_edge(Vec3 v, Vec3 p, Vec3 q, const ScaledV
 }
 
 std::optional<Nearest> nearest_in_vertex(Vec3 v, Vec3 w, const ScaledVertices& neighbors, double limit) {
-  const double distance = norm(w - v);
+  const double distance = length_of(w - v);
   if (!(distance < limit)) return {};
   for (std::size_t i = 0; i < neighbors.size(); ++i) {
     if (sign_along(w, neighbors[i], w, v) > 0) return {};
@@ -63,7 +68,7 @@ unsigned border_of(Vec3 v, const Vec3 (&corner)[3], double limit) {
     const double rounding = 0x1p-40 * (square[k] + length[k]);
     if (place[k] < -rounding || place[k] > length[k] + rounding) continue;
     const double apart = square[k] * length[k] - place[k] * place[k];  // squared distance times length
-    if (apart > most * length[k] + 0x1p-40 * square[k] * length[k]) continue;
+    if (apart > most * length[k] + 0x1p-40 * square[k] * length[k] + kVanishing) continue;
     const double inner = back * length[k] + dot(side[last], side[k]) * place[k];
     const double size_squared =
         length[k] * length[k] * std::max(square[k], square[next]) * std::max(length[last], length[next]);

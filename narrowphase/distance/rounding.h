@@ -14,7 +14,8 @@
 // Numbers (gaps, weights, normals) are computed in doubles where that loses a few roundings: inside facets and edges,
 // in vertices, between edges that are clearly not parallel. Between nearly parallel edges they are computed in
 // double-doubles and rounded once; so are normals of narrow triangles. Simplices of hulls, which may be thinner than
-// 2^-53, take triple-doubles, and places of segments in triangles integers.
+// 2^-53, take triple-doubles. Times of segments and distances of queries are exact numbers, rounded once: double-doubles
+// where it is certain how they are rounded, else integers.
 //
 // All operations are +, -, *, / and square roots of doubles: the same bits on every machine.
 #pragma once
@@ -24,6 +25,10 @@ namespace tact::narrowphase {
 inline constexpr double kSignRounding = 256 * 0x1p-53;
 inline constexpr double kFineRounding = 0x1p-92;
 inline constexpr double kEqualDistance = 0x1p-56;
+
+// Lengths are near 1. Products of lengths below this may have lost digits, or all: where one decides, it is computed
+// from what is scaled, and the kernels leave it.
+inline constexpr double kVanishing = 0x1p-900;
 
 // Two edges of which the squared sine is smaller are nearly parallel.
 inline constexpr double kNearlyParallel = 1e-8;

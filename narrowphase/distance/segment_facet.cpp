@@ -4,8 +4,13 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 
+#include "narrowphase/distance/rounding.h"
 #include "narrowphase/distance/vertex_facet.h"
+#include "narrowphase/numeric/double_double.h"
+#include "narrowphase/numeric/rounded.h"
+#include "narrowphase/numeric/unit_scale.h"
 #include "narrowphase/numeric/wide_vector.h"
 
 namespace tact::narrowphase {
@@ -40,56 +45,115 @@ std::array<double, 3> shares(const std::array<Integer, 3>& numbers) {
   return {size[0] / sum, size[1] / sum, size[2] / sum};
 }
 
-// When the segment comes to a place of a triangle that lies on its line, by how far that is along the longest axis.
-double time_at(const Segment& segment, const Triangle& t, const std::array<double, 3>& weight) {
-  const int axis = longest_axis(segment[1] - segment[0]);
-  double along = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) along += weight[k] * (t[k][axis] - segment[0][axis]);
-  return along / (segment[1][axis] - segment[0][axis]);
+template <int kCapacity>
+WideInteger<kCapacity> along_axis(const WideVector<kCapacity>& v, int axis) {
+  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-// The weights where the segment's line, which lies in one plane with all, crosses the side from corner a to corner b
-// strictly between them; all zero if it does not.
-std::array<double, 3> crossing(const std::array<WideCross, 3>& beside, std::size_t a, std::size_t b) {
+template <int kCapacity>
+WideInteger<kCapacity> magnitude(const WideInteger<kCapacity>& a) {
+  return a.sign() < 0 ? -a : a;
+}
+
+// A place of a triangle that lies on the segment's line: the weights, and how far along an axis it is from the
+// beginning, as a quotient.
+struct PlaceOnLine {
+  std::array<double, 3> weight{};
+  WideInteger<104> along, whole;
+};
+
+// Where the segment's line, which lies in one plane with all, crosses the side from corner a to corner b strictly
+// between them.
+std::optional<PlaceOnLine> crossing(const WideTriangle& wide, const std::array<WideCross, 3>& beside, std::size_t a,
+                                    std::size_t b, int axis) {
   const auto apart = beside[a] - beside[b];
   const auto longest = std::max({apart.x.bit_count(), apart.y.bit_count(), apart.z.bit_count()});
-  const auto along = [&](std::size_t k) {
-    return apart.x.bit_count() == longest ? beside[k].x : apart.y.bit_count() == longest ? beside[k].y : beside[k].z;
-  };
-  const auto of_a = along(a), of_b = along(b);
+  const int across = apart.x.bit_count() == longest ? 0 : apart.y.bit_count() == longest ? 1 : 2;
+  const auto of_a = along_axis(beside[a], across), of_b = along_axis(beside[b], across);
   if (of_a.sign() * of_b.sign() >= 0) return {};
   std::array<WideInteger<69>, 3> opposite{};
-  opposite[a] = of_b;
-  opposite[b] = of_a;
-  return shares(opposite);
+  opposite[a] = magnitude(of_b);
+  opposite[b] = magnitude(of_a);
+  return PlaceOnLine{shares(opposite),
+                     opposite[a] * along_axis(wide.corner[a], axis) + opposite[b] * along_axis(wide.corner[b], axis),
+                     opposite[a] + opposite[b]};
 }
 
 // All in one plane: it begins inside, or where it comes first over a side or a corner. Its line crosses the triangle
 // from one such place to another, and the segment begins before both.
-CommonPlace place_in_plane(const Segment& segment, const Triangle& t, const std::array<WideCross, 3>& beside) {
+CommonPlace place_in_plane(const Segment& segment, const Triangle& t, const WideTriangle& wide,
+                           const std::array<WideCross, 3>& beside) {
   PredicateCounts counts;
   const Vec3& from = segment[0];
   if (triangle_triangle_meet(t, {from, from, from}, counts)) return {0.0, weights_about(from, t)};
+  const int axis = longest_axis(segment[1] - from);
+  const auto way = along_axis(wide.way, axis);
   CommonPlace first{std::numeric_limits<double>::infinity(), {}};
-  const auto take = [&](const std::array<double, 3>& weight) {
-    const double time = time_at(segment, t, weight);
-    if (time < first.time) first = {time, weight};
+  const auto take = [&](const PlaceOnLine& place) {
+    const auto along = magnitude(place.along);
+    const auto whole = place.whole * magnitude(way);
+    if ((along - whole).sign() > 0) return;  // behind the end
+    const double time = rounded_quotient(along, whole);
+    if (time < first.time) first = {time, place.weight};
   };
   for (std::size_t k = 0; k < 3; ++k) {
     if (beside[k].is_zero()) {
-      std::array<double, 3> corner{};
-      corner[k] = 1.0;
+      PlaceOnLine corner{{}, along_axis(wide.corner[k], axis), power_of_two<1>(0)};
+      corner.weight[k] = 1.0;
       take(corner);
     }
-    const std::array<double, 3> weight = crossing(beside, k, (k + 1) % 3);
-    if (weight[k] > 0.0) take(weight);
+    if (const auto place = crossing(wide, beside, k, (k + 1) % 3, axis)) take(*place);
   }
   return first;
 }
 
+double largest_of(const DoubleDoubleVec3& v) {
+  return std::max({std::abs(v.x.head), std::abs(v.y.head), std::abs(v.z.head)});
+}
+
+// A segment and a triangle in double-doubles.
+struct FineCrossing {
+  DoubleDoubleVec3 p, q;       // sides of the triangle, from its first corner
+  DoubleDoubleVec3 from, way;  // from the beginning of the segment to that corner, and to its end
+
+  FineCrossing(const Segment& segment, const Triangle& t)
+      : p(double_double_difference(t[1], t[0])),
+        q(double_double_difference(t[2], t[0])),
+        from(double_double_difference(t[0], segment[0])),
+        way(double_double_difference(segment[1], segment[0])) {}
+
+  // When the segment crosses the plane, if it is certain how that is rounded. With the largest components of the four
+  // vectors the normal is off by 2^-100 of two, products with it by 2^-97 of three of them.
+  std::optional<DoubleDouble> time() const {
+    const double sides = largest_of(p) * largest_of(q), size = sides * largest_of(from),
+                 size_of_way = sides * largest_of(way);
+    if (!(sides > kVanishing && size > kVanishing && size_of_way > kVanishing)) return {};
+    const DoubleDoubleVec3 normal = cross(p, q);
+    const DoubleDouble height = dot(normal, from), slope = dot(normal, way), time = height / slope;
+    const double error =
+        std::abs(time.head) * (0x1p-96 * (size / std::abs(height.head) + size_of_way / std::abs(slope.head)) + 0x1p-98);
+    if (!rounds_to_head(time, error)) return {};
+    return time;
+  }
+
+  // The weights of the triangle's corners at a time.
+  std::array<double, 3> weights_at(DoubleDouble time) const {
+    const double scale = unit_scale(std::max(largest_of(p), largest_of(q)));
+    return nearest_weights(scale * heads(time * way - from), {Vec3{}, scale * heads(p), scale * heads(q)});
+  }
+};
+
+double exact_time(const WideTriangle& wide) {
+  const auto& [p, q, r] = wide.corner;
+  const auto normal = cross(q - p, r - p);
+  return rounded_quotient(magnitude(dot(normal, p)), magnitude(dot(normal, wide.way)));
+}
+
 }  // namespace
 
-CommonPlace exact_place(const Segment& segment, const Triangle& t) {
+CommonPlace first_place(const Segment& segment, const Triangle& t) {
+  const FineCrossing fine(segment, t);
+  if (const auto time = fine.time()) return {time->head, fine.weights_at(*time)};
   const WideTriangle wide = in_integers(segment, t);
   std::array<WideCross, 3> beside;
   for (std::size_t k = 0; k < 3; ++k) beside[k] = cross(wide.way, wide.corner[k]);
@@ -97,9 +161,13 @@ CommonPlace exact_place(const Segment& segment, const Triangle& t) {
   std::array<WideInteger<105>, 3> volume;
   for (std::size_t k = 0; k < 3; ++k) volume[k] = dot(beside[(k + 1) % 3], wide.corner[(k + 2) % 3]);
   if (volume[0].sign() == 0 && volume[1].sign() == 0 && volume[2].sign() == 0)
-    return place_in_plane(segment, t, beside);
-  const std::array<double, 3> weight = shares(volume);
-  return {time_at(segment, t, weight), weight};
+    return place_in_plane(segment, t, wide, beside);
+  return {exact_time(wide), shares(volume)};
+}
+
+double crossing_time(const Segment& segment, const Triangle& triangle) {
+  const auto time = FineCrossing(segment, triangle).time();
+  return time ? time->head : exact_time(in_integers(segment, triangle));
 }
 
 }  // namespace tact::narrowphase

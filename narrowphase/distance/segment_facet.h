@@ -1,4 +1,4 @@
-// Where a segment first is in a triangle that it meets, from exact numbers rounded once.
+// Where a segment first is in a triangle that it meets.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace tact::narrowphase {
 
 /// A place of a segment and of a triangle.
 struct CommonPlace {
-  double time = 0.0;               // as a part of the segment
+  double time = 0.0;               // as a part of the segment, the exact one, rounded once
   std::array<double, 3> weight{};  // of the triangle's corners
 };
 
@@ -21,8 +21,12 @@ inline int longest_axis(Vec3 a) {
   return size.y >= size.z ? 1 : 2;
 }
 
-/// The first place of a segment, which is no point, in a triangle that it meets. The weights are right to 2^-50 of
-/// themselves; so is what the time says along the longest axis of the segment.
-CommonPlace exact_place(const Segment& segment, const Triangle& triangle);
+/// The first place of a segment, which is no point, in a triangle that it meets. The time is the exact one, rounded
+/// once: places that are one, of whichever triangles, have one time. The weights are right to 2^-50 of themselves, or
+/// the place that they give to 2^-48 of the triangle's size.
+CommonPlace first_place(const Segment& segment, const Triangle& triangle);
+
+/// The time of first_place() alone; the segment does not lie in the triangle's plane.
+double crossing_time(const Segment& segment, const Triangle& triangle);
 
 }  // namespace tact::narrowphase

@@ -11,7 +11,7 @@
 namespace tact::narrowphase {
 
 std::optional<Nearest> nearest_inside_facet(Vec3 v, const Vec3 (&corner)[3], double limit) {
-  const Vec3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  const Vec3 normal = moderate_cross(corner[1] - corner[0], corner[2] - corner[0]);
   const double square = norm_squared(normal), along = dot(normal, v - corner[0]);
   // Most vertices are too far, or beside the facet: that needs no root.
   if (square == 0.0 || along * along > limit * limit * square * (1.0 + 0x1p-40)) return {};
@@ -28,6 +28,10 @@ std::optional<Nearest> nearest_inside_facet(Vec3 v, const Vec3 (&corner)[3], dou
     const Vec3 p = corner[(k + 1) % 3], q = corner[(k + 2) % 3];
     nearest.weight[k] = std::max(0.0, dot(normal, cross(q - p, v - p)));
     sum += nearest.weight[k];
+  }
+  if (!(sum > kVanishing)) {
+    std::ranges::copy(weights_about(v, {corner[0], corner[1], corner[2]}), nearest.weight);
+    return nearest;
   }
   for (double& weight : nearest.weight) weight /= sum;
   return nearest;

@@ -21,7 +21,7 @@ struct FacetBeyond {
     const Pack x = dot(direction, corner[0]), y = dot(direction, corner[1]), z = dot(direction, corner[2]);
     const Pack low = min(min(x, y), z), opposite_high = sub(spread(0.0), max(max(x, y), z));
     const Pack nearest = max(low, opposite_high);  // not positive if the corners are on both sides
-    const Pack bound = mul(reach_squared, dot(direction, direction));
+    const Pack bound = add(mul(reach_squared, dot(direction, direction)), spread(kVanishing));
     return both(less(spread(0.0), nearest), less(bound, mul(nearest, nearest)));
   }
 };
@@ -31,7 +31,8 @@ struct FacetBeyond {
 inline Mask beside_facet(const QuadLanes& q, const VectorPack& normal, double reach) {
   const Pack zero = spread(0.0), rounding_squared = spread(kSignRounding * kSignRounding);
   const Pack square = dot(normal, normal), height = dot(normal, sub(q.point[0], q.point[1]));
-  Mask beside = less(mul(mul(spread(reach * reach), square), spread(1.0 + 0x1p-40)), mul(height, height));
+  const Pack most = mul(mul(spread(reach * reach), square), spread(1.0 + 0x1p-40));
+  Mask beside = less(add(most, spread(kVanishing)), mul(height, height));
   for (int k = 0; k < 3; ++k) {
     const VectorPack& p = q.point[1 + (k + 1) % 3];
     const VectorPack along = sub(q.point[1 + (k + 2) % 3], p), away = sub(q.point[0], p),

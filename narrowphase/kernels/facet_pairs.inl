@@ -10,52 +10,10 @@
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/kernels/lanes.inl"
 #include "narrowphase/kernels/pair_lanes.inl"
+#include "narrowphase/kernels/wide_packs.inl"
 
 namespace tact::narrowphase {
 namespace {
-
-// A double-double: high + low, where high is the sum rounded. The arithmetic is that of Dekker, "A floating-point
-// technique for extending the available precision", 1971, but for sums, which leave out a step that matters only to the
-// relative error of what cancels (Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic building
-// blocks of double-word arithmetic", 2017).
-struct WidePack {
-  Pack high, low;
-};
-
-// a + b where |a| >= |b|, or nearly so.
-inline WidePack quick_sum(Pack a, Pack b) {
-  const Pack sum = add(a, b);
-  return {sum, sub(b, sub(sum, a))};
-}
-
-inline WidePack difference(Pack a, Pack b) {
-  const Pack d = sub(a, b), part_b = sub(a, d), part_a = add(d, part_b);
-  return {d, add(sub(part_b, b), sub(a, part_a))};
-}
-
-inline WidePack add(const WidePack& a, const WidePack& b) {
-  const Pack sum = add(a.high, b.high), part_b = sub(sum, a.high), part_a = sub(sum, part_b);
-  const Pack error = add(sub(a.high, part_a), sub(b.high, part_b));
-  return quick_sum(sum, add(error, add(a.low, b.low)));
-}
-
-inline WidePack mul(const WidePack& a, const WidePack& b) {
-  const Pack product = mul(a.high, b.high), error = fused(a.high, b.high, product);
-  return quick_sum(product, add(error, add(mul(a.high, b.low), mul(a.low, b.high))));
-}
-
-inline WidePack sub(const WidePack& a, const WidePack& b) {
-  const Pack zero = spread(0.0);
-  return add(a, {sub(zero, b.high), sub(zero, b.low)});
-}
-
-struct WideVector {
-  WidePack x, y, z;
-};
-
-inline WideVector difference(const VectorPack& a, const VectorPack& b) {
-  return {difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z)};
-}
 
 // As Plane, in double-double. No product may vanish (see nothing_vanishes).
 //
@@ -69,13 +27,12 @@ struct WidePlane {
 
   WidePlane(const VectorPack& c0, const VectorPack& c1, const VectorPack& c2)
       : origin(c0), bound(Plane(c0, c1, c2).bound) {
-    const WideVector e = difference(c1, c0), f = difference(c2, c0);
-    normal = {sub(mul(e.y, f.z), mul(e.z, f.y)), sub(mul(e.z, f.x), mul(e.x, f.z)), sub(mul(e.x, f.y), mul(e.y, f.x))};
+    normal = cross(difference(c1, c0), difference(c2, c0));
   }
 
   Determinant height(const VectorPack& point) const {
     const WideVector p = difference(point, origin);
-    const WidePack value = add(add(mul(p.x, normal.x), mul(p.y, normal.y)), mul(p.z, normal.z));
+    const WidePack value = dot(p, normal);
     const Pack size = add(add(mul(abs(p.x.high), bound.x), mul(abs(p.y.high), bound.y)), mul(abs(p.z.high), bound.z));
     return {value.high, add(mul(size, spread(kWideRelativeRounding)), spread(kAbsoluteRounding)), size};
   }

@@ -38,9 +38,10 @@ struct LineTree {
 struct alignas(64) LineBlock {
   static constexpr int kLines = 16, kEntries = 128;
 
-  // The beginning, the way, and what SegmentSlabs and LineOfSight have; the axis along which the way is longest comes
-  // last, and `way` is that along it.
-  double from[3][kLines], direction[3][kLines], inverse[3][kLines], slope[2][kLines], way[kLines], longest[kLines];
+  // The beginning, the way and what its rounding took, and what SegmentSlabs and LineOfSight have; the axis along which
+  // the way is longest comes last, and `way` is that along it.
+  double from[3][kLines], direction[3][kLines], direction_tail[3][kLines], inverse[3][kLines], slope[2][kLines],
+      way[kLines], longest[kLines];
 
   // In the tree's unit: of an axis x is passed at x rate - enter_at at the earliest, and at x rate - leave_at at the
   // latest.

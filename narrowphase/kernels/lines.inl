@@ -4,9 +4,11 @@
 
 #include <cstdint>
 
+#include "narrowphase/distance/rounding.h"
 #include "narrowphase/kernels/kernels.h"
 #include "narrowphase/kernels/lanes.inl"
 #include "narrowphase/kernels/surfaces.inl"
+#include "narrowphase/kernels/wide_packs.inl"
 
 namespace tact::narrowphase {
 namespace {
@@ -373,12 +375,30 @@ void find_facets(const LineTree& tree, const std::uint8_t* lines, int count, Lin
   }
 }
 
+// The time at which a line crosses the plane of a triangle: FineCrossing of distance/segment_facet.cpp for some of
+// them. `certain` where it is certain how it is rounded. Corners and lines are in one order of axes.
+inline Pack crossing_times(const VectorPack (&corner)[3], const VectorPack& begin, const WideVector& way,
+                           Mask& certain) {
+  const WideVector p = difference(corner[1], corner[0]), q = difference(corner[2], corner[0]),
+                   from = difference(corner[0], begin), normal = cross(p, q);
+  const Pack sides = mul(largest_of(p), largest_of(q)), size = mul(sides, largest_of(from)),
+             size_of_way = mul(sides, largest_of(way));
+  const WidePack height = dot(normal, from), slope = dot(normal, way), time = div(height, slope);
+  const Pack part = add(div(size, abs(height.high)), div(size_of_way, abs(slope.high)));
+  const Pack error = mul(abs(time.high), add(mul(spread(0x1p-96), part), spread(0x1p-98)));
+  const auto is_high = [&](Pack rest) { return less_equal(abs(sub(add(time.high, rest), time.high)), spread(0.0)); };
+  certain = both(less(spread(kVanishing), min(sides, min(size, size_of_way))),
+                 both(is_high(add(time.low, error)), is_high(sub(time.low, error))));
+  return time.high;
+}
+
 // PreparedSegment::meet(), operation by operation: the errors are explained there.
 void meet_lines(const LineBlock& block, LinePairs* pairs) {
   const Pack zero = spread(0.0), one = spread(1.0);
   pairs->meets = pairs->uncertain = 0;
   for (int i = 0; i < pairs->count; i += kWidth) {
     Pack u[3], v[3], z[3], largest = zero, widest = zero;
+    VectorPack corner[3];
     const std::int32_t* const line = pairs->line + i;
     const Pack slope_u = gather(block.slope[0], line), slope_v = gather(block.slope[1], line);
     const Pack way = gather(block.way, line), longest = gather(block.longest, line);
@@ -387,12 +407,14 @@ void meet_lines(const LineBlock& block, LinePairs* pairs) {
       const Pack u_of[3] = {x[1], x[2], x[0]}, v_of[3] = {x[2], x[0], x[1]};
       to[0] = of_axis(longest, u_of), to[1] = of_axis(longest, v_of), to[2] = of_axis(longest, x);
     };
-    Pack from[3], inverses[3];
+    Pack from[3], ways[3], tails[3];
     in_order(block.from, from);
-    in_order(block.inverse, inverses);
+    in_order(block.direction, ways);
+    in_order(block.direction_tail, tails);
     for (int k = 0; k < 3; ++k) {
-      const Pack x = sub(load(pairs->corner[k][0] + i), from[0]), y = sub(load(pairs->corner[k][1] + i), from[1]);
-      z[k] = sub(load(pairs->corner[k][2] + i), from[2]);
+      corner[k] = {load(pairs->corner[k][0] + i), load(pairs->corner[k][1] + i), load(pairs->corner[k][2] + i)};
+      const Pack x = sub(corner[k].x, from[0]), y = sub(corner[k].y, from[1]);
+      z[k] = sub(corner[k].z, from[2]);
       u[k] = sub(x, mul(slope_u, z[k]));
       v[k] = sub(y, mul(slope_v, z[k]));
       largest = max(largest, max(max(abs(x), abs(y)), abs(z[k])));
@@ -405,13 +427,14 @@ void meet_lines(const LineBlock& block, LinePairs* pairs) {
     const Pack least = min(min(area[0], area[1]), area[2]), most = max(max(area[0], area[1]), area[2]);
     const Pack sum = add(add(add(zero, area[0]), area[1]), area[2]), whole = abs(sum), off = mul(spread(3.0), bound);
     const Pack below = sub(zero, bound), size = max(largest, abs(way));
+    const Pack extent = add(widest, sub(max(max(z[0], z[1]), z[2]), min(min(z[0], z[1]), z[2])));
     const unsigned beside = bits(both(less(least, below), less(bound, most)));
     const unsigned clear =
         bits(both(less(mul(spread(16.0), off), whole),
-                  less_equal(mul(mul(spread(3.0), widest), off), mul(mul(spread(0x1p-41), size), whole))));
+                  less_equal(mul(mul(spread(3.0), extent), off), mul(mul(spread(0x1p-41), size), whole))));
 
     const Mask negative = less(sum, zero);
-    Pack weight[3], part = zero, along = zero, entry = zero;
+    Pack weight[3], part = zero, along = zero;
     for (int k = 0; k < 3; ++k) {
       weight[k] = max(zero, select(negative, sub(zero, area[k]), area[k]));
       part = add(part, weight[k]);
@@ -426,16 +449,12 @@ void meet_lines(const LineBlock& block, LinePairs* pairs) {
     const Mask inside = both(less(late, time), less(time, sub(one, late)));
     const unsigned within = bits(either(less(bound, least), less(most, below)));
 
-    for (int axis = 0; axis < 3; ++axis) {
-      const Pack p = load(pairs->corner[0][axis] + i), q = load(pairs->corner[1][axis] + i),
-                 r = load(pairs->corner[2][axis] + i), inverse = inverses[axis];
-      const Pack near = select(less(zero, inverse), min(min(p, q), r), max(max(p, q), r));
-      const Pack at = mul(sub(near, from[axis]), inverse);
-      entry = select(not_equal(inverse, zero), max(at, entry), entry);
-    }
-    store(pairs->time + i, min(max(entry, time), one));
+    Mask certain;
+    store(pairs->time + i, crossing_times(corner, {from[0], from[1], from[2]},
+                                          {{ways[0], tails[0]}, {ways[1], tails[1]}, {ways[2], tails[2]}}, certain));
     for (int k = 0; k < 3; ++k) store(pairs->weight[k] + i, weight[k]);
-    const unsigned missed = beside | (clear & within & bits(outside)), met = clear & within & bits(inside);
+    const unsigned missed = beside | (clear & within & bits(outside)),
+                   met = clear & within & bits(both(inside, certain));
     const unsigned lanes = lanes_left(pairs->count - i);
     pairs->meets |= (met & ~missed & lanes) << i;
     pairs->uncertain |= (~met & ~missed & lanes) << i;

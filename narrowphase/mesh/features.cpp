@@ -42,6 +42,7 @@ Features::Features(const ClusteredMesh& mesh) {
   find_edges(mesh);
   find_neighbors(mesh);
   find_firsts(mesh);
+  find_repeated(mesh);
   find_parts();
   vertex_of_source_.assign(mesh.source_vertex_count(), -1);
   for (int v = 0; v < mesh.vertex_count(); ++v) vertex_of_source_[mesh.source_vertex(v)] = v;
@@ -116,6 +117,26 @@ void Features::find_firsts(const ClusteredMesh& mesh) {
       if (tell(vertex_is_told[corners[k]])) firsts |= 8u << k;
     }
     firsts_of_facet_[f] = static_cast<std::uint8_t>(firsts);
+  }
+}
+
+void Features::find_repeated(const ClusteredMesh& mesh) {
+  // Facets with the same vertices share their edges, with one third vertex. Few meshes have such edges.
+  bool may_repeat = false;
+  for (int edge = 0; edge < edge_count() && !may_repeat; ++edge) {
+    const std::span<const int> third = opposite(edge);
+    may_repeat = third.size() > 2 || (third.size() == 2 && third[0] == third[1]);
+  }
+  if (!may_repeat) return;
+  std::vector<std::pair<Corners, int>> sorted;  // vertices, ascending, and the caller's number
+  for (int f = 0; f < mesh.facet_count(); ++f) {
+    sorted.emplace_back(corners_[f], mesh.source_facet(f));
+    std::ranges::sort(sorted.back().first);
+  }
+  std::ranges::sort(sorted);
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    if (sorted[i].first == sorted[i - 1].first)
+      firsts_of_facet_[mesh.facet_of_source(sorted[i].second)] |= static_cast<std::uint8_t>(kRepeatsFacet);
   }
 }
 

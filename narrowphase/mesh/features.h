@@ -49,8 +49,10 @@ class Features {
   int first_facet_of_edge(int edge) const { return first_facet_of_edge_[edge]; }
   int first_facet_of_vertex(int vertex) const { return first_facet_of_vertex_[vertex]; }
   /// Bit k: of the facets with the edge from corner k this one is the caller's first; bit 3 + k: the same of the vertex
-  /// at corner k. Each edge and vertex has a bit once.
+  /// at corner k. Each edge and vertex has a bit once. kRepeatsFacet: a facet that the caller listed before has the same
+  /// vertices.
   unsigned firsts_of_facet(int facet) const { return firsts_of_facet_[facet]; }
+  static constexpr unsigned kRepeatsFacet = 1u << 6;
   /// The vertices that share an edge with a vertex, each once.
   std::span<const int> neighbors(int vertex) const { return part(neighbors_, neighbors_begin_, vertex); }
   /// The vertex that has a number of the caller's; -1 if no facet uses it.
@@ -67,6 +69,7 @@ class Features {
     return std::span(all).subspan(begin[k], begin[k + 1] - begin[k]);
   }
   void find_edges(const ClusteredMesh& mesh);
+  void find_repeated(const ClusteredMesh& mesh);
   void find_neighbors(const ClusteredMesh& mesh);
   void find_firsts(const ClusteredMesh& mesh);
   void find_parts();

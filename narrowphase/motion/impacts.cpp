@@ -218,12 +218,13 @@ class ImpactSearch {
   }
 
   void from_vertices(const NearFeatures& vertices, const NearFeatures& facets, FeaturePair kind) {
-    const ClusteredMesh& surface = kind == FeaturePair::vertex_facet ? *b_.mesh : *a_.mesh;
+    const MovingMesh& surface = kind == FeaturePair::vertex_facet ? b_ : a_;
     for_each_near(vertices.vertices, facets.facets, [&](int i, int k) {
       const int vertex = vertices.vertex_begin + vertices.vertices.feature[i];
       const int facet = facets.facet_begin + facets.facets.feature[k];
+      if ((surface.features->firsts_of_facet(facet) & Features::kRepeatsFacet) != 0) return;
       if (same_) {
-        const Corners c = surface.corners(facet);
+        const Corners c = surface.mesh->corners(facet);
         if (c[0] == vertex || c[1] == vertex || c[2] == vertex) return;
       }
       const bool vertex_is_a = kind == FeaturePair::vertex_facet;

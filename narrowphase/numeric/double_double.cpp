@@ -27,4 +27,11 @@ Vec3 unit_vector(Vec3 v) {
   return base::normalized(unit_scale(largest) * v);
 }
 
+Vec3 moderate_cross(Vec3 p, Vec3 q) {
+  const Vec3 product = cross(p, q);
+  if (is_moderate(largest_of(product))) return product;  // the same bits
+  const Vec3 moderate = cross(unit_scale(largest_of(p)) * p, unit_scale(largest_of(q)) * q);
+  return unit_scale(largest_of(moderate)) * moderate;
+}
+
 }  // namespace tact::narrowphase

@@ -103,4 +103,8 @@ inline Vec3 double_double_cross(const DoubleDoubleVec3& p, const DoubleDoubleVec
 double length_of(Vec3 v);
 Vec3 unit_vector(Vec3 v);
 
+// p × q; times a power of two where products would vanish or overflow, so that its length and direction can be taken.
+// Zero only if p and q are parallel, or nearer to it than 2^-1000.
+Vec3 moderate_cross(Vec3 p, Vec3 q);
+
 }  // namespace tact::narrowphase

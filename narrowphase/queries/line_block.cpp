@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "narrowphase/mesh/prefetch.h"
+#include "narrowphase/numeric/double_double.h"
 
 namespace tact::narrowphase {
 
@@ -26,10 +27,12 @@ class Block {
       : mesh_(mesh), tree_(tree), queries_(queries) {
     for (std::size_t i = 0; i < kLinesAtATime; ++i) {
       const FirstHitQuery& query = *queries[i < queries.size() ? i : 0];
-      const Vec3 from = query.segment[0], way = query.segment[1] - from;
+      const Vec3 from = query.segment[0];
       for (int axis = 0; axis < 3; ++axis) {
+        const DoubleDouble way = two_sum(query.segment[1][axis], -from[axis]);
         block_.from[axis][i] = from[axis];
-        block_.direction[axis][i] = way[axis];
+        block_.direction[axis][i] = way.head;
+        block_.direction_tail[axis][i] = way.tail;
       }
       set_latest(i, query.latest);
     }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "narrowphase/distance/facet_distance.h"
 #include "narrowphase/mesh/cluster_search.h"
 #include "narrowphase/mesh/open_in_box.h"
 #include "narrowphase/numeric/unit_scale.h"
@@ -17,9 +18,6 @@ namespace tact::narrowphase {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Boxes are opened while they may hold something as near as what was found: to the rounding of the square of the
-// distance. Then the answer does not depend on their order.
-constexpr double kSquareRounding = 1.0 + 0x1p-40;
 
 Box box_of(const Triangle& triangle) {
   Box box;
@@ -91,6 +89,94 @@ void append_hits(const ClusteredMesh& mesh, const PreparedSegment& line, std::ve
   for_each_hit(mesh, line, latest, [&](const FacetHit& hit) { hits.push_back(hit); });
 }
 
+namespace {
+
+// The facet nearest to a point so far. Facets that doubles do not tell apart are compared by their exact distances,
+// rounded once. Lengths are scaled, except where it says metres.
+class NearestSoFar {
+ public:
+  NearestSoFar(const ClusteredMesh& mesh, Vec3 point, double scale, double within)
+      : mesh_(mesh), point_(point), scale_(scale), within_(within) {
+    set_limit(scale * within);
+  }
+
+  // Nothing that is farther by its square, or that of its box, is to be looked at.
+  double most() const { return most_; }
+  // In metres.
+  std::optional<NearestFacet> nearest() {
+    return nearest_.facet >= 0 && exact_distance() <= within_ ? std::optional(nearest_) : std::nullopt;
+  }
+
+  void look_at(int facet) {
+    const Triangle triangle = mesh_.triangle(facet);
+    Triangle about_point = triangle;
+    for (Vec3& p : about_point) p = scale_ * (p - point_);
+    const std::array<double, 3> weight = nearest_weights({}, about_point);
+    const double square = norm_squared(place_of(about_point, weight));
+    const int source = mesh_.source_facet(facet);
+    double distance = kUnknown;
+    if (square > most_ || (nearest_.facet >= 0 && !comes_before(square, triangle, weight, source, distance))) return;
+    nearest_ = {source, distance, weight};
+    triangle_ = triangle;
+    square_ = square;
+    set_limit(std::min(limit_, std::sqrt(square)));
+  }
+
+ private:
+  static constexpr double kUnknown = -1.0;
+  // Doubles tell distances apart by more than this: a place is wrong by some 2^-50.
+  static constexpr double kOff = 0x1p-46;
+  // The square of a distance at which a place that is wrong by 2^-48 along the facet is nearer by no rounding: there
+  // the corner or the side on which doubles see the nearest place of two facets is that of both.
+  static constexpr double kFarAway = 0x1p-30;
+
+  void set_limit(double limit) {
+    limit_ = std::min(limit, 16.0);
+    most_ = (limit_ + kOff) * (limit_ + kOff);
+  }
+
+  double exact_distance() {
+    if (nearest_.distance == kUnknown) nearest_.distance = rounded_distance(point_, triangle_);
+    return nearest_.distance;
+  }
+
+  // Whether a facet is nearer than the nearest. Its exact distance is set where that has to be known.
+  bool comes_before(double square, const Triangle& triangle, const std::array<double, 3>& weight, int facet,
+                    double& distance) {
+    if (std::sqrt(square) < std::sqrt(square_) - kOff) return true;
+    if (square_ > kFarAway && have_one_place(triangle, weight, triangle_, nearest_.weight))
+      return facet < nearest_.facet;
+    distance = rounded_distance(point_, triangle);
+    return distance < exact_distance() || (distance == exact_distance() && facet < nearest_.facet);
+  }
+
+  // Whether both places are on one corner or one side.
+  static bool have_one_place(const Triangle& t, const std::array<double, 3>& weight_of_t, const Triangle& u,
+                             const std::array<double, 3>& weight_of_u) {
+    const auto is_corner_of = [](Vec3 p, const Triangle& of, const std::array<double, 3>& weight) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (weight[k] > 0.0 && of[k] == p) return true;
+      }
+      return false;
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (weight_of_t[k] > 0.0 && !is_corner_of(t[k], u, weight_of_u)) return false;
+      if (weight_of_u[k] > 0.0 && !is_corner_of(u[k], t, weight_of_t)) return false;
+    }
+    return true;
+  }
+
+  const ClusteredMesh& mesh_;
+  const Vec3 point_;
+  const double scale_, within_;  // metres
+  double limit_ = 0.0, most_ = 0.0;
+  NearestFacet nearest_;
+  Triangle triangle_{};  // the nearest, metres
+  double square_ = 0.0;  // of its distance
+};
+
+}  // namespace
+
 std::optional<NearestFacet> nearest_facet(const ClusteredMesh& mesh, Vec3 point, double within) {
   if (mesh.facet_count() == 0) return std::nullopt;
   // Distances are squared in a unit in which the farthest is near 1.
@@ -99,30 +185,20 @@ std::optional<NearestFacet> nearest_facet(const ClusteredMesh& mesh, Vec3 point,
   for (int axis = 0; axis < 3; ++axis)
     largest = std::max({largest, std::abs(point[axis] - box.lower[axis]), std::abs(point[axis] - box.upper[axis])});
   const double scale = unit_scale(largest);
-  double least = scale * within < 16.0 ? (scale * within) * (scale * within) : kInfinity;
-  std::optional<NearestFacet> nearest;
+  NearestSoFar nearest(mesh, point, scale, within);
   const double at[3] = {point.x, point.y, point.z};
   const auto rank = [&](const BoxPointers& boxes, int count, RankedBoxes& ranked) {
-    kernels().rank_by_distance(boxes, count, at, scale, least * kSquareRounding, &ranked);
+    kernels().rank_by_distance(boxes, count, at, scale, nearest.most(), &ranked);
   };
-  const auto wants = [&](double square) { return square <= least * kSquareRounding; };
+  const auto wants = [&](double square) { return square <= nearest.most(); };
   FacetDistances ranked;
   for_each_cluster_by_rank(mesh, rank, wants, [&](int cluster) {
     const ClusterFacets facets = mesh.facets_of(cluster);
-    kernels().rank_facets(facets, at, scale, least * kSquareRounding, &ranked);
-    take_by_rank(ranked.least_squared, ranked.facet, ranked.count, wants, [&](int i) {
-      const int f = facets.facet_begin + i;
-      Triangle triangle = mesh.triangle(f);
-      for (Vec3& p : triangle) p = scale * (p - point);
-      const std::array<double, 3> weight = nearest_weights({}, triangle);
-      const double distance2 = norm_squared(place_of(triangle, weight));
-      const int facet = mesh.source_facet(f);
-      if (distance2 > least || (nearest && distance2 == least && facet > nearest->facet)) return;
-      least = distance2;
-      nearest = {facet, std::sqrt(distance2) / scale, weight};
-    });
+    kernels().rank_facets(facets, at, scale, nearest.most(), &ranked);
+    take_by_rank(ranked.least_squared, ranked.facet, ranked.count, wants,
+                 [&](int i) { nearest.look_at(facets.facet_begin + i); });
   });
-  return nearest;
+  return nearest.nearest();
 }
 
 void append_facets_in_box(const ClusteredMesh& mesh, const Box& box, std::vector<int>& facets) {

@@ -15,7 +15,7 @@ namespace tact::narrowphase {
 /// A facet, by the caller's number, that a segment meets, as closed sets; decided exactly (triangle_triangle.h).
 struct FacetHit {
   int facet = -1;
-  double time = 0.0;               // of the first common point, as a part of the segment; to rounding
+  double time = 0.0;               // of the first common point, as a part of the segment: the exact one, rounded once
   std::array<double, 3> weight{};  // of the facet's corners there
 
   /// By time, then by facet.
@@ -32,12 +32,12 @@ std::optional<FacetHit> any_hit(const ClusteredMesh& mesh, const PreparedSegment
 void append_hits(const ClusteredMesh& mesh, const PreparedSegment& line, std::vector<FacetHit>& hits);
 
 struct NearestFacet {
-  int facet = -1;  // the caller's number; of equally near ones the least
-  double distance = 0.0;
+  int facet = -1;                  // the caller's number; of equally near ones the least
+  double distance = 0.0;           // the exact one, rounded once
   std::array<double, 3> weight{};  // of the facet's corners at the nearest point
 };
 
-/// The facet nearest to a point, if it is at most `within` away, metres.
+/// The facet nearest to a point, if its rounded distance is at most `within`, metres.
 std::optional<NearestFacet> nearest_facet(const ClusteredMesh& mesh, Vec3 point, double within);
 
 /// Appends the facets, by the caller's numbers, that share a point with a box, as closed sets; decided exactly.

@@ -9,6 +9,12 @@
 
 namespace tact::narrowphase {
 
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
 double PreparedSegment::entry(const Box& box) const {
   double first = 0.0, last = 1.0;
   bool meets = true;
@@ -26,7 +32,7 @@ double PreparedSegment::entry(const Box& box) const {
   // Rounding is that of rank_by_entry().
   first = first * (1.0 - 0x1p-50) - 0x1p-1000;
   last = last * (1.0 + 0x1p-50) + 0x1p-1000;
-  return meets && first <= last ? first : std::numeric_limits<double>::infinity();
+  return meets && first <= last ? first : kInfinity;
 }
 
 std::uint64_t PreparedSegment::facets_seen(const ClusteredMesh& mesh, int cluster) const {
@@ -58,28 +64,10 @@ PreparedSegment::PreparedSegment(const Segment& segment) : segment_(segment) {
   for (int k = 0; k < 2 && !is_point_; ++k) line_.slope[k] = way[line_.axis[k]] / way_;
 }
 
-// When it enters a triangle's box, as in rank_by_entry(): not earlier than any box around that one, rounding included.
-double PreparedSegment::entry_into(const Triangle& triangle) const {
-  double first = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double inverse = slabs_.inverse[axis];
-    if (inverse == 0.0) continue;
-    const double p = triangle[0][axis], q = triangle[1][axis], r = triangle[2][axis];
-    const double near = inverse > 0.0 ? std::min(std::min(p, q), r) : std::max(std::max(p, q), r);
-    first = std::max(first, (near - slabs_.from[axis]) * inverse);
-  }
-  return first;
-}
-
-CommonPlace PreparedSegment::not_before_entry(CommonPlace place, const Triangle& triangle) const {
-  place.time = std::min(std::max(place.time, entry_into(triangle)), 1.0);
-  return place;
-}
-
 std::optional<CommonPlace> PreparedSegment::meet_exactly(const Triangle& triangle, PredicateCounts& counts) const {
   if (!segment_triangle_meet(segment_, triangle, counts)) return std::nullopt;
   if (is_point_) return CommonPlace{0.0, weights_about(segment_[0], triangle)};
-  return not_before_entry(exact_place(segment_, triangle), triangle);
+  return first_place(segment_, triangle);
 }
 
 // Seen along the line, which is at zero, a corner is at (u, v). Each weight is as twice the area between the line and
@@ -90,16 +78,16 @@ std::optional<CommonPlace> PreparedSegment::meet_exactly(const Triangle& triangl
 // to 2 m. Areas are wrong by that error e times the four coordinates in them, and half as much again for the rounding
 // of products; more exactly, by 2 e² more.
 //
-// So the place that the weights give is off the line, in each of two directions, by the errors of the areas times the
-// largest coordinate, over the whole area; twice that where a weight was raised to zero. If that is at most 2^-41 of
-// the size, as nearly always, it is good enough; otherwise exact_place().
+// So the place that the weights give is off, in each direction, by the errors of the areas times how far the corners
+// are apart in it, over the whole area; twice that where a weight was raised to zero. If that is at most 2^-41 of the
+// size, as nearly always, it is good enough; otherwise first_place().
 std::optional<CommonPlace> PreparedSegment::meet(const Triangle& triangle, PredicateCounts& counts) const {
   if (is_point_) {
     Box box;
     for (const Vec3& p : triangle) box = extended(box, p);
     return base::contains(box, segment_[0]) ? meet_exactly(triangle, counts) : std::nullopt;
   }
-  double u[3], v[3], z[3], largest = 0.0, widest = 0.0;
+  double u[3], v[3], z[3], largest = 0.0, widest = 0.0, nearest = kInfinity, farthest = -kInfinity;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 away = triangle[k] - segment_[0];
     const double x = away[line_.axis[0]], y = away[line_.axis[1]];
@@ -108,6 +96,8 @@ std::optional<CommonPlace> PreparedSegment::meet(const Triangle& triangle, Predi
     v[k] = y - line_.slope[1] * z[k];
     largest = std::max(std::max(largest, std::abs(x)), std::max(std::abs(y), std::abs(z[k])));
     widest = std::max(widest, std::max(std::abs(u[k]), std::abs(v[k])));
+    nearest = std::min(nearest, z[k]);
+    farthest = std::max(farthest, z[k]);
   }
   const double error = 0x1.1p-50 * largest + 0x1p-1000;
   const double bound = 5.0 * error * (widest + error) + 0x1p-900;
@@ -123,7 +113,8 @@ std::optional<CommonPlace> PreparedSegment::meet(const Triangle& triangle, Predi
   if (positive > 0 && negative > 0) return std::nullopt;
   const double whole = std::abs(sum), off = 3.0 * bound;
   const double size = std::max(largest, std::abs(way_));
-  if (!(16.0 * off < whole && 3.0 * widest * off <= 0x1p-41 * size * whole)) return meet_exactly(triangle, counts);
+  const double extent = widest + (farthest - nearest);
+  if (!(16.0 * off < whole && 3.0 * extent * off <= 0x1p-41 * size * whole)) return meet_exactly(triangle, counts);
 
   CommonPlace place;
   double part = 0.0, along = 0.0;
@@ -136,7 +127,8 @@ std::optional<CommonPlace> PreparedSegment::meet(const Triangle& triangle, Predi
   if (within && (place.time < -late || place.time > 1.0 + late)) return std::nullopt;
   if (!(within && place.time > late && place.time < 1.0 - late) && !segment_triangle_meet(segment_, triangle, counts))
     return std::nullopt;
-  return not_before_entry(place, triangle);
+  place.time = crossing_time(segment_, triangle);
+  return place;
 }
 
 }  // namespace tact::narrowphase

@@ -22,15 +22,13 @@ class PreparedSegment {
   /// A bit for each facet of a cluster that it may meet.
   std::uint64_t facets_seen(const ClusteredMesh& mesh, int cluster) const;
 
-  /// The first place where it meets a triangle, if it does: decided exactly. The place of the segment is that of the
-  /// triangle to 1e-12 of the size of both. It is not before entry() into any box around the triangle, so that no facet
-  /// of a box that is entered later is met earlier.
+  /// The first place where it meets a triangle, if it does: decided exactly. The time is the exact one, rounded once,
+  /// and so not before entry() into any box around the triangle. There is the place of the triangle, to 1e-12 of the
+  /// size of both.
   std::optional<CommonPlace> meet(const Triangle& triangle, PredicateCounts& counts) const;
 
  private:
   std::optional<CommonPlace> meet_exactly(const Triangle& triangle, PredicateCounts& counts) const;
-  double entry_into(const Triangle& triangle) const;
-  CommonPlace not_before_entry(CommonPlace place, const Triangle& triangle) const;
 
   Segment segment_;
   SegmentSlabs slabs_{};

@@ -29,8 +29,8 @@ enum class RayHits {
   any,    ///< some facet on the way; faster
 };
 
-/// A facet that a ray meets. That it does is exact, so no ray slips through between facets. Numbers are right to 1e-12
-/// of the size of facet and ray.
+/// A facet that a ray meets. That it does is exact, so no ray slips through between facets. The fraction is the exact
+/// one, rounded once: facets at one place share it. Weights are right to 1e-12 of the size of facet and ray.
 struct RayHit {
   BodyId body;            ///< the body of the facet
   int facet = -1;         ///< negative: the ray meets nothing
@@ -46,8 +46,8 @@ struct PointQuery {
   QueryFilter filter = {};                                  ///< which bodies it considers
 };
 
-/// The nearest place of all surfaces; of equally near ones the least by body and facet. Numbers are right to 1e-12 of
-/// the distance and the size of the bodies.
+/// The nearest place of all surfaces; of equally near ones the least by body and facet. The distance is the exact one,
+/// rounded once. Weights are right to 1e-12 of the distance and the size of the bodies.
 struct ClosestPoint {
   BodyId body;                                                ///< the body of the facet
   int facet = -1;                                             ///< negative: no facet is within reach

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "narrowphase/kernels/kernels.h"
+#include "narrowphase/numeric/double_double.h"
 #include "narrowphase/queries/prepared_segment.h"
 #include "narrowphase/queries/segment_batch.h"
 #include "narrowphase/triangles/triangle_triangle.h"
@@ -53,10 +54,12 @@ using Segments = std::array<Segment, LineBlock::kLines>;
 
 LinesApart set_out(const Kernels& kernels, const LineTree& tree, const Segments& segments, LineBlock& block) {
   for (int i = 0; i < LineBlock::kLines; ++i) {
-    const Vec3 from = segments[i][0], way = segments[i][1] - from;
+    const Vec3 from = segments[i][0];
     for (int axis = 0; axis < 3; ++axis) {
+      const DoubleDouble way = two_sum(segments[i][1][axis], -from[axis]);
       block.from[axis][i] = from[axis];
-      block.direction[axis][i] = way[axis];
+      block.direction[axis][i] = way.head;
+      block.direction_tail[axis][i] = way.tail;
     }
     block.latest[i] = 1.0f + 0x1p-20f;
   }

@@ -6,6 +6,8 @@
 #include <CGAL/intersections.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <variant>
 
 namespace tact::tests {
@@ -61,6 +63,24 @@ bool cgal_meet(const Triangle& a, const Triangle& b) {
 
 bool rational_meet(const Triangle& a, const Triangle& b) {
   return std::visit([](const auto& p, const auto& q) { return CGAL::do_intersect(p, q); }, figure(a), figure(b));
+}
+
+bool is_nearest_to_distance(double distance, const Vec3& point, const Triangle& t) {
+  const Rational square =
+      std::visit([&](const auto& of) -> Rational { return CGAL::squared_distance(exact(point), of); }, figure(t));
+  const auto middle_squared = [&](double neighbor) {
+    const Rational sum = Rational(distance) + Rational(neighbor);
+    return Rational(sum * sum / Rational(4));
+  };
+  const double next = std::nextafter(distance, std::numeric_limits<double>::infinity());
+  return square <= middle_squared(next) && (distance == 0.0 || square >= middle_squared(std::nextafter(distance, 0.0)));
+}
+
+bool is_nearest_to_time(double time, const Vec3& from, const Vec3& to, const Triangle& t) {
+  const Exact::Vector_3 normal = CGAL::cross_product(exact(t[1]) - exact(t[0]), exact(t[2]) - exact(t[0]));
+  const Rational part = (normal * (exact(t[0]) - exact(from))) / (normal * (exact(to) - exact(from)));
+  const auto middle = [&](double neighbor) { return Rational((Rational(time) + Rational(neighbor)) / Rational(2)); };
+  return part <= middle(std::nextafter(time, 2.0)) && part >= middle(std::nextafter(time, -1.0));
 }
 
 }  // namespace tact::tests

@@ -20,4 +20,9 @@ bool cgal_meet(const Triangle& a, const Triangle& b);
 // The same with rational coordinates throughout: slower, and independent of CGAL's floating-point filters.
 bool rational_meet(const Triangle& a, const Triangle& b);
 
+// Whether no double is nearer to the distance of a point from a triangle than `distance`, in rational numbers.
+bool is_nearest_to_distance(double distance, const Vec3& point, const Triangle& t);
+// The same of the part of a segment at which it crosses the plane of a triangle.
+bool is_nearest_to_time(double time, const Vec3& from, const Vec3& to, const Triangle& t);
+
 }  // namespace tact::tests

@@ -1,0 +1,328 @@
+// Every function of the interface for C in each floating-point mode that a caller may have set.
+#include <gtest/gtest.h>
+#include <tact/tact_c.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tests/c/mesh_for_c.h"
+#include "tests/support/environment/callers_mode.h"
+#include "tests/support/environment/temporary_folder.h"
+#include "tests/support/generators/bodies.h"
+
+namespace tact::tests {
+namespace {
+
+class EveryCallOfC {
+ public:
+  EveryCallOfC(const FloatingPointSettings& mode, int threads) : mode_(mode) {
+    settings_.threads = threads;
+    settings_.zones = settings_.patches = settings_.points = settings_.trace = true;
+    for (double& x : rotation_) x = 0.0;
+    rotation_[1] = rotation_[5] = rotation_[6] = 1.0;
+  }
+
+  // What the calls give.
+  std::vector<std::uint64_t> run() {
+    call([&] { return tact_version() != nullptr ? TACT_OK : TACT_ERROR_INTERNAL; });
+    call([&] { return tact_error_code_name(TACT_OK) != nullptr ? TACT_OK : TACT_ERROR_INTERNAL; });
+    call([&] { return tact_world_create(&settings_, &world_); });
+    call([&] { return tact_world_record(world_, path_.c_str()); });
+    add_bodies();
+    step();
+    change();
+    step();
+    look();
+    ask();
+    refuse();
+    call([&] { return tact_world_remove_body(world_, bodies_[1]); });
+    step();
+    call([&] { return tact_world_record(world_, nullptr); });
+    call([&] { return tact_world_destroy(world_); });
+    play();
+    return told_;
+  }
+
+ private:
+  template <class Call>
+  tact_error answer(const Call& one) {
+    return in_mode(mode_, one);
+  }
+  template <class Call>
+  void call(const Call& one) {
+    const tact_error error = answer(one);
+    EXPECT_EQ(error, TACT_OK) << mode_.name << ": " << tact_last_error_message();
+  }
+  void tell(std::uint64_t word) { told_.push_back(word); }
+  void tell(std::span<const double> values) {
+    for (const double value : values) tell(std::bit_cast<std::uint64_t>(value));
+  }
+
+  void add_bodies() {
+    for (const Mesh* mesh : {&ball_, &other_, &floor_}) {
+      tact_body_definition definition = definition_of(*mesh);
+      definition.margin = 0.03;
+      if (mesh == &floor_) definition.motion = TACT_MOTION_RIGID;
+      call([&] { return tact_world_add_body(world_, &definition, &bodies_.emplace_back()); });
+    }
+  }
+
+  void step() {
+    size_t count = 0, index = 0;
+    uint64_t hash = 0;
+    call([&] { return tact_world_detect(world_); });
+    call([&] { return tact_report_hash(world_, &hash); });
+    tell(hash);
+    call([&] { return tact_report_find_contact(world_, bodies_[0], bodies_[2], &index); });
+    call([&] { return tact_report_contacts(world_, &count); });
+    for (size_t i = 0; i < count; ++i) tell_contact(i);
+    const tact_candidate_pair* pairs = nullptr;
+    const tact_contact_event* events = nullptr;
+    const tact_patch_event* patch_events = nullptr;
+    call([&] { return tact_report_candidate_pairs(world_, &pairs, &count); });
+    tell(count);
+    call([&] { return tact_report_began(world_, &events, &count); });
+    tell(count);
+    call([&] { return tact_report_ended(world_, &events, &count); });
+    tell(count);
+    call([&] { return tact_report_patch_events(world_, &patch_events, &count); });
+    tell(count);
+    std::vector<tact_statistic> statistics(200);
+    call([&] { return tact_report_stats(world_, statistics.data(), statistics.size(), &count); });
+    call([&] { return tact_report_trace(world_, &count); });
+    tact_trace_event event = TACT_TRACE_EVENT_INIT;
+    if (count > 0) call([&] { return tact_report_trace_event(world_, 0, &event); });
+    draw();
+  }
+
+  void tell_contact(size_t i) {
+    tact_contact contact = TACT_CONTACT_INIT;
+    call([&] { return tact_report_contact(world_, i, &contact); });
+    tell(contact.direction);
+    const tact_contact_point* points = nullptr;
+    size_t count = 0;
+    call([&] { return tact_contact_points(world_, i, &points, &count); });
+    for (size_t k = 0; k < count; ++k) tell(points[k].normal);
+    for (size_t k = 0; k < contact.patch_count; ++k) {
+      tact_patch patch = TACT_PATCH_INIT;
+      call([&] { return tact_contact_patch(world_, i, k, &patch); });
+      tell(patch.direction);
+    }
+  }
+
+  void draw() {
+    tact_debug_draw_options options;
+    call([&] { return tact_debug_draw_defaults(&options); });
+    options.surfaces = options.planes = options.kept_facets = true;
+    const auto take = [](void* user, const double* at) {
+      static_cast<EveryCallOfC*>(user)->tell(std::span(at, std::size_t{3}));
+    };
+    static constexpr auto kTake = take;
+    const tact_debug_drawer drawer{
+        [](void* user, const double* from, const double*, tact_debug_color) { kTake(user, from); },
+        [](void* user, const double* p, const double*, const double*, tact_debug_color) { kTake(user, p); },
+        [](void* user, const double* at, const char*, tact_debug_color) { kTake(user, at); }, this};
+    call([&] { return tact_world_debug_draw(world_, &drawer, &options); });
+  }
+
+  void change() {
+    const Mesh there = translated(ball_, {0.1, 0.02, -0.1}), elsewhere = translated(other_, {-0.1, 0.0, -0.2});
+    const tact_columns columns = columns_of(there.positions);
+    const tact_positions_update update{bodies_[1], columns_of(elsewhere.positions)};
+    const double translation[3] = {0.1, 0.0, 0.05};
+    tact_pose_update pose{bodies_[2], {}, {0.1, 0.1, 0.05}};
+    std::ranges::copy(rotation_, pose.rotation);
+    call([&] { return tact_world_set_positions(world_, bodies_[0], &columns); });
+    call([&] { return tact_world_set_positions_of_many(world_, &update, 1); });
+    call([&] { return tact_world_set_pose(world_, bodies_[2], rotation_, translation); });
+    call([&] { return tact_world_set_poses(world_, &pose, 1); });
+    call([&] { return tact_world_detect_motion(world_, 0); });
+    tell_motion();
+    call([&] { return tact_world_set_settings(world_, &settings_); });
+    call([&] { return tact_world_set_layers(world_, bodies_[0], 3, 0xff); });
+    call([&] { return tact_world_set_group(world_, bodies_[1], 5); });
+    call([&] { return tact_world_set_excluded(world_, bodies_[1], bodies_[2], true); });
+    call([&] { return tact_world_set_motion(world_, bodies_[2], TACT_MOTION_FIXED); });
+    call([&] { return tact_world_set_margin(world_, bodies_[0], 0.1 / 3.0); });
+    call([&] { return tact_world_set_self_contact(world_, bodies_[0], true); });
+  }
+
+  void tell_motion() {
+    double first = 0.0;
+    size_t count = 0;
+    const tact_impact* impacts = nullptr;
+    tact_impact_pair pair = TACT_IMPACT_PAIR_INIT;
+    tact_motion_statistics statistics = TACT_MOTION_STATISTICS_INIT;
+    call([&] { return tact_motion_first_time(world_, &first); });
+    tell({&first, 1});
+    call([&] { return tact_motion_impacts(world_, &impacts, &count); });
+    for (size_t i = 0; i < count; ++i) tell({&impacts[i].time, 1});
+    call([&] { return tact_motion_pairs(world_, &count); });
+    if (count > 0) call([&] { return tact_motion_pair(world_, 0, &pair); });
+    call([&] { return tact_motion_stats(world_, &statistics); });
+  }
+
+  void look() {
+    size_t count = 0;
+    tact_body bodies[3];
+    call([&] { return tact_world_bodies(world_, bodies, 3, &count); });
+    call([&] { return tact_world_body_count(world_, &count); });
+    tact_settings settings = TACT_SETTINGS_INIT;
+    call([&] { return tact_world_settings(world_, &settings); });
+    for (const tact_body body : bodies_) {
+      bool flag = false;
+      const char* name = nullptr;
+      tact_surface surface{};
+      tact_motion motion{};
+      uint32_t bits = 0;
+      uint64_t id = 0;
+      double margin = 0.0;
+      size_t vertices = 0, facets = 0;
+      tact_bounds bounds{};
+      call([&] { return tact_world_contains(world_, body, &flag); });
+      call([&] { return tact_world_name(world_, body, &name); });
+      call([&] { return tact_world_surface(world_, body, &surface); });
+      call([&] { return tact_world_motion(world_, body, &motion); });
+      call([&] { return tact_world_group(world_, body, &bits); });
+      call([&] { return tact_world_layer(world_, body, &bits); });
+      call([&] { return tact_world_mask(world_, body, &bits); });
+      call([&] { return tact_world_external_id(world_, body, &id); });
+      call([&] { return tact_world_margin(world_, body, &margin); });
+      call([&] { return tact_world_self_contact(world_, body, &flag); });
+      call([&] { return tact_world_vertex_count(world_, body, &vertices); });
+      call([&] { return tact_world_facet_count(world_, body, &facets); });
+      std::vector<double> coordinates(3 * vertices);
+      std::vector<int> corners(3 * facets);
+      call([&] { return tact_world_copy_positions(world_, body, coordinates.data(), coordinates.size()); });
+      call([&] { return tact_world_copy_facets(world_, body, corners.data(), corners.size()); });
+      call([&] { return tact_world_bounds(world_, body, &bounds); });
+      size_t faults = 0;
+      call([&] { return tact_world_check_surface(world_, body, 1e-6, nullptr, nullptr, 0, &faults); });
+      tell(faults);
+      tell(coordinates);
+      tell({&margin, 1});
+      tell(bounds.lower);
+      tell(bounds.upper);
+    }
+    bool excluded = false;
+    call([&] { return tact_world_excluded(world_, bodies_[1], bodies_[2], &excluded); });
+  }
+
+  void ask() {
+    std::vector<tact_ray> rays(80, tact_ray TACT_RAY_INIT);
+    std::vector<tact_point_query> points(80, tact_point_query TACT_POINT_QUERY_INIT);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const double t = 0.1 * static_cast<double>(i);
+      rays[i].from[0] = -3.0, rays[i].from[1] = 0.2 * std::sin(t), rays[i].to[0] = 3.0, rays[i].to[2] = std::cos(t);
+      points[i].point[0] = std::sin(t), points[i].point[1] = 0.3, points[i].point[2] = 2.0 * std::cos(t);
+    }
+    std::vector<tact_ray_hit> hits(rays.size());
+    std::vector<tact_closest_point> nearest(points.size());
+    std::vector<tact_facet_of_body> facets(5000);
+    std::vector<tact_body> around(500);
+    std::vector<size_t> ends(points.size());
+    tact_box_query box = TACT_BOX_QUERY_INIT;
+    box.upper[0] = box.upper[1] = box.upper[2] = 0.7;
+    size_t count = 0;
+    call([&] { return tact_world_cast_rays(world_, rays.data(), rays.size(), TACT_RAY_FIRST, hits.data()); });
+    call([&] { return tact_world_closest_points(world_, points.data(), points.size(), nearest.data()); });
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      tell({&hits[i].fraction, 1});
+      tell({&nearest[i].distance, 1});
+      call([&] { return tact_world_cast_ray(world_, &rays[i], TACT_RAY_ANY, &hits[i]); });
+      call([&] { return tact_world_closest_point(world_, &points[i], &nearest[i]); });
+      tell(nearest[i].barycentric);
+    }
+    call([&] { return tact_world_cast_ray_all(world_, &rays[0], hits.data(), hits.size(), &count); });
+    tell(count);
+    call([&] { return tact_world_overlap_box(world_, &box, facets.data(), facets.size(), &count); });
+    tell(count);
+    call([&] { return tact_world_bodies_containing(world_, &points[0], around.data(), around.size(), &count); });
+    tell(count);
+    call([&] { return tact_world_overlap_boxes(world_, &box, 1, facets.data(), facets.size(), ends.data()); });
+    tell(ends[0]);
+    call([&] {
+      return tact_world_bodies_containing_each(world_, points.data(), points.size(), around.data(), around.size(),
+                                               ends.data());
+    });
+    tell(ends.back());
+  }
+
+  void refuse() {
+    tact_point_query query = TACT_POINT_QUERY_INIT;
+    query.point[0] = std::numeric_limits<double>::quiet_NaN();
+    tact_closest_point nearest{};
+    EXPECT_EQ(answer([&] { return tact_world_closest_point(world_, &query, &nearest); }),
+              TACT_ERROR_NON_FINITE_POSITION);
+    EXPECT_EQ(answer([&] { return tact_world_set_margin(world_, bodies_[0], query.point[0]); }),
+              TACT_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(in_mode(mode_, [] { return tact_last_error_message(); }), nullptr);
+  }
+
+  void play() {
+    tact_player player{};
+    tact_world world{};
+    const char* version = nullptr;
+    bool cut = false, played = true;
+    size_t byte = 0;
+    call([&] { return tact_player_open(path_.c_str(), 2, &player); });
+    call([&] { return tact_player_recorded_by(player, &version); });
+    call([&] { return tact_player_world(player, &world); });
+    for (;;) {
+      tact_played_step step = TACT_PLAYED_STEP_INIT;
+      call([&] { return tact_player_next(player, &step, &played); });
+      if (!played) break;
+      tell(step.now);
+      EXPECT_EQ(step.now, step.recorded) << mode_.name;
+    }
+    call([&] { return tact_player_cut_at(player, &cut, &byte); });
+    call([&] { return tact_player_close(player); });
+  }
+
+  const FloatingPointSettings mode_;
+  tact_settings settings_ = TACT_SETTINGS_INIT;
+  double rotation_[9];
+  const Mesh ball_ = blob(1, 0.7, 0.2, 5), other_ = translated(ball_, {1.3, 0.1, 0.2}),
+             floor_ = gridded_box({-2.0, -2.0, -1.5}, {2.0, 2.0, -0.4}, 4);
+  TemporaryFolder folder_;
+  const std::string path_ = (folder_.path() / "modes.tactrec").string();
+  tact_world world_{};
+  std::vector<tact_body> bodies_;
+  std::vector<std::uint64_t> told_;
+};
+
+TEST(FloatingPointModesOfC, ChangeNoAnswerOfAnyFunction) {
+  const std::vector<std::uint64_t> expected = EveryCallOfC({}, 1).run();
+  EXPECT_GT(expected.size(), 1000u);
+  for (const FloatingPointSettings& mode : callers_modes()) {
+    for (int threads = 1; threads <= (mode.traps ? 2 : 1); ++threads) {
+      const std::vector<std::uint64_t> told = EveryCallOfC(mode, threads).run();
+      const auto [one, other] = std::ranges::mismatch(told, expected);
+      EXPECT_TRUE(one == told.end() && other == expected.end())
+          << mode.name << ", " << threads << " threads: word " << other - expected.begin();
+    }
+  }
+}
+
+TEST(FloatingPointModesOfC, AreTriedWithEachFunction) {
+  const std::string own = contents(__FILE__),
+                    header = contents(std::string(TACT_SOURCE_DIR) + "/bindings/c/include/tact/tact_c.h");
+  std::set<std::string> names;
+  for (std::size_t at = header.find("TACT_C_API "); at != std::string::npos; at = header.find("TACT_C_API ", at + 1)) {
+    const std::size_t end = header.find_first_of("(\n", at), begin = header.find_last_of(" *", end);
+    const std::string name = header.substr(begin + 1, end - begin - 1);
+    if (name.starts_with("tact_")) names.insert(name);
+  }
+  EXPECT_GT(names.size(), 70u);
+  for (const std::string& name : names) EXPECT_NE(own.find(name + "("), std::string::npos) << name;
+}
+
+}  // namespace
+}  // namespace tact::tests
