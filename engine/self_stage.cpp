@@ -132,6 +132,8 @@ void SelfStage::finish(const Bodies& bodies) {
     if (one->touching) touching_.push_back(one->body);
   }
   same_ = in_contact_ == last_in_contact_;
+  if (!bodies.keys().are_slots())
+    std::ranges::sort(contacts_, {}, [&](const SelfRecord* one) { return bodies.keys().of(one->body.index); });
   // Both ascend by slot, which comes first in an id.
   const auto without = [](const std::vector<BodyId>& those, const std::vector<BodyId>& others,
                           std::vector<ContactEvent>& events) {

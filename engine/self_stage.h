@@ -29,7 +29,7 @@ class SelfStage {
   void finish(const Bodies& bodies);
   /// Nothing has changed.
   void keep();
-  /// The bodies in contact with themselves, ascending by slot.
+  /// The bodies in contact with themselves, ascending by key.
   std::span<const SelfRecord* const> contacts() const { return contacts_; }
   /// What patches bodies had that are not looked at any more.
   std::span<const PatchEvent> gone_patches() const { return gone_patches_; }

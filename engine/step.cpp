@@ -29,6 +29,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   Timer timer(settings.outputs.trace ? 0.0 : base::TickCounter::tick_ms());  // a trace needs points in time
   const TraceEvent::Time begin = timer.start();
   if (forgotten_) start_from_scratch();
+  bodies.update_order();
   PairTable& table = stages_->table;
   writer_.note_sources(bodies, table, settings);
   StepStats& stats = writer_.stats() = {};
@@ -99,17 +100,17 @@ void Step::find_patches(const Bodies& bodies, const Settings& settings) {
   events.assign(table.gone_patches().begin(), table.gone_patches().end());
   if (settings.outputs.patches) {
     patches_.find(table.moved(), bodies, settings);
-    patches_.name(table.moved(), events);
+    patches_.name(table.moved(), bodies, events);
     events.insert(events.end(), selves.gone_patches().begin(), selves.gone_patches().end());
     patches_.find(selves.looked_at(), bodies, settings);
-    patches_.name(selves.looked_at(), events);
+    patches_.name(selves.looked_at(), bodies, events);
   } else if (all_) {
     for (const MovedPair& pair : table.moved()) pair.record->patches.reset();
     selves.forget_patches();
   }
-  const auto order = [](const PatchEvent& event) {
+  const auto order = [&](const PatchEvent& event) {
     const bool is_new = event.kind == PatchEvent::Kind::began || event.kind == PatchEvent::Kind::split;
-    return std::tuple(event.a, event.b, is_new, event.patch);
+    return std::tuple(bodies.key(event.a), event.a, bodies.key(event.b), event.b, is_new, event.patch);
   };
   std::ranges::sort(events, {}, order);
 }

@@ -394,6 +394,10 @@ bool World::excluded(BodyId a, BodyId b) const { return implementation().bodies.
 std::uint32_t World::layer(BodyId body) const { return implementation().bodies.filter(body).layer; }
 std::uint32_t World::mask(BodyId body) const { return implementation().bodies.filter(body).mask; }
 std::uint64_t World::external_id(BodyId body) const { return implementation().bodies.at(body).external_id; }
+std::uint64_t World::key(BodyId body) const {
+  const Bodies& bodies = implementation().bodies;
+  return bodies.keys().of(bodies.at(body).id.index);
+}
 double World::margin(BodyId body) const {
   const Bodies& bodies = implementation().bodies;
   return bodies.margin(bodies.at(body).id.index);

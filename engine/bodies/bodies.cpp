@@ -13,6 +13,8 @@ namespace tact {
 
 namespace {
 
+constexpr auto kIdOfRemoved = [](const auto& removed) { return removed.id; };
+
 // The body of a definition that is good, not placed in any world.
 std::unique_ptr<Body> make_body(const BodyDefinition& definition, const std::string& name) {
   std::vector<double> position_copy;
@@ -42,13 +44,19 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   check_array(definition.positions, name);
   check_array(definition.facets, name);
   check_counts(definition.positions.cols(), definition.facets.cols(), slots_.size(), name);
+  const std::uint64_t key = definition.key.value_or(slot);
+  if (const auto other = keys_.find(key))
+    throw Error(ErrorCode::invalid_argument,
+                quoted(name) + ": key " + std::to_string(key) + " is that of " + quoted(in_slot(*other).name));
   std::unique_ptr<Body> body = make_body(definition, name);
   const bool rigid = definition.motion == Motion::rigid;
   // Nothing can fail half-way: all that may allocate comes first.
   make_room_for(slot);
   if (rigid) rigid_states_.make_room();
+  keys_.keep_given(slot, key);
   slot < slots_.size() ? free_.pop_back() : add_slot();
   body->id = {slot, ++slots_[slot].generation, world_};
+  keys_.start(slot, key);
   margins_[slot] = definition.margin;
   boxes_[slot] = base::grown(body->mesh.box(), definition.margin);
   kdops_.start(slot, body->mesh);
@@ -75,14 +83,15 @@ BodyId Bodies::add(const BodyDefinition& definition) {
 void Bodies::make_room_for(std::uint32_t slot) {
   const std::size_t slots = std::max<std::size_t>(slots_.size(), slot + 1);
   make_room(slots_, slots), make_room(boxes_, slots), make_room(filters_, slots), make_room(margins_, slots);
-  kdops_.make_room(slots), groupings_.make_room(slots), tree_.make_room(slots);
+  kdops_.make_room(slots), groupings_.make_room(slots), tree_.make_room(slots), keys_.make_room(slots);
+  make_room(removed_, removed_.size() + count_ + 1);
   make_room(changed_, slots), make_room(free_, slots);
 }
 
 void Bodies::add_slot() {
   const std::size_t slots = slots_.size() + 1;
   slots_.resize(slots), boxes_.resize(slots), filters_.resize(slots), margins_.resize(slots);
-  kdops_.resize(slots), groupings_.resize(slots), tree_.resize(slots);
+  kdops_.resize(slots), groupings_.resize(slots), tree_.resize(slots), keys_.resize(slots);
 }
 
 void Bodies::remove(BodyId id) {
@@ -90,6 +99,8 @@ void Bodies::remove(BodyId id) {
   vertices_ -= vertices;
   if (moved(id.index)) moved_vertices_ -= vertices;
   packed_meshes_.remove(slots_[id.index].body->mesh);
+  removed_.push_back({id, keys_.of(id.index)});
+  keys_.forget(id.index);
   rigid_count_ -= is_rigid(id.index) ? 1 : 0;
   self_count_ -= slots_[id.index].body->self_contact ? 1 : 0;
   slots_[id.index].body.reset();
@@ -100,7 +111,6 @@ void Bodies::remove(BodyId id) {
   if (id.generation < std::numeric_limits<std::uint32_t>::max()) free_.push_back(id.index);
   groupings_.forget(id.index);
   mark_changed(id.index);
-  removed_any_ = true;
   --count_;
 }
 
@@ -244,6 +254,16 @@ std::vector<BodyId> Bodies::ids() const {
   return ids;
 }
 
+void Bodies::update_order() {
+  keys_.update_order();
+  std::ranges::sort(removed_, {}, kIdOfRemoved);
+}
+
+std::uint64_t Bodies::key(BodyId id) const {
+  if (contains(id)) return keys_.of(id.index);
+  return std::ranges::lower_bound(removed_, id, {}, kIdOfRemoved)->key;
+}
+
 void Bodies::mark_moved(std::uint32_t slot) {
   if (!moved(slot)) moved_vertices_ += slots_[slot].vertex_count;
   mark_changed(slot);
@@ -264,7 +284,8 @@ void Bodies::end_step() {
   }
   changed_.clear();
   excluded_.end_step();
-  removed_any_ = false;
+  removed_.clear();
+  ++steps_;
   moved_vertices_ = 0;
   placed_count_ = 0;
 }

@@ -14,6 +14,7 @@
 #include "broadphase/sweep_and_prune.h"
 #include "engine/base/tuning.h"
 #include "engine/bodies/body_kdops.h"
+#include "engine/bodies/body_keys.h"
 #include "engine/bodies/body_tree.h"
 #include "engine/bodies/checks.h"
 #include "engine/bodies/cluster_groupings.h"
@@ -71,6 +72,13 @@ class Bodies {
   const Body& at(BodyId id) const;
   const broadphase::Filter& filter(BodyId id) const { return filters_[at(id).id.index]; }
   const Body& in_slot(std::uint32_t slot) const { return *slots_[slot].body; }
+  // The order of bodies in all answers; a step and detect_motion() update it before they use ranks.
+  const BodyKeys& keys() const { return keys_; }
+  void update_order();
+  // The key of a body that there is, or was in the last step.
+  std::uint64_t key(BodyId id) const;
+  // Steps that had an answer.
+  std::uint64_t steps() const { return steps_; }
   std::size_t count() const noexcept { return count_; }
   // Vertices of all bodies, and of those that moved.
   std::int64_t vertices() const noexcept { return vertices_; }
@@ -145,7 +153,7 @@ class Bodies {
   bool moved(std::uint32_t slot) const { return slots_[slot].changed; }
   bool used(std::uint32_t slot) const { return slots_[slot].body != nullptr; }
   // Whether any body was removed since end_step(). Another may stand in its slot.
-  bool removed_any() const { return removed_any_; }
+  bool removed_any() const { return !removed_.empty(); }
 
   // A body that was grouped again: which numbers its vertices have now, each under the number that it had.
   struct Regrouped {
@@ -160,7 +168,7 @@ class Bodies {
   // Does without: the groups stay as they are, until the bodies are looked at again.
   void keep_groups() noexcept { groupings_.clear_decayed(); }
 
-  // The step has seen the changes: nothing has moved.
+  // A step has seen the changes and has an answer: nothing has moved.
   void end_step();
   // Everything has moved: after a step that failed half-way.
   void mark_all_changed();
@@ -181,6 +189,12 @@ class Bodies {
     bool changed = false;
     bool seen = false;  // by a step
     Begin begin = Begin::here;
+  };
+
+  // A body that was removed since the last step.
+  struct Removed {
+    BodyId id;
+    std::uint64_t key;
   };
 
   // New positions of a body: prepared; its mesh refitted, and put back if any of a batch is bad; published.
@@ -240,12 +254,14 @@ class Bodies {
   std::vector<base::Box> boxes_;
   std::vector<broadphase::Filter> filters_;
   std::vector<double> margins_;
+  BodyKeys keys_;
   BodyTree tree_;
   BodyKdops kdops_;
   ClusterGroupings groupings_;
   std::vector<std::uint32_t> changed_;
   std::size_t count_ = 0;
-  bool removed_any_ = false;
+  std::vector<Removed> removed_;  // sorted by id from update_order() on
+  std::uint64_t steps_ = 0;
   ExcludedPairs excluded_;
   std::int64_t vertices_ = 0;
   std::int64_t moved_vertices_ = 0;

@@ -1,6 +1,6 @@
 // What a recording is made of.
 //
-// The file, version 5. Numbers are little-endian, doubles as IEEE 754 has them, without padding between them:
+// The file, version 6. Numbers are little-endian, doubles as IEEE 754 has them, without padding between them:
 //
 //   head      "tactrec\n", u32 version, text: the version of tact that wrote it
 //   settings  u8 1, i32 threads, u8 accuracy, u8 direction policy, f64 gjk_tolerance, i32 iteration_limit, u8 zones,
@@ -22,6 +22,7 @@
 //   excluded  u8 13, body, body, u8: whether they are
 //   poses     u8 14, u64 bodies, and for each: body, 9 f64 of the rotation, row by row, 3 f64 of the translation; since
 //             version 5, as is the motion `rigid`
+//   key       u8 15, u64: the key of the body that is added next, if one was given; since version 6
 //
 // A text is u32 bytes and these; a body is u32 index and u32 generation of its BodyId; enumerations are numbered in the
 // order of their values. Outputs::trace is left out: it changes no answer. The records stand in the order of the calls;
@@ -34,7 +35,7 @@
 namespace tact::recording {
 
 inline constexpr std::string_view kMagic = "tactrec\n";
-inline constexpr std::uint32_t kVersion = 5;
+inline constexpr std::uint32_t kVersion = 6;
 
 enum class RecordKind : std::uint8_t {
   settings = 1,
@@ -50,8 +51,9 @@ enum class RecordKind : std::uint8_t {
   points = 11,
   group = 12,
   excluded = 13,
-  poses = 14
+  poses = 14,
+  key = 15
 };
-inline constexpr RecordKind kLastRecordKind = RecordKind::poses;
+inline constexpr RecordKind kLastRecordKind = RecordKind::key;
 
 }  // namespace tact::recording

@@ -52,6 +52,10 @@ void put_value(std::ostream& out, RecordKind kind, BodyId body, Number value) {
 }
 
 void put_addition(std::ostream& out, BodyId body, const BodyDefinition& definition) {
+  if (definition.key) {
+    put(out, RecordKind::key);
+    put(out, *definition.key);
+  }
   put(out, RecordKind::add);
   put(out, static_cast<std::uint8_t>(definition.surface));
   put(out, static_cast<std::uint8_t>(definition.motion));

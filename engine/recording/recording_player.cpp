@@ -105,6 +105,10 @@ struct RecordingPlayer::Implementation {
         settings.outputs.points = true;
         return make([&] { world->set_settings(settings); });
       }
+      case RecordKind::key: {
+        next_key = reader.read<std::uint64_t>();
+        return;
+      }
       case RecordKind::detect:
       case RecordKind::hash: break;
     }
@@ -148,7 +152,8 @@ struct RecordingPlayer::Implementation {
                                      .name = std::move(name),
                                      .layer = layer,
                                      .mask = mask,
-                                     .external_id = external_id})
+                                     .external_id = external_id,
+                                     .key = std::exchange(next_key, std::nullopt)})
                          .world;
     });
   }
@@ -251,6 +256,7 @@ struct RecordingPlayer::Implementation {
   std::string recorded_by = {};
   std::optional<World> world = {};
   std::uint32_t world_number = 0;  // that ids carry; known from the first body
+  std::optional<std::uint64_t> next_key = {};  // of the body that is added next
   int steps = 0;
   const Report nothing = {};
   const Report* report = &nothing;

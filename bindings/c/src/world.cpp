@@ -143,6 +143,7 @@ tact_error tact_world_add_body(tact_world world, const tact_body_definition* def
                                           .mask = d.mask,
                                           .group = d.group,
                                           .external_id = d.external_id,
+                                          .key = d.has_key ? std::optional(d.key) : std::nullopt,
                                           .margin = d.margin,
                                           .self_contact = d.self_contact}));
   });
@@ -279,6 +280,10 @@ tact_error tact_world_excluded(tact_world world, tact_body a, tact_body b, bool*
 
 tact_error tact_world_external_id(tact_world world, tact_body body, uint64_t* external_id) {
   return get(world, external_id, [&](const World& w) { return w.external_id(id_of(body)); });
+}
+
+tact_error tact_world_key(tact_world world, tact_body body, uint64_t* key) {
+  return get(world, key, [&](const World& w) { return w.key(id_of(body)); });
 }
 
 tact_error tact_world_margin(tact_world world, tact_body body, double* margin) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,7 +23,7 @@ using SharedPointer = std::shared_ptr<SharedWorld>;
 
 BodyId add_body(SharedWorld& world, py::handle positions, py::handle facets, Surface surface, Motion motion,
                 const std::string& name, std::uint32_t layer, std::uint32_t mask, double margin, bool self_contact,
-                std::uint32_t group) {
+                std::uint32_t group, std::optional<std::uint64_t> key) {
   const PositionsArgument x(positions);
   const FacetsArgument f(facets);
   const BodyDefinition definition{.positions = x.columns(),
@@ -33,6 +34,7 @@ BodyId add_body(SharedWorld& world, py::handle positions, py::handle facets, Sur
                                   .layer = layer,
                                   .mask = mask,
                                   .group = group,
+                                  .key = key,
                                   .margin = margin,
                                   .self_contact = self_contact};
   BodyId added;
@@ -217,7 +219,7 @@ void define_world(py::module_& module) {
       .def("add_body", add_body, py::arg("positions"), py::arg("facets"), py::kw_only(),
            py::arg("surface") = Surface::closed, py::arg("motion") = Motion::deformable, py::arg("name") = "",
            py::arg("layer") = 1u, py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0,
-           py::arg("self_contact") = false, py::arg("group") = 0u,
+           py::arg("self_contact") = false, py::arg("group") = 0u, py::arg("key") = py::none(),
            "adds a body; copies its mesh and groups the facets into clusters. Positions: (V, 3) in metres; facets: (F, "
            "3), vertices counter-clockwise seen from outside")
       .def(
@@ -266,6 +268,7 @@ void define_world(py::module_& module) {
       .def("layer", of_body<&World::layer>, py::arg("body"))
       .def("mask", of_body<&World::mask>, py::arg("body"))
       .def("group", of_body<&World::group>, py::arg("body"))
+      .def("key", of_body<&World::key>, py::arg("body"), "the key of a body: given, or its index")
       .def("margin", of_body<&World::margin>, py::arg("body"), "the margin of a body, metres")
       .def("self_contact", of_body<&World::self_contact>, py::arg("body"), "whether a body is tested against itself")
       .def(

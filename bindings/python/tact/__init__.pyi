@@ -191,7 +191,7 @@ class Patch:
 
     @property
     def id(self) -> int:
-        """the same in the next step if both share most of their vertices; never given out twice by a world"""
+        """the same in the next step if both share most of their vertices; made from both keys, the step of its beginning and its place"""
     @property
     def point(self) -> Floats:
         """(3,): the middle of its points, or of the boxes that its facet pairs have in common; metres"""
@@ -333,6 +333,8 @@ class Contact:
     @property
     def patches(self) -> list[Patch]:
         """the patches, if Settings.patches is set; sorted by first facet pair, then by first point"""
+    def hash(self) -> int:
+        """a number made from every bit of the contact, its facet pairs, points and patches, but for counts of work"""
 
 class Report:
     """What World.detect() found. It is valid until the next step; arrays that it gives stay valid."""
@@ -364,7 +366,7 @@ class Report:
     def stats(self) -> dict[str, float]:
         """counts and times of the step. By name, times in milliseconds"""
     def hash(self) -> int:
-        """a number made from every bit of candidate pairs, contacts, facet pairs and points"""
+        """a number made from every bit of candidate pairs, contacts, facet pairs and points; bodies enter it by their keys"""
     def __len__(self) -> int: ...
 
 class Impacts:
@@ -530,6 +532,7 @@ class World:
         margin: float = 0.0,
         self_contact: bool = False,
         group: int = 0,
+        key: Optional[int] = None,
     ) -> BodyId:
         """adds a body; copies its mesh and groups the facets into clusters. Positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside"""
     def remove_body(self, body: BodyId) -> None: ...
@@ -620,6 +623,8 @@ class World:
     def layer(self, body: BodyId) -> int: ...
     def mask(self, body: BodyId) -> int: ...
     def group(self, body: BodyId) -> int: ...
+    def key(self, body: BodyId) -> int:
+        """the key of a body: given, or its index"""
     def margin(self, body: BodyId) -> float:
         """the margin of a body, metres"""
     def self_contact(self, body: BodyId) -> bool: ...

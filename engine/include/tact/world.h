@@ -154,6 +154,7 @@ class TACT_API World {
   /// Whether set_excluded() excludes two bodies. Errors: also invalid_argument (one body twice).
   bool excluded(BodyId a, BodyId b) const;
   std::uint64_t external_id(BodyId body) const;  ///< the number that the program gave a body
+  std::uint64_t key(BodyId body) const;          ///< the key of a body: given, or its index
   double margin(BodyId body) const;              ///< the margin of a body, metres
   bool self_contact(BodyId body) const;          ///< whether a body is tested against itself
   std::size_t vertex_count(BodyId body) const;   ///< the number of vertices that were added
