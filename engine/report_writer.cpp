@@ -70,6 +70,19 @@ void ReportWriter::copy_keys(const BodyKeys& keys) {
   keys_version_ = keys.version();
 }
 
+void ReportWriter::restore(PairTable& table, const SelfStage& self, const Bodies& bodies) {
+  copy_keys(bodies.keys());
+  write_candidates(table, false);
+  list_contacts(table, self, bodies.keys());
+  report_.contacts_.resize(reported_.size());
+  for (std::size_t i = 0; i < reported_.size(); ++i) {
+    const auto& [place, of_self] = reported_[i];
+    if (of_self == nullptr) table.place_in_report(place) = static_cast<std::uint32_t>(i);
+    of_self == nullptr ? replace(report_.contacts_[i], table.record(place), bodies.keys(), totals_)
+                       : replace(report_.contacts_[i], *of_self, bodies.keys(), totals_);
+  }
+}
+
 void ReportWriter::forget() {
   report_ = Report();
   keys_version_ = 0;

@@ -31,6 +31,8 @@ class ReportWriter {
 
   /// Candidate pairs, contacts and events as the records have them now, and the counts of contacts.
   void write(PairTable& table, const SelfStage& self, const Bodies& bodies, const Settings& settings);
+  /// Takes over the contacts that the records have, as if the last report had them.
+  void restore(PairTable& table, const SelfStage& self, const Bodies& bodies);
   /// The next report is the first.
   void forget();
   /// Where the answers of this step come from: they must outlive the report.

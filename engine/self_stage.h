@@ -19,6 +19,8 @@
 namespace tact {
 
 class SelfStage {
+  friend struct StateFields;
+
  public:
   /// Looks at every body that wants it and has changed since the last step, or at all of them: finds the facet pairs,
   /// and the cluster pairs that may have contact points.
@@ -51,6 +53,7 @@ class SelfStage {
 
   void select(Bodies& bodies, bool all, int threads);
   void select(std::uint32_t slot, Bodies& bodies);
+  void list_contacts(const Bodies& bodies);
   void find_facet_pairs(const Bodies& bodies, const Settings& settings, narrowphase::EmbreeDevice& device);
 
   std::vector<std::unique_ptr<SelfRecord>> records_;  // by slot; null where none is wanted

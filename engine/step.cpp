@@ -1,6 +1,7 @@
 #include "engine/step.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -58,8 +59,12 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
 
 // Stages 2 to 6, and what is found of their facet pairs.
 void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, Timer& timer, StepStats& stats) {
-  auto& [sweep, table, pairs, containment, points, selves] = *stages_;
-  sweep.update(bodies.boxes(), bodies.filters(), bodies.changed(), settings.threads, bodies.tuning());
+  auto& [sweep, table, pairs, containment, points, selves, knows_boxes] = *stages_;
+  std::vector<std::uint32_t> slots(knows_boxes ? 0 : bodies.boxes().size());
+  std::iota(slots.begin(), slots.end(), 0u);
+  sweep.update(bodies.boxes(), bodies.filters(), knows_boxes ? bodies.changed() : slots, settings.threads,
+               bodies.tuning());
+  knows_boxes = true;
   bodies.place(sweep.pairs(), settings.threads);
   table.update(sweep, bodies, all_);
   stats.excluded_pairs = static_cast<std::int64_t>(sweep.excluded());
@@ -120,6 +125,13 @@ void Step::make_trace(TraceEvent::Time begin, TraceEvent::Time end, const Settin
   if (settings.outputs.trace)
     trace_.make(begin, end, writer_.stats(), stages_->table.moved(), stages_->pairs, writer_.trace());
   trace_.forget_refreshes();
+}
+
+void Step::restore(Restored&& restored) noexcept {
+  stages_ = std::move(restored.stages);
+  writer_ = std::move(restored.writer);
+  all_ = restored.all;
+  forgotten_ = false;
 }
 
 void Step::start_from_scratch() {

@@ -21,6 +21,8 @@
 namespace tact {
 
 class Step {
+  friend struct StateFields;
+
  public:
   /// Looks at every pair with a body that changed, and keeps the result of all others. `refresh_ms` is what stage 1
   /// took, milliseconds.
@@ -35,6 +37,10 @@ class Step {
   /// The next step starts from nothing: after a step that failed half-way. Allocates nothing.
   void forget() noexcept { forgotten_ = true; }
 
+  /// What World::restore() puts in the place of what was found of the last step. The next step goes on from there.
+  struct Restored;
+  void restore(Restored&& restored) noexcept;
+
   /// Where stage 1 is noted, if Outputs::trace is set.
   StepTrace& trace() { return trace_; }
 
@@ -47,6 +53,7 @@ class Step {
     ContainmentStage containment;
     PointStage points;
     SelfStage selves;
+    bool knows_boxes = true;  // whether the sweep does, but for those that changed: not after restore()
   };
   void start_from_scratch();
   void keep_last_answers();
@@ -63,6 +70,12 @@ class Step {
   double regroup_ms_ = 0.0;
   bool all_ = true;
   bool forgotten_ = false;
+};
+
+struct Step::Restored {
+  std::unique_ptr<Stages> stages = std::make_unique<Stages>();
+  ReportWriter writer;
+  bool all = true;
 };
 
 }  // namespace tact

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fuzzes the readers of meshes and recordings: scripts/fuzz.sh SECONDS, so many for each format. Needs clang and the
+# Fuzzes the readers of meshes, recordings and saved states: scripts/fuzz.sh SECONDS, so many for each format. Needs clang and the
 # packages of the build.
 # What it learns stays in build/fuzz/corpus; the corpus of the tree is only read. It ends at the first finding and leaves
 # the input that shows it in build/fuzz.
@@ -11,9 +11,9 @@ build=$root/build/fuzz
 mkdir -p "$root/build"
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ \
   -DTACT_BUILD_FUZZERS=ON -DTACT_BUILD_PROGRAM=ON -DTACT_BUILD_TESTS=ON >"$build.log" 2>&1 || { cat "$build.log"; exit 1; }
-ninja -C "$build" fuzz_obj fuzz_off fuzz_ply fuzz_stl fuzz_recording
+ninja -C "$build" fuzz_obj fuzz_off fuzz_ply fuzz_stl fuzz_recording fuzz_state
 
-for format in obj off ply stl recording; do
+for format in obj off ply stl recording state; do
   mkdir -p "$build/corpus/$format"
   "$build/tests/fuzz/fuzz_$format" -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=1024 \
     -malloc_limit_mb=256 -print_final_stats=1 -dict="$root/tests/fuzz/dictionary.txt" \

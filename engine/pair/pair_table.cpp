@@ -35,7 +35,8 @@ void PairTable::update(const broadphase::SweepAndPrune& sweep, const Bodies& bod
   gone_patches_.clear();
   moved_.clear();
   separated_ = 0;
-  same_pairs_ = !all && !bodies.removed_any() && !bodies.excluded_pairs().changed() && !sweep.pairs_changed();
+  same_pairs_ = !std::exchange(was_restored_, false) && !all && !bodies.removed_any() &&
+                !bodies.excluded_pairs().changed() && !sweep.pairs_changed();
   // The sweep sees boxes of rigid bodies that may be too large: what it says of them has to be looked at in each step.
   const bool rough = bodies.any_rigid() || had_rigid_;
   had_rigid_ = bodies.any_rigid();

@@ -27,6 +27,8 @@ struct MovedPair {
 
 /// Matches the pairs of the sweep with those of the last step, and owns their records. Runs no geometry.
 class PairTable {
+  friend struct StateFields;
+
  public:
   // Takes the pairs of the sweep, sorted, and puts them into the order of the keys: a pair that stays keeps its record,
   // unless a body of it was replaced by another. Then moved() are those with a body that moved, or all.
@@ -106,7 +108,8 @@ class PairTable {
   std::vector<ContactEvent> gone_;
   std::vector<PatchEvent> gone_patches_;
   bool same_pairs_ = false;
-  bool had_rigid_ = false;  // whether there were rigid bodies in the last step
+  bool had_rigid_ = false;     // whether there were rigid bodies in the last step
+  bool was_restored_ = false;  // since the last update(): the sweep does not tell whether its pairs are these
 };
 
 }  // namespace tact

@@ -173,6 +173,14 @@ void Recorder::self_contact_set(BodyId body, bool wanted) noexcept {
   write([&](std::ostream& out) { put_value(out, RecordKind::self_contact, body, std::uint8_t{wanted}); });
 }
 
+void Recorder::state_restored(std::span<const std::byte> bytes) noexcept {
+  write([&](std::ostream& out) {
+    put(out, RecordKind::restore);
+    put(out, std::uint64_t{bytes.size()});
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  });
+}
+
 void Recorder::step_begins() noexcept {
   write([](std::ostream& out) {
     put(out, RecordKind::detect);

@@ -232,6 +232,25 @@ tact_error tact_world_detect_motion(tact_world world, int32_t wanted) {
   });
 }
 
+tact_error tact_world_save(tact_world world, void* bytes, size_t capacity, size_t* count) {
+  return reading(world, [&](const WorldEntry& entry) {
+    check_not_null(count);
+    if (capacity > 0) check_not_null(bytes);
+    const std::vector<std::byte> saved = entry.world.save();
+    std::copy_n(saved.data(), std::min(capacity, saved.size()), static_cast<std::byte*>(bytes));
+    *count = saved.size();
+  });
+}
+
+tact_error tact_world_restore(tact_world world, const void* bytes, size_t count) {
+  return changing(world, [&](WorldEntry& entry) {
+    if (count > 0) check_not_null(bytes);
+    entry.world.restore({static_cast<const std::byte*>(bytes), count});
+    entry.report = nullptr;
+    entry.motion = nullptr;
+  });
+}
+
 tact_error tact_world_contains(tact_world world, tact_body body, bool* contains) {
   return get(world, contains, [&](const World& w) { return w.contains(id_of(body)); });
 }

@@ -65,7 +65,8 @@ class SharedWorld {
     use();
     if (report != report_)
       throw StaleReport(
-          "this report is of an earlier step: what it shows is gone with the next detect() or set_settings()");
+          "this report is of an earlier step: what it shows is gone with the next detect(), set_settings() or "
+          "restore()");
   }
 
   /// Records the world to a file from now on, or no more.

@@ -4,9 +4,12 @@
 #include <tact/world.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -113,6 +116,18 @@ MotionArrays detect_motion(SharedWorld& world, Impacts wanted) {
   const MotionReport* made = nullptr;
   world.compute([&](World& w) { made = &w.detect_motion(wanted); });
   return motion_arrays(*made);
+}
+
+py::bytes save(SharedWorld& world) {
+  std::vector<std::byte> bytes;
+  world.compute([&](World& w) { bytes = w.save(); });
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void restore(SharedWorld& world, const py::bytes& bytes) {
+  const std::string_view view = bytes;
+  world.compute([&](World& w) { w.restore(std::as_bytes(std::span(view))); });
+  world.next_report();
 }
 
 void set_settings(SharedWorld& world, const Settings& settings) {
@@ -258,6 +273,10 @@ void define_world(py::module_& module) {
           py::arg("wanted") = Impacts::all,
           "finds what meets between the positions of the last detect() and the current ones, every vertex moving "
           "straight")
+      .def("save", save, "all that later answers depend on as bytes: settings, bodies, histories")
+      .def("restore", restore, py::arg("bytes"),
+           "goes back to the state of `bytes`, of this world or another: later calls answer as after save(), bit for "
+           "bit")
       .def(
           "contains", [](SharedWorld& world, BodyId body) { return world.use().contains(body); }, py::arg("body"))
       .def_property_readonly("body_count", [](SharedWorld& world) { return world.use().body_count(); })

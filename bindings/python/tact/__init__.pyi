@@ -40,6 +40,7 @@ class ErrorCode:
     wrong_motion: ClassVar[ErrorCode]
     not_a_rotation: ClassVar[ErrorCode]
     invalid_argument: ClassVar[ErrorCode]
+    bad_state: ClassVar[ErrorCode]
     name: str
     value: int
     def __init__(self, value: int) -> None: ...
@@ -558,6 +559,10 @@ class World:
     def detect(self) -> Report: ...
     def detect_motion(self, wanted: Impacts = ...) -> MotionReport:
         """finds what meets between the positions of the last detect() and the current ones, every vertex moving straight"""
+    def save(self) -> bytes:
+        """all that later answers depend on as bytes: settings, bodies, histories"""
+    def restore(self, bytes: bytes) -> None:
+        """goes back to the state of `bytes`, of this world or another: later calls answer as after save(), bit for bit"""
     def cast_rays(
         self,
         from_: npt.NDArray[np.floating],

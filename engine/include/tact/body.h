@@ -12,7 +12,8 @@
 
 namespace tact {
 
-/// Names a body of one world. No id is given out twice: that of a removed body stays stale.
+/// Names a body of one world. No id is given out twice: that of a removed body stays stale, unless World::restore()
+/// brings the body back.
 struct BodyId {
   std::uint32_t index = 0;       ///< the place of the body in its world; that of a removed body is used again
   std::uint32_t generation = 0;  ///< 0 in the id of no body

@@ -53,7 +53,8 @@ struct MotionStats {
   double search_ms = 0.0;          ///< all other work
 };
 
-/// What World::detect_motion() found. It is valid until the next call, or the end of the world.
+/// What World::detect_motion() found. It is valid until the next call, World::restore(), or the end of the
+/// world.
 class TACT_API MotionReport {
  public:
   MotionReport() = default;

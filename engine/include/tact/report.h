@@ -1,5 +1,6 @@
-// What a step found. A report is valid until the world's next detect(), set_settings() or destruction; many threads may
-// read it at once. A copied Contact or Patch still views the world's data. Bodies stand in the order of their keys.
+// What a step found. A report is valid until the world's next detect(), set_settings(), restore() or destruction; many
+// threads may read it at once. A copied Contact or Patch still views the world's data. Bodies stand in the order of
+// their keys.
 #pragma once
 
 #include <tact/body.h>
@@ -112,6 +113,7 @@ struct Contact {
  private:
   friend class ReportWriter;
   friend class Report;
+  friend struct StateFields;
   std::span<const FacetPair> facet_pairs_;
   std::span<const Patch> patches_;
   std::span<const ContactPoint> points_;

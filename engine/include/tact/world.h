@@ -109,6 +109,13 @@ class TACT_API World {
   /// invalid_argument, out_of_memory, backend_failure.
   const MotionReport& detect_motion(Impacts wanted = Impacts::all);
 
+  /// Returns all that later answers depend on as bytes: settings, bodies, histories. Worlds in one state have the same
+  /// bytes. Left out are threads, executor, messages and observer. Errors: out_of_memory.
+  std::vector<std::byte> save() const;
+  /// Goes back to the state of `bytes`, of this world or another: later calls answer as after save(), bit for bit. The
+  /// manual tells which ids name which bodies then. Errors: bad_state, too_large, out_of_memory.
+  void restore(std::span<const std::byte> bytes);
+
   // Queries see the current positions, whether or not a step has. Errors of these: non_finite_position,
   // position_out_of_range, invalid_argument, wrong_size (not as many answers as queries), out_of_memory.
 

@@ -14,7 +14,7 @@
  * that point to nowhere cannot be told.
  *
  * Arrays that come back belong to the world: they are valid until its next tact_world_detect(),
- * tact_world_set_settings() or tact_world_destroy(). Lengths are metres.
+ * tact_world_set_settings(), tact_world_restore() or tact_world_destroy(). Lengths are metres.
  *
  * Structs begin with their size, by which the library knows which version of this header a program was compiled with:
  * always begin with the TACT_..._INIT of the struct. */
@@ -55,6 +55,7 @@ typedef enum tact_error {
   TACT_ERROR_WRONG_MOTION = 14,         /**< positions were set on a rigid body, or a pose on a deformable one */
   TACT_ERROR_NOT_A_ROTATION = 15,       /**< the matrix of a pose is not orthonormal to 1e-9, or mirrors */
   TACT_ERROR_INVALID_ARGUMENT = 16,     /**< an argument is out of range, such as a negative margin */
+  TACT_ERROR_BAD_STATE = 17,            /**< the bytes are no saved state of a world, or damaged */
   TACT_ERROR_INVALID_HANDLE = 100,      /**< the handle names no world or player */
   TACT_ERROR_NULL_ARGUMENT = 101,       /**< a pointer is null that must not be */
   TACT_ERROR_WRONG_STRUCT_SIZE = 102,   /**< struct_size is not that of a version of this library */
@@ -251,6 +252,13 @@ TACT_C_API tact_error tact_world_detect(tact_world world);
 /** Finds what meets between the positions of the last tact_world_detect() and the current ones, every vertex moving
  * straight. `wanted` is a tact_impacts. The functions tact_motion_... tell what it found. */
 TACT_C_API tact_error tact_world_detect_motion(tact_world world, int32_t wanted);
+
+/** Gives all that later answers depend on as bytes: settings, bodies, histories. Writes up to `capacity` of them, and
+ * how many there are. */
+TACT_C_API tact_error tact_world_save(tact_world world, void* bytes, size_t capacity, size_t* count);
+/** Goes back to the state of `bytes`, of this world or another: later calls answer as after tact_world_save(), bit for
+ * bit. There are `count` of them. */
+TACT_C_API tact_error tact_world_restore(tact_world world, const void* bytes, size_t count);
 
 /** Whether `body` names a body of this world. */
 TACT_C_API tact_error tact_world_contains(tact_world world, tact_body body, bool* contains);
