@@ -69,11 +69,13 @@ void repeat(const PairRecord& record, const PairTask& pair, EmbreeDevice& device
   if (!pair.work.culled.cluster_pairs.empty()) confirm(pair.tuning, pair.work);
 }
 
-// The record of a pair of the table, or null.
-const PairRecord* record_of(PairTable& table, BodyId a, BodyId b) {
+// The record of a pair of the table, or null. `keys` are those of the report.
+const PairRecord* record_of(PairTable& table, BodyId a, BodyId b, std::span<const std::uint64_t> keys) {
   const std::span<const CandidatePair> candidates = table.candidates();
-  const auto place = std::ranges::lower_bound(candidates, std::tuple(a, b), {},
-                                              [](const CandidatePair& pair) { return std::tuple(pair.a, pair.b); });
+  const auto key = [&](BodyId body) { return keys.empty() ? body.index : keys[body.index]; };
+  const auto place =
+      std::ranges::lower_bound(candidates, std::tuple(key(a), key(b)), {},
+                               [&](const CandidatePair& pair) { return std::tuple(key(pair.a), key(pair.b)); });
   if (place == candidates.end() || place->a != a || place->b != b) return nullptr;
   return &table.record(static_cast<std::size_t>(place - candidates.begin()));
 }
@@ -98,7 +100,7 @@ std::optional<FacetOutcomes> FacetOutcomeFinder::find(const Contact& contact) {
   const base::FloatingPointMode mode;
   const ReportSources* const sources = work_->sources;
   if (sources == nullptr || contact.a == contact.b || sources->settings->accuracy == Accuracy::hulls) return {};
-  const PairRecord* record = record_of(*sources->table, contact.a, contact.b);
+  const PairRecord* record = record_of(*sources->table, contact.a, contact.b, *sources->keys);
   if (record == nullptr || !record->hulls_overlap) return {};
   work_->record.a = contact.a;
   work_->record.b = contact.b;

@@ -24,6 +24,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 const MotionReport& MotionStage::run(Bodies& bodies, const Settings& settings, Impacts wanted) {
   base::Timer timer;
   report_.stats_ = {};
+  bodies.update_order();
   sweep(bodies, settings.threads);
   select(bodies, settings.threads);
   report_.stats_.sweep_ms = timer.lap();
@@ -60,8 +61,9 @@ void MotionStage::select(Bodies& bodies, int threads) {
   passing_.clear();
   if (report_.stats_.moved_bodies == 0) return;
   const auto moves = [&](std::uint32_t slot) { return bodies.used(slot) && bodies.on_its_way(slot); };
-  for (const auto& [a, b] : sweep_.pairs()) {
-    if (bodies.excluded_pairs().contains({a, b})) continue;
+  for (const broadphase::IndexPair& pair : sweep_.pairs()) {
+    if (bodies.excluded_pairs().contains(pair)) continue;
+    const auto [a, b] = bodies.keys().ordered(pair);
     if (moves(a) || moves(b)) passing_.push_back({.a = a, .b = b, .reach = bodies.reach(a, b)});
   }
   const auto slots = static_cast<std::uint32_t>(boxes_.size());
@@ -70,7 +72,7 @@ void MotionStage::select(Bodies& bodies, int threads) {
       passing_.push_back({.a = slot, .b = slot, .reach = bodies.reach(slot, slot)});
   }
   if (bodies.any_rigid()) place(bodies, threads);
-  std::ranges::sort(passing_, {}, [](const Passing& p) { return std::pair(p.a, p.b); });
+  std::ranges::sort(passing_, {}, [&](const Passing& p) { return bodies.keys().ranks({p.a, p.b}); });
   report_.stats_.body_pairs = static_cast<std::int64_t>(passing_.size());
 }
 

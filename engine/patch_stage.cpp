@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 
 namespace tact {
@@ -13,6 +14,15 @@ namespace {
 constexpr std::size_t kPairsAtATime = 4;  // some microseconds each where there are patches
 
 base::Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+// Of a patch that begins in this step. Two patches of a line of history have one id with a chance of 2^-64: there is
+// one number for each pair of keys, step and place, and a hash of these. 0 is the id of no patch.
+std::uint64_t new_id(BodyId a, BodyId b, const Bodies& bodies, int place) {
+  base::WordChain id;
+  for (const std::uint64_t word : {bodies.keys().of(a.index), bodies.keys().of(b.index), bodies.steps()}) id.add(word);
+  id.add(static_cast<std::uint64_t>(place));
+  return std::max<std::uint64_t>(id.value(), 1);
+}
 
 // Those of this step become those of the last.
 PatchSet& begin(PatchMemory& memory) {
@@ -88,7 +98,7 @@ void PatchStage::count_shared(const PatchMemory& memory) {
   std::ranges::sort(matches_, {}, [](const Match& match) { return std::tuple(-match.shared, match.now, match.last); });
 }
 
-void PatchStage::name(BodyId a, BodyId b, PatchMemory& memory, std::vector<PatchEvent>& events) {
+void PatchStage::name(BodyId a, BodyId b, const Bodies& bodies, PatchMemory& memory, std::vector<PatchEvent>& events) {
   std::vector<Patch>&now = memory.now.patches, &last = memory.last.patches;
   if (now.empty() && last.empty()) return;
   count_shared(memory);
@@ -116,7 +126,7 @@ void PatchStage::name(BodyId a, BodyId b, PatchMemory& memory, std::vector<Patch
   }
   for (int i = 0; i < static_cast<int>(now.size()); ++i) {
     if (in(now_is_, i) >= 0) continue;
-    in(now, i).id = ++last_id_;
+    in(now, i).id = new_id(a, b, bodies, i);
     const auto from = most(&Match::now, i);
     const bool is_split = from != matches_.end();
     events.push_back({a, b, is_split ? PatchEvent::Kind::split : PatchEvent::Kind::began, in(now, i).id,
@@ -124,14 +134,14 @@ void PatchStage::name(BodyId a, BodyId b, PatchMemory& memory, std::vector<Patch
   }
 }
 
-void PatchStage::name(std::span<const MovedPair> moved, std::vector<PatchEvent>& events) {
+void PatchStage::name(std::span<const MovedPair> moved, const Bodies& bodies, std::vector<PatchEvent>& events) {
   for (const MovedPair& pair : moved) {
-    if (pair.record->patches != nullptr) name(pair.record->a, pair.record->b, *pair.record->patches, events);
+    if (pair.record->patches != nullptr) name(pair.record->a, pair.record->b, bodies, *pair.record->patches, events);
   }
 }
 
-void PatchStage::name(std::span<SelfRecord* const> selves, std::vector<PatchEvent>& events) {
-  for (SelfRecord* const one : selves) name(one->body, one->body, one->patches, events);
+void PatchStage::name(std::span<SelfRecord* const> selves, const Bodies& bodies, std::vector<PatchEvent>& events) {
+  for (SelfRecord* const one : selves) name(one->body, one->body, bodies, one->patches, events);
 }
 
 }  // namespace tact

@@ -22,13 +22,9 @@ class PatchStage {
   /// Those of bodies with themselves.
   void find(std::span<SelfRecord* const> selves, const Bodies& bodies, const Settings& settings);
 
-  /// Of two steps, and in this order for the pairs of a step: gives patches the ids of those that they were, or new
-  /// ones, and notes what became of them.
-  void name(std::span<const MovedPair> moved, std::vector<PatchEvent>& events);
-  void name(std::span<SelfRecord* const> selves, std::vector<PatchEvent>& events);
-  /// The last id that was given out; and from which on new ones are.
-  std::uint64_t last_id() const { return last_id_; }
-  void give_ids_after(std::uint64_t id) { last_id_ = id; }
+  /// Gives patches the ids of those that they were in the last step, or new ones, and notes what became of them.
+  void name(std::span<const MovedPair> moved, const Bodies& bodies, std::vector<PatchEvent>& events);
+  void name(std::span<SelfRecord* const> selves, const Bodies& bodies, std::vector<PatchEvent>& events);
 
  private:
   /// A patch of this step and one of the last that have vertices in common.
@@ -36,13 +32,12 @@ class PatchStage {
     int shared = 0;
     int now = 0, last = 0;
   };
-  void name(BodyId a, BodyId b, PatchMemory& memory, std::vector<PatchEvent>& events);
+  void name(BodyId a, BodyId b, const Bodies& bodies, PatchMemory& memory, std::vector<PatchEvent>& events);
   void count_shared(const PatchMemory& memory);
 
   std::vector<PatchFinder> finders_;  // a thread each
   std::vector<Match> matches_;
   std::vector<int> now_is_, last_is_;  // the partner of each patch; -1: none
-  std::uint64_t last_id_ = 0;
 };
 
 }  // namespace tact

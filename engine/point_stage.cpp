@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "narrowphase/mesh/prefetch.h"
 
@@ -22,25 +23,20 @@ constexpr std::size_t kCost = 4;
 // some 50 ns each.
 constexpr std::size_t kFewPoints = 256, kPublishedAtATime = 1024;
 
-// The finisher of SplitMix64 (Steele, Lea, Flood, 2014).
-std::uint64_t mixed(std::uint64_t word) {
-  word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9u;
-  word = (word ^ (word >> 27)) * 0x94d049bb133111ebu;
-  return word ^ (word >> 31);
-}
-
-std::uint64_t id_of(const FeaturePoint& point, BodyId a, BodyId b) {
-  std::uint64_t id = 0;
-  const auto add = [&](std::uint64_t word) { id = mixed(id + 0x9e3779b97f4a7c15u + word); };
-  add(static_cast<std::uint64_t>(point.kind));
-  for (const BodyId body : {a, b}) add(std::uint64_t{body.generation} << 32 | body.index);
+// By keys, which no body has twice in one step.
+std::uint64_t id_of(const FeaturePoint& point, std::uint64_t key_a, std::uint64_t key_b) {
+  constexpr std::uint64_t kFirst = std::uint64_t{1}
+                                   << 32;  // the ids of keys that are indices stay those of version 0.1
+  base::WordChain id;
+  id.add(static_cast<std::uint64_t>(point.kind));
+  for (const std::uint64_t key : {key_a, key_b}) id.add(key + kFirst);
   for (const std::array<int, 3>& vertices : {point.a, point.b}) {
-    for (const int v : vertices) add(static_cast<std::uint32_t>(v));
+    for (const int v : vertices) id.add(static_cast<std::uint32_t>(v));
   }
-  return id;
+  return id.value();
 }
 
-ContactPoint to_point(const FeaturePoint& found, BodyId a, BodyId b) {
+ContactPoint to_point(const FeaturePoint& found, std::uint64_t key_a, std::uint64_t key_b) {
   ContactPoint point;
   point.kind = found.kind;
   point.a_vertices = found.a;
@@ -49,7 +45,7 @@ ContactPoint to_point(const FeaturePoint& found, BodyId a, BodyId b) {
   point.b_weights = found.weight_b;
   point.normal = {found.normal.x, found.normal.y, found.normal.z};
   point.gap = found.gap;
-  point.id = id_of(found, a, b);
+  point.id = id_of(found, key_a, key_b);
   return point;
 }
 
@@ -183,6 +179,7 @@ void PointStage::publish(const Wanted& wanted, const Step& step, int threads, Wo
   const std::vector<FeaturePoint>& found = work.found;
   const Body &a = step.bodies.in_slot(wanted.a), &b = step.bodies.in_slot(wanted.b);
   const PointKeys keys(a.mesh.source_vertex_count(), found.size());
+  const std::uint64_t key_a = step.bodies.keys().of(wanted.a), key_b = step.bodies.keys().of(wanted.b);
   std::span<std::uint64_t> order = work.sorter.keys(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) order[i] = keys.key(found[i], i);
   if (found.size() <= kFewPoints) {
@@ -202,7 +199,7 @@ void PointStage::publish(const Wanted& wanted, const Step& step, int threads, Wo
   base::parallel_for(work.blocks.size() - 1, 1, threads, [&](std::size_t block) {
     const std::size_t begin = work.blocks[block], end = work.blocks[block + 1];
     sort_by_the_rest(order.subspan(begin, end - begin), keys, found);
-    for (std::size_t i = begin; i < end; ++i) points[i] = to_point(found[keys.place(order[i])], a.id, b.id);
+    for (std::size_t i = begin; i < end; ++i) points[i] = to_point(found[keys.place(order[i])], key_a, key_b);
   });
   if (!step.settings.outputs.patches)
     work.patches.number({}, points, &a, &b);  // otherwise the patch stage numbers them, with the facet pairs

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <tuple>
 
@@ -33,12 +34,11 @@ Vec3 point_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
-
-// Which bodies a query looks at: those in slots before `end`, and by their boxes, as BlockSearch has it.
+// Which bodies a query looks at: those of keys before `end`, if there is one, and by their boxes, as BlockSearch has
+// it.
 struct Search {
   static constexpr bool kScansByRank = false;  // a scan takes boxes in the order of their slots
-  std::uint32_t end = kNoSlot;
+  std::optional<std::uint64_t> end = {};
 };
 
 // Those that a ray enters, not later than `latest`.
@@ -118,15 +118,16 @@ class BodySearch {
     } else if constexpr (OfBoxes::kScansByRank) {
       scan_by_rank();
     } else {
-      for (std::uint32_t slot = 0; slot < std::min(search_.end, slot_count()); ++slot) look_at(slot);
+      const bool in_order = bodies_.keys().are_slots();
+      for (std::uint32_t slot = 0; slot < slot_count() && (!in_order || is_before_end(slot)); ++slot) look_at(slot);
     }
   }
 
   Box around() const { return search_.around(); }
   double rank(const Box& box) const { return search_.rank(box); }
   double rank_of(std::uint32_t slot) const {
-    return slot < search_.end && !bodies_.tree().is_loose(slot) && considers(slot) ? rank(bodies_.boxes()[slot])
-                                                                                   : kInfinity;
+    return is_before_end(slot) && !bodies_.tree().is_loose(slot) && considers(slot) ? rank(bodies_.boxes()[slot])
+                                                                                    : kInfinity;
   }
   bool wants(double rank) const { return search_.wants(rank); }
   void visit(std::uint32_t slot) const { visit_(slot); }
@@ -151,10 +152,11 @@ class BodySearch {
     }
   }
   std::uint32_t slot_count() const { return static_cast<std::uint32_t>(bodies_.boxes().size()); }
+  bool is_before_end(std::uint32_t slot) const { return !search_.end || bodies_.keys().of(slot) < *search_.end; }
   bool considers(std::uint32_t slot) const { return broadphase::tested(bodies_.filters()[slot], filter_); }
   void look_at(std::uint32_t slot) const {
     const Box& box = bodies_.boxes()[slot];
-    if (box.empty() || slot >= search_.end) return;
+    if (box.empty() || !is_before_end(slot)) return;
     const double of_box = rank(box);
     if (of_box < kInfinity && wants(of_box) && considers(slot)) visit(slot);
   }
@@ -170,20 +172,26 @@ void for_each_body(const Bodies& bodies, const QueryFilter& filter, OfBoxes& sea
   BodySearch(bodies, filter, search, visit).run();
 }
 
-// The slots of bodies whose box overlaps `box`, ascending.
+// Sorts slots by the keys of their bodies.
+void sort_by_key(const Bodies& bodies, std::span<std::uint32_t> slots) {
+  std::ranges::sort(slots, {}, [&](std::uint32_t slot) { return bodies.keys().of(slot); });
+}
+
+// The slots of bodies whose box overlaps `box`, ascending by key.
 std::vector<std::uint32_t> slots_near(const Bodies& bodies, const QueryFilter& filter, const Box& box) {
   std::vector<std::uint32_t> slots;
   BoxSearch search(box);
   for_each_body(bodies, filter, search, [&](std::uint32_t slot) { slots.push_back(slot); });
-  std::ranges::sort(slots);
+  sort_by_key(bodies, slots);
   return slots;
 }
 
 RayHit hit_of(const Body& body, const FacetHit& hit) { return {body.id, hit.facet, hit.time, hit.weight}; }
 
-// Whether a hit of a body is before the best one so far. Of equal times that of the lower slot is.
-bool is_before(const FacetHit& hit, std::uint32_t slot, const RayHit& best) {
-  return best.facet < 0 || std::tuple(hit.time, slot) < std::tuple(best.fraction, best.body.index);
+// Whether a hit of a body is before the best one so far. Of equal times that of the lower key is.
+bool is_before(const Bodies& bodies, const FacetHit& hit, std::uint32_t slot, const RayHit& best) {
+  const BodyKeys& keys = bodies.keys();
+  return best.facet < 0 || std::tuple(hit.time, keys.of(slot)) < std::tuple(best.fraction, keys.of(best.body.index));
 }
 
 // Replaces `best` by the first hit of a ray, if that is before it, of the bodies that have no tree in `batch`.
@@ -194,13 +202,14 @@ void find_first_hit(const Bodies& bodies, const Ray& ray, const narrowphase::Seg
     if (batch != nullptr && batch->tree(slot) != nullptr) return;
     const Body& body = bodies.placed(slot);
     const auto hit = first_hit(body.mesh, search.line, search.latest);
-    if (!hit || !is_before(*hit, slot, best)) return;
+    if (!hit || !is_before(bodies, *hit, slot, best)) return;
     best = hit_of(body, *hit);
     search.latest = best.fraction;
   });
 }
 
-// A hit of the body in the lowest slot that has one. Bodies are collected first, as the tree has them in no such order.
+// A hit of the body with the lowest key that has one. Bodies are collected first, as the tree has them in no such
+// order.
 RayHit find_any_hit(const Bodies& bodies, const Ray& ray) {
   constexpr std::size_t kMost = 256;                                     // more than a ray meets in most worlds
   const std::size_t at_a_time = bodies.tree().is_current() ? kMost : 1;  // a scan has them in that order
@@ -209,13 +218,13 @@ RayHit find_any_hit(const Bodies& bodies, const Ray& ray) {
   RaySearch search(ray);
   RayHit found;
   const auto look_at_collected = [&] {
-    std::sort(slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(count));
-    for (std::size_t i = 0; i < count && slots[i] < search.end; ++i) {
+    sort_by_key(bodies, std::span(slots).first(count));
+    for (std::size_t i = 0; i < count && (!search.end || bodies.keys().of(slots[i]) < *search.end); ++i) {
       const Body& body = bodies.placed(slots[i]);
       const auto hit = any_hit(body.mesh, search.line);
       if (!hit) continue;
       found = hit_of(body, *hit);
-      search.end = slots[i];
+      search.end = bodies.keys().of(slots[i]);
     }
     count = 0;
   };
@@ -297,7 +306,7 @@ void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<
     for (std::size_t k = 0; k < count; ++k) {
       const auto i = static_cast<std::size_t>(asked[k] - queries.data());
       const auto& hit = asked[k]->hit;
-      if (hit && is_before(*hit, slot, hits[i])) hits[i] = hit_of(body, *hit);
+      if (hit && is_before(bodies, *hit, slot, hits[i])) hits[i] = hit_of(body, *hit);
     }
   }
   if (room.meshes().size() == bodies.count()) return;
@@ -314,7 +323,9 @@ std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray) {
     append_hits(body.mesh, search.line, hits);
     for (const FacetHit& hit : hits) all.push_back(hit_of(body, hit));
   });
-  std::ranges::sort(all, {}, [](const RayHit& hit) { return std::tuple(hit.fraction, hit.body, hit.facet); });
+  std::ranges::sort(all, {}, [&](const RayHit& hit) {
+    return std::tuple(hit.fraction, bodies.keys().of(hit.body.index), hit.facet);
+  });
   return all;
 }
 
@@ -327,7 +338,9 @@ ClosestPoint find_closest_point(const Bodies& bodies, const PointQuery& query) {
     const Body& body = bodies.placed(slot);
     const auto nearest = nearest_facet(body.mesh, search.point, search.within);
     if (!nearest) return;
-    const auto order = [](double distance, std::uint32_t of_slot) { return std::tuple(distance, of_slot); };
+    const auto order = [&](double distance, std::uint32_t of_slot) {
+      return std::tuple(distance, bodies.keys().of(of_slot));
+    };
     if (best.facet >= 0 && order(nearest->distance, slot) >= order(best.distance, best.body.index)) return;
     best = {body.id, nearest->facet, nearest->distance, nearest->weight};
     search.within = std::min(search.within, kAsNear * best.distance);

@@ -1,6 +1,7 @@
 #include "engine/report_writer.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -14,8 +15,6 @@ namespace {
 constexpr std::size_t kFewContacts = 1024, kContactsAtATime = 64;
 
 std::size_t contacts_at_a_time(std::size_t count) { return count <= kFewContacts ? kFewContacts : kContactsAtATime; }
-
-bool before(const ContactEvent& x, const ContactEvent& y) { return x.a < y.a || (x.a == y.a && x.b < y.b); }
 
 template <class T>
 void make_room(std::vector<T>& vector, std::size_t count, std::size_t spare) {
@@ -38,17 +37,20 @@ void ReportWriter::Totals::add(const Totals& other) {
   point_limits += other.point_limits;
 }
 
-void ReportWriter::fill(Contact& contact, const PairRecord& record) {
+void ReportWriter::fill(Contact& contact, const PairRecord& record, const BodyKeys& keys) {
   contact = record.contact;
+  contact.key_a_ = keys.of(record.a.index);
+  contact.key_b_ = keys.of(record.b.index);
   contact.touching_ = record.touching;
   contact.points_ = record.points;
   contact.facet_pairs_ = record.facet_pairs;
   if (record.patches != nullptr) contact.patches_ = record.patches->now.patches;
 }
 
-void ReportWriter::fill(Contact& contact, const SelfRecord& record) {
+void ReportWriter::fill(Contact& contact, const SelfRecord& record, const BodyKeys& keys) {
   contact = Contact{};
   contact.a = contact.b = record.body;
+  contact.key_a_ = contact.key_b_ = keys.of(record.body.index);
   contact.touching_ = record.touching;
   contact.facet_pairs_ = record.facet_pairs;
   contact.points_ = record.points;
@@ -57,9 +59,9 @@ void ReportWriter::fill(Contact& contact, const SelfRecord& record) {
 }
 
 template <class Record>
-void ReportWriter::replace(Contact& contact, const Record& by, Totals& totals) {
+void ReportWriter::replace(Contact& contact, const Record& by, const BodyKeys& keys, Totals& totals) {
   totals.add(contact, -1);
-  fill(contact, by);
+  fill(contact, by, keys);
   totals.add(contact, 1);
 }
 
@@ -67,18 +69,38 @@ void ReportWriter::add_thread_totals() {
   for (Totals& totals : thread_totals_) totals_.add(std::exchange(totals, {}));
 }
 
+void ReportWriter::copy_keys(const BodyKeys& keys) {
+  if (keys_version_ == keys.version()) return;
+  report_.keys_.assign(keys.all().begin(), keys.all().end());
+  keys_version_ = keys.version();
+}
+
+void ReportWriter::restore(PairTable& table, const SelfStage& self, const Bodies& bodies) {
+  copy_keys(bodies.keys());
+  write_candidates(table, false);
+  list_contacts(table, self, bodies.keys());
+  report_.contacts_.resize(reported_.size());
+  for (std::size_t i = 0; i < reported_.size(); ++i) {
+    const auto& [place, of_self] = reported_[i];
+    if (of_self == nullptr) table.place_in_report(place) = static_cast<std::uint32_t>(i);
+    of_self == nullptr ? replace(report_.contacts_[i], table.record(place), bodies.keys(), totals_)
+                       : replace(report_.contacts_[i], *of_self, bodies.keys(), totals_);
+  }
+}
+
 void ReportWriter::forget() { *this = ReportWriter(); }
 
 void ReportWriter::write(PairTable& table, const SelfStage& self, const Bodies& bodies, const Settings& settings) {
   thread_totals_.resize(settings.threads);
+  copy_keys(bodies.keys());
   const bool same = table.same_contacts() && self.same_contacts();
   write_candidates(table, same);
   if (!same) {
-    list_contacts(table, self);
+    list_contacts(table, self, bodies.keys());
     carry_contacts(table, settings.threads);
   }
   write_contacts(table, bodies, settings);
-  write_events(table, self);
+  write_events(table, self, bodies);
   StepStats& stats = report_.stats_;
   stats.contacts = static_cast<std::int64_t>(report_.contacts_.size());
   stats.facet_pairs = totals_.facet_pairs;
@@ -98,12 +120,13 @@ void ReportWriter::write_candidates(const PairTable& table, bool same) {
 }
 
 // Candidates in contact and bodies in contact with themselves, both in order, merged.
-void ReportWriter::list_contacts(const PairTable& table, const SelfStage& self) {
+void ReportWriter::list_contacts(const PairTable& table, const SelfStage& self, const BodyKeys& keys) {
   reported_.clear();
   has_self_ = !self.contacts().empty();
   auto next = self.contacts().begin();
   const auto add_self_before = [&](BodyId body) {
-    for (; next != self.contacts().end() && !(body < (*next)->body); ++next) reported_.push_back({.self = *next});
+    for (; next != self.contacts().end() && keys.of((*next)->body.index) <= keys.of(body.index); ++next)
+      reported_.push_back({.self = *next});
   };
   for (std::size_t i = 0; i < table.candidates().size(); ++i) {
     if (!table.in_contact(i)) continue;
@@ -145,16 +168,16 @@ void ReportWriter::write_contacts(PairTable& table, const Bodies& bodies, const 
     PairRecord& record = *moved[i].record;
     const double reach = bodies.reach(record.a.index, record.b.index);
     record.touching = is_touching(record.facet_pairs, record.points, reach);
-    replace(report_.contacts_[table.place_in_report(moved[i].place)], record, thread_totals_[thread]);
+    replace(report_.contacts_[table.place_in_report(moved[i].place)], record, bodies.keys(), thread_totals_[thread]);
   });
   add_thread_totals();
   for (std::size_t i = 0; i < reported_.size() && has_self_; ++i) {
-    if (reported_[i].self != nullptr) replace(report_.contacts_[i], *reported_[i].self, totals_);
+    if (reported_[i].self != nullptr) replace(report_.contacts_[i], *reported_[i].self, bodies.keys(), totals_);
   }
 }
 
 // Only pairs that this step looked at can begin or cease to touch, and those that are no candidates any more.
-void ReportWriter::write_events(const PairTable& table, const SelfStage& self) {
+void ReportWriter::write_events(const PairTable& table, const SelfStage& self, const Bodies& bodies) {
   const auto event_of = [](const PairRecord& record) { return ContactEvent{record.a, record.b}; };
   report_.began_.assign(self.began().begin(), self.began().end());
   report_.ended_.assign(table.gone().begin(), table.gone().end());
@@ -164,8 +187,11 @@ void ReportWriter::write_events(const PairTable& table, const SelfStage& self) {
     if (touches && !pair.touched) report_.began_.push_back(event_of(*pair.record));
     if (!touches && pair.touched) report_.ended_.push_back(event_of(*pair.record));
   }
-  std::sort(report_.began_.begin(), report_.began_.end(), before);
-  std::sort(report_.ended_.begin(), report_.ended_.end(), before);
+  const auto order = [&](const ContactEvent& event) {
+    return std::tuple(bodies.key(event.a), event.a, bodies.key(event.b), event.b);
+  };
+  std::ranges::sort(report_.began_, {}, order);
+  std::ranges::sort(report_.ended_, {}, order);
 }
 
 }  // namespace tact

@@ -17,6 +17,7 @@ struct ReportSources {
   const Bodies* bodies;
   PairTable* table;
   const Settings* settings;
+  const std::vector<std::uint64_t>* keys;  // of the report
 };
 
 /// Holds the report of a world. What a step did not look at stays as it is: those records, far apart in memory, are not
@@ -30,11 +31,13 @@ class ReportWriter {
 
   /// Candidate pairs, contacts and events as the records have them now, and the counts of contacts.
   void write(PairTable& table, const SelfStage& self, const Bodies& bodies, const Settings& settings);
+  /// Takes over the contacts that the records have, as if the last report had them.
+  void restore(PairTable& table, const SelfStage& self, const Bodies& bodies);
   /// The next report is the first.
   void forget();
   /// Where the answers of this step come from: they must outlive the report.
   void note_sources(const Bodies& bodies, PairTable& table, const Settings& settings) {
-    sources_ = {&bodies, &table, &settings};
+    sources_ = {&bodies, &table, &settings, &report_.keys_};
     report_.sources_ = &sources_;
   }
 
@@ -52,19 +55,21 @@ class ReportWriter {
     void add(const Totals& other);
   };
 
-  static void fill(Contact& contact, const PairRecord& record);
-  static void fill(Contact& contact, const SelfRecord& record);
+  static void fill(Contact& contact, const PairRecord& record, const BodyKeys& keys);
+  static void fill(Contact& contact, const SelfRecord& record, const BodyKeys& keys);
   template <class Record>
-  static void replace(Contact& contact, const Record& by, Totals& totals);
-  void list_contacts(const PairTable& table, const SelfStage& self);
+  static void replace(Contact& contact, const Record& by, const BodyKeys& keys, Totals& totals);
+  void copy_keys(const BodyKeys& keys);
+  void list_contacts(const PairTable& table, const SelfStage& self, const BodyKeys& keys);
   void carry_contacts(PairTable& table, int threads);
   void write_candidates(const PairTable& table, bool same);
   void write_contacts(PairTable& table, const Bodies& bodies, const Settings& settings);
-  void write_events(const PairTable& table, const SelfStage& self);
+  void write_events(const PairTable& table, const SelfStage& self, const Bodies& bodies);
   void add_thread_totals();
 
   Report report_;
   ReportSources sources_ = {};
+  std::uint64_t keys_version_ = 0;      // of the report's
   std::vector<Reported> reported_;      // the contacts of the report, in its order
   bool has_self_ = false;               // whether any is of a body with itself
   std::vector<Contact> last_contacts_;  // of the last report, while a new one is made

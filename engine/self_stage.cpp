@@ -121,17 +121,9 @@ void SelfStage::finish(const Bodies& bodies) {
     const double reach = bodies.reach(one->body.index, one->body.index);
     one->touching = is_touching(one->facet_pairs, one->points, reach);
   }
-  contacts_.clear();
   std::swap(in_contact_, last_in_contact_);
   std::swap(touching_, last_touching_);
-  in_contact_.clear();
-  touching_.clear();
-  for (const std::unique_ptr<SelfRecord>& one : records_) {
-    if (one == nullptr || !in_contact(*one)) continue;
-    contacts_.push_back(one.get());
-    in_contact_.push_back(one->body);
-    if (one->touching) touching_.push_back(one->body);
-  }
+  list_contacts(bodies);
   same_ = in_contact_ == last_in_contact_;
   // Both ascend by slot, which comes first in an id.
   const auto without = [](const std::vector<BodyId>& those, const std::vector<BodyId>& others,
@@ -142,6 +134,21 @@ void SelfStage::finish(const Bodies& bodies) {
   };
   without(touching_, last_touching_, began_);
   without(last_touching_, touching_, ended_);
+}
+
+void SelfStage::list_contacts(const Bodies& bodies) {
+  contacts_.clear();
+  in_contact_.clear();
+  touching_.clear();
+  for (const std::unique_ptr<SelfRecord>& one : records_) {
+    if (one == nullptr) continue;
+    if (one->touching) touching_.push_back(one->body);
+    if (!in_contact(*one)) continue;
+    contacts_.push_back(one.get());
+    in_contact_.push_back(one->body);
+  }
+  if (!bodies.keys().are_slots())
+    std::ranges::sort(contacts_, {}, [&](const SelfRecord* one) { return bodies.keys().of(one->body.index); });
 }
 
 void SelfStage::forget_patches() {

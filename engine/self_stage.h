@@ -19,6 +19,8 @@
 namespace tact {
 
 class SelfStage {
+  friend struct StateFields;
+
  public:
   /// Looks at every body that wants it and has changed since the last step, or at all of them: finds the facet pairs,
   /// and the cluster pairs that may have contact points.
@@ -29,7 +31,7 @@ class SelfStage {
   void finish(const Bodies& bodies);
   /// Nothing has changed.
   void keep();
-  /// The bodies in contact with themselves, ascending by slot.
+  /// The bodies in contact with themselves, ascending by key.
   std::span<const SelfRecord* const> contacts() const { return contacts_; }
   /// What patches bodies had that are not looked at any more.
   std::span<const PatchEvent> gone_patches() const { return gone_patches_; }
@@ -51,6 +53,7 @@ class SelfStage {
 
   void select(Bodies& bodies, bool all, int threads);
   void select(std::uint32_t slot, Bodies& bodies);
+  void list_contacts(const Bodies& bodies);
   void find_facet_pairs(const Bodies& bodies, const Settings& settings, narrowphase::EmbreeDevice& device);
 
   std::vector<std::unique_ptr<SelfRecord>> records_;  // by slot; null where none is wanted

@@ -1,6 +1,7 @@
 #include "engine/step.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -29,6 +30,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   Timer timer(settings.outputs.trace ? 0.0 : base::TickCounter::tick_ms());  // a trace needs points in time
   const TraceEvent::Time begin = timer.start();
   if (forgotten_) start_from_scratch();
+  bodies.update_order();
   PairTable& table = stages_->table;
   writer_.note_sources(bodies, table, settings);
   StepStats& stats = writer_.stats() = {};
@@ -48,7 +50,6 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   if (discarded_) throw Discarded{};
   // From here on nothing fails.
   bodies.end_step();
-  last_patch_ = stages_->patches.last_id();
   all_ = false;
   const double report_ms = timer.lap();
   if (!at_rest) stats.report_ms = report_ms;  // at rest the step is this call alone
@@ -61,8 +62,12 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
 
 // Stages 2 to 6, and what is found of their facet pairs.
 void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, Timer& timer, StepStats& stats) {
-  auto& [sweep, table, pairs, containment, points, selves, patches] = *stages_;
-  sweep.update(bodies.boxes(), bodies.filters(), bodies.changed(), settings.threads, bodies.tuning());
+  auto& [sweep, table, pairs, containment, points, selves, patches, knows_boxes] = *stages_;
+  std::vector<std::uint32_t> slots(knows_boxes ? 0 : bodies.boxes().size());
+  std::iota(slots.begin(), slots.end(), 0u);
+  sweep.update(bodies.boxes(), bodies.filters(), knows_boxes ? bodies.changed() : slots, settings.threads,
+               bodies.tuning());
+  knows_boxes = true;
   bodies.place(sweep.pairs(), settings.threads);
   table.update(sweep, bodies, all_);
   stats.excluded_pairs = static_cast<std::int64_t>(sweep.excluded());
@@ -103,17 +108,17 @@ void Step::find_patches(PatchStage& patches, const Bodies& bodies, const Setting
   events.assign(table.gone_patches().begin(), table.gone_patches().end());
   if (settings.outputs.patches) {
     patches.find(table.moved(), bodies, settings);
-    patches.name(table.moved(), events);
+    patches.name(table.moved(), bodies, events);
     events.insert(events.end(), selves.gone_patches().begin(), selves.gone_patches().end());
     patches.find(selves.looked_at(), bodies, settings);
-    patches.name(selves.looked_at(), events);
+    patches.name(selves.looked_at(), bodies, events);
   } else if (all_) {
     for (const MovedPair& pair : table.moved()) pair.record->patches.reset();
     selves.forget_patches();
   }
-  const auto order = [](const PatchEvent& event) {
+  const auto order = [&](const PatchEvent& event) {
     const bool is_new = event.kind == PatchEvent::Kind::began || event.kind == PatchEvent::Kind::split;
-    return std::tuple(event.a, event.b, is_new, event.patch);
+    return std::tuple(bodies.key(event.a), event.a, bodies.key(event.b), event.b, is_new, event.patch);
   };
   std::ranges::sort(events, {}, order);
 }
@@ -125,9 +130,15 @@ void Step::make_trace(TraceEvent::Time begin, TraceEvent::Time end, const Settin
   trace_.forget_refreshes();
 }
 
+void Step::restore(Restored&& restored) noexcept {
+  stages_ = std::move(restored.stages);
+  writer_ = std::move(restored.writer);
+  all_ = restored.all;
+  forgotten_ = false;
+}
+
 void Step::start_from_scratch() {
   stages_ = std::make_unique<Stages>();
-  stages_->patches.give_ids_after(last_patch_);
   writer_.forget();
   all_ = true;
   forgotten_ = false;

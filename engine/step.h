@@ -21,6 +21,8 @@
 namespace tact {
 
 class Step {
+  friend struct StateFields;
+
  public:
   /// Looks at every pair with a body that changed, and keeps the result of all others. `refresh_ms` is what stage 1
   /// took, milliseconds. If it throws, forget() is to be called; the bodies have changed as they had before.
@@ -43,6 +45,10 @@ class Step {
   void discard() { discarded_ = true; }
   struct Discarded {};
 
+  /// What World::restore() puts in the place of what was found of the last step. The next step goes on from there.
+  struct Restored;
+  void restore(Restored&& restored) noexcept;
+
   /// Where stage 1 is noted, if Outputs::trace is set.
   StepTrace& trace() { return trace_; }
 
@@ -57,6 +63,7 @@ class Step {
     PointStage points;
     SelfStage selves;
     PatchStage patches;
+    bool knows_boxes = true;  // whether the sweep does, but for those that changed: not after restore()
   };
   void start_from_scratch();
   void keep_last_answers();
@@ -70,9 +77,14 @@ class Step {
   narrowphase::EmbreeDevice device_;
   std::int64_t regrouped_ = 0;  // bodies, for the next step, and how long that took
   double regroup_ms_ = 0.0;
-  std::uint64_t last_patch_ = 0;  // id that a step gave out which did not fail
   bool all_ = true;
   bool forgotten_ = false, discarded_ = false;
+};
+
+struct Step::Restored {
+  std::unique_ptr<Stages> stages = std::make_unique<Stages>();
+  ReportWriter writer;
+  bool all = true;
 };
 
 }  // namespace tact

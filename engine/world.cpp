@@ -17,6 +17,7 @@
 #include "engine/messages.h"
 #include "engine/motion_stage.h"
 #include "engine/queries.h"
+#include "engine/state/world_state.h"
 #include "engine/step.h"
 #include "engine/surface_check.h"
 #include "engine/with_memory.h"
@@ -280,6 +281,33 @@ const MotionReport& World::detect_motion(Impacts wanted) {
   });
 }
 
+std::vector<std::byte> World::save() const {
+  const base::FloatingPointMode mode;
+  const Implementation& i = implementation();
+  return with_memory("saving ran out of memory", [&] { return saved_world(i.settings, i.bodies, i.step); });
+}
+
+void World::restore(std::span<const std::byte> bytes) {
+  const base::FloatingPointMode mode;
+  Implementation& i = implementation();
+  RestoredWorld restored = with_memory("restoring ran out of memory", [&] {
+    RestoredWorld made = restored_world(bytes, i.settings, i.bodies);
+    try {
+      made.settings = checked(std::move(made.settings));
+    } catch (const Error& error) {
+      throw Error(ErrorCode::bad_state, error.what());
+    }
+    return made;
+  });
+  // From here on nothing can fail.
+  i.settings = std::move(restored.settings);
+  i.bodies = std::move(restored.bodies);
+  i.step.restore(std::move(restored.step));
+  i.motion.reset();
+  i.refresh_ms = 0.0;
+  i.observe([&](WorldObserver& observer) { observer.state_restored(bytes); });
+}
+
 namespace {
 
 constexpr const char* kNoMemoryForAnswers = "answering ran out of memory";
@@ -423,6 +451,7 @@ std::uint32_t World::layer(BodyId body) const {
 }
 std::uint32_t World::mask(BodyId body) const { return implementation().bodies.filters()[body_of(body).id.index].mask; }
 std::uint64_t World::external_id(BodyId body) const { return body_of(body).external_id; }
+std::uint64_t World::key(BodyId body) const { return implementation().bodies.keys().of(body_of(body).id.index); }
 double World::margin(BodyId body) const { return implementation().bodies.margin(body_of(body).id.index); }
 bool World::self_contact(BodyId body) const { return body_of(body).self_contact; }
 std::size_t World::vertex_count(BodyId body) const {
@@ -496,6 +525,7 @@ void WorldObserver::excluded_set(BodyId, BodyId, bool) noexcept {}
 void WorldObserver::motion_set(BodyId, Motion) noexcept {}
 void WorldObserver::margin_set(BodyId, double) noexcept {}
 void WorldObserver::self_contact_set(BodyId, bool) noexcept {}
+void WorldObserver::state_restored(std::span<const std::byte>) noexcept {}
 void WorldObserver::step_begins() noexcept {}
 void WorldObserver::step_ended(const Report&) noexcept {}
 void WorldObserver::step_failed() noexcept {}

@@ -3,7 +3,10 @@
 #include <tact/tact.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <vector>
 
 namespace {
 
@@ -135,6 +138,30 @@ void queries() {
   expect(is_inside, "the middle is inside");
 }
 
+void saved_states() {
+  const Mesh low = cube(1.0, {0, 0, 0}), high = cube(1.0, {0.2, 0.1, 0.75});
+  const auto step = [&](tact::World& of, tact::BodyId moved, double down) {
+    of.set_positions(moved, high.positions.colwise() - Eigen::Vector3d(0, 0, down));
+    return of.detect().hash();
+  };
+  // [part saved]
+  tact::World world;
+  world.add_body({.positions = low.positions, .facets = low.facets});
+  const tact::BodyId b = world.add_body({.positions = high.positions, .facets = high.facets});
+  step(world, b, 0.1);
+  const std::vector<std::byte> bytes = world.save();
+  const std::uint64_t once = step(world, b, 0.2);
+
+  world.restore(bytes);  // back: b is the same body
+  const std::uint64_t again = step(world, b, 0.2);
+
+  tact::World branch;  // another world in the same state: ids are its own, the order of bodies() is the same
+  branch.restore(bytes);
+  const std::uint64_t there = step(branch, branch.bodies()[1], 0.2);
+  // [part saved]
+  expect(once == again && once == there, "a restored world answers as the one that went on");
+}
+
 void errors() {
   Mesh mesh = cube(1.0, {0, 0, 0});
   tact::World world;
@@ -160,6 +187,7 @@ int main() {
   points_and_margins();
   motion();
   queries();
+  saved_states();
   errors();
   return failures == 0 ? 0 : 1;
 }

@@ -23,6 +23,7 @@ TACT_LONG_STENCILS=100000 build/release/tests/long/test_solver_long
 TACT_SOAK_STEPS=1000000 build/release/tests/long/test_soak_long
 TACT_LONG_SCENES_FULL=1 build/release/tests/long/test_scenes_long
 TACT_PRINTED_IN_FULL=1 build/release/tests/test_scenes --gtest_filter='PrintedCommands.*'
+TACT_LONG_SAVED_SEEDS=300 TACT_LONG_STATES=50000 build/release/tests/test_engine --gtest_filter='*Saved*'
 for set in scalar avx2; do
   TACT_INSTRUCTION_SET=$set build/release/tests/test_engine --gtest_brief=1
 done

@@ -20,6 +20,7 @@ const char* error_code_name(ErrorCode code) {
     case ErrorCode::wrong_motion: return "wrong_motion";
     case ErrorCode::not_a_rotation: return "not_a_rotation";
     case ErrorCode::invalid_argument: return "invalid_argument";
+    case ErrorCode::bad_state: return "bad_state";
   }
   return "unknown";
 }

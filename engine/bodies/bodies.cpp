@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "engine/bodies/room.h"
 #include "engine/check_name.h"
@@ -12,6 +13,8 @@
 namespace tact {
 
 namespace {
+
+constexpr auto kIdOfRemoved = [](const auto& removed) { return removed.id; };
 
 // The body of a definition that is good, not placed in any world.
 std::unique_ptr<Body> make_body(const BodyDefinition& definition, const std::string& name) {
@@ -31,6 +34,23 @@ std::unique_ptr<Body> make_body(const BodyDefinition& definition, const std::str
                                      .self_contact = definition.self_contact});
 }
 
+// See Body::birth. Of what the mesh keeps: a vertex that no facet uses is no part of it.
+std::uint64_t birth_of(std::uint32_t slot, std::uint64_t key, std::uint64_t step, const Body& body) {
+  const narrowphase::ClusteredMesh& mesh = body.mesh;
+  base::Hash hash;
+  for (const std::uint64_t word : {std::uint64_t{slot}, key, step, body.external_id}) hash.add(word);
+  hash.add(static_cast<std::uint64_t>(mesh.source_vertex_count()));
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    const base::Vec3 position = mesh.position(v);
+    for (int axis = 0; axis < 3; ++axis) hash.add(position[axis]);
+  }
+  for (int f = 0; f < mesh.facet_count(); ++f) {
+    for (const int v : mesh.corners(f)) hash.add(static_cast<std::uint64_t>(mesh.source_vertex(v)));
+    hash.add(static_cast<std::uint64_t>(mesh.source_facet(f)));
+  }
+  return hash.value();
+}
+
 }  // namespace
 
 BodyId Bodies::add(const BodyDefinition& definition) {
@@ -42,47 +62,64 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   check_array(definition.positions, name);
   check_array(definition.facets, name);
   check_counts(definition.positions.cols(), definition.facets.cols(), slots_.size(), name);
+  const std::uint64_t key = definition.key.value_or(slot);
+  if (const auto other = keys_.find(key))
+    throw Error(ErrorCode::invalid_argument,
+                quoted(name) + ": key " + std::to_string(key) + " is that of " + quoted(in_slot(*other).name));
   std::unique_ptr<Body> body = make_body(definition, name);
-  const bool rigid = definition.motion == Motion::rigid;
+  const Place place{.filter = {definition.layer, definition.mask, definition.motion == Motion::fixed, definition.group},
+                    .margin = definition.margin,
+                    .key = key,
+                    .is_rigid = definition.motion == Motion::rigid};
+  body->birth = birth_of(slot, key, steps_, *body);
   // Nothing can fail half-way: all that may allocate comes first.
-  make_room_for(slot);
-  if (rigid) rigid_states_.make_room();
+  make_room_for(slot, place);
   slot < slots_.size() ? free_.pop_back() : add_slot();
-  body->id = {slot, ++slots_[slot].generation, world_};
-  margins_[slot] = definition.margin;
-  boxes_[slot] = base::grown(body->mesh.box(), definition.margin);
+  body->id = {slot, ++generations_[slot], world_};
+  put(slot, std::move(body), place);
+  return slots_[slot].body->id;
+}
+
+void Bodies::put(std::uint32_t slot, std::unique_ptr<Body> body, const Place& place) {
+  keys_.start(slot, place.key);
+  margins_[slot] = place.margin;
+  boxes_[slot] = base::grown(body->mesh.box(), place.margin);
   kdops_.start(slot, body->mesh);
   groupings_.start(slot, cluster_quality(body->mesh));
-  filters_[slot] = {definition.layer, definition.mask, definition.motion == Motion::fixed, definition.group};
-  slots_[slot].vertex_count = body->mesh.source_vertex_count();
-  slots_[slot].fixed = definition.motion == Motion::fixed;
-  slots_[slot].rigid = rigid ? rigid_states_.take() : nullptr;
-  if (rigid) make_rigid(body->mesh, *slots_[slot].rigid);
-  slots_[slot].knows_box = slots_[slot].to_place = false;
-  rigid_count_ += rigid ? 1 : 0;
-  self_count_ += definition.self_contact ? 1 : 0;
-  slots_[slot].begin = Begin::here;
-  slots_[slot].seen = false;
+  filters_[slot] = place.filter;
+  Slot put;
+  put.rigid = place.is_rigid ? rigid_states_.take() : nullptr;
+  put.generation = body->id.generation;
+  put.vertex_count = body->mesh.source_vertex_count();
+  put.fixed = place.filter.fixed;
+  put.changed = slots_[slot].changed;
+  slots_[slot] = std::move(put);
+  if (place.is_rigid) make_rigid(body->mesh, *slots_[slot].rigid);
+  rigid_count_ += place.is_rigid ? 1 : 0;
+  self_count_ += body->self_contact ? 1 : 0;
   slots_[slot].body = std::move(body);
   packed_meshes_.add(slots_[slot].body->mesh);
   mark_changed(slot);
   ++count_;
   vertices_ += slots_[slot].vertex_count;
   moved_vertices_ += slots_[slot].vertex_count;
-  return slots_[slot].body->id;
 }
 
-void Bodies::make_room_for(std::uint32_t slot) {
+void Bodies::make_room_for(std::uint32_t slot, const Place& place) {
   const std::size_t slots = std::max<std::size_t>(slots_.size(), slot + 1);
   make_room(slots_, slots), make_room(boxes_, slots), make_room(filters_, slots), make_room(margins_, slots);
-  kdops_.make_room(slots), groupings_.make_room(slots), tree_.make_room(slots);
-  make_room(changed_, slots), make_room(free_, slots);
+  kdops_.make_room(slots), groupings_.make_room(slots), tree_->make_room(slots), keys_.make_room(slots);
+  make_room(changed_, slots), make_room(free_, slots), make_room(generations_, slots);
+  make_room(removed_, removed_.size() + count_ + 1), make_room(former_, former_.size() + count_ + 1);
+  if (place.is_rigid) rigid_states_.make_room();
+  keys_.keep_given(slot, place.key);
 }
 
 void Bodies::add_slot() {
   const std::size_t slots = slots_.size() + 1;
   slots_.resize(slots), boxes_.resize(slots), filters_.resize(slots), margins_.resize(slots);
-  kdops_.resize(slots), groupings_.resize(slots), tree_.resize(slots);
+  kdops_.resize(slots), groupings_.resize(slots), tree_->resize(slots), keys_.resize(slots);
+  if (generations_.size() < slots) generations_.resize(slots);
 }
 
 void Bodies::remove(BodyId id) {
@@ -90,6 +127,10 @@ void Bodies::remove(BodyId id) {
   vertices_ -= vertices;
   if (moved(id.index)) moved_vertices_ -= vertices;
   packed_meshes_.remove(slots_[id.index].body->mesh);
+  const std::uint64_t birth = slots_[id.index].body->birth;
+  removed_.push_back({id, keys_.of(id.index), birth});
+  former_.push_back({birth, id.index, id.generation});
+  keys_.forget(id.index);
   rigid_count_ -= is_rigid(id.index) ? 1 : 0;
   self_count_ -= slots_[id.index].body->self_contact ? 1 : 0;
   slots_[id.index].body.reset();
@@ -100,7 +141,6 @@ void Bodies::remove(BodyId id) {
   if (id.generation < std::numeric_limits<std::uint32_t>::max()) free_.push_back(id.index);
   groupings_.forget(id.index);
   mark_changed(id.index);
-  removed_any_ = true;
   --count_;
 }
 
@@ -229,7 +269,7 @@ const Body& Bodies::at(BodyId id) const {
   if (id.generation == 0) throw Error(ErrorCode::stale_body, text() + " names no body");
   if (id.world != world_) throw Error(ErrorCode::foreign_body, text() + " was given out by another world");
   if (!contains(id)) {
-    const bool was_given = id.index < slots_.size() && id.generation <= slots_[id.index].generation;
+    const bool was_given = id.index < generations_.size() && id.generation <= generations_[id.index];
     throw Error(ErrorCode::stale_body,
                 text() + (was_given ? " names a body that was removed" : " was never given out"));
   }
@@ -244,13 +284,23 @@ std::vector<BodyId> Bodies::ids() const {
   return ids;
 }
 
+void Bodies::update_order() {
+  keys_.update_order();
+  std::ranges::sort(removed_, {}, kIdOfRemoved);
+}
+
+std::uint64_t Bodies::key(BodyId id) const {
+  if (contains(id)) return keys_.of(id.index);
+  return std::ranges::lower_bound(removed_, id, {}, kIdOfRemoved)->key;
+}
+
 void Bodies::mark_moved(std::uint32_t slot) {
   if (!moved(slot)) moved_vertices_ += slots_[slot].vertex_count;
   mark_changed(slot);
 }
 
 void Bodies::mark_changed(std::uint32_t slot) {
-  tree_.note_change(slot);
+  tree_->note_change(slot);
   if (slots_[slot].changed) return;
   slots_[slot].changed = true;
   changed_.push_back(slot);
@@ -264,7 +314,8 @@ void Bodies::end_step() {
   }
   changed_.clear();
   excluded_.end_step();
-  removed_any_ = false;
+  removed_.clear();
+  ++steps_;
   moved_vertices_ = 0;
   placed_count_ = 0;
 }

@@ -14,6 +14,7 @@
 #include "broadphase/sweep_and_prune.h"
 #include "engine/base/tuning.h"
 #include "engine/bodies/body_kdops.h"
+#include "engine/bodies/body_keys.h"
 #include "engine/bodies/body_tree.h"
 #include "engine/bodies/checks.h"
 #include "engine/bodies/cluster_groupings.h"
@@ -37,12 +38,15 @@ struct alignas(64) Body {
   Surface surface = Surface::closed;
   std::uint64_t external_id = 0;
   bool self_contact = false;
+  std::uint64_t birth = 0;  // a hash of the mesh and slot as they were when it was added, and of the step
   std::unique_ptr<const narrowphase::Features> features = nullptr;           // made when points are first requested
   std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors = nullptr;  // when it is first held against itself
   std::vector<double> begin = {};  // where it was in the last step, once it has moved twice since: a placement
 };
 
 class Bodies {
+  friend struct StateFields;
+
  public:
   Bodies(std::uint32_t world, const base::Tuning& tuning) : world_(world), tuning_(&tuning), groupings_(tuning) {}
 
@@ -66,11 +70,18 @@ class Bodies {
 
   bool contains(BodyId id) const noexcept;
   // Whether a body was ever added, also one that was removed.
-  bool ever_held_any() const noexcept { return !slots_.empty(); }
+  bool ever_held_any() const noexcept { return !generations_.empty(); }
   // Errors: stale_body, foreign_body.
   const Body& at(BodyId id) const;
   const broadphase::Filter& filter(BodyId id) const { return filters_[at(id).id.index]; }
   const Body& in_slot(std::uint32_t slot) const { return *slots_[slot].body; }
+  // The order of bodies in all answers; a step and detect_motion() update it before they use ranks.
+  const BodyKeys& keys() const { return keys_; }
+  void update_order();
+  // The key of a body that there is, or was in the last step.
+  std::uint64_t key(BodyId id) const;
+  // Steps that had an answer.
+  std::uint64_t steps() const { return steps_; }
   std::size_t count() const noexcept { return count_; }
   // Vertices of all bodies, and of those that moved.
   std::int64_t vertices() const noexcept { return vertices_; }
@@ -132,8 +143,8 @@ class Bodies {
   std::span<const base::Box> boxes() const { return boxes_; }
   std::span<const broadphase::Filter> filters() const { return filters_; }
   // Where queries look for boxes. So many of them are about to come; any thread may say so.
-  const BodyTree& tree() const { return tree_; }
-  void expect_queries(std::size_t count) const { tree_.expect(count, boxes_); }
+  const BodyTree& tree() const { return *tree_; }
+  void expect_queries(std::size_t count) const { tree_->expect(count, boxes_); }
   const BodyKdops& kdops() const { return kdops_; }
   void want_kdop(std::uint32_t slot, bool wanted) { kdops_.want(slot, wanted); }
   // Finds those that are wanted and not known.
@@ -145,7 +156,7 @@ class Bodies {
   bool moved(std::uint32_t slot) const { return slots_[slot].changed; }
   bool used(std::uint32_t slot) const { return slots_[slot].body != nullptr; }
   // Whether any body was removed since end_step(). Another may stand in its slot.
-  bool removed_any() const { return removed_any_; }
+  bool removed_any() const { return !removed_.empty(); }
 
   // A body that was grouped again: which numbers its vertices have now, each under the number that it had.
   struct Regrouped {
@@ -160,7 +171,7 @@ class Bodies {
   // Does without: the groups stay as they are, until the bodies are looked at again.
   void keep_groups() noexcept { groupings_.clear_decayed(); }
 
-  // The step has seen the changes: nothing has moved.
+  // A step has seen the changes and has an answer: nothing has moved.
   void end_step();
   // Everything has moved: after a step that failed half-way.
   void mark_all_changed();
@@ -183,6 +194,24 @@ class Bodies {
     Begin begin = Begin::here;
   };
 
+  // A body that was removed since the last step.
+  struct Removed {
+    BodyId id;
+    std::uint64_t key, birth;
+  };
+  // The id of a body that is gone: it names that body again if restore() brings it back. 16 bytes each.
+  struct Former {
+    std::uint64_t birth;
+    std::uint32_t slot, generation;
+  };
+  // What a body has in its slot.
+  struct Place {
+    broadphase::Filter filter = {};
+    double margin = 0.0;
+    std::uint64_t key = 0;
+    bool is_rigid = false;
+  };
+
   // New positions of a body: prepared; its mesh refitted, and put back if any of a batch is bad; published.
   struct Update {
     Body* body = nullptr;
@@ -200,8 +229,10 @@ class Bodies {
   Begin go_the_way(std::uint32_t slot, narrowphase::ClusteredMesh& anew) const;
 
   // bodies.cpp
-  void make_room_for(std::uint32_t slot);
+  // The next put() into that slot cannot fail.
+  void make_room_for(std::uint32_t slot, const Place& place);
   void add_slot();
+  void put(std::uint32_t slot, std::unique_ptr<Body> body, const Place& place);
   void mark_changed(std::uint32_t slot);
   void mark_moved(std::uint32_t slot);
   static broadphase::IndexPair slots_of(BodyId a, BodyId b) {
@@ -216,6 +247,7 @@ class Bodies {
   void make_rigid(narrowphase::ClusteredMesh& mesh, RigidState& state);
   // Throws if a pose is bad. Reads nothing of the body's shape, unless that may stand too far away.
   void check(const PoseUpdate& update) const;
+  void check_pose(const PoseUpdate& update) const;  // of a body that takes one
   // Sets a pose that is good; returns whether it is another one.
   bool publish(const PoseUpdate& update);
   void note_to_place(std::uint32_t index);
@@ -239,17 +271,21 @@ class Bodies {
   const base::Tuning* tuning_;
   PackedMeshes packed_meshes_;
   std::vector<Slot> slots_;
+  std::vector<std::uint32_t> generations_;  // the last one that was given out for a slot, also for those beyond slots_
+  std::vector<Former> former_;
   RigidStates rigid_states_;
   std::vector<std::uint32_t> free_;
   std::vector<base::Box> boxes_;
   std::vector<broadphase::Filter> filters_;
   std::vector<double> margins_;
-  BodyTree tree_;
+  BodyKeys keys_;
+  std::unique_ptr<BodyTree> tree_ = std::make_unique<BodyTree>();
   BodyKdops kdops_;
   ClusterGroupings groupings_;
   std::vector<std::uint32_t> changed_;
   std::size_t count_ = 0;
-  bool removed_any_ = false;
+  std::vector<Removed> removed_;  // sorted by id from update_order() on
+  std::uint64_t steps_ = 0;
   ExcludedPairs excluded_;
   std::int64_t vertices_ = 0;
   std::int64_t moved_vertices_ = 0;

@@ -16,6 +16,8 @@ namespace tact {
 
 // An entry a slot. A quality is what cluster_quality() gives: the smaller, the worse.
 class ClusterGroupings {
+  friend struct StateFields;
+
  public:
   explicit ClusterGroupings(const base::Tuning& tuning) : tuning_(&tuning) {}
 

@@ -11,6 +11,8 @@ namespace tact {
 
 // Pairs are of slots, the smaller one first.
 class ExcludedPairs {
+  friend struct StateFields;
+
  public:
   bool empty() const { return pairs_.empty(); }
   bool contains(const broadphase::IndexPair& pair) const { return std::ranges::binary_search(pairs_, pair); }

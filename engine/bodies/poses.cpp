@@ -94,6 +94,11 @@ void Bodies::check(const PoseUpdate& update) const {
   if (slot.rigid == nullptr)
     throw Error(ErrorCode::wrong_motion, quoted(body.name) + " is not rigid: it takes no pose");
   if (slot.fixed) throw Error(ErrorCode::fixed_body, quoted(body.name) + " is fixed: its pose cannot be set");
+  check_pose(update);
+}
+
+void Bodies::check_pose(const PoseUpdate& update) const {
+  const Body& body = in_slot(update.body.index);
   check_rotation(update.rotation, body.name);
   double farthest = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -105,7 +110,7 @@ void Bodies::check(const PoseUpdate& update) const {
   // A turned coordinate is less than twice the largest one at rest.
   if (farthest + 2.0 * farthest_rest_ < 0.5 * kLargestCoordinate) return;
   const Pose pose = pose_of(update);
-  if (may_be_too_large(slot.rigid->pose.box_at(pose))) check_vertices(body.mesh, pose, body.name);
+  if (may_be_too_large(slots_[update.body.index].rigid->pose.box_at(pose))) check_vertices(body.mesh, pose, body.name);
 }
 
 bool Bodies::publish(const PoseUpdate& update) {

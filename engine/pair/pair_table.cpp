@@ -1,18 +1,19 @@
 #include "engine/pair/pair_table.h"
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <utility>
 
 namespace tact {
+
+using broadphase::IndexPair;
 
 namespace {
 
 // What a pair leaves to the next that has its record, so that steps in which small pairs come and go allocate nothing.
 constexpr std::size_t kLargestRoom = 512;                      // facet pairs, 4 kB
 constexpr std::size_t kFewestRecords = 4, kMostRecords = 256;  // taken at once
-
-bool names(const Bodies& bodies, BodyId id) { return bodies.in_slot(id.index).id == id; }
 
 // Of one body, if it has other numbers now. What a record keeps of earlier pairs is left alone.
 template <class InSimplex, class InSurface>
@@ -34,12 +35,13 @@ void PairTable::update(const broadphase::SweepAndPrune& sweep, const Bodies& bod
   gone_patches_.clear();
   moved_.clear();
   separated_ = 0;
-  same_pairs_ = !all && !bodies.removed_any() && !bodies.excluded_pairs().changed() && !sweep.pairs_changed();
+  same_pairs_ = !std::exchange(was_restored_, false) && !all && !bodies.removed_any() &&
+                !bodies.excluded_pairs().changed() && !sweep.pairs_changed();
   // The sweep sees boxes of rigid bodies that may be too large: what it says of them has to be looked at in each step.
   const bool rough = bodies.any_rigid() || had_rigid_;
   had_rigid_ = bodies.any_rigid();
   if (same_pairs_ && !rough) return select_moved(bodies);
-  const std::span<const broadphase::IndexPair> pairs = tested_pairs(sweep.pairs(), bodies);
+  const std::span<const IndexPair> pairs = tested_pairs(sweep.pairs(), bodies);
   same_pairs_ = rough && !all && !bodies.removed_any() && std::ranges::equal(pairs, pairs_);
   if (same_pairs_) {
     select_moved(bodies);
@@ -48,18 +50,35 @@ void PairTable::update(const broadphase::SweepAndPrune& sweep, const Bodies& bod
   }
 }
 
-std::span<const broadphase::IndexPair> PairTable::tested_pairs(std::span<const broadphase::IndexPair> pairs,
-                                                               const Bodies& bodies) {
+std::span<const IndexPair> PairTable::tested_pairs(std::span<const IndexPair> pairs, const Bodies& bodies) {
   excluded_ = 0;
-  if (bodies.excluded_pairs().empty() && !bodies.any_rigid()) return pairs;
+  if (bodies.excluded_pairs().empty() && !bodies.any_rigid()) return by_key(pairs, bodies);
   tested_.clear();
-  for (const broadphase::IndexPair& pair : pairs) {
+  for (const IndexPair& pair : pairs) {
     if (bodies.excluded_pairs().contains(pair)) {
       ++excluded_;
       continue;
     }
     const bool is_exact = !bodies.is_rigid(pair.a) && !bodies.is_rigid(pair.b);
     if (is_exact || base::overlaps(bodies.exact_box(pair.a), bodies.exact_box(pair.b))) tested_.push_back(pair);
+  }
+  return by_key(tested_, bodies);
+}
+
+// Sorted by ranks, and named by slots again.
+std::span<const IndexPair> PairTable::by_key(std::span<const IndexPair> pairs, const Bodies& bodies) {
+  const BodyKeys& keys = bodies.keys();
+  if (keys.are_slots()) return pairs;
+  const int rank_bits = std::max(1, static_cast<int>(std::bit_width(bodies.boxes().size())));
+  const std::span<std::uint64_t> unsorted = sorter_.keys(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const IndexPair ranks = keys.ranks(keys.ordered(pairs[i]));
+    unsorted[i] = std::uint64_t{ranks.a} << rank_bits | ranks.b;
+  }
+  tested_.clear();
+  for (const std::uint64_t ranks : sorter_.sort(2 * rank_bits, 1)) {
+    tested_.push_back({keys.slot_at(static_cast<std::uint32_t>(ranks >> rank_bits)),
+                       keys.slot_at(static_cast<std::uint32_t>(ranks & ((std::uint64_t{1} << rank_bits) - 1)))});
   }
   return tested_;
 }
@@ -71,23 +90,38 @@ void PairTable::select_moved(const Bodies& bodies) {
   }
 }
 
-void PairTable::match(std::span<const broadphase::IndexPair> pairs, const Bodies& bodies, bool all) {
+// Pairs with a body that is gone. The others are in the order of the keys that there are.
+void PairTable::retire_removed(const Bodies& bodies) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const CandidatePair candidate = candidates_[i];
+    if (!bodies.contains(candidate.a) || !bodies.contains(candidate.b)) {
+      retire(*entries_[i].record);
+      continue;
+    }
+    pairs_[kept] = pairs_[i];
+    candidates_[kept] = candidate;
+    entries_[kept++] = entries_[i];
+  }
+  pairs_.resize(kept), candidates_.resize(kept), entries_.resize(kept);
+}
+
+void PairTable::match(std::span<const IndexPair> pairs, const Bodies& bodies, bool all) {
+  if (bodies.removed_any()) retire_removed(bodies);
+  const BodyKeys& keys = bodies.keys();
   std::swap(last_entries_, entries_);
   std::swap(last_candidates_, candidates_);
   entries_.clear();
   candidates_.clear();
   std::size_t last = 0;
-  for (const broadphase::IndexPair& pair : pairs) {
-    while (last < pairs_.size() && pairs_[last] < pair) retire(*last_entries_[last++].record);
+  for (const IndexPair& pair : pairs) {
+    while (last < pairs_.size() && keys.ranks(pairs_[last]) < keys.ranks(pair)) retire(*last_entries_[last++].record);
     Entry entry;
     CandidatePair candidate;
     if (last < pairs_.size() && pairs_[last] == pair) {
       candidate = last_candidates_[last];
       entry = last_entries_[last++];
-      if (bodies.removed_any() && !(names(bodies, candidate.a) && names(bodies, candidate.b)))
-        retire(*std::exchange(entry, {}).record);
-    }
-    if (entry.record == nullptr) {
+    } else {
       candidate = {bodies.in_slot(pair.a).id, bodies.in_slot(pair.b).id, false};
       entry.record = &new_record(candidate.a, candidate.b);
     }

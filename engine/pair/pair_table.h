@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "broadphase/sweep_and_prune.h"
+#include "engine/base/key_sort.h"
 #include "engine/bodies/bodies.h"
 #include "engine/pair/pair_record.h"
 #include "narrowphase/hull/kdop.h"
@@ -26,9 +27,11 @@ struct MovedPair {
 
 /// Matches the pairs of the sweep with those of the last step, and owns their records. Runs no geometry.
 class PairTable {
+  friend struct StateFields;
+
  public:
-  // Takes the pairs of the sweep, sorted: a pair that stays keeps its record, unless a body of it was replaced by
-  // another. Then moved() are those with a body that moved, or all.
+  // Takes the pairs of the sweep, sorted, and puts them into the order of the keys: a pair that stays keeps its record,
+  // unless a body of it was replaced by another. Then moved() are those with a body that moved, or all.
   void update(const broadphase::SweepAndPrune& sweep, const Bodies& bodies, bool all);
   // Nothing moved: the pairs and the contacts are those of the last step.
   void keep();
@@ -37,8 +40,8 @@ class PairTable {
   // Drops from moved() the pairs that are marked as separated.
   void drop_separated();
 
-  // Sorted by (a, b). Records of pairs that are not looked at are not read either, as memory is what costs where little
-  // moves.
+  // Sorted by the keys of (a, b). Records of pairs that are not looked at are not read either, as memory is what costs
+  // where little moves.
   std::span<const CandidatePair> candidates() const { return candidates_; }
   PairRecord& record(std::size_t place) { return *entries_[place].record; }
   // The axis of the k-DOPs that separated the pair in the last step in which a body of it moved; 0 if none did.
@@ -80,7 +83,9 @@ class PairTable {
   // Without those that are excluded, or whose boxes do not overlap in truth.
   std::span<const broadphase::IndexPair> tested_pairs(std::span<const broadphase::IndexPair> pairs,
                                                       const Bodies& bodies);
+  std::span<const broadphase::IndexPair> by_key(std::span<const broadphase::IndexPair> pairs, const Bodies& bodies);
   void select_moved(const Bodies& bodies);
+  void retire_removed(const Bodies& bodies);
   void match(std::span<const broadphase::IndexPair> pairs, const Bodies& bodies, bool all);
   void add_records();
   PairRecord& new_record(BodyId a, BodyId b);
@@ -90,8 +95,9 @@ class PairTable {
   std::size_t record_count_ = 0;  // in the pool
   std::vector<PairRecord*> free_;
   std::size_t room_ = 0;                       // facet pairs: the most that a small pair had
-  std::vector<broadphase::IndexPair> pairs_;   // slots
+  std::vector<broadphase::IndexPair> pairs_;   // slots, in the order of their keys
   std::vector<broadphase::IndexPair> tested_;  // scratch: those of the sweep that are left
+  base::KeySorter sorter_;
   std::size_t excluded_ = 0;
   std::vector<CandidatePair> candidates_;  // the same pairs, of bodies
   std::vector<Entry> entries_;             // of these
@@ -102,7 +108,8 @@ class PairTable {
   std::vector<ContactEvent> gone_;
   std::vector<PatchEvent> gone_patches_;
   bool same_pairs_ = false;
-  bool had_rigid_ = false;  // whether there were rigid bodies in the last step
+  bool had_rigid_ = false;     // whether there were rigid bodies in the last step
+  bool was_restored_ = false;  // since the last update(): the sweep does not tell whether its pairs are these
 };
 
 }  // namespace tact

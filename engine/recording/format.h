@@ -23,6 +23,8 @@
 //   poses     u8 14, u64 bodies, and for each: body, 9 f64 of the rotation, row by row, 3 f64 of the translation; since
 //             version 5, as is the motion `rigid`
 //   failed    u8 15; after a detect that threw, since version 6
+//   key       u8 16, u64: the key of the body that is added next, if one was given; this and the next since version 6
+//   restore   u8 17, u64 bytes, and these: those of World::restore()
 //
 // A text is u32 bytes and these; a body is u32 index and u32 generation of its BodyId; enumerations are numbered in the
 // order of their values. Outputs::trace is left out: it changes no answer. The records stand in the order of the calls;
@@ -52,8 +54,10 @@ enum class RecordKind : std::uint8_t {
   group = 12,
   excluded = 13,
   poses = 14,
-  failed = 15
+  failed = 15,
+  key = 16,
+  restore = 17
 };
-inline constexpr RecordKind kLastRecordKind = RecordKind::failed;
+inline constexpr RecordKind kLastRecordKind = RecordKind::restore;
 
 }  // namespace tact::recording

@@ -53,6 +53,10 @@ void put_value(std::ostream& out, RecordKind kind, BodyId body, Number value) {
 }
 
 void put_addition(std::ostream& out, BodyId body, const BodyDefinition& definition) {
+  if (definition.key) {
+    put(out, RecordKind::key);
+    put(out, *definition.key);
+  }
   put(out, RecordKind::add);
   put(out, static_cast<std::uint8_t>(definition.surface));
   put(out, static_cast<std::uint8_t>(definition.motion));
@@ -169,6 +173,14 @@ void Recorder::margin_set(BodyId body, double margin) noexcept {
 
 void Recorder::self_contact_set(BodyId body, bool wanted) noexcept {
   write([&](std::ostream& out) { put_value(out, RecordKind::self_contact, body, std::uint8_t{wanted}); });
+}
+
+void Recorder::state_restored(std::span<const std::byte> bytes) noexcept {
+  write([&](std::ostream& out) {
+    put(out, RecordKind::restore);
+    put(out, std::uint64_t{bytes.size()});
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  });
 }
 
 void Recorder::step_begins() noexcept {

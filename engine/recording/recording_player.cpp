@@ -1,6 +1,8 @@
 #include <tact/recording.h>
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -118,11 +120,39 @@ struct RecordingPlayer::Implementation {
         settings.outputs.points = true;
         return make([&] { world->set_settings(settings); });
       }
+      case RecordKind::key: {
+        next_key = reader.read<std::uint64_t>();
+        return;
+      }
+      case RecordKind::restore: return restore();
       case RecordKind::detect:
       case RecordKind::hash:
       case RecordKind::failed: break;
     }
     fail(kind == RecordKind::hash ? "a hash that follows no step" : "a failure that follows no step");
+  }
+
+  // The outputs that are asked for besides are no part of the bytes: with them the next step looks at every pair.
+  void restore() {
+    const auto size = reader.read<std::uint64_t>();
+    reader.require(size);
+    const std::string_view bytes = reader.read_bytes(static_cast<std::size_t>(size));
+    make([&] {
+      world->restore(std::as_bytes(std::span(bytes)));
+      for (const BodyId body : world->bodies()) world_number = body.world;
+      Settings settings = world->settings();
+      if (add_outputs(settings.outputs)) world->set_settings(settings);
+    });
+  }
+
+  // Adds those of the options; returns whether any was not there.
+  bool add_outputs(Outputs& outputs) const {
+    bool added = false;
+    for (bool Outputs::*const output : {&Outputs::zones, &Outputs::patches, &Outputs::points, &Outputs::trace}) {
+      added |= options.outputs.*output && !(outputs.*output);
+      outputs.*output |= options.outputs.*output;
+    }
+    return added;
   }
 
   // A step without a hash behind it had no answer.
@@ -168,7 +198,8 @@ struct RecordingPlayer::Implementation {
                                      .name = std::move(name),
                                      .layer = layer,
                                      .mask = mask,
-                                     .external_id = external_id})
+                                     .external_id = external_id,
+                                     .key = std::exchange(next_key, std::nullopt)})
                          .world;
     });
   }
@@ -270,7 +301,8 @@ struct RecordingPlayer::Implementation {
   std::optional<std::size_t> cut_at = {};
   std::string recorded_by = {};
   std::optional<World> world = {};
-  std::uint32_t world_number = 0;  // that ids carry; known from the first body
+  std::uint32_t world_number = 0;              // that ids carry; known from the first body
+  std::optional<std::uint64_t> next_key = {};  // of the body that is added next
   int steps = 0;
   const Report nothing = {};
   const Report* report = &nothing;

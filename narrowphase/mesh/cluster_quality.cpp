@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "narrowphase/mesh/source_mesh.h"
+
 namespace tact::narrowphase {
 
 namespace {
@@ -39,19 +41,7 @@ double cluster_quality(const ClusteredMesh& mesh) {
 }
 
 ClusteredMesh clustered_anew(const ClusteredMesh& mesh) {
-  std::vector<double> positions(3 * static_cast<std::size_t>(mesh.source_vertex_count()), 0.0);
-  std::vector<int> facets(3 * static_cast<std::size_t>(mesh.facet_count()));
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    const Vec3 p = mesh.position(v);
-    for (int axis = 0; axis < 3; ++axis)
-      positions[3 * static_cast<std::size_t>(mesh.source_vertex(v)) + static_cast<std::size_t>(axis)] = p[axis];
-  }
-  for (int f = 0; f < mesh.facet_count(); ++f) {
-    const Corners c = mesh.corners(f);
-    for (std::size_t k = 0; k < 3; ++k)
-      facets[3 * static_cast<std::size_t>(mesh.source_facet(f)) + k] = mesh.source_vertex(c[k]);
-  }
-  ClusteredMesh anew(positions, facets);
+  ClusteredMesh anew(source_positions(mesh, mesh.points()), source_facets(mesh));
   anew.begin_travel_after(mesh);
   return anew;
 }

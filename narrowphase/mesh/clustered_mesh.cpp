@@ -35,9 +35,9 @@ struct ClusteredMesh::Made {
   OwnMemory memory;
 };
 
-ClusteredMesh::Made ClusteredMesh::make(std::span<const double> positions, std::span<const int> facets) {
+ClusteredMesh::Made ClusteredMesh::make(std::span<const double> positions, std::span<const int> facets,
+                                        std::span<const int> order) {
   const int source_vertices = static_cast<int>(positions.size() / 3);
-  const std::vector<int> order = facet_order(positions, facets, source_vertices);
   const VertexNumbering numbering = number_vertices(facets, order, source_vertices);
   const MeshCounts counts{.source_vertices = source_vertices,
                           .vertices = static_cast<int>(numbering.source_vertices.size()),
@@ -50,7 +50,10 @@ ClusteredMesh::Made ClusteredMesh::make(std::span<const double> positions, std::
 }
 
 ClusteredMesh::ClusteredMesh(std::span<const double> positions, std::span<const int> facets)
-    : ClusteredMesh(make(positions, facets)) {
+    : ClusteredMesh(positions, facets, facet_order(positions, facets, static_cast<int>(positions.size() / 3))) {}
+
+ClusteredMesh::ClusteredMesh(std::span<const double> positions, std::span<const int> facets, std::span<const int> order)
+    : ClusteredMesh(make(positions, facets, order)) {
   // The memory is zero: if all positions are, nothing changed, and the placement that was written is not yet in use.
   if (refit(*this, positions.data()) == Refit::same) placements_.exchange(placements_.spare_box());
 }

@@ -29,6 +29,8 @@ class ClusteredMesh : public MeshTopology {
  public:
   /// positions: 3 x V coordinates in metres, checked by the caller; facets: 3 x F source vertices, each 0 <= i < V.
   ClusteredMesh(std::span<const double> positions, std::span<const int> facets);
+  /// Clusters take the facets in this order, each of them once: that of another mesh, see facet_order().
+  ClusteredMesh(std::span<const double> positions, std::span<const int> facets, std::span<const int> order);
 
   Vec3 position(int vertex) const { return placements_.position(vertex); }
   PointArrays points() const { return placements_.points(); }
@@ -83,7 +85,7 @@ class ClusteredMesh : public MeshTopology {
  private:
   struct Made;
   explicit ClusteredMesh(Made made);
-  static Made make(std::span<const double> positions, std::span<const int> facets);
+  static Made make(std::span<const double> positions, std::span<const int> facets, std::span<const int> order);
   void validate_numbers() const;
   void validate_boxes() const;
 

@@ -326,6 +326,46 @@ TEST(C, TellsWhatABodyIs) {
   EXPECT_TRUE(count == 1 && bodies == 1 && listed[0].generation == body.generation);
 }
 
+TEST(C, SavesAndRestoresWorldsWithKeys) {
+  WorldOfC one, two;
+  std::vector<tact_body> bodies;
+  for (const std::uint64_t key : {9u, 4u}) {
+    const Mesh mesh = translated(icosphere(1), {0.1 * static_cast<double>(key), 0.0, 0.0});
+    tact_body_definition definition = definition_of(mesh);
+    definition.has_key = true;
+    definition.key = key;
+    tact_body body{};
+    ASSERT_EQ(tact_world_add_body(one.world, &definition, &body), TACT_OK);
+    bodies.push_back(body);
+    if (key == 4)
+      expect_failure(tact_world_add_body(one.world, &definition, &body), TACT_ERROR_INVALID_ARGUMENT, "key 4");
+    std::uint64_t found = 0;
+    EXPECT_EQ(tact_world_key(one.world, bodies.back(), &found), TACT_OK);
+    EXPECT_EQ(found, key);
+  }
+  ASSERT_EQ(tact_world_detect(one.world), TACT_OK);
+  std::uint64_t hash = 0, other_hash = 0;
+  ASSERT_EQ(tact_contact_hash(one.world, 0, &hash), TACT_OK);
+  tact_contact contact = TACT_CONTACT_INIT;
+  ASSERT_EQ(tact_report_contact(one.world, 0, &contact), TACT_OK);
+  EXPECT_EQ(contact.a.index, bodies[1].index) << "the smaller key is first";
+
+  size_t count = 0;
+  ASSERT_EQ(tact_world_save(one.world, nullptr, 0, &count), TACT_OK);
+  std::vector<std::byte> bytes(count);
+  ASSERT_EQ(tact_world_save(one.world, bytes.data(), bytes.size(), &count), TACT_OK);
+  ASSERT_EQ(count, bytes.size());
+  ASSERT_EQ(tact_world_restore(two.world, bytes.data(), bytes.size()), TACT_OK) << tact_last_error_message();
+  expect_failure(tact_report_contacts(two.world, &count), TACT_ERROR_WRONG_ORDER, "no report");
+  ASSERT_EQ(tact_world_detect(two.world), TACT_OK);
+  ASSERT_EQ(tact_contact_hash(two.world, 0, &other_hash), TACT_OK);
+  EXPECT_EQ(hash, other_hash);
+  bytes.back() ^= std::byte{1};
+  expect_failure(tact_world_restore(two.world, bytes.data(), bytes.size()), TACT_ERROR_BAD_STATE, "checksum");
+  expect_failure(tact_world_restore(two.world, nullptr, 8), TACT_ERROR_NULL_ARGUMENT, "null");
+  expect_failure(tact_world_save(two.world, nullptr, 0, nullptr), TACT_ERROR_NULL_ARGUMENT, "null");
+}
+
 TEST(C, RunsOnTheThreadsOfAnExecutor) {
   std::atomic<int> calls = 0;
   tact_settings settings = TACT_SETTINGS_INIT, shown = TACT_SETTINGS_INIT;

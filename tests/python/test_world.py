@@ -251,3 +251,37 @@ def test_many_queries_at_once(two):
     np.testing.assert_array_equal(answers[0], world.overlap_box(lower[0], upper[0]))
     assert len(answers[0]) > 0 and answers[1].shape == (0, 2)
     assert world.bodies_containing_each(np.array([[0.1, 0.1, 0.1], [0.92, 0.02, 0.02], [9, 9, 9]])) == [[left], [left, right], []]
+
+
+def test_a_restored_world_goes_on_as_the_one_that_was_saved(two):
+    world, left, right = two
+    world.detect()
+    saved = world.save()
+    assert isinstance(saved, bytes)
+    world.remove_body(left)
+    report = world.detect()
+    world.restore(saved)
+    with pytest.raises(tact.StaleReportError):
+        report.contacts
+    assert world.contains(left)
+    other = tact.World()
+    other.restore(saved)
+    assert other.save() == saved and other.name(other.bodies[0]) == "left"
+    hashes = []
+    for one in (world, other):
+        one.set_positions(one.bodies[1], tetrahedron(0.8)[0])
+        hashes.append([one.detect().hash(), one.detect().contacts[0].hash()])
+    assert hashes[0] == hashes[1]
+    with pytest.raises(tact.Error) as refused:
+        world.restore(saved[:-1])
+    assert refused.value.code == tact.ErrorCode.bad_state
+
+
+def test_keys_order_bodies():
+    world = tact.World()
+    first = world.add_body(*tetrahedron(0.0), key=2**40)
+    second = world.add_body(*tetrahedron(0.9), key=7)
+    (contact,) = world.detect().contacts
+    assert (contact.a, contact.b) == (second, first) and world.key(first) == 2**40
+    with pytest.raises(tact.Error, match="key 7"):
+        world.add_body(*tetrahedron(0.9), key=7)

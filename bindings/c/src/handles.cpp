@@ -54,13 +54,14 @@ thread_local std::array<char, 1024> last_message{};
 
 tact_error error_of(ErrorCode code) {
   const int number = static_cast<int>(code) + 1;
-  return number <= TACT_ERROR_INVALID_ARGUMENT ? static_cast<tact_error>(number) : TACT_ERROR_INTERNAL;
+  return number <= TACT_ERROR_BAD_STATE ? static_cast<tact_error>(number) : TACT_ERROR_INTERNAL;
 }
 static_assert(static_cast<int>(ErrorCode::non_finite_position) + 1 == TACT_ERROR_NON_FINITE_POSITION);
 static_assert(static_cast<int>(ErrorCode::stale_body) + 1 == TACT_ERROR_STALE_BODY);
 static_assert(static_cast<int>(ErrorCode::bad_settings) + 1 == TACT_ERROR_BAD_SETTINGS);
 static_assert(static_cast<int>(ErrorCode::not_a_rotation) + 1 == TACT_ERROR_NOT_A_ROTATION);
 static_assert(static_cast<int>(ErrorCode::invalid_argument) + 1 == TACT_ERROR_INVALID_ARGUMENT);
+static_assert(static_cast<int>(ErrorCode::bad_state) + 1 == TACT_ERROR_BAD_STATE);
 
 }  // namespace
 

@@ -110,6 +110,13 @@ tact_error tact_contact_patch(tact_world world, size_t index, size_t patch, tact
   });
 }
 
+tact_error tact_contact_hash(tact_world world, size_t index, uint64_t* hash) {
+  return with_report(world, [&](const Report& report) {
+    check_not_null(hash);
+    *hash = at(report.contacts(), index).hash();
+  });
+}
+
 tact_error tact_contact_points(tact_world world, size_t index, const tact_contact_point** points, size_t* count) {
   return with_report(world, [&](const Report& report) { show(at(report.contacts(), index).points(), points, count); });
 }

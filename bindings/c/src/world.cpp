@@ -144,6 +144,7 @@ tact_error tact_world_add_body(tact_world world, const tact_body_definition* def
                                           .mask = d.mask,
                                           .group = d.group,
                                           .external_id = d.external_id,
+                                          .key = d.has_key ? std::optional(d.key) : std::nullopt,
                                           .margin = d.margin,
                                           .self_contact = d.self_contact}));
   });
@@ -232,6 +233,25 @@ tact_error tact_world_detect_motion(tact_world world, int32_t wanted) {
   });
 }
 
+tact_error tact_world_save(tact_world world, void* bytes, size_t capacity, size_t* count) {
+  return reading(world, [&](const WorldEntry& entry) {
+    check_not_null(count);
+    if (capacity > 0) check_not_null(bytes);
+    const std::vector<std::byte> saved = entry.world.save();
+    std::copy_n(saved.data(), std::min(capacity, saved.size()), static_cast<std::byte*>(bytes));
+    *count = saved.size();
+  });
+}
+
+tact_error tact_world_restore(tact_world world, const void* bytes, size_t count) {
+  return changing(world, [&](WorldEntry& entry) {
+    if (count > 0) check_not_null(bytes);
+    entry.world.restore({static_cast<const std::byte*>(bytes), count});
+    entry.report = nullptr;
+    entry.motion = nullptr;
+  });
+}
+
 tact_error tact_world_contains(tact_world world, tact_body body, bool* contains) {
   return get(world, contains, [&](const World& w) { return w.contains(id_of(body)); });
 }
@@ -280,6 +300,10 @@ tact_error tact_world_excluded(tact_world world, tact_body a, tact_body b, bool*
 
 tact_error tact_world_external_id(tact_world world, tact_body body, uint64_t* external_id) {
   return get(world, external_id, [&](const World& w) { return w.external_id(id_of(body)); });
+}
+
+tact_error tact_world_key(tact_world world, tact_body body, uint64_t* key) {
+  return get(world, key, [&](const World& w) { return w.key(id_of(body)); });
 }
 
 tact_error tact_world_margin(tact_world world, tact_body body, double* margin) {

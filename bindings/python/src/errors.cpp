@@ -41,7 +41,8 @@ void define_errors(py::module_& module) {
       .value("wrong_motion", ErrorCode::wrong_motion,
              "positions were set on a rigid body, or a pose on a deformable one")
       .value("not_a_rotation", ErrorCode::not_a_rotation, "the matrix of a pose is not orthonormal to 1e-9, or mirrors")
-      .value("invalid_argument", ErrorCode::invalid_argument, "an argument is out of range, such as a negative margin");
+      .value("invalid_argument", ErrorCode::invalid_argument, "an argument is out of range, such as a negative margin")
+      .value("bad_state", ErrorCode::bad_state, "the bytes are no saved state of a world, or damaged");
   g_error = PyErr_NewExceptionWithDoc("tact.Error",
                                       "Data that a world cannot take; `code` is an ErrorCode. The world is as it was.",
                                       PyExc_RuntimeError, nullptr);

@@ -81,8 +81,10 @@ void define_parts(py::module_& module) {
   py::class_<PatchArrays>(
       module, "Patch",
       "A connected set of facet pairs and contact points: a place where two bodies touch or nearly do.")
-      .def_readonly("id", &PatchArrays::id,
-                    "the same in the next step if both share most of their vertices; never given out twice by a world")
+      .def_readonly(
+          "id", &PatchArrays::id,
+          "the same in the next step if both share most of their vertices; made from both keys, the step of its "
+          "beginning and its place")
       .def_readonly("point", &PatchArrays::point,
                     "(3,): the middle of its points, or of the boxes that its facet pairs have in common; metres")
       .def_readonly(
@@ -291,6 +293,9 @@ void define_contact(py::module_& module) {
             return list;
           },
           "the patches, if Settings.patches is set; sorted by first facet pair, then by first point")
+      .def(
+          "hash", [](const ContactHandle& contact) { return contact->hash(); },
+          "a number made from every bit of the contact, its facet pairs, points and patches, but for counts of work")
       .def("__repr__", contact_text);
 }
 
@@ -375,7 +380,8 @@ void define_report(py::module_& module) {
           "counts and times of the step. By name, times in milliseconds")
       .def(
           "hash", [](const ReportHandle& report) { return report->hash(); },
-          "a number made from every bit of candidate pairs, contacts, facet pairs and points")
+          "a number made from every bit of candidate pairs, contacts, facet pairs and points; bodies enter it by their "
+          "keys")
       .def("__len__", [](const ReportHandle& report) { return report->contacts().size(); })
       .def("__repr__", report_text);
 }

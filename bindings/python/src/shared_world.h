@@ -86,7 +86,8 @@ class SharedWorld : public std::enable_shared_from_this<SharedWorld> {
     read();
     if (report != report_)
       throw StaleReport(
-          "this report is of an earlier step: what it shows is gone with the next detect() or set_settings()");
+          "this report is of an earlier step: what it shows is gone with the next detect(), set_settings() or "
+          "restore()");
   }
 
   /// Records the world to a file from now on, or no more.

@@ -50,7 +50,7 @@ void define_types(py::module_& module) {
   define_enums(module);
   module.attr("LARGEST_COORDINATE") = kLargestCoordinate;
   py::class_<BodyId>(module, "BodyId", "Names a body of one world. No id is given out twice.")
-      .def_readonly("index", &BodyId::index, "bodies of a report are ordered by it")
+      .def_readonly("index", &BodyId::index, "the place of the body in its world; that of a removed body is used again")
       .def_readonly("generation", &BodyId::generation)
       .def(py::self == py::self)
       .def(py::self != py::self)

@@ -2,8 +2,12 @@
 #include <tact/world.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,7 +30,7 @@ BodyId body_of(py::handle given, const std::string& what) {
 
 BodyId add_body(SharedWorld& world, py::handle positions, py::handle facets, Surface surface, Motion motion,
                 const std::string& name, std::uint32_t layer, std::uint32_t mask, double margin, bool self_contact,
-                std::uint32_t group) {
+                std::uint32_t group, std::optional<std::uint64_t> key) {
   const PositionsArgument x(positions);
   const FacetsArgument f(facets);
   const BodyDefinition definition{.positions = x.columns(),
@@ -37,6 +41,7 @@ BodyId add_body(SharedWorld& world, py::handle positions, py::handle facets, Sur
                                   .layer = layer,
                                   .mask = mask,
                                   .group = group,
+                                  .key = key,
                                   .margin = margin,
                                   .self_contact = self_contact};
   BodyId added;
@@ -121,6 +126,18 @@ MotionArrays detect_motion(SharedWorld& world, Impacts wanted) {
   world.compute([&](World& w) { made = &w.detect_motion(wanted); });
   const SharedWorld::Reading reading(world);
   return motion_arrays(*made);
+}
+
+py::bytes save(SharedWorld& world) {
+  std::vector<std::byte> bytes;
+  world.compute([&](World& w) { bytes = w.save(); });
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void restore(SharedWorld& world, const py::bytes& bytes) {
+  const std::string_view view = bytes;
+  world.compute([&](World& w) { w.restore(std::as_bytes(std::span(view))); });
+  world.next_report();
 }
 
 void set_settings(SharedWorld& world, const Settings& settings) {
@@ -216,7 +233,7 @@ void define_world(py::module_& module) {
       .def("add_body", add_body, py::arg("positions"), py::arg("facets"), py::kw_only(),
            py::arg("surface") = Surface::closed, py::arg("motion") = Motion::deformable, py::arg("name") = "",
            py::arg("layer") = 1u, py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0,
-           py::arg("self_contact") = false, py::arg("group") = 0u,
+           py::arg("self_contact") = false, py::arg("group") = 0u, py::arg("key") = py::none(),
            "adds a body; copies its mesh and groups the facets into clusters. Positions: (V, 3) in metres; facets: (F, "
            "3), vertices counter-clockwise seen from outside")
       .def(
@@ -255,6 +272,10 @@ void define_world(py::module_& module) {
           py::arg("wanted") = Impacts::all,
           "finds what meets between the positions of the last detect() and the current ones, every vertex moving "
           "straight")
+      .def("save", save, "all that later answers depend on as bytes: settings, bodies, histories")
+      .def("restore", restore, py::arg("bytes"),
+           "goes back to the state of `bytes`, of this world or another: later calls answer as after save(), bit for "
+           "bit")
       .def(
           "contains", [](SharedWorld& world, BodyId body) { return world.read().contains(body); }, py::arg("body"))
       .def_property_readonly("body_count", [](SharedWorld& world) { return world.read().body_count(); })
@@ -265,6 +286,7 @@ void define_world(py::module_& module) {
       .def("layer", of_body<&World::layer>, py::arg("body"))
       .def("mask", of_body<&World::mask>, py::arg("body"))
       .def("group", of_body<&World::group>, py::arg("body"))
+      .def("key", of_body<&World::key>, py::arg("body"), "the key of a body: given, or its index")
       .def("margin", of_body<&World::margin>, py::arg("body"), "the margin of a body, metres")
       .def("self_contact", of_body<&World::self_contact>, py::arg("body"), "whether a body is tested against itself")
       .def(

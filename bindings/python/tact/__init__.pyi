@@ -40,6 +40,7 @@ class ErrorCode:
     wrong_motion: ClassVar[ErrorCode]
     not_a_rotation: ClassVar[ErrorCode]
     invalid_argument: ClassVar[ErrorCode]
+    bad_state: ClassVar[ErrorCode]
     name: str
     value: int
     def __init__(self, value: int) -> None: ...
@@ -192,7 +193,7 @@ class Patch:
 
     @property
     def id(self) -> int:
-        """the same in the next step if both share most of their vertices; never given out twice by a world"""
+        """the same in the next step if both share most of their vertices; made from both keys, the step of its beginning and its place"""
     @property
     def point(self) -> Floats:
         """(3,): the middle of its points, or of the boxes that its facet pairs have in common; metres"""
@@ -337,6 +338,8 @@ class Contact:
     @property
     def patches(self) -> list[Patch]:
         """the patches, if Settings.patches is set; sorted by first facet pair, then by first point"""
+    def hash(self) -> int:
+        """a number made from every bit of the contact, its facet pairs, points and patches, but for counts of work"""
 
 class PointArrays:
     """Arrays for the contact points of a whole report. A row a point."""
@@ -484,7 +487,7 @@ class Report:
     def stats(self) -> dict[str, float]:
         """counts and times of the step. By name, times in milliseconds"""
     def hash(self) -> int:
-        """a number made from every bit of candidate pairs, contacts, facet pairs and points"""
+        """a number made from every bit of candidate pairs, contacts, facet pairs and points; bodies enter it by their keys"""
     def __len__(self) -> int: ...
 
 class Impacts:
@@ -763,6 +766,7 @@ class World:
         margin: float = 0.0,
         self_contact: bool = False,
         group: int = 0,
+        key: Optional[int] = None,
     ) -> BodyId:
         """adds a body; copies its mesh and groups the facets into clusters. Positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside"""
     def remove_body(self, body: BodyId) -> None: ...
@@ -792,6 +796,10 @@ class World:
         self, report: Report, ids: npt.NDArray[np.uint64] = ..., impulses: npt.NDArray[np.floating] = ...
     ) -> ContactSums:
         """adds up the points of a world's last report, at the current positions. `ids` (N,) and `impulses` (N, 3) are of points"""
+    def save(self) -> bytes:
+        """all that later answers depend on as bytes: settings, bodies, histories"""
+    def restore(self, bytes: bytes) -> None:
+        """goes back to the state of `bytes`, of this world or another: later calls answer as after save(), bit for bit"""
     def cast_rays(
         self,
         from_: npt.ArrayLike,
@@ -857,6 +865,8 @@ class World:
     def layer(self, body: BodyId) -> int: ...
     def mask(self, body: BodyId) -> int: ...
     def group(self, body: BodyId) -> int: ...
+    def key(self, body: BodyId) -> int:
+        """the key of a body: given, or its index"""
     def margin(self, body: BodyId) -> float:
         """the margin of a body, metres"""
     def self_contact(self, body: BodyId) -> bool: ...

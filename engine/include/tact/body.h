@@ -7,13 +7,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace tact {
 
-/// Names a body of one world. No id is given out twice: that of a removed body stays stale.
+/// Names a body of one world. No id is given out twice: that of a removed body stays stale, unless World::restore()
+/// brings the body back.
 struct BodyId {
-  std::uint32_t index = 0;       ///< the order of bodies in a report
+  std::uint32_t index = 0;       ///< the place of the body in its world; that of a removed body is used again
   std::uint32_t generation = 0;  ///< 0 in the id of no body
   std::uint32_t world = 0;       ///< the world that gave the id out
   friend constexpr auto operator<=>(const BodyId&, const BodyId&) = default;
@@ -50,6 +52,9 @@ struct BodyDefinition {
   /// Bodies of one group are not tested against each other. 0 is no group.
   std::uint32_t group = 0;
   std::uint64_t external_id = 0;  ///< the program's own number; no answer depends on it
+  /// The order of bodies in all answers, and what ids of points and patches are made of; by default the index. Each
+  /// body of a world has another.
+  std::optional<std::uint64_t> key = {};
   /// How far ahead of the surface contact points are seen, metres, 0 to kLargestCoordinate. Those of two bodies add up.
   double margin = 0.0;
   bool self_contact = false;  ///< whether the body is tested against itself, too

@@ -23,7 +23,7 @@ enum class Impacts {
 /// A vertex and a facet, or two edges, that meet between the last step and now. With margins they meet where they come
 /// as near as the sum of these; the manual draws the rule for features that begin nearer, and tells what is proved.
 struct Impact {
-  BodyId a;                                      ///< a.index <= b.index; equal to b for a body with itself
+  BodyId a;                                      ///< its key is below that of b; equal to b for a body with itself
   BodyId b;                                      ///< the second body
   FeaturePair kind = FeaturePair::vertex_facet;  ///< which features meet
   /// The part of the way, 0 to 1, at which they first meet; never later than the true time.
@@ -34,7 +34,7 @@ struct Impact {
 
 /// Two bodies, or one with itself, with at least one impact.
 struct ImpactPair {
-  BodyId a;                         ///< a.index <= b.index
+  BodyId a;                         ///< its key is not above that of b
   BodyId b;                         ///< the second body
   double first_time = 0.0;          ///< the earliest time of the impacts
   std::span<const Impact> impacts;  ///< sorted by time; valid as long as the report
@@ -53,7 +53,8 @@ struct MotionStats {
   double search_ms = 0.0;          ///< all other work
 };
 
-/// What World::detect_motion() found. It is valid until the next call, or the end of the world.
+/// What World::detect_motion() found. It is valid until the next call, World::restore(), or the end of the
+/// world.
 class TACT_API MotionReport {
  public:
   MotionReport() = default;

@@ -39,6 +39,7 @@ class TACT_API Recorder final : public WorldObserver {
   void motion_set(BodyId body, Motion motion) noexcept override;
   void margin_set(BodyId body, double margin) noexcept override;
   void self_contact_set(BodyId body, bool wanted) noexcept override;
+  void state_restored(std::span<const std::byte> bytes) noexcept override;
   void step_begins() noexcept override;
   void step_ended(const Report& report) noexcept override;
   void step_failed() noexcept override;

@@ -1,5 +1,6 @@
-// What a step found. A report is valid until the world's next detect(), set_settings() or destruction; many threads may
-// read it at once. A copied Contact or Patch still views the world's data.
+// What a step found. A report is valid until the world's next detect(), set_settings(), restore() or destruction; many
+// threads may read it at once. A copied Contact or Patch still views the world's data. Bodies stand in the order of
+// their keys.
 #pragma once
 
 #include <tact/body.h>
@@ -41,7 +42,8 @@ struct ZoneDisk {
 /// common facet are connected. So are points with a common vertex, unless their normals are opposite, and a point and a
 /// facet pair with a common vertex.
 struct Patch {
-  /// The same in the next step if both share most of their vertices; never given out twice by a world.
+  /// The same in the next step if both share most of their vertices; made from both keys, the step of its beginning and
+  /// its place.
   std::uint64_t id = 0;
   /// The middle of its points, or of the boxes that its facet pairs have in common; metres.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
@@ -66,7 +68,7 @@ struct PatchEvent {
     merged,  ///< it became a part of the patch `other`
     ended,   ///< it is gone
   };
-  BodyId a;                 ///< a.index <= b.index
+  BodyId a;                 ///< its key is not above that of b
   BodyId b;                 ///< the second body
   Kind kind = Kind::began;  ///< what became of the patch
   std::uint64_t patch = 0;  ///< its id
@@ -78,7 +80,7 @@ struct PatchEvent {
 /// surfaces may be apart: see touching(). With self-contact a body that touches or nears itself has a contact
 /// with a == b, with facet pairs, points and patches alone.
 struct Contact {
-  BodyId a;  ///< a.index <= b.index; equal to b for a body with itself
+  BodyId a;  ///< its key is below that of b; equal to b for a body with itself
   BodyId b;  ///< the second body
   /// Unit vector from a to b: moving b by depth * direction separates the hulls.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
@@ -106,18 +108,24 @@ struct Contact {
   std::span<const ContactPoint> points() const { return points_; }
   /// Returns the patches, if Outputs::patches is set; sorted by first facet pair, then by first point.
   std::span<const Patch> patches() const { return patches_; }
+  /// Returns a number made from every bit of the contact, its facet pairs, points and patches, but for counts of work.
+  /// Bodies enter it by their keys alone.
+  TACT_API std::uint64_t hash() const;
 
  private:
   friend class ReportWriter;
+  friend class Report;
+  friend struct StateFields;
   std::span<const FacetPair> facet_pairs_;
   std::span<const Patch> patches_;
   std::span<const ContactPoint> points_;
+  std::uint64_t key_a_ = 0, key_b_ = 0;
   bool touching_ = false;
 };
 
 /// Two bodies whose boxes overlap.
 struct CandidatePair {
-  BodyId a;                    ///< a.index < b.index
+  BodyId a;                    ///< its key is below that of b
   BodyId b;                    ///< the second body
   bool hulls_overlap = false;  ///< whether their hulls overlap or touch
   friend bool operator==(const CandidatePair&, const CandidatePair&) = default;
@@ -125,7 +133,7 @@ struct CandidatePair {
 
 /// Two bodies, or one with itself, that began or ceased to touch in this step: see Contact::touching().
 struct ContactEvent {
-  BodyId a;  ///< a.index <= b.index
+  BodyId a;  ///< its key is not above that of b
   BodyId b;  ///< the second body
   friend bool operator==(const ContactEvent&, const ContactEvent&) = default;
 };
@@ -156,8 +164,8 @@ class TACT_API Report {
   /// Returns what each thread did, if Outputs::trace is set; sorted by thread and time, outer events first.
   std::span<const TraceEvent> trace() const { return trace_; }
 
-  /// Returns a number made from every bit of candidate pairs, contacts, facet pairs and points. Equal calls give equal
-  /// numbers.
+  /// Returns a number made from every bit of candidate pairs, contacts, facet pairs and points; bodies enter it by
+  /// their keys. Equal calls give equal numbers.
   std::uint64_t hash() const;
 
  private:
@@ -165,11 +173,13 @@ class TACT_API Report {
   friend class FacetOutcomeFinder;
   Report(Report&&) = default;
   Report& operator=(Report&&) = default;
+  std::uint64_t key(BodyId body) const noexcept { return body.index < keys_.size() ? keys_[body.index] : body.index; }
   std::vector<Contact> contacts_;
   std::vector<CandidatePair> candidate_pairs_;
   std::vector<ContactEvent> began_;
   std::vector<ContactEvent> ended_;
   std::vector<PatchEvent> patch_events_;
+  std::vector<std::uint64_t> keys_;  // of the bodies, by index; empty where they are the indices
   StepStats stats_;
   std::vector<TraceEvent> trace_;
   const struct ReportSources* sources_ = nullptr;

@@ -110,6 +110,13 @@ class TACT_API World {
   /// invalid_argument, out_of_memory, backend_failure.
   const MotionReport& detect_motion(Impacts wanted = Impacts::all);
 
+  /// Returns all that later answers depend on as bytes: settings, bodies, histories. Worlds in one state have the same
+  /// bytes. Left out are threads, executor, messages and observer. Errors: out_of_memory.
+  std::vector<std::byte> save() const;
+  /// Goes back to the state of `bytes`, of this world or another: later calls answer as after save(), bit for bit. The
+  /// manual tells which ids name which bodies then. Errors: bad_state, too_large, out_of_memory.
+  void restore(std::span<const std::byte> bytes);
+
   // Queries see the current positions, whether or not a step has. Errors of these: non_finite_position,
   // position_out_of_range, invalid_argument, wrong_size (not as many answers as queries), out_of_memory.
 
@@ -155,6 +162,7 @@ class TACT_API World {
   /// Whether set_excluded() excludes two bodies. Errors: also invalid_argument (one body twice).
   bool excluded(BodyId a, BodyId b) const;
   std::uint64_t external_id(BodyId body) const;  ///< the number that the program gave a body
+  std::uint64_t key(BodyId body) const;          ///< the key of a body: given, or its index
   double margin(BodyId body) const;              ///< the margin of a body, metres
   bool self_contact(BodyId body) const;          ///< whether a body is tested against itself
   std::size_t vertex_count(BodyId body) const;   ///< the number of vertices that were added

@@ -5,6 +5,7 @@
 #include <tact/report.h>
 #include <tact/settings.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -31,6 +32,8 @@ class TACT_API WorldObserver {
   virtual void motion_set(BodyId body, Motion motion) noexcept;
   virtual void margin_set(BodyId body, double margin) noexcept;
   virtual void self_contact_set(BodyId body, bool wanted) noexcept;
+  /// Called when World::restore() has set the settings and bodies of the bytes.
+  virtual void state_restored(std::span<const std::byte> bytes) noexcept;
 
   /// Called before World::detect() begins.
   virtual void step_begins() noexcept;

@@ -186,8 +186,8 @@ TEST(Recording, SaysWhatIsWrongAndAtWhichByte) {
             "byte 8: a recording of version 0; versions 1 to 6 can be read");
   EXPECT_EQ(recording_refusal(with(good, kSettingsAt, "\x02")),
             at_byte(kSettingsAt) + "the first record is not one of settings");
-  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x10")),
-            at_byte(kFirstBodyAt) + "step 0: no record is of kind 16");
+  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x12")),
+            at_byte(kFirstBodyAt) + "step 0: no record is of kind 18");
   EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x0f")),
             at_byte(kFirstBodyAt) + "step 0: a failure that follows no step");
   EXPECT_EQ(recording_refusal(with(good, kVerticesAt + 16, bytes_of(std::numeric_limits<double>::quiet_NaN())))
@@ -282,6 +282,34 @@ TEST(Recording, PlaysWithMoreOutputs) {
     for (const Contact& contact : player.report().contacts()) patches += contact.patches().size();
   }
   EXPECT_GT(patches, 0u);
+}
+
+TEST(Recording, HoldsKeysAndRestoredStates) {
+  Recorded recorded(1);
+  const Eigen::Matrix3Xd here = tetrahedron_at({0, 0, 0}), there = tetrahedron_at({0.3, 0.1, 0.1});
+  const Eigen::Matrix3Xi facets = tetrahedron_facets();
+  const BodyId a = recorded.world.add_body({.positions = here, .facets = facets, .key = 9});
+  const BodyId b = recorded.world.add_body({.positions = there, .facets = facets, .key = 2});
+  recorded.world.detect();
+  World other({.threads = 1});
+  other.add_body({.positions = here, .facets = facets, .name = "another"});
+  const std::vector<std::byte> saved = recorded.world.save(), of_other = other.save();
+  recorded.world.remove_body(a);
+  recorded.world.detect();
+  recorded.world.restore(of_other);
+  const BodyId foreign = recorded.world.bodies().at(0);
+  EXPECT_FALSE(recorded.world.contains(a));
+  recorded.world.set_positions(foreign, there);
+  recorded.world.detect();
+  recorded.world.restore(saved);
+  recorded.world.set_positions(b, here);  // ids of before, and of the body that was gone
+  recorded.world.set_positions(a, there);
+  recorded.world.detect();
+  const std::string bytes = recorded.out.str();
+  EXPECT_EQ(play(bytes).size(), 4u);
+  EXPECT_TRUE(all_same(play(bytes)));
+  RecordingPlayer with_points(bytes, {.threads = 1, .outputs = {.points = true}});
+  while (with_points.next()) EXPECT_TRUE(with_points.world().settings().outputs.points);
 }
 
 TEST(Recorder, AnObserverSeesAWorldWhole) {

@@ -14,7 +14,7 @@
  * that point to nowhere cannot be told.
  *
  * Arrays that come back belong to the world: they are valid until its next tact_world_detect(),
- * tact_world_set_settings() or tact_world_destroy(). Lengths are metres.
+ * tact_world_set_settings(), tact_world_restore() or tact_world_destroy(). Lengths are metres.
  *
  * Structs begin with their size, by which the library knows which version of this header a program was compiled with:
  * always begin with the TACT_..._INIT of the struct. */
@@ -55,6 +55,7 @@ typedef enum tact_error {
   TACT_ERROR_WRONG_MOTION = 14,         /**< positions were set on a rigid body, or a pose on a deformable one */
   TACT_ERROR_NOT_A_ROTATION = 15,       /**< the matrix of a pose is not orthonormal to 1e-9, or mirrors */
   TACT_ERROR_INVALID_ARGUMENT = 16,     /**< an argument is out of range, such as a negative margin */
+  TACT_ERROR_BAD_STATE = 17,            /**< the bytes are no saved state of a world, or damaged */
   TACT_ERROR_INVALID_HANDLE = 100,      /**< the handle names no world or player */
   TACT_ERROR_NULL_ARGUMENT = 101,       /**< a pointer is null that must not be */
   TACT_ERROR_WRONG_STRUCT_SIZE = 102,   /**< struct_size is not that of a version of this library */
@@ -79,7 +80,7 @@ typedef struct tact_world {
 
 /** Names a body of one world. {0, 0, 0}: none. */
 typedef struct tact_body {
-  uint32_t index;      /**< the order of bodies in a report */
+  uint32_t index;      /**< the place of the body in its world; that of a removed body is used again */
   uint32_t generation; /**< 0 in the id of no body */
   uint32_t world;      /**< the world that gave the id out */
 } tact_body;
@@ -187,11 +188,14 @@ typedef struct tact_body_definition {
   double margin;          /**< how far ahead of the surface contact points are seen, metres, 0 to 2^300 */
   bool self_contact;      /**< whether the body is tested against itself, too */
   uint32_t group;         /**< bodies of one group are not tested against each other. 0 is no group */
+  bool has_key;           /**< whether `key` is given */
+  uint64_t key;           /**< the order of bodies in all answers, and what ids of points and patches are made of; by
+                             default the index. Each body of a world has another */
 } tact_body_definition;
-#define TACT_BODY_DEFINITION_INIT                                                                  \
-  {                                                                                                \
-    (uint32_t)sizeof(tact_body_definition), TACT_SURFACE_CLOSED, {NULL, 0, 24, TACT_FLOAT64},      \
-        {NULL, 0, 12, TACT_INT32}, TACT_MOTION_DEFORMABLE, 1u, 0xffffffffu, NULL, 0, 0.0, false, 0 \
+#define TACT_BODY_DEFINITION_INIT                                                                            \
+  {                                                                                                          \
+    (uint32_t)sizeof(tact_body_definition), TACT_SURFACE_CLOSED, {NULL, 0, 24, TACT_FLOAT64},                \
+        {NULL, 0, 12, TACT_INT32}, TACT_MOTION_DEFORMABLE, 1u, 0xffffffffu, NULL, 0, 0.0, false, 0, false, 0 \
   }
 
 /** New positions of one body, for tact_world_set_positions(). */
@@ -255,6 +259,13 @@ TACT_C_API tact_error tact_world_detect(tact_world world);
  * straight. `wanted` is a tact_impacts. The functions tact_motion_... tell what it found. */
 TACT_C_API tact_error tact_world_detect_motion(tact_world world, int32_t wanted);
 
+/** Gives all that later answers depend on as bytes: settings, bodies, histories. Writes up to `capacity` of them, and
+ * how many there are. */
+TACT_C_API tact_error tact_world_save(tact_world world, void* bytes, size_t capacity, size_t* count);
+/** Goes back to the state of `bytes`, of this world or another: later calls answer as after tact_world_save(), bit for
+ * bit. There are `count` of them. */
+TACT_C_API tact_error tact_world_restore(tact_world world, const void* bytes, size_t count);
+
 /** Whether `body` names a body of this world. */
 TACT_C_API tact_error tact_world_contains(tact_world world, tact_body body, bool* contains);
 /** Gives the number of bodies. */
@@ -277,6 +288,8 @@ TACT_C_API tact_error tact_world_layer(tact_world world, tact_body body, uint32_
 TACT_C_API tact_error tact_world_mask(tact_world world, tact_body body, uint32_t* mask);
 /** The number that the program gave a body. */
 TACT_C_API tact_error tact_world_external_id(tact_world world, tact_body body, uint64_t* external_id);
+/** The key of a body: given, or its index. */
+TACT_C_API tact_error tact_world_key(tact_world world, tact_body body, uint64_t* key);
 /** The margin of a body, metres. */
 TACT_C_API tact_error tact_world_margin(tact_world world, tact_body body, double* margin);
 /** Whether a body is tested against itself. */
@@ -410,7 +423,7 @@ typedef struct tact_zone_disk {
 /** Two bodies whose convex hulls overlap or touch, decided exactly, or are nearer than the sum of the margins. */
 typedef struct tact_contact {
   uint32_t struct_size;
-  tact_body a;         /**< a.index <= b.index; equal to b for a body with itself */
+  tact_body a;         /**< its key is below that of b; equal to b for a body with itself */
   tact_body b;         /**< the second body */
   double direction[3]; /**< unit vector from a to b: moving b by depth * direction separates the hulls */
   double depth;   /**< the overlap of the hulls along `direction`, metres; minus their distance where they are apart */
@@ -447,7 +460,8 @@ typedef struct tact_patch {
                    facet pairs */
   const int* facet_pairs; /**< indices into tact_contact.facet_pairs, ascending */
   size_t facet_pair_count;
-  uint64_t id; /**< the same in the next step if both share most of their vertices; never given out twice by a world */
+  uint64_t id; /**< the same in the next step if both share most of their vertices; made from both keys, the step of its
+                  beginning and its place */
   double area; /**< the area of the convex hull of its points, seen along `direction`; square metres */
   const int* points; /**< indices into tact_contact_points(), ascending */
   size_t point_count;
@@ -481,14 +495,14 @@ typedef struct tact_contact_point {
 
 /** Two bodies whose boxes overlap. */
 typedef struct tact_candidate_pair {
-  tact_body a;        /**< a.index < b.index */
+  tact_body a;        /**< its key is below that of b */
   tact_body b;        /**< the second body */
   bool hulls_overlap; /**< whether their hulls overlap or touch */
 } tact_candidate_pair;
 
 /** Two bodies, or one with itself, that began or ceased to touch in this step: see tact_contact.touching. */
 typedef struct tact_contact_event {
-  tact_body a; /**< a.index <= b.index */
+  tact_body a; /**< its key is not above that of b */
   tact_body b; /**< the second body */
 } tact_contact_event;
 
@@ -502,7 +516,7 @@ typedef enum tact_patch_event_kind {
 
 /** A change of a patch in this step. */
 typedef struct tact_patch_event {
-  tact_body a;    /**< a.index <= b.index */
+  tact_body a;    /**< its key is not above that of b */
   tact_body b;    /**< the second body */
   int32_t kind;   /**< tact_patch_event_kind */
   uint64_t patch; /**< its id */
@@ -543,6 +557,9 @@ TACT_C_API tact_error tact_contact_patch(tact_world world, size_t index, size_t 
 /** Gives the points, if tact_settings.points is set; sorted by kind, then by features. */
 TACT_C_API tact_error tact_contact_points(tact_world world, size_t index, const tact_contact_point** points,
                                           size_t* count);
+/** Gives a number made from every bit of the contact, its facet pairs, points and patches, but for counts of work.
+ * Bodies enter it by their keys alone. */
+TACT_C_API tact_error tact_contact_hash(tact_world world, size_t index, uint64_t* hash);
 /** Gives the pairs whose boxes overlap, sorted by (a, b). */
 TACT_C_API tact_error tact_report_candidate_pairs(tact_world world, const tact_candidate_pair** pairs, size_t* count);
 /** Gives the contacts that touch now and did not in the last step, sorted by (a, b). */
@@ -558,7 +575,8 @@ TACT_C_API tact_error tact_report_stats(tact_world world, tact_statistic* statis
  * their number; each of them is tact_report_trace_event(). */
 TACT_C_API tact_error tact_report_trace(tact_world world, size_t* count);
 TACT_C_API tact_error tact_report_trace_event(tact_world world, size_t index, tact_trace_event* event);
-/** Gives a number made from every bit of candidate pairs, contacts, facet pairs and points. */
+/** Gives a number made from every bit of candidate pairs, contacts, facet pairs and points; bodies enter it by their
+ * keys. */
 TACT_C_API tact_error tact_report_hash(tact_world world, uint64_t* hash);
 
 /** Arrays for the contact points of a whole report. A null one is left out. */
@@ -667,7 +685,7 @@ typedef enum tact_impacts {
 
 /** A vertex and a facet, or two edges, that meet between the last step and now. */
 typedef struct tact_impact {
-  tact_body a;       /**< a.index <= b.index; equal to b for a body with itself */
+  tact_body a;       /**< its key is below that of b; equal to b for a body with itself */
   tact_body b;       /**< the second body */
   int32_t kind;      /**< tact_feature_pair */
   double time;       /**< the part of the way, 0 to 1, at which they first meet; never later than the true time */
@@ -678,7 +696,7 @@ typedef struct tact_impact {
 /** Two bodies, or one with itself, with at least one impact. */
 typedef struct tact_impact_pair {
   uint32_t struct_size;
-  tact_body a;                /**< a.index <= b.index */
+  tact_body a;                /**< its key is not above that of b */
   tact_body b;                /**< the second body */
   double first_time;          /**< the earliest time of the impacts */
   const tact_impact* impacts; /**< sorted by time; valid as long as the report */

@@ -30,6 +30,7 @@ enum class ErrorCode {
   wrong_motion,           ///< positions were set on a rigid body, or a pose on a deformable one
   not_a_rotation,         ///< the matrix of a pose is not orthonormal to 1e-9, or mirrors
   invalid_argument,       ///< an argument is out of range, such as a negative margin
+  bad_state,              ///< the bytes are no saved state of a world, or damaged
 };
 
 /// Returns the name of `code`, such as "stale_body".

@@ -1,0 +1,270 @@
+// What each class that keeps state between steps saves of it: one list of fields, which an archive writes or reads.
+//
+// A list binds all members of its class by name, so that it compiles only if it names every one: a new member is either
+// given to the archive or said to be dropped. `dropped` are memory that is used again, and what is computed anew.
+#pragma once
+
+#include <tact/report.h>
+#include <tact/settings.h>
+
+#include <type_traits>
+
+#include "engine/bodies/bodies.h"
+#include "engine/pair/pair_record.h"
+#include "engine/self_record.h"
+#include "engine/step.h"
+
+namespace tact {
+
+class StateWriter;
+class StateReader;
+
+/// What an archive visits: a constant if it writes.
+template <class Archive, class T>
+using Visited = std::conditional_t<Archive::kReads, T, const T>;
+
+/// The last value of an enumeration that may be saved.
+template <class Enumeration>
+inline constexpr Enumeration kLastValue = Enumeration::none;
+template <>
+inline constexpr Accuracy kLastValue<Accuracy> = Accuracy::exact;
+template <>
+inline constexpr DirectionPolicy kLastValue<DirectionPolicy> = DirectionPolicy::smallest;
+template <>
+inline constexpr Surface kLastValue<Surface> = Surface::sheet;
+template <>
+inline constexpr Containment kLastValue<Containment> = Containment::b_in_a;
+template <>
+inline constexpr DirectionSource kLastValue<DirectionSource> = DirectionSource::smallest;
+template <>
+inline constexpr FeaturePair kLastValue<FeaturePair> = FeaturePair::edge_edge;
+template <>
+inline constexpr PairHistory::Kind kLastValue<PairHistory::Kind> = PairHistory::Kind::overlapping;
+
+/// The mesh of a body, in the caller's numbers.
+struct MeshState {
+  std::uint32_t vertex_count = 0;
+  std::vector<int> facets;        ///< three vertices each
+  std::vector<int> order;         ///< the facets, cluster by cluster
+  std::vector<double> positions;  ///< of now, or of a rigid body at rest; zero where no facet uses the vertex
+  std::vector<double> begin;      ///< of the last step, if it has other positions and is not rigid
+  bool is_rigid = false, is_on_its_way = false;
+  narrowphase::Pose pose, begin_pose;  ///< of a rigid body: now, and in the last step if it is on its way
+};
+
+struct StateFields {
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, base::Vec3>& v) {
+    auto& [x, y, z] = v;
+    archive(x, y, z);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, Eigen::Vector3d>& v) {
+    archive(v[0], v[1], v[2]);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, broadphase::IndexPair>& pair) {
+    auto& [a, b] = pair;
+    archive(a, b);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, broadphase::Filter>& filter) {
+    auto& [layer, mask, fixed, group] = filter;
+    archive(layer, mask, fixed, group);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, narrowphase::Pose>& pose) {
+    auto& [rows, translation] = pose;
+    archive(rows, translation);
+  }
+
+  // Of the program, not of the world: threads, executor, on_message.
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, Settings>& settings) {
+    auto& [threads, accuracy, direction, gjk_tolerance, iteration_limit, outputs, executor, on_message] = settings;
+    auto& [zones, patches, points, trace] = outputs;
+    archive(accuracy, direction, gjk_tolerance, iteration_limit, zones, patches, points, trace);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, MeshState>& mesh) {
+    auto& [vertex_count, facets, order, positions, begin, is_rigid, is_on_its_way, pose, begin_pose] = mesh;
+    archive(vertex_count, facets, order, positions, is_rigid, is_on_its_way);
+    if (is_rigid) archive(pose);
+    if (is_on_its_way) is_rigid ? archive(begin_pose) : archive(begin);
+  }
+
+  // By others: mesh and begin, as a MeshState; id. Dropped: features and neighbors.
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, Body>& body) {
+    auto& [mesh, id, name, surface, external_id, self_contact, birth, features, neighbors, begin] = body;
+    archive(name, surface, external_id, self_contact, birth);
+  }
+
+  // By others: body, rigid and begin, as a MeshState; fixed, as part of the filter. Dropped: the rest.
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, Bodies::Slot>& slot) {
+    auto& [body, rigid, generation, vertex_count, fixed, knows_box, to_place, changed, seen, begin] = slot;
+    archive(changed, seen);
+  }
+
+  // The quality may be infinite.
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, ClusterGroupings::Entry>& entry) {
+    auto& [quality, moves, tries, decayed] = entry;
+    archive(quality, moves, tries, decayed);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, Bodies::Place>& place) {
+    auto& [filter, margin, key, is_rigid] = place;
+    archive(filter, margin, key, is_rigid);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, narrowphase::GjkSimplex>& simplex) {
+    auto& [a, b, count] = simplex;
+    archive.count(count, a.size());
+    archive.first(count, a);
+    archive.first(count, b);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, narrowphase::SurfaceShape>& shape) {
+    auto& [vertex_count, face_count, fresh_face_count, a, b, corner, neighbor] = shape;
+    archive.count(vertex_count, a.size());
+    archive.count(face_count, corner.size());
+    archive(fresh_face_count);
+    archive.first(vertex_count, a);
+    archive.first(vertex_count, b);
+    archive.first(face_count, corner);
+    archive.first(face_count, neighbor);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, PairHistory>& history) {
+    auto& [direction, hulls, kind, has_surface] = history;
+    archive(direction, hulls, kind, has_surface);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, ZoneDisk>& disk) {
+    auto& [center, radius] = disk;
+    archive(center, radius);
+  }
+
+  // By others: a, b and touching, as parts of the record. Dropped: what the report writer fills in.
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, Contact>& contact) {
+    auto& [a, b, direction, depth, containment, source, iterations, limit_reached, plane_a, plane_b, zone_a, zone_b,
+           kept_facets_a, kept_facets_b, facet_pairs, patches, points, key_a, key_b, touching] = contact;
+    archive(direction, depth, containment, source, iterations, limit_reached, plane_a, plane_b, zone_a, zone_b,
+            kept_facets_a, kept_facets_b);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, FacetPair>& pair) {
+    auto& [a, b] = pair;
+    archive(a, b);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, ContactPoint>& point) {
+    auto& [kind, patch, a_vertices, b_vertices, a_weights, b_weights, normal, gap, id] = point;
+    archive(kind, patch, a_vertices, b_vertices, a_weights, b_weights, normal, gap, id);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, PatchVertex>& vertex) {
+    auto& [number, patch] = vertex;
+    archive(number, patch);
+  }
+
+  // By the set: the members, which its lists hold one patch after the other.
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, Patch>& patch) {
+    auto& [id, point, direction, depth, area, facet_pairs, points, spanning] = patch;
+    archive(id, point, direction, depth, area, spanning);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, PatchSet>& set) {
+    auto& [patches, facet_pairs, points, vertices] = set;
+    archive(patches);
+    if (patches.empty()) return;  // the lists are old
+    archive(facet_pairs, points, vertices);
+    visit_members(archive, patches, facet_pairs, &Patch::facet_pairs);
+    visit_members(archive, patches, points, &Patch::points);
+  }
+
+  // The last set is that of the step before, which no later step reads.
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, PatchMemory>& memory) {
+    auto& [now, last] = memory;
+    archive(now);
+  }
+
+  // By others: a and b. Of the step before: was_in_contact, last_points. Dropped: times, surfaces.
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, PairRecord>& record) {
+    auto& [a, b, hulls_overlap, near, was_in_contact, touching, history, times, slab_lower, slab_upper, face, contact,
+           facet_pairs, points, last_points, patches, surfaces, surface] = record;
+    archive(hulls_overlap, near, touching, history);
+    if (history.has_surface) archive.pointee(surface);
+    if (hulls_overlap) archive(slab_lower, slab_upper, face);
+    if (hulls_overlap || near) archive(contact, facet_pairs, points);
+    bool has_patches = patches != nullptr && !patches->now.patches.empty();
+    archive(has_patches);
+    if (has_patches) archive.pointee(patches);
+  }
+
+  // By others: body. Of the step before: last_points. Dropped: the cluster pairs and the crossing.
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, SelfRecord>& record) {
+    auto& [body, facet_pairs, points, last_points, may_meet, may_contact, crossing, patches, touching] = record;
+    archive(facet_pairs, points, patches, touching);
+  }
+
+  // One body that there is; and into a slot that holds none. Errors: bad_state, and those of World::add_body().
+  static void write_body(const Bodies& bodies, std::uint32_t slot, StateWriter& writer);
+  static void read_body(StateReader& reader, Bodies& bodies, std::uint32_t slot);
+
+  // Of whole worlds: bodies_state.cpp, step_state.cpp. `gone`, sorted, are bodies that were removed since the last step
+  // and that the next one names; `old` are those of the world, whose ids stay.
+  static void write(const Bodies& bodies, std::span<const BodyId> gone, StateWriter& writer);
+  static Bodies read_bodies(StateReader& reader, const Bodies& old);
+  static std::vector<BodyId> gone_in(const Step& step, const Bodies& bodies);
+  static void write(const Step& step, const Bodies& bodies, StateWriter& writer);
+  static Step::Restored read_step(StateReader& reader, const Bodies& bodies);
+
+ private:
+  static void add_slots(Bodies& bodies, std::size_t count);
+  static void read_slots(StateReader& reader, Bodies& bodies);
+  static void take_ids(Bodies& bodies, const Bodies& old);
+  static BodyId read_named(StateReader& reader, const Bodies& bodies);
+  static void write_pairs(const PairTable& table, const Bodies& bodies, StateWriter& writer);
+  static void read_pairs(StateReader& reader, const Bodies& bodies, PairTable& table);
+  static void write_selves(const SelfStage& selves, const Bodies& bodies, StateWriter& writer);
+  static void read_selves(StateReader& reader, const Bodies& bodies, SelfStage& selves);
+
+  // How many members of a list each patch has.
+  template <class Archive, class Patches, class Members>
+  static void visit_members(Archive& archive, Patches& patches, Members& members, std::span<const int> Patch::*shown) {
+    std::size_t begin = 0;
+    for (auto& patch : patches) {
+      auto count = static_cast<std::uint64_t>((patch.*shown).size());
+      archive(count);
+      if constexpr (Archive::kReads) {
+        archive.check(count <= members.size() - begin, "a patch has more members than there are");
+        patch.*shown = std::span(members).subspan(begin, count);
+      }
+      begin += count;
+    }
+  }
+};
+
+}  // namespace tact

@@ -1,0 +1,25 @@
+// What one pair of bodies keeps from step to step, or one body that is held against itself, as bytes: the list of
+// fields.h. It holds vertices by the numbers of the meshes, so the meshes are to be those of before.
+#pragma once
+
+#include "engine/pair/pair_record.h"
+#include "engine/self_record.h"
+#include "engine/state/archives.h"
+
+namespace tact {
+
+void write_pair(const PairRecord& record, StateWriter& writer);
+/// Of a new record. Errors: bad_state.
+void read_pair(StateReader& reader, const narrowphase::ClusteredMesh& a, const narrowphase::ClusteredMesh& b,
+               PairRecord& record);
+
+void write_self(const SelfRecord& record, StateWriter& writer);
+/// Of a new record. Errors: bad_state.
+void read_self(StateReader& reader, const narrowphase::ClusteredMesh& mesh, SelfRecord& record);
+
+/// What the next step tells of a pair with a body that is gone: that it does not touch any more, and which patches
+/// ended.
+void write_gone(bool touching, const PatchSet* patches, StateWriter& writer);
+void read_gone(StateReader& reader, bool& touching, PatchSet& patches);
+
+}  // namespace tact
