@@ -9,7 +9,7 @@ set -euo pipefail
 seconds=${1:?usage: scripts/fuzz.sh SECONDS [FORMAT]...}
 shift
 formats=("$@")
-(( ${#formats[@]} > 0 )) || formats=(obj off ply stl recording c)
+(( ${#formats[@]} > 0 )) || formats=(obj off ply stl recording state c)
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=$root/build/fuzz
 
