@@ -110,7 +110,9 @@ std::optional<FeaturePoint> point_of_passed_edges(const Crossing& c, int edge_a,
                                              farthest_edges(c), EdgeSide::passed);
   if (!nearest || dot(nearest->normal, facing_of_edges(c, edge_a, edge_b)) <= kFaces) return {};
   if (c.of_itself && !are_of_two_parts(c, edge_a, edge_b, *nearest, ways)) return {};
-  return point_of_edges(*nearest, a, edge_a, b, edge_b, negative(nearest->distance / a.scale));
+  FeaturePoint point = point_of_edges(*nearest, a, edge_a, b, edge_b, negative(nearest->distance / a.scale));
+  if (c.of_itself) point.normal = point.normal + Vec3{};  // as of edges that have not passed each other
+  return point;
 }
 
 void append_vertices(const Crossing& c, const CrossedSurface& own, const CrossedSurface& other,

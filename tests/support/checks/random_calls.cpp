@@ -410,7 +410,8 @@ Call RandomCalls::query() {
   const Ray ray{.from = vector(p), .to = vector(q)};
   const PointQuery point{.point = vector(0.5 * p)};
   const BoxQuery box{.lower = vector(0.5 * p), .upper = vector(0.5 * p).array() + vector(size).norm()};
-  const int kind = random_.below(6);
+  const int kind = random_.below(7);
+  const std::size_t slot = *any_body();
   Call call{.name = "query " + std::to_string(kind),
             .prepare = [](Subject& subject) { subject.hits.resize(1), subject.closest.resize(1); },
             .run =
@@ -422,6 +423,7 @@ Call RandomCalls::query() {
                     case 2: subject.closest[0] = world.closest_point(point); return;
                     case 3: subject.facets = world.overlap_box(box); return;
                     case 4: subject.bodies = world.bodies_containing(point); return;
+                    case 5: subject.drawn = world.check_surface(subject.ids[slot]).crossings.size(); return;
                     default: subject.bodies = world.bodies(); return;
                   }
                 }};
