@@ -160,10 +160,11 @@ struct StateFields {
   // By others: a, b and touching, as parts of the record. Dropped: what the report writer fills in.
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Contact>& contact) {
-    auto& [a, b, direction, depth, containment, source, iterations, limit_reached, plane_a, plane_b, zone_a, zone_b,
-           kept_facets_a, kept_facets_b, facet_pairs, patches, points, key_a, key_b, touching] = contact;
-    archive(direction, depth, containment, source, iterations, limit_reached, plane_a, plane_b, zone_a, zone_b,
-            kept_facets_a, kept_facets_b);
+    auto& [a, b, direction, depth, containment, source, iterations, limit_reached, point_limit_reached, plane_a,
+           plane_b, zone_a, zone_b, kept_facets_a, kept_facets_b, facet_pairs, patches, points, key_a, key_b,
+           touching] = contact;
+    archive(direction, depth, containment, source, iterations, limit_reached, point_limit_reached, plane_a, plane_b,
+            zone_a, zone_b, kept_facets_a, kept_facets_b);
   }
 
   template <class Archive>
@@ -225,8 +226,9 @@ struct StateFields {
   // By others: body. Of the step before: last_points. Dropped: the cluster pairs and the crossing.
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, SelfRecord>& record) {
-    auto& [body, facet_pairs, points, last_points, may_meet, may_contact, crossing, patches, touching] = record;
-    archive(facet_pairs, points, patches, touching);
+    auto& [body, facet_pairs, points, last_points, may_meet, may_contact, crossing, patches, touching,
+           point_limit_reached] = record;
+    archive(facet_pairs, points, patches, touching, point_limit_reached);
   }
 
   // One body that there is; and into a slot that holds none. Errors: bad_state, and those of World::add_body().

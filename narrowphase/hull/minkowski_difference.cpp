@@ -20,7 +20,7 @@ constexpr double kUnitRoundoff = 0x1p-53;
 // off by four such errors.
 constexpr double kVertexRoundings = 4.0 * 1.05;
 constexpr double kHeightRoundings = (2.0 * 2.0 * 4.0 + 2.0 * 4.0) * 1.05;
-constexpr double kVanishing = 2.0 * std::numeric_limits<double>::denorm_min();
+constexpr double kUnderflow = 2.0 * std::numeric_limits<double>::denorm_min();
 
 constexpr double kSmallBodies = 0x1p900;  // scale from which on what vanishes counts
 
@@ -41,10 +41,10 @@ MinkowskiDifference::MinkowskiDifference(const ClusteredMesh& a, const Clustered
   scale_ = unit_scale(largest);
   size_ = norm(scale_ * reach);
   // size_, not the norm of what it was scaled from, whose squares vanish where bodies are tiny.
-  vertex_height_error_ = kVertexRoundings * kUnitRoundoff * size_ / scale_ + kVanishing;
+  vertex_height_error_ = kVertexRoundings * kUnitRoundoff * size_ / scale_ + kUnderflow;
   height_error_ = kHeightRoundings * kUnitRoundoff * size_;
   // Elsewhere it would not change the last bit, and with a factor that small it takes a hundred cycles.
-  if (scale_ > kSmallBodies || size_ < 1.0) height_error_ += 4.0 * scale_ * kVanishing;
+  if (scale_ > kSmallBodies || size_ < 1.0) height_error_ += 4.0 * scale_ * kUnderflow;
 }
 
 MinkowskiVertex MinkowskiDifference::support(Vec3 direction) const { return support(direction, {}); }

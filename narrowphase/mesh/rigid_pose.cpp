@@ -16,7 +16,7 @@ namespace {
 // besides.
 constexpr double kRoundings = 4e-15;
 constexpr double kLongestRow = 1.0 + 4e-9;
-constexpr double kVanishing = 64.0 * std::numeric_limits<double>::denorm_min();
+constexpr double kUnderflow = 64.0 * std::numeric_limits<double>::denorm_min();
 
 double size_of(const Box& box) {
   double size = 0.0;
@@ -49,7 +49,7 @@ Box RigidPose::box_at(const Pose& pose) const {
   const Vec3 center = placed(pose, center_);
   const double size = size_of(rest_box_);
   for (int axis = 0; axis < 3; ++axis) {
-    const double radius = radius_ * kLongestRow + kRoundings * (size + std::abs(pose.translation[axis])) + kVanishing;
+    const double radius = radius_ * kLongestRow + kRoundings * (size + std::abs(pose.translation[axis])) + kUnderflow;
     box.lower[axis] = std::max(box.lower[axis], center[axis] - radius);
     box.upper[axis] = std::min(box.upper[axis], center[axis] + radius);
   }
