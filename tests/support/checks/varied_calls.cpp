@@ -10,7 +10,7 @@ namespace tact::tests {
 
 namespace {
 
-constexpr std::size_t kMostBodies = 9;
+constexpr std::size_t kMostVaried = 9;
 
 Mesh shape(std::uint64_t seed) {
   switch (seed % 6) {
@@ -100,7 +100,7 @@ void change(tact::World& world, std::uint64_t seed) {
   const int calls = random.below(6);
   for (int i = 0; i < calls; ++i) {
     const std::vector<BodyId> bodies = world.bodies();
-    if (bodies.size() < 3 || (bodies.size() < kMostBodies && random.chance(0.2))) {
+    if (bodies.size() < 3 || (bodies.size() < kMostVaried && random.chance(0.2))) {
       try {
         add(world, random);
       } catch (const Error&) {  // by chance another has its key
