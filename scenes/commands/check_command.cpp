@@ -40,9 +40,10 @@ namespace {
 constexpr const char* kCheckExamples =
     R"(A folder is one moving body: its mesh files in the order of their names, frame_2 before
 frame_10, a file a frame; all folders must hold the same number of frames. A single file
-stands still. All files are read before the first step and held in memory: 24 bytes a
-vertex and frame. A body's name is its file's or folder's name; a repeated one gets #2 and
-so on. Options take a name without its ending, too, where only one body has it.
+stands still.
+All files are read before the first step and held in memory: 24 bytes a vertex and frame.
+A body's name is its file's or folder's name; a repeated one gets #2 and so on. Options
+take a name without its ending, too, where only one body has it.
 
 Examples:
   tact check spot.ply fish.obj

@@ -221,7 +221,7 @@ TEST_F(CheckCommand, FramesHaveNaturalOrderAndTheJsonNamesTheirFiles) {
               Json::array({(fall / ("frame_" + std::to_string(i + 1) + ".obj")).string(), wall.string()}));
     EXPECT_EQ(i > 0 && !frames[i]["first_time"].is_null(), i == 6) << i;
   }
-  EXPECT_EQ(frames[6]["first_time"], 0.5);
+  EXPECT_NEAR(frames[6]["first_time"].get<double>(), 0.5, 1e-6);
   EXPECT_FALSE(check_json({.meshes = {a_, b_}})["frames"][0].contains("files"));
 }
 

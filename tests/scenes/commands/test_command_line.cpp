@@ -163,7 +163,8 @@ TEST_F(CommandLine, OptionsAreNotTakenForValues) {
   expect_refusal("replay r --threads -h", 2, "--threads: its value is missing");
   EXPECT_EQ(run("check a.obj --json=--points").status, 0);
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "--points"));
-  for (const std::string& line : {pile + "--view --no-pictures", "run --size 1 --frames 1 --no-pictures --view pile"}) {
+  for (const std::string& line :
+       {pile + "--view --no-pictures", std::string("run --size 1 --frames 1 --no-pictures --view pile")}) {
     std::filesystem::remove(folder_.path() / "tact-pile.html");
     EXPECT_EQ(run(line).status, 0) << line;
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "tact-pile.html")) << line;

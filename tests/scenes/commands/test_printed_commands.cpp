@@ -1,5 +1,5 @@
 // Every line of a README, of the manual and of --help that calls tact runs as it stands, among files of the names in
-// it. A scene runs for two frames only, at night (TACT_PRINTED_IN_FULL) for as many as it says.
+// it. Scenes are small and run for two frames without pictures; at night (TACT_PRINTED_IN_FULL) as they stand.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -76,10 +76,15 @@ case "$1" in run|view) ;; *) frames= ;; esac
 if [ "$frames" ]; then
   left=$#
   while [ $left -gt 0 ]; do
-    if [ "$1" = --frames ]; then shift; left=$((left - 1)); else set -- "$@" "$1"; fi
+    case "$1" in
+      --frames) shift; left=$((left - 1)) ;;
+      --size) shift; left=$((left - 1)); set -- "$@" --size 8 ;;
+      *) set -- "$@" "$1" ;;
+    esac
     shift; left=$((left - 1))
   done
   set -- "$@" --frames "$frames"
+  [ "$1" = view ] || set -- "$@" --no-pictures
 fi
 exec ')" TACT_PROGRAM R"(' "$@"
 )");
@@ -88,8 +93,9 @@ exec ')" TACT_PROGRAM R"(' "$@"
 
 // The files and folders that a line names. A folder holds three frames.
 void write_files(const tests::TemporaryFolder& folder, const std::string& line) {
-  std::istringstream words(line.substr(0, line.find(" #")));
-  const bool records = line.find("--record") != std::string::npos;
+  const std::string command = line.substr(0, line.find(" #"));
+  std::istringstream words(command);
+  const bool records = command.find("--record") != std::string::npos;
   for (std::string word; words >> word;) {
     if (word.ends_with(".obj")) folder.write(word, kPrintedBall);
     if (word.ends_with(".stl")) folder.write(word, kPrintedStl);
