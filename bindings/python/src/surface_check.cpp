@@ -29,7 +29,7 @@ py::array_t<int> crossings_of(const SurfaceCheck& check) {
 
 SurfaceCheck check_surface(SharedWorld& world, BodyId body, double sliver) {
   SurfaceCheck check;
-  world.compute([&](World& w) { check = w.check_surface(body, sliver); });
+  world.ask([&](const World& w) { check = w.check_surface(body, sliver); });
   return check;
 }
 
