@@ -16,8 +16,9 @@
 // "limit_reached" whether it is only the best that was found before a limit. At Accuracy::hulls every "facet_pairs" is
 // null. `stats` and `times_ms` have the names of <tact/statistics.h>, the times without their "_ms". `impacts` are
 // those since the frame before, sorted by bodies and then by time, where they are requested; `first_time` is null if
-// there is none. `interrupted` is there only if Ctrl-C ended the frames. Numbers read back to the same double. A name
-// that is not UTF-8 has U+FFFD in the place of each wrong byte.
+// there is none. `interrupted` is there only if Ctrl-C ended the frames. Numbers read back to the same double; ids of
+// patches, which may be no double, are 16 hexadecimal digits. A name that is not UTF-8 has U+FFFD in the place of each
+// wrong byte.
 #pragma once
 
 #include <tact/motion.h>
