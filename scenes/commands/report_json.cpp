@@ -89,7 +89,7 @@ Json patches_json(const Contact* contact) {
     for (const int i : patch.spanning) {
       if (i >= 0) spanning.push_back(i);
     }
-    patches.push_back({{"id", patch.id},
+    patches.push_back({{"id", fmt::format("{:016x}", patch.id)},
                        {"point", to_json(patch.point)},
                        {"direction", to_json(patch.direction)},
                        {"depth", patch.depth},

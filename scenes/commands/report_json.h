@@ -21,7 +21,8 @@
 // how many vertices merged with an earlier one, "merged_vertices", and "collapsed_facets"; one of `--surfaces` has its
 // "check", see surface_report.h. A body with itself has `a` equal to `b` and facet pairs; where points are requested
 // "point_limit_reached" tells whether some are missing. `interrupted` is there only if Ctrl-C ended the frames. Numbers
-// read back to the same double. A name that is not UTF-8 has U+FFFD in the place of each wrong byte.
+// read back to the same double; ids of patches, which may be no double, are 16 hexadecimal digits. A name that is not
+// UTF-8 has U+FFFD in the place of each wrong byte.
 #pragma once
 
 #include <tact/motion.h>

@@ -1,7 +1,7 @@
 // Worlds that are saved and restored: into themselves, into fresh ones and into ones with a life of their own, at any
 // moment, they answer as the world that went on, and bytes that are no state of a world are refused.
-//   TACT_LONG_SAVED_SEEDS   sequences of calls for each tuning, 5 if not set
-//   TACT_LONG_STATES        states of any content, 400 if not set
+//   TACT_LONG_SAVED_SEEDS   sequences of calls for each tuning, 3 if not set
+//   TACT_LONG_STATES        states of any content, 200 if not set
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,7 +57,7 @@ class SavedWorlds : public ::testing::TestWithParam<NamedTuning> {};
 
 TEST_P(SavedWorlds, GoOnAsTheWorldThatWasSaved) {
   std::size_t contacts = 0;
-  const std::uint64_t seeds = from_environment("TACT_LONG_SAVED_SEEDS", 5);
+  const std::uint64_t seeds = from_environment("TACT_LONG_SAVED_SEEDS", 3);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     const int begin = 3 + static_cast<int>(seed * 5 % 17), steps = 7;
     const auto world_of = [&](int threads) {
@@ -248,7 +248,7 @@ TEST(SavedStates, AreRefusedWithAnyBitWrong) {
 TEST(SavedStates, AreHarmlessWhateverTheyHold) {
   const Bytes good = rich_state();
   Random random(5);
-  const int states = static_cast<int>(from_environment("TACT_LONG_STATES", 400));
+  const int states = static_cast<int>(from_environment("TACT_LONG_STATES", 200));
   int refused = 0, taken = 0;
   for (int i = 0; i < states; ++i) {
     Bytes bytes = good;
