@@ -639,7 +639,7 @@ class SumKind:
     def __hash__(self) -> int: ...
 
 class ContactSums:
-    """The sum over the points of a contact, a patch or a body. A row a sum."""
+    """The sums of a step. A row a sum."""
 
     @property
     def kinds(self) -> npt.NDArray[np.uint8]:
