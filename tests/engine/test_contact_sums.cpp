@@ -148,7 +148,6 @@ TEST(ContactSums, OfBodiesAreThoseOfLoopsAndInBalance) {
     ++at;
   }
   EXPECT_LT(force.norm(), 1e-10) << "action is reaction";
-  EXPECT_GT(first->normal.z(), 0.0) << "the floor pushes the ball up more than the cloth pushes it down";
 }
 
 TEST(ContactSums, RefuseAnIdTwice) {

@@ -14,6 +14,7 @@ def draped():
     x, first = np.zeros((0, 3)), {}
     for (positions, facets), surface in meshes:
         positions = positions + ([0.01, 0.02, 0.05] if surface == tact.Surface.closed else [0, 0, 0])
+        positions += np.random.default_rng(3).uniform(-2e-3, 2e-3, positions.shape)  # no two features just touch
         first[world.add_body(positions, facets, surface=surface, margin=0.04)] = len(x)
         x = np.concatenate([x, positions])
     return world, world.detect(), x, first

@@ -70,7 +70,7 @@ void define_contact_sums(py::module_& module, WorldClass& world) {
       .value("contact", ContactSum::Kind::contact, "two bodies, or one with itself")
       .value("patch", ContactSum::Kind::patch, "a patch of the contact before it")
       .value("body", ContactSum::Kind::body, "all contacts of `a`; `b` is no body");
-  py::class_<SumArrays>(module, "ContactSums", "The sum over the points of a contact, a patch or a body. A row a sum.")
+  py::class_<SumArrays>(module, "ContactSums", "The sums of a step. A row a sum.")
       .def_readonly("kinds", &SumArrays::kinds, "(N,) uint8: values of SumKind")
       .def_readonly("bodies", &SumArrays::bodies, "(N, 2) int64: BodyId.index of a and b; -1 for no body")
       .def_readonly("patches", &SumArrays::patches, "(N,) uint64: the id of the patch, or 0")

@@ -1,5 +1,6 @@
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
+#include <pybind11/stl.h>
 #include <tact/rotation.h>
 
 #include <string>

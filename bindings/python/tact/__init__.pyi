@@ -633,6 +633,68 @@ class DebugDrawOptions:
     word: DebugColor
     def __init__(self, **options: bool | DebugColor) -> None: ...
 
+class SumKind:
+    """What a sum is over."""
+
+    contact: ClassVar[SumKind]
+    patch: ClassVar[SumKind]
+    body: ClassVar[SumKind]
+    name: str
+    value: int
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+
+class ContactSums:
+    """The sums of a step. A row a sum."""
+
+    @property
+    def kinds(self) -> npt.NDArray[np.uint8]:
+        """(N,): values of SumKind"""
+    @property
+    def bodies(self) -> npt.NDArray[np.int64]:
+        """(N, 2): BodyId.index of a and b; -1 for no body"""
+    @property
+    def patches(self) -> npt.NDArray[np.uint64]:
+        """(N,): the id of the patch, or 0"""
+    @property
+    def points(self) -> Ints:
+        """(N,): the number of contact points"""
+    @property
+    def areas(self) -> Floats:
+        """(N,): the areas of the patches, square metres; 0 where Settings.patches is not set"""
+    @property
+    def deepest_gaps(self) -> Floats:
+        """(N,): the smallest gap, metres; infinity without points"""
+    @property
+    def mean_gaps(self) -> Floats:
+        """(N,): metres"""
+    @property
+    def centers(self) -> Floats:
+        """(N, 3): the mean place of its points, metres"""
+    @property
+    def normals(self) -> Floats:
+        """(N, 3): the mean of the normals towards `b`, or towards the body of a sum over a body; shorter than 1 where they differ"""
+    @property
+    def forces(self) -> Floats:
+        """(N, 3): the sum of the impulses on `b`, or on the body"""
+    @property
+    def torques(self) -> Floats:
+        """(N, 3): their moment about `center`"""
+    @property
+    def first_vertices(self) -> npt.NDArray[np.int64]:
+        """(N + 1,): where the vertices of each sum begin in `vertices`, and the end"""
+    @property
+    def vertices(self) -> npt.NDArray[np.int64]:
+        """(M, 2): BodyId.index and vertex, of each sum each once, in order"""
+    def __len__(self) -> int: ...
+
+def nearest_rotation(matrix: npt.ArrayLike) -> Floats:
+    """(3, 3) or (N, 3, 3): the rotation nearest to a matrix that is orthonormal to 1e-5"""
+
+def rotation_of_quaternion(quaternion: npt.ArrayLike) -> Floats:
+    """(3, 3) or (N, 3, 3) of (4,) or (N, 4): the rotation of a quaternion x, y, z, w"""
+
 class SurfaceComponent:
     """Facets that are joined by edges."""
 
@@ -683,68 +745,6 @@ class SurfaceCheck:
         """whether it bounds a solid: every component is closed, and none is inside out"""
     def is_clean(self) -> bool:
         """whether every list of faults is empty; borders are none, nor are unused vertices"""
-
-class SumKind:
-    """What a sum is over."""
-
-    contact: ClassVar[SumKind]
-    patch: ClassVar[SumKind]
-    body: ClassVar[SumKind]
-    name: str
-    value: int
-    def __init__(self, value: int) -> None: ...
-    def __int__(self) -> int: ...
-    def __hash__(self) -> int: ...
-
-class ContactSums:
-    """The sum over the points of a contact, a patch or a body. A row a sum."""
-
-    @property
-    def kinds(self) -> npt.NDArray[np.uint8]:
-        """(N,): values of SumKind"""
-    @property
-    def bodies(self) -> npt.NDArray[np.int64]:
-        """(N, 2): BodyId.index of a and b; -1 for no body"""
-    @property
-    def patches(self) -> npt.NDArray[np.uint64]:
-        """(N,): the id of the patch, or 0"""
-    @property
-    def points(self) -> Ints:
-        """(N,): the number of contact points"""
-    @property
-    def areas(self) -> Floats:
-        """(N,): the areas of the patches, square metres; 0 where Settings.patches is not set"""
-    @property
-    def deepest_gaps(self) -> Floats:
-        """(N,): the smallest gap, metres; infinity without points"""
-    @property
-    def mean_gaps(self) -> Floats:
-        """(N,): metres"""
-    @property
-    def centers(self) -> Floats:
-        """(N, 3): the mean place of its points, metres"""
-    @property
-    def normals(self) -> Floats:
-        """(N, 3): the mean of the normals towards `b`, or towards the body of a sum over a body; shorter than 1 where they differ"""
-    @property
-    def forces(self) -> Floats:
-        """(N, 3): the sum of the impulses on `b`, or on the body"""
-    @property
-    def torques(self) -> Floats:
-        """(N, 3): their moment about `center`"""
-    @property
-    def first_vertices(self) -> npt.NDArray[np.int64]:
-        """(N + 1,): where the vertices of each sum begin in `vertices`, and the end"""
-    @property
-    def vertices(self) -> npt.NDArray[np.int64]:
-        """(M, 2): BodyId.index and vertex, of each sum each once, in order"""
-    def __len__(self) -> int: ...
-
-def nearest_rotation(matrix: npt.ArrayLike) -> Floats:
-    """(3, 3) or (N, 3, 3): the rotation nearest to a matrix that is orthonormal to 1e-5"""
-
-def rotation_of_quaternion(quaternion: npt.ArrayLike) -> Floats:
-    """(3, 3) or (N, 3, 3) of (4,) or (N, 4): the rotation of a quaternion x, y, z, w"""
 
 class World:
     """A set of bodies and the contacts among them."""
