@@ -60,6 +60,15 @@ Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double 
   for (const auto& corners : polygon.corner) {
     for (int i = 0; i < count_; ++i) largest = std::max(largest, largest_size(heads(corners[i])));
   }
+  // Lengths so short that no double scales them to near 1 are scaled twice.
+  constexpr double kShort = 0x1p-1000;
+  if (largest > 0.0 && largest < kShort) {
+    MovingPolygon longer = polygon;
+    for (auto& corners : longer.corner) {
+      for (int i = 0; i < count_; ++i) corners[i] = scaled(corners[i], 1.0 / kShort);
+    }
+    return first(longer, reach / kShort, latest);
+  }
   scale_ = unit_scale(largest);
   for (int time = 0; time < 2; ++time) {
     for (int i = 0; i < count_; ++i) at_[time][i] = scale_ * heads(polygon.corner[time][i]);

@@ -21,7 +21,7 @@ enum class Impacts {
 };
 
 /// A vertex and a facet, or two edges, that meet between the last step and now. With margins they meet where they come
-/// as near as the sum of these; the manual draws the rule for features that begin nearer, and tells what is proved.
+/// as near as the sum of these; the manual draws the rule for features that begin nearer.
 struct Impact {
   BodyId a;                                      ///< its key is below that of b; equal to b for a body with itself
   BodyId b;                                      ///< the second body

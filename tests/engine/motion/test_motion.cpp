@@ -316,6 +316,33 @@ TEST(DetectMotion, SteadyStepsAllocateNothing) {
   EXPECT_EQ(allocations_of_step(), 0);
 }
 
+// A vertex that flies through a facet, and one that misses it by a whole size, in any unit.
+TEST(DetectMotion, FindsSubnormalImpactsAtTheirTime) {
+  Eigen::Matrix3Xd wall(3, 3), hits(3, 3);
+  wall << 0, 4, 0, 0, 0, 4, 0, 0, 0;
+  hits << 1, 2, 1, 1, 1, 2, 4, 5, 5;
+  const Eigen::Matrix3Xi facet = Eigen::Vector3i(0, 1, 2);
+  for (const int power : {0, 900, 1000, 1020, 1022, 1030, 1040, 1060, 1070}) {
+    for (const double miss : {0.0, 8.0}) {
+      const double unit = std::ldexp(1.0, -power);
+      Eigen::Matrix3Xd begin = hits;
+      begin.row(0).array() += miss;
+      Eigen::Matrix3Xd end = begin;
+      end.row(2).array() -= 8.0;
+      World world({.threads = 1});
+      world.add_body({.positions = unit * wall, .facets = facet, .surface = Surface::sheet});
+      const BodyId flying = world.add_body({.positions = unit * begin, .facets = facet, .surface = Surface::sheet});
+      world.detect();
+      world.set_positions(flying, unit * end);
+      const MotionReport& report = world.detect_motion();
+      EXPECT_EQ(report.impacts().size(), miss == 0.0 ? 3u : 0u) << power;
+      if (miss == 0.0) {
+        EXPECT_NEAR(report.first_time(), 0.5, 1e-6) << power;
+      }
+    }
+  }
+}
+
 TEST(DetectMotion, RefusesWhatIsNoName) {
   tact::World world;
   try {
