@@ -1,6 +1,7 @@
 #include "scenes/view/view_page.h"
 
 #include <fmt/format.h>
+#include <tact/report_arrays.h>
 #include <tact/version.h>
 
 #include <algorithm>
@@ -89,12 +90,6 @@ Json column_json(const std::vector<std::optional<double>>& values) {
   return column;
 }
 
-std::int64_t point_count(const Report& report) {
-  std::size_t count = 0;
-  for (const Contact& contact : report.contacts()) count += contact.points().size();
-  return static_cast<std::int64_t>(count);
-}
-
 std::optional<double> least_gap(const Report& report) {
   std::optional<double> least;
   for (const Contact& contact : report.contacts()) {
@@ -159,7 +154,7 @@ void ViewPage::add_step(int step, std::optional<double> time, const World& world
   columns_.step.push_back(step);
   columns_.time.push_back(time);
   columns_.hash.push_back(hash_text(report));
-  columns_.points.push_back(point_count(report));
+  columns_.points.push_back(static_cast<std::int64_t>(point_count(report)));
   columns_.least_gap.push_back(least_gap(report));
   columns_.stats.push_back(report.stats());
   write_frame(report);

@@ -60,7 +60,7 @@ SumArrays sum_contacts_of(SharedWorld& world, const OfReport<Report>& report, co
   std::vector<PointImpulse> given;
   for (py::ssize_t i = 0; i < ids.size(); ++i)
     given.push_back({ids.data()[i], Eigen::Map<const Eigen::Vector3d>(impulses.data() + 3 * i)});
-  return arrays_of(sum_contacts(world.read(), *report, given));
+  return arrays_of(sum_contacts(world.read(), *report.held(), given));
 }
 
 }  // namespace

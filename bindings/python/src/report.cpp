@@ -188,7 +188,8 @@ void protect(Arrays&... arrays) {
 void widen(std::span<const std::uint32_t> from, std::span<std::int64_t> to) { std::ranges::copy(from, to.begin()); }
 
 AllPoints all_points(const ReportHandle& report) {
-  const std::size_t count = point_count(*report);
+  const auto held = report.held();
+  const std::size_t count = point_count(*held);
   const auto n = static_cast<py::ssize_t>(count);
   const std::array<py::ssize_t, 2> two{n, 2}, three{n, 3};
   std::vector<std::uint32_t> bodies(2 * count);
@@ -196,17 +197,17 @@ AllPoints all_points(const ReportHandle& report) {
                 py::array_t<int>(three),        py::array_t<int>(three),      py::array_t<double>(three),
                 py::array_t<double>(three),     py::array_t<double>(three),   py::array_t<double>(n),
                 py::array_t<std::uint64_t>(n),  py::array_t<std::uint64_t>(n)};
-  copy_points(*report, {.bodies = bodies,
-                        .contacts = all_of(all.contacts),
-                        .kinds = all_of(all.kinds),
-                        .a_vertices = all_of(all.a_vertices),
-                        .b_vertices = all_of(all.b_vertices),
-                        .a_weights = all_of(all.a_weights),
-                        .b_weights = all_of(all.b_weights),
-                        .normals = all_of(all.normals),
-                        .gaps = all_of(all.gaps),
-                        .ids = all_of(all.ids),
-                        .patch_ids = all_of(all.patch_ids)});
+  copy_points(*held, {.bodies = bodies,
+                      .contacts = all_of(all.contacts),
+                      .kinds = all_of(all.kinds),
+                      .a_vertices = all_of(all.a_vertices),
+                      .b_vertices = all_of(all.b_vertices),
+                      .a_weights = all_of(all.a_weights),
+                      .b_weights = all_of(all.b_weights),
+                      .normals = all_of(all.normals),
+                      .gaps = all_of(all.gaps),
+                      .ids = all_of(all.ids),
+                      .patch_ids = all_of(all.patch_ids)});
   widen(bodies, all_of(all.bodies));
   protect(all.bodies, all.contacts, all.kinds, all.a_vertices, all.b_vertices, all.a_weights, all.b_weights,
           all.normals, all.gaps, all.ids, all.patch_ids);
@@ -214,12 +215,13 @@ AllPoints all_points(const ReportHandle& report) {
 }
 
 AllFacetPairs all_facet_pairs(const ReportHandle& report) {
-  const std::size_t count = facet_pair_count(*report);
+  const auto held = report.held();
+  const std::size_t count = facet_pair_count(*held);
   const auto n = static_cast<py::ssize_t>(count);
   const std::array<py::ssize_t, 2> two{n, 2};
   std::vector<std::uint32_t> bodies(2 * count);
   AllFacetPairs all{py::array_t<std::int64_t>(two), py::array_t<int>(n), py::array_t<int>(two)};
-  copy_facet_pairs(*report, {.bodies = bodies, .contacts = all_of(all.contacts), .facets = all_of(all.facets)});
+  copy_facet_pairs(*held, {.bodies = bodies, .contacts = all_of(all.contacts), .facets = all_of(all.facets)});
   widen(bodies, all_of(all.bodies));
   protect(all.bodies, all.contacts, all.facets);
   return all;

@@ -25,29 +25,34 @@ struct Stencils {
 };
 
 Stencils stencils_of(const OfReport<Report>& report, const std::unordered_map<BodyId, int>& first_rows) {
+  const auto held = report.held();
   std::vector<int> by_index;
   for (const auto& [body, row] : first_rows) {
     if (row < 0) throw py::value_error("a first row is negative");
     if (body.index >= by_index.size()) by_index.resize(body.index + std::size_t{1}, -1);
     by_index[body.index] = row;
   }
-  for (const Contact& contact : report->contacts()) {
+  for (const Contact& contact : held->contacts()) {
     for (const BodyId body : {contact.a, contact.b})
       if (!contact.points().empty() && !first_rows.contains(body))
         throw py::key_error("the body of index " + std::to_string(body.index) + " has no first row");
   }
-  Stencils stencils{solver::stencils(*report, by_index)};
+  Stencils stencils{solver::stencils(*held, by_index)};
   for (const Stencil& stencil : stencils.all)
     stencils.last = std::max(stencils.last, *std::ranges::max_element(stencil.vertices));
   return stencils;
 }
 
 // A value of three numbers for every vertex of the stencils.
-PositionsArgument::Map checked(const Stencils& stencils, const PositionsArgument& values) {
-  if (values.matrix().cols() <= stencils.last)
-    throw py::value_error("there are " + std::to_string(values.matrix().cols()) + " rows, but vertex " +
+Eigen::Matrix3Xd checked(const Stencils& stencils, py::handle given, const std::string& what) {
+  const PositionsArgument argument(given, what);
+  const Positions values = argument.columns();
+  if (values.cols() <= stencils.last)
+    throw py::value_error(what + " has " + std::to_string(values.cols()) + " rows, but vertex " +
                           std::to_string(stencils.last) + " is in a stencil");
-  return values.matrix();
+  Eigen::Matrix3Xd matrix(3, values.cols());
+  for (std::ptrdiff_t i = 0; i < values.cols(); ++i) matrix.col(i) = Eigen::Vector3d(values.column(i).data());
+  return matrix;
 }
 
 // term(stencil, its number) of each.
@@ -68,16 +73,15 @@ Terms terms_of(const Stencils& stencils, const TermOf& term_of) {
 }
 
 Terms gaps(const Stencils& stencils, py::handle positions) {
-  const PositionsArgument given(positions);
-  const auto x = checked(stencils, given);
+  const Eigen::Matrix3Xd x = checked(stencils, positions, "positions");
   return terms_of(stencils, [&](const Stencil& stencil, std::size_t) {
     return solver::gap_of(stencil, solver::gather(stencil, x)).distance;
   });
 }
 
 Terms barriers(const Stencils& stencils, py::handle positions, double reach, py::handle rest) {
-  const PositionsArgument given(positions), at_rest(rest.is_none() ? positions : rest);
-  const auto x = checked(stencils, given), unloaded = checked(stencils, at_rest);
+  const Eigen::Matrix3Xd x = checked(stencils, positions, "positions"),
+                         unloaded = rest.is_none() ? x : checked(stencils, rest, "rest");
   return terms_of(stencils, [&](const Stencil& stencil, std::size_t) {
     const double threshold = rest.is_none() ? 0.0 : solver::mollifier_threshold(solver::gather(stencil, unloaded));
     return solver::projected(solver::barrier_term(stencil, solver::gather(stencil, x), reach, threshold));
@@ -85,16 +89,14 @@ Terms barriers(const Stencils& stencils, py::handle positions, double reach, py:
 }
 
 Terms penalties(const Stencils& stencils, py::handle positions, double reach) {
-  const PositionsArgument given(positions);
-  const auto x = checked(stencils, given);
+  const Eigen::Matrix3Xd x = checked(stencils, positions, "positions");
   return terms_of(stencils, [&](const Stencil& stencil, std::size_t) {
     return solver::projected(solver::penalty_term(stencil, solver::gather(stencil, x), reach));
   });
 }
 
 Terms friction(const Stencils& stencils, py::handle moved, const std::vector<double>& limits, double smoothing) {
-  const PositionsArgument given(moved);
-  const auto way = checked(stencils, given);
+  const Eigen::Matrix3Xd way = checked(stencils, moved, "moved");
   if (limits.size() != stencils.all.size()) throw py::value_error("limits has not a number for each stencil");
   return terms_of(stencils, [&](const Stencil& stencil, std::size_t i) {
     return solver::friction_term(stencil, solver::tangents(stencil.normal), solver::gather(stencil, way), limits[i],
