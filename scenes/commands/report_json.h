@@ -17,8 +17,8 @@
 // null. `stats` and `times_ms` have the names of <tact/statistics.h>, the times without their "_ms". `impacts` are
 // those since the frame before, sorted by bodies and then by time, where they are requested; `first_time` is null if
 // there is none. A body with itself has `a` equal to `b` and facet pairs; where points are requested
-// "point_limit_reached" tells whether some are missing. `interrupted` is there only if Ctrl-C ended the frames. Numbers read back to the same double. A name
-// that is not UTF-8 has U+FFFD in the place of each wrong byte.
+// "point_limit_reached" tells whether some are missing. `interrupted` is there only if Ctrl-C ended the frames. Numbers
+// read back to the same double. A name that is not UTF-8 has U+FFFD in the place of each wrong byte.
 #pragma once
 
 #include <tact/motion.h>
