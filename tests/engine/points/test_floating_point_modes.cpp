@@ -88,7 +88,7 @@ TEST(FloatingPointModes, OfTheCallerChangeNoMargin) {
 }
 
 // Everything that a program is told, in one list.
-class Told final : public DebugDrawer {
+class AllThatIsTold final : public DebugDrawer {
  public:
   std::vector<std::uint64_t> words;
   std::vector<std::pair<std::size_t, std::string>> parts;  // where they begin
@@ -166,7 +166,7 @@ class EveryCall {
     }
   }
 
-  const Told& run() {
+  const AllThatIsTold& run() {
     std::ostringstream recording;
     Recorder recorder = call([&] { return Recorder(recording); });
     World world = call([&] { return World(settings_); });
@@ -357,17 +357,17 @@ class EveryCall {
   std::vector<PointQuery> points_;
   std::vector<BoxQuery> boxes_;
   std::vector<BodyId> bodies_;
-  Told told_;
+  AllThatIsTold told_;
 };
 
 TEST(FloatingPointModes, OfTheCallerChangeNoAnswerOfAnyFunction) {
   EveryCall plain({}, 1);
-  const Told& expected = plain.run();
+  const AllThatIsTold& expected = plain.run();
   EXPECT_GT(expected.words.size(), 10000u);
   for (const FloatingPointSettings& mode : callers_modes()) {
     for (int threads = 1; threads <= (mode.traps || mode.rounding == FE_UPWARD ? 2 : 1); ++threads) {
       EveryCall calls(mode, threads);
-      const Told& told = calls.run();
+      const AllThatIsTold& told = calls.run();
       const auto [one, other] = std::ranges::mismatch(told.words, expected.words);
       const auto word = static_cast<std::size_t>(other - expected.words.begin());
       EXPECT_TRUE(one == told.words.end() && other == expected.words.end())

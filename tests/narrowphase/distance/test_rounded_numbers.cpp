@@ -14,15 +14,15 @@ namespace {
 using tests::Random;
 
 // From 1e-20 to 1.
-double any_size(Random& random) { return std::pow(10.0, -random.uniform(0.0, 20.0)); }
+double size_below_one(Random& random) { return std::pow(10.0, -random.uniform(0.0, 20.0)); }
 
 // Wide, narrow, small, in line, or at whole numbers.
 Triangle any_facet(Random& random) {
   Triangle t{random.in_cube(1.0), random.in_cube(1.0), random.in_cube(1.0)};
   switch (random.below(5)) {
-    case 0: t[2] = t[0] + 0.3 * (t[1] - t[0]) + any_size(random) * random.in_cube(1.0); break;
+    case 0: t[2] = t[0] + 0.3 * (t[1] - t[0]) + size_below_one(random) * random.in_cube(1.0); break;
     case 1:
-      for (std::size_t k = 1; k < 3; ++k) t[k] = t[0] + any_size(random) * random.in_cube(1.0);
+      for (std::size_t k = 1; k < 3; ++k) t[k] = t[0] + size_below_one(random) * random.in_cube(1.0);
       break;
     case 2: t[2] = random.chance(0.5) ? t[1] : 2.0 * t[1] - t[0]; break;
     case 3:
@@ -42,7 +42,7 @@ Vec3 place_in(const Triangle& t, Random& random) {
 Vec3 any_point(const Triangle& t, Random& random) {
   switch (random.below(5)) {
     case 0: return place_in(t, random);
-    case 1: return place_in(t, random) + any_size(random) * random.in_cube(1.0);
+    case 1: return place_in(t, random) + size_below_one(random) * random.in_cube(1.0);
     case 2: return {1.0 * random.below(17) - 8, 1.0 * random.below(17) - 8, 1.0 * random.below(17) - 8};
     case 3: return 1e3 * random.in_cube(1.0);
     default: return 2.0 * random.in_cube(1.0);
