@@ -95,6 +95,13 @@ TEST_F(RecordingInC, WrongUse) {
   EXPECT_EQ(tact_world_record(world_, path_.c_str()), TACT_ERROR_WRONG_ORDER);
 }
 
+// Reading one throws out of a stream iterator, which was an internal error.
+TEST_F(RecordingInC, AFolderIsNoRecording) {
+  tact_player player = {0};
+  EXPECT_EQ(tact_player_open("/", -1, &player), TACT_ERROR_FILE);
+  EXPECT_STREQ(tact_last_error_message(), "the recording is a folder");
+}
+
 TEST_F(RecordingInC, MeshesAreReadBack) {
   const Mesh ball = icosphere(1);
   const tact_body body = add(world_, ball, "ball");
