@@ -13,7 +13,7 @@ import tact
 
 SIDE, EDGE, MARGIN = 3, 0.3, 0.01  # vertices along an edge of a cube, metres, metres
 MASS, SPRING, PENALTY, FRICTION = 0.05, 2e3, 5e3, 0.5  # a vertex, kg; N/m; N/m
-STEP, DAMPING = 1 / 120, 1e-2  # seconds
+STEP, DAMPING = 1 / 120, 5e-3  # seconds
 
 
 def lattice():
@@ -48,6 +48,11 @@ def entries(vertices, hessians):
     return np.repeat(rows, rows.shape[1], 1).ravel(), np.tile(rows, (1, rows.shape[1])).ravel(), hessians.ravel()
 
 
+def matrix(*parts, size):
+    rows, columns, values = (np.concatenate(arrays) for arrays in zip(*parts))
+    return sparse.coo_matrix((values, (rows, columns)), shape=(size, size)).tocsc()
+
+
 def main(steps=200):
     cube, facets, pairs = lattice()
     offsets = np.array([[0, 0, 0.05], [0.04, 0.03, 0.4], [-0.03, 0.02, 0.75]])
@@ -72,11 +77,10 @@ def main(steps=200):
         of_springs, spring_stiffness = spring_terms(x, springs, lengths)
         gradient = stencils.add_gradients(PENALTY * pushes + drags, moving) + [0, 0, 9.81 * MASS]
         np.add.at(gradient, springs, of_springs)
-        parts = entries(springs, spring_stiffness), stencils.triplets(PENALTY * stiffness + slowing, moving)
-        rows, columns, values = (np.concatenate(arrays) for arrays in zip(*parts))
-        hessian = sparse.coo_matrix((values, (rows, columns)), shape=(3 * moving, 3 * moving)).tocsc()
-        system = sparse.identity(3 * moving, format="csc") * MASS + (STEP**2 + STEP * DAMPING) * hessian
-        force = gradient.ravel() + STEP * (hessian @ velocity.ravel())
+        elastic = matrix(entries(springs, spring_stiffness), stencils.triplets(PENALTY * stiffness, moving), size=3 * moving)
+        system = (STEP**2 + STEP * DAMPING) * elastic + STEP**2 * matrix(stencils.triplets(slowing, moving), size=3 * moving)
+        system += MASS * sparse.identity(3 * moving, format="csc")
+        force = gradient.ravel() + (STEP + DAMPING) * (elastic @ velocity.ravel())
         velocity += linalg.spsolve(system, -STEP * force).reshape(-1, 3)
         x[:moving] += STEP * velocity
         # [part step]
