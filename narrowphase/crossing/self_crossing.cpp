@@ -10,15 +10,27 @@ const Crossing& SelfCrossing::find(const SelfCrossingInput& input) {
   crossing_.of_itself = true;
   crossing_.reach = own.scale * input.reach;
   if (exits_ == nullptr) exits_ = std::make_unique<PartExitFinder>(*input.mesh.mesh);
-  own.cut.begin(own.mesh, input.facet_pairs, Cut::Which::both);
-  edge_hits_.run(own.mesh, own.mesh, input.facet_pairs, own.cut.edge_hits(), own.cut.edge_hits());
+  take_pairs(input);
+  own.cut.begin(own.mesh, pairs_, Cut::Which::both);
+  edge_hits_.run(own.mesh, own.mesh, pairs_, own.cut.edge_hits(), own.cut.edge_hits());
   own.cut.order_hits();
   crossing_.within = longest_exit();
   const ScaledMesh mesh = own.scaled();
-  crossing_.sides.find(mesh, own.surface, input.facet_pairs, input.last, own.cut.hits());
+  crossing_.sides.find(mesh, own.surface, pairs_, input.last, own.cut.hits());
   spread_.begin(own, mesh, kFaces, [&](const EdgeHit& hit, std::size_t) { return crossing_.side_of(hit); });
   spread_.run(own, mesh, [&](const ReachedVertex& one) { return exit_of(one); });
   return crossing_;
+}
+
+void SelfCrossing::take_pairs(const SelfCrossingInput& input) {
+  pairs_.clear();
+  const auto corners = [&](int source_facet) {
+    return input.mesh.features->corners(input.mesh.mesh->facet_of_source(source_facet));
+  };
+  for (const FacetPair& pair : input.facet_pairs) {
+    const Corners a = corners(pair.a), b = corners(pair.b);
+    if (std::ranges::find_first_of(a, b) == a.end()) pairs_.push_back(pair);
+  }
 }
 
 double SelfCrossing::longest_exit() const {

@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "narrowphase/crossing/crossing.h"
 #include "narrowphase/crossing/part_exit.h"
@@ -41,10 +42,12 @@ class SelfCrossing {
   const Crossing& find(const SelfCrossingInput& input);
 
  private:
+  void take_pairs(const SelfCrossingInput& input);
   double longest_exit() const;
   std::optional<NearestExit> exit_of(const ReachedVertex& reached);
 
   Crossing crossing_;
+  std::vector<FacetPair> pairs_;  // of facets that share no vertex
   std::unique_ptr<PartExitFinder> exits_;
   EdgeHitSearch edge_hits_;
   SpreadPast spread_;

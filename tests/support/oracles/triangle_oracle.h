@@ -20,4 +20,9 @@ bool cgal_meet(const Triangle& a, const Triangle& b);
 // The same with rational coordinates throughout: slower, and independent of CGAL's floating-point filters.
 bool rational_meet(const Triangle& a, const Triangle& b);
 
+// Do triangles whose first `common` corners, 1 to 3, are the same share more than these and the edge between two of
+// them? By what CGAL constructs as their intersection, in rational coordinates. Where all three are common, they do if
+// they have an area.
+bool rational_meet_beyond(const Triangle& a, const Triangle& b, int common);
+
 }  // namespace tact::tests
