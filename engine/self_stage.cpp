@@ -79,7 +79,8 @@ void SelfStage::find_facet_pairs(const Bodies& bodies, const Settings& settings,
   const auto search = [&](const SelfRecord& record, std::size_t begin, std::size_t end, std::vector<FacetPair>& found,
                           int thread) {
     found.clear();
-    work_[thread].search.run(mesh_of(record), std::span(record.may_meet).subspan(begin, end - begin), tuning, found);
+    work_[thread].search.run(mesh_of(record), bodies.neighbors(record.body.index).fans(),
+                             std::span(record.may_meet).subspan(begin, end - begin), tuning, found);
   };
   const auto prepare = [&](std::size_t i, int thread, int threads) {
     SelfRecord*& record = looked_at_[i];

@@ -60,7 +60,8 @@ std::unique_ptr<Rival> make_bullet_gimpact(const Workload& workload, int threads
 // All but tact.
 std::vector<RivalKind> all_rivals();
 
-// Facets of one body that share no vertex and meet: the bodies of a workload against themselves alone.
+// Facets of one body that name no common vertex and meet, which all of these find: the bodies of a workload against
+// themselves alone. What neighbours share beyond their vertices, tact alone and CGAL look at, in the time that is told.
 std::unique_ptr<Rival> make_tact_self(const Workload& workload, int threads);
 std::unique_ptr<Rival> make_embree_self(const Workload& workload, int threads);
 std::unique_ptr<Rival> make_embree_self_plain(const Workload& workload, int threads);

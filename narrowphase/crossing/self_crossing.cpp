@@ -10,12 +10,13 @@ const Crossing& SelfCrossing::find(const SelfCrossingInput& input) {
   crossing_.of_itself = true;
   crossing_.reach = own.scale * input.reach;
   if (exits_ == nullptr) exits_ = std::make_unique<PartExitFinder>(*input.mesh.mesh);
-  own.cut.begin(own.mesh, input.facet_pairs, Cut::Which::both);
-  edge_hits_.run(own.mesh, own.mesh, input.facet_pairs, own.cut.edge_hits(), own.cut.edge_hits());
+  take_pairs(input);
+  own.cut.begin(own.mesh, pairs_, Cut::Which::both);
+  edge_hits_.run(own.mesh, own.mesh, pairs_, own.cut.edge_hits(), own.cut.edge_hits());
   own.cut.order_hits();
   crossing_.within = longest_exit();
   const ScaledMesh mesh = own.scaled();
-  crossing_.sides.find(mesh, own.surface, input.facet_pairs, input.last, own.cut.hits());
+  crossing_.sides.find(mesh, own.surface, pairs_, input.last, own.cut.hits());
   too_far_.clear();
   spread_.begin(own, mesh, kFaces, [&](const EdgeHit& hit, std::size_t) { return crossing_.side_of(hit); });
   spread_.run(own, mesh, [&](const ReachedVertex& one) { return exit_of(one); });
@@ -26,6 +27,17 @@ const Crossing& SelfCrossing::find(const SelfCrossingInput& input) {
 // A vertex that was reached in another way may have an exit all the same.
 bool SelfCrossing::any_too_far() const {
   return std::ranges::any_of(too_far_, [&](int vertex) { return crossing_.a().exits.find(vertex) == nullptr; });
+}
+
+void SelfCrossing::take_pairs(const SelfCrossingInput& input) {
+  pairs_.clear();
+  const auto corners = [&](int source_facet) {
+    return input.mesh.features->corners(input.mesh.mesh->facet_of_source(source_facet));
+  };
+  for (const FacetPair& pair : input.facet_pairs) {
+    const Corners a = corners(pair.a), b = corners(pair.b);
+    if (std::ranges::find_first_of(a, b) == a.end()) pairs_.push_back(pair);
+  }
 }
 
 double SelfCrossing::longest_exit() const {

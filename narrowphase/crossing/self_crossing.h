@@ -42,11 +42,13 @@ class SelfCrossing {
   const Crossing& find(const SelfCrossingInput& input);
 
  private:
+  void take_pairs(const SelfCrossingInput& input);
   double longest_exit() const;
   bool any_too_far() const;
   std::optional<NearestExit> exit_of(const ReachedVertex& reached);
 
   Crossing crossing_;
+  std::vector<FacetPair> pairs_;  // of facets that share no vertex
   std::unique_ptr<PartExitFinder> exits_;
   EdgeHitSearch edge_hits_;
   SpreadPast spread_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "narrowphase/motion/contact_on_way.h"
 #include "narrowphase/numeric/unit_scale.h"
 #include "narrowphase/pairs/box_reach.h"
 #include "narrowphase/pairs/open_clusters.h"
@@ -153,6 +154,7 @@ struct SearchMemory {
   NearFeatures near_a, near_b;
   Waiting facets, edges;
   MeetingSearch meeting;
+  ContactOnWay contact;
 };
 
 // The search among the clusters of two meshes.
@@ -291,10 +293,21 @@ class ImpactSearch {
     for (; left != 0; left &= left - 1) {
       const double latest = first_ != nullptr ? first_->load(std::memory_order_relaxed) : 1.0;
       const auto& pair = waiting.pair[std::countr_zero(left)];
-      const Meeting meeting = memory_.meeting.first(polygon(pair.kind, pair.a, pair.b), reach_, latest);
+      const MovingPolygon features = polygon(pair.kind, pair.a, pair.b);
+      Meeting meeting = memory_.meeting.first(features, reach_, latest);
       counts_.spans += meeting.spans;
+      if (same_ && reach_ > 0.0 && meeting.time <= 1.0 && !is_contact(pair.kind, pair.a, pair.b, meeting.time)) {
+        meeting = memory_.meeting.first(features, 0.0, latest);
+        counts_.spans += meeting.spans;
+      }
       if (meeting.time <= 1.0) add(pair.kind, pair.a, pair.b, meeting.time);
     }
+  }
+
+  // Of one mesh.
+  bool is_contact(FeaturePair kind, int a, int b, double time) const {
+    return kind == FeaturePair::edge_edge ? memory_.contact.of_edges(a_, scale_, time, scaled_reach_, a, b)
+                                          : memory_.contact.of_vertex(a_, scale_, time, scaled_reach_, a, b);
   }
 
   MovingPolygon polygon(FeaturePair kind, int a, int b) const {

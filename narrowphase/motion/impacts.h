@@ -74,9 +74,10 @@ class ImpactFinder {
   void begin(const Box& all);
 
   /// Appends the impacts of some cluster pairs of `a` and `b`, which may be one mesh, in no particular order. All
-  /// cluster pairs together give each impact once. Features meet that come within `reach` of each other. If only the
-  /// first impact is wanted, `first` is not null: it falls to the time of what is found, and later impacts may be left
-  /// out. Give the cluster pairs that come first first.
+  /// cluster pairs together give each impact once. Features meet that come within `reach` of each other; those of one
+  /// mesh that are no contact there meet where they share a point: contact_on_way.h. If only the first impact is
+  /// wanted, `first` is not null: it falls to the time of what is found, and later impacts may be left out. Give the
+  /// cluster pairs that come first first.
   void run(const MovingMesh& a, const MovingMesh& b, double reach, std::span<const ClusterPair> pairs,
            std::atomic<double>* first, std::vector<FeatureImpact>& found, MotionCounts& counts);
 

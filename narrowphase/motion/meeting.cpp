@@ -19,6 +19,7 @@ constexpr double kDotRounding = 0x1p-46;
 // product by 56 u (e + f) + 4 u ef, its product with a corner by 340 u (e + f) + 130 u ef, and a reach of 4 times its
 // length by 390 u (e + f) + 60 u ef: together less than 2^-43 (e + f + ef).
 constexpr double kVolumeRounding = 0x1p-43;
+constexpr double kNotAsFar = 0x1p-30;  // of the squared distance, beside roundings of 2^-50
 constexpr int kMostCloserLooks = 3;    // before a span is as short as it gets: they take some 10 microseconds
 constexpr double kLargestReach = 4.0;  // no corner is farther away
 // Spans that are looked at. A meeting takes about ten. Only polygons that turn while they stay within 1e-8 of their
@@ -206,8 +207,7 @@ MeetingSearch::Moment MeetingSearch::moment(double time) const {
 
 // A polygon that starts nearer than its reach may come as near as a share of its distance at the start.
 double MeetingSearch::allowed_reach(const Moment& begin) const {
-  double nearest = dot(begin.direction, begin.corner[0]);
-  for (int i = 1; i < count_; ++i) nearest = std::min(nearest, dot(begin.direction, begin.corner[i]));
+  const double nearest = std::max(separation(begin, begin.direction), separation(begin, best_direction(begin)));
   const bool is_above = nearest > (1.0 + kJustAbove) * reach_ + kDotRounding;
   return is_above ? reach_ : kShareOfGap * std::max(nearest, 0.0);
 }
@@ -262,15 +262,51 @@ bool MeetingSearch::is_left_out(const Moment& from, const Moment& to) const {
   return is_left_out_by_direction(from, to) || is_left_out_by_volume(from, to);
 }
 
-// Where a corner passes a corner the directions of the ends are those of longer spans, and leave the middle open
-// however far away the polygon is. Here they are those that the ends have now, together and each alone.
+// Those that its ends carry are of longer spans, and where a corner passes a corner they leave the middle open however
+// far away the polygon is. So short a span is left out by one.
 bool MeetingSearch::is_left_out_afresh(const Moment& from, const Moment& to) const {
-  const Moment begin = moment(from.time), end = moment(to.time);
-  Moment as_begin = end, as_end = begin;
-  as_begin.direction = begin.direction;
-  as_end.direction = end.direction;
-  return is_left_out_by_direction(begin, end) || is_left_out_by_direction(begin, as_begin) ||
-         is_left_out_by_direction(as_end, end);
+  const double least = reach_ + kDotRounding;
+  const Vec3 direction = best_direction(moment(0.5 * (from.time + to.time)));
+  return separation(from, direction) > least && separation(to, direction) > least;
+}
+
+double MeetingSearch::separation(const Moment& m, Vec3 direction) const {
+  double lowest = dot(direction, m.corner[0]);
+  for (int i = 1; i < count_; ++i) lowest = std::min(lowest, dot(direction, m.corner[i]));
+  return lowest;
+}
+
+// Whether the polygon is as far along a direction as its nearest point is, the square of whose distance is given.
+bool MeetingSearch::is_as_far(const Moment& m, Vec3 direction, double distance2) const {
+  const double along = separation(m, direction);
+  return along > 0.0 && along * along > (1.0 - kNotAsFar) * distance2;
+}
+
+// Of those that may lead to the nearest point that along which the polygon is farthest. Where the point is in a corner
+// and nearly on a side, rounding chooses between them, and only a direction across the side has all of it beyond.
+Vec3 MeetingSearch::best_direction(const Moment& m) const {
+  const Vec3* const p = m.corner;
+  Vec3 best;
+  double farthest = -kLargestReach;
+  const auto take = [&](Vec3 direction) {
+    const double along = separation(m, direction);
+    if (!(along > farthest)) return;
+    farthest = along;
+    best = direction;
+  };
+  for (int i = 0; i < count_; ++i) {
+    const Vec3 side = p[i + 1 < count_ ? i + 1 : 0] - p[i], to_corner = unit(p[i]);
+    take(to_corner);
+    const double length2 = norm_squared(side);
+    if (!(length2 > 0.0)) continue;
+    const double along = std::clamp(-dot(p[i], side) / length2, 0.0, 1.0);
+    take(perpendicular(to_corner, side));
+    take(perpendicular(unit(p[i] + along * side), side));
+  }
+  const Vec3 normal = count_ < 3 ? Vec3{} : unit(cross(p[1] - p[0], p[count_ - 1] - p[0]));
+  take(normal);
+  take(-normal);
+  return best;
 }
 
 // The direction goes straight from the one to the other, and is nowhere longer than 1.
@@ -356,15 +392,11 @@ Vec3 MeetingSearch::direction_to(const Moment& m) const {
     within_side = between;
   }
   const Vec3 nearest = within_side ? perpendicular(unit(nearest_point), nearest_side) : unit(nearest_point);
-  if (!inside) return nearest;
+  // Without a reach double-doubles decide what is so near that this matters.
+  if (!inside) return reach_ == 0.0 || is_as_far(m, nearest, least) ? nearest : best_direction(m);
   // For a polygon with next to no area, rounding may say so of any point.
   const Vec3 above = dot(normal, p[0]) < 0.0 ? -normal : normal;
-  const auto separation = [&](Vec3 direction) {
-    double lowest = dot(direction, p[0]);
-    for (int i = 1; i < count_; ++i) lowest = std::min(lowest, dot(direction, p[i]));
-    return lowest;
-  };
-  return separation(nearest) > separation(above) ? nearest : above;
+  return separation(m, nearest) > separation(m, above) ? nearest : above;
 }
 
 }  // namespace tact::narrowphase

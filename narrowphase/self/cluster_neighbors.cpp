@@ -28,7 +28,7 @@ void chain(std::span<ClusterNeighbors::Side> sides) {
 }  // namespace
 
 ClusterNeighbors::ClusterNeighbors(const ClusteredMesh& mesh, const Features& features)
-    : irregular_(static_cast<std::size_t>(mesh.cluster_count()), 0) {
+    : irregular_(static_cast<std::size_t>(mesh.cluster_count()), 0), fans_(mesh) {
   std::vector<Together> meeting = find_around(mesh);
   choose_centers(mesh.cluster_count());
   std::vector<RimSide> all = find_rim_sides(mesh, features);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "narrowphase/mesh/features.h"
+#include "narrowphase/self/vertex_fans.h"
 
 namespace tact::narrowphase {
 
@@ -51,6 +52,7 @@ class ClusterNeighbors {
   /// two that run through it in opposite directions, or if it has more neighbours than can be listed. Its rims are then
   /// incomplete.
   bool irregular(int cluster) const { return irregular_[cluster] != 0; }
+  const VertexFans& fans() const { return fans_; }
 
  private:
   struct RimSide {
@@ -83,6 +85,7 @@ class ClusterNeighbors {
   std::vector<int> lines_, line_begin_{0};
   std::vector<int> corners_of_, corners_of_begin_;
   std::vector<char> irregular_;
+  VertexFans fans_;
 };
 
 }  // namespace tact::narrowphase

@@ -1,4 +1,4 @@
-// Which facets of one mesh meet that share no vertex.
+// Which facets of one mesh meet, but for what they have in common as neighbours.
 #pragma once
 
 #include <tact/facet_pair.h>
@@ -9,6 +9,7 @@
 
 #include "narrowphase/mesh/clustered_mesh.h"
 #include "narrowphase/pairs/cluster_pair.h"
+#include "narrowphase/self/vertex_fans.h"
 #include "narrowphase/triangles/block_pair.h"
 
 namespace tact::narrowphase {
@@ -23,9 +24,10 @@ class SelfFacetSearch {
 
   /// Appends the facet pairs of some cluster pairs, in no particular order, by the caller's numbers with a < b. All
   /// cluster pairs whose boxes overlap together give each facet pair once. Facets meet as closed sets, decided exactly.
-  /// Facets that name a common vertex do not count; facets whose vertices have different numbers and the same place do.
-  void run(const ClusteredMesh& mesh, std::span<const ClusterPair> pairs, const base::Tuning& tuning,
-           std::vector<FacetPair>& found);
+  /// Facets that name common vertices meet if they share a point beyond these and the edge between two of them: see
+  /// triangles_meet_beyond(). Vertices with different numbers and the same place are not common.
+  void run(const ClusteredMesh& mesh, const VertexFans& fans, std::span<const ClusterPair> pairs,
+           const base::Tuning& tuning, std::vector<FacetPair>& found);
 
  private:
   struct Memory;

@@ -11,7 +11,7 @@
 // winding number of the boundary about it, the same for all of D (points on edges apart). Is it 1, the triangles tile
 // D: none overlaps another one, and above D the surface is the graph of a function.
 //
-//   1. Facets that lie above D meet only where they share a vertex. For let two of them share a point x. Every edge
+//   1. Facets that lie above D meet only where they share a vertex or an edge. For let two have a point x. Every edge
 //      above D has a facet on either side, and the facets around a vertex go round it: those at the smallest feature of
 //      the one that holds x cover all around x, so the other one, which overlaps none of them, is one of them.
 //   2. Is every normal within an angle t < 45 degrees of v, no place of the surface above D is a local minimum of the
@@ -67,7 +67,7 @@ struct RimBox {
 /// What is known of two clusters of one mesh, or of one with itself.
 enum class SelfVerdict {
   open,          ///< nothing
-  never_meet,    ///< facets that share no vertex do not meet
+  never_meet,    ///< facets meet in the vertices and edges that they share alone
   never_contact  ///< nor is there a contact point, at any distance
 };
 
@@ -77,7 +77,8 @@ class SmoothPatches {
   void begin(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors);
   void look_at(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, int cluster);
 
-  /// True if facets of the clusters at a corner that share no vertex certainly do not meet. Shown without D.
+  /// True if facets of the clusters at a corner certainly meet in the vertices and edges that they share alone. Shown
+  /// without D.
   bool never_meet_at(const ClusteredMesh& mesh, const ClusterNeighbors& neighbors, int corner) const;
 
   /// Memory of a thread, used again.

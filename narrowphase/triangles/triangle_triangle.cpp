@@ -1,5 +1,6 @@
 #include "narrowphase/triangles/triangle_triangle.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -149,7 +150,65 @@ bool intervals_meet(const Triangle& a, const Signs& a_sides, const Triangle& b, 
   return orient3d(a[i], *a1, b[j], *b1, counts) >= 0 && orient3d(a[i], *a2, b[j], *b2, counts) <= 0;
 }
 
+// What of a triangle is across from corner 0: a side; without area both other corners, but those in its place. A way
+// from corner 0 that leaves the triangle does so there.
+struct FarParts {
+  std::size_t count = 0;
+  Segment part[2];
+};
+
+FarParts far_parts(const Triangle& t, PredicateCounts& counts) {
+  FarParts parts;
+  if (find_projection(t[0], t[1], t[2], counts)) {
+    parts.part[parts.count++] = {t[1], t[2]};
+    return parts;
+  }
+  for (const std::size_t k : {1u, 2u}) {
+    if (t[k] != t[0]) parts.part[parts.count++] = {t[k], t[k]};
+  }
+  return parts;
+}
+
+// Both are convex, so with another common point they have all of the way from corner 0 to it, and go on along it to
+// where the first of them ends: there the far part of one meets the other.
+bool meet_beyond_corner(const Triangle& a, const Triangle& b, PredicateCounts& counts) {
+  const auto is_beside_plane = [&](const Triangle& plane, const Triangle& t) {
+    const int side = orient3d(plane[0], plane[1], plane[2], t[1], counts);
+    return side != 0 && side == orient3d(plane[0], plane[1], plane[2], t[2], counts);
+  };
+  if (is_beside_plane(a, b) || is_beside_plane(b, a)) return false;
+  const auto far_part_meets = [&](const Triangle& own, const Triangle& other) {
+    const FarParts parts = far_parts(own, counts);
+    return std::any_of(parts.part, parts.part + parts.count,
+                       [&](const Segment& part) { return segment_triangle_meet(part, other, counts); });
+  };
+  return far_part_meets(a, b) || far_part_meets(b, a);
+}
+
+// Corners 0 and 1 are common.
+bool meet_beyond_edge(const Triangle& a, const Triangle& b, PredicateCounts& counts) {
+  if (orient3d(a[0], a[1], a[2], b[2], counts) != 0) return false;
+  if (const auto projection = find_projection(a[0], a[1], a[2], counts)) {
+    const auto p = projected(a, projection->axis);
+    return orient2d(p[0], p[1], projected(b[2], projection->axis), counts) == projection->turn;
+  }
+  // On the line of the edge a triangle with an area has no more than the edge; where the ends are one point there is
+  // none.
+  if (find_projection(b[0], b[1], b[2], counts) || find_projection(a[0], a[2], b[2], counts)) return false;
+  const Segment edge = sorted({a[0], a[1]});
+  const auto both_beyond = [&](const Vec3& end, int way) {
+    return compare_lexicographically(a[2], end) == way && compare_lexicographically(b[2], end) == way;
+  };
+  return both_beyond(edge[0], -1) || both_beyond(edge[1], 1);
+}
+
 }  // namespace
+
+bool triangles_meet_beyond(const Triangle& a, const Triangle& b, int common, PredicateCounts& counts) {
+  if (common == 1) return meet_beyond_corner(a, b, counts);
+  if (common == 2) return meet_beyond_edge(a, b, counts);
+  return find_projection(a[0], a[1], a[2], counts).has_value();
+}
 
 bool triangle_triangle_meet(const Triangle& a, const Triangle& b, PredicateCounts& counts) {
   const Signs a_sides = sides_of_plane(b[0], b[1], b[2], a, counts);

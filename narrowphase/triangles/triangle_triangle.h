@@ -23,6 +23,12 @@ bool triangle_triangle_meet(const Triangle& a, const Triangle& b, PredicateCount
 // The same where it is known that the corners of `a` lie in the plane of `b`, or that `b` has no area.
 bool coplanar_triangles_meet(const Triangle& a, const Triangle& b, PredicateCounts& counts);
 
+// Facets of one mesh that name `common` vertices, 1 to 3, both: these stand first in both triangles, in the same order.
+// True if they share a point beyond what they have in common by that: the vertex, or the edge. They do where one runs
+// through the other, where they are folded flat onto each other, and where all three corners are common, unless they
+// have no area. A triangle without area that has the common edge shares no more with others that have it than the edge.
+bool triangles_meet_beyond(const Triangle& a, const Triangle& b, int common, PredicateCounts& counts);
+
 // True if `segment` and `triangle` share at least one point.
 bool segment_triangle_meet(const Segment& segment, const Triangle& triangle, PredicateCounts& counts);
 

@@ -7,6 +7,7 @@
 
 #include "tests/support/environment/allocation_hook.h"
 #include "tests/support/generators/bodies.h"
+#include "tests/support/generators/folds.h"
 #include "tests/support/generators/random.h"
 #include "tests/support/oracles/motion_by_brute_force.h"
 
@@ -104,6 +105,110 @@ TEST(DetectMotion, OfABodyWithItselfEqualsBruteForce) {
       EXPECT_TRUE(world.detect_motion().impacts().empty());
     }
   }
+}
+
+// What is flat, and moves in its plane without a facet that is turned over, has no contact with itself, so it has no
+// impact.
+TEST(DetectMotion, OfAFlatSheetInItsPlaneIsNone) {
+  struct InPlane {
+    const char* name;
+    double xx, xy, yx, yy;
+  };
+  const InPlane ways[] = {{"shrinks", 0.6, 0, 0, 0.6},        {"shrinks to a tenth", 0.1, 0, 0, 0.1},
+                          {"narrows", 0.3, 0, 0, 1},          {"is pulled", 0.6, 0, 0, 1.4},
+                          {"is sheared", 1, 0.7, 0, 1},       {"is sheared back", 1, -0.7, 0, 0.8},
+                          {"turns", 0.6, 0.4, -0.4, 0.6},     {"shrinks and is sheared", 0.7, -0.3, 0.2, 0.5},
+                          {"hardly moves", 0.98, 0, 0, 1.01}, {"grows", 1.5, 0.1, 0.1, 1.5}};
+  Random random(21);
+  for (const InPlane& way : ways) {
+    for (const bool is_even : {true, false}) {
+      Mesh mesh = sheet(9, 7, 9.0, 7.0);
+      if (!is_even) mesh = mapped(jittered(mesh, 0.15, 5), [](Vec3 p) { return Vec3{p.x, p.y, 0.0}; });
+      const Rotation turn = random.rotation();
+      const Mesh end = mapped(mesh, [&](Vec3 p) {
+        return Vec3{way.xx * p.x + way.xy * p.y, way.yx * p.x + way.yy * p.y, 0.0};
+      });
+      for (const double margin : {0.05, 0.2, 0.3, 0.45, 1.3}) {
+        tact::World world({.threads = 2, .outputs = {.points = true}});
+        const BodyId id = world.add_body({.positions = rotated(mesh, turn).positions,
+                                          .facets = mesh.facets,
+                                          .surface = Surface::sheet,
+                                          .margin = margin,
+                                          .self_contact = true});
+        world.detect();
+        world.set_positions(id, rotated(end, turn).positions);
+        const std::size_t impacts = world.detect_motion().impacts().size();
+        EXPECT_EQ(impacts, 0u) << way.name << ", margin " << margin;
+        EXPECT_TRUE(world.detect().contacts().empty()) << way.name << ", margin " << margin;
+      }
+    }
+  }
+}
+
+// A sheet that folds: where its layers come within the margins there are impacts, and stopped before the first one it
+// has a gap at least.
+TEST(DetectMotion, OfASheetThatFoldsIsFound) {
+  const Mesh flat = sheet(24, 6, 1.0, 0.3);
+  const double margin = 0.01;
+  MovingMesh closing{pleated(flat, 2, 0.3, 0.1), pleated(flat, 2, 0.3, 0.2).positions};
+  const auto expected = self_impacts_by_brute_force(closing, 2 * margin);
+  ASSERT_GT(expected.size(), 10u);
+  tact::World world({.threads = 2, .outputs = {.points = true}});
+  const BodyId id = world.add_body({.positions = closing.begin.positions,
+                                    .facets = flat.facets,
+                                    .surface = Surface::sheet,
+                                    .margin = margin,
+                                    .self_contact = true});
+  ASSERT_TRUE(world.detect().contacts().empty());
+  world.set_positions(id, closing.end);
+  const MotionReport& report = world.detect_motion();
+  EXPECT_EQ(impacts_of(report, id, id), expected);
+  const double first = report.first_time();
+  ASSERT_LT(first, 1.0);
+  const auto at = [&](double time) {
+    return Eigen::Matrix3Xd(closing.begin.positions + time * (closing.end - closing.begin.positions));
+  };
+  world.set_positions(id, at(first - 1e-6));
+  EXPECT_TRUE(world.detect().contacts().empty());
+  world.set_positions(id, at(first + 1e-6));
+  ASSERT_EQ(world.detect().contacts().size(), 1u);
+}
+
+// Boxes on a grid of tenths, one of which passes the other diagonally: they come as near as the distance of boxes says.
+TEST(DetectMotion, OfBoxesThatPassCornerToCornerIsRight) {
+  const Mesh still = box({0, 0, 0}, {1, 1, 1});
+  int meeting = 0, missing = 0;
+  for (int i = 0; i < 19; ++i) {
+    for (int k = 0; k < 19; ++k) {
+      const Vec3 begin{0.1 * i + 0.4, 0.1 * k + 0.1, 0.25}, way{-1.0, 1.0, 0.0};
+      // Of boxes that do not turn the square of the distance is convex in time.
+      const auto gap = [&](double t) {
+        const auto beyond = [](double d) { return std::max(std::abs(d) - 1.0, 0.0); };
+        return std::hypot(beyond(begin.x + t * way.x), beyond(begin.y + t * way.y));
+      };
+      double low = 0.0, high = 1.0;
+      for (int step = 0; step < 200; ++step) {
+        const double t = low + (high - low) / 3.0, u = high - (high - low) / 3.0;
+        (gap(t) <= gap(u) ? high : low) = gap(t) <= gap(u) ? u : t;
+      }
+      const double least = gap(low);
+      if (gap(0.0) <= 0.11 || std::abs(least - 0.1) < 1e-9) continue;  // begins within the margins; touches them
+      tact::World world({.threads = 1});
+      world.add_body({.positions = still.positions, .facets = still.facets, .margin = 0.05});
+      const Mesh mover = translated(still, begin);
+      const BodyId id = world.add_body({.positions = mover.positions, .facets = mover.facets, .margin = 0.05});
+      world.detect();
+      world.set_positions(id, translated(mover, way).positions);
+      const double time = world.detect_motion().first_time();
+      (least < 0.1 ? meeting : missing) += 1;
+      EXPECT_EQ(time <= 1.0, least < 0.1) << i << ' ' << k << ", least distance " << least << ", time " << time;
+      if (time <= 1.0) {
+        EXPECT_NEAR(gap(time), 0.1, 1e-9) << i << ' ' << k;
+      }
+    }
+  }
+  EXPECT_GT(meeting, 30);
+  EXPECT_GT(missing, 50);
 }
 
 struct BallAndWall {

@@ -150,6 +150,70 @@ TEST(SelfContactFacets, OfASheetThatIsRolledUpEqualTheOracle) {
   }
 }
 
+Mesh mesh_of(const std::vector<Vec3>& vertices, const std::vector<std::array<int, 3>>& facets) {
+  MeshBuilder builder;
+  for (const Vec3 p : vertices) builder.vertex(p);
+  for (const auto& [i, j, k] : facets) builder.facet(i, j, k);
+  return builder.mesh();
+}
+
+// Facets with a common vertex or edge: a pair where they share more than that.
+TEST(SelfContactFacets, ThatShareVerticesMeetWhereTheyCrossBeyond) {
+  const Vec3 o{0, 0, 0}, x{2, 0, 0}, y{0, 2, 0};
+  const std::vector<FacetPair> pair{{0, 1}};
+  const auto pairs = [](const Mesh& mesh) { return SelfWorld(mesh, 0.0).facet_pairs(); };
+  // An edge of one runs through the other; a facet is folded flat onto its neighbour; one is listed twice.
+  EXPECT_EQ(pairs(mesh_of({o, x, y, {0.5, 0.5, -1}, {0.5, 0.5, 1}}, {{0, 1, 2}, {0, 3, 4}})), pair);
+  EXPECT_EQ(pairs(mesh_of({o, x, y, {0.4, 1, 0}}, {{0, 1, 2}, {1, 0, 3}})), pair);
+  EXPECT_EQ(pairs(mesh_of({o, x, y}, {{0, 1, 2}, {2, 1, 0}})), pair);
+  // They touch in the common vertex or edge alone: beside each other, standing on an edge, folded and a little open.
+  EXPECT_TRUE(pairs(mesh_of({o, x, y, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {0, 3, 4}})).empty());
+  EXPECT_TRUE(pairs(mesh_of({o, x, y, {0.4, 1, 1e-300}}, {{0, 1, 2}, {1, 0, 3}})).empty());
+  // A vertex inside the edge of another facet meets that facet: so do those at it that share an end of that edge.
+  const Mesh split = mesh_of({o, x, y, {1, 0, 0}, {1, -1, 0}}, {{0, 1, 2}, {0, 4, 3}, {3, 4, 1}});
+  EXPECT_EQ(pairs(split), (std::vector<FacetPair>{{0, 1}, {0, 2}}));
+  // A facet without area between them has no more than its edges in common with either.
+  const Mesh filled = mesh_of({o, x, y, {1, 0, 0}, {1, -1, 0}}, {{0, 1, 2}, {0, 4, 3}, {3, 4, 1}, {0, 3, 1}});
+  EXPECT_EQ(pairs(filled), (std::vector<FacetPair>{{0, 1}, {0, 2}}));
+}
+
+// Vertices of a body are pushed through facets beside them.
+TEST(SelfContactFacets, OfABodyWithNoiseAreThoseOfCgal) {
+  std::size_t with_common = 0;
+  for (std::uint64_t seed = 1; seed < 6; ++seed) {
+    const Mesh mesh = jittered(icosphere(2), 0.2, seed);
+    const auto found = SelfWorld(mesh, 0.0).facet_pairs();
+    const auto by_cgal = self_facet_pairs_by_cgal(mesh);
+    ASSERT_TRUE(by_cgal);
+    EXPECT_TRUE(same_facet_pairs(*by_cgal, found));
+    EXPECT_TRUE(same_facet_pairs(self_facet_pairs_by_oracle(mesh), found));
+    for (const FacetPair& pair : found) {
+      const auto f = mesh.facets.col(pair.a), g = mesh.facets.col(pair.b);
+      with_common += std::ranges::find_first_of(f, g) != f.end() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(with_common, 20u);
+}
+
+// A vertex of many facets: a cone is fine, one whose facets turn twice about it is not.
+TEST(SelfContactFacets, AtAVertexOfManyFacetsEqualTheOracle) {
+  const auto cone = [](int facets, double turns) {
+    MeshBuilder builder;
+    builder.vertex({0, 0, 1});
+    for (int i = 0; i < facets; ++i) {
+      const double angle = 2.0 * std::numbers::pi * turns * i / facets;
+      builder.vertex({std::cos(angle), std::sin(angle), 0.001 * (i % 7)});
+    }
+    for (int i = 0; i < facets; ++i) builder.facet(0, 1 + i, 1 + (i + 1) % facets);
+    return builder.mesh();
+  };
+  EXPECT_TRUE(SelfWorld(cone(400, 1.0), 0.0).facet_pairs().empty());
+  const Mesh twice = cone(151, 2.0);
+  const auto expected = self_facet_pairs_by_oracle(twice);
+  EXPECT_GT(expected.size(), 10u);
+  EXPECT_TRUE(same_facet_pairs(expected, SelfWorld(twice, 0.0).facet_pairs()));
+}
+
 std::vector<BodyId> add_folded_bodies(World& world) {
   std::vector<BodyId> ids;
   double x = 0.0;

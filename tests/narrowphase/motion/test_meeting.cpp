@@ -87,6 +87,17 @@ TEST(Meeting, ACornerThatPassesACornerComesNoNearer) {
   EXPECT_NEAR(search.first(passing(0.5), 0.1).time, 0.4, 1e-10);
 }
 
+// At half-way a corner is at the origin; before, it is the nearest point, and nearly on a side, which rounding may take
+// for nearest as well.
+TEST(Meeting, ACornerNearlyOnASideComesWithinAReachInTime) {
+  MotionQuery query;
+  query.edges = true;
+  query.vertices = {MovingVertex{{{1, 2, 1}, {5, 6, 7}}}, MovingVertex{{{1, 0, 4}, {1, 0, 4}}},
+                    MovingVertex{{{4, 3, 6}, {4, 3, 6}}}, MovingVertex{{{1, 6, 3}, {5, 2, 5}}}};
+  MeetingSearch search;
+  for (double reach = 1e-5; reach > 1e-9; reach *= 0.7) EXPECT_EQ(check_within(query, reach, search).failure, "");
+}
+
 TEST(Meeting, QueriesWithAReachEqualAlgebraicNumbers) {
   Random random(8);
   MeetingSearch search;

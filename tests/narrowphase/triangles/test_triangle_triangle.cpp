@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "narrowphase/triangles/triangle_triangle.h"
+#include "tests/support/generators/random.h"
 #include "tests/support/generators/triangle_pairs.h"
 #include "tests/support/inside/facet_filters.h"
 #include "tests/support/oracles/triangle_oracle.h"
@@ -273,6 +274,93 @@ TEST(SegmentSegment, HardPairsMeetWhereCgalSaysSo) {
         << "seed " << kPairSeed + 5 << " pair " << i << ' ' << to_string(pair);
     ASSERT_EQ(segment_segment_meet({b[1], b[0]}, a, counts), expected) << "seed " << kPairSeed + 5 << " pair " << i;
   }
+}
+
+// All orders in which `common` corners stand first in both.
+bool meet_beyond(const Triangle& a, const Triangle& b, int common) {
+  PredicateCounts counts;
+  const bool expected = triangles_meet_beyond(a, b, common, counts);
+  const auto in_another_order = [common](const Triangle& t, bool turns) -> Triangle {
+    if (!turns) return t;
+    return common == 1 ? Triangle{t[0], t[2], t[1]} : Triangle{t[1], t[0], t[2]};
+  };
+  for (int order = 0; order < 8; ++order) {
+    // The common corners stay in one order, the others need not.
+    Triangle p = in_another_order(a, (order & 1) != 0), q = in_another_order(b, (order & (common == 1 ? 2 : 1)) != 0);
+    if ((order & 4) != 0) std::swap(p, q);
+    EXPECT_EQ(triangles_meet_beyond(p, q, common, counts), expected) << to_string(TrianglePair{a, b});
+  }
+  return expected;
+}
+
+// In front of a facet with the corners (0, 0, 0), (1, 0, 0) and (0, 1, 0).
+TEST(TrianglesBeyond, KnownAnswers) {
+  struct Row {
+    int common;
+    Triangle b;
+    bool meet;
+  };
+  const Vec3 o{0, 0, 0}, x{1, 0, 0};
+  const std::vector<Row> rows{
+      {1, {o, Vec3{0.25, 0.25, -1}, Vec3{0.25, 0.25, 1}}, true},  // runs through its inside
+      {1, {o, Vec3{0.25, 0.25, 0}, Vec3{0.25, 0.25, 1}}, true},   // ends in it
+      {1, {o, Vec3{2, 2, 0}, Vec3{2, 2, 1}}, true},               // stands on it
+      {1, {o, Vec3{-1, -1, -1}, Vec3{-1, -1, 1}}, false},         // on the other side of the corner
+      {1, {o, Vec3{-1, 0, 0}, Vec3{0, -1, 0}}, false},            // in its plane, beside it
+      {1, {o, Vec3{2, 0, 0}, Vec3{1, -1, 0}}, true},              // an edge along its edge
+      {1, {o, Vec3{0.5, 0, 0}, Vec3{1, -1, 0}}, true},            // a vertex inside its edge
+      {1, {o, Vec3{0.5, 0, 0}, Vec3{1, -1, 1}}, true},            // the same from above
+      {1, {o, Vec3{1, 1, 0}, Vec3{-1, 1, 0}}, true},              // overlaps in its plane
+      {1, {o, Vec3{3, 1, 0}, Vec3{1, 3, 0}}, true},               // lies over all of it at the corner
+      {1, {o, Vec3{1, 0, 1}, Vec3{0, 1, 1}}, false},              // above it
+      {1, {o, Vec3{0.5, 0.5, 0}, Vec3{1, 1, 0}}, true},           // without area, along it
+      {1, {o, Vec3{-1, -1, 0}, Vec3{0.5, 0.5, 0}}, true},         // without area, across the corner
+      {1, {o, Vec3{-1, -1, 0}, Vec3{-2, -2, 0}}, false},          // without area, away from it
+      {1, {o, o, Vec3{0.5, 0.5, 0}}, true},                       // a corner in the place of the common one
+      {1, {o, o, o}, false},                                      // a point
+      {2, {o, x, Vec3{0.25, 0.5, 0}}, true},                      // folded flat
+      {2, {o, x, Vec3{5, 7, 0}}, true},                           // larger
+      {2, {o, x, Vec3{0.25, -0.5, 0}}, false},                    // beside it
+      {2, {o, x, Vec3{0.25, 0.5, 0x1p-1074}}, false},             // folded, and a little open
+      {2, {o, x, Vec3{0.5, 0, 0}}, false},                        // without area, on the edge
+      {2, {o, x, Vec3{2, 0, 0}}, false},                          // without area, beyond its end
+      {3, {o, x, Vec3{0, 1, 0}}, true},                           // listed twice
+  };
+  const Triangle a{o, x, Vec3{0, 1, 0}};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(meet_beyond(a, rows[i].b, rows[i].common), rows[i].meet) << "row " << i;
+    EXPECT_EQ(tests::rational_meet_beyond(a, rows[i].b, rows[i].common), rows[i].meet) << "row " << i;
+  }
+  // Without area both: along a line only what goes on beyond the common edge.
+  const Vec3 y{2, 0, 0}, z{3, 0, 0}, back{-1, 0, 0};
+  EXPECT_TRUE(meet_beyond({o, x, y}, {o, x, z}, 2));
+  EXPECT_FALSE(meet_beyond({o, x, y}, {o, x, back}, 2));
+  EXPECT_FALSE(meet_beyond({o, x, y}, {o, x, x}, 2));
+  EXPECT_FALSE(meet_beyond({o, x, y}, {o, x, y}, 3));
+  EXPECT_TRUE(meet_beyond({o, o, x}, {o, o, y}, 2));
+  EXPECT_FALSE(meet_beyond({o, o, x}, {o, o, Vec3{0, 1, 0}}, 2));
+}
+
+// On a grid of few places, so that what is in line, in one plane or in one place is common.
+TEST(TrianglesBeyond, RandomPairsMeetWhereCgalConstructsMore) {
+  tests::Random random(17);
+  int meeting[4] = {};
+  for (int i = 0; i < 12000; ++i) {
+    const int grid = 2 + random.below(3), common = 1 + random.below(2);
+    const bool is_flat = random.chance(0.3);
+    const double unit = random.chance(0.5) ? 1.0 : random.uniform();  // rounded
+    const auto corner = [&] {
+      const auto coordinate = [&] { return unit * random.below(grid) + (unit == 1.0 ? 0.0 : 1.0 / 3.0); };
+      return Vec3{coordinate(), coordinate(), is_flat ? 0.0 : coordinate()};
+    };
+    const Triangle a{corner(), corner(), corner()};
+    const Triangle b{a[0], common == 2 ? a[1] : corner(), corner()};
+    const bool expected = tests::rational_meet_beyond(a, b, common);
+    meeting[common] += expected ? 1 : 0;
+    ASSERT_EQ(meet_beyond(a, b, common), expected) << "pair " << i << ' ' << to_string(TrianglePair{a, b});
+  }
+  EXPECT_GT(meeting[1], 500);
+  EXPECT_GT(meeting[2], 300);
 }
 
 }  // namespace

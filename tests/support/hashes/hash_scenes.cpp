@@ -75,7 +75,7 @@ constexpr HashScene kScenes[] = {
     {"self_closed", play_self_closed, {0xa328138abbb534cf, 0x8a302f69acf2e398, 0x86196f1aaf76006c}},
     {"self_facets", play_self_facets, {0xea72b6c4e1c3afd6, 0xb40c7bc3263c533a, 0xecfd7a83994ce168}},
     {"self_large", play_self_large, {0xe4445769b752d988, 0x5a9e816a5dec8af6, 0x08e1799353e210cb}},
-    {"impacts", play_impacts, {0xe2c3a93ce99eacd5, 0x3dd6e0c0f7ba84e6, 0x12623f3cc108e37c}},
+    {"impacts", play_impacts, {0x79fe92e72a420b61, 0x86c003a676084080, 0xf4458cd6ac5a9ab8}},
     {"impacts_of_cloth", play_impacts_of_cloth, {0x71dbf15bc518c10d, 0xfcaecbd615efde7a, 0x0bf2097feeda140e}},
     {"first_impacts", play_first_impacts, {0xd701d096bffb2928, 0xa843d91b87d7ecde, 0xd7399c245f70254f}},
     {"impacts_large", play_impacts_large, {0x81650dd764ba98d8, 0xbdee4915b8bbf100, 0xbd4d102e550ed59d}},

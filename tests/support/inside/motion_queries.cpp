@@ -224,6 +224,7 @@ std::optional<CountingReach> counting_reach(const MotionQuery& query, double rea
 }  // namespace
 
 CheckedQuery check_within(const MotionQuery& query, double reach, narrowphase::MeetingSearch& search) {
+  if (reach == 0.0) return check(query, search);
   const MovingPolygon polygon = query.polygon();
   const double time = search.first(polygon, reach).time;
   double size = 0.0;

@@ -6,6 +6,7 @@
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 #include <map>
@@ -95,16 +96,65 @@ std::vector<FacetPair> facet_pairs_by_oracle(const Mesh& a, const Mesh& b) {
 
 namespace {
 
-bool share_a_vertex(const Mesh& mesh, const FacetPair& pair) {
-  const auto f = mesh.facets.col(pair.a), g = mesh.facets.col(pair.b);
-  return std::ranges::find_first_of(f, g) != f.end();
+// A facet's vertices, those first that another one names, too.
+struct WithCommonFirst {
+  std::vector<int> vertices;
+  int common = 0;
+
+  WithCommonFirst(const Mesh& mesh, int facet, int other) {
+    const auto f = mesh.facets.col(facet), g = mesh.facets.col(other);
+    std::vector<int> rest(f.begin(), f.end());
+    std::vector<int> shared(g.begin(), g.end());
+    std::ranges::sort(shared);
+    shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
+    for (const int v : shared) {
+      const auto same = std::ranges::find(rest, v);
+      if (same == rest.end()) continue;
+      vertices.push_back(v);
+      rest.erase(same);
+      ++common;
+    }
+    vertices.insert(vertices.end(), rest.begin(), rest.end());
+  }
+};
+
+Point point_of(const Mesh& mesh, int vertex) {
+  const Vec3 p = mesh.position(vertex);
+  return {p.x, p.y, p.z};
+}
+
+// Of facets that name common vertices.
+bool meet_beyond_common(const Mesh& mesh, const WithCommonFirst& f, const WithCommonFirst& g) {
+  const auto points = [&](const WithCommonFirst& one) {
+    return std::array{point_of(mesh, one.vertices[0]), point_of(mesh, one.vertices[1]),
+                      point_of(mesh, one.vertices[2])};
+  };
+  const auto p = points(f), q = points(g);
+  if (CGAL::collinear(p[0], p[1], p[2]) || CGAL::collinear(q[0], q[1], q[2])) {
+    const auto triangle = [&](const WithCommonFirst& one) {
+      return narrowphase::Triangle{mesh.position(one.vertices[0]), mesh.position(one.vertices[1]),
+                                   mesh.position(one.vertices[2])};
+    };
+    return rational_meet_beyond(triangle(f), triangle(g), f.common);
+  }
+  if (f.common == 1)
+    return CGAL::do_intersect(Segment(p[1], p[2]), Triangle(q[0], q[1], q[2])) ||
+           CGAL::do_intersect(Segment(q[1], q[2]), Triangle(p[0], p[1], p[2]));
+  if (f.common == 2)
+    return CGAL::coplanar(p[0], p[1], p[2], q[2]) &&
+           CGAL::coplanar_orientation(p[0], p[1], p[2], q[2]) == CGAL::POSITIVE;
+  return true;
 }
 
 }  // namespace
 
 std::vector<FacetPair> self_facet_pairs_by_oracle(const Mesh& mesh) {
   std::vector<FacetPair> pairs = facet_pairs_by_oracle(mesh, mesh);
-  std::erase_if(pairs, [&](const FacetPair& pair) { return pair.b <= pair.a || share_a_vertex(mesh, pair); });
+  std::erase_if(pairs, [&](const FacetPair& pair) {
+    if (pair.b <= pair.a) return true;
+    const WithCommonFirst f(mesh, pair.a, pair.b), g(mesh, pair.b, pair.a);
+    return f.common > 0 && !meet_beyond_common(mesh, f, g);
+  });
   return pairs;
 }
 
@@ -125,7 +175,7 @@ std::optional<std::vector<FacetPair>> self_facet_pairs_by_cgal(const Mesh& mesh)
   std::vector<FacetPair> pairs;
   for (const auto& [f, g] : found) {
     const auto [low, high] = std::minmax({static_cast<int>(f), static_cast<int>(g)});
-    if (!share_a_vertex(mesh, {low, high})) pairs.push_back({low, high});
+    pairs.push_back({low, high});
   }
   std::ranges::sort(pairs);
   return pairs;

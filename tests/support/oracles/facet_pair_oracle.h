@@ -19,7 +19,8 @@ std::vector<FacetPair> facet_pairs_by_oracle(const Mesh& a, const Mesh& b);
 // The same by a plain loop over all pairs, for small meshes: the oracle of the oracle.
 std::vector<FacetPair> facet_pairs_by_brute_force(const Mesh& a, const Mesh& b);
 
-// The facets of one mesh that name no common vertex and share at least one point, a < b, sorted.
+// The facets of one mesh that meet, a < b, sorted: those that name no common vertex and share a point; and those that
+// share one beyond the vertices that they name both and the edge between two of them.
 std::vector<FacetPair> self_facet_pairs_by_oracle(const Mesh& mesh);
 
 // The same by CGAL's Polygon_mesh_processing::self_intersections. Nothing where CGAL cannot hold the mesh: where an

@@ -21,7 +21,9 @@ using ImpactKey = std::tuple<FeaturePair, std::array<int, 3>, std::array<int, 3>
 
 /// The time of each pair of features of two meshes that come within `reach`.
 std::map<ImpactKey, double> impacts_by_brute_force(const MovingMesh& a, const MovingMesh& b, double reach);
-/// The same of one mesh with itself: pairs without a common vertex, the vertex or the lesser edge first.
+/// The same of one mesh with itself: pairs without a common vertex, the vertex or the lesser edge first. Those that are
+/// no contact within `reach`, as a facet beside the place is nearer or as they are near along the edges, meet where
+/// they share a point.
 std::map<ImpactKey, double> self_impacts_by_brute_force(const MovingMesh& mesh, double reach);
 
 }  // namespace tact::tests

@@ -52,6 +52,7 @@ class SelfCrossingOracle {
       }
     }
     pairs_ = self_facet_pairs_by_oracle(mesh);
+    std::erase_if(pairs_, [&](const FacetPair& pair) { return has_some(facets_[pair.a], facets_[pair.b]); });
     find_hits();
     find_layers();
     find_sides();

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <variant>
+#include <vector>
 
 namespace tact::tests {
 namespace {
@@ -81,6 +82,45 @@ bool is_nearest_to_time(double time, const Vec3& from, const Vec3& to, const Tri
   const Rational part = (normal * (exact(t[0]) - exact(from))) / (normal * (exact(to) - exact(from)));
   const auto middle = [&](double neighbor) { return Rational((Rational(time) + Rational(neighbor)) / Rational(2)); };
   return part <= middle(std::nextafter(time, 2.0)) && part >= middle(std::nextafter(time, -1.0));
+}
+
+namespace {
+
+using Points = std::vector<Exact::Point_3>;
+
+Points corners_of(const Exact::Point_3& p) { return {p}; }
+Points corners_of(const Exact::Segment_3& s) { return {s.source(), s.target()}; }
+Points corners_of(const Exact::Triangle_3& t) { return {t[0], t[1], t[2]}; }
+Points corners_of(const Points& points) { return points; }
+
+// The corners of what two figures have in common.
+Points intersection_of(const Exact::Point_3& p, const Exact::Point_3& q) { return p == q ? Points{p} : Points{}; }
+template <class Other>
+Points intersection_of(const Exact::Point_3& p, const Other& other) {
+  return other.has_on(p) ? Points{p} : Points{};
+}
+template <class One>
+Points intersection_of(const One& one, const Exact::Point_3& p) {
+  return intersection_of(p, one);
+}
+template <class One, class Other>
+Points intersection_of(const One& one, const Other& other) {
+  const auto common = CGAL::intersection(one, other);
+  if (!common) return {};
+  return boost::apply_visitor([](const auto& figure) { return corners_of(figure); }, *common);
+}
+
+}  // namespace
+
+bool rational_meet_beyond(const Triangle& a, const Triangle& b, int common) {
+  if (common == 3) return has_area(a);
+  const Points corners =
+      std::visit([](const auto& p, const auto& q) { return intersection_of(p, q); }, figure(a), figure(b));
+  const Exact::Point_3 p = exact(a[0]), q = common == 2 ? exact(a[1]) : p;
+  const auto is_common = [&](const Exact::Point_3& one) {
+    return p == q ? one == p : Exact::Segment_3(p, q).has_on(one);
+  };
+  return !std::ranges::all_of(corners, is_common);
 }
 
 }  // namespace tact::tests

@@ -25,4 +25,9 @@ bool is_nearest_to_distance(double distance, const Vec3& point, const Triangle& 
 // The same of the part of a segment at which it crosses the plane of a triangle.
 bool is_nearest_to_time(double time, const Vec3& from, const Vec3& to, const Triangle& t);
 
+// Do triangles whose first `common` corners, 1 to 3, are the same share more than these and the edge between two of
+// them? By what CGAL constructs as their intersection, in rational coordinates. Where all three are common, they do if
+// they have an area.
+bool rational_meet_beyond(const Triangle& a, const Triangle& b, int common);
+
 }  // namespace tact::tests

@@ -408,7 +408,10 @@ typedef enum tact_containment {
   TACT_CONTAINMENT_B_IN_A = 2  /**< b lies inside a, a closed body */
 } tact_containment;
 
-/** Two facets that share at least one point. */
+/**
+ * Two facets that share at least one point. Facets of one body that name common vertices are a pair where they share
+ * more than these vertices and the edge between them.
+ */
 typedef struct tact_facet_pair {
   int a; /**< facet of the first body */
   int b; /**< facet of the second */

@@ -5,7 +5,10 @@
 
 namespace tact {
 
-/// Two facets that share at least one point. Facets count from 0 in the order in which the body was added.
+/// Two facets that share at least one point. Facets count from 0 in the order in which the body was added. Facets of
+/// one body that name common vertices are a pair where they share more than these vertices and the edge between them.
+/// A vertex that lies on the edge of another facet makes such pairs. A facet without area is the segment or point that
+/// it is.
 struct FacetPair {
   int a = -1;  ///< facet of the first body
   int b = -1;  ///< facet of the second
