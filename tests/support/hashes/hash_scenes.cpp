@@ -72,7 +72,7 @@ constexpr HashScene kScenes[] = {
     {"many_clusters", play_many_clusters, {0x94c71db2c4ae80e7, 0xe16160f84d82201b, 0x432acad1301454d2}},
     {"cluster_trees", play_cluster_trees, {0xe5a0c064ba9fd125, 0xcfafd40c0e8f7d82, 0xcf71da5e5d6701c5}},
     {"self_sheets", play_self_sheets, {0xeda3b6f6dcb742db, 0x3d6586fdd9d1cc5d, 0x9e748135d6cd5c0e}},
-    {"self_closed", play_self_closed, {0x98113465e5c75c4c, 0x40f32af01ddfa9bc, 0xa8f9ad635c5f977d}},
+    {"self_closed", play_self_closed, {0x8dc0ac5c66b8fd01, 0xa8850cdd39ccae1e, 0x37e24ef7883c0058}},
     {"self_facets", play_self_facets, {0xea72b6c4e1c3afd6, 0xc9db73ed90ba3471, 0xecfd7a83994ce168}},
     {"self_large", play_self_large, {0xe4445769b752d988, 0x5a9e816a5dec8af6, 0x08e1799353e210cb}},
     {"impacts", play_impacts, {0xe2c3a93ce99eacd5, 0x3dd6e0c0f7ba84e6, 0x12623f3cc108e37c}},
