@@ -17,6 +17,7 @@
 #include "engine/motion_stage.h"
 #include "engine/queries.h"
 #include "engine/step.h"
+#include "engine/surface_check.h"
 #include "engine/world_tuning.h"
 
 namespace tact {
@@ -437,6 +438,19 @@ void World::copy_facets(BodyId body, std::span<int> corners) const {
     for (std::size_t k = 0; k < 3; ++k)
       corners[3 * static_cast<std::size_t>(asked.mesh.source_facet(facet)) + k] = asked.mesh.source_vertex(of_facet[k]);
   }
+}
+
+SurfaceCheck World::check_surface(BodyId body, double sliver) const {
+  const base::FloatingPointMode mode;
+  return with_memory("checking a surface ran out of memory", [&] {
+    if (!(sliver >= 0.0 && sliver <= 1.0))
+      throw Error(ErrorCode::invalid_argument, "sliver is " + base::text_of(sliver) + ", not 0 to 1");
+    std::vector<base::Vec3> positions(vertex_count(body));
+    std::vector<std::array<int, 3>> facets(facet_count(body));
+    copy_positions(body, {&positions.data()->x, 3 * positions.size()});
+    copy_facets(body, {facets.data()->data(), 3 * facets.size()});
+    return tact::check_surface(positions, facets, sliver, implementation().settings.threads);
+  });
 }
 
 Bounds World::bounds(BodyId body) const {

@@ -15,6 +15,8 @@ std::optional<Nearest> nearest_inside_facet(Vec3 v, const Vec3 (&corner)[3], dou
   const double square = norm_squared(normal), along = dot(normal, v - corner[0]);
   // Most vertices are too far, or beside the facet: that needs no root.
   if (square == 0.0 || along * along > limit * limit * square * (1.0 + 0x1p-40)) return {};
+  // So are a facet's own vertices, of a body with itself: beyond doubt, where the signs would be computed finely.
+  if (along == 0.0 && (v == corner[0] || v == corner[1] || v == corner[2])) return {};
   for (int k = 0; k < 3; ++k) {
     if (side_of_edge(v, corner[(k + 1) % 3], corner[(k + 2) % 3], corner[k]) <= 0) return {};
   }

@@ -23,6 +23,7 @@
 #include "scenes/commands/progress_line.h"
 #include "scenes/commands/report_json.h"
 #include "scenes/commands/report_table.h"
+#include "scenes/commands/surface_report.h"
 #include "scenes/commands/usage_error.h"
 #include "scenes/files/body_files.h"
 #include "scenes/files/named_files.h"
@@ -195,9 +196,13 @@ void check(const CheckOptions& options, std::ostream& out) {
   if (!options.view.file.empty()) page.emplace(options.view, title_of(bodies), out);
   std::optional<JsonReport> json;
   if (json_file)
-    json.emplace(json_file->stream(), world, page ? JsonReport::Outcomes::counts : JsonReport::Outcomes::none);
+    json.emplace(json_file->stream(), world, page ? JsonReport::Outcomes::counts : JsonReport::Outcomes::none,
+                 options.surfaces ? JsonReport::Surfaces::checked : JsonReport::Surfaces::taken);
   std::optional<TableReport> table;
-  if (options.json != "-" && options.table) table.emplace(out, world);
+  if (options.json != "-" && options.table) {
+    if (options.surfaces) print_surfaces(out, world);
+    table.emplace(out, world);
+  }
 
   const int frames = frames_to_step(options, bodies);
   ProgressLine progress("frame", frames, ProgressLine::Beside::output);
@@ -257,6 +262,8 @@ void add_check_command(CLI::App& program) {
                     "Find the contact points: where surfaces are nearest within their margins (in --json)");
   command->add_flag("--impacts", options->impacts,
                     "Find what meets between a frame and the next, every vertex moving straight (all in --json)");
+  command->add_flag("--surfaces", options->surfaces,
+                    "Check what each surface is: borders, turned and repeated facets, crossings with itself, slivers");
   add_accuracy_option(*command, options->accuracy);
   add_threads_option(*command, options->threads);
   command

@@ -24,6 +24,7 @@ struct CheckOptions {
   std::vector<std::pair<std::string, std::string>> excluded = {};  // bodies that are not held against each other
   Outputs outputs = {};                                            // points; for the page also zones and patches
   bool impacts = false;                                            // what meets between a frame and the next
+  bool surfaces = false;                                           // what each surface is, before the first frame
   Accuracy accuracy = Accuracy::exact;
   int threads = 0;          // 0: as many as OpenMP would use
   int frames = 0;           // of folders the first so many; without a folder the number of steps; 0: all, or one

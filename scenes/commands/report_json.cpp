@@ -10,19 +10,21 @@
 
 #include "engine/facet_outcomes.h"
 #include "scenes/commands/json_text.h"
+#include "scenes/commands/surface_report.h"
 
 namespace tact::scenes {
 namespace {
 
 Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
-Json bodies_json(const World& world) {
+Json bodies_json(const World& world, JsonReport::Surfaces surfaces) {
   Json bodies = Json::array();
   for (const BodyId body : world.bodies()) {
     bodies.push_back({{"name", world.name(body)},
                       {"vertices", world.vertex_count(body)},
                       {"facets", world.facet_count(body)},
                       {"surface", surface_name(world.surface(body))}});
+    if (surfaces == JsonReport::Surfaces::checked) bodies.back()["check"] = surface_json(world.check_surface(body));
   }
   return bodies;
 }
@@ -226,14 +228,14 @@ std::string feature_pair_name(FeaturePair kind) {
 
 std::string hash_text(const Report& report) { return fmt::format("{:016x}", report.hash()); }
 
-JsonReport::JsonReport(std::ostream& out, const World& world, Outcomes outcomes)
+JsonReport::JsonReport(std::ostream& out, const World& world, Outcomes outcomes, Surfaces surfaces)
     : out_(out),
       has_facets_(world.settings().accuracy != Accuracy::hulls),
       has_points_(world.settings().outputs.points),
       outcomes_(outcomes) {
   out_ << "{\"tact\":" << json_text(TACT_VERSION)
        << ",\"accuracy\":" << json_text(accuracy_name(world.settings().accuracy))
-       << ",\"threads\":" << world.settings().threads << ",\n \"bodies\":" << json_text(bodies_json(world))
+       << ",\"threads\":" << world.settings().threads << ",\n \"bodies\":" << json_text(bodies_json(world, surfaces))
        << ",\n \"frames\":[";
 }
 

@@ -44,11 +44,13 @@ std::string hash_text(const Report& report);
 // Writes frame by frame, a line each, so that a long run takes no memory.
 class JsonReport {
  public:
-  enum class Outcomes { none, counts };  // what became of facets, which takes longer than to find the pairs
+  enum class Outcomes { none, counts };    // what became of facets, which takes longer than to find the pairs
+  enum class Surfaces { taken, checked };  // whether bodies have a "check": see surface_report.h
 
   // Writes what comes before the frames. `world` must hold all the bodies of the run, in its settings the number of
   // threads that is to be told. `out` must outlive the report.
-  JsonReport(std::ostream& out, const World& world, Outcomes outcomes = Outcomes::none);
+  JsonReport(std::ostream& out, const World& world, Outcomes outcomes = Outcomes::none,
+             Surfaces surfaces = Surfaces::taken);
   // `motion` is what met since the frame before, or null.
   void add_frame(int frame, const Report& report, const MotionReport* motion = nullptr);
   // Writes what comes after the frames.

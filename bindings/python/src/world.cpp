@@ -288,6 +288,7 @@ void define_world(py::module_& module) {
         return "<tact.World of " + std::to_string(world.use().body_count()) + " bodies>";
       });
   define_queries(module, class_of_world);
+  define_surface_check(module, class_of_world);
   define_recording(module, class_of_world);
   define_debug_draw(module, class_of_world);
 }

@@ -510,6 +510,57 @@ class DebugDrawOptions:
     word: DebugColor
     def __init__(self, **options: bool | DebugColor) -> None: ...
 
+class SurfaceComponent:
+    """Facets that are joined by edges."""
+
+    @property
+    def facet(self) -> int:
+        """the first of its facets"""
+    @property
+    def facet_count(self) -> int:
+        """how many there are"""
+    @property
+    def closed(self) -> bool:
+        """each edge joins two facets, which run along it in opposite directions"""
+    @property
+    def inside_out(self) -> bool:
+        """closed, and its facets are clockwise seen from outside"""
+
+class SurfaceCheck:
+    """A body's surface, by its vertices and facets as they were added. Edges have the smaller vertex first, and all lists are sorted."""
+
+    @property
+    def components(self) -> list[SurfaceComponent]:
+        """by their first facet"""
+    @property
+    def border_edges(self) -> Ints:
+        """edges of one facet"""
+    @property
+    def branching_edges(self) -> Ints:
+        """edges of three or more facets"""
+    @property
+    def turned_facets(self) -> Ints:
+        """facets turned against most of their component"""
+    @property
+    def crossings(self) -> Ints:
+        """facets that meet beyond what neighbours share"""
+    @property
+    def repeated_facets(self) -> Ints:
+        """a facet, and the first with the same corners"""
+    @property
+    def repeated_vertices(self) -> Ints:
+        """a vertex, and the first at the same place"""
+    @property
+    def slivers(self) -> Ints:
+        """facets of hardly any height, or of no area"""
+    @property
+    def unused_vertices(self) -> Ints:
+        """vertices of no facet"""
+    def is_solid(self) -> bool:
+        """whether it bounds a solid: every component is closed, and none is inside out"""
+    def is_clean(self) -> bool:
+        """whether every list of faults is empty; borders are none, nor are unused vertices"""
+
 class World:
     """A set of bodies and the contacts among them."""
 
@@ -633,6 +684,8 @@ class World:
         """a copy, (F, 3), as it was given"""
     def bounds(self, body: BodyId) -> tuple[Floats, Floats]:
         """the box of a body with its margin, metres; without a facet, lower is above upper. Two arrays, lower and upper"""
+    def check_surface(self, body: BodyId, sliver: float = 1e-6) -> SurfaceCheck:
+        """checks what a body's surface is: borders, turned facets, crossings with itself and more. A facet is a sliver whose height is at most `sliver` times its longest side"""
     def record(self, path: str | os.PathLike[str]) -> None:
         """writes all that enters the world to a file that `tact replay` runs again; before the first body is added"""
     def stop_recording(self) -> None:

@@ -12,6 +12,7 @@
 #include <tact/report.h>
 #include <tact/settings.h>
 #include <tact/statistics.h>
+#include <tact/surface_check.h>
 #include <tact/version.h>
 #include <tact/world.h>
 #include <tact/world_observer.h>

@@ -7,6 +7,7 @@
 #include <tact/queries.h>
 #include <tact/report.h>
 #include <tact/settings.h>
+#include <tact/surface_check.h>
 #include <tact/world_observer.h>
 
 #include <Eigen/Core>
@@ -164,6 +165,9 @@ class TACT_API World {
   void copy_positions(BodyId body, std::span<double> coordinates) const;
   /// Copies the facets of a body, 3 x F indices, column by column. Errors: also wrong_size.
   void copy_facets(BodyId body, std::span<int> corners) const;
+  /// Checks what a body's surface is: borders, turned facets, crossings with itself and more. A facet is a sliver whose
+  /// height is at most `sliver` times its longest side. Errors: also invalid_argument, out_of_memory, backend_failure.
+  SurfaceCheck check_surface(BodyId body, double sliver = 1e-6) const;
   /// Returns the box of a body with its margin, metres; without a facet, lower is above upper.
   Bounds bounds(BodyId body) const;
 

@@ -171,6 +171,15 @@ TEST_F(CheckCommand, SheetsAreNamed) {
   EXPECT_THROW(check_json({.meshes = {a_}, .sheets = {"a"}}), UsageError);
 }
 
+TEST_F(CheckCommand, SurfacesAreChecked) {
+  const Json whole = check_json({.meshes = {a_, b_}, .surfaces = true})["bodies"][0]["check"];
+  EXPECT_TRUE(whole["solid"].get<bool>());
+  for (const char* const fault : {"border_edges", "branching_edges", "turned_facets", "crossings", "repeated_facets",
+                                  "repeated_vertices", "slivers", "unused_vertices"})
+    EXPECT_TRUE(whole[fault].is_array() && whole[fault].empty()) << fault;
+  EXPECT_FALSE(check_json({.meshes = {a_, b_}})["bodies"][0].contains("check"));
+}
+
 TEST_F(CheckCommand, ExcludedPairsAreLeftOutAndCounted) {
   const Json frame = check_json({.meshes = {a_, b_, c_}, .excluded = {{"b.obj", "a.obj"}}})["frames"][0];
   ASSERT_EQ(frame["pairs"].size(), 2u);

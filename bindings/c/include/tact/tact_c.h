@@ -294,6 +294,32 @@ TACT_C_API tact_error tact_world_copy_facets(tact_world world, tact_body body, i
 /** Gives the box of a body with its margin, metres; without a facet, lower is above upper. */
 TACT_C_API tact_error tact_world_bounds(tact_world world, tact_body body, tact_bounds* bounds);
 
+/** What tact_world_check_surface() finds. */
+typedef enum tact_surface_fault_kind {
+  TACT_FAULT_BORDER_EDGE = 0,          /**< an edge of one facet: two vertices */
+  TACT_FAULT_BRANCHING_EDGE = 1,       /**< an edge of three or more facets: two vertices */
+  TACT_FAULT_TURNED_FACET = 2,         /**< a facet turned against most of its component */
+  TACT_FAULT_INSIDE_OUT_COMPONENT = 3, /**< the first facet of a closed component that is inside out */
+  TACT_FAULT_CROSSING = 4,             /**< two facets that meet beyond what neighbours share */
+  TACT_FAULT_REPEATED_FACET = 5,       /**< a facet, and the first with the same corners */
+  TACT_FAULT_REPEATED_VERTEX = 6,      /**< a vertex, and the first at the same place */
+  TACT_FAULT_SLIVER = 7,               /**< a facet of hardly any height, or of no area */
+  TACT_FAULT_UNUSED_VERTEX = 8         /**< a vertex of no facet */
+} tact_surface_fault_kind;
+
+/** A fault of a surface. */
+typedef struct tact_surface_fault {
+  int32_t kind;   /**< tact_surface_fault_kind */
+  int32_t first;  /**< the vertex or the facet */
+  int32_t second; /**< the other one, or -1 */
+} tact_surface_fault;
+
+/** Checks what a body's surface is: borders, turned facets, crossings with itself and more. A facet is a sliver whose
+ * height is at most `sliver` times its longest side. `solid` may be null: whether the surface bounds a solid. Faults
+ * are sorted by kind. Writes up to `capacity` of them, and how many there are. */
+TACT_C_API tact_error tact_world_check_surface(tact_world world, tact_body body, double sliver, bool* solid,
+                                               tact_surface_fault* faults, size_t capacity, size_t* count);
+
 /* Recordings: see tact/recording.h. */
 
 /** Records everything that enters the world to the file `path`, from before its first body on; null ends it and tells
