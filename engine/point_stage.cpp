@@ -90,6 +90,15 @@ void carry(const PairRecord& record, FeaturePair kind, std::vector<narrowphase::
   carried.erase(std::unique(carried.begin(), carried.end(), same_vertex), carried.end());
 }
 
+// What two edges remember of it.
+void carry_edges(const PairRecord& record, std::vector<FeaturePoint>& carried) {
+  carried.clear();
+  if (!record.was_in_contact) return;
+  for (const ContactPoint& point : record.last_points) {
+    if (point.kind == FeaturePair::edge_edge) carried.push_back(to_feature_point(point));
+  }
+}
+
 base::Vec3 direction_of(const PairRecord& record) {
   const Eigen::Vector3d& direction = record.contact.direction;
   return {direction.x(), direction.y(), direction.z()};
@@ -142,15 +151,16 @@ narrowphase::NearRules PointStage::find_crossing(const Bodies& bodies, Prepared&
   if (!cross_each_other(record, wanted.reach)) return {.touching = direction_of(record)};
   carry(record, FeaturePair::vertex_facet, prepared.carried_a);
   carry(record, FeaturePair::facet_vertex, prepared.carried_b);
-  return {.crossing = &prepared.crossing.find({.a = bodies.featured(wanted.a),
-                                               .b = bodies.featured(wanted.b),
-                                               .surface_a = kind_of(bodies.in_slot(wanted.a)),
-                                               .surface_b = kind_of(bodies.in_slot(wanted.b)),
-                                               .direction = direction_of(record),
-                                               .depth = record.contact.depth,
-                                               .facet_pairs = record.facet_pairs,
-                                               .carried_a = prepared.carried_a,
-                                               .carried_b = prepared.carried_b})};
+  carry_edges(record, prepared.last);
+  return {.crossing = &prepared.crossing.find(
+              {.a = bodies.featured(wanted.a),
+               .b = bodies.featured(wanted.b),
+               .surface_a = kind_of(bodies.in_slot(wanted.a)),
+               .surface_b = kind_of(bodies.in_slot(wanted.b)),
+               .direction = direction_of(record),
+               .depth = record.contact.depth,
+               .facet_pairs = record.facet_pairs,
+               .carried = {.of_a = prepared.carried_a, .of_b = prepared.carried_b, .of_edges = prepared.last}})};
 }
 
 const narrowphase::Crossing* PointStage::find_self_crossing(const Bodies& bodies, Prepared& prepared) {

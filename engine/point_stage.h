@@ -47,7 +47,7 @@ class PointStage {
     std::span<const narrowphase::ClusterPair> cluster_pairs;
     narrowphase::PairCrossing crossing;
     std::vector<narrowphase::CarriedNormal> carried_a, carried_b;
-    std::vector<narrowphase::FeaturePoint> last;  // points of one body, in the last step
+    std::vector<narrowphase::FeaturePoint> last;  // points of the last step: of one body, or between edges of two
     narrowphase::NearRules rules;
   };
   /// Memory of a thread, used again.

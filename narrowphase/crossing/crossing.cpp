@@ -16,6 +16,10 @@ EdgeVertices CrossedSurface::source_ends(int edge) const {
   return {mesh.mesh->source_vertex(ends[0]), mesh.mesh->source_vertex(ends[1])};
 }
 
+int CrossedSurface::source_corner(int source_facet) const {
+  return mesh.mesh->source_vertex(mesh.features->corners(mesh.mesh->facet_of_source(source_facet))[0]);
+}
+
 Vec3 CrossedSurface::exits_of(int edge) const {
   Vec3 sum;
   for (const int v : source_ends(edge)) {

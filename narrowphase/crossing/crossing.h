@@ -1,11 +1,13 @@
 // What of two surfaces is past the other one, or what of a mesh is past itself.
 //
 // PairCrossing finds it for two bodies, SelfCrossing for one: by the edges that meet facets (edge_hits), the patches
-// and the vertices past the surface (cut), and the nearest exit of each vertex (nearest_exit, part_exit, spread_past).
-// Then crossing_points makes points of it, for both.
+// and the vertices past the surface (cut, vertex_winding), the crossings that they are of (crossing_groups), the
+// nearest exit of each vertex (nearest_exit, part_exit, spread_past), and the way apart of a whole crossing
+// (way_apart). Then crossing_points makes points of it, for both.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "narrowphase/crossing/crossing_sides.h"
@@ -17,6 +19,9 @@ namespace tact::narrowphase {
 
 /// Facets that stand along a direction to 3 degrees do not face it: rounding would choose between them.
 inline constexpr double kFaces = 0.05;
+/// Normals agree on a direction if their mean is longer: those of a cap of 37 degrees do, of two walls at a right angle
+/// they do not.
+inline constexpr double kAgree = 0.8;
 /// What is nearer to its own mesh touches it: rounding would choose its side. Lengths are near 1.
 inline constexpr double kTouches = 1e-12;
 /// Beyond both meshes, whose lengths are at most 2.
@@ -35,8 +40,23 @@ struct CrossedSurface {
   void begin(const FeaturedMesh& of, SurfaceKind kind, double sign_of_exits, double unit);
   ScaledMesh scaled() const { return {*mesh.mesh, *mesh.features, scale}; }
   EdgeVertices source_ends(int edge) const;
+  /// The first corner of a facet; both by the caller's numbers.
+  int source_corner(int source_facet) const;
   /// The sum of the directions of the exits that an edge's ends have.
   Vec3 exits_of(int edge) const;
+};
+
+/// What a vertex, by the caller's number, remembers of the last step: the normal of its point, from a to b.
+struct CarriedNormal {
+  int vertex = -1;
+  Vec3 normal;
+  double gap = 0.0;  // it had, metres
+};
+
+/// What two bodies remember of the last step.
+struct CarriedPoints {
+  std::span<const CarriedNormal> of_a, of_b;  // of vertices; sorted, each once
+  std::span<const FeaturePoint> of_edges;     // points between two edges
 };
 
 /// Const calls may come from many threads.
@@ -46,6 +66,8 @@ struct Crossing {
   double within = 0.0;  // scaled; no exit is longer, nor the way between edges that have passed each other
   // Of two bodies:
   Vec3 direction;  // of the contact, unit, from a to b
+  std::span<const FacetPair> facet_pairs;
+  CarriedPoints carried;
   // Of one mesh with itself:
   double reach = 0.0;          // scaled
   bool limit_reached = false;  // a vertex that is past the mesh has no exit: it is farther than `within`

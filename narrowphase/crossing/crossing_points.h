@@ -18,8 +18,7 @@
 // Edges through a closed body, both ends outside. One that has no such point has one with the nearest edge of the body
 // for which its closest point is inside, if there is one.
 //
-// A rule for crossings of another kind goes into CrossingPoints::append(): Cut::patch_of() tells which edge hits and
-// which vertices past the surface are of one crossing.
+// A crossing of two bodies, see crossing_groups.h, that has no such point has those of way_apart.h.
 #pragma once
 
 #include <optional>
@@ -28,8 +27,9 @@
 #include <vector>
 
 #include "narrowphase/contact_points/waiting_edges.h"
-#include "narrowphase/crossing/crossing.h"
+#include "narrowphase/crossing/crossing_groups.h"
 #include "narrowphase/crossing/edge_through.h"
+#include "narrowphase/crossing/way_apart.h"
 #include "narrowphase/distance/surface_distance.h"
 
 namespace tact::narrowphase {
@@ -60,6 +60,13 @@ class CrossingPoints {
   std::optional<FeaturePoint> point_through(const Crossing& crossing, const CrossedSurface& own,
                                             std::span<const EdgeHit> hits, const CrossedSurface& body);
 
+  void append_ways_apart(const Crossing& crossing, std::vector<FeaturePoint>& found);
+  Vec3 carried_direction(const Crossing& crossing, int group) const;
+
+  CrossingGroups groups_;
+  WayApart way_apart_;
+  std::vector<char> has_point_;    // of each group
+  PartOfSurface part_a_, part_b_;  // of a group
   std::vector<EdgePair> candidates_;
   std::vector<int> with_point_;
   std::vector<EdgePair> touching_;  // edges with a point of gap zero

@@ -107,14 +107,7 @@ void Cut::clear(const FeaturedMesh& own) {
 
 void Cut::find_inside(const ClusteredMesh& other) {
   const ClusteredMesh& mesh = *own_.mesh;
-  for (const int v : ring_) {
-    if (state(v) != kRing) continue;
-    if (contains(other, mesh.position(v))) {
-      flood_inside(v);
-    } else {
-      flood_outside(v);
-    }
-  }
+  find_past([&](int v) { return contains(other, mesh.position(v)); });
   // Parts of the mesh of which no edge is cut.
   const auto parts = own_.features->one_of_each_part();
   if (parts.size() == 1 && !ring_.empty()) return;
@@ -122,6 +115,11 @@ void Cut::find_inside(const ClusteredMesh& other) {
     if (state(v) != kUnknown || !base::contains(other.box(), mesh.position(v))) continue;
     if (contains(other, mesh.position(v))) flood_inside(v);
   }
+}
+
+void Cut::leave_out(int vertex) {
+  if (state(vertex) == kUnknown) touch(own_.mesh->source_vertex(vertex));
+  state(vertex) = kOutside;
 }
 
 void Cut::add_past(int vertex, int from_source_vertex) {

@@ -33,6 +33,20 @@ class Cut {
   /// that are connected by edges is tested, and edges that meet no facet lead to the others. What is looked at is what
   /// is inside, and the corners of facets that meet.
   void find_inside(const ClusteredMesh& other);
+  /// Makes a vertex, by the mesh's number, none of those that find_past() finds.
+  void leave_out(int vertex);
+  /// The same where is_past(vertex) decides, of corners of facets that meet and what is connected to them.
+  template <class IsPast>
+  void find_past(const IsPast& is_past) {
+    for (const int v : ring_) {
+      if (state(v) != kRing) continue;
+      if (is_past(v)) {
+        flood_inside(v);
+      } else {
+        flood_outside(v);
+      }
+    }
+  }
   /// Adds a vertex, by the mesh's number, that is beyond a surface without an inside, and its number of the caller to
   /// the patch of another one, if that is not negative.
   void add_past(int vertex, int from_source_vertex);

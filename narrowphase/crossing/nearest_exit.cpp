@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "narrowphase/distance/vertex_facet.h"
 #include "narrowphase/mesh/cluster_search.h"
 #include "narrowphase/mesh/open_in_box.h"
-#include "narrowphase/queries/mesh_queries.h"
 
 namespace tact::narrowphase {
 
@@ -75,22 +75,8 @@ PlaceInFacet nearest_place(const SeenFacet& seen, int facet) {
   return place;
 }
 
-// On the smallest feature with the place: corners without weight are left out, those of an edge in the caller's order.
 NearestExit exit_at(const ScaledMesh& m, const PlaceInFacet& place) {
-  const Corners& c = m.features.corners(place.facet);
-  NearestExit exit{place.facet, place.distance, place.direction, {}};
-  auto& [vertices, weight] = exit.place;
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (place.weight[k] <= 0.0) continue;
-    vertices[count] = c[k];
-    weight[count++] = place.weight[k];
-  }
-  if (count == 2 && m.mesh.source_vertex(vertices[1]) < m.mesh.source_vertex(vertices[0])) {
-    std::swap(vertices[0], vertices[1]);
-    std::swap(weight[0], weight[1]);
-  }
-  return exit;
+  return {place.facet, place.distance, place.direction, place_in_facet(m, place.facet, place.weight)};
 }
 
 // Facets that are about as near as the nearest are looked at, too: boxes round otherwise than facets.
@@ -130,6 +116,23 @@ double height_at_edge(const ScaledMesh& m, int facet, int side, Vec3 v, double o
 }
 
 }  // namespace
+
+PlaceOnFeature place_in_facet(const ScaledMesh& m, int facet, const std::array<double, 3>& weights) {
+  const Corners& c = m.features.corners(facet);
+  PlaceOnFeature place;
+  auto& [vertices, weight] = place;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (weights[k] <= 0.0) continue;
+    vertices[count] = c[k];
+    weight[count++] = weights[k];
+  }
+  if (count == 2 && m.mesh.source_vertex(vertices[1]) < m.mesh.source_vertex(vertices[0])) {
+    std::swap(vertices[0], vertices[1]);
+    std::swap(weight[0], weight[1]);
+  }
+  return place;
+}
 
 void ExitFinder::begin(const ScaledMesh& surface) {
   constexpr std::size_t kOpen = 32, kGathered = 3;  // clusters and blocks: they stay in the nearest caches
@@ -276,14 +279,6 @@ std::optional<NearestExit> exit_to_facet(const ScaledMesh& surface, int facet, V
   const SeenFacet seen(surface.triangle(facet), v);
   if (seen.length == 0.0) return {};
   return exit_at(surface, nearest_place(seen, facet));
-}
-
-std::optional<NearestExit> exit_along(const ScaledMesh& surface, Vec3 v, Vec3 direction, double within) {
-  const Vec3 from = (1.0 / surface.scale) * v;
-  const Vec3 way = (within / surface.scale) * direction;
-  const auto hit = first_hit(surface.mesh, PreparedSegment({from, from + way}), 1.0);
-  if (!hit) return {};
-  return exit_at(surface, {surface.mesh.facet_of_source(hit->facet), hit->time * within, direction, hit->weight});
 }
 
 }  // namespace tact::narrowphase

@@ -39,6 +39,10 @@ struct PlaceInFacet {
   std::array<double, 3> weight{};  // of the corners
 };
 
+/// A place of a facet on the smallest feature that has it: corners without weight are left out, the vertices of an edge
+/// stand in the caller's order.
+PlaceOnFeature place_in_facet(const ScaledMesh& mesh, int facet, const std::array<double, 3>& weights);
+
 /// Of many vertices, one after the other: clusters that were opened for one stay open for the next. Buffers are reused.
 class ExitFinder {
  public:
@@ -82,8 +86,5 @@ class ExitFinder {
 
 /// The nearest place of one facet; none if it has no area.
 std::optional<NearestExit> exit_to_facet(const ScaledMesh& surface, int facet, Vec3 v);
-
-/// Of a closed mesh: along `direction`, a unit vector, at most `within` far.
-std::optional<NearestExit> exit_along(const ScaledMesh& surface, Vec3 v, Vec3 direction, double within);
 
 }  // namespace tact::narrowphase

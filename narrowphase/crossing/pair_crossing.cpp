@@ -11,11 +11,10 @@ namespace {
 // A vertex keeps to facets within 60 degrees of its last normal: a wall at a right angle to them stays another side
 // however the body turns in a step.
 constexpr double kSameSide = 0.5;
-// The facets through which a part comes in agree on a direction if their mean normal is so long: those of a cap of 37
-// degrees do, two walls at a right angle do not.
-constexpr double kAgree = 0.8;
 // How far beyond the hulls' depth an exit may seem to be by rounding; lengths are near 1.
 constexpr double kDepthRounding = 1e-12;
+// A vertex on the surface itself looks for the other side from so far below it. Lengths are near 1.
+constexpr double kBeside = 1e-9;
 // Less than every cosine: each facet faces a direction by so much.
 constexpr double kFacesAnything = -2.0;
 
@@ -44,12 +43,19 @@ const Crossing& PairCrossing::find(const PairCrossingInput& input) {
   edge_hits_.run(a.mesh, b.mesh, input.facet_pairs, a.cut.edge_hits(), b.cut.edge_hits());
   a.cut.order_hits();
   b.cut.order_hits();
+  if (b.surface == SurfaceKind::closed) a.cut.find_inside(*b.mesh.mesh);
+  if (a.surface == SurfaceKind::closed) b.cut.find_inside(*a.mesh.mesh);
+  a.cut.number_patches();
+  b.cut.number_patches();
+  ways_apart_.clear();
   // Inside a closed mesh first: the exits from it tell on which side of a sheet it belongs.
   const bool into_a_first = a.surface == SurfaceKind::closed && b.surface == SurfaceKind::sheet;
   find_past(into_a_first ? b : a, into_a_first ? a : b);
   find_past(into_a_first ? a : b, into_a_first ? b : a);
-  set_without_near_points(a);
-  set_without_near_points(b);
+  for (CrossedSurface* const own : {&a, &b}) {
+    own->cut.number_patches();
+    set_without_near_points(*own);
+  }
   return crossing_;
 }
 
@@ -57,11 +63,13 @@ void PairCrossing::begin(const PairCrossingInput& input) {
   const double scale = unit_scale_of(merged(input.a.mesh->box(), input.b.mesh->box()));
   crossing_.within = scale * input.depth + kDepthRounding;
   crossing_.direction = input.direction;
+  crossing_.facet_pairs = input.facet_pairs;
+  crossing_.carried = input.carried;
   crossing_.surfaces[0].begin(input.a, input.surface_a, -1.0, scale);
   crossing_.surfaces[1].begin(input.b, input.surface_b, 1.0, scale);
   for (const bool of_b : {false, true}) {
     carried_[of_b].clear((of_b ? input.b : input.a).mesh->source_vertex_count());
-    for (const CarriedNormal& one : of_b ? input.carried_b : input.carried_a) carried_[of_b].add(one.vertex, one);
+    for (const CarriedNormal& one : of_b ? input.carried.of_b : input.carried.of_a) carried_[of_b].add(one.vertex, one);
   }
 }
 
@@ -75,22 +83,24 @@ void PairCrossing::find_past(CrossedSurface& own, const CrossedSurface& other) {
 
 // In the order of the caller's numbers, so that sums do not depend on how facets are grouped.
 void PairCrossing::find_patch_directions(CrossedSurface& own, const CrossedSurface& other) {
-  own.cut.number_patches();
   patches_.assign(own.cut.patch_count(), {});
   for (const CarriedNormal& one : carried(own).values()) {
     const int patch = own.cut.patch_of(one.vertex);
     if (patch < 0) continue;
-    Vec3& sum = one.gap < 0.0 ? patches_[patch].of_past : patches_[patch].of_others;
-    sum = sum + own.sign * one.normal;
+    (one.gap < 0.0 ? patches_[patch].of_past : patches_[patch].of_others).add(own.sign * one.normal);
   }
   for (const EdgeHit& hit : own.cut.hits()) add_entry(own, other, hit, patches_[own.cut.patch_of(hit.vertices[0])]);
   for (PatchDirection& one : patches_) {
-    const bool agree = one.entries > 0 && norm(one.entered) > kAgree * one.entries;
-    one.facing = one.of_past != Vec3{}     ? one.of_past
-                 : one.of_others != Vec3{} ? one.of_others
-                 : agree                   ? one.entered
-                                           : own.sign * crossing_.direction;
+    const bool of_past = one.of_past.sum != Vec3{}, of_others = !of_past && one.of_others.sum != Vec3{};
+    const bool entered = !of_past && !of_others && one.entered.count > 0 && one.entered.agrees();
+    one.facing = of_past     ? one.of_past.sum
+                 : of_others ? one.of_others.sum
+                 : entered   ? one.entered.sum
+                             : own.sign * crossing_.direction;
     one.facing = normalized(one.facing);
+    one.agrees = of_past     ? one.of_past.agrees()
+                 : of_others ? one.of_others.agrees()
+                             : entered || one.entered.count == 0;
   }
 }
 
@@ -98,16 +108,14 @@ void PairCrossing::add_entry(const CrossedSurface& own, const CrossedSurface& ot
                              PatchDirection& patch) {
   const int facet = other.mesh.mesh->facet_of_source(hit.facet);
   if (other.surface == SurfaceKind::closed) {
-    patch.entered = patch.entered + other.scaled().unit_normal(facet);
-    ++patch.entries;
+    patch.entered.add(other.scaled().unit_normal(facet));
   } else if (own.surface == SurfaceKind::closed) {
     for (const int corner : other.mesh.features->corners(facet)) {
       const int source = other.mesh.mesh->source_vertex(corner);
       const NearestExit* exit = other.exits.find(source);
       const CarriedNormal* last = carried(other).find(source);
       if (exit == nullptr || (last != nullptr && last->gap < 0.0)) continue;
-      patch.entered = patch.entered - exit->direction;
-      ++patch.entries;
+      patch.entered.add(-exit->direction);
     }
   }
 }
@@ -128,7 +136,6 @@ std::optional<Vec3> PairCrossing::facing_of_vertex(const CrossedSurface& own, in
 }
 
 void PairCrossing::find_exits(CrossedSurface& own, const CrossedSurface& other) {
-  own.cut.find_inside(*other.mesh.mesh);
   if (own.cut.past().empty()) return;
   find_patch_directions(own, other);
   Box around;
@@ -145,17 +152,52 @@ void PairCrossing::find_exits(CrossedSurface& own, const CrossedSurface& other) 
 
 std::optional<NearestExit> PairCrossing::exit_inside(const CrossedSurface& own, const CrossedSurface& other, int vertex,
                                                      int hint) {
-  const int source = own.mesh.mesh->source_vertex(vertex);
-  const Vec3 v = own.scaled().position(vertex), facing = facing_of_patch(own, source);
+  const int source = own.mesh.mesh->source_vertex(vertex), patch = own.cut.patch_of(source);
+  const Vec3 v = own.scaled().position(vertex);
+  Vec3 facing = facing_of_patch(own, source);
   const double within = crossing_.within;
   std::optional<NearestExit> exit;
-  if (const auto last = facing_of_vertex(own, source, SurfaceKind::closed))
+  if (const auto last = facing_of_vertex(own, source, SurfaceKind::closed)) {
     exit = exits_.nearest_exit(v, *last, kSameSide, within, hint);
-  if (!exit) exit = exits_.nearest_exit(v, facing, kFaces, within, hint);
-  if (!exit) exit = exit_along(other.scaled(), v, own.sign * crossing_.direction, within);
-  // A surface with holes may not be met.
-  if (!exit) exit = exits_.nearest_exit(v, facing, kFacesAnything, kAnywhere, hint);
-  return exit;
+    if (exit && carried(own).find(source)->gap < 0.0) return exit;
+  }
+  if (!exit) {
+    if (patch >= 0 && !patches_[patch].agrees) facing = own.sign * way_apart_of(own, source);
+    exit = exits_.nearest_exit(v, facing, kFaces, within, hint);
+  }
+  const auto nearest = exits_.nearest_exit(v, facing, kFacesAnything, within, hint);
+  return exit && nearest && is_thicker(other, v, *nearest, exit->distance) ? exit : nearest;
+}
+
+// That of the crossing that a vertex is of, which is found once; of a part that no longer meets anything the contact
+// direction.
+Vec3 PairCrossing::way_apart_of(const CrossedSurface& own, int source_vertex) {
+  if (ways_apart_.empty()) {
+    groups_.find(crossing_);
+    ways_apart_.resize(static_cast<std::size_t>(groups_.count()));
+  }
+  const int group = groups_.group_of(own, source_vertex);
+  if (group < 0) return crossing_.direction;
+  std::optional<Vec3>& way = ways_apart_[group];
+  if (!way) {
+    groups_.take_parts(group, part_a_, part_b_);
+    way = way_apart_.direction({.a = crossing_.a().scaled(),
+                                .b = crossing_.b().scaled(),
+                                .part_a = part_a_,
+                                .part_b = part_b_,
+                                .came = {},
+                                .direction = crossing_.direction,
+                                .depth = crossing_.within});
+  }
+  return *way;
+}
+
+// Whether the mesh around `v`, from its nearest place through `v` to the other side, is thicker than `distance`.
+bool PairCrossing::is_thicker(const CrossedSurface& other, Vec3 v, const NearestExit& nearest, double distance) const {
+  if (nearest.distance == distance) return true;
+  const double back = 1.0 / other.scale;
+  const Vec3 from = v - kBeside * nearest.direction, to = v - (distance - nearest.distance) * nearest.direction;
+  return !any_hit(*other.mesh.mesh, PreparedSegment({back * from, back * to}));
 }
 
 void PairCrossing::find_exits_through(CrossedSurface& own, const CrossedSurface& sheet) {

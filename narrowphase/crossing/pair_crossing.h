@@ -4,12 +4,15 @@
 //   1. whose outward normals are within 60 degrees of the normal that the vertex's point had in the last step; or, if
 //      there was none, or none of them is as near as the hulls are deep,
 //   2. that face the direction of the vertex's patch: the mean of the normals that its vertices had in the last step,
-//      those of negative gaps if there are any; or else the mean normal of the facets through which its edges come in,
-//      if these agree; or else the contact direction; or, if none of them is near enough,
-//   3. that are met first along the contact direction, which is never farther than the hulls are deep.
-// So a shallow vertex has its distance to the surface, and a deep one keeps the side that it came from. A vertex that
-// had a positive gap keeps its normal only if it is not against its patch's: one that has come out on the far side of a
-// thin part, and goes in again, goes back with the others.
+//      those of negative gaps if there are any; or else the mean normal of the facets through which its edges come in;
+//      or, if it has no edges that do, the contact direction. Where these normals do not agree, the direction is that
+//      of way_apart.h. If none of these facets is near enough,
+//   3. of all.
+// So a shallow vertex has its distance to the surface, and a deep one keeps the side that it came from. No exit but
+// those of vertices that had a negative gap is longer than the mesh is thick there: than the way from the nearest place
+// through the vertex to the other side. One that is is that of 3.
+// A vertex that had a positive gap keeps its normal only if it is not against its patch's: one that has come out on the
+// far side of a thin part, and goes in again, goes back with the others.
 //
 // Beyond a sheet. A vertex whose edge the sheet cuts is past it if it is on the other side than its normal in the last
 // step says, or that of its patch. If these had none, of a closed mesh the exits that corners of the sheet have which
@@ -23,16 +26,11 @@
 #include <vector>
 
 #include "narrowphase/crossing/crossing.h"
+#include "narrowphase/crossing/crossing_groups.h"
 #include "narrowphase/crossing/spread_past.h"
+#include "narrowphase/crossing/way_apart.h"
 
 namespace tact::narrowphase {
-
-/// What a vertex, by the caller's number, remembers of the last step: the normal of its point, from a to b.
-struct CarriedNormal {
-  int vertex = -1;
-  Vec3 normal;
-  double gap = 0.0;  // it had, metres
-};
 
 /// Two meshes whose hulls overlap, in the words of the caller.
 struct PairCrossingInput {
@@ -41,7 +39,7 @@ struct PairCrossingInput {
   Vec3 direction;      // of the contact, unit, from a to b
   double depth = 0.0;  // of the hulls, metres
   std::span<const FacetPair> facet_pairs;
-  std::span<const CarriedNormal> carried_a, carried_b;  // sorted by vertex, each once
+  CarriedPoints carried;
 };
 
 /// Whether every vertex of a mesh is inside the closed one `outer`. Exact, for meshes of which no facets meet.
@@ -56,9 +54,15 @@ class PairCrossing {
  private:
   /// What a patch of vertices knows of its direction: sums of unit vectors out of the other mesh.
   struct PatchDirection {
-    Vec3 of_past, of_others, entered;
-    int entries = 0;
+    struct Sum {
+      Vec3 sum;
+      int count = 0;
+      void add(Vec3 normal) { sum = sum + normal, ++count; }
+      bool agrees() const { return norm(sum) > kAgree * count; }
+    };
+    Sum of_past, of_others, entered;
     Vec3 facing;
+    bool agrees = false;  // if not, what is inside a closed mesh faces the way apart
   };
   using CarriedNormals = VertexTable<CarriedNormal>;
 
@@ -67,9 +71,11 @@ class PairCrossing {
   void find_exits(CrossedSurface& own, const CrossedSurface& other);
   void find_exits_through(CrossedSurface& own, const CrossedSurface& sheet);
   std::optional<NearestExit> exit_inside(const CrossedSurface& own, const CrossedSurface& other, int vertex, int hint);
+  bool is_thicker(const CrossedSurface& other, Vec3 v, const NearestExit& nearest, double distance) const;
   void find_patch_directions(CrossedSurface& own, const CrossedSurface& other);
   void add_entry(const CrossedSurface& own, const CrossedSurface& other, const EdgeHit& hit, PatchDirection& patch);
   Vec3 facing_of_patch(const CrossedSurface& own, int source_vertex) const;
+  Vec3 way_apart_of(const CrossedSurface& own, int source_vertex);
   std::optional<Vec3> facing_of_vertex(const CrossedSurface& own, int source_vertex, SurfaceKind other) const;
   const CarriedNormals& carried(const CrossedSurface& own) const { return carried_[&own == &crossing_.surfaces[1]]; }
 
@@ -79,6 +85,10 @@ class PairCrossing {
   ExitFinder exits_;
   SpreadPast spread_;
   std::vector<PatchDirection> patches_;
+  CrossingGroups groups_;
+  WayApart way_apart_;
+  PartOfSurface part_a_, part_b_;
+  std::vector<std::optional<Vec3>> ways_apart_;  // of groups, as far as they were wanted; empty: no groups are known
   VertexTable<std::optional<ExitThrough>> through_;  // of vertices that were reached
 };
 

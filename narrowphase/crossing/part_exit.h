@@ -29,6 +29,7 @@ class PartExitFinder {
   /// common vertices, no farther from the vertex than that one and without it as a corner. Of the facets that have the
   /// place the one with the caller's least number. None if `from` has no area or has the vertex.
   std::optional<NearestExit> find(const ScaledMesh& mesh, int vertex, int from);
+  const FacetsAround& around() const { return around_; }
 
   /// The normal of the surface at an exit: that of the facet; at an edge the sum of its facets' unit normals, in a
   /// vertex that of all around it, by their angles there, so that the vertex is on the side of the surface on which it

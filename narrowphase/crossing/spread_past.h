@@ -66,13 +66,13 @@ class SpreadPast {
       const ReachedVertex first = reached_[i];
       std::optional<NearestExit> best;
       for (; i < reached_.size() && reached_[i].source_vertex == first.source_vertex; ++i) {
-        if (own.cut.is_past(first.source_vertex)) continue;
+        if (own.exits.find(first.source_vertex) != nullptr) continue;
         const std::optional<NearestExit> exit = exit_of(reached_[i]);
         if (exit && (!best || exit->distance < best->distance)) best = exit;
       }
       if (!best) continue;
       own.exits.add(first.source_vertex, *best);
-      own.cut.add_past(first.vertex, first.from);
+      if (!own.cut.is_past(first.source_vertex)) own.cut.add_past(first.vertex, first.from);
       next_.push_back(
           {first.source_vertex, first.vertex, first.from, surface.mesh.source_facet(best->facet), best->direction});
     }
@@ -83,7 +83,7 @@ class SpreadPast {
     for (const ReachedVertex& one : next_) {
       for (const int to : own.mesh.features->neighbors(one.vertex)) {
         const int source = own.mesh.mesh->source_vertex(to);
-        if (!own.cut.is_past(source) && !own.cut.is_cut_between(one.vertex, to))
+        if (own.exits.find(source) == nullptr && !own.cut.is_cut_between(one.vertex, to))
           reached_.push_back({source, to, one.source_vertex, one.facet, one.facing});
       }
     }

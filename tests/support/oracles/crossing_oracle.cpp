@@ -142,6 +142,8 @@ class Crossed {
   }
   bool is_inside(int v) const { return inside_.contains(v); }
   const Way& way(int v) const { return ways_.at(v).first; }
+  bool is_certain(int v) const { return !is_inside(v) || ways_.at(v).second; }
+  const std::map<int, int>& patches() const { return patch_; }
   bool is_cut(const VertexPair& edge) const { return hits_.contains(edge); }
   bool runs_through(const VertexPair& edge) const {
     return is_cut(edge) && hits_.at(edge).size() > 1 && !is_inside(edge.first) && !is_inside(edge.second);
@@ -185,41 +187,53 @@ class Crossed {
     return false;
   }
 
-  Long3 facing(int v) const {
+  // Which way a patch goes out; whether that is known of what is inside.
+  std::pair<Long3, bool> facing(int v) const {
     const int patch = patch_.at(v);
     Long3 crossed = Long3::Zero(), others = Long3::Zero(), entered = Long3::Zero();
-    long double entries = 0;
+    long double crossings = 0, other_points = 0, entries = 0;
     for (const auto& [w, one] : patch_) {
       if (one != patch || !last_.contains(w)) continue;
-      (last_.at(w).gap < 0.0 ? crossed : others) += sign_ * to_long(last_.at(w).normal);
+      const bool was_inside = last_.at(w).gap < 0.0;
+      (was_inside ? crossed : others) += sign_ * to_long(last_.at(w).normal);
+      ++(was_inside ? crossings : other_points);
     }
     for (const auto& [edge, facets] : hits_) {
       if (patch_.at(edge.first) != patch) continue;
       for (const std::size_t f : facets) entered += normal_of(other_, other_.facets[f]), ++entries;
     }
-    if (crossed.norm() > 0) return crossed.normalized();
-    if (others.norm() > 0) return others.normalized();
-    return entries > 0 && entered.norm() > 0.8L * entries ? Long3(entered.normalized()) : out_;
+    if (crossed.norm() > 0) return {crossed.normalized(), crossed.norm() > 0.8L * crossings};
+    if (others.norm() > 0) return {others.normalized(), others.norm() > 0.8L * other_points};
+    const bool agree = entries > 0 && entered.norm() > 0.8L * entries;
+    return {agree ? Long3(entered.normalized()) : out_, agree || entries == 0};
   }
 
   Way way_with(int v, long double shift) const {
     const Long3& x = at(own_, v);
     const long double limit = depth_ + 1e-12L + shift;
+    const auto& [out, is_known] = facing(v);
+    Way way;
     if (last_.contains(v)) {
       const Long3 carried = sign_ * to_long(last_.at(v).normal);
-      if (last_.at(v).gap < 0.0 || carried.dot(facing(v)) >= 0) {
-        const Way way = nearest_facing(other_, x, carried, 0.5L + shift);
-        if (way.distance <= limit) return way;
-      }
+      const bool was_inside = last_.at(v).gap < 0.0;
+      if (was_inside || carried.dot(out) >= 0) way = nearest_facing(other_, x, carried, 0.5L + shift);
+      if (was_inside && way.distance <= limit) return way;
     }
-    const Way way = nearest_facing(other_, x, facing(v), 0.05L + shift);
-    return way.distance <= limit ? way : along(other_, x, out_);
+    if (way.distance > limit && is_known) way = nearest_facing(other_, x, out, 0.05L + shift);
+    // No farther than the body is thick there.
+    const Way nearest = nearest_facing(other_, x, out, -2);
+    if (way.distance > limit) return nearest;
+    const long double thickness = nearest.distance + along(other_, x - 1e-9L * nearest.out, -nearest.out).distance;
+    return way.distance > nearest.distance && way.distance >= thickness + shift ? nearest : way;
   }
 
   // With thresholds moved to and fro: certain if that changes nothing.
   std::pair<Way, bool> way_of(int v) const {
     const Way way = way_with(v, 0);
-    const bool certain = std::abs(way_with(v, kBand).distance - way.distance) <= kBand &&
+    // Where nothing tells the side, the engine takes a local one.
+    const bool was_inside = last_.contains(v) && last_.at(v).gap < 0.0;
+    const bool certain = (was_inside || facing(v).second) &&
+                         std::abs(way_with(v, kBand).distance - way.distance) <= kBand &&
                          std::abs(way_with(v, -kBand).distance - way.distance) <= kBand;
     return {way, certain};
   }
@@ -293,9 +307,12 @@ class EdgeOracle {
     const Long3 normal = (height > 0 ? -1 : 1) * across.normalized();
     for (const int c : a_.third.at(e)) least = std::min(least, -normal.dot(at(a_, c) - p));
     for (const int c : b_.third.at(f)) least = std::min(least, normal.dot(at(b_, c) - r));
-    least = std::min({least, facing(e, f).dot(normal) - 0.05L, depth_ + 1e-12L - distance});
+    const bool is_told = in_b_.is_certain(e.first) && in_b_.is_certain(e.second) && in_a_.is_certain(f.first) &&
+                         in_a_.is_certain(f.second);
+    if (is_told) least = std::min(least, facing(e, f).dot(normal) - 0.05L);
+    least = std::min(least, depth_ + 1e-12L - distance);
     if (least < -kBand) return {};
-    return Passed{distance, p + s * u, r + t * w, least > kBand && distance > kBand};
+    return Passed{distance, p + s * u, r + t * w, is_told && least > kBand && distance > kBand};
   }
   Long3 facing(const VertexPair& e, const VertexPair& f) const {
     Long3 sum = Long3::Zero();
@@ -357,13 +374,49 @@ LastNormals last_normals(const Contact& contact) {
   return last;
 }
 
+namespace {
+
+// Vertices of facets that meet, a's as they are and b's below zero, by sets that facet pairs join; those sets that have
+// no point.
+void find_without_point(const Crossed& in_b, const Crossed& in_a, std::span<const FacetPair> pairs, const Shape& a,
+                        const Shape& b, ExpectedGaps& expected) {
+  std::map<int, int> set;
+  for (const auto& [v, patch] : in_b.patches()) set[v] = patch;
+  for (const auto& [v, patch] : in_a.patches()) set[-1 - v] = -1 - patch;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const FacetPair& pair : pairs) {
+      const int one = set.at(a.facets[static_cast<std::size_t>(pair.a)][0]),
+                other = set.at(-1 - b.facets[static_cast<std::size_t>(pair.b)][0]);
+      if (one == other) continue;
+      changed = true;
+      for (auto& [_, root] : set) root = root == other ? one : root;
+    }
+  }
+  std::set<int> with_point;
+  for (const auto& [v, _] : expected.vertices_of_a) with_point.insert(set.at(v));
+  for (const auto& [v, _] : expected.vertices_of_b) with_point.insert(set.at(-1 - v));
+  for (const auto& [e, _] : expected.edges) {
+    for (const int v : {e[0], e[1], -1 - e[2], -1 - e[3]}) {
+      if (set.contains(v)) with_point.insert(set.at(v));
+    }
+  }
+  for (const auto& [v, root] : set) {
+    if (!with_point.contains(root)) (v < 0 ? expected.others_of_b : expected.others_of_a).insert(v < 0 ? -1 - v : v);
+  }
+}
+
+}  // namespace
+
 ExpectedGaps gaps_by_brute_force(const Mesh& a, const Mesh& b, const Contact& contact, const LastNormals& last) {
   const Shape shape_a = shape_of(a), shape_b = shape_of(b);
   const Long3 direction = contact.direction.cast<long double>();
   const Crossed in_b(shape_a, shape_b, -direction, contact.depth, last.of_a, -1);
   const Crossed in_a(shape_b, shape_a, direction, contact.depth, last.of_b, 1);
   const EdgeOracle edges(shape_a, shape_b, in_b, in_a, direction, contact.depth);
-  return {in_b.gaps(), in_a.gaps(), edges.run()};
+  ExpectedGaps expected{in_b.gaps(), in_a.gaps(), edges.run(), {}, {}};
+  find_without_point(in_b, in_a, contact.facet_pairs(), shape_a, shape_b, expected);
+  return expected;
 }
 
 ::testing::AssertionResult has_gaps(const Contact& contact, const ExpectedGaps& expected, double tolerance) {
@@ -371,7 +424,11 @@ ExpectedGaps gaps_by_brute_force(const Mesh& a, const Mesh& b, const Contact& co
   std::map<std::array<int, 4>, double> edges;
   for (const ContactPoint& point : contact.points()) {
     const auto &a = point.a_vertices, &b = point.b_vertices;
+    const auto any_of = [](const std::array<int, 3>& vertices, const std::set<int>& others) {
+      return std::ranges::any_of(vertices, [&](int v) { return others.contains(v); });
+    };
     const bool crosses = point.gap < 0.0;
+    if (crosses && (any_of(a, expected.others_of_a) || any_of(b, expected.others_of_b))) continue;
     bool fresh = true;
     if (point.kind == FeaturePair::edge_edge) {
       if (crosses) fresh = edges.try_emplace({a[0], a[1], b[0], b[1]}, point.gap).second;
