@@ -152,7 +152,7 @@ TEST(ContactSums, OfBodiesAreThoseOfLoopsAndInBalance) {
 
 TEST(ContactSums, RefuseAnIdTwice) {
   const SummedScene scene;
-  std::vector<PointImpulse> twice{{7, {}}, {3, {}}, {7, {}}};
+  std::vector<PointImpulse> twice{{.id = 7}, {.id = 3}, {.id = 7}};
   EXPECT_THROW(sum_contacts(scene.world, *scene.report, twice), Error);
   World empty({.threads = 1});
   EXPECT_TRUE(sum_contacts(empty, empty.detect()).sums.empty());
