@@ -241,7 +241,9 @@ TEST_F(CheckCommand, WeldsAndCounts) {
     const Json json = check_json({.meshes = {soup}, .selves = {"soup"}, .weld = weld});
     EXPECT_EQ(json["bodies"][0]["vertices"], weld ? 4 : 12);
     EXPECT_EQ(json["bodies"][0].contains("merged_vertices"), weld);
-    if (weld) EXPECT_EQ(json["bodies"][0]["merged_vertices"], 8);
+    if (weld) {
+      EXPECT_EQ(json["bodies"][0]["merged_vertices"], 8);
+    }
     return json["frames"][0]["stats"]["facet_pairs"].get<int>();
   };
   EXPECT_EQ(self_pairs(false), 6);
