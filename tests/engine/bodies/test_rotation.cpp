@@ -3,6 +3,7 @@
 #include <tact/rotation.h>
 #include <tact/world.h>
 
+#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <array>
 #include <cmath>
