@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/failed_step.h"
 #include "engine/base/floating_point_mode.h"
+#include "engine/failed_step.h"
 #include "engine/recording/byte_reader.h"
 #include "engine/recording/format.h"
 #include "engine/with_memory.h"

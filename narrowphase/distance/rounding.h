@@ -14,8 +14,8 @@
 // Numbers (gaps, weights, normals) are computed in doubles where that loses a few roundings: inside facets and edges,
 // in vertices, between edges that are clearly not parallel. Between nearly parallel edges they are computed in
 // double-doubles and rounded once; so are normals of narrow triangles. Simplices of hulls, which may be thinner than
-// 2^-53, take triple-doubles. Times of segments and distances of queries are exact numbers, rounded once: double-doubles
-// where it is certain how they are rounded, else integers.
+// 2^-53, take triple-doubles. Times of segments and distances of queries are exact numbers, rounded once:
+// double-doubles where it is certain how they are rounded, else integers.
 //
 // All operations are +, -, *, / and square roots of doubles: the same bits on every machine.
 #pragma once

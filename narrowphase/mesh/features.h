@@ -49,8 +49,8 @@ class Features {
   int first_facet_of_edge(int edge) const { return first_facet_of_edge_[edge]; }
   int first_facet_of_vertex(int vertex) const { return first_facet_of_vertex_[vertex]; }
   /// Bit k: of the facets with the edge from corner k this one is the caller's first; bit 3 + k: the same of the vertex
-  /// at corner k. Each edge and vertex has a bit once. kRepeatsFacet: a facet that the caller listed before has the same
-  /// vertices.
+  /// at corner k. Each edge and vertex has a bit once. kRepeatsFacet: a facet that the caller listed before has the
+  /// same vertices.
   unsigned firsts_of_facet(int facet) const { return firsts_of_facet_[facet]; }
   static constexpr unsigned kRepeatsFacet = 1u << 6;
   /// The vertices that share an edge with a vertex, each once.

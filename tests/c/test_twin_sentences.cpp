@@ -93,9 +93,9 @@ Sentences sentences_in(const std::string& header, const std::string& before, con
 
 Sentences sentences_of_cpp() {
   Sentences all;
-  for (const char* header : {"body", "contact_point", "contact_sums", "debug_draw", "message", "motion", "queries",
-                             "recording", "report", "report_arrays", "settings", "solver/stencil", "surface_check",
-                             "weld", "world"})
+  for (const char* header :
+       {"body", "contact_point", "contact_sums", "debug_draw", "message", "motion", "queries", "recording", "report",
+        "report_arrays", "settings", "solver/stencil", "surface_check", "weld", "world"})
     all.merge(sentences_in(text_of("engine/include/tact/" + std::string(header) + ".h"), "/// ", "///< "));
   for (const char* header : {"error", "facet_pair", "feature_pair"})
     all.merge(sentences_in(text_of("engine/base/include/tact/" + std::string(header) + ".h"), "/// ", "///< "));

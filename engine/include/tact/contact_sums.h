@@ -34,8 +34,8 @@ struct ContactSum {
     body,     ///< all contacts of `a`; `b` is no body
   };
   Kind kind = Kind::contact;  ///< what it is over
-  BodyId a = {};                   ///< the first body
-  BodyId b = {};                   ///< the second body, which `normal` and `force` push
+  BodyId a = {};              ///< the first body
+  BodyId b = {};              ///< the second body, which `normal` and `force` push
   std::uint64_t patch = 0;    ///< the id of the patch, or 0
   int points = 0;             ///< the number of contact points
   double area = 0.0;          ///< the areas of the patches, square metres; 0 where Outputs::patches is not set
