@@ -41,6 +41,8 @@ class EveryCallOfC {
     step();
     look();
     ask();
+    solve();
+    go_back();
     refuse();
     call([&] { return tact_world_remove_body(world_, bodies_[1]); });
     step();
@@ -105,6 +107,9 @@ class EveryCallOfC {
   void tell_contact(size_t i) {
     tact_contact contact = TACT_CONTACT_INIT;
     call([&] { return tact_report_contact(world_, i, &contact); });
+    uint64_t hash = 0;
+    call([&] { return tact_contact_hash(world_, i, &hash); });
+    tell(hash);
     tell(contact.direction);
     const tact_contact_point* points = nullptr;
     size_t count = 0;
@@ -164,6 +169,11 @@ class EveryCallOfC {
     tell({&first, 1});
     call([&] { return tact_motion_impacts(world_, &impacts, &count); });
     for (size_t i = 0; i < count; ++i) tell({&impacts[i].time, 1});
+    std::vector<double> times(count);
+    tact_impact_arrays arrays = TACT_IMPACT_ARRAYS_INIT;
+    arrays.times = times.data();
+    call([&] { return tact_motion_copy_impacts(world_, &arrays, count); });
+    tell(times);
     call([&] { return tact_motion_pairs(world_, &count); });
     if (count > 0) call([&] { return tact_motion_pair(world_, 0, &pair); });
     call([&] { return tact_motion_stats(world_, &statistics); });
@@ -194,6 +204,7 @@ class EveryCallOfC {
       call([&] { return tact_world_layer(world_, body, &bits); });
       call([&] { return tact_world_mask(world_, body, &bits); });
       call([&] { return tact_world_external_id(world_, body, &id); });
+      call([&] { return tact_world_key(world_, body, &id); });
       call([&] { return tact_world_margin(world_, body, &margin); });
       call([&] { return tact_world_self_contact(world_, body, &flag); });
       call([&] { return tact_world_vertex_count(world_, body, &vertices); });
@@ -253,6 +264,78 @@ class EveryCallOfC {
                                                ends.data());
     });
     tell(ends.back());
+  }
+
+  // What solvers take.
+  void solve() {
+    size_t points = 0, pairs = 0, count = 0, vertices = 0;
+    call([&] { return tact_report_point_count(world_, &points); });
+    call([&] { return tact_report_facet_pair_count(world_, &pairs); });
+    std::vector<double> gaps(points);
+    std::vector<int> facets(2 * pairs);
+    tact_point_arrays of_points = TACT_POINT_ARRAYS_INIT;
+    tact_facet_pair_arrays of_pairs = TACT_FACET_PAIR_ARRAYS_INIT;
+    of_points.gaps = gaps.data();
+    of_pairs.facets = facets.data();
+    call([&] { return tact_report_copy_points(world_, &of_points, points); });
+    call([&] { return tact_report_copy_facet_pairs(world_, &of_pairs, pairs); });
+    tell(gaps);
+    std::vector<int32_t> first_rows;
+    std::vector<double> x;
+    for (const tact_body body : bodies_) {
+      first_rows.push_back(static_cast<int32_t>(x.size() / 3));
+      call([&] { return tact_world_vertex_count(world_, body, &vertices); });
+      x.resize(x.size() + 3 * vertices);
+      double* const own = x.data() + 3 * static_cast<std::size_t>(first_rows.back());
+      call([&] { return tact_world_copy_positions(world_, body, own, 3 * vertices); });
+    }
+    vertices = x.size() / 3;
+    std::vector<tact_stencil> stencils(points);
+    call([&] {
+      return tact_report_stencils(world_, first_rows.data(), first_rows.size(), stencils.data(), points, &count);
+    });
+    std::vector<double> values(count), gradients(12 * count), hessians(144 * count);
+    const std::vector<double> limits(count, 2.0);
+    const tact_terms terms{values.data(), gradients.data(), hessians.data()};
+    const auto tell_terms = [&] {
+      for (const std::vector<double>* numbers : {&values, &gradients, &hessians}) tell(*numbers);
+    };
+    call([&] { return tact_stencil_gaps(stencils.data(), count, x.data(), vertices, terms); });
+    tell_terms();
+    call([&] { return tact_stencil_barriers(stencils.data(), count, x.data(), x.data(), vertices, 0.05, terms); });
+    tell_terms();
+    call([&] { return tact_stencil_penalties(stencils.data(), count, x.data(), vertices, 0.05, terms); });
+    tell_terms();
+    call([&] { return tact_stencil_friction(stencils.data(), count, x.data(), vertices, limits.data(), 1e-3, terms); });
+    tell_terms();
+    std::vector<int32_t> colors(count);
+    call([&] { return tact_stencil_colors(stencils.data(), count, vertices, colors.data()); });
+    std::vector<tact_point_impulse> impulses;
+    for (const tact_stencil& one : stencils) impulses.push_back({one.id, {1.0, one.gap, 2.0}});
+    std::vector<tact_contact_sum> sums(100);
+    tact_contact_sums room = TACT_CONTACT_SUMS_INIT;
+    room.sums = sums.data();
+    room.sum_capacity = sums.size();
+    call([&] { return tact_report_sum_contacts(world_, impulses.data(), impulses.size(), &room); });
+    tell(room.sum_count);
+    double matrix[9] = {1.0, 1e-6, 0.0, 0.0, 1.0, 2e-6, 0.0, 0.0, 1.0}, rotation[9] = {};
+    const double quaternion[4] = {0.1, 0.2, 0.3, std::sqrt(0.86)};
+    call([&] { return tact_nearest_rotation(matrix, rotation); });
+    tell(rotation);
+    call([&] { return tact_rotation_of_quaternion(quaternion, rotation); });
+    tell(rotation);
+    const tact_columns positions = columns_of(ball_.positions), corners = columns_of(ball_.facets);
+    tact_welded_mesh welded = TACT_WELDED_MESH_INIT;
+    call([&] { return tact_weld(&positions, &corners, &welded); });
+  }
+
+  void go_back() {
+    size_t count = 0;
+    call([&] { return tact_world_save(world_, nullptr, 0, &count); });
+    std::vector<unsigned char> bytes(count);
+    call([&] { return tact_world_save(world_, bytes.data(), bytes.size(), &count); });
+    for (const unsigned char byte : bytes) tell(std::uint64_t{byte});
+    call([&] { return tact_world_restore(world_, bytes.data(), bytes.size()); });
   }
 
   void refuse() {

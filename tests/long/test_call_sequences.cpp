@@ -41,7 +41,7 @@ class Life {
     Subject twin(calls_.settings(1 + random_.below(2)));
     WorldTuning::set(twin.world, tuning_);  // the last bits of directions depend on it
     calls_.build(twin);
-    subject_.first_patch = subject_.last_patch;
+    subject_.patches.clear();
     subject_.last_report = nullptr;
     subject_.report = &subject_.world.detect();
     twin.report = &twin.world.detect();

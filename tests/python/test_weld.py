@@ -23,7 +23,7 @@ def test_what_is_given_is_checked():
         tact.weld(np.zeros((2, 3)), np.array([[0, 1, 2]]))
     assert error.value.code == tact.ErrorCode.facet_out_of_range
     with pytest.raises(TypeError):
-        tact.weld([[0, 0, 0]], np.array([[0, 0, 0]]))
+        tact.weld("three points", np.array([[0, 0, 0]]))
 
 
 def test_a_folder_is_no_recording(tmp_path):

@@ -172,7 +172,7 @@ def _points_json(points):
 
 def _patch_json(patch):
     return {
-        "id": patch.id,
+        "id": f"{patch.id:016x}",
         "point": patch.point.tolist(),
         "direction": patch.direction.tolist(),
         "depth": patch.depth,

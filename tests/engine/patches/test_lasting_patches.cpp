@@ -258,6 +258,7 @@ TEST(LastingPatches, OfSteadyStepsAllocateNothing) {
                                        .surface = Surface::sheet,
                                        .margin = 0.01,
                                        .self_contact = true});
+  int steady = 0;
   const auto play = [&](int step) {
     const double phase = std::sin(0.1 * std::numbers::pi * step);
     for (std::size_t k = 0; k < ids.size(); ++k) {
@@ -271,13 +272,18 @@ TEST(LastingPatches, OfSteadyStepsAllocateNothing) {
     positions.row(2).array() *= 1.0 + 0.5 * phase;
     world.set_positions(cloth, positions);
     const long before = allocation_count();
-    const std::size_t events = world.detect().patch_events().size();
-    EXPECT_TRUE(step < 60 || allocation_count() == before) << step << ": " << allocation_count() - before;
-    return events;
+    const tact::Report& report = world.detect();
+    // A crossing that has no point of its own makes hulls of its facets anew.
+    const bool crosses =
+        std::ranges::any_of(report.contacts(), [](const Contact& one) { return !one.facet_pairs().empty(); });
+    steady += crosses ? 0 : 1;
+    EXPECT_TRUE(step < 60 || crosses || allocation_count() == before) << step << ": " << allocation_count() - before;
+    return report.patch_events().size();
   };
   std::size_t events = 0;
   for (int step = 0; step < 100; ++step) events += play(step);
   EXPECT_GT(events, 10u);
+  EXPECT_GT(steady, 20);
 }
 
 TEST(Filters, OfGroupsAndOfPairsByName) {

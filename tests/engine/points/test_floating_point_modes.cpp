@@ -177,6 +177,9 @@ class EveryCall {
     step(world);
     ask(world);
     look(world);
+    for (const std::byte byte : call([&] { return world.save(); })) told_.add(static_cast<std::uint64_t>(byte));
+    const std::vector<std::byte> bytes = world.save();
+    call([&] { world.restore(bytes); });
     refuse(world);
     call([&] { world.remove_body(bodies_[1]); });
     step(world);
@@ -290,7 +293,7 @@ class EveryCall {
       tell([&] {
         return std::uint64_t{world.contains(body)} + world.name(body).size() + world.vertex_count(body) +
                world.facet_count(body) + world.layer(body) + world.mask(body) + world.group(body) +
-               world.external_id(body) + static_cast<std::uint64_t>(world.surface(body)) +
+               world.external_id(body) + world.key(body) + static_cast<std::uint64_t>(world.surface(body)) +
                static_cast<std::uint64_t>(world.motion(body)) + std::uint64_t{world.self_contact(body)};
       });
     }

@@ -87,13 +87,11 @@ AnswerHashes state_of(const Subject& subject) {
 
 AnswerHashes answer_of(Subject& subject) {
   AnswerHash hash;
-  hash.set_first_patch(subject.first_patch);
+  hash.number_patches(subject.patches);
   if (subject.refused) hash.add_feature(1 + static_cast<std::uint64_t>(*std::exchange(subject.refused, {})));
   if (const Report* const report = std::exchange(subject.report, nullptr)) {
     hash.add(*report);
     subject.last_report = report;
-    for (const PatchEvent& event : report->patch_events())
-      subject.last_patch = std::max(subject.last_patch, event.patch);
   }
   if (const MotionReport* const motion = std::exchange(subject.motion, nullptr)) hash.add(*motion);
   hash.add(std::span<const RayHit>(subject.hits));

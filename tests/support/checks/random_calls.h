@@ -25,7 +25,7 @@ struct Subject {
   tact::World world;
   int threads;              // of this world: no answer depends on them
   std::vector<BodyId> ids;  // by slot; no body's where there is none
-  std::uint64_t first_patch = 0, last_patch = 0;
+  AnswerHash::PatchNumbers patches;
 
   BodyId added;
   std::optional<ErrorCode> refused;

@@ -1,6 +1,9 @@
 #include "tests/support/hashes/answer_hash.h"
 
+#include <algorithm>
 #include <array>
+#include <tuple>
+#include <vector>
 
 namespace tact::tests {
 namespace {
@@ -47,13 +50,27 @@ void AnswerHash::add(const Report& report) {
       add(event.b);
     }
   }
-  features_.add(report.patch_events().size());
-  for (const PatchEvent& event : report.patch_events()) {
+  add(report.patch_events());
+}
+
+std::uint64_t AnswerHash::name_of(std::uint64_t patch) const {
+  if (patch_numbers_ == nullptr || patch == 0) return patch;
+  return patch_numbers_->try_emplace(patch, patch_numbers_->size() + 1).first->second;
+}
+
+void AnswerHash::add(std::span<const PatchEvent> events) {
+  std::vector<PatchEvent> sorted(events.begin(), events.end());
+  if (patch_numbers_ != nullptr)
+    std::ranges::stable_sort(sorted, {}, [&](const PatchEvent& event) {
+      return std::tuple(event.a, event.b, event.kind, name_of(event.patch), name_of(event.other));
+    });
+  features_.add(sorted.size());
+  for (const PatchEvent& event : sorted) {
     add(event.a);
     add(event.b);
     features_.add(number_of(event.kind));
-    features_.add(event.patch - first_patch_);
-    features_.add(event.other == 0 ? 0 : event.other - first_patch_);
+    features_.add(name_of(event.patch));
+    features_.add(name_of(event.other));
   }
 }
 
@@ -94,7 +111,7 @@ void AnswerHash::add(const ContactPoint& point) {
 
 // The points that span most are chosen by areas, of which many are equal but for rounding.
 void AnswerHash::add(const Patch& patch) {
-  features_.add(patch.id - first_patch_);
+  features_.add(name_of(patch.id));
   features_.add(patch.facet_pairs.size());
   add_vertices(patch.facet_pairs);
   features_.add(patch.points.size());

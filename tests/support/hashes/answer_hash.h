@@ -9,6 +9,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <map>
 #include <ostream>
 #include <span>
 
@@ -49,8 +50,10 @@ class AnswerHash {
   // An answer that is no number: whether a ray of RayHits::any hits, say.
   void add_feature(std::uint64_t feature) { features_.add(feature); }
 
-  // Ids of patches count from here: those of a world that found others before.
-  void set_first_patch(std::uint64_t id) { first_patch_ = id; }
+  // Patches are told apart by the order in which they were first seen, which `numbers` keeps from step to step: their
+  // ids tell in which step they began, and those of a step are sorted by them.
+  using PatchNumbers = std::map<std::uint64_t, std::uint64_t>;
+  void number_patches(PatchNumbers& numbers) { patch_numbers_ = &numbers; }
 
   AnswerHashes hashes() const { return {features_.value(), numbers_.value()}; }
 
@@ -64,9 +67,11 @@ class AnswerHash {
   void add(const Contact& contact);
   void add(const ContactPoint& point);
   void add(const Patch& patch);
+  void add(std::span<const PatchEvent> events);
+  std::uint64_t name_of(std::uint64_t patch) const;
 
   WordHash features_, numbers_;
-  std::uint64_t first_patch_ = 0;
+  PatchNumbers* patch_numbers_ = nullptr;
 };
 
 }  // namespace tact::tests
