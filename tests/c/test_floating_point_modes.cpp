@@ -324,9 +324,9 @@ class EveryCallOfC {
     tell(rotation);
     call([&] { return tact_rotation_of_quaternion(quaternion, rotation); });
     tell(rotation);
-    const tact_columns positions = columns_of(ball_.positions), corners = columns_of(ball_.facets);
+    const tact_body_definition ball = definition_of(ball_);
     tact_welded_mesh welded = TACT_WELDED_MESH_INIT;
-    call([&] { return tact_weld(&positions, &corners, &welded); });
+    call([&] { return tact_weld(&ball.positions, &ball.facets, &welded); });
   }
 
   void go_back() {

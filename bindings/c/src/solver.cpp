@@ -1,6 +1,7 @@
 // What compiles Eigen's decompositions stands here alone: a program that calls none of it does not link it.
 #include <tact/solver.h>
 
+#include "engine/base/floating_point_mode.h"
 #include "handles.h"
 
 namespace tact::c {
@@ -47,6 +48,7 @@ Values values_of(const double* numbers, size_t vertex_count) {
 template <class TermOf>
 void fill(const tact_stencil* stencils, size_t count, size_t vertex_count, const tact_terms& terms,
           const TermOf& term_of) {
+  const base::FloatingPointMode mode;
   if (count > 0) check_not_null(stencils);
   for (size_t i = 0; i < count; ++i) from_c(stencils[i], vertex_count);
   for (size_t i = 0; i < count; ++i) {

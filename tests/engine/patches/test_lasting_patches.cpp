@@ -243,13 +243,14 @@ TEST(LastingPatches, HaveTheSameNamesForAnyNumberOfThreads) {
   EXPECT_EQ(all.size(), 1u);
 }
 
-// Bodies that cross, come near, part and crumple, over and over: what they need is there after the first rounds.
+// Bodies that cross, come near, part and crumple, over and over: what they need is there after the first rounds. They
+// do not cross so deep that a crossing has no point of its own, which makes hulls of its facets anew.
 TEST(LastingPatches, OfSteadyStepsAllocateNothing) {
   tact::World world({.threads = 1, .outputs = {.patches = true, .points = true}});
   std::vector<Mesh> meshes;
   std::vector<BodyId> ids;
   for (int k = 0; k < 6; ++k) {
-    meshes.push_back(translated(blob(2, 0.5, 0.3, 1 + static_cast<unsigned>(k)), {0.8 * k, 0, 0}));
+    meshes.push_back(translated(blob(2, 0.5, 0.3, 1 + static_cast<unsigned>(k)), {1.1 * k, 0, 0}));
     ids.push_back(world.add_body(lasting_body(meshes.back(), 0.02)));
   }
   const Mesh folded = mapped(sheet(20, 4, 1.2, 0.2), [](Vec3 p) { return Vec3{std::abs(p.x), p.y - 3.0, 0.02 * p.x}; });
@@ -258,7 +259,6 @@ TEST(LastingPatches, OfSteadyStepsAllocateNothing) {
                                        .surface = Surface::sheet,
                                        .margin = 0.01,
                                        .self_contact = true});
-  int steady = 0;
   const auto play = [&](int step) {
     const double phase = std::sin(0.1 * std::numbers::pi * step);
     for (std::size_t k = 0; k < ids.size(); ++k) {
@@ -272,18 +272,13 @@ TEST(LastingPatches, OfSteadyStepsAllocateNothing) {
     positions.row(2).array() *= 1.0 + 0.5 * phase;
     world.set_positions(cloth, positions);
     const long before = allocation_count();
-    const tact::Report& report = world.detect();
-    // A crossing that has no point of its own makes hulls of its facets anew.
-    const bool crosses =
-        std::ranges::any_of(report.contacts(), [](const Contact& one) { return !one.facet_pairs().empty(); });
-    steady += crosses ? 0 : 1;
-    EXPECT_TRUE(step < 60 || crosses || allocation_count() == before) << step << ": " << allocation_count() - before;
-    return report.patch_events().size();
+    const std::size_t events = world.detect().patch_events().size();
+    EXPECT_TRUE(step < 60 || allocation_count() == before) << step << ": " << allocation_count() - before;
+    return events;
   };
   std::size_t events = 0;
   for (int step = 0; step < 100; ++step) events += play(step);
   EXPECT_GT(events, 10u);
-  EXPECT_GT(steady, 20);
 }
 
 TEST(Filters, OfGroupsAndOfPairsByName) {
