@@ -151,6 +151,8 @@ def _pair_json(a, b, overlap, contact, with_facets, with_points):
                 pair["contained"] = contact.containment.name[0]
     pair["facet_pairs"] = None if not with_facets else [] if contact is None else contact.facet_pairs.tolist()
     if with_points:
+        if overlap is None:  # of a body with itself
+            pair["point_limit_reached"] = contact.point_limit_reached
         pair["points"] = [] if contact is None else _points_json(contact.points)
         pair["patches"] = [] if contact is None else [_patch_json(patch) for patch in contact.patches]
     return pair
