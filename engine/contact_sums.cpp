@@ -151,7 +151,7 @@ class Adder {
     sum.force = for_caller(force);
     sum.torque = for_caller(moment);
     std::ranges::sort(vertices_);
-    vertices_.erase(std::ranges::unique(vertices_).begin(), vertices_.end());
+    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
     counts_.push_back(vertices_.size());
     result_.vertices.insert(result_.vertices.end(), vertices_.begin(), vertices_.end());
     vertices_.clear();
