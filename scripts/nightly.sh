@@ -26,6 +26,7 @@ TACT_PRINTED_IN_FULL=1 build/release/tests/test_scenes --gtest_filter='PrintedCo
 TACT_LONG_SAVED_SEEDS=300 TACT_LONG_STATES=50000 build/release/tests/test_engine --gtest_filter='*Saved*'
 for set in scalar avx2; do
   TACT_INSTRUCTION_SET=$set build/release/tests/test_engine --gtest_brief=1
+  TACT_INSTRUCTION_SET=$set build/release/tests/test_narrowphase --gtest_brief=1
 done
 build/release/bench/tact-bench stability
 ctest --preset release -R python.blender
