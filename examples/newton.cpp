@@ -1,6 +1,6 @@
-// A cloth that falls on a ball, in implicit steps of 1/60 s: Newton's method on inertia, springs, a barrier and friction (Li
-// et al., Incremental Potential Contact, 2020). No iteration moves farther than detect_motion() lets it, so nothing
-// ever crosses. Status 0: the cloth hangs over the ball.   usage: example_newton [VERTICES a side] [STEPS]
+// A cloth that falls on a ball, in implicit steps of 1/60 s: Newton's method on inertia, springs, a barrier and
+// friction (Li et al., Incremental Potential Contact, 2020). No iteration moves farther than detect_motion() lets it,
+// so nothing ever crosses. Status 0: the cloth hangs over the ball.   usage: example_newton [VERTICES a side] [STEPS]
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cstdlib>
