@@ -6,6 +6,7 @@
 
 #include "engine/base/floating_point_mode.h"
 #include "engine/base/vec3.h"
+#include "engine/with_memory.h"
 
 namespace tact {
 
@@ -184,13 +185,11 @@ class Adder {
 
 ContactSums sum_contacts(const World& world, const Report& report, std::span<const PointImpulse> impulses) {
   const base::FloatingPointMode mode;
-  try {
+  return with_memory("summing contacts ran out of memory", [&] {
     Adder adder(world, impulses);
     for (const Contact& contact : report.contacts()) adder.add_contact(contact);
     return adder.finish();
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::out_of_memory, "out of memory");
-  }
+  });
 }
 
 }  // namespace tact

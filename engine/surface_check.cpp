@@ -8,8 +8,9 @@
 #include <cstddef>
 #include <map>
 #include <numeric>
-#include <tuple>
 #include <utility>
+
+#include "engine/first_at_position.h"
 
 namespace tact {
 
@@ -118,25 +119,8 @@ void find_components(std::span<const Facet> facets, SurfaceCheck& check) {
   for (const auto& [first, component] : components) check.components.push_back(component);
 }
 
-// The first vertex at the place of each.
-std::vector<int> first_vertices(std::span<const Vec3> positions) {
-  std::vector<int> order(positions.size()), first(positions.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto place = [&](int v) {
-    const Vec3& p = positions[static_cast<std::size_t>(v)];
-    return std::tuple(p.x + 0.0, p.y + 0.0, p.z + 0.0, v);  // -0 and 0 are one place
-  };
-  std::ranges::sort(order, {}, place);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same =
-        i > 0 && positions[static_cast<std::size_t>(order[i])] == positions[static_cast<std::size_t>(order[i - 1])];
-    first[static_cast<std::size_t>(order[i])] = same ? first[static_cast<std::size_t>(order[i - 1])] : order[i];
-  }
-  return first;
-}
-
 void find_repeated(std::span<const Vec3> positions, std::span<const Facet> facets, SurfaceCheck& check) {
-  const std::vector<int> first = first_vertices(positions);
+  const std::vector<int> first = first_at_position({&positions.data()->x, 3 * positions.size()});
   for (std::size_t v = 0; v < first.size(); ++v) {
     if (first[v] != static_cast<int>(v)) check.repeated_vertices.push_back({static_cast<int>(v), first[v]});
   }

@@ -4,13 +4,14 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <new>
 #include <span>
 #include <string>
 
 #include "engine/base/floating_point_mode.h"
 #include "engine/bodies/checks.h"
 #include "engine/bodies/columns.h"
+#include "engine/first_at_position.h"
+#include "engine/with_memory.h"
 
 namespace tact {
 namespace {
@@ -26,7 +27,8 @@ std::uint64_t hash_of(const double* position) {
   return hash;
 }
 
-// The first vertex with the position of each.
+}  // namespace
+
 std::vector<int> first_at_position(std::span<const double> positions) {
   const std::size_t count = positions.size() / 3;
   std::vector<int> first(count), slots(std::bit_ceil(2 * count + 1), -1);
@@ -42,6 +44,8 @@ std::vector<int> first_at_position(std::span<const double> positions) {
   }
   return first;
 }
+
+namespace {
 
 bool has_repeated(const int* facet) { return facet[0] == facet[1] || facet[1] == facet[2] || facet[2] == facet[0]; }
 
@@ -71,7 +75,7 @@ WeldedMesh welded(std::span<const double> coordinates, std::span<const int> corn
 WeldedMesh weld(const Positions& positions, const Facets& facets) {
   const std::string name = "mesh to weld";
   const base::FloatingPointMode mode;  // in which a subnormal number is not 0
-  try {
+  return with_memory("welding ran out of memory", [&] {
     check_array(positions, name);
     check_array(facets, name);
     check_counts(positions.cols(), facets.cols(), 0, name);
@@ -84,9 +88,7 @@ WeldedMesh weld(const Positions& positions, const Facets& facets) {
     check_positions(coordinates.data(), coordinates.size() / 3, name);
     check_facets(corners, facets, positions.cols(), name);
     return welded(coordinates, corners);
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::out_of_memory, "welding ran out of memory");
-  }
+  });
 }
 
 }  // namespace tact

@@ -109,7 +109,6 @@ struct World::Implementation {
     observe([](WorldObserver& told) { told.step_begins(); });
     try {
       return with_memory("detect ran out of memory; the next call starts from scratch", [&]() -> const Report& {
-        const base::FloatingPointMode mode;
         const base::Workers::Scope scope(workers);
         regroup();
         const Report& report = step.run(bodies, settings, refresh_ms);
@@ -365,13 +364,13 @@ RayHit World::cast_ray(const Ray& ray, RayHits wanted) const {
 }
 
 void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted) const {
-  const base::FloatingPointMode mode;
   Implementation& i = implementation();
   check_name(wanted, RayHits::any, "hits");
   // Fewer do not open the same clusters often enough, nor do rays of which not even one is for each body.
   const std::size_t fewest_together = std::max<std::size_t>(64, i.bodies.count());
   if (wanted != RayHits::first || rays.size() < fewest_together)
     return answer_all(i, rays, hits, [&](const Ray& ray) { return find_hit(i.bodies, ray, wanted); });
+  const base::FloatingPointMode mode;
   const base::Workers::Scope scope(i.workers);
   with_memory(kNoMemoryForAnswers, [&] {
     check_queries(rays, hits.size());
@@ -388,7 +387,6 @@ void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits
 }
 
 std::vector<RayHit> World::cast_ray_all(const Ray& ray) const {
-  const base::FloatingPointMode mode;
   const Implementation& i = implementation();
   return answer_one(i, ray, [&] { return find_all_hits(i.bodies, ray); });
 }
@@ -405,13 +403,11 @@ void World::closest_points(std::span<const PointQuery> queries, std::span<Closes
 }
 
 std::vector<FacetOfBody> World::overlap_box(const BoxQuery& query) const {
-  const base::FloatingPointMode mode;
   const Implementation& i = implementation();
   return answer_one(i, query, [&] { return find_in_box(i.bodies, query); });
 }
 
 std::vector<BodyId> World::bodies_containing(const PointQuery& query) const {
-  const base::FloatingPointMode mode;
   const Implementation& i = implementation();
   return answer_one(i, query, [&] { return find_around(i.bodies, query); });
 }

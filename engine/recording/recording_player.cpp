@@ -132,7 +132,7 @@ struct RecordingPlayer::Implementation {
     fail(kind == RecordKind::hash ? "a hash that follows no step" : "a failure that follows no step");
   }
 
-  // The outputs that are asked for besides are no part of the bytes: with them the next step looks at every pair.
+  // Further outputs of PlayOptions are no part of the bytes: with them the next step looks at every pair.
   void restore() {
     const auto size = reader.read<std::uint64_t>();
     reader.require(size);

@@ -9,8 +9,6 @@ namespace tact::narrowphase {
 
 namespace {
 
-Box box_of(const Triangle& t) { return extended(extended(Box{t[0], t[0]}, t[1]), t[2]); }
-
 void sort_once_each(std::vector<int>& numbers) {
   std::ranges::sort(numbers);
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());

@@ -13,6 +13,8 @@
 
 namespace tact::narrowphase {
 
+inline Box box_of(const Triangle& t) { return extended(extended(Box{t[0], t[0]}, t[1]), t[2]); }
+
 /// Calls take(index) for entries of a list by ascending rank, as long as wants(rank), which take may narrow. The list
 /// is used up. Most entries drop out after the first was taken, so that sorting them all would cost more.
 template <class Index, class Wants, class Take>

@@ -88,7 +88,7 @@ Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double 
     const Moment& to = waiting_.back();
     const double length = to.time - from.time;
     const bool is_finest = reach_ > 0.0 && length <= kFinestSpan;
-    if (to.covered || is_left_out(from, to) || (is_finest && is_left_out_afresh(from, to))) {
+    if (to.covered || is_left_out(from, to) || (is_finest && is_left_out_by_new_direction(from, to))) {
       from = to;
       waiting_.pop_back();
       continue;
@@ -264,7 +264,7 @@ bool MeetingSearch::is_left_out(const Moment& from, const Moment& to) const {
 
 // Those that its ends carry are of longer spans, and where a corner passes a corner they leave the middle open however
 // far away the polygon is. So short a span is left out by one.
-bool MeetingSearch::is_left_out_afresh(const Moment& from, const Moment& to) const {
+bool MeetingSearch::is_left_out_by_new_direction(const Moment& from, const Moment& to) const {
   const double least = reach_ + kDotRounding;
   const Vec3 direction = best_direction(moment(0.5 * (from.time + to.time)));
   return separation(from, direction) > least && separation(to, direction) > least;

@@ -80,7 +80,7 @@ class MeetingSearch {
   bool is_near(const Moment& m) const;
   std::optional<double> first_close_time(const MovingPolygon& polygon, double from, double to);
   bool is_left_out(const Moment& from, const Moment& to) const;
-  bool is_left_out_afresh(const Moment& from, const Moment& to) const;
+  bool is_left_out_by_new_direction(const Moment& from, const Moment& to) const;
   double separation(const Moment& m, Vec3 direction) const;
   bool is_as_far(const Moment& m, Vec3 direction, double distance2) const;
   Vec3 best_direction(const Moment& m) const;

@@ -19,12 +19,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Box box_of(const Triangle& triangle) {
-  Box box;
-  for (const Vec3& p : triangle) box = extended(box, p);
-  return box;
-}
-
 Triangle triangle_in(const FacetBlock& facets, int i) {
   const auto corner = [&](int k) {
     const auto& at = facets.corner[k];

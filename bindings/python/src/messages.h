@@ -1,4 +1,4 @@
-// Messages of a world as Python keeps them, and the function of Python that is told of them.
+// Messages of a world as Python keeps them, and the function of Python that gets them.
 #pragma once
 
 #include <pybind11/pybind11.h>
