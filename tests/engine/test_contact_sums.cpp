@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <tact/contact_sums.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <set>
