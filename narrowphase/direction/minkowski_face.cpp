@@ -115,13 +115,16 @@ GjkSimplex FaceFinder::around_projection(const MinkowskiDifference& m) const {
   return simplex;
 }
 
-// Of the vertices of a face, the one that was projected to `point`.
+// Of the vertices of a face that were projected to `point`, the one with the lowest source vertex.
 int FaceFinder::vertex_at(const MinkowskiDifference& m, const ClusteredMesh& mesh, const std::vector<int>& vertices,
                           double sign, Point2 point) const {
   const Vec3 from = mesh.position(vertices.front());
-  const auto found =
-      std::ranges::find_if(vertices, [&](int v) { return same(flat(m, mesh.position(v), from, sign), point); });
-  return found == vertices.end() ? vertices.front() : *found;
+  int first = -1;
+  for (const int v : vertices)
+    if ((first < 0 || mesh.source_vertex(v) < mesh.source_vertex(first)) &&
+        same(flat(m, mesh.position(v), from, sign), point))
+      first = v;
+  return first < 0 ? vertices.front() : first;
 }
 
 // The difference of two positions, or its opposite, on the plane of the polygon; scaled.
@@ -130,10 +133,13 @@ Point2 FaceFinder::flat(const MinkowskiDifference& m, Vec3 position, Vec3 from, 
   return {dot(polygon_.u, d), dot(polygon_.v, d)};
 }
 
-// The vertices of `mesh` within `tolerance` (metres) of the farthest along n.
+// The vertices of `mesh` within `tolerance` (metres) of the farthest along n. The first is the one with the lowest source
+// vertex: the others are projected relative to it, and no rounding may depend on how facets are grouped.
 void FaceFinder::collect(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double tolerance, int near,
                          std::vector<int>& found) {
   select_vertices(mesh, n, origin, support(mesh, n, origin, near).height - tolerance, found);
+  const auto source = [&](int v) { return mesh.source_vertex(v); };
+  std::iter_swap(found.begin(), std::ranges::min_element(found, {}, source));
 }
 
 // Positions are taken relative to one vertex of each body, so that only differences are rounded.

@@ -37,16 +37,15 @@ class Life {
     }
     // What the world remembers of earlier steps is forgotten, as the twin knows none.
     FailedStep::play(subject_.world);
-    is_other_history_ = false;
     Subject twin(calls_.settings(1 + random_.below(2)));
-    WorldTuning::set(twin.world, tuning_);  // the last bits of directions depend on it
+    WorldTuning::set(twin.world, tuning_);
     calls_.build(twin);
     subject_.patches.clear();
     subject_.last_report = nullptr;
     subject_.report = &subject_.world.detect();
     twin.report = &twin.world.detect();
     if (const std::string wrong = compare(twin); !wrong.empty()) return "the first step: " + wrong;
-    for (int i = random_.below(60); i >= 0 && !is_other_history_; --i) {
+    for (int i = random_.below(60); i >= 0; --i) {
       const Call call = calls_.next();
       make(call, subject_);
       make(call, twin);
@@ -62,24 +61,10 @@ class Life {
     call.note(subject);
   }
 
-  // The last bits of a direction may depend on how facets are grouped: then the twin has another history.
-  static bool other_last_bits(const Report& x, const Report& y) {
-    constexpr double kLastBits = 1e-14;
-    bool any = false, few = x.contacts().size() == y.contacts().size();
-    for (std::size_t i = 0; few && i < x.contacts().size(); ++i) {
-      const double off = (x.contacts()[i].direction - y.contacts()[i].direction).norm();
-      any = any || off > 0.0;
-      few = off <= kLastBits;
-    }
-    return any && few;
-  }
-
   std::string compare(Subject& twin) {
-    if (subject_.report != nullptr && twin.report != nullptr)
-      is_other_history_ = other_last_bits(*subject_.report, *twin.report);
     const AnswerHashes own = answer_of(subject_), of_twin = answer_of(twin);
     if (own.features != of_twin.features) return "another answer";
-    if (own.numbers != of_twin.numbers && !is_other_history_) return "other numbers";
+    if (own.numbers != of_twin.numbers) return "other numbers";
     if (!(state_of(subject_) == state_of(twin))) return "another world";
     return {};
   }
@@ -87,7 +72,6 @@ class Life {
   Random random_;
   RandomCalls calls_;
   base::Tuning tuning_;
-  bool is_other_history_ = false;
   Subject subject_;
 };
 
