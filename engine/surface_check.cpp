@@ -120,7 +120,8 @@ void find_components(std::span<const Facet> facets, SurfaceCheck& check) {
 }
 
 void find_repeated(std::span<const Vec3> positions, std::span<const Facet> facets, SurfaceCheck& check) {
-  const std::vector<int> first = first_at_position({&positions.data()->x, 3 * positions.size()});
+  const double* const coordinates = positions.empty() ? nullptr : &positions.front().x;
+  const std::vector<int> first = first_at_position({coordinates, 3 * positions.size()});
   for (std::size_t v = 0; v < first.size(); ++v) {
     if (first[v] != static_cast<int>(v)) check.repeated_vertices.push_back({static_cast<int>(v), first[v]});
   }

@@ -497,8 +497,8 @@ SurfaceCheck World::check_surface(BodyId body, double sliver) const {
       throw Error(ErrorCode::invalid_argument, "sliver is " + base::text_of(sliver) + ", not 0 to 1");
     std::vector<base::Vec3> positions(vertex_count(body));
     std::vector<std::array<int, 3>> facets(facet_count(body));
-    copy_positions(body, {&positions.data()->x, 3 * positions.size()});
-    copy_facets(body, {facets.data()->data(), 3 * facets.size()});
+    if (!positions.empty()) copy_positions(body, {&positions.front().x, 3 * positions.size()});
+    if (!facets.empty()) copy_facets(body, {facets.front().data(), 3 * facets.size()});
     return tact::check_surface(positions, facets, sliver, implementation().settings.threads);
   });
 }
