@@ -51,6 +51,7 @@ void for_each_item(std::size_t items, int threads, const SizeOf& size_of, const 
   const auto is_alone = [&](std::size_t i) { return static_cast<std::size_t>(threads) * size_of(i) > all; };
   base::FirstException failed;
   const auto call = [&](std::size_t i, int thread, int threads_of_item) {
+    if (failed.ends_loop()) return;
     try {
       work(i, thread, threads_of_item);
     } catch (...) {

@@ -1,6 +1,7 @@
 // The one place with OpenMP in it, or with the threads of a program that brings its own (workers.h), or with a pool of
 // threads where OpenMP was left out. An item writes only to a slot of its own, so nothing depends on the number of
-// threads; an exception is caught in its item and the one of the lowest index is thrown again after the loop.
+// threads; an exception is caught in its item and the one of the lowest index is thrown again after the loop. Where
+// memory ran out no other item is begun: a thread's scratch may be half-way.
 #pragma once
 
 #if !defined(TACT_WITHOUT_OPENMP)
@@ -8,6 +9,8 @@
 #else
 #include <thread>
 #endif
+
+#include <tact/error.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +20,7 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <type_traits>
 
 #include "engine/base/floating_point_mode.h"
@@ -58,20 +62,38 @@ struct alignas(64) BlockShare {
   std::size_t end;
 };
 
-// The exception of the item with the lowest index among those that failed.
+// The exception of the item with the lowest index among those that failed. All items are tried where input is refused,
+// so that it is the same one for any number of threads.
 class FirstException {
  public:
   void keep(std::size_t index) {
+    if (is_want_of_memory()) ends_loop_ = true;
     const std::lock_guard lock(mutex_);
     if (exception_ && index_ <= index) return;
     index_ = index;
     exception_ = std::current_exception();
   }
+  // Whether memory ran out.
+  bool ends_loop() const { return ends_loop_.load(std::memory_order_relaxed); }
   void rethrow() const {
     if (exception_) std::rethrow_exception(exception_);
   }
 
  private:
+  // Of the exception that is being handled.
+  static bool is_want_of_memory() {
+    try {
+      throw;
+    } catch (const std::bad_alloc&) {
+      return true;
+    } catch (const Error& error) {
+      return error.code() == ErrorCode::out_of_memory || error.code() == ErrorCode::backend_failure;
+    } catch (...) {
+      return false;
+    }
+  }
+
+  std::atomic<bool> ends_loop_ = false;
   std::mutex mutex_;
   std::size_t index_ = 0;
   std::exception_ptr exception_;
@@ -101,8 +123,10 @@ class SharedLoop {
     for (std::size_t k = 0; k < share_count_; ++k) {
       BlockShare& share = shares_[(static_cast<std::size_t>(thread) + k) % share_count_];
       const auto take = [&] { return share.next.fetch_add(1, std::memory_order_relaxed); };
-      for (std::size_t block = take(); block < share.end; block = take()) run_block(block, thread);
+      for (std::size_t block = take(); block < share.end && !failed_.ends_loop(); block = take())
+        run_block(block, thread);
     }
+    if (failed_.ends_loop()) return;
     try {
       afterwards_(thread);
     } catch (...) {

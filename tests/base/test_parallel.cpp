@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cfenv>
 #include <chrono>
+#include <new>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -142,6 +143,25 @@ TEST(ParallelFor, StopsOnlyTheBlockThatFailed) {
 
 // Read from memory, so that the sum is made when the program runs. Rounded upward it is more than 1.
 const volatile double kTerm = 1.0, kTinyTerm = 0x1p-60;
+
+// What a thread works with may be half-way then.
+TEST(ParallelFor, AThreadThatRanOutOfMemoryBeginsNoOtherItem) {
+  constexpr std::size_t kCount = 1000;
+  for (const int threads : {1, 2, 4}) {
+    std::array<std::atomic<bool>, 4> ran_out = {};
+    std::atomic<int> begun_after = 0;
+    const auto work = [&](std::size_t i, int thread) {
+      if (ran_out[static_cast<std::size_t>(thread)]) ++begun_after;
+      if (i % 100 != 3) return;
+      ran_out[static_cast<std::size_t>(thread)] = true;
+      if (i % 200 == 3) throw std::bad_alloc();
+      throw tact::Error(tact::ErrorCode::out_of_memory, "");
+    };
+    const auto help = [&](int thread) { begun_after += ran_out[static_cast<std::size_t>(thread)]; };
+    EXPECT_ANY_THROW(parallel_for(kCount, 1, threads, work, help)) << threads;
+    EXPECT_EQ(begun_after, 0) << threads;
+  }
+}
 
 TEST(ParallelFor, RoundsToNearestAndLeavesTheCallersModeAsItWas) {
   for (const int threads : {1, 4}) {
