@@ -159,6 +159,123 @@ def passed_edges(file):
     picture.save(file)
 
 
+def one_crossing(file):
+    """Two lines that cross twice: what the curves cut off is one crossing each."""
+    picture = Picture("Facets that meet, and what they cut off, are one crossing")
+    floor = lambda x: -0.55 + 0.12 * math.sin(1.3 * x)
+    line = [(0.2 * i - 4.0, floor(0.2 * i - 4.0)) for i in range(41)]
+    surface(picture, line, BLUE)
+    body = [(-3.6, 1.9), (-2.9, 0.2), (-2.3, -1.2), (-1.6, -1.0), (-0.9, 0.5), (0.0, 1.0), (0.9, 0.4), (1.5, -0.9), (2.2, -1.1), (2.8, 0.2), (3.5, 1.9)]
+    picture.path(body, SAND, INK, 2, True, 0.6)
+    inside = [p for p in body if p[1] < floor(p[0])]
+    for p in inside:
+        picture.dot(p)
+    for a, b in zip(body, body[1:]):
+        ha, hb = a[1] - floor(a[0]), b[1] - floor(b[0])
+        if ha * hb < 0:
+            t = ha / (ha - hb)
+            picture.dot((a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])), GOLD)
+    picture.text((-2.0, -1.75), "one crossing", RED, "middle")
+    picture.text((1.9, -1.75), "another one", RED, "middle")
+    picture.text((0.0, -1.3), "inside: winding number 1", INK, "middle")
+    picture.text((-3.9, -2.1), "gold: where an edge meets a facet, points of the intersection curves", GOLD)
+    picture.text((0.0, 1.5), "b", INK, "middle")
+    picture.save(file)
+
+
+def thick_enough(file):
+    """A vertex in a thin wall: the wall's thickness through it is the longest way out."""
+    picture = Picture("Without a last step no way out is longer than the wall is thick")
+    low, high, left, right = -0.3, 0.45, -4.0, 3.2
+    picture.path([(left, high), (right, high), (right, low), (left, low)], BLUE, INK, 3, True, 0.35)
+    vertex = (-0.6, 0.2)
+    picture.path([(-2.4, 1.9), vertex, (-0.9, 1.9)], SAND, INK, 2, True, 0.75)
+    picture.path([(0.9, -1.7), vertex, (2.2, -1.5)], SAND, INK, 2, True, 0.75)
+    gap(picture, vertex, (vertex[0], high), f"gap {vertex[1] - high:.2f} m", (0.12, 0.5))
+    picture.path([vertex, (right, vertex[1])], closed=False, stroke=TEAL, dash="6 4")
+    picture.text((1.4, 0.62), "along the wall: never", TEAL)
+    picture.arrow((-3.3, low), (-3.3, high), GOLD, both=True, width=2)
+    picture.text((-3.15, 0.02), f"thick by {high - low:.2f} m", GOLD)
+    picture.text((-3.9, -1.9), "edges come in through both sides: the crossing as a whole tells the side")
+    picture.save(file)
+
+
+def way_apart(file):
+    """A blade through a plate, no vertex inside; the ways up and down are of the drawn lengths."""
+    picture = Picture("No vertex inside: the least translation that parts what has crossed")
+    plate, (left, right, low, high) = [(-3.4, 0.3), (3.4, 0.3), (3.4, -0.3), (-3.4, -0.3)], (-0.35, 0.35, -1.0, 1.7)
+    picture.path(plate, BLUE, INK, 3, True, 0.35)
+    picture.path([(left, low), (right, low), (right, high), (left, high)], SAND, INK, 2, True, 0.75)
+    for x in (left, right):
+        picture.dot((x, low))
+        picture.dot((x, 0.3))
+    ways = {"up": 0.3 - low, "down": high + 0.3, "aside": 3.4 + right}
+    assert min(ways, key=ways.get) == "up"
+    picture.arrow((0.9, low), (0.9, 0.3), RED, width=2)
+    picture.text((1.05, -0.6), f"gap -{ways['up']:.2f} m", RED)
+    picture.text((-1.0, -1.55), f"down would take {ways['down']:.2f} m, aside {ways['aside']:.2f} m", TEAL)
+    picture.text((-3.3, 0.5), "a: a plate", INK)
+    picture.text((0.5, 1.5), "b: a blade", INK)
+    picture.text((-3.9, -2.05), "points: where the surfaces touch last on that way")
+    picture.save(file)
+
+
+def winding_twice(file):
+    """A closed strip whose ends overlap, with the winding number of each region."""
+    picture = Picture("A closed body is past itself where it winds twice")
+    left = [(-3.6, -1.5), (0.9, -1.3), (1.2, 0.3), (-3.4, 0.3)]
+    right = [(3.6, 1.6), (-0.9, 1.2), (-1.0, -0.6), (3.4, -0.4)]
+    picture.path(left, BLUE, INK, 2, True, 0.4)
+    picture.path(right, BLUE, INK, 2, True, 0.4)
+    picture.text((-2.2, -0.7), "1")
+    picture.text((2.4, 0.6), "1")
+    picture.text((0.1, -0.2), "2", RED, "middle")
+    picture.text((-2.6, 1.4), "0", TEAL)
+    vertex, line = (-1.0, -0.6), [(1.2, 0.3), (-3.4, 0.3)]
+    distance, place = min((d, p) for d, p, _ in nearest(vertex, line))
+    gap(picture, vertex, place, f"gap -{distance:.2f} m", (-0.12, 0.0), "end")
+    vertex, line = (1.2, 0.3), [(-1.0, -0.6), (3.4, -0.4)]
+    distance, place = min((d, p) for d, p, _ in nearest(vertex, line))
+    gap(picture, vertex, place, f"gap -{distance:.2f} m", (0.12, 0.0))
+    picture.text((-3.9, -2.05), "two arms of one closed body, in section, and winding numbers")
+    picture.save(file)
+
+
+def crossed_itself(file):
+    """A sheet over itself with a dent through the lower layer: the fewer vertices are on the wrong side."""
+    picture = Picture("A sheet that is past itself: the side with fewer vertices goes back")
+    lower = [(-3.8, 0.0), (3.6, 0.0)]
+    upper = [(-3.6, 1.3), (-2.5, 1.1), (-1.5, 0.6), (-0.6, -0.5), (0.2, -0.8), (1.0, -0.45), (1.8, 0.6), (2.7, 1.1), (3.6, 1.3)]
+    turn = [(3.6 + 0.6 * math.sin(math.pi * i / 12), 0.65 - 0.65 * math.cos(math.pi * i / 12)) for i in range(13)]
+    picture.path(lower + turn + list(reversed(upper)), closed=False, stroke=BLUE, width=3)
+    for p in upper:
+        if p[1] > 0.0:
+            picture.dot(p, TEAL)
+        else:
+            gap(picture, p, (p[0], 0.0), f"{p[1]:.2f} m", (0.0, p[1] / 2 - 0.3), "middle")
+    picture.text((-3.8, 1.65), "without a margin; after a step with points these tell the side", TEAL)
+    picture.text((-3.9, -1.9), "with a margin it keeps the side that it is on: no gap is negative")
+    picture.save(file)
+
+
+def no_inside(file):
+    """A cup that was added as closed, its mouth to the right: a half-line that leaves through it meets nothing."""
+    picture = Picture("A closed body with a border is taken as a sheet")
+    cup = [(1.6, 1.3), (-2.4, 1.3), (-2.4, -1.3), (1.6, -1.3)]
+    picture.path(cup, closed=False, stroke=BLUE, width=4)
+    for p in (cup[0], cup[-1]):
+        picture.dot(p, GOLD)
+    picture.text((1.75, 1.25), "border", GOLD)
+    picture.path([(-0.9 + 0.6 * math.cos(math.pi * i / 12), 0.6 * math.sin(math.pi * i / 12)) for i in range(24)], SAND, INK, 2, True, 0.75)
+    picture.text((-0.9, -0.05), "no points", TEAL, "middle")
+    picture.path([(0.5, 0.0), (3.7, 0.0)], closed=False, stroke=TEAL, dash="6 4")
+    picture.path([(0.5, 0.0), (0.5, 2.1)], closed=False, stroke=TEAL, dash="6 4")
+    picture.text((2.0, 0.12), "meets it never", TEAL)
+    picture.text((0.62, 1.75), "meets it once", TEAL)
+    picture.text((-3.9, -2.05), "is this inside? it would hang on the direction, so there is no inside")
+    picture.save(file)
+
+
 def impact_time(file):
     """Distance over time of three pairs of features, and when each is an impact."""
     picture = Picture("When features with margins meet")
@@ -204,7 +321,12 @@ def safe_step(file):
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    for draw in (vertex_minima, smallest_feature, edge_pair, crossed_closed, crossed_sheet, passed_edges, impact_time, safe_step):
+    drawn = (
+        *(vertex_minima, smallest_feature, edge_pair),
+        *(one_crossing, crossed_closed, thick_enough, way_apart, crossed_sheet, passed_edges),
+        *(winding_twice, crossed_itself, no_inside, impact_time, safe_step),
+    )
+    for draw in drawn:
         draw(folder / f"{draw.__name__}.svg")
 
 

@@ -22,7 +22,7 @@ void ContainmentStage::run(std::span<const MovedPair> moved, Bodies& bodies, con
     if (!pair.record->hulls_overlap || !pair.record->facet_pairs.empty()) continue;
     const std::uint32_t a = pair.record->a.index, b = pair.record->b.index;
     const auto want = [&](std::uint32_t inner, std::uint32_t outer, Containment containment) {
-      if (bodies.in_slot(outer).surface != Surface::closed) return;
+      if (!bodies.in_slot(outer).has_inside) return;
       if (!is_in_box(bodies.in_slot(inner), bodies.in_slot(outer))) return;
       wanted_.push_back({pair.record, inner, outer, containment});
       slots_.push_back(inner);

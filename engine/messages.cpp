@@ -49,4 +49,15 @@ void tell_limits(const Report& report, const Bodies& bodies, const MessageFuncti
   tell({.kind = MessageKind::gjk_limit, .a = {}, .b = {}, .text = text});
 }
 
+void tell_open_surface(const Body& body, const MessageFunction& tell) {
+  if (body.surface != Surface::closed || body.has_inside || !tell) return;
+  const std::string text = text_if_there_is_room([&] {
+    return "body '" + body.name +
+           "' was added as closed and is taken as a sheet: its surface has a border, facets turned against each other, "
+           "or "
+           "each facet twice, once each way";
+  });
+  tell({.kind = MessageKind::open_surface, .a = body.id, .b = body.id, .text = text});
+}
+
 }  // namespace tact

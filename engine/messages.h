@@ -1,4 +1,4 @@
-// Tells a program which limits a step reached.
+// Tells a program which limits a step reached, and what is wrong with a body that was added.
 #pragma once
 
 #include <tact/message.h>
@@ -10,5 +10,8 @@ namespace tact {
 
 // Says what `report` says of limits, through `tell`. Costs nothing where none was reached.
 void tell_limits(const Report& report, const Bodies& bodies, const MessageFunction& tell);
+
+// Says that a body which was added as closed is taken as a sheet, if it is.
+void tell_open_surface(const Body& body, const MessageFunction& tell);
 
 }  // namespace tact

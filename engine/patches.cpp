@@ -44,7 +44,7 @@ double longest(const Box& box) {
 Vec3 area_normal(const Body& body, int facet, Vec3 side, double scale) {
   const Triangle t = triangle_of(body, facet);
   const Vec3 n = cross(scale * (t[1] - t[0]), scale * (t[2] - t[0]));
-  return body.surface == Surface::sheet && dot(n, side) < 0.0 ? -n : n;
+  return !body.has_inside && dot(n, side) < 0.0 ? -n : n;
 }
 
 // Above the origin, along n.

@@ -68,7 +68,7 @@ bool cross_each_other(const PairRecord& record, double reach) {
 // A sheet with a margin keeps the side on which it is: see ContactPoint.
 bool crosses_itself(const SelfRecord& record, const Bodies& bodies) {
   const std::uint32_t slot = record.body.index;
-  const bool has_side = bodies.in_slot(slot).surface == Surface::closed || bodies.reach(slot, slot) == 0.0;
+  const bool has_side = bodies.in_slot(slot).has_inside || bodies.reach(slot, slot) == 0.0;
   return has_side && !record.facet_pairs.empty();
 }
 
@@ -105,7 +105,7 @@ base::Vec3 direction_of(const PairRecord& record) {
 }
 
 narrowphase::SurfaceKind kind_of(const Body& body) {
-  return body.surface == Surface::closed ? narrowphase::SurfaceKind::closed : narrowphase::SurfaceKind::sheet;
+  return body.has_inside ? narrowphase::SurfaceKind::closed : narrowphase::SurfaceKind::sheet;
 }
 
 // Where a point stands by its kind and first vertex, then by where it was found: what tells most points apart, in one

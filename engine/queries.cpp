@@ -368,9 +368,7 @@ std::vector<BodyId> find_around(const Bodies& bodies, const PointQuery& query) {
   std::vector<BodyId> found;
   for (const std::uint32_t slot : slots_near(bodies, query.filter, {point, point})) {
     const Body& body = bodies.placed(slot);
-    // The box of the search may be wider than the body; where a surface has holes that would add to its inside.
-    if (body.surface == Surface::closed && contains(body.mesh.box(), point) && contains(body.mesh, point))
-      found.push_back(body.id);
+    if (body.has_inside && contains(body.mesh, point)) found.push_back(body.id);
   }
   return found;
 }

@@ -161,6 +161,7 @@ BodyId World::add_body(const BodyDefinition& definition) {
   Implementation& i = implementation();
   const BodyId body = with_memory("adding a body ran out of memory", [&] { return i.bodies.add(definition); });
   i.observe([&](WorldObserver& observer) { observer.body_added(body, definition); });
+  tell_open_surface(i.bodies.at(body), i.settings.on_message);
   return body;
 }
 

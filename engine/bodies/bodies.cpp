@@ -6,6 +6,7 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
+#include "engine/bodies/encloses.h"
 #include "engine/bodies/room.h"
 #include "engine/check_name.h"
 #include "narrowphase/mesh/cluster_quality.h"
@@ -30,6 +31,7 @@ std::unique_ptr<Body> make_body(const BodyDefinition& definition, const std::str
                                      .id = {},
                                      .name = name,
                                      .surface = definition.surface,
+                                     .has_inside = definition.surface == Surface::closed && encloses(positions, facets),
                                      .external_id = definition.external_id,
                                      .self_contact = definition.self_contact});
 }

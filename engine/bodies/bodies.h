@@ -36,6 +36,7 @@ struct alignas(64) Body {
   BodyId id;
   std::string name;
   Surface surface = Surface::closed;
+  bool has_inside = true;  // it was added as closed, and is: see encloses.h; otherwise it is taken as a sheet
   std::uint64_t external_id = 0;
   bool self_contact = false;
   std::uint64_t birth = 0;  // a hash of the mesh and slot as they were when it was added, and of the step

@@ -23,8 +23,8 @@ void find_criteria(const PairTask& pair, const Slab& slab) {
     pair.record.contact.zone_a = zone_disk(slab, zone_a, slab.lower);
     pair.record.contact.zone_b = zone_disk(slab, zone_b, slab.upper);
   }
-  work.culled.criteria_a = criteria_for_a(slab, zones ? &zone_b : nullptr, paper && pair.a.surface == Surface::closed);
-  work.culled.criteria_b = criteria_for_b(slab, zones ? &zone_a : nullptr, paper && pair.b.surface == Surface::closed);
+  work.culled.criteria_a = criteria_for_a(slab, zones ? &zone_b : nullptr, paper && pair.a.has_inside);
+  work.culled.criteria_b = criteria_for_b(slab, zones ? &zone_a : nullptr, paper && pair.b.has_inside);
 }
 
 void count_clusters(const CulledPair& culled, PairCounts& counts) {

@@ -101,8 +101,8 @@ struct StateFields {
   // By others: mesh and begin, as a MeshState; id. Dropped: features and neighbors.
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Body>& body) {
-    auto& [mesh, id, name, surface, external_id, self_contact, birth, features, neighbors, begin] = body;
-    archive(name, surface, external_id, self_contact, birth);
+    auto& [mesh, id, name, surface, has_inside, external_id, self_contact, birth, features, neighbors, begin] = body;
+    archive(name, surface, has_inside, external_id, self_contact, birth);
   }
 
   // By others: body, rigid and begin, as a MeshState; fixed, as part of the filter. Dropped: the rest.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "narrowphase/crossing/nearest_exit.h"
 #include "narrowphase/numeric/frame.h"
@@ -26,7 +28,7 @@ double length_across(Vec3 p) { return std::sqrt(p.x * p.x + p.y * p.y); }
 void LastTouch::see(const SurfacePart& part, std::vector<SeenFacet>& seen) const {
   seen.clear();
   for (std::size_t i = 0; i < part.facets().size(); ++i) {
-    SeenFacet one{part.facet(i), {}, 0.0, 0.0};
+    SeenFacet one{part.facet(i), static_cast<int>(i), {}, 0.0, 0.0};
     const Triangle t = part.surface().triangle(one.facet);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 at = t[k] - origin_;
@@ -49,8 +51,8 @@ void LastTouch::append_points(const SurfacePart& a, const SurfacePart& b, Vec3 d
   see(a, a_);
   see(b, b_);
   // Facets of equal height stay in the caller's order.
-  std::ranges::stable_sort(a_, [](const SeenFacet& p, const SeenFacet& q) { return p.top > q.top; });
-  std::ranges::stable_sort(b_, [](const SeenFacet& p, const SeenFacet& q) { return p.bottom < q.bottom; });
+  std::ranges::sort(a_, {}, [](const SeenFacet& one) { return std::pair(-one.top, one.place); });
+  std::ranges::sort(b_, {}, [](const SeenFacet& one) { return std::pair(one.bottom, one.place); });
   touches_.clear();
   last_way_ = -kSame;
   for (const SeenFacet& of_a : a_) {
@@ -62,14 +64,18 @@ void LastTouch::append_points(const SurfacePart& a, const SurfacePart& b, Vec3 d
   std::erase_if(touches_, [&](const Touch& one) { return one.way < last_way_ - kSame; });
   const bool any_vertex =
       std::ranges::any_of(touches_, [](const Touch& one) { return one.kind != FeaturePair::edge_edge; });
-  const auto first = static_cast<std::ptrdiff_t>(found.size());
+  points_.clear();
   for (const Touch& one : touches_) {
-    if (!any_vertex || one.kind != FeaturePair::edge_edge) found.push_back(point_of(one, a, b));
+    if (!any_vertex || one.kind != FeaturePair::edge_edge) points_.push_back(point_of(one, a, b));
   }
-  const auto by_features = [](const FeaturePoint& p, const FeaturePoint& q) { return p.features() < q.features(); };
-  const auto same = [](const FeaturePoint& p, const FeaturePoint& q) { return p.features() == q.features(); };
-  std::stable_sort(found.begin() + first, found.end(), by_features);
-  found.erase(std::unique(found.begin() + first, found.end(), same), found.end());
+  // Of those of the same features the first one.
+  order_.resize(points_.size());
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  std::ranges::sort(order_, {}, [&](std::size_t i) { return std::pair(points_[i].features(), i); });
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const FeaturePoint& point = points_[order_[i]];
+    if (i == 0 || points_[order_[i - 1]].features() != point.features()) found.push_back(point);
+  }
 }
 
 void LastTouch::look_at(const SeenFacet& a, const SeenFacet& b) {

@@ -20,7 +20,7 @@ class LastTouch {
  private:
   /// Seen along the direction: x and y across it, z along it, so far above a point near both.
   struct SeenFacet {
-    int facet;  // by the mesh's number
+    int facet, place;  // by the mesh's number; in the part
     Vec3 corner[3];
     double bottom, top;
   };
@@ -43,6 +43,8 @@ class LastTouch {
   Vec3 origin_, u_, v_, direction_;
   std::vector<SeenFacet> a_, b_;
   std::vector<Touch> touches_;
+  std::vector<FeaturePoint> points_;  // of these
+  std::vector<std::size_t> order_;    // of points
   double last_way_ = 0.0;
 };
 

@@ -15,6 +15,10 @@ constexpr double kSameSide = 0.5;
 constexpr double kDepthRounding = 1e-12;
 // A vertex on the surface itself looks for the other side from so far below it. Lengths are near 1.
 constexpr double kBeside = 1e-9;
+// Facets beside the place of an exit may be met a little before it.
+constexpr double kShorter = 0x1p-6;
+// A vertex that has become at most so many times as deep in a step keeps its side, whatever the mesh is like there.
+constexpr double kSlowly = 2.0;
 // Less than every cosine: each facet faces a direction by so much.
 constexpr double kFacesAnything = -2.0;
 
@@ -157,21 +161,29 @@ std::optional<NearestExit> PairCrossing::exit_inside(const CrossedSurface& own, 
   Vec3 facing = facing_of_patch(own, source);
   const double within = crossing_.within;
   std::optional<NearestExit> exit;
+  double last_depth = 0.0;
   if (const auto last = facing_of_vertex(own, source, SurfaceKind::closed)) {
     exit = exits_.nearest_exit(v, *last, kSameSide, within, hint);
-    if (exit && carried(own).find(source)->gap < 0.0) return exit;
+    last_depth = exit ? -own.scale * std::min(0.0, carried(own).find(source)->gap) : 0.0;
+    if (exit && exit->distance <= kSlowly * last_depth) return exit;
   }
+  const bool is_named = exit.has_value();
   if (!exit) {
     if (patch >= 0 && !patches_[patch].agrees) facing = own.sign * way_apart_of(own, source);
     exit = exits_.nearest_exit(v, facing, kFaces, within, hint);
   }
   const auto nearest = exits_.nearest_exit(v, facing, kFacesAnything, within, hint);
-  return exit && nearest && is_thicker(other, v, *nearest, exit->distance) ? exit : nearest;
+  if (!exit || !nearest || exit->distance == nearest->distance) return nearest;
+  const ScaledMesh surface = other.scaled();
+  const bool is_local = is_thicker(surface, v, *nearest, exit->distance - last_depth) &&
+                        (is_named || is_straight(surface, v, *nearest, *exit));
+  return is_local ? exit : nearest;
 }
 
 // That of the crossing that a vertex is of, which is found once; of a part that no longer meets anything the contact
 // direction.
 Vec3 PairCrossing::way_apart_of(const CrossedSurface& own, int source_vertex) {
+  if (crossing_.within <= kHardlyDeep) return crossing_.direction;
   if (ways_apart_.empty()) {
     groups_.find(crossing_);
     ways_apart_.resize(static_cast<std::size_t>(groups_.count()));
@@ -193,11 +205,19 @@ Vec3 PairCrossing::way_apart_of(const CrossedSurface& own, int source_vertex) {
 }
 
 // Whether the mesh around `v`, from its nearest place through `v` to the other side, is thicker than `distance`.
-bool PairCrossing::is_thicker(const CrossedSurface& other, Vec3 v, const NearestExit& nearest, double distance) const {
-  if (nearest.distance == distance) return true;
+bool PairCrossing::is_thicker(const ScaledMesh& other, Vec3 v, const NearestExit& nearest, double distance) {
+  if (distance <= nearest.distance) return true;
   const double back = 1.0 / other.scale;
   const Vec3 from = v - kBeside * nearest.direction, to = v - (distance - nearest.distance) * nearest.direction;
-  return !any_hit(*other.mesh.mesh, PreparedSegment({back * from, back * to}));
+  return !any_hit(other.mesh, PreparedSegment({back * from, back * to}));
+}
+
+// Whether nothing of the mesh is between `v` and the place of `exit`, seen from so far inside of the nearest place: `v`
+// may lie on a facet that stands along the exit.
+bool PairCrossing::is_straight(const ScaledMesh& other, Vec3 v, const NearestExit& nearest, const NearestExit& exit) {
+  const double back = 1.0 / other.scale;
+  const Vec3 from = v - kBeside * nearest.direction, to = from + (1.0 - kShorter) * exit.distance * exit.direction;
+  return !any_hit(other.mesh, PreparedSegment({back * from, back * to}));
 }
 
 void PairCrossing::find_exits_through(CrossedSurface& own, const CrossedSurface& sheet) {

@@ -8,9 +8,13 @@
 //      or, if it has no edges that do, the contact direction. Where these normals do not agree, the direction is that
 //      of way_apart.h. If none of these facets is near enough,
 //   3. of all.
-// So a shallow vertex has its distance to the surface, and a deep one keeps the side that it came from. No exit but
-// those of vertices that had a negative gap is longer than the mesh is thick there: than the way from the nearest place
-// through the vertex to the other side. One that is is that of 3.
+// So a shallow vertex has its distance to the surface, and a deep one keeps the side that it came from. An exit is
+// local:
+//   - it is no longer than the mesh is thick there, which is the way from the nearest place through the vertex to the
+//     other side. A vertex that had a negative gap may be deeper, but gets no deeper in a step by more than that: such
+//     a step does not tell through which side it came; and
+//   - where the last step does not name its side, nothing of the mesh is between the vertex and the place.
+// Otherwise the exit is that of 3.
 // A vertex that had a positive gap keeps its normal only if it is not against its patch's: one that has come out on the
 // far side of a thin part, and goes in again, goes back with the others.
 //
@@ -71,7 +75,8 @@ class PairCrossing {
   void find_exits(CrossedSurface& own, const CrossedSurface& other);
   void find_exits_through(CrossedSurface& own, const CrossedSurface& sheet);
   std::optional<NearestExit> exit_inside(const CrossedSurface& own, const CrossedSurface& other, int vertex, int hint);
-  bool is_thicker(const CrossedSurface& other, Vec3 v, const NearestExit& nearest, double distance) const;
+  static bool is_thicker(const ScaledMesh& other, Vec3 v, const NearestExit& nearest, double distance);
+  static bool is_straight(const ScaledMesh& other, Vec3 v, const NearestExit& nearest, const NearestExit& exit);
   void find_patch_directions(CrossedSurface& own, const CrossedSurface& other);
   void add_entry(const CrossedSurface& own, const CrossedSurface& other, const EdgeHit& hit, PatchDirection& patch);
   Vec3 facing_of_patch(const CrossedSurface& own, int source_vertex) const;

@@ -30,25 +30,10 @@ void SurfacePart::add_corners() {
   sort_once_each(vertices_);
 }
 
-ClusteredMesh SurfacePart::mesh() const {
-  std::vector<double> positions;
-  std::vector<int> corners;
-  for (const int source : vertices_) {
-    const Vec3 at = surface_->position(surface_->features.vertex_of_source(source));
-    positions.insert(positions.end(), {at.x, at.y, at.z});
-  }
-  std::vector<char> is_corner(vertices_.size());
-  for (std::size_t i = 0; i < facets_.size(); ++i) {
-    for (const int v : surface_->features.corners(facet(i))) {
-      const auto at = std::ranges::lower_bound(vertices_, surface_->mesh.source_vertex(v)) - vertices_.begin();
-      corners.push_back(static_cast<int>(at));
-      is_corner[static_cast<std::size_t>(at)] = 1;
-    }
-  }
-  for (int i = 0; i < static_cast<int>(is_corner.size()); ++i) {
-    if (is_corner[i] == 0) corners.insert(corners.end(), 3, i);
-  }
-  return {positions, corners};
+std::span<const Vec3> SurfacePart::points() {
+  points_.clear();
+  for (const int source : vertices_) points_.push_back(surface_->position(surface_->features.vertex_of_source(source)));
+  return points_;
 }
 
 // Appends to met_, by the caller's numbers.

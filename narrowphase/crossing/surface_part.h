@@ -30,8 +30,8 @@ class SurfacePart {
   std::span<const int> vertices() const { return vertices_; }
   /// The facet at a place of facets(), by the mesh's number.
   int facet(std::size_t i) const { return surface_->mesh.facet_of_source(facets_[i]); }
-  /// A mesh of their hull: the facets, and a facet of one point for each of the other vertices.
-  ClusteredMesh mesh() const;
+  /// Where the vertices are, in their order.
+  std::span<const Vec3> points();
 
  private:
   void add_corners();
@@ -40,6 +40,7 @@ class SurfacePart {
 
   std::optional<ScaledMesh> surface_;
   std::vector<int> facets_, vertices_, met_;
+  std::vector<Vec3> points_;
   PredicateCounts counts_;
 };
 

@@ -16,8 +16,7 @@ constexpr double kBeyond = 1e-9;
 }  // namespace
 
 WayApart::Way WayApart::part_hulls(Vec3 came, Vec3 preferred) {
-  const ClusteredMesh a = a_.mesh(), b = b_.mesh();
-  const MinkowskiDifference m(a, b);
+  const MinkowskiDifference m(hull_a_.mesh(a_.points()), hull_b_.mesh(b_.points()));
   if (came != Vec3{}) {
     const ContactDirection found = contact_direction(m, came, {}, {}, faces_);
     return {found.n, std::max(0.0, found.height) / m.scale()};
@@ -30,6 +29,7 @@ WayApart::Way WayApart::part_hulls(Vec3 came, Vec3 preferred) {
 WayApart::Way WayApart::find(const WayApartInput& input) {
   a_.begin(input.a, input.part_a);
   b_.begin(input.b, input.part_b);
+  if (input.depth <= kHardlyDeep) return {input.direction, input.depth};
   for (int round = 0; round < kMostRounds; ++round) {
     const Way way = part_hulls(input.came, input.direction);
     if (way.length > input.depth) break;

@@ -13,12 +13,17 @@
 #include <vector>
 
 #include "narrowphase/contact_points/feature_point.h"
+#include "narrowphase/crossing/hull_points.h"
 #include "narrowphase/crossing/last_touch.h"
 #include "narrowphase/crossing/surface_part.h"
 #include "narrowphase/depth/smallest_separation.h"
 #include "narrowphase/direction/contact_direction.h"
 
 namespace tact::narrowphase {
+
+/// Bodies that are no deeper in each other are moved along their contact direction: no other is much shorter. Lengths
+/// are near 1, so these are some micrometres of a metre.
+inline constexpr double kHardlyDeep = 0x1p-18;
 
 /// Parts of two surfaces whose facets meet.
 struct WayApartInput {
@@ -46,6 +51,7 @@ class WayApart {
   Way part_hulls(Vec3 came, Vec3 preferred);
 
   SurfacePart a_, b_;
+  HullPoints hull_a_, hull_b_;
   LastTouch last_touch_;
   SmallestMemory smallest_;
   FaceFinder faces_;

@@ -239,7 +239,10 @@ void check(const CheckOptions& options, std::ostream& out) {
   std::optional<Recorder> recorder;
   Outputs outputs = options.outputs;
   outputs.patches = outputs.patches || outputs.points;
-  World world({.threads = threads, .accuracy = options.accuracy, .outputs = outputs});
+  const auto warn_of_bodies = [](const Message& message) {
+    if (message.kind == MessageKind::open_surface) print_warning(message.text);
+  };
+  World world({.threads = threads, .accuracy = options.accuracy, .outputs = outputs, .on_message = warn_of_bodies});
   if (recording) world.set_observer(&recorder.emplace(recording->stream()));
   const std::vector<BodyId> ids = add_bodies(bodies, world);
   for (const auto& [a, b] : excluded) world.set_excluded(ids[a], ids[b], true);

@@ -73,8 +73,10 @@ void define_messages(py::module_& module) {
       .value("direction_limit", MessageKind::direction_limit,
              "the search for the direction of a contact stopped at a limit")
       .value("gjk_limit", MessageKind::gjk_limit, "GJK stopped at its limit for pairs that are taken to be apart")
-      .value("point_limit", MessageKind::point_limit, "a body crosses itself deeper than its points are found");
-  py::class_<KeptMessage>(module, "Message", "A limit that a step reached.")
+      .value("point_limit", MessageKind::point_limit, "a body crosses itself deeper than its points are found")
+      .value("open_surface", MessageKind::open_surface, "a body was added as closed, and is taken as a sheet");
+  py::class_<KeptMessage>(module, "Message",
+                          "A limit that a step reached, or what is wrong with a body that was added.")
       .def_readonly("kind", &KeptMessage::kind)
       .def_readonly("a", &KeptMessage::a, "the first body of the pair, or no body")
       .def_readonly("b", &KeptMessage::b)

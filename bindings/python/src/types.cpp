@@ -18,7 +18,8 @@ std::string text_of(const BodyId& id) {
 
 void define_enums(py::module_& module) {
   py::enum_<Surface>(module, "Surface", "What the facets of a body are.")
-      .value("closed", Surface::closed, "a solid's surface, facets counter-clockwise seen from outside")
+      .value("closed", Surface::closed,
+             "a solid's surface, facets counter-clockwise seen from outside; taken as a sheet if it has a border")
       .value("sheet", Surface::sheet, "cloth: no inside, both sides count");
   py::enum_<Motion>(module, "Motion", "How a body moves.")
       .value("deformable", Motion::deformable, "World.set_positions() moves its vertices")

@@ -133,13 +133,14 @@ class MessageKind:
     direction_limit: ClassVar[MessageKind]
     gjk_limit: ClassVar[MessageKind]
     point_limit: ClassVar[MessageKind]
+    open_surface: ClassVar[MessageKind]
     name: str
     value: int
     def __init__(self, value: int) -> None: ...
     def __int__(self) -> int: ...
 
 class Message:
-    """A limit that a step reached."""
+    """A limit that a step reached, or what is wrong with a body that was added."""
 
     @property
     def kind(self) -> MessageKind: ...
@@ -163,7 +164,7 @@ class Settings:
     patches: bool
     points: bool
     on_message: Optional[Callable[[Message], None]]
-    """called for each limit that a step reached; the report has the same as flags and counts. The world refuses its calls; what it raises comes out of detect(), after the step"""
+    """called for each limit that a step reached, and for each body that was added as closed and is not. The report has limits as flags and counts. The world refuses its calls; what it raises comes out of detect(), after the step"""
     def __init__(
         self,
         *,

@@ -23,7 +23,7 @@ struct BodyId {
 
 /// What the facets of a body are.
 enum class Surface {
-  closed,  ///< a solid's surface, facets counter-clockwise seen from outside
+  closed,  ///< a solid's surface, facets counter-clockwise seen from outside; taken as a sheet if it has a border
   sheet,   ///< cloth: no inside, both sides count
 };
 

@@ -13,9 +13,10 @@ enum class MessageKind {
   direction_limit,  ///< the search for the direction of a contact stopped at a limit
   gjk_limit,        ///< GJK stopped at its limit for pairs that are taken to be apart
   point_limit,      ///< a body crosses itself deeper than its points are found
+  open_surface,     ///< a body was added as closed, and is taken as a sheet
 };
 
-/// A limit that a step reached.
+/// A limit that a step reached, or what is wrong with a body that was added.
 struct Message {
   MessageKind kind = MessageKind::direction_limit;
   BodyId a;               ///< the first body of the pair, or no body
@@ -23,8 +24,8 @@ struct Message {
   std::string_view text;  ///< a sentence with the names of the bodies; valid during the call, empty without memory
 };
 
-/// Called at the end of World::detect(), on its thread, in the order of the pairs. It must neither throw nor call the
-/// world.
+/// Called at the end of World::detect(), in the order of the pairs, and of World::add_body(), on their thread. It must
+/// neither throw nor call the world.
 using MessageFunction = std::function<void(const Message&)>;
 
 }  // namespace tact

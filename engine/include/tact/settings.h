@@ -43,7 +43,8 @@ struct Settings {
   Outputs outputs = {};       ///< what is computed beyond direction, depth and facet pairs
   /// Runs the work on threads of the program, `threads` tasks at a time. Null uses OpenMP's threads.
   std::shared_ptr<Executor> executor = {};
-  /// Called for each limit that a step reached; the report has the same as flags and counts. May be null.
+  /// Called for each limit that a step reached, and for each body that was added as closed and is not. The report has
+  /// limits as flags and counts. May be null.
   MessageFunction on_message = {};
 };
 

@@ -407,6 +407,21 @@ TEST(Allocation, SteadyStepsOfHullsThatRoundingCannotTellTakeNone) {
   }
 }
 
+// Plates and rods through each other, and a body in a thin wall: crossings without a vertex inside, and vertices whose
+// side the crossing as a whole tells.
+TEST(Allocation, SteadyStepsThatSeekWaysApartTakeNone) {
+  const Mesh plate = centered_box({1.0, 1.0, 0.03125}), rod = centered_box({1.0, 0.0625, 0.0625}),
+             blade = rotated(centered_box({0.5, 0.03125, 0.5}), rotation(1.0, 0.1, 0.2, 0.3));
+  const Mesh walls[] = {cube(2.0, {}), turned_inside_out(cube(1.9, {}))};
+  const Mesh across = rotated(rod, rotation(1.0, 0.1, 0.2, 0.9));
+  Round round({.threads = 1, .outputs = {.points = true}},
+              {plate, blade, translated(rod, {4.0, 0.0, 0.0}), translated(across, {4.01, 0.03, 0.02}),
+               translated(merged(walls), {8.0, 0.0, 0.0}), translated(spike({0.3, 0.1, 0.9}, 0.4), {8.7, 0.2, 0.1})});
+  EXPECT_EQ(fewest_allocations(round, 1), 0);
+  EXPECT_EQ(round.world.detect().contacts().size(), 3u);
+  for (const Contact& contact : round.world.detect().contacts()) EXPECT_FALSE(contact.points().empty());
+}
+
 TEST(Allocation, SteadyBatchesTakeNone) {
   Round round({.threads = 1}, crowd_and_sheet());
   std::vector<std::vector<PositionsUpdate>> batches;

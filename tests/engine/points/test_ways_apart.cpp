@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstdio>
+#include <numbers>
+#include <string>
 #include <vector>
 
 #include "tests/support/checks/detection.h"
+#include "tests/support/checks/parting.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/random.h"
 
@@ -18,70 +21,12 @@ BodyDefinition crossing_body(const Mesh& mesh, double margin = 0.0) {
   return {.positions = mesh.positions, .facets = mesh.facets, .margin = margin};
 }
 
-double reach_along(const Mesh& mesh, Vec3 n) {
-  double most = -std::numeric_limits<double>::infinity();
-  for (int v = 0; v < mesh.vertex_count(); ++v) most = std::max(most, dot(n, mesh.position(v)));
-  return most;
-}
-
-// Of two convex bodies: over the normals of their facets and the directions across an edge of each.
-double least_translation(const Mesh& a, const Mesh& b) {
-  double least = std::numeric_limits<double>::infinity();
-  const auto look_along = [&](Vec3 n) {
-    if (!(norm(n) > 1e-9)) return;
-    n = normalized(n);
-    least = std::min({least, reach_along(a, n) + reach_along(b, -n), reach_along(a, -n) + reach_along(b, n)});
-  };
-  std::vector<Vec3> edges[2];
-  for (const bool of_b : {false, true}) {
-    const Mesh& mesh = of_b ? b : a;
-    for (int f = 0; f < mesh.facet_count(); ++f) {
-      const Vec3 p = mesh.position(mesh.facets(0, f)), q = mesh.position(mesh.facets(1, f)),
-                 r = mesh.position(mesh.facets(2, f));
-      look_along(cross(q - p, r - p));
-      for (const Vec3 edge : {q - p, r - q, p - r}) edges[of_b].push_back(normalized(edge));
-    }
-  }
-  for (const Vec3& e : edges[0]) {
-    for (const Vec3& f : edges[1]) look_along(cross(e, f));
-  }
-  return least;
-}
-
-// How b moves if each point with a negative gap is closed after the other.
-Vec3 along_points(const Contact& contact) {
-  Vec3 way;
-  for (const ContactPoint& point : contact.points()) {
-    const Vec3 n{point.normal.x(), point.normal.y(), point.normal.z()};
-    const double gap = point.gap + dot(n, way);
-    if (point.gap < 0.0 && gap < 0.0) way = way + (1e-9 - gap) * n;
-  }
-  return way;
-}
-
-struct Parting {
-  int passes = 0;  // until nothing meets
-  double way = 0.0;
-};
-
-// Moves b along the points until it is out of a, or so often.
-Parting part(const Mesh& a, Mesh b, double margin, const std::string& what) {
+// Moves b along the points until it is out of a.
+Parting part(const Mesh& a, const Mesh& b, double margin, const std::string& what) {
   constexpr int kMost = 12;
-  World world({.threads = 1, .outputs = {.points = true}});
-  const BodyId first = world.add_body(crossing_body(a, margin)), second = world.add_body(crossing_body(b, margin));
-  Parting parting;
-  Vec3 way;
-  for (; parting.passes < kMost; ++parting.passes) {
-    const Contact* contact = world.detect().find_contact(first, second);
-    if (contact == nullptr || contact->facet_pairs().empty()) break;
-    const Vec3 next = along_points(*contact);
-    EXPECT_GT(norm(next), 0.0) << what << ": no point in pass " << parting.passes;
-    way = way + next;
-    b = translated(b, next);
-    world.set_positions(second, b.positions);
-  }
+  const Parting parting = part_by_points(a, b, {.margin = margin, .most_passes = kMost});
+  EXPECT_EQ(parting.without_point, 0) << what;
   EXPECT_LT(parting.passes, kMost) << what << ": not apart";
-  parting.way = norm(way);
   return parting;
 }
 
@@ -97,7 +42,7 @@ TEST(WaysApart, OfBladesPlatesAndRodsAreTheLeastTranslation) {
   for (const double shift : {0.0, 0.02, -0.05}) {
     const Mesh moved = translated(across, {0.01, 0.03, shift});
     const Parting parting = part(rod, moved, 0.0, "rods");
-    EXPECT_LE(parting.way, 1.01 * least_translation(rod, moved));
+    EXPECT_LE(parting.way, 1.01 * least_overlap(rod, moved).depth);
     EXPECT_LE(parting.passes, 2);
   }
 }
@@ -116,7 +61,7 @@ TEST(WaysApart, OfRandomThinBodiesAreThereAndShort) {
     const Parting parting = part(a, b, k % 2 == 0 ? 0.0 : 0.01, what);
     if (parting.passes == 0) continue;
     ++crossings;
-    long_ways += parting.way > 1.5 * least_translation(a, b) + 1e-6;
+    long_ways += parting.way > 1.5 * least_overlap(a, b).depth + 1e-6;
     EXPECT_LE(parting.passes, 8) << what;
   }
   EXPECT_GT(crossings, 100);
@@ -197,6 +142,105 @@ TEST(Gaps, InAThinWallAreTheDistanceToTheWall) {
     ++found;
   }
   EXPECT_EQ(found, 1);
+}
+
+// A ring of so many sides, walls so thick, open at both ends.
+Mesh tube(int sides, double wall) {
+  MeshBuilder builder;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / sides, c = std::cos(angle), s = std::sin(angle);
+    for (const double radius : {1.0 + wall, 1.0}) {
+      for (const double z : {-1.0, 1.0}) builder.vertex({radius * c, radius * s, z});
+    }
+  }
+  for (int i = 0; i < sides; ++i) {
+    const int k = 4 * i, l = 4 * ((i + 1) % sides);
+    builder.quad(k, l, l + 1, k + 1), builder.quad(k + 2, k + 3, l + 3, l + 2);
+    builder.quad(k + 1, l + 1, l + 3, k + 3), builder.quad(k, k + 2, l + 2, l);
+  }
+  return builder.mesh();
+}
+
+Mesh hollow_box(double wall) {
+  return merged(std::vector<Mesh>{cube(2.0 + 2.0 * wall, {}), turned_inside_out(cube(2.0, {}))});
+}
+
+struct WallCounts {
+  int inside = 0, shallow = 0, too_deep = 0, not_exact = 0;
+  double worst = 0.0;  // in walls
+};
+
+// Of the vertices of b in the walls of a, by their points. Vertices of ways apart are outside.
+void count_in_walls(const World& world, const Mesh& walls, const Mesh& b, double wall, const Contact& contact,
+                    WallCounts& counts) {
+  for (const ContactPoint& point : contact.points()) {
+    if (point.kind != FeaturePair::facet_vertex || point.gap >= 0.0) continue;
+    const Vec3 v = b.position(point.b_vertices[0]), n{point.normal.x(), point.normal.y(), point.normal.z()};
+    const auto around = world.bodies_containing({.point = {v.x, v.y, v.z}});
+    if (std::ranges::find(around, contact.a) == around.end()) continue;
+    ++counts.inside;
+    counts.worst = std::max(counts.worst, -point.gap / wall);
+    counts.too_deep += -point.gap > thickness_through(walls, v, n) + 1e-9;
+    if (-point.gap > 0.5 * wall) continue;
+    // Of what is nearer to its side than half the wall, nothing is nearer but a facet at a right angle to that side.
+    ++counts.shallow;
+    counts.not_exact += std::abs(distance_to(walls, v) + point.gap) > 1e-9;
+  }
+}
+
+// Bodies somewhere in thin walls, without a last step.
+TEST(Gaps, InRandomWallsAreNoDeeperThanTheWall) {
+  Random random(11);
+  WallCounts counts;
+  for (int k = 0; k < 300; ++k) {
+    const double wall = k % 2 == 0 ? 0.05 : 0.01;
+    const Mesh walls = k % 3 == 0 ? hollow_box(wall) : k % 3 == 1 ? tube(24, wall) : cup(wall);
+    const Mesh any[] = {icosphere(2, 0.4), centered_box({0.4, 0.4, 0.4}), spike({0, 0, 0.8}, 0.6)};
+    const Mesh b =
+        translated(rotated(any[random.below(3)], random.rotation()), random.uniform(0.75, 1.25) * random.direction());
+    World world({.threads = 1, .outputs = {.points = true}});
+    const double margin = k % 4 < 2 ? 0.0 : 0.004;
+    const BodyId first = world.add_body(crossing_body(walls, margin)),
+                 second = world.add_body(crossing_body(b, margin));
+    const Contact* contact = world.detect().find_contact(first, second);
+    if (contact != nullptr) count_in_walls(world, walls, b, wall, *contact, counts);
+  }
+  std::printf(
+      "%d vertices in walls, %d of them shallow, of which %d have another gap than their distance; deepest %.3f "
+      "walls\n",
+      counts.inside, counts.shallow, counts.not_exact, counts.worst);
+  EXPECT_GT(counts.inside, 300);
+  EXPECT_EQ(counts.too_deep, 0);
+  EXPECT_LE(counts.not_exact, counts.shallow / 50);
+}
+
+// From below into the bottom of a hollow box, and then at once into one of its sides: down would lead along the wall.
+TEST(Gaps, AfterAStepThatIsLongerThanAWallAreNoDeeperThanTheWall) {
+  const double wall = 0.0625;
+  const Mesh body = spike({0, 0, 0.25}, 0.125);
+  for (const double margin : {0.0, 0.01}) {
+    World world({.threads = 1, .outputs = {.points = true}});
+    const BodyId box = world.add_body(crossing_body(hollow_box(wall), margin)),
+                 moved = world.add_body(crossing_body(translated(body, {0.5, 0.25, -1.5}), margin));
+    const auto tip_at = [&](Vec3 tip) {
+      world.set_positions(moved, translated(body, tip - Vec3{0, 0, 0.25}).positions);
+      std::vector<ContactPoint> points;
+      for (const ContactPoint& point : world.detect().find_contact(box, moved)->points()) {
+        if (point.kind == FeaturePair::facet_vertex && point.gap < 0.0) points.push_back(point);
+      }
+      return points;
+    };
+    world.detect();
+    for (const double depth : {0.01, 0.015, 0.02}) {
+      const auto in_bottom = tip_at({0.5, 0.25, -1.0 - wall + depth});
+      ASSERT_EQ(in_bottom.size(), 1u);
+      EXPECT_NEAR(in_bottom[0].gap, -depth, 1e-12);
+      EXPECT_NEAR(in_bottom[0].normal.z(), -1.0, 1e-12);
+    }
+    const auto in_side = tip_at({1.0 + wall / 4, 0.25, -0.5});
+    EXPECT_FALSE(in_side.empty());
+    for (const ContactPoint& point : in_side) EXPECT_GE(point.gap, -wall) << margin;
+  }
 }
 
 }  // namespace

@@ -214,37 +214,6 @@ TEST(Queries, WhatIsInsideIsCountedByItsWinding) {
   EXPECT_FALSE(is_in({0, 0, 0}, ring_id));
 }
 
-// With a mesh that has a border, whose winding goes on beyond it: also where the search has but a wider box of a posed
-// body.
-TEST(Queries, WhatIsBeyondTheBoxOfABodyIsOutsideOfIt) {
-  Random random(5);
-  const Mesh ball = icosphere(1, 0.6);
-  const Eigen::Matrix3Xi part = ball.facets.leftCols(ball.facet_count() / 2);
-  tact::World world;
-  const BodyId body = world.add_body({.positions = ball.positions, .facets = part, .motion = Motion::rigid});
-  int beyond = 0;
-  for (int turn = 0; turn < 20; ++turn) {
-    const Rotation r = random.rotation();
-    Eigen::Matrix3d rotation;
-    for (int i = 0; i < 3; ++i) rotation.row(i) << r.row[i].x, r.row[i].y, r.row[i].z;
-    world.set_pose(body, rotation, {0.1, 0.2, 0.3});
-    std::vector<PointQuery> points(100);
-    for (PointQuery& one : points) one.point = vector_of(2.0 * random.in_cube(0.5));
-    std::vector<std::vector<BodyId>> found(points.size());
-    world.bodies_containing_each(points, found);
-    const Bounds bounds = world.bounds(body);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      bool within = true;
-      for (int axis = 0; axis < 3; ++axis)
-        within = within && bounds.lower[axis] <= points[i].point[axis] && points[i].point[axis] <= bounds.upper[axis];
-      if (within) continue;
-      ++beyond;
-      EXPECT_TRUE(found[i].empty()) << "turn " << turn << ", point " << i;
-    }
-  }
-  EXPECT_GT(beyond, 500);
-}
-
 TEST(Queries, LayersMasksAndPositionsThatWereSet) {
   tact::World world;
   const Mesh ball = icosphere(1);

@@ -98,7 +98,8 @@ typedef enum tact_direction_policy {
 } tact_direction_policy;
 /** What the facets of a body are. */
 typedef enum tact_surface {
-  TACT_SURFACE_CLOSED = 0, /**< a solid's surface, facets counter-clockwise seen from outside */
+  TACT_SURFACE_CLOSED = 0, /**< a solid's surface, facets counter-clockwise seen from outside; taken
+                               as a sheet if it has a border */
   TACT_SURFACE_SHEET = 1   /**< cloth: no inside, both sides count */
 } tact_surface;
 /** How a body moves. */
@@ -127,10 +128,11 @@ typedef struct tact_executor {
 typedef enum tact_message_kind {
   TACT_MESSAGE_DIRECTION_LIMIT = 0, /**< the search for the direction of a contact stopped at a limit */
   TACT_MESSAGE_GJK_LIMIT = 1,       /**< GJK stopped at its limit for pairs that are taken to be apart */
-  TACT_MESSAGE_POINT_LIMIT = 2      /**< a body crosses itself deeper than its points are found */
+  TACT_MESSAGE_POINT_LIMIT = 2,     /**< a body crosses itself deeper than its points are found */
+  TACT_MESSAGE_OPEN_SURFACE = 3     /**< a body was added as closed, and is taken as a sheet */
 } tact_message_kind;
 
-/** A limit that a step reached. */
+/** A limit that a step reached, or what is wrong with a body that was added. */
 typedef struct tact_message {
   int32_t kind;     /**< tact_message_kind */
   tact_body a;      /**< the first body of the pair, or no body */
@@ -138,7 +140,7 @@ typedef struct tact_message {
   const char* text; /**< a sentence with the names of the bodies; valid during the call, empty without memory */
 } tact_message;
 
-/** Called at the end of tact_world_detect(), by its thread; must not call the world. */
+/** Called at the end of tact_world_detect() and tact_world_add_body(), by their thread; must not call the world. */
 typedef void (*tact_message_function)(void* user, const tact_message* message);
 
 /** How a world works. */
@@ -155,8 +157,8 @@ typedef struct tact_settings {
   bool trace;              /**< tact_report_trace() */
   tact_executor executor;
   bool points;                      /**< tact_contact_points() */
-  tact_message_function on_message; /**< called for each limit that a step reached; the report has the same as flags and
-                                       counts. May be null */
+  tact_message_function on_message; /**< called for each limit that a step reached, and for each body that was added as
+                                       closed and is not. The report has limits as flags and counts. May be null */
   void* message_user;               /**< what it is called with */
 } tact_settings;
 #define TACT_SETTINGS_INIT                                                                                            \
