@@ -14,30 +14,30 @@ namespace tact::mpi {
 
 /// Two bodies, or one with itself, by their keys, and the ranks that own them. Of the ranks that own one of the two,
 /// exactly one counts what they do.
-struct Bodies {
+struct BodyPair {
   std::uint64_t key_a = 0;  ///< not above key_b
   std::uint64_t key_b = 0;
   int rank_a = -1;       ///< the owner of a: this rank for a body that every rank holds; -1 if it was removed
   int rank_b = -1;       ///< the owner of b
   bool counted = false;  ///< whether this rank counts them, in sums over all ranks
-  friend bool operator==(const Bodies&, const Bodies&) = default;
+  friend bool operator==(const BodyPair&, const BodyPair&) = default;
 };
 
 /// A contact in which this rank owns a body.
 struct Contact {
-  Bodies bodies;
+  BodyPair bodies;
   /// As on one machine. Its ids name bodies of World::local(), or none where this rank does not hold the body.
   tact::Contact contact;
 };
 
 /// Two bodies that began or ceased to touch, as tact::ContactEvent.
 struct ContactEvent {
-  Bodies bodies;
+  BodyPair bodies;
 };
 
 /// A change of a patch, as tact::PatchEvent.
 struct PatchEvent {
-  Bodies bodies;
+  BodyPair bodies;
   tact::PatchEvent::Kind kind = tact::PatchEvent::Kind::began;  ///< what became of the patch
   std::uint64_t patch = 0;                                      ///< its id
   std::uint64_t other = 0;                                      ///< the id of the other patch, or 0
@@ -45,12 +45,12 @@ struct PatchEvent {
 
 /// An impact, as tact::Impact.
 struct Impact {
-  Bodies bodies;
+  BodyPair bodies;
   tact::Impact impact;  ///< as on one machine; its ids as those of a Contact
 };
 
 /// What World::detect() found, valid until the next call of the world that changes it.
-class Report {
+class TACT_API Report {
  public:
   Report() = default;
   Report(const Report&) = delete;  // views the world's data
@@ -72,8 +72,9 @@ class Report {
   const Statistics& stats() const { return stats_; }
 
  private:
-  friend class World;
   friend class ReportBuilder;
+  Report(Report&&) = default;
+  Report& operator=(Report&&) = default;
   std::vector<Contact> contacts_;
   std::vector<ContactEvent> began_, ended_;
   std::vector<PatchEvent> patch_events_;
@@ -81,7 +82,7 @@ class Report {
 };
 
 /// What World::detect_motion() found, valid until the next call of the world that changes it.
-class MotionReport {
+class TACT_API MotionReport {
  public:
   MotionReport() = default;
   MotionReport(const MotionReport&) = delete;
@@ -95,7 +96,6 @@ class MotionReport {
   const Statistics& stats() const { return stats_; }
 
  private:
-  friend class World;
   friend class ReportBuilder;
   std::vector<Impact> impacts_;
   double first_time_ = std::numeric_limits<double>::infinity();

@@ -23,7 +23,7 @@ struct Statistics {
   std::int64_t result_bytes = 0;     ///< of them, what this rank found of bodies of others
   std::int64_t moved_bodies = 0;     ///< bodies that this rank gave to others
   std::int64_t moved_bytes = 0;      ///< bytes of these
-  std::int64_t work = 0;             ///< what this rank had to do, in units of some hundred nanoseconds; a count
+  std::int64_t work = 0;             ///< what its bodies cost: a sum of vertices, pairs, kept facets and points
   double imbalance = 1.0;            ///< the work of the busiest rank over the mean
 };
 

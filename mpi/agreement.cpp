@@ -1,0 +1,111 @@
+// What all ranks settle before a call together: whose keys are whose, which pairs are excluded, whether anything moved.
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "engine/base/hash.h"
+#include "mpi/world_implementation.h"
+
+namespace tact::mpi {
+
+namespace {
+
+std::uint64_t hash_of(const Settings& settings) {
+  const tact::Settings& world = settings.world;
+  base::Hash hash;
+  for (const double number : {world.gjk_tolerance, settings.rebalance_above}) hash.add(number);
+  for (const int number :
+       {static_cast<int>(world.accuracy), static_cast<int>(world.direction), world.iteration_limit,
+        int{world.outputs.zones}, int{world.outputs.patches}, int{world.outputs.points},
+        static_cast<int>(settings.partitioner)})
+    hash.add(static_cast<std::uint64_t>(number));
+  return hash.value();
+}
+
+}  // namespace
+
+// Ends with ghosts as their owners have them, and what is kept of pairs where it belongs.
+bool World::Implementation::begin(bool for_step) {
+  channel.reset_counts();
+  stats = {};
+  const std::uint64_t of_settings = hash_of(settings);
+  std::vector<std::uint64_t> all{parts.any_moved() || !removed.empty(), !new_keys.empty() || !gone_keys.empty(),
+                                 !exclusions.empty(), of_settings, ~of_settings, shared_hash, ~shared_hash};
+  channel.largest(all);
+  if (all[3] != ~all[4]) throw Error(ErrorCode::bad_settings, "the ranks have different settings");
+  if (all[5] != ~all[6])
+    throw Error(ErrorCode::invalid_argument, "the ranks hold different bodies that every rank should hold");
+  if (all[1] != 0) update_directory();
+  if (all[2] != 0) send_exclusions();
+  if (for_step && settings.rebalance_above > 0.0 && imbalance > settings.rebalance_above) rebalance();
+  const bool any_moved = all[0] != 0 || all[2] != 0;
+  if (!any_moved && !needs_near) return false;
+  find_near(!for_step);
+  send_ghosts(for_step);
+  needs_near = false;
+  return true;
+}
+
+// A key that has an owner is found before it is added; of keys that two ranks add at once, one finds the other's after.
+void World::Implementation::update_directory() {
+  directory.remove(gone_keys);
+  gone_keys.clear();
+  const auto check = [&] {
+    const std::vector<int> owners = directory.find(new_keys);
+    return Channel::failure_of([&] {
+      for (std::size_t i = 0; i < owners.size(); ++i) {
+        if (owners[i] != -1 && owners[i] != channel.rank())
+          throw Error(ErrorCode::invalid_argument, "ranks " + std::to_string(owners[i]) + " and " +
+                                                       std::to_string(channel.rank()) + " each own a body of key " +
+                                                       std::to_string(new_keys[i]));
+      }
+    });
+  };
+  channel.gather(0, check());
+  directory.add(new_keys);
+  const std::exception_ptr failure = check();
+  try {
+    channel.gather(0, failure);
+  } catch (...) {
+    directory.remove(new_keys);
+    throw;
+  }
+  new_keys.clear();
+}
+
+void World::Implementation::send_exclusions() {
+  std::vector<std::uint64_t> others;
+  for (const Exclusion& one : exclusions) others.push_back(one.other);
+  const std::vector<int> owners = directory.find(others);
+  const std::vector<Exclusion> all = std::exchange(exclusions, {});
+  const auto messages = channel.exchange([&](Outbox& outbox) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const auto put_to = [&](int rank) {
+        outbox.to(rank).put(all[i].own, all[i].other, all[i].wanted, all[i].marks);
+      };
+      if (held.shared.contains(all[i].other)) {
+        for (int rank = 0; rank < channel.size(); ++rank) put_to(rank);
+      } else if (owners[i] >= 0) {
+        put_to(owners[i]);
+      } else if (all[i].marks) {
+        throw Error(ErrorCode::stale_body, "nobody owns a body of key " + std::to_string(all[i].other) +
+                                               ", which was to be excluded");
+      }
+    }
+  });
+  channel.together([&] {
+    for (const Message& message : messages) {
+      for (ByteReader reader(message.bytes); !reader.at_end();) {
+        const auto of_sender = reader.get<std::uint64_t>(), own_key = reader.get<std::uint64_t>();
+        const auto wanted = reader.get<bool>(), marks = reader.get<bool>();
+        if (const auto shared = held.shared.find(own_key); shared != held.shared.end()) {
+          if (marks) parts.mark_moved(shared->second, false);
+        } else if (held.own.contains(own_key)) {
+          exclude(own_key, of_sender, wanted, marks);
+        }
+      }
+    }
+  });
+}
+
+}  // namespace tact::mpi

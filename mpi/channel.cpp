@@ -1,0 +1,139 @@
+#include "mpi/channel.h"
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <string>
+
+namespace tact::mpi {
+
+namespace {
+
+constexpr int kTag = 1;
+constexpr std::uint64_t kFailed = ~std::uint64_t{0};
+constexpr std::size_t kMostAtOnce = std::size_t{1} << 30;  // bytes of one call: MPI counts in int
+
+void check(int code) {
+  if (code == MPI_SUCCESS) return;
+  std::array<char, MPI_MAX_ERROR_STRING> text{};
+  int length = 0;
+  MPI_Error_string(code, text.data(), &length);
+  throw Error(ErrorCode::backend_failure, "MPI: " + std::string(text.data(), static_cast<std::size_t>(length)));
+}
+
+// Of any exception: those of the program's functions have no code of ours.
+Error error_of(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const Error& error) {
+    return error;
+  } catch (const std::bad_alloc&) {
+    return {ErrorCode::out_of_memory, "a rank ran out of memory"};
+  } catch (const std::exception& error) {
+    return {ErrorCode::invalid_argument, error.what()};
+  } catch (...) {
+    return {ErrorCode::invalid_argument, "a function of the program threw"};
+  }
+}
+
+// Calls part(first, count) for each part of so many bytes.
+template <class Part>
+void for_parts(Bytes& bytes, const Part& part) {
+  for (std::size_t begin = 0; begin < bytes.size(); begin += kMostAtOnce)
+    part(bytes.data() + begin, static_cast<int>(std::min(kMostAtOnce, bytes.size() - begin)));
+}
+
+}  // namespace
+
+Channel::Channel(MPI_Comm parent) {
+  int is_initialized = 0, is_finalized = 0;
+  MPI_Initialized(&is_initialized);
+  MPI_Finalized(&is_finalized);
+  if (is_initialized == 0 || is_finalized != 0)
+    throw Error(ErrorCode::wrong_order, "a world over many ranks is made between MPI_Init() and MPI_Finalize()");
+  check(MPI_Comm_dup(parent, &comm_));
+  MPI_Comm_set_errhandler(comm_, MPI_ERRORS_RETURN);
+  MPI_Comm_rank(comm_, &rank_);
+  MPI_Comm_size(comm_, &size_);
+}
+
+Channel::~Channel() {
+  int is_finalized = 0;
+  MPI_Finalized(&is_finalized);
+  if (comm_ != MPI_COMM_NULL && is_finalized == 0) MPI_Comm_free(&comm_);
+}
+
+void Channel::throw_of(int rank, const std::exception_ptr& failure) const {
+  std::string message;
+  std::array<int, 2> head{};
+  if (rank == rank_) {
+    const Error error = error_of(failure);
+    message = error.what();
+    head = {static_cast<int>(error.code()), static_cast<int>(message.size())};
+  }
+  check(MPI_Bcast(head.data(), 2, MPI_INT, rank, comm_));
+  message.resize(static_cast<std::size_t>(head[1]));
+  check(MPI_Bcast(message.data(), head[1], MPI_CHAR, rank, comm_));
+  throw Error(static_cast<ErrorCode>(head[0]), message);
+}
+
+std::vector<std::uint64_t> Channel::gather(std::uint64_t number, const std::exception_ptr& failure) {
+  const std::array<std::uint64_t, 2> own{number, failure != nullptr ? kFailed : 0};
+  std::vector<std::uint64_t> all(2 * static_cast<std::size_t>(size_));
+  check(MPI_Allgather(own.data(), 2, MPI_UINT64_T, all.data(), 2, MPI_UINT64_T, comm_));
+  std::vector<std::uint64_t> numbers;
+  for (int rank = 0; rank < size_; ++rank) {
+    if (all[2 * rank + 1] == kFailed) throw_of(rank, failure);
+    numbers.push_back(all[2 * rank]);
+  }
+  return numbers;
+}
+
+void Channel::largest(std::vector<std::uint64_t>& numbers) const {
+  check(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_UINT64_T, MPI_MAX, comm_));
+}
+
+std::vector<std::uint64_t> Channel::sizes_from_all(Outbox& outbox, const std::exception_ptr& failure) const {
+  std::vector<std::uint64_t> sizes(static_cast<std::size_t>(size_), failure != nullptr ? kFailed : 0);
+  std::vector<std::uint64_t> from(sizes.size());
+  if (failure == nullptr) {
+    for (auto& [rank, writer] : outbox.writers()) sizes[rank] = writer.bytes().size();
+  }
+  check(MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, from.data(), 1, MPI_UINT64_T, comm_));
+  for (int rank = 0; rank < size_; ++rank) {
+    if (from[rank] == kFailed) throw_of(rank, failure);
+  }
+  return from;
+}
+
+std::vector<Message> Channel::deliver(Outbox& outbox, const std::exception_ptr& failure) {
+  const std::vector<std::uint64_t> sizes = sizes_from_all(outbox, failure);
+  std::vector<Message> messages;
+  together([&] {  // all have room for what comes, or none sends
+    for (int rank = 0; rank < size_; ++rank) {
+      if (sizes[rank] > 0) messages.push_back({rank, Bytes(rank == rank_ ? 0 : sizes[rank])});
+    }
+  });
+  std::vector<MPI_Request> requests;
+  for (Message& message : messages) {
+    if (message.rank == rank_) {
+      message.bytes = std::move(outbox.to(rank_).bytes());
+      continue;
+    }
+    for_parts(message.bytes, [&](std::byte* first, int count) {
+      check(MPI_Irecv(first, count, MPI_BYTE, message.rank, kTag, comm_, &requests.emplace_back()));
+    });
+  }
+  for (auto& [rank, writer] : outbox.writers()) {
+    if (rank == rank_ || writer.bytes().empty()) continue;
+    ++messages_;
+    bytes_ += static_cast<std::int64_t>(writer.bytes().size());
+    for_parts(writer.bytes(), [&, to = rank](std::byte* first, int count) {
+      check(MPI_Isend(first, count, MPI_BYTE, to, kTag, comm_, &requests.emplace_back()));
+    });
+  }
+  check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
+  return messages;
+}
+
+}  // namespace tact::mpi

@@ -1,0 +1,296 @@
+// What a step found: a pair is looked at by one rank, and the owner of the guest gets the result. It keeps it until
+// another comes, as pairs that do not move are not looked at.
+#include <algorithm>
+#include <bit>
+#include <tuple>
+#include <utility>
+
+#include "mpi/world_implementation.h"
+
+namespace tact::mpi {
+
+namespace {
+
+enum class Kind : std::uint8_t { contact, no_contact, began, ended, patch };
+
+KeyPair keys_of(const BodyPair& bodies) { return {bodies.key_a, bodies.key_b}; }
+
+void put(ByteWriter& to, Kind kind, const KeyPair& keys) { to.put(kind, keys.first, keys.second); }
+
+void put_patch(ByteWriter& to, const KeyPair& keys, tact::PatchEvent::Kind kind, std::uint64_t patch,
+               std::uint64_t other) {
+  put(to, Kind::patch, keys);
+  to.put(kind, patch, other);
+}
+
+}  // namespace
+
+void ReportBuilder::clear(Report& report) {
+  report.contacts_.clear();
+  report.began_.clear();
+  report.ended_.clear();
+  report.patch_events_.clear();
+}
+
+void ReportBuilder::clear(MotionReport& report) { report.impacts_.clear(); }
+
+void ReportBuilder::sort(Report& report) {
+  const auto by_keys = [](const auto& one) { return keys_of(one.bodies); };
+  std::ranges::sort(report.contacts_, {}, by_keys);
+  std::ranges::sort(report.began_, {}, by_keys);
+  std::ranges::sort(report.ended_, {}, by_keys);
+  std::ranges::sort(report.patch_events_, {}, [](const PatchEvent& event) {
+    const bool is_new =
+        event.kind == tact::PatchEvent::Kind::began || event.kind == tact::PatchEvent::Kind::split;
+    return std::tuple(keys_of(event.bodies), is_new, event.patch);
+  });
+}
+
+const Contact* Report::find_contact(std::uint64_t a, std::uint64_t b) const noexcept {
+  const KeyPair keys = std::minmax(a, b);
+  const auto found =
+      std::ranges::lower_bound(contacts_, keys, {}, [](const Contact& contact) { return keys_of(contact.bodies); });
+  return found != contacts_.end() && keys_of(found->bodies) == keys ? &*found : nullptr;
+}
+
+std::uint64_t Report::hash_sum() const {
+  std::uint64_t sum = 0;
+  for (const Contact& contact : contacts_) sum += contact.bodies.counted ? contact.contact.hash() : 0;
+  return sum;
+}
+
+// Of a pair that this rank looked at: it counts it.
+BodyPair World::Implementation::named(BodyId a, BodyId b) const {
+  const auto name = [&](BodyId id) -> std::pair<std::uint64_t, int> {
+    if (const auto gone = held.gone.find(id); gone != held.gone.end()) return gone->second;
+    return {held.at(id).order.key, held.at(id).owner};
+  };
+  const auto [key_a, rank_a] = name(a);
+  const auto [key_b, rank_b] = name(b);
+  return {key_a, key_b, rank_a, rank_b, true};
+}
+
+// The other rank, or -1.
+int World::Implementation::guest_owner(const BodyPair& bodies) const {
+  if (bodies.rank_a >= 0 && bodies.rank_a != channel.rank()) return bodies.rank_a;
+  return bodies.rank_b != channel.rank() ? bodies.rank_b : -1;
+}
+
+void World::Implementation::send_results(const tact::Report& found, Outbox& outbox,
+                                         std::map<KeyPair, int>& next_sent) {
+  for (const tact::Contact& contact : found.contacts()) {
+    const BodyPair bodies = named(contact.a, contact.b);
+    const int to = guest_owner(bodies);
+    if (to < 0) continue;
+    const KeyPair keys = keys_of(bodies);
+    next_sent[keys] = to;
+    const auto last = sent.find(keys);
+    const bool is_known = last != sent.end() && last->second == to;
+    if (is_known && !sends_all && !parts.moved(contact.a) && !parts.moved(contact.b)) continue;
+    put(outbox.to(to), Kind::contact, keys);
+    outbox.to(to).put_all(WorldParts::contact_bytes(contact));
+  }
+  for (const auto& [keys, to] : sent) {
+    if (!next_sent.contains(keys)) put(outbox.to(to), Kind::no_contact, keys);
+  }
+  const auto put_event = [&](const tact::ContactEvent& event, Kind kind) {
+    const BodyPair bodies = named(event.a, event.b);
+    if (const int to = guest_owner(bodies); to >= 0) put(outbox.to(to), kind, keys_of(bodies));
+  };
+  for (const tact::ContactEvent& event : found.began()) put_event(event, Kind::began);
+  for (const tact::ContactEvent& event : found.ended()) put_event(event, Kind::ended);
+  for (const tact::PatchEvent& event : found.patch_events()) {
+    const BodyPair bodies = named(event.a, event.b);
+    if (const int to = guest_owner(bodies); to >= 0)
+      put_patch(outbox.to(to), keys_of(bodies), event.kind, event.patch, event.other);
+  }
+  for (const EndedPair& pair : ended_waiting) {
+    for (const std::uint64_t key : {pair.keys.first, pair.keys.second}) {
+      const int to = owners_of_ended[key];
+      if (to < 0 || to == channel.rank()) continue;
+      put(outbox.to(to), Kind::no_contact, pair.keys);
+      if (pair.touched) put(outbox.to(to), Kind::ended, pair.keys);
+      for (const std::uint64_t patch : pair.patches)
+        put_patch(outbox.to(to), pair.keys, tact::PatchEvent::Kind::ended, patch, 0);
+    }
+  }
+}
+
+void World::Implementation::take_results(std::span<const Message> messages) {
+  for (const Message& message : messages) {
+    for (ByteReader reader(message.bytes); !reader.at_end();) {
+      const auto kind = reader.get<Kind>();
+      const auto key_a = reader.get<std::uint64_t>(), key_b = reader.get<std::uint64_t>();
+      const bool owns_a = held.own.contains(key_a);
+      const BodyPair bodies{key_a, key_b, owns_a ? channel.rank() : message.rank,
+                            owns_a ? message.rank : channel.rank(), false};
+      switch (kind) {
+        case Kind::contact:
+          far[{key_a, key_b}] = {message.rank, WorldParts::contact_of(reader.get_bytes())};
+          break;
+        case Kind::no_contact: far.erase({key_a, key_b}); break;
+        case Kind::began: ReportBuilder::began(next_report).push_back({bodies}); break;
+        case Kind::ended: ReportBuilder::ended(next_report).push_back({bodies}); break;
+        case Kind::patch: {
+          const auto what = reader.get<tact::PatchEvent::Kind>();
+          const auto patch = reader.get<std::uint64_t>(), other = reader.get<std::uint64_t>();
+          ReportBuilder::patch_events(next_report).push_back({bodies, what, patch, other});
+          break;
+        }
+      }
+    }
+  }
+}
+
+void World::Implementation::build_report(const tact::Report& found) {
+  std::vector<Contact>& contacts = ReportBuilder::contacts(next_report);
+  for (const tact::Contact& contact : found.contacts()) contacts.push_back({named(contact.a, contact.b), contact});
+  // A guest may have gone to the rank of its host, or to another.
+  std::erase_if(far, [&](const auto& one) {
+    return held.own.contains(one.first.first) == held.own.contains(one.first.second);
+  });
+  for (auto& [keys, one] : far) {
+    tact::Contact& contact = one.found.contact;
+    contact.a = held.find(keys.first), contact.b = held.find(keys.second);
+    const bool owns_a = held.own.contains(keys.first);
+    contacts.push_back({{keys.first, keys.second, owns_a ? channel.rank() : one.rank,
+                         owns_a ? one.rank : channel.rank(), false},
+                        contact});
+  }
+  for (const tact::ContactEvent& event : found.began())
+    ReportBuilder::began(next_report).push_back({named(event.a, event.b)});
+  for (const tact::ContactEvent& event : found.ended())
+    ReportBuilder::ended(next_report).push_back({named(event.a, event.b)});
+  for (const tact::PatchEvent& event : found.patch_events())
+    ReportBuilder::patch_events(next_report).push_back(
+        {named(event.a, event.b), event.kind, event.patch, event.other});
+  for (const EndedPair& pair : ended_waiting) {
+    const auto owner = [&](std::uint64_t key) {
+      return held.find(key).generation != 0 && !held.ghosts.contains(key) ? channel.rank() : owners_of_ended[key];
+    };
+    const BodyPair bodies{pair.keys.first, pair.keys.second, owner(pair.keys.first), owner(pair.keys.second), true};
+    if (pair.touched) ReportBuilder::ended(next_report).push_back({bodies});
+    for (const std::uint64_t patch : pair.patches)
+      ReportBuilder::patch_events(next_report).push_back({bodies, tact::PatchEvent::Kind::ended, patch, 0});
+  }
+  ReportBuilder::sort(next_report);
+}
+
+// Of each pair to its host, which decides where the pair is looked at.
+void World::Implementation::count_work(const tact::Report& found) {
+  constexpr std::int64_t kPair = 8, kContact = 32, kPoint = 4;
+  for (auto& [key, body] : held.own) body.work = held.at(body.id).order.vertices;
+  const auto work_of = [&](BodyId a, BodyId b) -> std::int64_t& { return held.own.at(held.host_of(a, b)).work; };
+  for (const CandidatePair& pair : found.candidate_pairs()) work_of(pair.a, pair.b) += kPair;
+  for (const tact::Contact& contact : found.contacts()) {
+    work_of(contact.a, contact.b) +=
+        kContact + contact.kept_facets_a + contact.kept_facets_b +
+        static_cast<std::int64_t>(contact.facet_pairs().size()) +
+        kPoint * static_cast<std::int64_t>(contact.points().size());
+  }
+  stats.pairs = static_cast<std::int64_t>(found.candidate_pairs().size());
+}
+
+std::uint64_t World::Implementation::own_work() const {
+  std::uint64_t sum = 0;
+  for (const auto& [key, body] : held.own) sum += static_cast<std::uint64_t>(body.work);
+  return sum;
+}
+
+Statistics World::Implementation::finished_stats() {
+  stats.own_bodies = static_cast<std::int64_t>(held.own.size());
+  stats.shared_bodies = static_cast<std::int64_t>(held.shared.size());
+  stats.ghosts = static_cast<std::int64_t>(held.ghosts.size());
+  stats.kept_shapes = static_cast<std::int64_t>(held.shapes.size());
+  stats.far_contacts = static_cast<std::int64_t>(far.size());
+  stats.messages += channel.messages();
+  stats.bytes += channel.bytes();
+  stats.work = static_cast<std::int64_t>(own_work());
+  stats.imbalance = imbalance;
+  stats.moved_bodies = std::exchange(moved_bodies, 0);
+  stats.moved_bytes = std::exchange(moved_bytes, 0);
+  return stats;
+}
+
+// All that may fail, before anything of the step counts.
+void World::Implementation::commit(const tact::Report& found) {
+  const std::int64_t before = channel.bytes();
+  std::map<KeyPair, int> next_sent;
+  const auto messages = channel.exchange([&](Outbox& outbox) { send_results(found, outbox, next_sent); });
+  stats.result_bytes += channel.bytes() - before;
+  const std::exception_ptr failure = Channel::failure_of([&] {
+    sent = std::move(next_sent);
+    ReportBuilder::clear(next_report);
+    take_results(messages);
+    build_report(found);
+    count_work(found);
+  });
+  std::uint64_t sum = 0, most = 0;
+  for (const std::uint64_t work : channel.gather(own_work(), failure)) {
+    sum += work;
+    most = std::max(most, work);
+  }
+  imbalance = sum == 0 ? 1.0 : static_cast<double>(most) * channel.size() / static_cast<double>(sum);
+  ReportBuilder::stats(next_report) = finished_stats();
+}
+
+void World::Implementation::end_step() {
+  ReportBuilder::swap(report, next_report);
+  held.gone.clear();
+  ended_waiting.clear();
+  sends_all = false;
+}
+
+// The earliest impact of all is that of the first of the ranks, by time and keys.
+void World::Implementation::finish_motion(const tact::MotionReport& found, Impacts wanted) {
+  std::array<std::uint64_t, 3> own{std::bit_cast<std::uint64_t>(found.first_time()), 0, 0};
+  for (const tact::Impact& impact : found.impacts()) {
+    if (wanted != Impacts::first) break;
+    const BodyPair bodies = named(impact.a, impact.b);
+    own = {own[0], bodies.key_a, bodies.key_b};
+  }
+  std::array<std::vector<std::uint64_t>, 3> all;
+  for (std::size_t i = 0; i < 3; ++i) all[i] = channel.gather(own[i]);
+  std::array<std::uint64_t, 3> first = own;
+  for (std::size_t rank = 0; rank < all[0].size(); ++rank)
+    first = std::min(first, {all[0][rank], all[1][rank], all[2][rank]});
+  const std::span<const tact::Impact> impacts =
+      wanted == Impacts::first && own != first ? std::span<const tact::Impact>() : found.impacts();
+  const std::int64_t before = channel.bytes();
+  const auto messages = channel.exchange([&](Outbox& outbox) {
+    for (const tact::Impact& impact : impacts) {
+      const BodyPair bodies = named(impact.a, impact.b);
+      const int to = guest_owner(bodies);
+      if (to < 0) continue;
+      outbox.to(to).put(bodies.key_a, bodies.key_b, impact.kind, impact.time);
+      for (int k = 0; k < 3; ++k) outbox.to(to).put(impact.a_vertices[k], impact.b_vertices[k]);
+    }
+  });
+  stats.result_bytes += channel.bytes() - before;
+  channel.together([&] {
+    ReportBuilder::clear(motion_report);
+    std::vector<Impact>& list = ReportBuilder::impacts(motion_report);
+    for (const tact::Impact& impact : impacts) list.push_back({named(impact.a, impact.b), impact});
+    for (const Message& message : messages) {
+      for (ByteReader reader(message.bytes); !reader.at_end();) {
+        const auto key_a = reader.get<std::uint64_t>(), key_b = reader.get<std::uint64_t>();
+        const bool owns_a = held.own.contains(key_a);
+        Impact& one = list.emplace_back();
+        one.bodies = {key_a, key_b, owns_a ? channel.rank() : message.rank, owns_a ? message.rank : channel.rank(),
+                      false};
+        one.impact.a = held.find(key_a), one.impact.b = held.find(key_b);
+        one.impact.kind = reader.get<FeaturePair>();
+        one.impact.time = reader.get<double>();
+        for (int k = 0; k < 3; ++k) {
+          one.impact.a_vertices[k] = reader.get<int>();
+          one.impact.b_vertices[k] = reader.get<int>();
+        }
+      }
+    }
+    std::ranges::stable_sort(list, {}, [](const Impact& impact) { return keys_of(impact.bodies); });
+    ReportBuilder::first_time(motion_report) = std::bit_cast<double>(first[0]);
+    ReportBuilder::stats(motion_report) = finished_stats();
+  });
+}
+
+}  // namespace tact::mpi
