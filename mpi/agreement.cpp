@@ -69,13 +69,15 @@ void World::Implementation::update_directory() {
       }
     });
   };
-  channel.gather(0, check());
-  directory.add(*come);
-  const std::exception_ptr failure = check();
+  bool is_added = false;
   try {
-    channel.gather(0, failure);
+    channel.gather(0, check());
+    directory.add(*come);
+    is_added = true;
+    channel.gather(0, check());
   } catch (...) {
-    directory.remove(*come);
+    if (is_added) directory.remove(*come);
+    drop_ghosts(true);  // those of the keys were given up
     throw;
   }
   new_keys.clear();
@@ -107,15 +109,21 @@ void World::Implementation::send_exclusions() {
     }
   });
   channel.together([&] {
+    std::vector<Exclusion> come;
     for (const Message& message : messages) {
       for (ByteReader reader(message.bytes); !reader.at_end();) {
-        const auto of_sender = reader.get<std::uint64_t>(), own_key = reader.get<std::uint64_t>();
-        const auto wanted = reader.get<bool>(), marks = reader.get<bool>();
-        if (const auto shared = held.shared.find(own_key); shared != held.shared.end()) {
-          if (marks) parts.mark_moved(shared->second, false);
-        } else if (held.own.contains(own_key)) {
-          exclude(own_key, of_sender, wanted, marks);
-        }
+        Exclusion& one = come.emplace_back();
+        one.other = reader.get<std::uint64_t>(), one.own = reader.get<std::uint64_t>();
+        one.wanted = reader.get<bool>(), one.marks = reader.get<bool>();
+      }
+    }
+    // Those of removed bodies first: another may have come with the key of one.
+    std::ranges::stable_sort(come, {}, &Exclusion::marks);
+    for (const Exclusion& one : come) {
+      if (const auto shared = held.shared.find(one.own); shared != held.shared.end()) {
+        if (one.marks) parts.mark_moved(shared->second, false);
+      } else if (held.own.contains(one.own)) {
+        exclude(one.own, one.other, one.wanted, one.marks);
       }
     }
   });

@@ -187,6 +187,11 @@ std::vector<Parcel> Partition::send(Shipment& shipment) {
   Zoltan_Set_Obj_Size_Fn(zoltan_, Cargo::size, &cargo);
   Zoltan_Set_Pack_Obj_Fn(zoltan_, Cargo::pack, &cargo);
   Zoltan_Set_Unpack_Obj_Fn(zoltan_, Cargo::unpack, &cargo);
+  // A cut asks for the sizes, too, where they are told.
+  struct Forgotten {
+    Zoltan_Struct* zoltan;
+    ~Forgotten() { Zoltan_Set_Obj_Size_Fn(zoltan, nullptr, nullptr); }
+  } const forgotten{zoltan_};
   const int count = shipment.words.count();
   Lists imports;
   check(Zoltan_Compute_Destinations(zoltan_, count, shipment.words.words(), shipment.places.data(),

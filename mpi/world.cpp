@@ -73,6 +73,18 @@ void World::Implementation::exclude(std::uint64_t own_key, std::uint64_t other, 
   note_change(body, false);
 }
 
+// A body comes of the key of a ghost: its owner has removed that one, or the next call together refuses the key.
+void World::Implementation::forget_ghost(std::uint64_t key) {
+  held.shapes.erase(key);
+  const auto ghost = held.ghosts.find(key);
+  if (ghost == held.ghosts.end()) return;
+  const auto [id, owner] = ghost->second;
+  held.gone[id] = {key, owner, true};
+  parts.remove_copy(id);
+  held.drop(id);
+  held.ghosts.erase(ghost);
+}
+
 World::World(MPI_Comm communicator, const Settings& settings)
     : implementation_(std::make_unique<Implementation>(communicator, settings)) {}
 World::~World() = default;
@@ -113,7 +125,7 @@ void World::add_body(const BodyDefinition& definition, Holders holders) {
   if (is_shared && definition.motion != Motion::fixed)
     refuse(ErrorCode::invalid_argument, key_text(key) + ": what every rank holds is fixed");
   const std::uint64_t hash = is_shared ? hash_of(definition) : 0;
-  // A copy of a body of this key means that another rank owns one; the next call together says so.
+  i.forget_ghost(key);
   const BodyId id = i.local.add_body(definition);
   const HostOrder order{static_cast<std::int64_t>(i.local.vertex_count(id)), key};
   i.held.hold(id, {is_shared ? Held::Role::shared : Held::Role::own, i.channel.rank(), order});
@@ -131,7 +143,7 @@ void World::remove_body(std::uint64_t key) {
   if (const auto shared = i.held.shared.find(key); shared != i.held.shared.end()) {
     const BodyId id = shared->second;
     i.local.remove_body(id);
-    i.held.gone[id] = {key, -1};
+    i.held.gone[id] = {key, -1, true};
     i.held.drop(id);
     i.held.shared.erase(shared);
     i.shared_hash += base::mixed(key);
@@ -144,8 +156,11 @@ void World::remove_body(std::uint64_t key) {
     i.held.set_excluded(key, other, false);
   }
   i.local.remove_body(body.id);
-  i.held.gone[body.id] = {key, -1};
+  i.held.gone[body.id] = {key, -1, true};
   i.held.drop(body.id);
+  for (WaitingPair& pair : i.waiting) {
+    if (pair.pair.key_a == key || pair.pair.key_b == key) pair.pair.bytes.clear();
+  }
   if (!body.subscribers.empty()) i.removed[key] = std::move(body.subscribers);
   if (std::erase(i.new_keys, key) == 0) i.gone_keys.push_back(key);
   i.new_owners.erase(key);

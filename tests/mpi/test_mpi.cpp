@@ -260,8 +260,9 @@ int across_of(int bodies) {
   return across;
 }
 
-BodyDefinition definition_of(const Mesh& mesh, Key key, double margin) {
-  return {.positions = mesh.positions, .facets = mesh.facets, .key = key, .margin = margin};
+// Holds a copy of the mesh.
+BodyDefinition definition_of(Mesh mesh, Key key, double margin) {
+  return {.positions = std::move(mesh.positions), .facets = std::move(mesh.facets), .key = key, .margin = margin};
 }
 
 using Owner = std::function<int(int body)>;
@@ -346,8 +347,6 @@ void churn(Size size) {
   std::map<int, bool> there;
   const auto add = [&](int i, int step) {
     BodyDefinition definition = definition_of(blob_at(i, step, across), key_of(i), 0.05);
-    const Mesh mesh = blob_at(i, step, across);
-    definition.positions = mesh.positions, definition.facets = mesh.facets;
     definition.self_contact = i % 9 == 0;
     both.add(definition, drawn(3, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(step), count_of_ranks()));
     there[i] = true;
@@ -407,9 +406,7 @@ void cloth(Size size) {
       return Vec3{p.x * (1.0 - 0.3 * std::min(t, 1.0)), p.y, 1.15 - t + 0.05 * x * t};
     });
   };
-  BodyDefinition definition = definition_of(flat, 1000, 0.04);
-  const Mesh start = at_step(0);
-  definition.positions = start.positions;
+  BodyDefinition definition = definition_of(at_step(0), 1000, 0.04);
   definition.surface = Surface::sheet;
   definition.self_contact = true;
   both.add(definition, count_of_ranks() - 1);
