@@ -16,10 +16,9 @@ std::uint64_t hash_of(const Settings& settings) {
   const tact::Settings& world = settings.world;
   base::Hash hash;
   for (const double number : {world.gjk_tolerance, settings.rebalance_above}) hash.add(number);
-  for (const int number :
-       {static_cast<int>(world.accuracy), static_cast<int>(world.direction), world.iteration_limit,
-        int{world.outputs.zones}, int{world.outputs.patches}, int{world.outputs.points},
-        static_cast<int>(settings.partitioner)})
+  for (const int number : {static_cast<int>(world.accuracy), static_cast<int>(world.direction), world.iteration_limit,
+                           int{world.outputs.zones}, int{world.outputs.patches}, int{world.outputs.points},
+                           static_cast<int>(settings.partitioner)})
     hash.add(static_cast<std::uint64_t>(number));
   return hash.value();
 }
@@ -31,8 +30,13 @@ bool World::Implementation::begin(bool for_step) {
   channel.reset_counts();
   stats = {};
   const std::uint64_t of_settings = hash_of(settings);
-  std::array<std::uint64_t, 7> all{parts.any_moved() || !removed.empty(), !new_keys.empty() || !gone_keys.empty(),
-                                   !exclusions.empty(), of_settings, ~of_settings, shared_hash, ~shared_hash};
+  std::array<std::uint64_t, 7> all{parts.any_moved() || !removed.empty(),
+                                   !new_keys.empty() || !gone_keys.empty(),
+                                   !exclusions.empty(),
+                                   of_settings,
+                                   ~of_settings,
+                                   shared_hash,
+                                   ~shared_hash};
   channel.largest(all);
   if (all[3] != ~all[4]) throw Error(ErrorCode::bad_settings, "the ranks have different settings");
   if (all[5] != ~all[6])
@@ -95,16 +99,14 @@ void World::Implementation::send_exclusions() {
   const std::vector<Exclusion> all = std::exchange(exclusions, {});
   const auto messages = channel.exchange([&](Outbox& outbox) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const auto put_to = [&](int rank) {
-        outbox.to(rank).put(all[i].own, all[i].other, all[i].wanted, all[i].marks);
-      };
+      const auto put_to = [&](int rank) { outbox.to(rank).put(all[i].own, all[i].other, all[i].wanted, all[i].marks); };
       if (held.shared.contains(all[i].other)) {
         for (int rank = 0; rank < channel.size(); ++rank) put_to(rank);
       } else if (owners[i] >= 0) {
         put_to(owners[i]);
       } else if (all[i].marks) {
-        throw Error(ErrorCode::stale_body, "nobody owns a body of key " + std::to_string(all[i].other) +
-                                               ", which was to be excluded");
+        throw Error(ErrorCode::stale_body,
+                    "nobody owns a body of key " + std::to_string(all[i].other) + ", which was to be excluded");
       }
     }
   });

@@ -41,13 +41,13 @@ struct Subscriber {
 
 struct OwnBody {
   BodyId id;
-  bool is_rigid = false;           ///< takes poses
-  std::uint64_t version = 1;       ///< counts changes
-  std::uint64_t positions = 1;     ///< those of positions and poses
+  bool is_rigid = false;        ///< takes poses
+  std::uint64_t version = 1;    ///< counts changes
+  std::uint64_t positions = 1;  ///< those of positions and poses
   std::vector<Subscriber> subscribers = {};
   std::vector<Subscriber> next_subscribers = {};  ///< once the messages have arrived
   std::vector<int> wanted = {};                   ///< ranks that have a host near it, ascending
-  std::int64_t work = 0;                     ///< of the last step
+  std::int64_t work = 0;                          ///< of the last step
 };
 
 struct Ghost {

@@ -28,9 +28,9 @@ void World::Implementation::rebalance() {
   channel.together([&] { all = sites(); });
   Goals goals;
   channel.gather(0, Channel::failure_of([&] {
-    const std::vector<int> ranks = partition->cut(all);
-    for (std::size_t i = 0; i < all.size(); ++i) goals[all[i].key] = ranks[i];
-  }));
+                   const std::vector<int> ranks = partition->cut(all);
+                   for (std::size_t i = 0; i < all.size(); ++i) goals[all[i].key] = ranks[i];
+                 }));
   needs_near = true;
   move(std::move(goals));
 }
@@ -70,8 +70,7 @@ World::Implementation::Leaving World::Implementation::pack(const Goals& goals) {
   Leaving leaving;
   for (SavedPair& pair : parts.pairs_of(ids)) {
     const bool has_ended = pair.bytes.empty();
-    const std::uint64_t host =
-        has_ended ? pair.key_a : held.host_of(held.find(pair.key_a), held.find(pair.key_b));
+    const std::uint64_t host = has_ended ? pair.key_a : held.host_of(held.find(pair.key_a), held.find(pair.key_b));
     if (goals.contains(host) && !has_ended) {
       pairs[host].push_back(std::move(pair));
     } else {

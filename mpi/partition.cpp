@@ -14,8 +14,8 @@ constexpr int kWordsOfKey = 2;  // of 32 bits: ids of Zoltan have no more where 
 
 void check(int code, const char* what) {
   if (code != ZOLTAN_OK && code != ZOLTAN_WARN)
-    throw Error(ErrorCode::backend_failure, "Zoltan: " + std::string(what) + " failed with code " +
-                                                std::to_string(code));
+    throw Error(ErrorCode::backend_failure,
+                "Zoltan: " + std::string(what) + " failed with code " + std::to_string(code));
 }
 
 void put_key(std::uint64_t key, ZOLTAN_ID_PTR words) {
@@ -53,8 +53,7 @@ int dimension(void*, int* error) {
 void list_middles(void* sites, int, int, int count, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR places, int, double* middles,
                   int* error) {
   *error = ZOLTAN_OK;
-  for (int i = 0; i < count; ++i)
-    std::ranges::copy((*static_cast<Sites*>(sites))[places[i]].middle, middles + 3 * i);
+  for (int i = 0; i < count; ++i) std::ranges::copy((*static_cast<Sites*>(sites))[places[i]].middle, middles + 3 * i);
 }
 
 // Lists that Zoltan allocates.
@@ -113,14 +112,10 @@ Partition::Partition(const Channel& channel, Partitioner partitioner)
   zoltan_ = Zoltan_Create(channel.comm());
   if (zoltan_ == nullptr) throw Error(ErrorCode::backend_failure, "Zoltan: its start failed");
   const std::pair<const char*, const char*> parameters[] = {
-      {"DEBUG_LEVEL", "0"},
-      {"LB_METHOD", partitioner == Partitioner::rcb ? "RCB" : "HSFC"},
-      {"NUM_GID_ENTRIES", "2"},
-      {"NUM_LID_ENTRIES", "1"},
-      {"OBJ_WEIGHT_DIM", "1"},
-      {"RETURN_LISTS", "EXPORT"},
-      {"KEEP_CUTS", "1"},
-      {"RCB_REUSE", "1"}};
+      {"DEBUG_LEVEL", "0"},     {"LB_METHOD", partitioner == Partitioner::rcb ? "RCB" : "HSFC"},
+      {"NUM_GID_ENTRIES", "2"}, {"NUM_LID_ENTRIES", "1"},
+      {"OBJ_WEIGHT_DIM", "1"},  {"RETURN_LISTS", "EXPORT"},
+      {"KEEP_CUTS", "1"},       {"RCB_REUSE", "1"}};
   for (const auto& [name, value] : parameters) {
     if (partitioner == Partitioner::rcb || std::string_view(name) != "RCB_REUSE")
       check(Zoltan_Set_Param(zoltan_, name, value), name);
@@ -194,10 +189,10 @@ std::vector<Parcel> Partition::send(Shipment& shipment) {
   } const forgotten{zoltan_};
   const int count = shipment.words.count();
   Lists imports;
-  check(Zoltan_Compute_Destinations(zoltan_, count, shipment.words.words(), shipment.places.data(),
-                                    shipment.ranks.data(), &imports.count, &imports.keys, &imports.places,
-                                    &imports.ranks),
-        "telling who gets what");
+  check(
+      Zoltan_Compute_Destinations(zoltan_, count, shipment.words.words(), shipment.places.data(), shipment.ranks.data(),
+                                  &imports.count, &imports.keys, &imports.places, &imports.ranks),
+      "telling who gets what");
   check(Zoltan_Help_Migrate(zoltan_, imports.count, imports.keys, imports.places, imports.ranks, count,
                             shipment.words.words(), shipment.places.data(), shipment.ranks.data()),
         "moving bodies");

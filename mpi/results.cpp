@@ -17,9 +17,7 @@ enum class Kind : std::uint8_t { contact, no_contact, began, ended, patch };
 
 KeyPair keys_of(const BodyPair& bodies) { return {bodies.key_a, bodies.key_b}; }
 
-void put(ByteWriter& to, const BodyPair& bodies) {
-  to.put(bodies.key_a, bodies.key_b, bodies.rank_a, bodies.rank_b);
-}
+void put(ByteWriter& to, const BodyPair& bodies) { to.put(bodies.key_a, bodies.key_b, bodies.rank_a, bodies.rank_b); }
 
 // Of another rank, which counts them.
 BodyPair get_bodies(ByteReader& reader) {
@@ -59,8 +57,7 @@ void ReportBuilder::sort(Report& report) {
   std::ranges::sort(report.began_, {}, by_keys);
   std::ranges::sort(report.ended_, {}, by_keys);
   std::ranges::sort(report.patch_events_, {}, [](const PatchEvent& event) {
-    const bool is_new =
-        event.kind == tact::PatchEvent::Kind::began || event.kind == tact::PatchEvent::Kind::split;
+    const bool is_new = event.kind == tact::PatchEvent::Kind::began || event.kind == tact::PatchEvent::Kind::split;
     return std::tuple(keys_of(event.bodies), is_new, event.patch);
   });
 }
@@ -153,9 +150,7 @@ void World::Implementation::take_results(std::span<const Message> messages) {
       const auto kind = reader.get<Kind>();
       const BodyPair bodies = get_bodies(reader);
       switch (kind) {
-        case Kind::contact:
-          far[keys_of(bodies)] = {bodies, WorldParts::contact_of(reader.get_bytes())};
-          break;
+        case Kind::contact: far[keys_of(bodies)] = {bodies, WorldParts::contact_of(reader.get_bytes())}; break;
         case Kind::no_contact: far.erase(keys_of(bodies)); break;
         case Kind::began: ReportBuilder::began(next_report).push_back({bodies}); break;
         case Kind::ended: ReportBuilder::ended(next_report).push_back({bodies}); break;
@@ -174,9 +169,8 @@ void World::Implementation::build_report(const tact::Report& found) {
   std::vector<Contact>& contacts = ReportBuilder::contacts(next_report);
   for (const tact::Contact& contact : found.contacts()) contacts.push_back({named(contact.a, contact.b), contact});
   // A guest may have gone to the rank of its host, or to another.
-  std::erase_if(far, [&](const auto& one) {
-    return held.own.contains(one.first.first) == held.own.contains(one.first.second);
-  });
+  std::erase_if(
+      far, [&](const auto& one) { return held.own.contains(one.first.first) == held.own.contains(one.first.second); });
   for (auto& [keys, one] : far) {
     tact::Contact& contact = one.found.contact;
     contact.a = held.find(keys.first), contact.b = held.find(keys.second);
@@ -187,8 +181,7 @@ void World::Implementation::build_report(const tact::Report& found) {
   for (const tact::ContactEvent& event : found.ended())
     ReportBuilder::ended(next_report).push_back({named(event.a, event.b)});
   for (const tact::PatchEvent& event : found.patch_events())
-    ReportBuilder::patch_events(next_report).push_back(
-        {named(event.a, event.b), event.kind, event.patch, event.other});
+    ReportBuilder::patch_events(next_report).push_back({named(event.a, event.b), event.kind, event.patch, event.other});
   for (const EndedPair& pair : ended_waiting) {
     const BodyPair bodies = named(pair);
     if (pair.touched) ReportBuilder::ended(next_report).push_back({bodies});
@@ -205,10 +198,9 @@ void World::Implementation::count_work(const tact::Report& found) {
   const auto work_of = [&](BodyId a, BodyId b) -> std::int64_t& { return held.own.at(held.host_of(a, b)).work; };
   for (const CandidatePair& pair : found.candidate_pairs()) work_of(pair.a, pair.b) += kPair;
   for (const tact::Contact& contact : found.contacts()) {
-    work_of(contact.a, contact.b) +=
-        kContact + contact.kept_facets_a + contact.kept_facets_b +
-        static_cast<std::int64_t>(contact.facet_pairs().size()) +
-        kPoint * static_cast<std::int64_t>(contact.points().size());
+    work_of(contact.a, contact.b) += kContact + contact.kept_facets_a + contact.kept_facets_b +
+                                     static_cast<std::int64_t>(contact.facet_pairs().size()) +
+                                     kPoint * static_cast<std::int64_t>(contact.points().size());
   }
   stats.pairs = static_cast<std::int64_t>(found.candidate_pairs().size());
 }

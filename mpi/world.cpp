@@ -18,8 +18,8 @@ std::string key_text(std::uint64_t key) { return "key " + std::to_string(key); }
 
 void check(const Settings& settings) {
   if (!(settings.rebalance_above == 0.0 || settings.rebalance_above >= 1.0))
-    refuse(ErrorCode::bad_settings, "rebalance_above is " + std::to_string(settings.rebalance_above) +
-                                        ", not 0 or at least 1");
+    refuse(ErrorCode::bad_settings,
+           "rebalance_above is " + std::to_string(settings.rebalance_above) + ", not 0 or at least 1");
   if (settings.partitioner != Partitioner::rcb && settings.partitioner != Partitioner::hsfc)
     refuse(ErrorCode::bad_settings, "the partitioner has no name");
 }
@@ -151,8 +151,10 @@ void World::remove_body(std::uint64_t key) {
   }
   OwnBody& body = i.at(key);
   for (const std::uint64_t other : HeldBodies::seconds(i.held.excluded, key)) {
-    if (i.held.own.contains(other)) i.exclude(other, key, false, false);
-    else if (!i.held.shared.contains(other)) i.exclusions.push_back({key, other, false, false});
+    if (i.held.own.contains(other))
+      i.exclude(other, key, false, false);
+    else if (!i.held.shared.contains(other))
+      i.exclusions.push_back({key, other, false, false});
     i.held.set_excluded(key, other, false);
   }
   i.local.remove_body(body.id);

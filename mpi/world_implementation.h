@@ -90,15 +90,15 @@ struct World::Implementation {
   std::uint64_t shared_hash = 0;                             // of the bodies that every rank holds
   std::map<std::uint64_t, int> new_owners;                   // that set_owner() asked for
   std::vector<WaitingPair> waiting;
-  bool needs_near = false;    // bodies have other owners, or space is cut anew, on any rank
+  bool needs_near = false;  // bodies have other owners, or space is cut anew, on any rank
   bool owners_changed = false;
   std::int64_t moved_bodies = 0, moved_bytes = 0;  // since the last step
-  bool sends_all = false;     // the next step looks at every pair
-  std::uint64_t step = 0;     // how often copies were put to sleep or not
+  bool sends_all = false;                          // the next step looks at every pair
+  std::uint64_t step = 0;                          // how often copies were put to sleep or not
 
   // Of the last step.
-  std::map<KeyPair, Sent> sent;           // contacts with ghosts, and the owners that have them
-  std::map<KeyPair, Far> far;             // contacts that other ranks found of bodies of this one
+  std::map<KeyPair, Sent> sent;  // contacts with ghosts, and the owners that have them
+  std::map<KeyPair, Far> far;    // contacts that other ranks found of bodies of this one
   // Of this step: waiting pairs that are no candidates, and the owners of their bodies, or -1.
   std::vector<EndedPair> ended_waiting;
   std::map<std::uint64_t, int> owners_of_ended;

@@ -59,6 +59,7 @@ BodyId StateFields::put_body(StateReader& reader, Bodies& bodies, bool is_copy) 
   Body& body = *put.body;
   body.id = {slot, ++bodies.generations_[slot], bodies.world_};
   put.generation = body.id.generation;
+  if (put.rigid != nullptr) put.rigid->begin_is_placed = false;  // as an earlier body may have left it
   if (is_copy && std::exchange(body.self_contact, false)) --bodies.self_count_;
   return body.id;
 }
@@ -299,9 +300,7 @@ BodyId WorldParts::put(std::span<const std::byte> shape, std::span<const std::by
 
 void WorldParts::take(std::span<const BodyId> bodies) { StateFields::take_bodies(bodies, bodies_, step_); }
 void WorldParts::remove_copy(BodyId body) { StateFields::remove_copy(body, bodies_); }
-void WorldParts::mark_moved(BodyId body, bool is_on_its_way) {
-  StateFields::mark_moved(body, is_on_its_way, bodies_);
-}
+void WorldParts::mark_moved(BodyId body, bool is_on_its_way) { StateFields::mark_moved(body, is_on_its_way, bodies_); }
 void WorldParts::exclude(BodyId a, BodyId b, bool excluded) { StateFields::exclude(a, b, excluded, bodies_); }
 
 std::vector<SavedPair> WorldParts::pairs_of(std::span<const BodyId> bodies) const {

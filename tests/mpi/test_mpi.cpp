@@ -5,8 +5,8 @@
 #include <tact/mpi/world.h>
 
 #include <algorithm>
-#include <cmath>
 #include <bit>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <functional>
@@ -276,12 +276,12 @@ void run_pile(const std::string& name, Size size, const mpi::Settings& settings,
   BodyDefinition floor = definition_of(box({-2.0, -2.0, -1.0}, {wide, wide, 0.0}), 1, 0.05);
   floor.motion = Motion::fixed;
   both.add(floor, 0, true);
-  for (int i = 0; i < size.bodies; ++i)
-    both.add(definition_of(blob_at(i, 0, across), key_of(i), 0.05), owner(i));
+  for (int i = 0; i < size.bodies; ++i) both.add(definition_of(blob_at(i, 0, across), key_of(i), 0.05), owner(i));
   for (int step = 0; step < size.steps; ++step) {
     before(both, step);
     for (int i = 0; i < size.bodies; ++i) {
-      if (step % 16 > 12 || fraction(9, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(step)) < 0.3) continue;
+      if (step % 16 > 12 || fraction(9, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(step)) < 0.3)
+        continue;
       const Mesh mesh = blob_at(i, step, across);
       both.on_owner(key_of(i), [&](auto& world, auto body) { world.set_positions(body, mesh.positions); });
     }
@@ -302,7 +302,8 @@ Owner random_owner() {
 void pile(Size size) { run_pile("pile", size, all_outputs(), blocks(size.bodies), nothing); }
 void random_owners(Size size) { run_pile("random owners", size, all_outputs(), random_owner(), nothing); }
 void one_place(Size size) {
-  run_pile("one place", size, all_outputs(), [](int) { return count_of_ranks() - 1; }, nothing);
+  run_pile(
+      "one place", size, all_outputs(), [](int) { return count_of_ranks() - 1; }, nothing);
 }
 void all_moved(Size size) {
   run_pile("all moved", size, all_outputs(), random_owner(), [](Both& both, int) {
@@ -330,7 +331,8 @@ void rebalanced(Size size) {
 void rebalanced_by_itself(Size size) {
   mpi::Settings settings = all_outputs();
   settings.rebalance_above = 1.05;
-  run_pile("rebalanced by itself", size, settings, [](int) { return 0; }, nothing);
+  run_pile(
+      "rebalanced by itself", size, settings, [](int) { return 0; }, nothing);
 }
 // Bodies gather on rank 0, the others have none.
 void emptied(Size size) {
@@ -422,7 +424,8 @@ void cloth(Size size) {
     for (int i = 0; i < balls; ++i) {
       if (step > 0 && (step + i) % 3 == 0) continue;
       const double angle = 0.1 * step;
-      const Eigen::Matrix3d rotation = turn(2.0 * angle / (1.0 + angle * angle), (1.0 - angle * angle) / (1.0 + angle * angle));
+      const Eigen::Matrix3d rotation =
+          turn(2.0 * angle / (1.0 + angle * angle), (1.0 - angle * angle) / (1.0 + angle * angle));
       const Eigen::Vector3d place(2.05 * (i % 3 - 1), 2.05 * (i / 3 - 1), 0.01 * (step % 7));
       both.on_owner(static_cast<Key>(i), [&](auto& world, auto body) {
         world.set_motion(body, Motion::rigid);
