@@ -62,7 +62,7 @@ void MotionStage::select(Bodies& bodies, int threads) {
   if (report_.stats_.moved_bodies == 0) return;
   const auto moves = [&](std::uint32_t slot) { return bodies.used(slot) && bodies.on_its_way(slot); };
   for (const broadphase::IndexPair& pair : sweep_.pairs()) {
-    if (bodies.excluded_pairs().contains(pair)) continue;
+    if (bodies.excluded_pairs().contains(pair) || !bodies.is_chosen(pair)) continue;
     const auto [a, b] = bodies.keys().ordered(pair);
     if (moves(a) || moves(b)) passing_.push_back({.a = a, .b = b, .reach = bodies.reach(a, b)});
   }

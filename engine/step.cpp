@@ -36,7 +36,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   StepStats& stats = writer_.stats() = {};
   stats.regrouped_bodies = std::exchange(regrouped_, 0);
   stats.regroup_ms = std::exchange(regroup_ms_, 0.0);
-  const bool at_rest = bodies.changed().empty() && !all_;
+  const bool at_rest = bodies.changed().empty() && !all_ && !altered_;
   if (at_rest) {
     keep_last_answers();
   } else {
@@ -48,9 +48,10 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
   stats.named_excluded_pairs = static_cast<std::int64_t>(table.excluded());
   if (settings.outputs.trace) trace_.make_room_for(table.moved(), stages_->pairs, writer_.trace());
   if (discarded_) throw Discarded{};
+  if (commit_) commit_(writer_.report());
   // From here on nothing fails.
   bodies.end_step();
-  all_ = false;
+  all_ = altered_ = false;
   const double report_ms = timer.lap();
   if (!at_rest) stats.report_ms = report_ms;  // at rest the step is this call alone
   stats.refresh_ms = refresh_ms;
@@ -134,7 +135,7 @@ void Step::restore(Restored&& restored) noexcept {
   stages_ = std::move(restored.stages);
   writer_ = std::move(restored.writer);
   all_ = restored.all;
-  forgotten_ = false;
+  forgotten_ = altered_ = false;
 }
 
 void Step::start_from_scratch() {

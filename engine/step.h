@@ -5,7 +5,9 @@
 #include <tact/settings.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <utility>
 
 #include "broadphase/sweep_and_prune.h"
 #include "engine/bodies/bodies.h"
@@ -44,6 +46,8 @@ class Step {
   /// The next run() throws Discarded when all is found.
   void discard() { discarded_ = true; }
   struct Discarded {};
+  /// Called by each run() when all is found, before anything of it counts. If it throws, the step fails.
+  void set_commit(std::function<void(const Report&)> commit) { commit_ = std::move(commit); }
 
   /// What World::restore() puts in the place of what was found of the last step. The next step goes on from there.
   struct Restored;
@@ -79,6 +83,8 @@ class Step {
   double regroup_ms_ = 0.0;
   bool all_ = true;
   bool forgotten_ = false, discarded_ = false;
+  bool altered_ = false;  // bodies or pairs came or went that did not move
+  std::function<void(const Report&)> commit_;
 };
 
 struct Step::Restored {

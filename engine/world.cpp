@@ -17,6 +17,7 @@
 #include "engine/messages.h"
 #include "engine/motion_stage.h"
 #include "engine/queries.h"
+#include "engine/state/world_parts.h"
 #include "engine/state/world_state.h"
 #include "engine/step.h"
 #include "engine/surface_check.h"
@@ -146,6 +147,8 @@ const Body& World::body_of(BodyId body) const {
 void WorldTuning::set(const World& world, const base::Tuning& tuning) { world.implementation().tuning = tuning; }
 
 const Settings& World::settings() const { return implementation().settings; }
+
+WorldParts::WorldParts(World& world) : bodies_(world.implementation().bodies), step_(world.implementation().step) {}
 
 void World::set_settings(const Settings& settings) {
   const base::FloatingPointMode mode;

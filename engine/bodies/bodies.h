@@ -21,6 +21,7 @@
 #include "engine/bodies/columns.h"
 #include "engine/bodies/excluded_pairs.h"
 #include "engine/bodies/packed_meshes.h"
+#include "engine/bodies/pair_choice.h"
 #include "engine/bodies/rigid_states.h"
 #include "narrowphase/contact_points/contact_points.h"
 #include "narrowphase/mesh/clustered_mesh.h"
@@ -138,6 +139,12 @@ class Bodies {
 
   // Of slots.
   const ExcludedPairs& excluded_pairs() const { return excluded_; }
+  // Which pairs are looked at, besides; null: all. It outlives its use here.
+  void set_choice(const PairChoice* choice) { choice_ = choice; }
+  bool has_choice() const { return choice_ != nullptr; }
+  bool is_chosen(const broadphase::IndexPair& pair) const {
+    return choice_ == nullptr || choice_->looks_at(pair.a, pair.b);
+  }
 
   // What the broad phase sees, an entry a slot: boxes with their margins; the box of an empty slot is empty. Those of
   // rigid bodies may be larger.
@@ -300,6 +307,7 @@ class Bodies {
   std::vector<narrowphase::Kdop> new_kdops_;     // of those that know them
   std::vector<std::uint32_t> without_features_;  // scratch
   std::vector<char> named_;                      // scratch, an entry a slot
+  const PairChoice* choice_ = nullptr;
 };
 
 }  // namespace tact

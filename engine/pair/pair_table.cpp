@@ -30,6 +30,11 @@ void renumber_vertices(PairRecord& record, std::span<const int> numbers, InSimpl
 
 }  // namespace
 
+void renumber(PairRecord& record, std::span<const int> numbers_a, std::span<const int> numbers_b) {
+  renumber_vertices(record, numbers_a, &narrowphase::GjkSimplex::a, &narrowphase::SurfaceShape::a);
+  renumber_vertices(record, numbers_b, &narrowphase::GjkSimplex::b, &narrowphase::SurfaceShape::b);
+}
+
 void PairTable::update(const broadphase::SweepAndPrune& sweep, const Bodies& bodies, bool all) {
   gone_.clear();
   gone_patches_.clear();
@@ -52,9 +57,10 @@ void PairTable::update(const broadphase::SweepAndPrune& sweep, const Bodies& bod
 
 std::span<const IndexPair> PairTable::tested_pairs(std::span<const IndexPair> pairs, const Bodies& bodies) {
   excluded_ = 0;
-  if (bodies.excluded_pairs().empty() && !bodies.any_rigid()) return by_key(pairs, bodies);
+  if (bodies.excluded_pairs().empty() && !bodies.any_rigid() && !bodies.has_choice()) return by_key(pairs, bodies);
   tested_.clear();
   for (const IndexPair& pair : pairs) {
+    if (!bodies.is_chosen(pair)) continue;
     if (bodies.excluded_pairs().contains(pair)) {
       ++excluded_;
       continue;
@@ -175,9 +181,7 @@ void PairTable::renumber(std::span<const Bodies::Regrouped> bodies) {
     return found != bodies.end() && found->id == id ? std::span(found->numbers) : std::span<const int>();
   };
   for (const Entry& entry : entries_) {
-    PairRecord& record = *entry.record;
-    renumber_vertices(record, numbers_of(record.a), &narrowphase::GjkSimplex::a, &narrowphase::SurfaceShape::a);
-    renumber_vertices(record, numbers_of(record.b), &narrowphase::GjkSimplex::b, &narrowphase::SurfaceShape::b);
+    tact::renumber(*entry.record, numbers_of(entry.record->a), numbers_of(entry.record->b));
   }
 }
 

@@ -25,6 +25,9 @@ struct MovedPair {
   bool separated = false;   ///< by an axis of the k-DOPs
 };
 
+/// Gives the vertices that a record names other numbers, each that under its own number. No numbers: they stay.
+void renumber(PairRecord& record, std::span<const int> numbers_a, std::span<const int> numbers_b);
+
 /// Matches the pairs of the sweep with those of the last step, and owns their records. Runs no geometry.
 class PairTable {
   friend struct StateFields;

@@ -118,6 +118,7 @@ class StateReader {
   }
 
   std::size_t bytes_left() const { return bytes_.size() - position_; }
+  std::span<const std::byte> rest() const { return bytes_.subspan(position_); }
   void check(bool holds, const char* otherwise) const {
     if (!holds) refuse(otherwise);
   }

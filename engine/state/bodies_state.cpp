@@ -44,7 +44,7 @@ PoseUpdate update_of(BodyId id, const narrowphase::Pose& pose) {
 
 }  // namespace
 
-void StateFields::write_body(const Bodies& bodies, std::uint32_t slot, StateWriter& writer) {
+MeshState StateFields::mesh_state(const Bodies& bodies, std::uint32_t slot) {
   const Bodies::Slot& from = bodies.slots_[slot];
   const ClusteredMesh& of_body = from.body->mesh;
   MeshState mesh;
@@ -61,18 +61,24 @@ void StateFields::write_body(const Bodies& bodies, std::uint32_t slot, StateWrit
   } else if (mesh.is_on_its_way) {
     mesh.begin = source_positions(of_body, bodies.moving(slot).begin.points);
   }
+  return mesh;
+}
+
+void StateFields::write_body(const Bodies& bodies, std::uint32_t slot, const MeshState& mesh, StateWriter& writer) {
+  const Bodies::Slot& from = bodies.slots_[slot];
   writer(Bodies::Place{bodies.filters_[slot], bodies.margins_[slot], bodies.keys_.of(slot), mesh.is_rigid}, mesh,
          *from.body, from, bodies.groupings_.entries_[slot]);
 }
 
-// Own: world, tuning. Memory, or what only saves work: packed_meshes, rigid_states, tree, updates, new_kdops and all
-// scratch. Found again from what is read: boxes, kdops, counts, placed_boxes, farthest_rest. With each body: filters,
-// margins, keys, groupings, and whether it is in `changed`. Not of a state: generations, former; see take_ids().
+// Own: world, tuning, choice. Memory, or what only saves work: packed_meshes, rigid_states, tree, updates, new_kdops
+// and all scratch. Found again from what is read: boxes, kdops, counts, placed_boxes, farthest_rest. With each body:
+// filters, margins, keys, groupings, and whether it is in `changed`. Not of a state: generations, former; see
+// take_ids().
 void StateFields::write(const Bodies& bodies, std::span<const BodyId> gone, StateWriter& writer) {
   const auto& [world, tuning, packed_meshes, slots, generations, former, rigid_states, free, boxes, filters, margins,
                keys, tree, kdops, groupings, changed, count, removed, steps, excluded, vertices, moved_vertices,
                rigid_count, self_count, placed_boxes, placed_count, farthest_rest, pose_changed, to_place, updates,
-               new_kdops, without_features, named] = bodies;
+               new_kdops, without_features, named, choice] = bodies;
   writer(steps, std::uint64_t{count});
   std::vector<char> is_free(slots.size(), 0);
   for (const std::uint32_t slot : free) is_free[slot] = 1;
@@ -83,7 +89,7 @@ void StateFields::write(const Bodies& bodies, std::span<const BodyId> gone, Stat
       continue;
     }
     writer(slot);
-    write_body(bodies, slot, writer);
+    write_body(bodies, slot, mesh_state(bodies, slot), writer);
   }
   const auto& [excluded_pairs, excluded_changed] = excluded;
   writer(free, closed, excluded_pairs);

@@ -7,6 +7,7 @@
 #include <tact/report.h>
 #include <tact/settings.h>
 
+#include <array>
 #include <type_traits>
 
 #include "engine/bodies/bodies.h"
@@ -51,6 +52,9 @@ struct MeshState {
   bool is_rigid = false, is_on_its_way = false;
   narrowphase::Pose pose, begin_pose;  ///< of a rigid body: now, and in the last step if it is on its way
 };
+
+struct SavedPair;
+struct FarContact;
 
 struct StateFields {
   template <class Archive>
@@ -232,7 +236,8 @@ struct StateFields {
   }
 
   // One body that there is; and into a slot that holds none. Errors: bad_state, and those of World::add_body().
-  static void write_body(const Bodies& bodies, std::uint32_t slot, StateWriter& writer);
+  static MeshState mesh_state(const Bodies& bodies, std::uint32_t slot);
+  static void write_body(const Bodies& bodies, std::uint32_t slot, const MeshState& mesh, StateWriter& writer);
   static void read_body(StateReader& reader, Bodies& bodies, std::uint32_t slot);
 
   // Of whole worlds: bodies_state.cpp, step_state.cpp. `gone`, sorted, are bodies that were removed since the last step
@@ -242,6 +247,22 @@ struct StateFields {
   static std::vector<BodyId> gone_in(const Step& step, const Bodies& bodies);
   static void write(const Step& step, const Bodies& bodies, StateWriter& writer);
   static Step::Restored read_step(StateReader& reader, const Bodies& bodies);
+
+  // Of worlds whose bodies come and go singly, with what is kept of them: world_parts.cpp.
+  static void join(std::span<const std::byte> shape, std::span<const std::byte> rest, StateWriter& writer);
+  static std::array<std::uint64_t, 2> keys_of(const Contact& contact) { return {contact.key_a_, contact.key_b_}; }
+  static BodyId put_body(StateReader& reader, Bodies& bodies, bool is_copy);
+  static void take_bodies(std::span<const BodyId> gone, Bodies& bodies, Step& step);
+  static void remove_copy(BodyId body, Bodies& bodies);
+  static void exclude(BodyId a, BodyId b, bool excluded, Bodies& bodies);
+  static void mark_moved(BodyId body, bool is_on_its_way, Bodies& bodies);
+  static std::vector<SavedPair> pairs_of(std::span<const BodyId> those, const Bodies& bodies, Step& step);
+  static bool put_pair(const SavedPair& pair, const Bodies& bodies, Step& step);
+  static void write_self_of(BodyId body, Step& step, StateWriter& writer);
+  static void read_self_of(StateReader& reader, BodyId body, const Bodies& bodies, Step& step);
+  static void settle(Bodies& bodies, Step& step);
+  static void write_contact(const Contact& contact, StateWriter& writer);
+  static void read_contact(StateReader& reader, FarContact& contact);
 
  private:
   static void add_slots(Bodies& bodies, std::size_t count);

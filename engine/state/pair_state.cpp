@@ -100,6 +100,10 @@ void write_pair(const PairRecord& record, StateWriter& writer) { writer(record);
 
 void read_pair(StateReader& reader, const ClusteredMesh& a, const ClusteredMesh& b, PairRecord& record) {
   reader(record);
+  check_pair(reader, a, b, record);
+}
+
+void check_pair(const StateReader& reader, const ClusteredMesh& a, const ClusteredMesh& b, PairRecord& record) {
   const Checks checks(reader, a, b);
   checks.history(record.history);
   if (record.history.has_surface) checks.surface(*record.surface);

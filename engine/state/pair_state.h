@@ -12,6 +12,9 @@ void write_pair(const PairRecord& record, StateWriter& writer);
 /// Of a new record. Errors: bad_state.
 void read_pair(StateReader& reader, const narrowphase::ClusteredMesh& a, const narrowphase::ClusteredMesh& b,
                PairRecord& record);
+/// The second part of read_pair(): what is read names what there is. Errors: bad_state.
+void check_pair(const StateReader& reader, const narrowphase::ClusteredMesh& a, const narrowphase::ClusteredMesh& b,
+                PairRecord& record);
 
 void write_self(const SelfRecord& record, StateWriter& writer);
 /// Of a new record. Errors: bad_state.

@@ -52,9 +52,10 @@ std::vector<BodyId> StateFields::gone_in(const Step& step, const Bodies& bodies)
 }
 
 // Dropped: sweep and the other stages, which find their answers again; the writer, whose report is that of the table;
-// trace, device, and what the last regroup() did.
+// trace, device, what the last regroup() did, and what only worlds over many ranks have.
 void StateFields::write(const Step& step, const Bodies& bodies, StateWriter& writer) {
-  const auto& [stages, report_writer, trace, device, regrouped, regroup_ms, all, forgotten, discarded] = step;
+  const auto& [stages, report_writer, trace, device, regrouped, regroup_ms, all, forgotten, discarded, altered,
+               commit] = step;
   const Step::Stages nothing;
   const auto& [sweep, table, pairs, containment, points, selves, patches, knows_boxes] = forgotten ? nothing : *stages;
   writer(all || forgotten);

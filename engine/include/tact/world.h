@@ -181,6 +181,7 @@ class TACT_API World {
 
  private:
   friend class FailedStep;
+  friend class WorldParts;
   friend class WorldTuning;
   struct Implementation;
   Implementation& implementation() const;

@@ -1,0 +1,111 @@
+// Bodies of a world, one by one, and what is kept of their pairs: taken out of one world and put into another, with no
+// bit of any later answer changed. For worlds that are spread over ranks; no part of the public interface.
+#pragma once
+
+#include <tact/world.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "broadphase/index_pair.h"
+#include "engine/base/box.h"
+#include "engine/bodies/pair_choice.h"
+#include "engine/patch_set.h"
+
+namespace tact {
+
+class Bodies;
+class Step;
+using StateBytes = std::vector<std::byte>;
+
+/// What is kept of a pair, by the numbers of the caller's vertices.
+struct SavedPair {
+  std::uint64_t key_a = 0, key_b = 0;
+  std::uint64_t birth_a = 0, birth_b = 0;  ///< tell a body from another of its key
+  StateBytes bytes;                        ///< empty if one of the bodies was removed: the pair has ended
+  bool touching = false;                   ///< and which patches it has: what is told of it if it ends
+  std::vector<std::uint64_t> patches;
+};
+
+/// A contact that another world found, with all that it views.
+struct FarContact {
+  Contact contact;
+  std::vector<FacetPair> facet_pairs;
+  std::vector<ContactPoint> points;
+  PatchSet patches;
+
+  FarContact() = default;
+  FarContact(FarContact&&) = default;  // vectors that move keep what is viewed of them
+  FarContact& operator=(FarContact&&) = default;
+};
+
+/// Ids are of this world. What is put in or taken out counts from settle() on.
+class TACT_API WorldParts {
+ public:
+  explicit WorldParts(World& world);
+
+  /// Which pairs the world looks at; the choice outlives the world.
+  void set_choice(const PairChoice* choice);
+  /// Called by each detect() when all is found, before anything of it counts. If it throws, the step fails.
+  void set_commit(std::function<void(const Report&)> commit);
+
+  /// Whether a body was added, moved or set otherwise since the last step; whether any was, or was removed; whether a
+  /// body has other positions than then.
+  bool moved(BodyId body) const;
+  bool any_moved() const;
+  bool on_its_way(BodyId body) const;
+  /// The box of a body with its margin, or a larger one; and of its way since the last step.
+  base::Box box(BodyId body) const;
+  base::Box way_box(BodyId body) const;
+  broadphase::Filter filter(BodyId body) const;
+  /// Where a body is: zero where no facet uses the vertex; and the pose of a rigid one.
+  std::vector<double> positions(BodyId body) const;
+  PoseUpdate pose(BodyId body) const;
+
+  /// The facets of a body in their order, and all else of it.
+  StateBytes shape(BodyId body) const;
+  StateBytes rest(BodyId body) const;
+  /// Puts a body in as it was. A copy is tested against no body by itself. Errors: bad_state, too_large.
+  BodyId put(std::span<const std::byte> shape, std::span<const std::byte> rest, bool is_copy);
+  /// Takes bodies out, and all that is kept of them, as if they had never been there.
+  void take(std::span<const BodyId> bodies);
+  /// Removes a copy as World::remove_body(): the next step tells what ended.
+  void remove_copy(BodyId body);
+  /// Notes that a body has moved, and is on its way even if it is where it was.
+  void mark_moved(BodyId body, bool is_on_its_way);
+  /// As World::set_excluded(), but that nothing has moved by that.
+  void exclude(BodyId a, BodyId b, bool excluded);
+
+  /// What is kept of each pair with one of these bodies.
+  std::vector<SavedPair> pairs_of(std::span<const BodyId> bodies) const;
+  /// Puts in what was kept of a pair; does nothing and returns false if one of its bodies is not here, or the pair has
+  /// ended. Errors: bad_state.
+  bool put(const SavedPair& pair);
+  /// The same of a body with itself.
+  StateBytes self_of(BodyId body) const;
+  void put_self(BodyId body, std::span<const std::byte> bytes);
+  /// The next step sees what came and went.
+  void settle();
+
+  /// The next step starts from nothing, as after one that failed.
+  void forget_step();
+
+  /// A contact of a report as bytes, its bodies by their keys; and back. Errors: bad_state.
+  static StateBytes contact_bytes(const Contact& contact);
+  static FarContact contact_of(std::span<const std::byte> bytes);
+  static std::array<std::uint64_t, 2> keys_of(const Contact& contact);
+
+  /// The pairs of boxes that overlap and whose filters agree.
+  static std::vector<broadphase::IndexPair> overlapping(std::span<const base::Box> boxes,
+                                                        std::span<const broadphase::Filter> filters, int threads);
+
+ private:
+  Bodies& bodies_;
+  Step& step_;
+};
+
+}  // namespace tact

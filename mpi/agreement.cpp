@@ -1,0 +1,134 @@
+// What all ranks settle before a call together: whose keys are whose, which pairs are excluded, whether anything moved.
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "engine/base/hash.h"
+#include "mpi/world_implementation.h"
+
+namespace tact::mpi {
+
+namespace {
+
+std::uint64_t hash_of(const Settings& settings) {
+  const tact::Settings& world = settings.world;
+  base::Hash hash;
+  for (const double number : {world.gjk_tolerance, settings.rebalance_above}) hash.add(number);
+  for (const int number : {static_cast<int>(world.accuracy), static_cast<int>(world.direction), world.iteration_limit,
+                           int{world.outputs.zones}, int{world.outputs.patches}, int{world.outputs.points},
+                           static_cast<int>(settings.partitioner)})
+    hash.add(static_cast<std::uint64_t>(number));
+  return hash.value();
+}
+
+}  // namespace
+
+// Ends with ghosts as their owners have them, and what is kept of pairs where it belongs.
+bool World::Implementation::begin(bool for_step) {
+  channel.reset_counts();
+  stats = {};
+  const std::uint64_t of_settings = hash_of(settings);
+  std::array<std::uint64_t, 7> all{parts.any_moved() || !removed.empty(),
+                                   !new_keys.empty() || !gone_keys.empty(),
+                                   !exclusions.empty(),
+                                   of_settings,
+                                   ~of_settings,
+                                   shared_hash,
+                                   ~shared_hash};
+  channel.largest(all);
+  if (all[3] != ~all[4]) throw Error(ErrorCode::bad_settings, "the ranks have different settings");
+  if (all[5] != ~all[6])
+    throw Error(ErrorCode::invalid_argument, "the ranks hold different bodies that every rank should hold");
+  if (all[1] != 0) update_directory();
+  if (all[2] != 0) send_exclusions();
+  if (for_step && settings.rebalance_above > 0.0 && imbalance > settings.rebalance_above) rebalance();
+  const bool any_moved = all[0] != 0 || all[2] != 0;
+  if (!any_moved && !needs_near) return false;
+  find_near(!for_step);
+  send_ghosts(for_step);
+  if (for_step) needs_near = false;  // what is kept of pairs that moved waits for a step
+  return true;
+}
+
+// A key that has an owner is found before it is added; of keys that two ranks add at once, one finds the other's after.
+void World::Implementation::update_directory() {
+  std::optional<Keys> gone, come;
+  channel.together([&] {
+    gone.emplace(gone_keys);
+    come.emplace(new_keys);
+  });
+  directory.remove(*gone);
+  gone_keys.clear();
+  const auto check = [&] {
+    directory.find(*come);
+    return Channel::failure_of([&] {
+      for (std::size_t i = 0; i < new_keys.size(); ++i) {
+        const int owner = come->owners()[i];
+        if (owner != -1 && owner != channel.rank())
+          throw Error(ErrorCode::invalid_argument, "ranks " + std::to_string(owner) + " and " +
+                                                       std::to_string(channel.rank()) + " each own a body of key " +
+                                                       std::to_string(new_keys[i]));
+      }
+    });
+  };
+  bool is_added = false;
+  try {
+    channel.gather(0, check());
+    directory.add(*come);
+    is_added = true;
+    channel.gather(0, check());
+  } catch (...) {
+    if (is_added) directory.remove(*come);
+    drop_ghosts(true);  // those of the keys were given up
+    throw;
+  }
+  new_keys.clear();
+}
+
+void World::Implementation::send_exclusions() {
+  std::optional<Keys> others;
+  channel.together([&] {
+    std::vector<std::uint64_t> keys;
+    for (const Exclusion& one : exclusions) keys.push_back(one.other);
+    others.emplace(keys);
+  });
+  directory.find(*others);
+  const std::span<const int> owners = others->owners();
+  const std::vector<Exclusion> all = std::exchange(exclusions, {});
+  const auto messages = channel.exchange([&](Outbox& outbox) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const auto put_to = [&](int rank) { outbox.to(rank).put(all[i].own, all[i].other, all[i].wanted, all[i].marks); };
+      if (held.shared.contains(all[i].other)) {
+        for (int rank = 0; rank < channel.size(); ++rank) put_to(rank);
+      } else if (owners[i] >= 0) {
+        put_to(owners[i]);
+      } else if (all[i].marks) {
+        throw Error(ErrorCode::stale_body,
+                    "nobody owns a body of key " + std::to_string(all[i].other) + ", which was to be excluded");
+      }
+    }
+  });
+  channel.together([&] {
+    std::vector<Exclusion> come;
+    for (const Message& message : messages) {
+      for (ByteReader reader(message.bytes); !reader.at_end();) {
+        Exclusion& one = come.emplace_back();
+        one.other = reader.get<std::uint64_t>(), one.own = reader.get<std::uint64_t>();
+        one.wanted = reader.get<bool>(), one.marks = reader.get<bool>();
+      }
+    }
+    // Those of removed bodies first: another may have come with the key of one.
+    std::ranges::stable_sort(come, {}, &Exclusion::marks);
+    for (const Exclusion& one : come) {
+      if (const auto shared = held.shared.find(one.own); shared != held.shared.end()) {
+        if (one.marks) parts.mark_moved(shared->second, false);
+      } else if (held.own.contains(one.own)) {
+        exclude(one.own, one.other, one.wanted, one.marks);
+      }
+    }
+  });
+}
+
+}  // namespace tact::mpi

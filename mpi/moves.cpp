@@ -1,0 +1,224 @@
+// Bodies that go to other ranks, with all that is kept of them. What is kept of a pair goes with its host. Nothing
+// counts before all bodies have arrived everywhere: until then the old owners have them.
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "mpi/world_implementation.h"
+
+namespace tact::mpi {
+
+/// What leaves this rank, and the pairs whose hosts stay here.
+struct World::Implementation::Leaving {
+  Shipment shipment;
+  std::vector<WaitingPair> left;
+};
+
+/// A body that came, and is of this rank once all have come.
+struct World::Implementation::Arrival {
+  std::uint64_t key = 0;
+  OwnBody body;
+  std::vector<std::uint64_t> excluded;
+  std::vector<SavedPair> pairs;
+  std::vector<std::pair<KeyPair, int>> sent;
+};
+
+void World::Implementation::rebalance() {
+  std::vector<Site> all;
+  channel.together([&] { all = sites(); });
+  Goals goals;
+  channel.gather(0, Channel::failure_of([&] {
+                   const std::vector<int> ranks = partition->cut(all);
+                   for (std::size_t i = 0; i < all.size(); ++i) goals[all[i].key] = ranks[i];
+                 }));
+  needs_near = true;
+  move(std::move(goals));
+}
+
+void World::Implementation::move(Goals goals) {
+  std::erase_if(goals, [&](const auto& goal) { return goal.second == channel.rank(); });
+  Leaving leaving;
+  channel.together([&] { leaving = pack(goals); });
+  std::vector<Parcel> parcels;
+  channel.gather(0, Channel::failure_of([&] { parcels = partition->send(leaving.shipment); }));
+  std::vector<Arrival> arrivals;
+  std::optional<Keys> keys;
+  const std::exception_ptr failure = Channel::failure_of([&] {
+    arrivals.reserve(parcels.size());
+    std::vector<std::uint64_t> coming;
+    for (const Parcel& parcel : parcels) coming.push_back(parcel.key);
+    keys.emplace(coming);
+    for (const Parcel& parcel : parcels) unpack(parcel, arrivals);
+  });
+  try {
+    channel.gather(0, failure);
+  } catch (...) {
+    undo(arrivals);
+    throw;
+  }
+  let_go(goals, std::move(leaving));
+  take_in(std::move(arrivals));
+  parts.settle();
+  directory.add(*keys);
+  needs_near = owners_changed = true;
+}
+
+World::Implementation::Leaving World::Implementation::pack(const Goals& goals) {
+  std::vector<BodyId> ids;
+  for (const auto& [key, rank] : goals) ids.push_back(at(key).id);
+  std::map<std::uint64_t, std::vector<SavedPair>> pairs;
+  Leaving leaving;
+  for (SavedPair& pair : parts.pairs_of(ids)) {
+    const bool has_ended = pair.bytes.empty();
+    const std::uint64_t host = has_ended ? pair.key_a : held.host_of(held.find(pair.key_a), held.find(pair.key_b));
+    if (goals.contains(host) && !has_ended) {
+      pairs[host].push_back(std::move(pair));
+    } else {
+      leaving.left.push_back({host, std::move(pair)});
+    }
+  }
+  for (const WaitingPair& one : waiting) {
+    if (goals.contains(one.host)) pairs[one.host].push_back(one.pair);
+  }
+  std::vector<Parcel> parcels;
+  for (const auto& [key, rank] : goals) parcels.push_back({key, rank, pack(key, rank, pairs[key])});
+  leaving.shipment = Shipment(std::move(parcels));
+  return leaving;
+}
+
+Bytes World::Implementation::pack(std::uint64_t key, int to, std::span<const SavedPair> pairs) {
+  const OwnBody& body = at(key);
+  ByteWriter writer;
+  writer.put_all(parts.shape(body.id));
+  writer.put_all(parts.rest(body.id));
+  writer.put_all(parts.self_of(body.id));
+  writer.put(body.is_rigid, body.version, body.positions, body.work);
+  const auto stays = [&](const Subscriber& one) { return one.rank != to; };
+  writer.put(static_cast<std::uint64_t>(std::ranges::count_if(body.subscribers, stays)));
+  for (const Subscriber& one : body.subscribers) {
+    if (stays(one)) writer.put(one.rank, one.is_awake, one.version, one.positions, one.asleep_since);
+  }
+  writer.put_all(HeldBodies::seconds(held.excluded, key));
+  writer.put(std::uint64_t{pairs.size()});
+  for (const SavedPair& pair : pairs) {
+    writer.put(pair.key_a, pair.key_b, pair.birth_a, pair.birth_b, pair.touching);
+    writer.put_all(pair.bytes);
+    writer.put_all(pair.patches);
+  }
+  ByteWriter sent_pairs;
+  for (const auto& [keys, one] : sent) {
+    if (keys.first == key || keys.second == key) sent_pairs.put(keys.first, keys.second, one.to);
+  }
+  writer.put_all(sent_pairs.bytes());
+  writer.put(static_cast<bool>(body_state.pack));
+  if (body_state.pack) writer.put_all(body_state.pack(key));
+  return std::move(writer.bytes());
+}
+
+// The ghost gives way; what is kept of its pairs, whose hosts are here, waits for the next step.
+void World::Implementation::ghost_becomes_own(std::uint64_t key) {
+  held.shapes.erase(key);
+  const auto found = held.ghosts.find(key);
+  if (found == held.ghosts.end()) return;
+  const BodyId id = found->second.id;
+  for (SavedPair& pair : parts.pairs_of({&id, 1})) {
+    const std::uint64_t host = pair.key_a == key ? pair.key_b : pair.key_a;
+    waiting.push_back({host, std::move(pair)});
+  }
+  parts.take({&id, 1});
+  held.drop(id);
+  held.ghosts.erase(found);
+}
+
+void World::Implementation::unpack(const Parcel& parcel, std::vector<Arrival>& arrivals) {
+  const std::uint64_t key = parcel.key;
+  ghost_becomes_own(key);
+  ByteReader reader(parcel.bytes);
+  const auto shape = reader.get_bytes(), rest = reader.get_bytes(), self = reader.get_bytes();
+  const BodyId id = parts.put(shape, rest, false);
+  Arrival& arrival = arrivals.emplace_back();
+  arrival.key = key;
+  arrival.body.id = id;
+  held.hold(id, {Held::Role::own, channel.rank(), {static_cast<std::int64_t>(local.vertex_count(id)), key}});
+  parts.put_self(id, self);
+  arrival.body.is_rigid = reader.get<bool>();
+  arrival.body.version = reader.get<std::uint64_t>();
+  arrival.body.positions = reader.get<std::uint64_t>();
+  arrival.body.work = reader.get<std::int64_t>();
+  for (auto count = reader.get<std::uint64_t>(); count > 0; --count) {
+    Subscriber& one = arrival.body.subscribers.emplace_back();
+    one.rank = reader.get<int>();
+    one.is_awake = reader.get<bool>();
+    one.knows_owner = false;
+    one.version = reader.get<std::uint64_t>();
+    one.positions = reader.get<std::uint64_t>();
+    one.asleep_since = reader.get<std::uint64_t>();
+  }
+  arrival.excluded = reader.get_all<std::uint64_t>();
+  for (auto count = reader.get<std::uint64_t>(); count > 0; --count) {
+    SavedPair& pair = arrival.pairs.emplace_back();
+    pair.key_a = reader.get<std::uint64_t>();
+    pair.key_b = reader.get<std::uint64_t>();
+    pair.birth_a = reader.get<std::uint64_t>();
+    pair.birth_b = reader.get<std::uint64_t>();
+    pair.touching = reader.get<bool>();
+    const auto bytes = reader.get_bytes();
+    pair.bytes.assign(bytes.begin(), bytes.end());
+    pair.patches = reader.get_all<std::uint64_t>();
+  }
+  for (ByteReader pairs(reader.get_bytes()); !pairs.at_end();) {
+    const auto key_a = pairs.get<std::uint64_t>(), key_b = pairs.get<std::uint64_t>();
+    arrival.sent.push_back({{key_a, key_b}, pairs.get<int>()});
+  }
+  if (reader.get<bool>() && body_state.unpack) body_state.unpack(key, reader.get_bytes());
+}
+
+void World::Implementation::undo(std::span<const Arrival> arrivals) {
+  std::vector<BodyId> ids;
+  for (const Arrival& arrival : arrivals) {
+    ids.push_back(arrival.body.id);
+    held.drop(arrival.body.id);
+    if (body_state.drop) body_state.drop(arrival.key);
+  }
+  parts.take(ids);
+  drop_ghosts(true);
+}
+
+void World::Implementation::let_go(const Goals& goals, Leaving&& leaving) {
+  std::vector<BodyId> ids;
+  const auto leaves = [&](const auto& one) {
+    return goals.contains(one.first.first) || goals.contains(one.first.second);
+  };
+  std::erase_if(sent, leaves);  // their hosts leave
+  std::erase_if(far, leaves);   // their guests do
+  std::erase_if(waiting, [&](const WaitingPair& one) { return goals.contains(one.host); });
+  for (WaitingPair& one : leaving.left) waiting.push_back(std::move(one));
+  for (const Parcel& parcel : leaving.shipment.parcels) moved_bytes += static_cast<std::int64_t>(parcel.bytes.size());
+  moved_bodies += static_cast<std::int64_t>(goals.size());
+  for (const auto& [key, rank] : goals) {
+    ids.push_back(at(key).id);
+    held.drop(at(key).id);
+    held.own.erase(key);
+    new_owners.erase(key);
+    for (const std::uint64_t other : HeldBodies::seconds(held.excluded, key)) held.set_excluded(key, other, false);
+    if (body_state.drop) body_state.drop(key);
+  }
+  parts.take(ids);
+}
+
+void World::Implementation::take_in(std::vector<Arrival>&& arrivals) {
+  for (Arrival& arrival : arrivals) {
+    held.own[arrival.key] = std::move(arrival.body);
+    for (SavedPair& pair : arrival.pairs) waiting.push_back({arrival.key, std::move(pair)});
+    for (const std::uint64_t other : arrival.excluded) held.set_excluded(arrival.key, other, true);
+    for (const auto& [keys, to] : arrival.sent) sent[keys] = {to, false};
+  }
+  for (const Arrival& arrival : arrivals) {
+    for (const std::uint64_t other : arrival.excluded) {
+      const BodyId id = held.find(other);
+      if (id.generation != 0) parts.exclude(held.own.at(arrival.key).id, id, true);
+    }
+  }
+}
+
+}  // namespace tact::mpi

@@ -1,0 +1,340 @@
+#include <tact/mpi/world.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "engine/base/hash.h"
+#include "mpi/world_implementation.h"
+
+namespace tact::mpi {
+
+namespace {
+
+[[noreturn]] void refuse(ErrorCode code, const std::string& what) { throw Error(code, what); }
+
+std::string key_text(std::uint64_t key) { return "key " + std::to_string(key); }
+
+void check(const Settings& settings) {
+  if (!(settings.rebalance_above == 0.0 || settings.rebalance_above >= 1.0))
+    refuse(ErrorCode::bad_settings,
+           "rebalance_above is " + std::to_string(settings.rebalance_above) + ", not 0 or at least 1");
+  if (settings.partitioner != Partitioner::rcb && settings.partitioner != Partitioner::hsfc)
+    refuse(ErrorCode::bad_settings, "the partitioner has no name");
+}
+
+// Of a body that every rank adds: what all of them must agree on.
+std::uint64_t hash_of(const BodyDefinition& definition) {
+  base::Hash hash;
+  hash.add(*definition.key);
+  for (std::ptrdiff_t i = 0; i < definition.positions.cols(); ++i) {
+    for (const double coordinate : definition.positions.column(i)) hash.add(coordinate);
+  }
+  for (std::ptrdiff_t i = 0; i < definition.facets.cols(); ++i) {
+    for (const int vertex : definition.facets.column(i)) hash.add(static_cast<std::uint64_t>(vertex));
+  }
+  hash.add(definition.margin);
+  for (const std::uint32_t number : {definition.layer, definition.mask, definition.group})
+    hash.add(std::uint64_t{number});
+  return hash.value();
+}
+
+}  // namespace
+
+World::Implementation::Implementation(MPI_Comm communicator, const Settings& given)
+    : settings(given), channel(communicator), local(given.world), directory(channel) {
+  check(settings);
+  partition = std::make_unique<Partition>(channel, settings.partitioner);
+  parts.set_choice(&held);
+}
+
+OwnBody& World::Implementation::at(std::uint64_t key) {
+  const auto found = held.own.find(key);
+  if (found == held.own.end())
+    refuse(ErrorCode::stale_body, "rank " + std::to_string(channel.rank()) + " owns no body of " + key_text(key));
+  return found->second;
+}
+
+// What did not change is not sent.
+void World::Implementation::note_change(OwnBody& body, bool has_moved) {
+  if (!parts.moved(body.id)) return;
+  ++body.version;
+  if (has_moved) body.positions = body.version;
+}
+
+void World::Implementation::exclude(std::uint64_t own_key, std::uint64_t other, bool wanted, bool marks) {
+  OwnBody& body = at(own_key);
+  if (held.excluded.contains({own_key, other}) == wanted) return;
+  held.set_excluded(own_key, other, wanted);
+  if (const BodyId id = held.find(other); local.contains(id)) parts.exclude(body.id, id, wanted);
+  if (!marks) return;
+  parts.mark_moved(body.id, false);
+  note_change(body, false);
+}
+
+// A body comes of the key of a ghost: its owner has removed that one, or the next call together refuses the key.
+void World::Implementation::forget_ghost(std::uint64_t key) {
+  held.shapes.erase(key);
+  const auto ghost = held.ghosts.find(key);
+  if (ghost == held.ghosts.end()) return;
+  const auto [id, owner] = ghost->second;
+  held.gone[id] = {key, owner, true};
+  parts.remove_copy(id);
+  held.drop(id);
+  held.ghosts.erase(ghost);
+}
+
+World::World(MPI_Comm communicator, const Settings& settings)
+    : implementation_(std::make_unique<Implementation>(communicator, settings)) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+World::Implementation& World::implementation() const {
+  if (implementation_ == nullptr) refuse(ErrorCode::wrong_order, "the world was moved to another");
+  return *implementation_;
+}
+
+int World::rank() const { return implementation().channel.rank(); }
+int World::rank_count() const { return implementation().channel.size(); }
+const Settings& World::settings() const { return implementation().settings; }
+
+void World::set_settings(const Settings& settings) {
+  Implementation& i = implementation();
+  std::unique_ptr<Partition> partition;
+  i.channel.together([&] {
+    check(settings);
+    tact::World trial(settings.world);  // throws if they are bad
+    if (settings.partitioner != i.settings.partitioner)
+      partition = std::make_unique<Partition>(i.channel, settings.partitioner);
+  });
+  i.local.set_settings(settings.world);
+  i.settings = settings;
+  i.sends_all = true;
+  if (partition == nullptr) return;
+  i.partition = std::move(partition);
+  i.needs_near = true;
+}
+
+void World::add_body(const BodyDefinition& definition, Holders holders) {
+  Implementation& i = implementation();
+  if (!definition.key) refuse(ErrorCode::invalid_argument, "a body over many ranks is named by its key: it has none");
+  const std::uint64_t key = *definition.key;
+  const bool is_shared = holders == Holders::every_rank;
+  if (is_shared && definition.motion != Motion::fixed)
+    refuse(ErrorCode::invalid_argument, key_text(key) + ": what every rank holds is fixed");
+  const std::uint64_t hash = is_shared ? hash_of(definition) : 0;
+  i.forget_ghost(key);
+  const BodyId id = i.local.add_body(definition);
+  const HostOrder order{static_cast<std::int64_t>(i.local.vertex_count(id)), key};
+  i.held.hold(id, {is_shared ? Held::Role::shared : Held::Role::own, i.channel.rank(), order});
+  if (is_shared) {
+    i.held.shared[key] = id;
+    i.shared_hash += hash;
+  } else {
+    i.held.own[key] = {.id = id, .is_rigid = definition.motion == Motion::rigid};
+    i.new_keys.push_back(key);
+  }
+}
+
+void World::remove_body(std::uint64_t key) {
+  Implementation& i = implementation();
+  if (const auto shared = i.held.shared.find(key); shared != i.held.shared.end()) {
+    const BodyId id = shared->second;
+    i.local.remove_body(id);
+    i.held.gone[id] = {key, -1, true};
+    i.held.drop(id);
+    i.held.shared.erase(shared);
+    i.shared_hash += base::mixed(key);
+    return;
+  }
+  OwnBody& body = i.at(key);
+  for (const std::uint64_t other : HeldBodies::seconds(i.held.excluded, key)) {
+    if (i.held.own.contains(other))
+      i.exclude(other, key, false, false);
+    else if (!i.held.shared.contains(other))
+      i.exclusions.push_back({key, other, false, false});
+    i.held.set_excluded(key, other, false);
+  }
+  i.local.remove_body(body.id);
+  i.held.gone[body.id] = {key, -1, true};
+  i.held.drop(body.id);
+  for (WaitingPair& pair : i.waiting) {
+    if (pair.pair.key_a == key || pair.pair.key_b == key) pair.pair.bytes.clear();
+  }
+  if (!body.subscribers.empty()) i.removed[key] = std::move(body.subscribers);
+  if (std::erase(i.new_keys, key) == 0) i.gone_keys.push_back(key);
+  i.new_owners.erase(key);
+  i.held.own.erase(key);
+}
+
+void World::set_positions(std::uint64_t key, const Positions& positions) {
+  Implementation& i = implementation();
+  OwnBody& body = i.at(key);
+  i.local.set_positions(body.id, positions);
+  i.note_change(body, true);
+}
+
+void World::set_positions(std::span<const PositionsUpdate> updates) {
+  Implementation& i = implementation();
+  std::vector<tact::PositionsUpdate> by_id;
+  for (const PositionsUpdate& update : updates) by_id.push_back({i.at(update.key).id, update.positions});
+  i.local.set_positions(by_id);
+  for (const PositionsUpdate& update : updates) i.note_change(i.at(update.key), true);
+}
+
+void World::set_pose(std::uint64_t key, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {
+  Implementation& i = implementation();
+  OwnBody& body = i.at(key);
+  i.local.set_pose(body.id, rotation, translation);
+  i.note_change(body, true);
+}
+
+void World::set_layers(std::uint64_t key, std::uint32_t layer, std::uint32_t mask) {
+  Implementation& i = implementation();
+  i.set(key, [&](BodyId id) { i.local.set_layers(id, layer, mask); });
+}
+void World::set_group(std::uint64_t key, std::uint32_t group) {
+  Implementation& i = implementation();
+  i.set(key, [&](BodyId id) { i.local.set_group(id, group); });
+}
+void World::set_motion(std::uint64_t key, Motion motion) {
+  Implementation& i = implementation();
+  i.set(key, [&](BodyId id) { i.local.set_motion(id, motion); });
+}
+void World::set_margin(std::uint64_t key, double margin) {
+  Implementation& i = implementation();
+  i.set(key, [&](BodyId id) { i.local.set_margin(id, margin); });
+}
+void World::set_self_contact(std::uint64_t key, bool wanted) {
+  Implementation& i = implementation();
+  i.set(key, [&](BodyId id) { i.local.set_self_contact(id, wanted); });
+}
+
+void World::set_excluded(std::uint64_t key, std::uint64_t other, bool excluded) {
+  Implementation& i = implementation();
+  i.at(key);
+  if (key == other) refuse(ErrorCode::invalid_argument, key_text(key) + ": a pair is of two bodies; see self_contact");
+  if (i.held.excluded.contains({key, other}) == excluded) return;
+  i.exclude(key, other, excluded, true);
+  if (i.held.own.contains(other)) return i.exclude(other, key, excluded, true);
+  i.exclusions.push_back({key, other, excluded, true});
+}
+
+const Report& World::detect() {
+  Implementation& i = implementation();
+  i.begin(true);
+  enum class Reached { nothing, others, end } reached = Reached::nothing;
+  std::exception_ptr failure = Channel::failure_of([&] {
+    i.parts.set_commit([&](const tact::Report& found) {
+      reached = Reached::others;
+      i.commit(found);
+      reached = Reached::end;
+    });
+    i.local.detect();
+  });
+  i.parts.set_commit(nullptr);
+  if (reached == Reached::nothing) {  // the others wait for what was found
+    Outbox nothing;
+    failure = Channel::failure_of([&] { i.channel.deliver(nothing, failure); });
+  }
+  if (reached != Reached::end) {
+    i.start_from_scratch();
+    std::rethrow_exception(failure);
+  }
+  i.end_step();
+  if (failure != nullptr) std::rethrow_exception(failure);  // of Settings::on_message
+  return i.report;
+}
+
+const MotionReport& World::detect_motion(Impacts wanted) {
+  Implementation& i = implementation();
+  i.begin(false);
+  const tact::MotionReport* found = nullptr;
+  const std::exception_ptr failure = Channel::failure_of([&] { found = &i.local.detect_motion(wanted); });
+  i.channel.gather(0, failure);
+  i.finish_motion(*found, wanted);
+  return i.motion_report;
+}
+
+void World::set_body_state(BodyState state) {
+  const int given = (state.pack ? 1 : 0) + (state.unpack ? 1 : 0) + (state.drop ? 1 : 0);
+  if (given != 0 && given != 3) refuse(ErrorCode::invalid_argument, "a body's state has some of three functions");
+  implementation().body_state = std::move(state);
+}
+
+void World::rebalance() {
+  Implementation& i = implementation();
+  i.update_directory();
+  i.rebalance();
+}
+
+void World::set_owner(std::uint64_t key, int rank) {
+  Implementation& i = implementation();
+  i.at(key);
+  if (rank < 0 || rank >= i.channel.size())
+    refuse(ErrorCode::invalid_argument, key_text(key) + ": there is no rank " + std::to_string(rank));
+  i.new_owners[key] = rank;
+}
+
+void World::move_bodies() {
+  Implementation& i = implementation();
+  i.update_directory();
+  i.move(i.new_owners);
+  i.new_owners.clear();
+}
+
+void World::exchange(const std::function<std::vector<std::byte>(std::uint64_t key)>& give,
+                     const std::function<void(std::uint64_t key, std::span<const std::byte> bytes)>& take) {
+  Implementation& i = implementation();
+  const auto messages = i.channel.exchange([&](Outbox& outbox) {
+    std::map<std::uint64_t, std::set<int>> ranks;
+    for (const Contact& contact : i.report.contacts()) {
+      const BodyPair& bodies = contact.bodies;
+      if (bodies.rank_a == bodies.rank_b) continue;
+      bodies.rank_a == rank() ? ranks[bodies.key_a].insert(bodies.rank_b) : ranks[bodies.key_b].insert(bodies.rank_a);
+    }
+    for (const auto& [key, to] : ranks) {
+      const Bytes bytes = give(key);
+      for (const int other : to) {
+        outbox.to(other).put(key);
+        outbox.to(other).put_all(bytes);
+      }
+    }
+  });
+  i.channel.together([&] {
+    std::map<std::uint64_t, std::span<const std::byte>> taken;
+    for (const Message& message : messages) {
+      for (ByteReader reader(message.bytes); !reader.at_end();) {
+        const auto key = reader.get<std::uint64_t>();
+        taken[key] = reader.get_bytes();
+      }
+    }
+    for (const auto& [key, bytes] : taken) take(key, bytes);
+  });
+}
+
+bool World::owns(std::uint64_t key) const noexcept {
+  return implementation_ != nullptr && implementation_->held.own.contains(key);
+}
+
+std::vector<std::uint64_t> World::bodies() const {
+  std::vector<std::uint64_t> keys;
+  for (const auto& [key, body] : implementation().held.own) keys.push_back(key);
+  return keys;
+}
+
+std::size_t World::body_count() const noexcept {
+  return implementation_ == nullptr ? 0 : implementation_->held.own.size();
+}
+
+BodyId World::id(std::uint64_t key) const {
+  Implementation& i = implementation();
+  if (const auto shared = i.held.shared.find(key); shared != i.held.shared.end()) return shared->second;
+  return i.at(key).id;
+}
+
+const tact::World& World::local() const { return implementation().local; }
+
+}  // namespace tact::mpi

@@ -1,0 +1,178 @@
+// What a rank keeps of a world over many ranks, and the stages of its step, a file each.
+#pragma once
+
+#include <tact/mpi/world.h>
+
+#include <cstdint>
+#include <exception>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/state/world_parts.h"
+#include "mpi/channel.h"
+#include "mpi/held_bodies.h"
+#include "mpi/partition.h"
+
+namespace tact::mpi {
+
+/// What is kept of a pair whose host is here, until the guest is, too.
+struct WaitingPair {
+  std::uint64_t host = 0;
+  SavedPair pair;
+  std::uint64_t guest() const { return pair.key_a == host ? pair.key_b : pair.key_a; }
+  KeyPair keys() const { return {pair.key_a, pair.key_b}; }
+};
+
+/// What ended with a pair that is no candidate any more.
+struct EndedPair {
+  KeyPair keys;
+  bool touched = false;
+  std::vector<std::uint64_t> patches;
+};
+
+/// A contact that another rank found.
+struct Far {
+  BodyPair bodies;
+  FarContact found;
+};
+
+/// Who has what was found of a contact, and from whom.
+struct Sent {
+  int to = 0;
+  bool by_this_rank = true;
+};
+
+/// Writes the reports of a rank.
+class ReportBuilder {
+ public:
+  static void clear(Report& report);
+  static void clear(MotionReport& report);
+  static std::vector<Contact>& contacts(Report& report) { return report.contacts_; }
+  static std::vector<ContactEvent>& began(Report& report) { return report.began_; }
+  static std::vector<ContactEvent>& ended(Report& report) { return report.ended_; }
+  static std::vector<PatchEvent>& patch_events(Report& report) { return report.patch_events_; }
+  static Statistics& stats(Report& report) { return report.stats_; }
+  static std::vector<Impact>& impacts(MotionReport& report) { return report.impacts_; }
+  static double& first_time(MotionReport& report) { return report.first_time_; }
+  static Statistics& stats(MotionReport& report) { return report.stats_; }
+  static void sort(Report& report);
+  static void swap(Report& report, Report& other) {
+    Report last = std::move(report);
+    report = std::move(other);
+    other = std::move(last);
+  }
+};
+
+struct World::Implementation {
+  Implementation(MPI_Comm communicator, const Settings& given);
+
+  Settings settings;
+  Channel channel;
+  tact::World local;
+  WorldParts parts{local};
+  HeldBodies held;
+  Directory directory;
+  std::unique_ptr<Partition> partition;
+  BodyState body_state;
+
+  // What the next call together has to tell.
+  struct Exclusion {
+    std::uint64_t own = 0, other = 0;
+    bool wanted = false;
+    bool marks = true;  // whether both bodies count as moved: not if one is removed
+  };
+  std::vector<std::uint64_t> new_keys, gone_keys;
+  std::vector<Exclusion> exclusions;
+  std::map<std::uint64_t, std::vector<Subscriber>> removed;  // bodies of this rank, and who has copies
+  std::uint64_t shared_hash = 0;                             // of the bodies that every rank holds
+  std::map<std::uint64_t, int> new_owners;                   // that set_owner() asked for
+  std::vector<WaitingPair> waiting;
+  bool needs_near = false;  // bodies have other owners, or space is cut anew, on any rank
+  bool owners_changed = false;
+  std::int64_t moved_bodies = 0, moved_bytes = 0;  // since the last step
+  bool sends_all = false;                          // the next step looks at every pair
+  std::uint64_t step = 0;                          // how often copies were put to sleep or not
+
+  // Of the last step.
+  std::map<KeyPair, Sent> sent;  // contacts with ghosts, and the owners that have them
+  std::map<KeyPair, Far> far;    // contacts that other ranks found of bodies of this one
+  // Of this step: waiting pairs that are no candidates, and the owners of their bodies, or -1.
+  std::vector<EndedPair> ended_waiting;
+  std::map<std::uint64_t, int> owners_of_ended;
+  double imbalance = 1.0;
+  Report report;
+  Report next_report;
+  MotionReport motion_report;
+  Statistics stats;
+
+  // world.cpp
+  OwnBody& at(std::uint64_t key);
+  void note_change(OwnBody& body, bool has_moved);
+  void forget_ghost(std::uint64_t key);
+  void exclude(std::uint64_t own_key, std::uint64_t other, bool wanted, bool marks);
+  template <class Set>
+  void set(std::uint64_t key, const Set& set) {
+    OwnBody& body = at(key);
+    set(body.id);
+    note_change(body, false);
+  }
+
+  // agreement.cpp: what comes before each call together. Returns whether anything moved or came anywhere.
+  bool begin(bool for_step);
+  void update_directory();
+  void send_exclusions();
+
+  // near.cpp: which ranks have a host near each own body, by boxes or by those of ways.
+  void find_near(bool by_ways);
+  void cut_if_new();
+  std::vector<Site> sites() const;
+
+  // ghosts.cpp: copies of own bodies go to these ranks; may_sleep: those that are not near any more are put to sleep.
+  void send_ghosts(bool may_sleep);
+  void plan(std::uint64_t key, OwnBody& body, bool may_sleep, Outbox& outbox);
+  void write_whole(std::uint64_t key, const OwnBody& body, bool with_shape, ByteWriter& to);
+  void write_update(std::uint64_t key, const OwnBody& body, bool with_positions, ByteWriter& to);
+  bool take_leaving(std::span<const Message> messages);
+  bool take_coming(std::span<const Message> messages);
+  void take_updates(std::span<const Message> messages);
+  void put_ghost(std::uint64_t key, int owner, std::span<const std::byte> shape, std::span<const std::byte> rest);
+  void exclude_here(std::uint64_t key);
+  void place_waiting();
+  void find_owners_of_ended();
+  void end_step();
+  void drop_ghosts(bool keep_pairs);
+  void start_from_scratch();
+
+  // results.cpp: what was found of ghosts goes to their owners, and what others found comes.
+  BodyPair named(BodyId a, BodyId b) const;
+  BodyPair named(const EndedPair& pair) const;
+  int guest_owner(BodyId a, BodyId b) const;
+  void commit(const tact::Report& found);
+  void send_results(const tact::Report& found, Outbox& outbox, std::map<KeyPair, Sent>& next_sent);
+  void take_results(std::span<const Message> messages);
+  void build_report(const tact::Report& found);
+  void count_work(const tact::Report& found);
+  void finish_motion(const tact::MotionReport& found, Impacts wanted);
+
+  // moves.cpp
+  using Goals = std::map<std::uint64_t, int>;  // the new owners of own bodies
+  struct Leaving;
+  struct Arrival;
+  void rebalance();
+  void move(Goals goals);
+  Leaving pack(const Goals& goals);
+  Bytes pack(std::uint64_t key, int to, std::span<const SavedPair> pairs);
+  void unpack(const Parcel& parcel, std::vector<Arrival>& arrivals);
+  void ghost_becomes_own(std::uint64_t key);
+  void undo(std::span<const Arrival> arrivals);
+  void let_go(const Goals& goals, Leaving&& leaving);
+  void take_in(std::vector<Arrival>&& arrivals);
+
+  Statistics finished_stats();
+  std::uint64_t own_work() const;
+};
+
+}  // namespace tact::mpi
