@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "narrowphase/crossing/crossing.h"
 #include "narrowphase/numeric/angle.h"
 
 namespace tact::narrowphase {
@@ -85,6 +86,18 @@ int PartExitFinder::facet_at(const ScaledMesh& mesh, const NearestExit& exit) co
 }
 
 std::optional<NearestExit> PartExitFinder::find(const ScaledMesh& mesh, int vertex, int from) {
+  return find(mesh, vertex, from, [](const NearestExit&) { return true; });
+}
+
+std::optional<NearestExit> PartExitFinder::find_behind(const ScaledMesh& mesh, int vertex, int from) {
+  return find(mesh, vertex, from, [&](const NearestExit& exit) {
+    return exit.distance > kTouches && dot(mesh.unit_normal(exit.facet), exit.direction) > kFaces;
+  });
+}
+
+// Of those that count.
+template <class Counts>
+std::optional<NearestExit> PartExitFinder::find(const ScaledMesh& mesh, int vertex, int from, const Counts& counts) {
   const Vec3 v = mesh.position(vertex);
   seen_.resize(static_cast<std::size_t>(mesh.mesh.facet_count()));
   std::optional<NearestExit> best;
@@ -100,6 +113,7 @@ std::optional<NearestExit> PartExitFinder::find(const ScaledMesh& mesh, int vert
     if (reached_.size() == 1) within = exit->distance * (1.0 + kRounding) + kRounding;
     if (exit->distance > within) return;
     spread_.push_back(facet);
+    if (!counts(*exit)) return;
     const bool better = !best || exit->distance < best->distance ||
                         (exit->distance == best->distance && source < mesh.mesh.source_facet(best->facet));
     if (better) best = exit;

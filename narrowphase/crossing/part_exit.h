@@ -29,6 +29,8 @@ class PartExitFinder {
   /// common vertices, no farther from the vertex than that one and without it as a corner. Of the facets that have the
   /// place the one with the caller's least number. None if `from` has no area or has the vertex.
   std::optional<NearestExit> find(const ScaledMesh& mesh, int vertex, int from);
+  /// The same in those of these facets alone that the vertex is behind, and does not touch.
+  std::optional<NearestExit> find_behind(const ScaledMesh& mesh, int vertex, int from);
   const FacetsAround& around() const { return around_; }
 
   /// The normal of the surface at an exit: that of the facet; at an edge the sum of its facets' unit normals, in a
@@ -40,6 +42,8 @@ class PartExitFinder {
 
  private:
   int facet_at(const ScaledMesh& mesh, const NearestExit& exit) const;
+  template <class Counts>
+  std::optional<NearestExit> find(const ScaledMesh& mesh, int vertex, int from, const Counts& counts);
 
   FacetsAround around_;
   std::vector<char> seen_;    // by the caller's number

@@ -105,8 +105,10 @@ void SelfCrossing::find_inside() {
 std::optional<NearestExit> SelfCrossing::exit_from_inside(const ReachedVertex& reached) {
   if (!crossing_.a().cut.is_past(reached.source_vertex)) return {};
   const ScaledMesh mesh = crossing_.a().scaled();
-  const auto exit = exits_->find(mesh, reached.vertex, mesh.mesh.facet_of_source(reached.facet));
-  if (!exit || exit->distance <= kTouches || exits_->is_beside(mesh.mesh, reached.vertex, *exit)) return {};
+  const int from = mesh.mesh.facet_of_source(reached.facet);
+  auto exit = exits_->find(mesh, reached.vertex, from);
+  if (exit && exit->distance <= kTouches) exit = exits_->find_behind(mesh, reached.vertex, from);
+  if (!exit || exits_->is_beside(mesh.mesh, reached.vertex, *exit)) return {};
   if (!(dot(exits_->normal_at(mesh, *exit), exit->direction) > 0.0)) return {};
   return exit;
 }

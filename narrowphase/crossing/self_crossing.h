@@ -1,7 +1,8 @@
 // Which vertices of a mesh are past a part of it, and their exits.
 //
 // Of a closed mesh that has no border, those that are inside another part of it, decided exactly (vertex_winding.h):
-// what is inside leaves through the parts that its edges, or those of vertices connected to it inside, meet.
+// what is inside leaves through the parts that its edges, or those of vertices connected to it inside, meet. One that
+// touches such a part, as where two faces lie in one plane, leaves through those facets of it that it is behind.
 //
 // Otherwise a vertex is past a part if it is the end of an edge that meets a facet, and not on the side of
 // crossing_sides.h, decided exactly; or if it is connected to such a vertex by an edge that meets nothing, and on the

@@ -205,6 +205,32 @@ TEST(SelfGaps, OfAClosedBodyAreThoseOfVerticesInsideItsOtherParts) {
   }
 }
 
+// Two boxes of one body, end in end, their sides in the same planes: the vertices of both ends are inside, those too
+// that lie on the other's sides.
+TEST(SelfGaps, OfPartsWithFacesInOnePlaneAreThoseOfAllVerticesInside) {
+  const Mesh boxes[] = {gridded_box({-1, -0.5, -0.5}, {0.25, 0.5, 0.5}, 4),
+                        gridded_box({0, -0.5, -0.5}, {1.25, 0.5, 0.5}, 4)};
+  const Mesh both = merged(boxes);
+  for (const double margin : {0.0, 0.01}) {
+    CrossingWorld world(both, Surface::closed, margin);
+    std::map<int, double> gaps;
+    for (const ContactPoint& point : world.at(both)) {
+      if (point.gap >= 0.0) continue;
+      for (const auto& vertices : {point.a_vertices, point.b_vertices}) {
+        if (vertices[1] < 0) gaps.emplace(vertices[0], point.gap);
+      }
+    }
+    for (int v = 0; v < both.vertex_count(); ++v) {
+      const double end = v < boxes[0].vertex_count() ? 0.25 : 0.0;
+      const bool inside = both.positions(0, v) == end;
+      ASSERT_EQ(gaps.contains(v), inside) << both.positions.col(v).transpose();
+      if (inside) {
+        EXPECT_NEAR(gaps.at(v), -0.25, 1e-12);
+      }
+    }
+  }
+}
+
 TEST(SelfGaps, EqualBruteForceWithoutMemory) {
   int crossed = 0, edges = 0;
   for (std::uint64_t seed = 0; seed < 2; ++seed) {
