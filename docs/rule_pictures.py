@@ -276,6 +276,61 @@ def no_inside(file):
     picture.save(file)
 
 
+def minima_of_both(file):
+    """Two boxes over a floor in section: which points are minima of both surfaces."""
+    picture = Picture("Which points are minima of both surfaces")
+    ground = [(-4.0, -1.0), (-2.4, -1.0), (-0.8, -1.0), (0.8, -1.0), (2.4, -1.0), (4.0, -1.0)]
+    surface(picture, ground, BLUE)
+    turn, corner = math.radians(9), (1.4, -0.85)
+    leaning = [(corner[0] + x * math.cos(turn) - y * math.sin(turn), corner[1] + x * math.sin(turn) + y * math.cos(turn)) for x, y in ((0, 0), (1.7, 0), (1.7, 1.3), (0, 1.3))]
+    level = [(-3.3, -0.75), (-1.5, -0.75), (-1.5, 0.7), (-3.3, 0.7)]
+    for box in (level, leaning):
+        picture.path(box, SAND, INK, 2, True, 0.75)
+    for p, minimum in ((level[0], True), (level[1], True), (leaning[0], True), (leaning[1], False)):
+        picture.arrow(p, (p[0], -1.0), RED if minimum else TEAL, both=True, width=2)
+        picture.dot(p, RED if minimum else TEAL)
+    for p, q in (((-0.8, -1.0), level[1]), ((0.8, -1.0), leaning[0])):
+        picture.arrow(p, q, TEAL, width=2)
+        picture.dot(p, TEAL)
+    picture.text((-3.9, 1.9), "minimum of both surfaces", RED)
+    picture.text((-3.9, 1.55), "minimum for its vertex alone", TEAL)
+    picture.text((-2.4, -1.6), "floor of many facets, in section", INK)
+    picture.save(file)
+
+
+def curves(file):
+    """A sheet seen from above and two tubes through it: a closed curve, and one that ends on the border."""
+    picture = Picture("Intersection curves are closed or end on a border")
+    low, high = (-3.2, -1.7), (1.9, 1.7)
+    sheet = [low, (high[0], low[1]), high, (low[0], high[1])]
+    picture.path(sheet, BLUE, INK, 3, True, 0.3)
+    ring = lambda center, radius, n: [(center[0] + radius * math.cos(2 * math.pi * (i + 0.5) / n), center[1] + radius * math.sin(2 * math.pi * (i + 0.5) / n)) for i in range(n)]
+    closed = ring((-1.4, 0.1), 0.95, 10)
+    picture.path(closed, SAND, RED, 4, True, 0.6)
+    for p in closed:
+        picture.dot(p)
+    tube = ring((2.0, 0.2), 1.0, 10)
+    picture.path(tube, SAND, INK, 1, True, 0.6, "5 4")
+    inside = [p for p in tube if p[0] <= high[0]]
+    inside.sort(key=lambda p: math.atan2(p[1] - 0.2, p[0] - 2.0) % (2 * math.pi))
+    ends = []
+    for a, b in zip(tube, tube[1:] + tube[:1]):
+        if (a[0] - high[0]) * (b[0] - high[0]) < 0:
+            t = (high[0] - a[0]) / (b[0] - a[0])
+            ends.append((high[0], a[1] + t * (b[1] - a[1])))
+    ends.sort(key=lambda p: -p[1])
+    line = [ends[0]] + inside + [ends[1]]
+    picture.path(line, closed=False, stroke=RED, width=4)
+    for p in line:
+        picture.dot(p)
+    picture.text((-1.4, 0.05), "closed", RED, "middle")
+    picture.text((1.35, 0.15), "open", RED, "middle")
+    picture.text((3.05, 0.9), "tube", INK)
+    picture.text((2.1, -1.35), "border of the sheet", INK)
+    picture.text((-3.1, 1.4), "a: a sheet, from above", INK)
+    picture.save(file)
+
+
 def impact_time(file):
     """Distance over time of three pairs of features, and when each is an impact."""
     picture = Picture("When features with margins meet")
@@ -324,10 +379,11 @@ def main():
     drawn = (
         *(vertex_minima, smallest_feature, edge_pair),
         *(one_crossing, crossed_closed, thick_enough, way_apart, crossed_sheet, passed_edges),
-        *(winding_twice, crossed_itself, no_inside, impact_time, safe_step),
+        *(winding_twice, crossed_itself, no_inside, curves, impact_time, safe_step),
     )
     for draw in drawn:
         draw(folder / f"{draw.__name__}.svg")
+    minima_of_both(folder / "minima.svg")
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 
 #include <tact/report.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,13 +16,20 @@ struct PatchVertex {
   friend auto operator<=>(const PatchVertex&, const PatchVertex&) = default;
 };
 
+/// The ids of the points that span a patch; 0 fills up.
+struct Spanning {
+  std::array<std::uint64_t, 4> ids{};
+};
+
 struct PatchSet {
   std::vector<Patch> patches;
+  std::vector<Spanning> spanning;        // of each patch
   std::vector<int> facet_pairs, points;  // that the patches show
   std::vector<PatchVertex> vertices;     // sorted, each once
 
   void clear() {
     patches.clear();
+    spanning.clear();
     vertices.clear();
   }
 };

@@ -49,7 +49,8 @@ void PatchStage::find(std::span<const MovedPair> moved, const Bodies& bodies, co
                            .direction = from_eigen(record.contact.direction),
                            .reach = bodies.reach(record.a.index, record.b.index),
                            .facet_pairs = record.facet_pairs,
-                           .points = record.points},
+                           .points = record.points,
+                           .last = &record.patches->last},
                           set);
   });
 }
@@ -66,7 +67,8 @@ void PatchStage::find(std::span<SelfRecord* const> selves, const Bodies& bodies,
                            .direction = {0, 0, 1},
                            .reach = bodies.reach(slot, slot),
                            .facet_pairs = record.facet_pairs,
-                           .points = record.points},
+                           .points = record.points,
+                           .last = &record.patches.last},
                           set);
   });
 }

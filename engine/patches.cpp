@@ -19,6 +19,12 @@ using narrowphase::Triangle;
 
 // Points of a patch that span less than this part of its size span nothing more.
 constexpr double kSpansNothing = 1e-9;
+// Points that span a patch are kept while they span this part of what the best would, and are this part of its size at
+// most less deep: a body that trembles changes both by far less, and one that rolls or slides by more.
+constexpr double kNearlyAll = 0.875, kNearlyDeepest = 0x1p-10;
+// Normals that are no more than 5 degrees apart point the same way; and so many ways are told apart.
+constexpr double kSameWay = 0.9962;
+constexpr std::size_t kMostWays = 16;
 
 Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Eigen::Vector3d to_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
@@ -236,7 +242,9 @@ void PatchFinder::list_members(const PatchInput& input, int count, PatchSet& set
 void PatchFinder::find(const PatchInput& input, PatchSet& set) {
   const int count = number(input.facet_pairs, input.points, &input.a, &input.b);
   set.patches.assign(count, Patch{});
+  set.spanning.assign(count, Spanning{});
   list_members(input, count, set);
+  list_last_spanning(input.last);
   for (Patch& patch : set.patches) {
     places_.clear();
     if (patch.points.empty()) {
@@ -252,7 +260,7 @@ void PatchFinder::find(const PatchInput& input, PatchSet& set) {
     const Vec3 center = from_eigen(patch.point);
     flat_.clear();
     for (const Vec3& p : places_) flat_.push_back({scale * dot(u, p - center), scale * dot(v, p - center)});
-    if (!patch.points.empty()) span(input, patch, scale);
+    if (!patch.points.empty()) span(input, patch, set.spanning[&patch - set.patches.data()], scale);
     patch.area = area_of_hull(scale);
   }
 }
@@ -280,56 +288,132 @@ void PatchFinder::shape_by_points(const PatchInput& input, Patch& patch) {
   patch.depth = -least;
 }
 
+// A vertex that is no minimum of both surfaces counts if its normal is nearly one of theirs: the corners of a box that
+// is tilted do, vertices of a floor ahead of it, whose normals lean against it, do not. Where there are no minima, or
+// their normals point in many ways, all count.
+void PatchFinder::list_counting(const PatchInput& input, const Patch& patch) {
+  const auto point = [&](std::size_t i) -> const ContactPoint& { return input.points[patch.points[i]]; };
+  const bool of_itself = &input.a == &input.b;
+  const auto along_a_minimum = [&](std::size_t i) {
+    return std::ranges::any_of(minimum_normals_, [&](const Vec3& normal) {
+      const double along = dot(normal, from_eigen(point(i).normal));
+      return (of_itself ? std::abs(along) : along) >= kSameWay;
+    });
+  };
+  minimum_normals_.clear();
+  for (std::size_t i = 0; i < patch.points.size() && minimum_normals_.size() <= kMostWays; ++i) {
+    if (point(i).minimum && !along_a_minimum(i)) minimum_normals_.push_back(from_eigen(point(i).normal));
+  }
+  const bool all = minimum_normals_.empty() || minimum_normals_.size() > kMostWays;
+  counting_.clear();
+  for (std::size_t i = 0; i < patch.points.size(); ++i) {
+    if (all || point(i).minimum || along_a_minimum(i)) counting_.push_back(i);
+  }
+}
+
 // The deepest, the one farthest from it, the one farthest from the line of both, the one that adds most to the three.
-void PatchFinder::span(const PatchInput& input, Patch& patch, double scale) {
+PatchFinder::Spanned PatchFinder::find_spanning(const PatchInput& input, const Patch& patch, double scale) const {
   const auto farthest = [&](const auto& distance) {
-    std::size_t best = 0;
+    std::size_t best = counting_[0];
     double most = -1.0;
-    for (std::size_t i = 0; i < flat_.size(); ++i) {
+    for (const std::size_t i : counting_) {
       const double one = distance(flat_[i]);
       if (one > most) best = i, most = one;
     }
     return std::pair(best, most);
   };
-  const auto turn = [](PlanePoint p, PlanePoint q, PlanePoint r) {
-    return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
-  };
-  std::array<std::size_t, 4> chosen{};
+  Spanned chosen;
+  chosen.count = 1;
   // Of those that are the deepest but for rounding, the one farthest out.
-  double farthest_out = -1.0;
-  for (std::size_t i = 0; i < patch.points.size(); ++i) {
-    const double above = patch.depth + input.points[patch.points[i]].gap;
+  double least = std::numeric_limits<double>::infinity(), farthest_out = -1.0;
+  for (const std::size_t i : counting_) least = std::min(least, input.points[patch.points[i]].gap);
+  for (const std::size_t i : counting_) {
+    const double above = input.points[patch.points[i]].gap - least;
     const double out = narrowphase::length_of({flat_[i].x, flat_[i].y, 0.0});
-    if (scale * above <= kSpansNothing && out > farthest_out) chosen[0] = i, farthest_out = out;
+    if (scale * above <= kSpansNothing && out > farthest_out) chosen.place[0] = i, farthest_out = out;
   }
-  const PlanePoint p = flat_[chosen[0]];
-  std::size_t count = 1;
+  const PlanePoint p = flat_[chosen.place[0]];
   const auto [second, length] = farthest([&](PlanePoint r) {
     return narrowphase::length_of({r.x - p.x, r.y - p.y, 0.0});
   });
-  if (length > kSpansNothing) {
-    chosen[count++] = second;
-    const PlanePoint q = flat_[second];
-    const auto [third, area] = farthest([&](PlanePoint r) { return std::abs(turn(p, q, r)); });
-    if (area > kSpansNothing) {
-      chosen[count++] = third;
-      const PlanePoint r = flat_[third];
-      const double side = turn(p, q, r) > 0.0 ? 1.0 : -1.0;
-      const auto [fourth, added] = farthest([&](PlanePoint s) {
-        return std::max({-side * turn(p, q, s), -side * turn(q, r, s), -side * turn(r, p, s)});
-      });
-      if (added > kSpansNothing) chosen[count++] = fourth;
+  if (!(length > kSpansNothing)) return chosen;
+  chosen.place[chosen.count++] = second;
+  const PlanePoint q = flat_[second];
+  const auto [third, area] = farthest([&](PlanePoint r) { return std::abs(turn(p, q, r)); });
+  if (!(area > kSpansNothing)) return chosen;
+  chosen.place[chosen.count++] = third;
+  const PlanePoint r = flat_[third];
+  const auto [fourth, added] = farthest([&](PlanePoint s) { return area_beside(p, q, r, s); });
+  if (added > kSpansNothing) chosen.place[chosen.count++] = fourth;
+  return chosen;
+}
+
+// Twice the area of three or four points, or the length of two.
+double PatchFinder::area_spanned(const Spanned& spanned) const {
+  const auto at = [&](std::size_t k) { return flat_[spanned.place[k]]; };
+  if (spanned.count < 2) return 0.0;
+  if (spanned.count == 2) return narrowphase::length_of({at(1).x - at(0).x, at(1).y - at(0).y, 0.0});
+  const double three = std::abs(turn(at(0), at(1), at(2)));
+  return spanned.count == 3 ? three : three + std::max(0.0, area_beside(at(0), at(1), at(2), at(3)));
+}
+
+void PatchFinder::list_last_spanning(const PatchSet* last) {
+  last_spanning_.clear();
+  if (last == nullptr) return;
+  for (std::size_t k = 0; k < last->spanning.size(); ++k) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (last->spanning[k].ids[i] != 0) last_spanning_.push_back({last->spanning[k].ids[i], k, i});
     }
   }
-  for (std::size_t k = 0; k < count; ++k) patch.spanning[k] = patch.points[chosen[k]];
+  std::ranges::sort(last_spanning_, {}, [](const LastSpanning& one) { return std::pair(one.id, one.patch); });
+}
+
+// The points of the last step that are all in this patch, of the patch that was first; none if it has no such.
+PatchFinder::Spanned PatchFinder::find_last_spanning(const PatchInput& input, const Patch& patch,
+                                                     const PatchSet& last) {
+  last_spanned_.assign(last.spanning.size(), Spanned{});
+  for (const std::size_t i : counting_) {
+    const std::uint64_t id = input.points[patch.points[i]].id;
+    const auto same = std::ranges::equal_range(last_spanning_, id, {}, &LastSpanning::id);
+    for (const LastSpanning& one : same) {
+      last_spanned_[one.patch].place[one.place] = i;
+      ++last_spanned_[one.patch].count;
+    }
+  }
+  for (std::size_t k = 0; k < last_spanned_.size(); ++k) {
+    const auto& ids = last.spanning[k].ids;
+    const auto count = static_cast<std::size_t>(std::ranges::count_if(ids, [](std::uint64_t id) { return id != 0; }));
+    if (count > 0 && last_spanned_[k].count == count) return last_spanned_[k];
+  }
+  return {};
+}
+
+// Those of the last step are kept while as many would span the patch, they span nearly as much as the best of this step
+// and one of them is nearly as deep as the deepest.
+void PatchFinder::span(const PatchInput& input, Patch& patch, Spanning& spanning, double scale) {
+  list_counting(input, patch);
+  Spanned chosen = find_spanning(input, patch, scale);
+  if (!last_spanning_.empty()) {
+    const Spanned kept = find_last_spanning(input, patch, *input.last);
+    const auto least_gap = [&](const Spanned& spanned) {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < spanned.count; ++k)
+        least = std::min(least, input.points[patch.points[spanned.place[k]]].gap);
+      return least;
+    };
+    if (kept.count == chosen.count && area_spanned(kept) >= kNearlyAll * area_spanned(chosen) &&
+        scale * (least_gap(kept) - least_gap(chosen)) <= kNearlyDeepest)
+      chosen = kept;
+  }
+  for (std::size_t k = 0; k < chosen.count; ++k) {
+    patch.spanning[k] = patch.points[chosen.place[k]];
+    spanning.ids[k] = input.points[patch.spanning[k]].id;
+  }
 }
 
 // That of the convex hull of flat_ (Andrew's monotone chain, 1979).
 double PatchFinder::area_of_hull(double scale) {
   std::ranges::sort(flat_);
-  const auto turn = [](PlanePoint p, PlanePoint q, PlanePoint r) {
-    return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
-  };
   hull_.clear();
   for (int half = 0; half < 2; ++half) {
     const std::size_t first = hull_.size();

@@ -1,6 +1,9 @@
 // Where two bodies touch in several places, each place with a direction and depth of its own.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -17,6 +20,7 @@ struct PatchInput {
   double reach = 0.0;                      // the sum of the margins
   std::span<const FacetPair> facet_pairs;  // sorted
   std::span<ContactPoint> points;          // sorted
+  const PatchSet* last = nullptr;          // of the step before
 };
 
 /// Memory of a thread, used again.
@@ -40,6 +44,16 @@ class PatchFinder {
     double x, y;
     friend auto operator<=>(const PlanePoint&, const PlanePoint&) = default;
   };
+  /// Points of a patch, by their places in Patch::points.
+  struct Spanned {
+    std::array<std::size_t, 4> place{};
+    std::size_t count = 0;
+  };
+  /// A point that spanned a patch in the last step.
+  struct LastSpanning {
+    std::uint64_t id = 0;
+    std::size_t patch = 0, place = 0;  // which patch, and which of its four
+  };
   int root(int i);
   void join(int i, int k);
   void join_facet_pairs(std::span<const FacetPair> pairs);
@@ -49,7 +63,20 @@ class PatchFinder {
   void join_points_and_facets(std::span<const FacetPair> pairs, const Body* a, const Body* b);
   void list_members(const PatchInput& input, int count, PatchSet& set);
   void shape_by_points(const PatchInput& input, Patch& patch);
-  void span(const PatchInput& input, Patch& patch, double scale);
+  void list_counting(const PatchInput& input, const Patch& patch);
+  void list_last_spanning(const PatchSet* last);
+  Spanned find_spanning(const PatchInput& input, const Patch& patch, double scale) const;
+  Spanned find_last_spanning(const PatchInput& input, const Patch& patch, const PatchSet& last);
+  static double turn(PlanePoint p, PlanePoint q, PlanePoint r) {
+    return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+  }
+  /// Twice what s adds to the area of the triangle of the others.
+  static double area_beside(PlanePoint p, PlanePoint q, PlanePoint r, PlanePoint s) {
+    const double side = turn(p, q, r) > 0.0 ? 1.0 : -1.0;
+    return std::max({-side * turn(p, q, s), -side * turn(q, r, s), -side * turn(r, p, s)});
+  }
+  double area_spanned(const Spanned& spanned) const;
+  void span(const PatchInput& input, Patch& patch, Spanning& spanning, double scale);
   double area_of_hull(double scale);
 
   std::vector<int> parent_, number_, by_b_, begin_;
@@ -57,6 +84,10 @@ class PatchFinder {
   std::vector<PointAtVertex> at_vertex_;  // of the points at a vertex, one for each way that normals point
   std::vector<base::Vec3> places_;        // of the members of a patch
   std::vector<PlanePoint> flat_, hull_;
+  std::vector<std::size_t> counting_;        // of the points of a patch, those that may span it
+  std::vector<base::Vec3> minimum_normals_;  // of its minima, each way once
+  std::vector<LastSpanning> last_spanning_;  // sorted by ids
+  std::vector<Spanned> last_spanned_;        // of each patch of the last step, by places in this one
 };
 
 }  // namespace tact

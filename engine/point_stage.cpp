@@ -8,6 +8,7 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
+#include "narrowphase/contact_points/local_minimum.h"
 #include "narrowphase/mesh/prefetch.h"
 
 namespace tact {
@@ -209,7 +210,11 @@ void PointStage::publish(const Wanted& wanted, const Step& step, int threads, Wo
   base::parallel_for(work.blocks.size() - 1, 1, threads, [&](std::size_t block) {
     const std::size_t begin = work.blocks[block], end = work.blocks[block + 1];
     sort_by_the_rest(order.subspan(begin, end - begin), keys, found);
-    for (std::size_t i = begin; i < end; ++i) points[i] = to_point(found[keys.place(order[i])], key_a, key_b);
+    for (std::size_t i = begin; i < end; ++i) {
+      const FeaturePoint& one = found[keys.place(order[i])];
+      points[i] = to_point(one, key_a, key_b);
+      points[i].minimum = is_local_minimum(one, {&a.mesh, a.features.get()}, {&b.mesh, b.features.get()});
+    }
   });
   if (!step.settings.outputs.patches)
     work.patches.number({}, points, &a, &b);  // otherwise the patch stage numbers them, with the facet pairs
@@ -262,6 +267,8 @@ void PointStage::find_points(std::size_t i, const Step& step, Work& work) {
   const std::size_t own_end = threads == 1 ? wanted_.size() : i - i % step.grain + step.grain;
   if (!large && step.prefetches && i + 1 < std::min(own_end, wanted_.size())) look_ahead(i + 1, step, work);
   prepared.rules = find_crossing(step.bodies, prepared);
+  prepared.rules.a_is_solid = step.bodies.is_solid(prepared.wanted->a);
+  prepared.rules.b_is_solid = step.bodies.is_solid(prepared.wanted->b);
   if (large) {
     large_.put_aside(work.prepared[i % 2], prepared.cluster_pairs,
                      count_of_ranges(cost, threads, step.bodies.tuning()));

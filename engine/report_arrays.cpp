@@ -67,6 +67,7 @@ void copy_points(const Report& report, const PointArrays& arrays) {
   check_size(arrays.gaps, rows, 1, "gaps");
   check_size(arrays.ids, rows, 1, "ids");
   check_size(arrays.patch_ids, rows, 1, "patch_ids");
+  check_size(arrays.minima, rows, 1, "minima");
   std::size_t row = 0;
   for (const Contact& contact : report.contacts()) {
     const auto number = &contact - report.contacts().data();
@@ -82,6 +83,7 @@ void copy_points(const Report& report, const PointArrays& arrays) {
       put(arrays.gaps, row, point.gap);
       put(arrays.ids, row, point.id);
       put(arrays.patch_ids, row, patch_id(contact, point));
+      put(arrays.minima, row, point.minimum);
       ++row;
     }
   }

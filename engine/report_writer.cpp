@@ -45,6 +45,7 @@ void ReportWriter::fill(Contact& contact, const PairRecord& record, const BodyKe
   contact.points_ = record.points;
   contact.facet_pairs_ = record.facet_pairs;
   if (record.patches != nullptr) contact.patches_ = record.patches->now.patches;
+  if (record.curves != nullptr) contact.curves_ = record.curves->curves;
 }
 
 void ReportWriter::fill(Contact& contact, const SelfRecord& record, const BodyKeys& keys) {
@@ -56,6 +57,7 @@ void ReportWriter::fill(Contact& contact, const SelfRecord& record, const BodyKe
   contact.points_ = record.points;
   contact.point_limit_reached = record.point_limit_reached;
   contact.patches_ = record.patches.now.patches;
+  if (record.curves != nullptr) contact.curves_ = record.curves->curves;
 }
 
 template <class Record>

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/curve_set.h"
 #include "engine/patch_set.h"
 #include "narrowphase/crossing/self_crossing.h"
 
@@ -20,6 +21,7 @@ struct SelfRecord {
   std::vector<narrowphase::ClusterPair> may_meet, may_contact;  ///< see narrowphase::SelfClusters
   std::unique_ptr<narrowphase::SelfCrossing> crossing;          ///< made when facets meet for the first time
   PatchMemory patches;
+  std::unique_ptr<CurveSet> curves;  ///< null where no facets meet
   bool touching = false;             ///< see is_touching()
   bool point_limit_reached = false;  ///< see Contact
 };

@@ -63,7 +63,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
 
 // Stages 2 to 6, and what is found of their facet pairs.
 void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, Timer& timer, StepStats& stats) {
-  auto& [sweep, table, pairs, containment, points, selves, patches, knows_boxes] = *stages_;
+  auto& [sweep, table, pairs, containment, points, selves, curves, patches, knows_boxes] = *stages_;
   std::vector<std::uint32_t> slots(knows_boxes ? 0 : bodies.boxes().size());
   std::iota(slots.begin(), slots.end(), 0u);
   sweep.update(bodies.boxes(), bodies.filters(), knows_boxes ? bodies.changed() : slots, settings.threads,
@@ -85,6 +85,8 @@ void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, Timer& t
   }
   selves.run(bodies, settings, all_, device_);
   if (!selves.looked_at().empty()) stats.self_facets_ms = timer.lap();
+  find_curves(bodies, settings);
+  if (settings.outputs.curves) stats.curves_ms = timer.lap();
   if (settings.outputs.points && !selves.looked_at().empty()) {
     points.find(selves.looked_at(), bodies, settings, device_);
     stats.self_points_ms = timer.lap();
@@ -100,6 +102,17 @@ void Step::keep_last_answers() {
   stages_->selves.keep();
   stages_->pairs.forget_large();
   writer_.patch_events().clear();
+}
+
+void Step::find_curves(const Bodies& bodies, const Settings& settings) {
+  auto& [sweep, table, pairs, containment, points, selves, curves, patches, knows_boxes] = *stages_;
+  if (settings.outputs.curves) {
+    curves.find(table.moved(), bodies, settings);
+    curves.find(selves.looked_at(), bodies, settings);
+  } else if (all_) {
+    for (const MovedPair& pair : table.moved()) pair.record->curves.reset();
+    for (SelfRecord* const one : selves.looked_at()) one->curves.reset();
+  }
 }
 
 void Step::find_patches(PatchStage& patches, const Bodies& bodies, const Settings& settings) {

@@ -12,6 +12,7 @@
 #include "broadphase/sweep_and_prune.h"
 #include "engine/bodies/bodies.h"
 #include "engine/containment.h"
+#include "engine/curve_stage.h"
 #include "engine/pair/pair_table.h"
 #include "engine/pair_stage.h"
 #include "engine/patch_stage.h"
@@ -66,12 +67,14 @@ class Step {
     ContainmentStage containment;
     PointStage points;
     SelfStage selves;
+    CurveStage curves;
     PatchStage patches;
     bool knows_boxes = true;  // whether the sweep does, but for those that changed: not after restore()
   };
   void start_from_scratch();
   void keep_last_answers();
   void look_at_what_moved(Bodies& bodies, const Settings& settings, base::Timer& timer, StepStats& stats);
+  void find_curves(const Bodies& bodies, const Settings& settings);
   void find_patches(PatchStage& patches, const Bodies& bodies, const Settings& settings);
   void make_trace(TraceEvent::Time begin, TraceEvent::Time end, const Settings& settings);
 

@@ -104,6 +104,28 @@ void points_and_margins() {
   for (const tact::ContactPoint& point : contact.points()) expect(near(point.gap, 0.006), "the gap is 6 mm");
 }
 
+void curves() {
+  const Mesh sheet = square(2.0, 0.1), post = cube(0.5, {0.1, 0.2, 0.0});
+  // [part curves]
+  tact::Settings settings;
+  settings.outputs.curves = true;
+  tact::World world(settings);
+  world.add_body({.positions = sheet.positions, .facets = sheet.facets, .surface = tact::Surface::sheet});
+  world.add_body({.positions = post.positions, .facets = post.facets});
+  for (const tact::Contact& contact : world.detect().contacts()) {
+    for (const tact::IntersectionCurve& curve : contact.curves()) {
+      std::printf("%s curve of %zu points\n", curve.closed ? "a closed" : "an open", curve.points.size());
+      for (const tact::CurvePoint& point : curve.points)
+        std::printf("  %.2f %.2f %.2f\n", point.position.x(), point.position.y(), point.position.z());
+    }
+  }
+  // [part curves]
+  const tact::Contact contact = world.detect().contacts()[0];
+  expect(contact.curves().size() == 1 && contact.curves()[0].closed, "the cube makes one hole");
+  for (const tact::CurvePoint& point : contact.curves()[0].points)
+    expect(near(point.position.z(), 0.1), "the curve lies in the sheet");
+}
+
 void motion() {
   const Mesh sheet = square(2.0, 0.0);
   Mesh bullet = cube(0.1, {0, 0, 1.0});
@@ -185,6 +207,7 @@ int main() {
   direction_and_slab();
   zones_and_patches();
   points_and_margins();
+  curves();
   motion();
   queries();
   saved_states();

@@ -40,6 +40,7 @@ struct alignas(64) Body {
   bool has_inside = true;  // it was added as closed, and is: see encloses.h; otherwise it is taken as a sheet
   std::uint64_t external_id = 0;
   bool self_contact = false;
+  bool is_outward = false;  // its facets were counter-clockwise seen from outside when it was added: by its volume
   std::uint64_t birth = 0;  // a hash of the mesh and slot as they were when it was added, and of the step
   std::unique_ptr<const narrowphase::Features> features = nullptr;           // made when points are first requested
   std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors = nullptr;  // when it is first held against itself
@@ -102,6 +103,11 @@ class Bodies {
   // The mesh of a body with its features, which make_features() made.
   narrowphase::FeaturedMesh featured(std::uint32_t slot) const {
     return {&in_slot(slot).mesh, in_slot(slot).features.get()};
+  }
+  // Whether a body has an inside: it is closed in fact, and turned outwards. After make_features().
+  bool is_solid(std::uint32_t slot) const {
+    const Body& body = in_slot(slot);
+    return body.surface == Surface::closed && body.is_outward && body.features->is_closed();
   }
   // Whether a body has other positions than in the last step; and the body with its way since.
   bool on_its_way(std::uint32_t slot) const { return slots_[slot].begin != Begin::here; }

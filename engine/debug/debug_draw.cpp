@@ -24,6 +24,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kCircleSides = 24;
+constexpr float kFaint = 0.3f;
 constexpr double kArrowHead = 0.15;  // of the arrow's length
 
 struct Mesh {
@@ -101,6 +102,9 @@ class Drawing {
     if (options_.points) {
       for (const ContactPoint& point : contact.points()) draw_point(contact, point);
     }
+    if (options_.curves) {
+      for (const IntersectionCurve& curve : contact.curves()) draw_curve(curve);
+    }
   }
 
   // The direction begins in the middle of what the two boxes have in common.
@@ -157,8 +161,17 @@ class Drawing {
     const Vector3d on_a = place(mesh_of(contact.a), point.a_vertices, point.a_weights);
     const Vector3d on_b = place(mesh_of(contact.b), point.b_vertices, point.b_weights);
     const double reach = world_.margin(contact.a) + world_.margin(contact.b);
-    drawer_.line(on_a, on_b, options_.point);
-    draw_arrow(on_a, std::max(reach, std::abs(point.gap)) * point.normal, options_.point);
+    DebugColor color = options_.point;
+    if (!point.minimum) color.alpha *= kFaint;
+    drawer_.line(on_a, on_b, color);
+    draw_arrow(on_a, std::max(reach, std::abs(point.gap)) * point.normal, color);
+  }
+
+  void draw_curve(const IntersectionCurve& curve) {
+    const auto& points = curve.points;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      drawer_.line(points[i].position, points[i + 1].position, options_.curve);
+    if (curve.closed) drawer_.line(points.back().position, points.front().position, options_.curve);
   }
 
   void draw_surface(const Mesh& mesh) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/curve_set.h"
 #include "engine/patch_set.h"
 #include "narrowphase/depth/star_surface.h"
 #include "narrowphase/hull/gjk.h"
@@ -54,6 +55,7 @@ struct alignas(64) PairRecord {
   std::vector<ContactPoint> points;                       ///< of pairs in contact, sorted
   std::vector<ContactPoint> last_points;                  ///< of the step before
   std::unique_ptr<PatchMemory> patches;                   ///< made when there are any
+  std::unique_ptr<CurveSet> curves;                       ///< of the last step; null where no facets meet
   std::unique_ptr<narrowphase::SurfaceHistory> surfaces;  ///< of bodies that lie on each other, once
   std::unique_ptr<narrowphase::SurfaceShape> surface;     ///< where the search for the smallest separation ended, once
 };

@@ -160,6 +160,7 @@ PairRecord& PairTable::new_record(BodyId a, BodyId b) {
   record.facet_pairs.clear();
   record.points.clear();
   record.surfaces.reset();
+  record.curves.reset();
   return record;
 }
 

@@ -24,7 +24,8 @@
 //             version 5, as is the motion `rigid`
 //   failed    u8 15; after a detect that threw, since version 6
 //   key       u8 16, u64: the key of the body that is added next, if one was given; this and the next since version 6
-//   restore   u8 17, u64 bytes, and these: those of World::restore()
+//   curves    u8 18; after settings whose Outputs::curves is set, which a record of settings alone unsets; since
+//   version 6 restore   u8 17, u64 bytes, and these: those of World::restore()
 //
 // A text is u32 bytes and these; a body is u32 index and u32 generation of its BodyId; enumerations are numbered in the
 // order of their values. Outputs::trace is left out: it changes no answer. The records stand in the order of the calls;
@@ -56,8 +57,9 @@ enum class RecordKind : std::uint8_t {
   poses = 14,
   failed = 15,
   key = 16,
-  restore = 17
+  restore = 17,
+  curves = 18
 };
-inline constexpr RecordKind kLastRecordKind = RecordKind::restore;
+inline constexpr RecordKind kLastRecordKind = RecordKind::curves;
 
 }  // namespace tact::recording

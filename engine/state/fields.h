@@ -90,8 +90,8 @@ struct StateFields {
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Settings>& settings) {
     auto& [threads, accuracy, direction, gjk_tolerance, iteration_limit, outputs, executor, on_message] = settings;
-    auto& [zones, patches, points, trace] = outputs;
-    archive(accuracy, direction, gjk_tolerance, iteration_limit, zones, patches, points, trace);
+    auto& [zones, patches, points, curves, trace] = outputs;
+    archive(accuracy, direction, gjk_tolerance, iteration_limit, zones, patches, points, curves, trace);
   }
 
   template <class Archive>
@@ -105,8 +105,9 @@ struct StateFields {
   // By others: mesh and begin, as a MeshState; id. Dropped: features and neighbors.
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Body>& body) {
-    auto& [mesh, id, name, surface, has_inside, external_id, self_contact, birth, features, neighbors, begin] = body;
-    archive(name, surface, has_inside, external_id, self_contact, birth);
+    auto& [mesh, id, name, surface, has_inside, external_id, self_contact, is_outward, birth, features, neighbors, begin] =
+        body;
+    archive(name, surface, has_inside, external_id, self_contact, is_outward, birth);
   }
 
   // By others: body, rigid and begin, as a MeshState; fixed, as part of the filter. Dropped: the rest.
@@ -165,7 +166,7 @@ struct StateFields {
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Contact>& contact) {
     auto& [a, b, direction, depth, containment, source, iterations, limit_reached, point_limit_reached, plane_a,
-           plane_b, zone_a, zone_b, kept_facets_a, kept_facets_b, facet_pairs, patches, points, key_a, key_b,
+           plane_b, zone_a, zone_b, kept_facets_a, kept_facets_b, facet_pairs, patches, points, curves, key_a, key_b,
            touching] = contact;
     archive(direction, depth, containment, source, iterations, limit_reached, point_limit_reached, plane_a, plane_b,
             zone_a, zone_b, kept_facets_a, kept_facets_b);
@@ -179,8 +180,8 @@ struct StateFields {
 
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, ContactPoint>& point) {
-    auto& [kind, patch, a_vertices, b_vertices, a_weights, b_weights, normal, gap, id] = point;
-    archive(kind, patch, a_vertices, b_vertices, a_weights, b_weights, normal, gap, id);
+    auto& [kind, patch, a_vertices, b_vertices, a_weights, b_weights, normal, gap, id, minimum] = point;
+    archive(kind, patch, a_vertices, b_vertices, a_weights, b_weights, normal, gap, id, minimum);
   }
 
   template <class Archive>
@@ -197,11 +198,17 @@ struct StateFields {
   }
 
   template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, Spanning>& spanning) {
+    auto& [ids] = spanning;
+    archive(ids);
+  }
+
+  template <class Archive>
   static void visit(Archive& archive, Visited<Archive, PatchSet>& set) {
-    auto& [patches, facet_pairs, points, vertices] = set;
+    auto& [patches, spanning, facet_pairs, points, vertices] = set;
     archive(patches);
     if (patches.empty()) return;  // the lists are old
-    archive(facet_pairs, points, vertices);
+    archive(spanning, facet_pairs, points, vertices);
     visit_members(archive, patches, facet_pairs, &Patch::facet_pairs);
     visit_members(archive, patches, points, &Patch::points);
   }
@@ -213,11 +220,31 @@ struct StateFields {
     archive(now);
   }
 
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, CurvePoint>& point) {
+    auto& [position, fraction, edge, facet, facet_pair, edge_of_b] = point;
+    archive(position, fraction, edge, facet, facet_pair, edge_of_b);
+  }
+
+  // By the set: the points.
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, IntersectionCurve>& curve) {
+    auto& [closed, points] = curve;
+    archive(closed);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, CurveSet>& set) {
+    auto& [curves, points] = set;
+    archive(curves, points);
+    visit_members(archive, curves, points, &IntersectionCurve::points);
+  }
+
   // By others: a and b. Of the step before: was_in_contact, last_points. Dropped: times, surfaces.
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, PairRecord>& record) {
     auto& [a, b, hulls_overlap, near, was_in_contact, touching, history, times, slab_lower, slab_upper, face, contact,
-           facet_pairs, points, last_points, patches, surfaces, surface] = record;
+           facet_pairs, points, last_points, patches, curves, surfaces, surface] = record;
     archive(hulls_overlap, near, touching, history);
     if (history.has_surface) archive.pointee(surface);
     if (hulls_overlap) archive(slab_lower, slab_upper, face);
@@ -225,14 +252,16 @@ struct StateFields {
     bool has_patches = patches != nullptr && !patches->now.patches.empty();
     archive(has_patches);
     if (has_patches) archive.pointee(patches);
+    visit_curves(archive, curves);
   }
 
   // By others: body. Of the step before: last_points. Dropped: the cluster pairs and the crossing.
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, SelfRecord>& record) {
-    auto& [body, facet_pairs, points, last_points, may_meet, may_contact, crossing, patches, touching,
+    auto& [body, facet_pairs, points, last_points, may_meet, may_contact, crossing, patches, curves, touching,
            point_limit_reached] = record;
     archive(facet_pairs, points, patches, touching, point_limit_reached);
+    visit_curves(archive, curves);
   }
 
   // One body that there is; and into a slot that holds none. Errors: bad_state, and those of World::add_body().
@@ -274,19 +303,26 @@ struct StateFields {
   static void write_selves(const SelfStage& selves, const Bodies& bodies, StateWriter& writer);
   static void read_selves(StateReader& reader, const Bodies& bodies, SelfStage& selves);
 
-  // How many members of a list each patch has.
-  template <class Archive, class Patches, class Members>
-  static void visit_members(Archive& archive, Patches& patches, Members& members, std::span<const int> Patch::*shown) {
+  // How many members of a list each patch, or each curve, has.
+  template <class Archive, class Sets, class Members, class Set, class Member>
+  static void visit_members(Archive& archive, Sets& sets, Members& members, std::span<const Member> Set::*shown) {
     std::size_t begin = 0;
-    for (auto& patch : patches) {
-      auto count = static_cast<std::uint64_t>((patch.*shown).size());
+    for (auto& set : sets) {
+      auto count = static_cast<std::uint64_t>((set.*shown).size());
       archive(count);
       if constexpr (Archive::kReads) {
-        archive.check(count <= members.size() - begin, "a patch has more members than there are");
-        patch.*shown = std::span(members).subspan(begin, count);
+        archive.check(count <= members.size() - begin, "there are fewer members than one has");
+        set.*shown = std::span(members).subspan(begin, count);
       }
       begin += count;
     }
+  }
+
+  template <class Archive, class Curves>
+  static void visit_curves(Archive& archive, Curves& curves) {
+    bool has_curves = curves != nullptr;
+    archive(has_curves);
+    if (has_curves) archive.pointee(curves);
   }
 };
 

@@ -61,6 +61,7 @@ class Checks {
   }
 
   void patches(const PatchSet& set, std::size_t facet_pairs, std::size_t points) const {
+    reader_.check(set.spanning.size() == set.patches.size(), "patches are spanned by nothing");
     for (const int i : set.facet_pairs) reader_.check(is_below(i, facet_pairs), "a facet pair of a patch is not there");
     for (const int i : set.points) reader_.check(is_below(i, points), "a point of a patch is not there");
     for (const Patch& patch : set.patches) {
@@ -69,6 +70,12 @@ class Checks {
     for (const PatchVertex& vertex : set.vertices)
       reader_.check(is_below(vertex.patch, set.patches.size()), "a patch is not there");
     reader_.check(std::ranges::is_sorted(set.vertices), "vertices of patches are not sorted");
+  }
+
+  void curves(const CurveSet& set, std::size_t facet_pairs) const {
+    for (const CurvePoint& point : set.points)
+      reader_.check(point.facet_pair == -1 || is_below(point.facet_pair, facet_pairs),
+                    "a facet pair of a curve is not there");
   }
 
  private:
@@ -111,6 +118,7 @@ void check_pair(const StateReader& reader, const ClusteredMesh& a, const Cluster
   checks.facet_pairs(record.facet_pairs);
   checks.points(record.points);
   if (record.patches != nullptr) checks.patches(record.patches->now, record.facet_pairs.size(), record.points.size());
+  if (record.curves != nullptr) checks.curves(*record.curves, record.facet_pairs.size());
   record.contact.a = record.a;
   record.contact.b = record.b;
 }
@@ -123,6 +131,7 @@ void read_self(StateReader& reader, const ClusteredMesh& mesh, SelfRecord& recor
   checks.facet_pairs(record.facet_pairs);
   checks.points(record.points);
   checks.patches(record.patches.now, record.facet_pairs.size(), record.points.size());
+  if (record.curves != nullptr) checks.curves(*record.curves, record.facet_pairs.size());
 }
 
 void write_gone(bool touching, const PatchSet* patches, StateWriter& writer) {

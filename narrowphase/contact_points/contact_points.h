@@ -17,6 +17,7 @@ struct Crossing;
 struct NearRules {
   const Crossing* crossing = nullptr;  // if they cross: what is past the other surface has no such points
   Vec3 touching{};  // if they do not: where a gap is zero, the normal is turned along it; zero: it stays as it is
+  bool a_is_solid = false, b_is_solid = false;  // encloses an inside, through which no point leads: see own_inside.h
 };
 
 class ContactPointSearch {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <utility>
 
+#include "narrowphase/contact_points/own_inside.h"
 #include "narrowphase/crossing/crossing_points.h"
 #include "narrowphase/distance/edge_edge.h"
 #include "narrowphase/distance/facet_border.h"
@@ -121,6 +122,9 @@ void PointFinder::look_at_border(const VertexAndFacet& one) {
 void PointFinder::add_vertex_point(const VertexAndFacet& pair, std::span<const int> feature, const Nearest& nearest) {
   const auto& [m, surface, kind, vertex, facet, v, corner] = pair;
   const Vec3 way = nearest.normal == Vec3{} ? -facet_normal(surface, facet) : nearest.normal;
+  const bool of_a = kind == FeaturePair::vertex_facet;
+  const std::span<const int> own(&vertex, 1);
+  if (nearest.distance > 0.0 && runs_inside(of_a ? own : feature, of_a ? feature : own, of_a ? way : -way)) return;
   if (same_) {
     if (rules_.crossing != nullptr && leads_back(*rules_.crossing, m.mesh.source_vertex(vertex), way)) return;
     const Vec3 place = v + nearest.distance * nearest.normal;
@@ -182,8 +186,17 @@ void PointFinder::add_edge_point(int edge_e, const EdgeEnds& at_e, int edge_f, c
     }
     point.normal = point.normal + Vec3{};  // the sign of a zero would tell which edge was the first
   }
-  if (rules_.crossing == nullptr) return add(point);
+  if (rules_.crossing == nullptr) {
+    if (!(nearest.distance > 0.0 && runs_inside(e, f, nearest.normal))) add(point);
+    return;
+  }
   if (const auto other = point_of_near_edges(*rules_.crossing, point, ways_)) add(*other);
+}
+
+// Whether the way from a to b along the normal begins or ends inside the body that it leaves or reaches.
+bool PointFinder::runs_inside(std::span<const int> of_a, std::span<const int> of_b, Vec3 normal) const {
+  return (rules_.a_is_solid && leads_inside({&a_.mesh, &a_.features}, of_a, normal)) ||
+         (rules_.b_is_solid && leads_inside({&b_.mesh, &b_.features}, of_b, -normal));
 }
 
 // What touches in a vertex or an edge has no side of its own.

@@ -56,6 +56,7 @@ class PointFinder {
   void add_edges(int e, int f, bool in_one_cluster);
   void look_at_edges(int e, int f);
   void add_edge_point(int edge_e, const EdgeEnds& at_e, int edge_f, const Nearest& nearest);
+  bool runs_inside(std::span<const int> of_a, std::span<const int> of_b, Vec3 normal) const;
   void add(FeaturePoint point);
 
   const ScaledMesh a_, b_;

@@ -15,18 +15,7 @@ constexpr int kMostTurns = 16;
 
 }  // namespace
 
-bool is_closed(const FeaturedMesh& m) {
-  std::vector<int> balance(static_cast<std::size_t>(m.features->edge_count()));
-  for (int f = 0; f < m.mesh->facet_count(); ++f) {
-    const Corners& corners = m.features->corners(f);
-    for (int k = 0; k < 3; ++k) {
-      const int edge = m.features->facet_edge(f, k);
-      if (edge < 0) continue;
-      balance[edge] += m.features->edge(edge)[0] == corners[static_cast<std::size_t>(k)] ? 1 : -1;
-    }
-  }
-  return std::ranges::all_of(balance, [](int sum) { return sum == 0; });
-}
+bool is_closed(const FeaturedMesh& m) { return m.features->is_closed(); }
 
 bool VertexWinding::is_inside(const ScaledMesh& mesh, int vertex, Vec3 outward) {
   if (outward == Vec3{}) return false;

@@ -122,9 +122,22 @@ struct FineCrossing {
         from(double_double_difference(t[0], segment[0])),
         way(double_double_difference(segment[1], segment[0])) {}
 
-  // When the segment crosses the plane, if it is certain how that is rounded. With the largest components of the four
-  // vectors the normal is off by 2^-100 of two, products with it by 2^-97 of three of them.
+  // A number and a bound of its error.
+  struct Bounded {
+    DoubleDouble value;
+    double error = 0.0;
+  };
+
+  // When the segment crosses the plane, if it is certain how that is rounded.
   std::optional<DoubleDouble> time() const {
+    const auto bounded = bounded_time();
+    if (!bounded) return {};
+    return bounded->value;
+  }
+
+  // The same with its error. With the largest components of the four vectors the normal is off by 2^-100 of two,
+  // products with it by 2^-97 of three of them.
+  std::optional<Bounded> bounded_time() const {
     const double sides = largest_of(p) * largest_of(q), size = sides * largest_of(from),
                  size_of_way = sides * largest_of(way);
     if (!(sides > kVanishing && size > kVanishing && size_of_way > kVanishing)) return {};
@@ -133,7 +146,7 @@ struct FineCrossing {
     const double error =
         std::abs(time.head) * (0x1p-96 * (size / std::abs(height.head) + size_of_way / std::abs(slope.head)) + 0x1p-98);
     if (!rounds_to_head(time, error)) return {};
-    return time;
+    return Bounded{time, error};
   }
 
   // The weights of the triangle's corners at a time.
@@ -142,6 +155,35 @@ struct FineCrossing {
     return nearest_weights(scale * heads(time * way - from), {Vec3{}, scale * heads(p), scale * heads(q)});
   }
 };
+
+// One coordinate of the place at a time, if it is certain how that is rounded: the way is exact, its product with the
+// time off by 2^-102 of it, the sum by 2^-104 of both.
+std::optional<double> coordinate_at(const FineCrossing::Bounded& time, double from, DoubleDouble way) {
+  if (way.head == 0.0) return from;
+  const DoubleDouble gone = time.value * way, at = DoubleDouble{from} + gone;
+  const double error = 2.0 * std::abs(way.head) * time.error + 0x1p-100 * (std::abs(gone.head) + std::abs(from));
+  if (!rounds_to_head(at, error)) return {};
+  return at.head;
+}
+
+// (from * whole + way * part) / whole in units of 2^(unit - 1075), rounded.
+template <int A, int B, int C>
+double rounded_place(const WideInteger<A>& from, const WideInteger<B>& way, const WideInteger<C>& part,
+                     const WideInteger<C>& whole, int unit) {
+  const auto sum = from * whole + way * part;
+  if (sum.sign() == 0) return 0.0;
+  const auto above = magnitude(sum);
+  const auto below = magnitude(whole);
+  const int bits = above.bit_count(), bits_below = below.bit_count();
+  const double near =
+      std::ldexp(above.times_power(bits) / below.times_power(bits_below), bits - bits_below + unit - 1075);
+  const double size = rounded(near, [&](double x, double y) {
+    const SumOfNeighbors neighbors(x, y);
+    const auto of_sum = power_of_two<34>(std::max(unit - neighbors.unit, 0) + 1) * above;
+    return (of_sum - power_of_two<34>(std::max(neighbors.unit - unit, 0)) * (neighbors.in_units_of_it * below)).sign();
+  });
+  return sum.sign() * whole.sign() < 0 ? -size : size;
+}
 
 double exact_time(const WideTriangle& wide) {
   const auto& [p, q, r] = wide.corner;
@@ -163,6 +205,30 @@ CommonPlace first_place(const Segment& segment, const Triangle& t) {
   if (volume[0].sign() == 0 && volume[1].sign() == 0 && volume[2].sign() == 0)
     return place_in_plane(segment, t, wide, beside);
   return {exact_time(wide), shares(volume)};
+}
+
+PlaceOfSegment place_in_facet(const Segment& segment, const Triangle& t) {
+  const Vec3& from = segment[0];
+  const FineCrossing fine(segment, t);
+  if (const auto time = fine.bounded_time()) {
+    const auto x = coordinate_at(*time, from.x, fine.way.x), y = coordinate_at(*time, from.y, fine.way.y),
+               z = coordinate_at(*time, from.z, fine.way.z);
+    if (x && y && z) return {time->value.head, {*x, *y, *z}};
+  }
+  const WideTriangle wide = in_integers(segment, t);
+  const auto& [p, q, r] = wide.corner;
+  const auto normal = cross(q - p, r - p);
+  const auto part = dot(normal, p), whole = dot(normal, wide.way);
+  if (whole.sign() == 0) {
+    const double time = first_place(segment, t).time;
+    return {time, time == 1.0 ? segment[1] : from + time * (segment[1] - from)};
+  }
+  int unit = std::min(lowest_bit(from), lowest_bit(segment[1]));
+  for (const Vec3& corner : t) unit = std::min(unit, lowest_bit(corner));
+  const auto begin = in_units<33>(from, unit);
+  return {rounded_quotient(magnitude(part), magnitude(whole)),
+          {rounded_place(begin.x, wide.way.x, part, whole, unit), rounded_place(begin.y, wide.way.y, part, whole, unit),
+           rounded_place(begin.z, wide.way.z, part, whole, unit)}};
 }
 
 double crossing_time(const Segment& segment, const Triangle& triangle) {

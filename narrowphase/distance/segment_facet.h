@@ -26,6 +26,15 @@ inline int longest_axis(Vec3 a) {
 /// the place that they give to 2^-48 of the triangle's size.
 CommonPlace first_place(const Segment& segment, const Triangle& triangle);
 
+/// A place of a segment in a triangle.
+struct PlaceOfSegment {
+  double time = 0.0;  // as a part of the segment, the exact one, rounded once
+  Vec3 position;      // each coordinate the exact one, rounded once; in the triangle's plane it is that of the time
+};
+
+/// The place of first_place().
+PlaceOfSegment place_in_facet(const Segment& segment, const Triangle& triangle);
+
 /// The time of first_place() alone; the segment does not lie in the triangle's plane.
 double crossing_time(const Segment& segment, const Triangle& triangle);
 

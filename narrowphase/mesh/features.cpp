@@ -41,6 +41,7 @@ Features::Features(const ClusteredMesh& mesh) {
   for (int f = 0; f < mesh.facet_count(); ++f) corners_.push_back(mesh.corners(f));
   find_edges(mesh);
   find_neighbors(mesh);
+  find_facets_at(mesh);
   find_firsts(mesh);
   find_repeated(mesh);
   find_parts();
@@ -71,11 +72,14 @@ void Features::find_edges(const ClusteredMesh& mesh) {
     edge_corner_[1].push_back(cluster.corner[to][facet]);
     first_facet_of_edge_.push_back(sides[begin].facet);
     ++edge_begin_[static_cast<std::size_t>(sides[begin].facet / kClusterSize) + 1];
+    int balance = 0;
     for (std::size_t i = begin; i < sides.size() && sides[i].vertices == sides[begin].vertices; ++i) {
       const auto [_, f, k] = sides[i];
+      balance += corners_[f][static_cast<std::size_t>(k)] == edges_.back()[0] ? 1 : -1;
       facet_edges_[3 * static_cast<std::size_t>(f) + static_cast<std::size_t>(k)] = edge;
       opposite_.push_back(corners_[f][(k + 2) % 3]);
     }
+    is_closed_ &= balance == 0;
     opposite_begin_.push_back(static_cast<int>(opposite_.size()));
   }
   for (std::size_t c = 1; c < edge_begin_.size(); ++c) edge_begin_[c] += edge_begin_[c - 1];
@@ -99,6 +103,24 @@ void Features::find_neighbors(const ClusteredMesh& mesh) {
     neighbors_[next[v]++] = w;
     neighbors_[next[w]++] = v;
   }
+}
+
+// A facet that names a vertex twice is at it once.
+void Features::find_facets_at(const ClusteredMesh& mesh) {
+  facets_begin_.assign(static_cast<std::size_t>(mesh.vertex_count()) + 1, 0);
+  const auto for_each_corner = [&](const auto& visit) {
+    for (int f = 0; f < mesh.facet_count(); ++f) {
+      const Corners& c = corners_[f];
+      visit(c[0], f);
+      if (c[1] != c[0]) visit(c[1], f);
+      if (c[2] != c[0] && c[2] != c[1]) visit(c[2], f);
+    }
+  };
+  for_each_corner([&](int vertex, int) { ++facets_begin_[static_cast<std::size_t>(vertex) + 1]; });
+  for (std::size_t v = 1; v < facets_begin_.size(); ++v) facets_begin_[v] += facets_begin_[v - 1];
+  facets_.resize(static_cast<std::size_t>(facets_begin_.back()));
+  std::vector<int> next(facets_begin_.begin(), facets_begin_.end() - 1);
+  for_each_corner([&](int vertex, int f) { facets_[static_cast<std::size_t>(next[vertex]++)] = f; });
 }
 
 // In the order of the caller's numbers: a point in an edge or a vertex that has no direction of its own takes the

@@ -45,6 +45,10 @@ class Features {
   int facet_edge(int facet, int k) const {
     return facet_edges_[3 * static_cast<std::size_t>(facet) + static_cast<std::size_t>(k)];
   }
+  /// The facets that have a vertex, each once.
+  std::span<const int> facets_at(int vertex) const { return part(facets_, facets_begin_, vertex); }
+  /// Whether facets go along every edge as often one way as the other.
+  bool is_closed() const { return is_closed_; }
   /// Among the facets that have an edge or a vertex, the first one.
   int first_facet_of_edge(int edge) const { return first_facet_of_edge_[edge]; }
   int first_facet_of_vertex(int vertex) const { return first_facet_of_vertex_[vertex]; }
@@ -72,6 +76,7 @@ class Features {
   void find_repeated(const ClusteredMesh& mesh);
   void find_neighbors(const ClusteredMesh& mesh);
   void find_firsts(const ClusteredMesh& mesh);
+  void find_facets_at(const ClusteredMesh& mesh);
   void find_parts();
 
   std::vector<EdgeVertices> edges_;
@@ -83,8 +88,10 @@ class Features {
   std::vector<int> first_facet_of_edge_, first_facet_of_vertex_;
   std::vector<std::uint8_t> firsts_of_facet_;
   std::vector<int> neighbors_, neighbors_begin_;
+  std::vector<int> facets_, facets_begin_;
   std::vector<int> one_of_each_part_;
   std::vector<int> vertex_of_source_;
+  bool is_closed_ = true;
 };
 
 /// A mesh and its features.

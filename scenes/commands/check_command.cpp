@@ -319,6 +319,8 @@ void add_check_command(CLI::App& program) {
                     "Vertices with equal positions, in every frame, are one: for meshes with a vertex a corner");
   command->add_flag("--points", options->outputs.points,
                     "Find the contact points: where surfaces are nearest within their margins (in --json)");
+  command->add_flag("--curves", options->outputs.curves,
+                    "Find the curves in which surfaces cross, as lines of points in order (in --json)");
   command->add_flag("--impacts", options->impacts,
                     "Find what meets between a frame and the next, every vertex moving straight (all in --json)");
   command->add_flag("--surfaces", options->surfaces,

@@ -71,6 +71,7 @@ Json point_json(const ContactPoint& point) {
           {"b_weights", first_of(point.b_weights, of_b)},
           {"normal", to_json(point.normal)},
           {"gap", point.gap},
+          {"minimum", point.minimum},
           {"patch", point.patch}};
 }
 
@@ -100,6 +101,22 @@ Json patches_json(const Contact* contact) {
   return patches;
 }
 
+Json curves_json(const Contact* contact) {
+  Json curves = Json::array();
+  if (contact == nullptr) return curves;
+  for (const IntersectionCurve& curve : contact->curves()) {
+    Json points = Json::array(), facets = Json::array();
+    for (const CurvePoint& point : curve.points) {
+      points.push_back(to_json(point.position));
+      if (point.facet_pair < 0) continue;
+      const FacetPair pair = contact->facet_pairs()[static_cast<std::size_t>(point.facet_pair)];
+      facets.push_back(Json::array({pair.a, pair.b}));
+    }
+    curves.push_back({{"closed", curve.closed}, {"points", points}, {"facets", facets}});
+  }
+  return curves;
+}
+
 const char* outcome_name(FacetOutcome outcome) {
   switch (outcome) {
     case FacetOutcome::outside_box: return "outside_box";
@@ -126,6 +143,7 @@ Json outcomes_json(const std::vector<FacetOutcome>& outcomes) {
 struct PairParts {
   bool facets = false;
   bool points = false;
+  bool curves = false;
   FacetOutcomeFinder* finder = nullptr;  // null: no outcomes
 };
 
@@ -138,6 +156,7 @@ Json self_json(const Contact& contact, const PairParts& parts) {
     json["points"] = points_json(&contact);
     json["patches"] = patches_json(&contact);
   }
+  if (parts.curves) json["curves"] = curves_json(&contact);
   return json;
 }
 
@@ -165,6 +184,7 @@ Json pair_json(const CandidatePair& pair, const Contact* contact, const PairPart
     json["points"] = points_json(contact);
     json["patches"] = patches_json(contact);
   }
+  if (parts.curves) json["curves"] = curves_json(contact);
   return json;
 }
 
@@ -238,6 +258,7 @@ JsonReport::JsonReport(std::ostream& out, const World& world, Outcomes outcomes,
     : out_(out),
       has_facets_(world.settings().accuracy != Accuracy::hulls),
       has_points_(world.settings().outputs.points),
+      has_curves_(world.settings().outputs.curves),
       outcomes_(outcomes) {
   out_ << "{\"tact\":" << json_text(TACT_VERSION)
        << ",\"accuracy\":" << json_text(accuracy_name(world.settings().accuracy))
@@ -251,7 +272,7 @@ void JsonReport::add_frame(int frame, const Report& report, const MotionReport* 
   if (outcomes_ == Outcomes::counts) finder.emplace(report);
   Json json = {{"frame", frame},
                {"hash", hash_text(report)},
-               {"pairs", pairs_json(report, {has_facets_, has_points_, finder ? &*finder : nullptr})},
+               {"pairs", pairs_json(report, {has_facets_, has_points_, has_curves_, finder ? &*finder : nullptr})},
                {"stats", stats_json(report.stats())},
                {"times_ms", times_json(report.stats())}};
   if (motion != nullptr) {

@@ -20,7 +20,10 @@
 // there is none. `files` names the file of each body, where a folder moves one. A body of `tact check --weld` tells
 // how many vertices merged with an earlier one, "merged_vertices", and "collapsed_facets"; one of `--surfaces` has its
 // "check", see surface_report.h. A body with itself has `a` equal to `b` and facet pairs; where points are requested
-// "point_limit_reached" tells whether some are missing. `interrupted` is there only if Ctrl-C ended the frames. Numbers
+// "point_limit_reached" tells whether some are missing. A pair has "points", of which each says whether it is a minimum
+// of both surfaces, "patches" and "curves" where these are requested; a curve has its "points" in order, whether it is
+// "closed", and the "facets" between them: [{"closed":true,"points":[[x,y,z],...],"facets":[[fa,fb],...]},...].
+// `interrupted` is there only if Ctrl-C ended the frames. Numbers
 // read back to the same double; ids of patches, which may be no double, are 16 hexadecimal digits. A name that is not
 // UTF-8 has U+FFFD in the place of each wrong byte.
 #pragma once
@@ -68,6 +71,7 @@ class JsonReport {
   std::ostream& out_;
   bool has_facets_;
   bool has_points_;
+  bool has_curves_;
   Outcomes outcomes_;
   bool first_ = true;
 };

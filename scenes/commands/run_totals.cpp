@@ -89,6 +89,7 @@ void RunTotals::print_times(std::ostream& out) const {
                                                    {"  5 cull", stats_.cull_ms},
                                                    {"  6 confirm", stats_.confirm_ms},
                                                    {"  containment", stats_.containment_ms},
+                                                   {"  curves", stats_.curves_ms},
                                                    {"  points", stats_.points_ms},
                                                    {"  self: facet pairs", stats_.self_facets_ms},
                                                    {"  self: points", stats_.self_points_ms},

@@ -225,6 +225,8 @@ void add_view_command(CLI::App& program) {
   command->add_flag("--continuous", options->continuous, "Scenes: stop bodies before they meet");
   command->add_flag("--points", options->outputs.points,
                     "Compute and show contact points; of meshes with --margin they always are");
+  command->add_flag("--curves", options->outputs.curves,
+                    "Recordings and meshes: compute and show the curves in which surfaces cross");
   options->outputs.patches = true;  // they change no answer
   add_mesh_options(*command, options->check);
   add_accuracy_option(*command, options->accuracy);

@@ -28,6 +28,7 @@ const char* kind_name(Kind kind) {
     case Kind::small_pairs: return "small pairs";
     case Kind::kdop_separated_pairs: return "separated pairs";
     case Kind::containment: return "containment";
+    case Kind::curves: return "curves";
     case Kind::points: return "points";
     case Kind::self_facets: return "facet pairs of bodies with themselves";
     case Kind::self_points: return "points of bodies with themselves";

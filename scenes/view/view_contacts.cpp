@@ -78,7 +78,7 @@ void put_place(const std::array<int, 3>& vertices, const std::array<double, 3>& 
 }
 
 void put_point(const ContactPoint& point, std::array<int, 3>& last_a, std::array<int, 3>& last_b, ViewBytes& out) {
-  out.add_byte(static_cast<std::uint8_t>(point.kind));
+  out.add_byte(static_cast<std::uint8_t>(static_cast<int>(point.kind) | (point.minimum ? 4 : 0)));
   out.add_count(static_cast<std::uint64_t>(point.patch));
   put_place(point.a_vertices, point.a_weights, last_a, out);
   put_place(point.b_vertices, point.b_weights, last_b, out);
@@ -103,6 +103,15 @@ void put_points(const Contact& contact, PointsInView which, ViewBytes& out) {
   for (const int point : chosen) put_point(contact.points()[point], last_a, last_b, out);
 }
 
+// Twice the number of points, and 1 more for a closed curve.
+void put_curves(std::span<const IntersectionCurve> curves, ViewBytes& out) {
+  out.add_count(curves.size());
+  for (const IntersectionCurve& curve : curves) {
+    out.add_count(2 * curve.points.size() + (curve.closed ? 1 : 0));
+    for (const CurvePoint& point : curve.points) put_rough_vector(point.position, out);
+  }
+}
+
 void put_contact(const Contact& contact, const std::optional<FacetOutcomes>& outcomes, const PlaceInView& place,
                  PointsInView points, ViewBytes& out) {
   out.add_count(place(contact.a));
@@ -125,6 +134,7 @@ void put_contact(const Contact& contact, const std::optional<FacetOutcomes>& out
   }
   put_patches(contact.patches(), out);
   put_points(contact, points, out);
+  put_curves(contact.curves(), out);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ namespace {
 
 // A chunk is what the page unpacks at a time: large enough to compress well, and done in some hundredths of a second.
 constexpr std::size_t kChunkBytes = std::size_t{2} << 20;
-constexpr int kFormat = 3;
+constexpr int kFormat = 4;
 constexpr double kMegabyte = 1e6;
 
 Json settings_json(const Settings& settings, bool few_points) {
@@ -33,6 +33,7 @@ Json settings_json(const Settings& settings, bool few_points) {
           {"zones", settings.outputs.zones || settings.accuracy == Accuracy::paper},
           {"patches", settings.outputs.patches},
           {"points", settings.outputs.points},
+          {"curves", settings.outputs.curves},
           {"few_points", few_points},
           {"outcomes", settings.accuracy != Accuracy::hulls}};
 }

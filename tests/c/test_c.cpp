@@ -86,6 +86,23 @@ void expect_equal_reports(tact_world c, const Report& cpp) {
       EXPECT_EQ(patch.depth, expected.depth);
       EXPECT_TRUE(std::ranges::equal(std::span(patch.facet_pairs, patch.facet_pair_count), expected.facet_pairs));
     }
+    const tact_contact_point* points = nullptr;
+    ASSERT_EQ(tact_contact_points(c, i, &points, &found), TACT_OK);
+    ASSERT_EQ(found, cpp.contacts()[i].points().size());
+    for (size_t k = 0; k < found; ++k) EXPECT_EQ(points[k].minimum, cpp.contacts()[i].points()[k].minimum);
+    ASSERT_EQ(contact.curve_count, cpp.contacts()[i].curves().size());
+    for (size_t k = 0; k < contact.curve_count; ++k) {
+      tact_curve curve = TACT_CURVE_INIT;
+      ASSERT_EQ(tact_contact_curve(c, i, k, &curve), TACT_OK);
+      const IntersectionCurve& expected = cpp.contacts()[i].curves()[k];
+      EXPECT_EQ(curve.closed, expected.closed);
+      ASSERT_EQ(curve.point_count, expected.points.size());
+      for (size_t p = 0; p < curve.point_count; ++p) {
+        EXPECT_TRUE(equal(curve.points[p].position, expected.points[p].position));
+        EXPECT_EQ(curve.points[p].facet_pair, expected.points[p].facet_pair);
+        EXPECT_EQ(curve.points[p].edge_of_b, expected.points[p].edge_of_b);
+      }
+    }
   }
   uint64_t hash = 0;
   ASSERT_EQ(tact_report_hash(c, &hash), TACT_OK);
@@ -96,9 +113,9 @@ TEST(C, AnswersAsCpp) {
   std::vector<Mesh> bodies = crowd_of_blobs(20, 3);
   tact_settings settings = TACT_SETTINGS_INIT;
   settings.threads = 2;
-  settings.zones = settings.patches = true;
+  settings.zones = settings.patches = settings.points = settings.curves = true;
   WorldOfC c(&settings);
-  tact::World cpp({.threads = 2, .outputs = {.zones = true, .patches = true}});
+  tact::World cpp({.threads = 2, .outputs = {.zones = true, .patches = true, .points = true, .curves = true}});
   std::vector<tact_body> c_ids;
   std::vector<BodyId> cpp_ids;
   for (const Mesh& body : bodies) {
@@ -532,11 +549,13 @@ TEST(WrongUseOfC, ReportsThatAreNotThereAndIndicesBeyondTheEnd) {
   size_t count = 0;
   tact_contact contact = TACT_CONTACT_INIT;
   tact_patch patch = TACT_PATCH_INIT;
+  tact_curve curve = TACT_CURVE_INIT;
   tact_trace_event event = TACT_TRACE_EVENT_INIT;
   expect_failure(tact_report_contacts(w.world, &count), TACT_ERROR_WRONG_ORDER, "no report");
   ASSERT_EQ(tact_world_detect(w.world), TACT_OK);
   expect_failure(tact_report_contact(w.world, 1, &contact), TACT_ERROR_INDEX_OUT_OF_RANGE, "index");
   expect_failure(tact_contact_patch(w.world, 0, 0, &patch), TACT_ERROR_INDEX_OUT_OF_RANGE, "index");
+  expect_failure(tact_contact_curve(w.world, 0, 0, &curve), TACT_ERROR_INDEX_OUT_OF_RANGE, "index");
   expect_failure(tact_report_trace_event(w.world, 0, &event), TACT_ERROR_INDEX_OUT_OF_RANGE, "index");
   const tact_settings settings = TACT_SETTINGS_INIT;
   ASSERT_EQ(tact_world_set_settings(w.world, &settings), TACT_OK);

@@ -24,7 +24,7 @@ class EveryCallOfC {
  public:
   EveryCallOfC(const FloatingPointSettings& mode, int threads) : mode_(mode) {
     settings_.threads = threads;
-    settings_.zones = settings_.patches = settings_.points = settings_.trace = true;
+    settings_.zones = settings_.patches = settings_.points = settings_.curves = settings_.trace = true;
     for (double& x : rotation_) x = 0.0;
     rotation_[1] = rotation_[5] = rotation_[6] = 1.0;
   }
@@ -119,6 +119,11 @@ class EveryCallOfC {
       tact_patch patch = TACT_PATCH_INIT;
       call([&] { return tact_contact_patch(world_, i, k, &patch); });
       tell(patch.direction);
+    }
+    for (size_t k = 0; k < contact.curve_count; ++k) {
+      tact_curve curve = TACT_CURVE_INIT;
+      call([&] { return tact_contact_curve(world_, i, k, &curve); });
+      tell(curve.points[0].position);
     }
   }
 

@@ -94,8 +94,8 @@ Sentences sentences_in(const std::string& header, const std::string& before, con
 Sentences sentences_of_cpp() {
   Sentences all;
   for (const char* header :
-       {"body", "contact_point", "contact_sums", "debug_draw", "message", "motion", "queries", "recording", "report",
-        "report_arrays", "settings", "solver/stencil", "surface_check", "weld", "world"})
+       {"body", "contact_point", "contact_sums", "debug_draw", "intersection_curve", "message", "motion", "queries",
+        "recording", "report", "report_arrays", "settings", "solver/stencil", "surface_check", "weld", "world"})
     all.merge(sentences_in(text_of("engine/include/tact/" + std::string(header) + ".h"), "/// ", "///< "));
   for (const char* header : {"error", "facet_pair", "feature_pair"})
     all.merge(sentences_in(text_of("engine/base/include/tact/" + std::string(header) + ".h"), "/// ", "///< "));
@@ -162,6 +162,8 @@ constexpr Twin kTwins[] = {
     {"ZoneDisk", "tact_zone_disk", ""},
     {"Patch", "tact_patch", ""},
     {"ContactPoint", "tact_contact_point", ""},
+    {"CurvePoint", "tact_curve_point", ""},
+    {"IntersectionCurve", "tact_curve", ""},
     {"CandidatePair", "tact_candidate_pair", ""},
     {"ContactEvent", "tact_contact_event", ""},
     {"PatchEvent", "tact_patch_event", ""},
@@ -200,6 +202,7 @@ std::string name_in_c(const std::string& type, const std::string& member, bool c
     const std::string prefix = twin.prefix;
     if (prefix.starts_with("TACT_") && !call) return prefix + upper(member);
     if (call && type == "Contact" && member == "patches") return "tact_contact_patch()";
+    if (call && type == "Contact" && member == "curves") return "tact_contact_curve()";
     if (call && header.find(" " + prefix + member + "(") != std::string::npos) return prefix + member + "()";
     return std::string(twin.c) + "." + member;
   }

@@ -97,8 +97,9 @@ TEST(TwinsInC, OfTheFunctionsOfWorldAndReport) {
   expect_twins_of_functions("recording.h", "class TACT_API RecordingPlayer {", "tact_player_", {{"report", ""}});
   expect_twins_of_functions("motion.h", "class TACT_API MotionReport {", "tact_motion_", {});
   // In C they are fields.
-  expect_twins_of_functions("report.h", "struct Contact {", "tact_contact_",
-                            {{"facet_pairs", ""}, {"touching", ""}, {"patches", "tact_contact_patch"}});
+  expect_twins_of_functions(
+      "report.h", "struct Contact {", "tact_contact_",
+      {{"facet_pairs", ""}, {"touching", ""}, {"patches", "tact_contact_patch"}, {"curves", "tact_contact_curve"}});
 }
 
 TEST(TwinsInC, OfEachField) {
@@ -111,6 +112,8 @@ TEST(TwinsInC, OfEachField) {
   expect_twins_of_fields("report.h", "struct ZoneDisk {", "tact_zone_disk", {});
   expect_twins_of_fields("report.h", "struct CandidatePair {", "tact_candidate_pair", {});
   expect_twins_of_fields("report.h", "struct ContactEvent {", "tact_contact_event", {});
+  expect_twins_of_fields("intersection_curve.h", "struct CurvePoint {", "tact_curve_point", {});
+  expect_twins_of_fields("intersection_curve.h", "struct IntersectionCurve {", "tact_curve", {});
   expect_twins_of_fields("world.h", "struct Bounds {", "tact_bounds", {});
   expect_twins_of_fields("world.h", "struct PoseUpdate {", "tact_pose_update", {});
   expect_twins_of_fields("message.h", "struct Message {", "tact_message", {});

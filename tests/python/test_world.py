@@ -109,6 +109,22 @@ def test_settings_zones_and_patches():
     assert not world.detect().contacts[0].touching
 
 
+def test_intersection_curves_are_lines_of_points():
+    world = tact.World(tact.Settings(curves=True))
+    assert world.settings.curves
+    positions, facets = grid(5, 1.0)
+    sheet = world.add_body(positions, facets, surface=tact.Surface.sheet)
+    corners = np.array([[1.4, 1.6, -0.5], [2, 2, 1], [1, 2, 1], [1.5, 1, 1]])
+    body = world.add_body(corners, np.array([[0, 1, 3], [0, 2, 1], [0, 3, 2], [1, 2, 3]]))
+    contact = world.detect().find_contact(sheet, body)
+    (curve,) = contact.curves
+    assert curve.closed and len(curve) == len(curve.positions) == len(contact.facet_pairs)
+    assert np.all(curve.positions[:, 2] == 0) and sorted(curve.facet_pairs) == list(range(len(contact.facet_pairs)))
+    for i, (place, edge, fraction) in enumerate(zip(curve.positions, curve.edges, curve.fractions)):
+        p, q = (corners if curve.edges_of_b[i] else positions)[edge]
+        np.testing.assert_allclose(p + fraction * (q - p), place, atol=1e-14)
+
+
 def test_contact_points_of_bodies_with_margins():
     world = tact.World(tact.Settings(points=True))
     positions, facets = grid(5, 1.0)
@@ -116,6 +132,7 @@ def test_contact_points_of_bodies_with_margins():
     corners = np.array([[1.4, 1.6, 0.08], [2, 2, 1], [1, 2, 1], [1.5, 1, 1]])
     body = world.add_body(corners, np.array([[0, 1, 3], [0, 2, 1], [0, 3, 2], [1, 2, 3]]), margin=0.05, self_contact=True)
     points = world.detect().find_contact(floor, body).points
+    assert points.minima.tolist() == [True] and world.detect().points.minima.tolist() == [1]
     assert len(points) == 1 and points.kinds[0] == tact.FeaturePair.facet_vertex.value
     assert points.gaps[0] == pytest.approx(0.08, abs=1e-15)
     np.testing.assert_allclose(points.normals[0], [0, 0, 1], atol=1e-15)

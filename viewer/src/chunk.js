@@ -81,8 +81,10 @@ function readPlace(reader, last) {
 }
 
 function readPoint(reader, lastA, lastB) {
+  const kind = reader.byte();
   return {
-    kind: reader.byte(),
+    kind: kind & 3,
+    minimum: (kind & 4) !== 0,
     patch: reader.count(),
     a: readPlace(reader, lastA),
     b: readPlace(reader, lastB),
@@ -90,6 +92,12 @@ function readPoint(reader, lastA, lastB) {
     gap: reader.float(),
     id: reader.hex(),
   };
+}
+
+/** Places of an intersection curve, in order. */
+function readCurve(reader) {
+  const count = reader.count();
+  return { closed: count % 2 === 1, points: times(Math.floor(count / 2), () => reader.roughVector()) };
 }
 
 function times(count, read) {
@@ -117,6 +125,7 @@ function readContact(reader) {
   contact.pointCount = reader.count(); // with --few-points more than are listed
   const lastA = [0, 0, 0], lastB = [0, 0, 0];
   contact.points = times(reader.count(), () => readPoint(reader, lastA, lastB));
+  contact.curves = times(reader.count(), () => readCurve(reader));
   contact.self = contact.a === contact.b;
   return contact;
 }

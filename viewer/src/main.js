@@ -40,7 +40,7 @@ class App {
       pair: null, // bodies
       facet: null, // over all bodies
       point: null, // of the pair
-      show: new Set(["direction", "outcomes", "points", run.head.settings.zones ? "zones" : "planes"]),
+      show: new Set(["direction", "outcomes", "points", "curves", run.head.settings.zones ? "zones" : "planes"]),
       clusters: false,
       wire: true,
       isolate: true,

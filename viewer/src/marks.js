@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { ConvexHull } from "three/addons/math/ConvexHull.js";
 
 const COLORS = { boxApart: 0x7c88a3, boxOverlap: 0xffffff, hullA: 0x6fa8ff, hullB: 0xffa56f, direction: 0xffffff, planeA: 0x6fa8ff,
-  planeB: 0xffa56f, patch: 0xff6fd0, point: 0x7dffb0, chosen: 0xffffff };
+  planeB: 0xffa56f, patch: 0xff6fd0, point: 0x7dffb0, faintPoint: 0x4a7d60, curve: 0xffe14d, chosen: 0xffffff };
 const kMostBoxes = 4000, kMostArrows = 60, kMostLines = 5000, kMostPoints = 20000, kMostRoundPoints = 1000; // more arrows are thin lines, in one call
 const kMostHullVertices = 20000; // of more, those farthest in some hundred directions stand for the hull
 const kUp = new THREE.Vector3(0, 0, 1);
@@ -205,6 +205,7 @@ export class Marks {
     for (const [body, color] of hulls) this.drawHull(body, color);
     if (show.patches) for (const contact of many ? pairs.filter((c) => c === chosen) : contacts) this.drawPatches(contact);
     if (show.points) this.drawPoints(contacts, chosen, point);
+    if (show.curves) this.drawCurves(contacts);
   }
 
   drawBoxes(frame, contacts, chosen) {
@@ -274,22 +275,36 @@ export class Marks {
     return place;
   }
 
+  /** Points that are no minima of both surfaces are small and faint. */
   drawPoints(contacts, chosen, number) {
-    const places = [], segments = [];
-    let marked = -1;
-    for (const contact of contacts) {
-      contact.points.forEach((point, i) => {
-        if (this.points.length >= kMostPoints) return;
-        const a = this.placeOf(contact.a, point.a), b = this.placeOf(contact.b, point.b);
-        if (contact === chosen && i === number) marked = places.length;
-        this.points.push({ contact, number: i, place: a });
-        places.push(a);
-        segments.push(...a.toArray(), ...b.toArray());
-      });
+    for (const minimum of [true, false]) {
+      const places = [], segments = [];
+      let marked = -1;
+      for (const contact of contacts) {
+        contact.points.forEach((point, i) => {
+          if (point.minimum !== minimum || this.points.length >= kMostPoints) return;
+          const a = this.placeOf(contact.a, point.a), b = this.placeOf(contact.b, point.b);
+          if (contact === chosen && i === number) marked = places.length;
+          this.points.push({ contact, number: i, place: a });
+          places.push(a);
+          segments.push(...a.toArray(), ...b.toArray());
+        });
+      }
+      if (places.length === 0) continue;
+      const radius = (minimum ? 0.0035 : 0.0022) * this.stage.size;
+      this.group.add(seenThrough(lines(segments, COLORS.point), minimum ? 0.5 : 0.2), balls(places, radius, minimum ? COLORS.point : COLORS.faintPoint, marked));
     }
-    if (places.length === 0) return;
-    const radius = 0.0035 * this.stage.size;
-    this.group.add(seenThrough(lines(segments, COLORS.point), 0.5), balls(places, radius, COLORS.point, marked));
+  }
+
+  drawCurves(contacts) {
+    const segments = [];
+    for (const { points, closed } of contacts.flatMap((contact) => contact.curves)) {
+      const places = points.map((point) => this.vector(point));
+      for (let i = 0; i + (closed ? 0 : 1) < places.length; ++i) {
+        segments.push(...places[i].toArray(), ...places[(i + 1) % places.length].toArray());
+      }
+    }
+    if (segments.length > 0) this.group.add(seenThrough(lines(segments, COLORS.curve), 0.8));
   }
 
   /** The contact point drawn nearest to a place of the page, within some pixels; or null. */

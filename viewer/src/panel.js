@@ -42,6 +42,9 @@ const METHOD = [
   { key: "points", name: "Contact points", digit: "8", needs: "points",
     step: (s, frame) => plural(sum(frame.contacts, (c) => c.pointCount), "point"),
     pair: (c) => plural(c.pointCount, "point") },
+  { key: "curves", name: "Intersection curves", digit: "9", needs: "curves",
+    step: (s, frame) => plural(sum(frame.contacts, (c) => c.curves.length), "curve"),
+    pair: (c) => plural(c.curves.length, "curve") },
 ];
 export const STAGES = METHOD.map(({ key, digit, needs }) => ({ key, digit, needs }));
 

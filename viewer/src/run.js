@@ -18,7 +18,7 @@ export const FEATURES = ["vertex-facet", "facet-vertex", "edge-edge"];
 export class DataError extends Error {}
 
 const CUT = "The page was cut: its end is missing. Write it again, or copy all of it.";
-const FORMAT = 3;
+const FORMAT = 4;
 
 function textOf(id) {
   const element = document.getElementById(id);

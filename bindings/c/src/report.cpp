@@ -22,7 +22,14 @@ static_assert(sizeof(tact_candidate_pair) == sizeof(CandidatePair) &&
 static_assert(std::is_standard_layout_v<ContactPoint> && sizeof(tact_contact_point) == sizeof(ContactPoint) &&
               offsetof(tact_contact_point, b_vertices) == offsetof(ContactPoint, b_vertices) &&
               offsetof(tact_contact_point, normal) == offsetof(ContactPoint, normal) &&
-              offsetof(tact_contact_point, id) == offsetof(ContactPoint, id));
+              offsetof(tact_contact_point, id) == offsetof(ContactPoint, id) &&
+              offsetof(tact_contact_point, minimum) == offsetof(ContactPoint, minimum));
+static_assert(std::is_standard_layout_v<CurvePoint> && sizeof(tact_curve_point) == sizeof(CurvePoint) &&
+              offsetof(tact_curve_point, fraction) == offsetof(CurvePoint, fraction) &&
+              offsetof(tact_curve_point, edge) == offsetof(CurvePoint, edge) &&
+              offsetof(tact_curve_point, facet) == offsetof(CurvePoint, facet) &&
+              offsetof(tact_curve_point, facet_pair) == offsetof(CurvePoint, facet_pair) &&
+              offsetof(tact_curve_point, edge_of_b) == offsetof(CurvePoint, edge_of_b));
 
 void put(const Eigen::Vector3d& from, double* to) { std::copy_n(from.data(), 3, to); }
 
@@ -53,6 +60,7 @@ tact_contact contact_of(const Contact& contact) {
   result.patch_count = contact.patches().size();
   result.containment = static_cast<int>(contact.containment);
   result.point_limit_reached = contact.point_limit_reached;
+  result.curve_count = contact.curves().size();
   return result;
 }
 
@@ -106,6 +114,17 @@ tact_error tact_contact_patch(tact_world world, size_t index, size_t patch, tact
     value.points = found.points.data();
     value.point_count = found.points.size();
     std::ranges::copy(found.spanning, value.spanning);
+    write_struct(*result, value);
+  });
+}
+
+tact_error tact_contact_curve(tact_world world, size_t index, size_t curve, tact_curve* result) {
+  return with_report(world, [&](const Report& report) {
+    check_not_null(result);
+    const tact::IntersectionCurve& found = at(at(report.contacts(), index).curves(), curve);
+    tact_curve value = TACT_CURVE_INIT;
+    value.closed = found.closed;
+    show(found.points, &value.points, &value.point_count);
     write_struct(*result, value);
   });
 }

@@ -52,7 +52,8 @@ tact_error tact_report_copy_points(tact_world world, const tact_point_arrays* ar
                          .normals = array_of(to.normals, rows, 3),
                          .gaps = array_of(to.gaps, rows, 1),
                          .ids = array_of(to.ids, rows, 1),
-                         .patch_ids = array_of(to.patch_ids, rows, 1)});
+                         .patch_ids = array_of(to.patch_ids, rows, 1),
+                         .minima = array_of(to.minima, rows, 1)});
   });
 }
 

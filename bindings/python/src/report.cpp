@@ -98,7 +98,8 @@ void define_parts(py::module_& module) {
       .def_readonly("facet_pairs", &PatchArrays::facet_pairs, "indices into Contact.facet_pairs, ascending")
       .def_readonly("points", &PatchArrays::points, "indices into Contact.points, ascending")
       .def_readonly("spanning", &PatchArrays::spanning,
-                    "at most four of `points`, the deepest first, then those that span the most area; -1 fills up");
+                    "at most four of `points`: the deepest, and those that span the most area; kept while they nearly "
+                    "do. -1 fills up");
   py::enum_<PatchEvent::Kind>(module, "PatchEventKind", "What became of the patch.")
       .value("began", PatchEvent::Kind::began, "it is new")
       .value("split", PatchEvent::Kind::split, "it is new, and was a part of the patch `other`, which persists")
@@ -118,6 +119,7 @@ struct PointArrays {
   py::array_t<int> patches, a_vertices, b_vertices;
   py::array_t<double> a_weights, b_weights, normals, gaps;
   py::array_t<std::uint64_t> ids;
+  py::array_t<bool> minima;
 };
 
 PointArrays point_arrays(std::span<const ContactPoint> points) {
@@ -129,7 +131,8 @@ PointArrays point_arrays(std::span<const ContactPoint> points) {
           rows_of_three<double>(points, &ContactPoint::b_weights),
           rows_of_three<double>(points, &ContactPoint::normal),
           column_of<double>(points, [](const ContactPoint& point) { return point.gap; }),
-          column_of<std::uint64_t>(points, [](const ContactPoint& point) { return point.id; })};
+          column_of<std::uint64_t>(points, [](const ContactPoint& point) { return point.id; }),
+          column_of<bool>(points, [](const ContactPoint& point) { return point.minimum; })};
 }
 
 void define_points(py::module_& module) {
@@ -157,7 +160,47 @@ void define_points(py::module_& module) {
           "(N,): the distance of the two points along the normal, metres; negative where the surfaces have crossed")
       .def_readonly("ids", &PointArrays::ids,
                     "(N,): the same in every step in which these features are near: a key for impulses")
+      .def_readonly("minima", &PointArrays::minima,
+                    "(N,) bool: whether nothing beside it on either surface is nearer along its normal, which lies in "
+                    "the normal cones of both features")
       .def("__len__", [](const PointArrays& points) { return points.gaps.size(); });
+}
+
+// An intersection curve as arrays, a row a point. They are copies.
+struct CurveArrays {
+  bool closed;
+  py::array_t<double> positions, fractions;
+  py::array_t<int> edges, facets, facet_pairs;
+  py::array_t<bool> edges_of_b;
+};
+
+CurveArrays curve_arrays(const IntersectionCurve& curve) {
+  const auto points = curve.points;
+  return {curve.closed,
+          rows_of<double>(points, 3,
+                          [](const CurvePoint& point, double* row) { Eigen::Vector3d::Map(row) = point.position; }),
+          column_of<double>(points, [](const CurvePoint& point) { return point.fraction; }),
+          rows_of<int>(points, 2,
+                       [](const CurvePoint& point, int* row) { std::copy(point.edge.begin(), point.edge.end(), row); }),
+          column_of<int>(points, [](const CurvePoint& point) { return point.facet; }),
+          column_of<int>(points, [](const CurvePoint& point) { return point.facet_pair; }),
+          column_of<bool>(points, [](const CurvePoint& point) { return point.edge_of_b; })};
+}
+
+void define_curves(py::module_& module) {
+  py::class_<CurveArrays>(module, "IntersectionCurve", "A polyline of points on both surfaces. A row a point.")
+      .def_readonly("closed", &CurveArrays::closed, "whether the last point leads on to the first")
+      .def_readonly("positions", &CurveArrays::positions, "(N, 3): metres; the exact place, rounded once")
+      .def_readonly("fractions", &CurveArrays::fractions, "(N,): how far along the edge, 0 to 1")
+      .def_readonly("edges", &CurveArrays::edges,
+                    "(N, 2): the vertices of the edge, ascending. The second is -1 at a common vertex of two facets of "
+                    "one body")
+      .def_readonly("facets", &CurveArrays::facets, "(N,): the facet that the edge goes through; -1 at a common vertex")
+      .def_readonly("facet_pairs", &CurveArrays::facet_pairs,
+                    "(N,): the facets that hold the way to the next point: an index into Contact.facet_pairs. -1: no "
+                    "way leads on")
+      .def_readonly("edges_of_b", &CurveArrays::edges_of_b, "(N,) bool: whether the edge is of b, and the facet of a")
+      .def("__len__", [](const CurveArrays& curve) { return curve.fractions.size(); });
 }
 
 // The points and facet pairs of a whole report. They are copies.
@@ -168,6 +211,7 @@ struct AllPoints {
   py::array_t<int> a_vertices, b_vertices;
   py::array_t<double> a_weights, b_weights, normals, gaps;
   py::array_t<std::uint64_t> ids, patch_ids;
+  py::array_t<std::uint8_t> minima;
 };
 struct AllFacetPairs {
   py::array_t<std::int64_t> bodies;
@@ -193,10 +237,10 @@ AllPoints all_points(const ReportHandle& report) {
   const auto n = static_cast<py::ssize_t>(count);
   const std::array<py::ssize_t, 2> two{n, 2}, three{n, 3};
   std::vector<std::uint32_t> bodies(2 * count);
-  AllPoints all{py::array_t<std::int64_t>(two), py::array_t<int>(n),          py::array_t<std::uint8_t>(n),
-                py::array_t<int>(three),        py::array_t<int>(three),      py::array_t<double>(three),
-                py::array_t<double>(three),     py::array_t<double>(three),   py::array_t<double>(n),
-                py::array_t<std::uint64_t>(n),  py::array_t<std::uint64_t>(n)};
+  AllPoints all{py::array_t<std::int64_t>(two), py::array_t<int>(n),           py::array_t<std::uint8_t>(n),
+                py::array_t<int>(three),        py::array_t<int>(three),       py::array_t<double>(three),
+                py::array_t<double>(three),     py::array_t<double>(three),    py::array_t<double>(n),
+                py::array_t<std::uint64_t>(n),  py::array_t<std::uint64_t>(n), py::array_t<std::uint8_t>(n)};
   copy_points(*held, {.bodies = bodies,
                       .contacts = all_of(all.contacts),
                       .kinds = all_of(all.kinds),
@@ -207,10 +251,11 @@ AllPoints all_points(const ReportHandle& report) {
                       .normals = all_of(all.normals),
                       .gaps = all_of(all.gaps),
                       .ids = all_of(all.ids),
-                      .patch_ids = all_of(all.patch_ids)});
+                      .patch_ids = all_of(all.patch_ids),
+                      .minima = all_of(all.minima)});
   widen(bodies, all_of(all.bodies));
   protect(all.bodies, all.contacts, all.kinds, all.a_vertices, all.b_vertices, all.a_weights, all.b_weights,
-          all.normals, all.gaps, all.ids, all.patch_ids);
+          all.normals, all.gaps, all.ids, all.patch_ids, all.minima);
   return all;
 }
 
@@ -241,6 +286,8 @@ void define_arrays_of_report(py::module_& module) {
       .def_readonly("ids", &AllPoints::ids, "(N,) uint64: the same in every step in which these features are near")
       .def_readonly("patch_ids", &AllPoints::patch_ids,
                     "(N,) uint64: ids of the patches, or 0 where patches are not requested")
+      .def_readonly("minima", &AllPoints::minima,
+                    "(N,) uint8: 1 if nothing beside it on either surface is nearer, else 0")
       .def("__len__", [](const AllPoints& points) { return points.gaps.size(); });
   py::class_<AllFacetPairs>(module, "FacetPairArrays", "Arrays for the facet pairs of a whole report. A row a pair.")
       .def_readonly("bodies", &AllFacetPairs::bodies, "(N, 2) int64: the index of body a and of body b, 2 a pair")
@@ -295,6 +342,15 @@ void define_contact(py::module_& module) {
             return list;
           },
           "the patches, if Settings.patches is set; sorted by first facet pair, then by first point")
+      .def_property_readonly(
+          "curves",
+          [](const ContactHandle& contact) {
+            py::list list;
+            const auto held = contact.held();
+            for (const IntersectionCurve& curve : held->curves()) list.append(curve_arrays(curve));
+            return list;
+          },
+          "the curves in which the surfaces cross, if Settings.curves is set; sorted by their first facet pair")
       .def(
           "hash", [](const ContactHandle& contact) { return contact->hash(); },
           "a number made from every bit of the contact, its facet pairs, points and patches, but for counts of work")
@@ -331,6 +387,7 @@ std::string report_text(const ReportHandle& report) {
 void define_report(py::module_& module) {
   define_parts(module);
   define_points(module);
+  define_curves(module);
   define_contact(module);
   define_arrays_of_report(module);
   py::class_<ReportHandle>(

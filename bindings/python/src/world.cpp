@@ -152,13 +152,14 @@ std::string settings_text(const Settings& settings) {
 }
 
 Settings make_settings(int threads, Accuracy accuracy, DirectionPolicy direction, double gjk_tolerance,
-                       int iteration_limit, bool zones, bool patches, bool points, const py::object& on_message) {
+                       int iteration_limit, bool zones, bool patches, bool points, bool curves,
+                       const py::object& on_message) {
   return {.threads = threads,
           .accuracy = accuracy,
           .direction = direction,
           .gjk_tolerance = gjk_tolerance,
           .iteration_limit = iteration_limit,
-          .outputs = {.zones = zones, .patches = patches, .points = points},
+          .outputs = {.zones = zones, .patches = patches, .points = points, .curves = curves},
           .on_message = message_function(on_message)};
 }
 
@@ -196,7 +197,7 @@ void define_settings(py::module_& module) {
       .def(py::init(&make_settings), py::kw_only(), py::arg("threads") = defaults.threads,
            py::arg("accuracy") = defaults.accuracy, py::arg("direction") = defaults.direction,
            py::arg("gjk_tolerance") = defaults.gjk_tolerance, py::arg("iteration_limit") = defaults.iteration_limit,
-           py::arg("zones") = false, py::arg("patches") = false, py::arg("points") = false,
+           py::arg("zones") = false, py::arg("patches") = false, py::arg("points") = false, py::arg("curves") = false,
            py::arg("on_message") = py::none())
       .def_readwrite("threads", &Settings::threads, "0 to 1024; 0: as many as OpenMP would use")
       .def_readwrite("accuracy", &Settings::accuracy)
@@ -213,6 +214,7 @@ void define_settings(py::module_& module) {
       .def("__repr__", settings_text);
   output<&Outputs::zones>(settings, "zones", "compute Contact.zone_a and zone_b");
   output<&Outputs::points>(settings, "points", "compute Contact.points");
+  output<&Outputs::curves>(settings, "curves", "compute Contact.curves");
   output<&Outputs::patches>(settings, "patches", "compute Contact.patches");
 }
 

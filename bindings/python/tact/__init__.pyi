@@ -163,6 +163,7 @@ class Settings:
     zones: bool
     patches: bool
     points: bool
+    curves: bool
     on_message: Optional[Callable[[Message], None]]
     """called for each limit that a step reached, and for each body that was added as closed and is not. The report has limits as flags and counts. The world refuses its calls; what it raises comes out of detect(), after the step"""
     def __init__(
@@ -176,6 +177,7 @@ class Settings:
         zones: bool = False,
         patches: bool = False,
         points: bool = False,
+        curves: bool = False,
         on_message: Optional[Callable[[Message], None]] = None,
     ) -> None: ...
 
@@ -215,7 +217,7 @@ class Patch:
         """indices into Contact.points, ascending"""
     @property
     def spanning(self) -> Ints:
-        """at most four of `points`, the deepest first, then those that span the most area; -1 fills up"""
+        """at most four of `points`: the deepest, and those that span the most area; kept while they nearly do. -1 fills up"""
 
 class PatchEventKind:
     """What became of the patch."""
@@ -288,6 +290,35 @@ class ContactPoints:
     @property
     def ids(self) -> npt.NDArray[np.uint64]:
         """(N,): the same in every step in which these features are near: a key for impulses"""
+    @property
+    def minima(self) -> npt.NDArray[np.bool_]:
+        """(N,): whether nothing beside it on either surface is nearer along its normal, which lies in the normal cones of both features"""
+    def __len__(self) -> int: ...
+
+class IntersectionCurve:
+    """A polyline of points on both surfaces. A row a point."""
+
+    @property
+    def closed(self) -> bool:
+        """whether the last point leads on to the first"""
+    @property
+    def positions(self) -> Floats:
+        """(N, 3): metres; the exact place, rounded once"""
+    @property
+    def fractions(self) -> Floats:
+        """(N,): how far along the edge, 0 to 1"""
+    @property
+    def edges(self) -> Ints:
+        """(N, 2): the vertices of the edge, ascending. The second is -1 at a common vertex of two facets of one body"""
+    @property
+    def facets(self) -> Ints:
+        """(N,): the facet that the edge goes through; -1 at a common vertex"""
+    @property
+    def facet_pairs(self) -> Ints:
+        """(N,): the facets that hold the way to the next point: an index into Contact.facet_pairs. -1: no way leads on"""
+    @property
+    def edges_of_b(self) -> npt.NDArray[np.bool_]:
+        """(N,): whether the edge is of b, and the facet of a"""
     def __len__(self) -> int: ...
 
 class Contact:
@@ -339,6 +370,9 @@ class Contact:
     @property
     def patches(self) -> list[Patch]:
         """the patches, if Settings.patches is set; sorted by first facet pair, then by first point"""
+    @property
+    def curves(self) -> list[IntersectionCurve]:
+        """the curves in which the surfaces cross, if Settings.curves is set; sorted by their first facet pair"""
     def hash(self) -> int:
         """a number made from every bit of the contact, its facet pairs, points and patches, but for counts of work"""
 
@@ -378,6 +412,9 @@ class PointArrays:
     @property
     def patch_ids(self) -> npt.NDArray[np.uint64]:
         """(N,): ids of the patches, or 0 where patches are not requested"""
+    @property
+    def minima(self) -> npt.NDArray[np.uint8]:
+        """(N,): 1 if nothing beside it on either surface is nearer, else 0"""
     def __len__(self) -> int: ...
 
 class FacetPairArrays:
@@ -619,6 +656,7 @@ class DebugDrawOptions:
     facet_pairs: bool
     patches: bool
     points: bool
+    curves: bool
     names: bool
     surface: DebugColor
     box: DebugColor
@@ -631,6 +669,7 @@ class DebugDrawOptions:
     meeting: DebugColor
     patch: DebugColor
     point: DebugColor
+    curve: DebugColor
     word: DebugColor
     def __init__(self, **options: bool | DebugColor) -> None: ...
 

@@ -32,6 +32,9 @@ struct ContactPoint {
   double gap = 0.0;
   /// The same in every step in which these features are near: a key for impulses.
   std::uint64_t id = 0;
+  /// Whether nothing beside it on either surface is nearer along its normal, which lies in the normal cones of both
+  /// features. Others are minima for a vertex alone.
+  bool minimum = false;
 };
 
 }  // namespace tact

@@ -44,7 +44,8 @@ struct DebugDrawOptions {
   bool kept_facets = false;     ///< the facets that the criteria kept, found once more
   bool facet_pairs = true;      ///< the facets that meet
   bool patches = true;          ///< the direction of each patch, as long as its depth
-  bool points = true;           ///< each contact point, as a line from a to b, and its normal
+  bool points = true;           ///< each contact point, as a line from a to b, and its normal; faint if no minimum
+  bool curves = true;           ///< the curves in which surfaces cross
   bool names = true;            ///< the name of each body, at the top of its box
 
   DebugColor surface{0.6f, 0.6f, 0.6f, 0.4f};
@@ -58,6 +59,7 @@ struct DebugDrawOptions {
   DebugColor meeting{1.0f, 0.1f, 0.1f, 0.8f};
   DebugColor patch{1.0f, 0.4f, 0.0f, 1.0f};
   DebugColor point{1.0f, 0.0f, 1.0f, 1.0f};
+  DebugColor curve{1.0f, 1.0f, 0.0f, 1.0f};
   DebugColor word{1.0f, 1.0f, 1.0f, 1.0f};
 };
 

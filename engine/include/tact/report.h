@@ -7,6 +7,7 @@
 #include <tact/contact_point.h>
 #include <tact/error.h>
 #include <tact/facet_pair.h>
+#include <tact/intersection_curve.h>
 #include <tact/statistics.h>
 #include <tact/trace.h>
 
@@ -55,7 +56,7 @@ struct Patch {
   double area = 0.0;
   std::span<const int> facet_pairs;  ///< indices into Contact::facet_pairs(), ascending
   std::span<const int> points;       ///< indices into Contact::points(), ascending
-  /// At most four of `points`, the deepest first, then those that span the most area; -1 fills up.
+  /// At most four of `points`: the deepest, and those that span the most area; kept while they nearly do. -1 fills up.
   std::array<int, 4> spanning{-1, -1, -1, -1};
 };
 
@@ -108,6 +109,8 @@ struct Contact {
   std::span<const ContactPoint> points() const { return points_; }
   /// Returns the patches, if Outputs::patches is set; sorted by first facet pair, then by first point.
   std::span<const Patch> patches() const { return patches_; }
+  /// Returns the curves in which the surfaces cross, if Outputs::curves is set; sorted by their first facet pair.
+  std::span<const IntersectionCurve> curves() const { return curves_; }
   /// Returns a number made from every bit of the contact, its facet pairs, points and patches, but for counts of work.
   /// Bodies enter it by their keys alone.
   TACT_API std::uint64_t hash() const;
@@ -119,6 +122,7 @@ struct Contact {
   std::span<const FacetPair> facet_pairs_;
   std::span<const Patch> patches_;
   std::span<const ContactPoint> points_;
+  std::span<const IntersectionCurve> curves_;
   std::uint64_t key_a_ = 0, key_b_ = 0;
   bool touching_ = false;
 };

@@ -23,6 +23,7 @@ struct PointArrays {
   std::span<double> gaps = {};              ///< metres; negative where the surfaces have crossed
   std::span<std::uint64_t> ids = {};        ///< the same in every step in which these features are near
   std::span<std::uint64_t> patch_ids = {};  ///< ids of the patches, or 0 where patches are not requested
+  std::span<std::uint8_t> minima = {};      ///< 1 if nothing beside it on either surface is nearer, else 0
 };
 
 /// Arrays for the facet pairs of a whole report. An empty one is left out.

@@ -27,6 +27,7 @@ struct Outputs {
   bool zones = false;    ///< Contact::zone_a and zone_b
   bool patches = false;  ///< Contact::patches() and Report::patch_events()
   bool points = false;   ///< Contact::points()
+  bool curves = false;   ///< Contact::curves()
   bool trace = false;    ///< Report::trace()
 };
 

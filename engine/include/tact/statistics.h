@@ -62,6 +62,7 @@ struct StepStats {
   double confirm_ms = 0.0;
   double narrow_phase_ms = 0.0;
   double containment_ms = 0.0;
+  double curves_ms = 0.0;
   double points_ms = 0.0;
   double self_facets_ms = 0.0;
   double self_points_ms = 0.0;
@@ -151,6 +152,7 @@ inline constexpr StepStatsField<double> kStepTimes[] = {
     {"confirm_ms", &StepStats::confirm_ms, "stage 6: facet pairs, summed over threads"},
     {"narrow_phase_ms", &StepStats::narrow_phase_ms, "stages 3 to 6 together, wall time"},
     {"containment_ms", &StepStats::containment_ms, "bodies that are wholly inside others, wall time"},
+    {"curves_ms", &StepStats::curves_ms, "intersection curves, wall time"},
     {"points_ms", &StepStats::points_ms, "contact points of pairs of bodies, wall time"},
     {"self_facets_ms", &StepStats::self_facets_ms, "facet pairs of bodies with themselves, wall time"},
     {"self_points_ms", &StepStats::self_points_ms, "contact points of bodies with themselves, wall time"},

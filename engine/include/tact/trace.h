@@ -25,6 +25,7 @@ struct TraceEvent {
     small_pairs,           ///< pairs that took less, one after the other
     kdop_separated_pairs,  ///< pairs that an axis of the 18-DOPs separates, on all threads
     containment,           ///< bodies that are wholly inside others
+    curves,                ///< intersection curves
     points,                ///< contact points of pairs of bodies
     self_facets,           ///< facet pairs of bodies with themselves
     self_points,           ///< contact points of bodies with themselves

@@ -128,6 +128,10 @@ class AllThatIsTold final : public DebugDrawer {
         add(patch.depth);
         add(patch.area);
       }
+      for (const IntersectionCurve& curve : contact.curves()) {
+        for (const CurvePoint& point : curve.points) add(point.position);
+      }
+      for (const ContactPoint& point : contact.points()) add(std::uint64_t{point.minimum});
     }
   }
   void add(const MotionReport& report) {
@@ -191,7 +195,7 @@ class EveryCall {
   static Settings all_outputs(int threads) {
     Settings settings;
     settings.threads = threads;
-    settings.outputs = {.zones = true, .patches = true, .points = true, .trace = true};
+    settings.outputs = {.zones = true, .patches = true, .points = true, .curves = true, .trace = true};
     settings.on_message = [](const Message&) {};
     return settings;
   }

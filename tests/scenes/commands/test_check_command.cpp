@@ -2,6 +2,7 @@
 #include <tact/version.h>
 #include <tact/world.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdint>
 #include <fstream>
@@ -106,6 +107,20 @@ TEST_F(CheckCommand, PairsAreTheCandidatesAndOverlappingOnesTellMore) {
   EXPECT_EQ(pairs[1].dump(), R"({"a":0,"b":2,"hulls_overlap":false,"facet_pairs":[]})");
   EXPECT_EQ(pairs[2]["a"], 1);
   EXPECT_EQ(pairs[2]["b"], 2);
+}
+
+TEST_F(CheckCommand, CurvesHoldEachFacetPairAndPointsTellOfMinima) {
+  CheckOptions options{.meshes = {a_, b_}};
+  options.outputs = {.points = true, .curves = true};
+  const Json pair = check_json(options)["frames"][0]["pairs"][0];
+  ASSERT_EQ(pair["curves"].size(), 1u);
+  const Json& curve = pair["curves"][0];
+  EXPECT_EQ(curve["closed"], true);
+  EXPECT_EQ(curve["points"].size(), curve["facets"].size());
+  EXPECT_GE(curve["facets"].size(), 3u);
+  for (const Json& facets : curve["facets"])
+    EXPECT_NE(std::find(pair["facet_pairs"].begin(), pair["facet_pairs"].end(), facets), pair["facet_pairs"].end());
+  for (const Json& point : pair["points"]) EXPECT_TRUE(point["minimum"].is_boolean());
 }
 
 TEST_F(CheckCommand, NumbersReadBackToTheSameDoubles) {

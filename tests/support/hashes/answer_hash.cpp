@@ -93,6 +93,23 @@ void AnswerHash::add(const Contact& contact) {
   for (const ContactPoint& point : contact.points()) add(point);
   features_.add(contact.patches().size());
   for (const Patch& patch : contact.patches()) add(patch);
+  if (!contact.curves().empty()) add_curves(contact);
+}
+
+// With them, which points are minima.
+void AnswerHash::add_curves(const Contact& contact) {
+  for (const ContactPoint& point : contact.points()) features_.add(point.minimum ? 1 : 0);
+  features_.add(contact.curves().size());
+  for (const IntersectionCurve& curve : contact.curves()) {
+    features_.add(2 * curve.points.size() + (curve.closed ? 1 : 0));
+    for (const CurvePoint& point : curve.points) {
+      add_vertices(point.edge);
+      add_vertices(std::array{point.facet, point.facet_pair});
+      features_.add(point.edge_of_b ? 1 : 0);
+      add(point.fraction);
+      add(point.position);
+    }
+  }
 }
 
 void AnswerHash::add(const ContactPoint& point) {

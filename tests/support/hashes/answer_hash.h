@@ -67,6 +67,7 @@ class AnswerHash {
   void add(const Contact& contact);
   void add(const ContactPoint& point);
   void add(const Patch& patch);
+  void add_curves(const Contact& contact);
   void add(std::span<const PatchEvent> events);
   std::uint64_t name_of(std::uint64_t patch) const;
 

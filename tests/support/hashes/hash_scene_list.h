@@ -15,6 +15,7 @@ SceneHashes play_nested(int threads);
 SceneHashes play_degenerate(int threads);
 SceneHashes play_many_clusters(int threads);
 SceneHashes play_cluster_trees(int threads);
+SceneHashes play_curves(int threads);
 
 // hash_scenes_self.cpp
 SceneHashes play_self_sheets(int threads);

@@ -193,4 +193,21 @@ SceneHashes play_cluster_trees(int threads) {
   return player.hashes();
 }
 
+// Intersection curves, and which points are minima: bodies in general position, boxes that have planes, lines and
+// places in common, and what crosses itself.
+SceneHashes play_curves(int threads) {
+  ScenePlayer player({.threads = threads, .outputs = {.points = true, .curves = true}});
+  for (const Mesh& blob : crowd_of_blobs(12, 8)) player.add({.mesh = blob, .margin = 0.05});
+  player.add({.mesh = translated(wrinkled_sheet(12, 4.0, 0.3, 2), {0.0, 0.0, 0.2}),
+              .surface = Surface::sheet,
+              .margin = 0.02});
+  const Mesh grid = gridded_box({0.0, 0.0, 5.0}, {1.0, 1.0, 6.0}, 2);
+  for (int i = 0; i < 4; ++i)
+    player.add({.mesh = translated(grid, {0.25 * i, 0.5 * (i % 2), 0.25 * (i / 2)}), .margin = 0.01});
+  player.add({.mesh = translated(crumpled(icosphere(2), 9), {0.0, 5.0, 0.0}), .self_contact = true});
+  player.add(
+      {.mesh = translated(lattice_soup(40, 3, 5), {0.0, -8.0, 0.0}), .surface = Surface::sheet, .self_contact = true});
+  return drift_for(player, 3, 0.05);
+}
+
 }  // namespace tact::tests

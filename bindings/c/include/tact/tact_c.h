@@ -160,11 +160,12 @@ typedef struct tact_settings {
   tact_message_function on_message; /**< called for each limit that a step reached, and for each body that was added as
                                        closed and is not. The report has limits as flags and counts. May be null */
   void* message_user;               /**< what it is called with */
+  bool curves;                      /**< tact_contact_curve() */
 } tact_settings;
 #define TACT_SETTINGS_INIT                                                                                            \
   {                                                                                                                   \
     (uint32_t)sizeof(tact_settings), 0, TACT_ACCURACY_EXACT, TACT_DIRECTION_CARRIED, 1e-12, 100, false, false, false, \
-        {NULL, NULL}, false, NULL, NULL                                                                               \
+        {NULL, NULL}, false, NULL, NULL, false                                                                        \
   }
 
 /** `count` vertices or facets, three numbers each, that begin every `stride_bytes` from `first` on. Coordinates are
@@ -448,11 +449,12 @@ typedef struct tact_contact {
   int32_t containment; /**< which body lies wholly inside the other, decided exactly; the direction leads out of it */
   /** whether a sheet crosses itself deeper than its crossing edges are long: vertices there have no point */
   bool point_limit_reached;
+  size_t curve_count; /**< see tact_contact_curve() */
 } tact_contact;
 #define TACT_CONTACT_INIT                                                                                          \
   {                                                                                                                \
     (uint32_t)sizeof(tact_contact), {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0, 0, false, false, 0, 0, {{0, 0, 0}, -1}, \
-        {{0, 0, 0}, -1}, 0, 0, NULL, 0, 0, 0, false                                                                \
+        {{0, 0, 0}, -1}, 0, 0, NULL, 0, 0, 0, false, 0                                                             \
   }
 
 /** A connected set of facet pairs and contact points: a place where two bodies touch or nearly do. */
@@ -470,7 +472,8 @@ typedef struct tact_patch {
   double area; /**< the area of the convex hull of its points, seen along `direction`; square metres */
   const int* points; /**< indices into tact_contact_points(), ascending */
   size_t point_count;
-  int spanning[4]; /**< at most four of `points`, the deepest first, then those that span the most area; -1 fills up */
+  int spanning[4]; /**< at most four of `points`: the deepest, and those that span the most area; kept while they nearly
+                      do. -1 fills up */
 } tact_patch;
 #define TACT_PATCH_INIT                                                                               \
   {                                                                                                   \
@@ -496,7 +499,31 @@ typedef struct tact_contact_point {
   double normal[3]; /**< unit vector from the point of a to that of b; the normal of a facet where the two coincide */
   double gap;  /**< the distance of the two points along the normal, metres; negative where the surfaces have crossed */
   uint64_t id; /**< the same in every step in which these features are near: a key for impulses */
+  bool minimum; /**< whether nothing beside it on either surface is nearer along its normal, which lies in the normal
+                   cones of both features */
 } tact_contact_point;
+
+/** Where an edge of one surface goes through a facet of the other; a corner of an intersection curve. */
+typedef struct tact_curve_point {
+  double position[3]; /**< metres; the exact place, rounded once */
+  double fraction;    /**< how far along the edge, 0 to 1 */
+  int edge[2]; /**< the vertices of the edge, ascending. The second is -1 at a common vertex of two facets of one body
+                */
+  int facet;   /**< the facet that the edge goes through; -1 at a common vertex */
+  int facet_pair; /**< the facets that hold the way to the next point: an index into tact_contact.facet_pairs. -1: no
+                     way leads on */
+  bool edge_of_b; /**< whether the edge is of b, and the facet of a */
+} tact_curve_point;
+
+/** A polyline of points on both surfaces. */
+typedef struct tact_curve {
+  uint32_t struct_size;
+  bool closed;                    /**< whether the last point leads on to the first */
+  const tact_curve_point* points; /**< in order */
+  size_t point_count;
+} tact_curve;
+#define TACT_CURVE_INIT \
+  { (uint32_t)sizeof(tact_curve), false, NULL, 0 }
 
 /** Two bodies whose boxes overlap. */
 typedef struct tact_candidate_pair {
@@ -562,6 +589,9 @@ TACT_C_API tact_error tact_contact_patch(tact_world world, size_t index, size_t 
 /** Gives the points, if tact_settings.points is set; sorted by kind, then by features. */
 TACT_C_API tact_error tact_contact_points(tact_world world, size_t index, const tact_contact_point** points,
                                           size_t* count);
+/** Gives one of the curves in which the surfaces cross, if tact_settings.curves is set; sorted by their first facet
+ * pair. */
+TACT_C_API tact_error tact_contact_curve(tact_world world, size_t index, size_t curve, tact_curve* result);
 /** Gives a number made from every bit of the contact, its facet pairs, points and patches, but for counts of work.
  * Bodies enter it by their keys alone. */
 TACT_C_API tact_error tact_contact_hash(tact_world world, size_t index, uint64_t* hash);
@@ -598,9 +628,10 @@ typedef struct tact_point_arrays {
   double* gaps;        /**< metres; negative where the surfaces have crossed */
   uint64_t* ids;       /**< the same in every step in which these features are near */
   uint64_t* patch_ids; /**< ids of the patches, or 0 where patches are not requested */
+  uint8_t* minima;     /**< 1 if nothing beside it on either surface is nearer, else 0 */
 } tact_point_arrays;
 #define TACT_POINT_ARRAYS_INIT \
-  { (uint32_t)sizeof(tact_point_arrays), NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL }
+  { (uint32_t)sizeof(tact_point_arrays), NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL }
 
 /** Arrays for the facet pairs of a whole report. A null one is left out. */
 typedef struct tact_facet_pair_arrays {
@@ -926,7 +957,7 @@ typedef struct tact_debug_draw_options {
   bool kept_facets;     /**< the facets that the criteria kept, found once more */
   bool facet_pairs;
   bool patches; /**< the direction of each patch, as long as its depth */
-  bool points;  /**< each contact point, as a line from a to b, and its normal */
+  bool points;  /**< each contact point, as a line from a to b, and its normal; faint if no minimum */
   bool names;   /**< the name of each body, at the top of its box */
   tact_debug_color surface;
   tact_debug_color box;
@@ -940,6 +971,8 @@ typedef struct tact_debug_draw_options {
   tact_debug_color patch;
   tact_debug_color point;
   tact_debug_color word;
+  bool curves; /**< the curves in which surfaces cross */
+  tact_debug_color curve;
 } tact_debug_draw_options;
 
 /** Fills in the defaults of all fields, struct_size included. */
