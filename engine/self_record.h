@@ -22,6 +22,7 @@ struct SelfRecord {
   PatchMemory patches;
   bool touching = false;             ///< see is_touching()
   bool point_limit_reached = false;  ///< see Contact
+  bool is_renumbered = false;        ///< see PairRecord
 };
 
 inline bool in_contact(const SelfRecord& record) { return !record.facet_pairs.empty() || !record.points.empty(); }

@@ -20,6 +20,7 @@
 #include "engine/bodies/cluster_groupings.h"
 #include "engine/bodies/columns.h"
 #include "engine/bodies/excluded_pairs.h"
+#include "engine/bodies/lasting_names.h"
 #include "engine/bodies/packed_meshes.h"
 #include "engine/bodies/rigid_states.h"
 #include "narrowphase/contact_points/contact_points.h"
@@ -42,6 +43,7 @@ struct alignas(64) Body {
   std::unique_ptr<const narrowphase::Features> features = nullptr;           // made when points are first requested
   std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors = nullptr;  // when it is first held against itself
   std::vector<double> begin = {};  // where it was in the last step, once it has moved twice since: a placement
+  std::unique_ptr<LastingNames> names = nullptr;  // once its facets have changed
 };
 
 class Bodies {
@@ -171,6 +173,21 @@ class Bodies {
   // Does without: the groups stay as they are, until the bodies are looked at again.
   void keep_groups() noexcept { groupings_.clear_decayed(); }
 
+  // A body whose facets change: numbers of the mesh that have none any more are -1; and of each vertex that was, by the
+  // caller's number, those that are it now and that a facet uses, ascending.
+  struct VertexChange : Regrouped {
+    std::vector<int> heirs_begin, heirs;
+    std::span<const int> heirs_of(int vertex) const {
+      const auto v = static_cast<std::size_t>(vertex);
+      return std::span(heirs).subspan(heirs_begin[v], heirs_begin[v + 1] - heirs_begin[v]);
+    }
+  };
+  struct NewMesh;
+  // Makes what World::set_facets() puts in the place of a body's mesh.
+  NewMesh make_mesh(BodyId id, const Positions& positions, const Facets& facets, std::span<const int> vertex_map,
+                    int threads) const;
+  void set_mesh(NewMesh&& made) noexcept;
+
   // A step has seen the changes and has an answer: nothing has moved.
   void end_step();
   // Everything has moved: after a step that failed half-way.
@@ -224,6 +241,9 @@ class Bodies {
     bool knows_kdop = false;
     double quality = 0.0;  // of the clusters, if it was time to look
   };
+
+  // facets.cpp
+  std::vector<double> begin_positions(std::uint32_t slot, std::span<const double> now, std::span<const int> was) const;
 
   // regroup.cpp
   Begin go_the_way(std::uint32_t slot, narrowphase::ClusteredMesh& anew) const;
@@ -299,6 +319,16 @@ class Bodies {
   std::vector<narrowphase::Kdop> new_kdops_;     // of those that know them
   std::vector<std::uint32_t> without_features_;  // scratch
   std::vector<char> named_;                      // scratch, an entry a slot
+};
+
+struct Bodies::NewMesh {
+  VertexChange vertices;
+  narrowphase::ClusteredMesh mesh;
+  std::unique_ptr<LastingNames> names;
+  std::unique_ptr<const narrowphase::Features> features;           // if the body had some
+  std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors;  // likewise
+  Begin begin;
+  bool grouped_from_scratch;
 };
 
 }  // namespace tact

@@ -77,6 +77,7 @@ class Life {
   std::string compare(Subject& twin) {
     if (subject_.report != nullptr && twin.report != nullptr)
       is_other_history_ = other_last_bits(*subject_.report, *twin.report);
+    subject_.leaves_out_ids = twin.leaves_out_ids = calls_.any_renamed();
     const AnswerHashes own = answer_of(subject_), of_twin = answer_of(twin);
     if (own.features != of_twin.features) return "another answer";
     if (own.numbers != of_twin.numbers && !is_other_history_) return "other numbers";
