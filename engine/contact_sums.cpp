@@ -41,6 +41,7 @@ class Places {
     Vec3 sum{0.0, 0.0, 0.0};
     for (std::size_t k = 0; k < 3 && vertices[k] >= 0; ++k) {
       const std::size_t at = 3 * static_cast<std::size_t>(vertices[k]);
+      if (at >= x.size()) throw Error(ErrorCode::wrong_order, "the report is of facets that have changed since");
       sum = sum + weights[k] * Vec3{x[at], x[at + 1], x[at + 2]};
     }
     return sum;

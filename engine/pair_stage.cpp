@@ -17,7 +17,7 @@ namespace {
 // Drops what the last step found; its points become the last ones.
 void clear_answers(PairRecord& record) {
   record.facet_pairs.clear();
-  std::swap(record.points, record.last_points);
+  if (!std::exchange(record.is_renumbered, false)) std::swap(record.points, record.last_points);
   record.points.clear();
   record.touching = false;
 }

@@ -24,20 +24,28 @@ constexpr std::size_t kCost = 4;
 // some 50 ns each.
 constexpr std::size_t kFewPoints = 256, kPublishedAtATime = 1024;
 
-// By keys, which no body has twice in one step.
-std::uint64_t id_of(const FeaturePoint& point, std::uint64_t key_a, std::uint64_t key_b) {
+// What ids of points call a body and its vertices by. No two bodies have one key in one step.
+struct Naming {
+  std::uint64_t key = 0;
+  const LastingNames* names = nullptr;
+};
+
+// Two edges of one body stand in the order of their names, which numbers may not have any more.
+std::uint64_t id_of(const FeaturePoint& point, const Naming& a, const Naming& b) {
   constexpr std::uint64_t kFirst = std::uint64_t{1}
                                    << 32;  // the ids of keys that are indices stay those of version 0.1
   base::WordChain id;
   id.add(static_cast<std::uint64_t>(point.kind));
-  for (const std::uint64_t key : {key_a, key_b}) id.add(key + kFirst);
-  for (const std::array<int, 3>& vertices : {point.a, point.b}) {
-    for (const int v : vertices) id.add(static_cast<std::uint32_t>(v));
+  for (const std::uint64_t key : {a.key, b.key}) id.add(key + kFirst);
+  LastingNames::Feature of_a = LastingNames::of(a.names, point.a), of_b = LastingNames::of(b.names, point.b);
+  if (a.key == b.key && point.kind == FeaturePair::edge_edge && of_b < of_a) std::swap(of_a, of_b);
+  for (const LastingNames::Feature& feature : {of_a, of_b}) {
+    for (const std::uint64_t name : feature) id.add(name);
   }
   return id.value();
 }
 
-ContactPoint to_point(const FeaturePoint& found, std::uint64_t key_a, std::uint64_t key_b) {
+ContactPoint to_point(const FeaturePoint& found, const Naming& a, const Naming& b) {
   ContactPoint point;
   point.kind = found.kind;
   point.a_vertices = found.a;
@@ -46,7 +54,7 @@ ContactPoint to_point(const FeaturePoint& found, std::uint64_t key_a, std::uint6
   point.b_weights = found.weight_b;
   point.normal = {found.normal.x, found.normal.y, found.normal.z};
   point.gap = found.gap;
-  point.id = id_of(found, key_a, key_b);
+  point.id = id_of(found, a, b);
   return point;
 }
 
@@ -190,7 +198,8 @@ void PointStage::publish(const Wanted& wanted, const Step& step, int threads, Wo
   const std::vector<FeaturePoint>& found = work.found;
   const Body &a = step.bodies.in_slot(wanted.a), &b = step.bodies.in_slot(wanted.b);
   const PointKeys keys(a.mesh.source_vertex_count(), found.size());
-  const std::uint64_t key_a = step.bodies.keys().of(wanted.a), key_b = step.bodies.keys().of(wanted.b);
+  const Naming naming_a{step.bodies.keys().of(wanted.a), a.names.get()},
+      naming_b{step.bodies.keys().of(wanted.b), b.names.get()};
   std::span<std::uint64_t> order = work.sorter.keys(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) order[i] = keys.key(found[i], i);
   if (found.size() <= kFewPoints) {
@@ -212,7 +221,7 @@ void PointStage::publish(const Wanted& wanted, const Step& step, int threads, Wo
     sort_by_the_rest(order.subspan(begin, end - begin), keys, found);
     for (std::size_t i = begin; i < end; ++i) {
       const FeaturePoint& one = found[keys.place(order[i])];
-      points[i] = to_point(one, key_a, key_b);
+      points[i] = to_point(one, naming_a, naming_b);
       points[i].minimum = is_local_minimum(one, {&a.mesh, a.features.get()}, {&b.mesh, b.features.get()});
     }
   });

@@ -24,6 +24,7 @@ struct SelfRecord {
   std::unique_ptr<CurveSet> curves;  ///< null where no facets meet
   bool touching = false;             ///< see is_touching()
   bool point_limit_reached = false;  ///< see Contact
+  bool is_renumbered = false;        ///< see PairRecord
 };
 
 inline bool in_contact(const SelfRecord& record) { return !record.facet_pairs.empty() || !record.points.empty(); }

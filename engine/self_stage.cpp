@@ -63,7 +63,7 @@ void SelfStage::select(std::uint32_t slot, Bodies& bodies) {
   record->body = bodies.in_slot(slot).id;
   record->facet_pairs.clear();
   record->may_contact.clear();
-  std::swap(record->points, record->last_points);
+  if (!std::exchange(record->is_renumbered, false)) std::swap(record->points, record->last_points);
   record->points.clear();
   record->point_limit_reached = false;
   looked_at_.push_back(record.get());
@@ -150,6 +150,11 @@ void SelfStage::list_contacts(const Bodies& bodies) {
   }
   if (!bodies.keys().are_slots())
     std::ranges::sort(contacts_, {}, [&](const SelfRecord* one) { return bodies.keys().of(one->body.index); });
+}
+
+SelfRecord* SelfStage::find(BodyId body) const {
+  SelfRecord* const record = body.index < records_.size() ? records_[body.index].get() : nullptr;
+  return record != nullptr && record->body == body ? record : nullptr;
 }
 
 void SelfStage::forget_patches() {

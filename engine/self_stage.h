@@ -36,6 +36,8 @@ class SelfStage {
   /// What patches bodies had that are not looked at any more.
   std::span<const PatchEvent> gone_patches() const { return gone_patches_; }
   void forget_patches();
+  /// What is kept of a body; null if there is nothing.
+  SelfRecord* find(BodyId body) const;
   /// Bodies that began to touch themselves in the last step, or ceased to; those that are no more among them.
   std::span<const ContactEvent> began() const { return began_; }
   std::span<const ContactEvent> ended() const { return ended_; }

@@ -26,6 +26,20 @@ void Step::regroup(Bodies& bodies, int threads) {
   regroup_ms_ = timer.lap();
 }
 
+Renumbering Step::renumbering_of(const Bodies::VertexChange& change) {
+  Renumbering renumbering(change);
+  if (forgotten_) return renumbering;
+  stages_->table.for_each_of(change.id, [&](PairRecord& record) { renumbering.add(record); });
+  if (SelfRecord* const self = stages_->selves.find(change.id)) renumbering.add(*self);
+  return renumbering;
+}
+
+void Step::renumber(const Bodies::VertexChange& change, Renumbering&& renumbering) noexcept {
+  const Bodies::Regrouped& numbers = change;
+  if (!forgotten_) stages_->table.renumber({&numbers, 1});
+  renumbering.publish();
+}
+
 const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh_ms) {
   Timer timer(settings.outputs.trace ? 0.0 : base::TickCounter::tick_ms());  // a trace needs points in time
   const TraceEvent::Time begin = timer.start();

@@ -17,6 +17,7 @@
 #include "engine/pair_stage.h"
 #include "engine/patch_stage.h"
 #include "engine/point_stage.h"
+#include "engine/renumbering.h"
 #include "engine/report_writer.h"
 #include "engine/self_stage.h"
 #include "engine/step_trace.h"
@@ -36,6 +37,10 @@ class Step {
   /// Groups the facets again of bodies whose clusters have lost their shape; what pairs remember stays. A part of stage
   /// 1, before run(). If it fails, nothing has changed.
   void regroup(Bodies& bodies, int threads);
+
+  /// What is remembered of a body whose facets change, by the new numbers of its vertices; and puts that in its place.
+  Renumbering renumbering_of(const Bodies::VertexChange& change);
+  void renumber(const Bodies::VertexChange& change, Renumbering&& renumbering) noexcept;
 
   /// The next step looks at every pair; directions are carried on.
   void look_at_all() { all_ = true; }

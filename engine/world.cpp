@@ -187,6 +187,18 @@ void World::set_positions(std::span<const PositionsUpdate> updates) {
   i.observe([&](WorldObserver& observer) { observer.positions_set(updates); });
 }
 
+void World::set_facets(BodyId body, const Positions& positions, const Facets& facets, std::span<const int> vertex_map) {
+  const base::FloatingPointMode mode;
+  Implementation& i = implementation();
+  i.set_positions([&] {
+    Bodies::NewMesh made = i.bodies.make_mesh(body, positions, facets, vertex_map, i.settings.threads);
+    // From publishing on nothing can fail.
+    i.step.renumber(made.vertices, i.step.renumbering_of(made.vertices));
+    i.bodies.set_mesh(std::move(made));
+  });
+  i.observe([&](WorldObserver& observer) { observer.facets_set(body, positions, facets, vertex_map); });
+}
+
 void World::set_pose(BodyId body, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {
   const base::FloatingPointMode mode;
   Implementation& i = implementation();
@@ -518,6 +530,7 @@ void WorldObserver::settings_changed(const Settings&) noexcept {}
 void WorldObserver::body_added(BodyId, const BodyDefinition&) noexcept {}
 void WorldObserver::body_removed(BodyId) noexcept {}
 void WorldObserver::positions_set(std::span<const PositionsUpdate>) noexcept {}
+void WorldObserver::facets_set(BodyId, const Positions&, const Facets&, std::span<const int>) noexcept {}
 void WorldObserver::poses_set(std::span<const PoseUpdate>) noexcept {}
 void WorldObserver::layers_set(BodyId, std::uint32_t, std::uint32_t) noexcept {}
 void WorldObserver::group_set(BodyId, std::uint32_t) noexcept {}

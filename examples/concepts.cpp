@@ -2,10 +2,12 @@
 // the page says.
 #include <tact/tact.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <set>
 #include <vector>
 
 namespace {
@@ -160,6 +162,34 @@ void queries() {
   expect(is_inside, "the middle is inside");
 }
 
+void changed_facets() {
+  Mesh sheet = square(1.0, 0.0);
+  const Mesh ground = square(4.0, -0.01);
+  tact::Settings settings;
+  settings.outputs.points = true;
+  tact::World world(settings);
+  const tact::BodyId cloth = world.add_body(
+      {.positions = sheet.positions, .facets = sheet.facets, .surface = tact::Surface::sheet, .margin = 0.01});
+  world.add_body(
+      {.positions = ground.positions, .facets = ground.facets, .surface = tact::Surface::sheet, .margin = 0.01});
+  std::set<std::uint64_t> before, after;
+  for (const tact::ContactPoint& point : world.detect().contacts()[0].points()) before.insert(point.id);
+  // [part facets]
+  // Along the edge of its two facets the sheet is cut: vertices 0 and 2 have doubles, 4 and 5.
+  const std::vector<int> vertex_map{0, 1, 2, 3, 0, 2};
+  Eigen::Matrix3Xd positions(3, 6);
+  for (int v = 0; v < 6; ++v) positions.col(v) = sheet.positions.col(vertex_map[v]);
+  Eigen::Matrix3Xi facets(3, 2);
+  facets << 0, 4, 1, 5, 2, 3;
+  world.set_facets(cloth, positions, facets, vertex_map);
+  // [part facets]
+  const tact::Report& report = world.detect();
+  expect(report.began().empty() && report.ended().empty(), "what touches goes on touching");
+  for (const tact::ContactPoint& point : report.contacts()[0].points()) after.insert(point.id);
+  expect(std::includes(after.begin(), after.end(), before.begin(), before.end()), "what is still there keeps its id");
+  expect(after.size() > before.size(), "the doubles have points of their own");
+}
+
 void saved_states() {
   const Mesh low = cube(1.0, {0, 0, 0}), high = cube(1.0, {0.2, 0.1, 0.75});
   const auto step = [&](tact::World& of, tact::BodyId moved, double down) {
@@ -210,6 +240,7 @@ int main() {
   curves();
   motion();
   queries();
+  changed_facets();
   saved_states();
   errors();
   return failures == 0 ? 0 : 1;

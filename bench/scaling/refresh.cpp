@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/measure.h"
+#include "bench/scaling/cutting.h"
 #include "bench/table.h"
 #include "bench/workloads/shapes.h"
 #include "engine/base/parallel.h"
@@ -159,8 +160,12 @@ int run_refresh(const BenchOptions& options) {
     }
   }
   table.print();
+  fmt::print("\nmilliseconds on one thread:\n");
+  const Table cutting = measure_cutting(options.quick);
+  cutting.print();
   if (options.out.empty()) return 0;
   table.write_csv(options.out / "refresh.csv");
+  cutting.write_csv(options.out / "cutting.csv");
   plot_bars(options.out, "refresh", chart);
   return 0;
 }

@@ -53,18 +53,6 @@ std::uint64_t birth_of(std::uint32_t slot, std::uint64_t key, std::uint64_t step
   return hash.value();
 }
 
-// Whether the volume that facets enclose is positive. In the caller's order, so that no grouping decides.
-bool is_outward(const narrowphase::ClusteredMesh& mesh) {
-  if (mesh.facet_count() == 0) return false;
-  const base::Vec3 from = mesh.triangle(mesh.facet_of_source(0))[0];
-  double volume = 0.0;
-  for (int source = 0; source < mesh.facet_count(); ++source) {
-    const narrowphase::Triangle t = mesh.triangle(mesh.facet_of_source(source));
-    volume += dot(t[0] - from, cross(t[1] - from, t[2] - from));
-  }
-  return volume > 0.0;
-}
-
 }  // namespace
 
 BodyId Bodies::add(const BodyDefinition& definition) {

@@ -20,6 +20,7 @@
 #include "engine/bodies/cluster_groupings.h"
 #include "engine/bodies/columns.h"
 #include "engine/bodies/excluded_pairs.h"
+#include "engine/bodies/lasting_names.h"
 #include "engine/bodies/packed_meshes.h"
 #include "engine/bodies/pair_choice.h"
 #include "engine/bodies/rigid_states.h"
@@ -45,6 +46,7 @@ struct alignas(64) Body {
   std::unique_ptr<const narrowphase::Features> features = nullptr;           // made when points are first requested
   std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors = nullptr;  // when it is first held against itself
   std::vector<double> begin = {};  // where it was in the last step, once it has moved twice since: a placement
+  std::unique_ptr<LastingNames> names = nullptr;  // once its facets have changed
 };
 
 class Bodies {
@@ -104,10 +106,10 @@ class Bodies {
   narrowphase::FeaturedMesh featured(std::uint32_t slot) const {
     return {&in_slot(slot).mesh, in_slot(slot).features.get()};
   }
-  // Whether a body has an inside: it is closed in fact, and turned outwards. After make_features().
+  // Whether a body has an inside and is turned outwards.
   bool is_solid(std::uint32_t slot) const {
     const Body& body = in_slot(slot);
-    return body.surface == Surface::closed && body.is_outward && body.features->is_closed();
+    return body.has_inside && body.is_outward;
   }
   // Whether a body has other positions than in the last step; and the body with its way since.
   bool on_its_way(std::uint32_t slot) const { return slots_[slot].begin != Begin::here; }
@@ -185,6 +187,21 @@ class Bodies {
   // Does without: the groups stay as they are, until the bodies are looked at again.
   void keep_groups() noexcept { groupings_.clear_decayed(); }
 
+  // A body whose facets change: numbers of the mesh that have none any more are -1; and of each vertex that was, by the
+  // caller's number, those that are it now and that a facet uses, ascending.
+  struct VertexChange : Regrouped {
+    std::vector<int> heirs_begin, heirs;
+    std::span<const int> heirs_of(int vertex) const {
+      const auto v = static_cast<std::size_t>(vertex);
+      return std::span(heirs).subspan(heirs_begin[v], heirs_begin[v + 1] - heirs_begin[v]);
+    }
+  };
+  struct NewMesh;
+  // Makes what World::set_facets() puts in the place of a body's mesh.
+  NewMesh make_mesh(BodyId id, const Positions& positions, const Facets& facets, std::span<const int> vertex_map,
+                    int threads) const;
+  void set_mesh(NewMesh&& made) noexcept;
+
   // A step has seen the changes and has an answer: nothing has moved.
   void end_step();
   // Everything has moved: after a step that failed half-way.
@@ -238,6 +255,9 @@ class Bodies {
     bool knows_kdop = false;
     double quality = 0.0;  // of the clusters, if it was time to look
   };
+
+  // facets.cpp
+  std::vector<double> begin_positions(std::uint32_t slot, std::span<const double> now, std::span<const int> was) const;
 
   // regroup.cpp
   Begin go_the_way(std::uint32_t slot, narrowphase::ClusteredMesh& anew) const;
@@ -314,6 +334,17 @@ class Bodies {
   std::vector<std::uint32_t> without_features_;  // scratch
   std::vector<char> named_;                      // scratch, an entry a slot
   const PairChoice* choice_ = nullptr;
+};
+
+struct Bodies::NewMesh {
+  VertexChange vertices;
+  bool has_inside = false, is_outward = false;  // see Body
+  narrowphase::ClusteredMesh mesh;
+  std::unique_ptr<LastingNames> names;
+  std::unique_ptr<const narrowphase::Features> features;           // if the body had some
+  std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors;  // likewise
+  Begin begin;
+  bool grouped_from_scratch;
 };
 
 }  // namespace tact

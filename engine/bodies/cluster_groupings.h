@@ -30,8 +30,10 @@ class ClusterGroupings {
 
   // Whether the quality of a mesh is computed when it moves next: every n-th move, of meshes with enough clusters.
   bool looks_next(std::uint32_t slot, const narrowphase::ClusteredMesh& mesh) const {
-    return entries_[slot].moves + 1 == moves_to_look(entries_[slot]) &&
-           static_cast<std::size_t>(mesh.cluster_count()) >= tuning_->fewest_regrouped;
+    return entries_[slot].moves + 1 == moves_to_look(entries_[slot]) && is_looked_at(mesh);
+  }
+  bool is_looked_at(const narrowphase::ClusteredMesh& mesh) const {
+    return static_cast<std::size_t>(mesh.cluster_count()) >= tuning_->fewest_regrouped;
   }
   // Threads may note the moves of different bodies.
   void note_move(std::uint32_t slot) {

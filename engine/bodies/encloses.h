@@ -3,6 +3,8 @@
 
 #include <span>
 
+#include "narrowphase/mesh/clustered_mesh.h"
+
 namespace tact {
 
 // Whether the facets at each edge run along it as often one way as the other, where vertices at one place are one: then
@@ -11,5 +13,8 @@ namespace tact {
 // there are no others the answer is true. A sum of hashes, in one pass over vertices and facets: a surface that has an
 // inside always has it, and one that has none is taken for another once in 2^64 times.
 bool encloses(std::span<const double> positions, std::span<const int> facets);
+
+// Whether the volume that the facets of a mesh enclose is positive: counter-clockwise seen from outside.
+bool is_outward(const narrowphase::ClusteredMesh& mesh);
 
 }  // namespace tact

@@ -31,12 +31,20 @@ struct Mesh {
   std::vector<double> coordinates;
   std::vector<int> corners;
 
-  Vector3d vertex(int v) const { return Eigen::Map<const Vector3d>(&coordinates[3 * static_cast<std::size_t>(v)]); }
+  Vector3d vertex(int v) const {
+    return Eigen::Map<const Vector3d>(&coordinates[checked(3 * static_cast<std::size_t>(v), coordinates.size())]);
+  }
   std::array<Vector3d, 3> facet(int f) const {
-    const int* const corner = &corners[3 * static_cast<std::size_t>(f)];
+    const int* const corner = &corners[checked(3 * static_cast<std::size_t>(f), corners.size())];
     return {vertex(corner[0]), vertex(corner[1]), vertex(corner[2])};
   }
   int facet_count() const { return static_cast<int>(corners.size() / 3); }
+
+  // A report may be of facets that are no more.
+  static std::size_t checked(std::size_t at, std::size_t size) {
+    if (at >= size) throw Error(ErrorCode::wrong_order, "the report is of facets that have changed since");
+    return at;
+  }
 };
 
 bool is_empty(const Bounds& bounds) { return bounds.lower[0] > bounds.upper[0]; }

@@ -58,6 +58,7 @@ struct alignas(64) PairRecord {
   std::unique_ptr<CurveSet> curves;                       ///< of the last step; null where no facets meet
   std::unique_ptr<narrowphase::SurfaceHistory> surfaces;  ///< of bodies that lie on each other, once
   std::unique_ptr<narrowphase::SurfaceShape> surface;     ///< where the search for the smallest separation ended, once
+  bool is_renumbered = false;  ///< facets have changed since: last_points are those of the last step, by new numbers
 };
 
 inline bool in_contact(const PairRecord& record) { return record.hulls_overlap || record.near; }

@@ -15,17 +15,24 @@ namespace {
 constexpr std::size_t kLargestRoom = 512;                      // facet pairs, 4 kB
 constexpr std::size_t kFewestRecords = 4, kMostRecords = 256;  // taken at once
 
-// Of one body, if it has other numbers now. What a record keeps of earlier pairs is left alone.
+// Of one body, if it has other numbers now. What a record keeps of earlier pairs is left alone. A start of a search
+// that has lost a vertex is forgotten.
 template <class InSimplex, class InSurface>
 void renumber_vertices(PairRecord& record, std::span<const int> numbers, InSimplex in_simplex, InSurface in_surface) {
   if (numbers.empty()) return;
   const auto renumber = [&](auto& vertices, int count) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) vertices[k] = numbers[vertices[k]];
+    bool are_there = true;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+      vertices[k] = numbers[vertices[k]];
+      are_there = are_there && vertices[k] >= 0;
+    }
+    return are_there;
   };
-  renumber(record.history.hulls.*in_simplex, record.history.hulls.count);
-  if (record.hulls_overlap) renumber(record.face.*in_simplex, record.face.count);
-  if (record.history.has_surface && record.surface->face_count > 0)
-    renumber(*record.surface.*in_surface, record.surface->vertex_count);
+  PairHistory& history = record.history;
+  if (!renumber(history.hulls.*in_simplex, history.hulls.count)) history.hulls = {};
+  if (record.hulls_overlap && !renumber(record.face.*in_simplex, record.face.count)) record.face = {};
+  if (history.has_surface && record.surface->face_count > 0)
+    history.has_surface = renumber(*record.surface.*in_surface, record.surface->vertex_count);
 }
 
 }  // namespace
@@ -156,7 +163,7 @@ PairRecord& PairTable::new_record(BodyId a, BodyId b) {
   record.a = a;
   record.b = b;
   record.history = {};
-  record.hulls_overlap = record.near = record.touching = false;
+  record.hulls_overlap = record.near = record.touching = record.is_renumbered = false;
   record.facet_pairs.clear();
   record.points.clear();
   record.surfaces.reset();
@@ -173,7 +180,7 @@ void PairTable::retire(PairRecord& record) {
   free_.push_back(&record);
 }
 
-void PairTable::renumber(std::span<const Bodies::Regrouped> bodies) {
+void PairTable::renumber(std::span<const Bodies::Regrouped> bodies) noexcept {
   if (bodies.empty()) return;
   // A body that was removed may stand in the records still: another has its slot.
   const auto numbers_of = [&](BodyId id) -> std::span<const int> {

@@ -39,7 +39,14 @@ class PairTable {
   // Nothing moved: the pairs and the contacts are those of the last step.
   void keep();
   // Vertices have other numbers: so have those that the records name. `bodies` are sorted by slot.
-  void renumber(std::span<const Bodies::Regrouped> bodies);
+  void renumber(std::span<const Bodies::Regrouped> bodies) noexcept;
+  // Calls visit(record) for each pair of the last step that the body is one of.
+  template <class Visit>
+  void for_each_of(BodyId body, const Visit& visit) {
+    for (const Entry& entry : entries_) {
+      if (entry.record->a == body || entry.record->b == body) visit(*entry.record);
+    }
+  }
   // Drops from moved() the pairs that are marked as separated.
   void drop_separated();
 

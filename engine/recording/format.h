@@ -1,6 +1,6 @@
 // What a recording is made of.
 //
-// The file, version 6. Numbers are little-endian, doubles as IEEE 754 has them, without padding between them:
+// The file, version 7. Numbers are little-endian, doubles as IEEE 754 has them, without padding between them:
 //
 //   head      "tactrec\n", u32 version, text: the version of tact that wrote it
 //   settings  u8 1, i32 threads, u8 accuracy, u8 direction policy, f64 gjk_tolerance, i32 iteration_limit, u8 zones,
@@ -24,8 +24,11 @@
 //             version 5, as is the motion `rigid`
 //   failed    u8 15; after a detect that threw, since version 6
 //   key       u8 16, u64: the key of the body that is added next, if one was given; this and the next since version 6
+//   restore   u8 17, u64 bytes, and these: those of World::restore()
 //   curves    u8 18; after settings whose Outputs::curves is set, which a record of settings alone unsets; since
-//   version 6 restore   u8 17, u64 bytes, and these: those of World::restore()
+//             version 7
+//   facets    u8 19, body, u64 vertices, u64 facets, 3 f64 a vertex, 3 i32 a facet, i32 a vertex: that which it was, or
+//             -1; since version 7
 //
 // A text is u32 bytes and these; a body is u32 index and u32 generation of its BodyId; enumerations are numbered in the
 // order of their values. Outputs::trace is left out: it changes no answer. The records stand in the order of the calls;
@@ -38,7 +41,7 @@
 namespace tact::recording {
 
 inline constexpr std::string_view kMagic = "tactrec\n";
-inline constexpr std::uint32_t kVersion = 6;
+inline constexpr std::uint32_t kVersion = 7;
 
 enum class RecordKind : std::uint8_t {
   settings = 1,
@@ -58,8 +61,9 @@ enum class RecordKind : std::uint8_t {
   failed = 15,
   key = 16,
   restore = 17,
-  curves = 18
+  curves = 18,
+  facets = 19
 };
-inline constexpr RecordKind kLastRecordKind = RecordKind::curves;
+inline constexpr RecordKind kLastRecordKind = RecordKind::facets;
 
 }  // namespace tact::recording

@@ -132,6 +132,19 @@ void Recorder::positions_set(std::span<const PositionsUpdate> updates) noexcept 
   });
 }
 
+void Recorder::facets_set(BodyId body, const Positions& positions, const Facets& facets,
+                          std::span<const int> vertex_map) noexcept {
+  write([&](std::ostream& out) {
+    put(out, RecordKind::facets);
+    put_body(out, body);
+    put(out, static_cast<std::uint64_t>(positions.cols()));
+    put(out, static_cast<std::uint64_t>(facets.cols()));
+    put_columns(out, positions);
+    put_columns(out, facets);
+    for (const int was : vertex_map) put(out, std::int32_t{was});
+  });
+}
+
 void Recorder::poses_set(std::span<const PoseUpdate> updates) noexcept {
   write([&](std::ostream& out) {
     put(out, RecordKind::poses);

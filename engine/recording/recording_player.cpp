@@ -84,6 +84,7 @@ struct RecordingPlayer::Implementation {
         return make([&] { world->remove_body(body); });
       }
       case RecordKind::positions: return set_positions();
+      case RecordKind::facets: return set_facets();
       case RecordKind::poses: return set_poses();
       case RecordKind::layers: {
         const BodyId body = read_body();
@@ -221,6 +222,17 @@ struct RecordingPlayer::Implementation {
     std::vector<PositionsUpdate> updates;
     for (std::size_t i = 0; i < bodies.size(); ++i) updates.push_back({bodies[i], positions[i]});
     make([&] { world->set_positions(updates); });
+  }
+
+  void set_facets() {
+    const BodyId body = read_body();
+    const auto vertices = reader.read<std::uint64_t>(), facets = reader.read<std::uint64_t>();
+    const Eigen::Matrix3Xd positions = read_columns<double>(vertices);
+    const Eigen::Matrix3Xi corners = read_columns<std::int32_t>(facets);
+    reader.require(vertices, sizeof(std::int32_t));
+    std::vector<int> vertex_map(static_cast<std::size_t>(vertices));
+    for (int& was : vertex_map) was = reader.read<std::int32_t>();
+    make([&] { world->set_facets(body, positions, corners, vertex_map); });
   }
 
   void set_poses() {

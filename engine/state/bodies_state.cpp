@@ -122,6 +122,8 @@ void StateFields::read_body(StateReader& reader, Bodies& bodies, std::uint32_t s
   Bodies::Slot saved;
   ClusterGroupings::Entry grouping;
   reader(*body, saved, grouping);
+  reader.check(body->names == nullptr || body->names->vertex_count() == state.vertex_count,
+               "there are not as many names as vertices");
   reader.check(grouping.quality >= 0.0 && grouping.tries <= ClusterGroupings::kMostDoublings,
                "clusters have no quality");
   bodies.make_room_for(slot, place);

@@ -102,12 +102,21 @@ struct StateFields {
     if (is_on_its_way) is_rigid ? archive(begin_pose) : archive(begin);
   }
 
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, LastingNames>& names) {
+    auto& [of_vertex, next, orders] = names;
+    archive(of_vertex, next, orders);
+  }
+
   // By others: mesh and begin, as a MeshState; id. Dropped: features and neighbors.
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Body>& body) {
-    auto& [mesh, id, name, surface, has_inside, external_id, self_contact, is_outward, birth, features, neighbors, begin] =
-        body;
+    auto& [mesh, id, name, surface, has_inside, external_id, self_contact, is_outward, birth, features, neighbors, begin,
+           names] = body;
     archive(name, surface, has_inside, external_id, self_contact, is_outward, birth);
+    bool has_names = names != nullptr;
+    archive(has_names);
+    if (has_names) archive.pointee(names);
   }
 
   // By others: body, rigid and begin, as a MeshState; fixed, as part of the filter. Dropped: the rest.
@@ -240,27 +249,60 @@ struct StateFields {
     visit_members(archive, curves, points, &IntersectionCurve::points);
   }
 
-  // By others: a and b. Of the step before: was_in_contact, last_points. Dropped: times, surfaces.
+  // What stands between a change of facets and the next step: no facets have the numbers that they had.
+  static PatchSet without_members(const PatchSet& set) {
+    PatchSet bare{.patches = set.patches, .facet_pairs = {}, .points = {}, .vertices = set.vertices};
+    for (Patch& patch : bare.patches) {
+      patch.facet_pairs = patch.points = {};
+      patch.spanning.fill(-1);
+    }
+    return bare;
+  }
+  template <class Archive, class Record>
+  static void visit_points(Archive& archive, Record& record) {
+    if constexpr (!Archive::kReads) {
+      if (record.is_renumbered) return archive(std::vector<FacetPair>(), record.last_points);
+    }
+    archive(record.facet_pairs, record.points);
+  }
+  template <class Archive, class Record, class Memory>
+  static void visit_patches(Archive& archive, Record& record, Memory& patches) {
+    if constexpr (!Archive::kReads) {
+      if (record.is_renumbered) return archive(without_members(patches.now));
+    }
+    archive(patches);
+  }
+
+  // By others: a and b. Of the step before: was_in_contact; last_points unless it is renumbered, which a record that is
+  // read is not. Dropped: times, surfaces.
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, PairRecord>& record) {
     auto& [a, b, hulls_overlap, near, was_in_contact, touching, history, times, slab_lower, slab_upper, face, contact,
-           facet_pairs, points, last_points, patches, curves, surfaces, surface] = record;
+           facet_pairs, points, last_points, patches, curves, surfaces, surface, is_renumbered] = record;
     archive(hulls_overlap, near, touching, history);
     if (history.has_surface) archive.pointee(surface);
     if (hulls_overlap) archive(slab_lower, slab_upper, face);
-    if (hulls_overlap || near) archive(contact, facet_pairs, points);
+    if (hulls_overlap || near) {
+      archive(contact);
+      visit_points(archive, record);
+    }
     bool has_patches = patches != nullptr && !patches->now.patches.empty();
     archive(has_patches);
-    if (has_patches) archive.pointee(patches);
+    if (has_patches) {
+      if constexpr (Archive::kReads) patches = std::make_unique<PatchMemory>();
+      visit_patches(archive, record, *patches);
+    }
     visit_curves(archive, curves);
   }
 
-  // By others: body. Of the step before: last_points. Dropped: the cluster pairs and the crossing.
+  // By others: body. Of the step before: last_points, as of a pair. Dropped: the cluster pairs and the crossing.
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, SelfRecord>& record) {
     auto& [body, facet_pairs, points, last_points, may_meet, may_contact, crossing, patches, curves, touching,
-           point_limit_reached] = record;
-    archive(facet_pairs, points, patches, touching, point_limit_reached);
+           point_limit_reached, is_renumbered] = record;
+    visit_points(archive, record);
+    visit_patches(archive, record, patches);
+    archive(touching, point_limit_reached);
     visit_curves(archive, curves);
   }
 

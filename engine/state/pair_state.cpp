@@ -55,8 +55,8 @@ class Checks {
   void points(std::span<const ContactPoint> points) const {
     for (const ContactPoint& point : points) {
       reader_.check(point.patch >= 0, "a number is negative");
-      feature(point.a_vertices, a_);
-      feature(point.b_vertices, b_);
+      feature(point.a_vertices, a_, point.kind == FeaturePair::facet_vertex);
+      feature(point.b_vertices, b_, point.kind == FeaturePair::vertex_facet);
     }
   }
 
@@ -85,11 +85,11 @@ class Checks {
     reader_.check(a >= 0 && a < a_.vertex_count() && b >= 0 && b < b_.vertex_count(), "a vertex is not there");
   }
 
-  // One to three vertices of the caller's, each on a facet.
-  void feature(const std::array<int, 3>& vertices, const ClusteredMesh& mesh) const {
+  // One to three vertices of the caller's, each on a facet. Of the place that a vertex was near there may be none left.
+  void feature(const std::array<int, 3>& vertices, const ClusteredMesh& mesh, bool may_be_gone) const {
     bool ended = false;
     for (std::size_t k = 0; k < 3; ++k) {
-      ended |= vertices[k] == -1 && k > 0;
+      ended |= vertices[k] == -1 && (k > 0 || may_be_gone);
       if (ended && vertices[k] == -1) continue;
       reader_.check(!ended && vertices[k] >= 0 && vertices[k] < mesh.source_vertex_count() &&
                         !std::ranges::binary_search(mesh.unused_source_vertices(), vertices[k]),

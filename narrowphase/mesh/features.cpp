@@ -1,7 +1,6 @@
 #include "narrowphase/mesh/features.h"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "narrowphase/mesh/prefetch.h"
@@ -10,27 +9,54 @@ namespace tact::narrowphase {
 
 namespace {
 
-// A side of a facet: from corner k to the next one.
-struct Side {
-  EdgeVertices vertices;  // the smaller first
-  int facet;
-  int k;
-  friend bool operator<(const Side& x, const Side& y) {
-    return std::tie(x.vertices, x.facet, x.k) < std::tie(y.vertices, y.facet, y.k);
-  }
+// Sides of facets, each from corner k of a facet to the next one, as 3 * facet + k. Those of one edge stand together,
+// in the order of the facets.
+struct Sides {
+  // Of an edge: from `begin` on, to `end`.
+  struct Edge {
+    int begin = 0, end = 0;
+  };
+  std::vector<std::uint64_t> keys;  // the larger vertex of the edge, then the side, of 32 bits each
+  std::vector<Edge> edges;          // in the order of their first sides
+
+  std::size_t facet(int i) const { return static_cast<std::uint32_t>(keys[i]) / 3; }
+  std::size_t corner(int i) const { return static_cast<std::uint32_t>(keys[i]) % 3; }
 };
 
-std::vector<Side> sides_of(const std::vector<Corners>& corners) {
-  std::vector<Side> sides;
-  sides.reserve(3 * corners.size());
-  for (int f = 0; f < static_cast<int>(corners.size()); ++f) {
-    const Corners& c = corners[f];
-    for (int k = 0; k < 3; ++k) {
-      const int from = c[k], to = c[(k + 1) % 3];
-      if (from != to) sides.push_back({{std::min(from, to), std::max(from, to)}, f, k});
+// Calls visit(smaller vertex, key) for all, by facets.
+template <class Visit>
+void for_each_side(const std::vector<Corners>& corners, const Visit& visit) {
+  std::uint64_t side = 0;
+  for (const Corners& c : corners) {
+    for (std::size_t k = 0; k < 3; ++k, ++side) {
+      const auto [small, large] = std::minmax(c[k], c[(k + 1) % 3]);
+      if (small != large) visit(small, static_cast<std::uint64_t>(large) << 32 | side);
     }
   }
-  std::sort(sides.begin(), sides.end());
+}
+
+// First by the smaller vertex, of which there are as many as vertices, then the few that have it.
+Sides sides_of(const std::vector<Corners>& corners, int vertices) {
+  std::vector<int> begin(static_cast<std::size_t>(vertices) + 1, 0);
+  for_each_side(corners, [&](int vertex, std::uint64_t) { ++begin[static_cast<std::size_t>(vertex) + 1]; });
+  for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
+  Sides sides{.keys = std::vector<std::uint64_t>(static_cast<std::size_t>(begin.back())), .edges = {}};
+  std::vector<int> next(begin.begin(), begin.end() - 1);
+  for_each_side(corners, [&](int vertex, std::uint64_t key) { sides.keys[next[vertex]++] = key; });
+  std::vector<Sides::Edge> at_side(3 * corners.size());  // the edges that begin with a side
+  std::size_t count = 0;
+  for (std::size_t v = 0; v + 1 < begin.size(); ++v) {
+    const int end = begin[v + 1];
+    std::sort(sides.keys.begin() + begin[v], sides.keys.begin() + end);
+    for (int i = begin[v], first = i; i < end; first = i, ++count) {
+      while (i < end && sides.keys[i] >> 32 == sides.keys[first] >> 32) ++i;
+      at_side[static_cast<std::uint32_t>(sides.keys[first])] = {first, i};
+    }
+  }
+  sides.edges.reserve(count);
+  for (const Sides::Edge& edge : at_side) {
+    if (edge.end > edge.begin) sides.edges.push_back(edge);
+  }
   return sides;
 }
 
@@ -50,36 +76,26 @@ Features::Features(const ClusteredMesh& mesh) {
 }
 
 void Features::find_edges(const ClusteredMesh& mesh) {
-  const std::vector<Side> sides = sides_of(corners_);
-  // Where the sides of each edge begin, in the order of the first facets.
-  std::vector<std::size_t> begins;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    if (i == 0 || sides[i].vertices != sides[i - 1].vertices) begins.push_back(i);
-  }
-  std::ranges::sort(begins, {}, [&](std::size_t i) { return std::pair(sides[i].facet, sides[i].k); });
+  const Sides sides = sides_of(corners_, mesh.vertex_count());
   facet_edges_.assign(3 * static_cast<std::size_t>(mesh.facet_count()), -1);
   edge_begin_.assign(static_cast<std::size_t>(mesh.cluster_count()) + 1, 0);
   opposite_begin_.push_back(0);
-  for (const std::size_t begin : begins) {
-    const int edge = edge_count();
-    const Corners& corners = corners_[sides[begin].facet];
-    auto from = static_cast<std::size_t>(sides[begin].k), to = (from + 1) % 3;
+  for (const auto& [begin, end] : sides.edges) {
+    const int edge = edge_count(), first = static_cast<int>(sides.facet(begin));
+    const Corners& corners = corners_[first];
+    std::size_t from = sides.corner(begin), to = (from + 1) % 3;
     if (mesh.source_vertex(corners[to]) < mesh.source_vertex(corners[from])) std::swap(from, to);
     edges_.push_back({corners[from], corners[to]});
-    const ClusterFacets cluster = mesh.facets_of(sides[begin].facet / kClusterSize);
-    const int facet = sides[begin].facet % kClusterSize;
-    edge_corner_[0].push_back(cluster.corner[from][facet]);
-    edge_corner_[1].push_back(cluster.corner[to][facet]);
-    first_facet_of_edge_.push_back(sides[begin].facet);
-    ++edge_begin_[static_cast<std::size_t>(sides[begin].facet / kClusterSize) + 1];
-    int balance = 0;
-    for (std::size_t i = begin; i < sides.size() && sides[i].vertices == sides[begin].vertices; ++i) {
-      const auto [_, f, k] = sides[i];
-      balance += corners_[f][static_cast<std::size_t>(k)] == edges_.back()[0] ? 1 : -1;
-      facet_edges_[3 * static_cast<std::size_t>(f) + static_cast<std::size_t>(k)] = edge;
+    const ClusterFacets cluster = mesh.facets_of(first / kClusterSize);
+    edge_corner_[0].push_back(cluster.corner[from][first % kClusterSize]);
+    edge_corner_[1].push_back(cluster.corner[to][first % kClusterSize]);
+    first_facet_of_edge_.push_back(first);
+    ++edge_begin_[static_cast<std::size_t>(first / kClusterSize) + 1];
+    for (int i = begin; i < end; ++i) {
+      const std::size_t f = sides.facet(i), k = sides.corner(i);
+      facet_edges_[3 * f + k] = edge;
       opposite_.push_back(corners_[f][(k + 2) % 3]);
     }
-    is_closed_ &= balance == 0;
     opposite_begin_.push_back(static_cast<int>(opposite_.size()));
   }
   for (std::size_t c = 1; c < edge_begin_.size(); ++c) edge_begin_[c] += edge_begin_[c - 1];

@@ -47,8 +47,6 @@ class Features {
   }
   /// The facets that have a vertex, each once.
   std::span<const int> facets_at(int vertex) const { return part(facets_, facets_begin_, vertex); }
-  /// Whether facets go along every edge as often one way as the other.
-  bool is_closed() const { return is_closed_; }
   /// Among the facets that have an edge or a vertex, the first one.
   int first_facet_of_edge(int edge) const { return first_facet_of_edge_[edge]; }
   int first_facet_of_vertex(int vertex) const { return first_facet_of_vertex_[vertex]; }
@@ -91,7 +89,6 @@ class Features {
   std::vector<int> facets_, facets_begin_;
   std::vector<int> one_of_each_part_;
   std::vector<int> vertex_of_source_;
-  bool is_closed_ = true;
 };
 
 /// A mesh and its features.

@@ -91,6 +91,18 @@ Json column_json(const std::vector<std::optional<double>>& values) {
   return column;
 }
 
+Eigen::Matrix3Xi facets_of(const World& world, BodyId id) {
+  Eigen::Matrix3Xi facets(3, static_cast<Eigen::Index>(world.facet_count(id)));
+  world.copy_facets(id, {facets.data(), static_cast<std::size_t>(facets.size())});
+  return facets;
+}
+
+bool has_facets_of(const World& world, const ViewedBody& body) {
+  return body.vertex_count() == world.vertex_count(body.id) &&
+         static_cast<std::size_t>(body.facets.cols()) == world.facet_count(body.id) &&
+         body.facets == facets_of(world, body.id);
+}
+
 std::optional<double> least_gap(const Report& report) {
   std::optional<double> least;
   for (const Contact& contact : report.contacts()) {
@@ -108,22 +120,22 @@ ViewPage::ViewPage(const ViewOptions& options, ViewTitle title, std::ostream& st
   written_ = static_cast<std::int64_t>(before.size() + page_template().after.size());
 }
 
-void ViewPage::add_body(const World& world, BodyId id) {
-  Eigen::Matrix3Xi facets(3, static_cast<Eigen::Index>(world.facet_count(id)));
-  world.copy_facets(id, {facets.data(), static_cast<std::size_t>(facets.size())});
+void ViewPage::add_body(const World& world, BodyId id, double opacity) {
+  const Eigen::Matrix3Xi facets = facets_of(world, id);
   if (place_of_slot_.size() <= id.index) place_of_slot_.resize(id.index + 1);
-  const std::size_t place = place_of_slot_[id.index] = bodies_.size();
+  place_of_slot_[id.index] = bodies_.size();
   bodies_.emplace_back(id,
                        BodyForView{.name = world.name(id),
                                    .surface = world.surface(id),
                                    .motion = world.motion(id),
-                                   .opacity = place < opacities_.size() ? opacities_[place] : 1.0,
+                                   .opacity = opacity,
                                    .positions = positions_,
                                    .facets = facets},
                        frames());
 }
 
-// Bodies that were added and removed, and the positions of all, before a frame.
+// Bodies that were added and removed, and the positions of all, before a frame. One whose facets changed is another
+// body from there on.
 void ViewPage::follow_bodies(const World& world) {
   for (ViewedBody& body : bodies_) {
     if (body.end_frame > frames() && !world.contains(body.id)) body.end_frame = frames();
@@ -133,10 +145,14 @@ void ViewPage::follow_bodies(const World& world) {
     world.copy_positions(id, {positions_.data(), static_cast<std::size_t>(positions_.size())});
     positions_ = positions_.unaryExpr([](double x) { return std::isnan(x) ? 0.0 : x; });  // vertices that no facet uses
     const bool known = id.index < place_of_slot_.size() && !bodies_.empty() && bodies_[place_of(id)].id == id;
-    if (known) {
-      bodies_[place_of(id)].set_positions(positions_);
+    ViewedBody* const last = known ? &bodies_[place_of(id)] : nullptr;
+    if (last != nullptr && has_facets_of(world, *last)) {
+      last->set_positions(positions_);
+    } else if (last != nullptr) {
+      last->end_frame = frames();
+      add_body(world, id, last->opacity);
     } else {
-      add_body(world, id);
+      add_body(world, id, bodies_.size() < opacities_.size() ? opacities_[bodies_.size()] : 1.0);
     }
   }
 }

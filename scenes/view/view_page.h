@@ -76,7 +76,7 @@ class ViewPage {
 
   bool shows(int step) const;
   void follow_bodies(const World& world);
-  void add_body(const World& world, BodyId id);
+  void add_body(const World& world, BodyId id, double opacity);
   std::size_t place_of(BodyId id) const { return place_of_slot_[id.index]; }
   void note_clusters(const Report& report, bool all);
   void write_frame(const Report& report);

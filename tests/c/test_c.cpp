@@ -15,6 +15,7 @@
 #include "tests/c/mesh_for_c.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/body_pairs.h"
+#include "tests/support/generators/remeshed.h"
 
 namespace tact::tests {
 namespace {
@@ -343,6 +344,29 @@ TEST(C, TellsWhatABodyIs) {
   EXPECT_TRUE(count == 1 && bodies == 1 && listed[0].generation == body.generation);
 }
 
+TEST(C, ChangesFacetsAsCpp) {
+  Three one;
+  tact::World cpp;
+  const tact::BodyId a = cpp.add_body({.positions = one.mesh.positions, .facets = one.mesh.facets});
+  Random random(7);
+  const Remeshed halves = renumbered(cut(unchanged(one.mesh), {1.0, 0.5, 0.2}, 0.1), random, true);
+  const tact_body_definition definition = definition_of(halves.mesh);
+  const auto set = [&](const std::vector<int>& map) {
+    return tact_world_set_facets(one.world, one.a, &definition.positions, &definition.facets, map.data(), map.size());
+  };
+  ASSERT_EQ(set(halves.vertex_map), TACT_OK);
+  cpp.set_facets(a, halves.mesh.positions, halves.mesh.facets, halves.vertex_map);
+  std::size_t vertices = 0;
+  ASSERT_EQ(tact_world_vertex_count(one.world, one.a, &vertices), TACT_OK);
+  EXPECT_EQ(vertices, cpp.vertex_count(a));
+  std::vector<int> corners(3 * cpp.facet_count(a)), expected(corners.size());
+  ASSERT_EQ(tact_world_copy_facets(one.world, one.a, corners.data(), corners.size()), TACT_OK);
+  cpp.copy_facets(a, expected);
+  EXPECT_EQ(corners, expected);
+  expect_failure(set({1, 2, 3}), TACT_ERROR_WRONG_SIZE, "vertex map");
+  expect_failure(set(std::vector<int>(halves.vertex_map.size(), 5000)), TACT_ERROR_INVALID_ARGUMENT, "vertex 5000");
+}
+
 TEST(C, SavesAndRestoresWorldsWithKeys) {
   WorldOfC one, two;
   std::vector<tact_body> bodies;
@@ -442,6 +466,9 @@ TEST(WrongUseOfC, NullPointers) {
            tact_world_add_body(w.world, &definition, nullptr),
            tact_world_set_positions(w.world, w.a, nullptr),
            tact_world_set_positions_of_many(w.world, nullptr, 1),
+           tact_world_set_facets(w.world, w.a, nullptr, &definition.facets, nullptr, 0),
+           tact_world_set_facets(w.world, w.a, &definition.positions, nullptr, nullptr, 0),
+           tact_world_set_facets(w.world, w.a, &definition.positions, &definition.facets, nullptr, 1),
            tact_world_set_poses(w.world, nullptr, 1),
            tact_world_overlap_boxes(w.world, nullptr, 1, nullptr, 0, &count),
            tact_world_contains(w.world, w.a, nullptr),

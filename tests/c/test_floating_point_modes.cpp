@@ -151,6 +151,9 @@ class EveryCallOfC {
     std::ranges::copy(rotation_, pose.rotation);
     call([&] { return tact_world_set_positions(world_, bodies_[0], &columns); });
     call([&] { return tact_world_set_positions_of_many(world_, &update, 1); });
+    const tact_columns facets = definition_of(other_).facets;
+    const std::vector<int32_t> map(static_cast<size_t>(other_.vertex_count()), -1);
+    call([&] { return tact_world_set_facets(world_, bodies_[1], &update.positions, &facets, map.data(), map.size()); });
     call([&] { return tact_world_set_pose(world_, bodies_[2], rotation_, translation); });
     call([&] { return tact_world_set_poses(world_, &pose, 1); });
     call([&] { return tact_world_detect_motion(world_, 0); });

@@ -50,6 +50,7 @@ CHANGES = {
     "remove_body": lambda w, b: w.remove_body(b[0]),
     "set_positions": lambda w, b: w.set_positions(b[1], w.positions(b[1]) + 1),
     "set_many_positions": lambda w, b: w.set_positions({b[1]: w.positions(b[1]) + 1}),
+    "set_facets": lambda w, b: w.set_facets(b[1], w.positions(b[1]), w.facets(b[1]), np.arange(len(w.positions(b[1])))),
     "set_margin": lambda w, b: w.set_margin(b[2], 0.0),
     "set_self_contact": lambda w, b: w.set_self_contact(b[2], True),
     "set_motion": lambda w, b: w.set_motion(b[2], tact.Motion.fixed),

@@ -62,6 +62,27 @@ def test_arrays_stay_valid_after_the_step(two):
     np.testing.assert_array_equal(pairs, kept)
 
 
+def test_ids_outlive_other_numbers():
+    world = tact.World(tact.Settings(points=True))
+    flat = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+    facets = np.array([[0, 1, 2], [0, 2, 3]])
+    cloth = world.add_body(flat + [0, 0, 0.01], facets, surface=tact.Surface.sheet, margin=0.01)
+    world.add_body(4 * flat - 1, facets, surface=tact.Surface.sheet, margin=0.01)
+    before = {int(i): int(v) for i, v in zip(*ids_and_first_vertices(world.detect()))}
+    assert len(before) >= 4
+    order = np.array([3, 2, 1, 0, 0, 2])  # turned round, and cut along an edge
+    world.set_facets(cloth, flat[order] + [0, 0, 0.01], [[3, 2, 1], [4, 5, 0]], order)
+    report = world.detect()
+    after = {int(i): int(order[v]) for i, v in zip(*ids_and_first_vertices(report))}
+    assert report.began == [] and report.ended == []
+    assert {i: after[i] for i in before} == before and len(after) > len(before)
+
+
+def ids_and_first_vertices(report):
+    points = report.contacts[0].points
+    return points.ids, points.a_vertices[:, 0]
+
+
 def test_arrays_of_the_report_cannot_be_written_to(two):
     contact = two[0].detect().contacts[0]
     for array in (contact.facet_pairs, contact.direction):

@@ -175,6 +175,16 @@ tact_error tact_world_set_positions_of_many(tact_world world, const tact_positio
   });
 }
 
+tact_error tact_world_set_facets(tact_world world, tact_body body, const tact_columns* positions,
+                                 const tact_columns* facets, const int32_t* vertex_map, size_t count) {
+  return changing(world, [&](WorldEntry& entry) {
+    check_not_null(positions, facets);
+    if (count > 0) check_not_null(vertex_map);
+    entry.world.set_facets(id_of(body), columns_of<tact::Positions>(*positions), columns_of<tact::Facets>(*facets),
+                           {vertex_map, count});
+  });
+}
+
 tact_error tact_world_set_pose(tact_world world, tact_body body, const double* rotation, const double* translation) {
   return changing(world, [&](WorldEntry& entry) {
     check_not_null(rotation, translation);

@@ -154,6 +154,16 @@ FacetsArgument::FacetsArgument(py::handle given) : array_(checked_facets(given))
 
 Facets FacetsArgument::columns() const { return columns_of<int>(array_, NumberKind::int32); }
 
+py::array_t<int> indices_argument(py::handle given, const std::string& what) {
+  const py::array array = array_from(given, what);
+  if (array.ndim() != 1) throw py::value_error(what + " has shape " + shape_text(array) + ", not (N,)");
+  if (array.size() == 0) return py::array_t<int>(0);  // of an empty list numpy makes floats
+  if (!holds_integers(array)) throw holds_other_numbers(array, what, "integers");
+  return converted<int>(array, [&](py::ssize_t i, const std::string& value) {
+    throw py::value_error(what + " holds " + value + " at " + std::to_string(i) + ", which no body can have");
+  });
+}
+
 py::array_t<double> numbers_argument(py::handle given, const std::string& what, const std::vector<py::ssize_t>& shape) {
   const py::array array = array_from(given, what);
   if (!std::equal(array.shape(), array.shape() + array.ndim(), shape.begin(), shape.end()))

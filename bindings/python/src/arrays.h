@@ -42,6 +42,8 @@ class FacetsArgument {
   py::array array_;
 };
 
+/// Integers given as an array of shape (N,), each of 32 bits. @throws TypeError, ValueError as above.
+py::array_t<int> indices_argument(py::handle given, const std::string& what);
 /// Real numbers of a known shape, row by row. @throws TypeError, ValueError as above.
 py::array_t<double> numbers_argument(py::handle given, const std::string& what, const std::vector<py::ssize_t>& shape);
 /// Three coordinates, as a row or a column. @throws TypeError, ValueError as above.

@@ -73,6 +73,14 @@ void set_many_positions(SharedWorld& world, const py::dict& positions) {
   world.compute([&](World& w) { w.set_positions(updates); });
 }
 
+void set_facets(SharedWorld& world, BodyId body, py::handle positions, py::handle facets, py::handle vertex_map) {
+  const PositionsArgument x(positions);
+  const FacetsArgument f(facets);
+  const py::array_t<int> was = indices_argument(vertex_map, "vertex_map");
+  const std::span<const int> map(was.data(), static_cast<std::size_t>(was.size()));
+  world.compute([&](World& w) { w.set_facets(body, x.columns(), f.columns(), map); });
+}
+
 PoseUpdate pose_of(BodyId body, py::handle rotation, py::handle translation) {
   const py::array_t<double> turn = numbers_argument(rotation, "rotation", {3, 3});
   return {body, Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(turn.data()),
@@ -245,6 +253,9 @@ void define_world(py::module_& module) {
       .def("set_positions", set_positions, py::arg("body"), py::arg("positions"), "positions: (V, 3) in metres")
       .def("set_positions", set_many_positions, py::arg("positions"),
            "{body: (V, 3) in metres}: all of them or, after an error, none")
+      .def("set_facets", set_facets, py::arg("body"), py::arg("positions"), py::arg("facets"), py::arg("vertex_map"),
+           "gives a body other vertices and facets; `vertex_map` tells of each new vertex which old one it was, or -1. "
+           "(V, 3) in metres, (F, 3), and (V,)")
       .def("set_pose", set_pose, py::arg("body"), py::arg("rotation"), py::arg("translation"),
            "places a rigid body: a vertex added at p stands at rotation * p + translation. (3, 3), and (3,) metres")
       .def("set_poses", set_poses, py::arg("poses"), "places many rigid bodies in parallel, all or none")

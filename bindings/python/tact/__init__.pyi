@@ -814,6 +814,10 @@ class World:
     def set_positions(self, body: BodyId, positions: npt.ArrayLike) -> None: ...
     @overload
     def set_positions(self, positions: dict[BodyId, npt.ArrayLike]) -> None: ...
+    def set_facets(
+        self, body: BodyId, positions: npt.ArrayLike, facets: npt.ArrayLike, vertex_map: npt.ArrayLike
+    ) -> None:
+        """gives a body other vertices and facets; `vertex_map` tells of each new vertex which old one it was, or -1. (V, 3) in metres, (F, 3), and (V,)"""
     def set_pose(self, body: BodyId, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> None:
         """places a rigid body: a vertex added at p stands at rotation * p + translation. (3, 3), and (3,) metres"""
     @overload

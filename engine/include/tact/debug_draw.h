@@ -64,7 +64,7 @@ struct DebugDrawOptions {
 };
 
 /// Draws the last report of `world` at the current positions. Errors: stale_body (a body of the report was removed),
-/// out_of_memory, backend_failure.
+/// wrong_order (its facets have changed since), out_of_memory, backend_failure.
 TACT_API void debug_draw(const World& world, const Report& report, DebugDrawer& drawer,
                          const DebugDrawOptions& options = {});
 

@@ -32,6 +32,8 @@ class TACT_API Recorder final : public WorldObserver {
   void body_added(BodyId body, const BodyDefinition& definition) noexcept override;
   void body_removed(BodyId body) noexcept override;
   void positions_set(std::span<const PositionsUpdate> updates) noexcept override;
+  void facets_set(BodyId body, const Positions& positions, const Facets& facets,
+                  std::span<const int> vertex_map) noexcept override;
   void poses_set(std::span<const PoseUpdate> updates) noexcept override;
   void layers_set(BodyId body, std::uint32_t layer, std::uint32_t mask) noexcept override;
   void group_set(BodyId body, std::uint32_t group) noexcept override;

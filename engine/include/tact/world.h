@@ -77,6 +77,11 @@ class TACT_API World {
   /// above.
   void set_positions(std::span<const PositionsUpdate> updates);
 
+  /// Gives a body other vertices and facets; `vertex_map` tells of each new vertex which old one it was, or -1. What is
+  /// still there keeps ids and history; the manual tells how. Errors: stale_body, foreign_body, wrong_motion (a rigid
+  /// body), invalid_argument (no such old vertex), and those of add_body().
+  void set_facets(BodyId body, const Positions& positions, const Facets& facets, std::span<const int> vertex_map);
+
   /// Places a rigid body: a vertex added at p stands at rotation * p + translation. `rotation` is orthonormal to 1e-9.
   /// The manual names the order of rounding. Errors: stale_body, foreign_body, fixed_body, wrong_motion,
   /// not_a_rotation, non_finite_position, position_out_of_range, out_of_memory.

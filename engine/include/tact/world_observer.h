@@ -25,6 +25,8 @@ class TACT_API WorldObserver {
   virtual void body_added(BodyId body, const BodyDefinition& definition) noexcept;
   virtual void body_removed(BodyId body) noexcept;
   virtual void positions_set(std::span<const PositionsUpdate> updates) noexcept;
+  virtual void facets_set(BodyId body, const Positions& positions, const Facets& facets,
+                          std::span<const int> vertex_map) noexcept;
   virtual void poses_set(std::span<const PoseUpdate> updates) noexcept;
   virtual void layers_set(BodyId body, std::uint32_t layer, std::uint32_t mask) noexcept;
   virtual void group_set(BodyId body, std::uint32_t group) noexcept;

@@ -21,6 +21,7 @@
 #include "tests/support/environment/temporary_folder.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/random.h"
+#include "tests/support/generators/remeshed.h"
 
 namespace tact::tests {
 namespace {
@@ -232,11 +233,13 @@ class EveryCall {
     const std::vector<PositionsUpdate> updates{{bodies_[1], other.positions}, {bodies_[2], sunk.positions}};
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
     const PoseUpdate pose{bodies_[3], turn, {0.9, 0.4, 0.2}};
+    const Remeshed halves = cut(unchanged(sunk), {1.0, 0.0, 0.0}, 0.1);
     call([&] {
       world.set_positions(bodies_[0], moved.positions);
       world.set_positions(updates);
       world.set_pose(bodies_[3], turn, pose.translation);
       world.set_poses(std::span(&pose, 1));
+      world.set_facets(bodies_[2], halves.mesh.positions, halves.mesh.facets, halves.vertex_map);
     });
     told_.begin("detect_motion");
     for (const Impacts wanted : {Impacts::all, Impacts::first_of_pair, Impacts::first})
@@ -331,6 +334,7 @@ class EveryCall {
     const BoxQuery no_box{.lower = nowhere, .upper = zero};
     RayHit hit;
     expect_refused([&] { world.set_positions(bodies_[0], bad.positions); });
+    expect_refused([&] { world.set_facets(bodies_[0], bad.positions, bad.facets, unchanged(bad).vertex_map); });
     expect_refused([&] { world.add_body({.positions = bad.positions, .facets = bad.facets}); });
     expect_refused([&] { world.set_settings(no_settings); });
     expect_refused([&] { World refused(no_settings); });

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tests/support/generators/bodies.h"
+#include "tests/support/generators/remeshed.h"
 
 namespace tact::tests {
 namespace {
@@ -88,6 +89,7 @@ AnswerHashes state_of(const Subject& subject) {
 AnswerHashes answer_of(Subject& subject) {
   AnswerHash hash;
   hash.number_patches(subject.patches);
+  if (subject.leaves_out_ids) hash.leave_out_ids();
   if (subject.refused) hash.add_feature(1 + static_cast<std::uint64_t>(*std::exchange(subject.refused, {})));
   if (const Report* const report = std::exchange(subject.report, nullptr)) {
     hash.add(*report);
@@ -194,7 +196,7 @@ Call RandomCalls::next() {
   const std::size_t bodies =
       static_cast<std::size_t>(std::ranges::count_if(slots_, [](const Slot& slot) { return slot.body.has_value(); }));
   if (bodies < 3) return add();
-  switch (random_.below(26)) {
+  switch (random_.below(27)) {
     case 0: return bodies < kMostBodies ? add() : remove();
     case 1: return remove();
     case 2:
@@ -213,6 +215,7 @@ Call RandomCalls::next() {
     case 15: return query_many();
     case 16:
     case 17: return detect_motion();
+    case 18: return change_facets();
     default: return detect();
   }
 }
@@ -285,6 +288,23 @@ Call RandomCalls::move_many() {
   return {.name = "set_positions of many", .run = [batch](Subject& subject) {
             for (std::size_t i = 0; i < batch->slots.size(); ++i) batch->updates[i].body = subject.ids[batch->slots[i]];
             subject.world.set_positions(batch->updates);
+          }};
+}
+
+bool RandomCalls::any_renamed() const {
+  return std::ranges::any_of(slots_, [](const Slot& slot) { return slot.body && slot.body->renamed; });
+}
+
+Call RandomCalls::change_facets() {
+  const auto slot = any_body(false, true);
+  if (!slot) return detect();
+  Body& body = *slots_[*slot].body;
+  const auto made = std::make_shared<Remeshed>(remeshed(body.mesh, random_));
+  if (random_.chance(0.5)) made->mesh = moved(made->mesh);
+  body.mesh = made->mesh;
+  body.renamed = true;
+  return {.name = "set_facets", .run = [slot = *slot, made](Subject& subject) {
+            subject.world.set_facets(subject.ids[slot], made->mesh.positions, made->mesh.facets, made->vertex_map);
           }};
 }
 
@@ -381,7 +401,7 @@ Call RandomCalls::refused() {
   const std::size_t slot = *any_body();
   const auto bad = std::make_shared<Mesh>(slots_[slot].body->mesh);
   if (bad->vertex_count() > 0) bad->positions(1, bad->positions.cols() - 1) = HUGE_VAL;
-  const int kind = random_.below(9);
+  const int kind = random_.below(10);
   return {.name = "refused " + std::to_string(kind), .run = [slot, bad, kind](Subject& subject) {
             const BodyId id = subject.ids[slot];
             BodyId gone = id;
@@ -397,6 +417,7 @@ Call RandomCalls::refused() {
                 case 5: return world.copy_positions(id, {});
                 case 6: static_cast<void>(world.name(gone)); return;
                 case 7: static_cast<void>(world.cast_ray({.from = {HUGE_VAL, 0.0, 0.0}})); return;
+                case 8: return world.set_facets(id, bad->positions, bad->facets, unchanged(*bad).vertex_map);
                 default: return world.set_motion(gone, Motion::fixed);
               }
             });
@@ -483,8 +504,10 @@ Call RandomCalls::draw() {
   Call call{.name = "draw", .run = [](Subject& subject) {
               if (subject.last_report == nullptr) return;
               CountingDrawer drawer;
-              debug_draw(subject.world, *subject.last_report, drawer, {.surfaces = true, .planes = true});
-              subject.drawn = drawer.value();
+              keep_refusal(subject, [&] {
+                debug_draw(subject.world, *subject.last_report, drawer, {.surfaces = true, .planes = true});
+                subject.drawn = drawer.value();
+              });
             }};
   call.changes_nothing = true;
   return call;

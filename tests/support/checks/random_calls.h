@@ -23,8 +23,9 @@ struct Subject {
   explicit Subject(const Settings& settings) : world(settings), threads(settings.threads) {}
 
   tact::World world;
-  int threads;              // of this world: no answer depends on them
-  std::vector<BodyId> ids;  // by slot; no body's where there is none
+  int threads;                  // of this world: no answer depends on them
+  std::vector<BodyId> ids;      // by slot; no body's where there is none
+  bool leaves_out_ids = false;  // of points, in answers
   AnswerHash::PatchNumbers patches;
 
   BodyId added;
@@ -67,6 +68,8 @@ class RandomCalls {
   // Makes what the others hold, anew: ids are the same but for the number of the world, and those that come next.
   void build(Subject& subject) const;
   Settings settings(int threads) const;
+  // Whether facets of a body have changed: ids of its points are not those of a body that is added with them.
+  bool any_renamed() const;
 
  private:
   struct Body {
@@ -79,6 +82,7 @@ class RandomCalls {
     double margin = 0.0;
     bool self_contact = false;
     std::string name = {};
+    bool renamed = false;
     BodyDefinition definition(Motion as) const;
   };
   struct Slot {
@@ -96,6 +100,7 @@ class RandomCalls {
   Call move();
   Call move_many();
   Call pose(bool many);
+  Call change_facets();
   Call set();
   Call exclude();
   Call set_settings();

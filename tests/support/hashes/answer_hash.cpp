@@ -114,7 +114,7 @@ void AnswerHash::add_curves(const Contact& contact) {
 
 void AnswerHash::add(const ContactPoint& point) {
   features_.add(number_of(point.kind));
-  features_.add(point.id);
+  if (!leaves_out_ids_) features_.add(point.id);
   add_vertices(std::array{point.patch});
   add_vertices(point.a_vertices);
   add_vertices(point.b_vertices);

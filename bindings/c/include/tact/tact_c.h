@@ -233,6 +233,10 @@ TACT_C_API tact_error tact_world_set_positions(tact_world world, tact_body body,
 /** Copies new positions of many bodies in parallel, all or none. */
 TACT_C_API tact_error tact_world_set_positions_of_many(tact_world world, const tact_positions_update* updates,
                                                        size_t count);
+/** Gives a body other vertices and facets; `vertex_map` tells of each new vertex which old one it was, or -1. It has
+ * `count` entries, one a new vertex. */
+TACT_C_API tact_error tact_world_set_facets(tact_world world, tact_body body, const tact_columns* positions,
+                                            const tact_columns* facets, const int32_t* vertex_map, size_t count);
 /** Places a rigid body: a vertex added at p stands at rotation * p + translation. `rotation` has 9 numbers, row by row,
  * `translation` 3. */
 TACT_C_API tact_error tact_world_set_pose(tact_world world, tact_body body, const double* rotation,
