@@ -20,10 +20,12 @@ struct SelfRecord {
   std::vector<narrowphase::ClusterPair> may_meet, may_contact;  ///< see narrowphase::SelfClusters
   std::unique_ptr<narrowphase::SelfCrossing> crossing;          ///< made when facets meet for the first time
   PatchMemory patches;
-  bool touching = false;             ///< see is_touching()
-  bool point_limit_reached = false;  ///< see Contact
+  bool touching = false;              ///< see is_touching()
+  bool point_limit_reached = false;   ///< see Contact
+  std::vector<FacetPair> bare_pairs;  ///< of edges and points, with each other and with facets; sorted, a < b
 };
 
-inline bool in_contact(const SelfRecord& record) { return !record.facet_pairs.empty() || !record.points.empty(); }
+inline bool any_meet(const SelfRecord& record) { return !record.facet_pairs.empty() || !record.bare_pairs.empty(); }
+inline bool in_contact(const SelfRecord& record) { return any_meet(record) || !record.points.empty(); }
 
 }  // namespace tact

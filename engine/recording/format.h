@@ -1,6 +1,6 @@
 // What a recording is made of.
 //
-// The file, version 6. Numbers are little-endian, doubles as IEEE 754 has them, without padding between them:
+// The file, version 7. Numbers are little-endian, doubles as IEEE 754 has them, without padding between them:
 //
 //   head      "tactrec\n", u32 version, text: the version of tact that wrote it
 //   settings  u8 1, i32 threads, u8 accuracy, u8 direction policy, f64 gjk_tolerance, i32 iteration_limit, u8 zones,
@@ -25,6 +25,10 @@
 //   failed    u8 15; after a detect that threw, since version 6
 //   key       u8 16, u64: the key of the body that is added next, if one was given; this and the next since version 6
 //   restore   u8 17, u64 bytes, and these: those of World::restore()
+//   bare      u8 18, u64 edges, u64 points, 2 i32 an edge, i32 a point: those of the body that is added next, if it has
+//             any; this and the next since version 7
+//   plane     u8 19, 3 f64 of the normal, f64 offset, u32 layer, u32 mask, u64 external id, text name; then as after
+//   add
 //
 // A text is u32 bytes and these; a body is u32 index and u32 generation of its BodyId; enumerations are numbered in the
 // order of their values. Outputs::trace is left out: it changes no answer. The records stand in the order of the calls;
@@ -37,7 +41,7 @@
 namespace tact::recording {
 
 inline constexpr std::string_view kMagic = "tactrec\n";
-inline constexpr std::uint32_t kVersion = 6;
+inline constexpr std::uint32_t kVersion = 7;
 
 enum class RecordKind : std::uint8_t {
   settings = 1,
@@ -56,8 +60,10 @@ enum class RecordKind : std::uint8_t {
   poses = 14,
   failed = 15,
   key = 16,
-  restore = 17
+  restore = 17,
+  bare = 18,
+  plane = 19
 };
-inline constexpr RecordKind kLastRecordKind = RecordKind::restore;
+inline constexpr RecordKind kLastRecordKind = RecordKind::plane;
 
 }  // namespace tact::recording

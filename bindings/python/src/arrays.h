@@ -42,6 +42,21 @@ class FacetsArgument {
   py::array array_;
 };
 
+/// Edges given as an array of shape (E, 2), or as a structured array with two fields, of integers.
+/// @throws TypeError, ValueError as above.
+class EdgesArgument {
+ public:
+  explicit EdgesArgument(py::handle given);
+  /// Valid as long as this.
+  Edges columns() const;
+
+ private:
+  py::array array_;
+};
+
+/// Numbers of vertices, of shape (P,). @throws TypeError, ValueError as above.
+py::array_t<int> vertices_argument(py::handle given, const std::string& what);
+
 /// Real numbers of a known shape, row by row. @throws TypeError, ValueError as above.
 py::array_t<double> numbers_argument(py::handle given, const std::string& what, const std::vector<py::ssize_t>& shape);
 /// Three coordinates, as a row or a column. @throws TypeError, ValueError as above.
