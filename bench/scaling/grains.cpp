@@ -31,12 +31,11 @@ struct Heap {
     const int side = std::max(1, static_cast<int>(std::sqrt(grain_count / kLayers)));
     for (int i = 0; i < grain_count; ++i)
       grains.col(i) << kSpacing * (i % side), kSpacing * (i / side % side), kSpacing * (0.2 + i / side / side);
-    const double top = grains.row(2).maxCoeff() + 0.5 * kSpacing, width = kSpacing * side;
+    const double top = grains.row(2).maxCoeff() + 0.5 * kSpacing;
     for (int r = 0; r < rope_count; ++r) {
       Eigen::Matrix3Xd& rope = ropes[static_cast<std::size_t>(r)] = Eigen::Matrix3Xd(3, kOfRope);
-      const double y = width * (r + 0.5) / rope_count;
-      for (int k = 0; k < kOfRope; ++k) rope.col(k) << std::fmod(kSpacing * (k + 7 * r), width + 1.0), y, top;
-      std::sort(rope.row(0).begin(), rope.row(0).end());
+      for (int k = 0; k < kOfRope; ++k)
+        rope.col(k) << kSpacing * k, kSpacing * (0.5 + r % side), top + kSpacing * (r / side);
     }
   }
 

@@ -65,7 +65,7 @@ struct BoxQuery {
   QueryFilter filter = {};                          ///< which bodies it considers
 };
 
-/// A facet of a body, or an edge or a point, counted as in ClosestPoint.
+/// A facet of a body. Edges and points count as in ClosestPoint.
 struct FacetOfBody {
   BodyId body;    ///< the body of the facet
   int facet = 0;  ///< counted from 0
