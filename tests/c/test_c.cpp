@@ -326,50 +326,6 @@ TEST(C, TellsWhatABodyIs) {
   EXPECT_TRUE(count == 1 && bodies == 1 && listed[0].generation == body.generation);
 }
 
-TEST(C, AddsEdgesPointsAndPlanes) {
-  WorldOfC w;
-  tact_settings settings = TACT_SETTINGS_INIT;
-  settings.points = true;
-  ASSERT_EQ(tact_world_set_settings(w.world, &settings), TACT_OK);
-  const double positions[9] = {0.0, 0.0, 0.1, 1.0, 0.0, 0.3, 2.0, 0.0, 0.2};
-  const int32_t edges[2] = {0, 1}, points[1] = {2};
-  tact_body_definition definition = TACT_BODY_DEFINITION_INIT;
-  definition.positions = {positions, 3, 24, TACT_FLOAT64};
-  definition.edges = {edges, 1, 8, TACT_INT32};
-  definition.points = points;
-  definition.point_count = 1;
-  tact_body rope{}, floor{};
-  ASSERT_EQ(tact_world_add_body(w.world, &definition, &rope), TACT_OK);
-  tact_plane_definition plane = TACT_PLANE_DEFINITION_INIT;
-  plane.offset = -0.5;
-  plane.margin = 0.75;
-  ASSERT_EQ(tact_world_add_plane(w.world, &plane, &floor), TACT_OK);
-  size_t edge_count = 0, point_count = 0, contacts = 0, count = 0;
-  int ends[2]{}, vertex = -1;
-  bool is_plane = true;
-  tact_plane found{};
-  EXPECT_EQ(tact_world_edge_count(w.world, rope, &edge_count), TACT_OK);
-  EXPECT_EQ(tact_world_point_count(w.world, rope, &point_count), TACT_OK);
-  EXPECT_EQ(tact_world_copy_edges(w.world, rope, ends, 2), TACT_OK);
-  EXPECT_EQ(tact_world_copy_points(w.world, rope, &vertex, 1), TACT_OK);
-  EXPECT_EQ(tact_world_plane(w.world, rope, &is_plane, &found), TACT_OK);
-  EXPECT_TRUE(edge_count == 1 && point_count == 1 && ends[1] == 1 && vertex == 2 && !is_plane);
-  EXPECT_EQ(tact_world_plane(w.world, floor, &is_plane, &found), TACT_OK);
-  EXPECT_TRUE(is_plane && found.offset == -0.5 && found.normal[2] == 1.0);
-  ASSERT_EQ(tact_world_detect(w.world), TACT_OK);
-  ASSERT_EQ(tact_report_contacts(w.world, &contacts), TACT_OK);
-  ASSERT_EQ(contacts, 1u);
-  const tact_contact_point* at = nullptr;
-  ASSERT_EQ(tact_contact_points(w.world, 0, &at, &count), TACT_OK);
-  ASSERT_EQ(count, 2u);
-  EXPECT_EQ(at[0].kind, TACT_VERTEX_PLANE);
-  EXPECT_DOUBLE_EQ(at[0].gap, 0.6);
-  definition.points = nullptr;
-  EXPECT_EQ(tact_world_add_body(w.world, &definition, &rope), TACT_ERROR_NULL_ARGUMENT);
-  plane.normal[0] = 1.0;
-  EXPECT_EQ(tact_world_add_plane(w.world, &plane, &floor), TACT_ERROR_INVALID_ARGUMENT);
-}
-
 TEST(C, SavesAndRestoresWorldsWithKeys) {
   WorldOfC one, two;
   std::vector<tact_body> bodies;
