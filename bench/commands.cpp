@@ -6,6 +6,7 @@
 #include "bench/rivals/rivals.h"
 #include "bench/scaling/busy.h"
 #include "bench/scaling/clusters.h"
+#include "bench/scaling/grains.h"
 #include "bench/scaling/idle.h"
 #include "bench/scaling/motion.h"
 #include "bench/scaling/points.h"
@@ -32,6 +33,7 @@ std::vector<Command> commands() {
       {"self", "bodies against themselves, through tact, Embree and CGAL", run_self, true},
       {"rigid", "rigid bodies moved by poses, against the same moved by their vertices", run_rigid, true},
       {"queries", "rays and nearest points of a moving surface, through tact, Embree and FCL", run_queries, true},
+      {"grains", "grains and ropes on a plane, ever more of them", run_grains},
       {"broadphase", "boxes alone, in every kind of motion, through tact, Embree and CGAL", run_broadphase},
       {"clusters", "pairs of clusters by a loop and by Embree's trees", run_clusters},
       {"error", "run time against error, of every setting and of other libraries", run_error},

@@ -31,6 +31,10 @@ class Places {
   explicit Places(const World& world) : world_(world) {}
 
   Vec3 middle(const Contact& contact, const ContactPoint& point) {
+    // A plane has no vertices.
+    const Vec3 half_way = 0.5 * point.gap * vec3(point.normal);
+    if (point.kind == FeaturePair::vertex_plane) return place(contact.a, point.a_vertices, point.a_weights) + half_way;
+    if (point.kind == FeaturePair::plane_vertex) return place(contact.b, point.b_vertices, point.b_weights) - half_way;
     return 0.5 *
            (place(contact.a, point.a_vertices, point.a_weights) + place(contact.b, point.b_vertices, point.b_weights));
   }

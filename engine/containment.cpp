@@ -19,7 +19,7 @@ void ContainmentStage::run(std::span<const MovedPair> moved, Bodies& bodies, con
   wanted_.clear();
   slots_.clear();
   for (const MovedPair& pair : moved) {
-    if (!pair.record->hulls_overlap || !pair.record->facet_pairs.empty()) continue;
+    if (!pair.record->hulls_overlap || any_meet(*pair.record)) continue;
     const std::uint32_t a = pair.record->a.index, b = pair.record->b.index;
     const auto want = [&](std::uint32_t inner, std::uint32_t outer, Containment containment) {
       if (!bodies.in_slot(outer).has_inside) return;

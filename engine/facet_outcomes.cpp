@@ -65,6 +65,7 @@ void repeat(const PairRecord& record, const PairTask& pair, EmbreeDevice& device
   const Slab slab =
       make_slab(record.history.direction, m.origin(), record.slab_lower, record.slab_upper, m.vertex_height_error());
   pair.record.facet_pairs.clear();
+  pair.record.bare_pairs.clear();
   cull(pair, slab, device);
   if (!pair.work.culled.cluster_pairs.empty()) confirm(pair.tuning, pair.work);
 }
@@ -102,16 +103,21 @@ std::optional<FacetOutcomes> FacetOutcomeFinder::find(const Contact& contact) {
   if (sources == nullptr || contact.a == contact.b || sources->settings->accuracy == Accuracy::hulls) return {};
   const PairRecord* record = record_of(*sources->table, contact.a, contact.b, *sources->keys);
   if (record == nullptr || !record->hulls_overlap) return {};
+  if (sources->bodies->plane(contact.a.index) != nullptr || sources->bodies->plane(contact.b.index) != nullptr)
+    return {};
   work_->record.a = contact.a;
   work_->record.b = contact.b;
   repeat(*record, PairTask(*sources->bodies, work_->record, *sources->settings, work_->pair), work_->device);
-  return outcomes_of(work_->pair);
+  FacetOutcomes outcomes = outcomes_of(work_->pair);
+  outcomes.a.resize(static_cast<std::size_t>(work_->pair.culled.a->surface_facet_count()));
+  outcomes.b.resize(static_cast<std::size_t>(work_->pair.culled.b->surface_facet_count()));
+  return outcomes;
 }
 
 std::vector<int> FacetOutcomeFinder::clusters(BodyId body) const {
   const ClusteredMesh& mesh = work_->sources->bodies->at(body).mesh;
-  std::vector<int> clusters(static_cast<std::size_t>(mesh.facet_count()));
-  for (int i = 0; i < mesh.facet_count(); ++i) {
+  std::vector<int> clusters(static_cast<std::size_t>(mesh.surface_facet_count()));
+  for (int i = 0; i < mesh.surface_facet_count(); ++i) {
     clusters[i] = mesh.facet_of_source(i) / kClusterSize;
   }
   return clusters;

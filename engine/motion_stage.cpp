@@ -55,13 +55,14 @@ void MotionStage::sweep(const Bodies& bodies, int threads) {
     changed_.push_back(slot);
   }
   sweep_.update(boxes_, filters_, changed_, threads, bodies.tuning());
+  planes_.update(bodies, boxes_, changed_, sweep_.pairs(), sweep_.pairs_changed());
 }
 
 void MotionStage::select(Bodies& bodies, int threads) {
   passing_.clear();
   if (report_.stats_.moved_bodies == 0) return;
   const auto moves = [&](std::uint32_t slot) { return bodies.used(slot) && bodies.on_its_way(slot); };
-  for (const broadphase::IndexPair& pair : sweep_.pairs()) {
+  for (const broadphase::IndexPair& pair : planes_.pairs()) {
     if (bodies.excluded_pairs().contains(pair) || !bodies.is_chosen(pair)) continue;
     const auto [a, b] = bodies.keys().ordered(pair);
     if (moves(a) || moves(b)) passing_.push_back({.a = a, .b = b, .reach = bodies.reach(a, b)});
@@ -87,7 +88,10 @@ void MotionStage::place(Bodies& bodies, int threads) {
   for (const Passing& one : passing_) slots_.insert(slots_.end(), {one.a, one.b});
   bodies.place_ways(slots_, threads);
   std::erase_if(passing_, [&](const Passing& one) {
-    return one.a != one.b && !overlaps(way_box(bodies, one.a), way_box(bodies, one.b));
+    if (one.a == one.b) return false;
+    const BodyAndPlane plane = body_and_plane(bodies, one.a, one.b);
+    if (plane) return !reaches_plane(bodies, plane.slot_of_plane(one.a, one.b), way_box(bodies, plane.body->id.index));
+    return !overlaps(way_box(bodies, one.a), way_box(bodies, one.b));
   });
 }
 
@@ -129,12 +133,16 @@ void MotionStage::find_clusters(const Bodies& bodies, int threads, Impacts wante
   base::parallel_for(passing_.size(), grain, threads, [&](std::size_t i, int thread) {
     Passing& one = passing_[i];
     Memory& memory = memory_[thread];
-    const narrowphase::MovingMesh a = bodies.moving(one.a), b = bodies.moving(one.b);
-    const auto pairs = memory.passing.find(a.boxes(), b.boxes(), one.reach, bodies.tuning(), device_);
     const std::size_t begin = memory.clusters.size();
-    memory.clusters.insert(memory.clusters.end(), pairs.begin(), pairs.end());
-    memory.cluster_pairs += static_cast<std::int64_t>(pairs.size());
-    if (wanted != Impacts::all) sort_by_time(one, bodies, begin, memory);
+    if (const BodyAndPlane plane = body_and_plane(bodies, one.a, one.b)) {
+      find_clusters_near_plane(plane, bodies.moving(plane.body->id.index), one.reach, memory.clusters);
+    } else {
+      const narrowphase::MovingMesh a = bodies.moving(one.a), b = bodies.moving(one.b);
+      const auto pairs = memory.passing.find(a.boxes(), b.boxes(), one.reach, bodies.tuning(), device_);
+      memory.clusters.insert(memory.clusters.end(), pairs.begin(), pairs.end());
+      if (wanted != Impacts::all) sort_by_time(one, bodies, begin, memory);
+    }
+    memory.cluster_pairs += static_cast<std::int64_t>(memory.clusters.size() - begin);
     one.thread = static_cast<std::size_t>(thread);
     one.begin = begin;
     one.end = memory.clusters.size();
@@ -151,7 +159,7 @@ void MotionStage::cut_into_ranges(const Bodies& bodies, Impacts wanted) {
     const std::span<const narrowphase::ClusterPair> clusters = clusters_of(one);
     std::size_t item = i;
     const Work::Shared& shared = work_.put_aside(item, clusters, (clusters.size() + at_a_time - 1) / at_a_time);
-    if (wanted == Impacts::all) continue;
+    if (wanted == Impacts::all || body_and_plane(bodies, one.a, one.b)) continue;
     for (Work::Range& range : work_.ranges(shared)) {
       if (range.begin == range.end) continue;
       const narrowphase::ClusterPair& first = clusters[range.begin];
@@ -181,8 +189,12 @@ void MotionStage::search(const Bodies& bodies, int threads, Impacts wanted) {
     std::atomic<double>* const first = firsts == 0 ? nullptr : &first_[firsts == 1 ? 0 : place];
     found.clear();
     if (wanted == Impacts::first && place > meets_at_once.load(std::memory_order_relaxed)) return;
-    memory.finder.run(bodies.moving(one.a), bodies.moving(one.b), one.reach,
-                      clusters_of(one).subspan(range.begin, range.end - range.begin), first, found, memory.counts);
+    const auto clusters = clusters_of(one).subspan(range.begin, range.end - range.begin);
+    if (const BodyAndPlane plane = body_and_plane(bodies, one.a, one.b)) {
+      search_plane(plane, bodies.moving(plane.body->id.index), one.reach, clusters, first, range.found);
+    } else {
+      memory.finder.run(bodies.moving(one.a), bodies.moving(one.b), one.reach, clusters, first, found, memory.counts);
+    }
     if (wanted == Impacts::first &&
         std::ranges::any_of(found, [](const FeatureImpact& impact) { return impact.time == 0.0; }))
       base::lower_to(meets_at_once, place);
@@ -195,11 +207,50 @@ void MotionStage::search(const Bodies& bodies, int threads, Impacts wanted) {
   }
 }
 
-// Puts the impacts of a pair of bodies into gathered_, in order.
-void MotionStage::gather(const Work::Shared& shared) {
+// The clusters of a body that may come as near to the plane as `reach`; the second of a pair says nothing.
+void MotionStage::find_clusters_near_plane(const BodyAndPlane& pair, const narrowphase::MovingMesh& body, double reach,
+                                           std::vector<narrowphase::ClusterPair>& clusters) {
+  const narrowphase::HalfSpace other_side{-pair.plane->normal, -pair.plane->offset};
+  for (int c = 0; c < body.mesh->cluster_count(); ++c) {
+    const base::Box way = merged(body.begin.cluster_boxes[static_cast<std::size_t>(c)],
+                                 body.mesh->cluster_boxes()[static_cast<std::size_t>(c)]);
+    if (narrowphase::reaches(*pair.plane, way, reach) && narrowphase::reaches(other_side, way, reach))
+      clusters.push_back({c, 0});
+  }
+}
+
+// Of what moves straight vertices come to a plane first.
+void MotionStage::search_plane(const BodyAndPlane& pair, const narrowphase::MovingMesh& body, double reach,
+                               std::span<const narrowphase::ClusterPair> clusters, std::atomic<double>* first,
+                               Found& found) {
+  for (const narrowphase::ClusterPair& cluster : clusters) {
+    for (int v = body.mesh->vertex_begin(cluster.a); v < body.mesh->vertex_end(cluster.a); ++v) {
+      const auto time = narrowphase::meeting_time(*pair.plane, body.begin_of(v), body.mesh->position(v), reach);
+      if (!time) continue;
+      FeatureImpact impact{.kind = pair.plane_is_a ? FeaturePair::plane_vertex : FeaturePair::vertex_plane,
+                           .time = *time};
+      (pair.plane_is_a ? impact.b : impact.a)[0] = body.mesh->source_vertex(v);
+      found.impacts.push_back(impact);
+      if (first != nullptr) base::lower_to(*first, *time);
+    }
+  }
+}
+
+// Puts the impacts of a pair of bodies into gathered_, in order. One of two points, or of an edge that is listed twice,
+// may be there twice.
+void MotionStage::gather(const Work::Shared& shared, const Bodies& bodies) {
   gathered_.clear();
   for (const Work::Range& range : work_.ranges(shared))
     gathered_.insert(gathered_.end(), range.found.impacts.begin(), range.found.impacts.end());
+  const Passing& one = passing_[shared.item];
+  if (!bodies.in_slot(one.a).mesh.has_surface_alone() || !bodies.in_slot(one.b).mesh.has_surface_alone()) {
+    const auto features = [](const FeatureImpact& impact) { return std::tie(impact.kind, impact.a, impact.b); };
+    std::ranges::sort(gathered_, [&](const FeatureImpact& x, const FeatureImpact& y) {
+      return std::pair(features(x), x.time) < std::pair(features(y), y.time);
+    });
+    const auto are_same = [&](const FeatureImpact& x, const FeatureImpact& y) { return features(x) == features(y); };
+    gathered_.erase(std::unique(gathered_.begin(), gathered_.end(), are_same), gathered_.end());
+  }
   std::ranges::sort(gathered_, std::less<>());
 }
 
@@ -208,7 +259,7 @@ void MotionStage::make_report(const Bodies& bodies, Impacts wanted) {
   report_.pairs_.clear();
   report_.first_time_ = kNever;
   for (const Work::Shared& shared : work_.items()) {
-    gather(shared);
+    gather(shared, bodies);
     if (gathered_.empty()) continue;
     const double first = gathered_.front().time;
     if (wanted == Impacts::first) {

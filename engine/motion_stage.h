@@ -12,6 +12,8 @@
 
 #include "broadphase/sweep_and_prune.h"
 #include "engine/bodies/bodies.h"
+#include "engine/bodies/plane_pairs.h"
+#include "engine/pair/plane_pair.h"
 #include "engine/shared_work.h"
 #include "narrowphase/motion/impacts.h"
 
@@ -61,9 +63,16 @@ class MotionStage {
   void cut_into_ranges(const Bodies& bodies, Impacts wanted);
   void search(const Bodies& bodies, int threads, Impacts wanted);
   void make_report(const Bodies& bodies, Impacts wanted);
-  void gather(const Work::Shared& shared);
+  void gather(const Work::Shared& shared, const Bodies& bodies);
+
+  static void find_clusters_near_plane(const BodyAndPlane& pair, const narrowphase::MovingMesh& body, double reach,
+                                       std::vector<narrowphase::ClusterPair>& clusters);
+  static void search_plane(const BodyAndPlane& pair, const narrowphase::MovingMesh& body, double reach,
+                           std::span<const narrowphase::ClusterPair> clusters, std::atomic<double>* first,
+                           Found& found);
 
   broadphase::SweepAndPrune sweep_;
+  PlanePairs planes_;
   std::vector<base::Box> boxes_;             // of the ways, a slot each
   std::vector<broadphase::Filter> filters_;  // with which they were swept
   std::vector<std::uint32_t> changed_;

@@ -17,6 +17,7 @@ namespace {
 // Drops what the last step found; its points become the last ones.
 void clear_answers(PairRecord& record) {
   record.facet_pairs.clear();
+  record.bare_pairs.clear();
   if (!std::exchange(record.is_renumbered, false)) std::swap(record.points, record.last_points);
   record.points.clear();
   record.touching = false;
@@ -49,8 +50,13 @@ void PairStage::run(PairTable& table, Bodies& bodies, const Settings& settings, 
   const PairPrefetch prefetch(bodies, moved, grain, settings.threads);
   const auto look_at_next = [&](std::size_t i, int thread) {
     if (prefetch.pays()) prefetch.prefetch_after(i);
-    moved[i].touched = moved[i].record->touching;
-    look_at(PairTask(bodies, *moved[i].record, settings, work_[thread]), table, device, thread);
+    PairRecord& record = *moved[i].record;
+    moved[i].touched = record.touching;
+    if (const BodyAndPlane pair = body_and_plane(bodies, record.a.index, record.b.index)) {
+      look_at(pair, bodies.reach(record.a.index, record.b.index), settings, record, thread);
+    } else {
+      look_at(PairTask(bodies, record, settings, work_[thread]), table, device, thread);
+    }
     table.note_result(moved[i]);
   };
   const auto search = [&](const LargePairs::Shared& pair, LargePairs::Range& range, int thread) {
@@ -68,22 +74,37 @@ void PairStage::run(PairTable& table, Bodies& bodies, const Settings& settings, 
   }
 }
 
+void PairStage::begin(PairRecord& record, int thread) {
+  ThreadClock& clock = clocks_[thread];
+  if (!std::exchange(clock.begun, true)) clock.timer.lap();
+  record.times = {.begin = clock.timer.start(), .thread = thread};
+  record.was_in_contact = in_contact(record);
+  if (record.was_in_contact) clear_answers(record);
+}
+
+double PairStage::note(PairRecord& record, float PairTimes::*of_pair, double PairCounts::*sum, int thread) {
+  const double ms = clocks_[thread].timer.lap();
+  record.times.*of_pair = static_cast<float>(ms);
+  work_[thread].counts.*sum += ms;
+  return ms;
+}
+
+// A body and a plane.
+void PairStage::look_at(const BodyAndPlane& pair, double reach, const Settings& settings, PairRecord& record,
+                        int thread) {
+  begin(record, thread);
+  look_at_plane(pair, reach, settings, record, work_[thread].chosen, work_[thread].counts);
+  note(record, &PairTimes::hulls_ms, &PairCounts::hulls_ms, thread);
+}
+
 // One pair through stages 3 to 6. A large one is put aside before the last.
 void PairStage::look_at(const PairTask& pair, PairTable& table, narrowphase::EmbreeDevice& device, int thread) {
   PairRecord& record = pair.record;
   PairWork& work = pair.work;
-  ThreadClock& clock = clocks_[thread];
-  if (!std::exchange(clock.begun, true)) clock.timer.lap();
   const auto note = [&](float PairTimes::*of_pair, double PairCounts::*sum) {
-    const double ms = clock.timer.lap();
-    record.times.*of_pair = static_cast<float>(ms);
-    work.counts.*sum += ms;
-    return ms;
+    return this->note(record, of_pair, sum, thread);
   };
-  record.times = {.begin = clock.timer.start(), .thread = thread};
-  record.was_in_contact = in_contact(record);
-  if (record.was_in_contact) clear_answers(record);
-
+  begin(record, thread);
   const HullTest hulls = test_hulls(pair);
   const double hulls_ms = note(&PairTimes::hulls_ms, &PairCounts::hulls_ms);
   if (hulls.took_gjk) work.counts.gjk_ms += hulls_ms;

@@ -11,6 +11,7 @@
 #include "engine/pair/confirm.h"
 #include "engine/pair/pair_table.h"
 #include "engine/pair/pair_work.h"
+#include "engine/pair/plane_pair.h"
 
 namespace tact {
 
@@ -36,7 +37,10 @@ class PairStage {
     base::Timer timer;
     bool begun = false;
   };
+  void begin(PairRecord& record, int thread);
+  double note(PairRecord& record, float PairTimes::*of_pair, double PairCounts::*sum, int thread);
   void look_at(const PairTask& pair, PairTable& table, narrowphase::EmbreeDevice& device, int thread);
+  void look_at(const BodyAndPlane& pair, double reach, const Settings& settings, PairRecord& record, int thread);
 
   std::vector<PairWork> work_;       // a thread each
   std::vector<ThreadClock> clocks_;  // a thread each

@@ -35,7 +35,13 @@ Triangle triangle_of(const Body& body, int source_facet) {
 
 Box box_of(const Triangle& t) { return extended(extended(Box{t[0], t[0]}, t[1]), t[2]); }
 
+// The body of a pair with a plane, and its facet.
+const Body& beside_plane(const PatchInput& input) { return input.a.plane != nullptr ? input.b : input.a; }
+int beside_plane(const PatchInput& input, const FacetPair& pair) { return input.a.plane != nullptr ? pair.b : pair.a; }
+bool is_with_plane(const PatchInput& input) { return input.a.plane != nullptr || input.b.plane != nullptr; }
+
 Box common_box(const PatchInput& input, const FacetPair& pair) {
+  if (is_with_plane(input)) return box_of(triangle_of(beside_plane(input), beside_plane(input, pair)));
   return intersection(box_of(triangle_of(input.a, pair.a)), box_of(triangle_of(input.b, pair.b)));
 }
 
@@ -67,8 +73,26 @@ Vec3 place(const Body& body, const std::array<int, 3>& vertices, const std::arra
 }
 
 Vec3 place(const PatchInput& input, const ContactPoint& point) {
+  const Vec3 half_way = 0.5 * point.gap * from_eigen(point.normal);
+  if (input.b.plane != nullptr) return place(input.a, point.a_vertices, point.a_weights) + half_way;
+  if (input.a.plane != nullptr) return place(input.b, point.b_vertices, point.b_weights) - half_way;
   return 0.5 * place(input.a, point.a_vertices, point.a_weights) +
          0.5 * place(input.b, point.b_vertices, point.b_weights);
+}
+
+// Of a patch without points, with a plane: how far its facets reach below.
+void shape_by_plane(const PatchInput& input, Patch& patch) {
+  const narrowphase::HalfSpace& plane = *(input.a.plane != nullptr ? input.a : input.b).plane;
+  Vec3 center;
+  double lowest = 0.0;
+  for (const int i : patch.facet_pairs) {
+    const Triangle t = triangle_of(beside_plane(input), beside_plane(input, input.facet_pairs[i]));
+    center = center + center_of(box_of(t));
+    for (const Vec3& p : t) lowest = std::min(lowest, narrowphase::height_over(plane, p));
+  }
+  patch.point = to_eigen((1.0 / static_cast<double>(patch.facet_pairs.size())) * center);
+  patch.direction = to_eigen(input.direction);
+  patch.depth = 0.0 - lowest;
 }
 
 // Of a patch without points: the mean normal of its facets, and how far they reach beyond each other along it.
@@ -112,9 +136,13 @@ void for_each_vertex(const ContactPoint& point, int b_side, const Visit& visit) 
 // The same of the corners of two facets.
 template <class Visit>
 void for_each_vertex(const FacetPair& pair, const Body& a, const Body& b, int b_side, const Visit& visit) {
-  for (const int v : a.mesh.corners(a.mesh.facet_of_source(pair.a))) visit(2 * std::int64_t{a.mesh.source_vertex(v)});
-  for (const int v : b.mesh.corners(b.mesh.facet_of_source(pair.b)))
-    visit(2 * std::int64_t{b.mesh.source_vertex(v)} + b_side);
+  const auto visit_corners = [&](const Body& body, int facet, int side) {
+    if (body.plane != nullptr) return;
+    for (const int v : body.mesh.corners(body.mesh.facet_of_source(facet)))
+      visit(2 * std::int64_t{body.mesh.source_vertex(v)} + side);
+  };
+  visit_corners(a, pair.a, 0);
+  visit_corners(b, pair.b, b_side);
 }
 
 // Two unit vectors across n, which is one.
@@ -139,6 +167,7 @@ void PatchFinder::join(int i, int k) {
   parent_[second] = first;
 }
 
+// Those with a plane are joined by their facets' corners instead: they all share its surface.
 void PatchFinder::join_facet_pairs(std::span<const FacetPair> pairs) {
   by_b_.resize(pairs.size());
   std::iota(by_b_.begin(), by_b_.end(), 0);
@@ -147,6 +176,16 @@ void PatchFinder::join_facet_pairs(std::span<const FacetPair> pairs) {
   for (std::size_t i = 1; i < pairs.size(); ++i) {
     if (pairs[i - 1].a == pairs[i].a) join(static_cast<int>(i) - 1, static_cast<int>(i));
     if (b_of(by_b_[i - 1]) == b_of(by_b_[i])) join(by_b_[i - 1], by_b_[i]);
+  }
+}
+
+void PatchFinder::join_facets_by_corners(std::span<const FacetPair> pairs, const Body& a, const Body& b) {
+  corners_.clear();
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    for_each_vertex(pairs[i], a, b, 1, [&](std::int64_t vertex) { corners_.push_back({vertex, static_cast<int>(i)}); });
+  std::ranges::sort(corners_);
+  for (std::size_t i = 1; i < corners_.size(); ++i) {
+    if (corners_[i - 1].vertex == corners_[i].vertex) join(corners_[i - 1].patch, corners_[i].patch);
   }
 }
 
@@ -180,6 +219,18 @@ void PatchFinder::join_at_vertex(std::span<const ContactPoint> points, int first
   at_vertex_.push_back({point, -1});
 }
 
+// Points of a body with a plane, each of a vertex.
+void PatchFinder::join_along_edges(std::span<const ContactPoint> points, int first_point, const Body& body, int side) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int source = side == 0 ? points[i].a_vertices[0] : points[i].b_vertices[0];
+    for (const int next : body.features->neighbors(body.features->vertex_of_source(source))) {
+      const int at = first_at_vertex_[2 * static_cast<std::size_t>(body.mesh.source_vertex(next)) +
+                                      static_cast<std::size_t>(side)];
+      if (at >= 0) join(first_point + at_vertex_[at].point, first_point + static_cast<int>(i));
+    }
+  }
+}
+
 // A facet pair joins the first point at each of its corners.
 void PatchFinder::join_points_and_facets(std::span<const FacetPair> pairs, const Body* a, const Body* b) {
   const int first_point = static_cast<int>(pairs.size());
@@ -195,8 +246,15 @@ int PatchFinder::number(std::span<const FacetPair> facet_pairs, std::span<Contac
                         const Body* b) {
   parent_.resize(facet_pairs.size() + points.size());
   std::iota(parent_.begin(), parent_.end(), 0);
-  join_facet_pairs(facet_pairs);
+  if (a->plane == nullptr && b->plane == nullptr) {
+    join_facet_pairs(facet_pairs);
+  } else {
+    join_facets_by_corners(facet_pairs, *a, *b);
+  }
   join_points(points, static_cast<int>(facet_pairs.size()), a, b);
+  if (a->plane != nullptr || b->plane != nullptr)
+    join_along_edges(points, static_cast<int>(facet_pairs.size()), a->plane != nullptr ? *b : *a,
+                     a->plane != nullptr ? 1 : 0);
   join_points_and_facets(facet_pairs, a, b);
   for (const ContactPoint& point : points)
     for_each_vertex(point, a == b ? 0 : 1, [&](std::int64_t v) { first_at_vertex_[static_cast<std::size_t>(v)] = -1; });
@@ -248,7 +306,7 @@ void PatchFinder::find(const PatchInput& input, PatchSet& set) {
   for (Patch& patch : set.patches) {
     places_.clear();
     if (patch.points.empty()) {
-      shape_by_facets(input, patch);
+      is_with_plane(input) ? shape_by_plane(input, patch) : shape_by_facets(input, patch);
       for (const int i : patch.facet_pairs) places_.push_back(center_of(common_box(input, input.facet_pairs[i])));
     } else {
       shape_by_points(input, patch);

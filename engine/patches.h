@@ -28,8 +28,8 @@ class PatchFinder {
  public:
   /// Writes the number of its patch into each point. Facet pairs are neighbours if they share a facet; points if they
   /// share a vertex of either body and their normals are not opposite; a point and a facet pair if a vertex of the
-  /// point is a corner of the facet of the same body. Patches are numbered by their first facet pair, then by their
-  /// first point. Returns how many there are.
+  /// point is a corner of the facet of the same body; points with a plane also if an edge joins their vertices. Patches
+  /// are numbered by their first facet pair, then by their first point. Returns how many there are.
   int number(std::span<const FacetPair> facet_pairs, std::span<ContactPoint> points, const Body* a, const Body* b);
 
   /// All but the ids.
@@ -57,9 +57,11 @@ class PatchFinder {
   int root(int i);
   void join(int i, int k);
   void join_facet_pairs(std::span<const FacetPair> pairs);
+  void join_facets_by_corners(std::span<const FacetPair> pairs, const Body& a, const Body& b);
   void join_points(std::span<const ContactPoint> points, int first_point, const Body* a, const Body* b);
   void join_at_vertex(std::span<const ContactPoint> points, int first_point, int point, std::size_t vertex,
                       bool by_normal);
+  void join_along_edges(std::span<const ContactPoint> points, int first_point, const Body& body, int side);
   void join_points_and_facets(std::span<const FacetPair> pairs, const Body* a, const Body* b);
   void list_members(const PatchInput& input, int count, PatchSet& set);
   void shape_by_points(const PatchInput& input, Patch& patch);
@@ -82,6 +84,7 @@ class PatchFinder {
   std::vector<int> parent_, number_, by_b_, begin_;
   std::vector<int> first_at_vertex_;      // by vertex, as in PatchVertex; -1: none
   std::vector<PointAtVertex> at_vertex_;  // of the points at a vertex, one for each way that normals point
+  std::vector<PatchVertex> corners_;      // of facets that meet a plane, and the numbers of their pairs
   std::vector<base::Vec3> places_;        // of the members of a patch
   std::vector<PlanePoint> flat_, hull_;
   std::vector<std::size_t> counting_;        // of the points of a patch, those that may span it

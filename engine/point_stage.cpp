@@ -9,6 +9,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "narrowphase/contact_points/local_minimum.h"
+#include "engine/pair/facet_pair_sort.h"
 #include "narrowphase/mesh/prefetch.h"
 
 namespace tact {
@@ -58,9 +59,19 @@ ContactPoint to_point(const FeaturePoint& found, const Naming& a, const Naming& 
   return point;
 }
 
+// The surface whose vertex a point is of, by the names that the search has.
+bool is_of_vertex_of_a(FeaturePair kind) {
+  return kind == FeaturePair::vertex_facet || kind == FeaturePair::vertex_edge || kind == FeaturePair::vertex_vertex;
+}
+bool is_of_vertex_of_b(FeaturePair kind) {
+  return kind == FeaturePair::facet_vertex || kind == FeaturePair::edge_vertex || kind == FeaturePair::vertex_vertex;
+}
+
 // The part of a point that is carried to the next step.
 FeaturePoint to_feature_point(const ContactPoint& point) {
-  return {.kind = point.kind,
+  return {.kind = is_of_vertex_of_a(point.kind)   ? FeaturePair::vertex_facet
+                  : is_of_vertex_of_b(point.kind) ? FeaturePair::facet_vertex
+                                                  : point.kind,
           .a = point.a_vertices,
           .b = point.b_vertices,
           .normal = {point.normal.x(), point.normal.y(), point.normal.z()},
@@ -70,7 +81,7 @@ FeaturePoint to_feature_point(const ContactPoint& point) {
 // Whether surfaces cross, or touch without a reach that would tell how near they are. Where hulls only touch, nothing
 // has crossed.
 bool cross_each_other(const PairRecord& record, double reach) {
-  return record.hulls_overlap && (!record.facet_pairs.empty() || record.contact.containment != Containment::none) &&
+  return record.hulls_overlap && (any_meet(record) || record.contact.containment != Containment::none) &&
          (record.contact.depth > 0.0 || reach == 0.0);
 }
 
@@ -78,18 +89,17 @@ bool cross_each_other(const PairRecord& record, double reach) {
 bool crosses_itself(const SelfRecord& record, const Bodies& bodies) {
   const std::uint32_t slot = record.body.index;
   const bool has_side = bodies.in_slot(slot).has_inside || bodies.reach(slot, slot) == 0.0;
-  return has_side && !record.facet_pairs.empty();
+  return has_side && any_meet(record);
 }
 
 // What the vertices of one body remember of the last step, those of its points that were nearest.
 void carry(const PairRecord& record, FeaturePair kind, std::vector<narrowphase::CarriedNormal>& carried) {
   carried.clear();
   if (!record.was_in_contact) return;
-  const auto vertex_of = [&](const ContactPoint& point) {
-    return kind == FeaturePair::vertex_facet ? point.a_vertices[0] : point.b_vertices[0];
-  };
+  const bool of_a = kind == FeaturePair::vertex_facet;
+  const auto vertex_of = [&](const ContactPoint& point) { return of_a ? point.a_vertices[0] : point.b_vertices[0]; };
   for (const ContactPoint& point : record.last_points) {
-    if (point.kind == kind)
+    if (of_a ? is_of_vertex_of_a(point.kind) : is_of_vertex_of_b(point.kind))
       carried.push_back({vertex_of(point), {point.normal.x(), point.normal.y(), point.normal.z()}, point.gap});
   }
   std::ranges::sort(carried, {}, [](const narrowphase::CarriedNormal& one) {
@@ -125,7 +135,7 @@ class PointKeys {
       : vertex_bits_(std::bit_width(static_cast<unsigned>(vertices))), place_bits_(std::bit_width(points)) {}
 
   std::uint64_t key(const FeaturePoint& point, std::size_t place) const {
-    const auto first = static_cast<std::uint64_t>(point.a[0] + 1);  // of -1: 0
+    const auto first = static_cast<std::uint64_t>(point.a[0] >= 0 ? point.a[0] : point.b[0]);  // a plane has none
     return ((static_cast<std::uint64_t>(point.kind) << vertex_bits_ | first) << place_bits_) | place;
   }
   std::size_t place(std::uint64_t key) const { return key & ((std::uint64_t{1} << place_bits_) - 1); }
@@ -133,9 +143,40 @@ class PointKeys {
   int bits() const { return kKindBits + vertex_bits_ + place_bits_; }
 
  private:
-  static constexpr int kKindBits = 2;
+  static constexpr int kKindBits = 3;
   int vertex_bits_, place_bits_;
 };
+
+// Names the features of which either is of no facet. Two vertices then have one point, whichever of them is nearest to
+// the other; of one body the lesser comes first.
+void name_features(const narrowphase::FeaturedMesh& a, const narrowphase::FeaturedMesh& b,
+                   std::vector<FeaturePoint>& found) {
+  if (a.mesh->has_surface_alone() && b.mesh->has_surface_alone()) return;
+  const auto ends_before = [](const std::array<int, 3>& vertices, std::size_t count) { return vertices[count] < 0; };
+  for (FeaturePoint& point : found) {
+    if (point.kind == FeaturePair::edge_edge || !(a.features->is_bare(point.a) || b.features->is_bare(point.b)))
+      continue;
+    const bool of_a = point.kind == FeaturePair::vertex_facet;
+    const std::array<int, 3>& other = of_a ? point.b : point.a;
+    if (ends_before(other, 1)) {
+      point.kind = FeaturePair::vertex_vertex;
+    } else if (ends_before(other, 2)) {
+      point.kind = of_a ? FeaturePair::vertex_edge : FeaturePair::edge_vertex;
+    }
+    if (a.mesh != b.mesh || point.kind != FeaturePair::vertex_vertex || point.a < point.b) continue;
+    std::swap(point.a, point.b);
+    point.normal = -point.normal + base::Vec3{};
+  }
+  const auto others = std::partition(
+      found.begin(), found.end(), [](const FeaturePoint& point) { return point.kind == FeaturePair::vertex_vertex; });
+  std::sort(found.begin(), others, [](const FeaturePoint& x, const FeaturePoint& y) {
+    const auto order = [](const FeaturePoint& p) { return std::tie(p.a, p.b, p.normal.x, p.normal.y, p.normal.z); };
+    return order(x) < order(y);
+  });
+  found.erase(std::unique(found.begin(), others,
+                          [](const FeaturePoint& x, const FeaturePoint& y) { return x.a == y.a && x.b == y.b; }),
+              others);
+}
 
 // Sorts keys by features where the kind and the first vertex are the same.
 void sort_by_the_rest(std::span<std::uint64_t> order, const PointKeys& keys, const std::vector<FeaturePoint>& found) {
@@ -168,7 +209,7 @@ narrowphase::NearRules PointStage::find_crossing(const Bodies& bodies, Prepared&
                .surface_b = kind_of(bodies.in_slot(wanted.b)),
                .direction = direction_of(record),
                .depth = record.contact.depth,
-               .facet_pairs = record.facet_pairs,
+               .facet_pairs = with_bare(record.facet_pairs, record.bare_pairs, prepared.meeting),
                .carried = {.of_a = prepared.carried_a, .of_b = prepared.carried_b, .of_edges = prepared.last}})};
 }
 
@@ -177,27 +218,30 @@ const narrowphase::Crossing* PointStage::find_self_crossing(const Bodies& bodies
   if (!crosses_itself(*wanted.self, bodies)) return nullptr;
   prepared.last.clear();
   for (const ContactPoint& point : wanted.self->last_points) prepared.last.push_back(to_feature_point(point));
-  return &wanted.self->crossing->find({.mesh = bodies.featured(wanted.a),
-                                       .surface = kind_of(bodies.in_slot(wanted.a)),
-                                       .reach = wanted.reach,
-                                       .facet_pairs = wanted.self->facet_pairs,
-                                       .last = prepared.last});
+  return &wanted.self->crossing->find(
+      {.mesh = bodies.featured(wanted.a),
+       .surface = kind_of(bodies.in_slot(wanted.a)),
+       .reach = wanted.reach,
+       .facet_pairs = with_bare(wanted.self->facet_pairs, wanted.self->bare_pairs, prepared.meeting),
+       .last = prepared.last});
 }
 
 // Once the points of near features are in work.found.
 void PointStage::finish(const Prepared& prepared, const Step& step, int threads, Work& work) {
-  const narrowphase::Crossing* const crossing = prepared.rules.crossing;
+  const narrowphase::Crossing* const crossing = prepared.wanted->plane ? nullptr : prepared.rules.crossing;
   if (crossing != nullptr) work.crossing_points.append(*crossing, work.found);
   if (SelfRecord* const self = prepared.wanted->self; self != nullptr && crossing != nullptr)
     self->point_limit_reached = crossing->limit_reached;
-  publish(*prepared.wanted, step, threads, work);
+  const Wanted& wanted = *prepared.wanted;
+  if (!wanted.plane) name_features(step.bodies.featured(wanted.a), step.bodies.featured(wanted.b), work.found);
+  publish(wanted, step, threads, work);
 }
 
 // In an order that depends on features alone.
 void PointStage::publish(const Wanted& wanted, const Step& step, int threads, Work& work) {
   const std::vector<FeaturePoint>& found = work.found;
   const Body &a = step.bodies.in_slot(wanted.a), &b = step.bodies.in_slot(wanted.b);
-  const PointKeys keys(a.mesh.source_vertex_count(), found.size());
+  const PointKeys keys((a.plane == nullptr ? a : b).mesh.source_vertex_count(), found.size());
   const Naming naming_a{step.bodies.keys().of(wanted.a), a.names.get()},
       naming_b{step.bodies.keys().of(wanted.b), b.names.get()};
   std::span<std::uint64_t> order = work.sorter.keys(found.size());
@@ -238,7 +282,10 @@ PointStage::Prepared& PointStage::find_near(std::size_t i, const Step& step, Wor
   const Wanted& wanted = wanted_[i];
   prepared.wanted = &wanted;
   prepared.cluster_pairs = {};
-  if (wanted.self != nullptr) {
+  if (wanted.plane) {
+    find_near_plane(prepared);
+    prepared.cluster_pairs = prepared.vertex_blocks;
+  } else if (wanted.self != nullptr) {
     prepared.cluster_pairs = wanted.self->may_contact;
   } else if (wanted.reach > 0.0) {
     prepared.cluster_pairs =
@@ -248,10 +295,40 @@ PointStage::Prepared& PointStage::find_near(std::size_t i, const Step& step, Wor
   return prepared;
 }
 
+// In blocks that threads can share.
+void PointStage::find_near_plane(Prepared& prepared) {
+  constexpr std::size_t kBlock = 64;  // vertices, some 40 ns each
+  find_near_vertices(prepared.wanted->plane, prepared.wanted->reach, prepared.near_plane);
+  prepared.vertex_blocks.clear();
+  for (std::size_t begin = 0; begin < prepared.near_plane.size(); begin += kBlock)
+    prepared.vertex_blocks.push_back(
+        {static_cast<int>(begin), static_cast<int>(std::min(begin + kBlock, prepared.near_plane.size()))});
+}
+
+// A point of each vertex that is nearer than the margins, or not above the plane.
+void PointStage::search_plane(const Prepared& prepared, std::span<const ClusterPair> blocks,
+                              std::vector<FeaturePoint>& found) {
+  const auto& [body, plane, plane_is_a] = prepared.wanted->plane;
+  const base::Vec3 normal = prepared.wanted->plane.direction();
+  for (const ClusterPair& block : blocks) {
+    for (int i = block.a; i < block.b; ++i) {
+      const int vertex = prepared.near_plane[static_cast<std::size_t>(i)];
+      const double gap = narrowphase::height_over(*plane, body->mesh.position(vertex));
+      if (!(gap < prepared.wanted->reach || gap <= 0.0)) continue;
+      FeaturePoint point{
+          .kind = plane_is_a ? FeaturePair::plane_vertex : FeaturePair::vertex_plane, .normal = normal, .gap = gap};
+      (plane_is_a ? point.b : point.a)[0] = body->mesh.source_vertex(vertex);
+      (plane_is_a ? point.weight_b : point.weight_a)[0] = 1.0;
+      found.push_back(point);
+    }
+  }
+}
+
 // Finds those of an item, and prefetches what its search reads of them.
 void PointStage::look_ahead(std::size_t i, const Step& step, Work& work) const {
   const std::span<const ClusterPair> pairs = find_near(i, step, work).cluster_pairs;
   work.ahead = i + 1;
+  if (wanted_[i].plane) return;
   const auto prefetch = [](const narrowphase::FeaturedMesh& m, int cluster) {
     narrowphase::prefetch_facets(*m.mesh, cluster);
     m.features->prefetch(*m.mesh, cluster);
@@ -275,7 +352,7 @@ void PointStage::find_points(std::size_t i, const Step& step, Work& work) {
   const bool large = is_large(cost, wanted_.size(), threads, step.bodies.tuning());
   const std::size_t own_end = threads == 1 ? wanted_.size() : i - i % step.grain + step.grain;
   if (!large && step.prefetches && i + 1 < std::min(own_end, wanted_.size())) look_ahead(i + 1, step, work);
-  prepared.rules = find_crossing(step.bodies, prepared);
+  if (!prepared.wanted->plane) prepared.rules = find_crossing(step.bodies, prepared);
   prepared.rules.a_is_solid = step.bodies.is_solid(prepared.wanted->a);
   prepared.rules.b_is_solid = step.bodies.is_solid(prepared.wanted->b);
   if (large) {
@@ -291,6 +368,7 @@ void PointStage::find_points(std::size_t i, const Step& step, Work& work) {
 void PointStage::search(const Prepared& prepared, std::span<const ClusterPair> pairs, const Step& step,
                         narrowphase::ContactPointSearch::Given given, std::vector<FeaturePoint>& found, Work& work) {
   const Wanted& wanted = *prepared.wanted;
+  if (wanted.plane) return search_plane(prepared, pairs, found);
   work.search.run(step.bodies.featured(wanted.a), step.bodies.featured(wanted.b), wanted.reach, pairs, found,
                   prepared.rules, given);
 }
@@ -335,9 +413,11 @@ void PointStage::find(std::span<const MovedPair> moved, Bodies& bodies, const Se
   wanted_.clear();
   for (const MovedPair& pair : moved) {
     PairRecord& record = *pair.record;
-    const double reach = bodies.reach(record.a.index, record.b.index);
-    if ((in_contact(record) && reach > 0.0) || cross_each_other(record, reach))
-      wanted_.push_back({record.a.index, record.b.index, reach, &record.points, &record, nullptr});
+    const std::uint32_t a = record.a.index, b = record.b.index;
+    const double reach = bodies.reach(a, b);
+    const BodyAndPlane plane = in_contact(record) ? body_and_plane(bodies, a, b) : BodyAndPlane{};
+    if (plane || (in_contact(record) && reach > 0.0) || cross_each_other(record, reach))
+      wanted_.push_back({a, b, reach, &record.points, &record, nullptr, plane});
   }
   find_wanted(bodies, settings, device);
 }

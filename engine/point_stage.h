@@ -12,6 +12,7 @@
 #include "engine/base/key_sort.h"
 #include "engine/bodies/bodies.h"
 #include "engine/pair/pair_table.h"
+#include "engine/pair/plane_pair.h"
 #include "engine/patches.h"
 #include "engine/self_record.h"
 #include "engine/shared_work.h"
@@ -39,6 +40,7 @@ class PointStage {
     std::vector<ContactPoint>* points = nullptr;
     const PairRecord* record = nullptr;  // of two bodies
     SelfRecord* self = nullptr;          // of one
+    BodyAndPlane plane = {};             // of a body and a plane
   };
   /// What is known of one of those before its points are searched.
   struct Prepared {
@@ -48,6 +50,10 @@ class PointStage {
     narrowphase::PairCrossing crossing;
     std::vector<narrowphase::CarriedNormal> carried_a, carried_b;
     std::vector<narrowphase::FeaturePoint> last;  // points of the last step: of one body, or between edges of two
+    std::vector<FacetPair> meeting;               // memory: pairs of facets, edges and points
+    std::vector<std::int32_t> near_plane;         // vertices
+    std::vector<narrowphase::ClusterPair>
+        vertex_blocks;  // of these: numbers of the first and of the one behind the last
     narrowphase::NearRules rules;
   };
   /// Memory of a thread, used again.
@@ -74,6 +80,9 @@ class PointStage {
   void find_wanted(Bodies& bodies, const Settings& settings, narrowphase::EmbreeDevice& device);
   Prepared& find_near(std::size_t i, const Step& step, Work& work) const;
   void look_ahead(std::size_t i, const Step& step, Work& work) const;
+  static void find_near_plane(Prepared& prepared);
+  static void search_plane(const Prepared& prepared, std::span<const narrowphase::ClusterPair> blocks,
+                           std::vector<narrowphase::FeaturePoint>& found);
   void find_points(std::size_t i, const Step& step, Work& work);
   static void search(const Prepared& prepared, std::span<const narrowphase::ClusterPair> pairs, const Step& step,
                      narrowphase::ContactPointSearch::Given given, std::vector<narrowphase::FeaturePoint>& found,

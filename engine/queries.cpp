@@ -172,18 +172,41 @@ void for_each_body(const Bodies& bodies, const QueryFilter& filter, OfBoxes& sea
   BodySearch(bodies, filter, search, visit).run();
 }
 
+// Calls visit(slot, plane) for each plane that a query considers. They stand in no tree.
+template <class Visit>
+void for_each_plane(const Bodies& bodies, const QueryFilter& filter, const Visit& visit) {
+  const broadphase::Filter of_query{filter.layer, filter.mask, false};
+  for (const std::uint32_t slot : bodies.planes()) {
+    if (broadphase::tested(bodies.filters()[slot], of_query)) visit(slot, *bodies.plane(slot));
+  }
+}
+
+// A ray's hit of a plane, whose surface is facet 0.
+std::optional<FacetHit> hit_of_plane(const narrowphase::HalfSpace& plane, const Ray& ray) {
+  const auto time = narrowphase::meeting_place(plane, point_of(ray.from), point_of(ray.to));
+  return time ? std::optional(FacetHit{0, *time, {}}) : std::nullopt;
+}
+
 // Sorts slots by the keys of their bodies.
 void sort_by_key(const Bodies& bodies, std::span<std::uint32_t> slots) {
   std::ranges::sort(slots, {}, [&](std::uint32_t slot) { return bodies.keys().of(slot); });
 }
 
-// The slots of bodies whose box overlaps `box`, ascending by key.
+// The slots of planes, and of bodies whose box overlaps `box`, ascending by key.
 std::vector<std::uint32_t> slots_near(const Bodies& bodies, const QueryFilter& filter, const Box& box) {
   std::vector<std::uint32_t> slots;
   BoxSearch search(box);
   for_each_body(bodies, filter, search, [&](std::uint32_t slot) { slots.push_back(slot); });
+  for_each_plane(bodies, filter, [&](std::uint32_t slot, const narrowphase::HalfSpace&) { slots.push_back(slot); });
   sort_by_key(bodies, slots);
   return slots;
+}
+
+// Whether a box has points on the plane.
+bool meets_plane(const narrowphase::HalfSpace& plane, const Box& box) {
+  const narrowphase::HalfSpace other_side{-plane.normal, -plane.offset};
+  return narrowphase::height_over(plane, lowest_corner(plane, box)) <= 0.0 &&
+         narrowphase::height_over(plane, lowest_corner(other_side, box)) >= 0.0;
 }
 
 RayHit hit_of(const Body& body, const FacetHit& hit) { return {body.id, hit.facet, hit.time, hit.weight}; }
@@ -205,6 +228,10 @@ void find_first_hit(const Bodies& bodies, const Ray& ray, const narrowphase::Seg
     if (!hit || !is_before(bodies, *hit, slot, best)) return;
     best = hit_of(body, *hit);
     search.latest = best.fraction;
+  });
+  for_each_plane(bodies, ray.filter, [&](std::uint32_t slot, const narrowphase::HalfSpace& plane) {
+    const auto hit = hit_of_plane(plane, ray);
+    if (hit && is_before(bodies, *hit, slot, best)) best = hit_of(bodies.in_slot(slot), *hit);
   });
 }
 
@@ -233,6 +260,13 @@ RayHit find_any_hit(const Bodies& bodies, const Ray& ray) {
     if (count == at_a_time) look_at_collected();
   });
   look_at_collected();
+  for_each_plane(bodies, ray.filter, [&](std::uint32_t slot, const narrowphase::HalfSpace& plane) {
+    if (search.end && *search.end < bodies.keys().of(slot)) return;
+    const auto hit = hit_of_plane(plane, ray);
+    if (!hit) return;
+    found = hit_of(bodies.in_slot(slot), *hit);
+    search.end = bodies.keys().of(slot);
+  });
   return found;
 }
 
@@ -323,6 +357,9 @@ std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray) {
     append_hits(body.mesh, search.line, hits);
     for (const FacetHit& hit : hits) all.push_back(hit_of(body, hit));
   });
+  for_each_plane(bodies, ray.filter, [&](std::uint32_t slot, const narrowphase::HalfSpace& plane) {
+    if (const auto hit = hit_of_plane(plane, ray)) all.push_back(hit_of(bodies.in_slot(slot), *hit));
+  });
   std::ranges::sort(all, {}, [&](const RayHit& hit) {
     return std::tuple(hit.fraction, bodies.keys().of(hit.body.index), hit.facet);
   });
@@ -334,16 +371,20 @@ ClosestPoint find_closest_point(const Bodies& bodies, const PointQuery& query) {
   constexpr double kAsNear = 1.0 + 0x1p-40;
   PointSearch search(query);
   ClosestPoint best;
-  const auto look_at = [&](std::uint32_t slot) {
-    const Body& body = bodies.placed(slot);
-    const auto nearest = nearest_facet(body.mesh, search.point, search.within);
-    if (!nearest) return;
+  const auto take = [&](std::uint32_t slot, const narrowphase::NearestFacet& nearest) {
     const auto order = [&](double distance, std::uint32_t of_slot) {
       return std::tuple(distance, bodies.keys().of(of_slot));
     };
-    if (best.facet >= 0 && order(nearest->distance, slot) >= order(best.distance, best.body.index)) return;
-    best = {body.id, nearest->facet, nearest->distance, nearest->weight};
+    if (best.facet >= 0 && order(nearest.distance, slot) >= order(best.distance, best.body.index)) return;
+    best = {bodies.in_slot(slot).id, nearest.facet, nearest.distance, nearest.weight};
     search.within = std::min(search.within, kAsNear * best.distance);
+  };
+  for_each_plane(bodies, query.filter, [&](std::uint32_t slot, const narrowphase::HalfSpace& plane) {
+    const double distance = std::abs(narrowphase::height_over(plane, search.point));
+    if (distance <= query.within) take(slot, {0, distance, {}});
+  });
+  const auto look_at = [&](std::uint32_t slot) {
+    if (const auto nearest = nearest_facet(bodies.placed(slot).mesh, search.point, search.within)) take(slot, *nearest);
   };
   for_each_body(bodies, query.filter, search, look_at);
   return best;
@@ -356,7 +397,11 @@ std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuery& query
   for (const std::uint32_t slot : slots_near(bodies, query.filter, box)) {
     const Body& body = bodies.placed(slot);
     facets.clear();
-    append_facets_in_box(body.mesh, box, facets);
+    if (body.plane != nullptr) {
+      if (meets_plane(*body.plane, box)) facets.push_back(0);
+    } else {
+      append_facets_in_box(body.mesh, box, facets);
+    }
     std::ranges::sort(facets);
     for (const int facet : facets) found.push_back({body.id, facet});
   }
@@ -368,7 +413,9 @@ std::vector<BodyId> find_around(const Bodies& bodies, const PointQuery& query) {
   std::vector<BodyId> found;
   for (const std::uint32_t slot : slots_near(bodies, query.filter, {point, point})) {
     const Body& body = bodies.placed(slot);
-    if (body.has_inside && contains(body.mesh, point)) found.push_back(body.id);
+    const bool is_inside = body.plane != nullptr ? narrowphase::height_over(*body.plane, point) <= 0.0
+                                                 : body.has_inside && contains(body.mesh, point);
+    if (is_inside) found.push_back(body.id);
   }
   return found;
 }

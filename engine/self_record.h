@@ -21,12 +21,14 @@ struct SelfRecord {
   std::vector<narrowphase::ClusterPair> may_meet, may_contact;  ///< see narrowphase::SelfClusters
   std::unique_ptr<narrowphase::SelfCrossing> crossing;          ///< made when facets meet for the first time
   PatchMemory patches;
-  std::unique_ptr<CurveSet> curves;  ///< null where no facets meet
-  bool touching = false;             ///< see is_touching()
-  bool point_limit_reached = false;  ///< see Contact
-  bool is_renumbered = false;        ///< see PairRecord
+  std::unique_ptr<CurveSet> curves;   ///< null where no facets meet
+  bool touching = false;              ///< see is_touching()
+  bool point_limit_reached = false;   ///< see Contact
+  std::vector<FacetPair> bare_pairs;  ///< of edges and points, with each other and with facets; sorted, a < b
+  bool is_renumbered = false;         ///< see PairRecord
 };
 
-inline bool in_contact(const SelfRecord& record) { return !record.facet_pairs.empty() || !record.points.empty(); }
+inline bool any_meet(const SelfRecord& record) { return !record.facet_pairs.empty() || !record.bare_pairs.empty(); }
+inline bool in_contact(const SelfRecord& record) { return any_meet(record) || !record.points.empty(); }
 
 }  // namespace tact

@@ -15,6 +15,7 @@ constexpr std::size_t kCost = 1;
 
 void sort(SelfRecord& record, const narrowphase::ClusteredMesh& mesh, base::KeySorter& sorter, int threads) {
   sort_facet_pairs(record.facet_pairs, mesh.facet_count(), mesh.facet_count(), sorter, threads);
+  split_off_bare(mesh, mesh, record.facet_pairs, record.bare_pairs);
 }
 
 }  // namespace
@@ -62,6 +63,7 @@ void SelfStage::select(std::uint32_t slot, Bodies& bodies) {
   if (record == nullptr) record = std::make_unique<SelfRecord>();
   record->body = bodies.in_slot(slot).id;
   record->facet_pairs.clear();
+  record->bare_pairs.clear();
   record->may_contact.clear();
   if (!std::exchange(record->is_renumbered, false)) std::swap(record->points, record->last_points);
   record->points.clear();
@@ -120,7 +122,7 @@ void SelfStage::find_facet_pairs(const Bodies& bodies, const Settings& settings,
 void SelfStage::finish(const Bodies& bodies) {
   for (SelfRecord* const one : looked_at_) {
     const double reach = bodies.reach(one->body.index, one->body.index);
-    one->touching = is_touching(one->facet_pairs, one->points, reach);
+    one->touching = any_meet(*one) || is_touching(one->facet_pairs, one->points, reach);
   }
   std::swap(in_contact_, last_in_contact_);
   std::swap(touching_, last_touching_);

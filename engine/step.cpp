@@ -77,15 +77,16 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
 
 // Stages 2 to 6, and what is found of their facet pairs.
 void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, Timer& timer, StepStats& stats) {
-  auto& [sweep, table, pairs, containment, points, selves, curves, patches, knows_boxes] = *stages_;
+  auto& [sweep, planes, table, pairs, containment, points, selves, curves, patches, knows_boxes] = *stages_;
   std::vector<std::uint32_t> slots(knows_boxes ? 0 : bodies.boxes().size());
   std::iota(slots.begin(), slots.end(), 0u);
-  sweep.update(bodies.boxes(), bodies.filters(), knows_boxes ? bodies.changed() : slots, settings.threads,
-               bodies.tuning());
+  const std::span<const std::uint32_t> changed = knows_boxes ? bodies.changed() : slots;
+  sweep.update(bodies.boxes(), bodies.filters(), changed, settings.threads, bodies.tuning());
+  planes.update(bodies, bodies.boxes(), changed, sweep.pairs(), sweep.pairs_changed());
   knows_boxes = true;
-  bodies.place(sweep.pairs(), settings.threads);
-  table.update(sweep, bodies, all_);
-  stats.excluded_pairs = static_cast<std::int64_t>(sweep.excluded());
+  bodies.place(planes.pairs(), settings.threads);
+  table.update(planes, bodies, all_);
+  stats.excluded_pairs = static_cast<std::int64_t>(sweep.excluded() + planes.excluded());
   stats.sweep_ms = timer.lap();
 
   pairs.run(table, bodies, settings, device_, timer);

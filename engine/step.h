@@ -11,6 +11,7 @@
 
 #include "broadphase/sweep_and_prune.h"
 #include "engine/bodies/bodies.h"
+#include "engine/bodies/plane_pairs.h"
 #include "engine/containment.h"
 #include "engine/curve_stage.h"
 #include "engine/pair/pair_table.h"
@@ -67,6 +68,7 @@ class Step {
   /// of it is made anew. What stands beside it is complete between any two statements of run().
   struct Stages {
     broadphase::SweepAndPrune sweep;
+    PlanePairs planes;
     PairTable table;
     PairStage pairs;
     ContainmentStage containment;

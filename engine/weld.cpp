@@ -86,7 +86,7 @@ WeldedMesh weld(const Positions& positions, const Facets& facets) {
     const std::span<const double> coordinates = packed(positions, std::span(position_copy));
     const std::span<const int> corners = packed(facets, std::span(facet_copy));
     check_positions(coordinates.data(), coordinates.size() / 3, name);
-    check_facets(corners, facets, positions.cols(), name);
+    check_corners(corners, facets, positions.cols(), name);
     return welded(coordinates, corners);
   });
 }

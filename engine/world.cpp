@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <new>
 #include <utility>
@@ -165,6 +166,14 @@ BodyId World::add_body(const BodyDefinition& definition) {
   const BodyId body = with_memory("adding a body ran out of memory", [&] { return i.bodies.add(definition); });
   i.observe([&](WorldObserver& observer) { observer.body_added(body, definition); });
   tell_open_surface(i.bodies.at(body), i.settings.on_message);
+  return body;
+}
+
+BodyId World::add_plane(const PlaneDefinition& definition) {
+  const base::FloatingPointMode mode;
+  Implementation& i = implementation();
+  const BodyId body = with_memory("adding a plane ran out of memory", [&] { return i.bodies.add(definition); });
+  i.observe([&](WorldObserver& observer) { observer.plane_added(body, definition); });
   return body;
 }
 
@@ -469,7 +478,16 @@ bool World::self_contact(BodyId body) const { return body_of(body).self_contact;
 std::size_t World::vertex_count(BodyId body) const {
   return static_cast<std::size_t>(body_of(body).mesh.source_vertex_count());
 }
-std::size_t World::facet_count(BodyId body) const { return static_cast<std::size_t>(body_of(body).mesh.facet_count()); }
+std::size_t World::facet_count(BodyId body) const {
+  return static_cast<std::size_t>(body_of(body).mesh.surface_facet_count());
+}
+std::size_t World::edge_count(BodyId body) const { return static_cast<std::size_t>(body_of(body).mesh.edge_count()); }
+std::size_t World::point_count(BodyId body) const { return static_cast<std::size_t>(body_of(body).mesh.point_count()); }
+std::optional<Plane> World::plane(BodyId body) const {
+  const narrowphase::HalfSpace* const plane = body_of(body).plane.get();
+  if (plane == nullptr) return {};
+  return Plane{{plane->normal.x, plane->normal.y, plane->normal.z}, plane->offset};
+}
 
 namespace {
 
@@ -496,14 +514,33 @@ void World::copy_positions(BodyId body, std::span<double> coordinates) const {
   }
 }
 
+namespace {
+
+// Copies the first `width` vertices of some source facets, one after the other.
+void copy_corners(const Body& body, int first, int count, std::size_t width, std::span<int> corners) {
+  check_room(corners, width * static_cast<std::size_t>(count), body.name);
+  for (int i = 0; i < count; ++i) {
+    const narrowphase::Corners of_facet = body.mesh.corners(body.mesh.facet_of_source(first + i));
+    for (std::size_t k = 0; k < width; ++k)
+      corners[width * static_cast<std::size_t>(i) + k] = body.mesh.source_vertex(of_facet[k]);
+  }
+}
+
+}  // namespace
+
 void World::copy_facets(BodyId body, std::span<int> corners) const {
   const Body& asked = body_of(body);
-  check_room(corners, 3 * static_cast<std::size_t>(asked.mesh.facet_count()), asked.name);
-  for (int facet = 0; facet < asked.mesh.facet_count(); ++facet) {
-    const narrowphase::Corners of_facet = asked.mesh.corners(facet);
-    for (std::size_t k = 0; k < 3; ++k)
-      corners[3 * static_cast<std::size_t>(asked.mesh.source_facet(facet)) + k] = asked.mesh.source_vertex(of_facet[k]);
-  }
+  copy_corners(asked, 0, asked.mesh.surface_facet_count(), 3, corners);
+}
+
+void World::copy_edges(BodyId body, std::span<int> ends) const {
+  const Body& asked = body_of(body);
+  copy_corners(asked, asked.mesh.surface_facet_count(), asked.mesh.edge_count(), 2, ends);
+}
+
+void World::copy_points(BodyId body, std::span<int> vertices) const {
+  const Body& asked = body_of(body);
+  copy_corners(asked, asked.mesh.facet_count() - asked.mesh.point_count(), asked.mesh.point_count(), 1, vertices);
 }
 
 SurfaceCheck World::check_surface(BodyId body, double sliver) const {
@@ -515,19 +552,28 @@ SurfaceCheck World::check_surface(BodyId body, double sliver) const {
     std::vector<std::array<int, 3>> facets(facet_count(body));
     if (!positions.empty()) copy_positions(body, {&positions.front().x, 3 * positions.size()});
     if (!facets.empty()) copy_facets(body, {facets.front().data(), 3 * facets.size()});
-    return tact::check_surface(positions, facets, sliver, implementation().settings.threads);
+    SurfaceCheck check = tact::check_surface(positions, facets, sliver, implementation().settings.threads);
+    // Edges and points use vertices, too.
+    std::erase_if(check.unused_vertices,
+                  [&](int vertex) { return !std::isnan(positions[static_cast<std::size_t>(vertex)].x); });
+    return check;
   });
 }
 
 Bounds World::bounds(BodyId body) const {
   const base::FloatingPointMode mode;
-  const base::Box box = implementation().bodies.exact_box(body_of(body).id.index);
+  if (body_of(body).plane != nullptr) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+  }
+  const base::Box box = implementation().bodies.exact_box(body.index);
   return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
 }
 
 WorldObserver::~WorldObserver() = default;
 void WorldObserver::settings_changed(const Settings&) noexcept {}
 void WorldObserver::body_added(BodyId, const BodyDefinition&) noexcept {}
+void WorldObserver::plane_added(BodyId, const PlaneDefinition&) noexcept {}
 void WorldObserver::body_removed(BodyId) noexcept {}
 void WorldObserver::positions_set(std::span<const PositionsUpdate>) noexcept {}
 void WorldObserver::facets_set(BodyId, const Positions&, const Facets&, std::span<const int>) noexcept {}

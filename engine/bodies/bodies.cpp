@@ -7,6 +7,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "engine/bodies/encloses.h"
+#include "engine/bodies/plane_pairs.h"
 #include "engine/bodies/room.h"
 #include "engine/check_name.h"
 #include "narrowphase/mesh/cluster_quality.h"
@@ -17,21 +18,43 @@ namespace {
 
 constexpr auto kIdOfRemoved = [](const auto& removed) { return removed.id; };
 
+// The facets of a body, and edges and points as facets without area behind them: see WithoutArea. In `room`, if there
+// are any of these.
+std::span<const int> with_edges_and_points(std::span<const int> facets, const BodyDefinition& definition,
+                                           const std::string& name, std::vector<int>& room) {
+  if (definition.edges.cols() == 0 && definition.points.empty()) return facets;
+  std::vector<int> edge_copy;
+  make_copy_room(definition.edges, edge_copy);
+  const std::span<const int> ends = packed(definition.edges, std::span(edge_copy));
+  check_corners(ends, definition.edges, definition.positions.cols(), name);
+  check_points(definition.points, definition.positions.cols(), name);
+  room.assign(facets.begin(), facets.end());
+  room.reserve(facets.size() + 3 * (ends.size() / 2 + definition.points.size()));
+  for (std::size_t i = 0; i < ends.size(); i += 2) room.insert(room.end(), {ends[i], ends[i + 1], ends[i + 1]});
+  for (const int v : definition.points) room.insert(room.end(), {v, v, v});
+  return room;
+}
+
 // The body of a definition that is good, not placed in any world.
 std::unique_ptr<Body> make_body(const BodyDefinition& definition, const std::string& name) {
   std::vector<double> position_copy;
-  std::vector<int> facet_copy;
+  std::vector<int> facet_copy, all;
   make_copy_room(definition.positions, position_copy);
   make_copy_room(definition.facets, facet_copy);
   const std::span<const double> positions = packed(definition.positions, std::span(position_copy));
   const std::span<const int> facets = packed(definition.facets, std::span(facet_copy));
   check_positions(positions.data(), positions.size() / 3, name);
-  check_facets(facets, definition.facets, definition.positions.cols(), name);
-  return std::make_unique<Body>(Body{.mesh = {positions, facets},
+  check_corners(facets, definition.facets, definition.positions.cols(), name);
+  const narrowphase::WithoutArea last{static_cast<int>(definition.edges.cols()),
+                                      static_cast<int>(definition.points.size())};
+  // What has no facets has no inside.
+  const bool is_bare = facets.empty() && last.edges + last.points > 0;
+  return std::make_unique<Body>(Body{.mesh = {positions, with_edges_and_points(facets, definition, name, all), last},
                                      .id = {},
                                      .name = name,
-                                     .surface = definition.surface,
-                                     .has_inside = definition.surface == Surface::closed && encloses(positions, facets),
+                                     .surface = is_bare ? Surface::sheet : definition.surface,
+                                     .has_inside =
+                                         !is_bare && definition.surface == Surface::closed && encloses(positions, facets),
                                      .external_id = definition.external_id,
                                      .self_contact = definition.self_contact});
 }
@@ -50,32 +73,64 @@ std::uint64_t birth_of(std::uint32_t slot, std::uint64_t key, std::uint64_t step
     for (const int v : mesh.corners(f)) hash.add(static_cast<std::uint64_t>(mesh.source_vertex(v)));
     hash.add(static_cast<std::uint64_t>(mesh.source_facet(f)));
   }
+  if (!mesh.has_surface_alone()) {
+    hash.add(static_cast<std::uint64_t>(mesh.edge_count()));
+    hash.add(static_cast<std::uint64_t>(mesh.point_count()));
+  }
+  if (body.plane != nullptr) {
+    for (int axis = 0; axis < 3; ++axis) hash.add(body.plane->normal[axis]);
+    hash.add(body.plane->offset);
+  }
   return hash.value();
 }
 
 }  // namespace
 
+void Bodies::check_key(std::uint64_t key, const std::string& name) const {
+  if (const auto other = keys_.find(key))
+    throw Error(ErrorCode::invalid_argument,
+                quoted(name) + ": key " + std::to_string(key) + " is that of " + quoted(in_slot(*other).name));
+}
+
 BodyId Bodies::add(const BodyDefinition& definition) {
-  const auto slot = free_.empty() ? static_cast<std::uint32_t>(slots_.size()) : free_.back();
+  const std::uint32_t slot = next_slot();
   const std::string name = definition.name.empty() ? "body " + std::to_string(slot) : definition.name;
   check_name(definition.surface, Surface::sheet, quoted(name) + ": surface");
   check_name(definition.motion, Motion::rigid, quoted(name) + ": motion");
   check_margin(definition.margin, name);
   check_array(definition.positions, name);
   check_array(definition.facets, name);
-  check_counts(definition.positions.cols(), definition.facets.cols(), slots_.size(), name);
-  const std::uint64_t key = definition.key.value_or(slot);
-  if (const auto other = keys_.find(key))
-    throw Error(ErrorCode::invalid_argument,
-                quoted(name) + ": key " + std::to_string(key) + " is that of " + quoted(in_slot(*other).name));
-  std::unique_ptr<Body> body = make_body(definition, name);
-  const Place place{.filter = {definition.layer, definition.mask, definition.motion == Motion::fixed, definition.group},
+  check_array(definition.edges, name);
+  const std::ptrdiff_t all = definition.facets.cols() + definition.edges.cols() + std::ssize(definition.points);
+  check_counts(definition.positions.cols(), all, slots_.size(), name);
+  check_key(definition.key.value_or(slot), name);
+  return add_made(make_body(definition, name), definition, slot, definition.motion);
+}
+
+BodyId Bodies::add(const PlaneDefinition& definition) {
+  const std::uint32_t slot = next_slot();
+  const std::string name = definition.name.empty() ? "body " + std::to_string(slot) : definition.name;
+  const Eigen::Vector3d& n = definition.normal;
+  check_plane(n, definition.offset, name);
+  check_margin(definition.margin, name);
+  check_counts(0, 0, slots_.size(), name);
+  check_key(definition.key.value_or(slot), name);
+  auto body = std::make_unique<Body>(Body{
+      .mesh = {{}, {}}, .id = {}, .name = name, .surface = Surface::closed, .external_id = definition.external_id});
+  body->plane =
+      std::make_unique<const narrowphase::HalfSpace>(narrowphase::HalfSpace{{n.x(), n.y(), n.z()}, definition.offset});
+  return add_made(std::move(body), definition, slot, Motion::fixed);
+}
+
+// Nothing can fail half-way: all that may allocate comes first.
+template <class Definition>
+BodyId Bodies::add_made(std::unique_ptr<Body> body, const Definition& definition, std::uint32_t slot, Motion motion) {
+  const Place place{.filter = {definition.layer, definition.mask, motion == Motion::fixed, definition.group},
                     .margin = definition.margin,
-                    .key = key,
-                    .is_rigid = definition.motion == Motion::rigid};
-  body->birth = birth_of(slot, key, steps_, *body);
+                    .key = definition.key.value_or(slot),
+                    .is_rigid = motion == Motion::rigid};
+  body->birth = birth_of(slot, place.key, steps_, *body);
   body->is_outward = is_outward(body->mesh);
-  // Nothing can fail half-way: all that may allocate comes first.
   make_room_for(slot, place);
   slot < slots_.size() ? free_.pop_back() : add_slot();
   body->id = {slot, ++generations_[slot], world_};
@@ -100,6 +155,7 @@ void Bodies::put(std::uint32_t slot, std::unique_ptr<Body> body, const Place& pl
   if (place.is_rigid) make_rigid(body->mesh, *slots_[slot].rigid);
   rigid_count_ += place.is_rigid ? 1 : 0;
   self_count_ += body->self_contact ? 1 : 0;
+  if (body->plane != nullptr) planes_.insert(std::ranges::lower_bound(planes_, slot), slot);
   slots_[slot].body = std::move(body);
   packed_meshes_.add(slots_[slot].body->mesh);
   mark_changed(slot);
@@ -115,6 +171,7 @@ void Bodies::make_room_for(std::uint32_t slot, const Place& place) {
   make_room(changed_, slots), make_room(free_, slots), make_room(generations_, slots);
   make_room(removed_, removed_.size() + count_ + 1), make_room(former_, former_.size() + count_ + 1);
   if (place.is_rigid) rigid_states_.make_room();
+  make_room(planes_, planes_.size() + 1);
   keys_.keep_given(slot, place.key);
 }
 
@@ -136,6 +193,7 @@ void Bodies::remove(BodyId id) {
   keys_.forget(id.index);
   rigid_count_ -= is_rigid(id.index) ? 1 : 0;
   self_count_ -= slots_[id.index].body->self_contact ? 1 : 0;
+  if (slots_[id.index].body->plane != nullptr) std::erase(planes_, id.index);
   slots_[id.index].body.reset();
   if (is_rigid(id.index)) rigid_states_.give_back(std::exchange(slots_[id.index].rigid, nullptr));
   boxes_[id.index] = base::Box{};
@@ -157,6 +215,12 @@ narrowphase::MovingMesh Bodies::moving(std::uint32_t slot) const {
                                    : placements.in(body.begin.data())};
 }
 
+bool Bodies::boxes_meet(broadphase::IndexPair pair) const {
+  if (plane(pair.a) != nullptr) return reaches_plane(*this, pair.a, exact_box(pair.b));
+  if (plane(pair.b) != nullptr) return reaches_plane(*this, pair.b, exact_box(pair.a));
+  return base::overlaps(exact_box(pair.a), exact_box(pair.b));
+}
+
 void Bodies::set_layers(BodyId id, std::uint32_t layer, std::uint32_t mask) {
   broadphase::Filter changed = filter(id);
   changed.layer = layer;
@@ -171,6 +235,8 @@ void Bodies::set_motion(BodyId id, Motion motion) {
     throw Error(ErrorCode::wrong_motion, quoted(body.name) + (body.mesh.is_rigid() ? " was" : " was not") +
                                              " added as rigid: its motion cannot be " +
                                              (motion == Motion::rigid ? "rigid" : "deformable"));
+  if (body.plane != nullptr && motion != Motion::fixed)
+    throw Error(ErrorCode::wrong_motion, quoted(body.name) + " is a plane: it is fixed");
   broadphase::Filter changed = filter(id);
   changed.fixed = motion == Motion::fixed;
   set_filter(id, changed);

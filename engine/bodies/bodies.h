@@ -28,6 +28,7 @@
 #include "narrowphase/mesh/clustered_mesh.h"
 #include "narrowphase/mesh/refit.h"
 #include "narrowphase/motion/impacts.h"
+#include "narrowphase/plane/half_space.h"
 #include "narrowphase/self/cluster_neighbors.h"
 
 namespace tact {
@@ -45,6 +46,7 @@ struct alignas(64) Body {
   std::uint64_t birth = 0;  // a hash of the mesh and slot as they were when it was added, and of the step
   std::unique_ptr<const narrowphase::Features> features = nullptr;           // made when points are first requested
   std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors = nullptr;  // when it is first held against itself
+  std::unique_ptr<const narrowphase::HalfSpace> plane = nullptr;             // of a plane, whose mesh is empty
   std::vector<double> begin = {};  // where it was in the last step, once it has moved twice since: a placement
   std::unique_ptr<LastingNames> names = nullptr;  // once its facets have changed
 };
@@ -59,6 +61,7 @@ class Bodies {
   const base::Tuning& tuning() const { return *tuning_; }
 
   BodyId add(const BodyDefinition& definition);
+  BodyId add(const PlaneDefinition& definition);
   void remove(BodyId id);
   void set_positions(std::span<const PositionsUpdate> updates, int threads);
   void set_positions(BodyId id, const Positions& positions, int threads);
@@ -119,6 +122,15 @@ class Bodies {
   // The same of their neighbours, and the features of these; each body is named once.
   void make_neighbors(std::span<const std::uint32_t> slots, int threads);
   const narrowphase::ClusterNeighbors& neighbors(std::uint32_t slot) const { return *in_slot(slot).neighbors; }
+
+  // Slots of planes, ascending. Such a body has no box, and so no pair in the sweep: see PlanePairs.
+  std::span<const std::uint32_t> planes() const { return planes_; }
+  // The half-space of a plane, null of any other body.
+  const narrowphase::HalfSpace* plane(std::uint32_t slot) const {
+    return planes_.empty() || !used(slot) ? nullptr : in_slot(slot).plane.get();
+  }
+  // Whether the boxes of a pair overlap in truth, bodies being placed.
+  bool boxes_meet(broadphase::IndexPair pair) const;
 
   // Whether there are rigid bodies. They are placed by their poses when a call needs their vertices.
   bool any_rigid() const { return rigid_count_ > 0; }
@@ -235,6 +247,10 @@ class Bodies {
     std::uint64_t birth;
     std::uint32_t slot, generation;
   };
+  void check_key(std::uint64_t key, const std::string& name) const;
+  template <class Definition>
+  BodyId add_made(std::unique_ptr<Body> body, const Definition& definition, std::uint32_t slot, Motion motion);
+  std::uint32_t next_slot() const { return free_.empty() ? static_cast<std::uint32_t>(slots_.size()) : free_.back(); }
   // What a body has in its slot.
   struct Place {
     broadphase::Filter filter = {};
@@ -324,6 +340,7 @@ class Bodies {
   std::int64_t vertices_ = 0;
   std::int64_t moved_vertices_ = 0;
   std::size_t rigid_count_ = 0, self_count_ = 0;
+  std::vector<std::uint32_t> planes_;
   std::vector<base::Box> placed_boxes_;  // with their margins, of rigid bodies that place() placed
   std::int64_t placed_count_ = 0;
   double farthest_rest_ = 0.0;                   // coordinate of rigid bodies that there were, or more

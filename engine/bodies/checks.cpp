@@ -1,5 +1,6 @@
 #include "engine/bodies/checks.h"
 
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -16,8 +17,10 @@ using narrowphase::PositionProblem;
 
 constexpr std::ptrdiff_t kLargestCount = std::numeric_limits<int>::max() / 4;
 
-template <class Scalar>
-void check_columns(const Columns<Scalar>& m, const char* what, const std::string& name) {
+constexpr double kLargestLengthError = 1e-9;  // of a normal; that of a rotation is the same
+
+template <class Scalar, int kRows>
+void check_columns(const Columns<Scalar, kRows>& m, const char* what, const std::string& name) {
   constexpr bool kCoordinates = std::is_same_v<Scalar, double>;
   const bool known = m.kind() <= NumberKind::uint16 && (m.kind() <= NumberKind::float64) == kCoordinates;
   if (!known || (m.first() == nullptr && m.cols() > 0)) {
@@ -26,9 +29,16 @@ void check_columns(const Columns<Scalar>& m, const char* what, const std::string
                                             : kCoordinates ? " holds no float32 or float64"
                                                            : " holds no int32, uint32 or uint16"));
   }
-  if (m.rows() == 3) return;
+  if (m.rows() == kRows) return;
   throw Error(ErrorCode::wrong_size, quoted(name) + ": the matrix of " + what + " is " + std::to_string(m.rows()) +
-                                         " x " + std::to_string(m.cols()) + ", not 3 x N");
+                                         " x " + std::to_string(m.cols()) + ", not " + std::to_string(kRows) + " x N");
+}
+
+[[noreturn]] void refuse_corner(const std::string& name, const char* what, std::size_t which, long long vertex,
+                                std::ptrdiff_t vertices) {
+  throw Error(ErrorCode::facet_out_of_range, quoted(name) + ": " + what + " " + std::to_string(which) +
+                                                 " names vertex " + std::to_string(vertex) + ", but there are " +
+                                                 std::to_string(vertices) + " vertices");
 }
 
 }  // namespace
@@ -39,18 +49,38 @@ void check_positions(const double* positions, std::size_t count, const std::stri
   refuse_coordinate(quoted(name) + ": vertex " + std::to_string(problem.source_vertex), problem.axis, problem.value);
 }
 
-void check_facets(std::span<const int> corners, const Facets& given, std::ptrdiff_t vertices, const std::string& name) {
+template <int kRows>
+void check_corners(std::span<const int> corners, const Columns<int, kRows>& given, std::ptrdiff_t vertices,
+                   const std::string& name) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (corners[i] >= 0 && corners[i] < vertices) continue;
-    throw Error(ErrorCode::facet_out_of_range,
-                quoted(name) + ": facet " + std::to_string(i / 3) + " names vertex " +
-                    std::to_string(index_at(given, static_cast<std::ptrdiff_t>(i / 3), static_cast<int>(i % 3))) +
-                    ", but there are " + std::to_string(vertices) + " vertices");
+    refuse_corner(name, kRows == 3 ? "facet" : "edge", i / kRows,
+                  index_at(given, static_cast<std::ptrdiff_t>(i / kRows), static_cast<int>(i % kRows)), vertices);
+  }
+}
+template void check_corners(std::span<const int>, const Facets&, std::ptrdiff_t, const std::string&);
+template void check_corners(std::span<const int>, const Edges&, std::ptrdiff_t, const std::string&);
+
+void check_points(std::span<const int> points, std::ptrdiff_t vertices, const std::string& name) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i] < 0 || points[i] >= vertices) refuse_corner(name, "point", i, points[i], vertices);
   }
 }
 
 void check_array(const Positions& positions, const std::string& name) { check_columns(positions, "positions", name); }
 void check_array(const Facets& facets, const std::string& name) { check_columns(facets, "facets", name); }
+
+void check_array(const Edges& edges, const std::string& name) { check_columns(edges, "edges", name); }
+
+void check_plane(const Eigen::Vector3d& normal, double offset, const std::string& name) {
+  const double square = (normal.x() * normal.x() + normal.y() * normal.y()) + normal.z() * normal.z();
+  if (!(std::abs(square - 1.0) <= 2.0 * kLargestLengthError))
+    throw Error(ErrorCode::invalid_argument, quoted(name) + ": the normal of the plane is " +
+                                                 base::text_of(std::sqrt(square)) + " long, not 1 to 1e-9");
+  if (!(std::abs(offset) <= kLargestCoordinate))
+    throw Error(ErrorCode::invalid_argument,
+                quoted(name) + ": the offset of the plane is " + base::text_of(offset) + ", not -2^300 to 2^300");
+}
 
 void check_margin(double margin, const std::string& name) {
   if (margin >= 0.0 && margin <= kLargestCoordinate) return;
@@ -61,7 +91,9 @@ void check_counts(std::ptrdiff_t vertices, std::ptrdiff_t facets, std::size_t bo
   if (bodies < std::numeric_limits<std::uint32_t>::max() && vertices <= kLargestCount && facets <= kLargestCount)
     return;
   throw Error(ErrorCode::too_large,
-              quoted(name) + ": a body has up to 536870911 vertices and facets, a world up to 4294967295 bodies");
+              quoted(name) +
+                  ": a body has up to 536870911 vertices, and as many facets, edges and points, a world up to "
+                  "4294967295 bodies");
 }
 
 }  // namespace tact

@@ -28,26 +28,26 @@ Scalar converted(Number number) {
   }
 }
 
-template <class Number, class Scalar>
-void copy_columns(const Columns<Scalar>& columns, Scalar* to) {
+template <class Number, class Scalar, int kRows>
+void copy_columns(const Columns<Scalar, kRows>& columns, Scalar* to) {
   const auto* column = static_cast<const std::byte*>(columns.first());
-  for (std::ptrdiff_t i = 0; i < columns.cols(); ++i, column += columns.stride_bytes(), to += 3) {
-    for (int row = 0; row < 3; ++row) to[row] = converted<Number, Scalar>(number_at<Number>(column, row));
+  for (std::ptrdiff_t i = 0; i < columns.cols(); ++i, column += columns.stride_bytes(), to += kRows) {
+    for (int row = 0; row < kRows; ++row) to[row] = converted<Number, Scalar>(number_at<Number>(column, row));
   }
 }
 
 }  // namespace
 
-template <class Scalar>
-bool is_packed(const Columns<Scalar>& columns) {
+template <class Scalar, int kRows>
+bool is_packed(const Columns<Scalar, kRows>& columns) {
   const bool aligned = reinterpret_cast<std::uintptr_t>(columns.first()) % alignof(Scalar) == 0;
   return columns.data() != nullptr && aligned &&
-         (columns.stride_bytes() == 3 * static_cast<std::ptrdiff_t>(sizeof(Scalar)) || columns.cols() <= 1);
+         (columns.stride_bytes() == kRows * static_cast<std::ptrdiff_t>(sizeof(Scalar)) || columns.cols() <= 1);
 }
 
-template <class Scalar>
-std::span<const Scalar> packed(const Columns<Scalar>& columns, std::span<Scalar> copy) {
-  const auto size = static_cast<std::size_t>(3 * columns.cols());
+template <class Scalar, int kRows>
+std::span<const Scalar> packed(const Columns<Scalar, kRows>& columns, std::span<Scalar> copy) {
+  const auto size = static_cast<std::size_t>(kRows * columns.cols());
   if (size == 0) return {};
   if (is_packed(columns)) return {columns.data(), size};
   switch (columns.kind()) {
@@ -60,18 +60,23 @@ std::span<const Scalar> packed(const Columns<Scalar>& columns, std::span<Scalar>
   return copy.first(size);
 }
 
-long long index_at(const Facets& facets, std::ptrdiff_t facet, int corner) {
-  const auto* column = static_cast<const std::byte*>(facets.first()) + facet * facets.stride_bytes();
-  switch (facets.kind()) {
-    case NumberKind::uint16: return number_at<std::uint16_t>(column, corner);
-    case NumberKind::uint32: return number_at<std::uint32_t>(column, corner);
-    default: return number_at<std::int32_t>(column, corner);
+template <int kRows>
+long long index_at(const Columns<int, kRows>& columns, std::ptrdiff_t column, int row) {
+  const auto* at = static_cast<const std::byte*>(columns.first()) + column * columns.stride_bytes();
+  switch (columns.kind()) {
+    case NumberKind::uint16: return number_at<std::uint16_t>(at, row);
+    case NumberKind::uint32: return number_at<std::uint32_t>(at, row);
+    default: return number_at<std::int32_t>(at, row);
   }
 }
 
-template bool is_packed(const Columns<double>&);
-template bool is_packed(const Columns<int>&);
-template std::span<const double> packed(const Columns<double>&, std::span<double>);
-template std::span<const int> packed(const Columns<int>&, std::span<int>);
+template bool is_packed(const Positions&);
+template bool is_packed(const Facets&);
+template bool is_packed(const Edges&);
+template std::span<const double> packed(const Positions&, std::span<double>);
+template std::span<const int> packed(const Facets&, std::span<int>);
+template std::span<const int> packed(const Edges&, std::span<int>);
+template long long index_at(const Facets&, std::ptrdiff_t, int);
+template long long index_at(const Edges&, std::ptrdiff_t, int);
 
 }  // namespace tact

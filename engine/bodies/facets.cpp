@@ -135,6 +135,9 @@ Bodies::NewMesh Bodies::make_mesh(BodyId id, const Positions& positions, const F
   const ClusteredMesh& last = body.mesh;
   if (last.is_rigid())
     throw Error(ErrorCode::wrong_motion, quoted(body.name) + " was added as rigid: its facets cannot be set");
+  if (body.plane != nullptr || !last.has_surface_alone())
+    throw Error(ErrorCode::invalid_argument,
+                quoted(body.name) + " is a plane, or has edges or points: its facets cannot be set");
   const GivenMesh given = read_mesh(positions, facets, body.name);
   const std::size_t vertices = given.positions.size() / 3;
   check_vertex_map(vertex_map, vertices, last.source_vertex_count(), body.name);

@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -25,11 +26,12 @@ using Eigen::Vector3d;
 
 constexpr int kCircleSides = 24;
 constexpr float kFaint = 0.3f;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kArrowHead = 0.15;  // of the arrow's length
 
 struct Mesh {
   std::vector<double> coordinates;
-  std::vector<int> corners;
+  std::vector<int> corners, ends, points;
 
   Vector3d vertex(int v) const {
     return Eigen::Map<const Vector3d>(&coordinates[checked(3 * static_cast<std::size_t>(v), coordinates.size())]);
@@ -75,16 +77,52 @@ class Drawing {
   }
 
  private:
+  // Where bodies are that have an end.
+  void find_middle() {
+    Bounds all{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+    for (const BodyId body : world_.bodies()) {
+      if (world_.plane(body)) continue;
+      const Bounds bounds = world_.bounds(body);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        all.lower[axis] = std::min(all.lower[axis], bounds.lower[axis]);
+        all.upper[axis] = std::max(all.upper[axis], bounds.upper[axis]);
+      }
+    }
+    if (is_empty(all)) return;
+    middle_ = middle(all);
+    size_ = size(all);
+  }
+
+  // A square as wide as all bodies, below the middle of them.
+  void draw_half_space(BodyId body, const Plane& plane) {
+    const Vector3d at = foot(plane, middle_);
+    const Vector3d u = 0.5 * size_ * plane.normal.unitOrthogonal(), v = plane.normal.cross(u);
+    if (options_.surfaces) {
+      const std::array<Vector3d, 4> corner{at - u - v, at + u - v, at + u + v, at - u + v};
+      for (std::size_t k = 0; k < 4; ++k) drawer_.line(corner[k], corner[(k + 1) % 4], options_.surface);
+    }
+    if (options_.names) drawer_.text(at, world_.name(body), options_.word);
+  }
+
+  static Vector3d foot(const Plane& plane, const Vector3d& point) {
+    return point - (plane.normal.dot(point) - plane.offset) * plane.normal;
+  }
+
   void draw_bodies() {
+    find_middle();
     std::vector<BodyId> paired;
     for (const CandidatePair& pair : report_.candidate_pairs()) paired.insert(paired.end(), {pair.a, pair.b});
     std::ranges::sort(paired);
     for (const BodyId body : world_.bodies()) {
+      if (const std::optional<Plane> plane = world_.plane(body)) {
+        draw_half_space(body, *plane);
+        continue;
+      }
       const Bounds bounds = world_.bounds(body);
       if (is_empty(bounds)) continue;
       const bool has_pair = std::ranges::binary_search(paired, body);
       if (options_.boxes) draw_box(bounds, has_pair ? options_.moved_box : options_.box);
-      if (options_.surfaces) draw_surface(mesh_of(body));
+      if (options_.surfaces) draw_surface(mesh_of(body), world_.margin(body));
       if (options_.names) {
         Vector3d top = middle(bounds);
         top.z() = bounds.upper[2];
@@ -95,7 +133,12 @@ class Drawing {
 
   void draw_candidate(const CandidatePair& pair) {
     if (!options_.candidate_pairs) return;
-    drawer_.line(middle(world_.bounds(pair.a)), middle(world_.bounds(pair.b)), options_.candidate);
+    const std::optional<Plane> plane_a = world_.plane(pair.a), plane_b = world_.plane(pair.b);
+    const Vector3d of_body = middle(world_.bounds(plane_a ? pair.b : pair.a));
+    const Vector3d other = plane_a   ? foot(*plane_a, of_body)
+                           : plane_b ? foot(*plane_b, of_body)
+                                     : middle(world_.bounds(pair.b));
+    drawer_.line(of_body, other, options_.candidate);
   }
 
   void draw_contact(const Contact& contact) {
@@ -154,7 +197,9 @@ class Drawing {
     for (auto [body, facets] : {std::pair{contact.a, &a}, std::pair{contact.b, &b}}) {
       std::ranges::sort(*facets);
       facets->erase(std::unique(facets->begin(), facets->end()), facets->end());
-      for (const int f : *facets) draw_triangle(mesh_of(body), f, options_.meeting);
+      for (const int f : *facets) {
+        if (!world_.plane(body)) draw_triangle(mesh_of(body), f, options_.meeting);
+      }
     }
   }
 
@@ -166,8 +211,10 @@ class Drawing {
       }
       return sum;
     };
-    const Vector3d on_a = place(mesh_of(contact.a), point.a_vertices, point.a_weights);
-    const Vector3d on_b = place(mesh_of(contact.b), point.b_vertices, point.b_weights);
+    Vector3d on_a = place(mesh_of(contact.a), point.a_vertices, point.a_weights);
+    Vector3d on_b = place(mesh_of(contact.b), point.b_vertices, point.b_weights);
+    if (point.kind == FeaturePair::vertex_plane) on_b = on_a + point.gap * point.normal;
+    if (point.kind == FeaturePair::plane_vertex) on_a = on_b - point.gap * point.normal;
     const double reach = world_.margin(contact.a) + world_.margin(contact.b);
     DebugColor color = options_.point;
     if (!point.minimum) color.alpha *= kFaint;
@@ -182,7 +229,16 @@ class Drawing {
     if (curve.closed) drawer_.line(points.back().position, points.front().position, options_.curve);
   }
 
-  void draw_surface(const Mesh& mesh) {
+  // Points as crosses as wide as their balls.
+  void draw_surface(const Mesh& mesh, double margin) {
+    for (std::size_t e = 0; e + 1 < mesh.ends.size(); e += 2)
+      drawer_.line(mesh.vertex(mesh.ends[e]), mesh.vertex(mesh.ends[e + 1]), options_.surface);
+    for (const int v : mesh.points) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vector3d arm = margin * Vector3d::Unit(axis);
+        drawer_.line(mesh.vertex(v) - arm, mesh.vertex(v) + arm, options_.surface);
+      }
+    }
     for (int f = 0; f < mesh.facet_count(); ++f) {
       const auto [p, q, r] = mesh.facet(f);
       drawer_.line(p, q, options_.surface);
@@ -246,6 +302,10 @@ class Drawing {
       at->second.corners.resize(3 * world_.facet_count(body));
       world_.copy_positions(body, at->second.coordinates);
       world_.copy_facets(body, at->second.corners);
+      at->second.ends.resize(2 * world_.edge_count(body));
+      at->second.points.resize(world_.point_count(body));
+      world_.copy_edges(body, at->second.ends);
+      world_.copy_points(body, at->second.points);
     }
     return at->second;
   }
@@ -255,6 +315,8 @@ class Drawing {
   DebugDrawer& drawer_;
   const DebugDrawOptions& options_;
   std::optional<FacetOutcomeFinder> outcomes_;
+  Vector3d middle_ = Vector3d::Zero();
+  double size_ = 1.0;
   std::unordered_map<BodyId, Mesh> meshes_;
 };
 

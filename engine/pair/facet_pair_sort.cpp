@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <iterator>
 #include <span>
 
 #include "narrowphase/kernels/kernels.h"
@@ -21,6 +22,23 @@ void sort_facet_pairs(std::vector<FacetPair>& pairs, int facets_a, int facets_b,
   std::ranges::transform(sorter.sort(bits_a + bits_b, threads), pairs.begin(), [&](std::uint64_t key) {
     return FacetPair{static_cast<int>(key >> bits_b), static_cast<int>(key & ((std::uint64_t{1} << bits_b) - 1))};
   });
+}
+
+void split_off_bare(const narrowphase::ClusteredMesh& a, const narrowphase::ClusteredMesh& b,
+                    std::vector<FacetPair>& pairs, std::vector<FacetPair>& bare) {
+  bare.clear();
+  if (a.has_surface_alone() && b.has_surface_alone()) return;
+  const auto is_bare = [&](const FacetPair& pair) { return !a.is_of_surface(pair.a) || !b.is_of_surface(pair.b); };
+  std::ranges::copy_if(pairs, std::back_inserter(bare), is_bare);
+  std::erase_if(pairs, is_bare);
+}
+
+std::span<const FacetPair> with_bare(const std::vector<FacetPair>& pairs, const std::vector<FacetPair>& bare,
+                                     std::vector<FacetPair>& room) {
+  if (bare.empty()) return pairs;
+  room.clear();
+  std::ranges::merge(pairs, bare, std::back_inserter(room));
+  return room;
 }
 
 }  // namespace tact

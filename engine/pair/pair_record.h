@@ -59,7 +59,11 @@ struct alignas(64) PairRecord {
   std::unique_ptr<narrowphase::SurfaceHistory> surfaces;  ///< of bodies that lie on each other, once
   std::unique_ptr<narrowphase::SurfaceShape> surface;     ///< where the search for the smallest separation ended, once
   bool is_renumbered = false;  ///< facets have changed since: last_points are those of the last step, by new numbers
+  std::vector<FacetPair> bare_pairs;  ///< of edges and points, with each other and with facets; sorted
 };
+
+/// Whether surfaces, edges or points share a point.
+inline bool any_meet(const PairRecord& record) { return !record.facet_pairs.empty() || !record.bare_pairs.empty(); }
 
 inline bool in_contact(const PairRecord& record) { return record.hulls_overlap || record.near; }
 

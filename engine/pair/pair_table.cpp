@@ -42,18 +42,18 @@ void renumber(PairRecord& record, std::span<const int> numbers_a, std::span<cons
   renumber_vertices(record, numbers_b, &narrowphase::GjkSimplex::b, &narrowphase::SurfaceShape::b);
 }
 
-void PairTable::update(const broadphase::SweepAndPrune& sweep, const Bodies& bodies, bool all) {
+void PairTable::update(const PlanePairs& found, const Bodies& bodies, bool all) {
   gone_.clear();
   gone_patches_.clear();
   moved_.clear();
   separated_ = 0;
   same_pairs_ = !std::exchange(was_restored_, false) && !all && !bodies.removed_any() &&
-                !bodies.excluded_pairs().changed() && !sweep.pairs_changed();
+                !bodies.excluded_pairs().changed() && !found.pairs_changed();
   // The sweep sees boxes of rigid bodies that may be too large: what it says of them has to be looked at in each step.
   const bool rough = bodies.any_rigid() || had_rigid_;
   had_rigid_ = bodies.any_rigid();
   if (same_pairs_ && !rough) return select_moved(bodies);
-  const std::span<const IndexPair> pairs = tested_pairs(sweep.pairs(), bodies);
+  const std::span<const IndexPair> pairs = tested_pairs(found.pairs(), bodies);
   same_pairs_ = rough && !all && !bodies.removed_any() && std::ranges::equal(pairs, pairs_);
   if (same_pairs_) {
     select_moved(bodies);
@@ -73,7 +73,7 @@ std::span<const IndexPair> PairTable::tested_pairs(std::span<const IndexPair> pa
       continue;
     }
     const bool is_exact = !bodies.is_rigid(pair.a) && !bodies.is_rigid(pair.b);
-    if (is_exact || base::overlaps(bodies.exact_box(pair.a), bodies.exact_box(pair.b))) tested_.push_back(pair);
+    if (is_exact || bodies.boxes_meet(pair)) tested_.push_back(pair);
   }
   return by_key(tested_, bodies);
 }
@@ -165,6 +165,7 @@ PairRecord& PairTable::new_record(BodyId a, BodyId b) {
   record.history = {};
   record.hulls_overlap = record.near = record.touching = record.is_renumbered = false;
   record.facet_pairs.clear();
+  record.bare_pairs.clear();
   record.points.clear();
   record.surfaces.reset();
   record.curves.reset();

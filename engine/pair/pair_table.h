@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "broadphase/sweep_and_prune.h"
 #include "engine/base/key_sort.h"
 #include "engine/bodies/bodies.h"
+#include "engine/bodies/plane_pairs.h"
 #include "engine/pair/pair_record.h"
 #include "narrowphase/hull/kdop.h"
 
@@ -33,9 +33,10 @@ class PairTable {
   friend struct StateFields;
 
  public:
-  // Takes the pairs of the sweep, sorted, and puts them into the order of the keys: a pair that stays keeps its record,
-  // unless a body of it was replaced by another. Then moved() are those with a body that moved, or all.
-  void update(const broadphase::SweepAndPrune& sweep, const Bodies& bodies, bool all);
+  // Takes the pairs of the sweep and of planes, sorted, and puts them into the order of the keys: a pair that stays
+  // keeps its record, unless a body of it was replaced by another. Then moved() are those with a body that moved, or
+  // all.
+  void update(const PlanePairs& pairs, const Bodies& bodies, bool all);
   // Nothing moved: the pairs and the contacts are those of the last step.
   void keep();
   // Vertices have other numbers: so have those that the records name. `bodies` are sorted by slot.

@@ -29,6 +29,10 @@
 //             version 7
 //   facets    u8 19, body, u64 vertices, u64 facets, 3 f64 a vertex, 3 i32 a facet, i32 a vertex: that which it was, or
 //             -1; since version 7
+//   bare      u8 20, u64 edges, u64 points, 2 i32 an edge, i32 a point: those of the body that is added next, if it has
+//             any; this and the next since version 7
+//   plane     u8 21, 3 f64 of the normal, f64 offset, u32 layer, u32 mask, u64 external id, text name; then as after
+//   add
 //
 // A text is u32 bytes and these; a body is u32 index and u32 generation of its BodyId; enumerations are numbered in the
 // order of their values. Outputs::trace is left out: it changes no answer. The records stand in the order of the calls;
@@ -62,8 +66,10 @@ enum class RecordKind : std::uint8_t {
   key = 16,
   restore = 17,
   curves = 18,
-  facets = 19
+  facets = 19,
+  bare = 20,
+  plane = 21
 };
-inline constexpr RecordKind kLastRecordKind = RecordKind::facets;
+inline constexpr RecordKind kLastRecordKind = RecordKind::plane;
 
 }  // namespace tact::recording

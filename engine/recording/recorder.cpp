@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <optional>
 #include <ostream>
 #include <type_traits>
 
@@ -36,10 +37,10 @@ void put_body(std::ostream& out, BodyId body) {
 }
 
 // Column by column: the caller's columns need not follow each other.
-template <class Scalar>
-void put_columns(std::ostream& out, const Columns<Scalar>& columns) {
+template <class Scalar, int kRows>
+void put_columns(std::ostream& out, const Columns<Scalar, kRows>& columns) {
   for (std::ptrdiff_t i = 0; i < columns.cols(); ++i) {
-    const std::array<Scalar, 3> column = columns.column(i);
+    const std::array<Scalar, kRows> column = columns.column(i);
     out.write(reinterpret_cast<const char*>(column.data()), sizeof column);
   }
 }
@@ -52,11 +53,37 @@ void put_value(std::ostream& out, RecordKind kind, BodyId body, Number value) {
   put(out, value);
 }
 
+void put_key(std::ostream& out, const std::optional<std::uint64_t>& key) {
+  if (!key) return;
+  put(out, RecordKind::key);
+  put(out, *key);
+}
+
+void put_bare(std::ostream& out, const BodyDefinition& definition) {
+  if (definition.edges.cols() == 0 && definition.points.empty()) return;
+  put(out, RecordKind::bare);
+  put(out, static_cast<std::uint64_t>(definition.edges.cols()));
+  put(out, static_cast<std::uint64_t>(definition.points.size()));
+  put_columns(out, definition.edges);
+  for (const int point : definition.points) put(out, std::int32_t{point});
+}
+
+void put_plane(std::ostream& out, BodyId body, const PlaneDefinition& definition) {
+  put_key(out, definition.key);
+  put(out, RecordKind::plane);
+  for (const double coordinate : definition.normal) put(out, coordinate);
+  put(out, definition.offset);
+  put(out, definition.layer);
+  put(out, definition.mask);
+  put(out, definition.external_id);
+  put_text(out, definition.name);
+  if (definition.group != 0) put_value(out, RecordKind::group, body, definition.group);
+  if (definition.margin != 0.0) put_value(out, RecordKind::margin, body, definition.margin);
+}
+
 void put_addition(std::ostream& out, BodyId body, const BodyDefinition& definition) {
-  if (definition.key) {
-    put(out, RecordKind::key);
-    put(out, *definition.key);
-  }
+  put_key(out, definition.key);
+  put_bare(out, definition);
   put(out, RecordKind::add);
   put(out, static_cast<std::uint8_t>(definition.surface));
   put(out, static_cast<std::uint8_t>(definition.motion));
@@ -111,6 +138,10 @@ void Recorder::settings_changed(const Settings& settings) noexcept {
 
 void Recorder::body_added(BodyId body, const BodyDefinition& definition) noexcept {
   write([&](std::ostream& out) { put_addition(out, body, definition); });
+}
+
+void Recorder::plane_added(BodyId body, const PlaneDefinition& definition) noexcept {
+  write([&](std::ostream& out) { put_plane(out, body, definition); });
 }
 
 void Recorder::body_removed(BodyId body) noexcept {

@@ -79,6 +79,8 @@ struct RecordingPlayer::Implementation {
         return make([&] { world->set_settings(settings); });
       }
       case RecordKind::add: return add_body();
+      case RecordKind::bare: return read_bare();
+      case RecordKind::plane: return add_plane();
       case RecordKind::remove: {
         const BodyId body = read_body();
         return make([&] { world->remove_body(body); });
@@ -198,6 +200,8 @@ struct RecordingPlayer::Implementation {
       world_number = world
                          ->add_body({.positions = positions,
                                      .facets = corners,
+                                     .edges = next_edges,
+                                     .points = next_points,
                                      .surface = surface,
                                      .motion = motion,
                                      .name = std::move(name),
@@ -207,6 +211,28 @@ struct RecordingPlayer::Implementation {
                                      .key = std::exchange(next_key, std::nullopt)})
                          .world;
     });
+    next_edges.resize(2, 0);
+    next_points.clear();
+  }
+
+  void read_bare() {
+    const auto edges = reader.read<std::uint64_t>(), points = reader.read<std::uint64_t>();
+    next_edges = read_columns<std::int32_t, 2>(edges);
+    reader.require(points, sizeof(std::int32_t));
+    next_points.clear();
+    for (std::uint64_t i = 0; i < points; ++i) next_points.push_back(reader.read<std::int32_t>());
+  }
+
+  void add_plane() {
+    PlaneDefinition plane;
+    for (double& coordinate : plane.normal) coordinate = reader.read<double>();
+    plane.offset = reader.read<double>();
+    plane.layer = reader.read<std::uint32_t>();
+    plane.mask = reader.read<std::uint32_t>();
+    plane.external_id = reader.read<std::uint64_t>();
+    plane.name = read_text();
+    plane.key = std::exchange(next_key, std::nullopt);
+    make([&] { world_number = world->add_plane(plane).world; });
   }
 
   void set_positions() {
@@ -284,10 +310,10 @@ struct RecordingPlayer::Implementation {
     return static_cast<Enumeration>(value);
   }
 
-  template <class Number>
-  Eigen::Matrix<Number, 3, Eigen::Dynamic> read_columns(std::uint64_t count) {
-    reader.require(count, 3 * sizeof(Number));
-    Eigen::Matrix<Number, 3, Eigen::Dynamic> columns(3, static_cast<Eigen::Index>(count));
+  template <class Number, int kRows = 3>
+  Eigen::Matrix<Number, kRows, Eigen::Dynamic> read_columns(std::uint64_t count) {
+    reader.require(count, kRows * sizeof(Number));
+    Eigen::Matrix<Number, kRows, Eigen::Dynamic> columns(kRows, static_cast<Eigen::Index>(count));
     for (Number& value : columns.reshaped()) value = reader.read<Number>();
     return columns;
   }
@@ -319,6 +345,8 @@ struct RecordingPlayer::Implementation {
   std::optional<World> world = {};
   std::uint32_t world_number = 0;              // that ids carry; known from the first body
   std::optional<std::uint64_t> next_key = {};  // of the body that is added next
+  Eigen::Matrix2Xi next_edges = {};            // likewise
+  std::vector<int> next_points = {};
   int steps = 0;
   const Report nothing = {};
   const Report* report = &nothing;

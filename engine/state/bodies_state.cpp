@@ -20,12 +20,24 @@ void check_positions_of(const StateReader& reader, const std::vector<double>& po
   check_positions(positions.data(), state.vertex_count, name);
 }
 
+// The last facets are edges and points.
+void check_bare(const StateReader& reader, const MeshState& state, std::size_t facets) {
+  for (std::size_t f = facets - state.edge_count - state.point_count; f < facets; ++f) {
+    const int* const corner = &state.facets[3 * f];
+    const bool is_point = f >= facets - state.point_count;
+    reader.check(corner[1] == corner[2] && (!is_point || corner[0] == corner[1]), "an edge or a point has area");
+  }
+}
+
 void check_mesh(const StateReader& reader, const MeshState& state, const std::string& name) {
   const std::size_t facets = state.facets.size() / 3;
   check_counts(static_cast<std::ptrdiff_t>(state.vertex_count), static_cast<std::ptrdiff_t>(facets), 0, name);
   reader.check(state.facets.size() == 3 * facets && state.order.size() == facets, "there are parts of facets");
-  check_facets(state.facets, Facets::strided(state.facets.data(), facets),
-               static_cast<std::ptrdiff_t>(state.vertex_count), name);
+  check_corners(state.facets, Facets::strided(state.facets.data(), facets),
+                static_cast<std::ptrdiff_t>(state.vertex_count), name);
+  reader.check(state.edge_count <= facets && state.point_count <= facets - state.edge_count,
+               "there are more edges and points than facets");
+  check_bare(reader, state, facets);
   std::vector<char> seen(facets, 0);
   for (const int facet : state.order)
     reader.check(facet >= 0 && static_cast<std::size_t>(facet) < facets && seen[facet]++ == 0, "facets have no order");
@@ -51,6 +63,10 @@ MeshState StateFields::mesh_state(const Bodies& bodies, std::uint32_t slot) {
   mesh.vertex_count = static_cast<std::uint32_t>(of_body.source_vertex_count());
   mesh.facets = source_facets(of_body);
   for (int f = 0; f < of_body.facet_count(); ++f) mesh.order.push_back(of_body.source_facet(f));
+  mesh.edge_count = static_cast<std::uint32_t>(of_body.edge_count());
+  mesh.point_count = static_cast<std::uint32_t>(of_body.point_count());
+  mesh.is_plane = from.body->plane != nullptr;
+  if (mesh.is_plane) mesh.plane = *from.body->plane;
   mesh.is_rigid = from.rigid != nullptr;
   mesh.is_on_its_way = bodies.on_its_way(slot);
   mesh.positions = source_positions(of_body, mesh.is_rigid ? of_body.placements().before().points : of_body.points());
@@ -71,14 +87,14 @@ void StateFields::write_body(const Bodies& bodies, std::uint32_t slot, const Mes
 }
 
 // Own: world, tuning, choice. Memory, or what only saves work: packed_meshes, rigid_states, tree, updates, new_kdops
-// and all scratch. Found again from what is read: boxes, kdops, counts, placed_boxes, farthest_rest. With each body:
-// filters, margins, keys, groupings, and whether it is in `changed`. Not of a state: generations, former; see
+// and all scratch. Found again from what is read: boxes, kdops, counts, planes, placed_boxes, farthest_rest. With each
+// body: filters, margins, keys, groupings, and whether it is in `changed`. Not of a state: generations, former; see
 // take_ids().
 void StateFields::write(const Bodies& bodies, std::span<const BodyId> gone, StateWriter& writer) {
   const auto& [world, tuning, packed_meshes, slots, generations, former, rigid_states, free, boxes, filters, margins,
                keys, tree, kdops, groupings, changed, count, removed, steps, excluded, vertices, moved_vertices,
-               rigid_count, self_count, placed_boxes, placed_count, farthest_rest, pose_changed, to_place, updates,
-               new_kdops, without_features, named, choice] = bodies;
+               rigid_count, self_count, planes, placed_boxes, placed_count, farthest_rest, pose_changed, to_place,
+               updates, new_kdops, without_features, named, choice] = bodies;
   writer(steps, std::uint64_t{count});
   std::vector<char> is_free(slots.size(), 0);
   for (const std::uint32_t slot : free) is_free[slot] = 1;
@@ -109,10 +125,21 @@ void StateFields::read_body(StateReader& reader, Bodies& bodies, std::uint32_t s
   reader.check(!bodies.keys_.find(place.key), "two bodies have one key");
   auto state = reader.read<MeshState>();
   reader.check(state.is_rigid == place.is_rigid, "a body is rigid and is not");
+  if (state.is_plane) {
+    const base::Vec3& n = state.plane.normal;
+    check_plane({n.x, n.y, n.z}, state.plane.offset, kName);
+    reader.check(state.facets.empty() && place.filter.fixed && !place.is_rigid, "a plane moves, or has facets");
+  }
   check_mesh(reader, state, kName);
   const bool has_begin = state.is_on_its_way && !state.is_rigid;
-  auto body = std::make_unique<Body>(
-      Body{.mesh = {has_begin ? state.begin : state.positions, state.facets, state.order}, .id = {}, .name = {}});
+  auto body =
+      std::make_unique<Body>(Body{.mesh = {has_begin ? state.begin : state.positions,
+                                           state.facets,
+                                           state.order,
+                                           {static_cast<int>(state.edge_count), static_cast<int>(state.point_count)}},
+                                  .id = {},
+                                  .name = {}});
+  if (state.is_plane) body->plane = std::make_unique<const narrowphase::HalfSpace>(state.plane);
   if (has_begin) {
     const narrowphase::MeshPlacements& placements = body->mesh.placements();
     body->begin.resize(placements.size());

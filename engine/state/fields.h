@@ -38,7 +38,7 @@ inline constexpr Containment kLastValue<Containment> = Containment::b_in_a;
 template <>
 inline constexpr DirectionSource kLastValue<DirectionSource> = DirectionSource::smallest;
 template <>
-inline constexpr FeaturePair kLastValue<FeaturePair> = FeaturePair::edge_edge;
+inline constexpr FeaturePair kLastValue<FeaturePair> = FeaturePair::plane_vertex;
 template <>
 inline constexpr PairHistory::Kind kLastValue<PairHistory::Kind> = PairHistory::Kind::overlapping;
 
@@ -50,6 +50,9 @@ struct MeshState {
   std::vector<double> positions;  ///< of now, or of a rigid body at rest; zero where no facet uses the vertex
   std::vector<double> begin;      ///< of the last step, if it has other positions and is not rigid
   bool is_rigid = false, is_on_its_way = false;
+  std::uint32_t edge_count = 0, point_count = 0;  ///< the last of the facets: see narrowphase::WithoutArea
+  bool is_plane = false;
+  narrowphase::HalfSpace plane;        ///< of a plane, which has no mesh
   narrowphase::Pose pose, begin_pose;  ///< of a rigid body: now, and in the last step if it is on its way
 };
 
@@ -86,6 +89,12 @@ struct StateFields {
     archive(rows, translation);
   }
 
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, narrowphase::HalfSpace>& plane) {
+    auto& [normal, offset] = plane;
+    archive(normal, offset);
+  }
+
   // Of the program, not of the world: threads, executor, on_message.
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Settings>& settings) {
@@ -96,8 +105,10 @@ struct StateFields {
 
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, MeshState>& mesh) {
-    auto& [vertex_count, facets, order, positions, begin, is_rigid, is_on_its_way, pose, begin_pose] = mesh;
-    archive(vertex_count, facets, order, positions, is_rigid, is_on_its_way);
+    auto& [vertex_count, facets, order, positions, begin, is_rigid, is_on_its_way, edge_count, point_count, is_plane,
+           plane, pose, begin_pose] = mesh;
+    archive(vertex_count, facets, order, positions, is_rigid, is_on_its_way, edge_count, point_count, is_plane);
+    if (is_plane) archive(plane);
     if (is_rigid) archive(pose);
     if (is_on_its_way) is_rigid ? archive(begin_pose) : archive(begin);
   }
@@ -108,11 +119,11 @@ struct StateFields {
     archive(of_vertex, next, orders);
   }
 
-  // By others: mesh and begin, as a MeshState; id. Dropped: features and neighbors.
+  // By others: mesh, plane and begin, as a MeshState; id. Dropped: features and neighbors.
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Body>& body) {
-    auto& [mesh, id, name, surface, has_inside, external_id, self_contact, is_outward, birth, features, neighbors, begin,
-           names] = body;
+    auto& [mesh, id, name, surface, has_inside, external_id, self_contact, is_outward, birth, features, neighbors, plane,
+           begin, names] = body;
     archive(name, surface, has_inside, external_id, self_contact, is_outward, birth);
     bool has_names = names != nullptr;
     archive(has_names);
@@ -274,11 +285,11 @@ struct StateFields {
   }
 
   // By others: a and b. Of the step before: was_in_contact; last_points unless it is renumbered, which a record that is
-  // read is not. Dropped: times, surfaces.
+  // read is not. Dropped: times, surfaces, bare_pairs.
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, PairRecord>& record) {
     auto& [a, b, hulls_overlap, near, was_in_contact, touching, history, times, slab_lower, slab_upper, face, contact,
-           facet_pairs, points, last_points, patches, curves, surfaces, surface, is_renumbered] = record;
+           facet_pairs, points, last_points, patches, curves, surfaces, surface, is_renumbered, bare_pairs] = record;
     archive(hulls_overlap, near, touching, history);
     if (history.has_surface) archive.pointee(surface);
     if (hulls_overlap) archive(slab_lower, slab_upper, face);
@@ -299,8 +310,9 @@ struct StateFields {
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, SelfRecord>& record) {
     auto& [body, facet_pairs, points, last_points, may_meet, may_contact, crossing, patches, curves, touching,
-           point_limit_reached, is_renumbered] = record;
+           point_limit_reached, bare_pairs, is_renumbered] = record;
     visit_points(archive, record);
+    archive(bare_pairs);
     visit_patches(archive, record, patches);
     archive(touching, point_limit_reached);
     visit_curves(archive, curves);

@@ -13,7 +13,8 @@ using narrowphase::SurfaceShape;
 // Checks what later steps take as given: with that, whatever the bytes are, nothing is read where nothing is.
 class Checks {
  public:
-  Checks(const StateReader& reader, const ClusteredMesh& a, const ClusteredMesh& b) : reader_(reader), a_(a), b_(b) {}
+  Checks(const StateReader& reader, const Body& a, const Body& b)
+      : reader_(reader), a_(a.mesh), b_(b.mesh), a_is_plane_(a.plane != nullptr), b_is_plane_(b.plane != nullptr) {}
 
   void simplex(const narrowphase::GjkSimplex& simplex) const {
     for (std::size_t k = 0; k < static_cast<std::size_t>(simplex.count); ++k) vertices(simplex.a[k], simplex.b[k]);
@@ -21,7 +22,9 @@ class Checks {
 
   void history(const PairHistory& history) const {
     constexpr double kSkew = 1e-6;  // far more than rounding, and far less than what any search minds
-    reader_.check(a_.vertex_count() > 0 && b_.vertex_count() > 0, "a body without facets has a history");
+    const bool any = (a_is_plane_ || a_.vertex_count() > 0) && (b_is_plane_ || b_.vertex_count() > 0);
+    reader_.check(any && !(a_is_plane_ && b_is_plane_), "a body without facets has a history");
+    reader_.check(history.kind == PairHistory::Kind::none || !(a_is_plane_ || b_is_plane_), "a plane has a history");
     simplex(history.hulls);
     if (history.kind == PairHistory::Kind::none) return;
     reader_.check(std::abs(dot(history.direction, history.direction) - 1.0) < kSkew, "a direction is no unit vector");
@@ -47,7 +50,7 @@ class Checks {
 
   void facet_pairs(std::span<const FacetPair> pairs) const {
     for (const FacetPair& pair : pairs)
-      reader_.check(pair.a >= 0 && pair.a < a_.facet_count() && pair.b >= 0 && pair.b < b_.facet_count(),
+      reader_.check(is_below(pair.a, facets(a_, a_is_plane_)) && is_below(pair.b, facets(b_, b_is_plane_)),
                     "a facet is not there");
     reader_.check(std::ranges::is_sorted(pairs), "facet pairs are not sorted");
   }
@@ -55,8 +58,10 @@ class Checks {
   void points(std::span<const ContactPoint> points) const {
     for (const ContactPoint& point : points) {
       reader_.check(point.patch >= 0, "a number is negative");
-      feature(point.a_vertices, a_, point.kind == FeaturePair::facet_vertex);
-      feature(point.b_vertices, b_, point.kind == FeaturePair::vertex_facet);
+      a_is_plane_ ? no_feature(point.a_vertices)
+                  : feature(point.a_vertices, a_, point.kind == FeaturePair::facet_vertex);
+      b_is_plane_ ? no_feature(point.b_vertices)
+                  : feature(point.b_vertices, b_, point.kind == FeaturePair::vertex_facet);
     }
   }
 
@@ -81,8 +86,19 @@ class Checks {
  private:
   static bool is_below(int i, std::size_t count) { return i >= 0 && static_cast<std::size_t>(i) < count; }
 
+  // The surface of a plane is a facet, and its history names vertex 0.
+  static std::size_t facets(const ClusteredMesh& mesh, bool is_plane) {
+    return is_plane ? 1 : static_cast<std::size_t>(mesh.facet_count());
+  }
+  static std::size_t vertices(const ClusteredMesh& mesh, bool is_plane) {
+    return is_plane ? 1 : static_cast<std::size_t>(mesh.vertex_count());
+  }
   void vertices(int a, int b) const {
-    reader_.check(a >= 0 && a < a_.vertex_count() && b >= 0 && b < b_.vertex_count(), "a vertex is not there");
+    reader_.check(is_below(a, vertices(a_, a_is_plane_)) && is_below(b, vertices(b_, b_is_plane_)),
+                  "a vertex is not there");
+  }
+  void no_feature(const std::array<int, 3>& vertices) const {
+    reader_.check(vertices == std::array{-1, -1, -1}, "a plane has a vertex");
   }
 
   // One to three vertices of the caller's, each on a facet. Of the place that a vertex was near there may be none left.
@@ -99,18 +115,19 @@ class Checks {
 
   const StateReader& reader_;
   const ClusteredMesh &a_, &b_;
+  bool a_is_plane_, b_is_plane_;
 };
 
 }  // namespace
 
 void write_pair(const PairRecord& record, StateWriter& writer) { writer(record); }
 
-void read_pair(StateReader& reader, const ClusteredMesh& a, const ClusteredMesh& b, PairRecord& record) {
+void read_pair(StateReader& reader, const Body& a, const Body& b, PairRecord& record) {
   reader(record);
   check_pair(reader, a, b, record);
 }
 
-void check_pair(const StateReader& reader, const ClusteredMesh& a, const ClusteredMesh& b, PairRecord& record) {
+void check_pair(const StateReader& reader, const Body& a, const Body& b, PairRecord& record) {
   const Checks checks(reader, a, b);
   checks.history(record.history);
   if (record.history.has_surface) checks.surface(*record.surface);
@@ -125,10 +142,11 @@ void check_pair(const StateReader& reader, const ClusteredMesh& a, const Cluster
 
 void write_self(const SelfRecord& record, StateWriter& writer) { writer(record); }
 
-void read_self(StateReader& reader, const ClusteredMesh& mesh, SelfRecord& record) {
+void read_self(StateReader& reader, const Body& body, SelfRecord& record) {
   reader(record);
-  const Checks checks(reader, mesh, mesh);
+  const Checks checks(reader, body, body);
   checks.facet_pairs(record.facet_pairs);
+  checks.facet_pairs(record.bare_pairs);
   checks.points(record.points);
   checks.patches(record.patches.now, record.facet_pairs.size(), record.points.size());
   if (record.curves != nullptr) checks.curves(*record.curves, record.facet_pairs.size());

@@ -10,15 +10,13 @@ namespace tact {
 
 void write_pair(const PairRecord& record, StateWriter& writer);
 /// Of a new record. Errors: bad_state.
-void read_pair(StateReader& reader, const narrowphase::ClusteredMesh& a, const narrowphase::ClusteredMesh& b,
-               PairRecord& record);
+void read_pair(StateReader& reader, const Body& a, const Body& b, PairRecord& record);
 /// The second part of read_pair(): what is read names what there is. Errors: bad_state.
-void check_pair(const StateReader& reader, const narrowphase::ClusteredMesh& a, const narrowphase::ClusteredMesh& b,
-                PairRecord& record);
+void check_pair(const StateReader& reader, const Body& a, const Body& b, PairRecord& record);
 
 void write_self(const SelfRecord& record, StateWriter& writer);
 /// Of a new record. Errors: bad_state.
-void read_self(StateReader& reader, const narrowphase::ClusteredMesh& mesh, SelfRecord& record);
+void read_self(StateReader& reader, const Body& body, SelfRecord& record);
 
 /// What the next step tells of a pair with a body that is gone: that it does not touch any more, and which patches
 /// ended.

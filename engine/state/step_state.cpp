@@ -57,7 +57,7 @@ void StateFields::write(const Step& step, const Bodies& bodies, StateWriter& wri
   const auto& [stages, report_writer, trace, device, regrouped, regroup_ms, all, forgotten, discarded, altered,
                commit] = step;
   const Step::Stages nothing;
-  const auto& [sweep, table, pairs, containment, points, selves, curves, patches, knows_boxes] =
+  const auto& [sweep, planes, table, pairs, containment, points, selves, curves, patches, knows_boxes] =
       forgotten ? nothing : *stages;
   writer(all || forgotten);
   write_pairs(table, bodies, writer);
@@ -109,7 +109,7 @@ void StateFields::read_pairs(StateReader& reader, const Bodies& bodies, PairTabl
     if (bodies.contains(a) && bodies.contains(b)) {
       reader(entry.separating_axis);
       reader.check(std::abs(int{entry.separating_axis}) <= kMostDiagonals, "a diagonal is not there");
-      read_pair(reader, bodies.in_slot(a.index).mesh, bodies.in_slot(b.index).mesh, record);
+      read_pair(reader, bodies.in_slot(a.index), bodies.in_slot(b.index), record);
     } else {
       record.patches = std::make_unique<PatchMemory>();
       read_gone(reader, record.touching, record.patches->now);
@@ -147,7 +147,7 @@ void StateFields::read_selves(StateReader& reader, const Bodies& bodies, SelfSta
     auto record = std::make_unique<SelfRecord>();
     record->body = body;
     if (bodies.contains(body)) {
-      read_self(reader, bodies.in_slot(body.index).mesh, *record);
+      read_self(reader, bodies.in_slot(body.index), *record);
     } else {
       read_gone(reader, record->touching, record->patches.now);
     }

@@ -167,7 +167,7 @@ bool StateFields::put_pair(const SavedPair& pair, const Bodies& bodies, Step& st
     StateReader reader(pair.bytes);
     reader(entry.separating_axis, record);
     renumber(record, mesh_numbers(a.mesh), mesh_numbers(b.mesh));
-    check_pair(reader, a.mesh, b.mesh, record);
+    check_pair(reader, a, b, record);
     table.pairs_.reserve(table.pairs_.size() + 1), table.candidates_.reserve(table.candidates_.size() + 1);
     table.entries_.reserve(table.entries_.size() + 1);
   } catch (...) {

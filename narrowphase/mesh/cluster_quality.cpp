@@ -41,7 +41,8 @@ double cluster_quality(const ClusteredMesh& mesh) {
 }
 
 ClusteredMesh clustered_anew(const ClusteredMesh& mesh) {
-  ClusteredMesh anew(source_positions(mesh, mesh.points()), source_facets(mesh));
+  ClusteredMesh anew(source_positions(mesh, mesh.points()), source_facets(mesh),
+                     {mesh.edge_count(), mesh.point_count()});
   anew.begin_travel_after(mesh);
   return anew;
 }

@@ -49,11 +49,13 @@ ClusteredMesh::Made ClusteredMesh::make(std::span<const double> positions, std::
   return {counts, std::move(memory)};
 }
 
-ClusteredMesh::ClusteredMesh(std::span<const double> positions, std::span<const int> facets)
-    : ClusteredMesh(positions, facets, facet_order(positions, facets, static_cast<int>(positions.size() / 3))) {}
+ClusteredMesh::ClusteredMesh(std::span<const double> positions, std::span<const int> facets, WithoutArea last)
+    : ClusteredMesh(positions, facets, facet_order(positions, facets, static_cast<int>(positions.size() / 3)), last) {}
 
-ClusteredMesh::ClusteredMesh(std::span<const double> positions, std::span<const int> facets, std::span<const int> order)
+ClusteredMesh::ClusteredMesh(std::span<const double> positions, std::span<const int> facets, std::span<const int> order,
+                             WithoutArea last)
     : ClusteredMesh(make(positions, facets, order)) {
+  last_ = last;
   // The memory is zero: if all positions are, nothing changed, and the placement that was written is not yet in use.
   if (refit(*this, positions.data()) == Refit::same) placements_.exchange(placements_.spare_box());
 }

@@ -25,12 +25,25 @@ namespace tact::narrowphase {
 /// The three corners of a facet as points, in metres.
 using Triangle = std::array<Vec3, 3>;
 
+/// Edges and points of the caller are facets without area here: of vertices i, j, j and i, i, i. They are the last of
+/// the source facets, edges first; those before them are the surface.
+struct WithoutArea {
+  int edges = 0, points = 0;
+};
+
 class ClusteredMesh : public MeshTopology {
  public:
   /// positions: 3 x V coordinates in metres, checked by the caller; facets: 3 x F source vertices, each 0 <= i < V.
-  ClusteredMesh(std::span<const double> positions, std::span<const int> facets);
+  ClusteredMesh(std::span<const double> positions, std::span<const int> facets, WithoutArea last = {});
   /// Clusters take the facets in this order, each of them once: that of another mesh, see facet_order().
-  ClusteredMesh(std::span<const double> positions, std::span<const int> facets, std::span<const int> order);
+  ClusteredMesh(std::span<const double> positions, std::span<const int> facets, std::span<const int> order,
+                WithoutArea last = {});
+
+  int edge_count() const { return last_.edges; }
+  int point_count() const { return last_.points; }
+  int surface_facet_count() const { return facet_count() - last_.edges - last_.points; }
+  bool has_surface_alone() const { return (last_.edges | last_.points) == 0; }
+  bool is_of_surface(int source_facet) const { return source_facet < surface_facet_count(); }
 
   Vec3 position(int vertex) const { return placements_.position(vertex); }
   PointArrays points() const { return placements_.points(); }
@@ -96,6 +109,7 @@ class ClusteredMesh : public MeshTopology {
   bool keeps_travel_ = false;  // else travel_ is memory alone
   int unasked_refits_ = 0;     // since keep_travel(true)
   std::uint64_t travel_epoch_ = 0;
+  WithoutArea last_;
 };
 
 }  // namespace tact::narrowphase

@@ -43,6 +43,7 @@ class FacetOrder {
       }
       facet_lengths_ = facet_lengths_ + (box.upper - box.lower);
     }
+    if (facet_lengths_ == Vec3{}) facet_lengths_ = {1.0, 1.0, 1.0};  // points: lengths count as they are
     std::iota(order_.begin(), order_.end(), 0);
   }
 

@@ -73,6 +73,7 @@ Features::Features(const ClusteredMesh& mesh) {
   find_parts();
   vertex_of_source_.assign(mesh.source_vertex_count(), -1);
   for (int v = 0; v < mesh.vertex_count(); ++v) vertex_of_source_[mesh.source_vertex(v)] = v;
+  if (!mesh.has_surface_alone()) find_bare(mesh);
 }
 
 void Features::find_edges(const ClusteredMesh& mesh) {
@@ -195,6 +196,29 @@ void Features::find_parts() {
       }
     }
   }
+}
+
+void Features::find_bare(const ClusteredMesh& mesh) {
+  std::vector<bool> edge_is_bare(edges_.size(), true);
+  vertex_is_bare_.assign(static_cast<std::size_t>(mesh.vertex_count()), true);
+  for (int source = 0; source < mesh.surface_facet_count(); ++source) {
+    const int f = mesh.facet_of_source(source);
+    for (int k = 0; k < 3; ++k) {
+      vertex_is_bare_[static_cast<std::size_t>(corners_[f][static_cast<std::size_t>(k)])] = false;
+      if (const int edge = facet_edge(f, k); edge >= 0) edge_is_bare[static_cast<std::size_t>(edge)] = false;
+    }
+  }
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    if (edge_is_bare[e]) bare_edges_.push_back({mesh.source_vertex(edges_[e][0]), mesh.source_vertex(edges_[e][1])});
+  }
+  std::ranges::sort(bare_edges_);
+}
+
+bool Features::is_bare(const std::array<int, 3>& source_vertices) const {
+  const auto [u, v, w] = source_vertices;
+  if (vertex_is_bare_.empty() || w >= 0) return false;
+  return v < 0 ? vertex_is_bare_[static_cast<std::size_t>(vertex_of_source(u))]
+               : std::ranges::binary_search(bare_edges_, EdgeVertices{u, v});
 }
 
 void Features::prefetch(const ClusteredMesh& mesh, int cluster) const {

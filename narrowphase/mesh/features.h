@@ -59,6 +59,9 @@ class Features {
   std::span<const int> neighbors(int vertex) const { return part(neighbors_, neighbors_begin_, vertex); }
   /// The vertex that has a number of the caller's; -1 if no facet uses it.
   int vertex_of_source(int source_vertex) const { return vertex_of_source_[source_vertex]; }
+  /// Whether no facet of the surface has the vertices of a feature, which are the caller's: see WithoutArea. -1 fills
+  /// up.
+  bool is_bare(const std::array<int, 3>& source_vertices) const;
   /// A vertex of each part connected by edges.
   std::span<const int> one_of_each_part() const { return one_of_each_part_; }
 
@@ -76,6 +79,7 @@ class Features {
   void find_firsts(const ClusteredMesh& mesh);
   void find_facets_at(const ClusteredMesh& mesh);
   void find_parts();
+  void find_bare(const ClusteredMesh& mesh);
 
   std::vector<EdgeVertices> edges_;
   std::vector<std::uint8_t> edge_corner_[2];
@@ -89,6 +93,8 @@ class Features {
   std::vector<int> facets_, facets_begin_;
   std::vector<int> one_of_each_part_;
   std::vector<int> vertex_of_source_;
+  std::vector<bool> vertex_is_bare_;      // of each vertex; empty where the mesh is a surface alone
+  std::vector<EdgeVertices> bare_edges_;  // in the caller's numbers, sorted
 };
 
 /// A mesh and its features.

@@ -323,6 +323,15 @@ class ImpactSearch {
     return edge_seen_from({a_.vertex(e[0]), a_.vertex(e[1])}, {b_.vertex(f[0]), b_.vertex(f[1])});
   }
 
+  // Of an edge or a point in the place of a facet.
+  static void name_bare(const ClusteredMesh& mesh, int facet, FeaturePair as_edge, std::array<int, 3>& vertices,
+                        FeaturePair& kind) {
+    if (mesh.is_of_surface(mesh.source_facet(facet))) return;
+    const auto [first, last] = std::minmax(vertices[0], vertices[1]);
+    kind = first == last ? FeaturePair::vertex_vertex : as_edge;
+    vertices = {first, first == last ? -1 : last, -1};
+  }
+
   void add(FeaturePair kind, int a, int b, double time) {
     const auto sources = [&](const MovingMesh& m, bool is_edge, bool is_facet, int feature) {
       if (is_edge) return source_vertices(*m.mesh, m.features->edge(feature));
@@ -334,7 +343,10 @@ class ImpactSearch {
                          .a = sources(a_, edges, kind == FeaturePair::facet_vertex, a),
                          .b = sources(b_, edges, kind == FeaturePair::vertex_facet, b),
                          .time = time};
-    if (same_ && edges && impact.b < impact.a) std::swap(impact.a, impact.b);
+    if (kind == FeaturePair::vertex_facet) name_bare(*b_.mesh, b, FeaturePair::vertex_edge, impact.b, impact.kind);
+    if (kind == FeaturePair::facet_vertex) name_bare(*a_.mesh, a, FeaturePair::edge_vertex, impact.a, impact.kind);
+    const bool is_symmetric = edges || impact.kind == FeaturePair::vertex_vertex;
+    if (same_ && is_symmetric && impact.b < impact.a) std::swap(impact.a, impact.b);
     found_.push_back(impact);
     if (first_ != nullptr) base::lower_to(*first_, time);
   }

@@ -31,7 +31,8 @@ struct MovingMesh {
 };
 
 /// Two features that meet. Vertices have the caller's numbers: those of an edge ascend, those of a facet stand in its
-/// own order; unused entries are -1. In one mesh, `a` is the vertex or the lesser edge.
+/// own order; unused entries are -1. In one mesh, `a` is the vertex or the lesser edge. An edge or a point in the place
+/// of a facet (see WithoutArea) has its own vertices; it may be listed from either of two vertices.
 struct FeatureImpact {
   FeaturePair kind = FeaturePair::vertex_facet;
   std::array<int, 3> a{-1, -1, -1};

@@ -147,6 +147,7 @@ class Block {
         if (!met) continue;
         place = *met;
       }
+      if (!mesh_.is_of_surface(mesh_.source_facet(facet_[i]))) continue;
       query.take({mesh_.source_facet(facet_[i]), place.time, place.weight});
       set_latest(line, query.latest);
     }

@@ -40,6 +40,7 @@ void for_each_hit(const ClusteredMesh& mesh, const PreparedSegment& line, const 
   for_each_cluster_by_rank(mesh, rank, wants, [&](int cluster) {
     for (std::uint64_t left = line.facets_seen(mesh, cluster); left != 0; left &= left - 1) {
       const int f = mesh.facet_begin(cluster) + std::countr_zero(left);
+      if (!mesh.is_of_surface(mesh.source_facet(f))) continue;
       if (const auto place = line.meet(mesh.triangle(f), counts))
         visit(FacetHit{mesh.source_facet(f), place->time, place->weight});
     }
@@ -98,7 +99,14 @@ class NearestSoFar {
   double most() const { return most_; }
   // In metres.
   std::optional<NearestFacet> nearest() {
-    return nearest_.facet >= 0 && exact_distance() <= within_ ? std::optional(nearest_) : std::nullopt;
+    if (nearest_.facet < 0 || exact_distance() > within_) return std::nullopt;
+    NearestFacet found = nearest_;
+    if (!mesh_.is_of_surface(found.facet)) {  // corners that are one vertex count as one
+      const bool is_edge = found.facet < mesh_.facet_count() - mesh_.point_count();
+      const double first = is_edge ? found.weight[0] : 1.0;
+      found.weight = {first, 1.0 - first, 0.0};
+    }
+    return found;
   }
 
   void look_at(int facet) {
@@ -237,6 +245,7 @@ bool contains(const ClusteredMesh& mesh, Vec3 point) {
     facets.count = 0;
     kernels().open_cluster(mesh.facets_of(cluster), along_ray, &facets);
     for (int i = 0; i < facets.count && !on_surface; ++i) {
+      if (!mesh.is_of_surface(mesh.source_facet(facets.facet[i]))) continue;
       const Triangle t = triangle_in(facets, i);
       if (contains(box_of(t), point) && triangle_triangle_meet(t, {point, point, point}, counts)) {
         on_surface = true;

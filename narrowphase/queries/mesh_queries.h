@@ -1,5 +1,6 @@
 // Queries to one mesh, as it is now: segments, nearest points, boxes, what is inside. They descend from the boxes of
-// groups to those of clusters to facets; nothing is built.
+// groups to those of clusters to facets; nothing is built. Segments meet the facets of the surface alone, and these
+// alone have an inside: see WithoutArea.
 #pragma once
 
 #include <array>

@@ -247,6 +247,11 @@ std::string feature_pair_name(FeaturePair kind) {
     case FeaturePair::vertex_facet: return "vertex-facet";
     case FeaturePair::facet_vertex: return "facet-vertex";
     case FeaturePair::edge_edge: return "edge-edge";
+    case FeaturePair::vertex_edge: return "vertex-edge";
+    case FeaturePair::edge_vertex: return "edge-vertex";
+    case FeaturePair::vertex_vertex: return "vertex-vertex";
+    case FeaturePair::vertex_plane: return "vertex-plane";
+    case FeaturePair::plane_vertex: return "plane-vertex";
   }
   return "unknown";
 }

@@ -46,7 +46,7 @@ namespace tact::scenes {
 std::string accuracy_name(Accuracy accuracy);
 std::string surface_name(Surface surface);
 std::string direction_source_name(DirectionSource source);
-// "vertex-facet", "facet-vertex" or "edge-edge".
+// "vertex-facet", say: the name of the value with a hyphen.
 std::string feature_pair_name(FeaturePair kind);
 // The hash of `report` as 16 hexadecimal digits.
 std::string hash_text(const Report& report);

@@ -74,6 +74,9 @@ class EveryCallOfC {
       if (mesh == &floor_) definition.motion = TACT_MOTION_RIGID;
       call([&] { return tact_world_add_body(world_, &definition, &bodies_.emplace_back()); });
     }
+    tact_plane_definition plane = TACT_PLANE_DEFINITION_INIT;
+    plane.offset = -1.0 / 3.0;
+    call([&] { return tact_world_add_plane(world_, &plane, &bodies_.emplace_back()); });
   }
 
   void step() {
@@ -221,6 +224,16 @@ class EveryCallOfC {
       std::vector<int> corners(3 * facets);
       call([&] { return tact_world_copy_positions(world_, body, coordinates.data(), coordinates.size()); });
       call([&] { return tact_world_copy_facets(world_, body, corners.data(), corners.size()); });
+      size_t edges = 1, points = 1;
+      int unused = 0;
+      bool is_plane = false;
+      tact_plane plane;
+      call([&] { return tact_world_edge_count(world_, body, &edges); });
+      call([&] { return tact_world_point_count(world_, body, &points); });
+      call([&] { return tact_world_copy_edges(world_, body, &unused, 0); });
+      call([&] { return tact_world_copy_points(world_, body, &unused, 0); });
+      call([&] { return tact_world_plane(world_, body, &is_plane, &plane); });
+      tell(edges + points + (is_plane ? 1 : 0));
       call([&] { return tact_world_bounds(world_, body, &bounds); });
       size_t faults = 0;
       call([&] { return tact_world_check_surface(world_, body, 1e-6, nullptr, nullptr, 0, &faults); });

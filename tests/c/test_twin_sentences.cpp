@@ -154,6 +154,8 @@ constexpr Twin kTwins[] = {
     {"Settings", "tact_settings", ""},
     {"Outputs", "tact_settings", ""},
     {"BodyDefinition", "tact_body_definition", ""},
+    {"PlaneDefinition", "tact_plane_definition", ""},
+    {"Plane", "tact_plane", ""},
     {"PositionsUpdate", "tact_positions_update", ""},
     {"PoseUpdate", "tact_pose_update", ""},
     {"Bounds", "tact_bounds", ""},

@@ -106,6 +106,8 @@ TEST(TwinsInC, OfEachField) {
   expect_twins_of_fields("settings.h", "struct Settings {", "tact_settings", {"outputs"});
   expect_twins_of_fields("settings.h", "struct Outputs {", "tact_settings", {});
   expect_twins_of_fields("body.h", "struct BodyDefinition {", "tact_body_definition", {});
+  expect_twins_of_fields("body.h", "struct PlaneDefinition {", "tact_plane_definition", {});
+  expect_twins_of_fields("body.h", "struct Plane {", "tact_plane", {});
   expect_twins_of_fields("body.h", "struct BodyId {", "tact_body", {});
   expect_twins_of_fields("report.h", "struct Contact {", "tact_contact", {});
   expect_twins_of_fields("report.h", "struct Patch {", "tact_patch", {});

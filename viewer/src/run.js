@@ -12,7 +12,9 @@ export const OUTCOMES = [
   { key: "meets", name: "meets", color: [0.98, 0.27, 0.22], why: "left after the criteria, and meets a facet" },
 ];
 export const SOURCES = ["carried", "fresh", "smallest"];
-export const FEATURES = ["vertex-facet", "facet-vertex", "edge-edge"];
+export const FEATURES = [
+  "vertex-facet", "facet-vertex", "edge-edge", "vertex-edge", "edge-vertex", "vertex-vertex", "vertex-plane", "plane-vertex",
+];
 
 /** What is wrong with the page's data, for people. */
 export class DataError extends Error {}

@@ -5,7 +5,16 @@ from dataclasses import dataclass, field
 import numpy as np
 import tact
 
-KINDS = {0: "vertex-facet", 1: "facet-vertex", 2: "edge-edge"}
+KINDS = {
+    0: "vertex-facet",
+    1: "facet-vertex",
+    2: "edge-edge",
+    3: "vertex-edge",
+    4: "edge-vertex",
+    5: "vertex-vertex",
+    6: "vertex-plane",
+    7: "plane-vertex",
+}
 
 
 @dataclass

@@ -136,8 +136,12 @@ tact_error tact_world_add_body(tact_world world, const tact_body_definition* def
   return changing(world, [&](WorldEntry& entry) {
     check_not_null(definition, body);
     const tact_body_definition d = tact::c::read_struct(*definition, tact_body_definition TACT_BODY_DEFINITION_INIT);
+    if (d.point_count > 0) check_not_null(d.points);
+    const std::span<const int> points{d.points, d.point_count};
     *body = body_of(entry.world.add_body({.positions = columns_of<tact::Positions>(d.positions),
                                           .facets = columns_of<tact::Facets>(d.facets),
+                                          .edges = columns_of<tact::Edges>(d.edges),
+                                          .points = points,
                                           .surface = static_cast<tact::Surface>(d.surface),
                                           .motion = static_cast<tact::Motion>(d.motion),
                                           .name = d.name != nullptr ? d.name : "",
@@ -148,6 +152,22 @@ tact_error tact_world_add_body(tact_world world, const tact_body_definition* def
                                           .key = d.has_key ? std::optional(d.key) : std::nullopt,
                                           .margin = d.margin,
                                           .self_contact = d.self_contact}));
+  });
+}
+
+tact_error tact_world_add_plane(tact_world world, const tact_plane_definition* definition, tact_body* body) {
+  return changing(world, [&](WorldEntry& entry) {
+    check_not_null(definition, body);
+    const tact_plane_definition d = tact::c::read_struct(*definition, tact_plane_definition TACT_PLANE_DEFINITION_INIT);
+    *body = body_of(entry.world.add_plane({.normal = Eigen::Map<const Eigen::Vector3d>(d.normal),
+                                           .offset = d.offset,
+                                           .name = d.name != nullptr ? d.name : "",
+                                           .layer = d.layer,
+                                           .mask = d.mask,
+                                           .group = d.group,
+                                           .external_id = d.external_id,
+                                           .key = d.has_key ? std::optional(d.key) : std::nullopt,
+                                           .margin = d.margin}));
   });
 }
 
@@ -332,6 +352,23 @@ tact_error tact_world_vertex_count(tact_world world, tact_body body, size_t* cou
 tact_error tact_world_facet_count(tact_world world, tact_body body, size_t* count) {
   return get(world, count, [&](const World& w) { return w.facet_count(id_of(body)); });
 }
+tact_error tact_world_edge_count(tact_world world, tact_body body, size_t* count) {
+  return get(world, count, [&](const World& w) { return w.edge_count(id_of(body)); });
+}
+tact_error tact_world_point_count(tact_world world, tact_body body, size_t* count) {
+  return get(world, count, [&](const World& w) { return w.point_count(id_of(body)); });
+}
+
+tact_error tact_world_plane(tact_world world, tact_body body, bool* is_plane, tact_plane* plane) {
+  return reading(world, [&](const WorldEntry& entry) {
+    check_not_null(is_plane, plane);
+    const std::optional<tact::Plane> found = entry.world.plane(id_of(body));
+    *is_plane = found.has_value();
+    if (!found) return;
+    for (int axis = 0; axis < 3; ++axis) plane->normal[axis] = found->normal[axis];
+    plane->offset = found->offset;
+  });
+}
 
 tact_error tact_world_copy_positions(tact_world world, tact_body body, double* coordinates, size_t room) {
   return reading(world, [&](const WorldEntry& entry) {
@@ -344,6 +381,20 @@ tact_error tact_world_copy_facets(tact_world world, tact_body body, int* corners
   return reading(world, [&](const WorldEntry& entry) {
     if (room > 0) check_not_null(corners);
     entry.world.copy_facets(id_of(body), {corners, room});
+  });
+}
+
+tact_error tact_world_copy_edges(tact_world world, tact_body body, int* ends, size_t room) {
+  return reading(world, [&](const WorldEntry& entry) {
+    if (room > 0) check_not_null(ends);
+    entry.world.copy_edges(id_of(body), {ends, room});
+  });
+}
+
+tact_error tact_world_copy_points(tact_world world, tact_body body, int* vertices, size_t room) {
+  return reading(world, [&](const WorldEntry& entry) {
+    if (room > 0) check_not_null(vertices);
+    entry.world.copy_points(id_of(body), {vertices, room});
   });
 }
 

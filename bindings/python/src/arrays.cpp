@@ -38,17 +38,20 @@ py::array array_from(py::handle given, const std::string& what) {
   }
 }
 
-// The three fields of a structured array that are a row, in their order; fields of one type, so that none is rounded.
-py::array rows_of_fields(const py::array& array, const std::string& what, bool are_coordinates) {
+// The fields of a structured array that are a row, in their order; fields of one type, so that none is rounded.
+py::array rows_of_fields(const py::array& array, const std::string& what, bool are_coordinates, std::size_t width) {
   const py::list names(array.dtype().attr("names"));
   py::list chosen;
   if (are_coordinates && names.contains("x") && names.contains("y") && names.contains("z")) {
     for (const char* name : {"x", "y", "z"}) chosen.append(name);
-  } else if (names.size() == 1 || (!are_coordinates && names.size() == 3)) {
+  } else if (names.size() == 1 || (!are_coordinates && names.size() == width)) {
     chosen = names;
   } else {
     throw py::type_error(what + " is a structured array with the fields " + text_of(names) +
-                         (are_coordinates ? ", not x, y and z" : ", not three") + ": pass those that are meant");
+                         (are_coordinates ? ", not x, y and z"
+                          : width == 3    ? ", not three"
+                                          : ", not two") +
+                         ": pass those that are meant");
   }
   const py::array part(py::object(array[chosen]));
   const py::object fields = part.dtype().attr("fields");
@@ -59,15 +62,17 @@ py::array rows_of_fields(const py::array& array, const std::string& what, bool a
   return py::array(py::object(py::module_::import("numpy.lib.recfunctions").attr("structured_to_unstructured")(part)));
 }
 
-// An array of rows of three.
-py::array rows_from(py::handle given, const std::string& what, const char* letter, bool are_coordinates) {
+// An array of rows of `width` numbers.
+py::array rows_from(py::handle given, const std::string& what, const char* letter, bool are_coordinates,
+                    py::ssize_t width = 3) {
   py::array array = array_from(given, what);
-  if (array.dtype().has_fields()) array = rows_of_fields(array, what, are_coordinates);
+  if (array.dtype().has_fields()) array = rows_of_fields(array, what, are_coordinates, static_cast<std::size_t>(width));
   if (array.ndim() == 1 && array.size() == 0 && !py::isinstance<py::array>(given))  // an empty list
-    return py::array_t<int>(std::vector<py::ssize_t>{0, 3});
-  if (array.ndim() == 2 && array.shape(1) == 3) return array;
-  std::string message = what + " has shape " + shape_text(array) + ", not (" + letter + ", 3)";
-  if (array.ndim() == 2 && array.shape(0) == 3) message += ": pass its transpose";
+    return py::array_t<int>(std::vector<py::ssize_t>{0, width});
+  if (array.ndim() == 2 && array.shape(1) == width) return array;
+  std::string message =
+      what + " has shape " + shape_text(array) + ", not (" + letter + ", " + std::to_string(width) + ")";
+  if (array.ndim() == 2 && array.shape(0) == width) message += ": pass its transpose";
   throw py::value_error(message);
 }
 
@@ -123,20 +128,23 @@ py::array checked_positions(py::handle given, const std::string& what) {
   return as_it_is ? array : doubles_of(array, what);
 }
 
-py::array checked_facets(py::handle given) {
-  const std::string what = "facets";
-  const py::array array = rows_from(given, what, "F", false);
+// `one` is what a row is.
+py::array checked_rows(py::handle given, const std::string& what, const std::string& one, const char* letter,
+                       py::ssize_t width) {
+  const py::array array = rows_from(given, what, letter, false, width);
   if (!holds_integers(array)) throw holds_other_numbers(array, what, "integers");
   if (has_whole_rows_of<int>(array)) return array;
-  return converted<int>(array, [](py::ssize_t i, const std::string& value) {
-    throw py::value_error("facet " + std::to_string(i / 3) + " names vertex " + value + ", which no body can have");
+  return converted<int>(array, [&](py::ssize_t i, const std::string& value) {
+    throw py::value_error(one + " " + std::to_string(i / width) + " names vertex " + value +
+                          ", which no body can have");
   });
 }
 
-template <class Scalar>
-Columns<Scalar> columns_of(const py::array& array, NumberKind kind) {
-  return Columns<Scalar>::of_kind(kind, array.data(), static_cast<std::size_t>(array.shape(0)),
-                                  static_cast<std::size_t>(array.strides(0)));  // Columns turns it back: it may be < 0
+template <class Scalar, int kRows = 3>
+Columns<Scalar, kRows> columns_of(const py::array& array, NumberKind kind) {
+  return Columns<Scalar, kRows>::of_kind(
+      kind, array.data(), static_cast<std::size_t>(array.shape(0)),
+      static_cast<std::size_t>(array.strides(0)));  // Columns turns it back: it may be < 0
 }
 
 }  // namespace
@@ -150,9 +158,13 @@ Positions PositionsArgument::columns() const {
   return columns_of<double>(array_, array_.itemsize() == sizeof(float) ? NumberKind::float32 : NumberKind::float64);
 }
 
-FacetsArgument::FacetsArgument(py::handle given) : array_(checked_facets(given)) {}
+FacetsArgument::FacetsArgument(py::handle given) : array_(checked_rows(given, "facets", "facet", "F", 3)) {}
 
 Facets FacetsArgument::columns() const { return columns_of<int>(array_, NumberKind::int32); }
+
+EdgesArgument::EdgesArgument(py::handle given) : array_(checked_rows(given, "edges", "edge", "E", 2)) {}
+
+Edges EdgesArgument::columns() const { return columns_of<int, 2>(array_, NumberKind::int32); }
 
 py::array_t<int> indices_argument(py::handle given, const std::string& what) {
   const py::array array = array_from(given, what);

@@ -42,6 +42,18 @@ class FacetsArgument {
   py::array array_;
 };
 
+/// Edges given as an array of shape (E, 2), or as a structured array with two fields, of integers.
+/// @throws TypeError, ValueError as above.
+class EdgesArgument {
+ public:
+  explicit EdgesArgument(py::handle given);
+  /// Valid as long as this.
+  Edges columns() const;
+
+ private:
+  py::array array_;
+};
+
 /// Integers given as an array of shape (N,), each of 32 bits. @throws TypeError, ValueError as above.
 py::array_t<int> indices_argument(py::handle given, const std::string& what);
 /// Real numbers of a known shape, row by row. @throws TypeError, ValueError as above.

@@ -139,7 +139,12 @@ void define_points(py::module_& module) {
   py::enum_<FeaturePair>(module, "FeaturePair", "The features of bodies a and b that are nearest, or that meet.")
       .value("vertex_facet", FeaturePair::vertex_facet, "a vertex of a, a facet of b")
       .value("facet_vertex", FeaturePair::facet_vertex, "a facet of a, a vertex of b")
-      .value("edge_edge", FeaturePair::edge_edge, "an edge of each");
+      .value("edge_edge", FeaturePair::edge_edge, "an edge of each")
+      .value("vertex_edge", FeaturePair::vertex_edge, "a vertex of a, an edge of b")
+      .value("edge_vertex", FeaturePair::edge_vertex, "an edge of a, a vertex of b")
+      .value("vertex_vertex", FeaturePair::vertex_vertex, "a vertex of each")
+      .value("vertex_plane", FeaturePair::vertex_plane, "a vertex of a, b is a plane")
+      .value("plane_vertex", FeaturePair::plane_vertex, "a is a plane, a vertex of b");
   py::class_<PointArrays>(module, "ContactPoints",
                           "A point on each of two surfaces, where features are nearest or have crossed. A row a point.")
       .def_readonly("kinds", &PointArrays::kinds, "(N,) uint8: values of FeaturePair")

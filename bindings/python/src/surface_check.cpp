@@ -59,7 +59,8 @@ void define_surface_check(py::module_& module, WorldClass& world) {
                              "a vertex, and the first at the same place")
       .def_property_readonly("slivers", numbers_of<&SurfaceCheck::slivers>,
                              "facets of hardly any height, or of no area")
-      .def_property_readonly("unused_vertices", numbers_of<&SurfaceCheck::unused_vertices>, "vertices of no facet")
+      .def_property_readonly("unused_vertices", numbers_of<&SurfaceCheck::unused_vertices>,
+                             "vertices of no facet, edge or point")
       .def("is_solid", &SurfaceCheck::is_solid,
            "whether it bounds a solid: every component is closed, and none is inside out")
       .def("is_clean", &SurfaceCheck::is_clean,

@@ -30,11 +30,15 @@ BodyId body_of(py::handle given, const std::string& what) {
 
 BodyId add_body(SharedWorld& world, py::handle positions, py::handle facets, Surface surface, Motion motion,
                 const std::string& name, std::uint32_t layer, std::uint32_t mask, double margin, bool self_contact,
-                std::uint32_t group, std::optional<std::uint64_t> key) {
+                std::uint32_t group, std::optional<std::uint64_t> key, py::handle edges, py::handle points) {
   const PositionsArgument x(positions);
   const FacetsArgument f(facets);
+  const EdgesArgument e(edges);
+  const py::array_t<int> p = indices_argument(points, "points");
   const BodyDefinition definition{.positions = x.columns(),
                                   .facets = f.columns(),
+                                  .edges = e.columns(),
+                                  .points = {p.data(), static_cast<std::size_t>(p.size())},
                                   .surface = surface,
                                   .motion = motion,
                                   .name = name,
@@ -46,6 +50,21 @@ BodyId add_body(SharedWorld& world, py::handle positions, py::handle facets, Sur
                                   .self_contact = self_contact};
   BodyId added;
   world.compute([&](World& w) { added = w.add_body(definition); });
+  return added;
+}
+
+BodyId add_plane(SharedWorld& world, py::handle normal, double offset, const std::string& name, std::uint32_t layer,
+                 std::uint32_t mask, double margin, std::uint32_t group, std::optional<std::uint64_t> key) {
+  const PlaneDefinition definition{.normal = vector_argument(normal, "normal"),
+                                   .offset = offset,
+                                   .name = name,
+                                   .layer = layer,
+                                   .mask = mask,
+                                   .group = group,
+                                   .key = key,
+                                   .margin = margin};
+  BodyId added;
+  world.compute([&](World& w) { added = w.add_plane(definition); });
   return added;
 }
 
@@ -193,6 +212,26 @@ py::array_t<int> facets_of(SharedWorld& world, BodyId body) {
   return rows;
 }
 
+py::array_t<int> edges_of(SharedWorld& world, BodyId body) {
+  const World& asked = world.read();
+  py::array_t<int> rows({static_cast<py::ssize_t>(asked.edge_count(body)), py::ssize_t{2}});
+  asked.copy_edges(body, {rows.mutable_data(), static_cast<std::size_t>(rows.size())});
+  return rows;
+}
+
+py::array_t<int> points_of(SharedWorld& world, BodyId body) {
+  const World& asked = world.read();
+  py::array_t<int> vertices(static_cast<py::ssize_t>(asked.point_count(body)));
+  asked.copy_points(body, {vertices.mutable_data(), static_cast<std::size_t>(vertices.size())});
+  return vertices;
+}
+
+std::optional<std::pair<py::array_t<double>, double>> plane_of(SharedWorld& world, BodyId body) {
+  const std::optional<Plane> plane = world.read().plane(body);
+  if (!plane) return {};
+  return std::pair{vector_of(plane->normal), plane->offset};
+}
+
 std::pair<py::array_t<double>, py::array_t<double>> bounds_of(SharedWorld& world, BodyId body) {
   const Bounds bounds = world.read().bounds(body);
   return {py::array_t<double>(3, bounds.lower.data()), py::array_t<double>(3, bounds.upper.data())};
@@ -242,12 +281,17 @@ void define_world(py::module_& module) {
       .def_property_readonly(
           "settings", [](SharedWorld& world) { return world.read().settings(); }, "a copy; see set_settings()")
       .def("set_settings", set_settings, py::arg("settings"), "takes effect with the next step")
-      .def("add_body", add_body, py::arg("positions"), py::arg("facets"), py::kw_only(),
+      .def("add_body", add_body, py::arg("positions"), py::arg("facets") = py::list(), py::kw_only(),
            py::arg("surface") = Surface::closed, py::arg("motion") = Motion::deformable, py::arg("name") = "",
            py::arg("layer") = 1u, py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0,
            py::arg("self_contact") = false, py::arg("group") = 0u, py::arg("key") = py::none(),
+           py::arg("edges") = py::list(), py::arg("points") = py::list(),
            "adds a body; copies its mesh and groups the facets into clusters. Positions: (V, 3) in metres; facets: (F, "
-           "3), vertices counter-clockwise seen from outside")
+           "3), vertices counter-clockwise seen from outside; edges: (E, 2); points: (P,)")
+      .def("add_plane", add_plane, py::arg("normal"), py::arg("offset") = 0.0, py::kw_only(), py::arg("name") = "",
+           py::arg("layer") = 1u, py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0, py::arg("group") = 0u,
+           py::arg("key") = py::none(),
+           "adds a half-space, which is fixed and has no vertices: exact at any distance, and without a mesh")
       .def(
           "remove_body", [](SharedWorld& world, BodyId body) { world.use().remove_body(body); }, py::arg("body"))
       .def("set_positions", set_positions, py::arg("body"), py::arg("positions"), "positions: (V, 3) in metres")
@@ -313,12 +357,18 @@ void define_world(py::module_& module) {
           py::arg("body"), py::arg("wanted"))
       .def("vertex_count", of_body<&World::vertex_count>, py::arg("body"))
       .def("facet_count", of_body<&World::facet_count>, py::arg("body"))
+      .def("edge_count", of_body<&World::edge_count>, py::arg("body"))
+      .def("point_count", of_body<&World::point_count>, py::arg("body"))
+      .def("plane", plane_of, py::arg("body"),
+           "the half-space of a body that add_plane() added; none for any other: (normal, offset)")
       .def("positions", positions_of, py::arg("body"),
-           "a copy, (V, 3) in metres, as they were set last; NaN for a vertex that no facet uses")
+           "a copy, (V, 3) in metres, as they were set last; NaN for a vertex that no facet, edge or point uses")
       .def("facets", facets_of, py::arg("body"), "a copy, (F, 3), as it was given")
+      .def("edges", edges_of, py::arg("body"), "a copy, (E, 2), as it was given")
+      .def("points", points_of, py::arg("body"), "a copy, (P,), as it was given")
       .def("bounds", bounds_of, py::arg("body"),
-           "the box of a body with its margin, metres; without a facet, lower is above upper. Two arrays, lower and "
-           "upper")
+           "the box of a body with its margin, metres; that of a plane is infinite. Without a facet, edge or point, "
+           "lower is above upper. Two arrays, lower and upper")
       .def("__len__", [](SharedWorld& world) { return world.read().body_count(); })
       .def("__repr__", [](SharedWorld& world) {
         return "<tact.World of " + std::to_string(world.read().body_count()) + " bodies>";

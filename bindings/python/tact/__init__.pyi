@@ -254,6 +254,11 @@ class FeaturePair:
     vertex_facet: ClassVar[FeaturePair]
     facet_vertex: ClassVar[FeaturePair]
     edge_edge: ClassVar[FeaturePair]
+    vertex_edge: ClassVar[FeaturePair]
+    edge_vertex: ClassVar[FeaturePair]
+    vertex_vertex: ClassVar[FeaturePair]
+    vertex_plane: ClassVar[FeaturePair]
+    plane_vertex: ClassVar[FeaturePair]
     name: str
     value: int
     def __init__(self, value: int) -> None: ...
@@ -780,7 +785,7 @@ class SurfaceCheck:
         """facets of hardly any height, or of no area"""
     @property
     def unused_vertices(self) -> Ints:
-        """vertices of no facet"""
+        """vertices of no facet, edge or point"""
     def is_solid(self) -> bool:
         """whether it bounds a solid: every component is closed, and none is inside out"""
     def is_clean(self) -> bool:
@@ -796,7 +801,7 @@ class World:
     def add_body(
         self,
         positions: npt.ArrayLike,
-        facets: npt.ArrayLike,
+        facets: npt.ArrayLike = ...,
         *,
         surface: Surface = ...,
         motion: Motion = ...,
@@ -807,8 +812,23 @@ class World:
         self_contact: bool = False,
         group: int = 0,
         key: Optional[int] = None,
+        edges: npt.ArrayLike = ...,
+        points: npt.ArrayLike = ...,
     ) -> BodyId:
-        """adds a body; copies its mesh and groups the facets into clusters. Positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside"""
+        """adds a body; copies its mesh and groups the facets into clusters. Positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside; edges: (E, 2); points: (P,)"""
+    def add_plane(
+        self,
+        normal: npt.ArrayLike,
+        offset: float = 0.0,
+        *,
+        name: str = "",
+        layer: int = 1,
+        mask: int = 0xFFFFFFFF,
+        margin: float = 0.0,
+        group: int = 0,
+        key: Optional[int] = None,
+    ) -> BodyId:
+        """adds a half-space, which is fixed and has no vertices: exact at any distance, and without a mesh"""
     def remove_body(self, body: BodyId) -> None: ...
     @overload
     def set_positions(self, body: BodyId, positions: npt.ArrayLike) -> None: ...
@@ -918,12 +938,20 @@ class World:
     def set_self_contact(self, body: BodyId, wanted: bool) -> None: ...
     def vertex_count(self, body: BodyId) -> int: ...
     def facet_count(self, body: BodyId) -> int: ...
+    def edge_count(self, body: BodyId) -> int: ...
+    def point_count(self, body: BodyId) -> int: ...
+    def plane(self, body: BodyId) -> Optional[tuple[npt.NDArray[np.float64], float]]:
+        """the half-space of a body that add_plane() added; none for any other"""
     def positions(self, body: BodyId) -> Floats:
-        """a copy, (V, 3) in metres, as they were set last; NaN for a vertex that no facet uses"""
+        """a copy, (V, 3) in metres, as they were set last; NaN for a vertex that no facet, edge or point uses"""
     def facets(self, body: BodyId) -> Ints:
         """a copy, (F, 3), as it was given"""
+    def edges(self, body: BodyId) -> Ints:
+        """a copy, (E, 2), as it was given"""
+    def points(self, body: BodyId) -> Ints:
+        """a copy, (P,), as it was given"""
     def bounds(self, body: BodyId) -> tuple[Floats, Floats]:
-        """the box of a body with its margin, metres; without a facet, lower is above upper. Two arrays, lower and upper"""
+        """the box of a body with its margin, metres; that of a plane is infinite. Without a facet, edge or point, lower is above upper. Two arrays, lower and upper"""
     def check_surface(self, body: BodyId, sliver: float = 1e-6) -> SurfaceCheck:
         """checks what a body's surface is: borders, turned facets, crossings with itself and more. A facet is a sliver whose height is at most `sliver` times its longest side"""
     def record(self, path: str | os.PathLike[str]) -> None:

@@ -1,13 +1,15 @@
-// A body: a triangle mesh with an identity.
+// A body: a mesh of facets, edges and points with an identity, or a plane.
 #pragma once
 
 #include <tact/columns.h>
 
+#include <Eigen/Core>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace tact {
@@ -38,12 +40,17 @@ enum class Motion {
 /// exactly.
 inline constexpr double kLargestCoordinate = 0x1p300;
 
-/// What World::add_body() adds. Positions and facets have no default.
+/// What World::add_body() adds: vertices, and the facets, edges and points that they make. Positions have no default.
 struct BodyDefinition {
   Positions positions;  ///< 3 x V, metres; the rest shape of a rigid body
-  /// 3 x F, indices of vertices. Any triangle soup is accepted, also one of no facet. A vertex that no facet uses
-  /// touches nothing.
-  Facets facets;
+  /// 3 x F, indices of vertices. Any triangle soup is accepted, also one of no facet. A vertex that no facet, edge or
+  /// point uses touches nothing.
+  Facets facets = Facets::none();
+  /// 2 x E, indices of vertices: ropes and hair. With a margin they are capsules.
+  Edges edges = Edges::none();
+  /// Vertices that stand alone: grains. With a margin they are balls.
+  std::span<const int> points = {};
+  /// Of the facets alone: edges and points have no inside. A body without facets is a sheet.
   Surface surface = Surface::closed;
   Motion motion = Motion::deformable;
   std::string name = {};             ///< for messages; by default "body <index>"
@@ -58,6 +65,25 @@ struct BodyDefinition {
   /// How far ahead of the surface contact points are seen, metres, 0 to kLargestCoordinate. Those of two bodies add up.
   double margin = 0.0;
   bool self_contact = false;  ///< whether the body is tested against itself, too
+};
+
+/// What World::add_plane() adds: a floor or a wall of any size. All x with normal * x <= offset is solid.
+struct PlaneDefinition {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< out of what is solid, of length 1 to 1e-9; taken as it is
+  double offset = 0.0;                                ///< how far the plane is from the origin along `normal`, metres
+  std::string name = {};                              ///< for messages; by default "body <index>"
+  std::uint32_t layer = 1;                            ///< the layers that the plane is on, a bit each
+  std::uint32_t mask = 0xffffffffu;                   ///< the layers that it is tested against; a pair needs both masks
+  std::uint32_t group = 0;                            ///< see BodyDefinition::group
+  std::uint64_t external_id = 0;                      ///< the program's own number; no answer depends on it
+  std::optional<std::uint64_t> key = {};              ///< see BodyDefinition::key
+  double margin = 0.0;                                ///< see BodyDefinition::margin
+};
+
+/// A half-space: all x with normal * x <= offset.
+struct Plane {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< out of what is solid
+  double offset = 0.0;                                ///< metres
 };
 
 }  // namespace tact

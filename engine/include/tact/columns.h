@@ -1,4 +1,5 @@
-// Matrices of three rows: of Eigen, or arrays of the program. Eigen is needed only where its matrices are passed.
+// Matrices of three rows, or two: of Eigen, or arrays of the program. Eigen is needed only where its matrices are
+// passed.
 #pragma once
 
 #include <array>
@@ -56,16 +57,18 @@ constexpr NumberKind number_kind() {
   }
 }
 
-/// A 3 x N matrix, a column a vertex or a facet. It views a lasting matrix of Eigen that has whole columns of `Scalar`.
-/// It holds a copy of any other: temporary, row-major or converted.
-template <class Scalar>
+/// A matrix of kRows rows, a column a vertex, a facet or an edge. It views a lasting matrix of Eigen that has whole
+/// columns of `Scalar`. It holds a copy of any other: temporary, row-major or converted.
+template <class Scalar, int kRows = 3>
 class Columns {
-  using Matrix = Eigen::Matrix<Scalar, 3, kEigenDynamic, 0, 3, kEigenDynamic>;
+  using Matrix = Eigen::Matrix<Scalar, kRows, kEigenDynamic, 0, kRows, kEigenDynamic>;
 
  public:
-  /// Views `count` columns of three numbers each, `stride_bytes` apart, in an array that stays. Floats widen exactly.
+  /// Has no columns.
+  static Columns none() { return {}; }
+  /// Views `count` columns of kRows numbers each, `stride_bytes` apart, in an array that stays. Floats widen exactly.
   template <class Number>
-  static Columns strided(const Number* first, std::size_t count, std::size_t stride_bytes = 3 * sizeof(Number)) {
+  static Columns strided(const Number* first, std::size_t count, std::size_t stride_bytes = kRows * sizeof(Number)) {
     return of_kind(number_kind<Number, Scalar>(), first, count, stride_bytes);
   }
   /// Views an array of a kind that is known when the program runs.
@@ -83,7 +86,7 @@ class Columns {
   Columns(Given&& matrix) : rows_(matrix.rows()), cols_(matrix.cols()) {  // NOLINT: implicit
     using Type = typename decltype(eigen_type(matrix))::type;
     using Number = typename Type::Scalar;
-    static_assert(Type::RowsAtCompileTime == 3 || Type::RowsAtCompileTime == kEigenDynamic,
+    static_assert(Type::RowsAtCompileTime == kRows || Type::RowsAtCompileTime == kEigenDynamic,
                   "a vertex or a facet is a column of three rows: transpose a matrix that has them in rows");
     static_assert(kFits<Number, Scalar>, "cast<>() the matrix: its numbers need not fit");
     constexpr bool kIsTemporary = !std::is_lvalue_reference_v<Given> &&
@@ -93,7 +96,7 @@ class Columns {
     if constexpr (kHasWholeColumns && !kIsTemporary) {
       data_ = matrix.data();
       stride_bytes_ = matrix.outerStride() * static_cast<std::ptrdiff_t>(sizeof(Scalar));
-    } else if (rows_ == 3) {
+    } else if (rows_ == kRows) {
       if constexpr (std::is_same_v<Given, Matrix>) {
         hold(std::make_shared<const Matrix>(std::move(matrix)));
       } else {
@@ -102,7 +105,7 @@ class Columns {
     }
   }
 
-  std::ptrdiff_t rows() const { return rows_; }  ///< 3, or a world refuses the matrix
+  std::ptrdiff_t rows() const { return rows_; }  ///< kRows, or a world refuses the matrix
   std::ptrdiff_t cols() const { return cols_; }
   NumberKind kind() const { return kind_; }
   const void* first() const { return data_; }                    ///< the first number
@@ -112,7 +115,7 @@ class Columns {
   std::ptrdiff_t stride() const { return stride_bytes_ / static_cast<std::ptrdiff_t>(sizeof(Scalar)); }
 
   /// Returns the numbers of column `i`. Indices of 2^31 and more wrap.
-  std::array<Scalar, 3> column(std::ptrdiff_t i) const {
+  std::array<Scalar, kRows> column(std::ptrdiff_t i) const {
     const std::byte* const at = static_cast<const std::byte*>(data_) + i * stride_bytes_;
     switch (kind_) {
       case NumberKind::float32: return numbers<float>(at);
@@ -127,10 +130,12 @@ class Columns {
  private:
   // Copied byte by byte: nothing is known of the alignment.
   template <class Number>
-  static std::array<Scalar, 3> numbers(const std::byte* at) {
-    std::array<Number, 3> numbers;
+  static std::array<Scalar, kRows> numbers(const std::byte* at) {
+    std::array<Number, kRows> numbers;
     std::memcpy(numbers.data(), at, sizeof numbers);
-    return {static_cast<Scalar>(numbers[0]), static_cast<Scalar>(numbers[1]), static_cast<Scalar>(numbers[2])};
+    std::array<Scalar, kRows> column;
+    for (std::size_t row = 0; row < kRows; ++row) column[row] = static_cast<Scalar>(numbers[row]);
+    return column;
   }
 
   static constexpr NumberKind kOwnKind = number_kind<Scalar, Scalar>();
@@ -143,14 +148,15 @@ class Columns {
   }
 
   const void* data_ = nullptr;
-  std::ptrdiff_t rows_ = 3;
+  std::ptrdiff_t rows_ = kRows;
   std::ptrdiff_t cols_ = 0;
-  std::ptrdiff_t stride_bytes_ = 3 * sizeof(Scalar);
+  std::ptrdiff_t stride_bytes_ = kRows * sizeof(Scalar);
   NumberKind kind_ = kOwnKind;
   std::shared_ptr<const void> held_;
 };
 
 using Positions = Columns<double>;  ///< 3 x V, metres
 using Facets = Columns<int>;        ///< 3 x F, indices of vertices, counter-clockwise seen from outside
+using Edges = Columns<int, 2>;      ///< 2 x E, indices of vertices
 
 }  // namespace tact

@@ -20,7 +20,7 @@ struct ContactPoint {
   int patch = 0;
   /// Vertices of the smallest feature of a that holds the point; -1 fills up. Those of edges ascend.
   std::array<int, 3> a_vertices{-1, -1, -1};
-  /// The same of b.
+  /// The same of b. A plane has none: the point of it is a gap along the normal from the other one.
   std::array<int, 3> b_vertices{-1, -1, -1};
   /// Weights of the vertices of a, not negative, with a sum of 1.
   std::array<double, 3> a_weights{};

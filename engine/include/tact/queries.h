@@ -1,4 +1,5 @@
-// Queries to the surfaces of a world: rays, nearest points, boxes, containment.
+// Queries to the surfaces of a world: rays, nearest points, boxes, containment. Of a plane the surface is facet 0,
+// which has no corners, and weights are zero.
 #pragma once
 
 #include <tact/body.h>
@@ -47,7 +48,8 @@ struct PointQuery {
 };
 
 /// The nearest place of all surfaces; of equally near ones the least by body and facet. The distance is the exact one,
-/// rounded once. Weights are right to 1e-12 of the distance and the size of the bodies.
+/// rounded once. Weights are right to 1e-12 of the distance and the size of the bodies. Edges count as facets after the
+/// facets, and points after the edges.
 struct ClosestPoint {
   BodyId body;                                                ///< the body of the facet
   int facet = -1;                                             ///< negative: no facet is within reach
@@ -63,7 +65,7 @@ struct BoxQuery {
   QueryFilter filter = {};                          ///< which bodies it considers
 };
 
-/// A facet of a body.
+/// A facet of a body. Edges and points count as in ClosestPoint.
 struct FacetOfBody {
   BodyId body;    ///< the body of the facet
   int facet = 0;  ///< counted from 0

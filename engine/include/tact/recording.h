@@ -30,6 +30,7 @@ class TACT_API Recorder final : public WorldObserver {
 
   void settings_changed(const Settings& settings) noexcept override;
   void body_added(BodyId body, const BodyDefinition& definition) noexcept override;
+  void plane_added(BodyId body, const PlaneDefinition& definition) noexcept override;
   void body_removed(BodyId body) noexcept override;
   void positions_set(std::span<const PositionsUpdate> updates) noexcept override;
   void facets_set(BodyId body, const Positions& positions, const Facets& facets,

@@ -27,7 +27,7 @@ struct SurfaceCheck {
   std::vector<std::array<int, 2>> repeated_facets;    ///< a facet, and the first with the same corners
   std::vector<std::array<int, 2>> repeated_vertices;  ///< a vertex, and the first at the same place
   std::vector<int> slivers;                           ///< facets of hardly any height, or of no area
-  std::vector<int> unused_vertices;                   ///< vertices of no facet
+  std::vector<int> unused_vertices;                   ///< vertices of no facet, edge or point
 
   /// Whether it bounds a solid: every component is closed, and none is inside out.
   bool is_solid() const;

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -67,6 +68,9 @@ class TACT_API World {
   /// Adds a body; copies its mesh and groups the facets into clusters. Errors: wrong_size, non_finite_position,
   /// position_out_of_range, facet_out_of_range, too_large, invalid_argument, out_of_memory.
   BodyId add_body(const BodyDefinition& definition);
+  /// Adds a half-space, which is fixed and has no vertices: exact at any distance, and without a mesh. Errors:
+  /// invalid_argument, too_large, out_of_memory.
+  BodyId add_plane(const PlaneDefinition& definition);
   /// Removes a body. Errors: stale_body, foreign_body.
   void remove_body(BodyId body);
 
@@ -172,16 +176,25 @@ class TACT_API World {
   bool self_contact(BodyId body) const;          ///< whether a body is tested against itself
   std::size_t vertex_count(BodyId body) const;   ///< the number of vertices that were added
   std::size_t facet_count(BodyId body) const;    ///< the number of facets that were added
+  std::size_t edge_count(BodyId body) const;     ///< the number of edges that were added
+  std::size_t point_count(BodyId body) const;    ///< the number of points that were added
+  /// Returns the half-space of a body that add_plane() added; none for any other.
+  std::optional<Plane> plane(BodyId body) const;
 
-  /// Copies the current positions of a body, 3 x V metres, column by column; a vertex that no facet uses is NaN.
-  /// Errors: also wrong_size.
+  /// Copies the current positions of a body, 3 x V metres, column by column; a vertex that no facet, edge or point uses
+  /// is NaN. Errors: also wrong_size.
   void copy_positions(BodyId body, std::span<double> coordinates) const;
   /// Copies the facets of a body, 3 x F indices, column by column. Errors: also wrong_size.
   void copy_facets(BodyId body, std::span<int> corners) const;
+  /// Copies the edges of a body, 2 x E indices, column by column. Errors: also wrong_size.
+  void copy_edges(BodyId body, std::span<int> ends) const;
+  /// Copies the points of a body, P indices. Errors: also wrong_size.
+  void copy_points(BodyId body, std::span<int> vertices) const;
   /// Checks what a body's surface is: borders, turned facets, crossings with itself and more. A facet is a sliver whose
   /// height is at most `sliver` times its longest side. Errors: also invalid_argument, out_of_memory, backend_failure.
   SurfaceCheck check_surface(BodyId body, double sliver = 1e-6) const;
-  /// Returns the box of a body with its margin, metres; without a facet, lower is above upper.
+  /// Returns the box of a body with its margin, metres; that of a plane is infinite. Without a facet, edge or point,
+  /// lower is above upper.
   Bounds bounds(BodyId body) const;
 
  private:

@@ -23,6 +23,7 @@ class TACT_API WorldObserver {
   /// Called when the observer is set, and when settings change.
   virtual void settings_changed(const Settings& settings) noexcept;
   virtual void body_added(BodyId body, const BodyDefinition& definition) noexcept;
+  virtual void plane_added(BodyId body, const PlaneDefinition& definition) noexcept;
   virtual void body_removed(BodyId body) noexcept;
   virtual void positions_set(std::span<const PositionsUpdate> updates) noexcept;
   virtual void facets_set(BodyId body, const Positions& positions, const Facets& facets,

@@ -215,6 +215,14 @@ class EveryCall {
     add(box({-0.4, -0.3, -0.2}, {0.4, 0.3, 0.2}), Surface::closed, Motion::rigid, false);
     add(scaled(ball_, 1e-310), Surface::closed, Motion::deformable, false);
     add(translated(scaled(ball_, 1e-310), {1e-310, 0.0, 0.0}), Surface::closed, Motion::deformable, false);
+    const Eigen::Matrix2Xi edges = ball_.facets.topRows<2>();
+    const std::vector<int> points{0, 1, 2};
+    const Mesh lifted = translated(ball_, {0.3, -0.4, 1.1 / 3.0});
+    bodies_.push_back(call([&] {
+      return world.add_body({.positions = lifted.positions, .edges = edges, .points = points, .margin = 0.03});
+    }));
+    const Eigen::Vector3d normal = Eigen::Vector3d(1.0, 2.0, 7.0).normalized();
+    bodies_.push_back(call([&] { return world.add_plane({.normal = normal, .offset = -1.0 / 3.0, .margin = 0.1}); }));
   }
 
   void step(World& world) {
@@ -286,11 +294,15 @@ class EveryCall {
     told_.begin("what a world tells of bodies");
     for (const BodyId body : call([&] { return world.bodies(); })) {
       std::vector<double> coordinates(3 * world.vertex_count(body));
-      std::vector<int> corners(3 * world.facet_count(body));
+      std::vector<int> corners(3 * world.facet_count(body)), ends(2 * world.edge_count(body)),
+          vertices(world.point_count(body));
       call([&] {
         world.copy_positions(body, coordinates);
         world.copy_facets(body, corners);
+        world.copy_edges(body, ends);
+        world.copy_points(body, vertices);
       });
+      tell([&] { return world.plane(body) ? world.plane(body)->offset : 0.0; });
       told_.add(coordinates);
       const Bounds bounds = call([&] { return world.bounds(body); });
       told_.add(bounds.lower);

@@ -42,6 +42,10 @@ SceneHashes play_closest_points(int threads);
 SceneHashes play_boxes(int threads);
 SceneHashes play_inside(int threads);
 
+// hash_scenes_bare.cpp
+SceneHashes play_bare(int threads);
+SceneHashes play_planes(int threads);
+
 // hash_scenes_borders.cpp
 SceneHashes play_touching(int threads);
 SceneHashes play_touching_bare(int threads);

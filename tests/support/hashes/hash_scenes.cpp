@@ -93,6 +93,8 @@ constexpr HashScene kScenes[] = {
     {"touching_bare", play_touching_bare, {0x458ca6dcc9e225a3, 0x64f8c2e45a046e26, 0x09eca1fd6973baae}},
     {"self_touching", play_self_touching, {0xf5f708977983c50f, 0xdc625d2897638250, 0x4bcebe939cb4f20c}},
     {"query_ties", play_query_ties, {0x0000000000000000, 0x8898f8fd925f0950, 0x5012d5e3fa0ebbee}},
+    {"bare", play_bare, {0x2901315682c73de2, 0xa21513981619a80e, 0x580c573051b7cc49}},
+    {"planes", play_planes, {0x76a046275f56fea1, 0x2135ccc586c31420, 0xf04f4a95446a5702}},
     {"many_bodies", play_many_bodies, {0x33d3764fdccfb06e, 0x3d385597c9e1e60b, 0x114c433d0476456c}},
 };
 

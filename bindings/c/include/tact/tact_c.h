@@ -168,8 +168,9 @@ typedef struct tact_settings {
         {NULL, NULL}, false, NULL, NULL, false                                                                        \
   }
 
-/** `count` vertices or facets, three numbers each, that begin every `stride_bytes` from `first` on. Coordinates are
- *  float32 or float64, floats widen exactly; indices are int32, uint32 or uint16. Read where they are. */
+/** `count` vertices or facets, three numbers each, or edges of two, that begin every `stride_bytes` from `first` on.
+ * Coordinates are float32 or float64, floats widen exactly; indices are int32, uint32 or uint16. Read where they are.
+ */
 typedef struct tact_columns {
   const void* first;
   size_t count;
@@ -177,7 +178,7 @@ typedef struct tact_columns {
   int32_t kind; /**< tact_number_kind */
 } tact_columns;
 
-/** What tact_world_add_body() adds. */
+/** What tact_world_add_body() adds: vertices, and the facets, edges and points that they make. */
 typedef struct tact_body_definition {
   uint32_t struct_size;
   int32_t surface;        /**< tact_surface */
@@ -194,12 +195,39 @@ typedef struct tact_body_definition {
   bool has_key;           /**< whether `key` is given */
   uint64_t key;           /**< the order of bodies in all answers, and what ids of points and patches are made of; by
                              default the index. Each body of a world has another */
+  tact_columns edges;     /**< 2 x E, indices of vertices: ropes and hair */
+  const int32_t* points;  /**< vertices that stand alone: grains */
+  size_t point_count;     /**< how many there are */
 } tact_body_definition;
-#define TACT_BODY_DEFINITION_INIT                                                                            \
-  {                                                                                                          \
-    (uint32_t)sizeof(tact_body_definition), TACT_SURFACE_CLOSED, {NULL, 0, 24, TACT_FLOAT64},                \
-        {NULL, 0, 12, TACT_INT32}, TACT_MOTION_DEFORMABLE, 1u, 0xffffffffu, NULL, 0, 0.0, false, 0, false, 0 \
+#define TACT_BODY_DEFINITION_INIT                                                                             \
+  {                                                                                                           \
+    (uint32_t)sizeof(tact_body_definition), TACT_SURFACE_CLOSED, {NULL, 0, 24, TACT_FLOAT64},                 \
+        {NULL, 0, 12, TACT_INT32}, TACT_MOTION_DEFORMABLE, 1u, 0xffffffffu, NULL, 0, 0.0, false, 0, false, 0, \
+        {NULL, 0, 8, TACT_INT32}, NULL, 0                                                                     \
   }
+
+/** What tact_world_add_plane() adds: a floor or a wall of any size. */
+typedef struct tact_plane_definition {
+  uint32_t struct_size;
+  double normal[3];     /**< out of what is solid, of length 1 to 1e-9; taken as it is */
+  double offset;        /**< how far the plane is from the origin along `normal`, metres */
+  const char* name;     /**< for messages; by default "body <index>" */
+  uint32_t layer;       /**< the layers that the plane is on, a bit each */
+  uint32_t mask;        /**< the layers that it is tested against; a pair needs both masks */
+  uint32_t group;       /**< see tact_body_definition.group */
+  uint64_t external_id; /**< the program's own number; no answer depends on it */
+  bool has_key;         /**< whether `key` is given */
+  uint64_t key;         /**< see tact_body_definition.key */
+  double margin;        /**< see tact_body_definition.margin */
+} tact_plane_definition;
+#define TACT_PLANE_DEFINITION_INIT \
+  { (uint32_t)sizeof(tact_plane_definition), {0.0, 0.0, 1.0}, 0.0, NULL, 1u, 0xffffffffu, 0, 0, false, 0, 0.0 }
+
+/** A half-space: all x with normal * x <= offset. */
+typedef struct tact_plane {
+  double normal[3]; /**< out of what is solid */
+  double offset;    /**< metres */
+} tact_plane;
 
 /** New positions of one body, for tact_world_set_positions(). */
 typedef struct tact_positions_update {
@@ -226,6 +254,8 @@ TACT_C_API tact_error tact_world_settings(tact_world world, tact_settings* setti
 TACT_C_API tact_error tact_world_set_settings(tact_world world, const tact_settings* settings);
 /** Adds a body; copies its mesh and groups the facets into clusters. */
 TACT_C_API tact_error tact_world_add_body(tact_world world, const tact_body_definition* definition, tact_body* body);
+/** Adds a half-space, which is fixed and has no vertices: exact at any distance, and without a mesh. */
+TACT_C_API tact_error tact_world_add_plane(tact_world world, const tact_plane_definition* definition, tact_body* body);
 /** Removes a body. */
 TACT_C_API tact_error tact_world_remove_body(tact_world world, tact_body body);
 /** Copies new positions of a body, 3 x V in metres; equal ones do not move it. */
@@ -305,6 +335,12 @@ TACT_C_API tact_error tact_world_self_contact(tact_world world, tact_body body, 
 TACT_C_API tact_error tact_world_vertex_count(tact_world world, tact_body body, size_t* count);
 /** The number of facets that were added. */
 TACT_C_API tact_error tact_world_facet_count(tact_world world, tact_body body, size_t* count);
+/** The number of edges that were added. */
+TACT_C_API tact_error tact_world_edge_count(tact_world world, tact_body body, size_t* count);
+/** The number of points that were added. */
+TACT_C_API tact_error tact_world_point_count(tact_world world, tact_body body, size_t* count);
+/** Gives the half-space of a body that tact_world_add_plane() added; none for any other. Then `is_plane` is false. */
+TACT_C_API tact_error tact_world_plane(tact_world world, tact_body body, bool* is_plane, tact_plane* plane);
 
 /** A box. */
 typedef struct tact_bounds {
@@ -312,12 +348,17 @@ typedef struct tact_bounds {
   double upper[3]; /**< metres */
 } tact_bounds;
 
-/** Copies the current positions of a body, 3 x V metres, column by column; a vertex that no facet uses is NaN. `room`
- * counts the numbers of `coordinates`. */
+/** Copies the current positions of a body, 3 x V metres, column by column; a vertex that no facet, edge or point uses
+ * is NaN. `room` counts the numbers of `coordinates`. */
 TACT_C_API tact_error tact_world_copy_positions(tact_world world, tact_body body, double* coordinates, size_t room);
 /** Copies the facets of a body, 3 x F indices, column by column. `room` counts the numbers of `corners`. */
 TACT_C_API tact_error tact_world_copy_facets(tact_world world, tact_body body, int* corners, size_t room);
-/** Gives the box of a body with its margin, metres; without a facet, lower is above upper. */
+/** Copies the edges of a body, 2 x E indices, column by column. `room` counts the numbers of `ends`. */
+TACT_C_API tact_error tact_world_copy_edges(tact_world world, tact_body body, int* ends, size_t room);
+/** Copies the points of a body, P indices. `room` counts the numbers of `vertices`. */
+TACT_C_API tact_error tact_world_copy_points(tact_world world, tact_body body, int* vertices, size_t room);
+/** Gives the box of a body with its margin, metres; that of a plane is infinite. Without a facet, edge or point, lower
+ * is above upper. */
 TACT_C_API tact_error tact_world_bounds(tact_world world, tact_body body, tact_bounds* bounds);
 
 /** What tact_world_check_surface() finds. */
@@ -330,7 +371,7 @@ typedef enum tact_surface_fault_kind {
   TACT_FAULT_REPEATED_FACET = 5,       /**< a facet, and the first with the same corners */
   TACT_FAULT_REPEATED_VERTEX = 6,      /**< a vertex, and the first at the same place */
   TACT_FAULT_SLIVER = 7,               /**< a facet of hardly any height, or of no area */
-  TACT_FAULT_UNUSED_VERTEX = 8         /**< a vertex of no facet */
+  TACT_FAULT_UNUSED_VERTEX = 8         /**< a vertex of no facet, edge or point */
 } tact_surface_fault_kind;
 
 /** A fault of a surface. */
@@ -484,11 +525,16 @@ typedef struct tact_patch {
     (uint32_t)sizeof(tact_patch), {0, 0, 0}, {0, 0, 0}, 0, NULL, 0, 0, 0, NULL, 0, { -1, -1, -1, -1 } \
   }
 
-/** The features of bodies a and b that are nearest, or that meet. */
+/** The features of bodies a and b that are nearest, or that meet. Of the last five either feature is of no facet. */
 typedef enum tact_feature_pair {
-  TACT_VERTEX_FACET = 0, /**< a vertex of a, a facet of b */
-  TACT_FACET_VERTEX = 1, /**< a facet of a, a vertex of b */
-  TACT_EDGE_EDGE = 2     /**< an edge of each */
+  TACT_VERTEX_FACET = 0,  /**< a vertex of a, a facet of b */
+  TACT_FACET_VERTEX = 1,  /**< a facet of a, a vertex of b */
+  TACT_EDGE_EDGE = 2,     /**< an edge of each */
+  TACT_VERTEX_EDGE = 3,   /**< a vertex of a, an edge of b */
+  TACT_EDGE_VERTEX = 4,   /**< an edge of a, a vertex of b */
+  TACT_VERTEX_VERTEX = 5, /**< a vertex of each */
+  TACT_VERTEX_PLANE = 6,  /**< a vertex of a, b is a plane */
+  TACT_PLANE_VERTEX = 7   /**< a is a plane, a vertex of b */
 } tact_feature_pair;
 
 /** A point on each of two surfaces, where features are nearest or have crossed. */
