@@ -19,6 +19,7 @@ void clear_answers(PairRecord& record) {
   record.facet_pairs.clear();
   std::swap(record.points, record.last_points);
   record.points.clear();
+  record.within_reach.clear();
   record.touching = false;
 }
 

@@ -1,13 +1,12 @@
 #include "engine/point_stage.h"
 
 #include <algorithm>
-#include <bit>
 #include <span>
 #include <tuple>
 #include <utility>
 
 #include "engine/base/hash.h"
-#include "engine/base/parallel.h"
+#include "engine/feature_order.h"
 #include "narrowphase/mesh/prefetch.h"
 
 namespace tact {
@@ -19,9 +18,8 @@ using narrowphase::FeaturePoint;
 
 // Microseconds that a pair of clusters takes (tact-bench points).
 constexpr std::size_t kCost = 4;
-// Points, up to which a comparison sorts them faster than digits do; and those that a thread publishes at a time, at
-// some 50 ns each.
-constexpr std::size_t kFewPoints = 256, kPublishedAtATime = 1024;
+// Points that a thread publishes at a time, at some 50 ns each.
+constexpr std::size_t kPublishedAtATime = 1024;
 
 // By keys, which no body has twice in one step.
 std::uint64_t id_of(const FeaturePoint& point, std::uint64_t key_a, std::uint64_t key_b) {
@@ -108,39 +106,6 @@ narrowphase::SurfaceKind kind_of(const Body& body) {
   return body.surface == Surface::closed ? narrowphase::SurfaceKind::closed : narrowphase::SurfaceKind::sheet;
 }
 
-// Where a point stands by its kind and first vertex, then by where it was found: what tells most points apart, in one
-// word.
-class PointKeys {
- public:
-  PointKeys(int vertices, std::size_t points)
-      : vertex_bits_(std::bit_width(static_cast<unsigned>(vertices))), place_bits_(std::bit_width(points)) {}
-
-  std::uint64_t key(const FeaturePoint& point, std::size_t place) const {
-    const auto first = static_cast<std::uint64_t>(point.a[0] + 1);  // of -1: 0
-    return ((static_cast<std::uint64_t>(point.kind) << vertex_bits_ | first) << place_bits_) | place;
-  }
-  std::size_t place(std::uint64_t key) const { return key & ((std::uint64_t{1} << place_bits_) - 1); }
-  bool same_first(std::uint64_t one, std::uint64_t other) const { return one >> place_bits_ == other >> place_bits_; }
-  int bits() const { return kKindBits + vertex_bits_ + place_bits_; }
-
- private:
-  static constexpr int kKindBits = 2;
-  int vertex_bits_, place_bits_;
-};
-
-// Sorts keys by features where the kind and the first vertex are the same.
-void sort_by_the_rest(std::span<std::uint64_t> order, const PointKeys& keys, const std::vector<FeaturePoint>& found) {
-  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-    while (end < order.size() && keys.same_first(order[begin], order[end])) ++end;
-    if (end - begin > 1) {
-      std::sort(order.begin() + begin, order.begin() + end, [&](std::uint64_t one, std::uint64_t other) {
-        const FeaturePoint &x = found[keys.place(one)], &y = found[keys.place(other)];
-        return std::tie(x.a, x.b, one) < std::tie(y.a, y.b, other);
-      });
-    }
-  }
-}
-
 }  // namespace
 
 // What of the bodies has crossed, before what is near is searched.
@@ -186,33 +151,12 @@ void PointStage::finish(const Prepared& prepared, const Step& step, int threads,
 
 // In an order that depends on features alone.
 void PointStage::publish(const Wanted& wanted, const Step& step, int threads, Work& work) {
-  const std::vector<FeaturePoint>& found = work.found;
   const Body &a = step.bodies.in_slot(wanted.a), &b = step.bodies.in_slot(wanted.b);
-  const PointKeys keys(a.mesh.source_vertex_count(), found.size());
   const std::uint64_t key_a = step.bodies.keys().of(wanted.a), key_b = step.bodies.keys().of(wanted.b);
-  std::span<std::uint64_t> order = work.sorter.keys(found.size());
-  for (std::size_t i = 0; i < found.size(); ++i) order[i] = keys.key(found[i], i);
-  if (found.size() <= kFewPoints) {
-    std::ranges::sort(order);
-  } else {
-    order = work.sorter.sort(keys.bits(), threads);
-  }
-  std::vector<ContactPoint>& points = *wanted.points;
-  if (points.capacity() < found.size()) points.reserve(found.size() + found.size() / 4);
-  points.resize(found.size());
-  // Into blocks, between two that differ in kind or first vertex.
-  work.blocks.assign(1, 0);
-  for (std::size_t at = 0; at < order.size(); work.blocks.push_back(at)) {
-    at = std::min(at + kPublishedAtATime, order.size());
-    while (at < order.size() && keys.same_first(order[at - 1], order[at])) ++at;
-  }
-  base::parallel_for(work.blocks.size() - 1, 1, threads, [&](std::size_t block) {
-    const std::size_t begin = work.blocks[block], end = work.blocks[block + 1];
-    sort_by_the_rest(order.subspan(begin, end - begin), keys, found);
-    for (std::size_t i = begin; i < end; ++i) points[i] = to_point(found[keys.place(order[i])], key_a, key_b);
-  });
+  put_in_order(work.found, a.mesh.source_vertex_count(), kPublishedAtATime, threads, work.order, *wanted.points,
+               [&](const FeaturePoint& point) { return to_point(point, key_a, key_b); });
   if (!step.settings.outputs.patches)
-    work.patches.number({}, points, &a, &b);  // otherwise the patch stage numbers them, with the facet pairs
+    work.patches.number({}, *wanted.points, &a, &b);  // otherwise the patch stage numbers them, with the facet pairs
 }
 
 // Finds the cluster pairs of the i-th item, unless they are known.

@@ -3,6 +3,7 @@
 
 #include <tact/contact_point.h>
 #include <tact/facet_pair.h>
+#include <tact/reach_pair.h>
 
 #include <memory>
 #include <vector>
@@ -17,6 +18,7 @@ struct SelfRecord {
   BodyId body;
   std::vector<FacetPair> facet_pairs;  ///< sorted, a < b
   std::vector<ContactPoint> points, last_points;
+  std::vector<ReachPair> within_reach;
   std::vector<narrowphase::ClusterPair> may_meet, may_contact;  ///< see narrowphase::SelfClusters
   std::unique_ptr<narrowphase::SelfCrossing> crossing;          ///< made when facets meet for the first time
   PatchMemory patches;
@@ -24,6 +26,8 @@ struct SelfRecord {
   bool point_limit_reached = false;  ///< see Contact
 };
 
-inline bool in_contact(const SelfRecord& record) { return !record.facet_pairs.empty() || !record.points.empty(); }
+inline bool in_contact(const SelfRecord& record) {
+  return !record.facet_pairs.empty() || !record.points.empty() || !record.within_reach.empty();
+}
 
 }  // namespace tact

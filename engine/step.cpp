@@ -62,7 +62,7 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
 
 // Stages 2 to 6, and what is found of their facet pairs.
 void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, Timer& timer, StepStats& stats) {
-  auto& [sweep, table, pairs, containment, points, selves, patches, knows_boxes] = *stages_;
+  auto& [sweep, table, pairs, containment, points, selves, within_reach, patches, knows_boxes] = *stages_;
   std::vector<std::uint32_t> slots(knows_boxes ? 0 : bodies.boxes().size());
   std::iota(slots.begin(), slots.end(), 0u);
   sweep.update(bodies.boxes(), bodies.filters(), knows_boxes ? bodies.changed() : slots, settings.threads,
@@ -87,6 +87,10 @@ void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, Timer& t
   if (settings.outputs.points && !selves.looked_at().empty()) {
     points.find(selves.looked_at(), bodies, settings, device_);
     stats.self_points_ms = timer.lap();
+  }
+  if (settings.outputs.within_reach) {
+    within_reach.find(table.moved(), selves.looked_at(), bodies, settings, device_);
+    stats.within_reach_ms = timer.lap();
   }
   selves.finish(bodies);
   find_patches(patches, bodies, settings);

@@ -14,6 +14,7 @@
 #include "engine/pair_stage.h"
 #include "engine/patch_stage.h"
 #include "engine/point_stage.h"
+#include "engine/reach_stage.h"
 #include "engine/report_writer.h"
 #include "engine/self_stage.h"
 #include "engine/step_trace.h"
@@ -62,6 +63,7 @@ class Step {
     ContainmentStage containment;
     PointStage points;
     SelfStage selves;
+    ReachStage within_reach;
     PatchStage patches;
     bool knows_boxes = true;  // whether the sweep does, but for those that changed: not after restore()
   };

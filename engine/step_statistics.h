@@ -22,6 +22,7 @@ inline constexpr StageTime kStageTimes[] = {
     {TraceEvent::Kind::points, &StepStats::points_ms},
     {TraceEvent::Kind::self_facets, &StepStats::self_facets_ms},
     {TraceEvent::Kind::self_points, &StepStats::self_points_ms},
+    {TraceEvent::Kind::within_reach, &StepStats::within_reach_ms},
     {TraceEvent::Kind::patches, &StepStats::patches_ms},
 };
 

@@ -53,6 +53,7 @@ struct alignas(64) PairRecord {
   std::vector<FacetPair> facet_pairs;                     ///< sorted
   std::vector<ContactPoint> points;                       ///< of pairs in contact, sorted
   std::vector<ContactPoint> last_points;                  ///< of the step before
+  std::vector<ReachPair> within_reach;                    ///< of pairs in contact, sorted
   std::unique_ptr<PatchMemory> patches;                   ///< made when there are any
   std::unique_ptr<narrowphase::SurfaceHistory> surfaces;  ///< of bodies that lie on each other, once
   std::unique_ptr<narrowphase::SurfaceShape> surface;     ///< where the search for the smallest separation ended, once

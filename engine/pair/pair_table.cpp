@@ -153,6 +153,7 @@ PairRecord& PairTable::new_record(BodyId a, BodyId b) {
   record.hulls_overlap = record.near = record.touching = false;
   record.facet_pairs.clear();
   record.points.clear();
+  record.within_reach.clear();
   record.surfaces.reset();
   return record;
 }

@@ -1,6 +1,6 @@
 // What a recording is made of.
 //
-// The file, version 6. Numbers are little-endian, doubles as IEEE 754 has them, without padding between them:
+// The file, version 7. Numbers are little-endian, doubles as IEEE 754 has them, without padding between them:
 //
 //   head      "tactrec\n", u32 version, text: the version of tact that wrote it
 //   settings  u8 1, i32 threads, u8 accuracy, u8 direction policy, f64 gjk_tolerance, i32 iteration_limit, u8 zones,
@@ -25,6 +25,7 @@
 //   failed    u8 15; after a detect that threw, since version 6
 //   key       u8 16, u64: the key of the body that is added next, if one was given; this and the next since version 6
 //   restore   u8 17, u64 bytes, and these: those of World::restore()
+//   reach     u8 18; after settings whose Outputs::within_reach is set, likewise; since version 7
 //
 // A text is u32 bytes and these; a body is u32 index and u32 generation of its BodyId; enumerations are numbered in the
 // order of their values. Outputs::trace is left out: it changes no answer. The records stand in the order of the calls;
@@ -37,7 +38,7 @@
 namespace tact::recording {
 
 inline constexpr std::string_view kMagic = "tactrec\n";
-inline constexpr std::uint32_t kVersion = 6;
+inline constexpr std::uint32_t kVersion = 7;
 
 enum class RecordKind : std::uint8_t {
   settings = 1,
@@ -56,8 +57,9 @@ enum class RecordKind : std::uint8_t {
   poses = 14,
   failed = 15,
   key = 16,
-  restore = 17
+  restore = 17,
+  within_reach = 18
 };
-inline constexpr RecordKind kLastRecordKind = RecordKind::restore;
+inline constexpr RecordKind kLastRecordKind = RecordKind::within_reach;
 
 }  // namespace tact::recording

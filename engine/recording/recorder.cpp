@@ -105,6 +105,7 @@ void Recorder::settings_changed(const Settings& settings) noexcept {
     put(out, std::uint8_t{settings.outputs.zones});
     put(out, std::uint8_t{settings.outputs.patches});
     if (settings.outputs.points) put(out, RecordKind::points);
+    if (settings.outputs.within_reach) put(out, RecordKind::within_reach);
   });
 }
 

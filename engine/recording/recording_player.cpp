@@ -115,11 +115,8 @@ struct RecordingPlayer::Implementation {
         const bool wanted = read_flag();
         return make([&] { world->set_self_contact(body, wanted); });
       }
-      case RecordKind::points: {
-        Settings settings = world->settings();
-        settings.outputs.points = true;
-        return make([&] { world->set_settings(settings); });
-      }
+      case RecordKind::points: return add_output(&Outputs::points);
+      case RecordKind::within_reach: return add_output(&Outputs::within_reach);
       case RecordKind::key: {
         next_key = reader.read<std::uint64_t>();
         return;
@@ -130,6 +127,12 @@ struct RecordingPlayer::Implementation {
       case RecordKind::failed: break;
     }
     fail(kind == RecordKind::hash ? "a hash that follows no step" : "a failure that follows no step");
+  }
+
+  void add_output(bool Outputs::*output) {
+    Settings settings = world->settings();
+    settings.outputs.*output = true;
+    make([&] { world->set_settings(settings); });
   }
 
   // Further outputs of PlayOptions are no part of the bytes: with them the next step looks at every pair.
@@ -148,7 +151,8 @@ struct RecordingPlayer::Implementation {
   // Adds those of the options; returns whether any was not there.
   bool add_outputs(Outputs& outputs) const {
     bool added = false;
-    for (bool Outputs::*const output : {&Outputs::zones, &Outputs::patches, &Outputs::points, &Outputs::trace}) {
+    for (bool Outputs::*const output :
+         {&Outputs::zones, &Outputs::patches, &Outputs::points, &Outputs::trace, &Outputs::within_reach}) {
       added |= options.outputs.*output && !(outputs.*output);
       outputs.*output |= options.outputs.*output;
     }

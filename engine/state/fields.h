@@ -86,8 +86,8 @@ struct StateFields {
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Settings>& settings) {
     auto& [threads, accuracy, direction, gjk_tolerance, iteration_limit, outputs, executor, on_message] = settings;
-    auto& [zones, patches, points, trace] = outputs;
-    archive(accuracy, direction, gjk_tolerance, iteration_limit, zones, patches, points, trace);
+    auto& [zones, patches, points, trace, within_reach] = outputs;
+    archive(accuracy, direction, gjk_tolerance, iteration_limit, zones, patches, points, trace, within_reach);
   }
 
   template <class Archive>
@@ -161,8 +161,8 @@ struct StateFields {
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Contact>& contact) {
     auto& [a, b, direction, depth, containment, source, iterations, limit_reached, point_limit_reached, plane_a,
-           plane_b, zone_a, zone_b, kept_facets_a, kept_facets_b, facet_pairs, patches, points, key_a, key_b,
-           touching] = contact;
+           plane_b, zone_a, zone_b, kept_facets_a, kept_facets_b, facet_pairs, patches, points, within_reach, key_a,
+           key_b, touching] = contact;
     archive(direction, depth, containment, source, iterations, limit_reached, point_limit_reached, plane_a, plane_b,
             zone_a, zone_b, kept_facets_a, kept_facets_b);
   }
@@ -177,6 +177,12 @@ struct StateFields {
   static void visit(Archive& archive, Visited<Archive, ContactPoint>& point) {
     auto& [kind, patch, a_vertices, b_vertices, a_weights, b_weights, normal, gap, id] = point;
     archive(kind, patch, a_vertices, b_vertices, a_weights, b_weights, normal, gap, id);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, ReachPair>& pair) {
+    auto& [kind, a_vertices, b_vertices, a_weights, b_weights, normal, distance] = pair;
+    archive(kind, a_vertices, b_vertices, a_weights, b_weights, normal, distance);
   }
 
   template <class Archive>
@@ -213,11 +219,11 @@ struct StateFields {
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, PairRecord>& record) {
     auto& [a, b, hulls_overlap, near, was_in_contact, touching, history, times, slab_lower, slab_upper, face, contact,
-           facet_pairs, points, last_points, patches, surfaces, surface] = record;
+           facet_pairs, points, last_points, within_reach, patches, surfaces, surface] = record;
     archive(hulls_overlap, near, touching, history);
     if (history.has_surface) archive.pointee(surface);
     if (hulls_overlap) archive(slab_lower, slab_upper, face);
-    if (hulls_overlap || near) archive(contact, facet_pairs, points);
+    if (hulls_overlap || near) archive(contact, facet_pairs, points, within_reach);
     bool has_patches = patches != nullptr && !patches->now.patches.empty();
     archive(has_patches);
     if (has_patches) archive.pointee(patches);
@@ -226,9 +232,9 @@ struct StateFields {
   // By others: body. Of the step before: last_points. Dropped: the cluster pairs and the crossing.
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, SelfRecord>& record) {
-    auto& [body, facet_pairs, points, last_points, may_meet, may_contact, crossing, patches, touching,
+    auto& [body, facet_pairs, points, last_points, within_reach, may_meet, may_contact, crossing, patches, touching,
            point_limit_reached] = record;
-    archive(facet_pairs, points, patches, touching, point_limit_reached);
+    archive(facet_pairs, points, within_reach, patches, touching, point_limit_reached);
   }
 
   // One body that there is; and into a slot that holds none. Errors: bad_state, and those of World::add_body().

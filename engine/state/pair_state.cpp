@@ -60,6 +60,13 @@ class Checks {
     }
   }
 
+  void within_reach(std::span<const ReachPair> pairs) const {
+    for (const ReachPair& pair : pairs) {
+      feature(pair.a_vertices, a_);
+      feature(pair.b_vertices, b_);
+    }
+  }
+
   void patches(const PatchSet& set, std::size_t facet_pairs, std::size_t points) const {
     for (const int i : set.facet_pairs) reader_.check(is_below(i, facet_pairs), "a facet pair of a patch is not there");
     for (const int i : set.points) reader_.check(is_below(i, points), "a point of a patch is not there");
@@ -106,6 +113,7 @@ void read_pair(StateReader& reader, const ClusteredMesh& a, const ClusteredMesh&
   if (record.hulls_overlap) checks.simplex(record.face);
   checks.facet_pairs(record.facet_pairs);
   checks.points(record.points);
+  checks.within_reach(record.within_reach);
   if (record.patches != nullptr) checks.patches(record.patches->now, record.facet_pairs.size(), record.points.size());
   record.contact.a = record.a;
   record.contact.b = record.b;
@@ -118,6 +126,7 @@ void read_self(StateReader& reader, const ClusteredMesh& mesh, SelfRecord& recor
   const Checks checks(reader, mesh, mesh);
   checks.facet_pairs(record.facet_pairs);
   checks.points(record.points);
+  checks.within_reach(record.within_reach);
   checks.patches(record.patches.now, record.facet_pairs.size(), record.points.size());
 }
 

@@ -56,7 +56,8 @@ std::vector<BodyId> StateFields::gone_in(const Step& step, const Bodies& bodies)
 void StateFields::write(const Step& step, const Bodies& bodies, StateWriter& writer) {
   const auto& [stages, report_writer, trace, device, regrouped, regroup_ms, all, forgotten, discarded] = step;
   const Step::Stages nothing;
-  const auto& [sweep, table, pairs, containment, points, selves, patches, knows_boxes] = forgotten ? nothing : *stages;
+  const auto& [sweep, table, pairs, containment, points, selves, within_reach, patches, knows_boxes] =
+      forgotten ? nothing : *stages;
   writer(all || forgotten);
   write_pairs(table, bodies, writer);
   write_selves(selves, bodies, writer);

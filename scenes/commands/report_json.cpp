@@ -126,6 +126,7 @@ Json outcomes_json(const std::vector<FacetOutcome>& outcomes) {
 struct PairParts {
   bool facets = false;
   bool points = false;
+  bool within_reach = false;
   FacetOutcomeFinder* finder = nullptr;  // null: no outcomes
 };
 
@@ -138,6 +139,7 @@ Json self_json(const Contact& contact, const PairParts& parts) {
     json["points"] = points_json(&contact);
     json["patches"] = patches_json(&contact);
   }
+  if (parts.within_reach) json["within_reach"] = contact.within_reach().size();
   return json;
 }
 
@@ -165,6 +167,7 @@ Json pair_json(const CandidatePair& pair, const Contact* contact, const PairPart
     json["points"] = points_json(contact);
     json["patches"] = patches_json(contact);
   }
+  if (parts.within_reach) json["within_reach"] = contact != nullptr ? contact->within_reach().size() : 0;
   return json;
 }
 
@@ -238,6 +241,7 @@ JsonReport::JsonReport(std::ostream& out, const World& world, Outcomes outcomes,
     : out_(out),
       has_facets_(world.settings().accuracy != Accuracy::hulls),
       has_points_(world.settings().outputs.points),
+      has_within_reach_(world.settings().outputs.within_reach),
       outcomes_(outcomes) {
   out_ << "{\"tact\":" << json_text(TACT_VERSION)
        << ",\"accuracy\":" << json_text(accuracy_name(world.settings().accuracy))
@@ -249,11 +253,12 @@ void JsonReport::add_frame(int frame, const Report& report, const MotionReport* 
                            const std::vector<std::string>& files) {
   std::optional<FacetOutcomeFinder> finder;
   if (outcomes_ == Outcomes::counts) finder.emplace(report);
-  Json json = {{"frame", frame},
-               {"hash", hash_text(report)},
-               {"pairs", pairs_json(report, {has_facets_, has_points_, finder ? &*finder : nullptr})},
-               {"stats", stats_json(report.stats())},
-               {"times_ms", times_json(report.stats())}};
+  Json json = {
+      {"frame", frame},
+      {"hash", hash_text(report)},
+      {"pairs", pairs_json(report, {has_facets_, has_points_, has_within_reach_, finder ? &*finder : nullptr})},
+      {"stats", stats_json(report.stats())},
+      {"times_ms", times_json(report.stats())}};
   if (motion != nullptr) {
     json["impacts"] = impacts_json(*motion);
     json["first_time"] = motion->impacts().empty() ? Json(nullptr) : Json(motion->first_time());

@@ -68,6 +68,7 @@ class JsonReport {
   std::ostream& out_;
   bool has_facets_;
   bool has_points_;
+  bool has_within_reach_;
   Outcomes outcomes_;
   bool first_ = true;
 };

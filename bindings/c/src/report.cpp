@@ -24,6 +24,12 @@ static_assert(std::is_standard_layout_v<ContactPoint> && sizeof(tact_contact_poi
               offsetof(tact_contact_point, normal) == offsetof(ContactPoint, normal) &&
               offsetof(tact_contact_point, id) == offsetof(ContactPoint, id));
 
+static_assert(std::is_standard_layout_v<ReachPair> && sizeof(tact_reach_pair) == sizeof(ReachPair) &&
+              offsetof(tact_reach_pair, b_vertices) == offsetof(ReachPair, b_vertices) &&
+              offsetof(tact_reach_pair, b_weights) == offsetof(ReachPair, b_weights) &&
+              offsetof(tact_reach_pair, normal) == offsetof(ReachPair, normal) &&
+              offsetof(tact_reach_pair, distance) == offsetof(ReachPair, distance));
+
 void put(const Eigen::Vector3d& from, double* to) { std::copy_n(from.data(), 3, to); }
 
 tact_zone_disk disk_of(const ZoneDisk& disk) {
@@ -119,6 +125,11 @@ tact_error tact_contact_hash(tact_world world, size_t index, uint64_t* hash) {
 
 tact_error tact_contact_points(tact_world world, size_t index, const tact_contact_point** points, size_t* count) {
   return with_report(world, [&](const Report& report) { show(at(report.contacts(), index).points(), points, count); });
+}
+
+tact_error tact_contact_within_reach(tact_world world, size_t index, const tact_reach_pair** pairs, size_t* count) {
+  return with_report(world,
+                     [&](const Report& report) { show(at(report.contacts(), index).within_reach(), pairs, count); });
 }
 
 tact_error tact_report_candidate_pairs(tact_world world, const tact_candidate_pair** pairs, size_t* count) {

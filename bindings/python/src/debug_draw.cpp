@@ -61,6 +61,7 @@ void define_options(py::module_& module) {
       .def_readwrite("facet_pairs", &Options::facet_pairs)
       .def_readwrite("patches", &Options::patches)
       .def_readwrite("points", &Options::points)
+      .def_readwrite("within_reach", &Options::within_reach)
       .def_readwrite("names", &Options::names)
       .def_readwrite("surface", &Options::surface)
       .def_readwrite("box", &Options::box)
@@ -73,6 +74,7 @@ void define_options(py::module_& module) {
       .def_readwrite("meeting", &Options::meeting)
       .def_readwrite("patch", &Options::patch)
       .def_readwrite("point", &Options::point)
+      .def_readwrite("reach", &Options::reach)
       .def_readwrite("word", &Options::word);
 }
 

@@ -152,13 +152,14 @@ std::string settings_text(const Settings& settings) {
 }
 
 Settings make_settings(int threads, Accuracy accuracy, DirectionPolicy direction, double gjk_tolerance,
-                       int iteration_limit, bool zones, bool patches, bool points, const py::object& on_message) {
+                       int iteration_limit, bool zones, bool patches, bool points, const py::object& on_message,
+                       bool within_reach) {
   return {.threads = threads,
           .accuracy = accuracy,
           .direction = direction,
           .gjk_tolerance = gjk_tolerance,
           .iteration_limit = iteration_limit,
-          .outputs = {.zones = zones, .patches = patches, .points = points},
+          .outputs = {.zones = zones, .patches = patches, .points = points, .within_reach = within_reach},
           .on_message = message_function(on_message)};
 }
 
@@ -197,7 +198,7 @@ void define_settings(py::module_& module) {
            py::arg("accuracy") = defaults.accuracy, py::arg("direction") = defaults.direction,
            py::arg("gjk_tolerance") = defaults.gjk_tolerance, py::arg("iteration_limit") = defaults.iteration_limit,
            py::arg("zones") = false, py::arg("patches") = false, py::arg("points") = false,
-           py::arg("on_message") = py::none())
+           py::arg("on_message") = py::none(), py::arg("within_reach") = false)
       .def_readwrite("threads", &Settings::threads, "0 to 1024; 0: as many as OpenMP would use")
       .def_readwrite("accuracy", &Settings::accuracy)
       .def_readwrite("direction", &Settings::direction)
@@ -212,6 +213,7 @@ void define_settings(py::module_& module) {
   output<&Outputs::zones>(settings, "zones", "compute Contact.zone_a and zone_b");
   output<&Outputs::points>(settings, "points", "compute Contact.points");
   output<&Outputs::patches>(settings, "patches", "compute Contact.patches");
+  output<&Outputs::within_reach>(settings, "within_reach", "compute Contact.within_reach");
 }
 
 // A function of World that takes a body and gives something of it.

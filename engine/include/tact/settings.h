@@ -28,6 +28,8 @@ struct Outputs {
   bool patches = false;  ///< Contact::patches() and Report::patch_events()
   bool points = false;   ///< Contact::points()
   bool trace = false;    ///< Report::trace()
+  /// Contact::within_reach()
+  bool within_reach = false;
 };
 
 /// How a world works. World::set_settings() checks it.

@@ -180,14 +180,14 @@ TEST(Recording, SaysWhatIsWrongAndAtWhichByte) {
   ASSERT_EQ(recording_refusal(good), "accepted");
   EXPECT_EQ(recording_refusal(""), "byte 0: not a recording: it does not begin with tactrec");
   EXPECT_EQ(recording_refusal("solid a"), "byte 0: not a recording: it does not begin with tactrec");
-  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(7u))),
-            "byte 8: a recording of version 7; versions 1 to 6 can be read");
+  EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(8u))),
+            "byte 8: a recording of version 8; versions 1 to 7 can be read");
   EXPECT_EQ(recording_refusal(with(good, kVersionAt, bytes_of(0u))),
-            "byte 8: a recording of version 0; versions 1 to 6 can be read");
+            "byte 8: a recording of version 0; versions 1 to 7 can be read");
   EXPECT_EQ(recording_refusal(with(good, kSettingsAt, "\x02")),
             at_byte(kSettingsAt) + "the first record is not one of settings");
-  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x12")),
-            at_byte(kFirstBodyAt) + "step 0: no record is of kind 18");
+  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x13")),
+            at_byte(kFirstBodyAt) + "step 0: no record is of kind 19");
   EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x0f")),
             at_byte(kFirstBodyAt) + "step 0: a failure that follows no step");
   EXPECT_EQ(recording_refusal(with(good, kVerticesAt + 16, bytes_of(std::numeric_limits<double>::quiet_NaN())))
@@ -243,7 +243,7 @@ TEST(Recording, AnyBitWrong) {
     EXPECT_TRUE(message == "accepted" || message.starts_with("byte ")) << "bit " << bit << ": " << message;
     const auto version = static_cast<unsigned char>(bytes[kVersionAt]);
     const bool in_magic = bit < 8 * kVersionAt, in_version = !in_magic && bit < 8 * (kVersionAt + 4);
-    const bool is_known = bit < 8 * (kVersionAt + 1) && version >= 1 && version <= 6;  // an older one, read as such
+    const bool is_known = bit < 8 * (kVersionAt + 1) && version >= 1 && version <= 7;  // an older one, read as such
     EXPECT_FALSE((in_magic || (in_version && !is_known)) && message == "accepted") << "bit " << bit;
   }
 }
