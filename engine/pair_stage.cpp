@@ -20,6 +20,7 @@ void clear_answers(PairRecord& record) {
   record.bare_pairs.clear();
   if (!std::exchange(record.is_renumbered, false)) std::swap(record.points, record.last_points);
   record.points.clear();
+  record.within_reach.clear();
   record.touching = false;
 }
 

@@ -1,15 +1,14 @@
 #include "engine/point_stage.h"
 
 #include <algorithm>
-#include <bit>
 #include <span>
 #include <tuple>
 #include <utility>
 
 #include "engine/base/hash.h"
-#include "engine/base/parallel.h"
-#include "narrowphase/contact_points/local_minimum.h"
+#include "engine/feature_order.h"
 #include "engine/pair/facet_pair_sort.h"
+#include "narrowphase/contact_points/local_minimum.h"
 #include "narrowphase/mesh/prefetch.h"
 
 namespace tact {
@@ -21,9 +20,8 @@ using narrowphase::FeaturePoint;
 
 // Microseconds that a pair of clusters takes (tact-bench points).
 constexpr std::size_t kCost = 4;
-// Points, up to which a comparison sorts them faster than digits do; and those that a thread publishes at a time, at
-// some 50 ns each.
-constexpr std::size_t kFewPoints = 256, kPublishedAtATime = 1024;
+// Points that a thread publishes at a time, at some 50 ns each.
+constexpr std::size_t kPublishedAtATime = 1024;
 
 // What ids of points call a body and its vertices by. No two bodies have one key in one step.
 struct Naming {
@@ -127,26 +125,6 @@ narrowphase::SurfaceKind kind_of(const Body& body) {
   return body.has_inside ? narrowphase::SurfaceKind::closed : narrowphase::SurfaceKind::sheet;
 }
 
-// Where a point stands by its kind and first vertex, then by where it was found: what tells most points apart, in one
-// word.
-class PointKeys {
- public:
-  PointKeys(int vertices, std::size_t points)
-      : vertex_bits_(std::bit_width(static_cast<unsigned>(vertices))), place_bits_(std::bit_width(points)) {}
-
-  std::uint64_t key(const FeaturePoint& point, std::size_t place) const {
-    const auto first = static_cast<std::uint64_t>(point.a[0] >= 0 ? point.a[0] : point.b[0]);  // a plane has none
-    return ((static_cast<std::uint64_t>(point.kind) << vertex_bits_ | first) << place_bits_) | place;
-  }
-  std::size_t place(std::uint64_t key) const { return key & ((std::uint64_t{1} << place_bits_) - 1); }
-  bool same_first(std::uint64_t one, std::uint64_t other) const { return one >> place_bits_ == other >> place_bits_; }
-  int bits() const { return kKindBits + vertex_bits_ + place_bits_; }
-
- private:
-  static constexpr int kKindBits = 3;
-  int vertex_bits_, place_bits_;
-};
-
 // Names the features of which either is of no facet. Two vertices then have one point, whichever of them is nearest to
 // the other; of one body the lesser comes first.
 void name_features(const narrowphase::FeaturedMesh& a, const narrowphase::FeaturedMesh& b,
@@ -176,19 +154,6 @@ void name_features(const narrowphase::FeaturedMesh& a, const narrowphase::Featur
   found.erase(std::unique(found.begin(), others,
                           [](const FeaturePoint& x, const FeaturePoint& y) { return x.a == y.a && x.b == y.b; }),
               others);
-}
-
-// Sorts keys by features where the kind and the first vertex are the same.
-void sort_by_the_rest(std::span<std::uint64_t> order, const PointKeys& keys, const std::vector<FeaturePoint>& found) {
-  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-    while (end < order.size() && keys.same_first(order[begin], order[end])) ++end;
-    if (end - begin > 1) {
-      std::sort(order.begin() + begin, order.begin() + end, [&](std::uint64_t one, std::uint64_t other) {
-        const FeaturePoint &x = found[keys.place(one)], &y = found[keys.place(other)];
-        return std::tie(x.a, x.b, one) < std::tie(y.a, y.b, other);
-      });
-    }
-  }
 }
 
 }  // namespace
@@ -239,38 +204,17 @@ void PointStage::finish(const Prepared& prepared, const Step& step, int threads,
 
 // In an order that depends on features alone.
 void PointStage::publish(const Wanted& wanted, const Step& step, int threads, Work& work) {
-  const std::vector<FeaturePoint>& found = work.found;
   const Body &a = step.bodies.in_slot(wanted.a), &b = step.bodies.in_slot(wanted.b);
-  const PointKeys keys((a.plane == nullptr ? a : b).mesh.source_vertex_count(), found.size());
   const Naming naming_a{step.bodies.keys().of(wanted.a), a.names.get()},
       naming_b{step.bodies.keys().of(wanted.b), b.names.get()};
-  std::span<std::uint64_t> order = work.sorter.keys(found.size());
-  for (std::size_t i = 0; i < found.size(); ++i) order[i] = keys.key(found[i], i);
-  if (found.size() <= kFewPoints) {
-    std::ranges::sort(order);
-  } else {
-    order = work.sorter.sort(keys.bits(), threads);
-  }
-  std::vector<ContactPoint>& points = *wanted.points;
-  if (points.capacity() < found.size()) points.reserve(found.size() + found.size() / 4);
-  points.resize(found.size());
-  // Into blocks, between two that differ in kind or first vertex.
-  work.blocks.assign(1, 0);
-  for (std::size_t at = 0; at < order.size(); work.blocks.push_back(at)) {
-    at = std::min(at + kPublishedAtATime, order.size());
-    while (at < order.size() && keys.same_first(order[at - 1], order[at])) ++at;
-  }
-  base::parallel_for(work.blocks.size() - 1, 1, threads, [&](std::size_t block) {
-    const std::size_t begin = work.blocks[block], end = work.blocks[block + 1];
-    sort_by_the_rest(order.subspan(begin, end - begin), keys, found);
-    for (std::size_t i = begin; i < end; ++i) {
-      const FeaturePoint& one = found[keys.place(order[i])];
-      points[i] = to_point(one, naming_a, naming_b);
-      points[i].minimum = is_local_minimum(one, {&a.mesh, a.features.get()}, {&b.mesh, b.features.get()});
-    }
-  });
+  put_in_order(work.found, (a.plane == nullptr ? a : b).mesh.source_vertex_count(), kPublishedAtATime, threads,
+               work.order, *wanted.points, [&](const FeaturePoint& one) {
+                 ContactPoint point = to_point(one, naming_a, naming_b);
+                 point.minimum = is_local_minimum(one, {&a.mesh, a.features.get()}, {&b.mesh, b.features.get()});
+                 return point;
+               });
   if (!step.settings.outputs.patches)
-    work.patches.number({}, points, &a, &b);  // otherwise the patch stage numbers them, with the facet pairs
+    work.patches.number({}, *wanted.points, &a, &b);  // otherwise the patch stage numbers them, with the facet pairs
 }
 
 // Finds the cluster pairs of the i-th item, unless they are known.

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/key_sort.h"
 #include "engine/bodies/bodies.h"
+#include "engine/feature_order.h"
 #include "engine/pair/pair_table.h"
 #include "engine/pair/plane_pair.h"
 #include "engine/patches.h"
@@ -63,8 +63,7 @@ class PointStage {
     narrowphase::ContactPointSearch search;
     narrowphase::CrossingPoints crossing_points;
     std::vector<narrowphase::FeaturePoint> found;
-    base::KeySorter sorter;
-    std::vector<std::size_t> blocks;  // of points to publish: where they begin, and where the last one ends
+    FeatureOrder order;
     PatchFinder patches;
   };
   using Large = SharedWork<std::unique_ptr<Prepared>, std::vector<narrowphase::FeaturePoint>>;

@@ -46,6 +46,16 @@ void add_answers(Hash& hash, const Contact& contact) {
       hash.add(point.b_weights[k]);
     }
   }
+  for (const ReachPair& pair : contact.within_reach()) {
+    hash.add(static_cast<std::uint64_t>(pair.kind));
+    hash.add(pair.distance);
+    for (std::size_t k = 0; k < 3; ++k) {
+      hash.add(word_of(pair.a_vertices[k], pair.b_vertices[k]));
+      hash.add(pair.a_weights[k]);
+      hash.add(pair.b_weights[k]);
+      hash.add(pair.normal[k]);
+    }
+  }
 }
 
 void add_patch(Hash& hash, const Patch& patch) {

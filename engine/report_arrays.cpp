@@ -50,6 +50,10 @@ std::size_t point_count(const Report& report) {
   return count_in_contacts(report, [](const Contact& contact) { return contact.points(); });
 }
 
+std::size_t reach_pair_count(const Report& report) {
+  return count_in_contacts(report, [](const Contact& contact) { return contact.within_reach(); });
+}
+
 std::size_t facet_pair_count(const Report& report) {
   return count_in_contacts(report, [](const Contact& contact) { return contact.facet_pairs(); });
 }
@@ -84,6 +88,34 @@ void copy_points(const Report& report, const PointArrays& arrays) {
       put(arrays.ids, row, point.id);
       put(arrays.patch_ids, row, patch_id(contact, point));
       put(arrays.minima, row, point.minimum);
+      ++row;
+    }
+  }
+}
+
+void copy_reach_pairs(const Report& report, const ReachPairArrays& arrays) {
+  const std::size_t rows = reach_pair_count(report);
+  check_size(arrays.bodies, rows, 2, "bodies");
+  check_size(arrays.contacts, rows, 1, "contacts");
+  check_size(arrays.kinds, rows, 1, "kinds");
+  check_size(arrays.a_vertices, rows, 3, "a_vertices");
+  check_size(arrays.b_vertices, rows, 3, "b_vertices");
+  check_size(arrays.a_weights, rows, 3, "a_weights");
+  check_size(arrays.b_weights, rows, 3, "b_weights");
+  check_size(arrays.normals, rows, 3, "normals");
+  check_size(arrays.distances, rows, 1, "distances");
+  std::size_t row = 0;
+  for (const Contact& contact : report.contacts()) {
+    for (const ReachPair& pair : contact.within_reach()) {
+      put_two(arrays.bodies, row, contact.a.index, contact.b.index);
+      put(arrays.contacts, row, &contact - report.contacts().data());
+      put(arrays.kinds, row, pair.kind);
+      put_three(arrays.a_vertices, row, pair.a_vertices);
+      put_three(arrays.b_vertices, row, pair.b_vertices);
+      put_three(arrays.a_weights, row, pair.a_weights);
+      put_three(arrays.b_weights, row, pair.b_weights);
+      put_three(arrays.normals, row, pair.normal);
+      put(arrays.distances, row, pair.distance);
       ++row;
     }
   }

@@ -26,6 +26,7 @@ void make_room(std::vector<T>& vector, std::size_t count, std::size_t spare) {
 void ReportWriter::Totals::add(const Contact& contact, std::int64_t times) {
   facet_pairs += times * static_cast<std::int64_t>(contact.facet_pairs().size());
   points += times * static_cast<std::int64_t>(contact.points().size());
+  within_reach += times * static_cast<std::int64_t>(contact.within_reach().size());
   touching += contact.touching() ? times : 0;
   point_limits += contact.point_limit_reached ? times : 0;
 }
@@ -33,6 +34,7 @@ void ReportWriter::Totals::add(const Contact& contact, std::int64_t times) {
 void ReportWriter::Totals::add(const Totals& other) {
   facet_pairs += other.facet_pairs;
   points += other.points;
+  within_reach += other.within_reach;
   touching += other.touching;
   point_limits += other.point_limits;
 }
@@ -43,6 +45,7 @@ void ReportWriter::fill(Contact& contact, const PairRecord& record, const BodyKe
   contact.key_b_ = keys.of(record.b.index);
   contact.touching_ = record.touching;
   contact.points_ = record.points;
+  contact.within_reach_ = record.within_reach;
   contact.facet_pairs_ = record.facet_pairs;
   if (record.patches != nullptr) contact.patches_ = record.patches->now.patches;
   if (record.curves != nullptr) contact.curves_ = record.curves->curves;
@@ -55,6 +58,7 @@ void ReportWriter::fill(Contact& contact, const SelfRecord& record, const BodyKe
   contact.touching_ = record.touching;
   contact.facet_pairs_ = record.facet_pairs;
   contact.points_ = record.points;
+  contact.within_reach_ = record.within_reach;
   contact.point_limit_reached = record.point_limit_reached;
   contact.patches_ = record.patches.now.patches;
   if (record.curves != nullptr) contact.curves_ = record.curves->curves;
@@ -107,6 +111,7 @@ void ReportWriter::write(PairTable& table, const SelfStage& self, const Bodies& 
   stats.contacts = static_cast<std::int64_t>(report_.contacts_.size());
   stats.facet_pairs = totals_.facet_pairs;
   stats.points = totals_.points;
+  stats.within_reach = totals_.within_reach;
   stats.point_limits_reached = totals_.point_limits;
   stats.touching_contacts = totals_.touching;
 }

@@ -49,7 +49,7 @@ class ReportWriter {
   };
   /// Of contacts, added up.
   struct alignas(64) Totals {
-    std::int64_t facet_pairs = 0, points = 0;
+    std::int64_t facet_pairs = 0, points = 0, within_reach = 0;
     std::int64_t touching = 0, point_limits = 0;
     void add(const Contact& contact, std::int64_t times);
     void add(const Totals& other);

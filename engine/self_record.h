@@ -3,6 +3,7 @@
 
 #include <tact/contact_point.h>
 #include <tact/facet_pair.h>
+#include <tact/reach_pair.h>
 
 #include <memory>
 #include <vector>
@@ -18,6 +19,7 @@ struct SelfRecord {
   BodyId body;
   std::vector<FacetPair> facet_pairs;  ///< sorted, a < b
   std::vector<ContactPoint> points, last_points;
+  std::vector<ReachPair> within_reach;
   std::vector<narrowphase::ClusterPair> may_meet, may_contact;  ///< see narrowphase::SelfClusters
   std::unique_ptr<narrowphase::SelfCrossing> crossing;          ///< made when facets meet for the first time
   PatchMemory patches;
@@ -29,6 +31,8 @@ struct SelfRecord {
 };
 
 inline bool any_meet(const SelfRecord& record) { return !record.facet_pairs.empty() || !record.bare_pairs.empty(); }
-inline bool in_contact(const SelfRecord& record) { return any_meet(record) || !record.points.empty(); }
+inline bool in_contact(const SelfRecord& record) {
+  return any_meet(record) || !record.points.empty() || !record.within_reach.empty();
+}
 
 }  // namespace tact

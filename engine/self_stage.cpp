@@ -67,6 +67,7 @@ void SelfStage::select(std::uint32_t slot, Bodies& bodies) {
   record->may_contact.clear();
   if (!std::exchange(record->is_renumbered, false)) std::swap(record->points, record->last_points);
   record->points.clear();
+  record->within_reach.clear();
   record->point_limit_reached = false;
   looked_at_.push_back(record.get());
   slots_.push_back(slot);

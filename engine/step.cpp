@@ -77,7 +77,8 @@ const Report& Step::run(Bodies& bodies, const Settings& settings, double refresh
 
 // Stages 2 to 6, and what is found of their facet pairs.
 void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, Timer& timer, StepStats& stats) {
-  auto& [sweep, planes, table, pairs, containment, points, selves, curves, patches, knows_boxes] = *stages_;
+  auto& [sweep, planes, table, pairs, containment, points, selves, curves, within_reach, patches, knows_boxes] =
+      *stages_;
   std::vector<std::uint32_t> slots(knows_boxes ? 0 : bodies.boxes().size());
   std::iota(slots.begin(), slots.end(), 0u);
   const std::span<const std::uint32_t> changed = knows_boxes ? bodies.changed() : slots;
@@ -106,6 +107,10 @@ void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, Timer& t
     points.find(selves.looked_at(), bodies, settings, device_);
     stats.self_points_ms = timer.lap();
   }
+  if (settings.outputs.within_reach) {
+    within_reach.find(table.moved(), selves.looked_at(), bodies, settings, device_);
+    stats.within_reach_ms = timer.lap();
+  }
   selves.finish(bodies);
   find_patches(patches, bodies, settings);
   if (settings.outputs.patches) stats.patches_ms = timer.lap();
@@ -120,7 +125,9 @@ void Step::keep_last_answers() {
 }
 
 void Step::find_curves(const Bodies& bodies, const Settings& settings) {
-  auto& [sweep, table, pairs, containment, points, selves, curves, patches, knows_boxes] = *stages_;
+  PairTable& table = stages_->table;
+  SelfStage& selves = stages_->selves;
+  CurveStage& curves = stages_->curves;
   if (settings.outputs.curves) {
     curves.find(table.moved(), bodies, settings);
     curves.find(selves.looked_at(), bodies, settings);

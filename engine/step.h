@@ -18,6 +18,7 @@
 #include "engine/pair_stage.h"
 #include "engine/patch_stage.h"
 #include "engine/point_stage.h"
+#include "engine/reach_stage.h"
 #include "engine/renumbering.h"
 #include "engine/report_writer.h"
 #include "engine/self_stage.h"
@@ -75,6 +76,7 @@ class Step {
     PointStage points;
     SelfStage selves;
     CurveStage curves;
+    ReachStage within_reach;
     PatchStage patches;
     bool knows_boxes = true;  // whether the sweep does, but for those that changed: not after restore()
   };

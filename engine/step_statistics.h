@@ -23,6 +23,7 @@ inline constexpr StageTime kStageTimes[] = {
     {TraceEvent::Kind::self_facets, &StepStats::self_facets_ms},
     {TraceEvent::Kind::curves, &StepStats::curves_ms},
     {TraceEvent::Kind::self_points, &StepStats::self_points_ms},
+    {TraceEvent::Kind::within_reach, &StepStats::within_reach_ms},
     {TraceEvent::Kind::patches, &StepStats::patches_ms},
 };
 

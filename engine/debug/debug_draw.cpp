@@ -156,6 +156,11 @@ class Drawing {
     if (options_.curves) {
       for (const IntersectionCurve& curve : contact.curves()) draw_curve(curve);
     }
+    if (options_.within_reach) {
+      for (const ReachPair& pair : contact.within_reach())
+        drawer_.line(place_on(contact.a, pair.a_vertices, pair.a_weights),
+                     place_on(contact.b, pair.b_vertices, pair.b_weights), options_.reach);
+    }
   }
 
   // The direction begins in the middle of what the two boxes have in common.
@@ -189,6 +194,15 @@ class Drawing {
     }
   }
 
+  Vector3d place_on(BodyId body, const std::array<int, 3>& vertices, const std::array<double, 3>& weights) {
+    const Mesh& mesh = mesh_of(body);
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (vertices[k] >= 0) sum += weights[k] * mesh.vertex(vertices[k]);
+    }
+    return sum;
+  }
+
   // Each facet once, however many it meets.
   void draw_facet_pairs(const Contact& contact) {
     std::vector<int> a, b;
@@ -204,15 +218,8 @@ class Drawing {
   }
 
   void draw_point(const Contact& contact, const ContactPoint& point) {
-    const auto place = [](const Mesh& mesh, const std::array<int, 3>& vertices, const std::array<double, 3>& weights) {
-      Vector3d sum = Vector3d::Zero();
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (vertices[k] >= 0) sum += weights[k] * mesh.vertex(vertices[k]);
-      }
-      return sum;
-    };
-    Vector3d on_a = place(mesh_of(contact.a), point.a_vertices, point.a_weights);
-    Vector3d on_b = place(mesh_of(contact.b), point.b_vertices, point.b_weights);
+    Vector3d on_a = place_on(contact.a, point.a_vertices, point.a_weights);
+    Vector3d on_b = place_on(contact.b, point.b_vertices, point.b_weights);
     if (point.kind == FeaturePair::vertex_plane) on_b = on_a + point.gap * point.normal;
     if (point.kind == FeaturePair::plane_vertex) on_a = on_b - point.gap * point.normal;
     const double reach = world_.margin(contact.a) + world_.margin(contact.b);

@@ -54,6 +54,7 @@ struct alignas(64) PairRecord {
   std::vector<FacetPair> facet_pairs;                     ///< sorted
   std::vector<ContactPoint> points;                       ///< of pairs in contact, sorted
   std::vector<ContactPoint> last_points;                  ///< of the step before
+  std::vector<ReachPair> within_reach;                    ///< of pairs in contact, sorted
   std::unique_ptr<PatchMemory> patches;                   ///< made when there are any
   std::unique_ptr<CurveSet> curves;                       ///< of the last step; null where no facets meet
   std::unique_ptr<narrowphase::SurfaceHistory> surfaces;  ///< of bodies that lie on each other, once

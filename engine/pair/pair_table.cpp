@@ -167,6 +167,7 @@ PairRecord& PairTable::new_record(BodyId a, BodyId b) {
   record.facet_pairs.clear();
   record.bare_pairs.clear();
   record.points.clear();
+  record.within_reach.clear();
   record.surfaces.reset();
   record.curves.reset();
   return record;

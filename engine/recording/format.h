@@ -33,6 +33,7 @@
 //             any; this and the next since version 7
 //   plane     u8 21, 3 f64 of the normal, f64 offset, u32 layer, u32 mask, u64 external id, text name; then as after
 //   add
+//   reach     u8 22; after settings whose Outputs::within_reach is set, likewise; since version 7
 //
 // A text is u32 bytes and these; a body is u32 index and u32 generation of its BodyId; enumerations are numbered in the
 // order of their values. Outputs::trace is left out: it changes no answer. The records stand in the order of the calls;
@@ -68,8 +69,9 @@ enum class RecordKind : std::uint8_t {
   curves = 18,
   facets = 19,
   bare = 20,
-  plane = 21
+  plane = 21,
+  within_reach = 22
 };
-inline constexpr RecordKind kLastRecordKind = RecordKind::plane;
+inline constexpr RecordKind kLastRecordKind = RecordKind::within_reach;
 
 }  // namespace tact::recording

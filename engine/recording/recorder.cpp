@@ -133,6 +133,7 @@ void Recorder::settings_changed(const Settings& settings) noexcept {
     put(out, std::uint8_t{settings.outputs.patches});
     if (settings.outputs.points) put(out, RecordKind::points);
     if (settings.outputs.curves) put(out, RecordKind::curves);
+    if (settings.outputs.within_reach) put(out, RecordKind::within_reach);
   });
 }
 

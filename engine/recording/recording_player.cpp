@@ -120,6 +120,7 @@ struct RecordingPlayer::Implementation {
       }
       case RecordKind::points: return add_output(&Outputs::points);
       case RecordKind::curves: return add_output(&Outputs::curves);
+      case RecordKind::within_reach: return add_output(&Outputs::within_reach);
       case RecordKind::key: {
         next_key = reader.read<std::uint64_t>();
         return;
@@ -154,8 +155,8 @@ struct RecordingPlayer::Implementation {
   // Adds those of the options; returns whether any was not there.
   bool add_outputs(Outputs& outputs) const {
     bool added = false;
-    for (bool Outputs::*const output :
-         {&Outputs::zones, &Outputs::patches, &Outputs::points, &Outputs::curves, &Outputs::trace}) {
+    for (bool Outputs::*const output : {&Outputs::zones, &Outputs::patches, &Outputs::points, &Outputs::curves,
+                                        &Outputs::trace, &Outputs::within_reach}) {
       added |= options.outputs.*output && !(outputs.*output);
       outputs.*output |= options.outputs.*output;
     }

@@ -99,8 +99,8 @@ struct StateFields {
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Settings>& settings) {
     auto& [threads, accuracy, direction, gjk_tolerance, iteration_limit, outputs, executor, on_message] = settings;
-    auto& [zones, patches, points, curves, trace] = outputs;
-    archive(accuracy, direction, gjk_tolerance, iteration_limit, zones, patches, points, curves, trace);
+    auto& [zones, patches, points, curves, trace, within_reach] = outputs;
+    archive(accuracy, direction, gjk_tolerance, iteration_limit, zones, patches, points, curves, trace, within_reach);
   }
 
   template <class Archive>
@@ -186,8 +186,8 @@ struct StateFields {
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Contact>& contact) {
     auto& [a, b, direction, depth, containment, source, iterations, limit_reached, point_limit_reached, plane_a,
-           plane_b, zone_a, zone_b, kept_facets_a, kept_facets_b, facet_pairs, patches, points, curves, key_a, key_b,
-           touching] = contact;
+           plane_b, zone_a, zone_b, kept_facets_a, kept_facets_b, facet_pairs, patches, points, curves, within_reach,
+           key_a, key_b, touching] = contact;
     archive(direction, depth, containment, source, iterations, limit_reached, point_limit_reached, plane_a, plane_b,
             zone_a, zone_b, kept_facets_a, kept_facets_b);
   }
@@ -202,6 +202,12 @@ struct StateFields {
   static void visit(Archive& archive, Visited<Archive, ContactPoint>& point) {
     auto& [kind, patch, a_vertices, b_vertices, a_weights, b_weights, normal, gap, id, minimum] = point;
     archive(kind, patch, a_vertices, b_vertices, a_weights, b_weights, normal, gap, id, minimum);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, ReachPair>& pair) {
+    auto& [kind, a_vertices, b_vertices, a_weights, b_weights, normal, distance] = pair;
+    archive(kind, a_vertices, b_vertices, a_weights, b_weights, normal, distance);
   }
 
   template <class Archive>
@@ -272,9 +278,10 @@ struct StateFields {
   template <class Archive, class Record>
   static void visit_points(Archive& archive, Record& record) {
     if constexpr (!Archive::kReads) {
-      if (record.is_renumbered) return archive(std::vector<FacetPair>(), record.last_points);
+      if (record.is_renumbered)
+        return archive(std::vector<FacetPair>(), record.last_points, std::vector<ReachPair>());
     }
-    archive(record.facet_pairs, record.points);
+    archive(record.facet_pairs, record.points, record.within_reach);
   }
   template <class Archive, class Record, class Memory>
   static void visit_patches(Archive& archive, Record& record, Memory& patches) {
@@ -289,7 +296,8 @@ struct StateFields {
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, PairRecord>& record) {
     auto& [a, b, hulls_overlap, near, was_in_contact, touching, history, times, slab_lower, slab_upper, face, contact,
-           facet_pairs, points, last_points, patches, curves, surfaces, surface, is_renumbered, bare_pairs] = record;
+           facet_pairs, points, last_points, within_reach, patches, curves, surfaces, surface, is_renumbered, bare_pairs] =
+        record;
     archive(hulls_overlap, near, touching, history);
     if (history.has_surface) archive.pointee(surface);
     if (hulls_overlap) archive(slab_lower, slab_upper, face);
@@ -309,8 +317,8 @@ struct StateFields {
   // By others: body. Of the step before: last_points, as of a pair. Dropped: the cluster pairs and the crossing.
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, SelfRecord>& record) {
-    auto& [body, facet_pairs, points, last_points, may_meet, may_contact, crossing, patches, curves, touching,
-           point_limit_reached, bare_pairs, is_renumbered] = record;
+    auto& [body, facet_pairs, points, last_points, within_reach, may_meet, may_contact, crossing, patches, curves,
+           touching, point_limit_reached, bare_pairs, is_renumbered] = record;
     visit_points(archive, record);
     archive(bare_pairs);
     visit_patches(archive, record, patches);

@@ -65,6 +65,13 @@ class Checks {
     }
   }
 
+  void within_reach(std::span<const ReachPair> pairs) const {
+    for (const ReachPair& pair : pairs) {
+      feature(pair.a_vertices, a_);
+      feature(pair.b_vertices, b_);
+    }
+  }
+
   void patches(const PatchSet& set, std::size_t facet_pairs, std::size_t points) const {
     reader_.check(set.spanning.size() == set.patches.size(), "patches are spanned by nothing");
     for (const int i : set.facet_pairs) reader_.check(is_below(i, facet_pairs), "a facet pair of a patch is not there");
@@ -134,6 +141,7 @@ void check_pair(const StateReader& reader, const Body& a, const Body& b, PairRec
   if (record.hulls_overlap) checks.simplex(record.face);
   checks.facet_pairs(record.facet_pairs);
   checks.points(record.points);
+  checks.within_reach(record.within_reach);
   if (record.patches != nullptr) checks.patches(record.patches->now, record.facet_pairs.size(), record.points.size());
   if (record.curves != nullptr) checks.curves(*record.curves, record.facet_pairs.size());
   record.contact.a = record.a;
@@ -148,6 +156,7 @@ void read_self(StateReader& reader, const Body& body, SelfRecord& record) {
   checks.facet_pairs(record.facet_pairs);
   checks.facet_pairs(record.bare_pairs);
   checks.points(record.points);
+  checks.within_reach(record.within_reach);
   checks.patches(record.patches.now, record.facet_pairs.size(), record.points.size());
   if (record.curves != nullptr) checks.curves(*record.curves, record.facet_pairs.size());
 }

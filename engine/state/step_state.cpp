@@ -57,7 +57,7 @@ void StateFields::write(const Step& step, const Bodies& bodies, StateWriter& wri
   const auto& [stages, report_writer, trace, device, regrouped, regroup_ms, all, forgotten, discarded, altered,
                commit] = step;
   const Step::Stages nothing;
-  const auto& [sweep, planes, table, pairs, containment, points, selves, curves, patches, knows_boxes] =
+  const auto& [sweep, planes, table, pairs, containment, points, selves, curves, within_reach, patches, knows_boxes] =
       forgotten ? nothing : *stages;
   writer(all || forgotten);
   write_pairs(table, bodies, writer);

@@ -5,6 +5,7 @@
 
 #include "narrowphase/contact_points/open_features.h"
 #include "narrowphase/contact_points/point_finder.h"
+#include "narrowphase/contact_points/reach_finder.h"
 #include "narrowphase/contact_points/waiting_edges.h"
 #include "narrowphase/pairs/open_clusters.h"
 
@@ -63,7 +64,8 @@ class ClusterSearch {
   }
 
   // Pair by pair.
-  void run(OpenPairs& open, PointFinder& finder) const {
+  template <class Finder>
+  void run(OpenPairs& open, Finder& finder) const {
     open.a.clear();
     open.b.close();
     for (const ClusterPair& pair : pairs_) {
@@ -75,7 +77,8 @@ class ClusterSearch {
 
   // Bodies that touch in a small place have a few facets there in each of several clusters: as many clusters as there
   // is room for are searched at once. The pairs are all that there are, so that no other search finds the same points.
-  void run_together(FewClusters& of_b, OpenPairs& open, PointFinder& finder) const {
+  template <class Finder>
+  void run_together(FewClusters& of_b, OpenPairs& open, Finder& finder) const {
     open.b.place(0).clear();
     for (int i = 0, last = 0; i < of_b.count(); ++i) {
       if (!open.b.place(last).append(b_, of_b.cluster(i), near_a_, grid_, 0.0))
@@ -111,6 +114,26 @@ class ClusterSearch {
   Grid grid_;
 };
 
+// The scale in which two meshes are compared.
+double scale_of(const FeaturedMesh& a, const FeaturedMesh& b) {
+  return unit_scale_of(merged(a.mesh->box(), b.mesh->box()));
+}
+
+// Calls finder.search(a, b) for the open clusters of all pairs.
+template <class Finder>
+void search_all(const ScaledMesh& a, const ScaledMesh& b, double reach, std::span<const ClusterPair> pairs,
+                ContactPointSearch::Given given, OpenPairs& open, Finder& finder) {
+  const double wide = box_reach(a.scale * reach, a.scale * std::max(largest_coordinate(a.mesh.box()),  //
+                                                                    largest_coordinate(b.mesh.box())));
+  FewClusters few;
+  const bool together =
+      given == ContactPointSearch::Given::all && &a.mesh != &b.mesh && pairs.size() <= kPairsOfGrid && few.take(pairs);
+  for (; !pairs.empty(); pairs = pairs.subspan(std::min(pairs.size(), kPairsOfGrid))) {
+    const ClusterSearch search(a, b, wide, pairs.first(std::min(pairs.size(), kPairsOfGrid)));
+    together ? search.run_together(few, open, finder) : search.run(open, finder);
+  }
+}
+
 }  // namespace
 
 struct ContactPointSearch::Memory {
@@ -127,19 +150,20 @@ ContactPointSearch& ContactPointSearch::operator=(ContactPointSearch&&) noexcept
 void ContactPointSearch::run(const FeaturedMesh& a, const FeaturedMesh& b, double reach,
                              std::span<const ClusterPair> pairs, std::vector<FeaturePoint>& found,
                              const NearRules& rules, Given given) {
-  const Box whole = merged(a.mesh->box(), b.mesh->box());
-  const double scale = unit_scale_of(whole);
+  const double scale = scale_of(a, b);
   const ScaledMesh scaled_a{*a.mesh, *a.features, scale}, scaled_b{*b.mesh, *b.features, scale};
-  const double wide = box_reach(scale * reach, scale * std::max(largest_coordinate(a.mesh->box()),  //
-                                                                largest_coordinate(b.mesh->box())));
   PointFinder finder(scaled_a, scaled_b, scale * reach, rules, memory_->edges, memory_->ways, found);
-  FewClusters few;
-  const bool together = given == Given::all && a.mesh != b.mesh && pairs.size() <= kPairsOfGrid && few.take(pairs);
-  for (; !pairs.empty(); pairs = pairs.subspan(std::min(pairs.size(), kPairsOfGrid))) {
-    const ClusterSearch search(scaled_a, scaled_b, wide, pairs.first(std::min(pairs.size(), kPairsOfGrid)));
-    together ? search.run_together(few, memory_->open, finder) : search.run(memory_->open, finder);
-  }
+  search_all(scaled_a, scaled_b, reach, pairs, given, memory_->open, finder);
   finder.finish();
+}
+
+void ContactPointSearch::run_within_reach(const FeaturedMesh& a, const FeaturedMesh& b, double reach,
+                                          std::span<const ClusterPair> pairs, std::vector<ReachPair>& found,
+                                          Given given) {
+  const double scale = scale_of(a, b);
+  const ScaledMesh scaled_a{*a.mesh, *a.features, scale}, scaled_b{*b.mesh, *b.features, scale};
+  ReachFinder finder(scaled_a, scaled_b, scale * reach, found);
+  search_all(scaled_a, scaled_b, reach, pairs, given, memory_->open, finder);
 }
 
 }  // namespace tact::narrowphase

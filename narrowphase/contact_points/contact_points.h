@@ -1,6 +1,8 @@
 // Contact points: where two surfaces, or two parts of one, are nearest to each other and nearer than a reach. See
-// nearest.h for which points these are.
+// nearest.h for which points these are. Beside them all pairs of features within that reach.
 #pragma once
+
+#include <tact/reach_pair.h>
 
 #include <memory>
 #include <span>
@@ -38,6 +40,12 @@ class ContactPointSearch {
   /// are one reach apart.
   void run(const FeaturedMesh& a, const FeaturedMesh& b, double reach, std::span<const ClusterPair> pairs,
            std::vector<FeaturePoint>& found, const NearRules& rules = {}, Given given = Given::some);
+
+  /// Appends every vertex and facet, and every two edges, that are nearer than `reach`, whatever else is near: of one
+  /// mesh, those without a common vertex, the vertex first and the edge of lesser vertices. All pairs together give
+  /// each once.
+  void run_within_reach(const FeaturedMesh& a, const FeaturedMesh& b, double reach, std::span<const ClusterPair> pairs,
+                        std::vector<ReachPair>& found, Given given = Given::some);
 
  private:
   struct Memory;

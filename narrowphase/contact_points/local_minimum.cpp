@@ -46,12 +46,21 @@ bool is_minimum_of_vertex(const FeaturedMesh& own, int source_vertex, const Feat
 }  // namespace
 
 bool is_local_minimum(const FeaturePoint& point, const FeaturedMesh& a, const FeaturedMesh& b) {
+  const Vec3 n = point.normal;
+  const auto of_vertex = [&](const FeaturedMesh& m, const std::array<int, 3>& vertex, Vec3 towards) {
+    return is_highest(m, m.features->vertex_of_source(vertex[0]), towards, kLevel);
+  };
   switch (point.kind) {
-    case FeaturePair::vertex_facet: return is_minimum_of_vertex(a, point.a[0], b, point.b, point.normal, point.gap);
-    case FeaturePair::facet_vertex: return is_minimum_of_vertex(b, point.b[0], a, point.a, -point.normal, point.gap);
+    case FeaturePair::vertex_facet:
+    case FeaturePair::vertex_edge: return is_minimum_of_vertex(a, point.a[0], b, point.b, n, point.gap);
+    case FeaturePair::facet_vertex:
+    case FeaturePair::edge_vertex: return is_minimum_of_vertex(b, point.b[0], a, point.a, -n, point.gap);
+    case FeaturePair::vertex_vertex: return of_vertex(a, point.a, n) && of_vertex(b, point.b, -n);
+    case FeaturePair::vertex_plane: return of_vertex(a, point.a, n);
+    case FeaturePair::plane_vertex: return of_vertex(b, point.b, -n);
     case FeaturePair::edge_edge: break;
   }
-  return point.gap > 0.0 || (is_ridge(a, point.edge_a, point.normal) && is_ridge(b, point.edge_b, -point.normal));
+  return point.gap > 0.0 || (is_ridge(a, point.edge_a, n) && is_ridge(b, point.edge_b, -n));
 }
 
 }  // namespace tact::narrowphase

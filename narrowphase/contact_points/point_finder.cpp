@@ -8,13 +8,12 @@
 #include "narrowphase/crossing/crossing_points.h"
 #include "narrowphase/distance/edge_edge.h"
 #include "narrowphase/distance/facet_border.h"
+#include "narrowphase/distance/signs.h"
 #include "narrowphase/distance/vertex_facet.h"
 
 namespace tact::narrowphase {
 
 namespace {
-
-Vec3 point_of(const ClusterPoints& points, int i) { return {points.at[0][i], points.at[1][i], points.at[2][i]}; }
 
 // Without those that have a bit in `left_out`, one for each vertex of the mesh.
 std::uint64_t without(std::span<const std::uint64_t> left_out, std::uint64_t some, const FeatureBlock& vertices) {
@@ -26,6 +25,30 @@ std::uint64_t without(std::span<const std::uint64_t> left_out, std::uint64_t som
   return rest;
 }
 
+// Whether a corner of a facet certainly has no point with the facet's other features: it lies on the inner side of the
+// edge between the other two corners, and each of these leads nearer to it.
+bool has_no_point_with_itself(std::size_t k, const Vec3 (&corner)[3]) {
+  const Vec3 v = corner[k], p = corner[(k + 1) % 3], q = corner[(k + 2) % 3], side = q - p, away = v - p;
+  const double length = norm_squared(side), square = norm_squared(away), along = dot(away, side);
+  const auto leads = [](double squared) { return certain_sign(squared, squared * squared) > 0; };
+  return leads(square) && leads(norm_squared(v - q)) &&
+         certain_sign(square * length - along * along, length * length * (square * square)) > 0;
+}
+
+// Those of some facets whose corners have no points with them, of a cluster and itself.
+std::uint64_t settled_facets(const OpenFeatures& open, std::uint64_t some) {
+  std::uint64_t settled = 0;
+  for (; some != 0; some &= some - 1) {
+    const int k = std::countr_zero(some);
+    const auto at = [&](int c) { return point_of(open.points, open.facets.corner[c][k]); };
+    const Vec3 corner[3] = {at(0), at(1), at(2)};
+    if (has_no_point_with_itself(0, corner) && has_no_point_with_itself(1, corner) &&
+        has_no_point_with_itself(2, corner))
+      settled |= some & -some;
+  }
+  return settled;
+}
+
 Vec3 facet_normal(const ScaledMesh& m, int facet) {
   const Vec3 normal = m.normal(facet);
   return normal == Vec3{} ? Vec3{0.0, 0.0, 1.0} : normalized(normal);
@@ -34,55 +57,51 @@ Vec3 facet_normal(const ScaledMesh& m, int facet) {
 }  // namespace
 
 void PointFinder::search(const OpenFeatures& a, const OpenFeatures& b) {
-  if (a.facets.count == 0 || b.facets.count == 0) return;
-  const Near near_a = near_facets(a, b.cells), near_b = near_facets(b, a.cells);
-  if (near_a.facets == 0 || near_b.facets == 0) return;
-  from_vertices(a, b, near_b, FeaturePair::vertex_facet);
-  if (!same_) from_vertices(b, a, near_a, FeaturePair::facet_vertex);
-  if (same_ && a.cluster != b.cluster) from_vertices(b, a, near_a, FeaturePair::vertex_facet);
-  between_edges(a, near_a, b, near_b);
+  const auto from_vertices = [&](const OpenFeatures& one, const OpenFeatures& other, const NearFacets& near,
+                                 FeaturePair kind) { this->from_vertices(one, other, near, kind); };
+  for_near_features(a, b, same_, from_vertices, [&](const EdgeBlocks& edges) {
+    for_edges_between(edges, kernels().near_edges, reach_, [&](int e, int f) { add_edges(e, f); });
+  });
 }
 
 void PointFinder::finish() {
   waiting_.visit_all(a_, b_, reach_, EdgeSide::before, [&](int e, int f) { look_at_edges(e, f); });
 }
 
-PointFinder::Near PointFinder::near_facets(const OpenFeatures& one, const CellBox& other) {
-  Near near;
-  near.facets = kernels().near_facets(one.facets.cells, all_of(one.facets.count), other);
-  if (near.facets != 0) near.cells = kernels().cells_of(one.facets.cells, near.facets);
-  return near;
-}
-
-void PointFinder::from_vertices(const OpenFeatures& one, const OpenFeatures& other, const Near& near,
+void PointFinder::from_vertices(const OpenFeatures& one, const OpenFeatures& other, const NearFacets& near,
                                 FeaturePair kind) {
-  std::uint64_t met[FeatureBlock::kCapacity], inside[FeatureBlock::kCapacity];
   const bool of_a = kind == FeaturePair::vertex_facet;
   std::span<const std::uint64_t> left_out;
   if (rules_.crossing != nullptr) left_out = rules_.crossing->surfaces[of_a ? 0 : 1].without_near_points;
+  const std::uint64_t settled = same_ && one.cluster == other.cluster ? settled_facets(other, near.facets) : 0;
   for (int block = 0; block < one.vertex_blocks; ++block) {
     const FeatureBlock& vertices = one.vertices[block];
     std::uint64_t some = kernels().near_facets(vertices.cells, all_of(vertices.count), near.cells);
     some = without(left_out, some, vertices);
-    std::uint64_t left = kernels().near_vertices({one.points, vertices, some},
-                                                 {other.points, other.facets, near.facets}, reach_, met, inside);
-    for (; left != 0; left &= left - 1) {
-      const int i = std::countr_zero(left);
-      for (std::uint64_t rest = met[i]; rest != 0; rest &= rest - 1) {
-        const int k = std::countr_zero(rest);
-        const auto corner = [&](int c) { return point_of(other.points, other.facets.corner[c][k]); };
-        const VertexAndFacet pair{of_a ? a_ : b_,
-                                  of_a ? b_ : a_,
-                                  kind,
-                                  vertices.feature[i],
-                                  other.facets.feature[k],
-                                  point_of(one.points, vertices.corner[0][i]),
-                                  {corner(0), corner(1), corner(2)}};
-        if ((inside[i] >> k & 1) != 0) look_inside_facet(pair);
-        look_at_border(pair);
-      }
-    }
+    for_near_vertices({one.points, vertices, some}, {other.points, other.facets, near.facets}, settled, reach_,
+                      [&](int i, int k, bool is_inside) {
+                        const auto corner = [&](int c) { return point_of(other.points, other.facets.corner[c][k]); };
+                        const VertexAndFacet pair{of_a ? a_ : b_,
+                                                  of_a ? b_ : a_,
+                                                  kind,
+                                                  vertices.feature[i],
+                                                  other.facets.feature[k],
+                                                  point_of(one.points, vertices.corner[0][i]),
+                                                  {corner(0), corner(1), corner(2)}};
+                        if (same_ && is_settled_corner(pair)) return;
+                        if (is_inside) look_inside_facet(pair);
+                        look_at_border(pair);
+                      });
   }
+}
+
+// Of a mesh with itself: a third of all facets that are near a vertex are its own.
+bool PointFinder::is_settled_corner(const VertexAndFacet& one) const {
+  const Corners& corners = one.surface.features.corners(one.facet);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (corners[k] == one.vertex) return has_no_point_with_itself(k, one.corner);
+  }
+  return false;
 }
 
 void PointFinder::look_inside_facet(const VertexAndFacet& one) {
@@ -96,7 +115,7 @@ void PointFinder::look_inside_facet(const VertexAndFacet& one) {
 void PointFinder::look_at_border(const VertexAndFacet& one) {
   const int facet = one.facet;
   const Features& features = one.surface.features;
-  unsigned first = features.firsts_of_facet(facet) & ~Features::kRepeatsFacet;
+  unsigned first = features.firsts_of_facet(facet) & 63u;
   if (first != 0) first &= border_of(one.v, one.corner, reach_);
   if (first == 0) return;
   const Corners& corners = features.corners(facet);
@@ -136,33 +155,8 @@ void PointFinder::add_vertex_point(const VertexAndFacet& pair, std::span<const i
   add(point_of_vertex(kind, m.mesh, vertex, surface.mesh, place, way, nearest.distance / m.scale));
 }
 
-void PointFinder::between_edges(const OpenFeatures& a, const Near& near_a, const OpenFeatures& b, const Near& near_b) {
-  std::uint64_t some_b[OpenFeatures::kMostBlocks];
-  for (int k = 0; k < b.edge_blocks; ++k)
-    some_b[k] = kernels().near_facets(b.edges[k].cells, all_of(b.edges[k].count), near_a.cells);
-  for (int i = 0; i < a.edge_blocks; ++i) {
-    const std::uint64_t some_a = kernels().near_facets(a.edges[i].cells, all_of(a.edges[i].count), near_b.cells);
-    for (int k = 0; some_a != 0 && k < b.edge_blocks; ++k) between_blocks(a, i, some_a, b, k, some_b[k]);
-  }
-}
-
-void PointFinder::between_blocks(const OpenFeatures& a, int block_a, std::uint64_t some_a, const OpenFeatures& b,
-                                 int block_b, std::uint64_t some_b) {
-  const PlacedFeatures of_a{a.points, a.edges[block_a], some_a}, of_b{b.points, b.edges[block_b], some_b};
-  const bool few_are_a = std::popcount(some_a) <= std::popcount(some_b);
-  std::uint64_t met[FeatureBlock::kCapacity];
-  std::uint64_t left = kernels().near_edges(few_are_a ? of_a : of_b, few_are_a ? of_b : of_a, reach_, met);
-  for (; left != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    for (std::uint64_t rest = met[i]; rest != 0; rest &= rest - 1) {
-      const int k = std::countr_zero(rest), e = few_are_a ? i : k, f = few_are_a ? k : i;
-      add_edges(a.edges[block_a].feature[e], b.edges[block_b].feature[f], a.cluster == b.cluster);
-    }
-  }
-}
-
-void PointFinder::add_edges(int e, int f, bool in_one_cluster) {
-  if (same_ && (share_a_vertex(a_.features.edge(e), b_.features.edge(f)) || (in_one_cluster && e > f))) return;
+void PointFinder::add_edges(int e, int f) {
+  if (same_ && share_a_vertex(a_.features.edge(e), b_.features.edge(f))) return;
   waiting_.add(a_, e, b_, f, reach_, EdgeSide::before, [&](int edge, int other) { look_at_edges(edge, other); });
 }
 

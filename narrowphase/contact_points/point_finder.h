@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "narrowphase/contact_points/contact_points.h"
-#include "narrowphase/contact_points/open_features.h"
+#include "narrowphase/contact_points/near_features.h"
 #include "narrowphase/contact_points/waiting_edges.h"
 #include "narrowphase/distance/surface_distance.h"
 
@@ -31,11 +31,6 @@ class PointFinder {
   void finish();
 
  private:
-  // The facets of a cluster that are near another one, and the cells that they reach.
-  struct Near {
-    std::uint64_t facets = 0;
-    CellBox cells;
-  };
   // A vertex and a facet, the meshes that they are of, and where they are.
   struct VertexAndFacet {
     const ScaledMesh &m, &surface;
@@ -45,15 +40,12 @@ class PointFinder {
     Vec3 corner[3];
   };
 
-  static Near near_facets(const OpenFeatures& one, const CellBox& other);
-  void from_vertices(const OpenFeatures& one, const OpenFeatures& other, const Near& near, FeaturePair kind);
+  void from_vertices(const OpenFeatures& one, const OpenFeatures& other, const NearFacets& near, FeaturePair kind);
+  bool is_settled_corner(const VertexAndFacet& one) const;
   void look_inside_facet(const VertexAndFacet& one);
   void look_at_border(const VertexAndFacet& one);
   void add_vertex_point(const VertexAndFacet& pair, std::span<const int> feature, const Nearest& nearest);
-  void between_edges(const OpenFeatures& a, const Near& near_a, const OpenFeatures& b, const Near& near_b);
-  void between_blocks(const OpenFeatures& a, int block_a, std::uint64_t some_a, const OpenFeatures& b, int block_b,
-                      std::uint64_t some_b);
-  void add_edges(int e, int f, bool in_one_cluster);
+  void add_edges(int e, int f);
   void look_at_edges(int e, int f);
   void add_edge_point(int edge_e, const EdgeEnds& at_e, int edge_f, const Nearest& nearest);
   bool runs_inside(std::span<const int> of_a, std::span<const int> of_b, Vec3 normal) const;

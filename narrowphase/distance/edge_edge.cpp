@@ -66,23 +66,23 @@ struct Sides {
   const EdgeEnds &e, &f;
   const ScaledVertices &third_e, &third_f;
   EdgeSide side;
-};
 
-// The point with the side that the facets leave to it. Before: with `across` as its normal.
-template <class Number>
-std::optional<Nearest> on_side(const LinePair<Number>& lines, const Sides& at, const Nearest& nearest) {
-  const bool turned = (head_of(dot(lines.across, lines.r)) < 0.0) == (at.side == EdgeSide::before);
-  const double first = turned ? -1.0 : 1.0;
-  for (const double way : {first, -first}) {
-    if (!lines.leads(way, at.e.p, at.third_e) && !lines.leads(-way, at.f.p, at.third_f)) {
-      Nearest found = nearest;
-      found.normal = way * nearest.normal;
-      return found;
+  // The point with the side that the facets leave to it. Before: with `across` as its normal.
+  template <class Number>
+  std::optional<Nearest> operator()(const LinePair<Number>& lines, const Nearest& nearest) const {
+    const bool turned = (head_of(dot(lines.across, lines.r)) < 0.0) == (side == EdgeSide::before);
+    const double first = turned ? -1.0 : 1.0;
+    for (const double way : {first, -first}) {
+      if (!lines.leads(way, e.p, third_e) && !lines.leads(-way, f.p, third_f)) {
+        Nearest found = nearest;
+        found.normal = way * nearest.normal;
+        return found;
+      }
+      if (nearest.distance > 0.0) break;  // edges that touch have no side yet
     }
-    if (nearest.distance > 0.0) break;  // edges that touch have no side yet
+    return {};
   }
-  return {};
-}
+};
 
 // Whether nearly parallel lines are certainly not nearest inside both edges, or not nearer than `limit`. There the way
 // from one to the other is across both, so that, seen along e, the edges overlap; and f is at least as far from the
@@ -105,26 +105,27 @@ bool certainly_none(const LinePair<double>& lines, double limit) {
   return is_beside(lines.on_e(), width) || is_beside(dot(aside, lines.across), length);
 }
 
-// Edges clearly not parallel.
-std::optional<Nearest> between(const LinePair<double>& lines, const Sides& at, double limit) {
+// Edges clearly not parallel. What is found goes through finish(lines, nearest).
+template <class Finish>
+std::optional<Nearest> between(const LinePair<double>& lines, double limit, const Finish& finish) {
   const double s = lines.on_e(), t = lines.on_f();
   if (!(s > 0.0 && s < lines.square && t > 0.0 && t < lines.square)) return {};
   const double length = std::sqrt(lines.square), distance = std::abs(dot(lines.across, lines.r) / length);
   if (!(distance < limit)) return {};
   const double of_e = s / lines.square, of_f = t / lines.square;
-  return on_side(lines, at,
-                 {.normal = {lines.across.x / length, lines.across.y / length, lines.across.z / length},
-                  .distance = distance,
-                  .weight = {1.0 - of_f, of_f},
-                  .first = {1.0 - of_e, of_e}});
+  return finish(lines, Nearest{.normal = {lines.across.x / length, lines.across.y / length, lines.across.z / length},
+                               .distance = distance,
+                               .weight = {1.0 - of_f, of_f},
+                               .first = {1.0 - of_e, of_e}});
 }
 
 // Nearly parallel edges, or such short ones that products vanish, whose lengths are scaled to near 1 by two powers of
 // two. Their distance hardly changes along them, so it is measured from the place on e to its foot on f. Where
 // double-doubles do not tell that the place is inside both, at an end or between lines turned by less than some 2^-45,
 // there is none: points of the ends are near.
-std::optional<Nearest> fine_between(const LinePair<DoubleDouble>& lines, double scale_e, double scale_f,
-                                    const Sides& at, double limit) {
+template <class Finish>
+std::optional<Nearest> fine_between(const LinePair<DoubleDouble>& lines, double scale_e, double scale_f, double limit,
+                                    const Finish& finish) {
   const double rounding = lines.rounding();
   const auto is_inside = [&](DoubleDouble place, double scale, double on_other) {
     const double lost = rounding * std::sqrt(size_squared(lines.r) * on_other);
@@ -145,27 +146,23 @@ std::optional<Nearest> fine_between(const LinePair<DoubleDouble>& lines, double 
   if (dot(way, lines.across).head < 0.0) way = -way;
   const DoubleDouble length = square_root(dot(way, way)), one{1.0}, of_e = scaled(s, scale_e),
                      of_f = scaled(t, scale_f);
-  return on_side(lines, at,
-                 {.normal = heads({way.x / length, way.y / length, way.z / length}),
-                  .distance = distance,
-                  .weight = {(one - of_f).head, of_f.head},
-                  .first = {(one - of_e).head, of_e.head}});
+  return finish(lines, Nearest{.normal = heads({way.x / length, way.y / length, way.z / length}),
+                               .distance = distance,
+                               .weight = {(one - of_f).head, of_f.head},
+                               .first = {(one - of_e).head, of_e.head}});
 }
 
 double scale_of(const NumberVector<double>& v) {
   return unit_scale(std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}));
 }
 
-}  // namespace
-
-// The kernels near_edges() and edges_beyond() tell nearly parallel edges by the same operations.
-std::optional<Nearest> nearest_between_edges(const EdgeEnds& e, const ScaledVertices& third_e, const EdgeEnds& f,
-                                             const ScaledVertices& third_f, double limit, EdgeSide side) {
-  const Sides at{e, f, third_e, third_f, side};
+// The kernels near_edges(), close_edges() and edges_beyond() tell nearly parallel edges by the same operations.
+template <class Finish>
+std::optional<Nearest> between_edges(const EdgeEnds& e, const EdgeEnds& f, double limit, const Finish& finish) {
   const NumberVector<double> along_e = difference<double>(e.q, e.p), along_f = difference<double>(f.q, f.p);
   const LinePair<double> rough(along_e, along_f, difference<double>(f.p, e.p), cross(along_e, along_f));
   if (rough.size_squared > kVanishing) {
-    if (rough.square > kNearlyParallel * rough.size_squared) return between(rough, at, limit);
+    if (rough.square > kNearlyParallel * rough.size_squared) return between(rough, limit, finish);
     if (certainly_none(rough, limit)) return {};
   }
   const double scale_e = scale_of(rough.u), scale_f = scale_of(rough.w);
@@ -174,7 +171,18 @@ std::optional<Nearest> nearest_between_edges(const EdgeEnds& e, const ScaledVert
   const bool parallel = size_squared(across) <= kFineRounding * kFineRounding * (size_squared(u) * size_squared(w));
   if (parallel) return {};
   const LinePair<DoubleDouble> fine(u, w, double_double_difference(f.p, e.p), across);
-  return fine_between(fine, scale_e, scale_f, at, limit);
+  return fine_between(fine, scale_e, scale_f, limit, finish);
+}
+
+}  // namespace
+
+std::optional<Nearest> nearest_between_edges(const EdgeEnds& e, const ScaledVertices& third_e, const EdgeEnds& f,
+                                             const ScaledVertices& third_f, double limit, EdgeSide side) {
+  return between_edges(e, f, limit, Sides{e, f, third_e, third_f, side});
+}
+
+std::optional<Nearest> nearest_inside_edges(const EdgeEnds& e, const EdgeEnds& f, double limit) {
+  return between_edges(e, f, limit, [](const auto&, const Nearest& nearest) { return std::optional(nearest); });
 }
 
 }  // namespace tact::narrowphase

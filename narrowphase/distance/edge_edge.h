@@ -15,4 +15,7 @@ std::optional<Nearest> nearest_between_edges(const EdgeEnds& e, const ScaledVert
                                              const ScaledVertices& third_f, double limit,
                                              EdgeSide side = EdgeSide::before);
 
+/// The same whatever facets are at the edges. `normal` is perpendicular to both, either way.
+std::optional<Nearest> nearest_inside_edges(const EdgeEnds& e, const EdgeEnds& f, double limit);
+
 }  // namespace tact::narrowphase

@@ -56,10 +56,10 @@ inline Mask beyond_facet(const QuadLanes& q, const VectorPack& normal, const Vec
 }
 
 std::uint64_t near_vertices(const PlacedFeatures& vertices, const PlacedFeatures& facets, double reach,
-                            std::uint64_t* near, std::uint64_t* inside) {
+                            const std::uint64_t* left_out, std::uint64_t* near, std::uint64_t* inside) {
   const double most = reach * (1.0 + 0x1p-40) + 0x1p-46;
   const Pack reach_squared = spread(most * most * (1.0 + 0x1p-40));
-  const std::uint64_t shared = for_listed_pairs<1, 3>(vertices, facets, near, [&](const auto& pairs, int i) {
+  const std::uint64_t shared = for_listed_pairs<1, 3>(vertices, facets, left_out, near, [&](const auto& pairs, int i) {
     const QuadLanes q = pairs.lanes(vertices.points, facets.points, i);
     const VectorPack side[3] = {sub(q.point[2], q.point[1]), sub(q.point[3], q.point[1]), sub(q.point[3], q.point[2])};
     const VectorPack normal = cross(side[0], side[1]);

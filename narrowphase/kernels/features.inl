@@ -121,10 +121,10 @@ struct ListedPairs {
 };
 
 // Calls decide(pairs, i), which takes the pairs from the i-th on, as many as there are lanes and pairs, for all that
-// share cells. Returns a bit for each of the first ones that has such a pair.
+// share cells and have no bit in `left_out`. Returns a bit for each of the first ones that shares cells.
 template <int kFew, int kMany, class Decide>
-inline std::uint64_t for_listed_pairs(const PlacedFeatures& few, const PlacedFeatures& many, std::uint64_t* near,
-                                      const Decide& decide) {
+inline std::uint64_t for_listed_pairs(const PlacedFeatures& few, const PlacedFeatures& many,
+                                      const std::uint64_t* left_out, std::uint64_t* near, const Decide& decide) {
   std::uint64_t met[FeatureBlock::kCapacity];
   ListedPairs<kFew, kMany> pairs;
   const auto decide_all = [&] {
@@ -136,7 +136,9 @@ inline std::uint64_t for_listed_pairs(const PlacedFeatures& few, const PlacedFea
   for (std::uint64_t left = shared; left != 0; left &= left - 1) {
     const int i = __builtin_ctzll(left);
     near[i] = 0;
-    pairs.append(few.block, i, many.block, met[i]);
+    const std::uint64_t rest = left_out == nullptr ? met[i] : met[i] & ~left_out[i];
+    if (rest == 0) continue;
+    pairs.append(few.block, i, many.block, rest);
     if (pairs.count >= pairs.kEnough) decide_all();
   }
   decide_all();

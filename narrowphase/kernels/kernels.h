@@ -143,11 +143,13 @@ struct Kernels {
                          std::uint64_t some, const Grid& grid, double widen, FeatureBlock* block);
   // For each of some vertices a bit for each of some facets that shares cells with it and may have a point nearer than
   // `reach`: anywhere, and inside. They are written for the vertices that the result has a bit for: they have one.
+  // Unless `left_out` is null, it has a bit for each facet that a vertex is not held against.
   std::uint64_t (*near_vertices)(const PlacedFeatures& vertices, const PlacedFeatures& facets, double reach,
-                                 std::uint64_t* near, std::uint64_t* inside);
+                                 const std::uint64_t* left_out, std::uint64_t* near, std::uint64_t* inside);
   // The same of edges and edges, without those that certainly are not nearer than `reach` where their lines are
   // nearest, or not inside both.
-  std::uint64_t (*near_edges)(const PlacedFeatures& few, const PlacedFeatures& many, double reach, std::uint64_t* near);
+  std::uint64_t (*near_edges)(const PlacedFeatures& few, const PlacedFeatures& many, double reach,
+                              const std::uint64_t* left_out, std::uint64_t* near);
   // A bit for each pair that certainly has no point nearer than `reach`: for the same reasons, or as a facet leads
   // nearer there. Vertices are at `a` and `b`, times `scale`.
   std::uint64_t (*edges_beyond)(const EdgePairs& pairs, const PointArrays& a, const PointArrays& b, double scale,
@@ -203,6 +205,10 @@ struct Kernels {
                            int first, FeatureWays* near);
   // A bit for each polygon that certainly stays farther than `reach` from the origin, all the time.
   std::uint64_t (*apart_throughout)(const MovingPolygons& polygons, double reach);
+
+  // As near_edges(), without those that certainly are not nearer than `reach` anywhere.
+  std::uint64_t (*close_edges)(const PlacedFeatures& few, const PlacedFeatures& many, double reach,
+                               const std::uint64_t* left_out, std::uint64_t* near);
 };
 
 // The best for this machine, or the one that the environment variable TACT_INSTRUCTION_SET names: scalar, avx2, avx512.

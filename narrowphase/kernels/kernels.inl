@@ -85,7 +85,8 @@ constexpr Kernels all_kernels(const char* name) {
           .comes_nowhere_twice = comes_nowhere_twice,
           .flag_ways = flag_ways,
           .append_near_ways = append_near_ways,
-          .apart_throughout = apart_throughout};
+          .apart_throughout = apart_throughout,
+          .close_edges = close_edges};
 }
 
 }  // namespace

@@ -166,16 +166,25 @@ void Features::find_repeated(const ClusteredMesh& mesh) {
     const std::span<const int> third = opposite(edge);
     may_repeat = third.size() > 2 || (third.size() == 2 && third[0] == third[1]);
   }
-  if (!may_repeat) return;
+  const auto is_one_vertex = [](const Corners& c) { return c[0] == c[1] && c[0] == c[2]; };  // which has no edge
+  if (!may_repeat && std::ranges::none_of(corners_, is_one_vertex)) return;
   std::vector<std::pair<Corners, int>> sorted;  // vertices, ascending, and the caller's number
   for (int f = 0; f < mesh.facet_count(); ++f) {
     sorted.emplace_back(corners_[f], mesh.source_facet(f));
     std::ranges::sort(sorted.back().first);
   }
+  mark_repeated(mesh, sorted, kRepeatsFacet);
+  for (auto& [c, source] : sorted) {
+    if (c[0] == c[1]) c[1] = c[2];  // whichever vertex is named twice
+  }
+  mark_repeated(mesh, sorted, kRepeatsVertices);
+}
+
+void Features::mark_repeated(const ClusteredMesh& mesh, std::vector<std::pair<Corners, int>>& sorted, unsigned mark) {
   std::ranges::sort(sorted);
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     if (sorted[i].first == sorted[i - 1].first)
-      firsts_of_facet_[mesh.facet_of_source(sorted[i].second)] |= static_cast<std::uint8_t>(kRepeatsFacet);
+      firsts_of_facet_[mesh.facet_of_source(sorted[i].second)] |= static_cast<std::uint8_t>(mark);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "narrowphase/mesh/clustered_mesh.h"
@@ -55,6 +56,8 @@ class Features {
   /// same vertices.
   unsigned firsts_of_facet(int facet) const { return firsts_of_facet_[facet]; }
   static constexpr unsigned kRepeatsFacet = 1u << 6;
+  /// Likewise, but for how often each vertex is named: of segments, which name one twice, and points.
+  static constexpr unsigned kRepeatsVertices = 1u << 7;
   /// The vertices that share an edge with a vertex, each once.
   std::span<const int> neighbors(int vertex) const { return part(neighbors_, neighbors_begin_, vertex); }
   /// The vertex that has a number of the caller's; -1 if no facet uses it.
@@ -75,6 +78,7 @@ class Features {
   }
   void find_edges(const ClusteredMesh& mesh);
   void find_repeated(const ClusteredMesh& mesh);
+  void mark_repeated(const ClusteredMesh& mesh, std::vector<std::pair<Corners, int>>& sorted, unsigned mark);
   void find_neighbors(const ClusteredMesh& mesh);
   void find_firsts(const ClusteredMesh& mesh);
   void find_facets_at(const ClusteredMesh& mesh);

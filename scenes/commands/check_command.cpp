@@ -321,6 +321,8 @@ void add_check_command(CLI::App& program) {
                     "Find the contact points: where surfaces are nearest within their margins (in --json)");
   command->add_flag("--curves", options->outputs.curves,
                     "Find the curves in which surfaces cross, as lines of points in order (in --json)");
+  command->add_flag("--within-reach", options->outputs.within_reach,
+                    "Count the pairs of features that are nearer than their margins, for barriers (in --json)");
   command->add_flag("--impacts", options->impacts,
                     "Find what meets between a frame and the next, every vertex moving straight (all in --json)");
   command->add_flag("--surfaces", options->surfaces,

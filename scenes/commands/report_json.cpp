@@ -144,6 +144,7 @@ struct PairParts {
   bool facets = false;
   bool points = false;
   bool curves = false;
+  bool within_reach = false;
   FacetOutcomeFinder* finder = nullptr;  // null: no outcomes
 };
 
@@ -157,6 +158,7 @@ Json self_json(const Contact& contact, const PairParts& parts) {
     json["patches"] = patches_json(&contact);
   }
   if (parts.curves) json["curves"] = curves_json(&contact);
+  if (parts.within_reach) json["within_reach"] = contact.within_reach().size();
   return json;
 }
 
@@ -185,6 +187,7 @@ Json pair_json(const CandidatePair& pair, const Contact* contact, const PairPart
     json["patches"] = patches_json(contact);
   }
   if (parts.curves) json["curves"] = curves_json(contact);
+  if (parts.within_reach) json["within_reach"] = contact != nullptr ? contact->within_reach().size() : 0;
   return json;
 }
 
@@ -264,6 +267,7 @@ JsonReport::JsonReport(std::ostream& out, const World& world, Outcomes outcomes,
       has_facets_(world.settings().accuracy != Accuracy::hulls),
       has_points_(world.settings().outputs.points),
       has_curves_(world.settings().outputs.curves),
+      has_within_reach_(world.settings().outputs.within_reach),
       outcomes_(outcomes) {
   out_ << "{\"tact\":" << json_text(TACT_VERSION)
        << ",\"accuracy\":" << json_text(accuracy_name(world.settings().accuracy))
@@ -275,9 +279,14 @@ void JsonReport::add_frame(int frame, const Report& report, const MotionReport* 
                            const std::vector<std::string>& files) {
   std::optional<FacetOutcomeFinder> finder;
   if (outcomes_ == Outcomes::counts) finder.emplace(report);
+  const PairParts parts{.facets = has_facets_,
+                        .points = has_points_,
+                        .curves = has_curves_,
+                        .within_reach = has_within_reach_,
+                        .finder = finder ? &*finder : nullptr};
   Json json = {{"frame", frame},
                {"hash", hash_text(report)},
-               {"pairs", pairs_json(report, {has_facets_, has_points_, has_curves_, finder ? &*finder : nullptr})},
+               {"pairs", pairs_json(report, parts)},
                {"stats", stats_json(report.stats())},
                {"times_ms", times_json(report.stats())}};
   if (motion != nullptr) {

@@ -72,6 +72,7 @@ class JsonReport {
   bool has_facets_;
   bool has_points_;
   bool has_curves_;
+  bool has_within_reach_;
   Outcomes outcomes_;
   bool first_ = true;
 };

@@ -93,6 +93,7 @@ void RunTotals::print_times(std::ostream& out) const {
                                                    {"  points", stats_.points_ms},
                                                    {"  self: facet pairs", stats_.self_facets_ms},
                                                    {"  self: points", stats_.self_points_ms},
+                                                   {"  within reach", stats_.within_reach_ms},
                                                    {"  patches", stats_.patches_ms},
                                                    {"  7 report", stats_.report_ms}};
   for (const auto& [name, ms] : stages) {

@@ -34,6 +34,7 @@ const char* kind_name(Kind kind) {
     case Kind::self_points: return "points of bodies with themselves";
     case Kind::patches: return "patches";
     case Kind::report: return "7 report";
+    case Kind::within_reach: return "pairs within reach";
   }
   return "unknown";
 }

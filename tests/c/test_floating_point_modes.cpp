@@ -25,6 +25,7 @@ class EveryCallOfC {
   EveryCallOfC(const FloatingPointSettings& mode, int threads) : mode_(mode) {
     settings_.threads = threads;
     settings_.zones = settings_.patches = settings_.points = settings_.curves = settings_.trace = true;
+    settings_.within_reach = true;
     for (double& x : rotation_) x = 0.0;
     rotation_[1] = rotation_[5] = rotation_[6] = 1.0;
   }
@@ -118,6 +119,9 @@ class EveryCallOfC {
     size_t count = 0;
     call([&] { return tact_contact_points(world_, i, &points, &count); });
     for (size_t k = 0; k < count; ++k) tell(points[k].normal);
+    const tact_reach_pair* pairs = nullptr;
+    call([&] { return tact_contact_within_reach(world_, i, &pairs, &count); });
+    for (size_t k = 0; k < count; ++k) tell(pairs[k].normal);
     for (size_t k = 0; k < contact.patch_count; ++k) {
       tact_patch patch = TACT_PATCH_INIT;
       call([&] { return tact_contact_patch(world_, i, k, &patch); });
@@ -292,6 +296,13 @@ class EveryCallOfC {
     size_t points = 0, pairs = 0, count = 0, vertices = 0;
     call([&] { return tact_report_point_count(world_, &points); });
     call([&] { return tact_report_facet_pair_count(world_, &pairs); });
+    size_t near = 0;
+    call([&] { return tact_report_reach_pair_count(world_, &near); });
+    std::vector<double> distances(near);
+    tact_reach_pair_arrays of_near = TACT_REACH_PAIR_ARRAYS_INIT;
+    of_near.distances = distances.data();
+    call([&] { return tact_report_copy_reach_pairs(world_, &of_near, near); });
+    tell(distances);
     std::vector<double> gaps(points);
     std::vector<int> facets(2 * pairs);
     tact_point_arrays of_points = TACT_POINT_ARRAYS_INIT;

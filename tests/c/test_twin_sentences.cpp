@@ -97,7 +97,7 @@ Sentences sentences_of_cpp() {
        {"body", "contact_point", "contact_sums", "debug_draw", "intersection_curve", "message", "motion", "queries",
         "recording", "report", "report_arrays", "settings", "solver/stencil", "surface_check", "weld", "world"})
     all.merge(sentences_in(text_of("engine/include/tact/" + std::string(header) + ".h"), "/// ", "///< "));
-  for (const char* header : {"error", "facet_pair", "feature_pair"})
+  for (const char* header : {"error", "facet_pair", "feature_pair", "reach_pair"})
     all.merge(sentences_in(text_of("engine/base/include/tact/" + std::string(header) + ".h"), "/// ", "///< "));
   return all;
 }
@@ -174,6 +174,8 @@ constexpr Twin kTwins[] = {
     {"ContactSum", "tact_contact_sum", ""},
     {"PointArrays", "tact_point_arrays", ""},
     {"FacetPairArrays", "tact_facet_pair_arrays", ""},
+    {"ReachPair", "tact_reach_pair", ""},
+    {"ReachPairArrays", "tact_reach_pair_arrays", ""},
     {"ImpactArrays", "tact_impact_arrays", ""},
     {"StencilKind", "tact_stencil_kind", "TACT_STENCIL_"},
     {"Stencil", "tact_stencil", ""},
@@ -298,7 +300,8 @@ TEST(TwinSentences, OfPython) {
   // A row an answer, under the plural of the name that one answer has.
   const std::map<std::string, std::string> rows{{"ContactPoints", "ContactPoint"}, {"RayHits", "RayHit"},
                                                 {"ClosestPoints", "ClosestPoint"}, {"Stencils", "Stencil"},
-                                                {"ContactSums", "ContactSum"},     {"MotionReport", "Impact"}};
+                                                {"ContactSums", "ContactSum"},     {"MotionReport", "Impact"},
+                                                {"ReachPairs", "ReachPair"}};
   // What has another meaning in Python, which has arrays where C++ has structs.
   const std::set<std::string> others{"RayHits",
                                      "RayHits::bodies",
@@ -308,6 +311,7 @@ TEST(TwinSentences, OfPython) {
                                      "MotionReport::bodies",
                                      "MotionReport::kinds",
                                      "ContactPoints::kinds",
+                                     "ReachPairs::kinds",
                                      "Stencils::kinds",
                                      "ContactSums::kinds",
                                      "ContactSums::vertices"};

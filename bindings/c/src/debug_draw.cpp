@@ -35,14 +35,14 @@ void for_each_option(ForC& c, Options& o, const Pass& pass) {
   pass(c.surfaces, o.surfaces), pass(c.boxes, o.boxes), pass(c.candidate_pairs, o.candidate_pairs);
   pass(c.directions, o.directions), pass(c.planes, o.planes), pass(c.zones, o.zones);
   pass(c.kept_facets, o.kept_facets), pass(c.facet_pairs, o.facet_pairs), pass(c.patches, o.patches),
-      pass(c.points, o.points), pass(c.curves, o.curves), pass(c.names, o.names);
+      pass(c.points, o.points), pass(c.within_reach, o.within_reach), pass(c.curves, o.curves), pass(c.names, o.names);
 }
 template <class ForC, class Options, class Pass>
 void for_each_color(ForC& c, Options& o, const Pass& pass) {
   pass(c.surface, o.surface), pass(c.box, o.box), pass(c.moved_box, o.moved_box), pass(c.candidate, o.candidate);
   pass(c.direction, o.direction), pass(c.plane, o.plane), pass(c.zone, o.zone);
   pass(c.kept, o.kept), pass(c.meeting, o.meeting), pass(c.patch, o.patch), pass(c.point, o.point),
-      pass(c.curve, o.curve), pass(c.word, o.word);
+      pass(c.reach, o.reach), pass(c.curve, o.curve), pass(c.word, o.word);
 }
 
 tact_debug_draw_options defaults() {

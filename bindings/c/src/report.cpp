@@ -31,6 +31,12 @@ static_assert(std::is_standard_layout_v<CurvePoint> && sizeof(tact_curve_point) 
               offsetof(tact_curve_point, facet_pair) == offsetof(CurvePoint, facet_pair) &&
               offsetof(tact_curve_point, edge_of_b) == offsetof(CurvePoint, edge_of_b));
 
+static_assert(std::is_standard_layout_v<ReachPair> && sizeof(tact_reach_pair) == sizeof(ReachPair) &&
+              offsetof(tact_reach_pair, b_vertices) == offsetof(ReachPair, b_vertices) &&
+              offsetof(tact_reach_pair, b_weights) == offsetof(ReachPair, b_weights) &&
+              offsetof(tact_reach_pair, normal) == offsetof(ReachPair, normal) &&
+              offsetof(tact_reach_pair, distance) == offsetof(ReachPair, distance));
+
 void put(const Eigen::Vector3d& from, double* to) { std::copy_n(from.data(), 3, to); }
 
 tact_zone_disk disk_of(const ZoneDisk& disk) {
@@ -138,6 +144,11 @@ tact_error tact_contact_hash(tact_world world, size_t index, uint64_t* hash) {
 
 tact_error tact_contact_points(tact_world world, size_t index, const tact_contact_point** points, size_t* count) {
   return with_report(world, [&](const Report& report) { show(at(report.contacts(), index).points(), points, count); });
+}
+
+tact_error tact_contact_within_reach(tact_world world, size_t index, const tact_reach_pair** pairs, size_t* count) {
+  return with_report(world,
+                     [&](const Report& report) { show(at(report.contacts(), index).within_reach(), pairs, count); });
 }
 
 tact_error tact_report_candidate_pairs(tact_world world, const tact_candidate_pair** pairs, size_t* count) {

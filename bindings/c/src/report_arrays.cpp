@@ -30,6 +30,13 @@ tact_error tact_report_point_count(tact_world world, size_t* count) {
   });
 }
 
+tact_error tact_report_reach_pair_count(tact_world world, size_t* count) {
+  return with_report(world, [&](const tact::Report& report) {
+    check_not_null(count);
+    *count = reach_pair_count(report);
+  });
+}
+
 tact_error tact_report_facet_pair_count(tact_world world, size_t* count) {
   return with_report(world, [&](const tact::Report& report) {
     check_not_null(count);
@@ -54,6 +61,23 @@ tact_error tact_report_copy_points(tact_world world, const tact_point_arrays* ar
                          .ids = array_of(to.ids, rows, 1),
                          .patch_ids = array_of(to.patch_ids, rows, 1),
                          .minima = array_of(to.minima, rows, 1)});
+  });
+}
+
+tact_error tact_report_copy_reach_pairs(tact_world world, const tact_reach_pair_arrays* arrays, size_t rows) {
+  return with_report(world, [&](const tact::Report& report) {
+    check_not_null(arrays);
+    check_rows(rows, reach_pair_count(report));
+    const tact_reach_pair_arrays to = read_struct(*arrays, tact_reach_pair_arrays TACT_REACH_PAIR_ARRAYS_INIT);
+    copy_reach_pairs(report, {.bodies = array_of(to.bodies, rows, 2),
+                              .contacts = array_of(to.contacts, rows, 1),
+                              .kinds = array_of(to.kinds, rows, 1),
+                              .a_vertices = array_of(to.a_vertices, rows, 3),
+                              .b_vertices = array_of(to.b_vertices, rows, 3),
+                              .a_weights = array_of(to.a_weights, rows, 3),
+                              .b_weights = array_of(to.b_weights, rows, 3),
+                              .normals = array_of(to.normals, rows, 3),
+                              .distances = array_of(to.distances, rows, 1)});
   });
 }
 

@@ -47,7 +47,12 @@ Settings settings_of(const tact_settings& given) {
           .direction = static_cast<DirectionPolicy>(s.direction),
           .gjk_tolerance = s.gjk_tolerance,
           .iteration_limit = s.iteration_limit,
-          .outputs = {.zones = s.zones, .patches = s.patches, .points = s.points, .curves = s.curves, .trace = s.trace},
+          .outputs = {.zones = s.zones,
+                      .patches = s.patches,
+                      .points = s.points,
+                      .curves = s.curves,
+                      .trace = s.trace,
+                      .within_reach = s.within_reach},
           .executor = s.executor.run != nullptr ? std::make_shared<CExecutor>(s.executor) : nullptr,
           .on_message = messages_of(s)};
 }
@@ -64,6 +69,7 @@ tact_settings settings_for_c(const Settings& s) {
   result.trace = s.outputs.trace;
   result.points = s.outputs.points;
   result.curves = s.outputs.curves;
+  result.within_reach = s.outputs.within_reach;
   if (s.executor != nullptr) result.executor = static_cast<const CExecutor&>(*s.executor).given();
   if (const CMessages* const messages = s.on_message.target<CMessages>()) {
     result.on_message = messages->function;

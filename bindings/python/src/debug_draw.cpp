@@ -62,6 +62,7 @@ void define_options(py::module_& module) {
       .def_readwrite("patches", &Options::patches)
       .def_readwrite("points", &Options::points)
       .def_readwrite("curves", &Options::curves)
+      .def_readwrite("within_reach", &Options::within_reach)
       .def_readwrite("names", &Options::names)
       .def_readwrite("surface", &Options::surface)
       .def_readwrite("box", &Options::box)
@@ -75,6 +76,7 @@ void define_options(py::module_& module) {
       .def_readwrite("patch", &Options::patch)
       .def_readwrite("point", &Options::point)
       .def_readwrite("curve", &Options::curve)
+      .def_readwrite("reach", &Options::reach)
       .def_readwrite("word", &Options::word);
 }
 

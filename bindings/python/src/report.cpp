@@ -208,6 +208,41 @@ void define_curves(py::module_& module) {
       .def("__len__", [](const CurveArrays& curve) { return curve.fractions.size(); });
 }
 
+// Pairs within reach as arrays, a row a pair. They are copies.
+struct ReachPairs {
+  py::array_t<std::uint8_t> kinds;
+  py::array_t<int> a_vertices, b_vertices;
+  py::array_t<double> a_weights, b_weights, normals, distances;
+};
+
+ReachPairs reach_pairs(std::span<const ReachPair> pairs) {
+  return {column_of<std::uint8_t>(pairs, [](const ReachPair& pair) { return pair.kind; }),
+          rows_of_three<int>(pairs, &ReachPair::a_vertices),
+          rows_of_three<int>(pairs, &ReachPair::b_vertices),
+          rows_of_three<double>(pairs, &ReachPair::a_weights),
+          rows_of_three<double>(pairs, &ReachPair::b_weights),
+          rows_of_three<double>(pairs, &ReachPair::normal),
+          column_of<double>(pairs, [](const ReachPair& pair) { return pair.distance; })};
+}
+
+void define_reach_pairs(py::module_& module) {
+  py::class_<ReachPairs>(
+      module, "ReachPairs",
+      "A vertex and a facet, or two edges, that are nearer to each other than the sum of the margins. A row a pair.")
+      .def_readonly("kinds", &ReachPairs::kinds, "(N,) uint8: values of FeaturePair")
+      .def_readonly("a_vertices", &ReachPairs::a_vertices,
+                    "(N, 3): vertices of the feature of a, each once; -1 fills up")
+      .def_readonly("b_vertices", &ReachPairs::b_vertices, "(N, 3): the same of b")
+      .def_readonly("a_weights", &ReachPairs::a_weights,
+                    "(N, 3): weights, with a sum of 1, of the place of a nearest to b; above zero are those of the "
+                    "closest vertex, edge or facet alone")
+      .def_readonly("b_weights", &ReachPairs::b_weights, "(N, 3): the same of b")
+      .def_readonly("normals", &ReachPairs::normals,
+                    "(N, 3): unit vector from the place of a to that of b; zero where the two coincide")
+      .def_readonly("distances", &ReachPairs::distances, "(N,): how far the two places are apart, metres")
+      .def("__len__", [](const ReachPairs& pairs) { return pairs.distances.size(); });
+}
+
 // The points and facet pairs of a whole report. They are copies.
 struct AllPoints {
   py::array_t<std::int64_t> bodies;
@@ -336,6 +371,11 @@ void define_contact(py::module_& module) {
           "points", [](const ContactHandle& contact) { return point_arrays(contact->points()); },
           "the points, if Settings.points is set; sorted by kind, then by features")
       .def_property_readonly(
+          "within_reach", [](const ContactHandle& contact) { return reach_pairs(contact->within_reach()); },
+          "every vertex and facet, and every two edges, nearer than the sum of the margins, if Settings.within_reach "
+          "is "
+          "set; sorted by kind, then by features")
+      .def_property_readonly(
           "touching", [](const ContactHandle& contact) { return contact->touching(); },
           "whether facets meet, or a point's gap is below the sum of the margins")
       .def_property_readonly(
@@ -358,7 +398,9 @@ void define_contact(py::module_& module) {
           "the curves in which the surfaces cross, if Settings.curves is set; sorted by their first facet pair")
       .def(
           "hash", [](const ContactHandle& contact) { return contact->hash(); },
-          "a number made from every bit of the contact, its facet pairs, points and patches, but for counts of work")
+          "a number made from every bit of the contact, its facet pairs, points, pairs within reach and patches, but "
+          "for "
+          "counts of work")
       .def("__repr__", contact_text);
 }
 
@@ -393,6 +435,7 @@ void define_report(py::module_& module) {
   define_parts(module);
   define_points(module);
   define_curves(module);
+  define_reach_pairs(module);
   define_contact(module);
   define_arrays_of_report(module);
   py::class_<ReportHandle>(
@@ -444,8 +487,9 @@ void define_report(py::module_& module) {
           "counts and times of the step. By name, times in milliseconds")
       .def(
           "hash", [](const ReportHandle& report) { return report->hash(); },
-          "a number made from every bit of candidate pairs, contacts, facet pairs and points; bodies enter it by their "
-          "keys")
+          "a number made from every bit of candidate pairs, contacts, facet pairs, points and pairs within reach; "
+          "bodies "
+          "enter it by their keys")
       .def("__len__", [](const ReportHandle& report) { return report->contacts().size(); })
       .def("__repr__", report_text);
 }

@@ -180,13 +180,17 @@ std::string settings_text(const Settings& settings) {
 
 Settings make_settings(int threads, Accuracy accuracy, DirectionPolicy direction, double gjk_tolerance,
                        int iteration_limit, bool zones, bool patches, bool points, bool curves,
-                       const py::object& on_message) {
+                       const py::object& on_message, bool within_reach) {
   return {.threads = threads,
           .accuracy = accuracy,
           .direction = direction,
           .gjk_tolerance = gjk_tolerance,
           .iteration_limit = iteration_limit,
-          .outputs = {.zones = zones, .patches = patches, .points = points, .curves = curves},
+          .outputs = {.zones = zones,
+                      .patches = patches,
+                      .points = points,
+                      .curves = curves,
+                      .within_reach = within_reach},
           .on_message = message_function(on_message)};
 }
 
@@ -245,7 +249,7 @@ void define_settings(py::module_& module) {
            py::arg("accuracy") = defaults.accuracy, py::arg("direction") = defaults.direction,
            py::arg("gjk_tolerance") = defaults.gjk_tolerance, py::arg("iteration_limit") = defaults.iteration_limit,
            py::arg("zones") = false, py::arg("patches") = false, py::arg("points") = false, py::arg("curves") = false,
-           py::arg("on_message") = py::none())
+           py::arg("on_message") = py::none(), py::arg("within_reach") = false)
       .def_readwrite("threads", &Settings::threads, "0 to 1024; 0: as many as OpenMP would use")
       .def_readwrite("accuracy", &Settings::accuracy)
       .def_readwrite("direction", &Settings::direction)
@@ -263,6 +267,7 @@ void define_settings(py::module_& module) {
   output<&Outputs::points>(settings, "points", "compute Contact.points");
   output<&Outputs::curves>(settings, "curves", "compute Contact.curves");
   output<&Outputs::patches>(settings, "patches", "compute Contact.patches");
+  output<&Outputs::within_reach>(settings, "within_reach", "compute Contact.within_reach");
 }
 
 // A function of World that takes a body and gives something of it.

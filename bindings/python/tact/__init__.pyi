@@ -164,6 +164,7 @@ class Settings:
     patches: bool
     points: bool
     curves: bool
+    within_reach: bool
     on_message: Optional[Callable[[Message], None]]
     """called for each limit that a step reached, and for each body that was added as closed and is not. The report has limits as flags and counts. The world refuses its calls; what it raises comes out of detect(), after the step"""
     def __init__(
@@ -179,6 +180,7 @@ class Settings:
         points: bool = False,
         curves: bool = False,
         on_message: Optional[Callable[[Message], None]] = None,
+        within_reach: bool = False,
     ) -> None: ...
 
 class ZoneDisk:
@@ -326,6 +328,32 @@ class IntersectionCurve:
         """(N,): whether the edge is of b, and the facet of a"""
     def __len__(self) -> int: ...
 
+class ReachPairs:
+    """A vertex and a facet, or two edges, that are nearer to each other than the sum of the margins. A row a pair."""
+
+    @property
+    def kinds(self) -> npt.NDArray[np.uint8]:
+        """(N,): values of FeaturePair"""
+    @property
+    def a_vertices(self) -> Ints:
+        """(N, 3): vertices of the feature of a, each once; -1 fills up"""
+    @property
+    def b_vertices(self) -> Ints:
+        """(N, 3): the same of b"""
+    @property
+    def a_weights(self) -> Floats:
+        """(N, 3): weights, with a sum of 1, of the place of a nearest to b; above zero are those of the closest vertex, edge or facet alone"""
+    @property
+    def b_weights(self) -> Floats:
+        """(N, 3): the same of b"""
+    @property
+    def normals(self) -> Floats:
+        """(N, 3): unit vector from the place of a to that of b; zero where the two coincide"""
+    @property
+    def distances(self) -> Floats:
+        """(N,): how far the two places are apart, metres"""
+    def __len__(self) -> int: ...
+
 class Contact:
     """Two bodies whose convex hulls overlap or touch, decided exactly, or are nearer than the sum of the margins. Arrays that it gives stay valid."""
 
@@ -370,6 +398,9 @@ class Contact:
     def points(self) -> ContactPoints:
         """the points, if Settings.points is set; sorted by kind, then by features"""
     @property
+    def within_reach(self) -> ReachPairs:
+        """every vertex and facet, and every two edges, nearer than the sum of the margins, if Settings.within_reach is set; sorted by kind, then by features"""
+    @property
     def touching(self) -> bool:
         """whether facets meet, or a point's gap is below the sum of the margins"""
     @property
@@ -379,7 +410,7 @@ class Contact:
     def curves(self) -> list[IntersectionCurve]:
         """the curves in which the surfaces cross, if Settings.curves is set; sorted by their first facet pair"""
     def hash(self) -> int:
-        """a number made from every bit of the contact, its facet pairs, points and patches, but for counts of work"""
+        """a number made from every bit of the contact, its facet pairs, points, pairs within reach and patches, but for counts of work"""
 
 class PointArrays:
     """Arrays for the contact points of a whole report. A row a point."""
@@ -530,7 +561,7 @@ class Report:
     def stats(self) -> dict[str, float]:
         """counts and times of the step. By name, times in milliseconds"""
     def hash(self) -> int:
-        """a number made from every bit of candidate pairs, contacts, facet pairs and points; bodies enter it by their keys"""
+        """a number made from every bit of candidate pairs, contacts, facet pairs, points and pairs within reach; bodies enter it by their keys"""
     def __len__(self) -> int: ...
 
 class Impacts:
@@ -662,6 +693,7 @@ class DebugDrawOptions:
     patches: bool
     points: bool
     curves: bool
+    within_reach: bool
     names: bool
     surface: DebugColor
     box: DebugColor
@@ -675,6 +707,7 @@ class DebugDrawOptions:
     patch: DebugColor
     point: DebugColor
     curve: DebugColor
+    reach: DebugColor
     word: DebugColor
     def __init__(self, **options: bool | DebugColor) -> None: ...
 

@@ -45,6 +45,7 @@ struct DebugDrawOptions {
   bool facet_pairs = true;      ///< the facets that meet
   bool patches = true;          ///< the direction of each patch, as long as its depth
   bool points = true;           ///< each contact point, as a line from a to b, and its normal; faint if no minimum
+  bool within_reach = true;     ///< each pair of features within reach, as a line from a to b
   bool curves = true;           ///< the curves in which surfaces cross
   bool names = true;            ///< the name of each body, at the top of its box
 
@@ -60,6 +61,7 @@ struct DebugDrawOptions {
   DebugColor patch{1.0f, 0.4f, 0.0f, 1.0f};
   DebugColor point{1.0f, 0.0f, 1.0f, 1.0f};
   DebugColor curve{1.0f, 1.0f, 0.0f, 1.0f};
+  DebugColor reach{0.9f, 0.6f, 1.0f, 0.6f};
   DebugColor word{1.0f, 1.0f, 1.0f, 1.0f};
 };
 

@@ -8,6 +8,7 @@
 #include <tact/error.h>
 #include <tact/facet_pair.h>
 #include <tact/intersection_curve.h>
+#include <tact/reach_pair.h>
 #include <tact/statistics.h>
 #include <tact/trace.h>
 
@@ -79,7 +80,7 @@ struct PatchEvent {
 
 /// Two bodies whose convex hulls overlap or touch, decided exactly, or are nearer than the sum of the margins. Their
 /// surfaces may be apart: see touching(). With self-contact a body that touches or nears itself has a contact
-/// with a == b, with facet pairs, points and patches alone.
+/// with a == b, with facet pairs, points, pairs within reach and patches alone.
 struct Contact {
   BodyId a;  ///< its key is below that of b; equal to b for a body with itself
   BodyId b;  ///< the second body
@@ -107,12 +108,15 @@ struct Contact {
   bool touching() const { return touching_; }
   /// Returns the points, if Outputs::points is set; sorted by kind, then by features.
   std::span<const ContactPoint> points() const { return points_; }
+  /// Returns every vertex and facet, and every two edges, nearer than the sum of the margins, if Outputs::within_reach
+  /// is set; sorted by kind, then by features.
+  std::span<const ReachPair> within_reach() const { return within_reach_; }
   /// Returns the patches, if Outputs::patches is set; sorted by first facet pair, then by first point.
   std::span<const Patch> patches() const { return patches_; }
   /// Returns the curves in which the surfaces cross, if Outputs::curves is set; sorted by their first facet pair.
   std::span<const IntersectionCurve> curves() const { return curves_; }
-  /// Returns a number made from every bit of the contact, its facet pairs, points and patches, but for counts of work.
-  /// Bodies enter it by their keys alone.
+  /// Returns a number made from every bit of the contact, its facet pairs, points, pairs within reach and patches, but
+  /// for counts of work. Bodies enter it by their keys alone.
   TACT_API std::uint64_t hash() const;
 
  private:
@@ -123,6 +127,7 @@ struct Contact {
   std::span<const Patch> patches_;
   std::span<const ContactPoint> points_;
   std::span<const IntersectionCurve> curves_;
+  std::span<const ReachPair> within_reach_;
   std::uint64_t key_a_ = 0, key_b_ = 0;
   bool touching_ = false;
 };
@@ -168,8 +173,8 @@ class TACT_API Report {
   /// Returns what each thread did, if Outputs::trace is set; sorted by thread and time, outer events first.
   std::span<const TraceEvent> trace() const { return trace_; }
 
-  /// Returns a number made from every bit of candidate pairs, contacts, facet pairs and points; bodies enter it by
-  /// their keys. Equal calls give equal numbers.
+  /// Returns a number made from every bit of candidate pairs, contacts, facet pairs, points and pairs within reach;
+  /// bodies enter it by their keys. Equal calls give equal numbers.
   std::uint64_t hash() const;
 
  private:

@@ -33,6 +33,19 @@ struct FacetPairArrays {
   std::span<int> facets = {};            ///< the facet of a and that of b, 2 a pair
 };
 
+/// Arrays for the pairs within reach of a whole report. An empty one is left out.
+struct ReachPairArrays {
+  std::span<std::uint32_t> bodies = {};  ///< the index of body a and of body b, 2 a pair
+  std::span<int> contacts = {};          ///< the number of its contact, counted from 0
+  std::span<std::uint8_t> kinds = {};    ///< which features these are, as numbers
+  std::span<int> a_vertices = {};        ///< vertices of a, 3 a pair; -1 fills up
+  std::span<int> b_vertices = {};        ///< vertices of b, 3 a pair; -1 fills up
+  std::span<double> a_weights = {};      ///< weights of the vertices of a, 3 a pair
+  std::span<double> b_weights = {};      ///< weights of the vertices of b, 3 a pair
+  std::span<double> normals = {};        ///< unit vectors from a to b, 3 a pair; zero where the distance is
+  std::span<double> distances = {};      ///< metres
+};
+
 /// Arrays for the impacts of a motion report. An empty one is left out.
 struct ImpactArrays {
   std::span<std::uint32_t> bodies = {};  ///< the index of body a and of body b, 2 an impact
@@ -44,12 +57,16 @@ struct ImpactArrays {
 
 /// Returns the number of contact points of all contacts.
 TACT_API std::size_t point_count(const Report& report);
+/// Returns the number of pairs within reach of all contacts.
+TACT_API std::size_t reach_pair_count(const Report& report);
 /// Returns the number of facet pairs of all contacts.
 TACT_API std::size_t facet_pair_count(const Report& report);
 
 /// Fills arrays with the points of all contacts, in their order. Errors: wrong_size (an array is neither empty nor has
 /// a row for each of point_count()).
 TACT_API void copy_points(const Report& report, const PointArrays& arrays);
+/// Fills arrays with the pairs within reach of all contacts, in their order. Errors: wrong_size.
+TACT_API void copy_reach_pairs(const Report& report, const ReachPairArrays& arrays);
 /// Fills arrays with the facet pairs of all contacts, in their order. Errors: wrong_size.
 TACT_API void copy_facet_pairs(const Report& report, const FacetPairArrays& arrays);
 /// Fills arrays with the impacts of a motion report, in their order. Errors: wrong_size.

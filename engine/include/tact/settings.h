@@ -29,6 +29,8 @@ struct Outputs {
   bool points = false;   ///< Contact::points()
   bool curves = false;   ///< Contact::curves()
   bool trace = false;    ///< Report::trace()
+  /// Contact::within_reach()
+  bool within_reach = false;
 };
 
 /// How a world works. World::set_settings() checks it.

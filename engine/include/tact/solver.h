@@ -16,4 +16,5 @@
 #include <tact/solver/potential.h>
 #include <tact/solver/scatter.h>
 #include <tact/solver/stencil.h>
+#include <tact/solver/within_reach.h>
 #include <tact/world.h>

@@ -47,6 +47,7 @@ struct StepStats {
   std::int64_t exact_predicates = 0;
   std::int64_t facet_pairs = 0;
   std::int64_t points = 0;
+  std::int64_t within_reach = 0;
   std::int64_t point_limits_reached = 0;
   std::int64_t touching_contacts = 0;
 
@@ -66,6 +67,7 @@ struct StepStats {
   double points_ms = 0.0;
   double self_facets_ms = 0.0;
   double self_points_ms = 0.0;
+  double within_reach_ms = 0.0;
   double patches_ms = 0.0;
   double report_ms = 0.0;
   double total_ms = 0.0;
@@ -133,6 +135,7 @@ inline constexpr StepStatsField<std::int64_t> kStepCounts[] = {
     {"exact_predicates", &StepStats::exact_predicates, "orientation predicates that needed integers"},
     {"facet_pairs", &StepStats::facet_pairs, "pairs of facets that meet"},
     {"points", &StepStats::points, "contact points"},
+    {"within_reach", &StepStats::within_reach, "pairs of features within reach: see Contact::within_reach()"},
     {"point_limits_reached", &StepStats::point_limits_reached,
      "contacts some of whose points are missing: see Contact::point_limit_reached"},
     {"touching_contacts", &StepStats::touching_contacts, "contacts that touch: see Contact::touching()"},
@@ -156,6 +159,7 @@ inline constexpr StepStatsField<double> kStepTimes[] = {
     {"points_ms", &StepStats::points_ms, "contact points of pairs of bodies, wall time"},
     {"self_facets_ms", &StepStats::self_facets_ms, "facet pairs of bodies with themselves, wall time"},
     {"self_points_ms", &StepStats::self_points_ms, "contact points of bodies with themselves, wall time"},
+    {"within_reach_ms", &StepStats::within_reach_ms, "pairs of features within reach, wall time"},
     {"patches_ms", &StepStats::patches_ms, "patches, wall time"},
     {"report_ms", &StepStats::report_ms, "stage 7: the report"},
     {"total_ms", &StepStats::total_ms, "the whole step, refresh included"},

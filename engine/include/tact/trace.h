@@ -31,6 +31,7 @@ struct TraceEvent {
     self_points,           ///< contact points of bodies with themselves
     patches,               ///< patches
     report,                ///< stage 7
+    within_reach,          ///< pairs of features within reach
   };
   using Time = std::chrono::steady_clock::time_point;
 

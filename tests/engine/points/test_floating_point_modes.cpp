@@ -196,7 +196,8 @@ class EveryCall {
   static Settings all_outputs(int threads) {
     Settings settings;
     settings.threads = threads;
-    settings.outputs = {.zones = true, .patches = true, .points = true, .curves = true, .trace = true};
+    settings.outputs = {
+        .zones = true, .patches = true, .points = true, .curves = true, .trace = true, .within_reach = true};
     settings.on_message = [](const Message&) {};
     return settings;
   }

@@ -22,7 +22,7 @@ using Bytes = std::vector<std::byte>;
 
 Settings with_all_outputs(int threads) {
   Settings settings{.threads = threads};
-  settings.outputs.points = settings.outputs.patches = true;
+  settings.outputs.points = settings.outputs.patches = settings.outputs.within_reach = true;
   return settings;
 }
 

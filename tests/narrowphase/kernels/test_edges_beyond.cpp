@@ -144,9 +144,9 @@ TEST(NearEdges, AreThoseThatShareCellsAndAreNotBeyond) {
     for (const narrowphase::Kernels* kernels : available_kernels()) {
       std::uint64_t found[64], swapped[64];
       const std::uint64_t any =
-          kernels->near_edges({points[0], edges[0], some[0]}, {points[1], edges[1], some[1]}, reach, found);
+          kernels->near_edges({points[0], edges[0], some[0]}, {points[1], edges[1], some[1]}, reach, nullptr, found);
       const std::uint64_t any_swapped =
-          kernels->near_edges({points[1], edges[1], some[1]}, {points[0], edges[0], some[0]}, reach, swapped);
+          kernels->near_edges({points[1], edges[1], some[1]}, {points[0], edges[0], some[0]}, reach, nullptr, swapped);
       for (int i = 0; i < edges[0].count; ++i) {
         for (int k = 0; k < edges[1].count; ++k) {
           bool share = (some[0] >> i & 1) != 0 && (some[1] >> k & 1) != 0;

@@ -75,8 +75,9 @@ struct NearVertices {
   NearVertices(const narrowphase::Kernels& kernels, const VerticesAndFacets& all, double reach) {
     const std::uint64_t some = ~std::uint64_t{0} >> (64 - all.count());
     std::uint64_t found[64], found_inside[64];
-    std::uint64_t any = kernels.near_vertices({all.vertex_points, all.vertices, some},
-                                              {all.facet_points, all.facets, some}, reach, found, found_inside);
+    std::uint64_t any =
+        kernels.near_vertices({all.vertex_points, all.vertices, some}, {all.facet_points, all.facets, some}, reach,
+                              nullptr, found, found_inside);
     for (; any != 0; any &= any - 1) {
       const int i = std::countr_zero(any);
       near[i] = found[i];

@@ -110,7 +110,7 @@ AnswerHashes answer_of(Subject& subject) {
 
 RandomCalls::RandomCalls(std::uint64_t seed) : random_(seed) {
   settings_.threads = 1;
-  settings_.outputs = {.zones = random_.chance(0.3), .patches = true, .points = true};
+  settings_.outputs = {.zones = random_.chance(0.3), .patches = true, .points = true, .within_reach = true};
   if (random_.chance(0.3)) settings_.direction = DirectionPolicy::smallest;
 }
 

@@ -161,6 +161,7 @@ typedef struct tact_settings {
                                        closed and is not. The report has limits as flags and counts. May be null */
   void* message_user;               /**< what it is called with */
   bool curves;                      /**< tact_contact_curve() */
+  bool within_reach;                /**< tact_contact_within_reach() */
 } tact_settings;
 #define TACT_SETTINGS_INIT                                                                                            \
   {                                                                                                                   \
@@ -575,6 +576,19 @@ typedef struct tact_curve {
 #define TACT_CURVE_INIT \
   { (uint32_t)sizeof(tact_curve), false, NULL, 0 }
 
+/** A vertex and a facet, or two edges, that are nearer to each other than the sum of the margins. Of one body, features
+ * without a common vertex. */
+typedef struct tact_reach_pair {
+  int32_t kind;        /**< tact_feature_pair */
+  int a_vertices[3];   /**< vertices of the feature of a, each once; -1 fills up. Those of edges ascend */
+  int b_vertices[3];   /**< the same of b */
+  double a_weights[3]; /**< weights, with a sum of 1, of the place of a nearest to b; above zero are those of the
+                          closest vertex, edge or facet alone */
+  double b_weights[3]; /**< the same of b */
+  double normal[3];    /**< unit vector from the place of a to that of b; zero where the two coincide */
+  double distance;     /**< how far the two places are apart, metres */
+} tact_reach_pair;
+
 /** Two bodies whose boxes overlap. */
 typedef struct tact_candidate_pair {
   tact_body a;        /**< its key is below that of b */
@@ -642,8 +656,12 @@ TACT_C_API tact_error tact_contact_points(tact_world world, size_t index, const 
 /** Gives one of the curves in which the surfaces cross, if tact_settings.curves is set; sorted by their first facet
  * pair. */
 TACT_C_API tact_error tact_contact_curve(tact_world world, size_t index, size_t curve, tact_curve* result);
-/** Gives a number made from every bit of the contact, its facet pairs, points and patches, but for counts of work.
- * Bodies enter it by their keys alone. */
+/** Gives every vertex and facet, and every two edges, nearer than the sum of the margins, if
+ * tact_settings.within_reach is set; sorted by kind, then by features. */
+TACT_C_API tact_error tact_contact_within_reach(tact_world world, size_t index, const tact_reach_pair** pairs,
+                                                size_t* count);
+/** Gives a number made from every bit of the contact, its facet pairs, points, pairs within reach and patches, but for
+ * counts of work. Bodies enter it by their keys alone. */
 TACT_C_API tact_error tact_contact_hash(tact_world world, size_t index, uint64_t* hash);
 /** Gives the pairs whose boxes overlap, sorted by (a, b). */
 TACT_C_API tact_error tact_report_candidate_pairs(tact_world world, const tact_candidate_pair** pairs, size_t* count);
@@ -660,8 +678,8 @@ TACT_C_API tact_error tact_report_stats(tact_world world, tact_statistic* statis
  * their number; each of them is tact_report_trace_event(). */
 TACT_C_API tact_error tact_report_trace(tact_world world, size_t* count);
 TACT_C_API tact_error tact_report_trace_event(tact_world world, size_t index, tact_trace_event* event);
-/** Gives a number made from every bit of candidate pairs, contacts, facet pairs and points; bodies enter it by their
- * keys. */
+/** Gives a number made from every bit of candidate pairs, contacts, facet pairs, points and pairs within reach; bodies
+ * enter it by their keys. */
 TACT_C_API tact_error tact_report_hash(tact_world world, uint64_t* hash);
 
 /** Arrays for the contact points of a whole report. A null one is left out. */
@@ -693,13 +711,34 @@ typedef struct tact_facet_pair_arrays {
 #define TACT_FACET_PAIR_ARRAYS_INIT \
   { (uint32_t)sizeof(tact_facet_pair_arrays), NULL, NULL, NULL }
 
+/** Arrays for the pairs within reach of a whole report. A null one is left out. */
+typedef struct tact_reach_pair_arrays {
+  uint32_t struct_size;
+  uint32_t* bodies;  /**< the index of body a and of body b, 2 a pair */
+  int* contacts;     /**< the number of its contact, counted from 0 */
+  uint8_t* kinds;    /**< which features these are, as numbers */
+  int* a_vertices;   /**< vertices of a, 3 a pair; -1 fills up */
+  int* b_vertices;   /**< vertices of b, 3 a pair; -1 fills up */
+  double* a_weights; /**< weights of the vertices of a, 3 a pair */
+  double* b_weights; /**< weights of the vertices of b, 3 a pair */
+  double* normals;   /**< unit vectors from a to b, 3 a pair; zero where the distance is */
+  double* distances; /**< metres */
+} tact_reach_pair_arrays;
+#define TACT_REACH_PAIR_ARRAYS_INIT \
+  { (uint32_t)sizeof(tact_reach_pair_arrays), NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL }
+
 /** Gives the number of contact points of all contacts. */
 TACT_C_API tact_error tact_report_point_count(tact_world world, size_t* count);
+/** Gives the number of pairs within reach of all contacts. */
+TACT_C_API tact_error tact_report_reach_pair_count(tact_world world, size_t* count);
 /** Gives the number of facet pairs of all contacts. */
 TACT_C_API tact_error tact_report_facet_pair_count(tact_world world, size_t* count);
 /** Fills arrays with the points of all contacts, in their order. `rows` is the number of points that they have room
  * for: tact_report_point_count(). */
 TACT_C_API tact_error tact_report_copy_points(tact_world world, const tact_point_arrays* arrays, size_t rows);
+/** Fills arrays with the pairs within reach of all contacts, in their order. `rows` is tact_report_reach_pair_count().
+ */
+TACT_C_API tact_error tact_report_copy_reach_pairs(tact_world world, const tact_reach_pair_arrays* arrays, size_t rows);
 /** Fills arrays with the facet pairs of all contacts, in their order. `rows` is tact_report_facet_pair_count(). */
 TACT_C_API tact_error tact_report_copy_facet_pairs(tact_world world, const tact_facet_pair_arrays* arrays, size_t rows);
 
@@ -1009,6 +1048,7 @@ typedef struct tact_debug_draw_options {
   bool patches; /**< the direction of each patch, as long as its depth */
   bool points;  /**< each contact point, as a line from a to b, and its normal; faint if no minimum */
   bool names;   /**< the name of each body, at the top of its box */
+  bool within_reach; /**< each pair of features within reach, as a line from a to b */
   tact_debug_color surface;
   tact_debug_color box;
   tact_debug_color moved_box; /**< the box of a body with a candidate pair */
@@ -1020,6 +1060,7 @@ typedef struct tact_debug_draw_options {
   tact_debug_color meeting;
   tact_debug_color patch;
   tact_debug_color point;
+  tact_debug_color reach;
   tact_debug_color word;
   bool curves; /**< the curves in which surfaces cross */
   tact_debug_color curve;
