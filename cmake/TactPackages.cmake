@@ -16,6 +16,10 @@ else()
 endif()
 configure_file(${PROJECT_SOURCE_DIR}/cmake/tact.pc.in ${PROJECT_BINARY_DIR}/tact.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/tact.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT library)
+if(TACT_USES_MPI)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/tact-mpi.pc.in ${PROJECT_BINARY_DIR}/tact-mpi.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/tact-mpi.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT mpi)
+endif()
 
 add_custom_target(uninstall COMMENT "Removing what was installed"
   COMMAND ${CMAKE_COMMAND} -DMANIFEST_FOLDER=${PROJECT_BINARY_DIR} -P ${PROJECT_SOURCE_DIR}/cmake/uninstall.cmake)

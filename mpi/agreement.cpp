@@ -1,5 +1,7 @@
 // What all ranks settle before a call together: whose keys are whose, which pairs are excluded, whether anything moved.
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -29,8 +31,8 @@ bool World::Implementation::begin(bool for_step) {
   channel.reset_counts();
   stats = {};
   const std::uint64_t of_settings = hash_of(settings);
-  std::vector<std::uint64_t> all{parts.any_moved() || !removed.empty(), !new_keys.empty() || !gone_keys.empty(),
-                                 !exclusions.empty(), of_settings, ~of_settings, shared_hash, ~shared_hash};
+  std::array<std::uint64_t, 7> all{parts.any_moved() || !removed.empty(), !new_keys.empty() || !gone_keys.empty(),
+                                   !exclusions.empty(), of_settings, ~of_settings, shared_hash, ~shared_hash};
   channel.largest(all);
   if (all[3] != ~all[4]) throw Error(ErrorCode::bad_settings, "the ranks have different settings");
   if (all[5] != ~all[6])
@@ -42,41 +44,52 @@ bool World::Implementation::begin(bool for_step) {
   if (!any_moved && !needs_near) return false;
   find_near(!for_step);
   send_ghosts(for_step);
-  needs_near = false;
+  if (for_step) needs_near = false;  // what is kept of pairs that moved waits for a step
   return true;
 }
 
 // A key that has an owner is found before it is added; of keys that two ranks add at once, one finds the other's after.
 void World::Implementation::update_directory() {
-  directory.remove(gone_keys);
+  std::optional<Keys> gone, come;
+  channel.together([&] {
+    gone.emplace(gone_keys);
+    come.emplace(new_keys);
+  });
+  directory.remove(*gone);
   gone_keys.clear();
   const auto check = [&] {
-    const std::vector<int> owners = directory.find(new_keys);
+    directory.find(*come);
     return Channel::failure_of([&] {
-      for (std::size_t i = 0; i < owners.size(); ++i) {
-        if (owners[i] != -1 && owners[i] != channel.rank())
-          throw Error(ErrorCode::invalid_argument, "ranks " + std::to_string(owners[i]) + " and " +
+      for (std::size_t i = 0; i < new_keys.size(); ++i) {
+        const int owner = come->owners()[i];
+        if (owner != -1 && owner != channel.rank())
+          throw Error(ErrorCode::invalid_argument, "ranks " + std::to_string(owner) + " and " +
                                                        std::to_string(channel.rank()) + " each own a body of key " +
                                                        std::to_string(new_keys[i]));
       }
     });
   };
   channel.gather(0, check());
-  directory.add(new_keys);
+  directory.add(*come);
   const std::exception_ptr failure = check();
   try {
     channel.gather(0, failure);
   } catch (...) {
-    directory.remove(new_keys);
+    directory.remove(*come);
     throw;
   }
   new_keys.clear();
 }
 
 void World::Implementation::send_exclusions() {
-  std::vector<std::uint64_t> others;
-  for (const Exclusion& one : exclusions) others.push_back(one.other);
-  const std::vector<int> owners = directory.find(others);
+  std::optional<Keys> others;
+  channel.together([&] {
+    std::vector<std::uint64_t> keys;
+    for (const Exclusion& one : exclusions) keys.push_back(one.other);
+    others.emplace(keys);
+  });
+  directory.find(*others);
+  const std::span<const int> owners = others->owners();
   const std::vector<Exclusion> all = std::exchange(exclusions, {});
   const auto messages = channel.exchange([&](Outbox& outbox) {
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <new>
 #include <string>
 
@@ -55,6 +56,8 @@ Channel::Channel(MPI_Comm parent) {
   MPI_Comm_set_errhandler(comm_, MPI_ERRORS_RETURN);
   MPI_Comm_rank(comm_, &rank_);
   MPI_Comm_size(comm_, &size_);
+  const auto ranks = static_cast<std::size_t>(size_);
+  gathered_.resize(2 * ranks), numbers_.resize(ranks), sizes_to_.resize(ranks), sizes_from_.resize(ranks);
 }
 
 Channel::~Channel() {
@@ -63,58 +66,60 @@ Channel::~Channel() {
   if (comm_ != MPI_COMM_NULL && is_finalized == 0) MPI_Comm_free(&comm_);
 }
 
+// A longer message is cut.
 void Channel::throw_of(int rank, const std::exception_ptr& failure) const {
-  std::string message;
-  std::array<int, 2> head{};
+  struct {
+    int code = 0;
+    std::array<char, 1024> message{};
+  } told;
   if (rank == rank_) {
     const Error error = error_of(failure);
-    message = error.what();
-    head = {static_cast<int>(error.code()), static_cast<int>(message.size())};
+    told.code = static_cast<int>(error.code());
+    std::strncpy(told.message.data(), error.what(), told.message.size() - 1);
   }
-  check(MPI_Bcast(head.data(), 2, MPI_INT, rank, comm_));
-  message.resize(static_cast<std::size_t>(head[1]));
-  check(MPI_Bcast(message.data(), head[1], MPI_CHAR, rank, comm_));
-  throw Error(static_cast<ErrorCode>(head[0]), message);
+  check(MPI_Bcast(&told, sizeof told, MPI_BYTE, rank, comm_));
+  throw Error(static_cast<ErrorCode>(told.code), told.message.data());
 }
 
-std::vector<std::uint64_t> Channel::gather(std::uint64_t number, const std::exception_ptr& failure) {
+std::span<const std::uint64_t> Channel::gather(std::uint64_t number, const std::exception_ptr& failure) {
   const std::array<std::uint64_t, 2> own{number, failure != nullptr ? kFailed : 0};
-  std::vector<std::uint64_t> all(2 * static_cast<std::size_t>(size_));
-  check(MPI_Allgather(own.data(), 2, MPI_UINT64_T, all.data(), 2, MPI_UINT64_T, comm_));
-  std::vector<std::uint64_t> numbers;
+  check(MPI_Allgather(own.data(), 2, MPI_UINT64_T, gathered_.data(), 2, MPI_UINT64_T, comm_));
   for (int rank = 0; rank < size_; ++rank) {
-    if (all[2 * rank + 1] == kFailed) throw_of(rank, failure);
-    numbers.push_back(all[2 * rank]);
+    if (gathered_[2 * rank + 1] == kFailed) throw_of(rank, failure);
+    numbers_[rank] = gathered_[2 * rank];
   }
-  return numbers;
+  return numbers_;
 }
 
-void Channel::largest(std::vector<std::uint64_t>& numbers) const {
+void Channel::largest(std::span<std::uint64_t> numbers) const {
   check(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_UINT64_T, MPI_MAX, comm_));
 }
 
-std::vector<std::uint64_t> Channel::sizes_from_all(Outbox& outbox, const std::exception_ptr& failure) const {
-  std::vector<std::uint64_t> sizes(static_cast<std::size_t>(size_), failure != nullptr ? kFailed : 0);
-  std::vector<std::uint64_t> from(sizes.size());
+// How much comes from each rank.
+void Channel::find_sizes(Outbox& outbox, const std::exception_ptr& failure) {
+  std::ranges::fill(sizes_to_, failure != nullptr ? kFailed : 0);
   if (failure == nullptr) {
-    for (auto& [rank, writer] : outbox.writers()) sizes[rank] = writer.bytes().size();
+    for (auto& [rank, writer] : outbox.writers()) sizes_to_[rank] = writer.bytes().size();
   }
-  check(MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, from.data(), 1, MPI_UINT64_T, comm_));
+  check(MPI_Alltoall(sizes_to_.data(), 1, MPI_UINT64_T, sizes_from_.data(), 1, MPI_UINT64_T, comm_));
   for (int rank = 0; rank < size_; ++rank) {
-    if (from[rank] == kFailed) throw_of(rank, failure);
+    if (sizes_from_[rank] == kFailed) throw_of(rank, failure);
   }
-  return from;
 }
 
 std::vector<Message> Channel::deliver(Outbox& outbox, const std::exception_ptr& failure) {
-  const std::vector<std::uint64_t> sizes = sizes_from_all(outbox, failure);
+  find_sizes(outbox, failure);
   std::vector<Message> messages;
-  together([&] {  // all have room for what comes, or none sends
-    for (int rank = 0; rank < size_; ++rank) {
-      if (sizes[rank] > 0) messages.push_back({rank, Bytes(rank == rank_ ? 0 : sizes[rank])});
-    }
-  });
   std::vector<MPI_Request> requests;
+  together([&] {  // all have room for what comes, or none sends
+    std::size_t parts = 0;
+    const auto count_parts = [&](std::uint64_t size) { parts += (size + kMostAtOnce - 1) / kMostAtOnce; };
+    for (int rank = 0; rank < size_; ++rank) {
+      if (sizes_from_[rank] > 0) messages.push_back({rank, Bytes(rank == rank_ ? 0 : sizes_from_[rank])});
+      count_parts(sizes_from_[rank]), count_parts(sizes_to_[rank]);
+    }
+    requests.reserve(parts);
+  });
   for (Message& message : messages) {
     if (message.rank == rank_) {
       message.bytes = std::move(outbox.to(rank_).bytes());

@@ -1,5 +1,6 @@
 // Messages between ranks, and what all of them agree on. Every function is called by all ranks in the same order, but
-// for the constructor's getters. An error of one rank becomes that of all.
+// for the getters. An error of one rank becomes that of all: what may fail stands in together() or exchange(), and
+// outside of them nothing is allocated before the next call of all.
 #pragma once
 
 #include <mpi.h>
@@ -7,6 +8,7 @@
 #include <cstdint>
 #include <exception>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "mpi/bytes.h"
@@ -41,10 +43,11 @@ class Channel {
   int rank() const { return rank_; }
   int size() const { return size_; }
 
-  /// Returns the number that each rank gives. Throws on all ranks the failure of the lowest one that has any.
-  std::vector<std::uint64_t> gather(std::uint64_t number, const std::exception_ptr& failure = nullptr);
+  /// Returns the number that each rank gives, valid until the next call. Throws on all ranks the failure of the lowest
+  /// one that has any.
+  std::span<const std::uint64_t> gather(std::uint64_t number, const std::exception_ptr& failure = nullptr);
   /// The largest of each number over all ranks.
-  void largest(std::vector<std::uint64_t>& numbers) const;
+  void largest(std::span<std::uint64_t> numbers) const;
 
   /// Calls work() on each rank; throws on all what it throws on any.
   template <class Work>
@@ -78,11 +81,13 @@ class Channel {
 
  private:
   [[noreturn]] void throw_of(int rank, const std::exception_ptr& failure) const;
-  std::vector<std::uint64_t> sizes_from_all(Outbox& outbox, const std::exception_ptr& failure) const;
+  void find_sizes(Outbox& outbox, const std::exception_ptr& failure);
 
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0, size_ = 1;
   std::int64_t messages_ = 0, bytes_ = 0;
+  std::vector<std::uint64_t> gathered_, numbers_;  // two of each rank, and one
+  std::vector<std::uint64_t> sizes_to_, sizes_from_;
 };
 
 }  // namespace tact::mpi

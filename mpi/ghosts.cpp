@@ -1,6 +1,7 @@
 // Copies of bodies at the ranks of their hosts. A whole body goes once, then its positions when they change; a copy
 // that has no host any more sleeps: its shape is kept for a while, for when it comes back.
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "mpi/world_implementation.h"
@@ -245,10 +246,16 @@ void World::Implementation::place_waiting() {
 // The guests of pairs that ended while they were on their way: whose they are is not known here.
 void World::Implementation::find_owners_of_ended() {
   std::vector<std::uint64_t> keys;
-  for (const EndedPair& pair : ended_waiting) keys.insert(keys.end(), {pair.keys.first, pair.keys.second});
-  const std::vector<int> owners = directory.find(keys);
+  std::optional<Keys> wanted;
+  channel.together([&] {
+    for (const EndedPair& pair : ended_waiting) keys.insert(keys.end(), {pair.keys.first, pair.keys.second});
+    wanted.emplace(keys);
+  });
+  directory.find(*wanted);
   owners_of_ended.clear();
-  for (std::size_t i = 0; i < keys.size(); ++i) owners_of_ended[keys[i]] = owners[i];
+  channel.together([&] {
+    for (std::size_t i = 0; i < keys.size(); ++i) owners_of_ended[keys[i]] = wanted->owners()[i];
+  });
 }
 
 // Without a ghost the ranks agree on what each has. What is kept of their pairs waits for them, or is given up.

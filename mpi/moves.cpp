@@ -1,6 +1,7 @@
 // Bodies that go to other ranks, with all that is kept of them. What is kept of a pair goes with its host. Nothing
 // counts before all bodies have arrived everywhere: until then the old owners have them.
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "mpi/world_implementation.h"
@@ -9,7 +10,7 @@ namespace tact::mpi {
 
 /// What leaves this rank, and the pairs whose hosts stay here.
 struct World::Implementation::Leaving {
-  std::vector<Parcel> parcels;
+  Shipment shipment;
   std::vector<WaitingPair> left;
 };
 
@@ -38,10 +39,14 @@ void World::Implementation::move(Goals goals) {
   Leaving leaving;
   channel.together([&] { leaving = pack(goals); });
   std::vector<Parcel> parcels;
-  channel.gather(0, Channel::failure_of([&] { parcels = partition->send(leaving.parcels); }));
+  channel.gather(0, Channel::failure_of([&] { parcels = partition->send(leaving.shipment); }));
   std::vector<Arrival> arrivals;
+  std::optional<Keys> keys;
   const std::exception_ptr failure = Channel::failure_of([&] {
     arrivals.reserve(parcels.size());
+    std::vector<std::uint64_t> coming;
+    for (const Parcel& parcel : parcels) coming.push_back(parcel.key);
+    keys.emplace(coming);
     for (const Parcel& parcel : parcels) unpack(parcel, arrivals);
   });
   try {
@@ -50,12 +55,10 @@ void World::Implementation::move(Goals goals) {
     undo(arrivals);
     throw;
   }
-  std::vector<std::uint64_t> keys;
-  for (const Arrival& arrival : arrivals) keys.push_back(arrival.key);
   let_go(goals, std::move(leaving));
   take_in(std::move(arrivals));
   parts.settle();
-  directory.add(keys);
+  directory.add(*keys);
   needs_near = owners_changed = true;
 }
 
@@ -75,7 +78,9 @@ World::Implementation::Leaving World::Implementation::pack(const Goals& goals) {
   for (const WaitingPair& one : waiting) {
     if (goals.contains(one.host)) pairs[one.host].push_back(one.pair);
   }
-  for (const auto& [key, rank] : goals) leaving.parcels.push_back({key, rank, pack(key, rank, pairs[key])});
+  std::vector<Parcel> parcels;
+  for (const auto& [key, rank] : goals) parcels.push_back({key, rank, pack(key, rank, pairs[key])});
+  leaving.shipment = Shipment(std::move(parcels));
   return leaving;
 }
 
@@ -174,7 +179,7 @@ void World::Implementation::let_go(const Goals& goals, Leaving&& leaving) {
   std::erase_if(sent, leaves);
   std::erase_if(waiting, [&](const WaitingPair& one) { return goals.contains(one.host); });
   for (WaitingPair& one : leaving.left) waiting.push_back(std::move(one));
-  for (const Parcel& parcel : leaving.parcels) moved_bytes += static_cast<std::int64_t>(parcel.bytes.size());
+  for (const Parcel& parcel : leaving.shipment.parcels) moved_bytes += static_cast<std::int64_t>(parcel.bytes.size());
   moved_bodies += static_cast<std::int64_t>(goals.size());
   for (const auto& [key, rank] : goals) {
     ids.push_back(at(key).id);

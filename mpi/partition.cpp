@@ -27,12 +27,6 @@ std::uint64_t key_in(const ZOLTAN_ID_TYPE* words) {
   return std::uint64_t{words[0]} << 32 | (std::uint64_t{words[1]} & 0xffffffffu);
 }
 
-std::vector<ZOLTAN_ID_TYPE> words_of(std::span<const std::uint64_t> keys) {
-  std::vector<ZOLTAN_ID_TYPE> words(kWordsOfKey * std::max<std::size_t>(keys.size(), 1));
-  for (std::size_t i = 0; i < keys.size(); ++i) put_key(keys[i], &words[kWordsOfKey * i]);
-  return words;
-}
-
 // What Zoltan asks for, called with the sites.
 using Sites = std::span<const Site>;
 
@@ -76,32 +70,40 @@ struct Lists {
 
 }  // namespace
 
+Keys::Keys(std::span<const std::uint64_t> keys)
+    : words_(kWordsOfKey * std::max<std::size_t>(keys.size(), 1)), owners_(keys.size(), -1) {
+  owners_.reserve(1);  // so that there is a place
+  for (std::size_t i = 0; i < keys.size(); ++i) put_key(keys[i], &words_[kWordsOfKey * i]);
+}
+
+Shipment::Shipment(std::vector<Parcel> given) : parcels(std::move(given)), words({}) {
+  for (const Parcel& parcel : parcels) {
+    places.push_back(static_cast<ZOLTAN_ID_TYPE>(keys.size()));
+    keys.push_back(parcel.key);
+    ranks.push_back(parcel.rank);
+  }
+  words = Keys(keys);
+}
+
 Directory::Directory(const Channel& channel) {
   constexpr int kDefaultTable = 0, kSilent = 0;
   check(Zoltan_DD_Create(&directory_, channel.comm(), kWordsOfKey, 0, 0, kDefaultTable, kSilent), "a directory");
 }
 Directory::~Directory() { Zoltan_DD_Destroy(&directory_); }
 
-void Directory::add(std::span<const std::uint64_t> keys) {
-  std::vector<ZOLTAN_ID_TYPE> words = words_of(keys);
-  check(Zoltan_DD_Update(directory_, words.data(), nullptr, nullptr, nullptr, static_cast<int>(keys.size())),
-        "adding to a directory");
+void Directory::add(Keys& keys) {
+  check(Zoltan_DD_Update(directory_, keys.words(), nullptr, nullptr, nullptr, keys.count()), "adding to a directory");
 }
 
-void Directory::remove(std::span<const std::uint64_t> keys) {
-  std::vector<ZOLTAN_ID_TYPE> words = words_of(keys);
-  check(Zoltan_DD_Remove(directory_, words.data(), static_cast<int>(keys.size())), "removing from a directory");
+void Directory::remove(Keys& keys) {
+  check(Zoltan_DD_Remove(directory_, keys.words(), keys.count()), "removing from a directory");
 }
 
 // What is not there is a warning.
-std::vector<int> Directory::find(std::span<const std::uint64_t> keys) const {
-  std::vector<ZOLTAN_ID_TYPE> words = words_of(keys);
-  std::vector<int> owners(std::max<std::size_t>(keys.size(), 1), -1);
-  check(Zoltan_DD_Find(directory_, words.data(), nullptr, nullptr, nullptr, static_cast<int>(keys.size()),
-                       owners.data()),
+void Directory::find(Keys& keys) const {
+  std::ranges::fill(keys.owners(), -1);
+  check(Zoltan_DD_Find(directory_, keys.words(), nullptr, nullptr, nullptr, keys.count(), keys.owners().data()),
         "looking into a directory");
-  owners.resize(keys.size());
-  return owners;
 }
 
 Partition::Partition(const Channel& channel, Partitioner partitioner)
@@ -180,27 +182,19 @@ struct Partition::Cargo {
   }
 };
 
-std::vector<Parcel> Partition::send(std::span<const Parcel> parcels) {
-  Cargo cargo{parcels, {}};
+std::vector<Parcel> Partition::send(Shipment& shipment) {
+  Cargo cargo{shipment.parcels, {}};
   Zoltan_Set_Obj_Size_Fn(zoltan_, Cargo::size, &cargo);
   Zoltan_Set_Pack_Obj_Fn(zoltan_, Cargo::pack, &cargo);
   Zoltan_Set_Unpack_Obj_Fn(zoltan_, Cargo::unpack, &cargo);
-  std::vector<std::uint64_t> keys;
-  std::vector<ZOLTAN_ID_TYPE> places;
-  std::vector<int> ranks;
-  for (const Parcel& parcel : parcels) {
-    places.push_back(static_cast<ZOLTAN_ID_TYPE>(keys.size()));
-    keys.push_back(parcel.key);
-    ranks.push_back(parcel.rank);
-  }
-  std::vector<ZOLTAN_ID_TYPE> words = words_of(keys);
-  const int count = static_cast<int>(parcels.size());
+  const int count = shipment.words.count();
   Lists imports;
-  check(Zoltan_Compute_Destinations(zoltan_, count, words.data(), places.data(), ranks.data(), &imports.count,
-                                    &imports.keys, &imports.places, &imports.ranks),
+  check(Zoltan_Compute_Destinations(zoltan_, count, shipment.words.words(), shipment.places.data(),
+                                    shipment.ranks.data(), &imports.count, &imports.keys, &imports.places,
+                                    &imports.ranks),
         "telling who gets what");
-  check(Zoltan_Help_Migrate(zoltan_, imports.count, imports.keys, imports.places, imports.ranks, count, words.data(),
-                            places.data(), ranks.data()),
+  check(Zoltan_Help_Migrate(zoltan_, imports.count, imports.keys, imports.places, imports.ranks, count,
+                            shipment.words.words(), shipment.places.data(), shipment.ranks.data()),
         "moving bodies");
   std::ranges::sort(cargo.received, {}, &Parcel::key);
   return std::move(cargo.received);

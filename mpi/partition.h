@@ -16,6 +16,20 @@
 
 namespace tact::mpi {
 
+/// Keys as Zoltan takes them, and who owns them.
+class Keys {
+ public:
+  explicit Keys(std::span<const std::uint64_t> keys);
+  int count() const { return static_cast<int>(owners_.size()); }
+  ZOLTAN_ID_PTR words() { return words_.data(); }
+  /// After Directory::find(): the owner of each, or -1.
+  std::span<int> owners() { return owners_; }
+
+ private:
+  std::vector<ZOLTAN_ID_TYPE> words_;
+  std::vector<int> owners_;
+};
+
 /// The owner of each key. Errors: backend_failure.
 class Directory {
  public:
@@ -25,10 +39,9 @@ class Directory {
   Directory& operator=(const Directory&) = delete;
 
   /// These keys are of this rank now; of nobody.
-  void add(std::span<const std::uint64_t> keys);
-  void remove(std::span<const std::uint64_t> keys);
-  /// The owner of each, or -1.
-  std::vector<int> find(std::span<const std::uint64_t> keys) const;
+  void add(Keys& keys);
+  void remove(Keys& keys);
+  void find(Keys& keys) const;
 
  private:
   Zoltan_DD_Directory* directory_ = nullptr;
@@ -48,6 +61,16 @@ struct Parcel {
   Bytes bytes;
 };
 
+/// Parcels that are ready to be sent.
+struct Shipment {
+  explicit Shipment(std::vector<Parcel> given = {});
+  std::vector<Parcel> parcels;
+  std::vector<std::uint64_t> keys;
+  std::vector<int> ranks;
+  std::vector<ZOLTAN_ID_TYPE> places;
+  Keys words;
+};
+
 class Partition {
  public:
   Partition(const Channel& channel, Partitioner partitioner);
@@ -61,7 +84,7 @@ class Partition {
   /// The ranks whose parts a box meets: two boxes with a point in common have a rank in common. Errors: backend_failure.
   void ranks_near(const base::Box& box, std::vector<int>& ranks) const;
   /// Sends parcels and returns those that came, by key. Errors: backend_failure.
-  std::vector<Parcel> send(std::span<const Parcel> parcels);
+  std::vector<Parcel> send(Shipment& shipment);
 
  private:
   struct Cargo;

@@ -1,6 +1,7 @@
 // What a step found: a pair is looked at by one rank, and the owner of the guest gets the result. It keeps it until
 // another comes, as pairs that do not move are not looked at.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <tuple>
 #include <utility>
@@ -249,13 +250,15 @@ void World::Implementation::finish_motion(const tact::MotionReport& found, Impac
     const BodyPair bodies = named(impact.a, impact.b);
     own = {own[0], bodies.key_a, bodies.key_b};
   }
-  std::array<std::vector<std::uint64_t>, 3> all;
-  for (std::size_t i = 0; i < 3; ++i) all[i] = channel.gather(own[i]);
   std::array<std::uint64_t, 3> first = own;
-  for (std::size_t rank = 0; rank < all[0].size(); ++rank)
-    first = std::min(first, {all[0][rank], all[1][rank], all[2][rank]});
+  bool is_first = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto all = channel.gather(is_first ? own[i] : ~std::uint64_t{0});
+    first[i] = *std::ranges::min_element(all);
+    is_first = is_first && own[i] == first[i];
+  }
   const std::span<const tact::Impact> impacts =
-      wanted == Impacts::first && own != first ? std::span<const tact::Impact>() : found.impacts();
+      wanted == Impacts::first && !is_first ? std::span<const tact::Impact>() : found.impacts();
   const std::int64_t before = channel.bytes();
   const auto messages = channel.exchange([&](Outbox& outbox) {
     for (const tact::Impact& impact : impacts) {

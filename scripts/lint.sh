@@ -14,7 +14,7 @@ esac
 scripts/setup.sh program lint
 
 echo "clang-format"
-find engine broadphase narrowphase scenes bench tests bindings examples \( -name '*.h' -o -name '*.cpp' -o -name '*.inl' \) \
+find engine broadphase narrowphase mpi scenes bench tests bindings examples \( -name '*.h' -o -name '*.cpp' -o -name '*.inl' \) \
   -not -path '*/build/*' -print0 | xargs -0 clang-format --dry-run -Werror
 
 embree=3

@@ -6,7 +6,7 @@
 # usage: scripts/nightly.sh [SECONDS of fuzzing a format, 3600 if not given]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/setup.sh program tests bench sanitizers blender
+scripts/setup.sh program tests bench sanitizers blender mpi
 scripts/build.sh release
 TACT_LONG_CGAL_PAIRS=100000000 TACT_LONG_RATIONAL_PAIRS=1000000 build/release/tests/long/test_predicates_long
 TACT_LONG_HULL_PAIRS=1000000 build/release/tests/long/test_directions_long
@@ -24,6 +24,9 @@ TACT_SOAK_STEPS=1000000 build/release/tests/long/test_soak_long
 TACT_LONG_SCENES_FULL=1 build/release/tests/long/test_scenes_long
 TACT_PRINTED_IN_FULL=1 build/release/tests/test_scenes --gtest_filter='PrintedCommands.*'
 TACT_LONG_SAVED_SEEDS=300 TACT_LONG_STATES=50000 build/release/tests/test_engine --gtest_filter='*Saved*'
+for ranks in 1 2 3 4 8; do
+  mpirun --oversubscribe --allow-run-as-root -n $ranks build/release/tests/test_mpi --full
+done
 for set in scalar avx2; do
   TACT_INSTRUCTION_SET=$set build/release/tests/test_engine --gtest_brief=1
   TACT_INSTRUCTION_SET=$set build/release/tests/test_narrowphase --gtest_brief=1

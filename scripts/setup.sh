@@ -13,6 +13,7 @@ Installs the Debian packages that are missing. The groups:
   program     the program tact and its scenes: -DTACT_BUILD_PROGRAM=ON
   tests       the tests, with program: -DTACT_BUILD_TESTS=ON
   bench       the libraries that the benchmarks measure against, with program: -DTACT_BUILD_BENCH=ON
+  mpi         worlds over many ranks: tact::mpi, which is built where these are
   blender     Blender, for the add-on and its tests: bindings/blender
   bullet      the example of Bullet's soft bodies
   docs        the manual: scripts/docs.sh
@@ -29,6 +30,7 @@ packages_of() {
     program) echo g++ cmake ninja-build libeigen3-dev libembree-dev \
                   libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev zlib1g-dev libfreetype-dev fonts-dejavu-core webp ;;
     tests) echo libgtest-dev libcgal-dev libboost-dev librapidcheck-dev pybind11-dev python3-dev python3-numpy python3-pytest python3-matplotlib python3-scipy ;;
+    mpi) echo libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev ;;
     blender) echo blender python3-numpy python3-pytest ;;
     bullet) echo libbullet-dev pkg-config ;;
     docs) echo doxygen mkdocs mkdocs-material ;;

@@ -2,6 +2,6 @@
 # Installs what is missing, builds the program and the tests, runs all tests.   usage: scripts/test.sh [arguments of ctest]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/setup.sh program tests bullet
+scripts/setup.sh program tests bullet mpi
 scripts/build.sh test
 ctest --preset test -j 2 "$@"

@@ -1,0 +1,15 @@
+# MPI and Zoltan, for worlds over many ranks. Where one of them is missing these are left out; nothing else needs either.
+option(TACT_WITH_MPI "Build tact::mpi, worlds over many ranks, where MPI and Zoltan are found" ${PROJECT_IS_TOP_LEVEL})
+set(TACT_USES_MPI FALSE)
+if(TACT_WITH_MPI)
+  set(MPI_CXX_SKIP_MPICXX ON)  # the interface for C is used; that for C++ was taken out of MPI 3
+  find_package(MPI QUIET COMPONENTS CXX)
+  find_path(ZOLTAN_INCLUDE_DIR zoltan_dd.h PATH_SUFFIXES trilinos)
+  find_library(ZOLTAN_LIBRARY NAMES zoltan trilinos_zoltan)
+  mark_as_advanced(ZOLTAN_INCLUDE_DIR ZOLTAN_LIBRARY)
+  if(MPI_CXX_FOUND AND ZOLTAN_INCLUDE_DIR AND ZOLTAN_LIBRARY)
+    set(TACT_USES_MPI TRUE)
+  else()
+    message(STATUS "tact: MPI or Zoltan was not found; tact::mpi is left out")
+  endif()
+endif()

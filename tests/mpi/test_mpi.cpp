@@ -1,0 +1,600 @@
+// Worlds over many ranks against one world: in each step the sums over all contacts, events and impacts are the same,
+// whoever owns which body.   usage: mpirun -n N test_mpi [--full] [NAME]
+//   --full  more bodies and 500 steps   NAME  the cases whose name holds this text
+#include <mpi.h>
+#include <tact/mpi/world.h>
+
+#include <algorithm>
+#include <cmath>
+#include <bit>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/base/hash.h"
+#include "engine/failed_step.h"
+#include "tests/support/environment/allocation_hook.h"
+#include "tests/support/generators/bodies.h"
+#include "tests/support/mesh.h"
+
+namespace tact::tests {
+namespace {
+
+using Key = std::uint64_t;
+
+int rank_of_all() {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+int count_of_ranks() {
+  int count = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &count);
+  return count;
+}
+
+int failures = 0;
+
+void expect(bool holds, const std::string& what) {
+  if (holds || ++failures > 20) return;
+  std::fprintf(stderr, "rank %d of %d: %s\n", rank_of_all(), count_of_ranks(), what.c_str());
+}
+
+// Sums of hashes, which depend on no order.
+struct Sums {
+  enum { contacts, contact_count, began, ended, patch_events, impacts, kinds };
+  std::uint64_t of[kinds] = {};
+  static constexpr const char* kNames[] = {"contacts", "number of contacts", "began", "ended", "patches", "impacts"};
+};
+
+std::uint64_t word_of(Key a, Key b, std::initializer_list<std::uint64_t> words) {
+  base::Hash hash;
+  hash.add(a), hash.add(b);
+  for (const std::uint64_t word : words) hash.add(word);
+  return hash.value();
+}
+
+std::uint64_t word_of(Key a, Key b, const Impact& impact) {
+  base::Hash hash;
+  hash.add(word_of(a, b, {static_cast<std::uint64_t>(impact.kind), std::bit_cast<std::uint64_t>(impact.time)}));
+  for (const auto* vertices : {&impact.a_vertices, &impact.b_vertices}) {
+    for (const int v : *vertices) hash.add(static_cast<std::uint64_t>(v));
+  }
+  return hash.value();
+}
+
+// What one world found.
+Sums sums_of(const Report& report, const std::map<BodyId, Key>& keys) {
+  Sums sums;
+  for (const Contact& contact : report.contacts()) {
+    sums.of[Sums::contacts] += contact.hash();
+    ++sums.of[Sums::contact_count];
+  }
+  const auto key = [&](BodyId id) { return keys.at(id); };
+  for (const ContactEvent& event : report.began()) sums.of[Sums::began] += word_of(key(event.a), key(event.b), {});
+  for (const ContactEvent& event : report.ended()) sums.of[Sums::ended] += word_of(key(event.a), key(event.b), {});
+  for (const PatchEvent& event : report.patch_events())
+    sums.of[Sums::patch_events] +=
+        word_of(key(event.a), key(event.b), {static_cast<std::uint64_t>(event.kind), event.patch, event.other});
+  return sums;
+}
+
+// What this rank counts (or, of pairs of two ranks, what it does not count: the other owner's copies of the same).
+Sums sums_of(const mpi::Report& report, bool counted, bool of_two_ranks) {
+  Sums sums;
+  const auto is_wanted = [&](const mpi::BodyPair& bodies) {
+    const bool is_far = bodies.rank_a >= 0 && bodies.rank_b >= 0 && bodies.rank_a != bodies.rank_b;
+    return bodies.counted == counted && (is_far || !of_two_ranks);
+  };
+  for (const mpi::Contact& contact : report.contacts()) {
+    if (!is_wanted(contact.bodies)) continue;
+    sums.of[Sums::contacts] += contact.contact.hash();
+    ++sums.of[Sums::contact_count];
+  }
+  const auto word = [](const mpi::BodyPair& bodies, std::initializer_list<std::uint64_t> words) {
+    return word_of(bodies.key_a, bodies.key_b, words);
+  };
+  for (const mpi::ContactEvent& event : report.began())
+    if (is_wanted(event.bodies)) sums.of[Sums::began] += word(event.bodies, {});
+  for (const mpi::ContactEvent& event : report.ended())
+    if (is_wanted(event.bodies)) sums.of[Sums::ended] += word(event.bodies, {});
+  for (const mpi::PatchEvent& event : report.patch_events())
+    if (is_wanted(event.bodies))
+      sums.of[Sums::patch_events] +=
+          word(event.bodies, {static_cast<std::uint64_t>(event.kind), event.patch, event.other});
+  return sums;
+}
+
+Sums over_all_ranks(Sums sums) {
+  MPI_Allreduce(MPI_IN_PLACE, sums.of, Sums::kinds, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  return sums;
+}
+
+void expect_same(const Sums& found, const Sums& expected, const std::string& where) {
+  for (int kind = 0; kind < Sums::kinds; ++kind)
+    expect(found.of[kind] == expected.of[kind], where + ": " + Sums::kNames[kind] + " differ");
+}
+
+// One world on rank 0 beside the world of all ranks. All ranks make the same calls of it.
+class Both {
+ public:
+  explicit Both(std::string name, const mpi::Settings& settings)
+      : name_(std::move(name)), many(MPI_COMM_WORLD, settings) {
+    if (rank_of_all() == 0) one_ = std::make_unique<World>(settings.world);
+  }
+
+  void add(BodyDefinition definition, int owner, bool shared = false) {
+    const Key key = *definition.key;
+    if (shared) {
+      many.add_body(definition, mpi::Holders::every_rank);
+    } else if (owner == rank_of_all()) {
+      many.add_body(definition);
+    }
+    if (one_ == nullptr) return;
+    ids_[key] = one_->add_body(definition);
+    keys_[ids_[key]] = key;
+  }
+  void remove(Key key) {
+    if (many.owns(key)) many.remove_body(key);
+    if (one_ == nullptr) return;
+    one_->remove_body(ids_.at(key));
+    ids_.erase(key);
+  }
+  // set(world, name of the body in it)
+  template <class Set>
+  void on_owner(Key key, const Set& set) {
+    if (many.owns(key)) set(many, key);
+    if (one_ != nullptr) set(*one_, ids_.at(key));
+  }
+  void exclude(Key key, Key other, bool excluded) {
+    if (many.owns(key)) many.set_excluded(key, other, excluded);
+    if (one_ != nullptr) one_->set_excluded(ids_.at(key), ids_.at(other), excluded);
+  }
+
+  void detect() {
+    const mpi::Report& report = many.detect();
+    const std::string where = name_ + ", step " + std::to_string(step_++);
+    Sums expected;
+    if (one_ != nullptr) expected = sums_of(one_->detect(), keys_);
+    const Sums found = over_all_ranks(sums_of(report, true, false));
+    if (one_ != nullptr) expect_same(found, expected, where);
+    const Sums counted = over_all_ranks(sums_of(report, true, true));
+    expect_same(over_all_ranks(sums_of(report, false, true)), counted, where + ", the other owners");
+    contacts_ += found.of[Sums::contact_count];
+    const auto is_before = [](const mpi::Contact& x, const mpi::Contact& y) {
+      return std::pair(x.bodies.key_a, x.bodies.key_b) < std::pair(y.bodies.key_a, y.bodies.key_b);
+    };
+    expect(std::ranges::is_sorted(report.contacts(), is_before), where + ": contacts are not sorted");
+    for (const mpi::Contact& contact : report.contacts())
+      expect(many.owns(contact.bodies.key_a) || many.owns(contact.bodies.key_b), where + ": a contact of others");
+  }
+
+  void detect_motion(Impacts wanted) {
+    const mpi::MotionReport& report = many.detect_motion(wanted);
+    Sums found, expected, others, far;
+    for (const mpi::Impact& impact : report.impacts()) {
+      const mpi::BodyPair& bodies = impact.bodies;
+      const std::uint64_t word = word_of(bodies.key_a, bodies.key_b, impact.impact);
+      found.of[Sums::impacts] += bodies.counted ? word : 0;
+      if (bodies.rank_a != bodies.rank_b) (bodies.counted ? far : others).of[Sums::impacts] += word;
+    }
+    const std::string where = name_ + ", motion in step " + std::to_string(step_);
+    found = over_all_ranks(found);
+    expect_same(over_all_ranks(others), over_all_ranks(far), where + ", the other owners");
+    if (one_ == nullptr) return;
+    const MotionReport& alone = one_->detect_motion(wanted);
+    for (const Impact& impact : alone.impacts()) {
+      expected.of[Sums::impacts] += word_of(keys_.at(impact.a), keys_.at(impact.b), impact);
+      ++impacts_;
+    }
+    expect_same(found, expected, where);
+    expect(report.first_time() == alone.first_time(), where + ": the first time differs");
+  }
+
+  void detect_of_one() {
+    if (one_ != nullptr) one_->detect();
+    ++step_;
+  }
+  // The one world fails as that of all ranks did.
+  void fail() {
+    if (one_ != nullptr) FailedStep::play(*one_);
+  }
+  ~Both() {
+    if (one_ != nullptr) expect(contacts_ > 0, name_ + ": nothing touched");
+  }
+  std::uint64_t impacts() const { return impacts_; }
+
+ private:
+  std::string name_;
+  std::unique_ptr<World> one_;
+  std::map<Key, BodyId> ids_;
+  std::map<BodyId, Key> keys_;
+  std::uint64_t contacts_ = 0, impacts_ = 0;
+  int step_ = 0;
+
+ public:
+  mpi::World many;
+};
+
+struct Size {
+  int bodies, steps;
+};
+
+mpi::Settings all_outputs(mpi::Partitioner partitioner = mpi::Partitioner::rcb) {
+  return {.world = {.threads = 1, .outputs = {.zones = true, .patches = true, .points = true}},
+          .partitioner = partitioner};
+}
+
+// A number from 0 to count - 1 that all ranks draw alike.
+int drawn(std::uint64_t seed, std::uint64_t a, std::uint64_t b, int count) {
+  return static_cast<int>(word_of(seed, a, {b}) % static_cast<std::uint64_t>(count));
+}
+double fraction(std::uint64_t seed, std::uint64_t a, std::uint64_t b) {
+  return static_cast<double>(word_of(seed, a, {b}) >> 11) * 0x1p-53;
+}
+
+// Keys in another order than places.
+Key key_of(int i) { return base::mixed(static_cast<std::uint64_t>(i) + 1) >> 1; }
+
+// A blob that wanders about its place in a block of bodies.
+Mesh blob_at(int i, int step, int across) {
+  const auto n = static_cast<std::uint64_t>(i), t = static_cast<std::uint64_t>(step);
+  const Vec3 place{1.55 * (i % across), 1.55 * ((i / across) % across), 1.5 * (i / (across * across)) + 0.9};
+  Vec3 by{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::uint64_t seed = n * 3 + static_cast<std::uint64_t>(axis);
+    const double from = fraction(seed, t / 8, 1), to = fraction(seed, t / 8 + 1, 1);
+    by[axis] = 0.5 * (from + (to - from) * static_cast<double>(t % 8) / 8.0);
+  }
+  const Mesh shape = blob(1, 0.8, 0.3, n % 7);
+  return translated(scaled(shape, 1.0 + 0.1 * fraction(n, t / 4, 2)), place + by);
+}
+
+int across_of(int bodies) {
+  int across = 2;
+  while (across * across * across < bodies) ++across;
+  return across;
+}
+
+BodyDefinition definition_of(const Mesh& mesh, Key key, double margin) {
+  return {.positions = mesh.positions, .facets = mesh.facets, .key = key, .margin = margin};
+}
+
+using Owner = std::function<int(int body)>;
+using BeforeStep = std::function<void(Both& both, int step)>;
+
+void run_pile(const std::string& name, Size size, const mpi::Settings& settings, const Owner& owner,
+              const BeforeStep& before) {
+  Both both(name, settings);
+  const int across = across_of(size.bodies);
+  const double wide = 1.55 * across + 2.0;
+  BodyDefinition floor = definition_of(box({-2.0, -2.0, -1.0}, {wide, wide, 0.0}), 1, 0.05);
+  floor.motion = Motion::fixed;
+  both.add(floor, 0, true);
+  for (int i = 0; i < size.bodies; ++i)
+    both.add(definition_of(blob_at(i, 0, across), key_of(i), 0.05), owner(i));
+  for (int step = 0; step < size.steps; ++step) {
+    before(both, step);
+    for (int i = 0; i < size.bodies; ++i) {
+      if (step % 16 > 12 || fraction(9, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(step)) < 0.3) continue;
+      const Mesh mesh = blob_at(i, step, across);
+      both.on_owner(key_of(i), [&](auto& world, auto body) { world.set_positions(body, mesh.positions); });
+    }
+    if (step % 5 == 2) both.detect_motion(static_cast<Impacts>(step % 3));
+    both.detect();
+  }
+}
+
+void nothing(Both&, int) {}
+
+Owner blocks(int bodies) {
+  return [=](int i) { return i * count_of_ranks() / bodies; };
+}
+Owner random_owner() {
+  return [](int i) { return drawn(77, static_cast<std::uint64_t>(i), 0, count_of_ranks()); };
+}
+
+void pile(Size size) { run_pile("pile", size, all_outputs(), blocks(size.bodies), nothing); }
+void random_owners(Size size) { run_pile("random owners", size, all_outputs(), random_owner(), nothing); }
+void one_place(Size size) {
+  run_pile("one place", size, all_outputs(), [](int) { return count_of_ranks() - 1; }, nothing);
+}
+void all_moved(Size size) {
+  run_pile("all moved", size, all_outputs(), random_owner(), [](Both& both, int) {
+    for (const Key key : both.many.bodies()) both.many.set_owner(key, (rank_of_all() + 1) % count_of_ranks());
+    both.many.move_bodies();
+  });
+}
+void some_moved(Size size) {
+  run_pile("some moved", size, all_outputs(), random_owner(), [](Both& both, int step) {
+    for (const Key key : both.many.bodies()) {
+      if (drawn(5, key, static_cast<std::uint64_t>(step), 4) == 0)
+        both.many.set_owner(key, drawn(6, key, static_cast<std::uint64_t>(step), count_of_ranks()));
+    }
+    both.many.move_bodies();
+  });
+}
+void rebalanced(Size size) {
+  for (const mpi::Partitioner partitioner : {mpi::Partitioner::rcb, mpi::Partitioner::hsfc}) {
+    run_pile(partitioner == mpi::Partitioner::rcb ? "rebalanced, rcb" : "rebalanced, hsfc", size,
+             all_outputs(partitioner), random_owner(), [](Both& both, int step) {
+               if (step % 6 == 3) both.many.rebalance();
+             });
+  }
+}
+void rebalanced_by_itself(Size size) {
+  mpi::Settings settings = all_outputs();
+  settings.rebalance_above = 1.05;
+  run_pile("rebalanced by itself", size, settings, [](int) { return 0; }, nothing);
+}
+// Bodies gather on rank 0, the others have none.
+void emptied(Size size) {
+  run_pile("emptied", size, all_outputs(), random_owner(), [](Both& both, int step) {
+    for (const Key key : both.many.bodies()) both.many.set_owner(key, step % 4 < 2 ? 0 : count_of_ranks() - 1);
+    both.many.move_bodies();
+  });
+}
+
+// Bodies come, go and change hands; margins, layers, groups and exclusions change.
+void churn(Size size) {
+  Both both("churn", all_outputs());
+  const int across = across_of(size.bodies);
+  std::map<int, bool> there;
+  const auto add = [&](int i, int step) {
+    BodyDefinition definition = definition_of(blob_at(i, step, across), key_of(i), 0.05);
+    const Mesh mesh = blob_at(i, step, across);
+    definition.positions = mesh.positions, definition.facets = mesh.facets;
+    definition.self_contact = i % 9 == 0;
+    both.add(definition, drawn(3, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(step), count_of_ranks()));
+    there[i] = true;
+  };
+  for (int i = 0; i < size.bodies; i += 2) add(i, 0);
+  for (int step = 0; step < size.steps; ++step) {
+    const auto t = static_cast<std::uint64_t>(step);
+    for (std::uint64_t k = 0; k < 3; ++k) {
+      const int i = drawn(10 + k, t, 0, size.bodies);
+      if (there[i]) {
+        both.remove(key_of(i));
+        there[i] = false;
+      }
+      const int new_one = drawn(20 + k, t, 0, size.bodies);
+      if (!there[new_one]) add(new_one, step);
+    }
+    for (const Key key : both.many.bodies()) {
+      if (drawn(7, key, t, 5) == 0) both.many.set_owner(key, drawn(8, key, t, count_of_ranks()));
+    }
+    if (step % 3 == 1) both.many.move_bodies();
+    if (step % 10 == 9) both.many.rebalance();
+    for (const auto& [i, is_there] : there) {
+      const auto n = static_cast<std::uint64_t>(i);
+      if (!is_there) continue;
+      const Mesh mesh = blob_at(i, step, across);
+      both.on_owner(key_of(i), [&](auto& world, auto body) {
+        if (drawn(11, n, t, 4) != 0) world.set_positions(body, mesh.positions);
+        if (drawn(12, n, t, 9) == 0) world.set_margin(body, 0.02 * drawn(13, n, t, 4));
+        if (drawn(14, n, t, 20) == 0) world.set_group(body, static_cast<std::uint32_t>(drawn(15, n, t, 3)));
+        if (drawn(16, n, t, 20) == 0) world.set_layers(body, 1u << drawn(17, n, t, 2), 3u);
+        if (drawn(18, n, t, 20) == 0) world.set_self_contact(body, drawn(19, n, t, 2) == 0);
+      });
+      const int other = drawn(21, n, t, size.bodies);
+      if (drawn(22, n, t, 6) == 0 && other != i && there[other])
+        both.exclude(key_of(i), key_of(other), drawn(23, n, t, 3) != 0);
+    }
+    if (step % 4 == 1) both.detect_motion(Impacts::all);
+    both.detect();
+  }
+}
+
+Eigen::Matrix3d turn(double sine, double cosine) {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
+  matrix(0, 0) = matrix(1, 1) = cosine;
+  matrix(0, 1) = -sine, matrix(1, 0) = sine;
+  return matrix;
+}
+
+// A cloth, which is tested against itself, sinks over balls that are rigid and turn; one ball is fixed now and then.
+void cloth(Size size) {
+  Both both("cloth", all_outputs());
+  const int cells = size.bodies > 200 ? 48 : 20, balls = 9;
+  const Mesh flat = sheet(cells, cells, 6.0, 6.0);
+  const auto at_step = [&](int step) {
+    return mapped(flat, [&](Vec3 p) {
+      const double t = 0.02 * step, x = p.x * p.x + p.y * p.y;
+      return Vec3{p.x * (1.0 - 0.3 * std::min(t, 1.0)), p.y, 1.15 - t + 0.05 * x * t};
+    });
+  };
+  BodyDefinition definition = definition_of(flat, 1000, 0.04);
+  const Mesh start = at_step(0);
+  definition.positions = start.positions;
+  definition.surface = Surface::sheet;
+  definition.self_contact = true;
+  both.add(definition, count_of_ranks() - 1);
+  for (int i = 0; i < balls; ++i) {
+    const Mesh mesh = icosphere(2);
+    BodyDefinition ball = definition_of(mesh, static_cast<Key>(i), 0.04);
+    ball.motion = Motion::rigid;
+    both.add(ball, i % count_of_ranks());
+  }
+  for (int step = 0; step < size.steps; ++step) {
+    const Mesh mesh = at_step(step % 60);
+    both.on_owner(1000, [&](auto& world, auto body) { world.set_positions(body, mesh.positions); });
+    for (int i = 0; i < balls; ++i) {
+      if (step > 0 && (step + i) % 3 == 0) continue;
+      const double angle = 0.1 * step;
+      const Eigen::Matrix3d rotation = turn(2.0 * angle / (1.0 + angle * angle), (1.0 - angle * angle) / (1.0 + angle * angle));
+      const Eigen::Vector3d place(2.05 * (i % 3 - 1), 2.05 * (i / 3 - 1), 0.01 * (step % 7));
+      both.on_owner(static_cast<Key>(i), [&](auto& world, auto body) {
+        world.set_motion(body, Motion::rigid);
+        world.set_pose(body, rotation, place);
+        if ((step + i) % 11 == 0) world.set_motion(body, Motion::fixed);
+      });
+    }
+    if (step % 7 == 3) both.many.rebalance();
+    if (step % 4 == 2) both.detect_motion(Impacts::all);
+    both.detect();
+  }
+}
+
+std::string caught(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return std::string(error_code_name(error.code())) + ": " + error.what();
+  }
+  return "nothing";
+}
+
+void expect_on_all(const std::string& found, const std::string& expected) {
+  expect(found == expected, "threw '" + found + "', not '" + expected + "'");
+}
+
+// A failure of one rank is one of all, and they go on as if nothing had been called.
+void failures_of_one(Size size) {
+  const int last = count_of_ranks() - 1;
+  bool throws = false;
+  const std::function<void(Both&)> set_state = [&](Both& both) {
+    both.many.set_body_state({.pack = [](Key) { return std::vector<std::byte>(3); },
+                              .unpack =
+                                  [&](Key, std::span<const std::byte> bytes) {
+                                    expect(bytes.size() == 3, "other bytes of a body's state");
+                                    if (throws) throw std::runtime_error("no room for a body");
+                                  },
+                              .drop = [](Key) {}});
+  };
+  run_pile("failures", size, all_outputs(), random_owner(), [&](Both& both, int step) {
+    if (step == 0) set_state(both);
+    if (step % 4 == 1) {
+      for (const Key key : both.many.bodies()) both.many.set_owner(key, last);
+      const std::size_t count = both.many.body_count();
+      throws = rank_of_all() == last;
+      const std::string found = caught([&] { both.many.move_bodies(); });
+      throws = false;
+      expect_on_all(found, last == 0 ? "nothing" : "invalid_argument: no room for a body");
+      expect(both.many.body_count() == count, "bodies moved though a rank failed");
+    }
+    if (step % 4 == 3) {
+      if (rank_of_all() == last) fail_allocation(40 * step, false);
+      const std::string found = caught([&] { both.many.detect(); });
+      const bool failed = stop_failing();
+      expect(!failed || found.starts_with("out_of_memory"), "a rank without memory threw '" + found + "'");
+      int worked = found == "nothing" ? 1 : 0, all_worked = 0;
+      MPI_Allreduce(&worked, &all_worked, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+      expect(all_worked == 0 || all_worked == count_of_ranks(), "only some ranks failed");
+      all_worked != 0 ? both.detect_of_one() : both.fail();
+    }
+  });
+}
+
+void wrong_use(Size) {
+  mpi::World world(MPI_COMM_WORLD, all_outputs());
+  const Mesh mesh = icosphere(0);
+  world.add_body(definition_of(mesh, 5 + static_cast<Key>(rank_of_all()), 0.0));
+  expect_on_all(caught([&] { world.add_body({.positions = mesh.positions, .facets = mesh.facets}); }),
+                "invalid_argument: a body over many ranks is named by its key: it has none");
+  world.detect();
+  expect(caught([&] { world.set_margin(4, 1.0); }).starts_with("stale_body"), "a body that is nowhere was set");
+  if (count_of_ranks() == 1) return;
+  if (rank_of_all() == 1) world.add_body(definition_of(mesh, 99, 0.0));
+  world.detect();
+  // A copy of a body of this key may be here: then the rank knows at once.
+  std::string found = "nothing";
+  if (rank_of_all() == 0) found = caught([&] { world.add_body(definition_of(translated(mesh, {9, 9, 9}), 100, 0.0)); });
+  if (rank_of_all() == 1) found = caught([&] { world.add_body(definition_of(translated(mesh, {5, 9, 9}), 100, 0.0)); });
+  expect_on_all(found, "nothing");
+  for (int i = 0; i < 2; ++i) {
+    found = caught([&] { world.detect(); });
+    expect(found.starts_with("invalid_argument: ranks ") && found.ends_with("each own a body of key 100"), found);
+  }
+  if (rank_of_all() == 1) world.remove_body(100);
+  world.detect();
+  expect_on_all(caught([&] { world.set_settings({.rebalance_above = rank_of_all() == 0 ? 0.5 : 2.0}); }),
+                "bad_settings: rebalance_above is 0.500000, not 0 or at least 1");
+}
+
+// At rest nothing is sent of positions; velocities of partners come.
+void rest(Size size) {
+  mpi::World world(MPI_COMM_WORLD, all_outputs());
+  const int across = across_of(size.bodies);
+  const Owner owner = random_owner();
+  for (int i = 0; i < size.bodies; ++i) {
+    const Mesh mesh = blob_at(i, 0, across);
+    if (owner(i) == rank_of_all()) world.add_body(definition_of(mesh, key_of(i), 0.05));
+  }
+  world.rebalance();
+  world.detect();
+  const std::uint64_t hash = world.detect().hash_sum();
+  const mpi::Statistics& stats = world.detect().stats();
+  expect(stats.positions_bytes == 0 && stats.bytes == 0 && stats.messages == 0, "bytes were sent at rest");
+  expect(world.detect().hash_sum() == hash, "at rest contacts changed");
+  std::map<Key, int> partners, taken;
+  for (const mpi::Contact& contact : world.detect().contacts()) {
+    if (contact.bodies.rank_a != contact.bodies.rank_b)
+      ++partners[contact.bodies.rank_a == rank_of_all() ? contact.bodies.key_b : contact.bodies.key_a];
+  }
+  world.exchange([](Key key) { return std::vector<std::byte>(key % 5 + 1); },
+                 [&](Key key, std::span<const std::byte> bytes) {
+                   expect(bytes.size() == key % 5 + 1, "other bytes of a partner");
+                   ++taken[key];
+                 });
+  for (const auto& [key, count] : partners) expect(taken[key] == 1, "a partner's bytes did not come");
+  expect(partners.size() == taken.size(), "bytes came of a body that is no partner");
+}
+
+struct Case {
+  const char* name;
+  void (*run)(Size);
+};
+constexpr Case kCases[] = {{"pile", pile},
+                           {"random_owners", random_owners},
+                           {"one_place", one_place},
+                           {"all_moved", all_moved},
+                           {"some_moved", some_moved},
+                           {"rebalanced", rebalanced},
+                           {"rebalanced_by_itself", rebalanced_by_itself},
+                           {"emptied", emptied},
+                           {"churn", churn},
+                           {"cloth", cloth},
+                           {"failures", failures_of_one},
+                           {"wrong_use", wrong_use},
+                           {"rest", rest}};
+
+int run(int argc, char** argv) {
+  Size size{40, 16};
+  const char* name = "";
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--full") == 0) {
+      size = {1000, 500};
+    } else {
+      name = argv[i];
+    }
+  }
+  for (const Case& one : kCases) {
+    if (std::strstr(one.name, name) == nullptr) continue;
+    const int before = failures;
+    try {
+      one.run(size);
+    } catch (const std::exception& error) {
+      expect(false, std::string(one.name) + " threw: " + error.what());
+      MPI_Abort(MPI_COMM_WORLD, 1);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &failures, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    if (rank_of_all() == 0)
+      std::printf("%s on %d ranks: %s\n", one.name, count_of_ranks(), failures == before ? "good" : "WRONG");
+    std::fflush(stdout);
+  }
+  return failures == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace tact::tests
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  const int status = tact::tests::run(argc, argv);
+  MPI_Finalize();
+  return status;
+}
