@@ -16,10 +16,9 @@ std::uint64_t hash_of(const Settings& settings) {
   const tact::Settings& world = settings.world;
   base::Hash hash;
   for (const double number : {world.gjk_tolerance, settings.rebalance_above}) hash.add(number);
-  for (const int number :
-       {static_cast<int>(world.accuracy), static_cast<int>(world.direction), world.iteration_limit,
-        int{world.outputs.zones}, int{world.outputs.patches}, int{world.outputs.points},
-        static_cast<int>(settings.partitioner)})
+  for (const int number : {static_cast<int>(world.accuracy), static_cast<int>(world.direction), world.iteration_limit,
+                           int{world.outputs.zones}, int{world.outputs.patches}, int{world.outputs.points},
+                           static_cast<int>(settings.partitioner)})
     hash.add(static_cast<std::uint64_t>(number));
   return hash.value();
 }
@@ -31,8 +30,13 @@ bool World::Implementation::begin(bool for_step) {
   channel.reset_counts();
   stats = {};
   const std::uint64_t of_settings = hash_of(settings);
-  std::array<std::uint64_t, 7> all{parts.any_moved() || !removed.empty(), !new_keys.empty() || !gone_keys.empty(),
-                                   !exclusions.empty(), of_settings, ~of_settings, shared_hash, ~shared_hash};
+  std::array<std::uint64_t, 7> all{parts.any_moved() || !removed.empty(),
+                                   !new_keys.empty() || !gone_keys.empty(),
+                                   !exclusions.empty(),
+                                   of_settings,
+                                   ~of_settings,
+                                   shared_hash,
+                                   ~shared_hash};
   channel.largest(all);
   if (all[3] != ~all[4]) throw Error(ErrorCode::bad_settings, "the ranks have different settings");
   if (all[5] != ~all[6])
@@ -69,13 +73,15 @@ void World::Implementation::update_directory() {
       }
     });
   };
-  channel.gather(0, check());
-  directory.add(*come);
-  const std::exception_ptr failure = check();
+  bool is_added = false;
   try {
-    channel.gather(0, failure);
+    channel.gather(0, check());
+    directory.add(*come);
+    is_added = true;
+    channel.gather(0, check());
   } catch (...) {
-    directory.remove(*come);
+    if (is_added) directory.remove(*come);
+    drop_ghosts(true);  // those of the keys were given up
     throw;
   }
   new_keys.clear();
@@ -93,29 +99,33 @@ void World::Implementation::send_exclusions() {
   const std::vector<Exclusion> all = std::exchange(exclusions, {});
   const auto messages = channel.exchange([&](Outbox& outbox) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const auto put_to = [&](int rank) {
-        outbox.to(rank).put(all[i].own, all[i].other, all[i].wanted, all[i].marks);
-      };
+      const auto put_to = [&](int rank) { outbox.to(rank).put(all[i].own, all[i].other, all[i].wanted, all[i].marks); };
       if (held.shared.contains(all[i].other)) {
         for (int rank = 0; rank < channel.size(); ++rank) put_to(rank);
       } else if (owners[i] >= 0) {
         put_to(owners[i]);
       } else if (all[i].marks) {
-        throw Error(ErrorCode::stale_body, "nobody owns a body of key " + std::to_string(all[i].other) +
-                                               ", which was to be excluded");
+        throw Error(ErrorCode::stale_body,
+                    "nobody owns a body of key " + std::to_string(all[i].other) + ", which was to be excluded");
       }
     }
   });
   channel.together([&] {
+    std::vector<Exclusion> come;
     for (const Message& message : messages) {
       for (ByteReader reader(message.bytes); !reader.at_end();) {
-        const auto of_sender = reader.get<std::uint64_t>(), own_key = reader.get<std::uint64_t>();
-        const auto wanted = reader.get<bool>(), marks = reader.get<bool>();
-        if (const auto shared = held.shared.find(own_key); shared != held.shared.end()) {
-          if (marks) parts.mark_moved(shared->second, false);
-        } else if (held.own.contains(own_key)) {
-          exclude(own_key, of_sender, wanted, marks);
-        }
+        Exclusion& one = come.emplace_back();
+        one.other = reader.get<std::uint64_t>(), one.own = reader.get<std::uint64_t>();
+        one.wanted = reader.get<bool>(), one.marks = reader.get<bool>();
+      }
+    }
+    // Those of removed bodies first: another may have come with the key of one.
+    std::ranges::stable_sort(come, {}, &Exclusion::marks);
+    for (const Exclusion& one : come) {
+      if (const auto shared = held.shared.find(one.own); shared != held.shared.end()) {
+        if (one.marks) parts.mark_moved(shared->second, false);
+      } else if (held.own.contains(one.own)) {
+        exclude(one.own, one.other, one.wanted, one.marks);
       }
     }
   });

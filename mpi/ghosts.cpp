@@ -134,7 +134,7 @@ bool World::Implementation::take_leaving(std::span<const Message> messages) {
     if (ghost == held.ghosts.end()) return;
     const BodyId id = ghost->second.id;
     if (entry.kind == Kind::sleep) held.shapes[entry.key] = {parts.shape(id), step};
-    held.gone[id] = {entry.key, owner};
+    held.gone[id] = {entry.key, owner, entry.kind == Kind::gone};
     parts.remove_copy(id);
     held.drop(id);
     held.ghosts.erase(ghost);

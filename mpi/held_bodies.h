@@ -41,13 +41,13 @@ struct Subscriber {
 
 struct OwnBody {
   BodyId id;
-  bool is_rigid = false;           ///< takes poses
-  std::uint64_t version = 1;       ///< counts changes
-  std::uint64_t positions = 1;     ///< those of positions and poses
-  std::vector<Subscriber> subscribers;
-  std::vector<Subscriber> next_subscribers;  ///< once the messages have arrived
-  std::vector<int> wanted;                   ///< ranks that have a host near it, ascending
-  std::int64_t work = 0;                     ///< of the last step
+  bool is_rigid = false;        ///< takes poses
+  std::uint64_t version = 1;    ///< counts changes
+  std::uint64_t positions = 1;  ///< those of positions and poses
+  std::vector<Subscriber> subscribers = {};
+  std::vector<Subscriber> next_subscribers = {};  ///< once the messages have arrived
+  std::vector<int> wanted = {};                   ///< ranks that have a host near it, ascending
+  std::int64_t work = 0;                          ///< of the last step
 };
 
 struct Ghost {
@@ -78,8 +78,13 @@ class HeldBodies final : public PairChoice {
   std::map<std::uint64_t, Ghost> ghosts;
   std::map<std::uint64_t, KeptShape> shapes;
   std::map<std::uint64_t, BodyId> shared;
-  /// Bodies that went since the last step: their keys, and the owners of ghosts, or -1.
-  std::map<BodyId, std::pair<std::uint64_t, int>> gone;
+  /// A body that went since the last step; the owner of a ghost, or -1.
+  struct Gone {
+    std::uint64_t key = 0;
+    int owner = -1;
+    bool is_removed = false;
+  };
+  std::map<BodyId, Gone> gone;
 
   bool looks_at(std::uint32_t a, std::uint32_t b) const override {
     const Held &x = by_slot_[a], &y = by_slot_[b];

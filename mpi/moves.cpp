@@ -20,6 +20,7 @@ struct World::Implementation::Arrival {
   OwnBody body;
   std::vector<std::uint64_t> excluded;
   std::vector<SavedPair> pairs;
+  std::vector<std::pair<KeyPair, int>> sent;
 };
 
 void World::Implementation::rebalance() {
@@ -27,9 +28,9 @@ void World::Implementation::rebalance() {
   channel.together([&] { all = sites(); });
   Goals goals;
   channel.gather(0, Channel::failure_of([&] {
-    const std::vector<int> ranks = partition->cut(all);
-    for (std::size_t i = 0; i < all.size(); ++i) goals[all[i].key] = ranks[i];
-  }));
+                   const std::vector<int> ranks = partition->cut(all);
+                   for (std::size_t i = 0; i < all.size(); ++i) goals[all[i].key] = ranks[i];
+                 }));
   needs_near = true;
   move(std::move(goals));
 }
@@ -68,8 +69,9 @@ World::Implementation::Leaving World::Implementation::pack(const Goals& goals) {
   std::map<std::uint64_t, std::vector<SavedPair>> pairs;
   Leaving leaving;
   for (SavedPair& pair : parts.pairs_of(ids)) {
-    const std::uint64_t host = held.host_of(held.find(pair.key_a), held.find(pair.key_b));
-    if (goals.contains(host)) {
+    const bool has_ended = pair.bytes.empty();
+    const std::uint64_t host = has_ended ? pair.key_a : held.host_of(held.find(pair.key_a), held.find(pair.key_b));
+    if (goals.contains(host) && !has_ended) {
       pairs[host].push_back(std::move(pair));
     } else {
       leaving.left.push_back({host, std::move(pair)});
@@ -99,10 +101,15 @@ Bytes World::Implementation::pack(std::uint64_t key, int to, std::span<const Sav
   writer.put_all(HeldBodies::seconds(held.excluded, key));
   writer.put(std::uint64_t{pairs.size()});
   for (const SavedPair& pair : pairs) {
-    writer.put(pair.key_a, pair.key_b, pair.touching);
+    writer.put(pair.key_a, pair.key_b, pair.birth_a, pair.birth_b, pair.touching);
     writer.put_all(pair.bytes);
     writer.put_all(pair.patches);
   }
+  ByteWriter sent_pairs;
+  for (const auto& [keys, one] : sent) {
+    if (keys.first == key || keys.second == key) sent_pairs.put(keys.first, keys.second, one.to);
+  }
+  writer.put_all(sent_pairs.bytes());
   writer.put(static_cast<bool>(body_state.pack));
   if (body_state.pack) writer.put_all(body_state.pack(key));
   return std::move(writer.bytes());
@@ -152,10 +159,16 @@ void World::Implementation::unpack(const Parcel& parcel, std::vector<Arrival>& a
     SavedPair& pair = arrival.pairs.emplace_back();
     pair.key_a = reader.get<std::uint64_t>();
     pair.key_b = reader.get<std::uint64_t>();
+    pair.birth_a = reader.get<std::uint64_t>();
+    pair.birth_b = reader.get<std::uint64_t>();
     pair.touching = reader.get<bool>();
     const auto bytes = reader.get_bytes();
     pair.bytes.assign(bytes.begin(), bytes.end());
     pair.patches = reader.get_all<std::uint64_t>();
+  }
+  for (ByteReader pairs(reader.get_bytes()); !pairs.at_end();) {
+    const auto key_a = pairs.get<std::uint64_t>(), key_b = pairs.get<std::uint64_t>();
+    arrival.sent.push_back({{key_a, key_b}, pairs.get<int>()});
   }
   if (reader.get<bool>() && body_state.unpack) body_state.unpack(key, reader.get_bytes());
 }
@@ -176,7 +189,8 @@ void World::Implementation::let_go(const Goals& goals, Leaving&& leaving) {
   const auto leaves = [&](const auto& one) {
     return goals.contains(one.first.first) || goals.contains(one.first.second);
   };
-  std::erase_if(sent, leaves);
+  std::erase_if(sent, leaves);  // their hosts leave
+  std::erase_if(far, leaves);   // their guests do
   std::erase_if(waiting, [&](const WaitingPair& one) { return goals.contains(one.host); });
   for (WaitingPair& one : leaving.left) waiting.push_back(std::move(one));
   for (const Parcel& parcel : leaving.shipment.parcels) moved_bytes += static_cast<std::int64_t>(parcel.bytes.size());
@@ -197,6 +211,7 @@ void World::Implementation::take_in(std::vector<Arrival>&& arrivals) {
     held.own[arrival.key] = std::move(arrival.body);
     for (SavedPair& pair : arrival.pairs) waiting.push_back({arrival.key, std::move(pair)});
     for (const std::uint64_t other : arrival.excluded) held.set_excluded(arrival.key, other, true);
+    for (const auto& [keys, to] : arrival.sent) sent[keys] = {to, false};
   }
   for (const Arrival& arrival : arrivals) {
     for (const std::uint64_t other : arrival.excluded) {

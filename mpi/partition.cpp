@@ -14,8 +14,15 @@ constexpr int kWordsOfKey = 2;  // of 32 bits: ids of Zoltan have no more where 
 
 void check(int code, const char* what) {
   if (code != ZOLTAN_OK && code != ZOLTAN_WARN)
-    throw Error(ErrorCode::backend_failure, "Zoltan: " + std::string(what) + " failed with code " +
-                                                std::to_string(code));
+    throw Error(ErrorCode::backend_failure,
+                "Zoltan: " + std::string(what) + " failed with code " + std::to_string(code));
+}
+
+// Then Zoltan's communicators are gone.
+bool is_finalized() {
+  int is_over = 0;
+  MPI_Finalized(&is_over);
+  return is_over != 0;
 }
 
 void put_key(std::uint64_t key, ZOLTAN_ID_PTR words) {
@@ -53,8 +60,7 @@ int dimension(void*, int* error) {
 void list_middles(void* sites, int, int, int count, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR places, int, double* middles,
                   int* error) {
   *error = ZOLTAN_OK;
-  for (int i = 0; i < count; ++i)
-    std::ranges::copy((*static_cast<Sites*>(sites))[places[i]].middle, middles + 3 * i);
+  for (int i = 0; i < count; ++i) std::ranges::copy((*static_cast<Sites*>(sites))[places[i]].middle, middles + 3 * i);
 }
 
 // Lists that Zoltan allocates.
@@ -89,7 +95,9 @@ Directory::Directory(const Channel& channel) {
   constexpr int kDefaultTable = 0, kSilent = 0;
   check(Zoltan_DD_Create(&directory_, channel.comm(), kWordsOfKey, 0, 0, kDefaultTable, kSilent), "a directory");
 }
-Directory::~Directory() { Zoltan_DD_Destroy(&directory_); }
+Directory::~Directory() {
+  if (!is_finalized()) Zoltan_DD_Destroy(&directory_);
+}
 
 void Directory::add(Keys& keys) {
   check(Zoltan_DD_Update(directory_, keys.words(), nullptr, nullptr, nullptr, keys.count()), "adding to a directory");
@@ -113,21 +121,19 @@ Partition::Partition(const Channel& channel, Partitioner partitioner)
   zoltan_ = Zoltan_Create(channel.comm());
   if (zoltan_ == nullptr) throw Error(ErrorCode::backend_failure, "Zoltan: its start failed");
   const std::pair<const char*, const char*> parameters[] = {
-      {"DEBUG_LEVEL", "0"},
-      {"LB_METHOD", partitioner == Partitioner::rcb ? "RCB" : "HSFC"},
-      {"NUM_GID_ENTRIES", "2"},
-      {"NUM_LID_ENTRIES", "1"},
-      {"OBJ_WEIGHT_DIM", "1"},
-      {"RETURN_LISTS", "EXPORT"},
-      {"KEEP_CUTS", "1"},
-      {"RCB_REUSE", "1"}};
+      {"DEBUG_LEVEL", "0"},     {"LB_METHOD", partitioner == Partitioner::rcb ? "RCB" : "HSFC"},
+      {"NUM_GID_ENTRIES", "2"}, {"NUM_LID_ENTRIES", "1"},
+      {"OBJ_WEIGHT_DIM", "1"},  {"RETURN_LISTS", "EXPORT"},
+      {"KEEP_CUTS", "1"},       {"RCB_REUSE", "1"}};
   for (const auto& [name, value] : parameters) {
     if (partitioner == Partitioner::rcb || std::string_view(name) != "RCB_REUSE")
       check(Zoltan_Set_Param(zoltan_, name, value), name);
   }
 }
 
-Partition::~Partition() { Zoltan_Destroy(&zoltan_); }
+Partition::~Partition() {
+  if (!is_finalized()) Zoltan_Destroy(&zoltan_);
+}
 
 std::vector<int> Partition::cut(Sites sites) {
   Zoltan_Set_Num_Obj_Fn(zoltan_, site_count, &sites);
@@ -187,12 +193,17 @@ std::vector<Parcel> Partition::send(Shipment& shipment) {
   Zoltan_Set_Obj_Size_Fn(zoltan_, Cargo::size, &cargo);
   Zoltan_Set_Pack_Obj_Fn(zoltan_, Cargo::pack, &cargo);
   Zoltan_Set_Unpack_Obj_Fn(zoltan_, Cargo::unpack, &cargo);
+  // A cut asks for the sizes, too, where they are told.
+  struct Forgotten {
+    Zoltan_Struct* zoltan;
+    ~Forgotten() { Zoltan_Set_Obj_Size_Fn(zoltan, nullptr, nullptr); }
+  } const forgotten{zoltan_};
   const int count = shipment.words.count();
   Lists imports;
-  check(Zoltan_Compute_Destinations(zoltan_, count, shipment.words.words(), shipment.places.data(),
-                                    shipment.ranks.data(), &imports.count, &imports.keys, &imports.places,
-                                    &imports.ranks),
-        "telling who gets what");
+  check(
+      Zoltan_Compute_Destinations(zoltan_, count, shipment.words.words(), shipment.places.data(), shipment.ranks.data(),
+                                  &imports.count, &imports.keys, &imports.places, &imports.ranks),
+      "telling who gets what");
   check(Zoltan_Help_Migrate(zoltan_, imports.count, imports.keys, imports.places, imports.ranks, count,
                             shipment.words.words(), shipment.places.data(), shipment.ranks.data()),
         "moving bodies");

@@ -81,7 +81,8 @@ class Partition {
   bool is_cut() const { return is_cut_; }
   /// Cuts space so that all parts have the same work; returns the rank of each site. Errors: backend_failure.
   std::vector<int> cut(std::span<const Site> sites);
-  /// The ranks whose parts a box meets: two boxes with a point in common have a rank in common. Errors: backend_failure.
+  /// The ranks whose parts a box meets: two boxes with a point in common have a rank in common. Errors:
+  /// backend_failure.
   void ranks_near(const base::Box& box, std::vector<int>& ranks) const;
   /// Sends parcels and returns those that came, by key. Errors: backend_failure.
   std::vector<Parcel> send(Shipment& shipment);

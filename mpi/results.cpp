@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -16,11 +17,26 @@ enum class Kind : std::uint8_t { contact, no_contact, began, ended, patch };
 
 KeyPair keys_of(const BodyPair& bodies) { return {bodies.key_a, bodies.key_b}; }
 
-void put(ByteWriter& to, Kind kind, const KeyPair& keys) { to.put(kind, keys.first, keys.second); }
+void put(ByteWriter& to, const BodyPair& bodies) { to.put(bodies.key_a, bodies.key_b, bodies.rank_a, bodies.rank_b); }
 
-void put_patch(ByteWriter& to, const KeyPair& keys, tact::PatchEvent::Kind kind, std::uint64_t patch,
+// Of another rank, which counts them.
+BodyPair get_bodies(ByteReader& reader) {
+  BodyPair bodies;
+  bodies.key_a = reader.get<std::uint64_t>();
+  bodies.key_b = reader.get<std::uint64_t>();
+  bodies.rank_a = reader.get<int>();
+  bodies.rank_b = reader.get<int>();
+  return bodies;
+}
+
+void put(ByteWriter& to, Kind kind, const BodyPair& bodies) {
+  to.put(kind);
+  put(to, bodies);
+}
+
+void put_patch(ByteWriter& to, const BodyPair& bodies, tact::PatchEvent::Kind kind, std::uint64_t patch,
                std::uint64_t other) {
-  put(to, Kind::patch, keys);
+  put(to, Kind::patch, bodies);
   to.put(kind, patch, other);
 }
 
@@ -41,8 +57,7 @@ void ReportBuilder::sort(Report& report) {
   std::ranges::sort(report.began_, {}, by_keys);
   std::ranges::sort(report.ended_, {}, by_keys);
   std::ranges::sort(report.patch_events_, {}, [](const PatchEvent& event) {
-    const bool is_new =
-        event.kind == tact::PatchEvent::Kind::began || event.kind == tact::PatchEvent::Kind::split;
+    const bool is_new = event.kind == tact::PatchEvent::Kind::began || event.kind == tact::PatchEvent::Kind::split;
     return std::tuple(keys_of(event.bodies), is_new, event.patch);
   });
 }
@@ -63,7 +78,8 @@ std::uint64_t Report::hash_sum() const {
 // Of a pair that this rank looked at: it counts it.
 BodyPair World::Implementation::named(BodyId a, BodyId b) const {
   const auto name = [&](BodyId id) -> std::pair<std::uint64_t, int> {
-    if (const auto gone = held.gone.find(id); gone != held.gone.end()) return gone->second;
+    if (const auto gone = held.gone.find(id); gone != held.gone.end())
+      return {gone->second.key, gone->second.is_removed ? -1 : gone->second.owner};
     return {held.at(id).order.key, held.at(id).owner};
   };
   const auto [key_a, rank_a] = name(a);
@@ -71,48 +87,59 @@ BodyPair World::Implementation::named(BodyId a, BodyId b) const {
   return {key_a, key_b, rank_a, rank_b, true};
 }
 
-// The other rank, or -1.
-int World::Implementation::guest_owner(const BodyPair& bodies) const {
-  if (bodies.rank_a >= 0 && bodies.rank_a != channel.rank()) return bodies.rank_a;
-  return bodies.rank_b != channel.rank() ? bodies.rank_b : -1;
+// A pair that ended while a body of it was on its way.
+BodyPair World::Implementation::named(const EndedPair& pair) const {
+  const auto owner = [&](std::uint64_t key) {
+    if (held.shared.contains(key)) return channel.rank();
+    const auto found = owners_of_ended.find(key);
+    return found == owners_of_ended.end() ? -1 : found->second;
+  };
+  return {pair.keys.first, pair.keys.second, owner(pair.keys.first), owner(pair.keys.second), true};
+}
+
+// The owner of the ghost among two bodies, or -1.
+int World::Implementation::guest_owner(BodyId a, BodyId b) const {
+  for (const BodyId id : {a, b}) {
+    const auto gone = held.gone.find(id);
+    const int owner = gone != held.gone.end() ? gone->second.owner : held.at(id).owner;
+    if (owner >= 0 && owner != channel.rank()) return owner;
+  }
+  return -1;
 }
 
 void World::Implementation::send_results(const tact::Report& found, Outbox& outbox,
-                                         std::map<KeyPair, int>& next_sent) {
+                                         std::map<KeyPair, Sent>& next_sent) {
   for (const tact::Contact& contact : found.contacts()) {
-    const BodyPair bodies = named(contact.a, contact.b);
-    const int to = guest_owner(bodies);
+    const int to = guest_owner(contact.a, contact.b);
     if (to < 0) continue;
-    const KeyPair keys = keys_of(bodies);
-    next_sent[keys] = to;
-    const auto last = sent.find(keys);
-    const bool is_known = last != sent.end() && last->second == to;
+    const BodyPair bodies = named(contact.a, contact.b);
+    next_sent[keys_of(bodies)] = {to, true};
+    const auto last = sent.find(keys_of(bodies));
+    const bool is_known = last != sent.end() && last->second.to == to && last->second.by_this_rank;
     if (is_known && !sends_all && !parts.moved(contact.a) && !parts.moved(contact.b)) continue;
-    put(outbox.to(to), Kind::contact, keys);
+    put(outbox.to(to), Kind::contact, bodies);
     outbox.to(to).put_all(WorldParts::contact_bytes(contact));
   }
-  for (const auto& [keys, to] : sent) {
-    if (!next_sent.contains(keys)) put(outbox.to(to), Kind::no_contact, keys);
+  for (const auto& [keys, one] : sent) {
+    if (!next_sent.contains(keys)) put(outbox.to(one.to), Kind::no_contact, {keys.first, keys.second});
   }
   const auto put_event = [&](const tact::ContactEvent& event, Kind kind) {
-    const BodyPair bodies = named(event.a, event.b);
-    if (const int to = guest_owner(bodies); to >= 0) put(outbox.to(to), kind, keys_of(bodies));
+    if (const int to = guest_owner(event.a, event.b); to >= 0) put(outbox.to(to), kind, named(event.a, event.b));
   };
   for (const tact::ContactEvent& event : found.began()) put_event(event, Kind::began);
   for (const tact::ContactEvent& event : found.ended()) put_event(event, Kind::ended);
   for (const tact::PatchEvent& event : found.patch_events()) {
-    const BodyPair bodies = named(event.a, event.b);
-    if (const int to = guest_owner(bodies); to >= 0)
-      put_patch(outbox.to(to), keys_of(bodies), event.kind, event.patch, event.other);
+    if (const int to = guest_owner(event.a, event.b); to >= 0)
+      put_patch(outbox.to(to), named(event.a, event.b), event.kind, event.patch, event.other);
   }
   for (const EndedPair& pair : ended_waiting) {
-    for (const std::uint64_t key : {pair.keys.first, pair.keys.second}) {
-      const int to = owners_of_ended[key];
+    const BodyPair bodies = named(pair);
+    for (const int to : std::set{bodies.rank_a, bodies.rank_b}) {
       if (to < 0 || to == channel.rank()) continue;
-      put(outbox.to(to), Kind::no_contact, pair.keys);
-      if (pair.touched) put(outbox.to(to), Kind::ended, pair.keys);
+      put(outbox.to(to), Kind::no_contact, bodies);
+      if (pair.touched) put(outbox.to(to), Kind::ended, bodies);
       for (const std::uint64_t patch : pair.patches)
-        put_patch(outbox.to(to), pair.keys, tact::PatchEvent::Kind::ended, patch, 0);
+        put_patch(outbox.to(to), bodies, tact::PatchEvent::Kind::ended, patch, 0);
     }
   }
 }
@@ -121,15 +148,10 @@ void World::Implementation::take_results(std::span<const Message> messages) {
   for (const Message& message : messages) {
     for (ByteReader reader(message.bytes); !reader.at_end();) {
       const auto kind = reader.get<Kind>();
-      const auto key_a = reader.get<std::uint64_t>(), key_b = reader.get<std::uint64_t>();
-      const bool owns_a = held.own.contains(key_a);
-      const BodyPair bodies{key_a, key_b, owns_a ? channel.rank() : message.rank,
-                            owns_a ? message.rank : channel.rank(), false};
+      const BodyPair bodies = get_bodies(reader);
       switch (kind) {
-        case Kind::contact:
-          far[{key_a, key_b}] = {message.rank, WorldParts::contact_of(reader.get_bytes())};
-          break;
-        case Kind::no_contact: far.erase({key_a, key_b}); break;
+        case Kind::contact: far[keys_of(bodies)] = {bodies, WorldParts::contact_of(reader.get_bytes())}; break;
+        case Kind::no_contact: far.erase(keys_of(bodies)); break;
         case Kind::began: ReportBuilder::began(next_report).push_back({bodies}); break;
         case Kind::ended: ReportBuilder::ended(next_report).push_back({bodies}); break;
         case Kind::patch: {
@@ -147,29 +169,21 @@ void World::Implementation::build_report(const tact::Report& found) {
   std::vector<Contact>& contacts = ReportBuilder::contacts(next_report);
   for (const tact::Contact& contact : found.contacts()) contacts.push_back({named(contact.a, contact.b), contact});
   // A guest may have gone to the rank of its host, or to another.
-  std::erase_if(far, [&](const auto& one) {
-    return held.own.contains(one.first.first) == held.own.contains(one.first.second);
-  });
+  std::erase_if(
+      far, [&](const auto& one) { return held.own.contains(one.first.first) == held.own.contains(one.first.second); });
   for (auto& [keys, one] : far) {
     tact::Contact& contact = one.found.contact;
     contact.a = held.find(keys.first), contact.b = held.find(keys.second);
-    const bool owns_a = held.own.contains(keys.first);
-    contacts.push_back({{keys.first, keys.second, owns_a ? channel.rank() : one.rank,
-                         owns_a ? one.rank : channel.rank(), false},
-                        contact});
+    contacts.push_back({one.bodies, contact});
   }
   for (const tact::ContactEvent& event : found.began())
     ReportBuilder::began(next_report).push_back({named(event.a, event.b)});
   for (const tact::ContactEvent& event : found.ended())
     ReportBuilder::ended(next_report).push_back({named(event.a, event.b)});
   for (const tact::PatchEvent& event : found.patch_events())
-    ReportBuilder::patch_events(next_report).push_back(
-        {named(event.a, event.b), event.kind, event.patch, event.other});
+    ReportBuilder::patch_events(next_report).push_back({named(event.a, event.b), event.kind, event.patch, event.other});
   for (const EndedPair& pair : ended_waiting) {
-    const auto owner = [&](std::uint64_t key) {
-      return held.find(key).generation != 0 && !held.ghosts.contains(key) ? channel.rank() : owners_of_ended[key];
-    };
-    const BodyPair bodies{pair.keys.first, pair.keys.second, owner(pair.keys.first), owner(pair.keys.second), true};
+    const BodyPair bodies = named(pair);
     if (pair.touched) ReportBuilder::ended(next_report).push_back({bodies});
     for (const std::uint64_t patch : pair.patches)
       ReportBuilder::patch_events(next_report).push_back({bodies, tact::PatchEvent::Kind::ended, patch, 0});
@@ -184,10 +198,9 @@ void World::Implementation::count_work(const tact::Report& found) {
   const auto work_of = [&](BodyId a, BodyId b) -> std::int64_t& { return held.own.at(held.host_of(a, b)).work; };
   for (const CandidatePair& pair : found.candidate_pairs()) work_of(pair.a, pair.b) += kPair;
   for (const tact::Contact& contact : found.contacts()) {
-    work_of(contact.a, contact.b) +=
-        kContact + contact.kept_facets_a + contact.kept_facets_b +
-        static_cast<std::int64_t>(contact.facet_pairs().size()) +
-        kPoint * static_cast<std::int64_t>(contact.points().size());
+    work_of(contact.a, contact.b) += kContact + contact.kept_facets_a + contact.kept_facets_b +
+                                     static_cast<std::int64_t>(contact.facet_pairs().size()) +
+                                     kPoint * static_cast<std::int64_t>(contact.points().size());
   }
   stats.pairs = static_cast<std::int64_t>(found.candidate_pairs().size());
 }
@@ -216,7 +229,7 @@ Statistics World::Implementation::finished_stats() {
 // All that may fail, before anything of the step counts.
 void World::Implementation::commit(const tact::Report& found) {
   const std::int64_t before = channel.bytes();
-  std::map<KeyPair, int> next_sent;
+  std::map<KeyPair, Sent> next_sent;
   const auto messages = channel.exchange([&](Outbox& outbox) { send_results(found, outbox, next_sent); });
   stats.result_bytes += channel.bytes() - before;
   const std::exception_ptr failure = Channel::failure_of([&] {
@@ -262,10 +275,10 @@ void World::Implementation::finish_motion(const tact::MotionReport& found, Impac
   const std::int64_t before = channel.bytes();
   const auto messages = channel.exchange([&](Outbox& outbox) {
     for (const tact::Impact& impact : impacts) {
-      const BodyPair bodies = named(impact.a, impact.b);
-      const int to = guest_owner(bodies);
+      const int to = guest_owner(impact.a, impact.b);
       if (to < 0) continue;
-      outbox.to(to).put(bodies.key_a, bodies.key_b, impact.kind, impact.time);
+      put(outbox.to(to), named(impact.a, impact.b));
+      outbox.to(to).put(impact.kind, impact.time);
       for (int k = 0; k < 3; ++k) outbox.to(to).put(impact.a_vertices[k], impact.b_vertices[k]);
     }
   });
@@ -276,12 +289,9 @@ void World::Implementation::finish_motion(const tact::MotionReport& found, Impac
     for (const tact::Impact& impact : impacts) list.push_back({named(impact.a, impact.b), impact});
     for (const Message& message : messages) {
       for (ByteReader reader(message.bytes); !reader.at_end();) {
-        const auto key_a = reader.get<std::uint64_t>(), key_b = reader.get<std::uint64_t>();
-        const bool owns_a = held.own.contains(key_a);
         Impact& one = list.emplace_back();
-        one.bodies = {key_a, key_b, owns_a ? channel.rank() : message.rank, owns_a ? message.rank : channel.rank(),
-                      false};
-        one.impact.a = held.find(key_a), one.impact.b = held.find(key_b);
+        one.bodies = get_bodies(reader);
+        one.impact.a = held.find(one.bodies.key_a), one.impact.b = held.find(one.bodies.key_b);
         one.impact.kind = reader.get<FeaturePair>();
         one.impact.time = reader.get<double>();
         for (int k = 0; k < 3; ++k) {

@@ -18,10 +18,19 @@ std::string key_text(std::uint64_t key) { return "key " + std::to_string(key); }
 
 void check(const Settings& settings) {
   if (!(settings.rebalance_above == 0.0 || settings.rebalance_above >= 1.0))
-    refuse(ErrorCode::bad_settings, "rebalance_above is " + std::to_string(settings.rebalance_above) +
-                                        ", not 0 or at least 1");
+    refuse(ErrorCode::bad_settings,
+           "rebalance_above is " + std::to_string(settings.rebalance_above) + ", not 0 or at least 1");
   if (settings.partitioner != Partitioner::rcb && settings.partitioner != Partitioner::hsfc)
     refuse(ErrorCode::bad_settings, "the partitioner has no name");
+}
+
+// Settings that are good on all ranks.
+Settings agreed(const Settings& settings, Channel& channel) {
+  channel.together([&] {
+    check(settings);
+    tact::World trial(settings.world);  // throws if they are bad
+  });
+  return settings;
 }
 
 // Of a body that every rank adds: what all of them must agree on.
@@ -43,8 +52,7 @@ std::uint64_t hash_of(const BodyDefinition& definition) {
 }  // namespace
 
 World::Implementation::Implementation(MPI_Comm communicator, const Settings& given)
-    : settings(given), channel(communicator), local(given.world), directory(channel) {
-  check(settings);
+    : channel(communicator), settings(agreed(given, channel)), local(given.world), directory(channel) {
   partition = std::make_unique<Partition>(channel, settings.partitioner);
   parts.set_choice(&held);
 }
@@ -73,6 +81,18 @@ void World::Implementation::exclude(std::uint64_t own_key, std::uint64_t other, 
   note_change(body, false);
 }
 
+// A body comes of the key of a ghost: its owner has removed that one, or the next call together refuses the key.
+void World::Implementation::forget_ghost(std::uint64_t key) {
+  held.shapes.erase(key);
+  const auto ghost = held.ghosts.find(key);
+  if (ghost == held.ghosts.end()) return;
+  const auto [id, owner] = ghost->second;
+  held.gone[id] = {key, owner, true};
+  parts.remove_copy(id);
+  held.drop(id);
+  held.ghosts.erase(ghost);
+}
+
 World::World(MPI_Comm communicator, const Settings& settings)
     : implementation_(std::make_unique<Implementation>(communicator, settings)) {}
 World::~World() = default;
@@ -91,9 +111,8 @@ const Settings& World::settings() const { return implementation().settings; }
 void World::set_settings(const Settings& settings) {
   Implementation& i = implementation();
   std::unique_ptr<Partition> partition;
+  agreed(settings, i.channel);
   i.channel.together([&] {
-    check(settings);
-    tact::World trial(settings.world);  // throws if they are bad
     if (settings.partitioner != i.settings.partitioner)
       partition = std::make_unique<Partition>(i.channel, settings.partitioner);
   });
@@ -113,7 +132,7 @@ void World::add_body(const BodyDefinition& definition, Holders holders) {
   if (is_shared && definition.motion != Motion::fixed)
     refuse(ErrorCode::invalid_argument, key_text(key) + ": what every rank holds is fixed");
   const std::uint64_t hash = is_shared ? hash_of(definition) : 0;
-  // A copy of a body of this key means that another rank owns one; the next call together says so.
+  i.forget_ghost(key);
   const BodyId id = i.local.add_body(definition);
   const HostOrder order{static_cast<std::int64_t>(i.local.vertex_count(id)), key};
   i.held.hold(id, {is_shared ? Held::Role::shared : Held::Role::own, i.channel.rank(), order});
@@ -131,7 +150,7 @@ void World::remove_body(std::uint64_t key) {
   if (const auto shared = i.held.shared.find(key); shared != i.held.shared.end()) {
     const BodyId id = shared->second;
     i.local.remove_body(id);
-    i.held.gone[id] = {key, -1};
+    i.held.gone[id] = {key, -1, true};
     i.held.drop(id);
     i.held.shared.erase(shared);
     i.shared_hash += base::mixed(key);
@@ -139,13 +158,18 @@ void World::remove_body(std::uint64_t key) {
   }
   OwnBody& body = i.at(key);
   for (const std::uint64_t other : HeldBodies::seconds(i.held.excluded, key)) {
-    if (i.held.own.contains(other)) i.exclude(other, key, false, false);
-    else if (!i.held.shared.contains(other)) i.exclusions.push_back({key, other, false, false});
+    if (i.held.own.contains(other))
+      i.exclude(other, key, false, false);
+    else if (!i.held.shared.contains(other))
+      i.exclusions.push_back({key, other, false, false});
     i.held.set_excluded(key, other, false);
   }
   i.local.remove_body(body.id);
-  i.held.gone[body.id] = {key, -1};
+  i.held.gone[body.id] = {key, -1, true};
   i.held.drop(body.id);
+  for (WaitingPair& pair : i.waiting) {
+    if (pair.pair.key_a == key || pair.pair.key_b == key) pair.pair.bytes.clear();
+  }
   if (!body.subscribers.empty()) i.removed[key] = std::move(body.subscribers);
   if (std::erase(i.new_keys, key) == 0) i.gone_keys.push_back(key);
   i.new_owners.erase(key);

@@ -33,10 +33,16 @@ struct EndedPair {
   std::vector<std::uint64_t> patches;
 };
 
-/// A contact and the rank that found it.
+/// A contact that another rank found.
 struct Far {
-  int rank = 0;
+  BodyPair bodies;
   FarContact found;
+};
+
+/// Who has what was found of a contact, and from whom.
+struct Sent {
+  int to = 0;
+  bool by_this_rank = true;
 };
 
 /// Writes the reports of a rank.
@@ -63,8 +69,8 @@ class ReportBuilder {
 struct World::Implementation {
   Implementation(MPI_Comm communicator, const Settings& given);
 
-  Settings settings;
   Channel channel;
+  Settings settings;
   tact::World local;
   WorldParts parts{local};
   HeldBodies held;
@@ -84,15 +90,15 @@ struct World::Implementation {
   std::uint64_t shared_hash = 0;                             // of the bodies that every rank holds
   std::map<std::uint64_t, int> new_owners;                   // that set_owner() asked for
   std::vector<WaitingPair> waiting;
-  bool needs_near = false;    // bodies have other owners, or space is cut anew, on any rank
+  bool needs_near = false;  // bodies have other owners, or space is cut anew, on any rank
   bool owners_changed = false;
   std::int64_t moved_bodies = 0, moved_bytes = 0;  // since the last step
-  bool sends_all = false;     // the next step looks at every pair
-  std::uint64_t step = 0;     // how often copies were put to sleep or not
+  bool sends_all = false;                          // the next step looks at every pair
+  std::uint64_t step = 0;                          // how often copies were put to sleep or not
 
   // Of the last step.
-  std::map<KeyPair, int> sent;            // contacts with ghosts, and the owners that have them
-  std::map<KeyPair, Far> far;             // contacts that other ranks found of bodies of this one
+  std::map<KeyPair, Sent> sent;  // contacts with ghosts, and the owners that have them
+  std::map<KeyPair, Far> far;    // contacts that other ranks found of bodies of this one
   // Of this step: waiting pairs that are no candidates, and the owners of their bodies, or -1.
   std::vector<EndedPair> ended_waiting;
   std::map<std::uint64_t, int> owners_of_ended;
@@ -105,6 +111,7 @@ struct World::Implementation {
   // world.cpp
   OwnBody& at(std::uint64_t key);
   void note_change(OwnBody& body, bool has_moved);
+  void forget_ghost(std::uint64_t key);
   void exclude(std::uint64_t own_key, std::uint64_t other, bool wanted, bool marks);
   template <class Set>
   void set(std::uint64_t key, const Set& set) {
@@ -141,9 +148,10 @@ struct World::Implementation {
 
   // results.cpp: what was found of ghosts goes to their owners, and what others found comes.
   BodyPair named(BodyId a, BodyId b) const;
-  int guest_owner(const BodyPair& bodies) const;
+  BodyPair named(const EndedPair& pair) const;
+  int guest_owner(BodyId a, BodyId b) const;
   void commit(const tact::Report& found);
-  void send_results(const tact::Report& found, Outbox& outbox, std::map<KeyPair, int>& next_sent);
+  void send_results(const tact::Report& found, Outbox& outbox, std::map<KeyPair, Sent>& next_sent);
   void take_results(std::span<const Message> messages);
   void build_report(const tact::Report& found);
   void count_work(const tact::Report& found);

@@ -70,9 +70,10 @@ void StateFields::write_body(const Bodies& bodies, std::uint32_t slot, const Mes
          *from.body, from, bodies.groupings_.entries_[slot]);
 }
 
-// Own: world, tuning, choice. Memory, or what only saves work: packed_meshes, rigid_states, tree, updates, new_kdops and all
-// scratch. Found again from what is read: boxes, kdops, counts, placed_boxes, farthest_rest. With each body: filters,
-// margins, keys, groupings, and whether it is in `changed`. Not of a state: generations, former; see take_ids().
+// Own: world, tuning, choice. Memory, or what only saves work: packed_meshes, rigid_states, tree, updates, new_kdops
+// and all scratch. Found again from what is read: boxes, kdops, counts, placed_boxes, farthest_rest. With each body:
+// filters, margins, keys, groupings, and whether it is in `changed`. Not of a state: generations, former; see
+// take_ids().
 void StateFields::write(const Bodies& bodies, std::span<const BodyId> gone, StateWriter& writer) {
   const auto& [world, tuning, packed_meshes, slots, generations, former, rigid_states, free, boxes, filters, margins,
                keys, tree, kdops, groupings, changed, count, removed, steps, excluded, vertices, moved_vertices,

@@ -59,6 +59,7 @@ BodyId StateFields::put_body(StateReader& reader, Bodies& bodies, bool is_copy) 
   Body& body = *put.body;
   body.id = {slot, ++bodies.generations_[slot], bodies.world_};
   put.generation = body.id.generation;
+  if (put.rigid != nullptr) put.rigid->begin_is_placed = false;  // as an earlier body may have left it
   if (is_copy && std::exchange(body.self_contact, false)) --bodies.self_count_;
   return body.id;
 }
@@ -130,18 +131,21 @@ std::vector<SavedPair> StateFields::pairs_of(std::span<const BodyId> those, cons
   PairTable& table = step.stages_->table;
   for (std::size_t i = 0; i < table.pairs_.size(); ++i) {
     const CandidatePair& pair = table.candidates_[i];
-    if (!bodies.contains(pair.a) || !bodies.contains(pair.b)) continue;
-    if (is_wanted[pair.a.index] == 0 && is_wanted[pair.b.index] == 0) continue;
+    const bool has_a = bodies.contains(pair.a), has_b = bodies.contains(pair.b);
+    if (!(has_a && is_wanted[pair.a.index] != 0) && !(has_b && is_wanted[pair.b.index] != 0)) continue;
     PairRecord& record = table.record(i);
-    const narrowphase::ClusteredMesh &a = bodies.in_slot(pair.a.index).mesh, &b = bodies.in_slot(pair.b.index).mesh;
-    StateWriter writer;
-    writer(table.separating_axis(i));
-    renumber(record, source_numbers(a), source_numbers(b));
-    write_pair(record, writer);
-    renumber(record, mesh_numbers(a), mesh_numbers(b));
     SavedPair& one = saved.emplace_back();
     one.key_a = bodies.key(pair.a), one.key_b = bodies.key(pair.b);
-    one.bytes = std::move(writer.bytes());
+    if (has_a && has_b) {
+      const Body &a = bodies.in_slot(pair.a.index), &b = bodies.in_slot(pair.b.index);
+      one.birth_a = a.birth, one.birth_b = b.birth;
+      StateWriter writer;
+      writer(table.separating_axis(i));
+      renumber(record, source_numbers(a.mesh), source_numbers(b.mesh));
+      write_pair(record, writer);
+      renumber(record, mesh_numbers(a.mesh), mesh_numbers(b.mesh));
+      one.bytes = std::move(writer.bytes());
+    }
     one.touching = record.touching;
     if (record.patches == nullptr) continue;
     for (const Patch& patch : record.patches->now.patches) one.patches.push_back(patch.id);
@@ -151,12 +155,14 @@ std::vector<SavedPair> StateFields::pairs_of(std::span<const BodyId> those, cons
 
 bool StateFields::put_pair(const SavedPair& pair, const Bodies& bodies, Step& step) {
   const auto slot_a = bodies.keys_.find(pair.key_a), slot_b = bodies.keys_.find(pair.key_b);
-  if (!slot_a || !slot_b) return false;
-  if (step.forgotten_) return true;
+  if (!slot_a || !slot_b || pair.bytes.empty()) return false;
   const Body &a = bodies.in_slot(*slot_a), &b = bodies.in_slot(*slot_b);
+  if (a.birth != pair.birth_a || b.birth != pair.birth_b) return false;
+  if (step.forgotten_) return true;
   PairTable& table = step.stages_->table;
   PairTable::Entry entry{.record = &table.new_record(a.id, b.id)};
   PairRecord& record = *entry.record;
+  record.patches.reset();  // of an earlier pair
   try {
     StateReader reader(pair.bytes);
     reader(entry.separating_axis, record);
@@ -294,9 +300,7 @@ BodyId WorldParts::put(std::span<const std::byte> shape, std::span<const std::by
 
 void WorldParts::take(std::span<const BodyId> bodies) { StateFields::take_bodies(bodies, bodies_, step_); }
 void WorldParts::remove_copy(BodyId body) { StateFields::remove_copy(body, bodies_); }
-void WorldParts::mark_moved(BodyId body, bool is_on_its_way) {
-  StateFields::mark_moved(body, is_on_its_way, bodies_);
-}
+void WorldParts::mark_moved(BodyId body, bool is_on_its_way) { StateFields::mark_moved(body, is_on_its_way, bodies_); }
 void WorldParts::exclude(BodyId a, BodyId b, bool excluded) { StateFields::exclude(a, b, excluded, bodies_); }
 
 std::vector<SavedPair> WorldParts::pairs_of(std::span<const BodyId> bodies) const {

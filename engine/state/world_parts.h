@@ -25,8 +25,9 @@ using StateBytes = std::vector<std::byte>;
 /// What is kept of a pair, by the numbers of the caller's vertices.
 struct SavedPair {
   std::uint64_t key_a = 0, key_b = 0;
-  StateBytes bytes;
-  bool touching = false;               ///< and which patches it has: what is told of it if it ends
+  std::uint64_t birth_a = 0, birth_b = 0;  ///< tell a body from another of its key
+  StateBytes bytes;                        ///< empty if one of the bodies was removed: the pair has ended
+  bool touching = false;                   ///< and which patches it has: what is told of it if it ends
   std::vector<std::uint64_t> patches;
 };
 
@@ -81,7 +82,8 @@ class TACT_API WorldParts {
 
   /// What is kept of each pair with one of these bodies.
   std::vector<SavedPair> pairs_of(std::span<const BodyId> bodies) const;
-  /// Puts in what was kept of a pair; does nothing and returns false if one of its bodies is not here. Errors: bad_state.
+  /// Puts in what was kept of a pair; does nothing and returns false if one of its bodies is not here, or the pair has
+  /// ended. Errors: bad_state.
   bool put(const SavedPair& pair);
   /// The same of a body with itself.
   StateBytes self_of(BodyId body) const;

@@ -29,7 +29,7 @@ struct Statistics {
 
 /// A count of Statistics.
 struct StatisticsCount {
-  const char* name;                       ///< as in Statistics
+  const char* name;                      ///< as in Statistics
   std::int64_t Statistics::*value = {};  ///< the member
 };
 

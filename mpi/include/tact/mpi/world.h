@@ -42,7 +42,7 @@ struct PositionsUpdate {
 
 /// State of the program's own that moves with a body. All three are given or none. They may throw, but for `drop`.
 struct BodyState {
-  std::function<std::vector<std::byte>(std::uint64_t key)> pack;                      ///< on the old owner
+  std::function<std::vector<std::byte>(std::uint64_t key)> pack;                    ///< on the old owner
   std::function<void(std::uint64_t key, std::span<const std::byte> bytes)> unpack;  ///< on the new owner
   std::function<void(std::uint64_t key)> drop;  ///< on the old owner when the body has gone
 };
@@ -68,8 +68,8 @@ class TACT_API World {
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  int rank() const;                   ///< of this process
-  int rank_count() const;             ///< of all
+  int rank() const;                  ///< of this process
+  int rank_count() const;            ///< of all
   const Settings& settings() const;  ///< valid as long as the world
   /// Sets the settings for the next step, together. Errors: bad_settings.
   void set_settings(const Settings& settings);
