@@ -1,6 +1,7 @@
 #include "bench/commands.h"
 
 #include "bench/error/error.h"
+#include "bench/mpi/mpi.h"
 #include "bench/predicates.h"
 #include "bench/rivals/broadphase.h"
 #include "bench/rivals/rivals.h"
@@ -37,6 +38,7 @@ std::vector<Command> commands() {
       {"broadphase", "boxes alone, in every kind of motion, through tact, Embree and CGAL", run_broadphase},
       {"clusters", "pairs of clusters by a loop and by Embree's trees", run_clusters},
       {"error", "run time against error, of every setting and of other libraries", run_error},
+      {"mpi", "worlds over 1 to 64 ranks of MPI: what they send and hold", run_mpi},
       {"predicates", "what a triangle test costs, and how often the exact path runs", run_predicates},
       {"stability", "hostile input of every kind: failures, which must be none", run_stability},
   };

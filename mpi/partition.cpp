@@ -18,6 +18,13 @@ void check(int code, const char* what) {
                 "Zoltan: " + std::string(what) + " failed with code " + std::to_string(code));
 }
 
+// Then Zoltan's communicators are gone.
+bool is_finalized() {
+  int is_over = 0;
+  MPI_Finalized(&is_over);
+  return is_over != 0;
+}
+
 void put_key(std::uint64_t key, ZOLTAN_ID_PTR words) {
   words[0] = static_cast<ZOLTAN_ID_TYPE>(key >> 32);
   words[1] = static_cast<ZOLTAN_ID_TYPE>(key & 0xffffffffu);
@@ -88,7 +95,9 @@ Directory::Directory(const Channel& channel) {
   constexpr int kDefaultTable = 0, kSilent = 0;
   check(Zoltan_DD_Create(&directory_, channel.comm(), kWordsOfKey, 0, 0, kDefaultTable, kSilent), "a directory");
 }
-Directory::~Directory() { Zoltan_DD_Destroy(&directory_); }
+Directory::~Directory() {
+  if (!is_finalized()) Zoltan_DD_Destroy(&directory_);
+}
 
 void Directory::add(Keys& keys) {
   check(Zoltan_DD_Update(directory_, keys.words(), nullptr, nullptr, nullptr, keys.count()), "adding to a directory");
@@ -122,7 +131,9 @@ Partition::Partition(const Channel& channel, Partitioner partitioner)
   }
 }
 
-Partition::~Partition() { Zoltan_Destroy(&zoltan_); }
+Partition::~Partition() {
+  if (!is_finalized()) Zoltan_Destroy(&zoltan_);
+}
 
 std::vector<int> Partition::cut(Sites sites) {
   Zoltan_Set_Num_Obj_Fn(zoltan_, site_count, &sites);

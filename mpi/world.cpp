@@ -24,6 +24,15 @@ void check(const Settings& settings) {
     refuse(ErrorCode::bad_settings, "the partitioner has no name");
 }
 
+// Settings that are good on all ranks.
+Settings agreed(const Settings& settings, Channel& channel) {
+  channel.together([&] {
+    check(settings);
+    tact::World trial(settings.world);  // throws if they are bad
+  });
+  return settings;
+}
+
 // Of a body that every rank adds: what all of them must agree on.
 std::uint64_t hash_of(const BodyDefinition& definition) {
   base::Hash hash;
@@ -43,8 +52,7 @@ std::uint64_t hash_of(const BodyDefinition& definition) {
 }  // namespace
 
 World::Implementation::Implementation(MPI_Comm communicator, const Settings& given)
-    : settings(given), channel(communicator), local(given.world), directory(channel) {
-  check(settings);
+    : channel(communicator), settings(agreed(given, channel)), local(given.world), directory(channel) {
   partition = std::make_unique<Partition>(channel, settings.partitioner);
   parts.set_choice(&held);
 }
@@ -103,9 +111,8 @@ const Settings& World::settings() const { return implementation().settings; }
 void World::set_settings(const Settings& settings) {
   Implementation& i = implementation();
   std::unique_ptr<Partition> partition;
+  agreed(settings, i.channel);
   i.channel.together([&] {
-    check(settings);
-    tact::World trial(settings.world);  // throws if they are bad
     if (settings.partitioner != i.settings.partitioner)
       partition = std::make_unique<Partition>(i.channel, settings.partitioner);
   });

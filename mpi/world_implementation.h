@@ -69,8 +69,8 @@ class ReportBuilder {
 struct World::Implementation {
   Implementation(MPI_Comm communicator, const Settings& given);
 
-  Settings settings;
   Channel channel;
+  Settings settings;
   tact::World local;
   WorldParts parts{local};
   HeldBodies held;

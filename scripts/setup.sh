@@ -30,7 +30,7 @@ packages_of() {
     program) echo g++ cmake ninja-build libeigen3-dev libembree-dev \
                   libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev zlib1g-dev libfreetype-dev fonts-dejavu-core webp ;;
     tests) echo libgtest-dev libcgal-dev libboost-dev librapidcheck-dev pybind11-dev python3-dev python3-numpy python3-pytest python3-matplotlib python3-scipy ;;
-    mpi) echo libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev ;;
+    mpi) echo libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev python3-mpi4py ;;
     blender) echo blender python3-numpy python3-pytest ;;
     bullet) echo libbullet-dev pkg-config ;;
     docs) echo doxygen mkdocs mkdocs-material ;;

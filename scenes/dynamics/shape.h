@@ -40,12 +40,16 @@ class ShapeKeeper {
   // One iteration for a substep of `h` seconds. Vertices whose inverse mass is 0 stay.
   void solve(std::vector<Vec3>& positions, const std::vector<double>& inverse_masses, double h);
 
+  // How the body was turned in the last call, from which the next one starts: all that it remembers.
+  const Quaternion& rotation() const { return rotation_; }
+  void set_rotation(const Quaternion& rotation) { rotation_ = rotation; }
+
  private:
   std::vector<Vec3> rest_;  // from the centre
   Matrix inverse_spread_;   // (sum of r rᵀ)⁻¹
   double stiffness_;        // newtons a metre and kilogram
   double stretch_;
-  Quaternion rotation_;  // of the last call, from which the next one starts
+  Quaternion rotation_;
 };
 
 }  // namespace tact::scenes

@@ -7,39 +7,17 @@
 #include "engine/base/parallel.h"
 #include "engine/base/timer.h"
 #include "scenes/dynamics/damping.h"
+#include "scenes/dynamics/free_way.h"
+#include "scenes/dynamics/substep.h"
 
 namespace tact::scenes {
 namespace {
 
-constexpr std::size_t kLargeBody = 8192;        // vertices from which a body is worth all threads
-constexpr std::size_t kVerticesAtATime = 2048;  // vertices
+constexpr std::size_t kLargeBody = 8192;  // vertices from which a body is worth all threads
 
 Settings with_points(Settings settings) {
   settings.outputs.points = true;
   return settings;
-}
-
-// The springs, volume and shape of a body, once each.
-void hold_together(Body& body, double h, int threads) {
-  body.springs.solve(body.positions, body.inverse_masses, h, threads);
-  if (body.volume) body.volume->solve(body.positions, body.facets, body.inverse_masses, h);
-  if (body.shape) body.shape->solve(body.positions, body.inverse_masses, h);
-}
-
-double longest_way(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
-  double square = 0.0;
-  for (std::size_t v = 0; v < from.size(); ++v) square = std::max(square, norm_squared(to[v] - from[v]));
-  return std::sqrt(square);
-}
-
-// Vertices that forces move go at most `most` metres.
-void shorten_ways(Body& body, const std::vector<Vec3>& before, double most) {
-  for (std::size_t v = 0; v < before.size(); ++v) {
-    const Vec3 way = body.positions[v] - before[v];
-    const double square = norm_squared(way);
-    if (square > most * most && body.inverse_masses[v] > 0.0)
-      body.positions[v] = before[v] + (most / std::sqrt(square)) * way;
-  }
 }
 
 void add(const StepStats& detection, StepStats& sum) {
@@ -128,17 +106,27 @@ void Simulation::rest() {
 
 void Simulation::run_substep(double h) {
   base::Timer timer;
-  for_each_body([&](std::size_t i, int threads) { begin_substep(i, h, threads); });
+  for_each_body([&](std::size_t i, int threads) {
+    begin_substep(bodies_[i], before_[i], {.seconds = h, .gravity = dynamics_.gravity, .threads = threads});
+  });
   state_.time += h;
   if (script_) script_(state_.time, bodies_);
   times_.move_ms += note("motion", timer);
   if (!dynamics_.continuous) {
     solver_.push(bodies_, before_, dynamics_.contact, h, threads_);
-    if (dynamics_.stay_within_reach) for_each_body([&](std::size_t i, int /*threads*/) { keep_within_reach(i); });
+    if (dynamics_.stay_within_reach) {
+      for_each_body([&](std::size_t i, int /*threads*/) {
+        shorten_ways(bodies_[i], before_[i], std::max(free_[i] - way_[i], 0.0));
+      });
+    }
     solver_.retreat(bodies_, before_, dynamics_.contact, threads_);
   }
   times_.contacts_ms += note("contact points", timer);
-  for_each_body([&](std::size_t i, int threads) { end_substep(i, h, threads); });
+  for_each_body([&](std::size_t i, int threads) {
+    last_way_[i] =
+        end_substep(bodies_[i], before_[i], {.seconds = h, .gravity = dynamics_.gravity, .threads = threads});
+    way_[i] += last_way_[i];
+  });
   times_.move_ms += note("motion", timer);
 }
 
@@ -147,48 +135,6 @@ double Simulation::note(const char* name, base::Timer& timer) {
   const double ms = timer.lap();
   times_.stretches.push_back({name, begin, timer.start()});
   return ms;
-}
-
-void Simulation::begin_substep(std::size_t i, double h, int threads) {
-  Body& body = bodies_[i];
-  const Vec3 fall{0.0, 0.0, -dynamics_.gravity * body.weight * h};
-  const double keep = 1.0 / (1.0 + body.drag * h);
-  if (body.rigid) {
-    body.rigid->begin_substep(h, fall, keep);
-    return;
-  }
-  std::vector<Vec3>& before = before_[i];
-  base::parallel_for(body.positions.size(), kVerticesAtATime, threads, [&](std::size_t v) {
-    before[v] = body.positions[v];
-    if (!(body.inverse_masses[v] > 0.0)) return;
-    body.positions[v] = body.positions[v] + (h * keep) * (body.velocities[v] + fall);
-  });
-  hold_together(body, h, threads);
-}
-
-void Simulation::keep_within_reach(std::size_t i) {
-  Body& body = bodies_[i];
-  if (!body.dynamic) return;
-  const double free = std::max(free_[i] - way_[i], 0.0);
-  if (body.rigid) {
-    body.rigid->shorten(free);
-  } else {
-    shorten_ways(body, before_[i], free);
-  }
-}
-
-void Simulation::end_substep(std::size_t i, double h, int threads) {
-  Body& body = bodies_[i];
-  if (body.rigid) {
-    last_way_[i] = body.rigid->way();
-    body.rigid->end_substep(h);
-  } else {
-    const std::vector<Vec3>& before = before_[i];
-    last_way_[i] = longest_way(before, body.positions);
-    base::parallel_for(body.positions.size(), kVerticesAtATime, threads,
-                       [&](std::size_t v) { body.velocities[v] = (1.0 / h) * (body.positions[v] - before[v]); });
-  }
-  way_[i] += last_way_[i];
 }
 
 // Two bodies that were farther apart than both margins stay apart by their thicknesses while neither leaves its reach.
@@ -200,15 +146,9 @@ bool Simulation::has_left_its_reach(double h) const {
   return false;
 }
 
-// As far as the body may move in a step; in powers of two, so that a body at rest keeps its margin.
 void Simulation::set_reach(std::size_t i) {
-  const double step = dynamics_.time_step;
-  const double wanted = 1.25 * last_way_[i] * dynamics_.substeps + dynamics_.gravity * step * step;
-  double reach = dynamics_.least_reach;
-  while (reach < wanted && reach < dynamics_.most_reach) reach *= 2.0;
-  reach = std::min(reach, dynamics_.most_reach);
-  const bool shrinks_little = reach < reach_[i] && reach > 0.3 * reach_[i];
-  if (reach == reach_[i] || shrinks_little) return;
+  const double reach = next_reach(reach_[i], last_way_[i], dynamics_);
+  if (reach == reach_[i]) return;
   reach_[i] = reach;
   world_.set_margin(ids_[i], bodies_[i].thickness + reach);
 }
@@ -264,17 +204,13 @@ void Simulation::detect() {
 }
 
 void Simulation::limit_ways() {
-  constexpr double kOfGap = 0.9;   // of a gap, for both bodies
-  constexpr double kLeast = 0.05;  // of both thicknesses: what is nearer than that has to get away
   free_ = reach_;
   if (stops_impacts()) return;
+  const auto moves = [](const Body& body) { return body.motion != Motion::fixed && !body.asleep; };
   for (const Contact& contact : report_->contacts()) {
     const std::size_t a = contact.a.index, b = contact.b.index;
-    double gap = std::numeric_limits<double>::infinity();
-    for (const ContactPoint& point : contact.points()) gap = std::min(gap, point.gap);
-    gap = std::max(gap, kLeast * (bodies_[a].thickness + bodies_[b].thickness));
-    const auto moves = [&](const Body& body) { return body.motion != Motion::fixed && !body.asleep; };
-    const double free = (moves(bodies_[a]) && moves(bodies_[b]) ? 0.5 : 1.0) * kOfGap * gap;
+    const Movers movers = moves(bodies_[a]) && moves(bodies_[b]) ? Movers::both : Movers::one;
+    const double free = free_way(smallest_gap(contact.points()), bodies_[a].thickness + bodies_[b].thickness, movers);
     free_[a] = std::min(free_[a], free);
     free_[b] = std::min(free_[b], free);
   }
@@ -289,8 +225,7 @@ void Simulation::measure_contacts() {
     state_.contact_points += static_cast<std::int64_t>(contact.points().size());
     const double wanted = dynamics_.continuous ? 2.0 * dynamics_.margin : a.thickness + b.thickness;
     const double size = std::min(a.size, b.size);
-    double gap = std::numeric_limits<double>::infinity();
-    for (const ContactPoint& point : contact.points()) gap = std::min(gap, point.gap);
+    const double gap = smallest_gap(contact.points());
     state_.smallest_gap = std::min(state_.smallest_gap, gap);
     state_.squeezed = std::max(state_.squeezed, (wanted - gap) / size);
     state_.crossed = std::max(state_.crossed, -gap / size);

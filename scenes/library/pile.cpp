@@ -1,3 +1,5 @@
+#include "scenes/library/pile.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,15 +21,12 @@ struct Pile {
   double spacing = 1.2;    // of the bodies before they fall, in body sizes
   double widest = 1.15;    // of a body, in body sizes
   double room = 0.04;      // between the outermost bodies and the wall, metres
-  double layers = 5.0;     // of bodies before they fall, at most
   double wall = 0.15;      // thickness of the bin, metres
   double bin_edges = 0.3;  // length of the edges of the bin's facets, metres
   SoftMaterial soft{.drag = 0.5, .thickness = 0.003};
   RigidMaterial bin{.friction = 0.5, .thickness = 0.003};
-  DynamicsSettings dynamics{
-      .time_step = 1.0 / 240.0, .substeps = 4, .most_reach = 0.006, .sleep = {.speed = 0.05, .room = 0.01}};
-  int rigid = 3;  // each so manieth body is rigid
 };
+constexpr int kRigid = 3;  // each so manieth body of the scene is rigid
 
 // Shapes of radius about 1. All are spheres pulled into form, so that facets stay of one size.
 Vec3 ball(Vec3 p) { return p; }
@@ -69,19 +68,6 @@ Mesh mesh_of(const Shape& shape, double most) {
   return scaled(mesh, std::min(1.0, most / radius));
 }
 
-void add_bin(const Pile& p, double half, double height, Scene& scene) {
-  const double out = half + p.wall;
-  const auto add = [&](const char* name, Vec3 lower, Vec3 upper, const Look& look) {
-    scene.add(make_rigid(name, box(lower, upper, p.bin_edges), p.bin, Motion::fixed), look);
-  };
-  const Look glass{.marked = false, .opacity = 0.07, .shading = Shading::flat};
-  add("floor", {-out, -out, -p.wall}, {out, out, 0.0}, {.visible = false});
-  add("left wall", {-out, -out, 0.0}, {-half, out, height}, glass);
-  add("right wall", {half, -out, 0.0}, {out, out, height}, glass);
-  add("front wall", {-half, -out, 0.0}, {half, -half, height}, glass);
-  add("back wall", {-half, half, 0.0}, {half, out, height}, glass);
-}
-
 // The numbers from 0 to count - 1 in random order.
 std::vector<int> shuffled(int count, Random& random) {
   std::vector<int> numbers(static_cast<std::size_t>(count));
@@ -90,33 +76,66 @@ std::vector<int> shuffled(int count, Random& random) {
   return numbers;
 }
 
+double step_of(const Pile& p) { return p.spacing * p.body_size; }
+
 }  // namespace
 
-Scene make_pile(int size) {
+PileGrid pile_grid(int size, double most_layers) {
+  const int side = static_cast<int>(std::ceil(std::max(std::cbrt(2.0 * size), std::sqrt(size / most_layers))));
+  return {.side = side, .layers = (size + side * side - 1) / (side * side), .half = 0.5 * step_of(Pile{}) * side};
+}
+
+std::vector<Body> pile_bin(const PileGrid& grid) {
   const Pile p;
-  Random random(p.seed);
-  // Twice as wide as high, and so low that no body falls faster than contacts follow.
-  const int side = static_cast<int>(std::ceil(std::max(std::cbrt(2.0 * size), std::sqrt(size / p.layers))));
-  const int layers = (size + side * side - 1) / (side * side);
-  const double step = p.spacing * p.body_size;
-  const double half = 0.5 * step * side;
+  const double half = grid.half + p.room, out = half + p.wall, height = step_of(p) * grid.layers + 0.2 * p.body_size;
+  std::vector<Body> walls;
+  const auto add = [&](const char* name, Vec3 lower, Vec3 upper) {
+    walls.push_back(make_rigid(name, box(lower, upper, p.bin_edges), p.bin, Motion::fixed));
+  };
+  add("floor", {-out, -out, -p.wall}, {out, out, 0.0});
+  add("left wall", {-out, -out, 0.0}, {-half, out, height});
+  add("right wall", {half, -out, 0.0}, {out, out, height});
+  add("front wall", {-half, -out, 0.0}, {half, -half, height});
+  add("back wall", {-half, half, 0.0}, {half, out, height});
+  return walls;
+}
+
+Body pile_body(int number, int place, const PileGrid& grid, PileBody kind, Random& random) {
+  const Pile p;
+  const int side = grid.side;
+  const Vec3 cell{static_cast<double>(place % side), static_cast<double>(place / side % side),
+                  static_cast<double>(place / (side * side))};
+  const double loose = 0.5 * (p.spacing - p.widest) * p.body_size - p.soft.thickness;
+  const Vec3 jitter{random.between(-loose, loose), random.between(-loose, loose), random.between(-loose, loose)};
+  const Vec3 center = step_of(p) * (cell + Vec3{0.5, 0.5, 0.6}) - Vec3{grid.half, grid.half, 0.0} + jitter;
+  const Shape& shape = kShapes[random.bits() % kShapes.size()];
+  const Mesh mesh = moved(rotated(scaled(mesh_of(shape, p.widest), 0.5 * p.body_size), random), center);
+  const std::string name = shape.name + (" " + std::to_string(number));
+  return kind == PileBody::rigid ? make_hard(name, mesh, p.soft) : make_soft(name, mesh, p.soft);
+}
+
+DynamicsSettings pile_dynamics() {
+  return {.time_step = 1.0 / 240.0, .substeps = 4, .most_reach = 0.006, .sleep = {.speed = 0.05, .room = 0.01}};
+}
+
+Scene make_pile(int size) {
+  // So low that no body falls faster than contacts follow.
+  constexpr double kMostLayers = 5.0;
+  Random random(Pile{}.seed);
+  const PileGrid grid = pile_grid(size, kMostLayers);
   Scene scene;
-  scene.dynamics = p.dynamics;
+  scene.dynamics = pile_dynamics();
   scene.view = {.azimuth = 25.0, .elevation = 28.0};
-  scene.ground = -0.01 * p.body_size;  // below the walls, so that they do not blend
-  add_bin(p, half + p.room, step * layers + 0.2 * p.body_size, scene);
+  scene.ground = -0.01 * Pile{}.body_size;  // below the walls, so that they do not blend
+  for (Body& wall : pile_bin(grid)) {
+    const Look floor{.visible = false}, glass{.marked = false, .opacity = 0.07, .shading = Shading::flat};
+    const bool is_floor = scene.bodies.empty();
+    scene.add(std::move(wall), is_floor ? floor : glass);
+  }
   const std::vector<int> places = shuffled(size, random);
   for (int i = 0; i < size; ++i) {
-    const int place = places[i];
-    const Vec3 cell{static_cast<double>(place % side), static_cast<double>(place / side % side),
-                    static_cast<double>(place / (side * side))};
-    const double loose = 0.5 * (p.spacing - p.widest) * p.body_size - p.soft.thickness;
-    const Vec3 jitter{random.between(-loose, loose), random.between(-loose, loose), random.between(-loose, loose)};
-    const Vec3 center = step * (cell + Vec3{0.5, 0.5, 0.6}) - Vec3{half, half, 0.0} + jitter;
-    const Shape& shape = kShapes[random.bits() % kShapes.size()];
-    const Mesh mesh = moved(rotated(scaled(mesh_of(shape, p.widest), 0.5 * p.body_size), random), center);
-    const std::string name = shape.name + (" " + std::to_string(i));
-    scene.add(i % p.rigid == 2 ? make_hard(name, mesh, p.soft) : make_soft(name, mesh, p.soft));
+    const PileBody kind = i % kRigid == kRigid - 1 ? PileBody::rigid : PileBody::soft;
+    scene.add(pile_body(i, places[i], grid, kind, random));
   }
   return scene;
 }

@@ -24,9 +24,10 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"engine", {"engine/base", "broadphase", "narrowphase"}},
     {"solver", {"engine/base", "engine"}},
     {"mpi", {"engine/base", "broadphase", "engine"}},
+    {"mpi/program", {"engine/base", "engine", "mpi", "scenes"}},
     {"scenes", {"engine/base", "engine", "solver"}},
     {"examples", {"engine/base", "engine", "solver"}},
-    {"bench", {"engine/base", "broadphase", "narrowphase", "engine", "solver", "scenes", "examples", "tests"}},
+    {"bench", {"engine/base", "broadphase", "narrowphase", "engine", "solver", "mpi", "scenes", "examples", "tests"}},
     {"tests", {"engine/base", "broadphase", "narrowphase", "engine", "solver", "mpi", "scenes", "examples", "bench"}},
 };
 

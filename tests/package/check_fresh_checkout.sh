@@ -4,7 +4,7 @@
 set -euo pipefail
 cmake=$1 source=$2 build=$3 generator=$4 compiler=$5
 options=()
-for package in CGAL CLI11 Freetype GTest PkgConfig PNG Python3 ZLIB fcl fmt nlohmann_json pybind11 rapidcheck; do
+for package in CGAL CLI11 Freetype GTest MPI PkgConfig PNG Python3 ZLIB fcl fmt nlohmann_json pybind11 rapidcheck; do
   options+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
 done
 "$cmake" --fresh --no-warn-unused-cli -S "$source" -B "$build" -G "$generator" -DCMAKE_CXX_COMPILER="$compiler" \

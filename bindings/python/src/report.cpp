@@ -9,6 +9,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "report_parts.h"
 #include "shared_world.h"
 
 namespace tact::python {
@@ -17,13 +18,6 @@ namespace {
 
 using ReportHandle = OfReport<Report>;
 using ContactHandle = OfReport<Contact>;
-
-py::array_t<int> facet_pair_array(std::span<const FacetPair> pairs) {
-  return rows_of<int>(pairs, 2, [](const FacetPair& pair, int* row) {
-    row[0] = pair.a;
-    row[1] = pair.b;
-  });
-}
 
 py::list events_of(std::span<const ContactEvent> events) {
   py::list list;
@@ -48,29 +42,6 @@ std::string contact_text(const ContactHandle& contact) {
   const auto c = contact.held();
   return "<tact.Contact of bodies " + std::to_string(c->a.index) + " and " + std::to_string(c->b.index) + ", depth " +
          std::string(py::str(py::float_(c->depth))) + ", " + std::to_string(c->facet_pairs().size()) + " facet pairs>";
-}
-
-// A patch as copies.
-struct PatchArrays {
-  std::uint64_t id;
-  py::array_t<double> point, direction;
-  double depth, area;
-  py::array_t<int> facet_pairs, points, spanning;
-};
-
-PatchArrays patch_arrays(const Patch& patch) {
-  const auto column = [](std::span<const int> indices) {
-    return column_of<int>(indices, [](int index) { return index; });
-  };
-  const auto spanning = static_cast<std::size_t>(std::ranges::count_if(patch.spanning, [](int i) { return i >= 0; }));
-  return {patch.id,
-          vector_of(patch.point),
-          vector_of(patch.direction),
-          patch.depth,
-          patch.area,
-          column(patch.facet_pairs),
-          column(patch.points),
-          column(std::span(patch.spanning).first(spanning))};
 }
 
 void define_parts(py::module_& module) {
@@ -111,28 +82,6 @@ void define_parts(py::module_& module) {
       .def_readonly("kind", &PatchEvent::kind)
       .def_readonly("patch", &PatchEvent::patch, "its id")
       .def_readonly("other", &PatchEvent::other, "the id of the other patch, or 0");
-}
-
-// Contact points as arrays, a row a point. They are copies.
-struct PointArrays {
-  py::array_t<std::uint8_t> kinds;
-  py::array_t<int> patches, a_vertices, b_vertices;
-  py::array_t<double> a_weights, b_weights, normals, gaps;
-  py::array_t<std::uint64_t> ids;
-  py::array_t<bool> minima;
-};
-
-PointArrays point_arrays(std::span<const ContactPoint> points) {
-  return {column_of<std::uint8_t>(points, [](const ContactPoint& point) { return point.kind; }),
-          column_of<int>(points, [](const ContactPoint& point) { return point.patch; }),
-          rows_of_three<int>(points, &ContactPoint::a_vertices),
-          rows_of_three<int>(points, &ContactPoint::b_vertices),
-          rows_of_three<double>(points, &ContactPoint::a_weights),
-          rows_of_three<double>(points, &ContactPoint::b_weights),
-          rows_of_three<double>(points, &ContactPoint::normal),
-          column_of<double>(points, [](const ContactPoint& point) { return point.gap; }),
-          column_of<std::uint64_t>(points, [](const ContactPoint& point) { return point.id; }),
-          column_of<bool>(points, [](const ContactPoint& point) { return point.minimum; })};
 }
 
 void define_points(py::module_& module) {

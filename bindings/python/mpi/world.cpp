@@ -1,0 +1,256 @@
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+#include <tact/mpi/world.h>
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "../src/arrays.h"
+#include "rank_world.h"
+
+namespace tact::python {
+
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+// mpi4py names a communicator to other languages by the number that Fortran has for it.
+MPI_Comm communicator_of(py::handle given) {
+  if (!py::hasattr(given, "py2f"))
+    throw py::type_error("communicator: a " + type_name(given) + " is no communicator of mpi4py");
+  return MPI_Comm_f2c(py::cast<MPI_Fint>(given.attr("py2f")()));
+}
+
+// Calls work() with the interpreter's lock; what Python raises goes through the engine as an exception of C++.
+template <class Work>
+auto in_python(const Work& work) {
+  const py::gil_scoped_acquire lock;
+  try {
+    return work();
+  } catch (const py::error_already_set& raised) {
+    throw std::runtime_error(raised.what());
+  }
+}
+
+Bytes bytes_of(const py::object& given) {
+  if (!py::isinstance<py::bytes>(given))
+    throw py::type_error("the function returned a " + type_name(given) + ", not bytes");
+  const std::string_view view = py::cast<py::bytes>(given);
+  const auto bytes = std::as_bytes(std::span(view));
+  return {bytes.begin(), bytes.end()};
+}
+
+py::bytes python_bytes(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::function<Bytes(std::uint64_t)> giving(const py::function& function) {
+  return [function](std::uint64_t key) { return in_python([&] { return bytes_of(function(key)); }); };
+}
+
+std::function<void(std::uint64_t, std::span<const std::byte>)> taking(const py::function& function) {
+  return [function](std::uint64_t key, std::span<const std::byte> bytes) {
+    in_python([&] { function(key, python_bytes(bytes)); });
+  };
+}
+
+std::shared_ptr<RankWorld> make_world(py::handle communicator, const Settings& settings, mpi::Partitioner partitioner,
+                                      double rebalance_above) {
+  return std::make_shared<RankWorld>(
+      communicator_of(communicator),
+      mpi::Settings{.world = settings, .partitioner = partitioner, .rebalance_above = rebalance_above});
+}
+
+void add_body(RankWorld& world, py::handle positions, py::handle facets, std::uint64_t key, bool every_rank,
+              Surface surface, Motion motion, const std::string& name, std::uint32_t layer, std::uint32_t mask,
+              double margin, bool self_contact, std::uint32_t group) {
+  const PositionsArgument x(positions);
+  const FacetsArgument f(facets);
+  world.use().add_body({.positions = x.columns(),
+                        .facets = f.columns(),
+                        .surface = surface,
+                        .motion = motion,
+                        .name = name,
+                        .layer = layer,
+                        .mask = mask,
+                        .group = group,
+                        .key = key,
+                        .margin = margin,
+                        .self_contact = self_contact},
+                       every_rank ? mpi::Holders::every_rank : mpi::Holders::this_rank);
+}
+
+void set_many_positions(RankWorld& world, const py::dict& positions) {
+  std::vector<PositionsArgument> arguments;
+  std::vector<std::uint64_t> keys;
+  for (const auto& [key, array] : positions) {
+    keys.push_back(py::cast<std::uint64_t>(key));
+    arguments.emplace_back(array);
+  }
+  std::vector<mpi::PositionsUpdate> updates;
+  for (std::size_t i = 0; i < keys.size(); ++i) updates.push_back({keys[i], arguments[i].columns()});
+  world.use().set_positions(updates);
+}
+
+void set_pose(RankWorld& world, std::uint64_t key, py::handle rotation, py::handle translation) {
+  const py::array_t<double> turn = numbers_argument(rotation, "rotation", {3, 3});
+  world.use().set_pose(key, Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(turn.data()),
+                       vector_argument(translation, "translation"));
+}
+
+OfStep<mpi::Report> detect(RankWorld& world) {
+  const mpi::Report* report = nullptr;
+  world.together([&](mpi::World& w) { report = &w.detect(); });
+  return {world.shared_from_this(), *report};
+}
+
+OfStep<mpi::MotionReport> detect_motion(RankWorld& world, Impacts wanted) {
+  const mpi::MotionReport* report = nullptr;
+  world.together([&](mpi::World& w) { report = &w.detect_motion(wanted); });
+  return {world.shared_from_this(), *report};
+}
+
+void set_body_state(RankWorld& world, const py::function& pack, const py::function& unpack, const py::function& drop) {
+  world.use().set_body_state({.pack = giving(pack), .unpack = taking(unpack), .drop = [drop](std::uint64_t key) {
+                                in_python([&] { drop(key); });
+                              }});
+}
+
+void exchange(RankWorld& world, const py::function& give, const py::function& take) {
+  const auto giver = giving(give);
+  const auto taker = taking(take);
+  world.together([&](mpi::World& w) { w.exchange(giver, taker); });
+}
+
+py::array_t<double> positions_of(RankWorld& world, std::uint64_t key) {
+  const tact::World& local = world.read().local();
+  const BodyId body = world.read().id(key);
+  py::array_t<double> array({static_cast<py::ssize_t>(local.vertex_count(body)), py::ssize_t{3}});
+  local.copy_positions(body, {array.mutable_data(), static_cast<std::size_t>(array.size())});
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+// A function of World that ranks call together.
+template <auto kFunction>
+void together(RankWorld& world) {
+  world.together([](mpi::World& w) { (w.*kFunction)(); });
+}
+
+using WorldClass = py::class_<RankWorld, std::shared_ptr<RankWorld>>;
+
+void define_bodies(WorldClass& world) {
+  world
+      .def("add_body", add_body, py::arg("positions"), py::arg("facets"), py::kw_only(), py::arg("key"),
+           py::arg("every_rank") = false, py::arg("surface") = Surface::closed, py::arg("motion") = Motion::deformable,
+           py::arg("name") = "", py::arg("layer") = 1u, py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0,
+           py::arg("self_contact") = false, py::arg("group") = 0u,
+           "adds a body of this rank, or, with `every_rank`, a fixed one that all ranks add. Positions: (V, 3) in "
+           "metres; facets: (F, 3)")
+      .def(
+          "remove_body", [](RankWorld& w, std::uint64_t key) { w.use().remove_body(key); }, py::arg("key"))
+      .def(
+          "set_positions",
+          [](RankWorld& w, std::uint64_t key, py::handle positions) {
+            w.use().set_positions(key, PositionsArgument(positions).columns());
+          },
+          py::arg("key"), py::arg("positions"), "positions: (V, 3) in metres")
+      .def("set_positions", set_many_positions, py::arg("positions"),
+           "{key: (V, 3) in metres}: all of them or, after an error, none")
+      .def("set_pose", set_pose, py::arg("key"), py::arg("rotation"), py::arg("translation"),
+           "places a rigid body: (3, 3), and (3,) metres")
+      .def(
+          "set_layers",
+          [](RankWorld& w, std::uint64_t key, std::uint32_t layer, std::uint32_t mask) {
+            w.use().set_layers(key, layer, mask);
+          },
+          py::arg("key"), py::arg("layer"), py::arg("mask"))
+      .def(
+          "set_group", [](RankWorld& w, std::uint64_t key, std::uint32_t group) { w.use().set_group(key, group); },
+          py::arg("key"), py::arg("group"))
+      .def(
+          "set_motion", [](RankWorld& w, std::uint64_t key, Motion motion) { w.use().set_motion(key, motion); },
+          py::arg("key"), py::arg("motion"))
+      .def(
+          "set_margin", [](RankWorld& w, std::uint64_t key, double margin) { w.use().set_margin(key, margin); },
+          py::arg("key"), py::arg("margin"))
+      .def(
+          "set_self_contact",
+          [](RankWorld& w, std::uint64_t key, bool wanted) { w.use().set_self_contact(key, wanted); }, py::arg("key"),
+          py::arg("wanted"))
+      .def(
+          "set_excluded",
+          [](RankWorld& w, std::uint64_t key, std::uint64_t other, bool excluded) {
+            w.use().set_excluded(key, other, excluded);
+          },
+          py::arg("key"), py::arg("other"), py::arg("excluded"), "one rank that owns one of them says so")
+      .def(
+          "owns", [](RankWorld& w, std::uint64_t key) { return w.read().owns(key); }, py::arg("key"))
+      .def_property_readonly(
+          "bodies", [](RankWorld& w) { return w.read().bodies(); }, "the keys of the bodies of this rank, ascending")
+      .def_property_readonly("body_count", [](RankWorld& w) { return w.read().body_count(); })
+      .def("positions", positions_of, py::arg("key"), "a copy, (V, 3) in metres, as they were set last")
+      .def("__len__", [](RankWorld& w) { return w.read().body_count(); });
+}
+
+}  // namespace
+
+void define_world(py::module_& module) {
+  py::enum_<mpi::Partitioner>(module, "Partitioner", "How Zoltan cuts space into one part a rank.")
+      .value("rcb", mpi::Partitioner::rcb, "by planes across the longest side, halving the work")
+      .value("hsfc", mpi::Partitioner::hsfc, "along a Hilbert curve");
+  WorldClass world(module, "World",
+                   "Bodies that are spread over the ranks of an MPI communicator, each with a key of its own.");
+  world
+      .def(py::init(&make_world), py::arg("communicator"), py::arg("settings") = Settings{}, py::kw_only(),
+           py::arg("partitioner") = mpi::Partitioner::rcb, py::arg("rebalance_above") = 0.0,
+           "together; `communicator` is mpi4py's")
+      .def_property_readonly("rank", [](RankWorld& w) { return w.read().rank(); })
+      .def_property_readonly("rank_count", [](RankWorld& w) { return w.read().rank_count(); })
+      .def_property_readonly(
+          "settings", [](RankWorld& w) { return w.read().settings().world; }, "a copy; see set_settings()")
+      .def(
+          "set_settings",
+          [](RankWorld& w, const Settings& settings) {
+            w.together([&](mpi::World& all) {
+              mpi::Settings changed = all.settings();
+              changed.world = settings;
+              all.set_settings(changed);
+            });
+          },
+          py::arg("settings"), "together; takes effect with the next step")
+      .def("detect", detect, "together; one step: the contacts of the positions as they are now")
+      .def("detect_motion", detect_motion, py::arg("wanted") = Impacts::all,
+           "together; what meets between the positions of the last detect() and the current ones")
+      .def(
+          "set_body_state", set_body_state, py::arg("pack"), py::arg("unpack"), py::arg("drop"),
+          "the program's state that moves with bodies: pack(key) gives bytes, unpack(key, bytes) takes them on the new "
+          "owner, drop(key) comes on the old one")
+      .def("rebalance", together<&mpi::World::rebalance>, "together; cuts space anew and moves bodies")
+      .def(
+          "set_owner", [](RankWorld& w, std::uint64_t key, int rank) { w.use().set_owner(key, rank); }, py::arg("key"),
+          py::arg("rank"), "gives a body to another rank, in the next move_bodies()")
+      .def("move_bodies", together<&mpi::World::move_bodies>, "together; moves the bodies that set_owner() named")
+      .def("exchange", exchange, py::arg("give"), py::arg("take"),
+           "together; sends the bytes give(key) of each body to the ranks with a body in contact with it, and calls "
+           "take(key, bytes) for what comes")
+      .def("__repr__", [](RankWorld& w) {
+        return "<tact.mpi.World of " + std::to_string(w.read().body_count()) + " bodies on rank " +
+               std::to_string(w.read().rank()) + " of " + std::to_string(w.read().rank_count()) + ">";
+      });
+  define_bodies(world);
+}
+
+}  // namespace tact::python
+
+PYBIND11_MODULE(_tact_mpi, module) {
+  pybind11::module_::import("tact");  // whose types this one uses
+  tact::python::define_report(module);
+  tact::python::define_world(module);
+}
