@@ -186,8 +186,8 @@ TEST(Recording, SaysWhatIsWrongAndAtWhichByte) {
             "byte 8: a recording of version 0; versions 1 to 6 can be read");
   EXPECT_EQ(recording_refusal(with(good, kSettingsAt, "\x02")),
             at_byte(kSettingsAt) + "the first record is not one of settings");
-  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x12")),
-            at_byte(kFirstBodyAt) + "step 0: no record is of kind 18");
+  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x13")),
+            at_byte(kFirstBodyAt) + "step 0: no record is of kind 19");
   EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x0f")),
             at_byte(kFirstBodyAt) + "step 0: a failure that follows no step");
   EXPECT_EQ(recording_refusal(with(good, kVerticesAt + 16, bytes_of(std::numeric_limits<double>::quiet_NaN())))
