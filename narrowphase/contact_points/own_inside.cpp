@@ -21,6 +21,7 @@ int side_of_way(const ClusteredMesh& mesh, const Corners& c, Vec3 way) {
 }  // namespace
 
 bool leads_inside(const FeaturedMesh& m, std::span<const int> feature, Vec3 way) {
+  if (feature.size() == 3) return side_of_way(*m.mesh, {feature[0], feature[1], feature[2]}, way) < 0;
   bool any_inside = false;
   for (const int facet : m.features->facets_at(feature[0])) {
     const Corners& corners = m.features->corners(facet);
