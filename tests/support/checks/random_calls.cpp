@@ -399,8 +399,9 @@ Call RandomCalls::set_settings() {
 
 Call RandomCalls::refused() {
   const std::size_t slot = *any_body();
-  const auto bad = std::make_shared<Mesh>(slots_[slot].body->mesh);
-  if (bad->vertex_count() > 0) bad->positions(1, bad->positions.cols() - 1) = HUGE_VAL;
+  const auto bad = std::make_shared<Remeshed>(unchanged(slots_[slot].body->mesh));
+  Eigen::Matrix3Xd& positions = bad->mesh.positions;
+  if (positions.cols() > 0) positions(1, positions.cols() - 1) = HUGE_VAL;
   const int kind = random_.below(10);
   return {.name = "refused " + std::to_string(kind), .run = [slot, bad, kind](Subject& subject) {
             const BodyId id = subject.ids[slot];
@@ -409,7 +410,7 @@ Call RandomCalls::refused() {
             tact::World& world = subject.world;
             keep_refusal(subject, [&] {
               switch (kind) {
-                case 0: return world.set_positions(id, bad->positions);
+                case 0: return world.set_positions(id, bad->mesh.positions);
                 case 1: return world.remove_body(gone);
                 case 2: return world.set_margin(id, -1.0);
                 case 3: return world.set_settings({.threads = -1});
@@ -417,7 +418,7 @@ Call RandomCalls::refused() {
                 case 5: return world.copy_positions(id, {});
                 case 6: static_cast<void>(world.name(gone)); return;
                 case 7: static_cast<void>(world.cast_ray({.from = {HUGE_VAL, 0.0, 0.0}})); return;
-                case 8: return world.set_facets(id, bad->positions, bad->facets, unchanged(*bad).vertex_map);
+                case 8: return world.set_facets(id, bad->mesh.positions, bad->mesh.facets, bad->vertex_map);
                 default: return world.set_motion(gone, Motion::fixed);
               }
             });

@@ -1,0 +1,232 @@
+// A membrane between two jaws is cut along a moving blade, tears under its weight, and its flaps come to rest on the
+// organ below. Each cut is World::set_facets(): what is still there keeps its ids. The solver is that of cloth.cpp.
+// Status 0: nothing ever crossed, no id went over to another feature, the membrane is in two and lies on the organ.
+#include <tact/tact.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
+
+constexpr int kSide = 21;                 // vertices along a side of the membrane
+constexpr int kMiddle = kSide / 2;        // the column that is cut
+constexpr double kSpacing = 0.05;         // metres
+constexpr double kRadius = 0.6;           // of the organ, metres
+constexpr double kMargin = 0.005;         // of every body, metres; surfaces are kept apart by the sum of two
+constexpr double kTears = 1.02;           // an edge at the tip of the cut breaks where it is so many times as long
+constexpr double kSubstep = 1.0 / 720.0;  // seconds: in one, nothing may move farther than two margins
+constexpr int kSubsteps = 2880, kFirstCut = 180, kSubstepsACut = 24, kCutVertices = 17;
+
+struct Spring {
+  int a, b;
+  double length;  // at rest, metres
+};
+
+// Vertices in rows; each knows the place in the grid that it was made at: `origin` is one number for all doubles.
+struct Membrane {
+  Matrix3Xd now{3, kSide*kSide}, before;
+  Eigen::Matrix3Xi facets{3, 2 * (kSide - 1) * (kSide - 1)};
+  Matrix3Xd velocity = Matrix3Xd::Zero(3, kSide* kSide);
+  std::vector<int> origin;
+  std::vector<Spring> springs;
+  int cut = 0;  // vertices of the middle column that have doubles, from the first on
+
+  Membrane() {
+    for (int v = 0; v < kSide * kSide; ++v) {
+      now.col(v) = rest(v);
+      origin.push_back(v);
+    }
+    for (int f = 0; f < facets.cols(); f += 2) {
+      const int a = f / 2 + f / 2 / (kSide - 1), c = a + kSide;
+      facets.col(f) << a, a + 1, c + 1;
+      facets.col(f + 1) << a, c + 1, c;
+    }
+    before = now;
+    find_springs();
+  }
+
+  static Vector3d rest(int at) {
+    return {kSpacing * (at % kSide - kMiddle), kSpacing * (at / kSide - kMiddle), kRadius + 0.05};
+  }
+  bool is_held(int v) const { return origin[v] % kSide % (kSide - 1) == 0; }
+  int count() const { return static_cast<int>(origin.size()); }
+
+  // Along the edges of facets, and between the corners across from each other, against bending.
+  void find_springs() {
+    std::map<std::pair<int, int>, std::vector<int>> opposite;  // of each edge
+    for (const auto& facet : facets.colwise()) {
+      for (int k = 0; k < 3; ++k) opposite[std::minmax({facet[k], facet[(k + 1) % 3]})].push_back(facet[(k + 2) % 3]);
+    }
+    springs.clear();
+    const auto add = [&](int a, int b) { springs.push_back({a, b, (rest(origin[b]) - rest(origin[a])).norm()}); };
+    for (const auto& [edge, corners] : opposite) {
+      add(edge.first, edge.second);
+      if (corners.size() == 2) add(corners[0], corners[1]);
+    }
+  }
+
+  // The next vertex of the middle column has a double, which the facets right of it take. Returns the map of vertices.
+  std::vector<int> cut_once() {
+    std::vector<int> map(origin.size());
+    for (int v = 0; v < count(); ++v) map[v] = v;
+    const int at = cut++ * kSide + kMiddle, twin = count();
+    map.push_back(at);
+    origin.push_back(at);
+    const auto add = [&](Matrix3Xd& columns) {
+      columns.conservativeResize(3, count());
+      columns.col(twin) = columns.col(at).eval();
+    };
+    add(now), add(before), add(velocity);
+    for (auto facet : facets.colwise()) {
+      const bool is_right = std::any_of(facet.begin(), facet.end(), [&](int v) { return origin[v] % kSide > kMiddle; });
+      for (int& v : facet) v = is_right && v == at ? twin : v;
+    }
+    find_springs();
+    return map;
+  }
+
+  // Whether an edge at the tip of the cut is stretched too far.
+  bool tears() const {
+    const int tip = cut * kSide + kMiddle;
+    return cut < kSide && std::ranges::any_of(springs, [&](const Spring& s) {
+             return (s.a == tip || s.b == tip) && (now.col(s.b) - now.col(s.a)).norm() > kTears * s.length;
+           });
+  }
+
+  void pull_springs() {
+    for (const auto& [a, b, length] : springs) {
+      const double give = (is_held(a) ? 0.0 : 1.0) + (is_held(b) ? 0.0 : 1.0);
+      const Vector3d way = now.col(b) - now.col(a);
+      if (give == 0.0 || way.isZero()) continue;
+      const Vector3d share = 0.5 / give * (1.0 - length / way.norm()) * way;
+      if (!is_held(a)) now.col(a) += share;
+      if (!is_held(b)) now.col(b) -= share;
+    }
+  }
+};
+
+// The two sides of a contact point move apart to both margins; what they slid is taken back, by Coulomb's law.
+struct Side {
+  Membrane* membrane;  // null: the organ, which stands
+  const Matrix3Xd& now;
+  const std::array<int, 3>& vertices;
+  const std::array<double, 3>& weights;
+  Vector3d at(const Matrix3Xd& x) const {
+    Vector3d sum = Vector3d::Zero();
+    for (int k = 0; k < 3 && vertices[k] >= 0; ++k) sum += weights[k] * x.col(vertices[k]);
+    return sum;
+  }
+  Vector3d slid() const { return membrane == nullptr ? Vector3d(0, 0, 0) : Vector3d(at(now) - at(membrane->before)); }
+  bool moves(int k) const { return membrane != nullptr && vertices[k] >= 0 && !membrane->is_held(vertices[k]); }
+  double give() const {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) sum += moves(k) ? weights[k] * weights[k] : 0.0;
+    return sum;
+  }
+  void move(const Vector3d& way) {
+    for (int k = 0; k < 3; ++k) {
+      if (moves(k)) membrane->now.col(vertices[k]) += weights[k] * way;
+    }
+  }
+};
+
+void keep_apart(const tact::ContactPoint& p, Side a, Side b) {
+  constexpr double kFriction = 0.4;
+  const double both = a.give() + b.give(), missing = 2.0 * kMargin - p.normal.dot(b.at(b.now) - a.at(a.now));
+  if (both == 0.0 || missing <= 0.0) return;
+  Vector3d slid = b.slid() - a.slid();
+  slid -= slid.dot(p.normal) * p.normal;
+  const double held = std::min(1.0, kFriction * missing / std::max(slid.norm(), 1e-12));
+  const Vector3d way = (missing * p.normal - held * slid) / both;
+  a.move(-way);
+  b.move(way);
+}
+
+// Whether features were one before the cut: their walls touch, and nothing pushes them apart.
+bool share_origin(const Membrane& m, const auto& some, const auto& others) {
+  for (const int v : some) {
+    for (const int w : others) {
+      if (v >= 0 && w >= 0 && m.origin[v] == m.origin[w]) return true;
+    }
+  }
+  return false;
+}
+
+int main() {
+  Membrane membrane;
+  Matrix3Xd ball(3, 41 * 21);  // rolled up: its sides and ends meet, vertices may be repeated
+  Eigen::Matrix3Xi ball_facets(3, 2 * 40 * 20);
+  for (int v = 0; v < ball.cols(); ++v) {
+    const double turn = std::numbers::pi * (v % 41 % 40) / 20.0, up = std::numbers::pi * (v / 41 / 20.0 - 0.5);
+    ball.col(v) = kRadius * Vector3d(std::cos(up) * std::cos(turn), std::cos(up) * std::sin(turn), std::sin(up));
+  }
+  for (int f = 0; f < ball_facets.cols(); f += 2) {
+    const int a = f / 2 + f / 2 / 40, c = a + 41;
+    ball_facets.col(f) << a, a + 1, c + 1;
+    ball_facets.col(f + 1) << a, c + 1, c;
+  }
+  tact::World world({.outputs = {.points = true}});
+  const tact::BodyId id = world.add_body({.positions = membrane.now,
+                                          .facets = membrane.facets,
+                                          .surface = tact::Surface::sheet,
+                                          .name = "membrane",
+                                          .margin = kMargin,
+                                          .self_contact = true});
+  const tact::BodyId organ = world.add_body(
+      {.positions = ball, .facets = ball_facets, .motion = tact::Motion::fixed, .name = "organ", .margin = kMargin});
+  std::size_t crossed = 0, jumps = 0, kept = 0;
+  std::map<std::uint64_t, int> last;  // of each point with the organ: the place where its vertex was made
+  for (int substep = 0; substep < kSubsteps; ++substep) {
+    membrane.before = membrane.now;
+    for (int v = 0; v < membrane.count(); ++v) {
+      if (!membrane.is_held(v)) membrane.velocity(2, v) -= 9.81 * kSubstep;
+    }
+    membrane.now += kSubstep / (1.0 + 2.0 * kSubstep) * membrane.velocity;  // with drag
+    membrane.pull_springs();
+    const bool blade = substep >= kFirstCut && substep % kSubstepsACut == 0 && membrane.cut < kCutVertices;
+    if (blade || (membrane.cut >= kCutVertices && membrane.tears())) {
+      const std::vector<int> map = membrane.cut_once();
+      world.set_facets(id, membrane.now, membrane.facets, map);
+    } else {
+      world.set_positions(id, membrane.now);
+    }
+    std::map<std::uint64_t, int> points;
+    for (const tact::Contact& contact : world.detect().contacts()) {
+      const bool of_itself = contact.a == contact.b;
+      for (const tact::FacetPair& pair : contact.facet_pairs())
+        crossed +=
+            of_itself && share_origin(membrane, membrane.facets.col(pair.a), membrane.facets.col(pair.b)) ? 0 : 1;
+      for (const tact::ContactPoint& p : contact.points()) {
+        if (of_itself && share_origin(membrane, p.a_vertices, p.b_vertices)) continue;
+        if (!of_itself && p.kind == tact::FeaturePair::vertex_facet) points[p.id] = membrane.origin[p.a_vertices[0]];
+        keep_apart(
+            p,
+            {contact.a == id ? &membrane : nullptr, contact.a == id ? membrane.now : ball, p.a_vertices, p.a_weights},
+            {contact.b == id ? &membrane : nullptr, contact.b == id ? membrane.now : ball, p.b_vertices, p.b_weights});
+      }
+    }
+    for (const auto& [point, origin] : points) {
+      const auto was = last.find(point);
+      if (was == last.end()) continue;
+      ++(was->second == origin ? kept : jumps);
+    }
+    last = std::move(points);
+    membrane.velocity = (membrane.now - membrane.before) / kSubstep;
+  }
+  const tact::Contact* const rests = world.detect().find_contact(id, organ);
+  const std::size_t points = rests == nullptr ? 0 : rests->points().size();
+  const double speed = std::sqrt(membrane.velocity.colwise().squaredNorm().mean());
+  std::printf(
+      "%d of %d vertices cut, %zu points with the organ, %zu ids kept, %zu jumped; facets that ever crossed: "
+      "%zu; speed %.3f m/s\n",
+      membrane.cut, kSide, points, kept, jumps, crossed, speed);
+  return crossed == 0 && jumps == 0 && kept > 0 && membrane.cut == kSide && points > 10 && speed < 0.5 ? 0 : 1;
+}
