@@ -1,126 +1,258 @@
 #include "engine/motion_stage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <span>
 #include <tuple>
 
 #include "engine/base/parallel.h"
+#include "engine/base/text.h"
 #include "engine/base/timer.h"
+#include "engine/check_coordinate.h"
+#include "engine/check_name.h"
+#include "narrowphase/pairs/box_reach.h"
 
 namespace tact {
 
 namespace {
 
-using narrowphase::FeatureImpact;
+using narrowphase::FeatureImpact, narrowphase::largest_coordinate;
 
 // Microseconds that a pair of clusters takes at least (tact-bench motion).
 constexpr std::size_t kCost = 2;
+// Of coordinates, and of times, more than sums of some of them round.
+constexpr double kRounding = 0x1p-50, kLater = 0x1p-40;
+// Bodies that go together are seen from what goes with them, if they go farther than this part of their size.
+constexpr double kFarTogether = 0x1p-4;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-const MotionReport& MotionStage::run(Bodies& bodies, const Settings& settings, Impacts wanted) {
+void check_motion_options(const MotionOptions& options) {
+  check_name(options.wanted, Impacts::first, "impacts");
+  if (options.bounds && options.wanted != Impacts::all)
+    throw Error(ErrorCode::invalid_argument, "bounds of motion require all impacts");
+  if (options.distance && !(*options.distance >= 0.0 && *options.distance <= kLargestCoordinate))
+    throw Error(ErrorCode::invalid_argument,
+                "distance of motion is " + base::text_of(*options.distance) + ", not 0 to 2^300");
+}
+
+std::span<const double> MotionReport::bounds(BodyId body) const {
+  const auto found =
+      std::ranges::lower_bound(bounds_, body.index, {}, [](const BodyBounds& b) { return b.body.index; });
+  if (found == bounds_.end() || found->body != body) return {};
+  return found->of_vertices;
+}
+
+const MotionReport& MotionStage::run(Bodies& bodies, const Settings& settings, const MotionOptions& options) {
   base::Timer timer;
   report_.stats_ = {};
   bodies.update_order();
-  sweep(bodies, settings.threads);
-  select(bodies, settings.threads);
+  bounds_.begin(0);
+  const Call call{bodies, settings.threads, options};
+  sweep(call);
+  select(call);
   report_.stats_.sweep_ms = timer.lap();
-  make_features(bodies, settings.threads);
-  find_clusters(bodies, settings.threads, wanted);
-  search(bodies, settings.threads, wanted);
-  make_report(bodies, wanted);
+  find(call);
+  make_report(call);
+  report_.bounds_.clear();
+  if (options.bounds) find_bounds(call);
   report_.stats_.search_ms = timer.lap();
   return report_;
 }
 
-void MotionStage::sweep(const Bodies& bodies, int threads) {
+void MotionStage::find(const Call& call) {
+  make_features(call);
+  find_clusters(call);
+  search(call);
+}
+
+// Where each body is at both ends, with its margin, or half of the distance that is asked for if that is more.
+void MotionStage::find_ways(const Call& call) {
+  const Bodies& bodies = call.bodies;
+  const std::size_t slots = bodies.boxes().size();
+  ways_.resize(slots);
+  for (std::uint32_t slot = 0; slot < slots; ++slot) {
+    base::MovingBox& way = ways_[slot];
+    way.begin = way.end = bodies.boxes()[slot];
+    if (!bodies.used(slot)) continue;
+    if (bodies.on_its_way(slot)) {
+      if (!call.only_changed) ++report_.stats_.moved_bodies;
+      way.begin = bodies.begin_box(slot);
+      if (bounds_.is_bounded(slot)) way.end = base::grown(moving(bodies, slot).end.box, bodies.margin(slot));
+    }
+    const double wider = call.options.distance ? 0.5 * *call.options.distance - bodies.margin(slot) : 0.0;
+    if (wider > 0.0)
+      way = {base::grown(way.begin, wider * (1.0 + kRounding)), base::grown(way.end, wider * (1.0 + kRounding))};
+  }
+}
+
+// What most bodies have in common of their ways, along each axis; zero if the boxes of ways are not far smaller seen
+// from there.
+base::Vec3 MotionStage::frame_of_ways(const Bodies& bodies) const {
+  base::Vec3 frame;
+  double size = 0.0;
+  std::size_t moving = 0, all = 0;
+  for (std::uint32_t slot = 0; slot < ways_.size(); ++slot) {
+    if (ways_[slot].begin.empty()) continue;
+    ++all;
+    if (!bodies.on_its_way(slot)) continue;
+    ++moving;
+    frame = frame + way_of(ways_[slot]);
+    size += narrowphase::longest_side(ways_[slot].begin);
+  }
+  if (moving == 0) return {};
+  frame = (1.0 / static_cast<double>(moving)) * frame;
+  for (int axis = 0; axis < 3; ++axis) {
+    double still = 0.0, seen = static_cast<double>(all - moving) * std::abs(frame[axis]);
+    for (std::uint32_t slot = 0; slot < ways_.size(); ++slot) {
+      if (ways_[slot].begin.empty() || !bodies.on_its_way(slot)) continue;
+      const double way = way_of(ways_[slot])[axis];
+      still += std::abs(way);
+      seen += std::abs(way - frame[axis]);
+    }
+    if (!(2.0 * seen < still && still > kFarTogether * size)) frame[axis] = 0.0;
+  }
+  return frame;
+}
+
+void MotionStage::sweep(const Call& call) {
+  const Bodies& bodies = call.bodies;
   const std::size_t slots = bodies.boxes().size();
   const std::size_t known = boxes_.size();
+  find_ways(call);
+  if (!call.only_changed) frame_ = frame_of_ways(bodies);
   boxes_.resize(slots);
   filters_.resize(slots);
   changed_.clear();
   for (std::uint32_t slot = 0; slot < slots; ++slot) {
-    base::Box box = bodies.boxes()[slot];
-    if (bodies.used(slot) && bodies.on_its_way(slot)) {
-      ++report_.stats_.moved_bodies;
-      box = merged(box, bodies.begin_box(slot));
-    }
+    const base::MovingBox& way = ways_[slot];
+    const base::Box box = merged(way.begin, narrowphase::seen_from(frame_, way.end));
     const broadphase::Filter& filter = bodies.filters()[slot];
     if (slot < known && boxes_[slot] == box && filters_[slot] == filter) continue;
     boxes_[slot] = box;
     filters_[slot] = filter;
     changed_.push_back(slot);
   }
-  sweep_.update(boxes_, filters_, changed_, threads, bodies.tuning());
-  planes_.update(bodies, boxes_, changed_, sweep_.pairs(), sweep_.pairs_changed());
+  sweep_.update(boxes_, filters_, changed_, call.threads, bodies.tuning());
+  sweep_planes(call);
 }
 
-void MotionStage::select(Bodies& bodies, int threads) {
+// Planes see ways as they are, wider by half of the distance that is asked for: a plane holds its margin alone.
+void MotionStage::sweep_planes(const Call& call) {
+  const double wider = 0.5 * call.options.distance.value_or(0.0) * (1.0 + kRounding);
+  const std::size_t known = whole_ways_.size();
+  if (!call.bodies.planes().empty()) {
+    whole_ways_.resize(ways_.size());
+    for (std::uint32_t slot = 0; slot < ways_.size(); ++slot) {
+      const base::Box whole = base::grown(merged(ways_[slot].begin, ways_[slot].end), wider);
+      if (slot < known && whole_ways_[slot] == whole) continue;
+      whole_ways_[slot] = whole;
+      changed_.push_back(slot);
+    }
+  }
+  planes_.update(call.bodies, whole_ways_, changed_, sweep_.pairs(), sweep_.pairs_changed());
+}
+
+void MotionStage::select(const Call& call) {
+  Bodies& bodies = call.bodies;
   passing_.clear();
   if (report_.stats_.moved_bodies == 0) return;
   const auto moves = [&](std::uint32_t slot) { return bodies.used(slot) && bodies.on_its_way(slot); };
+  const auto counts = [&](std::uint32_t slot) { return call.only_changed ? bounds_.changed(slot) : moves(slot); };
+  const auto reach = [&](std::uint32_t a, std::uint32_t b) {
+    return call.options.distance.value_or(bodies.reach(a, b));
+  };
   for (const broadphase::IndexPair& pair : planes_.pairs()) {
     if (bodies.excluded_pairs().contains(pair) || !bodies.is_chosen(pair)) continue;
     const auto [a, b] = bodies.keys().ordered(pair);
-    if (moves(a) || moves(b)) passing_.push_back({.a = a, .b = b, .reach = bodies.reach(a, b)});
+    if (counts(a) || counts(b)) passing_.push_back({.a = a, .b = b, .reach = reach(a, b)});
   }
+  leave_out_apart(call);
   const auto slots = static_cast<std::uint32_t>(boxes_.size());
   for (std::uint32_t slot = 0; slot < slots; ++slot) {
-    if (moves(slot) && bodies.in_slot(slot).self_contact)
-      passing_.push_back({.a = slot, .b = slot, .reach = bodies.reach(slot, slot)});
+    if (counts(slot) && bodies.in_slot(slot).self_contact)
+      passing_.push_back({.a = slot, .b = slot, .reach = reach(slot, slot)});
   }
-  if (bodies.any_rigid()) place(bodies, threads);
+  if (bodies.any_rigid()) place(call);
   std::ranges::sort(passing_, {}, [&](const Passing& p) { return bodies.keys().ranks({p.a, p.b}); });
   report_.stats_.body_pairs = static_cast<std::int64_t>(passing_.size());
 }
 
 // Of rigid bodies the sweep saw boxes that may be too large: where they pass in truth.
-base::Box MotionStage::way_box(const Bodies& bodies, std::uint32_t slot) const {
-  if (!bodies.is_rigid(slot)) return boxes_[slot];
-  return merged(bodies.exact_box(slot), bodies.begin_box(slot));
+base::MovingBox MotionStage::way_box(const Call& call, std::uint32_t slot) const {
+  const Bodies& bodies = call.bodies;
+  if (!bodies.is_rigid(slot) || bounds_.is_bounded(slot)) return ways_[slot];
+  const double wider = call.options.distance ? std::max(0.5 * *call.options.distance - bodies.margin(slot), 0.0) : 0.0;
+  const base::Box end = bodies.exact_box(slot), begin = bodies.on_its_way(slot) ? bodies.begin_box(slot) : end;
+  return {base::grown(begin, wider * (1.0 + kRounding)), base::grown(end, wider * (1.0 + kRounding))};
 }
 
-void MotionStage::place(Bodies& bodies, int threads) {
-  slots_.clear();
-  for (const Passing& one : passing_) slots_.insert(slots_.end(), {one.a, one.b});
-  bodies.place_ways(slots_, threads);
+// Pairs whose boxes, which go straight, stay apart; they hold the margins, or half of the distance.
+void MotionStage::leave_out_apart(const Call& call) {
+  const Bodies& bodies = call.bodies;
   std::erase_if(passing_, [&](const Passing& one) {
     if (one.a == one.b) return false;
-    const BodyAndPlane plane = body_and_plane(bodies, one.a, one.b);
-    if (plane) return !reaches_plane(bodies, plane.slot_of_plane(one.a, one.b), way_box(bodies, plane.body->id.index));
-    return !overlaps(way_box(bodies, one.a), way_box(bodies, one.b));
+    if (const BodyAndPlane plane = body_and_plane(bodies, one.a, one.b)) return stays_apart(call, plane, one);
+    const base::MovingBox a = way_box(call, one.a), b = way_box(call, one.b);
+    double reach = 0.0;
+    if (const auto& distance = call.options.distance) {
+      const auto held = [&](std::uint32_t slot) { return std::max(bodies.margin(slot), 0.5 * *distance); };
+      reach = *distance - held(one.a) - held(one.b);
+    }
+    const double largest =
+        std::max(largest_coordinate(merged(a.begin, a.end)), largest_coordinate(merged(b.begin, b.end)));
+    const base::TimeSpan near = near_span(a, b, reach + kRounding * largest);
+    return near.from > near.to + kLater;
   });
 }
 
-void MotionStage::make_features(Bodies& bodies, int threads) {
+bool MotionStage::stays_apart(const Call& call, const BodyAndPlane& pair, const Passing& one) const {
+  const base::MovingBox way = way_box(call, pair.body->id.index);
+  const double wider = 0.5 * call.options.distance.value_or(0.0) * (1.0 + kRounding);
+  return !reaches_plane(call.bodies, pair.slot_of_plane(one.a, one.b),
+                        base::grown(merged(way.begin, way.end), wider));
+}
+
+void MotionStage::place(const Call& call) {
+  slots_.clear();
+  for (const Passing& one : passing_) slots_.insert(slots_.end(), {one.a, one.b});
+  call.bodies.place_ways(slots_, call.threads);
+  leave_out_apart(call);
+}
+
+void MotionStage::make_features(const Call& call) {
   slots_.clear();
   for (const auto& one : passing_) slots_.insert(slots_.end(), {one.a, one.b});
-  bodies.make_features(slots_, threads);
+  call.bodies.make_features(slots_, call.threads);
 }
 
 std::span<const narrowphase::ClusterPair> MotionStage::clusters_of(const Passing& passing) const {
   return std::span(memory_[passing.thread].clusters).subspan(passing.begin, passing.end - passing.begin);
 }
 
-// Sorts the cluster pairs of a thread from `begin` on by the time from which they may meet, and leaves out those that
-// never do.
-void MotionStage::sort_by_time(const Passing& passing, const Bodies& bodies, std::size_t begin, Memory& memory) {
+// Of the cluster pairs of a thread from `begin` on leaves out those that never meet. If only the first impacts are
+// wanted, the others are sorted by the time from which they may.
+void MotionStage::leave_out_clusters(const Passing& passing, const Call& call, std::size_t begin,
+                                     Memory& memory) const {
+  const narrowphase::MovingMesh a = moving(call.bodies, passing.a), b = moving(call.bodies, passing.b);
   memory.timed.clear();
   for (const narrowphase::ClusterPair& pair : std::span(memory.clusters).subspan(begin)) {
-    const double earliest =
-        narrowphase::earliest_time(bodies.moving(passing.a), pair.a, bodies.moving(passing.b), pair.b, passing.reach);
+    if (call.only_changed && !bounds_.changed(passing.a, pair.a) && !bounds_.changed(passing.b, pair.b)) continue;
+    const double earliest = narrowphase::earliest_time(a, pair.a, b, pair.b, passing.reach);
     if (earliest <= 1.0) memory.timed.push_back({earliest, pair});
   }
-  std::ranges::sort(memory.timed, {}, [](const TimedPair& t) { return std::tuple(t.earliest, t.pair.a, t.pair.b); });
+  if (!call.wants_all())
+    std::ranges::sort(memory.timed, {}, [](const TimedPair& t) { return std::tuple(t.earliest, t.pair.a, t.pair.b); });
   memory.clusters.resize(begin);
   for (const TimedPair& one : memory.timed) memory.clusters.push_back(one.pair);
 }
 
-void MotionStage::find_clusters(const Bodies& bodies, int threads, Impacts wanted) {
-  memory_.resize(threads);
+void MotionStage::find_clusters(const Call& call) {
+  const Bodies& bodies = call.bodies;
+  memory_.resize(call.threads);
   for (Memory& memory : memory_) {
     memory.clusters.clear();
     memory.cluster_pairs = 0;
@@ -129,29 +261,33 @@ void MotionStage::find_clusters(const Bodies& bodies, int threads, Impacts wante
     const Passing& one = passing_[i];
     return std::min(bodies.in_slot(one.a).mesh.facet_count(), bodies.in_slot(one.b).mesh.facet_count());
   };
-  const std::size_t grain = items_at_a_time(passing_.size(), threads, bodies.tuning(), facets_of);
-  base::parallel_for(passing_.size(), grain, threads, [&](std::size_t i, int thread) {
+  const std::size_t grain = items_at_a_time(passing_.size(), call.threads, bodies.tuning(), facets_of);
+  base::parallel_for(passing_.size(), grain, call.threads, [&](std::size_t i, int thread) {
     Passing& one = passing_[i];
     Memory& memory = memory_[thread];
     const std::size_t begin = memory.clusters.size();
     if (const BodyAndPlane plane = body_and_plane(bodies, one.a, one.b)) {
-      find_clusters_near_plane(plane, bodies.moving(plane.body->id.index), one.reach, memory.clusters);
+      find_clusters_near_plane(plane, moving(bodies, plane.body->id.index), one.reach, memory.clusters);
     } else {
-      const narrowphase::MovingMesh a = bodies.moving(one.a), b = bodies.moving(one.b);
-      const auto pairs = memory.passing.find(a.boxes(), b.boxes(), one.reach, bodies.tuning(), device_);
+      const narrowphase::MovingMesh a = moving(bodies, one.a), b = moving(bodies, one.b);
+      const base::Vec3 frame = narrowphase::common_frame(a, b);
+      const narrowphase::MeshWay way_a = a.seen_from(frame), way_b = b.seen_from(frame);
+      const auto pairs = memory.passing.find({.mesh = a.mesh, .way = &way_a}, {.mesh = b.mesh, .way = &way_b},
+                                             one.reach, bodies.tuning(), device_);
       memory.clusters.insert(memory.clusters.end(), pairs.begin(), pairs.end());
-      if (wanted != Impacts::all) sort_by_time(one, bodies, begin, memory);
+      leave_out_clusters(one, call, begin, memory);
     }
-    memory.cluster_pairs += static_cast<std::int64_t>(memory.clusters.size() - begin);
     one.thread = static_cast<std::size_t>(thread);
     one.begin = begin;
     one.end = memory.clusters.size();
+    memory.cluster_pairs += static_cast<std::int64_t>(one.end - one.begin);
   });
-  cut_into_ranges(bodies, wanted);
+  cut_into_ranges(call);
 }
 
 // Into the smallest that are worth a thread: a pair takes far longer where something meets.
-void MotionStage::cut_into_ranges(const Bodies& bodies, Impacts wanted) {
+void MotionStage::cut_into_ranges(const Call& call) {
+  const Bodies& bodies = call.bodies;
   const std::size_t at_a_time = std::max<std::size_t>(bodies.tuning().fewest_in_range / kCost, 1);
   work_.begin();
   for (std::size_t i = 0; i < passing_.size(); ++i) {
@@ -159,22 +295,29 @@ void MotionStage::cut_into_ranges(const Bodies& bodies, Impacts wanted) {
     const std::span<const narrowphase::ClusterPair> clusters = clusters_of(one);
     std::size_t item = i;
     const Work::Shared& shared = work_.put_aside(item, clusters, (clusters.size() + at_a_time - 1) / at_a_time);
-    if (wanted == Impacts::all || body_and_plane(bodies, one.a, one.b)) continue;
+    if (call.wants_all() || body_and_plane(bodies, one.a, one.b)) continue;
     for (Work::Range& range : work_.ranges(shared)) {
       if (range.begin == range.end) continue;
       const narrowphase::ClusterPair& first = clusters[range.begin];
       range.found.earliest =
-          narrowphase::earliest_time(bodies.moving(one.a), first.a, bodies.moving(one.b), first.b, one.reach);
+          narrowphase::earliest_time(moving(bodies, one.a), first.a, moving(bodies, one.b), first.b, one.reach);
     }
   }
 }
 
-void MotionStage::search(const Bodies& bodies, int threads, Impacts wanted) {
+void MotionStage::search(const Call& call) {
+  const Bodies& bodies = call.bodies;
+  const Impacts wanted = call.options.wanted;
   const std::size_t firsts = wanted == Impacts::all ? 0 : wanted == Impacts::first ? 1 : passing_.size();
   if (first_.size() < firsts) first_ = std::vector<std::atomic<double>>(2 * firsts);
   for (std::size_t i = 0; i < firsts; ++i) first_[i] = kNever;
   base::Box all;
-  for (const Passing& one : passing_) all = merged(all, merged(way_box(bodies, one.a), way_box(bodies, one.b)));
+  for (const Passing& one : passing_) {
+    for (const std::uint32_t slot : {one.a, one.b}) {
+      const base::MovingBox way = way_box(call, slot);
+      all = merged(all, merged(way.begin, way.end));
+    }
+  }
   for (Memory& memory : memory_) {
     memory.finder.begin(all);
     memory.counts = {};
@@ -191,9 +334,9 @@ void MotionStage::search(const Bodies& bodies, int threads, Impacts wanted) {
     if (wanted == Impacts::first && place > meets_at_once.load(std::memory_order_relaxed)) return;
     const auto clusters = clusters_of(one).subspan(range.begin, range.end - range.begin);
     if (const BodyAndPlane plane = body_and_plane(bodies, one.a, one.b)) {
-      search_plane(plane, bodies.moving(plane.body->id.index), one.reach, clusters, first, range.found);
+      search_plane(plane, moving(bodies, plane.body->id.index), one.reach, clusters, first, range.found);
     } else {
-      memory.finder.run(bodies.moving(one.a), bodies.moving(one.b), one.reach, clusters, first, found, memory.counts);
+      memory.finder.run(moving(bodies, one.a), moving(bodies, one.b), one.reach, clusters, first, found, memory.counts);
     }
     if (wanted == Impacts::first &&
         std::ranges::any_of(found, [](const FeatureImpact& impact) { return impact.time == 0.0; }))
@@ -201,9 +344,9 @@ void MotionStage::search(const Bodies& bodies, int threads, Impacts wanted) {
   };
   // Where only the first impact counts, what may meet early is searched first: what is found leaves out most others.
   if (wanted == Impacts::all) {
-    work_.search(threads, search_range);
+    work_.search(call.threads, search_range);
   } else {
-    work_.search_by([](const Work::Range& range) { return range.found.earliest; }, threads, search_range);
+    work_.search_by([](const Work::Range& range) { return range.found.earliest; }, call.threads, search_range);
   }
 }
 
@@ -213,22 +356,26 @@ void MotionStage::find_clusters_near_plane(const BodyAndPlane& pair, const narro
   const narrowphase::HalfSpace other_side{-pair.plane->normal, -pair.plane->offset};
   for (int c = 0; c < body.mesh->cluster_count(); ++c) {
     const base::Box way = merged(body.begin.cluster_boxes[static_cast<std::size_t>(c)],
-                                 body.mesh->cluster_boxes()[static_cast<std::size_t>(c)]);
+                                 body.end.cluster_boxes[static_cast<std::size_t>(c)]);
     if (narrowphase::reaches(*pair.plane, way, reach) && narrowphase::reaches(other_side, way, reach))
       clusters.push_back({c, 0});
   }
 }
 
-// Of what moves straight vertices come to a plane first.
+// Of what moves straight vertices come to a plane first. What is as near at the beginning stops if it goes nearer.
 void MotionStage::search_plane(const BodyAndPlane& pair, const narrowphase::MovingMesh& body, double reach,
                                std::span<const narrowphase::ClusterPair> clusters, std::atomic<double>* first,
                                Found& found) {
   for (const narrowphase::ClusterPair& cluster : clusters) {
     for (int v = body.mesh->vertex_begin(cluster.a); v < body.mesh->vertex_end(cluster.a); ++v) {
-      const auto time = narrowphase::meeting_time(*pair.plane, body.begin_of(v), body.mesh->position(v), reach);
+      const narrowphase::MovingVertex vertex = body.vertex(v);
+      const auto time = narrowphase::meeting_time(*pair.plane, vertex.at[0], vertex.at[1], reach);
       if (!time) continue;
+      const auto height = [&](std::size_t end) { return narrowphase::height_over(*pair.plane, vertex.at[end]); };
       FeatureImpact impact{.kind = pair.plane_is_a ? FeaturePair::plane_vertex : FeaturePair::vertex_plane,
-                           .time = *time};
+                           .time = *time,
+                           .stops = *time > 0.0 || height(1) < height(0)};
+      if (first != nullptr && !impact.stops) continue;
       (pair.plane_is_a ? impact.b : impact.a)[0] = body.mesh->source_vertex(v);
       found.impacts.push_back(impact);
       if (first != nullptr) base::lower_to(*first, *time);
@@ -254,14 +401,16 @@ void MotionStage::gather(const Work::Shared& shared, const Bodies& bodies) {
   std::ranges::sort(gathered_, std::less<>());
 }
 
-void MotionStage::make_report(const Bodies& bodies, Impacts wanted) {
+void MotionStage::make_report(const Call& call) {
+  const Impacts wanted = call.options.wanted;
   report_.impacts_.clear();
   report_.pairs_.clear();
   report_.first_time_ = kNever;
   for (const Work::Shared& shared : work_.items()) {
     gather(shared, bodies);
     if (gathered_.empty()) continue;
-    const double first = gathered_.front().time;
+    const auto stopping = std::ranges::find_if(gathered_, &FeatureImpact::stops);
+    const double first = stopping == gathered_.end() ? kNever : stopping->time;
     if (wanted == Impacts::first) {
       if (!(first < report_.first_time_)) continue;
       report_.impacts_.clear();
@@ -270,10 +419,10 @@ void MotionStage::make_report(const Bodies& bodies, Impacts wanted) {
     if (wanted != Impacts::all) gathered_.resize(1);
     report_.first_time_ = std::min(report_.first_time_, first);
     const Passing& one = passing_[shared.item];
-    const BodyId a = bodies.in_slot(one.a).id, b = bodies.in_slot(one.b).id;
+    const BodyId a = call.bodies.in_slot(one.a).id, b = call.bodies.in_slot(one.b).id;
     report_.pairs_.push_back({a, b, first, {}});
     for (const FeatureImpact& impact : gathered_)
-      report_.impacts_.push_back({a, b, impact.kind, impact.time, impact.a, impact.b});
+      report_.impacts_.push_back({a, b, impact.kind, impact.time, impact.a, impact.b, impact.stops});
   }
   std::span<const Impact> left = report_.impacts_;
   for (ImpactPair& pair : report_.pairs_) {
@@ -283,11 +432,48 @@ void MotionStage::make_report(const Bodies& bodies, Impacts wanted) {
     left = left.subspan(size);
   }
   report_.stats_.impacts = static_cast<std::int64_t>(report_.impacts_.size());
+  count_found();
+}
+
+void MotionStage::count_found() {
   for (const Memory& memory : memory_) {
     report_.stats_.cluster_pairs += memory.cluster_pairs;
     report_.stats_.candidates += memory.counts.candidates;
     report_.stats_.searched += memory.counts.searched;
     report_.stats_.spans += memory.counts.spans;
+  }
+}
+
+bool MotionStage::lower_bounds(const Bodies& bodies) {
+  bool any = false;
+  for (const Work::Shared& shared : work_.items()) {
+    const Passing& one = passing_[shared.item];
+    for (const Work::Range& range : work_.ranges(shared)) {
+      for (const FeatureImpact& impact : range.found.impacts) {
+        if (impact.stops && bounds_.lower(bodies, one.a, one.b, impact)) any = true;
+      }
+    }
+  }
+  return any;
+}
+
+void MotionStage::find_bounds(Call call) {
+  const Bodies& bodies = call.bodies;
+  const std::int64_t body_pairs = report_.stats_.body_pairs;
+  call.only_changed = true;
+  bounds_.begin(bodies.boxes().size());
+  while (lower_bounds(bodies)) {
+    bounds_.place(bodies);
+    sweep(call);
+    select(call);
+    find(call);
+    count_found();
+  }
+  report_.stats_.body_pairs = body_pairs;
+  for (std::uint32_t slot = 0; slot < ways_.size(); ++slot) {
+    if (!bodies.used(slot) || !bodies.on_its_way(slot)) continue;
+    bounds_.copy(bodies, slot,
+                 report_.bounds_.emplace_back(MotionReport::BodyBounds{bodies.in_slot(slot).id, {}}).of_vertices);
   }
 }
 

@@ -11,17 +11,22 @@
 #include <vector>
 
 #include "broadphase/sweep_and_prune.h"
+#include "engine/base/moving_box.h"
 #include "engine/bodies/bodies.h"
 #include "engine/bodies/plane_pairs.h"
+#include "engine/motion_bounds.h"
 #include "engine/pair/plane_pair.h"
 #include "engine/shared_work.h"
 #include "narrowphase/motion/impacts.h"
 
 namespace tact {
 
+/// Errors: invalid_argument.
+void check_motion_options(const MotionOptions& options);
+
 class MotionStage {
  public:
-  const MotionReport& run(Bodies& bodies, const Settings& settings, Impacts wanted);
+  const MotionReport& run(Bodies& bodies, const Settings& settings, const MotionOptions& options);
 
  private:
   /// Two bodies, or one twice, of which one moves.
@@ -52,19 +57,41 @@ class MotionStage {
     narrowphase::MotionCounts counts;
   };
 
-  void sweep(const Bodies& bodies, int threads);
-  void select(Bodies& bodies, int threads);
-  void place(Bodies& bodies, int threads);
-  base::Box way_box(const Bodies& bodies, std::uint32_t slot) const;
-  void make_features(Bodies& bodies, int threads);
-  void find_clusters(const Bodies& bodies, int threads, Impacts wanted);
-  static void sort_by_time(const Passing& passing, const Bodies& bodies, std::size_t begin, Memory& memory);
-  std::span<const narrowphase::ClusterPair> clusters_of(const Passing& passing) const;
-  void cut_into_ranges(const Bodies& bodies, Impacts wanted);
-  void search(const Bodies& bodies, int threads, Impacts wanted);
-  void make_report(const Bodies& bodies, Impacts wanted);
-  void gather(const Work::Shared& shared, const Bodies& bodies);
+  /// What all parts of a call are given.
+  struct Call {
+    Bodies& bodies;
+    int threads;
+    const MotionOptions& options;
+    bool only_changed = false;  // what bounds_ changed, with all
 
+    bool wants_all() const { return options.wanted == Impacts::all; }
+  };
+
+  void find(const Call& call);
+  void sweep(const Call& call);
+  void find_ways(const Call& call);
+  base::Vec3 frame_of_ways(const Bodies& bodies) const;
+  void select(const Call& call);
+  void place(const Call& call);
+  void leave_out_apart(const Call& call);
+  base::MovingBox way_box(const Call& call, std::uint32_t slot) const;
+  narrowphase::MovingMesh moving(const Bodies& bodies, std::uint32_t slot) const {
+    return bounds_.moving(bodies, slot);
+  }
+  void make_features(const Call& call);
+  void find_clusters(const Call& call);
+  void leave_out_clusters(const Passing& passing, const Call& call, std::size_t begin, Memory& memory) const;
+  std::span<const narrowphase::ClusterPair> clusters_of(const Passing& passing) const;
+  void cut_into_ranges(const Call& call);
+  void search(const Call& call);
+  void make_report(const Call& call);
+  void count_found();
+  void gather(const Work::Shared& shared, const Bodies& bodies);
+  void find_bounds(Call call);
+  bool lower_bounds(const Bodies& bodies);
+
+  void sweep_planes(const Call& call);
+  bool stays_apart(const Call& call, const BodyAndPlane& pair, const Passing& one) const;
   static void find_clusters_near_plane(const BodyAndPlane& pair, const narrowphase::MovingMesh& body, double reach,
                                        std::vector<narrowphase::ClusterPair>& clusters);
   static void search_plane(const BodyAndPlane& pair, const narrowphase::MovingMesh& body, double reach,
@@ -73,7 +100,10 @@ class MotionStage {
 
   broadphase::SweepAndPrune sweep_;
   PlanePairs planes_;
-  std::vector<base::Box> boxes_;             // of the ways, a slot each
+  std::vector<base::MovingBox> ways_;  // a slot each
+  std::vector<base::Box> boxes_;       // of the ways, a slot each, seen from what goes frame_
+  std::vector<base::Box> whole_ways_;  // of the ways, for planes
+  base::Vec3 frame_{};
   std::vector<broadphase::Filter> filters_;  // with which they were swept
   std::vector<std::uint32_t> changed_;
   std::vector<Passing> passing_;
@@ -82,6 +112,7 @@ class MotionStage {
   std::vector<Memory> memory_;              // of each thread
   std::vector<std::atomic<double>> first_;  // of each pair that passes, or of all
   std::vector<narrowphase::FeatureImpact> gathered_;
+  MotionBounds bounds_;
   narrowphase::EmbreeDevice device_;
   MotionReport report_;
 };

@@ -145,6 +145,7 @@ void copy_impacts(const MotionReport& report, const ImpactArrays& arrays) {
   check_size(arrays.times, rows, 1, "times");
   check_size(arrays.a_vertices, rows, 3, "a_vertices");
   check_size(arrays.b_vertices, rows, 3, "b_vertices");
+  check_size(arrays.stops, rows, 1, "stops");
   std::size_t row = 0;
   for (const Impact& impact : report.impacts()) {
     put_two(arrays.bodies, row, impact.a.index, impact.b.index);
@@ -152,6 +153,7 @@ void copy_impacts(const MotionReport& report, const ImpactArrays& arrays) {
     put(arrays.times, row, impact.time);
     put_three(arrays.a_vertices, row, impact.a_vertices);
     put_three(arrays.b_vertices, row, impact.b_vertices);
+    put(arrays.stops, row, impact.stops);
     ++row;
   }
 }

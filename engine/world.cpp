@@ -289,15 +289,17 @@ const Report& FailedStep::play(World& world) {
   return i.step.last_report();
 }
 
-const MotionReport& World::detect_motion(Impacts wanted) {
+const MotionReport& World::detect_motion(Impacts wanted) { return detect_motion(MotionOptions{.wanted = wanted}); }
+
+const MotionReport& World::detect_motion(const MotionOptions& options) {
   const base::FloatingPointMode mode;
   Implementation& i = implementation();
   const base::Workers::Scope scope(i.workers);
   return with_memory("detect_motion ran out of memory", [&]() -> const MotionReport& {
-    check_name(wanted, Impacts::first, "impacts");
+    check_motion_options(options);
     if (i.motion == nullptr) i.motion = std::make_unique<MotionStage>();
     try {
-      return i.motion->run(i.bodies, i.settings, wanted);
+      return i.motion->run(i.bodies, i.settings, options);
     } catch (...) {
       i.motion.reset();
       throw;

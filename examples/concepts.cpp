@@ -148,6 +148,29 @@ void motion() {
   expect(world.detect().stats().facet_pairs == 0, "stopped before, they do not meet");
 }
 
+void bounds() {
+  const Mesh sheet = square(2.0, 0.0);
+  const Mesh bullet = cube(0.1, {0, 0, 1.0});
+  tact::World world;
+  world.add_body({.positions = sheet.positions, .facets = sheet.facets, .surface = tact::Surface::sheet});
+  const tact::BodyId body = world.add_body({.positions = bullet.positions, .facets = bullet.facets});
+  world.detect();
+  const Eigen::Matrix3Xd start = bullet.positions;
+  const Eigen::Matrix3Xd target = start.colwise() - Eigen::Vector3d(0, 0, 4);
+  // [part bounds]
+  world.set_positions(body, target);
+  const tact::MotionReport& motion = world.detect_motion({.distance = 0.0, .bounds = true});
+  Eigen::Matrix3Xd free = target;
+  for (Eigen::Index v = 0; v < free.cols(); ++v) {
+    const double bound = motion.bounds(body)[static_cast<std::size_t>(v)];
+    if (bound < 1.0) free.col(v) = start.col(v) + bound * (target.col(v) - start.col(v));
+  }
+  world.set_positions(body, free);
+  // [part bounds]
+  expect(world.detect_motion().first_time() > 1.0, "nothing meets on the way");
+  expect(free != start, "the bullet moves");
+}
+
 void queries() {
   const Mesh mesh = cube(1.0, {0, 0, 0});
   // [part queries]
@@ -239,6 +262,7 @@ int main() {
   points_and_margins();
   curves();
   motion();
+  bounds();
   queries();
   changed_facets();
   saved_states();

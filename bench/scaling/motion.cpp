@@ -1,6 +1,7 @@
 #include "bench/scaling/motion.h"
 
 #include <fmt/format.h>
+#include <tact/world.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,12 +23,30 @@
 namespace tact::bench {
 namespace {
 
+constexpr double kHalfTurn = 0.2553;  // the tangent of a quarter: half a radian
+
 // A workload whose bodies go from frame to frame in leaps of several frames, and back.
 struct Leaps {
   std::string name;
   std::function<Workload()> make;
   int frames;  // a leap
 };
+
+// The same, carried along as a whole, fixed bodies too: in `leap` frames by a way, and turned about an axis along z
+// through the origin by twice the angle of tangent `half_turn`. Sums, products and quotients alone: the same bits
+// everywhere.
+Workload carried(Workload workload, int leap, const Eigen::Vector3d& way, double half_turn) {
+  for (WorkloadBody& body : workload.bodies) {
+    if (body.fixed()) body.frames.resize(static_cast<std::size_t>(workload.frames), body.frames[0]);
+    for (std::size_t frame = 0; frame < body.frames.size(); ++frame) {
+      const double part = static_cast<double>(frame) / leap, q = part * half_turn, s = 1.0 + q * q;
+      Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+      turn.topLeftCorner<2, 2>() << (1.0 - q * q) / s, -2.0 * q / s, 2.0 * q / s, (1.0 - q * q) / s;
+      body.frames[frame] = ((turn * body.frames[frame]).colwise() + part * way).eval();
+    }
+  }
+  return workload;
+}
 
 struct Measured {
   double ms = 0.0;
@@ -222,6 +241,36 @@ int run_motion(const BenchOptions& options) {
           {"scattered blobs of 80", [=] { return scattered(quick ? 60 : 2000, 24); }, 6},
           {"two blobs of 20,480", [=] { return large_pair(quick ? 8 : 32, 24); }, 3},
           {"a chain of rings", [=] { return chain(quick ? 8 : 60, 24); }, 3},
+          {"cloth on a sphere, carried by its size",
+           [=] {
+             return carried(cloth(quick ? 16 : 80, 24), 3, {1.5, 2.5, 3.0}, 0.0);
+           },
+           3},
+          {"cloth on a sphere, turned by 0.5",
+           [=] {
+             return carried(cloth(quick ? 16 : 80, 24), 3, {0, 0, 0}, kHalfTurn);
+           },
+           3},
+          {"layers of cloth, carried by their size",
+           [=] {
+             return carried(layers(quick ? 3 : 20, quick ? 12 : 60, 24), 3, {1.5, 2.5, 3.0}, 0.0);
+           },
+           3},
+          {"scattered blobs of 80, carried far",
+           [=] {
+             return carried(scattered(quick ? 60 : 2000, 24), 6, {60, 40, 90}, 0.0);
+           },
+           6},
+          {"scattered blobs of 80, turned by 0.5",
+           [=] {
+             return carried(scattered(quick ? 60 : 2000, 24), 6, {0, 0, 0}, kHalfTurn);
+           },
+           6},
+          {"a pile of blobs of 320, turned by 0.5",
+           [=] {
+             return carried(pile(quick ? 27 : 500, 4, 24), 3, {0, 0, 0}, kHalfTurn);
+           },
+           3},
       },
       options.only, threads, budget_ms, answers);
   leaps.print();

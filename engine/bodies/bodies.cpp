@@ -205,14 +205,18 @@ void Bodies::remove(BodyId id) {
   --count_;
 }
 
-narrowphase::MovingMesh Bodies::moving(std::uint32_t slot) const {
+narrowphase::Placement Bodies::begin_of(std::uint32_t slot) const {
   const Body& body = in_slot(slot);
   const narrowphase::MeshPlacements& placements = body.mesh.placements();
   const Begin begin = slots_[slot].begin;
-  return {&body.mesh, body.features.get(),
-          begin == Begin::here     ? placements.now()
-          : begin == Begin::before ? placements.before()
-                                   : placements.in(body.begin.data())};
+  return begin == Begin::here     ? placements.now()
+         : begin == Begin::before ? placements.before()
+                                  : placements.in(body.begin.data());
+}
+
+narrowphase::MovingMesh Bodies::moving(std::uint32_t slot) const {
+  const Body& body = in_slot(slot);
+  return {&body.mesh, body.features.get(), begin_of(slot), body.mesh.placements().now()};
 }
 
 bool Bodies::boxes_meet(broadphase::IndexPair pair) const {

@@ -27,7 +27,7 @@
 #include "narrowphase/contact_points/contact_points.h"
 #include "narrowphase/mesh/clustered_mesh.h"
 #include "narrowphase/mesh/refit.h"
-#include "narrowphase/motion/impacts.h"
+#include "narrowphase/motion/moving_mesh.h"
 #include "narrowphase/plane/half_space.h"
 #include "narrowphase/self/cluster_neighbors.h"
 
@@ -116,6 +116,7 @@ class Bodies {
   }
   // Whether a body has other positions than in the last step; and the body with its way since.
   bool on_its_way(std::uint32_t slot) const { return slots_[slot].begin != Begin::here; }
+  narrowphase::Placement begin_of(std::uint32_t slot) const;
   narrowphase::MovingMesh moving(std::uint32_t slot) const;
   // Makes the features that are missing of some bodies, which may be named more than once, in parallel.
   void make_features(std::span<const std::uint32_t> slots, int threads);

@@ -236,7 +236,7 @@ void Bodies::place_ways(std::span<const std::uint32_t> slots, int threads) {
 Box Bodies::begin_box(std::uint32_t slot) const {
   const RigidState* const state = slots_[slot].rigid;
   const bool rough = state != nullptr && slots_[slot].begin != Begin::here && !state->begin_is_placed;
-  return base::grown(rough ? state->pose.box_at(state->begin_pose) : moving(slot).begin.box, margins_[slot]);
+  return base::grown(rough ? state->pose.box_at(state->begin_pose) : begin_of(slot).box, margins_[slot]);
 }
 
 }  // namespace tact

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <utility>
 
+#include "engine/base/moving_box.h"
 #include "engine/base/parallel.h"
 #include "narrowphase/motion/contact_on_way.h"
+#include "narrowphase/motion/parting.h"
 #include "narrowphase/numeric/unit_scale.h"
 #include "narrowphase/pairs/box_reach.h"
 #include "narrowphase/pairs/open_clusters.h"
@@ -22,10 +25,19 @@ constexpr double kEarlier = 0x1p-19;  // by less is the time of an impact earlie
 constexpr int kMostVertices = 3 * kClusterSize;
 static_assert(kMostVertices + 64 <= VertexWays::kRoom && 3 * kClusterSize + 64 <= FeatureWays::kRoom);
 
-// The part of the way that counts, and how much wider than the features their boxes are.
+// Clusters that go together are seen from what goes with them, if that is more than 1.5 steps; a step is between 1/32
+// and 1/64 of their size, so that of many pairs the same is chosen.
+constexpr int kStepsOfSize = 5;
+constexpr double kFewSteps = 1.5;
+// Meshes are, if they go farther together than this part of the smaller one.
+constexpr double kFarTogether = 0x1p-6;
+
+// The part of the way that counts, how much wider than the features their boxes are, and how far that goes from which
+// they are seen.
 struct Cut {
   double until = 1.0;
   double wider = 0.0;
+  Vec3 frame{};
 
   friend bool operator==(const Cut&, const Cut&) = default;
 };
@@ -39,21 +51,22 @@ struct MovingCluster {
   VertexWays ways;                 // up to the last cut; of no vertex before the first
   Cut cut;
 
-  // On the way up to a time.
-  Box box_until(double time) const {
-    const auto& [begin, end] = box_at;
-    if (time == 1.0) return merged(begin, end);
-    return merged(begin,
-                  {begin.lower + time * (end.lower - begin.lower), begin.upper + time * (end.upper - begin.upper)});
+  // On the way that counts.
+  Box box_until(const Cut& by) const {
+    const Box& begin = box_at[0];
+    const Box end{box_at[1].lower - by.frame, box_at[1].upper - by.frame};
+    if (by.until == 1.0) return merged(begin, end);
+    return merged(begin, {begin.lower + by.until * (end.lower - begin.lower),
+                          begin.upper + by.until * (end.upper - begin.upper)});
   }
 };
 
 void open(const MovingMesh& m, int cluster, double scale, MovingCluster& opened) {
-  const ClusterFacets facets = m.mesh->facets_of(cluster);
+  const ClusterFacets facets = m.mesh->facets_of(cluster, m.end.points);
   opened.cluster = cluster;
   opened.vertex_count = facets.owned_count + facets.borrowed_count;
   const PointArrays points[2] = {m.begin.points, facets.points};
-  const BoxView boxes[2] = {m.begin.cluster_boxes, m.mesh->cluster_boxes()};
+  const BoxView boxes[2] = {m.begin.cluster_boxes, m.end.cluster_boxes};
   for (int time = 0; time < 2; ++time) {
     const Box box = boxes[time][cluster];
     opened.box_at[time] = {scale * box.lower, scale * box.upper};
@@ -77,8 +90,10 @@ const VertexWays& find_ways(MovingCluster& cluster, const Cut& cut) {
   for (int axis = 0; axis < 3; ++axis) {
     const double *const from = cluster.at[0][axis], *const to = cluster.at[1][axis];
     double *const lower = ways.lower[axis], *const upper = ways.upper[axis];
+    const double frame = cut.frame[axis];
     for (int i = 0; i < cluster.vertex_count; ++i) {
-      const double begin = from[i], end = cut.until == 1.0 ? to[i] : begin + cut.until * (to[i] - begin);
+      const double begin = from[i], last = to[i] - frame,
+                   end = cut.until == 1.0 ? last : begin + cut.until * (last - begin);
       lower[i] = (begin < end ? begin : end) - cut.wider;
       upper[i] = (begin < end ? end : begin) + cut.wider;
     }
@@ -112,7 +127,7 @@ bool NearFeatures::take(const MovingMesh& m, MovingCluster& from, const Cut& cut
       kernels().append_near_ways(ways, outside_, some, first, &to);
     }
   };
-  const ClusterFacets all = m.mesh->facets_of(from.cluster);
+  const ClusterFacets all = m.mesh->facets_of(from.cluster, m.end.points);
   facet_begin = all.facet_begin;
   append({all.corner[0], all.corner[1], all.corner[2]}, 3, all.facet_count, facets);
   if (facets.count == 0) return false;
@@ -127,6 +142,21 @@ bool NearFeatures::take(const MovingMesh& m, MovingCluster& from, const Cut& cut
 // Grown so far that no rounding of a sum with `reach` matters.
 Box grown_generously(const Box& box, double reach) {
   return reach == 0.0 ? box : base::grown(box, reach + 0x1p-50 * (largest_coordinate(box) + reach));
+}
+
+// Whether a vertex of the one stays level with a vertex of the other along an axis. What slides in a plane does so, if
+// that stands across an axis; others have no gap that is exactly zero, but for chance.
+bool stays_level(const MovingPolygon& polygon) {
+  const auto is_zero = [&](int time, int corner, int axis) {
+    const DoubleDoubleVec3& v = polygon.corner[time][corner];
+    return (axis == 0 ? v.x : axis == 1 ? v.y : v.z) == DoubleDouble{};
+  };
+  for (int corner = 0; corner < polygon.count; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (is_zero(0, corner, axis) && is_zero(1, corner, axis)) return true;
+    }
+  }
+  return false;
 }
 
 // Pairs of features that wait for the filter.
@@ -149,12 +179,14 @@ struct OpenMesh {
 };
 
 struct SearchMemory {
-  double scale = 1.0;  // to lengths of at most 2
+  double scale = 1.0;    // to lengths of at most 2
+  double largest = 0.0;  // coordinate, scaled
   OpenMesh a, b;
   NearFeatures near_a, near_b;
   Waiting facets, edges;
   MeetingSearch meeting;
   ContactOnWay contact;
+  PartingSearch parting;
 };
 
 // The search among the clusters of two meshes.
@@ -171,6 +203,7 @@ class ImpactSearch {
         found_(found),
         counts_(counts) {
     scale_ = memory.scale;
+    largest_ = memory.largest;
     memory.a.begin(a.mesh);
     memory.b.begin(b.mesh);
     scaled_reach_ = reach > 0.0 ? std::max(scale_ * reach, std::numeric_limits<double>::denorm_min()) : 0.0;
@@ -182,9 +215,9 @@ class ImpactSearch {
   void search(const ClusterPair& pair) {
     MovingCluster &of_a = opened(a_, pair.a, memory_.a), &of_b = opened(b_, pair.b, memory_.b);
     NearFeatures &a = memory_.near_a, &b = memory_.near_b;
-    const Cut cut = cut_of(merged(of_a.box_until(1.0), of_b.box_until(1.0)));
+    const Cut cut = cut_of(of_a, of_b);
     const auto near = [&](const MovingCluster& cluster) {
-      return grown_generously(cluster.box_until(cut.until), scaled_reach_ + cut.wider);
+      return grown_generously(cluster.box_until(cut), scaled_reach_ + cut.wider);
     };
     if (!a.take(a_, of_a, cut, near(of_b)) || !b.take(b_, of_b, cut, near(of_a))) return;
     from_vertices(a, b, FeaturePair::vertex_facet);
@@ -210,10 +243,11 @@ class ImpactSearch {
     const BoxPointers boxes{{others.lower[0], others.lower[1], others.lower[2]},
                             {others.upper[0], others.upper[1], others.upper[2]}};
     std::int32_t near[FeatureWays::kRoom];
+    const double grown_by = box_reach(scaled_reach_, largest_);
     for (int i = 0; i < ones.count; ++i) {
       const Box way{{ones.lower[0][i], ones.lower[1][i], ones.lower[2][i]},
                     {ones.upper[0][i], ones.upper[1][i], ones.upper[2][i]}};
-      const BoxBounds box = bounds_of(base::grown(way, scaled_reach_));
+      const BoxBounds box = bounds_of(grown_by > 0.0 ? inflated(way, grown_by) : way);
       const int count = kernels().select_overlapping(boxes, others.count, box, near);
       for (int k = 0; k < count; ++k) visit(i, near[k]);
     }
@@ -270,11 +304,29 @@ class ImpactSearch {
   }
 
   // What is later than the first impact so far does not count. A time found may be a little too early.
-  Cut cut_of(const Box& all) const {
-    if (first_ == nullptr) return {};
-    const double until = first_->load(std::memory_order_relaxed) + kEarlier;
-    if (!(until < 1.0)) return {};
-    return {until, kNearly * longest_side(all) + 0x1p-50 * largest_coordinate(all)};
+  Cut cut_of(const MovingCluster& a, const MovingCluster& b) const {
+    Cut cut{.frame = frame_of(a, b)};
+    const bool has_frame = cut.frame != Vec3{};
+    const double until = first_ == nullptr ? 1.0 : first_->load(std::memory_order_relaxed) + kEarlier;
+    if (!has_frame && !(until < 1.0)) return cut;
+    const Box all = merged(merged(a.box_at[0], a.box_at[1]), merged(b.box_at[0], b.box_at[1]));
+    cut.until = std::min(until, 1.0);
+    cut.wider = kNearly * longest_side(all) + 0x1p-50 * largest_coordinate(all);
+    return cut;
+  }
+
+  // What both go together along an axis, in whole steps.
+  static Vec3 frame_of(const MovingCluster& a, const MovingCluster& b) {
+    const Vec3 way_a = base::way_of({a.box_at[0], a.box_at[1]}), way_b = base::way_of({b.box_at[0], b.box_at[1]});
+    const double size = std::min(longest_side(a.box_at[0]), longest_side(b.box_at[0]));
+    Vec3 frame;
+    if (!(size > std::numeric_limits<double>::min())) return frame;
+    const double step = std::ldexp(1.0, std::ilogb(size) - kStepsOfSize);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double way = base::common_way(way_a[axis], way_b[axis]);
+      if (std::abs(way) > kFewSteps * step) frame[axis] = step * std::nearbyint(way / step);
+    }
+    return frame;
   }
 
   void added(Waiting& waiting) {
@@ -291,17 +343,34 @@ class ImpactSearch {
     counts_.candidates += count;
     counts_.searched += std::popcount(left);
     for (; left != 0; left &= left - 1) {
-      const double latest = first_ != nullptr ? first_->load(std::memory_order_relaxed) : 1.0;
       const auto& pair = waiting.pair[std::countr_zero(left)];
-      const MovingPolygon features = polygon(pair.kind, pair.a, pair.b);
-      Meeting meeting = memory_.meeting.first(features, reach_, latest);
-      counts_.spans += meeting.spans;
-      if (same_ && reach_ > 0.0 && meeting.time <= 1.0 && !is_contact(pair.kind, pair.a, pair.b, meeting.time)) {
-        meeting = memory_.meeting.first(features, 0.0, latest);
-        counts_.spans += meeting.spans;
-      }
-      if (meeting.time <= 1.0) add(pair.kind, pair.a, pair.b, meeting.time);
+      settle(pair.kind, pair.a, pair.b);
     }
+  }
+
+  void settle(FeaturePair kind, int a, int b) {
+    const double latest = first_ != nullptr ? first_->load(std::memory_order_relaxed) : 1.0;
+    const MovingPolygon features = polygon(kind, a, b);
+    double time = meeting(features, kind, a, b, latest, 0.0);
+    if (!(time <= 1.0)) return;
+    if (time > 0.0 && !stays_level(features)) return add(kind, a, b, time, true);
+    if (const double apart_until = memory_.parting.apart_until(a_, b_, kind, a, b, time); apart_until > 0.0) {
+      if (first_ == nullptr) add(kind, a, b, time, false);
+      if (apart_until == 1.0) return;
+      time = meeting(features, kind, a, b, latest, apart_until);
+      if (!(time <= 1.0)) return;
+    }
+    add(kind, a, b, time, true);
+  }
+
+  double meeting(const MovingPolygon& features, FeaturePair kind, int a, int b, double latest, double begin) {
+    Meeting found = memory_.meeting.first(features, reach_, latest, begin);
+    counts_.spans += found.spans;
+    if (same_ && reach_ > 0.0 && found.time <= 1.0 && !is_contact(kind, a, b, found.time)) {
+      found = memory_.meeting.first(features, 0.0, latest, begin);
+      counts_.spans += found.spans;
+    }
+    return found.time;
   }
 
   // Of one mesh.
@@ -332,7 +401,7 @@ class ImpactSearch {
     vertices = {first, first == last ? -1 : last, -1};
   }
 
-  void add(FeaturePair kind, int a, int b, double time) {
+  void add(FeaturePair kind, int a, int b, double time, bool stops) {
     const auto sources = [&](const MovingMesh& m, bool is_edge, bool is_facet, int feature) {
       if (is_edge) return source_vertices(*m.mesh, m.features->edge(feature));
       if (is_facet) return source_vertices(*m.mesh, m.mesh->corners(feature));
@@ -342,7 +411,8 @@ class ImpactSearch {
     FeatureImpact impact{.kind = kind,
                          .a = sources(a_, edges, kind == FeaturePair::facet_vertex, a),
                          .b = sources(b_, edges, kind == FeaturePair::vertex_facet, b),
-                         .time = time};
+                         .time = time,
+                         .stops = stops};
     if (kind == FeaturePair::vertex_facet) name_bare(*b_.mesh, b, FeaturePair::vertex_edge, impact.b, impact.kind);
     if (kind == FeaturePair::facet_vertex) name_bare(*a_.mesh, a, FeaturePair::edge_vertex, impact.a, impact.kind);
     const bool is_symmetric = edges || impact.kind == FeaturePair::vertex_vertex;
@@ -355,6 +425,7 @@ class ImpactSearch {
   const bool same_;
   const double reach_;
   double scale_ = 1.0, scaled_reach_ = 0.0;
+  double largest_ = 0.0;  // coordinate, scaled
   std::atomic<double>* const first_;
   SearchMemory& memory_;
   std::vector<FeatureImpact>& found_;
@@ -363,29 +434,27 @@ class ImpactSearch {
 
 }  // namespace
 
+Vec3 common_frame(const MovingMesh& a, const MovingMesh& b) {
+  const Vec3 way_a = base::way_of({a.begin.box, a.end.box}), way_b = base::way_of({b.begin.box, b.end.box});
+  const double far = kFarTogether * std::min(longest_side(a.begin.box), longest_side(b.begin.box));
+  Vec3 frame;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double way = base::common_way(way_a[axis], way_b[axis]);
+    if (std::abs(way) > far) frame[axis] = way;
+  }
+  return frame;
+}
+
 double earliest_time(const MovingMesh& a, int cluster_a, const MovingMesh& b, int cluster_b, double reach) {
   const auto boxes = [](const MovingMesh& m, int cluster) {
     const auto c = static_cast<std::size_t>(cluster);
-    return std::array<Box, 2>{m.begin.cluster_boxes[c], m.mesh->cluster_boxes()[c]};
+    return base::MovingBox{m.begin.cluster_boxes[c], m.end.cluster_boxes[c]};
   };
-  const auto box_a = boxes(a, cluster_a), box_b = boxes(b, cluster_b);
-  const Box all = merged(merged(box_a[0], box_a[1]), merged(box_b[0], box_b[1]));
-  const double nearly = kNearly * longest_side(all) + reach;
-  double latest = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const bool a_is_lower : {true, false}) {
-      const auto gap = [&](std::size_t time) {
-        return (a_is_lower ? box_b[time].lower[axis] - box_a[time].upper[axis]
-                           : box_a[time].lower[axis] - box_b[time].upper[axis]) -
-               nearly;
-      };
-      const double begin = gap(0), end = gap(1);
-      if (!(begin > 0.0)) continue;
-      if (end > 0.0) return std::numeric_limits<double>::infinity();
-      latest = std::max(latest, begin / (begin - end));
-    }
-  }
-  return std::max(latest - kEarlier, 0.0);
+  const base::MovingBox box_a = boxes(a, cluster_a), box_b = boxes(b, cluster_b);
+  const Box all = merged(merged(box_a.begin, box_a.end), merged(box_b.begin, box_b.end));
+  const base::TimeSpan span = near_span(box_a, box_b, kNearly * longest_side(all) + reach);
+  if (span.from > span.to + kEarlier) return std::numeric_limits<double>::infinity();
+  return std::max(span.from - kEarlier, 0.0);
 }
 
 struct ImpactFinder::Memory : SearchMemory {};
@@ -397,6 +466,7 @@ ImpactFinder& ImpactFinder::operator=(ImpactFinder&&) noexcept = default;
 
 void ImpactFinder::begin(const Box& all) {
   memory_->scale = unit_scale(longest_side(all));
+  memory_->largest = memory_->scale * largest_coordinate(all);
   memory_->a.begin(nullptr);
   memory_->b.begin(nullptr);
 }

@@ -12,23 +12,11 @@
 #include <tuple>
 #include <vector>
 
-#include "narrowphase/mesh/features.h"
 #include "narrowphase/motion/meeting.h"
+#include "narrowphase/motion/moving_mesh.h"
 #include "narrowphase/pairs/cluster_pairs.h"
 
 namespace tact::narrowphase {
-
-/// A mesh that moves from a placement of its own to where it is now.
-struct MovingMesh {
-  const ClusteredMesh* mesh = nullptr;
-  const Features* features = nullptr;
-  Placement begin;
-
-  Vec3 begin_of(int vertex) const { return {begin.points.x[vertex], begin.points.y[vertex], begin.points.z[vertex]}; }
-  MovingVertex vertex(int v) const { return {{begin_of(v), mesh->position(v)}}; }
-  /// Of all places that its clusters pass; valid as long as this is.
-  ClusterBoxes boxes() const { return {.mesh = mesh, .begin = &begin}; }
-};
 
 /// Two features that meet. Vertices have the caller's numbers: those of an edge ascend, those of a facet stand in its
 /// own order; unused entries are -1. In one mesh, `a` is the vertex or the lesser edge. An edge or a point in the place
@@ -38,6 +26,7 @@ struct FeatureImpact {
   std::array<int, 3> a{-1, -1, -1};
   std::array<int, 3> b{-1, -1, -1};
   double time = 0.0;  // in [0, 1]
+  bool stops = true;  // false where they part there, or slide along each other: parting.h
 
   /// By time, then by what meets.
   friend bool operator<(const FeatureImpact& x, const FeatureImpact& y) {
@@ -58,6 +47,9 @@ struct MotionCounts {
   }
 };
 
+/// How far two meshes go together, along each axis: zero where that is little of their size.
+Vec3 common_frame(const MovingMesh& a, const MovingMesh& b);
+
 /// No features of two clusters, of two meshes or of one, have an impact earlier than this; infinity: never. `reach` in
 /// metres. Their boxes go straight: the time at which these come within reach of each other, less what rounding and the
 /// search for a meeting may make an impact earlier (meeting.h).
@@ -77,8 +69,9 @@ class ImpactFinder {
   /// Appends the impacts of some cluster pairs of `a` and `b`, which may be one mesh, in no particular order. All
   /// cluster pairs together give each impact once. Features meet that come within `reach` of each other; those of one
   /// mesh that are no contact there meet where they share a point: contact_on_way.h. If only the first impact is
-  /// wanted, `first` is not null: it falls to the time of what is found, and later impacts may be left out. Give the
-  /// cluster pairs that come first first.
+  /// wanted that stops, `first` is not null: it falls to the time of what is found, and later impacts may be left out,
+  /// and all that do not stop. Give the cluster pairs that come first first. Features that part and meet again have two
+  /// impacts.
   void run(const MovingMesh& a, const MovingMesh& b, double reach, std::span<const ClusterPair> pairs,
            std::atomic<double>* first, std::vector<FeatureImpact>& found, MotionCounts& counts);
 

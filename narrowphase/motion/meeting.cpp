@@ -49,36 +49,43 @@ std::array<double, 7> halves_at(const std::array<double, 4>& c, double t) {
   return {c[0], a, ab, mix(ab, bd), bd, d, c[3]};
 }
 
+MovingPolygon scaled(MovingPolygon polygon, double by) {
+  for (auto& corners : polygon.corner) {
+    for (int i = 0; i < polygon.count; ++i) corners[i] = narrowphase::scaled(corners[i], by);
+  }
+  return polygon;
+}
+
 Vec3 unit(Vec3 v) { return largest_size(v) > 0x1p-500 ? normalized(v) : Vec3{}; }
 
 }  // namespace
 
 MeetingSearch::MeetingSearch() { waiting_.reserve(kMostMoments); }
 
-Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double latest) {
+// Copies the corners, scaled. Lengths so short that no double scales them to near 1 are to be given times the result.
+double MeetingSearch::take(const MovingPolygon& polygon) {
   count_ = polygon.count;
   double largest = 0.0;
   for (const auto& corners : polygon.corner) {
     for (int i = 0; i < count_; ++i) largest = std::max(largest, largest_size(heads(corners[i])));
   }
-  // Lengths so short that no double scales them to near 1 are scaled twice.
   constexpr double kShort = 0x1p-1000;
-  if (largest > 0.0 && largest < kShort) {
-    MovingPolygon longer = polygon;
-    for (auto& corners : longer.corner) {
-      for (int i = 0; i < count_; ++i) corners[i] = scaled(corners[i], 1.0 / kShort);
-    }
-    return first(longer, reach / kShort, latest);
-  }
+  if (largest > 0.0 && largest < kShort) return 1.0 / kShort;
   scale_ = unit_scale(largest);
   for (int time = 0; time < 2; ++time) {
     for (int i = 0; i < count_; ++i) at_[time][i] = scale_ * heads(polygon.corner[time][i]);
   }
+  return 1.0;
+}
+
+Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double latest, double begin) {
+  if (const double longer = take(polygon); longer != 1.0)
+    return first(scaled(polygon, longer), longer * reach, latest, begin);
   reach_ = std::min(scale_ * reach, kLargestReach);
 
   Meeting meeting;
-  Span span{0.0, 1.0};
-  if (reach_ == 0.0 && is_decided_at_once(polygon, span, meeting)) return meeting;
+  Span span{begin, 1.0};
+  if (reach_ == 0.0 && begin == 0.0 && is_decided_at_once(polygon, span, meeting)) return meeting;
   Moment from = moment(span.from);
   if (reach_ > 0.0) reach_ = allowed_reach(from);
   waiting_.assign(1, moment(span.to));
@@ -104,15 +111,15 @@ Meeting MeetingSearch::first(const MovingPolygon& polygon, double reach, double 
       continue;
     }
     --closer_looks;
-    const std::optional<double> begin = first_close_time(polygon, from.time, to.time);
-    if (!begin) {
+    const std::optional<double> close = first_close_time(polygon, from.time, to.time);
+    if (!close) {
       from = to;
       waiting_.pop_back();
       continue;
     }
     // What stays open may have no area at that time, and be far away.
-    if (length <= kFinestSpan || is_near(moment(*begin))) {
-      meeting.time = *begin;
+    if (length <= kFinestSpan || is_near(moment(*close))) {
+      meeting.time = *close;
       return meeting;
     }
     add_between(from.time, to.time, middle);
@@ -207,9 +214,20 @@ MeetingSearch::Moment MeetingSearch::moment(double time) const {
 
 // A polygon that starts nearer than its reach may come as near as a share of its distance at the start.
 double MeetingSearch::allowed_reach(const Moment& begin) const {
-  const double nearest = std::max(separation(begin, begin.direction), separation(begin, best_direction(begin)));
-  const bool is_above = nearest > (1.0 + kJustAbove) * reach_ + kDotRounding;
-  return is_above ? reach_ : kShareOfGap * std::max(nearest, 0.0);
+  const double above = (1.0 + kJustAbove) * reach_ + kDotRounding;
+  if (separation(begin, begin.direction) > above) return reach_;
+  const double nearest = farthest_separation(begin);
+  return nearest > above ? reach_ : kShareOfGap * std::max(nearest, 0.0);
+}
+
+double MeetingSearch::farthest_separation(const Moment& m) const {
+  return std::max(separation(m, m.direction), separation(m, best_direction(m)));
+}
+
+double MeetingSearch::distance_at_begin(const MovingPolygon& polygon) {
+  if (const double longer = take(polygon); longer != 1.0) return distance_at_begin(scaled(polygon, longer)) / longer;
+  reach_ = 0.0;
+  return std::max(farthest_separation(moment(0.0)) - kDotRounding, 0.0) / scale_;
 }
 
 // Goes on between the two next moments: at their middle, or at the ends of the span around the middle that its
@@ -322,6 +340,15 @@ bool MeetingSearch::is_left_out_by_direction(const Moment& from, const Moment& t
 
 bool MeetingSearch::is_left_out_by_volume(const Moment& from, const Moment& to) const {
   if (count_ < 3) return false;
+  // Most often an end alone tells that the coefficients do not.
+  const auto at_end = [&](const Moment& m) {
+    const Vec3 normal = cross(m.corner[1] - m.corner[0], m.corner[count_ - 1] - m.corner[0]);
+    const double height = dot(m.corner[0], normal);
+    const bool is_open = reach_ > 0.0 && std::abs(height) <= reach_ * std::sqrt(norm_squared(normal));
+    return is_open ? 0.0 : height;
+  };
+  const double last = at_end(to);
+  if (last == 0.0 || !(last > 0.0 ? at_end(from) > 0.0 : at_end(from) < 0.0)) return false;
   const Volume volume = volume_on(from.corner, to.corner);
   const auto [low, high] = std::ranges::minmax(volume.coefficient);
   return low > volume.rounding || high < -volume.rounding;
@@ -372,15 +399,17 @@ std::optional<MeetingSearch::Span> MeetingSearch::only_crossing(const Volume& vo
   return std::nullopt;
 }
 
-Vec3 MeetingSearch::direction_to(const Moment& m) const {
+// Of so many corners: it is what most of the time goes into.
+template <int kCount>
+Vec3 MeetingSearch::direction_of(const Moment& m) const {
   const Vec3* const p = m.corner;
-  const Vec3 normal = count_ < 3 ? Vec3{} : unit(cross(p[1] - p[0], p[count_ - 1] - p[0]));
+  const Vec3 normal = kCount < 3 ? Vec3{} : unit(cross(p[1] - p[0], p[kCount - 1] - p[0]));
   bool inside = normal != Vec3{};
   double least = Meeting::kNever;
   Vec3 nearest_point, nearest_side;
   bool within_side = false;
-  for (int i = 0; i < count_; ++i) {
-    const Vec3 from = p[i], side = p[i + 1 < count_ ? i + 1 : 0] - from;
+  for (int i = 0; i < kCount; ++i) {
+    const Vec3 from = p[i], side = p[i + 1 < kCount ? i + 1 : 0] - from;
     inside = inside && dot(cross(side, from), normal) <= 0.0;
     const double length2 = norm_squared(side), along = -dot(from, side);
     const bool between = along > 0.0 && along < length2;
@@ -397,6 +426,15 @@ Vec3 MeetingSearch::direction_to(const Moment& m) const {
   // For a polygon with next to no area, rounding may say so of any point.
   const Vec3 above = dot(normal, p[0]) < 0.0 ? -normal : normal;
   return separation(m, nearest) > separation(m, above) ? nearest : above;
+}
+
+Vec3 MeetingSearch::direction_to(const Moment& m) const {
+  switch (count_) {
+    case 4: return direction_of<4>(m);
+    case 3: return direction_of<3>(m);
+    case 2: return direction_of<2>(m);
+    default: return direction_of<1>(m);
+  }
 }
 
 }  // namespace tact::narrowphase

@@ -46,8 +46,11 @@ class MeetingSearch {
   MeetingSearch();
 
   /// `reach` in metres, zero or more. Once all times up to `latest` are left out, the search ends and the answer is
-  /// never. It takes the same steps whatever `latest` is.
-  Meeting first(const MovingPolygon& polygon, double reach, double latest = 1.0);
+  /// never. It takes the same steps whatever `latest` is. What is before `begin` does not count.
+  Meeting first(const MovingPolygon& polygon, double reach, double latest = 1.0, double begin = 0.0);
+
+  /// How far a polygon is from the origin at time 0, in metres, or up to 2^-46 of its size and way less.
+  double distance_at_begin(const MovingPolygon& polygon);
 
  private:
   // The polygon at a time between 0 and 1.
@@ -67,6 +70,7 @@ class MeetingSearch {
   struct Span {
     double from, to;
   };
+  double take(const MovingPolygon& polygon);
   Volume volume_on(const Vec3 (&from)[4], const Vec3 (&to)[4]) const;
   bool is_decided_at_once(const MovingPolygon& polygon, Span& span, Meeting& meeting);
   std::optional<double> first_exact_crossing(const MovingPolygon& polygon) const;
@@ -74,6 +78,8 @@ class MeetingSearch {
   std::optional<Span> only_crossing(const Volume& volume) const;
   Moment moment(double time) const;
   Vec3 corner(int i, double time) const;
+  template <int kCount>
+  Vec3 direction_of(const Moment& m) const;
   Vec3 direction_to(const Moment& m) const;
   double allowed_reach(const Moment& begin) const;
   void add_between(double from, double to, const Moment& middle);
@@ -82,6 +88,7 @@ class MeetingSearch {
   bool is_left_out(const Moment& from, const Moment& to) const;
   bool is_left_out_by_new_direction(const Moment& from, const Moment& to) const;
   double separation(const Moment& m, Vec3 direction) const;
+  double farthest_separation(const Moment& m) const;
   bool is_as_far(const Moment& m, Vec3 direction, double distance2) const;
   Vec3 best_direction(const Moment& m) const;
   bool is_left_out_by_direction(const Moment& from, const Moment& to) const;

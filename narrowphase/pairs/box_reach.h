@@ -31,4 +31,11 @@ inline base::Box inflated(const base::Box& box, double by) {
   return {box.lower - base::Vec3{by, by, by}, box.upper + base::Vec3{by, by, by}};
 }
 
+/// A box as it is seen from what goes `frame`, not smaller for any rounding.
+inline base::Box seen_from(const base::Vec3& frame, const base::Box& box) {
+  if (frame == base::Vec3{} || box.empty()) return box;
+  const double by = 0x1p-51 * (largest_coordinate(box) + largest_coordinate({frame, frame}));
+  return inflated({box.lower - frame, box.upper - frame}, by);
+}
+
 }  // namespace tact::narrowphase

@@ -12,35 +12,44 @@ namespace {
 constexpr std::size_t kMostPrefetched = 64;
 
 // Those of `count` boxes from `first` on that meet `near`, where they are or on their way from `begin`.
-int select(BoxView now, const BoxView* begin, int first, int count, const BoxBounds& near, std::int32_t* chosen) {
-  if (begin == nullptr) return kernels().select_overlapping(now.pointers(first), count, near, chosen);
-  return kernels().select_swept(begin->pointers(first), now.pointers(first), count, near, chosen);
+int select(const ClusterBoxes& from, BoxView last, const BoxView* begin, int first, int count, const Box& near,
+           std::int32_t* chosen) {
+  if (begin == nullptr) return kernels().select_overlapping(last.pointers(first), count, bounds_of(near), chosen);
+  if (!from.has_frame())
+    return kernels().select_swept(begin->pointers(first), last.pointers(first), count, bounds_of(near), chosen);
+  int found = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto k = static_cast<std::size_t>(first + i);
+    if (overlaps(merged((*begin)[k], seen_from(from.way->frame, last[k])), near)) chosen[found++] = i;
+  }
+  return found;
 }
 
 }  // namespace
 
 void keep_clusters(const ClusterBoxes& from, double reach, const Box& other, KeptClusters& kept) {
   const ClusteredMesh& mesh = *from.mesh;
-  const BoxView *const begin_groups = from.begin == nullptr ? nullptr : &from.begin->group_boxes,
-                       *const begin_clusters = from.begin == nullptr ? nullptr : &from.begin->cluster_boxes;
+  const BoxView *const begin_groups = from.way == nullptr ? nullptr : &from.way->begin->group_boxes,
+                       *const begin_clusters = from.way == nullptr ? nullptr : &from.way->begin->cluster_boxes;
   // The boxes that meet `other` when they are grown meet this, whatever rounds.
-  const BoxBounds near = bounds_of(reach > 0.0 ? inflated(other, box_reach(reach, largest_coordinate(other))) : other);
+  const Box near = reach > 0.0 ? inflated(other, box_reach(reach, largest_coordinate(other))) : other;
   kept.cluster.clear();
   kept.too_low = 0;
   const auto select_groups = [&](int begin, int count, std::int32_t* chosen) {
-    return select(mesh.group_boxes(), begin_groups, begin, count, near, chosen);
+    return select(from, from.end_group_boxes(), begin_groups, begin, count, near, chosen);
   };
   for_chosen_groups(mesh, select_groups, [&](int group) {
     const int begin = mesh.cluster_begin(group), count = mesh.cluster_end(group) - begin;
     std::int32_t chosen[kGroupSize];
     int found;
     if (from.least_height != nullptr) {
-      const CullPlanes planes{.axis = from.least_height->axis, .lowest = from.least_height->lowest, .box = near};
+      const CullPlanes planes{
+          .axis = from.least_height->axis, .lowest = from.least_height->lowest, .box = bounds_of(near)};
       const Culled culled = kernels().cull_boxes(mesh.cluster_boxes().pointers(begin), count, planes, chosen);
       found = culled.left;
       kept.too_low += culled.low;
     } else {
-      found = select(mesh.cluster_boxes(), begin_clusters, begin, count, near, chosen);
+      found = select(from, from.end_boxes(), begin_clusters, begin, count, near, chosen);
     }
     for (int i = 0; i < found; ++i) kept.cluster.push_back(begin + chosen[i]);
   });

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "narrowphase/mesh/clustered_mesh.h"
+#include "narrowphase/pairs/box_reach.h"
 
 namespace tact::narrowphase {
 
@@ -15,16 +16,33 @@ struct LeastHeight {
   double lowest;
 };
 
+/// A mesh on its way, seen from what goes `frame` meanwhile.
+struct MeshWay {
+  const Placement* begin = nullptr;
+  const Placement* end = nullptr;  // if null: where the mesh is
+  Vec3 frame{};
+};
+
 /// The boxes of a mesh's clusters as a search sees them.
 struct ClusterBoxes {
   const ClusteredMesh* mesh = nullptr;
-  const Placement* begin = nullptr;           // if not null, the boxes are swept: from there to where the mesh is
-  const LeastHeight* least_height = nullptr;  // if not null, clusters below it are dropped; requires begin == nullptr
+  const MeshWay* way = nullptr;               // if not null, the boxes are swept
+  const LeastHeight* least_height = nullptr;  // if not null, clusters below it are dropped; requires way == nullptr
 
-  Box box() const { return begin == nullptr ? mesh->box() : merged(begin->box, mesh->box()); }
+  Box box() const {
+    return way == nullptr ? mesh->box()
+                          : merged(way->begin->box, seen_from(way->frame, way->end ? way->end->box : mesh->box()));
+  }
   Box operator[](int cluster) const {
-    const Box now = mesh->cluster_boxes()[cluster];
-    return begin == nullptr ? now : merged(begin->cluster_boxes[cluster], now);
+    const Box last = end_boxes()[cluster];
+    return way == nullptr ? last : merged(way->begin->cluster_boxes[cluster], seen_from(way->frame, last));
+  }
+  bool has_frame() const { return way != nullptr && way->frame != Vec3{}; }
+  BoxView end_boxes() const {
+    return way == nullptr || way->end == nullptr ? mesh->cluster_boxes() : way->end->cluster_boxes;
+  }
+  BoxView end_group_boxes() const {
+    return way == nullptr || way->end == nullptr ? mesh->group_boxes() : way->end->group_boxes;
   }
 };
 

@@ -57,7 +57,8 @@ Json impacts_json(const MotionReport& motion) {
                        {"kind", feature_pair_name(impact.kind)},
                        {"a", first_of(impact.a_vertices, count_of(impact.a_vertices))},
                        {"b", first_of(impact.b_vertices, count_of(impact.b_vertices))},
-                       {"time", impact.time}});
+                       {"time", impact.time},
+                       {"stops", impact.stops}});
   }
   return impacts;
 }
@@ -291,7 +292,7 @@ void JsonReport::add_frame(int frame, const Report& report, const MotionReport* 
                {"times_ms", times_json(report.stats())}};
   if (motion != nullptr) {
     json["impacts"] = impacts_json(*motion);
-    json["first_time"] = motion->impacts().empty() ? Json(nullptr) : Json(motion->first_time());
+    json["first_time"] = motion->first_time() <= 1.0 ? Json(motion->first_time()) : Json(nullptr);
   }
   if (!files.empty()) json["files"] = files;
   out_ << (first_ ? "\n" : ",\n") << json_text(json);

@@ -80,8 +80,9 @@ void TableReport::print_motion(const MotionReport& motion) {
   int lines = 0;
   for (const ImpactPair& pair : motion.pairs()) {
     if (++lines > kMostPairLines) break;
-    fmt::print(out_, "  {}  {}  on the way: {}, first at {:.6f}\n", body_text(pair.a.index), body_text(pair.b.index),
-               counted(static_cast<std::int64_t>(pair.impacts.size()), "impact"), pair.first_time);
+    fmt::print(out_, "  {}  {}  on the way: {}, {}\n", body_text(pair.a.index), body_text(pair.b.index),
+               counted(static_cast<std::int64_t>(pair.impacts.size()), "impact"),
+               pair.first_time <= 1.0 ? fmt::format("first at {:.6f}", pair.first_time) : "none of which stops");
   }
 }
 

@@ -139,6 +139,7 @@ bool ImpactResponse::take_back(std::span<const Impact> impacts, const Positions&
     }
   };
   for (const Impact& impact : impacts) {
+    if (!impact.stops) continue;
     take(impact.a, impact.a_vertices);
     take(impact.b, impact.b_vertices);
   }
@@ -154,10 +155,11 @@ void ImpactResponse::run(const Positions& begin, double seconds, LastResort last
   bool is_free = false;
   const int rounds = last_resort == LastResort::all_stop ? kMostRounds : kFewRounds;
   for (int round = 0; round < rounds && !is_free; ++round) {
-    const std::span<const Impact> impacts = detect(Impacts::all, ids, bodies, world).impacts();
-    is_free = impacts.empty();
-    impacts_ += static_cast<std::int64_t>(impacts.size());
-    for (const Impact& impact : impacts) stop(impact, world.margin(impact.a) + world.margin(impact.b), begin, bodies);
+    const MotionReport& motion = detect(Impacts::all, ids, bodies, world);
+    is_free = motion.first_time() > 1.0;
+    impacts_ += std::ranges::count_if(motion.impacts(), &Impact::stops);
+    for (const Impact& impact : motion.impacts())
+      if (impact.stops) stop(impact, world.margin(impact.a) + world.margin(impact.b), begin, bodies);
   }
   while (!is_free && last_resort == LastResort::all_stop) {
     const double first = detect(Impacts::first, ids, bodies, world).first_time();

@@ -165,6 +165,14 @@ class EveryCallOfC {
     call([&] { return tact_world_set_poses(world_, &pose, 1); });
     call([&] { return tact_world_detect_motion(world_, 0); });
     tell_motion();
+    tact_motion_options options = TACT_MOTION_OPTIONS_INIT;
+    options.has_distance = options.bounds = true;
+    call([&] { return tact_world_detect_motion_by(world_, &options); });
+    const double* bounds = nullptr;
+    size_t bound_count = 0;
+    call([&] { return tact_motion_bounds(world_, bodies_[0], &bounds, &bound_count); });
+    tell({bounds, bound_count});
+    tell_motion();
     call([&] { return tact_world_set_settings(world_, &settings_); });
     call([&] { return tact_world_set_layers(world_, bodies_[0], 3, 0xff); });
     call([&] { return tact_world_set_group(world_, bodies_[1], 5); });

@@ -179,6 +179,7 @@ constexpr Twin kTwins[] = {
     {"ImpactArrays", "tact_impact_arrays", ""},
     {"StencilKind", "tact_stencil_kind", "TACT_STENCIL_"},
     {"Stencil", "tact_stencil", ""},
+    {"MotionOptions", "tact_motion_options", ""},
     {"Impact", "tact_impact", ""},
     {"ImpactPair", "tact_impact_pair", ""},
     {"MotionStats", "tact_motion_statistics", ""},

@@ -136,6 +136,7 @@ TEST(TwinsInC, OfEachField) {
   expect_twins_of_fields("contact_sums.h", "struct PointImpulse {", "tact_point_impulse", {});
   expect_twins_of_fields("contact_sums.h", "struct VertexOfBody {", "tact_vertex_of_body", {});
   expect_twins_of_fields("solver/stencil.h", "struct Stencil {", "tact_stencil", {});
+  expect_twins_of_fields("motion.h", "struct MotionOptions {", "tact_motion_options", {});
   expect_twins_of_fields("motion.h", "struct Impact {", "tact_impact", {});
   expect_twins_of_fields("motion.h", "struct ImpactPair {", "tact_impact_pair", {});
   expect_twins_of_fields("motion.h", "struct MotionStats {", "tact_motion_statistics", {});

@@ -98,13 +98,15 @@ TEST(ReportArrays, OfImpactsHoldThoseOfTheMotion) {
   auto kinds = room<std::uint8_t>(rows, 1);
   auto times = room<double>(rows, 1);
   auto a_vertices = room<int>(rows, 3), b_vertices = room<int>(rows, 3);
-  copy_impacts(motion, {bodies, kinds, times, a_vertices, b_vertices});
+  auto stops = room<std::uint8_t>(rows, 1);
+  copy_impacts(motion, {bodies, kinds, times, a_vertices, b_vertices, stops});
   for (std::size_t row = 0; row < rows; ++row) {
     const Impact& impact = motion.impacts()[row];
     EXPECT_EQ(bodies[2 * row], impact.a.index);
     EXPECT_EQ(bodies[2 * row + 1], impact.b.index);
     EXPECT_EQ(kinds[row], static_cast<std::uint8_t>(impact.kind));
     EXPECT_EQ(times[row], impact.time);
+    EXPECT_EQ(stops[row], impact.stops ? 1 : 0);
     EXPECT_TRUE(std::equal(impact.a_vertices.begin(), impact.a_vertices.end(),
                            a_vertices.begin() + static_cast<std::ptrdiff_t>(3 * row)));
     EXPECT_TRUE(std::equal(impact.b_vertices.begin(), impact.b_vertices.end(),

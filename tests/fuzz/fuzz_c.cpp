@@ -170,7 +170,11 @@ class Session {
   }
 
   void motion() {
-    if (!check(tact_world_detect_motion(world_, input_.byte() % 4))) return;
+    tact_motion_options options = TACT_MOTION_OPTIONS_INIT;
+    options.wanted = input_.byte() % 4;
+    options.has_distance = options.wanted == 0 && input_.byte() % 4 == 0;
+    options.bounds = options.has_distance;
+    if (!check(tact_world_detect_motion_by(world_, &options))) return;
     const tact_impact* impacts = nullptr;
     std::size_t count = 0;
     require(check(tact_motion_impacts(world_, &impacts, &count)), "impacts are there");

@@ -93,7 +93,7 @@ class Checker:
         found.gaps = np.concatenate(parts[3]) if parts[3] else np.empty(0)
         if self.motion is not None:
             found.impacts = len(self.motion)
-            found.first_time = self.motion.first_time if len(self.motion) else None
+            found.first_time = _first_time(self.motion)
         return found
 
 
@@ -128,7 +128,7 @@ def frame_json(frame, checker):
     }
     if checker.motion is not None:
         json["impacts"] = _impacts_json(checker.motion)
-        json["first_time"] = checker.motion.first_time if len(checker.motion) else None
+        json["first_time"] = _first_time(checker.motion)
     return json
 
 
@@ -193,7 +193,11 @@ def _patch_json(patch):
     }
 
 
+def _first_time(motion):
+    return motion.first_time if motion.first_time <= 1.0 else None
+
+
 def _impacts_json(motion):
     (a,), (b,) = _features(motion.a_vertices), _features(motion.b_vertices)
-    rows = zip(motion.bodies.tolist(), motion.kinds.tolist(), a, b, motion.times.tolist())
-    return [{"bodies": bodies, "kind": KINDS[kind], "a": of_a, "b": of_b, "time": time} for bodies, kind, of_a, of_b, time in rows]
+    rows = zip(motion.bodies.tolist(), motion.kinds.tolist(), a, b, motion.times.tolist(), motion.stops.tolist())
+    return [{"bodies": bodies, "kind": KINDS[kind], "a": of_a, "b": of_b, "time": time, "stops": stops} for bodies, kind, of_a, of_b, time, stops in rows]

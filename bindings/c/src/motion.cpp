@@ -9,7 +9,8 @@ namespace {
 static_assert(std::is_standard_layout_v<Impact> && sizeof(tact_impact) == sizeof(Impact) &&
               offsetof(tact_impact, kind) == offsetof(Impact, kind) &&
               offsetof(tact_impact, time) == offsetof(Impact, time) &&
-              offsetof(tact_impact, b_vertices) == offsetof(Impact, b_vertices));
+              offsetof(tact_impact, b_vertices) == offsetof(Impact, b_vertices) &&
+              offsetof(tact_impact, stops) == offsetof(Impact, stops));
 
 }  // namespace
 }  // namespace tact::c
@@ -49,6 +50,11 @@ tact_error tact_motion_pair(tact_world world, size_t index, tact_impact_pair* pa
     show(found.impacts, &value.impacts, &value.impact_count);
     write_struct(*pair, value);
   });
+}
+
+tact_error tact_motion_bounds(tact_world world, tact_body body, const double** bounds, size_t* count) {
+  return with_motion(world,
+                     [&](const MotionReport& motion) { show(motion.bounds(tact::c::id_of(body)), bounds, count); });
 }
 
 tact_error tact_motion_stats(tact_world world, tact_motion_statistics* statistics) {

@@ -101,7 +101,8 @@ tact_error tact_motion_copy_impacts(tact_world world, const tact_impact_arrays* 
                           .kinds = array_of(to.kinds, rows, 1),
                           .times = array_of(to.times, rows, 1),
                           .a_vertices = array_of(to.a_vertices, rows, 3),
-                          .b_vertices = array_of(to.b_vertices, rows, 3)});
+                          .b_vertices = array_of(to.b_vertices, rows, 3),
+                          .stops = array_of(to.stops, rows, 1)});
   });
 }
 }

@@ -270,6 +270,18 @@ tact_error tact_world_detect_motion(tact_world world, int32_t wanted) {
   });
 }
 
+tact_error tact_world_detect_motion_by(tact_world world, const tact_motion_options* options) {
+  return changing(world, [&](WorldEntry& entry) {
+    check_not_null(options);
+    const tact_motion_options given = tact::c::read_struct(*options, tact_motion_options TACT_MOTION_OPTIONS_INIT);
+    entry.motion = nullptr;
+    entry.motion = &entry.world.detect_motion(
+        tact::MotionOptions{.wanted = static_cast<tact::Impacts>(given.wanted),
+                            .distance = given.has_distance ? std::optional<double>(given.distance) : std::nullopt,
+                            .bounds = given.bounds});
+  });
+}
+
 tact_error tact_world_save(tact_world world, void* bytes, size_t capacity, size_t* count) {
   return reading(world, [&](const WorldEntry& entry) {
     check_not_null(count);

@@ -4,6 +4,8 @@
 #include <pybind11/numpy.h>
 #include <tact/motion.h>
 
+#include <span>
+
 namespace tact::python {
 
 /// A row an impact. They are copies.
@@ -13,9 +15,12 @@ struct MotionArrays {
   pybind11::array_t<std::uint8_t> kinds;
   pybind11::array_t<double> times;
   pybind11::array_t<int> a_vertices, b_vertices;
+  pybind11::array_t<bool> stops;
+  pybind11::dict bounds;
   pybind11::dict stats;
 };
 
-MotionArrays motion_arrays(const MotionReport& report);
+/// Bounds are those of `bounded`.
+MotionArrays motion_arrays(const MotionReport& report, std::span<const BodyId> bounded);
 
 }  // namespace tact::python

@@ -148,11 +148,11 @@ OfReport<Report> detect(SharedWorld& world) {
   return {world.shared_from_this(), report, made};
 }
 
-MotionArrays detect_motion(SharedWorld& world, Impacts wanted) {
+MotionArrays detect_motion(SharedWorld& world, const MotionOptions& options) {
   const MotionReport* made = nullptr;
-  world.compute([&](World& w) { made = &w.detect_motion(wanted); });
+  world.compute([&](World& w) { made = &w.detect_motion(options); });
   const SharedWorld::Reading reading(world);
-  return motion_arrays(*made);
+  return motion_arrays(*made, options.bounds ? world.read().bodies() : std::vector<BodyId>{});
 }
 
 py::bytes save(SharedWorld& world) {
@@ -332,8 +332,11 @@ void define_world(py::module_& module) {
           py::arg("body"), py::arg("motion"))
       .def("detect", detect, "one step: the contacts of the positions as they are now")
       .def(
-          "detect_motion", [](SharedWorld& world, Impacts wanted) { return detect_motion(world, wanted); },
-          py::arg("wanted") = Impacts::all,
+          "detect_motion",
+          [](SharedWorld& world, Impacts wanted, std::optional<double> distance, bool bounds) {
+            return detect_motion(world, {.wanted = wanted, .distance = distance, .bounds = bounds});
+          },
+          py::arg("wanted") = Impacts::all, py::arg("distance") = py::none(), py::arg("bounds") = false,
           "finds what meets between the positions of the last detect() and the current ones, every vertex moving "
           "straight")
       .def("save", save, "all that later answers depend on as bytes: settings, bodies, histories")

@@ -581,7 +581,7 @@ class MotionReport:
 
     @property
     def first_time(self) -> float:
-        """the earliest time of all, 0 to 1; infinity if nothing meets"""
+        """the earliest time of an impact that stops, 0 to 1; infinity if none does"""
     @property
     def bodies(self) -> npt.NDArray[np.int64]:
         """(N, 2): BodyId.index of the two bodies"""
@@ -597,6 +597,12 @@ class MotionReport:
     @property
     def b_vertices(self) -> Ints:
         """(N, 3): vertices of the feature of b; -1 fills up"""
+    @property
+    def stops(self) -> npt.NDArray[np.bool_]:
+        """(N,): false if they touch and part, or slide along each other: the surfaces around them do not cross there"""
+    @property
+    def bounds(self) -> dict[BodyId, Floats]:
+        """for each vertex of a body how far along its way it may go, 0 to 1, if bounds were requested. (V,) by body that moved. All may go so far at once, and meet nothing"""
     @property
     def stats(self) -> dict[str, float]:
         """counts and times. By name, times in milliseconds"""
@@ -887,7 +893,9 @@ class World:
     def excluded(self, a: BodyId, b: BodyId) -> bool: ...
     def set_motion(self, body: BodyId, motion: Motion) -> None: ...
     def detect(self) -> Report: ...
-    def detect_motion(self, wanted: Impacts = ...) -> MotionReport:
+    def detect_motion(
+        self, wanted: Impacts = ..., distance: float | None = None, bounds: bool = False
+    ) -> MotionReport:
         """finds what meets between the positions of the last detect() and the current ones, every vertex moving straight"""
     def sum_contacts(
         self, report: Report, ids: npt.NDArray[np.uint64] = ..., impulses: npt.NDArray[np.floating] = ...

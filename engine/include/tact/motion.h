@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,14 @@ enum class Impacts {
   first,          ///< the earliest of all; the fastest
 };
 
+/// What World::detect_motion() looks for.
+struct MotionOptions {
+  Impacts wanted = Impacts::all;  ///< which impacts
+  /// How near features come to meet, metres, zero or more; by default the sum of the margins of their bodies.
+  std::optional<double> distance = {};
+  bool bounds = false;  ///< whether to find how far each vertex may go; requires Impacts::all
+};
+
 /// A vertex and a facet, or two edges, that meet between the last step and now. With margins they meet where they come
 /// as near as the sum of these; the manual draws the rule for features that begin nearer.
 struct Impact {
@@ -30,22 +39,24 @@ struct Impact {
   double time = 0.0;
   std::array<int, 3> a_vertices{-1, -1, -1};  ///< vertices of the feature of a; -1 fills up
   std::array<int, 3> b_vertices{-1, -1, -1};  ///< vertices of the feature of b; -1 fills up
+  /// False if they touch and part, or slide along each other: the surfaces around them do not cross there.
+  bool stops = true;
 };
 
 /// Two bodies, or one with itself, with at least one impact.
 struct ImpactPair {
   BodyId a;                         ///< its key is not above that of b
   BodyId b;                         ///< the second body
-  double first_time = 0.0;          ///< the earliest time of the impacts
+  double first_time = 0.0;          ///< the earliest time of the impacts that stop; infinity if none does
   std::span<const Impact> impacts;  ///< sorted by time; valid as long as the report
 };
 
 /// Counts and times, milliseconds, of World::detect_motion().
 struct MotionStats {
   std::int64_t moved_bodies = 0;   ///< bodies with other positions than in the last step
-  std::int64_t body_pairs = 0;     ///< pairs of bodies whose swept boxes overlap, and bodies with themselves
-  std::int64_t cluster_pairs = 0;  ///< pairs of clusters whose swept boxes overlap
-  std::int64_t candidates = 0;     ///< pairs of features whose swept boxes overlap
+  std::int64_t body_pairs = 0;     ///< pairs of bodies whose boxes come near on their way, and bodies with themselves
+  std::int64_t cluster_pairs = 0;  ///< pairs of clusters whose boxes come near on their way
+  std::int64_t candidates = 0;     ///< pairs of features whose boxes come near on their way
   std::int64_t searched = 0;       ///< candidates that the filter left undecided
   std::int64_t spans = 0;          ///< parts of the way that the search looked at
   std::int64_t impacts = 0;        ///< impacts that are reported
@@ -61,21 +72,29 @@ class TACT_API MotionReport {
   MotionReport(const MotionReport&) = delete;  // views the world's data
   MotionReport& operator=(const MotionReport&) = delete;
 
-  /// Returns the earliest time of all, 0 to 1; infinity if nothing meets.
+  /// Returns the earliest time of an impact that stops, 0 to 1; infinity if none does.
   double first_time() const { return first_time_; }
   /// Returns the impacts, sorted by (a, b), time and features.
   std::span<const Impact> impacts() const { return impacts_; }
   /// Returns the pairs of bodies that meet, sorted by (a, b).
   std::span<const ImpactPair> pairs() const { return pairs_; }
+  /// Returns for each vertex of a body how far along its way it may go, 0 to 1, if bounds were requested. All may go so
+  /// far at once, and meet nothing. It is empty for a body that did not move.
+  std::span<const double> bounds(BodyId body) const;
   /// Returns counts and times.
   const MotionStats& stats() const { return stats_; }
 
  private:
   friend class MotionStage;
+  struct BodyBounds {
+    BodyId body;
+    std::vector<double> of_vertices;
+  };
   std::vector<Impact> impacts_;
   std::vector<ImpactPair> pairs_;
   double first_time_ = std::numeric_limits<double>::infinity();
   MotionStats stats_;
+  std::vector<BodyBounds> bounds_;
 };
 
 }  // namespace tact

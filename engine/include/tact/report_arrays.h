@@ -53,6 +53,7 @@ struct ImpactArrays {
   std::span<double> times = {};          ///< the parts of the way, 0 to 1, at which they first meet
   std::span<int> a_vertices = {};        ///< vertices of a, 3 an impact; -1 fills up
   std::span<int> b_vertices = {};        ///< vertices of b, 3 an impact; -1 fills up
+  std::span<std::uint8_t> stops = {};    ///< 0 where they part or slide along each other, else 1
 };
 
 /// Returns the number of contact points of all contacts.

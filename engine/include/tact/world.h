@@ -118,6 +118,8 @@ class TACT_API World {
   /// meeting is left out, and no time is late. It changes no later answer. The manual shows its use. Errors:
   /// invalid_argument, out_of_memory, backend_failure.
   const MotionReport& detect_motion(Impacts wanted = Impacts::all);
+  /// The same by options: the distance at which features meet; bounds of how far each vertex may go. Errors: as above.
+  const MotionReport& detect_motion(const MotionOptions& options);
 
   /// Returns all that later answers depend on as bytes: settings, bodies, histories. Worlds in one state have the same
   /// bytes. Left out are threads, executor, messages and observer. Errors: out_of_memory.

@@ -253,6 +253,10 @@ class EveryCall {
     told_.begin("detect_motion");
     for (const Impacts wanted : {Impacts::all, Impacts::first_of_pair, Impacts::first})
       told_.add(call([&]() -> const MotionReport& { return world.detect_motion(wanted); }));
+    const MotionOptions options{.distance = 0.01, .bounds = true};
+    const MotionReport& motion = call([&]() -> const MotionReport& { return world.detect_motion(options); });
+    told_.add(motion);
+    for (const double bound : call([&] { return motion.bounds(bodies_[0]); })) told_.add(bound);
     call([&] {
       world.set_settings(settings_);
       world.set_layers(bodies_[0], 3, 0xffu);

@@ -56,13 +56,14 @@ void expect_pairs_of_loop(const ClusterBoxes& a, const ClusterBoxes& b, ClusterP
 struct Moved {
   ClusteredMesh mesh;
   Placement begin;
+  MeshWay way{.begin = &begin};
 
-  explicit Moved(const Mesh& shape, Vec3 way) : mesh(tests::clustered(shape)) {
-    refit(mesh, tests::translated(shape, way).positions.data());
+  explicit Moved(const Mesh& shape, Vec3 by) : mesh(tests::clustered(shape)) {
+    refit(mesh, tests::translated(shape, by).positions.data());
     begin = mesh.placements().before();
   }
   ClusterBoxes still() const { return {.mesh = &mesh}; }
-  ClusterBoxes swept() const { return {.mesh = &mesh, .begin = &begin}; }
+  ClusterBoxes swept() const { return {.mesh = &mesh, .way = &way}; }
 };
 
 // Of one group of clusters and of several, of few and of many.

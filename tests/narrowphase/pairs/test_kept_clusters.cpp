@@ -38,7 +38,8 @@ TEST(KeptClusters, AreThoseWhoseBoxMeets) {
       const Vec3 corner{random.uniform(-1.2, 1.2), random.uniform(-1.2, 1.2), random.uniform(-0.3, 0.3)};
       const double edge = k % 10 == 0 ? 3.0 : random.uniform(0.0, 0.5), reach = k % 3 == 0 ? 0.0 : 0.1;
       const Box box{corner, corner + Vec3{edge, edge, edge}};
-      const ClusterBoxes boxes{.mesh = &mesh, .begin = k % 2 == 0 ? nullptr : &begin};
+      const MeshWay way{.begin = &begin, .frame = k % 4 == 1 ? Vec3{0.1, 0.2, 0.2} : Vec3{}};
+      const ClusterBoxes boxes{.mesh = &mesh, .way = k % 2 == 0 ? nullptr : &way};
       keep_clusters(boxes, reach, box, kept);
       ASSERT_EQ(kept.cluster, clusters_by_loop(boxes, reach, box)) << cells << " cells, box " << k;
       Box bounds;

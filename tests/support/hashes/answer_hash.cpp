@@ -149,6 +149,7 @@ void AnswerHash::add(const MotionReport& report) {
     features_.add(number_of(impact.kind));
     add_vertices(impact.a_vertices);
     add_vertices(impact.b_vertices);
+    if (!impact.stops) features_.add(std::uint64_t{0});
     add(impact.time);
   }
   features_.add(report.pairs().size());

@@ -297,6 +297,21 @@ TACT_C_API tact_error tact_world_detect(tact_world world);
  * straight. `wanted` is a tact_impacts. The functions tact_motion_... tell what it found. */
 TACT_C_API tact_error tact_world_detect_motion(tact_world world, int32_t wanted);
 
+/** What tact_world_detect_motion() looks for. */
+typedef struct tact_motion_options {
+  uint32_t struct_size;
+  int32_t wanted;    /**< which impacts */
+  bool has_distance; /**< whether `distance` is given */
+  /** How near features come to meet, metres, zero or more; by default the sum of the margins of their bodies. */
+  double distance;
+  bool bounds; /**< whether to find how far each vertex may go; requires TACT_IMPACTS_ALL */
+} tact_motion_options;
+#define TACT_MOTION_OPTIONS_INIT \
+  { (uint32_t)sizeof(tact_motion_options), 0, false, 0, false }
+
+/** The same by options: the distance at which features meet; bounds of how far each vertex may go. */
+TACT_C_API tact_error tact_world_detect_motion_by(tact_world world, const tact_motion_options* options);
+
 /** Gives all that later answers depend on as bytes: settings, bodies, histories. Writes up to `capacity` of them, and
  * how many there are. */
 TACT_C_API tact_error tact_world_save(tact_world world, void* bytes, size_t capacity, size_t* count);
@@ -816,6 +831,8 @@ typedef struct tact_impact {
   double time;       /**< the part of the way, 0 to 1, at which they first meet; never later than the true time */
   int a_vertices[3]; /**< vertices of the feature of a; -1 fills up */
   int b_vertices[3]; /**< vertices of the feature of b; -1 fills up */
+  /** False if they touch and part, or slide along each other: the surfaces around them do not cross there. */
+  bool stops;
 } tact_impact;
 
 /** Two bodies, or one with itself, with at least one impact. */
@@ -823,7 +840,7 @@ typedef struct tact_impact_pair {
   uint32_t struct_size;
   tact_body a;                /**< its key is not above that of b */
   tact_body b;                /**< the second body */
-  double first_time;          /**< the earliest time of the impacts */
+  double first_time;          /**< the earliest time of the impacts that stop; infinity if none does */
   const tact_impact* impacts; /**< sorted by time; valid as long as the report */
   size_t impact_count;
 } tact_impact_pair;
@@ -834,9 +851,9 @@ typedef struct tact_impact_pair {
 typedef struct tact_motion_statistics {
   uint32_t struct_size;
   int64_t moved_bodies;  /**< bodies with other positions than in the last step */
-  int64_t body_pairs;    /**< pairs of bodies whose swept boxes overlap, and bodies with themselves */
-  int64_t cluster_pairs; /**< pairs of clusters whose swept boxes overlap */
-  int64_t candidates;    /**< pairs of features whose swept boxes overlap */
+  int64_t body_pairs;    /**< pairs of bodies whose boxes come near on their way, and bodies with themselves */
+  int64_t cluster_pairs; /**< pairs of clusters whose boxes come near on their way */
+  int64_t candidates;    /**< pairs of features whose boxes come near on their way */
   int64_t searched;      /**< candidates that the filter left undecided */
   int64_t spans;         /**< parts of the way that the search looked at */
   int64_t impacts;
@@ -846,7 +863,7 @@ typedef struct tact_motion_statistics {
 #define TACT_MOTION_STATISTICS_INIT \
   { (uint32_t)sizeof(tact_motion_statistics), 0, 0, 0, 0, 0, 0, 0, 0, 0 }
 
-/** Gives the earliest time of all, 0 to 1; infinity if nothing meets. */
+/** Gives the earliest time of an impact that stops, 0 to 1; infinity if none does. */
 TACT_C_API tact_error tact_motion_first_time(tact_world world, double* time);
 /** Gives the impacts, sorted by (a, b), time and features. */
 TACT_C_API tact_error tact_motion_impacts(tact_world world, const tact_impact** impacts, size_t* count);
@@ -854,6 +871,9 @@ TACT_C_API tact_error tact_motion_impacts(tact_world world, const tact_impact** 
  */
 TACT_C_API tact_error tact_motion_pairs(tact_world world, size_t* count);
 TACT_C_API tact_error tact_motion_pair(tact_world world, size_t index, tact_impact_pair* pair);
+/** Gives for each vertex of a body how far along its way it may go, 0 to 1, if bounds were requested. All may go so
+ * far at once, and meet nothing. It is empty for a body that did not move. */
+TACT_C_API tact_error tact_motion_bounds(tact_world world, tact_body body, const double** bounds, size_t* count);
 /** Gives counts and times. */
 TACT_C_API tact_error tact_motion_stats(tact_world world, tact_motion_statistics* statistics);
 
@@ -865,9 +885,10 @@ typedef struct tact_impact_arrays {
   double* times;    /**< the parts of the way, 0 to 1, at which they first meet */
   int* a_vertices;  /**< vertices of a, 3 an impact; -1 fills up */
   int* b_vertices;  /**< vertices of b, 3 an impact; -1 fills up */
+  uint8_t* stops;   /**< 0 where they part or slide along each other, else 1 */
 } tact_impact_arrays;
 #define TACT_IMPACT_ARRAYS_INIT \
-  { (uint32_t)sizeof(tact_impact_arrays), NULL, NULL, NULL, NULL, NULL }
+  { (uint32_t)sizeof(tact_impact_arrays), NULL, NULL, NULL, NULL, NULL, NULL }
 
 /** Fills arrays with the impacts of a motion report, in their order. `rows` is the count that tact_motion_impacts()
  * gives. */

@@ -1,0 +1,63 @@
+// Whether features that touch go on into each other, or part, or go along: decided by exact signs.
+//
+// Surfaces do not cross around two features as long as there is a plane with what has the one feature on one side of
+// it, and what has the other on the other side; both may touch the plane. For an edge that begins to cross a facet does
+// so at a vertex of its own, or at a side of the facet: then the facets around these two features are on both sides of
+// each plane. Planes are those of facets around the features, or along both edges: they move as their vertices do, and
+// the gap of a vertex over them, times an area, is a cubic in time. The signs of its Bernstein coefficients are exact.
+#pragma once
+
+#include <tact/feature_pair.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "narrowphase/motion/moving_mesh.h"
+
+namespace tact::narrowphase {
+
+/// From one moving point to another.
+struct MovingWay {
+  MovingVertex from, to;
+};
+
+/// The signs that the volume u · (v × w) takes between time 0 and 2^-halvings, as its Bernstein coefficients tell: of
+/// kAbove and kBelow those that one of them has. None: it is zero throughout.
+inline constexpr unsigned kAbove = 1, kBelow = 2;
+unsigned volume_signs(const MovingWay& u, const MovingWay& v, const MovingWay& w, int halvings);
+
+/// One for each thread; its memory is reused.
+class PartingSearch {
+ public:
+  /// Features of two meshes, or of one, which come near at `time`: until when the surfaces around them certainly do not
+  /// cross there, though they touch. Zero if nothing is known. If `time` is zero, a time until which they are on two
+  /// sides of a plane. Later, 1 if both have a vertex in such a plane all the time: they slide along it.
+  double apart_until(const MovingMesh& a, const MovingMesh& b, FeaturePair kind, int feature_a, int feature_b,
+                     double time);
+
+ private:
+  // What has a feature.
+  struct Star {
+    std::vector<MovingVertex> vertices;  // its own come first
+    std::size_t own = 0;
+    bool is_border = false;  // of an edge: it has one facet
+  };
+  // A plane, or two parallel ones, one for each star: through its base, along u and v.
+  struct Plane {
+    MovingWay u, v;
+    MovingVertex base_a, base_b;
+  };
+
+  void take_vertex(const MovingMesh& mesh, int vertex, Star& star);
+  void take_edge(const MovingMesh& mesh, int edge, Star& star);
+  void take_facet(const MovingMesh& mesh, int facet, Star& star);
+  void add_plane(const MovingVertex& a, const MovingVertex& b, const MovingVertex& c);
+  void add_planes_of_vertex(const MovingMesh& mesh, int vertex, const Star& star, bool only_one);
+  void add_planes_of_edges(bool only_facets);
+  bool separates(const Plane& plane, int halvings, bool own_in_plane) const;
+
+  Star a_, b_;
+  std::vector<Plane> planes_;
+};
+
+}  // namespace tact::narrowphase
