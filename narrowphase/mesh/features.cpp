@@ -92,11 +92,14 @@ void Features::find_edges(const ClusteredMesh& mesh) {
     edge_corner_[1].push_back(cluster.corner[to][first % kClusterSize]);
     first_facet_of_edge_.push_back(first);
     ++edge_begin_[static_cast<std::size_t>(first / kClusterSize) + 1];
+    int balance = 0;
     for (int i = begin; i < end; ++i) {
       const std::size_t f = sides.facet(i), k = sides.corner(i);
       facet_edges_[3 * f + k] = edge;
+      balance += corners_[f][k] == edges_.back()[0] ? 1 : -1;
       opposite_.push_back(corners_[f][(k + 2) % 3]);
     }
+    is_closed_ &= balance == 0;
     opposite_begin_.push_back(static_cast<int>(opposite_.size()));
   }
   for (std::size_t c = 1; c < edge_begin_.size(); ++c) edge_begin_[c] += edge_begin_[c - 1];

@@ -48,6 +48,8 @@ class Features {
   }
   /// The facets that have a vertex, each once.
   std::span<const int> facets_at(int vertex) const { return part(facets_, facets_begin_, vertex); }
+  /// Whether facets go along every edge as often one way as the other.
+  bool is_closed() const { return is_closed_; }
   /// Among the facets that have an edge or a vertex, the first one.
   int first_facet_of_edge(int edge) const { return first_facet_of_edge_[edge]; }
   int first_facet_of_vertex(int vertex) const { return first_facet_of_vertex_[vertex]; }
