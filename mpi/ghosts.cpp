@@ -2,6 +2,7 @@
 // that has no host any more sleeps: its shape is kept for a while, for when it comes back.
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "mpi/world_implementation.h"
@@ -145,6 +146,14 @@ bool World::Implementation::take_leaving(std::span<const Message> messages) {
 
 bool World::Implementation::take_coming(std::span<const Message> messages) {
   bool any = false;
+  // An owner that is new, or was another in between, has nothing of what was found.
+  std::set<std::uint64_t> renewed;
+  for_entries(messages, [&](int, const Entry& entry) {
+    if (entry.kind == Kind::whole || entry.kind == Kind::wake || entry.kind == Kind::owner) renewed.insert(entry.key);
+  });
+  for (auto& [keys, one] : sent) {
+    if (renewed.contains(keys.first) || renewed.contains(keys.second)) one.by_this_rank = false;
+  }
   for_entries(messages, [&](int rank, const Entry& entry) {
     if (entry.kind != Kind::whole && entry.kind != Kind::wake) return;
     if (entry.kind == Kind::whole) {

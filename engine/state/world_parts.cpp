@@ -304,6 +304,7 @@ void WorldParts::mark_moved(BodyId body, bool is_on_its_way) { StateFields::mark
 void WorldParts::exclude(BodyId a, BodyId b, bool excluded) { StateFields::exclude(a, b, excluded, bodies_); }
 
 std::vector<SavedPair> WorldParts::pairs_of(std::span<const BodyId> bodies) const {
+  bodies_.update_order();  // by which keys of removed bodies are found
   return StateFields::pairs_of(bodies, bodies_, step_);
 }
 bool WorldParts::put(const SavedPair& pair) { return StateFields::put_pair(pair, bodies_, step_); }
