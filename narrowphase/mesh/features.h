@@ -99,6 +99,7 @@ class Features {
   std::vector<int> facets_, facets_begin_;
   std::vector<int> one_of_each_part_;
   std::vector<int> vertex_of_source_;
+  bool is_closed_ = true;
   std::vector<bool> vertex_is_bare_;      // of each vertex; empty where the mesh is a surface alone
   std::vector<EdgeVertices> bare_edges_;  // in the caller's numbers, sorted
 };
