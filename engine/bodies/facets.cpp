@@ -33,7 +33,7 @@ GivenMesh read_mesh(const Positions& positions, const Facets& facets, const std:
   given.positions = packed(positions, std::span(given.position_copy));
   given.facets = packed(facets, std::span(given.facet_copy));
   check_positions(given.positions.data(), given.positions.size() / 3, name);
-  check_facets(given.facets, facets, positions.cols(), name);
+  check_corners(given.facets, facets, positions.cols(), name);
   return given;
 }
 
