@@ -59,6 +59,9 @@ void World::Implementation::move(Goals goals) {
   let_go(goals, std::move(leaving));
   take_in(std::move(arrivals));
   parts.settle();
+  // Who has what was found of whom is not followed through several moves: the next step sends it again.
+  sent.clear();
+  far.clear();
   directory.add(*keys);
   needs_near = owners_changed = true;
 }
