@@ -61,6 +61,7 @@ int run(int rank, int argc, char** argv) {
   } catch (const FileError& error) {
     return fail(rank, kBadInput, error.what());
   } catch (const tact::Error& error) {  // the same on all ranks
+    if (error.code() == tact::ErrorCode::bad_settings) return fail_usage(rank, error.what());
     return fail(rank, kBadInput, error.what());
   } catch (const std::bad_alloc&) {
     abort_all(rank, "out of memory");
