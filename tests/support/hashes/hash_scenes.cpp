@@ -88,9 +88,9 @@ constexpr HashScene kScenes[] = {
     {"closest_points", play_closest_points, {0x713a500a470a7034, 0xcdd91392accc4a25, 0x1e127fe0376bb8d4}},
     {"boxes", play_boxes, {0x8d60221edbf116cf, 0xd2c8721bd83262c6, 0x6cfaf97b17f96814}},
     {"inside", play_inside, {0x7f0c935580d9d901, 0xe15d9007a8d245fb, 0x387197bb83336c85}},
-    {"touching", play_touching, {0x0916adbe94d3d6d8, 0xb4f2b73fff7af4fd, 0x1e0fe04871bd71d7}},
-    {"touching_bare", play_touching_bare, {0x458ca6dcc9e225a3, 0x64f8c2e45a046e26, 0xe9590fd10662b817}},
-    {"self_touching", play_self_touching, {0xf5f708977983c50f, 0xdc625d2897638250, 0xe214c5234a257ed6}},
+    {"touching", play_touching, {0x0916adbe94d3d6d8, 0xe9ced77310959ae0, 0x98b539c13a799a64}},
+    {"touching_bare", play_touching_bare, {0x458ca6dcc9e225a3, 0xf3c00f9c5af7ec89, 0x6370564d51350f07}},
+    {"self_touching", play_self_touching, {0xf5f708977983c50f, 0xb92dd033b07a4fef, 0x9a32e4dff430a3fb}},
     {"query_ties", play_query_ties, {0x0000000000000000, 0x8898f8fd925f0950, 0x5012d5e3fa0ebbee}},
     {"many_bodies", play_many_bodies, {0xdd0df304ac8d4217, 0x4a990dfc1997eb97, 0x3159dc20985138cd}},
 };
