@@ -407,7 +407,7 @@ void MotionStage::make_report(const Call& call) {
   report_.pairs_.clear();
   report_.first_time_ = kNever;
   for (const Work::Shared& shared : work_.items()) {
-    gather(shared, bodies);
+    gather(shared, call.bodies);
     if (gathered_.empty()) continue;
     const auto stopping = std::ranges::find_if(gathered_, &FeatureImpact::stops);
     const double first = stopping == gathered_.end() ? kNever : stopping->time;

@@ -268,7 +268,11 @@ struct StateFields {
 
   // What stands between a change of facets and the next step: no facets have the numbers that they had.
   static PatchSet without_members(const PatchSet& set) {
-    PatchSet bare{.patches = set.patches, .facet_pairs = {}, .points = {}, .vertices = set.vertices};
+    PatchSet bare{.patches = set.patches,
+                  .spanning = set.spanning,
+                  .facet_pairs = {},
+                  .points = {},
+                  .vertices = set.vertices};
     for (Patch& patch : bare.patches) {
       patch.facet_pairs = patch.points = {};
       patch.spanning.fill(-1);

@@ -67,8 +67,8 @@ class Checks {
 
   void within_reach(std::span<const ReachPair> pairs) const {
     for (const ReachPair& pair : pairs) {
-      feature(pair.a_vertices, a_);
-      feature(pair.b_vertices, b_);
+      feature(pair.a_vertices, a_, false);
+      feature(pair.b_vertices, b_, false);
     }
   }
 

@@ -194,7 +194,7 @@ void StateFields::read_self_of(StateReader& reader, BodyId body, const Bodies& b
   if (!reader.read<bool>() || step.forgotten_) return;
   auto record = std::make_unique<SelfRecord>();
   record->body = body;
-  read_self(reader, bodies.in_slot(body.index).mesh, *record);
+  read_self(reader, bodies.in_slot(body.index), *record);
   auto& records = step.stages_->selves.records_;
   if (records.size() <= body.index) records.resize(std::size_t{body.index} + 1);
   records[body.index] = std::move(record);
