@@ -166,7 +166,7 @@ typedef struct tact_settings {
 #define TACT_SETTINGS_INIT                                                                                            \
   {                                                                                                                   \
     (uint32_t)sizeof(tact_settings), 0, TACT_ACCURACY_EXACT, TACT_DIRECTION_CARRIED, 1e-12, 100, false, false, false, \
-        {NULL, NULL}, false, NULL, NULL, false                                                                        \
+        {NULL, NULL}, false, NULL, NULL, false, false                                                                 \
   }
 
 /** `count` vertices or facets, three numbers each, or edges of two, that begin every `stride_bytes` from `first` on.
@@ -1069,7 +1069,6 @@ typedef struct tact_debug_draw_options {
   bool patches; /**< the direction of each patch, as long as its depth */
   bool points;  /**< each contact point, as a line from a to b, and its normal; faint if no minimum */
   bool names;   /**< the name of each body, at the top of its box */
-  bool within_reach; /**< each pair of features within reach, as a line from a to b */
   tact_debug_color surface;
   tact_debug_color box;
   tact_debug_color moved_box; /**< the box of a body with a candidate pair */
@@ -1081,10 +1080,11 @@ typedef struct tact_debug_draw_options {
   tact_debug_color meeting;
   tact_debug_color patch;
   tact_debug_color point;
-  tact_debug_color reach;
   tact_debug_color word;
   bool curves; /**< the curves in which surfaces cross */
   tact_debug_color curve;
+  bool within_reach; /**< each pair of features within reach, as a line from a to b */
+  tact_debug_color reach;
 } tact_debug_draw_options;
 
 /** Fills in the defaults of all fields, struct_size included. */
