@@ -34,6 +34,7 @@ for set in scalar avx2; do
 done
 build/release/bench/tact-bench stability
 ctest --preset release -R python.blender
+ctest --preset release -L night
 tests/mpi/same_bytes.sh build/release/mpi/program/tact-mpi 300 500 1 2 4 8
 build/release/bench/tact-bench mpi
 scripts/lint.sh all
