@@ -216,9 +216,10 @@ void define_solver(py::module_& module) {
            "(moving, 3): the sum of gradients for each vertex below `moving`")
       .def("triplets", triplets, py::arg("hessians"), moving,
            "rows, columns and values of Hessians between vertices below `moving`: for scipy.sparse.coo_matrix");
-  module.attr("Report").attr("stencils") = py::cpp_function(
-      stencils_of, py::name("stencils"), py::is_method(module.attr("Report")), py::arg("first_rows"),
-      "the stencils of all points; `first_rows` has the row of each body's first vertex in the program's system");
+  module.attr("Report").attr("stencils") =
+      py::cpp_function(stencils_of, py::name("stencils"), py::is_method(module.attr("Report")), py::arg("first_rows"),
+                       "the stencils of all points but those with planes; `first_rows` has the row of each body's "
+                       "first vertex in the program's system");
 }
 
 }  // namespace tact::python

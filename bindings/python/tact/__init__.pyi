@@ -546,7 +546,7 @@ class Report:
     def facet_pairs(self) -> FacetPairArrays:
         """the facet pairs of all contacts, in their order"""
     def stencils(self, first_rows: dict[BodyId, int]) -> Stencils:
-        """the stencils of all points; `first_rows` has the row of each body's first vertex in the program's system"""
+        """the stencils of all points but those with planes; `first_rows` has the row of each body's first vertex in the program's system"""
     @property
     def candidate_pairs(self) -> list[tuple[BodyId, BodyId, bool]]:
         """the pairs whose boxes overlap, sorted by (a, b)"""

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tact/tact.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

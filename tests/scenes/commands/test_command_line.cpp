@@ -22,6 +22,15 @@ struct Outcome {
   std::string error;
 };
 
+// The meshes here are single facets: what is said of their borders has a test of its own.
+std::string without_borders(const std::string& error) {
+  std::string left;
+  std::istringstream lines(error);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find(" was added as closed and is taken as a sheet") == std::string::npos) left += line + "\n";
+  return left;
+}
+
 class CommandLine : public ::testing::Test {
  protected:
   // Runs the program in the folder of the test; `arguments`, which may say where output goes, and variables of the
@@ -31,7 +40,7 @@ class CommandLine : public ::testing::Test {
         "cd '" + folder_.path().string() + "' && " + variables + " '" TACT_PROGRAM "' >.out 2>.err " + arguments;
     const int status = std::system(line.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, tests::contents(folder_.path() / ".out"),
-            tests::contents(folder_.path() / ".err")};
+            without_borders(tests::contents(folder_.path() / ".err"))};
   }
 
   void expect_refusal(const std::string& arguments, int status, const std::string& message) const {
@@ -138,6 +147,18 @@ TEST_F(CommandLine, ClosedStandardOutputIsAnError) {
     EXPECT_EQ(outcome.error, "tact: standard output: cannot be written to its end\n") << closed;
     EXPECT_TRUE(nlohmann::json::accept(tests::contents(folder_.path() / "r.json"))) << closed;
   }
+}
+
+TEST_F(CommandLine, WarnsOfClosedBodiesWithABorder) {
+  const auto warnings = [&](const std::string& arguments) {
+    run(arguments);
+    const std::string error = tests::contents(folder_.path() / ".err");
+    EXPECT_EQ(without_borders(error), "");
+    return std::count(error.begin(), error.end(), '\n');
+  };
+  EXPECT_EQ(warnings("check a.obj b.off"), 2);
+  EXPECT_EQ(warnings("check a.obj b.off --frames 3 --sheet a.obj"), 1);
+  EXPECT_EQ(warnings("check a.obj b.off --sheet a.obj --sheet b.off"), 0);
 }
 
 TEST_F(CommandLine, WarningsGoToStandardErrorAndTheMeshIsRead) {

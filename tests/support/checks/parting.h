@@ -30,7 +30,7 @@ struct Parting {
 struct PartingInput {
   double margin = 0.0;  // of both
   int most_passes = 12;
-  Vec3 came_by;  // the way that b came, in so many steps; none: it is there at once
+  Vec3 came_by = {};  // the way that b came, in so many steps; none: it is there at once
   int steps = 0;
 };
 

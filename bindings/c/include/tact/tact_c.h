@@ -924,8 +924,8 @@ typedef struct tact_terms {
   double* hessians;  /**< 144 numbers a stencil; those of barriers, penalties and friction are positive semidefinite */
 } tact_terms;
 
-/** Gives the stencils of all points of the last step, in its order; vertex v of the body of index i is row
- * first_rows[i] + v. Writes up to `capacity` of them, and how many there are. */
+/** Gives the stencils of all points of the last step but those with planes, in its order; vertex v of the body of index
+ * i is row first_rows[i] + v. Writes up to `capacity` of them, and how many there are. */
 TACT_C_API tact_error tact_report_stencils(tact_world world, const int32_t* first_rows, size_t body_count,
                                            tact_stencil* stencils, size_t capacity, size_t* count);
 /** Gives the gaps of stencils at positions of `vertex_count` vertices, metres. */

@@ -69,7 +69,7 @@ inline Stencil stencil(const ContactPoint& point, int first_row_a, int first_row
   return result;
 }
 
-/// Returns the stencils of all points of a report, in its order; `first_rows` holds the first row of each body by
+/// Returns the stencils of all points of a report but those with planes, in its order; `first_rows` holds the first row of each body by
 /// BodyId::index. Errors: wrong_size (a body has no first row).
 inline std::vector<Stencil> stencils(const Report& report, std::span<const int> first_rows) {
   std::vector<Stencil> result;
@@ -78,8 +78,10 @@ inline std::vector<Stencil> stencils(const Report& report, std::span<const int> 
     if (std::max(contact.a.index, contact.b.index) >= first_rows.size())
       throw Error(ErrorCode::wrong_size,
                   "body " + std::to_string(std::max(contact.a.index, contact.b.index)) + " has no first row");
-    for (const ContactPoint& point : contact.points())
+    for (const ContactPoint& point : contact.points()) {
+      if (point.kind == FeaturePair::vertex_plane || point.kind == FeaturePair::plane_vertex) continue;
       result.push_back(stencil(point, first_rows[contact.a.index], first_rows[contact.b.index]));
+    }
   }
   return result;
 }
