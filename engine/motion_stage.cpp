@@ -212,8 +212,7 @@ void MotionStage::leave_out_apart(const Call& call) {
 bool MotionStage::stays_apart(const Call& call, const BodyAndPlane& pair, const Passing& one) const {
   const base::MovingBox way = way_box(call, pair.body->id.index);
   const double wider = 0.5 * call.options.distance.value_or(0.0) * (1.0 + kRounding);
-  return !reaches_plane(call.bodies, pair.slot_of_plane(one.a, one.b),
-                        base::grown(merged(way.begin, way.end), wider));
+  return !reaches_plane(call.bodies, pair.slot_of_plane(one.a, one.b), base::grown(merged(way.begin, way.end), wider));
 }
 
 void MotionStage::place(const Call& call) {
@@ -371,10 +370,9 @@ void MotionStage::search_plane(const BodyAndPlane& pair, const narrowphase::Movi
       const narrowphase::MovingVertex vertex = body.vertex(v);
       const auto time = narrowphase::meeting_time(*pair.plane, vertex.at[0], vertex.at[1], reach);
       if (!time) continue;
-      const auto height = [&](std::size_t end) { return narrowphase::height_over(*pair.plane, vertex.at[end]); };
       FeatureImpact impact{.kind = pair.plane_is_a ? FeaturePair::plane_vertex : FeaturePair::vertex_plane,
                            .time = *time,
-                           .stops = *time > 0.0 || height(1) < height(0)};
+                           .stops = *time > 0.0 || narrowphase::goes_down(*pair.plane, vertex.at[0], vertex.at[1])};
       if (first != nullptr && !impact.stops) continue;
       (pair.plane_is_a ? impact.b : impact.a)[0] = body.mesh->source_vertex(v);
       found.impacts.push_back(impact);

@@ -20,14 +20,14 @@
 namespace tact::bench {
 namespace {
 
-constexpr double kMargin = 0.005;  // of a body's size, where it has none of its scene
+constexpr double kMarginOfPoints = 0.005;  // of a body's size, where it has none of its scene
 
 std::vector<double> margins_of(const Workload& workload) {
   std::vector<double> margins;
   for (const WorkloadBody& body : workload.bodies) {
     const Eigen::Matrix3Xd& x = body.positions(0);
     const double size = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
-    margins.push_back(body.margin > 0.0 ? body.margin : kMargin * size);
+    margins.push_back(body.margin > 0.0 ? body.margin : kMarginOfPoints * size);
   }
   return margins;
 }
@@ -201,7 +201,7 @@ int run_points(const BenchOptions& options) {
   fmt::print(
       "{}\nmargins of {} % of a body's size, in recorded rows those of the scene; one thread, medians over the "
       "frames\n\n",
-      machine_line(1), 100.0 * kMargin);
+      machine_line(1), 100.0 * kMarginOfPoints);
   Table table({"workload", "points", "without ms", "with ms", "ratio", "and patches ms", "Embree's boxes ms",
                "CGAL's boxes ms", "factor", "and signs ms", "factor with signs"});
   bool any = false;

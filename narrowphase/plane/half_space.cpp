@@ -100,6 +100,14 @@ double height_over(const HalfSpace& space, Vec3 p) {
   return unit == std::numeric_limits<int>::max() ? 0.0 : rounded_number(height_in_units(space, p, unit), unit);
 }
 
+bool goes_down(const HalfSpace& space, Vec3 from, Vec3 to) {
+  const double first = height_over(space, from), last = height_over(space, to);
+  if (first != last) return last < first;
+  const int unit = std::min(lowest_bit_of_height(space, from), lowest_bit_of_height(space, to));
+  return unit != std::numeric_limits<int>::max() &&
+         (height_in_units(space, to, unit) - height_in_units(space, from, unit)).sign() < 0;
+}
+
 double height_error(const HalfSpace& space, const Box& box) {
   Vec3 size;
   for (int axis = 0; axis < 3; ++axis) size[axis] = std::max(std::abs(box.lower[axis]), std::abs(box.upper[axis]));

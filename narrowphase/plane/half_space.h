@@ -21,7 +21,9 @@ struct HalfSpace {
 
 /// normal · p - offset, rounded once. Its sign is exact.
 double height_over(const HalfSpace& space, Vec3 p);
-/// The same as doubles compute it, and by how much that may be wrong of any point of a box.
+/// Whether `to` is lower over the plane than `from`. Exact.
+bool goes_down(const HalfSpace& space, Vec3 from, Vec3 to);
+/// The height as doubles compute it, and by how much that may be wrong of any point of a box.
 inline double rough_height_over(const HalfSpace& space, Vec3 p) { return dot(space.normal, p) - space.offset; }
 double height_error(const HalfSpace& space, const Box& box);
 /// The corner of a box that stands lowest over the plane.

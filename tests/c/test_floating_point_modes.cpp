@@ -334,6 +334,7 @@ class EveryCallOfC {
     call([&] {
       return tact_report_stencils(world_, first_rows.data(), first_rows.size(), stencils.data(), points, &count);
     });
+    stencils.resize(count);  // points with planes have none
     std::vector<double> values(count), gradients(12 * count), hessians(144 * count);
     const std::vector<double> limits(count, 2.0);
     const tact_terms terms{values.data(), gradients.data(), hessians.data()};

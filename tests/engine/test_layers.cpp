@@ -39,6 +39,7 @@ bool is_header_of_base(const std::string& path) {
 std::string layer_of(const std::string& path) {
   if (path.starts_with("tact/solver") || path.starts_with("engine/include/tact/solver")) return "solver";
   if (path.starts_with("tact/mpi/")) return "mpi";
+  if (path.starts_with("mpi/program/")) return "mpi/program";
   if (path.starts_with("tact/")) return is_header_of_base(path) ? "engine/base" : "engine";
   if (path.starts_with("engine/base/")) return "engine/base";
   const std::string top = path.substr(0, path.find('/'));
