@@ -67,8 +67,9 @@ bool MotionBounds::lower(const Bodies& bodies, std::uint32_t a, std::uint32_t b,
   const auto above = [&](const narrowphase::HalfSpace& plane, std::uint32_t slot, const Vertices& of) {
     return std::max(narrowphase::height_over(plane, bodies.moving(slot).begin_of(of.vertex[0])), 0.0);
   };
-  const double distance = bodies.plane(a) != nullptr   ? above(*bodies.plane(a), b, of_b)
-                          : bodies.plane(b) != nullptr ? above(*bodies.plane(b), a, of_a)
+  const double distance = bodies.plane(a) != nullptr ? above(*bodies.plane(a), b, of_b)
+                          : bodies.plane(b) != nullptr
+                              ? above(*bodies.plane(b), a, of_a)
                               : distance_at_begin(bodies.moving(a), of_a, bodies.moving(b), of_b, search_);
   const bool first = lower(bodies, a, of_a.all(), distance);
   return lower(bodies, b, of_b.all(), distance) || first;

@@ -49,14 +49,14 @@ std::unique_ptr<Body> make_body(const BodyDefinition& definition, const std::str
                                       static_cast<int>(definition.points.size())};
   // What has no facets has no inside.
   const bool is_bare = facets.empty() && last.edges + last.points > 0;
-  return std::make_unique<Body>(Body{.mesh = {positions, with_edges_and_points(facets, definition, name, all), last},
-                                     .id = {},
-                                     .name = name,
-                                     .surface = is_bare ? Surface::sheet : definition.surface,
-                                     .has_inside =
-                                         !is_bare && definition.surface == Surface::closed && encloses(positions, facets),
-                                     .external_id = definition.external_id,
-                                     .self_contact = definition.self_contact});
+  return std::make_unique<Body>(
+      Body{.mesh = {positions, with_edges_and_points(facets, definition, name, all), last},
+           .id = {},
+           .name = name,
+           .surface = is_bare ? Surface::sheet : definition.surface,
+           .has_inside = !is_bare && definition.surface == Surface::closed && encloses(positions, facets),
+           .external_id = definition.external_id,
+           .self_contact = definition.self_contact});
 }
 
 // See Body::birth. Of what the mesh keeps: a vertex that no facet uses is no part of it.

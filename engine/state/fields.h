@@ -122,8 +122,8 @@ struct StateFields {
   // By others: mesh, plane and begin, as a MeshState; id. Dropped: features and neighbors.
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Body>& body) {
-    auto& [mesh, id, name, surface, has_inside, external_id, self_contact, is_outward, birth, features, neighbors, plane,
-           begin, names] = body;
+    auto& [mesh, id, name, surface, has_inside, external_id, self_contact, is_outward, birth, features, neighbors,
+           plane, begin, names] = body;
     archive(name, surface, has_inside, external_id, self_contact, is_outward, birth);
     bool has_names = names != nullptr;
     archive(has_names);
@@ -268,11 +268,8 @@ struct StateFields {
 
   // What stands between a change of facets and the next step: no facets have the numbers that they had.
   static PatchSet without_members(const PatchSet& set) {
-    PatchSet bare{.patches = set.patches,
-                  .spanning = set.spanning,
-                  .facet_pairs = {},
-                  .points = {},
-                  .vertices = set.vertices};
+    PatchSet bare{
+        .patches = set.patches, .spanning = set.spanning, .facet_pairs = {}, .points = {}, .vertices = set.vertices};
     for (Patch& patch : bare.patches) {
       patch.facet_pairs = patch.points = {};
       patch.spanning.fill(-1);
@@ -282,8 +279,7 @@ struct StateFields {
   template <class Archive, class Record>
   static void visit_points(Archive& archive, Record& record) {
     if constexpr (!Archive::kReads) {
-      if (record.is_renumbered)
-        return archive(std::vector<FacetPair>(), record.last_points, std::vector<ReachPair>());
+      if (record.is_renumbered) return archive(std::vector<FacetPair>(), record.last_points, std::vector<ReachPair>());
     }
     archive(record.facet_pairs, record.points, record.within_reach);
   }
@@ -300,8 +296,8 @@ struct StateFields {
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, PairRecord>& record) {
     auto& [a, b, hulls_overlap, near, was_in_contact, touching, history, times, slab_lower, slab_upper, face, contact,
-           facet_pairs, points, last_points, within_reach, patches, curves, surfaces, surface, is_renumbered, bare_pairs] =
-        record;
+           facet_pairs, points, last_points, within_reach, patches, curves, surfaces, surface, is_renumbered,
+           bare_pairs] = record;
     archive(hulls_overlap, near, touching, history);
     if (history.has_surface) archive.pointee(surface);
     if (hulls_overlap) archive(slab_lower, slab_upper, face);

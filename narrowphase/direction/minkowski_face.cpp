@@ -133,8 +133,8 @@ Point2 FaceFinder::flat(const MinkowskiDifference& m, Vec3 position, Vec3 from, 
   return {dot(polygon_.u, d), dot(polygon_.v, d)};
 }
 
-// The vertices of `mesh` within `tolerance` (metres) of the farthest along n. The first is the one with the lowest source
-// vertex: the others are projected relative to it, and no rounding may depend on how facets are grouped.
+// The vertices of `mesh` within `tolerance` (metres) of the farthest along n. The first is the one with the lowest
+// source vertex: the others are projected relative to it, and no rounding may depend on how facets are grouped.
 void FaceFinder::collect(const ClusteredMesh& mesh, Vec3 n, Vec3 origin, double tolerance, int near,
                          std::vector<int>& found) {
   select_vertices(mesh, n, origin, support(mesh, n, origin, near).height - tolerance, found);

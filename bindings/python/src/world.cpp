@@ -181,17 +181,14 @@ std::string settings_text(const Settings& settings) {
 Settings make_settings(int threads, Accuracy accuracy, DirectionPolicy direction, double gjk_tolerance,
                        int iteration_limit, bool zones, bool patches, bool points, bool curves,
                        const py::object& on_message, bool within_reach) {
-  return {.threads = threads,
-          .accuracy = accuracy,
-          .direction = direction,
-          .gjk_tolerance = gjk_tolerance,
-          .iteration_limit = iteration_limit,
-          .outputs = {.zones = zones,
-                      .patches = patches,
-                      .points = points,
-                      .curves = curves,
-                      .within_reach = within_reach},
-          .on_message = message_function(on_message)};
+  return {
+      .threads = threads,
+      .accuracy = accuracy,
+      .direction = direction,
+      .gjk_tolerance = gjk_tolerance,
+      .iteration_limit = iteration_limit,
+      .outputs = {.zones = zones, .patches = patches, .points = points, .curves = curves, .within_reach = within_reach},
+      .on_message = message_function(on_message)};
 }
 
 template <bool Outputs::*kMember>

@@ -69,8 +69,8 @@ inline Stencil stencil(const ContactPoint& point, int first_row_a, int first_row
   return result;
 }
 
-/// Returns the stencils of all points of a report but those with planes, in its order; `first_rows` holds the first row of each body by
-/// BodyId::index. Errors: wrong_size (a body has no first row).
+/// Returns the stencils of all points of a report but those with planes, in its order; `first_rows` holds the first row
+/// of each body by BodyId::index. Errors: wrong_size (a body has no first row).
 inline std::vector<Stencil> stencils(const Report& report, std::span<const int> first_rows) {
   std::vector<Stencil> result;
   for (const Contact& contact : report.contacts()) {
