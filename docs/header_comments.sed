@@ -6,3 +6,5 @@ s,^( *)//( |$),\1///\2,
 s,([;\,{}0-9a-z)]) +// ,\1 ///< ,
 # What it cannot read: the specialization of std::hash.
 /^template <>$/,/^};$/d
+# A private struct has no page, but is linked from the page of its class.
+/^  struct BodyBounds \{$/,/^  \};$/d
