@@ -432,10 +432,10 @@ PatchFinder::Spanned PatchFinder::find_last_spanning(const PatchInput& input, co
   last_spanned_.assign(last.spanning.size(), Spanned{});
   for (const std::size_t i : counting_) {
     const std::uint64_t id = input.points[patch.points[i]].id;
-    const auto same = std::ranges::equal_range(last_spanning_, id, {}, &LastSpanning::id);
-    for (const LastSpanning& one : same) {
-      last_spanned_[one.patch].place[one.place] = i;
-      ++last_spanned_[one.patch].count;
+    auto one = std::ranges::lower_bound(last_spanning_, id, {}, &LastSpanning::id);
+    for (; one != last_spanning_.end() && one->id == id; ++one) {
+      last_spanned_[one->patch].place[one->place] = i;
+      ++last_spanned_[one->patch].count;
     }
   }
   for (std::size_t k = 0; k < last_spanned_.size(); ++k) {
