@@ -39,14 +39,14 @@ def test_example_prints_the_same_on_any_number_of_ranks():
 def test_exceptions_of_a_callback_end_the_call_on_all_ranks():
     program = """
 from mpi4py import MPI
-import tact, tact.mpi
+import sys, tact, tact.mpi
 world = tact.mpi.World(MPI.COMM_WORLD)
 world.add_body([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], key=world.rank, surface=tact.Surface.sheet)
 def pack(key): raise ValueError("no bytes for you")
 world.set_body_state(pack, lambda key, data: None, lambda key: None)
 if world.rank == 0: world.set_owner(0, 1)
 try: world.move_bodies()
-except RuntimeError as error: print("no bytes for you" in str(error), world.bodies == [world.rank])
+except RuntimeError as error: sys.stdout.write(f"{'no bytes for you' in str(error)} {world.bodies == [world.rank]}\\n")
 """
     assert run(2, "-c", program).split() == ["True"] * 4
 

@@ -176,8 +176,8 @@ def _features(vertices, *weights):
 def _points_json(points):
     a, a_weights = _features(points.a_vertices, points.a_weights)
     b, b_weights = _features(points.b_vertices, points.b_weights)
-    columns = zip(points.kinds.tolist(), a, b, a_weights, b_weights, points.normals.tolist(), points.gaps.tolist(), points.patches.tolist())
-    names = ("kind", "a", "b", "a_weights", "b_weights", "normal", "gap", "patch")
+    columns = zip(points.kinds.tolist(), a, b, a_weights, b_weights, points.normals.tolist(), points.gaps.tolist(), points.minima.tolist(), points.patches.tolist())
+    names = ("kind", "a", "b", "a_weights", "b_weights", "normal", "gap", "minimum", "patch")
     return [dict(zip(names, (KINDS[row[0]], *row[1:]))) for row in columns]
 
 

@@ -115,7 +115,7 @@ class Columns {
   std::ptrdiff_t stride() const { return stride_bytes_ / static_cast<std::ptrdiff_t>(sizeof(Scalar)); }
 
   /// Returns the numbers of column `i`. Indices of 2^31 and more wrap.
-  std::array<Scalar, kRows> column(std::ptrdiff_t i) const {
+  std::array<Scalar, static_cast<std::size_t>(kRows)> column(std::ptrdiff_t i) const {
     const std::byte* const at = static_cast<const std::byte*>(data_) + i * stride_bytes_;
     switch (kind_) {
       case NumberKind::float32: return numbers<float>(at);
@@ -130,10 +130,10 @@ class Columns {
  private:
   // Copied byte by byte: nothing is known of the alignment.
   template <class Number>
-  static std::array<Scalar, kRows> numbers(const std::byte* at) {
-    std::array<Number, kRows> numbers;
+  static std::array<Scalar, static_cast<std::size_t>(kRows)> numbers(const std::byte* at) {
+    std::array<Number, static_cast<std::size_t>(kRows)> numbers;
     std::memcpy(numbers.data(), at, sizeof numbers);
-    std::array<Scalar, kRows> column;
+    std::array<Scalar, static_cast<std::size_t>(kRows)> column;
     for (std::size_t row = 0; row < kRows; ++row) column[row] = static_cast<Scalar>(numbers[row]);
     return column;
   }

@@ -231,6 +231,7 @@ Call RandomCalls::add() {
   body.mesh = shape();
   const Vec3 at = place();  // first: the order of arguments is the compiler's
   body.mesh = translated(random_.chance(0.5) ? rotated(body.mesh, random_.rotation()) : body.mesh, at);
+  body.first = body.mesh.positions;
   body.surface = random_.chance(0.4) ? Surface::sheet : Surface::closed;
   body.rigid = random_.chance(0.3);
   body.motion = body.rigid ? Motion::rigid : random_.chance(0.1) ? Motion::fixed : Motion::deformable;
@@ -302,6 +303,7 @@ Call RandomCalls::change_facets() {
   const auto made = std::make_shared<Remeshed>(remeshed(body.mesh, random_));
   if (random_.chance(0.5)) made->mesh = moved(made->mesh);
   body.mesh = made->mesh;
+  body.first = body.mesh.positions;
   body.renamed = true;
   return {.name = "set_facets", .run = [slot = *slot, made](Subject& subject) {
             subject.world.set_facets(subject.ids[slot], made->mesh.positions, made->mesh.facets, made->vertex_map);
@@ -527,10 +529,13 @@ void RandomCalls::build(Subject& subject) const {
     }
     if (!body) continue;
     if (subject.ids[slot] != BodyId{}) world.remove_body(subject.ids[slot]);
-    const BodyId id = world.add_body(body->definition(body->rigid ? Motion::rigid : body->motion));
+    BodyDefinition definition = body->definition(body->rigid ? Motion::rigid : Motion::deformable);
+    definition.positions = body->first;
+    const BodyId id = world.add_body(definition);
     subject.ids[slot] = id;
+    if (!body->rigid) world.set_positions(id, body->mesh.positions);
     if (body->pose) world.set_pose(id, body->pose->rotation, body->pose->translation);
-    if (body->rigid && body->motion == Motion::fixed) world.set_motion(id, Motion::fixed);
+    if (body->motion == Motion::fixed) world.set_motion(id, Motion::fixed);
   }
   for (const std::size_t slot : free_) world.remove_body(std::exchange(subject.ids[slot], {}));
   for (const auto& [a, b] : excluded_) world.set_excluded(subject.ids[a], subject.ids[b], true);

@@ -73,7 +73,8 @@ class RandomCalls {
 
  private:
   struct Body {
-    Mesh mesh;  // where it is; of a rigid body where it rests
+    Mesh mesh;               // where it is; of a rigid body where it rests
+    Eigen::Matrix3Xd first;  // where it was when it got its facets, which tells whether it has an inside
     Surface surface = Surface::closed;
     Motion motion = Motion::deformable;
     bool rigid = false;
