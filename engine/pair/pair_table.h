@@ -36,7 +36,7 @@ class PairTable {
   // Takes the pairs of the sweep and of planes, sorted, and puts them into the order of the keys: a pair that stays
   // keeps its record, unless a body of it was replaced by another. Then moved() are those with a body that moved, or
   // all.
-  void update(const PlanePairs& pairs, const Bodies& bodies, bool all);
+  void update(const PlanePairs& found, const Bodies& bodies, bool all);
   // Nothing moved: the pairs and the contacts are those of the last step.
   void keep();
   // Vertices have other numbers: so have those that the records name. `bodies` are sorted by slot.
