@@ -32,6 +32,32 @@ void put_two(std::span<Number> array, std::size_t row, Value first, Value second
   array[2 * row + 1] = static_cast<Number>(second);
 }
 
+// What points and pairs within reach have in common.
+template <class Arrays>
+void check_sizes_of_features(const Arrays& arrays, std::size_t rows) {
+  check_size(arrays.bodies, rows, 2, "bodies");
+  check_size(arrays.contacts, rows, 1, "contacts");
+  check_size(arrays.kinds, rows, 1, "kinds");
+  check_size(arrays.a_vertices, rows, 3, "a_vertices");
+  check_size(arrays.b_vertices, rows, 3, "b_vertices");
+  check_size(arrays.a_weights, rows, 3, "a_weights");
+  check_size(arrays.b_weights, rows, 3, "b_weights");
+  check_size(arrays.normals, rows, 3, "normals");
+}
+
+template <class Arrays, class Found>
+void put_features(const Arrays& arrays, std::size_t row, const Contact& contact, std::ptrdiff_t number,
+                  const Found& found) {
+  put_two(arrays.bodies, row, contact.a.index, contact.b.index);
+  put(arrays.contacts, row, number);
+  put(arrays.kinds, row, found.kind);
+  put_three(arrays.a_vertices, row, found.a_vertices);
+  put_three(arrays.b_vertices, row, found.b_vertices);
+  put_three(arrays.a_weights, row, found.a_weights);
+  put_three(arrays.b_weights, row, found.b_weights);
+  put_three(arrays.normals, row, found.normal);
+}
+
 template <class List>
 std::size_t count_in_contacts(const Report& report, const List& list) {
   std::size_t count = 0;
@@ -60,14 +86,7 @@ std::size_t facet_pair_count(const Report& report) {
 
 void copy_points(const Report& report, const PointArrays& arrays) {
   const std::size_t rows = point_count(report);
-  check_size(arrays.bodies, rows, 2, "bodies");
-  check_size(arrays.contacts, rows, 1, "contacts");
-  check_size(arrays.kinds, rows, 1, "kinds");
-  check_size(arrays.a_vertices, rows, 3, "a_vertices");
-  check_size(arrays.b_vertices, rows, 3, "b_vertices");
-  check_size(arrays.a_weights, rows, 3, "a_weights");
-  check_size(arrays.b_weights, rows, 3, "b_weights");
-  check_size(arrays.normals, rows, 3, "normals");
+  check_sizes_of_features(arrays, rows);
   check_size(arrays.gaps, rows, 1, "gaps");
   check_size(arrays.ids, rows, 1, "ids");
   check_size(arrays.patch_ids, rows, 1, "patch_ids");
@@ -76,14 +95,7 @@ void copy_points(const Report& report, const PointArrays& arrays) {
   for (const Contact& contact : report.contacts()) {
     const auto number = &contact - report.contacts().data();
     for (const ContactPoint& point : contact.points()) {
-      put_two(arrays.bodies, row, contact.a.index, contact.b.index);
-      put(arrays.contacts, row, number);
-      put(arrays.kinds, row, point.kind);
-      put_three(arrays.a_vertices, row, point.a_vertices);
-      put_three(arrays.b_vertices, row, point.b_vertices);
-      put_three(arrays.a_weights, row, point.a_weights);
-      put_three(arrays.b_weights, row, point.b_weights);
-      put_three(arrays.normals, row, point.normal);
+      put_features(arrays, row, contact, number, point);
       put(arrays.gaps, row, point.gap);
       put(arrays.ids, row, point.id);
       put(arrays.patch_ids, row, patch_id(contact, point));
@@ -95,26 +107,13 @@ void copy_points(const Report& report, const PointArrays& arrays) {
 
 void copy_reach_pairs(const Report& report, const ReachPairArrays& arrays) {
   const std::size_t rows = reach_pair_count(report);
-  check_size(arrays.bodies, rows, 2, "bodies");
-  check_size(arrays.contacts, rows, 1, "contacts");
-  check_size(arrays.kinds, rows, 1, "kinds");
-  check_size(arrays.a_vertices, rows, 3, "a_vertices");
-  check_size(arrays.b_vertices, rows, 3, "b_vertices");
-  check_size(arrays.a_weights, rows, 3, "a_weights");
-  check_size(arrays.b_weights, rows, 3, "b_weights");
-  check_size(arrays.normals, rows, 3, "normals");
+  check_sizes_of_features(arrays, rows);
   check_size(arrays.distances, rows, 1, "distances");
   std::size_t row = 0;
   for (const Contact& contact : report.contacts()) {
+    const auto number = &contact - report.contacts().data();
     for (const ReachPair& pair : contact.within_reach()) {
-      put_two(arrays.bodies, row, contact.a.index, contact.b.index);
-      put(arrays.contacts, row, &contact - report.contacts().data());
-      put(arrays.kinds, row, pair.kind);
-      put_three(arrays.a_vertices, row, pair.a_vertices);
-      put_three(arrays.b_vertices, row, pair.b_vertices);
-      put_three(arrays.a_weights, row, pair.a_weights);
-      put_three(arrays.b_weights, row, pair.b_weights);
-      put_three(arrays.normals, row, pair.normal);
+      put_features(arrays, row, contact, number, pair);
       put(arrays.distances, row, pair.distance);
       ++row;
     }

@@ -27,7 +27,7 @@ struct SavedPair {
   std::uint64_t key_a = 0, key_b = 0;
   std::uint64_t birth_a = 0, birth_b = 0;  ///< tell a body from another of its key
   StateBytes bytes;                        ///< empty if one of the bodies was removed: the pair has ended
-  bool touching = false;                   ///< and which patches it has: what is told of it if it ends
+  bool touching = false;                   ///< with `patches`: which events there are if it ends
   std::vector<std::uint64_t> patches;
 };
 

@@ -102,12 +102,22 @@ tact_error get(tact_world world, Value* value, const Get& get_from) noexcept {
   });
 }
 
+// Copies what a body has into `numbers`, which has this room.
+template <class Number>
+tact_error copy_of_body(tact_world world, tact_body body, Number* numbers, size_t room,
+                        void (tact::World::*copy)(tact::BodyId, std::span<Number>) const) noexcept {
+  return reading(world, [&](const WorldEntry& entry) {
+    if (room > 0) check_not_null(numbers);
+    (entry.world.*copy)(id_of(body), {numbers, room});
+  });
+}
+
 }  // namespace
 }  // namespace tact::c
 
 using tact::World;
 using tact::c::body_of, tact::c::changing, tact::c::check_not_null, tact::c::columns_of, tact::c::get, tact::c::guarded,
-    tact::c::id_of, tact::c::reading, tact::c::WorldEntry;
+    tact::c::copy_of_body, tact::c::id_of, tact::c::reading, tact::c::WorldEntry;
 
 extern "C" {
 
@@ -389,31 +399,19 @@ tact_error tact_world_plane(tact_world world, tact_body body, bool* is_plane, ta
 }
 
 tact_error tact_world_copy_positions(tact_world world, tact_body body, double* coordinates, size_t room) {
-  return reading(world, [&](const WorldEntry& entry) {
-    if (room > 0) check_not_null(coordinates);
-    entry.world.copy_positions(id_of(body), {coordinates, room});
-  });
+  return copy_of_body(world, body, coordinates, room, &tact::World::copy_positions);
 }
 
 tact_error tact_world_copy_facets(tact_world world, tact_body body, int* corners, size_t room) {
-  return reading(world, [&](const WorldEntry& entry) {
-    if (room > 0) check_not_null(corners);
-    entry.world.copy_facets(id_of(body), {corners, room});
-  });
+  return copy_of_body(world, body, corners, room, &tact::World::copy_facets);
 }
 
 tact_error tact_world_copy_edges(tact_world world, tact_body body, int* ends, size_t room) {
-  return reading(world, [&](const WorldEntry& entry) {
-    if (room > 0) check_not_null(ends);
-    entry.world.copy_edges(id_of(body), {ends, room});
-  });
+  return copy_of_body(world, body, ends, room, &tact::World::copy_edges);
 }
 
 tact_error tact_world_copy_points(tact_world world, tact_body body, int* vertices, size_t room) {
-  return reading(world, [&](const WorldEntry& entry) {
-    if (room > 0) check_not_null(vertices);
-    entry.world.copy_points(id_of(body), {vertices, room});
-  });
+  return copy_of_body(world, body, vertices, room, &tact::World::copy_points);
 }
 
 tact_error tact_world_bounds(tact_world world, tact_body body, tact_bounds* bounds) {

@@ -12,7 +12,7 @@
 
 namespace tact::python {
 
-/// One thread uses it: MPI is told of no more.
+/// For one thread: MPI is initialized for no more.
 class RankWorld : public std::enable_shared_from_this<RankWorld> {
  public:
   RankWorld(MPI_Comm communicator, const mpi::Settings& settings) : world_(communicator, settings) {}
