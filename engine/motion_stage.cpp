@@ -69,6 +69,10 @@ void MotionStage::find(const Call& call) {
   search(call);
 }
 
+double MotionStage::Call::wider(double held) const {
+  return options.distance ? std::max(0.5 * *options.distance - held, 0.0) * (1.0 + kRounding) : 0.0;
+}
+
 // Where each body is at both ends, with its margin, or half of the distance that is asked for if that is more.
 void MotionStage::find_ways(const Call& call) {
   const Bodies& bodies = call.bodies;
@@ -83,9 +87,8 @@ void MotionStage::find_ways(const Call& call) {
       way.begin = bodies.begin_box(slot);
       if (bounds_.is_bounded(slot)) way.end = base::grown(moving(bodies, slot).end.box, bodies.margin(slot));
     }
-    const double wider = call.options.distance ? 0.5 * *call.options.distance - bodies.margin(slot) : 0.0;
-    if (wider > 0.0)
-      way = {base::grown(way.begin, wider * (1.0 + kRounding)), base::grown(way.end, wider * (1.0 + kRounding))};
+    const double wider = call.wider(bodies.margin(slot));
+    if (wider > 0.0) way = {base::grown(way.begin, wider), base::grown(way.end, wider)};
   }
 }
 
@@ -142,7 +145,7 @@ void MotionStage::sweep(const Call& call) {
 
 // Planes see ways as they are, wider by half of the distance that is asked for: a plane holds its margin alone.
 void MotionStage::sweep_planes(const Call& call) {
-  const double wider = 0.5 * call.options.distance.value_or(0.0) * (1.0 + kRounding);
+  const double wider = call.wider(0.0);
   const std::size_t known = whole_ways_.size();
   if (!call.bodies.planes().empty()) {
     whole_ways_.resize(ways_.size());
@@ -185,9 +188,9 @@ void MotionStage::select(const Call& call) {
 base::MovingBox MotionStage::way_box(const Call& call, std::uint32_t slot) const {
   const Bodies& bodies = call.bodies;
   if (!bodies.is_rigid(slot) || bounds_.is_bounded(slot)) return ways_[slot];
-  const double wider = call.options.distance ? std::max(0.5 * *call.options.distance - bodies.margin(slot), 0.0) : 0.0;
+  const double wider = call.wider(bodies.margin(slot));
   const base::Box end = bodies.exact_box(slot), begin = bodies.on_its_way(slot) ? bodies.begin_box(slot) : end;
-  return {base::grown(begin, wider * (1.0 + kRounding)), base::grown(end, wider * (1.0 + kRounding))};
+  return {base::grown(begin, wider), base::grown(end, wider)};
 }
 
 // Pairs whose boxes, which go straight, stay apart; they hold the margins, or half of the distance.
@@ -211,7 +214,7 @@ void MotionStage::leave_out_apart(const Call& call) {
 
 bool MotionStage::stays_apart(const Call& call, const BodyAndPlane& pair, const Passing& one) const {
   const base::MovingBox way = way_box(call, pair.body->id.index);
-  const double wider = 0.5 * call.options.distance.value_or(0.0) * (1.0 + kRounding);
+  const double wider = call.wider(0.0);
   return !reaches_plane(call.bodies, pair.slot_of_plane(one.a, one.b), base::grown(merged(way.begin, way.end), wider));
 }
 

@@ -65,6 +65,8 @@ class MotionStage {
     bool only_changed = false;  // what bounds_ changed, with all
 
     bool wants_all() const { return options.wanted == Impacts::all; }
+    /// By how much a box that holds so much of a distance is too small for half of the one that is asked for.
+    double wider(double held) const;
   };
 
   void find(const Call& call);
