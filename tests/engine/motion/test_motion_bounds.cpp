@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <tact/tact.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
