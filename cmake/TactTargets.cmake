@@ -37,6 +37,8 @@ endfunction()
 # The same, but with sources of one folder at a time, up to twelve: a new file does not move the others to other batches.
 function(tact_unity_build_by_folder target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # To GCC what a source that includes sources keeps to itself looks as if it stood in a header.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   get_target_property(sources ${target} SOURCES)
   foreach(source ${sources})
     cmake_path(GET source PARENT_PATH folder)
@@ -53,6 +55,9 @@ function(tact_layer target)
   add_library(${target} OBJECT ${ARGN})
   tact_options(${target})
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+  if(TACT_UNITY_BUILD)  # the kernels, which have options of their own, stay alone
+    tact_unity_build_by_folder(${target})
+  endif()
   if(BUILD_SHARED_LIBS)
     target_compile_definitions(${target} PRIVATE TACT_SHARED)
   endif()

@@ -21,7 +21,7 @@ namespace {
 using narrowphase::FeatureImpact, narrowphase::largest_coordinate;
 
 // Microseconds that a pair of clusters takes at least (tact-bench motion).
-constexpr std::size_t kCost = 2;
+constexpr std::size_t kMotionCost = 2;
 // Of coordinates, and of times, more than sums of some of them round.
 constexpr double kRounding = 0x1p-50, kLater = 0x1p-40;
 // Bodies that go together are seen from what goes with them, if they go farther than this part of their size.
@@ -290,7 +290,7 @@ void MotionStage::find_clusters(const Call& call) {
 // Into the smallest that are worth a thread: a pair takes far longer where something meets.
 void MotionStage::cut_into_ranges(const Call& call) {
   const Bodies& bodies = call.bodies;
-  const std::size_t at_a_time = std::max<std::size_t>(bodies.tuning().fewest_in_range / kCost, 1);
+  const std::size_t at_a_time = std::max<std::size_t>(bodies.tuning().fewest_in_range / kMotionCost, 1);
   work_.begin();
   for (std::size_t i = 0; i < passing_.size(); ++i) {
     const Passing& one = passing_[i];

@@ -11,9 +11,7 @@ namespace tact {
 
 namespace {
 
-constexpr std::size_t kPairsAtATime = 4;  // some microseconds each where there are patches
-
-base::Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+constexpr std::size_t kPatchedPairsAtATime = 4;  // some microseconds each where there are patches
 
 // Of a patch that begins in this step. Two patches of a line of history have one id with a chance of 2^-64: there is
 // one number for each pair of keys, step and place, and a hash of these. 0 is the id of no patch.
@@ -35,7 +33,7 @@ PatchSet& begin(PatchMemory& memory) {
 
 void PatchStage::find(std::span<const MovedPair> moved, const Bodies& bodies, const Settings& settings) {
   finders_.resize(settings.threads);
-  base::parallel_for(moved.size(), kPairsAtATime, settings.threads, [&](std::size_t i, int thread) {
+  base::parallel_for(moved.size(), kPatchedPairsAtATime, settings.threads, [&](std::size_t i, int thread) {
     PairRecord& record = *moved[i].record;
     const bool any = in_contact(record) && (!record.facet_pairs.empty() || !record.points.empty());
     if (record.patches == nullptr) {

@@ -26,7 +26,6 @@ constexpr double kNearlyAll = 0.875, kNearlyDeepest = 0x1p-10;
 constexpr double kSameWay = 0.9962;
 constexpr std::size_t kMostWays = 16;
 
-Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Eigen::Vector3d to_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
 
 Triangle triangle_of(const Body& body, int source_facet) {

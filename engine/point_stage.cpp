@@ -19,9 +19,9 @@ using narrowphase::ClusterPair;
 using narrowphase::FeaturePoint;
 
 // Microseconds that a pair of clusters takes (tact-bench points).
-constexpr std::size_t kCost = 4;
+constexpr std::size_t kPointCost = 4;
 // Points that a thread publishes at a time, at some 50 ns each.
-constexpr std::size_t kPublishedAtATime = 1024;
+constexpr std::size_t kPointsAtATime = 1024;
 
 // What ids of points call a body and its vertices by. No two bodies have one key in one step.
 struct Naming {
@@ -207,8 +207,8 @@ void PointStage::publish(const Wanted& wanted, const Step& step, int threads, Wo
   const Body &a = step.bodies.in_slot(wanted.a), &b = step.bodies.in_slot(wanted.b);
   const Naming naming_a{step.bodies.keys().of(wanted.a), a.names.get()},
       naming_b{step.bodies.keys().of(wanted.b), b.names.get()};
-  put_in_order(work.found, (a.plane == nullptr ? a : b).mesh.source_vertex_count(), kPublishedAtATime, threads,
-               work.order, *wanted.points, [&](const FeaturePoint& one) {
+  put_in_order(work.found, (a.plane == nullptr ? a : b).mesh.source_vertex_count(), kPointsAtATime, threads, work.order,
+               *wanted.points, [&](const FeaturePoint& one) {
                  ContactPoint point = to_point(one, naming_a, naming_b);
                  point.minimum = is_local_minimum(one, {&a.mesh, a.features.get()}, {&b.mesh, b.features.get()});
                  return point;
@@ -292,7 +292,7 @@ void PointStage::look_ahead(std::size_t i, const Step& step, Work& work) const {
 void PointStage::find_points(std::size_t i, const Step& step, Work& work) {
   const int threads = step.settings.threads;
   Prepared& prepared = find_near(i, step, work);
-  const std::size_t cost = kCost * prepared.cluster_pairs.size();
+  const std::size_t cost = kPointCost * prepared.cluster_pairs.size();
   const bool large = is_large(cost, wanted_.size(), threads, step.bodies.tuning());
   const std::size_t own_end = threads == 1 ? wanted_.size() : i - i % step.grain + step.grain;
   if (!large && step.prefetches && i + 1 < std::min(own_end, wanted_.size())) look_ahead(i + 1, step, work);

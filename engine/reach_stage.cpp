@@ -7,9 +7,9 @@ namespace tact {
 namespace {
 
 // Microseconds that a pair of clusters takes.
-constexpr std::size_t kCost = 8;
+constexpr std::size_t kReachCost = 8;
 // Pairs that a thread puts into their places at a time, at some 20 ns each.
-constexpr std::size_t kPublishedAtATime = 2048;
+constexpr std::size_t kReachPairsAtATime = 2048;
 
 void search(const narrowphase::ContactPointSearch::Given given, const Bodies& bodies, const auto& wanted,
             std::span<const narrowphase::ClusterPair> pairs, auto& work, std::vector<ReachPair>& found) {
@@ -18,7 +18,7 @@ void search(const narrowphase::ContactPointSearch::Given given, const Bodies& bo
 }
 
 void publish(const std::vector<ReachPair>& found, const Bodies& bodies, const auto& wanted, int threads, auto& work) {
-  put_in_order(found, bodies.in_slot(wanted.a).mesh.source_vertex_count(), kPublishedAtATime, threads, work.order,
+  put_in_order(found, bodies.in_slot(wanted.a).mesh.source_vertex_count(), kReachPairsAtATime, threads, work.order,
                *wanted.pairs, [](const ReachPair& pair) { return pair; });
 }
 
@@ -50,7 +50,7 @@ void ReachStage::find_one(std::size_t i, const Bodies& bodies, const Settings& s
   prepared.cluster_pairs =
       prepared.near.find({.mesh = bodies.featured(wanted.a).mesh}, {.mesh = bodies.featured(wanted.b).mesh},
                          wanted.reach, bodies.tuning(), device);
-  const std::size_t cost = kCost * prepared.cluster_pairs.size();
+  const std::size_t cost = kReachCost * prepared.cluster_pairs.size();
   if (is_large(cost, wanted_.size(), settings.threads, bodies.tuning())) {
     large_.put_aside(work.prepared, prepared.cluster_pairs, count_of_ranges(cost, settings.threads, bodies.tuning()));
     return;

@@ -11,7 +11,7 @@ namespace tact {
 namespace {
 
 // Microseconds that a pair of clusters takes (tact-bench self).
-constexpr std::size_t kCost = 1;
+constexpr std::size_t kSelfCost = 1;
 
 void sort(SelfRecord& record, const narrowphase::ClusteredMesh& mesh, base::KeySorter& sorter, int threads) {
   sort_facet_pairs(record.facet_pairs, mesh.facet_count(), mesh.facet_count(), sorter, threads);
@@ -94,7 +94,7 @@ void SelfStage::find_facet_pairs(const Bodies& bodies, const Settings& settings,
     record->may_contact.assign(clusters.may_contact().begin(), clusters.may_contact().end());
     if (settings.accuracy == Accuracy::hulls) return;
     record->may_meet.assign(clusters.may_meet().begin(), clusters.may_meet().end());
-    const std::size_t cost = kCost * record->may_meet.size();
+    const std::size_t cost = kSelfCost * record->may_meet.size();
     if (is_large(cost, looked_at_.size(), settings.threads, tuning)) {
       SelfRecord* item = record;
       large_.put_aside(item, record->may_meet, count_of_ranges(cost, settings.threads, tuning));

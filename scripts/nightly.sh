@@ -29,8 +29,9 @@ for ranks in 1 2 3 4 8; do
   mpirun --oversubscribe --allow-run-as-root -n $ranks build/release/tests/test_mpi --full
 done
 for set in scalar avx2; do
-  TACT_INSTRUCTION_SET=$set build/release/tests/test_engine --gtest_brief=1
-  TACT_INSTRUCTION_SET=$set build/release/tests/test_narrowphase --gtest_brief=1
+  for layer in broadphase narrowphase engine; do
+    TACT_INSTRUCTION_SET=$set build/release/tests/test_$layer --gtest_brief=1
+  done
 done
 build/release/bench/tact-bench stability
 ctest --preset release -R python.blender

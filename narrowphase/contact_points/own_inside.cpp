@@ -7,14 +7,14 @@ namespace tact::narrowphase {
 namespace {
 
 // What is turned by less is level: coordinates of meshes that were turned and rounded are off by that much.
-constexpr double kLevel = 0x1p-30;
+constexpr double kLevelSine = 0x1p-30;
 
 // 1 if the way leads to the outer side of a facet, -1 to its inner side, 0 if it is level.
 int side_of_way(const ClusteredMesh& mesh, const Corners& c, Vec3 way) {
   const Vec3 from = mesh.position(c[0]),
              normal = moderate_cross(mesh.position(c[1]) - from, mesh.position(c[2]) - from);
   const double along = dot(normal, way);
-  if (along * along <= kLevel * kLevel * norm_squared(normal)) return 0;
+  if (along * along <= kLevelSine * kLevelSine * norm_squared(normal)) return 0;
   return along > 0.0 ? 1 : -1;
 }
 

@@ -34,7 +34,7 @@ namespace tact::narrowphase {
 // - The disk holds the computed ends in real arithmetic.
 namespace {
 
-constexpr double kUnitRoundoff = 0x1p-53;
+constexpr double kRoundoff = 0x1p-53;
 
 double height_along(Vec3 axis, double x, double y, double z) { return (axis.x * x + axis.y * y) + axis.z * z; }
 
@@ -45,9 +45,9 @@ struct Planes {
 };
 
 Planes widened_planes(const Slab& slab) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  return {std::nextafter(slab.lower - 2.0 * slab.error, -kInfinity),
-          std::nextafter(slab.upper + 2.0 * slab.error, kInfinity)};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return {std::nextafter(slab.lower - 2.0 * slab.error, -infinity),
+          std::nextafter(slab.upper + 2.0 * slab.error, infinity)};
 }
 
 // Computed heights of every vertex in a box lie between these: rounding is monotone, and the operations are the same.
@@ -152,7 +152,7 @@ ImpactZone impact_zone(const ClusteredMesh& mesh, const Slab& slab, std::vector<
   }
   if (scratch.empty()) return {};
   constexpr double kUnderflow = 16.0 * std::numeric_limits<double>::denorm_min();  // of coordinates below 1e-290
-  const double error = 1.5 * (slab.error + 16.0 * kUnitRoundoff * reach(mesh.box(), slab.origin)) + kUnderflow;
+  const double error = 1.5 * (slab.error + 16.0 * kRoundoff * reach(mesh.box(), slab.origin)) + kUnderflow;
   return {smallest_enclosing_disk(scratch), error};
 }
 

@@ -13,7 +13,7 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // Coordinates about the middle of the points' box, scaled by a power of two to a size of about 1, so that squares
 // neither overflow nor vanish. The difference is rounded relative to itself: far from zero nothing is lost.
-struct LocalFrame {
+struct DiskFrame {
   Point2 origin;
   double scale = 1.0;
 
@@ -110,7 +110,7 @@ struct Farthest {
   double distance_squared = -1.0;
 };
 
-Farthest farthest_from(Point2 center, std::span<const Point2> points, const LocalFrame& frame) {
+Farthest farthest_from(Point2 center, std::span<const Point2> points, const DiskFrame& frame) {
   Farthest best;
   for (const Point2& world : points) {
     const Point2 p = frame.to_local(world);
@@ -134,8 +134,8 @@ Box2 box_of(std::span<const Point2> points) {
   return box;
 }
 
-LocalFrame local_frame(const Box2& box) {
-  LocalFrame frame;
+DiskFrame local_frame(const Box2& box) {
+  DiskFrame frame;
   frame.origin = {0.5 * (box.lower.x + box.upper.x), 0.5 * (box.lower.y + box.upper.y)};
   const double extent = std::max(box.upper.x - box.lower.x, box.upper.y - box.lower.y);
   if (extent > 0.0) frame.scale = std::ldexp(1.0, std::min(-std::ilogb(extent), 1000));
@@ -145,7 +145,7 @@ LocalFrame local_frame(const Box2& box) {
 // The center of the smallest disk, in local coordinates. The radius of a basis bounds the answer from below, the
 // distance of the farthest point from its center bounds it from above. The steps end when the bounds meet, or when
 // rounding stops them from getting closer.
-Point2 best_center(std::span<const Point2> points, const LocalFrame& frame) {
+Point2 best_center(std::span<const Point2> points, const DiskFrame& frame) {
   constexpr int kPatience = 16;  // steps without a better bound; rounding costs one or two
   Basis start;
   start.insert(farthest_from({0.0, 0.0}, points, frame).point);
@@ -176,7 +176,7 @@ Point2 best_center(std::span<const Point2> points, const LocalFrame& frame) {
 
 Disk smallest_enclosing_disk(std::span<const Point2> points) {
   if (points.empty()) return {};
-  LocalFrame frame = local_frame(box_of(points));
+  DiskFrame frame = local_frame(box_of(points));
   const Point2 center = frame.to_world(best_center(points, frame));
   // The center was rounded to doubles: measure from what it became. Two differences, two squares, a sum and a root err
   // by less than 4 epsilon, and hypot by less than another.

@@ -17,7 +17,7 @@ namespace {
 constexpr double kSame = 1e-12;
 // Facets that stand along the direction, and edges that are parallel seen along it, have such a sine at most: their
 // places would be rounding alone. Others beside them touch as late.
-constexpr double kSine = 1e-9;
+constexpr double kSeenSine = 1e-9;
 
 // Across the direction.
 double turn(Vec3 p, Vec3 q) { return p.x * q.y - p.y * q.x; }
@@ -91,7 +91,7 @@ void LastTouch::look_at_vertex(const SeenFacet& own, const SeenFacet& other, int
   std::array<Vec3, 3> t;
   for (std::size_t k = 0; k < 3; ++k) t[k] = other.corner[k] - at;
   const double area = turn(t[1] - t[0], t[2] - t[0]);
-  if (!(std::abs(area) > kSine * length_across(t[1] - t[0]) * length_across(t[2] - t[0]))) return;
+  if (!(std::abs(area) > kSeenSine * length_across(t[1] - t[0]) * length_across(t[2] - t[0]))) return;
   double weight[3], sum = 0.0, height = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     weight[k] = turn(t[(k + 1) % 3], t[(k + 2) % 3]) / area;
@@ -114,7 +114,7 @@ void LastTouch::look_at_edges(const SeenFacet& a, const SeenFacet& b, int edge_a
   const Vec3 p = a.corner[edge_a], along = a.corner[(edge_a + 1) % 3] - p;
   const Vec3 q = b.corner[edge_b], other = b.corner[(edge_b + 1) % 3] - q;
   const double across = turn(along, other);
-  if (!(std::abs(across) > kSine * length_across(along) * length_across(other))) return;
+  if (!(std::abs(across) > kSeenSine * length_across(along) * length_across(other))) return;
   const double s = turn(q - p, other) / across, t = turn(q - p, along) / across;
   if (std::min({s, 1.0 - s, t, 1.0 - t}) < kSame) return;
   take({FeaturePair::edge_edge,

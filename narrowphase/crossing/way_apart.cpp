@@ -11,7 +11,7 @@ constexpr int kMostRounds = 32;
 // Where parts have more facets than this, facets are small beside the bodies, and no more join.
 constexpr std::size_t kMostFacets = 1000;
 // So much farther than the way surfaces that are parted by it do not meet, whatever is rounded. Lengths are near 1.
-constexpr double kBeyond = 1e-9;
+constexpr double kBeyondDepth = 1e-9;
 
 }  // namespace
 
@@ -34,7 +34,7 @@ WayApart::Way WayApart::find(const WayApartInput& input) {
     const Way way = part_hulls(input.came, input.direction);
     if (way.length > input.depth) break;
     if (a_.facets().size() + b_.facets().size() > kMostFacets) return way;
-    const Vec3 shift = (way.length + kBeyond) * way.direction;
+    const Vec3 shift = (way.length + kBeyondDepth) * way.direction;
     const bool grown_a = a_.grow(b_, shift), grown_b = b_.grow(a_, -shift);
     if (!grown_a && !grown_b) return way;
   }

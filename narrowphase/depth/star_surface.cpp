@@ -9,14 +9,13 @@
 namespace tact::narrowphase {
 namespace {
 
-constexpr double kUnitRoundoff = 0x1p-53;
 // The normal e × f of two sides is off by less than this times |e||f| roundoffs. Each component of a side has one
 // rounding. Each component of the product has three more, of two products of size |e||f| at most.
 constexpr double kNormalRoundings = 16.0;
 // Of n · p, n being of unit length but for rounding.
 constexpr double kDistanceRoundings = 8.0;
 // The least sine of the angle between two sides whose normal double-double can tell.
-constexpr double kSmallestSine = 0x1p-92;
+constexpr double kSmallestFacetSine = 0x1p-92;
 
 double sum_of_sizes(Vec3 v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
@@ -91,7 +90,7 @@ bool StarSurface::sharpen(int face) {
   const DoubleDoubleVec3 side = double_double_difference(vertices_[f.corner[1]].point, p);
   const DoubleDoubleVec3 other = double_double_difference(vertices_[f.corner[2]].point, p);
   const Vec3 n = double_double_cross(side, other);
-  if (!(norm(n) > kSmallestSine * norm(heads(side)) * norm(heads(other)))) return false;
+  if (!(norm(n) > kSmallestFacetSine * norm(heads(side)) * norm(heads(other)))) return false;
   f.normal = unit_vector(n);
   f.distance = dot(f.normal, p);
   f.error = kDistanceRoundings * kUnitRoundoff * sum_of_sizes(p);

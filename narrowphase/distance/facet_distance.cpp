@@ -17,7 +17,7 @@ namespace tact::narrowphase {
 
 namespace {
 
-constexpr double kSmallLength = 0x1p-400;  // the squares of shorter ones may vanish
+constexpr double kSmallNormal = 0x1p-400;  // the squares of shorter ones may vanish
 
 double largest_of(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
@@ -37,7 +37,7 @@ struct FineNumber {
 
 FineNumber length_of(const DoubleDoubleVec3& v, double lost) {
   const DoubleDouble length = square_root(dot(v, v));
-  const bool vanishes = !(length.head > kSmallLength);
+  const bool vanishes = !(length.head > kSmallNormal);
   return {length, vanishes ? std::numeric_limits<double>::infinity() : lost / length.head + 0x1p-98};
 }
 

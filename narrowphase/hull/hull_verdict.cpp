@@ -43,7 +43,6 @@ struct WideNumbers {
   using Direction = WideVector<3 * kCoordinate + 9>;
 };
 
-constexpr double kUnitRoundoff = 0x1p-53;
 constexpr double kNothing = 0x1p-1000;
 constexpr double kBluntest = 0x1p-30;  // error of a component of a unit vector that is of use
 

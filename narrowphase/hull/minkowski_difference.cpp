@@ -10,7 +10,6 @@ namespace tact::narrowphase {
 
 namespace {
 
-constexpr double kUnitRoundoff = 0x1p-53;
 // A height n · (x - o) is off by at most 4 roundoffs of |x - o|, n being of unit length but for rounding. Two vertices
 // are chosen, each at most two such errors below the true extreme, and n · (a - b), |a - b| <= 2 size, is off by 4 of 2
 // size.

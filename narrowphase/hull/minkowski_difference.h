@@ -11,6 +11,8 @@
 
 namespace tact::narrowphase {
 
+inline constexpr double kUnitRoundoff = 0x1p-53;
+
 // A point of M that is the difference of a vertex of A and one of B.
 struct MinkowskiVertex {
   Vec3 point;  // scale * (a - b)

@@ -17,8 +17,6 @@ namespace tact::narrowphase {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 Triangle triangle_in(const FacetBlock& facets, int i) {
   const auto corner = [&](int k) {
     const auto& at = facets.corner[k];
@@ -238,7 +236,7 @@ bool contains(const ClusteredMesh& mesh, Vec3 point) {
   PredicateCounts counts;
   int winding = 0;
   bool on_surface = false;
-  const Box half_line{point, {kInfinity, point.y, point.z}};
+  const Box half_line{point, {std::numeric_limits<double>::infinity(), point.y, point.z}};
   const CullPlanes along_ray = planes_of(half_line);
   FacetBlock facets;
   for_each_cluster_in(mesh, half_line, [&](int cluster) {
