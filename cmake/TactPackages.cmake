@@ -25,7 +25,8 @@ add_custom_target(uninstall COMMENT "Removing what was installed"
   COMMAND ${CMAKE_COMMAND} -DMANIFEST_FOLDER=${PROJECT_BINARY_DIR} -P ${PROJECT_SOURCE_DIR}/cmake/uninstall.cmake)
 
 # Debian: libtact and the number of its SONAME, as Debian wants it, the shared library; libtact-dev, headers and how to find them; tact-tools, the program;
-# python3-tact, the package for Python. From a shared build, as any library of Debian: `cmake --preset packages &&
+# python3-tact, the package for Python. What links MPI stands in packages of its own: libtact-mpi and its number,
+# libtact-mpi-dev, tact-mpi-tools, python3-tact-mpi. From a shared build, as any library of Debian: `cmake --preset packages &&
 # cmake --build --preset packages && cpack --config build/packages/CPackConfig.cmake`.
 get_target_property(soversion tact SOVERSION)
 set(runtime_package libtact${soversion})
@@ -66,5 +67,30 @@ python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor})")
   set(CPACK_DEBIAN_BLENDER_PACKAGE_SECTION graphics)
   set(CPACK_DEBIAN_BLENDER_PACKAGE_ARCHITECTURE all)
   set(CPACK_DEBIAN_BLENDER_PACKAGE_DEPENDS "python3-tact (= ${PROJECT_VERSION}), blender (>= 3.4)")
+endif()
+if(TARGET tact_mpi)
+  set(mpi_runtime_package libtact-mpi${soversion})
+  list(APPEND CPACK_COMPONENTS_ALL mpi_runtime mpi)
+  list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/mpi)
+  set(CPACK_DEBIAN_MPI_RUNTIME_PACKAGE_NAME ${mpi_runtime_package})
+  set(CPACK_DEBIAN_MPI_RUNTIME_PACKAGE_SECTION libs)
+  set(CPACK_DEBIAN_MPI_RUNTIME_PACKAGE_DEPENDS "${runtime_package} (= ${PROJECT_VERSION})")
+  set(CPACK_DEBIAN_MPI_PACKAGE_NAME libtact-mpi-dev)
+  set(CPACK_DEBIAN_MPI_PACKAGE_SECTION libdevel)
+  set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "${mpi_runtime_package} (= ${PROJECT_VERSION}), \
+libtact-dev (= ${PROJECT_VERSION}), libopenmpi-dev")
+  if(TARGET tact_mpi_program)
+    list(APPEND CPACK_COMPONENTS_ALL mpi_program)
+    set(CPACK_DEBIAN_MPI_PROGRAM_PACKAGE_NAME tact-mpi-tools)
+    set(CPACK_DEBIAN_MPI_PROGRAM_PACKAGE_SECTION science)
+    set(CPACK_DEBIAN_MPI_PROGRAM_PACKAGE_DEPENDS "${mpi_runtime_package} (= ${PROJECT_VERSION}), openmpi-bin")
+  endif()
+  if(TARGET tact_mpi_python)
+    list(APPEND CPACK_COMPONENTS_ALL python_mpi)
+    set(CPACK_DEBIAN_PYTHON_MPI_PACKAGE_NAME python3-tact-mpi)
+    set(CPACK_DEBIAN_PYTHON_MPI_PACKAGE_SECTION python)
+    set(CPACK_DEBIAN_PYTHON_MPI_PACKAGE_DEPENDS "python3-tact (= ${PROJECT_VERSION}), \
+${mpi_runtime_package} (= ${PROJECT_VERSION}), python3-mpi4py")
+  endif()
 endif()
 include(CPack)

@@ -13,13 +13,10 @@ namespace tact::mpi {
 namespace {
 
 std::uint64_t hash_of(const Settings& settings) {
-  const tact::Settings& world = settings.world;
   base::Hash hash;
-  for (const double number : {world.gjk_tolerance, settings.rebalance_above}) hash.add(number);
-  for (const int number : {static_cast<int>(world.accuracy), static_cast<int>(world.direction), world.iteration_limit,
-                           int{world.outputs.zones}, int{world.outputs.patches}, int{world.outputs.points},
-                           static_cast<int>(settings.partitioner)})
-    hash.add(static_cast<std::uint64_t>(number));
+  hash.add(WorldParts::checksum(WorldParts::settings_bytes(settings.world)));
+  hash.add(settings.rebalance_above);
+  hash.add(static_cast<std::uint64_t>(settings.partitioner));
   return hash.value();
 }
 

@@ -54,22 +54,29 @@ class ByteReader {
   template <class Number>
   Number get() {
     static_assert(std::is_arithmetic_v<Number> || std::is_enum_v<Number>);
+    if constexpr (std::is_same_v<Number, bool>) return get<std::uint8_t>() != 0;
     Number number;
     std::memcpy(&number, take(sizeof number).data(), sizeof number);
     return number;
   }
+  std::span<const std::byte> rest() const { return bytes_; }
   std::span<const std::byte> get_bytes() { return take(get<std::uint64_t>()); }
   template <class Number>
   std::vector<Number> get_all() {
-    std::vector<Number> numbers(get<std::uint64_t>());
+    const auto count = get<std::uint64_t>();
+    check(count <= bytes_.size() / sizeof(Number));
+    std::vector<Number> numbers(count);
     const std::span<const std::byte> from = take(numbers.size() * sizeof(Number));
     if (!numbers.empty()) std::memcpy(numbers.data(), from.data(), from.size());
     return numbers;
   }
 
  private:
+  static void check(bool holds) {
+    if (!holds) throw Error(ErrorCode::bad_state, "bytes of a rank end early");
+  }
   std::span<const std::byte> take(std::uint64_t size) {
-    if (size > bytes_.size()) throw Error(ErrorCode::bad_state, "a message of another rank ends early");
+    check(size <= bytes_.size());
     const std::span<const std::byte> taken = bytes_.first(size);
     bytes_ = bytes_.subspan(size);
     return taken;

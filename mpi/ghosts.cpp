@@ -63,7 +63,7 @@ void World::Implementation::write_update(std::uint64_t key, const OwnBody& body,
   update.put(filter.layer, filter.mask, filter.group, filter.fixed, local.margin(body.id), parts.on_its_way(body.id));
   update.put(body.is_rigid, with_positions);
   if (with_positions && body.is_rigid) {
-    const PoseUpdate pose = parts.pose(body.id);
+    const tact::PoseUpdate pose = parts.pose(body.id);
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) update.put(pose.rotation(i, k));
       update.put(pose.translation[i]);
@@ -114,7 +114,7 @@ void World::Implementation::put_ghost(std::uint64_t key, int owner, std::span<co
   if (held.find(key).generation != 0) throw Error(ErrorCode::bad_state, "a rank got a body that it has");
   const BodyId id = parts.put(shape, rest, true);
   held.ghosts[key] = {id, owner};
-  held.hold(id, {Held::Role::ghost, owner, {static_cast<std::int64_t>(local.vertex_count(id)), key}});
+  held.hold(id, {Held::Role::ghost, owner, order_of(id, key)});
   exclude_here(key);
 }
 

@@ -14,14 +14,24 @@ struct World::Implementation::Leaving {
   std::vector<WaitingPair> left;
 };
 
-/// A body that came, and is of this rank once all have come.
-struct World::Implementation::Arrival {
-  std::uint64_t key = 0;
-  OwnBody body;
-  std::vector<std::uint64_t> excluded;
-  std::vector<SavedPair> pairs;
-  std::vector<std::pair<KeyPair, int>> sent;
-};
+void put(const SavedPair& pair, ByteWriter& to) {
+  to.put(pair.key_a, pair.key_b, pair.birth_a, pair.birth_b, pair.touching);
+  to.put_all(pair.bytes);
+  to.put_all(pair.patches);
+}
+
+SavedPair get_pair(ByteReader& reader) {
+  SavedPair pair;
+  pair.key_a = reader.get<std::uint64_t>();
+  pair.key_b = reader.get<std::uint64_t>();
+  pair.birth_a = reader.get<std::uint64_t>();
+  pair.birth_b = reader.get<std::uint64_t>();
+  pair.touching = reader.get<bool>();
+  const auto bytes = reader.get_bytes();
+  pair.bytes.assign(bytes.begin(), bytes.end());
+  pair.patches = reader.get_all<std::uint64_t>();
+  return pair;
+}
 
 void World::Implementation::rebalance() {
   std::vector<Site> all;
@@ -92,30 +102,37 @@ World::Implementation::Leaving World::Implementation::pack(const Goals& goals) {
 Bytes World::Implementation::pack(std::uint64_t key, int to, std::span<const SavedPair> pairs) {
   const OwnBody& body = at(key);
   ByteWriter writer;
-  writer.put_all(parts.shape(body.id));
-  writer.put_all(parts.rest(body.id));
-  writer.put_all(parts.self_of(body.id));
-  writer.put(body.is_rigid, body.version, body.positions, body.work);
+  pack_body(key, pairs, writer);
+  writer.put(body.version, body.positions);
   const auto stays = [&](const Subscriber& one) { return one.rank != to; };
   writer.put(static_cast<std::uint64_t>(std::ranges::count_if(body.subscribers, stays)));
   for (const Subscriber& one : body.subscribers) {
     if (stays(one)) writer.put(one.rank, one.is_awake, one.version, one.positions, one.asleep_since);
-  }
-  writer.put_all(HeldBodies::seconds(held.excluded, key));
-  writer.put(std::uint64_t{pairs.size()});
-  for (const SavedPair& pair : pairs) {
-    writer.put(pair.key_a, pair.key_b, pair.birth_a, pair.birth_b, pair.touching);
-    writer.put_all(pair.bytes);
-    writer.put_all(pair.patches);
   }
   ByteWriter sent_pairs;
   for (const auto& [keys, one] : sent) {
     if (keys.first == key || keys.second == key) sent_pairs.put(keys.first, keys.second, one.to);
   }
   writer.put_all(sent_pairs.bytes());
-  writer.put(static_cast<bool>(body_state.pack));
-  if (body_state.pack) writer.put_all(body_state.pack(key));
+  pack_state(key, writer);
   return std::move(writer.bytes());
+}
+
+// What is kept of a body and of the pairs that it hosts, whichever rank owns it.
+void World::Implementation::pack_body(std::uint64_t key, std::span<const SavedPair> pairs, ByteWriter& to) {
+  const OwnBody& body = at(key);
+  to.put_all(parts.shape(body.id));
+  to.put_all(parts.rest(body.id));
+  to.put_all(parts.self_of(body.id));
+  to.put(body.is_rigid, body.work);
+  to.put_all(HeldBodies::seconds(held.excluded, key));
+  to.put(std::uint64_t{pairs.size()});
+  for (const SavedPair& pair : pairs) put(pair, to);
+}
+
+void World::Implementation::pack_state(std::uint64_t key, ByteWriter& to) {
+  to.put(static_cast<bool>(body_state.pack));
+  if (body_state.pack) to.put_all(body_state.pack(key));
 }
 
 // The ghost gives way; what is kept of its pairs, whose hosts are here, waits for the next step.
@@ -134,20 +151,10 @@ void World::Implementation::ghost_becomes_own(std::uint64_t key) {
 }
 
 void World::Implementation::unpack(const Parcel& parcel, std::vector<Arrival>& arrivals) {
-  const std::uint64_t key = parcel.key;
-  ghost_becomes_own(key);
   ByteReader reader(parcel.bytes);
-  const auto shape = reader.get_bytes(), rest = reader.get_bytes(), self = reader.get_bytes();
-  const BodyId id = parts.put(shape, rest, false);
-  Arrival& arrival = arrivals.emplace_back();
-  arrival.key = key;
-  arrival.body.id = id;
-  held.hold(id, {Held::Role::own, channel.rank(), {static_cast<std::int64_t>(local.vertex_count(id)), key}});
-  parts.put_self(id, self);
-  arrival.body.is_rigid = reader.get<bool>();
+  Arrival& arrival = unpack_body(parcel.key, reader, arrivals);
   arrival.body.version = reader.get<std::uint64_t>();
   arrival.body.positions = reader.get<std::uint64_t>();
-  arrival.body.work = reader.get<std::int64_t>();
   for (auto count = reader.get<std::uint64_t>(); count > 0; --count) {
     Subscriber& one = arrival.body.subscribers.emplace_back();
     one.rank = reader.get<int>();
@@ -157,23 +164,29 @@ void World::Implementation::unpack(const Parcel& parcel, std::vector<Arrival>& a
     one.positions = reader.get<std::uint64_t>();
     one.asleep_since = reader.get<std::uint64_t>();
   }
-  arrival.excluded = reader.get_all<std::uint64_t>();
-  for (auto count = reader.get<std::uint64_t>(); count > 0; --count) {
-    SavedPair& pair = arrival.pairs.emplace_back();
-    pair.key_a = reader.get<std::uint64_t>();
-    pair.key_b = reader.get<std::uint64_t>();
-    pair.birth_a = reader.get<std::uint64_t>();
-    pair.birth_b = reader.get<std::uint64_t>();
-    pair.touching = reader.get<bool>();
-    const auto bytes = reader.get_bytes();
-    pair.bytes.assign(bytes.begin(), bytes.end());
-    pair.patches = reader.get_all<std::uint64_t>();
-  }
   for (ByteReader pairs(reader.get_bytes()); !pairs.at_end();) {
     const auto key_a = pairs.get<std::uint64_t>(), key_b = pairs.get<std::uint64_t>();
     arrival.sent.push_back({{key_a, key_b}, pairs.get<int>()});
   }
-  if (reader.get<bool>() && body_state.unpack) body_state.unpack(key, reader.get_bytes());
+  if (reader.get<bool>() && body_state.unpack) body_state.unpack(parcel.key, reader.get_bytes());
+}
+
+// The reverse of pack_body().
+World::Implementation::Arrival& World::Implementation::unpack_body(std::uint64_t key, ByteReader& reader,
+                                                                   std::vector<Arrival>& arrivals) {
+  ghost_becomes_own(key);
+  const auto shape = reader.get_bytes(), rest = reader.get_bytes(), self = reader.get_bytes();
+  const BodyId id = parts.put(shape, rest, false);
+  Arrival& arrival = arrivals.emplace_back();
+  arrival.key = key;
+  arrival.body.id = id;
+  held.hold(id, {Held::Role::own, channel.rank(), order_of(id, key)});
+  parts.put_self(id, self);
+  arrival.body.is_rigid = reader.get<bool>();
+  arrival.body.work = reader.get<std::int64_t>();
+  arrival.excluded = reader.get_all<std::uint64_t>();
+  for (auto count = reader.get<std::uint64_t>(); count > 0; --count) arrival.pairs.push_back(get_pair(reader));
+  return arrival;
 }
 
 void World::Implementation::undo(std::span<const Arrival> arrivals) {

@@ -278,7 +278,7 @@ void World::Implementation::finish_motion(const tact::MotionReport& found, Impac
       const int to = guest_owner(impact.a, impact.b);
       if (to < 0) continue;
       put(outbox.to(to), named(impact.a, impact.b));
-      outbox.to(to).put(impact.kind, impact.time);
+      outbox.to(to).put(impact.kind, impact.time, impact.stops);
       for (int k = 0; k < 3; ++k) outbox.to(to).put(impact.a_vertices[k], impact.b_vertices[k]);
     }
   });
@@ -294,6 +294,7 @@ void World::Implementation::finish_motion(const tact::MotionReport& found, Impac
         one.impact.a = held.find(one.bodies.key_a), one.impact.b = held.find(one.bodies.key_b);
         one.impact.kind = reader.get<FeaturePair>();
         one.impact.time = reader.get<double>();
+        one.impact.stops = reader.get<bool>();
         for (int k = 0; k < 3; ++k) {
           one.impact.a_vertices[k] = reader.get<int>();
           one.impact.b_vertices[k] = reader.get<int>();

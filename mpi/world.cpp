@@ -33,6 +33,13 @@ Settings agreed(const Settings& settings, Channel& channel) {
   return settings;
 }
 
+template <class Definition>
+void add_place(const Definition& definition, base::Hash& hash) {
+  hash.add(definition.margin);
+  for (const std::uint32_t number : {definition.layer, definition.mask, definition.group})
+    hash.add(std::uint64_t{number});
+}
+
 // Of a body that every rank adds: what all of them must agree on.
 std::uint64_t hash_of(const BodyDefinition& definition) {
   base::Hash hash;
@@ -40,13 +47,31 @@ std::uint64_t hash_of(const BodyDefinition& definition) {
   for (std::ptrdiff_t i = 0; i < definition.positions.cols(); ++i) {
     for (const double coordinate : definition.positions.column(i)) hash.add(coordinate);
   }
-  for (std::ptrdiff_t i = 0; i < definition.facets.cols(); ++i) {
-    for (const int vertex : definition.facets.column(i)) hash.add(static_cast<std::uint64_t>(vertex));
-  }
-  hash.add(definition.margin);
-  for (const std::uint32_t number : {definition.layer, definition.mask, definition.group})
-    hash.add(std::uint64_t{number});
+  const auto add_all = [&](const auto& columns) {
+    for (std::ptrdiff_t i = 0; i < columns.cols(); ++i) {
+      for (const int vertex : columns.column(i)) hash.add(static_cast<std::uint64_t>(vertex));
+    }
+    hash.add(static_cast<std::uint64_t>(columns.cols()));
+  };
+  add_all(definition.facets), add_all(definition.edges);
+  for (const int vertex : definition.points) hash.add(static_cast<std::uint64_t>(vertex));
+  hash.add(static_cast<std::uint64_t>(definition.surface));
+  hash.add(std::uint64_t{definition.self_contact});
+  add_place(definition, hash);
   return hash.value();
+}
+
+std::uint64_t hash_of(const PlaneDefinition& definition) {
+  base::Hash hash;
+  hash.add(*definition.key);
+  for (const double number : {definition.normal.x(), definition.normal.y(), definition.normal.z(), definition.offset})
+    hash.add(number);
+  add_place(definition, hash);
+  return hash.value();
+}
+
+[[noreturn]] void refuse_without_key() {
+  refuse(ErrorCode::invalid_argument, "a body over many ranks is named by its key: it has none");
 }
 
 }  // namespace
@@ -93,6 +118,18 @@ void World::Implementation::forget_ghost(std::uint64_t key) {
   held.ghosts.erase(ghost);
 }
 
+HostOrder World::Implementation::order_of(BodyId id, std::uint64_t key) const {
+  return {static_cast<std::int64_t>(local.vertex_count(id)), key};
+}
+
+// Its slot may be another on each rank: what is kept of a pair with it must not go by that.
+void World::Implementation::hold_shared(BodyId id, std::uint64_t key, std::uint64_t hash) {
+  parts.set_birth(id, hash);
+  held.hold(id, {Held::Role::shared, channel.rank(), order_of(id, key)});
+  held.shared[key] = id;
+  shared_hash += hash;
+}
+
 World::World(MPI_Comm communicator, const Settings& settings)
     : implementation_(std::make_unique<Implementation>(communicator, settings)) {}
 World::~World() = default;
@@ -126,7 +163,7 @@ void World::set_settings(const Settings& settings) {
 
 void World::add_body(const BodyDefinition& definition, Holders holders) {
   Implementation& i = implementation();
-  if (!definition.key) refuse(ErrorCode::invalid_argument, "a body over many ranks is named by its key: it has none");
+  if (!definition.key) refuse_without_key();
   const std::uint64_t key = *definition.key;
   const bool is_shared = holders == Holders::every_rank;
   if (is_shared && definition.motion != Motion::fixed)
@@ -134,15 +171,18 @@ void World::add_body(const BodyDefinition& definition, Holders holders) {
   const std::uint64_t hash = is_shared ? hash_of(definition) : 0;
   i.forget_ghost(key);
   const BodyId id = i.local.add_body(definition);
-  const HostOrder order{static_cast<std::int64_t>(i.local.vertex_count(id)), key};
-  i.held.hold(id, {is_shared ? Held::Role::shared : Held::Role::own, i.channel.rank(), order});
-  if (is_shared) {
-    i.held.shared[key] = id;
-    i.shared_hash += hash;
-  } else {
-    i.held.own[key] = {.id = id, .is_rigid = definition.motion == Motion::rigid};
-    i.new_keys.push_back(key);
-  }
+  if (is_shared) return i.hold_shared(id, key, hash);
+  i.held.hold(id, {Held::Role::own, i.channel.rank(), i.order_of(id, key)});
+  i.held.own[key] = {.id = id, .is_rigid = definition.motion == Motion::rigid};
+  i.new_keys.push_back(key);
+}
+
+void World::add_plane(const PlaneDefinition& definition) {
+  Implementation& i = implementation();
+  if (!definition.key) refuse_without_key();
+  i.forget_ghost(*definition.key);
+  const BodyId id = i.local.add_plane(definition);
+  i.hold_shared(id, *definition.key, hash_of(definition));
 }
 
 void World::remove_body(std::uint64_t key) {
@@ -196,6 +236,14 @@ void World::set_pose(std::uint64_t key, const Eigen::Matrix3d& rotation, const E
   OwnBody& body = i.at(key);
   i.local.set_pose(body.id, rotation, translation);
   i.note_change(body, true);
+}
+
+void World::set_poses(std::span<const PoseUpdate> updates) {
+  Implementation& i = implementation();
+  std::vector<tact::PoseUpdate> by_id;
+  for (const PoseUpdate& update : updates) by_id.push_back({i.at(update.key).id, update.rotation, update.translation});
+  i.local.set_poses(by_id);
+  for (const PoseUpdate& update : updates) i.note_change(i.at(update.key), true);
 }
 
 void World::set_layers(std::uint64_t key, std::uint32_t layer, std::uint32_t mask) {

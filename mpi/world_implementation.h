@@ -26,6 +26,9 @@ struct WaitingPair {
   KeyPair keys() const { return {pair.key_a, pair.key_b}; }
 };
 
+void put(const SavedPair& pair, ByteWriter& to);
+SavedPair get_pair(ByteReader& reader);
+
 /// What ended with a pair that is no candidate any more.
 struct EndedPair {
   KeyPair keys;
@@ -110,6 +113,8 @@ struct World::Implementation {
 
   // world.cpp
   OwnBody& at(std::uint64_t key);
+  HostOrder order_of(BodyId id, std::uint64_t key) const;
+  void hold_shared(BodyId id, std::uint64_t key, std::uint64_t hash);
   void note_change(OwnBody& body, bool has_moved);
   void forget_ghost(std::uint64_t key);
   void exclude(std::uint64_t own_key, std::uint64_t other, bool wanted, bool marks);
@@ -160,16 +165,35 @@ struct World::Implementation {
   // moves.cpp
   using Goals = std::map<std::uint64_t, int>;  // the new owners of own bodies
   struct Leaving;
-  struct Arrival;
+  /// A body that came, and is of this rank once all have come.
+  struct Arrival {
+    std::uint64_t key = 0;
+    OwnBody body;
+    std::vector<std::uint64_t> excluded;
+    std::vector<SavedPair> pairs;
+    std::vector<std::pair<KeyPair, int>> sent;
+  };
   void rebalance();
   void move(Goals goals);
   Leaving pack(const Goals& goals);
   Bytes pack(std::uint64_t key, int to, std::span<const SavedPair> pairs);
+  void pack_body(std::uint64_t key, std::span<const SavedPair> pairs, ByteWriter& to);
+  void pack_state(std::uint64_t key, ByteWriter& to);
   void unpack(const Parcel& parcel, std::vector<Arrival>& arrivals);
+  Arrival& unpack_body(std::uint64_t key, ByteReader& reader, std::vector<Arrival>& arrivals);
   void ghost_becomes_own(std::uint64_t key);
   void undo(std::span<const Arrival> arrivals);
   void let_go(const Goals& goals, Leaving&& leaving);
   void take_in(std::vector<Arrival>&& arrivals);
+
+  // saved.cpp
+  struct Share;
+  Bytes content_of_share();
+  Bytes common_bytes();
+  void take_common(std::span<const std::byte> bytes);
+  using States = std::vector<std::pair<std::uint64_t, std::span<const std::byte>>>;  // by key
+  void take_shares(std::span<const Share> shares, States& states);
+  void exchange_states(const Implementation& last, const States& states);
 
   Statistics finished_stats();
   std::uint64_t own_work() const;

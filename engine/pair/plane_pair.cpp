@@ -133,6 +133,7 @@ void look_at_plane(const BodyAndPlane& pair, double reach, const Settings& setti
   last.count = 1;
   last_vertex = rough.vertex;
   record.hulls_overlap = record.near = false;
+  record.face.count = 0;  // of an earlier pair, if its record is used again
   ++counts.gjk_iterations;
   const double rough_lowest = -rough.height - pair.plane->offset;
   if (rough_lowest > reach + 2.0 * heights.error() + 0x1p-50 * reach) {

@@ -348,6 +348,13 @@ struct StateFields {
   static void exclude(BodyId a, BodyId b, bool excluded, Bodies& bodies);
   static void mark_moved(BodyId body, bool is_on_its_way, Bodies& bodies);
   static std::vector<SavedPair> pairs_of(std::span<const BodyId> those, const Bodies& bodies, Step& step);
+  static std::vector<SavedPair> all_pairs(const Bodies& bodies, Step& step);
+  static SavedPair saved_pair(std::size_t i, const Bodies& bodies, PairTable& table);
+  static void set_birth(BodyId body, std::uint64_t birth, Bodies& bodies) {
+    bodies.slots_[body.index].body->birth = birth;
+  }
+  static void write_steps(const Bodies& bodies, const Step& step, StateWriter& writer);
+  static void read_steps(StateReader& reader, Bodies& bodies, Step& step);
   static bool put_pair(const SavedPair& pair, const Bodies& bodies, Step& step);
   static void write_self_of(BodyId body, Step& step, StateWriter& writer);
   static void read_self_of(StateReader& reader, BodyId body, const Bodies& bodies, Step& step);

@@ -94,7 +94,6 @@ void StateFields::write_pairs(const PairTable& table, const Bodies& bodies, Stat
 }
 
 void StateFields::read_pairs(StateReader& reader, const Bodies& bodies, PairTable& table) {
-  constexpr int kMostDiagonals = 6;  // see SeparatingDiagonal
   table.excluded_ = static_cast<std::size_t>(reader.read<std::uint64_t>());
   table.was_restored_ = true;
   const std::size_t count = reader.read_size(1);
@@ -108,7 +107,7 @@ void StateFields::read_pairs(StateReader& reader, const Bodies& bodies, PairTabl
     PairRecord& record = *entry.record;
     if (bodies.contains(a) && bodies.contains(b)) {
       reader(entry.separating_axis);
-      reader.check(std::abs(int{entry.separating_axis}) <= kMostDiagonals, "a diagonal is not there");
+      check_axis(reader, entry.separating_axis);
       read_pair(reader, bodies.in_slot(a.index), bodies.in_slot(b.index), record);
     } else {
       record.patches = std::make_unique<PatchMemory>();

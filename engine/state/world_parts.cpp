@@ -8,6 +8,7 @@
 #include "engine/base/floating_point_mode.h"
 #include "engine/state/archives.h"
 #include "engine/state/pair_state.h"
+#include "engine/state/world_state.h"
 #include "narrowphase/mesh/source_mesh.h"
 
 namespace tact {
@@ -86,11 +87,13 @@ void StateFields::take_bodies(std::span<const BodyId> gone, Bodies& bodies, Step
   }
   table.pairs_.resize(kept), table.candidates_.resize(kept), table.entries_.resize(kept);
   for (const BodyId body : gone) {
-    if (body.index < selves.records_.size()) selves.records_[body.index].reset();
+    if (selves.find(body) != nullptr) selves.records_[body.index].reset();
     bodies.remove(body);
     bodies.removed_.pop_back();
     bodies.former_.clear();
-    bodies.slots_[body.index].changed = false;
+    // The next step tells what ended with a body that was removed from this slot before.
+    const bool has_other = body.index < selves.records_.size() && selves.records_[body.index] != nullptr;
+    bodies.slots_[body.index].changed = has_other;
   }
   std::erase_if(bodies.changed_, [&](std::uint32_t slot) { return !bodies.slots_[slot].changed; });
 }
@@ -133,25 +136,54 @@ std::vector<SavedPair> StateFields::pairs_of(std::span<const BodyId> those, cons
     const CandidatePair& pair = table.candidates_[i];
     const bool has_a = bodies.contains(pair.a), has_b = bodies.contains(pair.b);
     if (!(has_a && is_wanted[pair.a.index] != 0) && !(has_b && is_wanted[pair.b.index] != 0)) continue;
-    PairRecord& record = table.record(i);
-    SavedPair& one = saved.emplace_back();
-    one.key_a = bodies.key(pair.a), one.key_b = bodies.key(pair.b);
-    if (has_a && has_b) {
-      const Body &a = bodies.in_slot(pair.a.index), &b = bodies.in_slot(pair.b.index);
-      one.birth_a = a.birth, one.birth_b = b.birth;
-      StateWriter writer;
-      writer(table.separating_axis(i));
-      renumber(record, source_numbers(a.mesh), source_numbers(b.mesh));
-      write_pair(record, writer);
-      renumber(record, mesh_numbers(a.mesh), mesh_numbers(b.mesh));
-      one.bytes = std::move(writer.bytes());
-    }
-    one.touching = record.touching;
-    if (record.patches == nullptr) continue;
-    for (const Patch& patch : record.patches->now.patches) one.patches.push_back(patch.id);
+    saved.push_back(saved_pair(i, bodies, table));
   }
   return saved;
 }
+
+// Also what ends with a body that was removed, and was held against itself.
+std::vector<SavedPair> StateFields::all_pairs(const Bodies& bodies, Step& step) {
+  std::vector<SavedPair> saved;
+  if (step.forgotten_) return saved;
+  PairTable& table = step.stages_->table;
+  for (std::size_t i = 0; i < table.pairs_.size(); ++i) saved.push_back(saved_pair(i, bodies, table));
+  for (const std::unique_ptr<SelfRecord>& record : step.stages_->selves.records_) {
+    if (record == nullptr || bodies.contains(record->body)) continue;
+    const std::uint64_t key = bodies.key(record->body);
+    SavedPair& one = saved.emplace_back();
+    one.key_a = one.key_b = key;
+    one.touching = record->touching;
+    for (const Patch& patch : record->patches.now.patches) one.patches.push_back(patch.id);
+  }
+  return saved;
+}
+
+SavedPair StateFields::saved_pair(std::size_t i, const Bodies& bodies, PairTable& table) {
+  const CandidatePair& pair = table.candidates_[i];
+  PairRecord& record = table.record(i);
+  SavedPair one;
+  one.key_a = bodies.key(pair.a), one.key_b = bodies.key(pair.b);
+  if (bodies.contains(pair.a) && bodies.contains(pair.b)) {
+    const Body &a = bodies.in_slot(pair.a.index), &b = bodies.in_slot(pair.b.index);
+    one.birth_a = a.birth, one.birth_b = b.birth;
+    StateWriter writer;
+    writer(table.separating_axis(i));
+    renumber(record, source_numbers(a.mesh), source_numbers(b.mesh));
+    write_pair(record, writer);
+    renumber(record, mesh_numbers(a.mesh), mesh_numbers(b.mesh));
+    one.bytes = std::move(writer.bytes());
+  }
+  one.touching = record.touching;
+  if (record.patches == nullptr) return one;
+  for (const Patch& patch : record.patches->now.patches) one.patches.push_back(patch.id);
+  return one;
+}
+
+void StateFields::write_steps(const Bodies& bodies, const Step& step, StateWriter& writer) {
+  writer(bodies.steps_, step.all_ || step.forgotten_);
+}
+
+void StateFields::read_steps(StateReader& reader, Bodies& bodies, Step& step) { reader(bodies.steps_, step.all_); }
 
 bool StateFields::put_pair(const SavedPair& pair, const Bodies& bodies, Step& step) {
   const auto slot_a = bodies.keys_.find(pair.key_a), slot_b = bodies.keys_.find(pair.key_b);
@@ -166,6 +198,7 @@ bool StateFields::put_pair(const SavedPair& pair, const Bodies& bodies, Step& st
   try {
     StateReader reader(pair.bytes);
     reader(entry.separating_axis, record);
+    check_axis(reader, entry.separating_axis);
     renumber(record, mesh_numbers(a.mesh), mesh_numbers(b.mesh));
     check_pair(reader, a, b, record);
     table.pairs_.reserve(table.pairs_.size() + 1), table.candidates_.reserve(table.candidates_.size() + 1);
@@ -184,10 +217,9 @@ bool StateFields::put_pair(const SavedPair& pair, const Bodies& bodies, Step& st
 }
 
 void StateFields::write_self_of(BodyId body, Step& step, StateWriter& writer) {
-  const auto& records = step.stages_->selves.records_;
-  const bool has_record = !step.forgotten_ && body.index < records.size() && records[body.index] != nullptr;
-  writer(has_record);
-  if (has_record) write_self(*records[body.index], writer);
+  const SelfRecord* const record = step.forgotten_ ? nullptr : step.stages_->selves.find(body);
+  writer(record != nullptr);
+  if (record != nullptr) write_self(*record, writer);
 }
 
 void StateFields::read_self_of(StateReader& reader, BodyId body, const Bodies& bodies, Step& step) {
@@ -229,23 +261,31 @@ void StateFields::settle(Bodies& bodies, Step& step) {
 void StateFields::write_contact(const Contact& contact, StateWriter& writer) {
   writer(contact.key_a_, contact.key_b_, contact.touching_, contact);
   writer(std::vector<FacetPair>(contact.facet_pairs_.begin(), contact.facet_pairs_.end()),
-         std::vector<ContactPoint>(contact.points_.begin(), contact.points_.end()));
+         std::vector<ContactPoint>(contact.points_.begin(), contact.points_.end()),
+         std::vector<ReachPair>(contact.within_reach_.begin(), contact.within_reach_.end()));
   PatchSet set;
   for (const Patch& patch : contact.patches_) {
     set.patches.push_back(patch);
     set.facet_pairs.insert(set.facet_pairs.end(), patch.facet_pairs.begin(), patch.facet_pairs.end());
     set.points.insert(set.points.end(), patch.points.begin(), patch.points.end());
   }
-  writer(set);
+  CurveSet curves;
+  for (const IntersectionCurve& curve : contact.curves_) {
+    curves.curves.push_back(curve);
+    curves.points.insert(curves.points.end(), curve.points.begin(), curve.points.end());
+  }
+  writer(set, curves);
 }
 
 void StateFields::read_contact(StateReader& reader, FarContact& far) {
   Contact& contact = far.contact;
   reader(contact.key_a_, contact.key_b_, contact.touching_, contact);
-  reader(far.facet_pairs, far.points, far.patches);
+  reader(far.facet_pairs, far.points, far.within_reach, far.patches, far.curves);
   contact.facet_pairs_ = far.facet_pairs;
   contact.points_ = far.points;
+  contact.within_reach_ = far.within_reach;
   contact.patches_ = far.patches.patches;
+  contact.curves_ = far.curves.curves;
 }
 
 void WorldParts::set_choice(const PairChoice* choice) { bodies_.set_choice(choice); }
@@ -300,12 +340,17 @@ BodyId WorldParts::put(std::span<const std::byte> shape, std::span<const std::by
 
 void WorldParts::take(std::span<const BodyId> bodies) { StateFields::take_bodies(bodies, bodies_, step_); }
 void WorldParts::remove_copy(BodyId body) { StateFields::remove_copy(body, bodies_); }
+void WorldParts::set_birth(BodyId body, std::uint64_t birth) { StateFields::set_birth(body, birth, bodies_); }
 void WorldParts::mark_moved(BodyId body, bool is_on_its_way) { StateFields::mark_moved(body, is_on_its_way, bodies_); }
 void WorldParts::exclude(BodyId a, BodyId b, bool excluded) { StateFields::exclude(a, b, excluded, bodies_); }
 
 std::vector<SavedPair> WorldParts::pairs_of(std::span<const BodyId> bodies) const {
   bodies_.update_order();  // by which keys of removed bodies are found
   return StateFields::pairs_of(bodies, bodies_, step_);
+}
+std::vector<SavedPair> WorldParts::all_pairs() const {
+  bodies_.update_order();
+  return StateFields::all_pairs(bodies_, step_);
 }
 bool WorldParts::put(const SavedPair& pair) { return StateFields::put_pair(pair, bodies_, step_); }
 
@@ -325,6 +370,31 @@ void WorldParts::forget_step() {
   step_.forget();
   bodies_.mark_all_changed();
 }
+
+StateBytes WorldParts::steps() const {
+  StateWriter writer;
+  StateFields::write_steps(bodies_, step_, writer);
+  return std::move(writer.bytes());
+}
+void WorldParts::set_steps(std::span<const std::byte> bytes) {
+  StateReader reader(bytes);
+  StateFields::read_steps(reader, bodies_, step_);
+}
+
+StateBytes WorldParts::settings_bytes(const Settings& settings) {
+  StateWriter writer;
+  writer(settings);
+  return std::move(writer.bytes());
+}
+
+Settings WorldParts::settings_of(std::span<const std::byte> bytes, const Settings& kept) {
+  Settings settings = kept;
+  StateReader reader(bytes);
+  reader(settings);
+  return settings;
+}
+
+std::uint64_t WorldParts::checksum(std::span<const std::byte> bytes) { return checksum_of(bytes); }
 
 StateBytes WorldParts::contact_bytes(const Contact& contact) {
   StateWriter writer;

@@ -14,6 +14,7 @@
 #include "broadphase/index_pair.h"
 #include "engine/base/box.h"
 #include "engine/bodies/pair_choice.h"
+#include "engine/curve_set.h"
 #include "engine/patch_set.h"
 
 namespace tact {
@@ -36,7 +37,9 @@ struct FarContact {
   Contact contact;
   std::vector<FacetPair> facet_pairs;
   std::vector<ContactPoint> points;
+  std::vector<ReachPair> within_reach;
   PatchSet patches;
+  CurveSet curves;
 
   FarContact() = default;
   FarContact(FarContact&&) = default;  // vectors that move keep what is viewed of them
@@ -75,6 +78,8 @@ class TACT_API WorldParts {
   void take(std::span<const BodyId> bodies);
   /// Removes a copy as World::remove_body(): the next step tells what ended.
   void remove_copy(BodyId body);
+  /// What tells a body from another of its key: for bodies that several worlds hold alike, in whichever slots.
+  void set_birth(BodyId body, std::uint64_t birth);
   /// Notes that a body has moved, and is on its way even if it is where it was.
   void mark_moved(BodyId body, bool is_on_its_way);
   /// As World::set_excluded(), but that nothing has moved by that.
@@ -82,6 +87,8 @@ class TACT_API WorldParts {
 
   /// What is kept of each pair with one of these bodies.
   std::vector<SavedPair> pairs_of(std::span<const BodyId> bodies) const;
+  /// The same of all pairs; of those with a removed body, also of one with itself, what their end will tell.
+  std::vector<SavedPair> all_pairs() const;
   /// Puts in what was kept of a pair; does nothing and returns false if one of its bodies is not here, or the pair has
   /// ended. Errors: bad_state.
   bool put(const SavedPair& pair);
@@ -93,6 +100,16 @@ class TACT_API WorldParts {
 
   /// The next step starts from nothing, as after one that failed.
   void forget_step();
+
+  /// How many steps there were, and whether the next looks at every pair; for a world that goes on from there. Errors:
+  /// bad_state.
+  StateBytes steps() const;
+  void set_steps(std::span<const std::byte> bytes);
+  /// The settings that answers depend on, as bytes; and back, with the others of `kept`. Errors: bad_state.
+  static StateBytes settings_bytes(const Settings& settings);
+  static Settings settings_of(std::span<const std::byte> bytes, const Settings& kept);
+  /// Tells bytes that were damaged by chance.
+  static std::uint64_t checksum(std::span<const std::byte> bytes);
 
   /// A contact of a report as bytes, its bodies by their keys; and back. Errors: bad_state.
   static StateBytes contact_bytes(const Contact& contact);

@@ -22,17 +22,6 @@ struct Head {
 };
 constexpr std::size_t kHeadSize = kMagic.size() + sizeof kVersion + sizeof(Head);
 
-std::uint64_t checksum_of(std::span<const std::byte> bytes) {
-  base::Hash hash;
-  hash.add(std::uint64_t{bytes.size()});
-  for (std::size_t begin = 0; begin < bytes.size(); begin += sizeof(std::uint64_t)) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + begin, std::min(sizeof word, bytes.size() - begin));
-    hash.add(word);
-  }
-  return hash.value();
-}
-
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::bad_state, what); }
 
 // The content, once head and checksum are good.
@@ -52,6 +41,17 @@ std::span<const std::byte> content_of(std::span<const std::byte> bytes) {
 }
 
 }  // namespace
+
+std::uint64_t checksum_of(std::span<const std::byte> bytes) {
+  base::Hash hash;
+  hash.add(std::uint64_t{bytes.size()});
+  for (std::size_t begin = 0; begin < bytes.size(); begin += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + begin, std::min(sizeof word, bytes.size() - begin));
+    hash.add(word);
+  }
+  return hash.value();
+}
 
 std::vector<std::byte> saved_world(const Settings& settings, const Bodies& bodies, const Step& step) {
   StateWriter writer;

@@ -4,6 +4,7 @@
 #include <tact/settings.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace tact {
 
 /// Worlds in one state have the same bytes, on every machine.
 std::vector<std::byte> saved_world(const Settings& settings, const Bodies& bodies, const Step& step);
+
+/// Tells bytes that were damaged by chance.
+std::uint64_t checksum_of(std::span<const std::byte> bytes);
 
 /// A world out of bytes.
 struct RestoredWorld {

@@ -88,11 +88,21 @@ class Heap:
         return found
     # [part step]
 
+    # [part saved]
+    def save(self):
+        return self.world.save()  # the share of this rank: to a file of its own, say
+
+    def restore(self, shares):
+        self.world.restore(shares)  # each share of the run is given to one rank, of as many as there are
+    # [part saved]
+
 
 def main(steps=240):
     communicator = MPI.COMM_WORLD
     heap = Heap(communicator)
     for step in range(steps):
+        if step == steps // 2:
+            heap.restore([heap.save()])  # as a run does that goes on later
         hash_sum, contacts = heap.step()
         if (step + 1) % 60 == 0:
             of_all = communicator.gather((hash_sum, contacts))

@@ -1,221 +1,31 @@
 // Worlds over many ranks against one world: in each step the sums over all contacts, events and impacts are the same,
-// whoever owns which body.   usage: mpirun -n N test_mpi [--full] [NAME]
-//   --full  more bodies and 500 steps   NAME  the cases whose name holds this text
+// whoever owns which body.   usage: mpirun -n N test_mpi [--full] [--bodies N] [--steps N] [NAME]
+//   --full  1,000 bodies and 500 steps   NAME  the cases whose name holds this text
 #include <mpi.h>
 #include <tact/mpi/world.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "engine/base/hash.h"
-#include "engine/failed_step.h"
+#include "tests/mpi/one_and_many.h"
 #include "tests/support/environment/allocation_hook.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/mesh.h"
 
 namespace tact::tests {
 namespace {
-
-using Key = std::uint64_t;
-
-int rank_of_all() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-int count_of_ranks() {
-  int count = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &count);
-  return count;
-}
-
-int failures = 0;
-
-void expect(bool holds, const std::string& what) {
-  if (holds || ++failures > 20) return;
-  std::fprintf(stderr, "rank %d of %d: %s\n", rank_of_all(), count_of_ranks(), what.c_str());
-}
-
-// Sums of hashes, which depend on no order.
-struct Sums {
-  enum { contacts, contact_count, began, ended, patch_events, impacts, kinds };
-  std::uint64_t of[kinds] = {};
-  static constexpr const char* kNames[] = {"contacts", "number of contacts", "began", "ended", "patches", "impacts"};
-};
-
-std::uint64_t word_of(Key a, Key b, std::initializer_list<std::uint64_t> words) {
-  base::Hash hash;
-  hash.add(a), hash.add(b);
-  for (const std::uint64_t word : words) hash.add(word);
-  return hash.value();
-}
-
-std::uint64_t word_of(Key a, Key b, const Impact& impact) {
-  base::Hash hash;
-  hash.add(word_of(a, b, {static_cast<std::uint64_t>(impact.kind), std::bit_cast<std::uint64_t>(impact.time)}));
-  for (const auto* vertices : {&impact.a_vertices, &impact.b_vertices}) {
-    for (const int v : *vertices) hash.add(static_cast<std::uint64_t>(v));
-  }
-  return hash.value();
-}
-
-// What one world found.
-Sums sums_of(const Report& report, const std::map<BodyId, Key>& keys) {
-  Sums sums;
-  for (const Contact& contact : report.contacts()) {
-    sums.of[Sums::contacts] += contact.hash();
-    ++sums.of[Sums::contact_count];
-  }
-  const auto key = [&](BodyId id) { return keys.at(id); };
-  for (const ContactEvent& event : report.began()) sums.of[Sums::began] += word_of(key(event.a), key(event.b), {});
-  for (const ContactEvent& event : report.ended()) sums.of[Sums::ended] += word_of(key(event.a), key(event.b), {});
-  for (const PatchEvent& event : report.patch_events())
-    sums.of[Sums::patch_events] +=
-        word_of(key(event.a), key(event.b), {static_cast<std::uint64_t>(event.kind), event.patch, event.other});
-  return sums;
-}
-
-// What this rank counts (or, of pairs of two ranks, what it does not count: the other owner's copies of the same).
-Sums sums_of(const mpi::Report& report, bool counted, bool of_two_ranks) {
-  Sums sums;
-  const auto is_wanted = [&](const mpi::BodyPair& bodies) {
-    const bool is_far = bodies.rank_a >= 0 && bodies.rank_b >= 0 && bodies.rank_a != bodies.rank_b;
-    return bodies.counted == counted && (is_far || !of_two_ranks);
-  };
-  for (const mpi::Contact& contact : report.contacts()) {
-    if (!is_wanted(contact.bodies)) continue;
-    sums.of[Sums::contacts] += contact.contact.hash();
-    ++sums.of[Sums::contact_count];
-  }
-  const auto word = [](const mpi::BodyPair& bodies, std::initializer_list<std::uint64_t> words) {
-    return word_of(bodies.key_a, bodies.key_b, words);
-  };
-  for (const mpi::ContactEvent& event : report.began())
-    if (is_wanted(event.bodies)) sums.of[Sums::began] += word(event.bodies, {});
-  for (const mpi::ContactEvent& event : report.ended())
-    if (is_wanted(event.bodies)) sums.of[Sums::ended] += word(event.bodies, {});
-  for (const mpi::PatchEvent& event : report.patch_events())
-    if (is_wanted(event.bodies))
-      sums.of[Sums::patch_events] +=
-          word(event.bodies, {static_cast<std::uint64_t>(event.kind), event.patch, event.other});
-  return sums;
-}
-
-Sums over_all_ranks(Sums sums) {
-  MPI_Allreduce(MPI_IN_PLACE, sums.of, Sums::kinds, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
-  return sums;
-}
-
-void expect_same(const Sums& found, const Sums& expected, const std::string& where) {
-  for (int kind = 0; kind < Sums::kinds; ++kind)
-    expect(found.of[kind] == expected.of[kind], where + ": " + Sums::kNames[kind] + " differ");
-}
-
-// One world on rank 0 beside the world of all ranks. All ranks make the same calls of it.
-class Both {
- public:
-  explicit Both(std::string name, const mpi::Settings& settings)
-      : name_(std::move(name)), many(MPI_COMM_WORLD, settings) {
-    if (rank_of_all() == 0) one_ = std::make_unique<World>(settings.world);
-  }
-
-  void add(BodyDefinition definition, int owner, bool shared = false) {
-    const Key key = *definition.key;
-    if (shared) {
-      many.add_body(definition, mpi::Holders::every_rank);
-    } else if (owner == rank_of_all()) {
-      many.add_body(definition);
-    }
-    if (one_ == nullptr) return;
-    ids_[key] = one_->add_body(definition);
-    keys_[ids_[key]] = key;
-  }
-  void remove(Key key) {
-    if (many.owns(key)) many.remove_body(key);
-    if (one_ == nullptr) return;
-    one_->remove_body(ids_.at(key));
-    ids_.erase(key);
-  }
-  // set(world, name of the body in it)
-  template <class Set>
-  void on_owner(Key key, const Set& set) {
-    if (many.owns(key)) set(many, key);
-    if (one_ != nullptr) set(*one_, ids_.at(key));
-  }
-  void exclude(Key key, Key other, bool excluded) {
-    if (many.owns(key)) many.set_excluded(key, other, excluded);
-    if (one_ != nullptr) one_->set_excluded(ids_.at(key), ids_.at(other), excluded);
-  }
-
-  void detect() {
-    const mpi::Report& report = many.detect();
-    const std::string where = name_ + ", step " + std::to_string(step_++);
-    const Sums found = over_all_ranks(sums_of(report, true, false));
-    if (one_ != nullptr) expect_same(found, sums_of(one_->detect(), keys_), where);
-    const Sums counted = over_all_ranks(sums_of(report, true, true));
-    expect_same(over_all_ranks(sums_of(report, false, true)), counted, where + ", the other owners");
-    contacts_ += found.of[Sums::contact_count];
-    const auto is_before = [](const mpi::Contact& x, const mpi::Contact& y) {
-      return std::pair(x.bodies.key_a, x.bodies.key_b) < std::pair(y.bodies.key_a, y.bodies.key_b);
-    };
-    expect(std::ranges::is_sorted(report.contacts(), is_before), where + ": contacts are not sorted");
-    for (const mpi::Contact& contact : report.contacts())
-      expect(many.owns(contact.bodies.key_a) || many.owns(contact.bodies.key_b), where + ": a contact of others");
-  }
-
-  void detect_motion(Impacts wanted) {
-    const mpi::MotionReport& report = many.detect_motion(wanted);
-    Sums found, expected, others, far;
-    for (const mpi::Impact& impact : report.impacts()) {
-      const mpi::BodyPair& bodies = impact.bodies;
-      const std::uint64_t word = word_of(bodies.key_a, bodies.key_b, impact.impact);
-      found.of[Sums::impacts] += bodies.counted ? word : 0;
-      if (bodies.rank_a != bodies.rank_b) (bodies.counted ? far : others).of[Sums::impacts] += word;
-    }
-    const std::string where = name_ + ", motion in step " + std::to_string(step_);
-    found = over_all_ranks(found);
-    expect_same(over_all_ranks(others), over_all_ranks(far), where + ", the other owners");
-    if (one_ == nullptr) return;
-    const MotionReport& alone = one_->detect_motion(wanted);
-    for (const Impact& impact : alone.impacts()) {
-      expected.of[Sums::impacts] += word_of(keys_.at(impact.a), keys_.at(impact.b), impact);
-      ++impacts_;
-    }
-    expect_same(found, expected, where);
-    expect(report.first_time() == alone.first_time(), where + ": the first time differs");
-  }
-
-  void detect_of_one() {
-    if (one_ != nullptr) one_->detect();
-    ++step_;
-  }
-  // The one world fails as that of all ranks did.
-  void fail() {
-    if (one_ != nullptr) FailedStep::play(*one_);
-  }
-  ~Both() {
-    if (one_ != nullptr) expect(contacts_ > 0 && impacts_ > 0, name_ + ": nothing touched or met");
-  }
-
- private:
-  std::string name_;
-  std::unique_ptr<World> one_;
-  std::map<Key, BodyId> ids_;
-  std::map<BodyId, Key> keys_;
-  std::uint64_t contacts_ = 0, impacts_ = 0;
-  int step_ = 0;
-
- public:
-  mpi::World many;
-};
 
 struct Size {
   int bodies, steps;
@@ -247,8 +57,12 @@ Mesh blob_at(int i, int step, int across) {
     const double from = fraction(seed, t / 8, 1), to = fraction(seed, t / 8 + 1, 1);
     by[axis] = 0.5 * (from + (to - from) * static_cast<double>(t % 8) / 8.0);
   }
-  const Mesh shape = blob(1, 0.8, 0.3, n % 7);
-  return translated(scaled(shape, 1.0 + 0.1 * fraction(n, t / 4, 2)), place + by);
+  static const std::vector<Mesh> kShapes = [] {
+    std::vector<Mesh> shapes;
+    for (std::uint64_t seed = 0; seed < 7; ++seed) shapes.push_back(blob(1, 0.8, 0.3, seed));
+    return shapes;
+  }();
+  return translated(scaled(kShapes[n % 7], 1.0 + 0.1 * fraction(n, t / 4, 2)), place + by);
 }
 
 int across_of(int bodies) {
@@ -272,15 +86,17 @@ void run_pile(const std::string& name, Size size, const mpi::Settings& settings,
   const double wide = 1.55 * across + 2.0;
   BodyDefinition floor = definition_of(box({-2.0, -2.0, -1.0}, {wide, wide, 0.0}), 1, 0.05);
   floor.motion = Motion::fixed;
-  both.add(floor, 0, true);
   for (int i = 0; i < size.bodies; ++i) both.add(definition_of(blob_at(i, 0, across), key_of(i), 0.05), owner(i));
+  both.add(floor, 0, true);  // in another slot on each rank
   for (int step = 0; step < size.steps; ++step) {
     before(both, step);
     for (int i = 0; i < size.bodies; ++i) {
       if (step % 16 > 12 || fraction(9, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(step)) < 0.3)
         continue;
-      const Mesh mesh = blob_at(i, step, across);
-      both.on_owner(key_of(i), [&](auto& world, auto body) { world.set_positions(body, mesh.positions); });
+      both.on_owner(key_of(i), [&](auto& world, auto body) {
+        const Mesh mesh = blob_at(i, step, across);
+        world.set_positions(body, mesh.positions);
+      });
     }
     if (step % 5 == 2) both.detect_motion(static_cast<Impacts>(step % 3));
     both.detect();
@@ -339,18 +155,39 @@ void emptied(Size size) {
   });
 }
 
+// A blob, or its vertices as a rope or as grains.
+BodyDefinition some_body(int i, int step, int across) {
+  BodyDefinition definition = definition_of(blob_at(i, step, across), key_of(i), 0.05);
+  static const std::vector<std::array<int, 2>> kChain = [] {
+    std::vector<std::array<int, 2>> edges;
+    for (int v = 0; v + 1 < 42; ++v) edges.push_back({v, v + 1});
+    return edges;
+  }();
+  static const std::array<int, 5> kGrains{0, 7, 11, 23, 41};
+  if (i % 8 == 3) definition.edges = Edges::strided(kChain.front().data(), kChain.size());
+  if (i % 8 == 5) definition.points = kGrains;
+  if (i % 8 == 3 || i % 8 == 5) definition.facets = Facets::none();
+  definition.self_contact = i % 9 == 0;
+  return definition;
+}
+
+using There = std::map<int, bool>;
+using BeforeDetect = std::function<void(Both& both, int step, There& there)>;
+
 // Bodies come, go and change hands; margins, layers, groups and exclusions change.
-void churn(Size size) {
-  Both both("churn", all_outputs());
+void run_churn(const std::string& name, Size size, const BeforeDetect& before) {
+  mpi::Settings settings = all_outputs();
+  settings.world.outputs.curves = settings.world.outputs.within_reach = true;
+  Both both(name, settings);
   const int across = across_of(size.bodies);
-  std::map<int, bool> there;
+  There there;
   const auto add = [&](int i, int step) {
-    BodyDefinition definition = definition_of(blob_at(i, step, across), key_of(i), 0.05);
-    definition.self_contact = i % 9 == 0;
+    const BodyDefinition definition = some_body(i, step, across);
     both.add(definition, drawn(3, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(step), count_of_ranks()));
     there[i] = true;
   };
   for (int i = 0; i < size.bodies; i += 2) add(i, 0);
+  both.add_plane({.offset = 0.3, .key = 2, .margin = 0.05});
   for (int step = 0; step < size.steps; ++step) {
     const auto t = static_cast<std::uint64_t>(step);
     for (std::uint64_t k = 0; k < 3; ++k) {
@@ -370,8 +207,8 @@ void churn(Size size) {
     for (const auto& [i, is_there] : there) {
       const auto n = static_cast<std::uint64_t>(i);
       if (!is_there) continue;
-      const Mesh mesh = blob_at(i, step, across);
-      both.on_owner(key_of(i), [&](auto& world, auto body) {
+      both.on_owner(key_of(i), [&, i = i](auto& world, auto body) {
+        const Mesh mesh = blob_at(i, step, across);
         if (drawn(11, n, t, 4) != 0) world.set_positions(body, mesh.positions);
         if (drawn(12, n, t, 9) == 0) world.set_margin(body, 0.02 * drawn(13, n, t, 4));
         if (drawn(14, n, t, 20) == 0) world.set_group(body, static_cast<std::uint32_t>(drawn(15, n, t, 3)));
@@ -382,9 +219,66 @@ void churn(Size size) {
       if (drawn(22, n, t, 6) == 0 && other != i && there[other])
         both.exclude(key_of(i), key_of(other), drawn(23, n, t, 3) != 0);
     }
+    before(both, step, there);
     if (step % 4 == 1) both.detect_motion(Impacts::all);
     both.detect();
   }
+}
+void churn(Size size) {
+  run_churn("churn", size, [](Both&, int, There&) {});
+}
+
+// A body is removed that touches itself; another in its slot, which does too, leaves in the same step.
+void reused_slots(Size) {
+  Both both("reused slots", all_outputs());
+  MeshBuilder builder;
+  builder.triangle({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0});
+  builder.triangle({0.2, 0.2, -1.0}, {0.2, 0.3, 1.0}, {0.3, 0.2, 1.0});
+  const Mesh crossed = builder.mesh();
+  const auto add = [&](Key key, double x, int owner) {
+    BodyDefinition definition = definition_of(translated(crossed, {x, 0.0, 0.0}), key, 0.01);
+    definition.surface = Surface::sheet;
+    definition.self_contact = true;
+    both.add(definition, owner);
+  };
+  const int last = count_of_ranks() - 1;
+  add(1, 0.0, 0);
+  add(2, 0.25, last);
+  both.detect();
+  both.remove(1);
+  add(3, 0.125, 0);
+  if (both.many.owns(3)) both.many.set_owner(3, last);
+  both.many.move_bodies();
+  both.detect();
+  both.on_owner(3, [&](auto& world, auto body) {
+    world.set_positions(body, translated(crossed, {0.5, 0.0, 0.0}).positions);
+  });
+  both.detect_motion(Impacts::all);
+  both.detect();
+}
+
+// States are saved amid all that, and gone back to, by other ranks than those that saved them.
+void restored(Size size) {
+  There saved;
+  std::map<Key, std::byte> states;
+  const auto byte_of = [](Key key) { return static_cast<std::byte>(key % 251); };
+  run_churn("restored", size, [&](Both& both, int step, There& there) {
+    if (step == 0)
+      both.many.set_body_state(
+          {.pack = [&](Key key) { return std::vector<std::byte>{byte_of(key)}; },
+           .unpack = [&](Key key, std::span<const std::byte> bytes) { states[key] = bytes.front(); },
+           .drop = [&](Key key) { states.erase(key); }});
+    if (step % 7 == 2) {
+      both.save();
+      saved = there;
+    } else if (step % 7 == 2 + step / 7 % 3) {
+      both.restore(step % 2 == 0 ? Both::Shares::in_turn : Both::Shares::one_rank, step);
+      there = saved;
+      for (const Key key : both.many.bodies())
+        expect(states.contains(key) && states[key] == byte_of(key), "a body's state did not come back");
+    }
+    if (step % 7 == 2 && step / 7 % 3 == 0) both.restore(Both::Shares::in_turn, 1);
+  });
 }
 
 Eigen::Matrix3d turn(double sine, double cosine) {
@@ -425,8 +319,10 @@ void cloth(Size size) {
           turn(2.0 * angle / (1.0 + angle * angle), (1.0 - angle * angle) / (1.0 + angle * angle));
       const Eigen::Vector3d place(2.05 * (i % 3 - 1), 2.05 * (i / 3 - 1), 0.01 * (step % 7));
       both.on_owner(static_cast<Key>(i), [&](auto& world, auto body) {
+        using Update = std::conditional_t<std::is_same_v<decltype(body), BodyId>, PoseUpdate, mpi::PoseUpdate>;
         world.set_motion(body, Motion::rigid);
-        world.set_pose(body, rotation, place);
+        if (step % 2 == 0) world.set_pose(body, rotation, place);
+        if (step % 2 != 0) world.set_poses(std::array{Update{body, rotation, place}});
         if ((step + i) % 11 == 0) world.set_motion(body, Motion::fixed);
       });
     }
@@ -495,6 +391,18 @@ void wrong_use(Size) {
   expect_on_all(caught([&] { world.add_body({.positions = mesh.positions, .facets = mesh.facets}); }),
                 "invalid_argument: a body over many ranks is named by its key: it has none");
   world.detect();
+  const std::vector<std::byte> share = world.save();
+  const std::span<const std::byte> twice[] = {share, share};
+  expect_on_all(caught([&] { world.restore(std::span(twice).first(rank_of_all() == 0 ? 2 : 1)); }),
+                "bad_state: the ranks were not given each share of one save once");
+  expect_on_all(caught([&] { world.restore({}); }), "bad_state: no rank was given a share");
+  std::vector<std::byte> damaged = share;
+  if (rank_of_all() == 0) damaged[damaged.size() / 2] ^= std::byte{4};
+  const std::span<const std::byte> one[] = {damaged};
+  expect_on_all(caught([&] { world.restore(one); }), "bad_state: a share is damaged: its checksum is another");
+  world.restore(std::span(twice).first(1));
+  expect(world.owns(5 + static_cast<Key>(rank_of_all())) && world.body_count() == 1, "a body did not come back");
+  world.detect();
   expect(caught([&] { world.set_margin(4, 1.0); }).starts_with("stale_body"), "a body that is nowhere was set");
   if (count_of_ranks() == 1) return;
   if (rank_of_all() == 1) world.add_body(definition_of(mesh, 99, 0.0));
@@ -556,6 +464,8 @@ constexpr Case kCases[] = {{"pile", pile},
                            {"rebalanced_by_itself", rebalanced_by_itself},
                            {"emptied", emptied},
                            {"churn", churn},
+                           {"reused_slots", reused_slots},
+                           {"restored", restored},
                            {"cloth", cloth},
                            {"failures", failures_of_one},
                            {"wrong_use", wrong_use},
@@ -567,6 +477,10 @@ int run(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--full") == 0) {
       size = {1000, 500};
+    } else if (std::strcmp(argv[i], "--bodies") == 0 && i + 1 < argc) {
+      size.bodies = std::atoi(argv[++i]);
+    } else if (std::strcmp(argv[i], "--steps") == 0 && i + 1 < argc) {
+      size.steps = std::atoi(argv[++i]);
     } else {
       name = argv[i];
     }
@@ -582,7 +496,8 @@ int run(int argc, char** argv) {
     }
     MPI_Allreduce(MPI_IN_PLACE, &failures, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
     if (rank_of_all() == 0)
-      std::printf("%s on %d ranks: %s\n", one.name, count_of_ranks(), failures == before ? "good" : "WRONG");
+      std::printf("%s of %d bodies, %d steps on %d ranks: %s\n", one.name, size.bodies, size.steps, count_of_ranks(),
+                  failures == before ? "good" : "WRONG");
     std::fflush(stdout);
   }
   return failures == 0 ? 0 : 1;

@@ -72,6 +72,17 @@ void define_contact(py::module_& module) {
             return list;
           },
           "of tact.Patch, if Settings.patches is set")
+      .def_property_readonly(
+          "within_reach", [](const ContactHandle& shown) { return reach_pairs(shown->contact.within_reach()); },
+          "tact.ReachPairs, if Settings.within_reach is set")
+      .def_property_readonly(
+          "curves",
+          [](const ContactHandle& shown) {
+            py::list list;
+            for (const IntersectionCurve& curve : shown->contact.curves()) list.append(curve_arrays(curve));
+            return list;
+          },
+          "of tact.IntersectionCurve, if Settings.curves is set")
       .def(
           "hash", [](const ContactHandle& shown) { return shown->contact.hash(); },
           "as tact.Contact.hash(): the same on every rank and on one machine")
@@ -97,6 +108,9 @@ void define_events(py::module_& module) {
   impact
       .def_property_readonly(
           "time", [](const OfStep<mpi::Impact>& shown) { return shown->impact.time; }, "the part of the way, 0 to 1")
+      .def_property_readonly(
+          "stops", [](const OfStep<mpi::Impact>& shown) { return shown->impact.stops; },
+          "False if they touch and part, or slide along each other")
       .def_property_readonly("kind", [](const OfStep<mpi::Impact>& shown) { return shown->impact.kind; })
       .def_property_readonly(
           "a_vertices", [](const OfStep<mpi::Impact>& shown) { return shown->impact.a_vertices; }, "-1 fills up")

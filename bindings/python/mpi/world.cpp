@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "../src/arrays.h"
+#include "../src/definitions.h"
 #include "rank_world.h"
 
 namespace tact::python {
@@ -67,25 +70,6 @@ std::shared_ptr<RankWorld> make_world(py::handle communicator, const Settings& s
       mpi::Settings{.world = settings, .partitioner = partitioner, .rebalance_above = rebalance_above});
 }
 
-void add_body(RankWorld& world, py::handle positions, py::handle facets, std::uint64_t key, bool every_rank,
-              Surface surface, Motion motion, const std::string& name, std::uint32_t layer, std::uint32_t mask,
-              double margin, bool self_contact, std::uint32_t group) {
-  const PositionsArgument x(positions);
-  const FacetsArgument f(facets);
-  world.use().add_body({.positions = x.columns(),
-                        .facets = f.columns(),
-                        .surface = surface,
-                        .motion = motion,
-                        .name = name,
-                        .layer = layer,
-                        .mask = mask,
-                        .group = group,
-                        .key = key,
-                        .margin = margin,
-                        .self_contact = self_contact},
-                       every_rank ? mpi::Holders::every_rank : mpi::Holders::this_rank);
-}
-
 void set_many_positions(RankWorld& world, const py::dict& positions) {
   std::vector<PositionsArgument> arguments;
   std::vector<std::uint64_t> keys;
@@ -99,9 +83,19 @@ void set_many_positions(RankWorld& world, const py::dict& positions) {
 }
 
 void set_pose(RankWorld& world, std::uint64_t key, py::handle rotation, py::handle translation) {
-  const py::array_t<double> turn = numbers_argument(rotation, "rotation", {3, 3});
-  world.use().set_pose(key, Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(turn.data()),
-                       vector_argument(translation, "translation"));
+  const auto [turn, way] = pose_arguments(rotation, translation);
+  world.use().set_pose(key, turn, way);
+}
+
+using PoseTuple = std::pair<py::object, py::object>;
+
+void set_poses(RankWorld& world, const std::map<std::uint64_t, PoseTuple>& poses) {
+  std::vector<mpi::PoseUpdate> updates;
+  for (const auto& [key, pose] : poses) {
+    const auto [turn, way] = pose_arguments(pose.first, pose.second);
+    updates.push_back({key, turn, way});
+  }
+  world.use().set_poses(updates);
 }
 
 OfStep<mpi::Report> detect(RankWorld& world) {
@@ -128,6 +122,21 @@ void exchange(RankWorld& world, const py::function& give, const py::function& ta
   world.together([&](mpi::World& w) { w.exchange(giver, taker); });
 }
 
+py::bytes save(RankWorld& world) {
+  Bytes bytes;
+  world.together([&](mpi::World& w) { bytes = w.save(); });
+  return python_bytes(bytes);
+}
+
+void restore(RankWorld& world, const std::vector<py::bytes>& shares) {
+  std::vector<std::span<const std::byte>> given;
+  for (const py::bytes& share : shares) {
+    const std::string_view view = share;
+    given.push_back(std::as_bytes(std::span(view)));
+  }
+  world.together([&](mpi::World& w) { w.restore(given); });
+}
+
 py::array_t<double> positions_of(RankWorld& world, std::uint64_t key) {
   const tact::World& local = world.read().local();
   const BodyId body = world.read().id(key);
@@ -146,13 +155,17 @@ void together(RankWorld& world) {
 using WorldClass = py::class_<RankWorld, std::shared_ptr<RankWorld>>;
 
 void define_bodies(WorldClass& world) {
+  define_add_body<bool>(
+      world,
+      "adds a body of this rank, or, with `every_rank`, a fixed one that all ranks add. Positions: (V, 3) in metres; "
+      "facets: (F, 3); edges: (E, 2); points: (P,)",
+      [](RankWorld& w, const BodyDefinition& definition, bool every_rank) {
+        w.use().add_body(definition, every_rank ? mpi::Holders::every_rank : mpi::Holders::this_rank);
+      },
+      py::arg("every_rank") = false);
+  define_add_plane(world, "adds a half-space that all ranks add alike",
+                   [](RankWorld& w, const PlaneDefinition& definition) { w.use().add_plane(definition); });
   world
-      .def("add_body", add_body, py::arg("positions"), py::arg("facets"), py::kw_only(), py::arg("key"),
-           py::arg("every_rank") = false, py::arg("surface") = Surface::closed, py::arg("motion") = Motion::deformable,
-           py::arg("name") = "", py::arg("layer") = 1u, py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0,
-           py::arg("self_contact") = false, py::arg("group") = 0u,
-           "adds a body of this rank, or, with `every_rank`, a fixed one that all ranks add. Positions: (V, 3) in "
-           "metres; facets: (F, 3)")
       .def(
           "remove_body", [](RankWorld& w, std::uint64_t key) { w.use().remove_body(key); }, py::arg("key"))
       .def(
@@ -165,6 +178,7 @@ void define_bodies(WorldClass& world) {
            "{key: (V, 3) in metres}: all of them or, after an error, none")
       .def("set_pose", set_pose, py::arg("key"), py::arg("rotation"), py::arg("translation"),
            "places a rigid body: (3, 3), and (3,) metres")
+      .def("set_poses", set_poses, py::arg("poses"), "places many rigid bodies in parallel, all or none")
       .def(
           "set_layers",
           [](RankWorld& w, std::uint64_t key, std::uint32_t layer, std::uint32_t mask) {
@@ -232,6 +246,14 @@ void define_world(py::module_& module) {
           "set_body_state", set_body_state, py::arg("pack"), py::arg("unpack"), py::arg("drop"),
           "the program's state that moves with bodies: pack(key) gives bytes, unpack(key, bytes) takes them on the new "
           "owner, drop(key) comes on the old one")
+      .def(
+          "save", save,
+          "together; this rank's share of all that later answers depend on as bytes; the program's state of its bodies "
+          "with them")
+      .def("restore", restore, py::arg("shares"),
+           "together; goes back to what all ranks saved. Each share is given to one rank, whichever, of as many ranks "
+           "as "
+           "there are")
       .def("rebalance", together<&mpi::World::rebalance>, "together; cuts space anew and moves bodies")
       .def(
           "set_owner", [](RankWorld& w, std::uint64_t key, int rank) { w.use().set_owner(key, rank); }, py::arg("key"),

@@ -120,27 +120,6 @@ void define_points(py::module_& module) {
       .def("__len__", [](const PointArrays& points) { return points.gaps.size(); });
 }
 
-// An intersection curve as arrays, a row a point. They are copies.
-struct CurveArrays {
-  bool closed;
-  py::array_t<double> positions, fractions;
-  py::array_t<int> edges, facets, facet_pairs;
-  py::array_t<bool> edges_of_b;
-};
-
-CurveArrays curve_arrays(const IntersectionCurve& curve) {
-  const auto points = curve.points;
-  return {curve.closed,
-          rows_of<double>(points, 3,
-                          [](const CurvePoint& point, double* row) { Eigen::Vector3d::Map(row) = point.position; }),
-          column_of<double>(points, [](const CurvePoint& point) { return point.fraction; }),
-          rows_of<int>(points, 2,
-                       [](const CurvePoint& point, int* row) { std::copy(point.edge.begin(), point.edge.end(), row); }),
-          column_of<int>(points, [](const CurvePoint& point) { return point.facet; }),
-          column_of<int>(points, [](const CurvePoint& point) { return point.facet_pair; }),
-          column_of<bool>(points, [](const CurvePoint& point) { return point.edge_of_b; })};
-}
-
 void define_curves(py::module_& module) {
   py::class_<CurveArrays>(module, "IntersectionCurve", "A polyline of points on both surfaces. A row a point.")
       .def_readonly("closed", &CurveArrays::closed, "whether the last point leads on to the first")
@@ -155,23 +134,6 @@ void define_curves(py::module_& module) {
                     "way leads on")
       .def_readonly("edges_of_b", &CurveArrays::edges_of_b, "(N,) bool: whether the edge is of b, and the facet of a")
       .def("__len__", [](const CurveArrays& curve) { return curve.fractions.size(); });
-}
-
-// Pairs within reach as arrays, a row a pair. They are copies.
-struct ReachPairs {
-  py::array_t<std::uint8_t> kinds;
-  py::array_t<int> a_vertices, b_vertices;
-  py::array_t<double> a_weights, b_weights, normals, distances;
-};
-
-ReachPairs reach_pairs(std::span<const ReachPair> pairs) {
-  return {column_of<std::uint8_t>(pairs, [](const ReachPair& pair) { return pair.kind; }),
-          rows_of_three<int>(pairs, &ReachPair::a_vertices),
-          rows_of_three<int>(pairs, &ReachPair::b_vertices),
-          rows_of_three<double>(pairs, &ReachPair::a_weights),
-          rows_of_three<double>(pairs, &ReachPair::b_weights),
-          rows_of_three<double>(pairs, &ReachPair::normal),
-          column_of<double>(pairs, [](const ReachPair& pair) { return pair.distance; })};
 }
 
 void define_reach_pairs(py::module_& module) {

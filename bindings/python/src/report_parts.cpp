@@ -41,4 +41,27 @@ PointArrays point_arrays(std::span<const ContactPoint> points) {
           column_of<bool>(points, [](const ContactPoint& point) { return point.minimum; })};
 }
 
+CurveArrays curve_arrays(const IntersectionCurve& curve) {
+  const auto points = curve.points;
+  return {curve.closed,
+          rows_of<double>(points, 3,
+                          [](const CurvePoint& point, double* row) { Eigen::Vector3d::Map(row) = point.position; }),
+          column_of<double>(points, [](const CurvePoint& point) { return point.fraction; }),
+          rows_of<int>(points, 2,
+                       [](const CurvePoint& point, int* row) { std::copy(point.edge.begin(), point.edge.end(), row); }),
+          column_of<int>(points, [](const CurvePoint& point) { return point.facet; }),
+          column_of<int>(points, [](const CurvePoint& point) { return point.facet_pair; }),
+          column_of<bool>(points, [](const CurvePoint& point) { return point.edge_of_b; })};
+}
+
+ReachPairs reach_pairs(std::span<const ReachPair> pairs) {
+  return {column_of<std::uint8_t>(pairs, [](const ReachPair& pair) { return pair.kind; }),
+          rows_of_three<int>(pairs, &ReachPair::a_vertices),
+          rows_of_three<int>(pairs, &ReachPair::b_vertices),
+          rows_of_three<double>(pairs, &ReachPair::a_weights),
+          rows_of_three<double>(pairs, &ReachPair::b_weights),
+          rows_of_three<double>(pairs, &ReachPair::normal),
+          column_of<double>(pairs, [](const ReachPair& pair) { return pair.distance; })};
+}
+
 }  // namespace tact::python

@@ -13,6 +13,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "definitions.h"
 #include "messages.h"
 #include "motion.h"
 #include "shared_world.h"
@@ -28,44 +29,11 @@ BodyId body_of(py::handle given, const std::string& what) {
   return py::cast<BodyId>(given);
 }
 
-BodyId add_body(SharedWorld& world, py::handle positions, py::handle facets, Surface surface, Motion motion,
-                const std::string& name, std::uint32_t layer, std::uint32_t mask, double margin, bool self_contact,
-                std::uint32_t group, std::optional<std::uint64_t> key, py::handle edges, py::handle points) {
-  const PositionsArgument x(positions);
-  const FacetsArgument f(facets);
-  const EdgesArgument e(edges);
-  const py::array_t<int> p = indices_argument(points, "points");
-  const BodyDefinition definition{.positions = x.columns(),
-                                  .facets = f.columns(),
-                                  .edges = e.columns(),
-                                  .points = {p.data(), static_cast<std::size_t>(p.size())},
-                                  .surface = surface,
-                                  .motion = motion,
-                                  .name = name,
-                                  .layer = layer,
-                                  .mask = mask,
-                                  .group = group,
-                                  .key = key,
-                                  .margin = margin,
-                                  .self_contact = self_contact};
-  BodyId added;
-  world.compute([&](World& w) { added = w.add_body(definition); });
-  return added;
-}
-
-BodyId add_plane(SharedWorld& world, py::handle normal, double offset, const std::string& name, std::uint32_t layer,
-                 std::uint32_t mask, double margin, std::uint32_t group, std::optional<std::uint64_t> key) {
-  const PlaneDefinition definition{.normal = vector_argument(normal, "normal"),
-                                   .offset = offset,
-                                   .name = name,
-                                   .layer = layer,
-                                   .mask = mask,
-                                   .group = group,
-                                   .key = key,
-                                   .margin = margin};
-  BodyId added;
-  world.compute([&](World& w) { added = w.add_plane(definition); });
-  return added;
+template <class Add>
+BodyId added(SharedWorld& world, const Add& add) {
+  BodyId body;
+  world.compute([&](World& w) { body = add(w); });
+  return body;
 }
 
 void set_positions(SharedWorld& world, BodyId body, py::handle positions) {
@@ -101,9 +69,8 @@ void set_facets(SharedWorld& world, BodyId body, py::handle positions, py::handl
 }
 
 PoseUpdate pose_of(BodyId body, py::handle rotation, py::handle translation) {
-  const py::array_t<double> turn = numbers_argument(rotation, "rotation", {3, 3});
-  return {body, Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(turn.data()),
-          vector_argument(translation, "translation")};
+  const auto [turn, way] = pose_arguments(rotation, translation);
+  return {body, turn, way};
 }
 
 void set_pose(SharedWorld& world, BodyId body, py::handle rotation, py::handle translation) {
@@ -279,21 +246,21 @@ void define_world(py::module_& module) {
   define_messages(module);
   define_settings(module);
   WorldClass class_of_world(module, "World", "A set of bodies and the contacts among them.");
+  define_add_body(class_of_world,
+                  "adds a body; copies its mesh and groups the facets into clusters. Positions: (V, 3) in metres; "
+                  "facets: (F, 3), vertices counter-clockwise seen from outside; edges: (E, 2); points: (P,)",
+                  [](SharedWorld& world, const BodyDefinition& definition) {
+                    return added(world, [&](World& w) { return w.add_body(definition); });
+                  });
+  define_add_plane(class_of_world,
+                   "adds a half-space, which is fixed and has no vertices: exact at any distance, and without a mesh",
+                   [](SharedWorld& world, const PlaneDefinition& definition) {
+                     return added(world, [&](World& w) { return w.add_plane(definition); });
+                   });
   class_of_world.def(py::init<const Settings&>(), py::arg("settings") = Settings{})
       .def_property_readonly(
           "settings", [](SharedWorld& world) { return world.read().settings(); }, "a copy; see set_settings()")
       .def("set_settings", set_settings, py::arg("settings"), "takes effect with the next step")
-      .def("add_body", add_body, py::arg("positions"), py::arg("facets") = py::list(), py::kw_only(),
-           py::arg("surface") = Surface::closed, py::arg("motion") = Motion::deformable, py::arg("name") = "",
-           py::arg("layer") = 1u, py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0,
-           py::arg("self_contact") = false, py::arg("group") = 0u, py::arg("key") = py::none(),
-           py::arg("edges") = py::list(), py::arg("points") = py::list(),
-           "adds a body; copies its mesh and groups the facets into clusters. Positions: (V, 3) in metres; facets: (F, "
-           "3), vertices counter-clockwise seen from outside; edges: (E, 2); points: (P,)")
-      .def("add_plane", add_plane, py::arg("normal"), py::arg("offset") = 0.0, py::kw_only(), py::arg("name") = "",
-           py::arg("layer") = 1u, py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0, py::arg("group") = 0u,
-           py::arg("key") = py::none(),
-           "adds a half-space, which is fixed and has no vertices: exact at any distance, and without a mesh")
       .def(
           "remove_body", [](SharedWorld& world, BodyId body) { world.use().remove_body(body); }, py::arg("body"))
       .def("set_positions", set_positions, py::arg("body"), py::arg("positions"), "positions: (V, 3) in metres")

@@ -1,6 +1,6 @@
 """Bodies over the ranks of an MPI communicator: `mpirun -n 4 python3 program.py`."""
 
-from typing import Callable, ClassVar, Mapping, Optional, overload
+from typing import Callable, ClassVar, Mapping, Optional, Sequence, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -12,9 +12,11 @@ from . import (
     DirectionSource,
     FeaturePair,
     Impacts,
+    IntersectionCurve,
     Motion,
     Patch,
     PatchEventKind,
+    ReachPairs,
     Settings,
     Surface,
 )
@@ -64,6 +66,10 @@ class Contact(_Bodies):
     def points(self) -> ContactPoints: ...
     @property
     def patches(self) -> list[Patch]: ...
+    @property
+    def within_reach(self) -> ReachPairs: ...
+    @property
+    def curves(self) -> list[IntersectionCurve]: ...
     def hash(self) -> int:
         """As tact.Contact.hash(): the same on every rank and on one machine."""
 
@@ -85,6 +91,9 @@ class Impact(_Bodies):
 
     @property
     def time(self) -> float: ...
+    @property
+    def stops(self) -> bool:
+        """False if they touch and part, or slide along each other."""
     @property
     def kind(self) -> FeaturePair: ...
     @property
@@ -147,10 +156,8 @@ class World:
     def add_body(
         self,
         positions: npt.ArrayLike,
-        facets: npt.ArrayLike,
+        facets: npt.ArrayLike = ...,
         *,
-        key: int,
-        every_rank: bool = False,
         surface: Surface = ...,
         motion: Motion = ...,
         name: str = "",
@@ -159,14 +166,33 @@ class World:
         margin: float = 0.0,
         self_contact: bool = False,
         group: int = 0,
+        key: int,
+        edges: npt.ArrayLike = ...,
+        points: npt.ArrayLike = ...,
+        every_rank: bool = False,
     ) -> None:
         """Adds a body of this rank, or, with `every_rank`, a fixed one that all ranks add."""
+    def add_plane(
+        self,
+        normal: npt.ArrayLike,
+        offset: float = 0.0,
+        *,
+        name: str = "",
+        layer: int = 1,
+        mask: int = 0xFFFFFFFF,
+        margin: float = 0.0,
+        group: int = 0,
+        key: int,
+    ) -> None:
+        """Adds a half-space that all ranks add alike."""
     def remove_body(self, key: int) -> None: ...
     @overload
     def set_positions(self, key: int, positions: npt.ArrayLike) -> None: ...
     @overload
     def set_positions(self, positions: Mapping[int, npt.ArrayLike]) -> None: ...
     def set_pose(self, key: int, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> None: ...
+    def set_poses(self, poses: Mapping[int, tuple[npt.ArrayLike, npt.ArrayLike]]) -> None:
+        """Places many rigid bodies in parallel, all or none."""
     def set_layers(self, key: int, layer: int, mask: int) -> None: ...
     def set_group(self, key: int, group: int) -> None: ...
     def set_motion(self, key: int, motion: Motion) -> None: ...
@@ -177,6 +203,10 @@ class World:
         """Together."""
     def detect_motion(self, wanted: Impacts = ...) -> MotionReport:
         """Together."""
+    def save(self) -> bytes:
+        """Together; this rank's share of all that later answers depend on."""
+    def restore(self, shares: Sequence[bytes]) -> None:
+        """Together; each share that was saved is given to one rank, whichever."""
     def set_body_state(
         self,
         pack: Callable[[int], bytes],

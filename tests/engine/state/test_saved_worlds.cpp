@@ -172,6 +172,24 @@ TEST(SavedStates, TellOfTheLastPairThatParts) {
   EXPECT_GT(report.patch_events().size(), 0u);
 }
 
+// Its record held vertices of balls, which a cube has not.
+TEST(SavedStates, OfAPlaneKnowNothingOfThePairWhoseRecordItTook) {
+  World world(with_all_outputs(1));
+  const Mesh ball = icosphere(2);
+  const BodyId a = world.add_body({.positions = ball.positions, .facets = ball.facets});
+  const Mesh other = translated(ball, {1.0, 0.3, 0.2});
+  const BodyId b = world.add_body({.positions = other.positions, .facets = other.facets});
+  ASSERT_EQ(world.detect().contacts().size(), 1u);
+  world.remove_body(a);
+  world.remove_body(b);
+  world.detect();
+  add_cube(world, 0.0);
+  world.add_plane({.offset = 0.2});
+  const std::uint64_t hash = world.detect().hash();
+  ASSERT_NO_THROW(world.restore(world.save()));
+  EXPECT_EQ(world.detect().hash(), hash);
+}
+
 TEST(SavedStates, AreOfTheStateAlone) {
   World one(with_all_outputs(1)), two(with_all_outputs(2));
   for (World* const world : {&one, &two}) {

@@ -40,6 +40,13 @@ struct PositionsUpdate {
   Positions positions;    ///< 3 x V, metres
 };
 
+/// A new pose of a rigid body, for World::set_poses().
+struct PoseUpdate {
+  std::uint64_t key = 0;                                   ///< the body
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< of determinant +1
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();   ///< metres
+};
+
 /// State of the program's own that moves with a body. All three are given or none. They may throw, but for `drop`.
 struct BodyState {
   std::function<std::vector<std::byte>(std::uint64_t key)> pack;                    ///< on the old owner
@@ -70,13 +77,16 @@ class TACT_API World {
 
   int rank() const;                  ///< of this process
   int rank_count() const;            ///< of all
-  const Settings& settings() const;  ///< valid as long as the world
+  const Settings& settings() const;  ///< valid until restore()
   /// Sets the settings for the next step, together. Errors: bad_settings.
   void set_settings(const Settings& settings);
 
   /// Adds a body of this rank. Errors: those of tact::World::add_body(), and invalid_argument without a key. Keys that
   /// two ranks give are refused by the next call together.
   void add_body(const BodyDefinition& definition, Holders holders = Holders::this_rank);
+  /// Adds a half-space that all ranks add alike. Errors: those of tact::World::add_plane(), and invalid_argument
+  /// without a key.
+  void add_plane(const PlaneDefinition& definition);
   /// Removes a body of this rank, or one that every rank holds: then all ranks do.
   void remove_body(std::uint64_t key);
 
@@ -87,6 +97,8 @@ class TACT_API World {
   void set_positions(std::span<const PositionsUpdate> updates);
   /// Places a rigid body.
   void set_pose(std::uint64_t key, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation);
+  /// Places many rigid bodies in parallel, all or none.
+  void set_poses(std::span<const PoseUpdate> updates);
   void set_layers(std::uint64_t key, std::uint32_t layer, std::uint32_t mask);  ///< sets layer and mask
   void set_group(std::uint64_t key, std::uint32_t group);                       ///< sets the group
   void set_motion(std::uint64_t key, Motion motion);                            ///< sets how the body moves
@@ -102,6 +114,13 @@ class TACT_API World {
   /// Finds what meets between the positions of the last detect() and the current ones, together. `wanted` is the same
   /// on all ranks. Impacts::first gives the earliest of all ranks.
   const MotionReport& detect_motion(Impacts wanted = Impacts::all);
+
+  /// Returns this rank's share of all that later answers depend on as bytes, together; the program's state of its
+  /// bodies with them. Errors: out_of_memory, those of BodyState.
+  std::vector<std::byte> save() const;
+  /// Goes back to what all ranks saved, together. Each share is given to one rank, whichever, of as many ranks as there
+  /// are. References to local() and settings() end. Errors: bad_state, out_of_memory, those of BodyState.
+  void restore(std::span<const std::span<const std::byte>> shares);
 
   /// Sets the program's state that moves with bodies.
   void set_body_state(BodyState state);

@@ -1,0 +1,81 @@
+// add_body(), add_plane() and poses, as the worlds of all modules take them.
+#pragma once
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <tact/world.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "arrays.h"
+
+namespace tact::python {
+
+namespace py = pybind11;
+
+/// A rotation of shape (3, 3) and a translation of shape (3,).
+inline std::pair<Eigen::Matrix3d, Eigen::Vector3d> pose_arguments(py::handle rotation, py::handle translation) {
+  const py::array_t<double> turn = numbers_argument(rotation, "rotation", {3, 3});
+  return {Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(turn.data()),
+          vector_argument(translation, "translation")};
+}
+
+/// Defines add_body() as add(world, definition, more...); `text` is its documentation, `names` are those of `more`.
+template <class... More, class World, class Add, class... Names>
+void define_add_body(py::class_<World, std::shared_ptr<World>>& of, const char* text, const Add& add,
+                     const Names&... names) {
+  of.def(
+      "add_body",
+      [add](World& world, py::handle positions, py::handle facets, Surface surface, Motion motion,
+            const std::string& name, std::uint32_t layer, std::uint32_t mask, double margin, bool self_contact,
+            std::uint32_t group, std::optional<std::uint64_t> key, py::handle edges, py::handle points, More... more) {
+        const PositionsArgument x(positions);
+        const FacetsArgument f(facets);
+        const EdgesArgument e(edges);
+        const py::array_t<int> p = indices_argument(points, "points");
+        const BodyDefinition definition{.positions = x.columns(),
+                                        .facets = f.columns(),
+                                        .edges = e.columns(),
+                                        .points = {p.data(), static_cast<std::size_t>(p.size())},
+                                        .surface = surface,
+                                        .motion = motion,
+                                        .name = name,
+                                        .layer = layer,
+                                        .mask = mask,
+                                        .group = group,
+                                        .key = key,
+                                        .margin = margin,
+                                        .self_contact = self_contact};
+        return add(world, definition, more...);
+      },
+      py::arg("positions"), py::arg("facets") = py::list(), py::kw_only(), py::arg("surface") = Surface::closed,
+      py::arg("motion") = Motion::deformable, py::arg("name") = "", py::arg("layer") = 1u,
+      py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0, py::arg("self_contact") = false, py::arg("group") = 0u,
+      py::arg("key") = py::none(), py::arg("edges") = py::list(), py::arg("points") = py::list(), names..., text);
+}
+
+/// The same of add_plane().
+template <class World, class Add>
+void define_add_plane(py::class_<World, std::shared_ptr<World>>& of, const char* text, const Add& add) {
+  of.def(
+      "add_plane",
+      [add](World& world, py::handle normal, double offset, const std::string& name, std::uint32_t layer,
+            std::uint32_t mask, double margin, std::uint32_t group, std::optional<std::uint64_t> key) {
+        return add(world, PlaneDefinition{.normal = vector_argument(normal, "normal"),
+                                          .offset = offset,
+                                          .name = name,
+                                          .layer = layer,
+                                          .mask = mask,
+                                          .group = group,
+                                          .key = key,
+                                          .margin = margin});
+      },
+      py::arg("normal"), py::arg("offset") = 0.0, py::kw_only(), py::arg("name") = "", py::arg("layer") = 1u,
+      py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0, py::arg("group") = 0u, py::arg("key") = py::none(), text);
+}
+
+}  // namespace tact::python
