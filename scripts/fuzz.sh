@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fuzzes the readers of meshes and recordings and the interface for C, under the address and undefined-behaviour
-# sanitizers: scripts/fuzz.sh SECONDS [FORMAT]..., so many for each of obj off ply stl recording
-# state c. Needs clang and the
+# sanitizers: scripts/fuzz.sh SECONDS [FORMAT]..., so many for each of obj off ply stl vtp vtk
+# recording state c. Needs clang and the
 # packages of the build.
 # What it learns stays in build/fuzz/corpus; the corpus of the tree is only read. It ends at the first finding and leaves
 # the input that shows it in build/fuzz.
@@ -9,7 +9,7 @@ set -euo pipefail
 seconds=${1:?usage: scripts/fuzz.sh SECONDS [FORMAT]...}
 shift
 formats=("$@")
-(( ${#formats[@]} > 0 )) || formats=(obj off ply stl recording state c)
+(( ${#formats[@]} > 0 )) || formats=(obj off ply stl vtp vtk recording state c)
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=$root/build/fuzz
 

@@ -6,7 +6,7 @@
 # usage: scripts/nightly.sh [SECONDS of fuzzing a format, 3600 if not given]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/setup.sh program tests bench sanitizers blender mpi
+scripts/setup.sh program tests bench sanitizers blender mpi notebook paraview
 scripts/build.sh release
 TACT_LONG_CGAL_PAIRS=100000000 TACT_LONG_RATIONAL_PAIRS=1000000 build/release/tests/long/test_predicates_long
 TACT_LONG_HULL_PAIRS=1000000 build/release/tests/long/test_directions_long
@@ -34,7 +34,7 @@ for set in scalar avx2; do
   done
 done
 build/release/bench/tact-bench stability
-ctest --preset release -R python.blender
+ctest --preset release -R 'python.(blender|example_files)$'
 ctest --preset release -L night
 tests/mpi/same_bytes.sh build/release/mpi/program/tact-mpi 300 500 1 2 4 8
 build/release/bench/tact-bench mpi

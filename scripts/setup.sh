@@ -13,6 +13,8 @@ Installs the Debian packages that are missing. The groups:
   program     the program tact and its scenes: -DTACT_BUILD_PROGRAM=ON
   tests       the tests, with program: -DTACT_BUILD_TESTS=ON
   bench       the libraries that the benchmarks measure against, with program: -DTACT_BUILD_BENCH=ON
+  notebook    what notebooks show and read, with python: Jupyter, meshio, tqdm
+  paraview    ParaView, for the filter and its tests: bindings/paraview
   mpi         worlds over many ranks: tact::mpi, which is built where these are
   blender     Blender, for the add-on and its tests: bindings/blender
   bullet      the example of Bullet's soft bodies
@@ -26,12 +28,14 @@ END
 packages_of() {
   case $1 in
     library) echo g++ cmake ninja-build libeigen3-dev libembree-dev pkg-config ;;
-    python) echo pybind11-dev python3-dev python3-numpy python3-pip python3-setuptools python3-venv python3-wheel ;;
+    python) echo libfmt-dev nlohmann-json3-dev zlib1g-dev pybind11-dev python3-dev python3-numpy python3-pip python3-setuptools python3-venv python3-wheel ;;
     program) echo g++ cmake ninja-build libeigen3-dev libembree-dev \
                   libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev zlib1g-dev libfreetype-dev fonts-dejavu-core webp ;;
     tests) echo libgtest-dev libcgal-dev libboost-dev librapidcheck-dev pybind11-dev python3-dev python3-numpy python3-pytest python3-matplotlib python3-scipy ;;
     mpi) echo libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev python3-mpi4py ;;
-    blender) echo blender python3-numpy python3-pytest ;;
+    blender) echo blender python3-numpy python3-pytest xvfb xauth ;;
+    notebook) echo jupyter-nbconvert python3-nbclient python3-nbformat python3-ipykernel python3-meshio python3-h5py python3-matplotlib python3-tqdm ;;
+    paraview) echo paraview python3-paraview python3-numpy python3-pytest python3-meshio ;;
     bullet) echo libbullet-dev pkg-config ;;
     docs) echo doxygen mkdocs mkdocs-material ;;
     bench) echo libcgal-dev libtbb-dev libfcl-dev libccd-dev libbullet-dev pkg-config gnuplot-nox ;;

@@ -8,9 +8,7 @@
 #include <CLI/Validators.hpp>
 #include <algorithm>
 #include <charconv>
-#include <functional>
 #include <iostream>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -19,6 +17,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "scenes/commands/check_steps.h"
 #include "scenes/commands/common_options.h"
 #include "scenes/commands/counted.h"
 #include "scenes/commands/failures.h"
@@ -29,6 +28,7 @@
 #include "scenes/commands/standard_error.h"
 #include "scenes/commands/surface_report.h"
 #include "scenes/commands/usage_error.h"
+#include "scenes/export/vtk.h"
 #include "scenes/files/body_files.h"
 #include "scenes/files/named_files.h"
 #include "scenes/files/output_file.h"
@@ -40,7 +40,8 @@ namespace {
 constexpr const char* kCheckExamples =
     R"(A folder is one moving body: its mesh files in the order of their names, frame_2 before
 frame_10, a file a frame; all folders must hold the same number of frames. A single file
-stands still.
+stands still. A series for ParaView (.pvd) moves, too: each of its parts and, where its
+files tell, each of their bodies is a body.
 All files are read before the first step and held in memory: 24 bytes a vertex and frame.
 A body's name is its file's or folder's name; a repeated one gets #2 and so on. Options
 take a name without its ending, too, where only one body has it.
@@ -53,7 +54,8 @@ Examples:
   tact check a.off b.off c.off --json - | python3 -m json.tool
   tact check cloth/ ball.obj --sheet cloth --self cloth --margin 0.004 --points --json -
   tact check upper_arm.obj lower_arm.obj table.obj --exclude upper_arm lower_arm
-  tact check bullet/ wall.obj --sheet wall --impacts)";
+  tact check bullet/ wall.obj --sheet wall --impacts
+  tact check run.pvd --margin 0.004 --points --vtk found)";
 
 std::vector<BodyFrames> bodies_of(const CheckOptions& options) {
   const int most_frames = options.frames > 0 ? options.frames : std::numeric_limits<int>::max();
@@ -66,48 +68,6 @@ std::vector<BodyFrames> bodies_of(const CheckOptions& options) {
   return bodies;
 }
 
-template <class Bodies>
-std::string names_of(const Bodies& bodies) {
-  std::string names;
-  for (const BodyFrames& body : bodies) names += (names.empty() ? "" : ", ") + body.name;
-  return names;
-}
-
-// "part#2" for "part.stl#2".
-std::string without_ending(const BodyFrames& body) {
-  if (body.moves) return body.name;
-  const std::filesystem::path file = body.files.front().filename();
-  return file.stem().string() + body.name.substr(file.string().size());
-}
-
-// The body that an option names, with its ending or without.
-BodyFrames& body_named(const std::string& option, const std::string& name, std::vector<BodyFrames>& bodies) {
-  const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const BodyFrames& b) { return b.name == name; });
-  if (found != bodies.end()) return *found;
-  std::vector<std::reference_wrapper<BodyFrames>> fitting;
-  std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(fitting),
-               [&](const BodyFrames& b) { return without_ending(b) == name; });
-  if (fitting.size() == 1) return fitting.front();
-  if (fitting.empty())
-    throw UsageError(fmt::format("{} {}: no body has this name; the bodies are: {}", option, name, names_of(bodies)));
-  throw UsageError(
-      fmt::format("{} {}: the name without its ending of several bodies: {}", option, name, names_of(fitting)));
-}
-
-void mark_sheets(const std::vector<std::string>& sheets, std::vector<BodyFrames>& bodies) {
-  for (const std::string& sheet : sheets) body_named("--sheet", sheet, bodies).surface = Surface::sheet;
-}
-
-void mark_selves(const std::vector<std::string>& selves, std::vector<BodyFrames>& bodies) {
-  for (const std::string& self : selves) {
-    if (self != "all") {
-      body_named("--self", self, bodies).self_contact = true;
-      continue;
-    }
-    for (BodyFrames& body : bodies) body.self_contact = true;
-  }
-}
-
 double margin_from(const std::string& option, std::string_view text) {
   double margin = 0.0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), margin);
@@ -117,18 +77,21 @@ double margin_from(const std::string& option, std::string_view text) {
 }
 
 // A name may hold "=": the margin stands after the last one. A margin of all bodies leaves those named alone.
-void set_margins(const std::vector<std::string>& margins, std::vector<BodyFrames>& bodies) {
-  for (const std::string& option : margins) {
-    if (option.find('=') != std::string::npos) continue;
-    for (BodyFrames& body : bodies) body.margin = margin_from(option, option);
-  }
-  for (const std::string& option : margins) {
+BodyOptions body_options(const CheckOptions& options) {
+  BodyOptions result{.sheets = options.sheets, .selves = options.selves, .excluded = options.excluded};
+  for (const std::string& option : options.margins) {
     const std::size_t equals = option.rfind('=');
-    if (equals == std::string::npos) continue;
-    body_named("--margin", option.substr(0, equals), bodies).margin =
-        margin_from(option, std::string_view(option).substr(equals + 1));
+    if (equals == std::string::npos) {
+      result.margin = margin_from(option, option);
+    } else {
+      result.margins.emplace_back(option.substr(0, equals),
+                                  margin_from(option, std::string_view(option).substr(equals + 1)));
+    }
   }
+  return result;
 }
+
+constexpr const char* kVtkName = "check";
 
 void check_outputs(const CheckOptions& options, const std::vector<BodyFrames>& bodies) {
   NamedFiles files;
@@ -138,71 +101,18 @@ void check_outputs(const CheckOptions& options, const std::vector<BodyFrames>& b
   files.add_output("--json", options.json);
   files.add_output("--record", options.record);
   files.add_output("--out", options.view.file);
-}
-
-// The places of two bodies that are not held against each other.
-using ExcludedPair = std::pair<std::size_t, std::size_t>;
-std::vector<ExcludedPair> excluded_pairs(const CheckOptions& options, std::vector<BodyFrames>& bodies) {
-  std::vector<ExcludedPair> pairs;
-  for (const auto& [a, b] : options.excluded) {
-    const auto place = [&](const std::string& name) {
-      return static_cast<std::size_t>(&body_named("--exclude", name, bodies) - bodies.data());
-    };
-    pairs.emplace_back(place(a), place(b));
-    if (pairs.back().first == pairs.back().second)
-      throw UsageError(
-          fmt::format("--exclude {} {}: these are one body; without --self it is not held against itself", a, b));
-  }
-  return pairs;
-}
-
-// The engine's message names the body; the file tells which frame it is.
-[[noreturn]] void rethrow_for_file(const std::filesystem::path& file, const Error& error) {
-  throw FileError(fmt::format("{}: {}", file.string(), error.what()));
-}
-
-// Bodies that stand still are moving ones that do not move: two of them must still be tested.
-std::vector<BodyId> add_bodies(const std::vector<BodyFrames>& bodies, World& world) {
-  std::vector<BodyId> ids;
+  if (options.vtk.empty()) return;
   for (const BodyFrames& body : bodies) {
-    try {
-      ids.push_back(world.add_body({.positions = body.positions.front(),
-                                    .facets = body.facets,
-                                    .surface = body.surface,
-                                    .name = body.name,
-                                    .margin = body.margin,
-                                    .self_contact = body.self_contact}));
-    } catch (const Error& error) {
-      rethrow_for_file(body.files.front(), error);
+    for (const std::filesystem::path& file : body.files) {
+      std::error_code not_there;
+      const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+      if (file.filename().string().starts_with(kVtkName) && std::filesystem::equivalent(folder, options.vtk, not_there))
+        throw UsageError(fmt::format("--vtk: {} is read, and would be lost", file.string()));
     }
   }
-  return ids;
-}
-
-void set_frame(const std::vector<BodyFrames>& bodies, const std::vector<BodyId>& ids, int frame, World& world) {
-  std::vector<PositionsUpdate> updates;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i].moves) updates.push_back({ids[i], bodies[i].positions[frame]});
-  }
-  world.set_positions(updates);
 }
 
 ViewTitle title_of(const std::vector<BodyFrames>& bodies) { return {.name = names_of(bodies), .kind = "meshes"}; }
-
-// The file of each body, if one of them moves.
-std::vector<std::string> files_of(const std::vector<BodyFrames>& bodies, int frame) {
-  std::vector<std::string> files;
-  if (frame_count(bodies) == 0) return files;
-  for (const BodyFrames& body : bodies) files.push_back(body.files[body.moves ? frame : 0].string());
-  return files;
-}
-
-std::vector<Weld> welds_of(const CheckOptions& options, const std::vector<BodyFrames>& bodies) {
-  std::vector<Weld> welds;
-  if (!options.weld) return welds;
-  for (const BodyFrames& body : bodies) welds.push_back(body.weld);
-  return welds;
-}
 
 void print_welds(const std::vector<BodyFrames>& bodies, std::ostream& out) {
   for (const BodyFrames& body : bodies) {
@@ -211,6 +121,22 @@ void print_welds(const std::vector<BodyFrames>& bodies, std::ostream& out) {
     if (body.weld.collapsed_facets > 0) fmt::print(out, ", {} collapsed", counted(body.weld.collapsed_facets, "facet"));
     fmt::print(out, "\n");
   }
+}
+
+// The bodies of a frame, coloured by what meets and how near it is.
+void write_vtk(const CheckSteps& steps, const Report& report, double time, const World& world, VtkSeries& series) {
+  const std::vector<SurfaceFields> fields = surface_fields(report, world, steps.ids());
+  std::vector<PictureBody> bodies;
+  for (std::size_t i = 0; i < steps.ids().size(); ++i) {
+    Eigen::Matrix3Xd positions(3, static_cast<Eigen::Index>(world.vertex_count(steps.ids()[i])));
+    world.copy_positions(steps.ids()[i], {positions.data(), static_cast<std::size_t>(positions.size())});
+    bodies.push_back({.name = steps.bodies()[i].name,
+                      .positions = std::move(positions),
+                      .facets = steps.bodies()[i].facets,
+                      .color = {},
+                      .meeting_facets = fields[i].crossing});
+  }
+  series.write(bodies, time, fields);
 }
 
 int frames_to_step(const CheckOptions& options, const std::vector<BodyFrames>& bodies) {
@@ -225,10 +151,7 @@ void check(const CheckOptions& options, std::ostream& out) {
   for (const BodyFrames& body : bodies) {
     for (const std::string& warning : body.warnings) print_warning(warning);
   }
-  mark_sheets(options.sheets, bodies);
-  mark_selves(options.selves, bodies);
-  set_margins(options.margins, bodies);
-  const std::vector<ExcludedPair> excluded = excluded_pairs(options, bodies);
+  const std::vector<ExcludedPair> excluded = apply_body_options(body_options(options), bodies);
   check_outputs(options, bodies);
   const int threads = options.threads > 0 ? options.threads : base::default_threads();
   const Interrupt interrupt;  // before any file is opened, so that none is left unfinished
@@ -244,33 +167,36 @@ void check(const CheckOptions& options, std::ostream& out) {
   };
   World world({.threads = threads, .accuracy = options.accuracy, .outputs = outputs, .on_message = warn_of_bodies});
   if (recording) world.set_observer(&recorder.emplace(recording->stream()));
-  const std::vector<BodyId> ids = add_bodies(bodies, world);
-  for (const auto& [a, b] : excluded) world.set_excluded(ids[a], ids[b], true);
+  const int frames = frames_to_step(options, bodies);
+  CheckSteps steps(std::move(bodies), excluded, world);
 
   std::optional<ViewPage> page;
-  if (!options.view.file.empty()) page.emplace(options.view, title_of(bodies), out);
+  if (!options.view.file.empty()) page.emplace(options.view, title_of(steps.bodies()), out);
   std::optional<JsonReport> json;
   if (json_file)
     json.emplace(json_file->stream(), world, page ? JsonReport::Outcomes::counts : JsonReport::Outcomes::none,
                  options.surfaces ? JsonReport::Surfaces::checked : JsonReport::Surfaces::taken,
-                 welds_of(options, bodies));
+                 options.weld ? steps.welds() : std::vector<Weld>());
   std::optional<TableReport> table;
   if (options.json != "-" && options.table) {
     if (options.surfaces) print_surfaces(out, world);
     table.emplace(out, world);
-    if (options.weld) print_welds(bodies, out);
+    if (options.weld) print_welds(steps.bodies(), out);
   }
 
-  const int frames = frames_to_step(options, bodies);
+  std::optional<VtkSeries> vtk;
+  if (!options.vtk.empty()) vtk.emplace(options.vtk, kVtkName);
+  const std::vector<double> times = times_of(steps.bodies());
   ProgressLine progress("frame", frames, ProgressLine::Beside::output);
   int frame = 0;
   for (; frame < frames && !interrupt.requested(); ++frame) {
-    if (frame > 0) set_frame(bodies, ids, frame, world);
-    const MotionReport* const motion = options.impacts && frame > 0 ? &world.detect_motion() : nullptr;
-    const Report& report = world.detect();
-    if (json) json->add_frame(frame, report, motion, files_of(bodies, frame));
-    if (table) table->add_frame(frame, report, motion);
-    if (page) page->add_step(frame, std::nullopt, world, report);
+    const CheckedFrame checked = steps.step(frame, options.impacts);
+    const std::optional<double> time =
+        times.empty() ? std::nullopt : std::optional(times[static_cast<std::size_t>(frame)]);
+    if (json) json->add_frame(frame, checked.report, checked.motion, steps.files_of(frame), time);
+    if (table) table->add_frame(frame, checked.report, checked.motion);
+    if (page) page->add_step(frame, time, world, checked.report);
+    if (vtk) write_vtk(steps, checked.report, time.value_or(frame), world, *vtk);
     progress.show(frame + 1);
   }
   progress.clear();
@@ -288,6 +214,7 @@ void check(const CheckOptions& options, std::ostream& out) {
   if (page) failures.attempt([&] { page->finish(ending); });
   failures.report();
   if (page && options.json != "-") fmt::print(out, "{}\n", page->summary());
+  if (vtk && table) fmt::print(out, "frames for ParaView: {}\n", vtk->index_file().string());
 }
 
 void add_check_command(CLI::App& program) {
@@ -295,7 +222,8 @@ void add_check_command(CLI::App& program) {
   const auto options = std::make_shared<CheckOptions>();
   const auto meshes = std::make_shared<std::vector<std::string>>();
   command->footer(kCheckExamples);
-  command->add_option("MESH", *meshes, "Mesh files (.obj, .off, .ply, .stl) and folders of them")
+  command
+      ->add_option("MESH", *meshes, "Mesh files (.obj, .off, .ply, .stl, .vtp, .vtk), folders of them, series (.pvd)")
       ->type_name("")
       ->required();
   command->add_option("--sheet", options->sheets, "This body is a sheet: cloth, without an inside; may be repeated")
@@ -335,6 +263,11 @@ void add_check_command(CLI::App& program) {
       ->check(CLI::Range(1, std::numeric_limits<int>::max()).description(""));
   add_json_option(*command, options->json);
   add_record_option(*command, options->record);
+  command
+      ->add_option("--vtk", options->vtk,
+                   "Write the bodies of every frame, with what was found, to this folder for ParaView")
+      ->type_name("FOLDER")
+      ->check(refuse_empty_name);
   command->callback([options, meshes] {
     options->meshes.assign(meshes->begin(), meshes->end());
     check(*options, std::cout);

@@ -17,7 +17,7 @@
 namespace tact::scenes {
 
 struct CheckOptions {
-  std::vector<std::filesystem::path> meshes = {};  // files that stand still and folders that move
+  std::vector<std::filesystem::path> meshes = {};  // files that stand still; folders and series that move
   std::vector<std::string> sheets = {};            // names of the bodies that are sheets, the others being closed
   std::vector<std::string> margins = {};           // "M" for every body, "NAME=M" for one, metres; the last one counts
   std::vector<std::string> selves = {};            // bodies that are held against themselves; "all": every one
@@ -27,12 +27,13 @@ struct CheckOptions {
   bool weld = false;                                               // vertices with equal positions are one
   bool surfaces = false;                                           // what each surface is, before the first frame
   Accuracy accuracy = Accuracy::exact;
-  int threads = 0;          // 0: as many as OpenMP would use
-  int frames = 0;           // of folders the first so many; without a folder the number of steps; 0: all, or one
-  std::string json = {};    // the file to write, "-" for standard output; empty: none
-  std::string record = {};  // the file to record what enters the engine; empty: none
-  ViewOptions view = {};    // a page that plays the frames
-  bool table = true;        // print what touches
+  int threads = 0;                 // 0: as many as OpenMP would use
+  int frames = 0;                  // of folders the first so many; without a folder the number of steps; 0: all, or one
+  std::string json = {};           // the file to write, "-" for standard output; empty: none
+  std::filesystem::path vtk = {};  // the folder for frames for ParaView; empty: none
+  std::string record = {};         // the file to record what enters the engine; empty: none
+  ViewOptions view = {};           // a page that plays the frames
+  bool table = true;               // print what touches
 };
 
 // Reads all files first, so that nothing is written if one is bad; then steps one world through the frames. What was

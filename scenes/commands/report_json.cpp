@@ -277,7 +277,7 @@ JsonReport::JsonReport(std::ostream& out, const World& world, Outcomes outcomes,
 }
 
 void JsonReport::add_frame(int frame, const Report& report, const MotionReport* motion,
-                           const std::vector<std::string>& files) {
+                           const std::vector<std::string>& files, std::optional<double> time) {
   std::optional<FacetOutcomeFinder> finder;
   if (outcomes_ == Outcomes::counts) finder.emplace(report);
   const PairParts parts{.facets = has_facets_,
@@ -294,6 +294,7 @@ void JsonReport::add_frame(int frame, const Report& report, const MotionReport* 
     json["impacts"] = impacts_json(*motion);
     json["first_time"] = motion->first_time() <= 1.0 ? Json(motion->first_time()) : Json(nullptr);
   }
+  if (time) json["time"] = *time;
   if (!files.empty()) json["files"] = files;
   out_ << (first_ ? "\n" : ",\n") << json_text(json);
   first_ = false;

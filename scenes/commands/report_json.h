@@ -8,7 +8,7 @@
 //                "outcomes":[{"outside_box":n,...,"meets":n},{...}],"facet_pairs":[[fa,fb],...]},...],
 //      "stats":{"bodies":2,...},"times_ms":{"refresh":0.1,...},
 //      "impacts":[{"bodies":[0,1],"kind":"edge-edge","a":[1,2],"b":[7,9],"time":t},...],"first_time":t,
-//      "files":["cloth/frame_2.obj","ball.obj"]}],
+//      "time":0.5,"files":["cloth/frame_2.obj","ball.obj"]}],
 //    "interrupted":true}
 //
 // `a` and `b` are places in `bodies`. `pairs` are the candidate pairs, sorted by (a, b); one whose hulls are apart has
@@ -17,7 +17,8 @@
 // "limit_reached" whether it is only the best that was found before a limit. At Accuracy::hulls every "facet_pairs" is
 // null. `stats` and `times_ms` have the names of <tact/statistics.h>, the times without their "_ms". `impacts` are
 // those since the frame before, sorted by bodies and then by time, where they are requested; `first_time` is null if
-// there is none. `files` names the file of each body, where a folder moves one. A body of `tact check --weld` tells
+// there is none. `files` names the file of each body, where a folder moves one, and `time` is that of the frame in a
+// series, seconds. A body of `tact check --weld` tells
 // how many vertices merged with an earlier one, "merged_vertices", and "collapsed_facets"; one of `--surfaces` has its
 // "check", see surface_report.h. A body with itself has `a` equal to `b` and facet pairs; where points are requested
 // "point_limit_reached" tells whether some are missing. A pair has "points", of which each says whether it is a minimum
@@ -33,6 +34,7 @@
 #include <tact/settings.h>
 #include <tact/world.h>
 
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -61,9 +63,9 @@ class JsonReport {
   // threads that is to be told. `welds` are those of the bodies, or none. `out` must outlive the report.
   JsonReport(std::ostream& out, const World& world, Outcomes outcomes = Outcomes::none,
              Surfaces surfaces = Surfaces::taken, const std::vector<Weld>& welds = {});
-  // `motion` is what met since the frame before, or null; `files` are those of the bodies, or none.
+  // `motion` is what met since the frame before, or null; `files` are those of the bodies, or none; `time` in seconds.
   void add_frame(int frame, const Report& report, const MotionReport* motion = nullptr,
-                 const std::vector<std::string>& files = {});
+                 const std::vector<std::string>& files = {}, std::optional<double> time = {});
   // Writes what comes after the frames.
   void finish(Ending ending = Ending::complete);
 

@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <limits>
+#include <map>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -20,28 +24,33 @@ static_assert(std::endian::native == std::endian::little, "the files say LittleE
 // The arrays of a frame, in the file's order.
 struct Arrays {
   std::vector<double> points;
+  std::vector<std::int32_t> body_of_point;
+  std::vector<double> gap;
   std::vector<std::int64_t> connectivity;
   std::vector<std::int64_t> offsets;
   std::vector<std::int32_t> body;
   std::vector<std::int32_t> facet;
-  std::vector<std::uint8_t> meeting;
+  std::vector<std::uint8_t> crossing;
 };
 
-Arrays arrays_of(std::span<const PictureBody> bodies) {
+Arrays arrays_of(std::span<const PictureBody> bodies, std::span<const SurfaceFields> fields) {
   Arrays arrays;
   std::int64_t first_vertex = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const PictureBody& body = bodies[b];
     arrays.points.insert(arrays.points.end(), body.positions.data(), body.positions.data() + body.positions.size());
-    const std::size_t first_facet = arrays.meeting.size();
+    arrays.body_of_point.insert(arrays.body_of_point.end(), static_cast<std::size_t>(body.positions.cols()),
+                                static_cast<std::int32_t>(b));
+    if (!fields.empty()) arrays.gap.insert(arrays.gap.end(), fields[b].gap.begin(), fields[b].gap.end());
+    const std::size_t first_facet = arrays.crossing.size();
     for (Eigen::Index f = 0; f < body.facets.cols(); ++f) {
       for (int k = 0; k < 3; ++k) arrays.connectivity.push_back(first_vertex + body.facets(k, f));
       arrays.offsets.push_back(static_cast<std::int64_t>(arrays.connectivity.size()));
       arrays.body.push_back(static_cast<std::int32_t>(b));
       arrays.facet.push_back(static_cast<std::int32_t>(f));
-      arrays.meeting.push_back(0);
+      arrays.crossing.push_back(0);
     }
-    for (const int f : body.meeting_facets) arrays.meeting[first_facet + static_cast<std::size_t>(f)] = 1;
+    for (const int f : body.meeting_facets) arrays.crossing[first_facet + static_cast<std::size_t>(f)] = 1;
     first_vertex += body.positions.cols();
   }
   return arrays;
@@ -107,6 +116,36 @@ std::string frame_name(const std::string& name, std::size_t frame) { return fmt:
 
 }  // namespace
 
+std::vector<SurfaceFields> surface_fields(const Report& report, const World& world, const std::vector<BodyId>& bodies) {
+  std::vector<SurfaceFields> fields;
+  std::map<BodyId, SurfaceFields*> of;
+  for (const BodyId body : bodies)
+    fields.push_back({.gap = std::vector<double>(world.vertex_count(body), std::numeric_limits<double>::quiet_NaN())});
+  for (std::size_t i = 0; i < bodies.size(); ++i) of[bodies[i]] = &fields[i];
+  const auto note_gap = [&](BodyId body, const std::array<int, 3>& vertices, double gap) {
+    for (const int v : vertices) {
+      if (v < 0) continue;
+      double& least = of.at(body)->gap[static_cast<std::size_t>(v)];
+      if (!(least <= gap)) least = gap;  // the first one, too
+    }
+  };
+  for (const Contact& contact : report.contacts()) {
+    for (const FacetPair& pair : contact.facet_pairs()) {
+      of.at(contact.a)->crossing.push_back(pair.a);
+      of.at(contact.b)->crossing.push_back(pair.b);
+    }
+    for (const ContactPoint& point : contact.points()) {
+      note_gap(contact.a, point.a_vertices, point.gap);
+      note_gap(contact.b, point.b_vertices, point.gap);
+    }
+  }
+  for (SurfaceFields& one : fields) {
+    std::sort(one.crossing.begin(), one.crossing.end());
+    one.crossing.erase(std::unique(one.crossing.begin(), one.crossing.end()), one.crossing.end());
+  }
+  return fields;
+}
+
 VtkSeries::VtkSeries(std::filesystem::path folder, std::string name)
     : folder_(std::move(folder)), name_(std::move(name)) {
   std::error_code error;
@@ -116,13 +155,17 @@ VtkSeries::VtkSeries(std::filesystem::path folder, std::string name)
 
 std::filesystem::path VtkSeries::index_file() const { return folder_ / (name_ + ".pvd"); }
 
-void VtkSeries::write(std::span<const PictureBody> bodies, double time) {
-  const Arrays arrays = arrays_of(bodies);
-  File file(arrays.points.size() / 3, arrays.meeting.size());
+void VtkSeries::write(std::span<const PictureBody> bodies, double time, std::span<const SurfaceFields> fields) {
+  const Arrays arrays = arrays_of(bodies, fields);
+  File file(arrays.points.size() / 3, arrays.crossing.size());
+  file.open("PointData");
+  file.array("Int32", "body", arrays.body_of_point);
+  if (!fields.empty()) file.array("Float64", "tact_gap", arrays.gap);
+  file.close("PointData");
   file.open("CellData Scalars=\"body\"");
   file.array("Int32", "body", arrays.body);
   file.array("Int32", "facet", arrays.facet);
-  file.array("UInt8", "meeting", arrays.meeting);
+  file.array("UInt8", "tact_crossing", arrays.crossing);
   file.close("CellData");
   file.open("Points");
   file.array("Float64", "Points", arrays.points, 3);

@@ -3,27 +3,38 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "scenes/commands/counted.h"
+#include "scenes/files/mapped_file.h"
 #include "scenes/files/mesh_file.h"
 #include "scenes/files/natural_order.h"
+#include "scenes/files/pvd_file.h"
 
 namespace tact::scenes {
 namespace {
 
 namespace fs = std::filesystem;
 
+// The frames of what a path names, or of a part of it.
 struct Listing {
+  fs::path path = {};
   std::vector<fs::path> files = {};
-  bool is_folder = false;
+  std::vector<double> times = {};  // of a series
+  bool moves = false;
 };
 
-Listing list_files(const fs::path& path) {
+bool is_series(const fs::path& path) {
+  const std::string ending = path.extension().string();
+  return ending == ".pvd" || ending == ".PVD";
+}
+
+Listing list_folder(const fs::path& path) {
   std::error_code error;
-  if (!fs::is_directory(path, error)) return {.files = {path}};
-  Listing listing{.is_folder = true};
+  Listing listing{.path = path, .moves = true};
   fs::directory_iterator entries(path, error);
   while (!error && entries != fs::directory_iterator()) {
     const fs::path& file = entries->path();
@@ -33,11 +44,29 @@ Listing list_files(const fs::path& path) {
   }
   if (error) throw FileError(fmt::format("{}: cannot be listed: {}", path.string(), error.message()));
   if (listing.files.empty())
-    throw FileError(path.string() + ": the folder holds no mesh file (.obj, .off, .ply, .stl)");
+    throw FileError(fmt::format("{}: the folder holds no mesh file ({})", path.string(), kMeshEndings));
   std::sort(listing.files.begin(), listing.files.end(), [](const fs::path& a, const fs::path& b) {
     return comes_before(a.filename().native(), b.filename().native());
   });
   return listing;
+}
+
+std::vector<Listing> list_series(const fs::path& path) {
+  if (!fs::exists(path)) throw FileError(path.string() + ": no such file or folder");
+  const MappedFile file(path);
+  std::vector<Listing> listings;
+  for (PvdPart& part : parse_pvd(file.bytes(), path)) {
+    const bool moves = part.files.size() > 1;
+    listings.push_back({.path = path, .files = std::move(part.files), .times = std::move(part.times), .moves = moves});
+  }
+  return listings;
+}
+
+std::vector<Listing> list_files(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return {list_folder(path)};
+  if (is_series(path)) return list_series(path);
+  return {{.path = path, .files = {path}}};
 }
 
 // The name of "seq", "seq/", "../seq/." and, in it, ".".
@@ -67,14 +96,14 @@ class Names {
   std::map<std::string, int> numbers_;  // the last one tried for a name
 };
 
-void check_frame_counts(const std::vector<fs::path>& paths, const std::vector<Listing>& listings) {
-  const auto first = std::find_if(listings.begin(), listings.end(), [](const Listing& l) { return l.is_folder; });
+void check_frame_counts(const std::vector<Listing>& listings) {
+  const auto first = std::find_if(listings.begin(), listings.end(), [](const Listing& l) { return l.moves; });
   for (auto other = first; other != listings.end(); ++other) {
-    if (!other->is_folder || other->files.size() == first->files.size()) continue;
+    if (!other->moves || other->files.size() == first->files.size()) continue;
     throw FileError(fmt::format("{}: {}, but {} holds {}: all folders must hold the same number of frames",
-                                paths[other - listings.begin()].string(),
+                                other->path.string(),
                                 counted(static_cast<std::int64_t>(other->files.size()), "mesh file"),
-                                paths[first - listings.begin()].string(), first->files.size()));
+                                first->path.string(), first->files.size()));
   }
 }
 
@@ -99,6 +128,12 @@ void check_topology(const BodyFrames& body, const Eigen::Matrix3Xi& facets, cons
   }
 }
 
+void check_bodies(const std::vector<int>& bodies, const MeshFile& mesh, const fs::path& file, const fs::path& first) {
+  if (mesh.body_of_vertex == bodies) return;
+  throw FileError(
+      fmt::format("{}: vertices are of other bodies than in the first frame, {}", file.string(), first.string()));
+}
+
 // Adds the warnings of a file; of many the first few.
 void add_warnings(std::vector<std::string>&& warnings, BodyFrames& body) {
   constexpr std::size_t kMost = 10;
@@ -107,36 +142,100 @@ void add_warnings(std::vector<std::string>&& warnings, BodyFrames& body) {
   }
 }
 
+// Frames, and of each vertex its body, where the files tell.
+struct ReadFrames {
+  BodyFrames body;
+  std::vector<int> body_of_vertex = {};
+};
+
 // The polygons of later frames are split as those of the first. `read` is called after each file.
 template <class Read>
-BodyFrames read_frames(std::string name, const Listing& listing, const Read& read) {
-  BodyFrames body{.name = std::move(name), .moves = listing.is_folder};
+ReadFrames read_frames(const Listing& listing, const Read& read) {
+  ReadFrames result{.body = {.name = {}, .moves = listing.moves, .times = listing.times}};
+  BodyFrames& body = result.body;
   Eigen::Matrix3Xi fans;
   for (std::size_t i = 0; i < listing.files.size(); ++i) {
     MeshFile mesh = read_mesh_file(listing.files[i], i == 0 ? Split::by_shape : Split::fans);
     if (i == 0) {
       body.facets = std::move(mesh.facets);
       fans = std::move(mesh.fans);
+      result.body_of_vertex = std::move(mesh.body_of_vertex);
     } else {
       check_topology(body, fans.cols() > 0 ? fans : body.facets, mesh, listing.files[i]);
+      check_bodies(result.body_of_vertex, mesh, listing.files[i], listing.files[0]);
     }
     add_warnings(std::move(mesh.warnings), body);
     body.files.push_back(listing.files[i]);
     body.positions.push_back(std::move(mesh.positions));
     read();
   }
-  return body;
+  return result;
+}
+
+// One body of `whole`: the vertices that `numbers` counts from 0, of which each is -1 where it is of another.
+BodyFrames part_of(const BodyFrames& whole, const std::vector<int>& numbers) {
+  std::vector<Eigen::Index> vertices, facets;
+  for (std::size_t v = 0; v < numbers.size(); ++v) {
+    if (numbers[v] >= 0) vertices.push_back(static_cast<Eigen::Index>(v));
+  }
+  const auto number_of = [&](int corner) { return numbers[static_cast<std::size_t>(corner)]; };
+  for (Eigen::Index f = 0; f < whole.facets.cols(); ++f) {
+    const Eigen::Vector3i corners = whole.facets.col(f).unaryExpr(number_of);
+    if (corners.maxCoeff() < 0) continue;
+    if (corners.minCoeff() < 0)
+      throw FileError(fmt::format("{}: facet {} joins vertices of two bodies", whole.files.front().string(), f));
+    facets.push_back(f);
+  }
+  BodyFrames part{.name = {}, .files = whole.files, .moves = whole.moves, .times = whole.times};
+  part.facets = whole.facets(Eigen::all, facets).unaryExpr(number_of);
+  for (const Eigen::Matrix3Xd& positions : whole.positions)
+    part.positions.emplace_back(positions(Eigen::all, vertices));
+  return part;
+}
+
+void add_bodies(ReadFrames&& read, const std::string& name, const std::string& short_name,
+                std::vector<BodyFrames>& bodies) {
+  const std::set<int> numbers(read.body_of_vertex.begin(), read.body_of_vertex.end());
+  if (numbers.size() < 2) {
+    bodies.push_back(std::move(read.body));
+    bodies.back().name = name;
+    bodies.back().short_name = short_name;
+    return;
+  }
+  for (const int body : numbers) {
+    std::vector<int> vertices(read.body_of_vertex.size(), -1);
+    int count = 0;
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      if (read.body_of_vertex[v] == body) vertices[v] = count++;
+    }
+    bodies.push_back(part_of(read.body, vertices));
+    bodies.back().name = fmt::format("{}:{}", name, body);
+    bodies.back().short_name = fmt::format("{}:{}", short_name, body);
+    if (body == *numbers.begin()) bodies.back().warnings = std::move(read.body.warnings);
+  }
+}
+
+// "part#2" for "part.stl#2"; a folder has no ending.
+std::string without_ending(const std::string& name, const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return name;
+  const std::string file = path.filename().string();
+  return path.stem().string() + name.substr(std::min(file.size(), name.size()));
 }
 
 }  // namespace
 
 std::vector<BodyFrames> read_bodies(const std::vector<fs::path>& paths, int most_frames, const ReadProgress& progress) {
   std::vector<Listing> listings;
-  for (const fs::path& path : paths) listings.push_back(list_files(path));
-  check_frame_counts(paths, listings);
+  for (const fs::path& path : paths) {
+    std::vector<Listing> parts = list_files(path);
+    std::move(parts.begin(), parts.end(), std::back_inserter(listings));
+  }
+  check_frame_counts(listings);
   std::size_t all = 0;
   for (Listing& listing : listings) {
     listing.files.resize(std::min(listing.files.size(), static_cast<std::size_t>(most_frames)));
+    listing.times.resize(std::min(listing.times.size(), static_cast<std::size_t>(most_frames)));
     all += listing.files.size();
   }
   int done = 0;
@@ -144,10 +243,18 @@ std::vector<BodyFrames> read_bodies(const std::vector<fs::path>& paths, int most
   tell();
   Names names;
   std::vector<BodyFrames> bodies;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    bodies.push_back(read_frames(names.unique(base_name(paths[i])), listings[i], tell));
+  for (const Listing& listing : listings) {
+    const std::string name = names.unique(base_name(listing.path));
+    add_bodies(read_frames(listing, tell), name, without_ending(name, listing.path), bodies);
   }
   return bodies;
+}
+
+std::vector<double> times_of(const std::vector<BodyFrames>& bodies) {
+  for (const BodyFrames& body : bodies) {
+    if (body.times.size() > 1) return body.times;
+  }
+  return {};
 }
 
 int frame_count(const std::vector<BodyFrames>& bodies) {

@@ -27,6 +27,8 @@ MeshFile parse_as(MeshFormat format, std::string_view bytes, const std::string& 
     case MeshFormat::off: return parse_off(bytes, file, split);
     case MeshFormat::ply: return parse_ply(bytes, file, split);
     case MeshFormat::stl: return parse_stl(bytes, file);
+    case MeshFormat::vtp: return parse_vtp(bytes, file, split);
+    case MeshFormat::vtk: return parse_vtk(bytes, file, split);
   }
   throw FileError(file + ": no such format");
 }
@@ -38,6 +40,8 @@ const char* own_content(MeshFormat format) {
     case MeshFormat::off: return "an OFF file";
     case MeshFormat::ply: return "a PLY file";
     case MeshFormat::stl: return "an STL file";
+    case MeshFormat::vtp: return "an XML file";
+    case MeshFormat::vtk: return "a VTK file";
   }
   return "a mesh";
 }
@@ -52,13 +56,16 @@ std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
   if (ending == ".off") return MeshFormat::off;
   if (ending == ".ply") return MeshFormat::ply;
   if (ending == ".stl") return MeshFormat::stl;
+  if (ending == ".vtp") return MeshFormat::vtp;
+  if (ending == ".vtk") return MeshFormat::vtk;
   return std::nullopt;
 }
 
 MeshFile read_mesh_file(const std::filesystem::path& path, Split split) {
   check_is_file(path);
   const auto format = mesh_format(path);
-  if (!format) throw FileError(path.string() + ": not a mesh file: its name does not end in .obj, .off, .ply or .stl");
+  if (!format)
+    throw FileError(fmt::format("{}: not a mesh file: its name ends in none of {}", path.string(), kMeshEndings));
   const MappedFile file(path);  // so that of a file that is none no more is read than shows it
   try {
     return parse_mesh(*format, file.bytes(), path.string(), split);

@@ -1,4 +1,4 @@
-// Mesh files: OBJ, OFF, PLY and STL.
+// Mesh files: OBJ, OFF, PLY, STL, and polygons of VTK.
 //
 // The readers are our own: of the packaged ones, OpenMesh drops and reorders facets of meshes that are not manifold,
 // tinyobjloader rounds doubles wrongly and reads past broken lines. These keep the order of the file, read every number
@@ -23,6 +23,7 @@ struct MeshFile {
   Eigen::Matrix3Xd positions;              // 3 x V
   Eigen::Matrix3Xi facets;                 // 3 x F
   Eigen::Matrix3Xi fans = {};              // 3 x F, each polygon as a fan; empty if these are the facets
+  std::vector<int> body_of_vertex = {};    // where the file says of which body each vertex is; else empty
   std::vector<std::string> warnings = {};  // what was read all the same, a line each that begins with the file
 };
 
@@ -34,7 +35,10 @@ enum class Split {
   fans,  // into fans in any case: for later frames of a body, whose facets are those of the first
 };
 
-enum class MeshFormat { obj, off, ply, stl };
+enum class MeshFormat { obj, off, ply, stl, vtp, vtk };
+
+// The endings of their names, for messages.
+constexpr const char* kMeshEndings = ".obj, .off, .ply, .stl, .vtp, .vtk";
 
 // The format that the ending of the file's name tells, in capitals or not; nothing for another ending.
 std::optional<MeshFormat> mesh_format(const std::filesystem::path& path);
@@ -65,5 +69,13 @@ MeshFile parse_ply(std::string_view bytes, const std::string& file, Split split 
 // and colours are not used and may be missing. Of a binary file the facets may not be counted (0 or 2^32 - 1, as
 // streaming programs leave it), and bytes after the last facet are a warning; so is a text without its last endsolid.
 MeshFile parse_stl(std::string_view bytes, const std::string& file);
+
+// VTK's XML file of polygons and strips; its arrays may be text, base64 or raw bytes, of either byte order, deflated by
+// zlib. Vertices, lines and other data are not used, but an array `body` of integers over the points.
+MeshFile parse_vtp(std::string_view bytes, const std::string& file, Split split = Split::by_shape);
+
+// VTK's legacy file, text or binary, up to version 5.1: POLYDATA, and UNSTRUCTURED_GRID of facets; vertices and lines
+// are not used, nor is what follows POINT_DATA or CELL_DATA.
+MeshFile parse_vtk(std::string_view bytes, const std::string& file, Split split = Split::by_shape);
 
 }  // namespace tact::scenes

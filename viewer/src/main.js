@@ -7,6 +7,7 @@ import { DataError, Run, visible } from "./run.js";
 import { Stage } from "./stage.js";
 import { Timeline } from "./timeline.js";
 
+const HAS_ADDRESS = location.protocol !== "about:"; // not in a frame of another page, such as a notebook
 const SPEEDS = [1, 2, 5, 10, 15, 30, 60]; // frames a second
 const OPACITIES = [1, 0.25, 0];
 const OTHERS = 0.08; // how opaque bodies are that are not of the selected pair
@@ -299,6 +300,7 @@ class App {
   }
 
   writeLink() {
+    if (!HAS_ADDRESS) return;
     clearTimeout(this.writing);
     this.writing = setTimeout(() => history.replaceState(null, "", this.link()), 200);
   }
@@ -325,6 +327,7 @@ class App {
   }
 
   async copyLink() {
+    if (!HAS_ADDRESS) return;
     const button = byId("link"), url = `${location.href.split("#")[0]}${this.link()}`;
     try {
       await navigator.clipboard.writeText(url);
@@ -373,6 +376,7 @@ class App {
     on("forth", () => this.seek(this.state.frame + 1));
     on("last", () => this.seek(this.run.count - 1));
     on("loop", () => { this.state.loop = !this.state.loop; this.showTransport(); });
+    byId("link").hidden = !HAS_ADDRESS;
     on("link", () => this.copyLink());
     on("help", () => this.showKeys());
     on("keys", (event) => event.target === byId("keys") && byId("keys").close());

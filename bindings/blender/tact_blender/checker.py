@@ -61,8 +61,8 @@ class Checker:
         return found
 
     def _place(self, surfaces):
-        shapes = [(surface.name, surface.facets.tobytes(), len(surface.positions)) for surface in surfaces]
-        if self.world is not None and shapes == self.shapes:
+        shapes = [(surface.name, surface.facets, len(surface.positions)) for surface in surfaces]
+        if self.world is not None and _same_shapes(shapes, self.shapes):
             self.world.set_positions({body: surface.positions for body, surface in zip(self.ids, surfaces)})
             return False
         self.steps = 0 if self.world is None else self.steps
@@ -95,6 +95,10 @@ class Checker:
             found.impacts = len(self.motion)
             found.first_time = _first_time(self.motion)
         return found
+
+
+def _same_shapes(first, second):
+    return len(first) == len(second) and all(a[0] == b[0] and a[2] == b[2] and (a[1] is b[1] or np.array_equal(a[1], b[1])) for a, b in zip(first, second))
 
 
 def _places(surface, vertices, weights):

@@ -1,9 +1,13 @@
 """The buttons."""
 
+import time
+
 import bpy
 from bpy.props import FloatProperty, IntProperty
 
 from . import changes, session
+
+MOMENT = 0.1  # seconds between looks at the keyboard: Esc feels immediate
 
 
 class _Checking(bpy.types.Operator):
@@ -74,6 +78,14 @@ class TACT_OT_check_range(_Checking):
         self.meeting += found.facet_pairs > 0
         context.window_manager.progress_update(self.done)
 
+    def some(self, context):
+        """As many frames as a moment takes: Blender draws its window after each call, which may take longer than a frame."""
+        began = time.monotonic()
+        while True:
+            self.one(context)
+            if self.done == len(self.frames) or time.monotonic() - began > MOMENT:
+                return
+
     def end(self, context, cancelled=False):
         context.window_manager.progress_end()
         context.scene.frame_set(self.here)
@@ -106,7 +118,7 @@ class TACT_OT_check_range(_Checking):
         cancelled = event.type == "ESC"
         try:
             if not cancelled:
-                self.one(context)
+                self.some(context)
                 context.workspace.status_text_set(f"tact: frame {self.done} of {len(self.frames)}; Esc ends it")
         except session.Trouble as trouble:
             self.report({"ERROR"}, str(trouble))

@@ -20,7 +20,7 @@ class TactScene(bpy.types.PropertyGroup):
 
     source: EnumProperty(
         name="Check",
-        items=[("selected", "Selected Objects", "The objects that are selected"), ("collection", "Collection", "All objects of a collection")],
+        items=[("selected", "Selected", "The objects that are selected"), ("collection", "Collection", "All objects of a collection")],
     )
     collection: PointerProperty(name="Collection", type=bpy.types.Collection)
     accuracy: EnumProperty(

@@ -2,6 +2,7 @@
 #include <tact/version.h>
 
 #include "bindings.h"
+#include "file_bindings.h"
 
 namespace {
 
@@ -30,5 +31,7 @@ PYBIND11_MODULE(_tact, module) {
   tact::python::define_rotations(module);
   tact::python::define_world(module);
   tact::python::define_weld(module);
+  tact::python::define_check(module);
+  tact::python::define_view(module);
   refuse_unmade_objects(module);
 }

@@ -12,3 +12,8 @@
 
 from ._tact import *  # noqa: F403
 from ._tact import __version__  # noqa: F401
+
+from . import _html  # noqa: F401, E402
+from ._check import CheckFrame, CheckResult, check  # noqa: F401, E402
+from ._files import Mesh, MeshSequence, read, read_sequence  # noqa: F401, E402
+from ._view import Page, view  # noqa: F401, E402

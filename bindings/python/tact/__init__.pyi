@@ -1,7 +1,7 @@
 """Finds where many deformable triangle meshes touch."""
 
 import os
-from typing import Callable, ClassVar, Iterable, Iterator, Optional, Protocol, overload
+from typing import Callable, ClassVar, Iterable, Iterator, Mapping, Optional, Protocol, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -1024,3 +1024,159 @@ class WeldedMesh:
 
 def weld(positions: npt.ArrayLike, facets: npt.ArrayLike) -> WeldedMesh:
     """a mesh without the vertices that repeat an earlier position; 0 and -0 are equal"""
+
+_Path = str | os.PathLike[str]
+
+class Mesh:
+    """A surface as a file gives it."""
+
+    name: str
+    positions: Floats
+    """(V, 3): metres"""
+    facets: Ints
+    """(F, 3)"""
+    vertices: Ints
+    """(V,): the number of each vertex in the file"""
+    def __init__(
+        self, name: str, positions: npt.ArrayLike, facets: npt.ArrayLike, vertices: Optional[Ints] = None
+    ) -> None: ...
+
+class MeshSequence:
+    """A surface that moves, a frame at a time. Iterate over its meshes."""
+
+    name: str
+    positions: list[Floats]
+    """(V, 3) each, one a frame; metres"""
+    facets: Ints
+    """(F, 3): the same in all frames"""
+    vertices: Ints
+    """(V,): the number of each vertex in the files"""
+    times: list[float]
+    """of the frames of a series, seconds; else empty"""
+    files: list[str]
+    """one a frame; empty if the positions are of no files"""
+    def __init__(
+        self,
+        name: str,
+        positions: Iterable[npt.ArrayLike],
+        facets: npt.ArrayLike,
+        vertices: Optional[Ints] = None,
+        times: Iterable[float] = (),
+        files: Iterable[str] = (),
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    def __getitem__(self, frame: int) -> Mesh: ...
+
+def read(path: _Path, *, displacement: Optional[str] = None) -> Mesh:
+    """a surface from a file; cells that have a volume give their surface. `displacement` names point data to add to the positions"""
+
+def read_sequence(
+    *paths: _Path, frames: Optional[int] = None, displacement: Optional[str] = None, progress: bool = True
+) -> list[MeshSequence]:
+    """the bodies of files, folders and series, each with the positions of all its frames, or the first `frames`"""
+
+class CheckFrame:
+    """What a frame holds. Bodies are numbers, counted from 0, in the order of CheckResult.bodies."""
+
+    number: int
+    time: Optional[float]
+    """seconds, of a series"""
+    files: list[str]
+    """of each body, where one moves"""
+    hash: str
+    """of the report, 16 hexadecimal digits"""
+    candidate_pairs: list[tuple[int, int, bool]]
+    """bodies whose boxes overlap, and whether their hulls do"""
+    bodies: npt.NDArray[np.int64]
+    """(C, 2): the bodies of each contact"""
+    directions: Floats
+    """(C, 3): the direction of each contact"""
+    depths: Floats
+    """(C,): the depth of each contact, metres"""
+    facet_pairs: FacetPairArrays
+    points: PointArrays
+    impacts: Optional[MotionReport]
+    """what met since the frame before, if impacts are requested"""
+    stats: dict[str, float]
+    """counts and times of the step. By name, times in milliseconds"""
+    def __init__(
+        self,
+        number: int,
+        time: Optional[float],
+        files: list[str],
+        report: Report,
+        motion: Optional[MotionReport],
+        sizes: list[tuple[int, int]],
+    ) -> None: ...
+    @property
+    def least_gap(self) -> Optional[float]:
+        """the least gap of its contact points, metres; None without points"""
+    def gaps(self, body: int) -> Floats:
+        """(V,): for each vertex of a body the least gap of its contact points, metres; infinity where there is none"""
+    def crossing(self, body: int) -> npt.NDArray[np.bool_]:
+        """(F,): for each facet of a body whether it meets another"""
+
+class CheckResult:
+    """What check() found: its frames, and the bodies that it stepped."""
+
+    bodies: list[MeshSequence]
+    frames: list[CheckFrame]
+    world: World
+    """at the last frame"""
+    ids: list[BodyId]
+    """of the bodies in the world"""
+    json: Optional[str]
+    """what `tact check --json` writes, if it is requested"""
+    def __init__(
+        self, bodies: list[MeshSequence], frames: list[CheckFrame], world: World, ids: list[BodyId], json: Optional[str]
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    def __getitem__(self, frame: int) -> CheckFrame: ...
+    @property
+    def crossing_frames(self) -> list[int]:
+        """the numbers of the frames in which facets meet"""
+
+def check(
+    *meshes: _Path | Mesh | MeshSequence,
+    sheets: str | Iterable[str] = (),
+    margins: None | float | Mapping[str, float] = None,
+    selves: str | Iterable[str] = (),
+    exclude: Iterable[tuple[str, str]] = (),
+    weld: bool = False,
+    points: bool = False,
+    curves: bool = False,
+    within_reach: bool = False,
+    impacts: bool = False,
+    surfaces: bool = False,
+    accuracy: str | Accuracy = "exact",
+    threads: int = 0,
+    frames: Optional[int] = None,
+    json: bool | _Path = False,
+    record: Optional[_Path] = None,
+    progress: bool = True,
+) -> CheckResult:
+    """finds which bodies touch, frame by frame: what `tact check` does, with the same numbers, as arrays"""
+
+class Page:
+    """A page for the browser that plays steps and shows of every facet why it was kept or dropped."""
+
+    html: str
+    height: int
+    """of the cell, pixels"""
+    def __init__(self, text: str, height: int) -> None: ...
+    def save(self, path: _Path) -> None:
+        """writes the page to a file, which needs no network"""
+
+def view(
+    what: World | _Path,
+    *,
+    title: Optional[str] = None,
+    height: int = 640,
+    every: int = 1,
+    start: int = 0,
+    stop: Optional[int] = None,
+    few_points: bool = False,
+    points: bool = False,
+    curves: bool = False,
+) -> Page:
+    """the page that `tact view` writes, of a world as it stands or of a recording, for a notebook's cell"""

@@ -105,6 +105,12 @@ void write_files(const tests::TemporaryFolder& folder, const std::string& line) 
     if (word.ends_with(".stl")) folder.write(word, kPrintedStl);
     if (word.ends_with(".off")) folder.write(word, kPrintedOff);
     if (word.ends_with(".ply")) folder.write(word, kPrintedPly);
+    if (word.ends_with(".pvd")) {
+      folder.write("part.obj", kPrintedBall);
+      folder.write(word,
+                   "<VTKFile type=\"Collection\"><DataSet timestep=\"0\" file=\"part.obj\"/>"
+                   "<DataSet timestep=\"1\" file=\"part.obj\"/></VTKFile>");
+    }
     if (word.ends_with('/')) {
       for (const char* frame : {"frame_1.obj", "frame_2.obj", "frame_10.obj"}) folder.write(word + frame, kPrintedBall);
     }

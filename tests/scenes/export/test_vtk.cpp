@@ -51,13 +51,13 @@ TEST(Vtk, ArraysReadBack) {
   ASSERT_EQ(connectivity.size(), 72u);
   EXPECT_EQ(connectivity[36], 8 + scene.bodies[1].facets(0, 0));
   EXPECT_EQ(array_of<std::int64_t>(bytes, "offsets").back(), 72);
-  const auto body = array_of<std::int32_t>(bytes, "body");
-  const auto meeting = array_of<std::uint8_t>(bytes, "meeting");
+  const auto body = array_of<std::int32_t>(bytes.substr(bytes.find("<CellData")), "body");
+  const auto crossing = array_of<std::uint8_t>(bytes, "tact_crossing");
   const auto facet = array_of<std::int32_t>(bytes, "facet");
   for (std::size_t i = 0; i < 24; ++i) {
     EXPECT_EQ(body[i], i < 12 ? 0 : 1);
     EXPECT_EQ(facet[i], static_cast<int>(i % 12));
-    EXPECT_EQ(meeting[i], i == 12 || i == 23 ? 1 : 0) << i;
+    EXPECT_EQ(crossing[i], i == 12 || i == 23 ? 1 : 0) << i;
   }
 }
 

@@ -132,7 +132,7 @@ TEST(BodyFiles, RefusesFoldersThatAreNoBody) {
   const std::string here = folder.path().string();
   folder.write("empty/readme.txt", "x");
   EXPECT_EQ(refusal_of_bodies({here + "/empty"}),
-            here + "/empty: the folder holds no mesh file (.obj, .off, .ply, .stl)");
+            here + "/empty: the folder holds no mesh file (.obj, .off, .ply, .stl, .vtp, .vtk)");
   folder.write("one/1.obj", kTriangle);
   folder.write("two/1.obj", kTriangle);
   folder.write("two/2.obj", kTriangle);

@@ -74,7 +74,7 @@ TEST(MeshFile, RefusesWhatIsNoMeshFile) {
   EXPECT_EQ(refusal_of_file(here), here + ": a folder, not a file");
   EXPECT_EQ(refusal_of_file(folder.write("e.obj", "")), here + "/e.obj: the file is empty");
   EXPECT_EQ(refusal_of_file(folder.write("mesh.txt", "v 0 0 0")),
-            here + "/mesh.txt: not a mesh file: its name does not end in .obj, .off, .ply or .stl");
+            here + "/mesh.txt: not a mesh file: its name ends in none of .obj, .off, .ply, .stl, .vtp, .vtk");
 }
 
 }  // namespace

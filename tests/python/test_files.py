@@ -1,0 +1,159 @@
+"""Meshes and series from files, tact.check() beside the program, and what notebooks show."""
+
+import json
+import os
+import subprocess
+
+import numpy as np
+import pytest
+import tact
+
+CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
+FACETS = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+
+
+def write_obj(path, places, facets=FACETS):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in places.tolist()] + [f"f {a} {b} {c}" for a, b, c in (facets + 1).tolist()]
+    path.write_text("\n".join(lines) + "\n")
+
+
+@pytest.fixture
+def moving(tmp_path):
+    """A tetrahedron that stands, and one that moves into it."""
+    write_obj(tmp_path / "still.obj", CORNERS)
+    for frame in range(4):
+        write_obj(tmp_path / "mover" / f"f_{frame}.obj", CORNERS + [1.3 - 0.3 * frame, 0.1, 0.1])
+    return tmp_path
+
+
+def without_times(text):
+    whole = json.loads(text)
+    for frame in whole["frames"]:
+        del frame["times_ms"]
+    return whole
+
+
+def test_check_finds_what_the_program_finds(moving):
+    paths = [moving / "still.obj", moving / "mover"]
+    result = tact.check(*paths, margins={"mover": 0.05}, selves="still", points=True, impacts=True, threads=2, json=True)
+    program = os.environ.get("TACT_PROGRAM")
+    if program:
+        options = ["--margin", "mover=0.05", "--self", "still", "--points", "--impacts", "--threads", "2", "--json", "-"]
+        printed = subprocess.run([program, "check", *paths, *options], capture_output=True, text=True, check=True).stdout
+        assert without_times(result.json) == without_times(printed)
+    frames = without_times(result.json)["frames"]
+    assert [frame["hash"] for frame in frames] == [frame.hash for frame in result.frames]
+    assert result.crossing_frames == [2, 3]
+    last = result[3]
+    assert last.facet_pairs.facets.tolist() == frames[3]["pairs"][0]["facet_pairs"]
+    assert last.points.gaps.tolist() == [point["gap"] for point in frames[3]["pairs"][0]["points"]]
+    assert last.least_gap == last.points.gaps.min() < 0
+    assert sum(len(frame.impacts) for frame in result.frames[1:]) == sum(len(frame["impacts"]) for frame in frames[1:]) > 0
+    assert np.flatnonzero(last.crossing(1)).tolist() == sorted({b for _, b in frames[3]["pairs"][0]["facet_pairs"]})
+    assert last.gaps(0).min() == last.least_gap and np.isinf(result[0].gaps(0)).all()
+
+
+def test_series_are_read_as_the_program_writes_them(moving):
+    program = os.environ.get("TACT_PROGRAM")
+    if not program:
+        pytest.skip("the program is not here")
+    found = moving / "found"
+    options = ["--margin", "0.05", "--points", "--vtk", found]
+    subprocess.run([program, "check", moving / "still.obj", moving / "mover", *options], check=True, stdout=subprocess.DEVNULL)
+    series = tact.read_sequence(found / "check.pvd")
+    assert [one.name for one in series] == ["check.pvd:0", "check.pvd:1"]
+    assert series[0].times == [0.0, 1.0, 2.0, 3.0]
+    assert np.array_equal(series[1].positions[3], CORNERS + [1.3 - 0.3 * 3, 0.1, 0.1])
+    again = tact.check(found / "check.pvd", margins=0.05, points=True)
+    direct = tact.check(moving / "still.obj", moving / "mover", margins=0.05, points=True)
+    assert [frame.hash for frame in again.frames] == [frame.hash for frame in direct.frames]
+    assert [frame.time for frame in again.frames] == [0.0, 1.0, 2.0, 3.0]
+    with pytest.raises(ValueError, match="several bodies.*check.pvd:0, check.pvd:1"):
+        tact.read(found / "check.pvd")
+
+
+def test_arrays_are_checked_as_files_are(moving):
+    mover = tact.MeshSequence("mover", [CORNERS + [1.3 - 0.3 * frame, 0.1, 0.1] for frame in range(4)], FACETS)
+    result = tact.check(tact.Mesh("still", CORNERS, FACETS), mover, margins=0.05)
+    files = tact.check(moving / "still.obj", moving / "mover", margins=0.05)
+    assert [frame.hash for frame in result.frames] == [frame.hash for frame in files.frames]
+    with pytest.raises(ValueError, match="frame 1: body 'bad': vertex 0 .*finite"):
+        tact.check(tact.MeshSequence("bad", [CORNERS, np.full((4, 3), np.nan)], FACETS))
+    with pytest.raises(ValueError, match="same number"):
+        tact.check(mover, tact.MeshSequence("short", [CORNERS, CORNERS], FACETS))
+
+
+def test_trouble_names_file_line_and_body(moving):
+    with pytest.raises(FileNotFoundError):
+        tact.read(moving / "none.obj")
+    (moving / "bad.obj").write_text("v 0 0 0\nv 1 x 0\n")
+    with pytest.raises(ValueError, match=r"bad.obj:2: vertex 1: expected a number"):
+        tact.read(moving / "bad.obj")
+    with pytest.raises(ValueError, match="sheets cloth: no body has this name; the bodies are: still.obj"):
+        tact.check(moving / "still.obj", sheets="cloth")
+    with pytest.raises(ValueError, match="at least"):
+        tact.check()
+
+
+def test_cells_with_a_volume_give_their_surface(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)] + [[9, 9, 9]], float)
+    cube = [[0, 1, 3, 2, 4, 5, 7, 6]]
+    tetrahedra = [[0, 1, 3, 5], [0, 3, 2, 6], [0, 5, 4, 6], [3, 5, 6, 7], [0, 5, 3, 6]]  # turned either way
+    for kind, cells in (("hexahedron", cube), ("tetra", tetrahedra)):
+        meshio.Mesh(corners, [(kind, np.array(cells))]).write(tmp_path / f"{kind}.vtu")
+        mesh = tact.read(tmp_path / f"{kind}.vtu")
+        assert len(mesh.facets) == 12 and mesh.vertices.tolist() == list(range(8))
+        places = mesh.positions[mesh.facets]
+        volume = np.linalg.det(places).sum() / 6
+        assert volume == pytest.approx(1.0)
+        world = tact.World()
+        assert world.check_surface(world.add_body(mesh.positions, mesh.facets)).is_solid()
+    meshio.Mesh(corners, [("line", np.array([[0, 1]]))]).write(tmp_path / "line.vtu")
+    with pytest.raises(ValueError, match="line.vtu: no cells with a surface; its cells are: line"):
+        tact.read(tmp_path / "line.vtu")
+
+
+def test_series_of_meshio_move(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    cells = [("triangle", FACETS)]
+    entries = ""
+    for frame in range(3):
+        meshio.Mesh(CORNERS + [0.5 * frame, 0, 0], cells, point_data={"u": np.ones((4, 3))}).write(tmp_path / f"f{frame}.vtu")
+        entries += f'<DataSet timestep="{0.1 * frame}" file="f{frame}.vtu"/>'
+    (tmp_path / "run.pvd").write_text(f'<VTKFile type="Collection"><Collection>{entries}</Collection></VTKFile>')
+    (series,) = tact.read_sequence(tmp_path / "run.pvd")
+    assert len(series) == 3 and series.times == [0.0, 0.1, 0.2]
+    assert np.array_equal(series.positions[2], CORNERS + [1.0, 0, 0])
+    assert np.array_equal(tact.read(tmp_path / "f1.vtu", displacement="u").positions, CORNERS + [1.5, 1, 1])
+    with meshio.xdmf.TimeSeriesWriter(tmp_path / "steps.xdmf", data_format="XML") as writer:
+        writer.write_points_cells(CORNERS, cells)
+        for step in range(3):
+            writer.write_data(0.5 * step, point_data={"u": np.full((4, 3), float(step))})
+    (series,) = tact.read_sequence(tmp_path / "steps.xdmf", displacement="u")
+    assert series.times == [0.0, 0.5, 1.0] and np.array_equal(series.positions[2], CORNERS + 2.0)
+
+
+def test_pages_show_a_world_and_a_recording(moving):
+    result = tact.check(moving / "still.obj", moving / "mover", points=True, margins=0.05, record=moving / "run.tactrec")
+    before = result.world.save()
+    page = tact.view(result.world, title="two & two")
+    assert result.world.save() == before
+    assert page.html.startswith("<!") and "two & two" in page.html
+    cell = page._repr_html_()
+    assert cell.startswith("<iframe sandbox") and "<script" not in cell
+    played = tact.view(moving / "run.tactrec", stop=2)
+    assert '"steps":3' in played.html
+    page.save(moving / "page.html")
+    assert (moving / "page.html").read_text() == page.html
+    with pytest.raises(ValueError, match="still.obj: byte 0: not a recording"):
+        tact.view(moving / "still.obj")
+
+
+def test_notebooks_show_tables(moving):
+    result = tact.check(moving / "still.obj", moving / "mover", points=True, margins=0.05)
+    report = result.world.detect()
+    for shown in (result, result[3], report, report.contacts[0]):
+        assert shown._repr_html_().startswith("<table>")
+    assert "<td>still.obj" not in result._repr_html_() and "still.obj, mover" in result._repr_html_()
