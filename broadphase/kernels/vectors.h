@@ -21,9 +21,9 @@ inline constexpr std::uint32_t kFloats = 4;
 inline constexpr std::uint32_t kDoubles = kFloats / 2;
 
 using Floats = float __attribute__((vector_size(kFloats * sizeof(float))));
-using FloatMask = std::int32_t __attribute__((vector_size(kFloats * sizeof(float))));
 using Doubles = double __attribute__((vector_size(kDoubles * sizeof(double))));
-using DoubleMask = std::int64_t __attribute__((vector_size(kDoubles * sizeof(double))));
+using FloatMask = decltype(Floats{} < Floats{});  // which integers these are differs between compilers
+using DoubleMask = decltype(Doubles{} < Doubles{});
 using HalfFloats = float __attribute__((vector_size(kDoubles * sizeof(float))));
 
 template <class Vector, class Number>
@@ -46,6 +46,8 @@ static inline std::uint32_t bits_of(FloatMask mask) {
   return static_cast<std::uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
 #elif defined(__SSE2__)
   return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
+#elif defined(__wasm_simd128__)
+  return __builtin_wasm_bitmask_i32x4(mask);
 #else
   std::uint32_t bits = 0;
   for (std::uint32_t i = 0; i < kFloats; ++i) bits |= (mask[i] != 0 ? 1u : 0u) << i;
@@ -60,6 +62,8 @@ static inline std::uint32_t bits_of(DoubleMask mask) {
   return static_cast<std::uint32_t>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask)));
 #elif defined(__SSE2__)
   return static_cast<std::uint32_t>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
+#elif defined(__wasm_simd128__)
+  return __builtin_wasm_bitmask_i64x2(mask);
 #else
   std::uint32_t bits = 0;
   for (std::uint32_t i = 0; i < kDoubles; ++i) bits |= (mask[i] != 0 ? 1u : 0u) << i;
