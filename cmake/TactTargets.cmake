@@ -58,12 +58,19 @@ function(tact_unity_build_by_folder target)
   endforeach()
 endfunction()
 
+# Options of the files that are compiled for AVX2 and AVX-512. GCC does not align the stack of Windows to more than sixteen
+# bytes (its bug 54412): there the assembler makes every move of a vector one that needs no alignment.
+set(TACT_VECTOR_OPTIONS -O3)
+if(MINGW)
+  list(APPEND TACT_VECTOR_OPTIONS -Wa,-muse-unaligned-vector-move)
+endif()
+
 # A layer of the engine: its objects end in the library tact. Includes are written from the project's root.
 function(tact_layer target)
   add_library(${target} OBJECT ${ARGN})
   tact_options(${target})
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
   if(BUILD_SHARED_LIBS)
-    target_compile_definitions(${target} PRIVATE TACT_SHARED)
+    target_compile_definitions(${target} PRIVATE TACT_SHARED TACT_BUILDS_LIBRARY)
   endif()
 endfunction()
