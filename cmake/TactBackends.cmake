@@ -1,6 +1,7 @@
 # Embree and OpenMP, which the library uses where they are found and wanted, and does without elsewhere: with the same
-# answers, by a tree builder and a pool of threads of its own. The program, the tests and the benchmarks need both.
-if(TACT_BUILD_PROGRAM OR TACT_BUILD_TESTS OR TACT_BUILD_BENCH)
+# answers, by a tree builder and a pool of threads of its own. The program, the tests and the benchmarks need both, but for
+# the tests on another platform.
+if(TACT_BUILD_PROGRAM OR TACT_BUILD_BENCH OR (TACT_BUILD_TESTS AND NOT CMAKE_CROSSCOMPILING))
   set(required REQUIRED)
 endif()
 if(TACT_WITH_OPENMP OR required)

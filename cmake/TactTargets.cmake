@@ -8,7 +8,17 @@
 # -Wsign-compare, which finds loops that never end, is on with -Wall. A cast is written where a value may change: before a
 # product that may leave int, from floating-point numbers, in braces.
 
+# Whether the standard library has the algorithms over ranges; libc++ has them from version 15 on.
+include(CheckCXXSourceCompiles)
+set(CMAKE_REQUIRED_FLAGS -std=c++20)
+check_cxx_source_compiles("#include <algorithm>\nint main() { int a[] = {1, 0}; std::ranges::sort(a); return a[0]; }"
+                          TACT_HAS_RANGE_ALGORITHMS)
+unset(CMAKE_REQUIRED_FLAGS)
+
 function(tact_options target)
+  if(NOT TACT_HAS_RANGE_ALGORITHMS)
+    target_compile_options(${target} PRIVATE -include ${PROJECT_SOURCE_DIR}/cmake/platforms/early_libcxx.h)
+  endif()
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES
     CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON)
@@ -50,6 +60,13 @@ function(tact_unity_build_by_folder target)
   endforeach()
 endfunction()
 
+# Options of the files that are compiled for AVX2 and AVX-512. GCC does not align the stack of Windows to more than sixteen
+# bytes (its bug 54412): there the assembler makes every move of a vector one that needs no alignment.
+set(TACT_VECTOR_OPTIONS -O3)
+if(MINGW)
+  list(APPEND TACT_VECTOR_OPTIONS -Wa,-muse-unaligned-vector-move)
+endif()
+
 # A layer of the engine: its objects end in the library tact. Includes are written from the project's root.
 function(tact_layer target)
   add_library(${target} OBJECT ${ARGN})
@@ -59,6 +76,6 @@ function(tact_layer target)
     tact_unity_build_by_folder(${target})
   endif()
   if(BUILD_SHARED_LIBS)
-    target_compile_definitions(${target} PRIVATE TACT_SHARED)
+    target_compile_definitions(${target} PRIVATE TACT_SHARED TACT_BUILDS_LIBRARY)
   endif()
 endfunction()

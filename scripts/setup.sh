@@ -22,6 +22,9 @@ Installs the Debian packages that are missing. The groups:
   viewer      the page of `tact view` from its sources: scripts/viewer.sh
   lint        scripts/lint.sh
   sanitizers  scripts/sanitize.sh, scripts/fuzz.sh
+  aarch64     scripts/cross.sh aarch64: a compiler and an emulator for ARM, libraries of Debian's architecture arm64
+  windows     scripts/cross.sh windows: MinGW-w64 and Wine
+  libcxx      scripts/cross.sh libcxx: Clang with its own standard library
 END
 }
 
@@ -44,6 +47,10 @@ packages_of() {
     viewer) command -v npm > /dev/null || echo nodejs npm
             echo chromium ;;
     sanitizers) echo clang libclang-rt-14-dev libomp-dev llvm ;;
+    aarch64) echo g++-aarch64-linux-gnu cmake ninja-build qemu-user libeigen3-dev libembree-dev:arm64 libgomp1:arm64 \
+                  libgtest-dev:arm64 libcgal-dev libboost-dev libgmp-dev:arm64 libmpfr-dev:arm64 librapidcheck-dev:arm64 ;;
+    windows) echo g++-mingw-w64-x86-64-posix cmake ninja-build wine wine64 libeigen3-dev googletest ;;
+    libcxx) echo clang libc++-dev libc++abi-dev cmake ninja-build libeigen3-dev ;;
     *) printf 'setup.sh: no group is called %s\n\n%s\n' "$1" "$(help)" >&2; exit 2 ;;
   esac
 }
@@ -68,7 +75,9 @@ if ! command -v apt-get > /dev/null; then
   echo "setup.sh: this is not Debian; what is needed is called there: ${wanted[*]}" >&2
   exit 0
 fi
-installed=" $(dpkg-query -W -f '${Package}:${db:Status-Status} ' 2> /dev/null) "
+# What is foreign has its architecture behind its name.
+here=$(dpkg --print-architecture)
+installed=" $(dpkg-query -W -f '${Package}:${Architecture}:${db:Status-Status} ' 2> /dev/null | sed "s/:\(all\|$here\):/:/g") "
 missing=()
 for name in "${wanted[@]}"; do
   [[ $installed == *" $name:installed "* || " ${missing[*]} " == *" $name "* ]] || missing+=("$name")
@@ -84,6 +93,9 @@ if (( EUID != 0 )); then
   as_root=(sudo)
 fi
 echo "installing ${missing[*]}"
+if [[ ${missing[*]} == *:arm64* ]]; then
+  "${as_root[@]}" dpkg --add-architecture arm64
+fi
 "${as_root[@]}" apt-get update -qq < /dev/null
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" \
   < /dev/null > /dev/null

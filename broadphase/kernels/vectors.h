@@ -1,5 +1,6 @@
-// Vectors of the width for which a file is compiled, in the vector types of GCC and Clang. (Wider ones the compilers
-// take apart into single numbers, as they do plain loops of sixteen.) Everything is static: each file has its own copy.
+// Vectors of the width for which a file is compiled, in the vector types of GCC and Clang; those of sixteen bytes are
+// the ones of engine/base/simd128.h. (Wider ones the compilers take apart into single numbers, as they do plain loops
+// of sixteen.) Everything is static: each file has its own copy.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,8 @@
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
+
+#include "engine/base/simd128.h"
 
 namespace tact::broadphase {
 
@@ -21,9 +24,9 @@ inline constexpr std::uint32_t kFloats = 4;
 inline constexpr std::uint32_t kDoubles = kFloats / 2;
 
 using Floats = float __attribute__((vector_size(kFloats * sizeof(float))));
-using FloatMask = std::int32_t __attribute__((vector_size(kFloats * sizeof(float))));
 using Doubles = double __attribute__((vector_size(kDoubles * sizeof(double))));
-using DoubleMask = std::int64_t __attribute__((vector_size(kDoubles * sizeof(double))));
+using FloatMask = decltype(Floats{} < Floats{});  // which integers these are differs between compilers
+using DoubleMask = decltype(Doubles{} < Doubles{});
 using HalfFloats = float __attribute__((vector_size(kDoubles * sizeof(float))));
 
 template <class Vector, class Number>
@@ -44,12 +47,8 @@ static inline std::uint32_t bits_of(FloatMask mask) {
   return _mm512_movepi32_mask(reinterpret_cast<__m512i>(mask));
 #elif defined(__AVX2__)
   return static_cast<std::uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
-#elif defined(__SSE2__)
-  return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
 #else
-  std::uint32_t bits = 0;
-  for (std::uint32_t i = 0; i < kFloats; ++i) bits |= (mask[i] != 0 ? 1u : 0u) << i;
-  return bits;
+  return base::bits_of(mask);
 #endif
 }
 
@@ -58,12 +57,8 @@ static inline std::uint32_t bits_of(DoubleMask mask) {
   return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask));
 #elif defined(__AVX2__)
   return static_cast<std::uint32_t>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask)));
-#elif defined(__SSE2__)
-  return static_cast<std::uint32_t>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
 #else
-  std::uint32_t bits = 0;
-  for (std::uint32_t i = 0; i < kDoubles; ++i) bits |= (mask[i] != 0 ? 1u : 0u) << i;
-  return bits;
+  return base::bits_of(mask);
 #endif
 }
 

@@ -1,7 +1,8 @@
 #include "engine/base/workers.h"
 
+#include <time.h>  // that of POSIX
+
 #include <algorithm>
-#include <ctime>
 
 namespace tact {
 
@@ -51,7 +52,7 @@ void Workers::note(int threads, int wanted, double loop_ms, double lost_ms) {
 }
 
 std::int64_t WorkerClock::processor_ns() {
-  std::timespec time{};
+  timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
 }

@@ -92,6 +92,52 @@ inline CommonFlags common_flags(const std::uint8_t* flags, int flag_count, const
   return {found.none & all, found.lowest & all};
 }
 
+inline void shuffle_eight(const std::uint8_t* from, const std::uint64_t* places, std::uint8_t* to) {
+  const __m128i eight = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+  const __m128i order = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(places));
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_shuffle_epi8(eight, order));
+}
+
+#elif defined(TACT_KERNELS_SIMD128)
+
+inline CommonFlags common_flags(const std::uint8_t* flags, int flag_count, const std::uint8_t* const (&corner)[3],
+                                int count) {
+  base::Bytes16 none[4] = {}, lowest[4] = {};
+  for (int k = 0; 16 * k < count; ++k) {
+    const auto of_corner = [&](int c) {
+      return base::look_up(flags, flag_count, base::load_as<base::Bytes16>(corner[c] + 16 * k));
+    };
+    const base::Bytes16 common = of_corner(0) & of_corner(1) & of_corner(2);
+    none[k] = reinterpret_cast<base::Bytes16>(common == 0);
+    lowest[k] = reinterpret_cast<base::Bytes16>((common & 1) != 0);
+  }
+  const std::uint64_t all = ~std::uint64_t{0} >> (64 - count);
+  return {base::bits_of(none) & all, base::bits_of(lowest) & all};
+}
+
+inline void shuffle_eight(const std::uint8_t* from, const std::uint64_t* places, std::uint8_t* to) {
+  const base::Bytes16 eight = base::load_eight(from), order = base::load_eight(places);
+  base::store_eight(to, base::look_up(eight, order));
+}
+
+#else
+
+inline CommonFlags common_flags(const std::uint8_t* flags, int, const std::uint8_t* const (&corner)[3], int count) {
+  return common_flags_one_by_one(flags, corner, count);
+}
+
+inline void compress(std::uint64_t set, const std::uint8_t* from, std::uint8_t* to) {
+  for (; set != 0; set &= set - 1) *to++ = from[__builtin_ctzll(set)];
+}
+
+inline void write_places(std::uint64_t set, std::uint8_t* to) {
+  for (; set != 0; set &= set - 1) *to++ = static_cast<std::uint8_t>(__builtin_ctzll(set));
+}
+
+#endif
+
+#if defined(TACT_KERNELS_AVX2) || defined(TACT_KERNELS_SIMD128)
+
 // The places of the bits of each byte, ascending, a byte each.
 struct PlacesInByte {
   std::uint64_t of[256];
@@ -110,9 +156,7 @@ constexpr PlacesInByte kPlacesInByte;
 inline void compress(std::uint64_t set, const std::uint8_t* from, std::uint8_t* to) {
   for (; set != 0; set >>= 8, from += 8) {
     const std::uint64_t byte = set & 0xff;
-    const __m128i eight = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
-    const __m128i places = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kPlacesInByte.of + byte));
-    _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_shuffle_epi8(eight, places));
+    shuffle_eight(from, kPlacesInByte.of + byte, to);
     to += __builtin_popcountll(byte);
   }
 }
@@ -124,20 +168,6 @@ inline void write_places(std::uint64_t set, std::uint8_t* to) {
     __builtin_memcpy(to, &places, sizeof places);
     to += __builtin_popcountll(byte);
   }
-}
-
-#else
-
-inline CommonFlags common_flags(const std::uint8_t* flags, int, const std::uint8_t* const (&corner)[3], int count) {
-  return common_flags_one_by_one(flags, corner, count);
-}
-
-inline void compress(std::uint64_t set, const std::uint8_t* from, std::uint8_t* to) {
-  for (; set != 0; set &= set - 1) *to++ = from[__builtin_ctzll(set)];
-}
-
-inline void write_places(std::uint64_t set, std::uint8_t* to) {
-  for (; set != 0; set &= set - 1) *to++ = static_cast<std::uint8_t>(__builtin_ctzll(set));
 }
 
 #endif
@@ -178,6 +208,24 @@ inline std::uint64_t sharing_cells(const CellBox& cells, const FacetCells& facet
     return std::uint64_t{~static_cast<std::uint32_t>(_mm256_movemask_epi8(bytes))};
   };
   return facets.count <= 32 ? half(0) : half(0) | half(32) << 32;
+}
+
+#elif defined(TACT_KERNELS_SIMD128)
+
+inline std::uint64_t sharing_cells(const CellBox& cells, const FacetCells& facets) {
+  base::Bytes16 shared[4] = {};
+  for (int k = 0; 16 * k < facets.count; ++k) {
+    base::Shorts8 apart[2] = {};
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int half = 0; half < 2; ++half) {
+        const int i = 16 * k + 8 * half;
+        apart[half] |= base::load_as<base::Shorts8>(facets.lower[axis] + i) > cells.upper[axis];
+        apart[half] |= base::load_as<base::Shorts8>(facets.upper[axis] + i) < cells.lower[axis];
+      }
+    }
+    shared[k] = ~base::narrow(apart[0], apart[1]);
+  }
+  return base::bits_of(shared);
 }
 
 #else
@@ -227,6 +275,31 @@ CellBox cells_of(const FacetCells& facets, std::uint64_t some) {
   for (int axis = 0; axis < 3; ++axis) {
     cells.lower[axis] = least(lower[axis]);
     cells.upper[axis] = static_cast<std::int16_t>(0x7fff - least(opposite_upper[axis]));
+  }
+  return cells;
+}
+
+#elif defined(TACT_KERNELS_SIMD128)
+
+CellBox cells_of(const FacetCells& facets, std::uint64_t some) {
+  const auto spread_short = [](std::int16_t a) { return base::Shorts8{a, a, a, a, a, a, a, a}; };
+  const base::Shorts8 last = spread_short(0x7fff), bit{1, 2, 4, 8, 16, 32, 64, 128};
+  base::Shorts8 lower[3] = {last, last, last}, opposite_upper[3] = {last, last, last};
+  for (int i = 0; i < facets.count; i += 8) {
+    const base::Shorts8 out = (spread_short(static_cast<std::int16_t>(some >> i & 0xff)) & bit) == 0;
+    const auto widen = [&](base::Shorts8* least, base::Shorts8 cells) {
+      const base::Shorts8 reached = base::choose(out, last, cells);
+      *least = base::choose(reached < *least, reached, *least);
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      widen(&lower[axis], base::load_as<base::Shorts8>(facets.lower[axis] + i));
+      widen(&opposite_upper[axis], last - base::load_as<base::Shorts8>(facets.upper[axis] + i));
+    }
+  }
+  CellBox cells;
+  for (int axis = 0; axis < 3; ++axis) {
+    cells.lower[axis] = base::least_of(lower[axis]);
+    cells.upper[axis] = static_cast<std::int16_t>(0x7fff - base::least_of(opposite_upper[axis]));
   }
   return cells;
 }

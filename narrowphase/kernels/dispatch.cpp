@@ -11,6 +11,13 @@ extern const Kernels kAvx512Kernels;
 
 const Kernels* scalar_kernels() { return &kScalarKernels; }
 
+#if defined(TACT_HAS_SIMD128)
+extern const Kernels kSimd128Kernels;
+const Kernels* simd128_kernels() { return &kSimd128Kernels; }
+#else
+const Kernels* simd128_kernels() { return nullptr; }
+#endif
+
 #if defined(__x86_64__)
 namespace {
 // Checks for every extension that a file is compiled for: a virtual machine may hide any of them.
@@ -36,7 +43,8 @@ const Kernels* avx512_kernels() { return nullptr; }
 
 const Kernels& kernels() {
   // The same for the whole process.
-  static const Kernels& chosen = base::wanted_kernels({scalar_kernels(), avx2_kernels(), avx512_kernels()});
+  static const Kernels& chosen =
+      base::wanted_kernels({scalar_kernels(), simd128_kernels(), avx2_kernels(), avx512_kernels()});
   return chosen;
 }
 

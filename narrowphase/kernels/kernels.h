@@ -216,6 +216,7 @@ const Kernels& kernels();
 
 // For tests: each instruction set, or null where the machine or the build does not have it.
 const Kernels* scalar_kernels();
+const Kernels* simd128_kernels();
 const Kernels* avx2_kernels();
 const Kernels* avx512_kernels();
 

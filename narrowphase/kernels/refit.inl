@@ -163,6 +163,113 @@ Refitted refit_clusters(const RefitInput& in) {
   return seen;
 }
 
+#elif defined(TACT_KERNELS_SIMD128)
+
+// Of vertices two by two: x and y of one in a pack, z of both in another.
+struct Bounds {
+  Pack lower_xy = spread(__builtin_inf()), upper_xy = spread(-__builtin_inf());
+  Pack lower_z = spread(__builtin_inf()), upper_z = spread(-__builtin_inf());
+
+  void widen(Pack xy, Pack z) {
+    lower_xy = min(lower_xy, xy);
+    upper_xy = max(upper_xy, xy);
+    lower_z = min(lower_z, z);
+    upper_z = max(upper_z, z);
+  }
+  void widen(const Bounds& other) {
+    lower_xy = min(lower_xy, other.lower_xy);
+    upper_xy = max(upper_xy, other.upper_xy);
+    lower_z = min(lower_z, other.lower_z);
+    upper_z = max(upper_z, other.upper_z);
+  }
+  // Adding zero turns -0 into +0: which of the two a minimum picks depends on the order.
+  void write(double* lower, double* upper, std::int64_t stride) const {
+    const double low_z = lower_z[0] < lower_z[1] ? lower_z[0] : lower_z[1];
+    const double high_z = upper_z[0] > upper_z[1] ? upper_z[0] : upper_z[1];
+    const double low[3] = {lower_xy[0], lower_xy[1], low_z}, high[3] = {upper_xy[0], upper_xy[1], high_z};
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis * stride] = low[axis] + 0.0;
+      upper[axis * stride] = high[axis] + 0.0;
+    }
+  }
+};
+
+struct RefitLoop {
+  const RefitInput& in;
+  Bounds box = {};
+  Mask bad = {}, changed = {};
+  Pack step = spread(0.0);  // squared
+
+  const double* at(std::int32_t source) const { return in.source + 3 * static_cast<std::int64_t>(source); }
+
+  void copy_two(int i) {
+    const double *const p = at(in.owned[i]), *const q = at(in.owned[i + 1]);
+    const Pack first = load(p), second = load(q), z{p[2], q[2]};
+    const Pack x = __builtin_shufflevector(first, second, 0, 2), y = __builtin_shufflevector(first, second, 1, 3);
+    box.widen(first, z);
+    box.widen(second, z);
+    bad |= (x != x) | (y != y) | (z != z);
+    const Pack before_x = load(in.before.x + i), before_y = load(in.before.y + i), before_z = load(in.before.z + i);
+    changed |= (x != before_x) | (y != before_y) | (z != before_z);
+    if (in.steps_squared != nullptr) {
+      const Pack dx = x - before_x, dy = y - before_y, dz = z - before_z;
+      step = max(step, (dx * dx + dy * dy) + dz * dz);
+    }
+    store(in.x + i, x);
+    store(in.y + i, y);
+    store(in.z + i, z);
+  }
+
+  void copy_one(int i) {
+    const double* const p = at(in.owned[i]);
+    const Pack xy = load(p), z = spread(p[2]);
+    box.widen(xy, z);
+    bad |= (xy != xy) | (z != z);
+    changed |= (xy != Pack{in.before.x[i], in.before.y[i]}) | (z != spread(in.before.z[i]));
+    step = max(step, spread(step_squared(in, i, p)));
+    in.x[i] = p[0];
+    in.y[i] = p[1];
+    in.z[i] = p[2];
+  }
+
+  void copy(int begin, int end, int prefetch_until) {
+    int i = begin;
+    for (; i + 2 <= end; i += 2) {
+      if (i + 2 <= prefetch_until) prefetch_positions(in, i + in.ahead, 2);
+      copy_two(i);
+    }
+    if (i == end) return;
+    if (i < prefetch_until) prefetch_positions(in, i + in.ahead, 1);
+    copy_one(i);
+  }
+
+  void borrow(int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const double* const p = at(in.borrowed[k]);
+      box.widen(load(p), spread(p[2]));
+    }
+  }
+};
+
+Refitted refit_clusters(const RefitInput& in) {
+  RefitLoop loop{in};
+  Bounds all;
+  const int prefetch_until = in.ahead == 0 ? 0 : in.ranges[2 * in.cluster_end] - in.ahead;
+  for (int c = in.cluster_begin; c < in.cluster_end; ++c) {
+    const std::int32_t* range = in.ranges + 2 * c;
+    loop.box = Bounds{};
+    loop.copy(range[0], range[2], prefetch_until);
+    loop.borrow(range[1], range[3]);
+    if (in.steps_squared != nullptr) in.steps_squared[c] = largest_lane(loop.step);
+    loop.step = spread(0.0);
+    loop.box.write(in.boxes + c, in.boxes + c + 3 * static_cast<std::int64_t>(in.box_stride), in.box_stride);
+    all.widen(loop.box);
+  }
+  Refitted seen{.box = {}, .changed = bits(loop.changed) != 0, .not_a_number = bits(loop.bad) != 0};
+  all.write(seen.box.lower, seen.box.upper, 1);
+  return seen;
+}
+
 #else
 
 struct Bounds {

@@ -46,7 +46,7 @@ class RecordingInC : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
-  const std::string path_ = (folder_.path() / "c.tactrec").string();
+  const std::string path_ = in_utf8(folder_.path() / u8"größe 接触.tactrec");
   tact_world world_{};
 };
 
@@ -84,10 +84,10 @@ TEST_F(RecordingInC, PlaysAgain) {
 }
 
 TEST_F(RecordingInC, WrongUse) {
-  EXPECT_EQ(tact_world_record(world_, (folder_.path() / "none" / "r").c_str()), TACT_ERROR_FILE);
+  EXPECT_EQ(tact_world_record(world_, in_utf8(folder_.path() / "none" / "r").c_str()), TACT_ERROR_FILE);
   tact_player player{};
   EXPECT_EQ(tact_player_open(path_.c_str(), -1, &player), TACT_ERROR_FILE);
-  EXPECT_EQ(tact_player_open(folder_.write("r", "tactrex").c_str(), -1, &player), TACT_ERROR_BAD_RECORDING);
+  EXPECT_EQ(tact_player_open(in_utf8(folder_.write("r", "tactrex")).c_str(), -1, &player), TACT_ERROR_BAD_RECORDING);
   EXPECT_NE(std::string(tact_last_error_message()).find("byte 0: not a recording"), std::string::npos);
   EXPECT_EQ(tact_player_open(nullptr, -1, &player), TACT_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(tact_player_next(player, nullptr, nullptr), TACT_ERROR_INVALID_HANDLE);

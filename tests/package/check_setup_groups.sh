@@ -4,9 +4,9 @@
 # usage: check_setup_groups.sh PROJECT
 set -euo pipefail
 cd "$1"
-known=$(sed -n '/^packages_of()/,/^}/s/^    \([a-z]*\)) .*/\1/p' scripts/setup.sh | sort)
-helped=$(scripts/setup.sh --help | sed -n 's/^  \([a-z]*\) .*/\1/p' | sort)
-told=$(sed -n 's/^| `\([a-z]*\)` | .*/\1/p' docs/pages/start/cpp.md | sort)
+known=$(sed -n '/^packages_of()/,/^}/s/^    \([a-z0-9]*\)) .*/\1/p' scripts/setup.sh | sort)
+helped=$(scripts/setup.sh --help | sed -n 's/^  \([a-z0-9]*\) .*/\1/p' | sort)
+told=$(sed -n 's/^| `\([a-z0-9]*\)` | .*/\1/p' docs/pages/start/cpp.md | sort)
 diff <(echo "$known") <(echo "$helped")
 diff <(echo "$known") <(echo "$told")
 (( $(wc -l <<< "$known") > 5 ))
@@ -16,7 +16,7 @@ while read -r line; do
   for word in ${line#scripts/setup.sh}; do
     grep -qx -- "$word" <<< "$known" || { echo "no group is called $word: $line"; exit 1; }
   done
-done < <(grep -hoE 'scripts/setup\.sh( [a-z]+)+( *($|[`#;)]))' "${texts[@]}" .ci/run | sed -E 's/[`#;) ]+$//')
+done < <(grep -hoE 'scripts/setup\.sh( [a-z0-9]+)+( *($|[`#;)]))' "${texts[@]}" .ci/run | sed -E 's/[`#;) ]+$//')
 
 installs() { grep -E -A2 '^scripts/setup.sh .*python' "$1"; }
 (( $(installs bindings/python/README.md | wc -l) == 3 ))

@@ -11,7 +11,10 @@ constexpr Failure kCannotWrite{TACT_ERROR_FILE,
                                "the recording cannot be written: a file or a folder that is not there, "
                                "no right to write, or a full disk"};
 
-std::string bytes_of_file(const char* path) {
+// Of a name in UTF-8, whatever the system's own encoding is.
+std::filesystem::path path_of(const char* name) { return reinterpret_cast<const char8_t*>(name); }
+
+std::string bytes_of_file(const std::filesystem::path& path) {
   std::error_code not_there;
   if (std::filesystem::is_directory(path, not_there)) throw Failure{TACT_ERROR_FILE, "the recording is a folder"};
   try {
@@ -56,7 +59,7 @@ tact_error tact_world_record(tact_world world, const char* path) {
       if (!whole) throw tact::c::kCannotWrite;
       return;
     }
-    std::ofstream file(path, std::ios::binary);
+    std::ofstream file(tact::c::path_of(path), std::ios::binary);
     if (!file) throw tact::c::kCannotWrite;
     // The recorder keeps the address of the file, so both are made where they stay.
     auto recording = std::unique_ptr<tact::c::FileRecording>(new tact::c::FileRecording{std::move(file)});
@@ -69,7 +72,7 @@ tact_error tact_player_open(const char* path, int32_t threads, tact_player* play
   return guarded([&] {
     check_not_null(path, player);
     const std::optional<int> given = threads == -1 ? std::nullopt : std::optional<int>(threads);
-    auto entry = std::make_shared<PlayerEntry>(tact::c::bytes_of_file(path), given);
+    auto entry = std::make_shared<PlayerEntry>(tact::c::bytes_of_file(tact::c::path_of(path)), given);
     const std::shared_ptr<tact::World> world(entry, &entry->player.world());  // holds the player as long as it is held
     entry->world = tact::c::add_entry(std::make_shared<WorldEntry>(world));
     player->handle = tact::c::add_player(std::move(entry));

@@ -1,12 +1,10 @@
 // A folder that is gone when its test is over, and what a file in it holds.
 #pragma once
 
-#include <stdlib.h>
-
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
+#include <random>
 #include <string>
 #include <string_view>
 
@@ -15,9 +13,10 @@ namespace tact::tests {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "tact_test_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
-    path_ = name;
+    std::random_device number;
+    do {
+      path_ = std::filesystem::temp_directory_path() / ("tact_test_" + std::to_string(number()));
+    } while (!std::filesystem::create_directory(path_));
   }
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }
   TemporaryFolder(const TemporaryFolder&) = delete;
@@ -35,6 +34,12 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+// A path as the interface for C takes it.
+inline std::string in_utf8(const std::filesystem::path& path) {
+  const std::u8string name = path.u8string();
+  return {reinterpret_cast<const char*>(name.data()), name.size()};
+}
 
 inline std::string contents(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);

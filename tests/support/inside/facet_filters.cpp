@@ -217,8 +217,8 @@ bool is_right(const Filtered& filtered, const TrianglePair& pair, bool meet) {
 
 std::vector<const Kernels*> available_kernels() {
   std::vector<const Kernels*> all;
-  for (const Kernels* one :
-       {narrowphase::scalar_kernels(), narrowphase::avx2_kernels(), narrowphase::avx512_kernels()}) {
+  for (const Kernels* one : {narrowphase::scalar_kernels(), narrowphase::simd128_kernels(), narrowphase::avx2_kernels(),
+                             narrowphase::avx512_kernels()}) {
     if (one != nullptr) all.push_back(one);
   }
   return all;

@@ -26,7 +26,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(__GNUC__)
+#if defined(_WIN32) && defined(TACT_SHARED) && defined(TACT_BUILDS_LIBRARY)
+#define TACT_C_API __declspec(dllexport)
+#elif defined(_WIN32) && defined(TACT_SHARED)
+#define TACT_C_API __declspec(dllimport)
+#elif defined(__GNUC__) && !defined(_WIN32)
 #define TACT_C_API __attribute__((visibility("default")))
 #else
 #define TACT_C_API
@@ -423,8 +427,8 @@ TACT_C_API tact_error tact_weld(const tact_columns* positions, const tact_column
 
 /* Recordings: see tact/recording.h. */
 
-/** Records everything that enters the world to the file `path`, from before its first body on; null ends it and tells
- *  whether the file holds all (TACT_ERROR_FILE). It also ends with the world. */
+/** Records everything that enters the world to the file `path` (UTF-8), from before its first body on; null ends it and
+ *  tells whether the file holds all (TACT_ERROR_FILE). It also ends with the world. */
 TACT_C_API tact_error tact_world_record(tact_world world, const char* path);
 
 /** Runs a recording again, step by step. {0}: none. */

@@ -4,10 +4,15 @@
 #include <stdexcept>
 #include <string>
 
-#if defined(TACT_SHARED)
-#define TACT_API __attribute__((visibility("default")))
-#else
+// What a shared library gives to others.
+#if !defined(TACT_SHARED)
 #define TACT_API
+#elif defined(_WIN32) && defined(TACT_BUILDS_LIBRARY)
+#define TACT_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define TACT_API __declspec(dllimport)
+#else
+#define TACT_API __attribute__((visibility("default")))
 #endif
 
 namespace tact {

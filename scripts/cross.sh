@@ -1,0 +1,95 @@
+#!/bin/bash
+# Builds the library for another platform and says whether its answers have the bits that they have on x86-64 Linux.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+help() {
+  cat <<'TEXT'
+usage: scripts/cross.sh PLATFORM [hashes|tests]
+Installs what it needs, builds tact for another platform and runs it there. The platforms:
+  aarch64   ARM with 64 bits: GCC for Linux, with Embree and OpenMP, under qemu-user
+  windows   Windows with 64 bits: MinGW-w64, as a static library and as a DLL, under Wine
+  libcxx    this machine, but Clang with libc++ and without Embree and OpenMP, as Apple's tools are
+and what runs:
+  hashes    the library and hash_program: every scene's hashes, and a last line with one number for all (the default)
+  tests     that, then the tests of base, broadphase, narrowphase, engine and C (not for libcxx), as far as their
+            libraries are to be had there; what is left out is named with its reason
+Builds go to build/cross/PLATFORM. Exit status 1 if a hash differs or a test fails.
+TEXT
+}
+
+case ${1:-} in
+  aarch64 | windows | libcxx) platform=$1 ;;
+  -h | --help) help; exit 0 ;;
+  *) help >&2; exit 2 ;;
+esac
+case ${2:-hashes} in
+  hashes | tests) wanted=${2:-hashes} ;;
+  *) help >&2; exit 2 ;;
+esac
+scripts/setup.sh "$platform"
+if command -v ccache > /dev/null; then
+  export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+fi
+export WINEPREFIX=${WINEPREFIX:-$PWD/build/cross/wine} WINEDEBUG=${WINEDEBUG:--all}
+toolchain=$PWD/cmake/platforms/$platform.cmake
+
+# build FOLDER SOURCE TARGETS [OPTION...]: configures and builds below build/cross.
+build() {
+  local log folder=build/cross/$1
+  mkdir -p build/cross
+  log=$(mktemp)
+  if ! cmake -S "$2" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release --toolchain "$toolchain" "${@:4}" > "$log" 2>&1; then
+    cat "$log" >&2
+    exit 1
+  fi
+  grep -E 'tact[^:]*: ' "$log" || true
+  rm -f "$log"
+  # shellcheck disable=SC2086  # targets are several words
+  cmake --build "$folder" --target $3
+}
+
+# Runs a program of the platform.
+run() {
+  case $platform in
+    aarch64) qemu-aarch64 "$@" ;;
+    windows) WINEPATH="Z:$PWD/$(dirname "$1")/tact/engine" /usr/lib/wine/wine64 "$1.exe" "${@:2}" ;;  # where the DLL is
+    libcxx) "$@" ;;
+  esac
+}
+
+# hashes NAME [OPTION...]
+hashes() {
+  build "$1" tests/engine/other_build hash_program "${@:2}"
+  echo "$1: hash_program, with two threads and with one"
+  run "build/cross/$1/hash_program" 2
+  run "build/cross/$1/hash_program" 1 | tail -n 1
+}
+
+hashes "$platform"
+case $platform in
+  aarch64)
+    echo "aarch64: the same without NEON"
+    TACT_INSTRUCTION_SET=scalar run build/cross/aarch64/hash_program 2 | tail -n 1
+    ;;
+  windows)
+    hashes windows-dll -DBUILD_SHARED_LIBS=ON
+    ;;
+esac
+[[ $wanted == tests ]] || exit 0
+
+if [[ $platform == libcxx ]]; then
+  echo "libcxx: no tests; Debian has GoogleTest, CGAL and RapidCheck for the other standard library alone" >&2
+  exit 2
+fi
+folders=(base broadphase narrowphase engine c)
+build "$platform-tests" . "${folders[*]/#/test_}" -DTACT_BUILD_TESTS=ON
+failed=()
+for folder in "${folders[@]}"; do
+  echo "$platform: the tests of $folder"
+  run "build/cross/$platform-tests/tests/test_$folder" --gtest_brief=1 || failed+=("$folder")
+done
+if (( ${#failed[@]} > 0 )); then
+  echo "$platform: tests fail in ${failed[*]}" >&2
+  exit 1
+fi
