@@ -9,9 +9,9 @@
 #include <string>
 #include <tuple>
 
-#include "broadphase/block_search.h"
 #include "engine/base/parallel.h"
 #include "engine/base/text.h"
+#include "engine/body_search.h"
 #include "engine/check_coordinate.h"
 #include "narrowphase/mesh/cluster_search.h"
 #include "narrowphase/queries/mesh_queries.h"
@@ -24,22 +24,7 @@ using base::Box;
 using base::Vec3;
 using narrowphase::FacetHit;
 
-void check_point(const Eigen::Vector3d& point, const char* what) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(std::abs(point[axis]) <= kLargestCoordinate)) refuse_coordinate(what, axis, point[axis]);
-  }
-}
-
-Vec3 point_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// Which bodies a query looks at: those of keys before `end`, if there is one, and by their boxes, as BlockSearch has
-// it.
-struct Search {
-  static constexpr bool kScansByRank = false;  // a scan takes boxes in the order of their slots
-  std::optional<std::uint64_t> end = {};
-};
 
 // Those that a ray enters, not later than `latest`.
 struct RaySearch : Search {
@@ -101,85 +86,6 @@ struct PointSearch : Search {
   double most;
   double within;
 };
-
-// Calls visit(slot) for each body that a query considers and whose box a search wants, in no particular order: answers
-// are not to depend on it. visit() may narrow the search.
-template <class OfBoxes, class Visit>
-class BodySearch {
- public:
-  BodySearch(const Bodies& bodies, const QueryFilter& filter, OfBoxes& search, const Visit& visit)
-      : bodies_(bodies), filter_{filter.layer, filter.mask, false}, search_(search), visit_(visit) {}
-
-  void run() {
-    const BodyTree& tree = bodies_.tree();
-    if (tree.is_current()) {
-      for (const std::uint32_t slot : tree.loose()) look_at(slot);
-      broadphase::BlockSearch(tree.blocks(), *this).run();
-    } else if constexpr (OfBoxes::kScansByRank) {
-      scan_by_rank();
-    } else {
-      const bool in_order = bodies_.keys().are_slots();
-      for (std::uint32_t slot = 0; slot < slot_count() && (!in_order || is_before_end(slot)); ++slot) look_at(slot);
-    }
-  }
-
-  Box around() const { return search_.around(); }
-  double rank(const Box& box) const { return search_.rank(box); }
-  double rank_of(std::uint32_t slot) const {
-    return is_before_end(slot) && !bodies_.tree().is_loose(slot) && considers(slot) ? rank(bodies_.boxes()[slot])
-                                                                                    : kInfinity;
-  }
-  bool wants(double rank) const { return search_.wants(rank); }
-  void visit(std::uint32_t slot) const { visit_(slot); }
-
- private:
-  static constexpr std::uint32_t kAtATime = 64;  // boxes whose ranks are found before any body is looked at
-
-  void scan_by_rank() const {
-    std::array<double, kAtATime> ranks;
-    std::array<std::uint32_t, kAtATime> slots;
-    const auto wanted = [&](double rank) { return wants(rank); };
-    for (std::uint32_t begin = 0; begin < slot_count(); begin += kAtATime) {
-      int count = 0;
-      for (std::uint32_t slot = begin; slot < std::min(begin + kAtATime, slot_count()); ++slot) {
-        if (bodies_.boxes()[slot].empty()) continue;
-        const double of_box = rank(bodies_.boxes()[slot]);
-        if (!(of_box < kInfinity && wants(of_box) && considers(slot))) continue;
-        ranks[static_cast<std::size_t>(count)] = of_box;
-        slots[static_cast<std::size_t>(count++)] = slot;
-      }
-      narrowphase::take_by_rank(ranks.data(), slots.data(), count, wanted, visit_);
-    }
-  }
-  std::uint32_t slot_count() const { return static_cast<std::uint32_t>(bodies_.boxes().size()); }
-  bool is_before_end(std::uint32_t slot) const { return !search_.end || bodies_.keys().of(slot) < *search_.end; }
-  bool considers(std::uint32_t slot) const { return broadphase::tested(bodies_.filters()[slot], filter_); }
-  void look_at(std::uint32_t slot) const {
-    const Box& box = bodies_.boxes()[slot];
-    if (box.empty() || !is_before_end(slot)) return;
-    const double of_box = rank(box);
-    if (of_box < kInfinity && wants(of_box) && considers(slot)) visit(slot);
-  }
-
-  const Bodies& bodies_;
-  const broadphase::Filter filter_;
-  OfBoxes& search_;
-  const Visit& visit_;
-};
-
-template <class OfBoxes, class Visit>
-void for_each_body(const Bodies& bodies, const QueryFilter& filter, OfBoxes& search, const Visit& visit) {
-  BodySearch(bodies, filter, search, visit).run();
-}
-
-// Calls visit(slot, plane) for each plane that a query considers. They stand in no tree.
-template <class Visit>
-void for_each_plane(const Bodies& bodies, const QueryFilter& filter, const Visit& visit) {
-  const broadphase::Filter of_query{filter.layer, filter.mask, false};
-  for (const std::uint32_t slot : bodies.planes()) {
-    if (broadphase::tested(bodies.filters()[slot], of_query)) visit(slot, *bodies.plane(slot));
-  }
-}
 
 // A ray's hit of a plane, whose surface is facet 0.
 std::optional<FacetHit> hit_of_plane(const narrowphase::HalfSpace& plane, const Ray& ray) {
@@ -272,6 +178,17 @@ RayHit find_any_hit(const Bodies& bodies, const Ray& ray) {
 
 }  // namespace
 
+void check_point(const Eigen::Vector3d& point, const char* what) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(std::abs(point[axis]) <= kLargestCoordinate)) refuse_coordinate(what, axis, point[axis]);
+  }
+}
+
+void check_within(double within) {
+  if (!(within >= 0.0))
+    throw Error(ErrorCode::invalid_argument, "within is " + base::text_of(within) + ", not at least 0");
+}
+
 void check_query(const Ray& ray) {
   check_point(ray.from, "the beginning of a ray");
   check_point(ray.to, "the end of a ray");
@@ -279,8 +196,7 @@ void check_query(const Ray& ray) {
 
 void check_query(const PointQuery& query) {
   check_point(query.point, "a point");
-  if (!(query.within >= 0.0))
-    throw Error(ErrorCode::invalid_argument, "within is " + base::text_of(query.within) + ", not at least 0");
+  check_within(query.within);
 }
 
 void check_query(const BoxQuery& query) {
@@ -366,7 +282,17 @@ std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray) {
   return all;
 }
 
-ClosestPoint find_closest_point(const Bodies& bodies, const PointQuery& query) {
+namespace {
+
+// Whether a body has an inside: see find_around().
+bool is_solid(const Bodies& bodies, std::uint32_t slot) {
+  const Body& body = bodies.in_slot(slot);
+  return body.plane != nullptr || body.has_inside;
+}
+
+// The nearest place of those bodies for which wants(slot).
+template <class Wants>
+ClosestPoint closest_point_of(const Bodies& bodies, const PointQuery& query, const Wants& wants) {
   // What is as near as the best so far is not lost by rounding.
   constexpr double kAsNear = 1.0 + 0x1p-40;
   PointSearch search(query);
@@ -384,10 +310,34 @@ ClosestPoint find_closest_point(const Bodies& bodies, const PointQuery& query) {
     if (distance <= query.within) take(slot, {0, distance, {}});
   });
   const auto look_at = [&](std::uint32_t slot) {
+    if (!wants(slot)) return;
     if (const auto nearest = nearest_facet(bodies.placed(slot).mesh, search.point, search.within)) take(slot, *nearest);
   };
   for_each_body(bodies, query.filter, search, look_at);
   return best;
+}
+
+// How far a point inside a body is from its surface.
+narrowphase::NearestFacet depth_in(const Body& body, Vec3 point) {
+  if (body.plane != nullptr) return {0, -narrowphase::height_over(*body.plane, point), {}};
+  return *nearest_facet(body.mesh, point, kInfinity);
+}
+
+}  // namespace
+
+ClosestPoint find_closest_point(const Bodies& bodies, const PointQuery& query) {
+  return closest_point_of(bodies, query, [](std::uint32_t) { return true; });
+}
+
+ClosestPoint find_signed_distance(const Bodies& bodies, const PointQuery& query) {
+  ClosestPoint deepest;
+  for (const BodyId body : find_around(bodies, query)) {
+    const narrowphase::NearestFacet depth = depth_in(bodies.in_slot(body.index), point_of(query.point));
+    if (deepest.facet >= 0 && -depth.distance >= deepest.distance) continue;
+    deepest = {body, depth.facet, depth.distance == 0.0 ? 0.0 : -depth.distance, depth.weight};
+  }
+  if (deepest.facet >= 0) return deepest;
+  return closest_point_of(bodies, query, [&](std::uint32_t slot) { return is_solid(bodies, slot); });
 }
 
 std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuery& query) {
@@ -414,7 +364,7 @@ std::vector<BodyId> find_around(const Bodies& bodies, const PointQuery& query) {
   for (const std::uint32_t slot : slots_near(bodies, query.filter, {point, point})) {
     const Body& body = bodies.placed(slot);
     const bool is_inside = body.plane != nullptr ? narrowphase::height_over(*body.plane, point) <= 0.0
-                                                 : body.has_inside && contains(body.mesh, point);
+                                                 : is_solid(bodies, slot) && contains(body.mesh, point);
     if (is_inside) found.push_back(body.id);
   }
   return found;

@@ -15,6 +15,8 @@ namespace tact {
 
 /// Errors: non_finite_position, position_out_of_range, invalid_argument (a box whose lower corner is above its upper
 /// one, a distance that is negative or not a number).
+void check_point(const Eigen::Vector3d& point, const char* what);
+void check_within(double within);
 void check_query(const Ray& ray);
 void check_query(const PointQuery& query);
 void check_query(const BoxQuery& query);
@@ -27,6 +29,7 @@ void find_first_hits(const Bodies& bodies, std::span<const Ray> rays, std::span<
                      const narrowphase::SegmentBatch& room);
 std::vector<RayHit> find_all_hits(const Bodies& bodies, const Ray& ray);
 ClosestPoint find_closest_point(const Bodies& bodies, const PointQuery& query);
+ClosestPoint find_signed_distance(const Bodies& bodies, const PointQuery& query);
 std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuery& query);
 std::vector<BodyId> find_around(const Bodies& bodies, const PointQuery& query);
 

@@ -8,21 +8,14 @@
 #include <new>
 #include <utility>
 
-#include "engine/base/parallel.h"
-#include "engine/base/pool.h"
 #include "engine/base/text.h"
-#include "engine/base/timer.h"
-#include "engine/bodies/bodies.h"
 #include "engine/check_name.h"
 #include "engine/failed_step.h"
 #include "engine/messages.h"
-#include "engine/motion_stage.h"
-#include "engine/queries.h"
 #include "engine/state/world_parts.h"
 #include "engine/state/world_state.h"
-#include "engine/step.h"
 #include "engine/surface_check.h"
-#include "engine/with_memory.h"
+#include "engine/world_implementation.h"
 #include "engine/world_tuning.h"
 
 namespace tact {
@@ -53,78 +46,8 @@ Settings checked(Settings settings) {
 
 }  // namespace
 
-struct World::Implementation {
-  explicit Implementation(const Settings& given) : settings(checked(given)), workers(settings.executor) {}
-
-  Settings settings;
-  base::Tuning tuning;  // the bodies refer to it
-  base::Workers workers;
-  Bodies bodies{next_world(), tuning};
-  Step step;
-  base::Pool<narrowphase::SegmentBatch> segment_batches;
-  std::unique_ptr<MotionStage> motion = nullptr;  // made by the first detect_motion()
-  double refresh_ms = 0.0;                        // since the last step
-  WorldObserver* observer = nullptr;
-
-  // Calls tell(observer), if there is one.
-  template <class Tell>
-  void observe(const Tell& tell) {
-    if (observer != nullptr) tell(*observer);
-  }
-
-  // Calls work(), which is part of stage 1, and takes its time.
-  template <class Work>
-  void refresh(const Work& work) {
-    base::Timer timer;
-    const auto begin = timer.start();
-    if (settings.outputs.trace) step.trace().make_room();
-    work();
-    refresh_ms += timer.lap();
-    if (settings.outputs.trace) step.trace().add_refresh(begin, timer.start());
-  }
-
-  // Calls change(), and tell(observer) once it has succeeded.
-  template <class Change, class Tell>
-  void change(const Change& change, const Tell& tell) {
-    const base::FloatingPointMode mode;
-    with_memory(change);
-    observe(tell);
-  }
-
-  template <class Set>
-  void set_positions(const Set& set) {
-    const base::Workers::Scope scope(workers);
-    with_memory("setting positions ran out of memory", [&] { refresh(set); });
-  }
-
-  // Where memory is short bodies stay grouped as they are: that is slower, and nothing else.
-  void regroup() {
-    if (!bodies.any_decayed()) return;
-    try {
-      refresh([&] { step.regroup(bodies, settings.threads); });
-    } catch (const std::bad_alloc&) {
-      bodies.keep_groups();
-    }
-  }
-
-  const Report& detect() {
-    observe([](WorldObserver& told) { told.step_begins(); });
-    try {
-      return with_memory("detect ran out of memory; the next call starts from scratch", [&]() -> const Report& {
-        const base::Workers::Scope scope(workers);
-        regroup();
-        const Report& report = step.run(bodies, settings, refresh_ms);
-        refresh_ms = 0.0;
-        return report;
-      });
-    } catch (...) {
-      step.forget();
-      bodies.mark_all_changed();
-      observe([](WorldObserver& told) { told.step_failed(); });
-      throw;
-    }
-  }
-};
+World::Implementation::Implementation(const Settings& given)
+    : settings(checked(given)), workers(settings.executor), bodies(next_world(), tuning) {}
 
 World::World(const Settings& settings)
     : implementation_(with_memory("making a world ran out of memory", [&] {
@@ -332,121 +255,6 @@ void World::restore(std::span<const std::byte> bytes) {
   i.motion.reset();
   i.refresh_ms = 0.0;
   i.observe([&](WorldObserver& observer) { observer.state_restored(bytes); });
-}
-
-namespace {
-
-constexpr const char* kNoMemoryForAnswers = "answering ran out of memory";
-
-// Blocks of rays that a thread takes: some 40 microseconds, about what it takes another thread to wake up.
-constexpr std::size_t kRayBlocksAtATime = 16;
-
-// The message of an error tells which query it is of.
-template <class Query>
-void check_queries(std::span<const Query> queries, std::size_t answers) {
-  if (queries.size() != answers) {
-    throw Error(ErrorCode::wrong_size,
-                std::to_string(queries.size()) + " queries, but room for " + std::to_string(answers) + " answers");
-  }
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    try {
-      check_query(queries[i]);
-    } catch (const Error& error) {
-      throw Error(error.code(), "query " + std::to_string(i) + ": " + error.what());
-    }
-  }
-}
-
-// Answers one query by find().
-template <class OfWorld, class Query, class Find>
-auto answer_one(const OfWorld& world, const Query& query, const Find& find) {
-  const base::FloatingPointMode mode;
-  return with_memory(kNoMemoryForAnswers, [&] {
-    check_query(query);
-    world.bodies.expect_queries(1);
-    return find();
-  });
-}
-
-// Answers each query by find(query), on all threads.
-template <class OfWorld, class Query, class Answer, class Find>
-void answer_all(OfWorld& world, std::span<const Query> queries, std::span<Answer> answers, const Find& find) {
-  constexpr std::size_t kAtATime = 16;  // a query takes a microsecond or more
-  const base::FloatingPointMode mode;
-  const base::Workers::Scope scope(world.workers);
-  with_memory(kNoMemoryForAnswers, [&] {
-    check_queries(queries, answers.size());
-    world.bodies.expect_queries(queries.size());
-    base::parallel_for(queries.size(), kAtATime, world.settings.threads,
-                       [&](std::size_t i) { answers[i] = find(queries[i]); });
-  });
-}
-
-}  // namespace
-
-RayHit World::cast_ray(const Ray& ray, RayHits wanted) const {
-  RayHit hit;
-  cast_rays({&ray, 1}, {&hit, 1}, wanted);
-  return hit;
-}
-
-void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> hits, RayHits wanted) const {
-  Implementation& i = implementation();
-  check_name(wanted, RayHits::any, "hits");
-  // Fewer do not open the same clusters often enough, nor do rays of which not even one is for each body.
-  const std::size_t fewest_together = std::max<std::size_t>(64, i.bodies.count());
-  if (wanted != RayHits::first || rays.size() < fewest_together)
-    return answer_all(i, rays, hits, [&](const Ray& ray) { return find_hit(i.bodies, ray, wanted); });
-  const base::FloatingPointMode mode;
-  const base::Workers::Scope scope(i.workers);
-  with_memory(kNoMemoryForAnswers, [&] {
-    check_queries(rays, hits.size());
-    constexpr std::size_t kAtATime = narrowphase::kLinesAtATime;
-    const base::Pool<narrowphase::SegmentBatch>::Loan batch(i.segment_batches);
-    i.bodies.expect_queries(rays.size());
-    begin_rays(i.bodies, rays.size(), i.settings.threads, *batch);
-    const std::size_t blocks = (rays.size() + kAtATime - 1) / kAtATime;
-    base::parallel_for(blocks, kRayBlocksAtATime, i.settings.threads, [&](std::size_t block) {
-      const std::size_t begin = block * kAtATime, count = std::min(kAtATime, rays.size() - begin);
-      find_first_hits(i.bodies, rays.subspan(begin, count), hits.subspan(begin, count), *batch);
-    });
-  });
-}
-
-std::vector<RayHit> World::cast_ray_all(const Ray& ray) const {
-  const Implementation& i = implementation();
-  return answer_one(i, ray, [&] { return find_all_hits(i.bodies, ray); });
-}
-
-ClosestPoint World::closest_point(const PointQuery& query) const {
-  ClosestPoint answer;
-  closest_points({&query, 1}, {&answer, 1});
-  return answer;
-}
-
-void World::closest_points(std::span<const PointQuery> queries, std::span<ClosestPoint> answers) const {
-  Implementation& i = implementation();
-  answer_all(i, queries, answers, [&](const PointQuery& query) { return find_closest_point(i.bodies, query); });
-}
-
-std::vector<FacetOfBody> World::overlap_box(const BoxQuery& query) const {
-  const Implementation& i = implementation();
-  return answer_one(i, query, [&] { return find_in_box(i.bodies, query); });
-}
-
-std::vector<BodyId> World::bodies_containing(const PointQuery& query) const {
-  const Implementation& i = implementation();
-  return answer_one(i, query, [&] { return find_around(i.bodies, query); });
-}
-
-void World::overlap_boxes(std::span<const BoxQuery> queries, std::span<std::vector<FacetOfBody>> answers) const {
-  Implementation& i = implementation();
-  answer_all(i, queries, answers, [&](const BoxQuery& query) { return find_in_box(i.bodies, query); });
-}
-
-void World::bodies_containing_each(std::span<const PointQuery> queries, std::span<std::vector<BodyId>> answers) const {
-  Implementation& i = implementation();
-  answer_all(i, queries, answers, [&](const PointQuery& query) { return find_around(i.bodies, query); });
 }
 
 bool World::contains(BodyId body) const noexcept { return implementation_ && implementation_->bodies.contains(body); }

@@ -12,6 +12,8 @@ TACT_LONG_CGAL_PAIRS=100000000 TACT_LONG_RATIONAL_PAIRS=1000000 build/release/te
 TACT_LONG_HULL_PAIRS=1000000 build/release/tests/long/test_directions_long
 TACT_LONG_MOTION_QUERIES=10000000 TACT_LONG_REACH_QUERIES=1000000 TACT_LONG_SEED=$(date +%Y%m%d) build/release/tests/long/test_motion_long
 TACT_LONG_QUERIES=1000000 build/release/tests/long/test_queries_long
+cmake --build build/release --target test_body_queries_long
+TACT_LONG_OVERLAPS=2000 TACT_LONG_TURNS=1000000 build/release/tests/long/test_body_queries_long
 TACT_LONG_POINT_PAIRS=5000 TACT_LONG_EXACT_POINT_PAIRS=20000 build/release/tests/long/test_points_long
 TACT_LONG_CROSSINGS=10000 TACT_LONG_THROWS=2000 build/release/tests/long/test_crossings_long
 TACT_LONG_SELF_SEEDS=100 build/release/tests/long/test_self_long

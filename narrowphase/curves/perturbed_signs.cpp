@@ -78,6 +78,17 @@ int PerturbedSigns::edges(const NumberedPoint& p, const NumberedPoint& q, const 
   return exact != 0 ? exact : along_motion(p.at, q.at, r.at, s.at);
 }
 
+// The derivatives of (p - point) × (q - point) along the motion of the point against the edge.
+int PerturbedSigns::turn_along_x(Vec3 p, Vec3 q, Vec3 point, int whose) {
+  const int exact = orient2d(in_plane(p, 1, 2), in_plane(q, 1, 2), in_plane(point, 1, 2), counts_);
+  if (exact != 0) return exact;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int of_axis = axis_[i] == 1 ? minor_of_two(p, q, 2) : axis_[i] == 2 ? minor_of_two(q, p, 1) : 0;
+    if (of_axis != 0) return whose == 1 ? way_[i] * of_axis : -way_[i] * of_axis;
+  }
+  return 0;
+}
+
 int PerturbedSigns::of_vertices(const std::array<NumberedPoint, 4>& points) {
   const int exact = orient3d(points[0].at, points[1].at, points[2].at, points[3].at, counts_);
   if (exact != 0) return exact;

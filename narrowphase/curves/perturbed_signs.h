@@ -35,6 +35,9 @@ class PerturbedSigns {
   /// orient3d(p, q, r, s) of an edge of a and one of b. Zero only if they are parallel, of two meshes: then neither
   /// crosses a plane that holds the other.
   int edges(const NumberedPoint& p, const NumberedPoint& q, const NumberedPoint& r, const NumberedPoint& s);
+  /// Of two meshes: the turn of an edge of one and a point of the other, seen against x: orient2d() of y and z. `whose`
+  /// says whose the point is. Zero only if the edge is a point, seen so.
+  int turn_along_x(Vec3 p, Vec3 q, Vec3 point, int whose);
 
  private:
   // The sign of ((q - p) × (s - r)) along the way that b is moved.

@@ -99,11 +99,7 @@ class NearestSoFar {
   std::optional<NearestFacet> nearest() {
     if (nearest_.facet < 0 || exact_distance() > within_) return std::nullopt;
     NearestFacet found = nearest_;
-    if (!mesh_.is_of_surface(found.facet)) {  // corners that are one vertex count as one
-      const bool is_edge = found.facet < mesh_.facet_count() - mesh_.point_count();
-      const double first = is_edge ? found.weight[0] : 1.0;
-      found.weight = {first, 1.0 - first, 0.0};
-    }
+    found.weight = weights_of_source(mesh_, found.facet, found.weight);
     return found;
   }
 
@@ -176,6 +172,14 @@ class NearestSoFar {
 };
 
 }  // namespace
+
+std::array<double, 3> weights_of_source(const ClusteredMesh& mesh, int source_facet,
+                                        const std::array<double, 3>& weight) {
+  if (mesh.is_of_surface(source_facet)) return weight;
+  const bool is_edge = source_facet < mesh.facet_count() - mesh.point_count();
+  const double first = is_edge ? weight[0] : 1.0;
+  return {first, 1.0 - first, 0.0};
+}
 
 std::optional<NearestFacet> nearest_facet(const ClusteredMesh& mesh, Vec3 point, double within) {
   if (mesh.facet_count() == 0) return std::nullopt;

@@ -38,6 +38,10 @@ struct NearestFacet {
   std::array<double, 3> weight{};  // of the facet's corners at the nearest point
 };
 
+/// The weights of a facet's corners as the caller has them: corners that are one vertex of his count as one.
+std::array<double, 3> weights_of_source(const ClusteredMesh& mesh, int source_facet,
+                                        const std::array<double, 3>& weight);
+
 /// The facet nearest to a point, if its rounded distance is at most `within`, metres.
 std::optional<NearestFacet> nearest_facet(const ClusteredMesh& mesh, Vec3 point, double within);
 

@@ -3,6 +3,7 @@
 #include <tact/tact_c.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -297,11 +298,48 @@ class EveryCallOfC {
                                                ends.data());
     });
     tell(ends.back());
+    for (std::size_t i = 0; i < 5; ++i) {
+      call([&] { return tact_world_signed_distance(world_, &points[i], &nearest[i]); });
+      tell({&nearest[i].distance, 1});
+    }
+    call([&] { return tact_world_signed_distances(world_, points.data(), points.size(), nearest.data()); });
+    for (const tact_closest_point& one : nearest) tell({&one.distance, 1});
+    ask_of_bodies();
+  }
+
+  void ask_of_bodies() {
+    tact_distance_query pair = TACT_DISTANCE_QUERY_INIT;
+    pair.a = bodies_[0], pair.b = bodies_[1];
+    tact_nearest_bodies_query near = TACT_NEAREST_BODIES_QUERY_INIT;
+    near.body = bodies_[0], near.count = 2;
+    tact_sweep way = TACT_SWEEP_INIT;
+    way.body = bodies_[1], way.way[0] = -1.0 / 3.0, way.axis[0] = 0.7, way.angle = 0.9;
+    std::array<tact_body_distance, 4> apart{};
+    std::array<tact_sweep_hit, 2> hits{};
+    tact_overlap both{};
+    size_t count = 0;
+    call([&] { return tact_world_distance(world_, &pair, &apart[0]); });
+    call([&] { return tact_world_distances(world_, &pair, 1, &apart[1]); });
+    call([&] { return tact_world_nearest_bodies(world_, &near, &apart[2], 2, &count); });
+    call([&] { return tact_world_sweep(world_, &way, &hits[0]); });
+    call([&] { return tact_world_sweeps(world_, &way, 1, &hits[1]); });
+    call([&] { return tact_world_overlap(world_, bodies_[0], bodies_[1], &both); });
+    for (const tact_body_distance& one : apart) tell({&one.distance, 1}), tell(one.a_barycentric);
+    for (const tact_sweep_hit& hit : hits) tell({&hit.fraction, 1}), tell(hit.normal);
+    tell({&both.volume, 1});
+    tell({&both.area, 1});
+    tell(count);
   }
 
   // What solvers take.
   void solve() {
     size_t points = 0, pairs = 0, count = 0, vertices = 0;
+    tact_world kept{};
+    std::uint64_t hash = 0;
+    call([&] { return tact_report_keep(world_, &kept); });
+    call([&] { return tact_report_hash(kept, &hash); });
+    call([&] { return tact_world_destroy(kept); });
+    tell(hash);
     call([&] { return tact_report_point_count(world_, &points); });
     call([&] { return tact_report_facet_pair_count(world_, &pairs); });
     size_t near = 0;

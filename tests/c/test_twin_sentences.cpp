@@ -93,9 +93,9 @@ Sentences sentences_in(const std::string& header, const std::string& before, con
 
 Sentences sentences_of_cpp() {
   Sentences all;
-  for (const char* header :
-       {"body", "contact_point", "contact_sums", "debug_draw", "intersection_curve", "message", "motion", "queries",
-        "recording", "report", "report_arrays", "settings", "solver/stencil", "surface_check", "weld", "world"})
+  for (const char* header : {"body", "body_queries", "contact_point", "contact_sums", "debug_draw",
+                             "intersection_curve", "message", "motion", "queries", "recording", "report",
+                             "report_arrays", "settings", "solver/stencil", "surface_check", "weld", "world"})
     all.merge(sentences_in(text_of("engine/include/tact/" + std::string(header) + ".h"), "/// ", "///< "));
   for (const char* header : {"error", "facet_pair", "feature_pair", "reach_pair"})
     all.merge(sentences_in(text_of("engine/base/include/tact/" + std::string(header) + ".h"), "/// ", "///< "));
@@ -189,6 +189,12 @@ constexpr Twin kTwins[] = {
     {"ClosestPoint", "tact_closest_point", ""},
     {"BoxQuery", "tact_box_query", ""},
     {"FacetOfBody", "tact_facet_of_body", ""},
+    {"DistanceQuery", "tact_distance_query", ""},
+    {"NearestBodiesQuery", "tact_nearest_bodies_query", ""},
+    {"BodyDistance", "tact_body_distance", ""},
+    {"Sweep", "tact_sweep", ""},
+    {"SweepHit", "tact_sweep_hit", ""},
+    {"Overlap", "tact_overlap", ""},
     {"DebugColor", "tact_debug_color", ""},
     {"DebugDrawer", "tact_debug_drawer", ""},
     {"DebugDrawOptions", "tact_debug_draw_options", ""},
@@ -302,13 +308,17 @@ TEST(TwinSentences, OfPython) {
   const std::map<std::string, std::string> rows{{"ContactPoints", "ContactPoint"}, {"RayHits", "RayHit"},
                                                 {"ClosestPoints", "ClosestPoint"}, {"Stencils", "Stencil"},
                                                 {"ContactSums", "ContactSum"},     {"MotionReport", "Impact"},
-                                                {"ReachPairs", "ReachPair"}};
+                                                {"ReachPairs", "ReachPair"},       {"BodyDistances", "BodyDistance"},
+                                                {"SweepHits", "SweepHit"}};
   // What has another meaning in Python, which has arrays where C++ has structs.
   const std::set<std::string> others{"RayHits",
                                      "RayHits::bodies",
                                      "RayHits::facets",
                                      "ClosestPoints::bodies",
                                      "ClosestPoints::facets",
+                                     "BodyDistances::facets",
+                                     "SweepHits::bodies",
+                                     "SweepHits::others",
                                      "MotionReport::bodies",
                                      "MotionReport::kinds",
                                      "ContactPoints::kinds",

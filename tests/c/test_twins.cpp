@@ -128,6 +128,12 @@ TEST(TwinsInC, OfEachField) {
   expect_twins_of_fields("queries.h", "struct ClosestPoint {", "tact_closest_point", {});
   expect_twins_of_fields("queries.h", "struct BoxQuery {", "tact_box_query", {"filter"});
   expect_twins_of_fields("queries.h", "struct FacetOfBody {", "tact_facet_of_body", {});
+  expect_twins_of_fields("body_queries.h", "struct DistanceQuery {", "tact_distance_query", {});
+  expect_twins_of_fields("body_queries.h", "struct NearestBodiesQuery {", "tact_nearest_bodies_query", {"filter"});
+  expect_twins_of_fields("body_queries.h", "struct BodyDistance {", "tact_body_distance", {});
+  expect_twins_of_fields("body_queries.h", "struct Sweep {", "tact_sweep", {"filter"});
+  expect_twins_of_fields("body_queries.h", "struct SweepHit {", "tact_sweep_hit", {});
+  expect_twins_of_fields("body_queries.h", "struct Overlap {", "tact_overlap", {});
   for (const auto& [type, twin] : {std::pair("PointArrays", "tact_point_arrays"),
                                    {"FacetPairArrays", "tact_facet_pair_arrays"},
                                    {"ImpactArrays", "tact_impact_arrays"}})

@@ -3,6 +3,7 @@
 #include <tact/tact.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <thread>
 #include <vector>
@@ -36,6 +37,19 @@ void ask_many_at_once(const World& world, Random& random, AnswerHash& hash) {
   std::vector<std::vector<BodyId>> containing(points.size());
   world.bodies_containing_each(points, containing);
   for (const std::vector<BodyId>& bodies : containing) hash.add(bodies);
+  std::vector<ClosestPoint> signed_ones(points.size());
+  world.signed_distances(points, signed_ones);
+  hash.add(signed_ones);
+}
+
+void ask_of_bodies(const World& world, Random& random, AnswerHash& hash) {
+  const std::vector<BodyId> bodies = world.bodies();
+  const auto any = [&] { return bodies[static_cast<std::size_t>(random.below(static_cast<int>(bodies.size())))]; };
+  for (const BodyDistance& near : world.nearest_bodies({.body = any(), .count = 3})) hash.add(near.a_barycentric);
+  const SweepHit hit = world.sweep({.body = any(), .way = vector_in(3.0, random), .angle = 0.5});
+  hash.add(hit.barycentric);
+  const BodyId a = any(), b = any();
+  if (a != b) hash.add(std::array{world.distance({a, b}).distance, world.overlap(a, b).volume, hit.fraction});
 }
 
 void ask_one_by_one(const World& world, Random& random, AnswerHash& hash) {
@@ -74,7 +88,7 @@ std::uint64_t answers(const World& world, int thread) {
   for (int i = 0; i < 3; ++i) {
     const int kind = (i + thread) % 3;
     if (kind == 0) ask_many_at_once(world, random, hash);
-    if (kind == 1) ask_one_by_one(world, random, hash);
+    if (kind == 1) ask_one_by_one(world, random, hash), ask_of_bodies(world, random, hash);
     if (kind == 2) look_at_bodies(world, random, hash);
   }
   const AnswerHashes hashes = hash.hashes();

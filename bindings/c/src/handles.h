@@ -1,6 +1,7 @@
 // The worlds of C programs: handles that can be checked, and the guard that every function of the interface runs in.
 #pragma once
 
+#include <tact/kept_report.h>
 #include <tact/recording.h>
 #include <tact/tact.h>
 #include <tact/tact_c.h>
@@ -37,6 +38,7 @@ struct WorldEntry {
   std::unique_ptr<FileRecording> recording = nullptr;  // outlives the world
   std::shared_ptr<World> held;                         // a player's, or its own
   World& world;
+  std::optional<KeptReport> kept = {};   // of a handle that is of no world but of a report
   const Report* report = nullptr;        // of the last step; null before the first, or after a change of settings
   const MotionReport* motion = nullptr;  // of the last tact_world_detect_motion(); null before
   std::vector<PositionsUpdate> updates;  // scratch

@@ -22,6 +22,23 @@ static_assert(sizeof(tact_box_query) == sizeof(BoxQuery) &&
               offsetof(tact_box_query, layer) == offsetof(BoxQuery, filter));
 static_assert(sizeof(tact_facet_of_body) == sizeof(FacetOfBody) &&
               offsetof(tact_facet_of_body, facet) == offsetof(FacetOfBody, facet));
+static_assert(sizeof(tact_distance_query) == sizeof(DistanceQuery) &&
+              offsetof(tact_distance_query, within) == offsetof(DistanceQuery, within));
+static_assert(sizeof(tact_nearest_bodies_query) == sizeof(NearestBodiesQuery) &&
+              offsetof(tact_nearest_bodies_query, within) == offsetof(NearestBodiesQuery, within) &&
+              offsetof(tact_nearest_bodies_query, layer) == offsetof(NearestBodiesQuery, filter));
+static_assert(sizeof(tact_body_distance) == sizeof(BodyDistance) &&
+              offsetof(tact_body_distance, a_facet) == offsetof(BodyDistance, a_facet) &&
+              offsetof(tact_body_distance, b_barycentric) == offsetof(BodyDistance, b_barycentric) &&
+              offsetof(tact_body_distance, containment) == offsetof(BodyDistance, containment));
+static_assert(sizeof(tact_sweep) == sizeof(Sweep) && offsetof(tact_sweep, axis) == offsetof(Sweep, axis) &&
+              offsetof(tact_sweep, angle) == offsetof(Sweep, angle) &&
+              offsetof(tact_sweep, layer) == offsetof(Sweep, filter));
+static_assert(sizeof(tact_sweep_hit) == sizeof(SweepHit) &&
+              offsetof(tact_sweep_hit, fraction) == offsetof(SweepHit, fraction) &&
+              offsetof(tact_sweep_hit, normal) == offsetof(SweepHit, normal) &&
+              offsetof(tact_sweep_hit, other_barycentric) == offsetof(SweepHit, other_barycentric));
+static_assert(sizeof(tact_overlap) == sizeof(Overlap) && offsetof(tact_overlap, area) == offsetof(Overlap, area));
 
 // The same bits under the name of C++.
 template <class Cpp, class ForC>
@@ -123,6 +140,58 @@ tact_error tact_world_closest_points(tact_world world, const tact_point_query* q
   return reading(world, [&](const WorldEntry& entry) {
     entry.world.closest_points(as_cpp<const tact::PointQuery>(queries, count),
                                as_cpp<tact::ClosestPoint>(answers, count));
+  });
+}
+
+tact_error tact_world_signed_distance(tact_world world, const tact_point_query* query, tact_closest_point* answer) {
+  return tact_world_signed_distances(world, query, 1, answer);
+}
+
+tact_error tact_world_signed_distances(tact_world world, const tact_point_query* queries, size_t count,
+                                       tact_closest_point* answers) {
+  return reading(world, [&](const WorldEntry& entry) {
+    entry.world.signed_distances(as_cpp<const tact::PointQuery>(queries, count),
+                                 as_cpp<tact::ClosestPoint>(answers, count));
+  });
+}
+
+tact_error tact_world_distance(tact_world world, const tact_distance_query* query, tact_body_distance* answer) {
+  return reading(world, [&](const WorldEntry& entry) {
+    as_cpp<tact::BodyDistance>(answer, 1)[0] = entry.world.distance(as_cpp<const tact::DistanceQuery>(query, 1)[0]);
+  });
+}
+
+tact_error tact_world_distances(tact_world world, const tact_distance_query* queries, size_t count,
+                                tact_body_distance* answers) {
+  return reading(world, [&](const WorldEntry& entry) {
+    entry.world.distances(as_cpp<const tact::DistanceQuery>(queries, count),
+                          as_cpp<tact::BodyDistance>(answers, count));
+  });
+}
+
+tact_error tact_world_nearest_bodies(tact_world world, const tact_nearest_bodies_query* query,
+                                     tact_body_distance* answers, size_t capacity, size_t* count) {
+  return reading(world, [&](const WorldEntry& entry) {
+    check_not_null(count);
+    write(entry.world.nearest_bodies(as_cpp<const tact::NearestBodiesQuery>(query, 1)[0]), answers, capacity, count);
+  });
+}
+
+tact_error tact_world_sweep(tact_world world, const tact_sweep* sweep, tact_sweep_hit* hit) {
+  return reading(world, [&](const WorldEntry& entry) {
+    as_cpp<tact::SweepHit>(hit, 1)[0] = entry.world.sweep(as_cpp<const tact::Sweep>(sweep, 1)[0]);
+  });
+}
+
+tact_error tact_world_sweeps(tact_world world, const tact_sweep* queries, size_t count, tact_sweep_hit* hits) {
+  return reading(world, [&](const WorldEntry& entry) {
+    entry.world.sweeps(as_cpp<const tact::Sweep>(queries, count), as_cpp<tact::SweepHit>(hits, count));
+  });
+}
+
+tact_error tact_world_overlap(tact_world world, tact_body a, tact_body b, tact_overlap* overlap) {
+  return reading(world, [&](const WorldEntry& entry) {
+    as_cpp<tact::Overlap>(overlap, 1)[0] = entry.world.overlap(tact::c::id_of(a), tact::c::id_of(b));
   });
 }
 

@@ -215,4 +215,26 @@ tact_error tact_report_hash(tact_world world, uint64_t* hash) {
     *hash = report.hash();
   });
 }
+
+tact_error tact_report_keep(tact_world world, tact_world* kept) {
+  return with_report(world, [&](const Report& report) {
+    check_not_null(kept);
+    if (kept->handle == 0) {
+      const auto entry =
+          std::make_shared<tact::c::WorldEntry>(std::make_shared<tact::World>(tact::Settings{.threads = 1}));
+      entry->kept.emplace().keep(report);
+      entry->report = &entry->kept->report();
+      kept->handle = tact::c::add_entry(entry);
+      return;
+    }
+    if (kept->handle == world.handle) return;
+    const std::shared_ptr<tact::c::WorldEntry> entry = tact::c::entry_of(*kept);
+    const std::unique_lock lock(entry->in_use, std::try_to_lock);
+    if (!lock) throw tact::c::kBusy;
+    if (!entry->kept) throw tact::c::Failure{TACT_ERROR_WRONG_ORDER, "kept is a world, not a report that was kept"};
+    entry->report = nullptr;
+    entry->kept->keep(report);
+    entry->report = &entry->kept->report();
+  });
+}
 }

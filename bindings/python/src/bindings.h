@@ -17,6 +17,7 @@ class SharedWorld;
 using WorldClass = pybind11::class_<SharedWorld, std::shared_ptr<SharedWorld>>;
 void define_contact_sums(pybind11::module_& module, WorldClass& world);
 void define_queries(pybind11::module_& module, WorldClass& world);
+void define_body_queries(pybind11::module_& module, WorldClass& world);
 void define_surface_check(pybind11::module_& module, WorldClass& world);
 void define_recording(pybind11::module_& module, WorldClass& world);
 void define_debug_draw(pybind11::module_& module, WorldClass& world);

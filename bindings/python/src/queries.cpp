@@ -71,12 +71,14 @@ HitArrays cast_ray_all(SharedWorld& world, py::handle from, py::handle to, std::
   return hit_arrays(hits);
 }
 
-ClosestArrays closest_points(SharedWorld& world, py::handle points, double within, std::uint32_t layer,
-                             std::uint32_t mask) {
+using FindPlaces = void (World::*)(std::span<const PointQuery>, std::span<ClosestPoint>) const;
+
+template <FindPlaces kFind>
+ClosestArrays places_of(SharedWorld& world, py::handle points, double within, std::uint32_t layer, std::uint32_t mask) {
   std::vector<PointQuery> queries;
   for (const Eigen::Vector3d& point : points_of(points, "points")) queries.push_back({point, within, {layer, mask}});
   std::vector<ClosestPoint> answers(queries.size());
-  world.ask([&](const World& w) { w.closest_points(queries, answers); });
+  world.ask([&](const World& w) { (w.*kFind)(queries, answers); });
   const std::span<const ClosestPoint> all = answers;
   return {body_column(all), facet_column(all),
           column_of<double>(all, [](const ClosestPoint& one) { return one.distance; }),
@@ -154,9 +156,12 @@ void define_queries(py::module_& module, WorldClass& world) {
            "answers many rays in parallel. The first facet that each meets, or any; (N, 3) both, metres")
       .def("cast_ray_all", cast_ray_all, py::arg("from_"), py::arg("to"), py::kw_only(), layer, mask,
            "all facets that a ray meets, sorted by fraction, body and facet")
-      .def("closest_points", closest_points, py::arg("points"), py::kw_only(),
+      .def("closest_points", places_of<&World::closest_points>, py::arg("points"), py::kw_only(),
            py::arg("within") = std::numeric_limits<double>::infinity(), layer, mask,
            "finds the nearest places to many points in parallel. (N, 3), metres")
+      .def("signed_distances", places_of<&World::signed_distances>, py::arg("points"), py::kw_only(),
+           py::arg("within") = std::numeric_limits<double>::infinity(), layer, mask,
+           "finds the signed distances of many points in parallel. (N, 3), metres; negative inside closed bodies")
       .def("overlap_box", overlap_box, py::arg("lower"), py::arg("upper"), py::kw_only(), layer, mask,
            "the facets that share a point with a box, decided exactly; sorted by body and facet. (N, 2): BodyId.index "
            "and facet")

@@ -401,6 +401,13 @@ void define_report(py::module_& module) {
           "a number made from every bit of candidate pairs, contacts, facet pairs, points and pairs within reach; "
           "bodies "
           "enter it by their keys")
+      .def(
+          "keep",
+          [](const ReportHandle& report) {
+            const auto kept = std::make_shared<SharedWorld>(*report.held());
+            return ReportHandle(kept, 0, &kept->kept());
+          },
+          "copies a report. The copy stays valid, and any thread may read it while the next step runs")
       .def("__len__", [](const ReportHandle& report) { return report->contacts().size(); })
       .def("__repr__", report_text);
 }

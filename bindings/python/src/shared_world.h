@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pybind11/pybind11.h>
+#include <tact/kept_report.h>
 #include <tact/recording.h>
 #include <tact/world.h>
 
@@ -9,6 +10,7 @@
 #include <exception>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -38,6 +40,9 @@ class SharedWorld : public std::enable_shared_from_this<SharedWorld> {
  public:
   explicit SharedWorld(const Settings& settings) : SharedWorld(std::make_shared<World>(settings)) {}
   explicit SharedWorld(std::shared_ptr<World> world) : world_(std::move(world)) {}
+  /// Of a copy of a report, which stays: it stands in a world of no bodies.
+  explicit SharedWorld(const Report& report) : SharedWorld(Settings{.threads = 1}) { kept_.emplace().keep(report); }
+  const Report& kept() const { return kept_->report(); }
 
   /// While it lives, the world can be read and not changed: whatever Python runs meanwhile, a drawer, a finalizer,
   /// another thread, what is read stays. @throws Error wrong_order while the world is changed.
@@ -123,7 +128,8 @@ class SharedWorld : public std::enable_shared_from_this<SharedWorld> {
 
   std::unique_ptr<FileRecording> recording_;  // outlives the world
   std::shared_ptr<World> world_;
-  std::uint64_t report_ = 0;
+  std::optional<KeptReport> kept_;
+  std::uint64_t report_ = 0;  // that of a kept one is 0 for ever
   bool busy_ = false;
   int readers_ = 0;
 };

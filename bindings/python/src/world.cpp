@@ -347,6 +347,7 @@ void define_world(py::module_& module) {
       });
   define_contact_sums(module, class_of_world);
   define_queries(module, class_of_world);
+  define_body_queries(module, class_of_world);
   define_surface_check(module, class_of_world);
   define_recording(module, class_of_world);
   define_debug_draw(module, class_of_world);

@@ -1,7 +1,7 @@
 """Finds where many deformable triangle meshes touch."""
 
 import os
-from typing import Callable, ClassVar, Iterable, Iterator, Mapping, Optional, Protocol, overload
+from typing import Callable, ClassVar, Iterable, Iterator, Mapping, Optional, Protocol, Sequence, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -562,6 +562,8 @@ class Report:
         """counts and times of the step. By name, times in milliseconds"""
     def hash(self) -> int:
         """a number made from every bit of candidate pairs, contacts, facet pairs, points and pairs within reach; bodies enter it by their keys"""
+    def keep(self) -> Report:
+        """copies a report. The copy stays valid, and any thread may read it while the next step runs"""
     def __len__(self) -> int: ...
 
 class Impacts:
@@ -641,6 +643,65 @@ class ClosestPoints:
     def barycentric(self) -> Floats:
         """(N, 3): the place on the facet: weights of its corners, not negative, with a sum of 1"""
     def __len__(self) -> int: ...
+
+class BodyDistances:
+    """The least distance of the surfaces of two bodies, and where it is; of equally near facets the least of a, then of b. A row a pair."""
+
+    @property
+    def bodies(self) -> npt.NDArray[np.int64]:
+        """(N, 2): BodyId.index of both bodies"""
+    @property
+    def distances(self) -> Floats:
+        """(N,): metres: zero exactly where the surfaces share a point, else right to 1e-12 of both bodies' size; infinity where they are farther apart than requested"""
+    @property
+    def facets(self) -> Ints:
+        """(N, 2): the facet of each; negative: farther apart than requested"""
+    @property
+    def a_barycentric(self) -> Floats:
+        """(N, 3): the place on a's facet: weights of its corners; zero on a plane"""
+    @property
+    def b_barycentric(self) -> Floats:
+        """(N, 3): the place on b's facet"""
+    @property
+    def containments(self) -> npt.NDArray[np.uint8]:
+        """(N,): whether one lies wholly inside the other, whose surfaces are apart. Values of Containment"""
+    def __len__(self) -> int: ...
+
+class SweepHits:
+    """The first facet that a swept body meets; of equal fractions the least by body, then by facets. A row a sweep."""
+
+    @property
+    def bodies(self) -> npt.NDArray[np.int64]:
+        """(N,): BodyId.index; -1 where nothing is met"""
+    @property
+    def facets(self) -> Ints:
+        """(N,): of the swept body; negative: it meets nothing"""
+    @property
+    def others(self) -> Ints:
+        """(N,): the facet of the body that is met"""
+    @property
+    def fractions(self) -> Floats:
+        """(N,): the part of the way, 0 to 1, that is free: never later than the true one. Earlier by the time that the facets take for the last 1e-13 of their size and way"""
+    @property
+    def normals(self) -> Floats:
+        """(N, 3): unit vector from `facet` to `other`; zero if they meet at once"""
+    @property
+    def barycentric(self) -> Floats:
+        """(N, 3): the place on `facet`: weights of its corners"""
+    @property
+    def other_barycentric(self) -> Floats:
+        """(N, 3): the place on `other`"""
+    def __len__(self) -> int: ...
+
+class Overlap:
+    """What two closed bodies have in common."""
+
+    @property
+    def volume(self) -> float:
+        """cubic metres"""
+    @property
+    def area(self) -> float:
+        """of its surface, square metres; zero where the bodies only touch"""
 
 class PlayedStep:
     """A step that was run again."""
@@ -933,6 +994,41 @@ class World:
         mask: int = 0xFFFFFFFF,
     ) -> ClosestPoints:
         """finds the nearest places to many points in parallel. (N, 3), metres"""
+    def signed_distances(
+        self,
+        points: npt.ArrayLike,
+        *,
+        within: float = ...,
+        layer: int = 0xFFFFFFFF,
+        mask: int = 0xFFFFFFFF,
+    ) -> ClosestPoints:
+        """finds the signed distances of many points in parallel. (N, 3), metres; negative inside closed bodies"""
+    def distances(self, a: Sequence[BodyId], b: Sequence[BodyId], *, within: float = ...) -> BodyDistances:
+        """finds the distances of many pairs of bodies in parallel. Lists of one length"""
+    def nearest_bodies(
+        self,
+        body: BodyId,
+        *,
+        count: int = 1,
+        within: float = ...,
+        layer: int = 0xFFFFFFFF,
+        mask: int = 0xFFFFFFFF,
+    ) -> BodyDistances:
+        """the bodies nearest to one, sorted by distance and body"""
+    def sweeps(
+        self,
+        bodies: Sequence[BodyId],
+        ways: Optional[npt.ArrayLike] = None,
+        *,
+        axes: Optional[npt.ArrayLike] = None,
+        centers: Optional[npt.ArrayLike] = None,
+        angles: Optional[npt.ArrayLike] = None,
+        layer: int = 0xFFFFFFFF,
+        mask: int = 0xFFFFFFFF,
+    ) -> SweepHits:
+        """finds what many sweeps meet in parallel. A body each, (N, 3), metres; (N,), radians. Without axes they are z"""
+    def overlap(self, a: BodyId, b: BodyId) -> Overlap:
+        """volume and surface of what two closed bodies that do not cross themselves have in common"""
     def overlap_box(
         self,
         lower: npt.ArrayLike,

@@ -122,6 +122,7 @@ struct Contact {
  private:
   friend class ReportWriter;
   friend class Report;
+  friend class KeptReport;
   friend struct StateFields;
   std::span<const FacetPair> facet_pairs_;
   std::span<const Patch> patches_;
@@ -179,6 +180,7 @@ class TACT_API Report {
 
  private:
   friend class ReportWriter;
+  friend class KeptReport;
   friend class FacetOutcomeFinder;
   Report(Report&&) = default;
   Report& operator=(Report&&) = default;

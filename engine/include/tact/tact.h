@@ -2,10 +2,12 @@
 #pragma once
 
 #include <tact/body.h>
+#include <tact/body_queries.h>
 #include <tact/contact_sums.h>
 #include <tact/debug_draw.h>
 #include <tact/error.h>
 #include <tact/executor.h>
+#include <tact/kept_report.h>
 #include <tact/message.h>
 #include <tact/motion.h>
 #include <tact/queries.h>

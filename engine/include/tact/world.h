@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tact/body.h>
+#include <tact/body_queries.h>
 #include <tact/error.h>
 #include <tact/motion.h>
 #include <tact/queries.h>
@@ -149,6 +150,27 @@ class TACT_API World {
   void overlap_boxes(std::span<const BoxQuery> queries, std::span<std::vector<FacetOfBody>> answers) const;
   /// Finds the bodies that contain many points in parallel. It replaces what the answers held.
   void bodies_containing_each(std::span<const PointQuery> queries, std::span<std::vector<BodyId>> answers) const;
+  /// Returns the nearest surface of closed bodies and planes; its distance is minus the depth where one contains the
+  /// point: the deepest, at any depth. Exactly zero on a surface.
+  ClosestPoint signed_distance(const PointQuery& query) const;
+  /// Finds the signed distances of many points in parallel.
+  void signed_distances(std::span<const PointQuery> queries, std::span<ClosestPoint> answers) const;
+
+  // Errors of these besides: stale_body, foreign_body, and invalid_argument where a plane is swept or two are compared.
+
+  /// Returns the least distance of two bodies. Errors: also invalid_argument (one body twice).
+  BodyDistance distance(const DistanceQuery& query) const;
+  /// Finds the distances of many pairs of bodies in parallel.
+  void distances(std::span<const DistanceQuery> queries, std::span<BodyDistance> answers) const;
+  /// Returns the bodies nearest to one, sorted by distance and body.
+  std::vector<BodyDistance> nearest_bodies(const NearestBodiesQuery& query) const;
+  /// Returns what a body meets first when it is moved straight or turned, all others standing still.
+  SweepHit sweep(const Sweep& sweep) const;
+  /// Finds what many sweeps meet in parallel.
+  void sweeps(std::span<const Sweep> queries, std::span<SweepHit> hits) const;
+  /// Returns volume and surface of what two closed bodies that do not cross themselves have in common. Errors: also
+  /// invalid_argument (one body twice, or one without an inside).
+  Overlap overlap(BodyId a, BodyId b) const;
 
   /// Sets the observer of all mutating calls, which outlives the world; null removes it. Errors: wrong_order (bodies
   /// were added before).

@@ -232,6 +232,9 @@ class EveryCall {
     told_.add(report);
     tell([&] { return report.hash(); });
     tell([&] { return std::uint64_t{report.find_contact(bodies_[0], bodies_[1]) != nullptr}; });
+    KeptReport kept;
+    call([&] { kept.keep(report); });
+    tell([&] { return kept.report().hash(); });
     told_.begin("debug_draw");
     call([&] { debug_draw(world, report, told_, {.surfaces = true, .planes = true, .kept_facets = true}); });
   }
@@ -292,7 +295,42 @@ class EveryCall {
       tell([&] { return world.closest_point(points_[i]); });
       tell([&] { return world.overlap_box(boxes_[i]).size(); });
       tell([&] { return world.bodies_containing(points_[i]).size(); });
+      tell([&] { return world.signed_distance(points_[i]); });
     }
+    call([&] { world.signed_distances(points_, nearest); });
+    for (const ClosestPoint& one : nearest) told_.add(one);
+    ask_of_bodies(world);
+  }
+
+  void ask_of_bodies(const World& world) {
+    told_.begin("queries of bodies");
+    const Eigen::Vector3d way(0.3, -1.0 / 3.0, 0.2), axis(1.0, 2.0, 7.0);
+    const std::vector<Sweep> ways{{bodies_[0], way, axis, way, 0.7, {}}, {bodies_[1], -way, axis, {}, -2.1, {}}};
+    const std::vector<DistanceQuery> pairs{
+        {bodies_[0], bodies_[2]}, {bodies_[1], bodies_[4]}, {bodies_[0], bodies_[3]}};
+    std::vector<SweepHit> hits(ways.size());
+    std::vector<BodyDistance> apart(pairs.size());
+    call([&] {
+      world.sweeps(ways, hits);
+      world.distances(pairs, apart);
+    });
+    hits.push_back(call([&] { return world.sweep(ways[1]); }));
+    apart.push_back(call([&] { return world.distance(pairs[0]); }));
+    for (const BodyDistance& one : call([&] { return world.nearest_bodies({.body = bodies_[0], .count = 3}); }))
+      apart.push_back(one);
+    for (const SweepHit& hit : hits) {
+      told_.add(hit.fraction);
+      told_.add(hit.normal);
+      told_.add(hit.barycentric);
+    }
+    for (const BodyDistance& one : apart) {
+      told_.add(one.distance);
+      told_.add(one.a_barycentric);
+      told_.add(one.b_barycentric);
+    }
+    const Overlap both = call([&] { return world.overlap(bodies_[0], bodies_[1]); });
+    told_.add(both.volume);
+    told_.add(both.area);
   }
 
   void look(const World& world) {
@@ -364,6 +402,11 @@ class EveryCall {
     expect_refused([&] { world.closest_point(no_distance); });
     expect_refused([&] { world.bodies_containing(no_point); });
     expect_refused([&] { world.overlap_box(no_box); });
+    expect_refused([&] { world.signed_distance(no_point); });
+    expect_refused([&] { world.distance({bodies_[0], bodies_[1], nan}); });
+    expect_refused([&] { world.nearest_bodies({.body = bodies_[0], .within = nan}); });
+    expect_refused([&] { world.sweep({.body = bodies_[0], .angle = nan}); });
+    expect_refused([&] { world.overlap(bodies_[0], bodies_[0]); });
   }
 
   void play(const std::string& bytes) {

@@ -1,0 +1,73 @@
+"""Distances, sweeps, overlaps and kept reports."""
+
+import threading
+
+import numpy as np
+import pytest
+
+import tact
+from shapes import box
+
+
+def two_boxes():
+    world = tact.World()
+    positions, facets = box()
+    low = positions.min(axis=0)
+    size = positions.max(axis=0) - low
+    positions = (positions - low) / size
+    a = world.add_body(positions, facets)
+    b = world.add_body(positions + [3.0, 0.0, 0.0], facets)
+    return world, a, b, positions
+
+
+def test_distances_and_neighbours():
+    world, a, b, positions = two_boxes()
+    found = world.distances([a, b], [b, a])
+    assert len(found) == 2 and found.distances.tolist() == [2.0, 2.0]
+    assert found.bodies.tolist() == [[0, 1], [1, 0]] and (found.facets >= 0).all()
+    assert found.a_barycentric.sum() == pytest.approx(2.0)
+    assert world.distances([a], [b], within=1.0).distances[0] == np.inf
+    near = world.nearest_bodies(a, count=4)
+    assert near.bodies[:, 1].tolist() == [b.index] and near.containments[0] == tact.Containment.none.value
+    with pytest.raises(ValueError, match="lengths"):
+        world.distances([a], [a, b])
+
+
+def test_signed_distances():
+    world, a, b, positions = two_boxes()
+    found = world.signed_distances([[0.5, 0.5, 0.25], [2.0, 0.5, 0.5]])
+    assert found.distances.tolist() == [-0.25, 1.0]
+
+
+def test_sweeps():
+    world, a, b, positions = two_boxes()
+    hits = world.sweeps([a, a, a], [[4.0, 0.0, 0.0], [-4.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
+    assert hits.bodies.tolist() == [b.index, -1, -1]
+    assert hits.fractions[0] == pytest.approx(0.5, abs=1e-12) and hits.fractions[0] <= 0.5
+    turned = world.sweeps([a], angles=[np.pi], centers=[[2.0, 0.0, 0.0]])
+    assert turned.bodies[0] == b.index and 0.0 < turned.fractions[0] < 1.0
+    with pytest.raises(ValueError, match="rows"):
+        world.sweeps([a], np.zeros((2, 3)))
+
+
+def test_overlap():
+    world, a, b, positions = two_boxes()
+    world.set_positions(b, positions + [0.5, 0.0, 0.0])
+    both = world.overlap(a, b)
+    assert both.volume == pytest.approx(0.5, abs=1e-14) and both.area == pytest.approx(4.0, abs=1e-14)
+
+
+def test_a_kept_report_stays():
+    world, a, b, positions = two_boxes()
+    world.set_positions(b, positions + [0.5, 0.25, 0.125])
+    report = world.detect()
+    kept, value = report.keep(), report.hash()
+    world.set_positions(b, positions + [9.0, 0.0, 0.0])
+    seen = []
+    reader = threading.Thread(target=lambda: seen.append(kept.hash()))
+    reader.start()
+    world.detect()
+    reader.join()
+    assert seen == [value] and len(kept) == 1 and len(kept.contacts[0].facet_pairs) > 0
+    with pytest.raises(tact.StaleReportError):
+        report.hash()
