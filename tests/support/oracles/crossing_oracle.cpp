@@ -208,7 +208,8 @@ class Crossed {
     return {agree ? Long3(entered.normalized()) : out_, agree || entries == 0};
   }
 
-  Way way_with(int v, long double shift) const {
+  // Besides, whether something tells the side: the last step, unless that way is too long by now, or the patch.
+  std::pair<Way, bool> way_with(int v, long double shift) const {
     const Long3& x = at(own_, v);
     const long double limit = depth_ + 1e-12L + shift;
     const auto& [out, is_known] = facing(v);
@@ -217,24 +218,22 @@ class Crossed {
       const Long3 carried = sign_ * to_long(last_.at(v).normal);
       const bool was_inside = last_.at(v).gap < 0.0;
       if (was_inside || carried.dot(out) >= 0) way = nearest_facing(other_, x, carried, 0.5L + shift);
-      if (was_inside && way.distance <= limit) return way;
+      if (was_inside && way.distance <= limit) return {way, true};
     }
     if (way.distance > limit && is_known) way = nearest_facing(other_, x, out, 0.05L + shift);
     // No farther than the body is thick there.
     const Way nearest = nearest_facing(other_, x, out, -2);
-    if (way.distance > limit) return nearest;
+    if (way.distance > limit) return {nearest, is_known};
     const long double thickness = nearest.distance + along(other_, x - 1e-9L * nearest.out, -nearest.out).distance;
-    return way.distance > nearest.distance && way.distance >= thickness + shift ? nearest : way;
+    return {way.distance > nearest.distance && way.distance >= thickness + shift ? nearest : way, is_known};
   }
 
   // With thresholds moved to and fro: certain if that changes nothing.
   std::pair<Way, bool> way_of(int v) const {
-    const Way way = way_with(v, 0);
+    const auto [way, is_told] = way_with(v, 0);
     // Where nothing tells the side, the engine takes a local one.
-    const bool was_inside = last_.contains(v) && last_.at(v).gap < 0.0;
-    const bool certain = (was_inside || facing(v).second) &&
-                         std::abs(way_with(v, kBand).distance - way.distance) <= kBand &&
-                         std::abs(way_with(v, -kBand).distance - way.distance) <= kBand;
+    const bool certain = is_told && std::abs(way_with(v, kBand).first.distance - way.distance) <= kBand &&
+                         std::abs(way_with(v, -kBand).first.distance - way.distance) <= kBand;
     return {way, certain};
   }
 
