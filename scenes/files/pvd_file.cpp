@@ -54,7 +54,10 @@ std::vector<PvdPart> parse_pvd(std::string_view bytes, const std::filesystem::pa
       names.push_back(name);
       parts.emplace_back();
     }
-    parts[place].files.push_back(file.parent_path() / xml.required(*tag, "file"));
+    const std::string& named = xml.required(*tag, "file");
+    if (std::any_of(named.begin(), named.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7f; }))
+      xml.fail(in_quotes(named) + " is no name of a file");
+    parts[place].files.push_back(file.parent_path() / named);
     parts[place].times.push_back(time_of(*tag, xml));
   }
   if (parts.empty()) xml.fail("the collection names no file");

@@ -161,13 +161,20 @@ class Steps {
   std::optional<scenes::JsonReport> report_;
 };
 
+// A name that is not UTF-8 has U+FFFD in the place of each wrong byte.
+void raise_value_error(const std::string& text) {
+  const py::object message = py::reinterpret_steal<py::object>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));
+  if (message) PyErr_SetObject(PyExc_ValueError, message.ptr());
+}
+
 void translate(std::exception_ptr thrown) {
   try {
     std::rethrow_exception(thrown);
   } catch (const scenes::FileError& error) {
-    PyErr_SetString(PyExc_ValueError, error.what());
+    raise_value_error(error.what());
   } catch (const scenes::UsageError& error) {
-    PyErr_SetString(PyExc_ValueError, error.what());
+    raise_value_error(error.what());
   }
 }
 

@@ -106,6 +106,23 @@ TEST(VtkFile, ACollectionGivesItsPartsAndTheirBodies) {
   EXPECT_EQ(bodies[0].positions[1](2, 0), 9.0);
 }
 
+TEST(VtkFile, BrokenCollectionsAreRefusedWithTheirPlace) {
+  const auto refused = [](const std::string& entries) -> std::string {
+    try {
+      parse_pvd("<VTKFile type=\"Collection\">\n" + entries + "</VTKFile>", "c.pvd");
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refused(""), "c.pvd:2: the collection names no file");
+  EXPECT_EQ(refused("<DataSet timestep=\"1\"/>"), "c.pvd:2: <DataSet> has no attribute file");
+  EXPECT_EQ(refused("<DataSet timestep=\"x\" file=\"a.vtp\"/>"), "c.pvd:2: the timestep is 'x', not a number");
+  EXPECT_EQ(refused("<DataSet file=\"a\nb.vtp\"/>"), "c.pvd:2: 'a\\x0ab.vtp' is no name of a file");
+  EXPECT_EQ(refused("<DataSet part=\"0\" file=\"a.vtp\"/><DataSet part=\"1\" timestep=\"1\" file=\"b.vtp\"/>"),
+            "c.pvd:2: part '1' has other times than part '0'");
+}
+
 TEST(VtkFile, AFileThatTellsOfBodiesIsThoseBodies) {
   const tests::TemporaryFolder folder;
   const std::string two = replaced(kVtp, "0 0 0 0<", "7 2 7 7<");
