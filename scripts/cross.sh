@@ -52,7 +52,7 @@ build() {
 # Runs a program of the platform.
 run() {
   case $platform in
-    aarch64) qemu-aarch64 "$@" ;;
+    aarch64) OMP_WAIT_POLICY=passive qemu-aarch64 "$@" ;;  # threads that wait by spinning would take what the others need
     windows) WINEPATH="Z:$PWD/$(dirname "$1")/tact/engine" /usr/lib/wine/wine64 "$1.exe" "${@:2}" ;;  # where the DLL is
     libcxx) "$@" ;;
   esac

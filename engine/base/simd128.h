@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "engine/base/fused.h"
+
 #if defined(__ARM_NEON)
 #include <arm_neon.h>
 #elif defined(__wasm_simd128__)
@@ -109,7 +111,7 @@ static inline Doubles2 fused(Doubles2 a, Doubles2 b, Doubles2 c) {
 #if defined(__ARM_NEON)
   return vfmaq_f64(c, a, b);
 #else
-  return Doubles2{__builtin_fma(a[0], b[0], c[0]), __builtin_fma(a[1], b[1], c[1])};
+  return Doubles2{fused(a[0], b[0], c[0]), fused(a[1], b[1], c[1])};
 #endif
 }
 
@@ -117,8 +119,7 @@ static inline Floats4 fused(Floats4 a, Floats4 b, Floats4 c) {
 #if defined(__ARM_NEON)
   return vfmaq_f32(c, a, b);
 #else
-  return Floats4{__builtin_fmaf(a[0], b[0], c[0]), __builtin_fmaf(a[1], b[1], c[1]), __builtin_fmaf(a[2], b[2], c[2]),
-                 __builtin_fmaf(a[3], b[3], c[3])};
+  return Floats4{fused(a[0], b[0], c[0]), fused(a[1], b[1], c[1]), fused(a[2], b[2], c[2]), fused(a[3], b[3], c[3])};
 #endif
 }
 

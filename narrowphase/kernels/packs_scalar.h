@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "engine/base/fused.h"
+
 namespace tact::narrowphase {
 namespace {
 
@@ -33,7 +35,7 @@ inline Pack sub(Pack a, Pack b) { return a - b; }
 inline Pack mul(Pack a, Pack b) { return a * b; }
 inline Pack div(Pack a, Pack b) { return a / b; }
 // a b - c, rounded once.
-inline Pack fused(Pack a, Pack b, Pack c) { return __builtin_fma(a, b, -c); }
+inline Pack fused(Pack a, Pack b, Pack c) { return base::fused(a, b, -c); }
 inline Pack min(Pack a, Pack b) { return a < b ? a : b; }
 inline Pack max(Pack a, Pack b) { return a > b ? a : b; }
 inline Pack abs(Pack a) { return __builtin_fabs(a); }
@@ -74,8 +76,8 @@ inline FloatPack pick(const float* p, int, const FloatPicks& at) { return p[*at.
 inline FloatPack add(FloatPack a, FloatPack b) { return a + b; }
 inline FloatPack sub(FloatPack a, FloatPack b) { return a - b; }
 inline FloatPack mul(FloatPack a, FloatPack b) { return a * b; }
-inline FloatPack fused(FloatPack a, FloatPack b, FloatPack c) { return __builtin_fmaf(a, b, -c); }
-inline FloatPack fused_sum(FloatPack a, FloatPack b, FloatPack c) { return __builtin_fmaf(a, b, c); }
+inline FloatPack fused(FloatPack a, FloatPack b, FloatPack c) { return base::fused(a, b, -c); }
+inline FloatPack fused_sum(FloatPack a, FloatPack b, FloatPack c) { return base::fused(a, b, c); }
 inline FloatPack abs(FloatPack a) { return __builtin_fabsf(a); }
 inline FloatMask less_equal(FloatPack a, FloatPack b) { return a <= b; }
 inline FloatMask less(FloatPack a, FloatPack b) { return a < b; }
