@@ -18,7 +18,7 @@ import re
 import textwrap
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
-LANGUAGES = {".cpp": "cpp", ".h": "cpp", ".c": "c", ".py": "python", ".pyi": "python", ".sh": "sh"}
+LANGUAGES = {".cpp": "cpp", ".h": "cpp", ".c": "c", ".py": "python", ".pyi": "python", ".mjs": "js", ".sh": "sh"}
 RIVALS = re.compile(r"^\{\{ rivals (\S+) \}\}$", re.MULTILINE)
 TABLE = re.compile(r"^\{\{ table (\S+) \| (.+?)(?: \| ([^|]+?)=([^|]+?))? \}\}$", re.MULTILINE)
 LINE = re.compile(r"^( *)\{\{ file (\S+?)(?: part (\S+))? \}\}$", re.MULTILINE)

@@ -9,6 +9,8 @@ usage: scripts/cross.sh PLATFORM [hashes|tests]
 Installs what it needs, builds tact for another platform and runs it there. The platforms:
   aarch64   ARM with 64 bits: GCC for Linux, with Embree and OpenMP, under qemu-user
   windows   Windows with 64 bits: MinGW-w64, as a static library and as a DLL, under Wine
+  wasm      WebAssembly with registers of 128 bits and one thread: Debian's emscripten, under node; scripts/wasm.sh
+            builds the npm package and tests it
   libcxx    this machine, but Clang with libc++ and without Embree and OpenMP, as Apple's tools are
 and what runs:
   hashes    the library and hash_program: every scene's hashes, and a last line with one number for all (the default)
@@ -19,7 +21,7 @@ TEXT
 }
 
 case ${1:-} in
-  aarch64 | windows | libcxx) platform=$1 ;;
+  aarch64 | windows | wasm | libcxx) platform=$1 ;;
   -h | --help) help; exit 0 ;;
   *) help >&2; exit 2 ;;
 esac
@@ -54,6 +56,7 @@ run() {
   case $platform in
     aarch64) OMP_WAIT_POLICY=passive qemu-aarch64 "$@" ;;  # threads that wait by spinning would take what the others need
     windows) WINEPATH="Z:$PWD/$(dirname "$1")/tact/engine" /usr/lib/wine/wine64 "$1.exe" "${@:2}" ;;  # where the DLL is
+    wasm) node --no-experimental-fetch "$1.js" "${@:2}" ;;  # this emscripten would fetch a file as from a server
     libcxx) "$@" ;;
   esac
 }
@@ -78,6 +81,9 @@ case $platform in
 esac
 [[ $wanted == tests ]] || exit 0
 
+if [[ $platform == wasm ]]; then
+  exec scripts/wasm.sh test
+fi
 if [[ $platform == libcxx ]]; then
   echo "libcxx: no tests; Debian has GoogleTest, CGAL and RapidCheck for the other standard library alone" >&2
   exit 2

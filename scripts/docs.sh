@@ -14,6 +14,11 @@ mkdir -p $pages/pictures
 cp scenes/pictures.png $pages/pictures/scenes.png
 cp bench/results/rivals/rivals.png bench/results/error/error_{hulls,meshes}.png bench/results/idle/skipped.png \
    bench/results/scaling/scaling_{growth,strong}.png $pages/pictures/
+# The page to try tact is made by emscripten, a build of its own: where it was not made, a page says how.
+mkdir -p $pages/try
+try=build/cross/wasm/try.html
+[[ -f $try ]] || try=docs/try/not_built.html
+cp $try $pages/try/index.html
 # Old headers say `//` where Doxygen reads `///`: both count.
 doxygen docs/Doxyfile
 mkdocs build --quiet --config-file docs/mkdocs.yml

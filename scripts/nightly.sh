@@ -47,5 +47,9 @@ scripts/build.sh shared
 ctest --preset shared -j 2
 scripts/build.sh plain
 ctest --preset plain -j 2
+scripts/setup.sh wasm viewer
+scripts/viewer.sh check
+scripts/cross.sh wasm
+scripts/wasm.sh test
 scripts/sanitize.sh all
 scripts/fuzz.sh "${1:-3600}"

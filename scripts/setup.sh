@@ -25,6 +25,7 @@ Installs the Debian packages that are missing. The groups:
   aarch64     scripts/cross.sh aarch64: a compiler and an emulator for ARM, libraries of Debian's architecture arm64
   windows     scripts/cross.sh windows: MinGW-w64 and Wine
   libcxx      scripts/cross.sh libcxx: Clang with its own standard library
+  wasm        scripts/cross.sh wasm, scripts/wasm.sh: emscripten, for the npm package; its tests with viewer
 END
 }
 
@@ -51,6 +52,8 @@ packages_of() {
                   libgtest-dev:arm64 libcgal-dev libboost-dev libgmp-dev:arm64 libmpfr-dev:arm64 librapidcheck-dev:arm64 ;;
     windows) echo g++-mingw-w64-x86-64-posix cmake ninja-build wine wine64 libeigen3-dev googletest ;;
     libcxx) echo clang libc++-dev libc++abi-dev cmake ninja-build libeigen3-dev ;;
+    wasm) command -v npm > /dev/null || echo npm
+          echo emscripten cmake ninja-build libeigen3-dev ;;
     *) printf 'setup.sh: no group is called %s\n\n%s\n' "$1" "$(help)" >&2; exit 2 ;;
   esac
 }

@@ -1,6 +1,6 @@
 // What C++20 has and libc++ before version 15 has not: the algorithms over whole ranges that tact uses, the order of
-// arrays, and std::bit_cast before 14. Compiled before every source where the standard library is such a one
-// (TactTargets.cmake); nothing of it reaches a program that uses tact.
+// arrays, and before 14 std::bit_cast and numbers in messages. Compiled before every source where the standard library
+// is such a one (TactTargets.cmake); nothing of it reaches a program that uses tact.
 #pragma once
 
 #include <version>
@@ -8,8 +8,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <compare>
 #include <cstddef>
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <iterator>
 #include <utility>
@@ -20,6 +23,18 @@ namespace std {
 template <class To, class From>
 constexpr To bit_cast(const From& from) noexcept {
   return __builtin_bit_cast(To, from);
+}
+
+// For messages: not always the shortest of all texts with the fewest digits that read back.
+inline to_chars_result to_chars(char* first, char* last, double value, chars_format, int digits) {
+  const int written = snprintf(first, static_cast<size_t>(last - first), "%.*g", digits, value);
+  return {first + min<ptrdiff_t>(written, last - first), errc()};
+}
+inline to_chars_result to_chars(char* first, char* last, double value) {
+  for (int digits = 1;; ++digits) {
+    const to_chars_result end = to_chars(first, last, value, chars_format::general, digits);
+    if (digits == 17 || strtod(first, nullptr) == value) return end;
+  }
 }
 #endif
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <concepts>
 #include <cstdint>
 
 namespace tact::base {
@@ -19,7 +20,11 @@ inline constexpr std::uint64_t kGoldenStep = 0x9e3779b97f4a7c15u;
 /// A hash of words in their order: multiply and rotate.
 class Hash {
  public:
-  void add(std::uint64_t word) { state_ = std::rotl(state_ ^ mixed(word), 23) * kGoldenStep; }
+  // Of any unsigned integer: sizes have 32 bits on some machines.
+  template <std::unsigned_integral Word>
+  void add(Word word) {
+    state_ = std::rotl(state_ ^ mixed(word), 23) * kGoldenStep;
+  }
   void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
   std::uint64_t value() const { return state_; }
 

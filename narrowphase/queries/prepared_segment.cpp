@@ -118,7 +118,8 @@ std::optional<CommonPlace> PreparedSegment::meet(const Triangle& triangle, Predi
 
   CommonPlace place;
   double part = 0.0, along = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) part += place.weight[k] = std::max(sum < 0.0 ? -area[k] : area[k], 0.0);
+  // In this order of std::max() no weight is -0, which Clang's code for WebAssembly would turn into 0.
+  for (std::size_t k = 0; k < 3; ++k) part += place.weight[k] = std::max(0.0, sum < 0.0 ? -area[k] : area[k]);
   for (std::size_t k = 0; k < 3; ++k) along += (place.weight[k] /= part) * z[k];
   place.time = along / way_;
   // Weights are wrong by three times the errors of the areas over the whole one, in all.

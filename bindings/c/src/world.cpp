@@ -1,4 +1,5 @@
 #include <climits>
+#include <limits>
 #include <new>
 #include <string>
 #include <vector>
@@ -82,7 +83,7 @@ NumberKind kind_of(int kind) { return kind >= 0 && kind <= TACT_UINT16 ? NumberK
 
 template <class Columns>
 Columns columns_of(const tact_columns& given) {
-  constexpr std::size_t kMost = std::size_t{1} << 62;  // so that the sign of none is lost
+  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max() / 4;  // so that the sign of none is lost
   if (given.count > kMost || given.stride_bytes > kMost)
     throw Failure{TACT_ERROR_WRONG_SIZE, "a count or a stride is larger than any memory"};
   return Columns::of_kind(kind_of(given.kind), given.first, given.count, given.stride_bytes);
