@@ -95,11 +95,11 @@ Bytes World::Implementation::pack(std::uint64_t key, int to, std::span<const Sav
   writer.put_all(parts.shape(body.id));
   writer.put_all(parts.rest(body.id));
   writer.put_all(parts.self_of(body.id));
-  writer.put(body.is_rigid, body.version, body.positions, body.work);
+  writer.put(body.is_rigid, body.version, body.positions, body.features, body.work);
   const auto stays = [&](const Subscriber& one) { return one.rank != to; };
   writer.put(static_cast<std::uint64_t>(std::ranges::count_if(body.subscribers, stays)));
   for (const Subscriber& one : body.subscribers) {
-    if (stays(one)) writer.put(one.rank, one.is_awake, one.version, one.positions, one.asleep_since);
+    if (stays(one)) writer.put(one.rank, one.is_awake, one.version, one.positions, one.features, one.asleep_since);
   }
   writer.put_all(HeldBodies::seconds(held.excluded, key));
   writer.put(std::uint64_t{pairs.size()});
@@ -147,6 +147,7 @@ void World::Implementation::unpack(const Parcel& parcel, std::vector<Arrival>& a
   arrival.body.is_rigid = reader.get<bool>();
   arrival.body.version = reader.get<std::uint64_t>();
   arrival.body.positions = reader.get<std::uint64_t>();
+  arrival.body.features = reader.get<std::uint64_t>();
   arrival.body.work = reader.get<std::int64_t>();
   for (auto count = reader.get<std::uint64_t>(); count > 0; --count) {
     Subscriber& one = arrival.body.subscribers.emplace_back();
@@ -155,6 +156,7 @@ void World::Implementation::unpack(const Parcel& parcel, std::vector<Arrival>& a
     one.knows_owner = false;
     one.version = reader.get<std::uint64_t>();
     one.positions = reader.get<std::uint64_t>();
+    one.features = reader.get<std::uint64_t>();
     one.asleep_since = reader.get<std::uint64_t>();
   }
   arrival.excluded = reader.get_all<std::uint64_t>();
