@@ -73,6 +73,12 @@ double MotionStage::Call::wider(double held) const {
   return options.distance ? std::max(0.5 * *options.distance - held, 0.0) * (1.0 + kRounding) : 0.0;
 }
 
+narrowphase::FeatureRules MotionStage::Call::rules(std::uint32_t a, std::uint32_t b) const {
+  const auto& distance = options.distance;
+  return {.reach = distance ? narrowphase::FeatureReach{.a = {.largest = *distance}, .b = {}} : bodies.rest(a, b),
+          .filter = bodies.feature_filter(a, b)};
+}
+
 // Where each body is at both ends, with its margin, or half of the distance that is asked for if that is more.
 void MotionStage::find_ways(const Call& call) {
   const Bodies& bodies = call.bodies;
@@ -165,9 +171,7 @@ void MotionStage::select(const Call& call) {
   if (report_.stats_.moved_bodies == 0) return;
   const auto moves = [&](std::uint32_t slot) { return bodies.used(slot) && bodies.on_its_way(slot); };
   const auto counts = [&](std::uint32_t slot) { return call.only_changed ? bounds_.changed(slot) : moves(slot); };
-  const auto reach = [&](std::uint32_t a, std::uint32_t b) {
-    return call.options.distance.value_or(bodies.reach(a, b));
-  };
+  const auto reach = [&](std::uint32_t a, std::uint32_t b) { return call.rules(a, b).reach.largest(); };
   for (const broadphase::IndexPair& pair : planes_.pairs()) {
     if (bodies.excluded_pairs().contains(pair) || !bodies.is_chosen(pair)) continue;
     const auto [a, b] = bodies.keys().ordered(pair);
@@ -193,18 +197,16 @@ base::MovingBox MotionStage::way_box(const Call& call, std::uint32_t slot) const
   return {base::grown(begin, wider), base::grown(end, wider)};
 }
 
-// Pairs whose boxes, which go straight, stay apart; they hold the margins, or half of the distance.
+// Pairs whose boxes, which go straight, stay apart; they hold the margins, or half of the distance if that is more.
 void MotionStage::leave_out_apart(const Call& call) {
   const Bodies& bodies = call.bodies;
   std::erase_if(passing_, [&](const Passing& one) {
     if (one.a == one.b) return false;
     if (const BodyAndPlane plane = body_and_plane(bodies, one.a, one.b)) return stays_apart(call, plane, one);
     const base::MovingBox a = way_box(call, one.a), b = way_box(call, one.b);
-    double reach = 0.0;
-    if (const auto& distance = call.options.distance) {
-      const auto held = [&](std::uint32_t slot) { return std::max(bodies.margin(slot), 0.5 * *distance); };
-      reach = *distance - held(one.a) - held(one.b);
-    }
+    const double half = call.options.distance ? 0.5 * *call.options.distance : 0.0;
+    const auto held = [&](std::uint32_t slot) { return std::max(bodies.margin(slot), half); };
+    const double reach = one.reach - held(one.a) - held(one.b);
     const double largest =
         std::max(largest_coordinate(merged(a.begin, a.end)), largest_coordinate(merged(b.begin, b.end)));
     const base::TimeSpan near = near_span(a, b, reach + kRounding * largest);
@@ -336,9 +338,10 @@ void MotionStage::search(const Call& call) {
     if (wanted == Impacts::first && place > meets_at_once.load(std::memory_order_relaxed)) return;
     const auto clusters = clusters_of(one).subspan(range.begin, range.end - range.begin);
     if (const BodyAndPlane plane = body_and_plane(bodies, one.a, one.b)) {
-      search_plane(plane, moving(bodies, plane.body->id.index), one.reach, clusters, first, range.found);
+      search_plane(plane, moving(bodies, plane.body->id.index), call.rules(one.a, one.b), clusters, first, range.found);
     } else {
-      memory.finder.run(moving(bodies, one.a), moving(bodies, one.b), one.reach, clusters, first, found, memory.counts);
+      memory.finder.run(moving(bodies, one.a), moving(bodies, one.b), call.rules(one.a, one.b), clusters, first, found,
+                        memory.counts);
     }
     if (wanted == Impacts::first &&
         std::ranges::any_of(found, [](const FeatureImpact& impact) { return impact.time == 0.0; }))
@@ -365,13 +368,18 @@ void MotionStage::find_clusters_near_plane(const BodyAndPlane& pair, const narro
 }
 
 // Of what moves straight vertices come to a plane first. What is as near at the beginning stops if it goes nearer.
-void MotionStage::search_plane(const BodyAndPlane& pair, const narrowphase::MovingMesh& body, double reach,
+void MotionStage::search_plane(const BodyAndPlane& pair, const narrowphase::MovingMesh& body,
+                               const narrowphase::FeatureRules& rules,
                                std::span<const narrowphase::ClusterPair> clusters, std::atomic<double>* first,
                                Found& found) {
   for (const narrowphase::ClusterPair& cluster : clusters) {
     for (int v = body.mesh->vertex_begin(cluster.a); v < body.mesh->vertex_end(cluster.a); ++v) {
       const narrowphase::MovingVertex vertex = body.vertex(v);
-      const auto time = narrowphase::meeting_time(*pair.plane, vertex.at[0], vertex.at[1], reach);
+      const std::array<int, 3> of_body{body.mesh->source_vertex(v), -1, -1}, of_plane{-1, -1, -1};
+      const auto &of_a = pair.plane_is_a ? of_plane : of_body, &of_b = pair.plane_is_a ? of_body : of_plane;
+      if (!rules.filter.allows(of_a, of_b)) continue;
+      const double distance = rules.reach.of(of_a, of_b);
+      const auto time = narrowphase::meeting_time(*pair.plane, vertex.at[0], vertex.at[1], distance);
       if (!time) continue;
       FeatureImpact impact{.kind = pair.plane_is_a ? FeaturePair::plane_vertex : FeaturePair::vertex_plane,
                            .time = *time,

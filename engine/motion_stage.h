@@ -67,6 +67,8 @@ class MotionStage {
     bool wants_all() const { return options.wanted == Impacts::all; }
     /// By how much a box that holds so much of a distance is too small for half of the one that is asked for.
     double wider(double held) const;
+    /// How near two bodies, or one twice, come to meet, and which of their features.
+    narrowphase::FeatureRules rules(std::uint32_t a, std::uint32_t b) const;
   };
 
   void find(const Call& call);
@@ -96,9 +98,9 @@ class MotionStage {
   bool stays_apart(const Call& call, const BodyAndPlane& pair, const Passing& one) const;
   static void find_clusters_near_plane(const BodyAndPlane& pair, const narrowphase::MovingMesh& body, double reach,
                                        std::vector<narrowphase::ClusterPair>& clusters);
-  static void search_plane(const BodyAndPlane& pair, const narrowphase::MovingMesh& body, double reach,
-                           std::span<const narrowphase::ClusterPair> clusters, std::atomic<double>* first,
-                           Found& found);
+  static void search_plane(const BodyAndPlane& pair, const narrowphase::MovingMesh& body,
+                           const narrowphase::FeatureRules& rules, std::span<const narrowphase::ClusterPair> clusters,
+                           std::atomic<double>* first, Found& found);
 
   broadphase::SweepAndPrune sweep_;
   PlanePairs planes_;

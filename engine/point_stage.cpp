@@ -29,7 +29,7 @@ struct Naming {
   const LastingNames* names = nullptr;
 };
 
-// Two edges of one body stand in the order of their names, which numbers may not have any more.
+// Two edges, or vertices, of one body stand in the order of their names, which numbers may not have any more.
 std::uint64_t id_of(const FeaturePoint& point, const Naming& a, const Naming& b) {
   constexpr std::uint64_t kFirst = std::uint64_t{1}
                                    << 32;  // the ids of keys that are indices stay those of version 0.1
@@ -37,7 +37,8 @@ std::uint64_t id_of(const FeaturePoint& point, const Naming& a, const Naming& b)
   id.add(static_cast<std::uint64_t>(point.kind));
   for (const std::uint64_t key : {a.key, b.key}) id.add(key + kFirst);
   LastingNames::Feature of_a = LastingNames::of(a.names, point.a), of_b = LastingNames::of(b.names, point.b);
-  if (a.key == b.key && point.kind == FeaturePair::edge_edge && of_b < of_a) std::swap(of_a, of_b);
+  const bool is_symmetric = point.kind == FeaturePair::edge_edge || point.kind == FeaturePair::vertex_vertex;
+  if (a.key == b.key && is_symmetric && of_b < of_a) std::swap(of_a, of_b);
   for (const LastingNames::Feature& feature : {of_a, of_b}) {
     for (const std::uint64_t name : feature) id.add(name);
   }

@@ -73,7 +73,8 @@ void Renumbering::add_points(const std::vector<ContactPoint>& points, Sides side
     ContactPoint& added = to.emplace_back(point);
     added.a_vertices = a;
     added.b_vertices = b;
-    if (!(sides.a && sides.b && point.kind == FeaturePair::edge_edge && b < a)) return;
+    const bool is_symmetric = point.kind == FeaturePair::edge_edge || point.kind == FeaturePair::vertex_vertex;
+    if (!(sides.a && sides.b && is_symmetric && b < a)) return;
     std::swap(added.a_vertices, added.b_vertices);
     std::swap(added.a_weights, added.b_weights);
     added.normal = -added.normal;

@@ -173,8 +173,8 @@ void ReportWriter::write_contacts(PairTable& table, const Bodies& bodies, const 
   base::parallel_for(moved.size(), contacts_at_a_time(moved.size()), settings.threads, [&](std::size_t i, int thread) {
     if (!table.in_contact(moved[i].place)) return;
     PairRecord& record = *moved[i].record;
-    const double reach = bodies.reach(record.a.index, record.b.index);
-    record.touching = any_meet(record) || is_touching(record.facet_pairs, record.points, reach);
+    record.touching =
+        any_meet(record) || is_touching(record.facet_pairs, record.points, bodies.rest(record.a.index, record.b.index));
     replace(report_.contacts_[table.place_in_report(moved[i].place)], record, bodies.keys(), thread_totals_[thread]);
   });
   add_thread_totals();

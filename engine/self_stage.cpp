@@ -122,8 +122,8 @@ void SelfStage::find_facet_pairs(const Bodies& bodies, const Settings& settings,
 // What changed is told by ids: of records that came and went one may lie where another was.
 void SelfStage::finish(const Bodies& bodies) {
   for (SelfRecord* const one : looked_at_) {
-    const double reach = bodies.reach(one->body.index, one->body.index);
-    one->touching = any_meet(*one) || is_touching(one->facet_pairs, one->points, reach);
+    const narrowphase::FeatureReach rest = bodies.rest(one->body.index, one->body.index);
+    one->touching = any_meet(*one) || is_touching(one->facet_pairs, one->points, rest);
   }
   std::swap(in_contact_, last_in_contact_);
   std::swap(touching_, last_touching_);

@@ -8,6 +8,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/timer.h"
+#include "engine/excluded_features.h"
 #include "engine/step_statistics.h"
 
 namespace tact {
@@ -111,6 +112,7 @@ void Step::look_at_what_moved(Bodies& bodies, const Settings& settings, Timer& t
     within_reach.find(table.moved(), selves.looked_at(), bodies, settings, device_);
     stats.within_reach_ms = timer.lap();
   }
+  leave_out_excluded(table.moved(), selves.looked_at(), bodies, settings.threads);
   selves.finish(bodies);
   find_patches(patches, bodies, settings);
   if (settings.outputs.patches) stats.patches_ms = timer.lap();

@@ -11,6 +11,7 @@
 #include "engine/base/text.h"
 #include "engine/check_name.h"
 #include "engine/failed_step.h"
+#include "engine/labels.h"
 #include "engine/messages.h"
 #include "engine/state/world_parts.h"
 #include "engine/state/world_state.h"
@@ -120,15 +121,19 @@ void World::set_positions(std::span<const PositionsUpdate> updates) {
 }
 
 void World::set_facets(BodyId body, const Positions& positions, const Facets& facets, std::span<const int> vertex_map) {
+  set_facets(body, {.positions = positions, .facets = facets, .vertex_map = vertex_map});
+}
+
+void World::set_facets(BodyId body, const MeshUpdate& update) {
   const base::FloatingPointMode mode;
   Implementation& i = implementation();
   i.set_positions([&] {
-    Bodies::NewMesh made = i.bodies.make_mesh(body, positions, facets, vertex_map, i.settings.threads);
+    Bodies::NewMesh made = i.bodies.make_mesh(body, update, i.settings.threads);
     // From publishing on nothing can fail.
     i.step.renumber(made.vertices, i.step.renumbering_of(made.vertices));
     i.bodies.set_mesh(std::move(made));
   });
-  i.observe([&](WorldObserver& observer) { observer.facets_set(body, positions, facets, vertex_map); });
+  i.observe([&](WorldObserver& observer) { observer.facets_set(body, update); });
 }
 
 void World::set_pose(BodyId body, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {
@@ -176,6 +181,18 @@ void World::set_margin(BodyId body, double margin) {
   Implementation& i = implementation();
   i.change([&] { i.bodies.set_margin(body, margin); },
            [&](WorldObserver& observer) { observer.margin_set(body, margin); });
+}
+
+void World::set_rest_offset(BodyId body, std::optional<double> rest_offset) {
+  Implementation& i = implementation();
+  i.change([&] { i.bodies.set_rest_offset(body, rest_offset); },
+           [&](WorldObserver& observer) { observer.rest_offset_set(body, rest_offset); });
+}
+
+void World::set_feature_settings(BodyId body, const FeatureSettings& settings) {
+  Implementation& i = implementation();
+  i.change([&] { i.bodies.set_feature_settings(body, settings); },
+           [&](WorldObserver& observer) { observer.feature_settings_set(body, settings); });
 }
 
 void World::set_self_contact(BodyId body, bool wanted) {
@@ -284,6 +301,14 @@ std::uint32_t World::mask(BodyId body) const { return implementation().bodies.fi
 std::uint64_t World::external_id(BodyId body) const { return body_of(body).external_id; }
 std::uint64_t World::key(BodyId body) const { return implementation().bodies.keys().of(body_of(body).id.index); }
 double World::margin(BodyId body) const { return implementation().bodies.margin(body_of(body).id.index); }
+double World::rest_offset(BodyId body) const { return implementation().bodies.rest_offset(body_of(body).id.index); }
+FeatureSettings World::feature_settings(BodyId body) const {
+  const FeatureArrays* const arrays = body_of(body).arrays.get();
+  return arrays == nullptr ? FeatureSettings{} : arrays->view();
+}
+FeatureLabels World::labels(BodyId body, const std::array<int, 3>& vertices) const {
+  return with_memory([&] { return labels_of(body_of(body), vertices); });
+}
 bool World::self_contact(BodyId body) const { return body_of(body).self_contact; }
 std::size_t World::vertex_count(BodyId body) const {
   return static_cast<std::size_t>(body_of(body).mesh.source_vertex_count());
@@ -379,24 +404,5 @@ Bounds World::bounds(BodyId body) const {
   const base::Box box = implementation().bodies.exact_box(body.index);
   return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
 }
-
-WorldObserver::~WorldObserver() = default;
-void WorldObserver::settings_changed(const Settings&) noexcept {}
-void WorldObserver::body_added(BodyId, const BodyDefinition&) noexcept {}
-void WorldObserver::plane_added(BodyId, const PlaneDefinition&) noexcept {}
-void WorldObserver::body_removed(BodyId) noexcept {}
-void WorldObserver::positions_set(std::span<const PositionsUpdate>) noexcept {}
-void WorldObserver::facets_set(BodyId, const Positions&, const Facets&, std::span<const int>) noexcept {}
-void WorldObserver::poses_set(std::span<const PoseUpdate>) noexcept {}
-void WorldObserver::layers_set(BodyId, std::uint32_t, std::uint32_t) noexcept {}
-void WorldObserver::group_set(BodyId, std::uint32_t) noexcept {}
-void WorldObserver::excluded_set(BodyId, BodyId, bool) noexcept {}
-void WorldObserver::motion_set(BodyId, Motion) noexcept {}
-void WorldObserver::margin_set(BodyId, double) noexcept {}
-void WorldObserver::self_contact_set(BodyId, bool) noexcept {}
-void WorldObserver::state_restored(std::span<const std::byte>) noexcept {}
-void WorldObserver::step_begins() noexcept {}
-void WorldObserver::step_ended(const Report&) noexcept {}
-void WorldObserver::step_failed() noexcept {}
 
 }  // namespace tact

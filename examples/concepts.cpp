@@ -213,6 +213,35 @@ void changed_facets() {
   expect(after.size() > before.size(), "the doubles have points of their own");
 }
 
+void rest_offsets_and_labels() {
+  const Mesh sheet = square(1.0, 0.003);
+  tact::Settings settings;
+  settings.outputs.points = true;
+  tact::World world(settings);
+  const tact::BodyId floor = world.add_plane({.normal = {0.0, 0.0, 1.0}, .margin = 0.004, .rest_offset = 0.0});
+  // [part rest_offsets]
+  const tact::BodyId cloth = world.add_body({.positions = sheet.positions,
+                                             .facets = sheet.facets,
+                                             .surface = tact::Surface::sheet,
+                                             .margin = 0.006,         // seen from here on
+                                             .rest_offset = 0.001});  // half of the cloth's thickness
+  const bool touches_at_1_mm = world.detect().find_contact(cloth, floor)->touching();
+  world.set_rest_offset(cloth, 0.0035);
+  const bool touches_at_3_5_mm = world.detect().find_contact(cloth, floor)->touching();
+  world.set_rest_offset(cloth, std::nullopt);  // the margin again
+  // [part rest_offsets]
+  expect(!touches_at_1_mm && touches_at_3_5_mm, "the cloth is 3 mm above the floor");
+  // [part labels]
+  const std::vector<std::uint32_t> strands{11, 12, 13, 14}, materials{7, 8};  // one a vertex, one a facet
+  world.set_feature_settings(cloth, {.vertex_labels = strands, .facet_labels = materials});
+  for (const tact::ContactPoint& point : world.detect().contacts()[0].points()) {
+    const tact::FeatureLabels labels = world.labels(cloth, point.b_vertices);
+    std::printf("strand %u of material %u\n", labels.vertices[0], labels.facet);
+  }
+  // [part labels]
+  expect(world.labels(cloth, {3, -1, -1}).vertices[0] == 14, "a vertex has its label");
+}
+
 void saved_states() {
   const Mesh low = cube(1.0, {0, 0, 0}), high = cube(1.0, {0.2, 0.1, 0.75});
   const auto step = [&](tact::World& of, tact::BodyId moved, double down) {
@@ -265,6 +294,7 @@ int main() {
   bounds();
   queries();
   changed_facets();
+  rest_offsets_and_labels();
   saved_states();
   errors();
   return failures == 0 ? 0 : 1;

@@ -40,6 +40,21 @@ Entry read_entry(ByteReader& reader) {
   return entry;
 }
 
+// Settings of vertices and facets that came with an update.
+struct FeaturesOfGhost {
+  std::vector<double> rest_offsets;
+  std::vector<std::uint32_t> vertex_labels, facet_labels, vertex_layers, vertex_masks;
+
+  void read(ByteReader& reader) {
+    rest_offsets = reader.get_all<double>();
+    vertex_labels = reader.get_all<std::uint32_t>();
+    facet_labels = reader.get_all<std::uint32_t>();
+    vertex_layers = reader.get_all<std::uint32_t>();
+    vertex_masks = reader.get_all<std::uint32_t>();
+  }
+  FeatureSettings view() const { return {rest_offsets, vertex_labels, facet_labels, vertex_layers, vertex_masks}; }
+};
+
 template <class Take>
 void for_entries(std::span<const Message> messages, const Take& take) {
   for (const Message& message : messages) {
@@ -57,11 +72,24 @@ void World::Implementation::write_whole(std::uint64_t key, const OwnBody& body, 
   (with_shape ? stats.shape_bytes : stats.positions_bytes) += static_cast<std::int64_t>(to.bytes().size() - before);
 }
 
-void World::Implementation::write_update(std::uint64_t key, const OwnBody& body, bool with_positions, ByteWriter& to) {
+void World::Implementation::write_update(std::uint64_t key, const OwnBody& body, const Subscriber& knows,
+                                         ByteWriter& to) {
+  const bool with_positions = knows.positions != body.positions, with_features = knows.features != body.features;
   ByteWriter update;
   const broadphase::Filter filter = parts.filter(body.id);
-  update.put(filter.layer, filter.mask, filter.group, filter.fixed, local.margin(body.id), parts.on_its_way(body.id));
-  update.put(body.is_rigid, with_positions);
+  update.put(filter.layer, filter.mask, filter.group, filter.fixed, local.margin(body.id));
+  const std::optional<double> rest_offset = parts.rest_offset(body.id);
+  update.put(rest_offset.has_value(), rest_offset.value_or(0.0), parts.on_its_way(body.id), body.is_rigid,
+             with_features);
+  if (with_features) {
+    const FeatureSettings features = local.feature_settings(body.id);
+    update.put_all(features.rest_offsets);
+    update.put_all(features.vertex_labels);
+    update.put_all(features.facet_labels);
+    update.put_all(features.vertex_layers);
+    update.put_all(features.vertex_masks);
+  }
+  update.put(with_positions);
   if (with_positions && body.is_rigid) {
     const tact::PoseUpdate pose = parts.pose(body.id);
     for (int i = 0; i < 3; ++i) {
@@ -96,16 +124,19 @@ void World::Implementation::plan(std::uint64_t key, OwnBody& body, bool may_slee
       one.asleep_since = step;
     } else {
       if (!one.knows_owner) to.put(Kind::owner, key);
-      if (one.version != body.version) write_update(key, body, one.positions != body.positions, to);
+      if (one.version != body.version) write_update(key, body, one, to);
     }
     one.knows_owner = true;
-    one.version = body.version, one.positions = body.positions;
+    one.version = body.version, one.positions = body.positions, one.features = body.features;
     body.next_subscribers.push_back(one);
   }
   for (const int rank : wanted) {
     write_whole(key, body, true, outbox.to(rank));
-    body.next_subscribers.push_back(
-        {.rank = rank, .is_awake = true, .version = body.version, .positions = body.positions});
+    body.next_subscribers.push_back({.rank = rank,
+                                     .is_awake = true,
+                                     .version = body.version,
+                                     .positions = body.positions,
+                                     .features = body.features});
   }
 }
 
@@ -186,7 +217,12 @@ void World::Implementation::take_updates(std::span<const Message> messages) {
     const auto group = reader.get<std::uint32_t>();
     const auto is_fixed = reader.get<bool>();
     const auto margin = reader.get<double>();
-    const auto is_on_its_way = reader.get<bool>(), is_rigid = reader.get<bool>(), has_positions = reader.get<bool>();
+    const auto has_rest_offset = reader.get<bool>();
+    const auto rest_offset = reader.get<double>();
+    const auto is_on_its_way = reader.get<bool>(), is_rigid = reader.get<bool>(), has_features = reader.get<bool>();
+    FeaturesOfGhost features;
+    if (has_features) features.read(reader);
+    const auto has_positions = reader.get<bool>();
     const Motion motion = is_rigid ? Motion::rigid : Motion::deformable;
     if (has_positions) local.set_motion(id, motion);
     if (has_positions && is_rigid) {
@@ -204,7 +240,11 @@ void World::Implementation::take_updates(std::span<const Message> messages) {
     rest.push_back([=, this] {
       local.set_layers(id, layer, mask);
       local.set_group(id, group);
+      if (has_features) local.set_feature_settings(id, {});
+      local.set_rest_offset(id, std::nullopt);
       local.set_margin(id, margin);
+      if (has_rest_offset) local.set_rest_offset(id, rest_offset);
+      if (has_features) local.set_feature_settings(id, features.view());
       local.set_motion(id, is_fixed ? Motion::fixed : motion);
       parts.mark_moved(id, is_on_its_way);
     });

@@ -36,6 +36,7 @@ struct Subscriber {
   bool knows_owner = true;      ///< that this rank owns the body now
   std::uint64_t version = 0;    ///< the body's when something was last sent
   std::uint64_t positions = 0;  ///< and when its positions were
+  std::uint64_t features = 0;   ///< and when the settings of its vertices and facets were
   std::uint64_t asleep_since = 0;
 };
 
@@ -44,6 +45,7 @@ struct OwnBody {
   bool is_rigid = false;        ///< takes poses
   std::uint64_t version = 1;    ///< counts changes
   std::uint64_t positions = 1;  ///< those of positions and poses
+  std::uint64_t features = 1;   ///< those of settings of vertices and facets
   std::vector<Subscriber> subscribers = {};
   std::vector<Subscriber> next_subscribers = {};  ///< once the messages have arrived
   std::vector<int> wanted = {};                   ///< ranks that have a host near it, ascending

@@ -103,11 +103,11 @@ Bytes World::Implementation::pack(std::uint64_t key, int to, std::span<const Sav
   const OwnBody& body = at(key);
   ByteWriter writer;
   pack_body(key, pairs, writer);
-  writer.put(body.version, body.positions);
+  writer.put(body.version, body.positions, body.features);
   const auto stays = [&](const Subscriber& one) { return one.rank != to; };
   writer.put(static_cast<std::uint64_t>(std::ranges::count_if(body.subscribers, stays)));
   for (const Subscriber& one : body.subscribers) {
-    if (stays(one)) writer.put(one.rank, one.is_awake, one.version, one.positions, one.asleep_since);
+    if (stays(one)) writer.put(one.rank, one.is_awake, one.version, one.positions, one.features, one.asleep_since);
   }
   ByteWriter sent_pairs;
   for (const auto& [keys, one] : sent) {
@@ -155,6 +155,7 @@ void World::Implementation::unpack(const Parcel& parcel, std::vector<Arrival>& a
   Arrival& arrival = unpack_body(parcel.key, reader, arrivals);
   arrival.body.version = reader.get<std::uint64_t>();
   arrival.body.positions = reader.get<std::uint64_t>();
+  arrival.body.features = reader.get<std::uint64_t>();
   for (auto count = reader.get<std::uint64_t>(); count > 0; --count) {
     Subscriber& one = arrival.body.subscribers.emplace_back();
     one.rank = reader.get<int>();
@@ -162,6 +163,7 @@ void World::Implementation::unpack(const Parcel& parcel, std::vector<Arrival>& a
     one.knows_owner = false;
     one.version = reader.get<std::uint64_t>();
     one.positions = reader.get<std::uint64_t>();
+    one.features = reader.get<std::uint64_t>();
     one.asleep_since = reader.get<std::uint64_t>();
   }
   for (ByteReader pairs(reader.get_bytes()); !pairs.at_end();) {

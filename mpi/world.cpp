@@ -36,6 +36,7 @@ Settings agreed(const Settings& settings, Channel& channel) {
 template <class Definition>
 void add_place(const Definition& definition, base::Hash& hash) {
   hash.add(definition.margin);
+  hash.add(definition.rest_offset.value_or(-1.0));
   for (const std::uint32_t number : {definition.layer, definition.mask, definition.group})
     hash.add(std::uint64_t{number});
 }
@@ -261,6 +262,16 @@ void World::set_motion(std::uint64_t key, Motion motion) {
 void World::set_margin(std::uint64_t key, double margin) {
   Implementation& i = implementation();
   i.set(key, [&](BodyId id) { i.local.set_margin(id, margin); });
+}
+void World::set_rest_offset(std::uint64_t key, std::optional<double> rest_offset) {
+  Implementation& i = implementation();
+  i.set(key, [&](BodyId id) { i.local.set_rest_offset(id, rest_offset); });
+}
+void World::set_feature_settings(std::uint64_t key, const FeatureSettings& settings) {
+  Implementation& i = implementation();
+  OwnBody& body = i.at(key);
+  i.local.set_feature_settings(body.id, settings);
+  body.features = ++body.version;
 }
 void World::set_self_contact(std::uint64_t key, bool wanted) {
   Implementation& i = implementation();

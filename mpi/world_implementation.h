@@ -139,7 +139,7 @@ struct World::Implementation {
   void send_ghosts(bool may_sleep);
   void plan(std::uint64_t key, OwnBody& body, bool may_sleep, Outbox& outbox);
   void write_whole(std::uint64_t key, const OwnBody& body, bool with_shape, ByteWriter& to);
-  void write_update(std::uint64_t key, const OwnBody& body, bool with_positions, ByteWriter& to);
+  void write_update(std::uint64_t key, const OwnBody& body, const Subscriber& knows, ByteWriter& to);
   bool take_leaving(std::span<const Message> messages);
   bool take_coming(std::span<const Message> messages);
   void take_updates(std::span<const Message> messages);

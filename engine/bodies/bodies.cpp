@@ -6,7 +6,9 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
+#include "engine/base/text.h"
 #include "engine/bodies/encloses.h"
+#include "engine/bodies/given_mesh.h"
 #include "engine/bodies/plane_pairs.h"
 #include "engine/bodies/room.h"
 #include "engine/check_name.h"
@@ -18,46 +20,21 @@ namespace {
 
 constexpr auto kIdOfRemoved = [](const auto& removed) { return removed.id; };
 
-// The facets of a body, and edges and points as facets without area behind them: see WithoutArea. In `room`, if there
-// are any of these.
-std::span<const int> with_edges_and_points(std::span<const int> facets, const BodyDefinition& definition,
-                                           const std::string& name, std::vector<int>& room) {
-  if (definition.edges.cols() == 0 && definition.points.empty()) return facets;
-  std::vector<int> edge_copy;
-  make_copy_room(definition.edges, edge_copy);
-  const std::span<const int> ends = packed(definition.edges, std::span(edge_copy));
-  check_corners(ends, definition.edges, definition.positions.cols(), name);
-  check_points(definition.points, definition.positions.cols(), name);
-  room.assign(facets.begin(), facets.end());
-  room.reserve(facets.size() + 3 * (ends.size() / 2 + definition.points.size()));
-  for (std::size_t i = 0; i < ends.size(); i += 2) room.insert(room.end(), {ends[i], ends[i + 1], ends[i + 1]});
-  for (const int v : definition.points) room.insert(room.end(), {v, v, v});
-  return room;
-}
-
 // The body of a definition that is good, not placed in any world.
 std::unique_ptr<Body> make_body(const BodyDefinition& definition, const std::string& name) {
-  std::vector<double> position_copy;
-  std::vector<int> facet_copy, all;
-  make_copy_room(definition.positions, position_copy);
-  make_copy_room(definition.facets, facet_copy);
-  const std::span<const double> positions = packed(definition.positions, std::span(position_copy));
-  const std::span<const int> facets = packed(definition.facets, std::span(facet_copy));
-  check_positions(positions.data(), positions.size() / 3, name);
-  check_corners(facets, definition.facets, definition.positions.cols(), name);
-  const narrowphase::WithoutArea last{static_cast<int>(definition.edges.cols()),
-                                      static_cast<int>(definition.points.size())};
+  const GivenMesh given(arguments_of(definition), name);
   // What has no facets has no inside.
-  const bool is_bare = facets.empty() && last.edges + last.points > 0;
-  return std::make_unique<Body>(
-      Body{.mesh = {positions, with_edges_and_points(facets, definition, name, all), last},
-           .id = {},
-           .name = name,
-           .surface = is_bare ? Surface::sheet : definition.surface,
-           .has_inside = !is_bare && definition.surface == Surface::closed && encloses(positions, facets),
-           .external_id = definition.external_id,
-           .self_contact = definition.self_contact});
+  return std::make_unique<Body>(Body{.mesh = {given.positions(), given.facets(), given.last()},
+                                     .id = {},
+                                     .name = name,
+                                     .surface = given.is_bare() ? Surface::sheet : definition.surface,
+                                     .has_inside = !given.is_bare() && definition.surface == Surface::closed &&
+                                                   encloses(given.positions(), given.surface()),
+                                     .external_id = definition.external_id,
+                                     .self_contact = definition.self_contact});
 }
+
+std::size_t filters_features(const Body& body) { return body.arrays != nullptr && body.arrays->filters() ? 1 : 0; }
 
 // See Body::birth. Of what the mesh keeps: a vertex that no facet uses is no part of it.
 std::uint64_t birth_of(std::uint32_t slot, std::uint64_t key, std::uint64_t step, const Body& body) {
@@ -98,11 +75,8 @@ BodyId Bodies::add(const BodyDefinition& definition) {
   check_name(definition.surface, Surface::sheet, quoted(name) + ": surface");
   check_name(definition.motion, Motion::rigid, quoted(name) + ": motion");
   check_margin(definition.margin, name);
-  check_array(definition.positions, name);
-  check_array(definition.facets, name);
-  check_array(definition.edges, name);
-  const std::ptrdiff_t all = definition.facets.cols() + definition.edges.cols() + std::ssize(definition.points);
-  check_counts(definition.positions.cols(), all, slots_.size(), name);
+  check_rest_offset(definition.rest_offset, definition.margin, name);
+  check_shape(arguments_of(definition), slots_.size(), name);
   check_key(definition.key.value_or(slot), name);
   return add_made(make_body(definition, name), definition, slot, definition.motion);
 }
@@ -113,6 +87,7 @@ BodyId Bodies::add(const PlaneDefinition& definition) {
   const Eigen::Vector3d& n = definition.normal;
   check_plane(n, definition.offset, name);
   check_margin(definition.margin, name);
+  check_rest_offset(definition.rest_offset, definition.margin, name);
   check_counts(0, 0, slots_.size(), name);
   check_key(definition.key.value_or(slot), name);
   auto body = std::make_unique<Body>(Body{
@@ -127,6 +102,7 @@ template <class Definition>
 BodyId Bodies::add_made(std::unique_ptr<Body> body, const Definition& definition, std::uint32_t slot, Motion motion) {
   const Place place{.filter = {definition.layer, definition.mask, motion == Motion::fixed, definition.group},
                     .margin = definition.margin,
+                    .rest_offset = definition.rest_offset.value_or(kAsMargin),
                     .key = definition.key.value_or(slot),
                     .is_rigid = motion == Motion::rigid};
   body->birth = birth_of(slot, place.key, steps_, *body);
@@ -141,6 +117,7 @@ BodyId Bodies::add_made(std::unique_ptr<Body> body, const Definition& definition
 void Bodies::put(std::uint32_t slot, std::unique_ptr<Body> body, const Place& place) {
   keys_.start(slot, place.key);
   margins_[slot] = place.margin;
+  rest_offsets_[slot] = place.rest_offset;
   boxes_[slot] = base::grown(body->mesh.box(), place.margin);
   kdops_.start(slot, body->mesh);
   groupings_.start(slot, cluster_quality(body->mesh));
@@ -155,6 +132,7 @@ void Bodies::put(std::uint32_t slot, std::unique_ptr<Body> body, const Place& pl
   if (place.is_rigid) make_rigid(body->mesh, *slots_[slot].rigid);
   rigid_count_ += place.is_rigid ? 1 : 0;
   self_count_ += body->self_contact ? 1 : 0;
+  filter_count_ += filters_features(*body);
   if (body->plane != nullptr) planes_.insert(std::ranges::lower_bound(planes_, slot), slot);
   slots_[slot].body = std::move(body);
   packed_meshes_.add(slots_[slot].body->mesh);
@@ -167,6 +145,7 @@ void Bodies::put(std::uint32_t slot, std::unique_ptr<Body> body, const Place& pl
 void Bodies::make_room_for(std::uint32_t slot, const Place& place) {
   const std::size_t slots = std::max<std::size_t>(slots_.size(), slot + 1);
   make_room(slots_, slots), make_room(boxes_, slots), make_room(filters_, slots), make_room(margins_, slots);
+  make_room(rest_offsets_, slots);
   kdops_.make_room(slots), groupings_.make_room(slots), tree_->make_room(slots), keys_.make_room(slots);
   make_room(changed_, slots), make_room(free_, slots), make_room(generations_, slots);
   make_room(removed_, removed_.size() + count_ + 1), make_room(former_, former_.size() + count_ + 1);
@@ -178,6 +157,7 @@ void Bodies::make_room_for(std::uint32_t slot, const Place& place) {
 void Bodies::add_slot() {
   const std::size_t slots = slots_.size() + 1;
   slots_.resize(slots), boxes_.resize(slots), filters_.resize(slots), margins_.resize(slots);
+  rest_offsets_.resize(slots);
   kdops_.resize(slots), groupings_.resize(slots), tree_->resize(slots), keys_.resize(slots);
   if (generations_.size() < slots) generations_.resize(slots);
 }
@@ -193,6 +173,7 @@ void Bodies::remove(BodyId id) {
   keys_.forget(id.index);
   rigid_count_ -= is_rigid(id.index) ? 1 : 0;
   self_count_ -= slots_[id.index].body->self_contact ? 1 : 0;
+  filter_count_ -= filters_features(*slots_[id.index].body);
   if (slots_[id.index].body->plane != nullptr) std::erase(planes_, id.index);
   slots_[id.index].body.reset();
   if (is_rigid(id.index)) rigid_states_.give_back(std::exchange(slots_[id.index].rigid, nullptr));
@@ -270,11 +251,55 @@ bool Bodies::excluded(BodyId a, BodyId b) const {
 void Bodies::set_margin(BodyId id, double margin) {
   const Body& body = at(id);
   check_margin(margin, body.name);
+  const double least = std::max(rest_offsets_[id.index], body.arrays ? body.arrays->largest_rest_offset : 0.0);
+  if (margin < least)
+    throw Error(ErrorCode::invalid_argument, quoted(body.name) + ": margin is " + base::text_of(margin) +
+                                                 ", less than a rest offset of " + base::text_of(least));
   if (margins_[id.index] == margin) return;
   margins_[id.index] = margin;
   boxes_[id.index] = base::grown(body.mesh.rough_box(), margin);
   slots_[id.index].knows_box = false;
   mark_moved(id.index);
+}
+
+void Bodies::set_rest_offset(BodyId id, std::optional<double> rest_offset) {
+  check_rest_offset(rest_offset, margins_[at(id).id.index], at(id).name);
+  const double value = rest_offset.value_or(kAsMargin);
+  if (rest_offsets_[id.index] == value) return;
+  rest_offsets_[id.index] = value;
+  mark_moved(id.index);
+}
+
+void Bodies::set_feature_settings(BodyId id, const FeatureSettings& settings) {
+  const narrowphase::ClusteredMesh& mesh = at(id).mesh;
+  check_feature_settings(settings, static_cast<std::size_t>(mesh.source_vertex_count()),
+                         static_cast<std::size_t>(mesh.surface_facet_count()), margins_[id.index], at(id).name);
+  Body& body = *slots_[id.index].body;
+  std::unique_ptr<FeatureArrays> made = copy_of(settings);
+  // Labels change no answer.
+  const FeatureSettings last = body.arrays == nullptr ? FeatureSettings{} : body.arrays->view();
+  const bool is_same = std::ranges::equal(last.rest_offsets, settings.rest_offsets) &&
+                       std::ranges::equal(last.vertex_layers, settings.vertex_layers) &&
+                       std::ranges::equal(last.vertex_masks, settings.vertex_masks);
+  if (!is_same) mark_moved(id.index);
+  filter_count_ -= filters_features(body);
+  body.arrays = std::move(made);
+  filter_count_ += filters_features(body);
+}
+
+narrowphase::SurfaceOffset Bodies::offset_of(std::uint32_t slot) const {
+  const FeatureArrays* const arrays = in_slot(slot).arrays.get();
+  if (arrays == nullptr || arrays->rest_offsets.empty()) return {.largest = rest_offset(slot)};
+  return {arrays->largest_rest_offset, arrays->rest_offsets};
+}
+
+narrowphase::VertexFilter Bodies::vertex_filter(std::uint32_t slot) const {
+  narrowphase::VertexFilter filter{.layer = filters_[slot].layer, .mask = filters_[slot].mask};
+  if (const FeatureArrays* const arrays = in_slot(slot).arrays.get(); arrays != nullptr) {
+    filter.layers = arrays->vertex_layers;
+    filter.masks = arrays->vertex_masks;
+  }
+  return filter;
 }
 
 void Bodies::set_self_contact(BodyId id, bool wanted) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "engine/bodies/cluster_groupings.h"
 #include "engine/bodies/columns.h"
 #include "engine/bodies/excluded_pairs.h"
+#include "engine/bodies/feature_arrays.h"
 #include "engine/bodies/lasting_names.h"
 #include "engine/bodies/packed_meshes.h"
 #include "engine/bodies/pair_choice.h"
@@ -27,6 +29,7 @@
 #include "narrowphase/contact_points/contact_points.h"
 #include "narrowphase/mesh/clustered_mesh.h"
 #include "narrowphase/mesh/refit.h"
+#include "narrowphase/motion/feature_rules.h"
 #include "narrowphase/motion/moving_mesh.h"
 #include "narrowphase/plane/half_space.h"
 #include "narrowphase/self/cluster_neighbors.h"
@@ -48,7 +51,8 @@ struct alignas(64) Body {
   std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors = nullptr;  // when it is first held against itself
   std::unique_ptr<const narrowphase::HalfSpace> plane = nullptr;             // of a plane, whose mesh is empty
   std::vector<double> begin = {};  // where it was in the last step, once it has moved twice since: a placement
-  std::unique_ptr<LastingNames> names = nullptr;  // once its facets have changed
+  std::unique_ptr<LastingNames> names = nullptr;    // once its facets have changed
+  std::unique_ptr<FeatureArrays> arrays = nullptr;  // if there are any settings of vertices and facets
 };
 
 class Bodies {
@@ -74,6 +78,8 @@ class Bodies {
   // Errors: stale_body, foreign_body, invalid_argument (one body twice).
   bool excluded(BodyId a, BodyId b) const;
   void set_margin(BodyId id, double margin);
+  void set_rest_offset(BodyId id, std::optional<double> rest_offset);
+  void set_feature_settings(BodyId id, const FeatureSettings& settings);
   void set_self_contact(BodyId id, bool wanted);
 
   bool contains(BodyId id) const noexcept;
@@ -105,6 +111,19 @@ class Bodies {
   double margin(std::uint32_t slot) const { return margins_[slot]; }
   // How near surfaces of two bodies, or of one, must come to be in contact.
   double reach(std::uint32_t a, std::uint32_t b) const { return margins_[a] + margins_[b]; }
+  double rest_offset(std::uint32_t slot) const {
+    return rest_offsets_[slot] == kAsMargin ? margins_[slot] : rest_offsets_[slot];
+  }
+  std::optional<double> given_rest_offset(std::uint32_t slot) const {
+    return rest_offsets_[slot] == kAsMargin ? std::nullopt : std::optional(rest_offsets_[slot]);
+  }
+  // How near surfaces of two bodies, or of one, must come to touch.
+  narrowphase::FeatureReach rest(std::uint32_t a, std::uint32_t b) const { return {offset_of(a), offset_of(b)}; }
+  // Which of their features are tested against each other; whether there are any bodies of which not all are.
+  narrowphase::FeatureFilter feature_filter(std::uint32_t a, std::uint32_t b) const {
+    return {vertex_filter(a), vertex_filter(b)};
+  }
+  bool any_feature_filter() const { return filter_count_ > 0; }
   // The mesh of a body with its features, which make_features() made.
   narrowphase::FeaturedMesh featured(std::uint32_t slot) const {
     return {&in_slot(slot).mesh, in_slot(slot).features.get()};
@@ -211,8 +230,7 @@ class Bodies {
   };
   struct NewMesh;
   // Makes what World::set_facets() puts in the place of a body's mesh.
-  NewMesh make_mesh(BodyId id, const Positions& positions, const Facets& facets, std::span<const int> vertex_map,
-                    int threads) const;
+  NewMesh make_mesh(BodyId id, const MeshUpdate& update, int threads) const;
   void set_mesh(NewMesh&& made) noexcept;
 
   // A step has seen the changes and has an answer: nothing has moved.
@@ -252,10 +270,11 @@ class Bodies {
   template <class Definition>
   BodyId add_made(std::unique_ptr<Body> body, const Definition& definition, std::uint32_t slot, Motion motion);
   std::uint32_t next_slot() const { return free_.empty() ? static_cast<std::uint32_t>(slots_.size()) : free_.back(); }
+  static constexpr double kAsMargin = -1.0;  // a rest offset that is the margin
   // What a body has in its slot.
   struct Place {
     broadphase::Filter filter = {};
-    double margin = 0.0;
+    double margin = 0.0, rest_offset = kAsMargin;
     std::uint64_t key = 0;
     bool is_rigid = false;
   };
@@ -290,6 +309,8 @@ class Bodies {
     return {std::min(a.index, b.index), std::max(a.index, b.index)};
   }
   void set_filter(BodyId id, const broadphase::Filter& filter);
+  narrowphase::SurfaceOffset offset_of(std::uint32_t slot) const;
+  narrowphase::VertexFilter vertex_filter(std::uint32_t slot) const;
   template <class OfBody>
   void check_named_once(std::span<const OfBody> updates);
 
@@ -328,7 +349,7 @@ class Bodies {
   std::vector<std::uint32_t> free_;
   std::vector<base::Box> boxes_;
   std::vector<broadphase::Filter> filters_;
-  std::vector<double> margins_;
+  std::vector<double> margins_, rest_offsets_;
   BodyKeys keys_;
   std::unique_ptr<BodyTree> tree_ = std::make_unique<BodyTree>();
   BodyKdops kdops_;
@@ -340,7 +361,7 @@ class Bodies {
   ExcludedPairs excluded_;
   std::int64_t vertices_ = 0;
   std::int64_t moved_vertices_ = 0;
-  std::size_t rigid_count_ = 0, self_count_ = 0;
+  std::size_t rigid_count_ = 0, self_count_ = 0, filter_count_ = 0;
   std::vector<std::uint32_t> planes_;
   std::vector<base::Box> placed_boxes_;  // with their margins, of rigid bodies that place() placed
   std::int64_t placed_count_ = 0;
@@ -359,6 +380,7 @@ struct Bodies::NewMesh {
   bool has_inside = false, is_outward = false;  // see Body
   narrowphase::ClusteredMesh mesh;
   std::unique_ptr<LastingNames> names;
+  std::unique_ptr<FeatureArrays> arrays;
   std::unique_ptr<const narrowphase::Features> features;           // if the body had some
   std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors;  // likewise
   Begin begin;

@@ -87,6 +87,12 @@ void check_margin(double margin, const std::string& name) {
   throw Error(ErrorCode::invalid_argument, quoted(name) + ": margin is " + base::text_of(margin) + ", not 0 to 2^300");
 }
 
+void check_rest_offset(std::optional<double> rest_offset, double margin, const std::string& name) {
+  if (!rest_offset || (*rest_offset >= 0.0 && *rest_offset <= margin)) return;
+  throw Error(ErrorCode::invalid_argument, quoted(name) + ": rest offset is " + base::text_of(*rest_offset) +
+                                               ", not 0 to the margin, which is " + base::text_of(margin));
+}
+
 void check_counts(std::ptrdiff_t vertices, std::ptrdiff_t facets, std::size_t bodies, const std::string& name) {
   if (bodies < std::numeric_limits<std::uint32_t>::max() && vertices <= kLargestCount && facets <= kLargestCount)
     return;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -27,6 +28,8 @@ void check_array(const Edges& edges, const std::string& name);
 // Errors: invalid_argument.
 void check_plane(const Eigen::Vector3d& normal, double offset, const std::string& name);
 void check_margin(double margin, const std::string& name);
+// Not 0 to the margin.
+void check_rest_offset(std::optional<double> rest_offset, double margin, const std::string& name);
 // Errors: too_large. `facets` counts edges and points, too.
 void check_counts(std::ptrdiff_t vertices, std::ptrdiff_t facets, std::size_t bodies, const std::string& name);
 

@@ -6,6 +6,7 @@
 
 #include "engine/bodies/bodies.h"
 #include "engine/bodies/encloses.h"
+#include "engine/bodies/given_mesh.h"
 #include "narrowphase/mesh/cluster_quality.h"
 #include "narrowphase/mesh/mended_order.h"
 
@@ -15,37 +16,17 @@ namespace {
 
 using narrowphase::ClusteredMesh;
 
-// The caller's arrays of a new mesh, checked.
-struct GivenMesh {
-  std::vector<double> position_copy;
-  std::vector<int> facet_copy;
-  std::span<const double> positions;
-  std::span<const int> facets;
-};
-
-GivenMesh read_mesh(const Positions& positions, const Facets& facets, const std::string& name) {
-  check_array(positions, name);
-  check_array(facets, name);
-  check_counts(positions.cols(), facets.cols(), 0, name);
-  GivenMesh given;
-  make_copy_room(positions, given.position_copy);
-  make_copy_room(facets, given.facet_copy);
-  given.positions = packed(positions, std::span(given.position_copy));
-  given.facets = packed(facets, std::span(given.facet_copy));
-  check_positions(given.positions.data(), given.positions.size() / 3, name);
-  check_corners(given.facets, facets, positions.cols(), name);
-  return given;
-}
-
-void check_vertex_map(std::span<const int> map, std::size_t now, int was, const std::string& name) {
+// A map of what is new, `kind`, to what was there, of which there is so much.
+void check_map(std::span<const int> map, std::size_t now, int was, const char* kind, const char* many,
+               const std::string& name) {
   if (map.size() != now)
-    throw Error(ErrorCode::wrong_size, quoted(name) + ": the vertex map has " + std::to_string(map.size()) +
-                                           " entries, but there are " + std::to_string(now) + " vertices");
-  for (std::size_t v = 0; v < map.size(); ++v) {
-    if (map[v] >= -1 && map[v] < was) continue;
-    throw Error(ErrorCode::invalid_argument, quoted(name) + ": the vertex map names vertex " + std::to_string(map[v]) +
-                                                 " for vertex " + std::to_string(v) + ", but there were " +
-                                                 std::to_string(was));
+    throw Error(ErrorCode::wrong_size, quoted(name) + ": the " + kind + " map has " + std::to_string(map.size()) +
+                                           " entries, but there are " + std::to_string(now) + " " + many);
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    if (map[i] >= -1 && map[i] < was) continue;
+    throw Error(ErrorCode::invalid_argument, quoted(name) + ": the " + kind + " map names " + kind + " " +
+                                                 std::to_string(map[i]) + " for " + kind + " " + std::to_string(i) +
+                                                 ", but there were " + std::to_string(was));
   }
 }
 
@@ -129,34 +110,39 @@ std::vector<double> Bodies::begin_positions(std::uint32_t slot, std::span<const 
   return positions;
 }
 
-Bodies::NewMesh Bodies::make_mesh(BodyId id, const Positions& positions, const Facets& facets,
-                                  std::span<const int> vertex_map, int threads) const {
+Bodies::NewMesh Bodies::make_mesh(BodyId id, const MeshUpdate& update, int threads) const {
   const Body& body = at(id);
   const ClusteredMesh& last = body.mesh;
   if (last.is_rigid())
     throw Error(ErrorCode::wrong_motion, quoted(body.name) + " was added as rigid: its facets cannot be set");
-  if (body.plane != nullptr || !last.has_surface_alone())
-    throw Error(ErrorCode::invalid_argument,
-                quoted(body.name) + " is a plane, or has edges or points: its facets cannot be set");
-  const GivenMesh given = read_mesh(positions, facets, body.name);
-  const std::size_t vertices = given.positions.size() / 3;
-  check_vertex_map(vertex_map, vertices, last.source_vertex_count(), body.name);
-  const std::vector<char> used = used_vertices(given.facets, vertices);
+  if (body.plane != nullptr)
+    throw Error(ErrorCode::invalid_argument, quoted(body.name) + " is a plane: it has no facets that can be set");
+  check_shape(arguments_of(update), 0, body.name);
+  const GivenMesh given(arguments_of(update), body.name);
+  const std::span<const int> vertex_map = update.vertex_map;
+  check_map(vertex_map, given.vertex_count(), last.source_vertex_count(), "vertex", "vertices", body.name);
+  if (!update.facet_map.empty())
+    check_map(update.facet_map, given.surface().size() / 3, last.surface_facet_count(), "facet", "facets", body.name);
+  const std::vector<char> used = used_vertices(given.facets(), given.vertex_count());
   const std::vector<int> keepers = name_keepers(vertex_map, used, last.source_vertex_count());
-  const narrowphase::ChangedMesh now{given.facets, vertex_map, keepers};
+  const narrowphase::ChangedMesh now{given.facets(), vertex_map, keepers};
   const narrowphase::FacetsNow still = narrowphase::facets_now(last, now);
   const std::vector<int> order = narrowphase::mended_order(last, now, still);
-  const std::vector<double> begin = begin_positions(id.index, given.positions, vertex_map);
-  const std::span<const double> first = begin.empty() ? given.positions : std::span<const double>(begin);
-  NewMesh made{.vertices = {},
-               .has_inside = body.surface == Surface::closed && encloses(given.positions, given.facets),
-               .mesh = order.empty() ? ClusteredMesh(first, given.facets) : ClusteredMesh(first, given.facets, order),
-               .names = make_names(body, vertex_map, keepers, still.turned),
-               .features = nullptr,
-               .neighbors = nullptr,
-               .begin = Begin::here,
-               .grouped_from_scratch = order.empty()};
-  if (!begin.empty() && refit(made.mesh, given.positions.data(), {.threads = threads}) == narrowphase::Refit::changed)
+  const std::vector<double> begin = begin_positions(id.index, given.positions(), vertex_map);
+  const std::span<const double> first = begin.empty() ? given.positions() : std::span<const double>(begin);
+  NewMesh made{
+      .vertices = {},
+      .has_inside = !given.is_bare() && body.surface == Surface::closed && encloses(given.positions(), given.surface()),
+      .mesh = order.empty() ? ClusteredMesh(first, given.facets(), given.last())
+                            : ClusteredMesh(first, given.facets(), order, given.last()),
+      .names = make_names(body, vertex_map, keepers, still.turned),
+      .arrays = carried(body.arrays.get(), vertex_map, update.facet_map,
+                        {rest_offset(id.index), filters_[id.index].layer, filters_[id.index].mask}),
+      .features = nullptr,
+      .neighbors = nullptr,
+      .begin = Begin::here,
+      .grouped_from_scratch = order.empty()};
+  if (!begin.empty() && refit(made.mesh, given.positions().data(), {.threads = threads}) == narrowphase::Refit::changed)
     made.begin = Begin::before;
   made.mesh.begin_travel_after(last);
   if (body.features != nullptr) made.features = std::make_unique<const narrowphase::Features>(made.mesh);
@@ -184,6 +170,9 @@ void Bodies::set_mesh(NewMesh&& made) noexcept {
   body.has_inside = made.has_inside;
   body.is_outward = made.is_outward;
   body.names = std::move(made.names);
+  const auto filters = [](const FeatureArrays* arrays) { return arrays != nullptr && arrays->filters(); };
+  if (filters(body.arrays.get()) && !filters(made.arrays.get())) --filter_count_;
+  body.arrays = std::move(made.arrays);
   body.features = std::move(made.features);
   body.neighbors = std::move(made.neighbors);
   of_slot.begin = made.begin;

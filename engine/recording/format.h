@@ -29,11 +29,16 @@
 //             version 7
 //   facets    u8 19, body, u64 vertices, u64 facets, 3 f64 a vertex, 3 i32 a facet, i32 a vertex: that which it was, or
 //             -1; since version 7
-//   bare      u8 20, u64 edges, u64 points, 2 i32 an edge, i32 a point: those of the body that is added next, if it has
-//             any; this and the next since version 7
+//   bare      u8 20, u64 edges, u64 points, 2 i32 an edge, i32 a point: those of the body that is added, or whose
+//             facets are set, next, if it has any; this and the next since version 7
 //   plane     u8 21, 3 f64 of the normal, f64 offset, u32 layer, u32 mask, u64 external id, text name; then as after
 //   add
 //   reach     u8 22; after settings whose Outputs::within_reach is set, likewise; since version 7
+//   rest      u8 23, body, f64 metres, or -1: the margin; since version 7, as are the next two. After the body is added,
+//             if it is given, and wherever it changed
+//   features  u8 24, body, five u64: rest offsets, labels of vertices, labels of facets, layers and masks of vertices;
+//             then these, f64 each rest offset, u32 each other
+//   map       u8 25, u64 facets, i32 each: the facet that it was, or -1; of the body whose facets are set next
 //
 // A text is u32 bytes and these; a body is u32 index and u32 generation of its BodyId; enumerations are numbered in the
 // order of their values. Outputs::trace is left out: it changes no answer. The records stand in the order of the calls;
@@ -47,6 +52,7 @@ namespace tact::recording {
 
 inline constexpr std::string_view kMagic = "tactrec\n";
 inline constexpr std::uint32_t kVersion = 7;
+inline constexpr double kAsMargin = -1.0;  // of a rest offset
 
 enum class RecordKind : std::uint8_t {
   settings = 1,
@@ -70,8 +76,11 @@ enum class RecordKind : std::uint8_t {
   facets = 19,
   bare = 20,
   plane = 21,
-  within_reach = 22
+  within_reach = 22,
+  rest_offset = 23,
+  features = 24,
+  facet_map = 25
 };
-inline constexpr RecordKind kLastRecordKind = RecordKind::within_reach;
+inline constexpr RecordKind kLastRecordKind = RecordKind::facet_map;
 
 }  // namespace tact::recording

@@ -59,13 +59,13 @@ void put_key(std::ostream& out, const std::optional<std::uint64_t>& key) {
   put(out, *key);
 }
 
-void put_bare(std::ostream& out, const BodyDefinition& definition) {
-  if (definition.edges.cols() == 0 && definition.points.empty()) return;
+void put_bare(std::ostream& out, const Edges& edges, std::span<const int> points) {
+  if (edges.cols() == 0 && points.empty()) return;
   put(out, RecordKind::bare);
-  put(out, static_cast<std::uint64_t>(definition.edges.cols()));
-  put(out, static_cast<std::uint64_t>(definition.points.size()));
-  put_columns(out, definition.edges);
-  for (const int point : definition.points) put(out, std::int32_t{point});
+  put(out, static_cast<std::uint64_t>(edges.cols()));
+  put(out, static_cast<std::uint64_t>(points.size()));
+  put_columns(out, edges);
+  for (const int point : points) put(out, std::int32_t{point});
 }
 
 void put_plane(std::ostream& out, BodyId body, const PlaneDefinition& definition) {
@@ -79,11 +79,12 @@ void put_plane(std::ostream& out, BodyId body, const PlaneDefinition& definition
   put_text(out, definition.name);
   if (definition.group != 0) put_value(out, RecordKind::group, body, definition.group);
   if (definition.margin != 0.0) put_value(out, RecordKind::margin, body, definition.margin);
+  if (definition.rest_offset) put_value(out, RecordKind::rest_offset, body, *definition.rest_offset);
 }
 
 void put_addition(std::ostream& out, BodyId body, const BodyDefinition& definition) {
   put_key(out, definition.key);
-  put_bare(out, definition);
+  put_bare(out, definition.edges, definition.points);
   put(out, RecordKind::add);
   put(out, static_cast<std::uint8_t>(definition.surface));
   put(out, static_cast<std::uint8_t>(definition.motion));
@@ -97,6 +98,7 @@ void put_addition(std::ostream& out, BodyId body, const BodyDefinition& definiti
   put_columns(out, definition.facets);
   if (definition.group != 0) put_value(out, RecordKind::group, body, definition.group);
   if (definition.margin != 0.0) put_value(out, RecordKind::margin, body, definition.margin);
+  if (definition.rest_offset) put_value(out, RecordKind::rest_offset, body, *definition.rest_offset);
   if (definition.self_contact) put_value(out, RecordKind::self_contact, body, std::uint8_t{1});
 }
 
@@ -164,16 +166,21 @@ void Recorder::positions_set(std::span<const PositionsUpdate> updates) noexcept 
   });
 }
 
-void Recorder::facets_set(BodyId body, const Positions& positions, const Facets& facets,
-                          std::span<const int> vertex_map) noexcept {
+void Recorder::facets_set(BodyId body, const MeshUpdate& update) noexcept {
   write([&](std::ostream& out) {
+    put_bare(out, update.edges, update.points);
+    if (!update.facet_map.empty()) {
+      put(out, RecordKind::facet_map);
+      put(out, static_cast<std::uint64_t>(update.facet_map.size()));
+      for (const int was : update.facet_map) put(out, std::int32_t{was});
+    }
     put(out, RecordKind::facets);
     put_body(out, body);
-    put(out, static_cast<std::uint64_t>(positions.cols()));
-    put(out, static_cast<std::uint64_t>(facets.cols()));
-    put_columns(out, positions);
-    put_columns(out, facets);
-    for (const int was : vertex_map) put(out, std::int32_t{was});
+    put(out, static_cast<std::uint64_t>(update.positions.cols()));
+    put(out, static_cast<std::uint64_t>(update.facets.cols()));
+    put_columns(out, update.positions);
+    put_columns(out, update.facets);
+    for (const int was : update.vertex_map) put(out, std::int32_t{was});
   });
 }
 
@@ -215,6 +222,25 @@ void Recorder::motion_set(BodyId body, Motion motion) noexcept {
 
 void Recorder::margin_set(BodyId body, double margin) noexcept {
   write([&](std::ostream& out) { put_value(out, RecordKind::margin, body, margin); });
+}
+
+void Recorder::rest_offset_set(BodyId body, std::optional<double> rest_offset) noexcept {
+  write([&](std::ostream& out) {
+    put_value(out, RecordKind::rest_offset, body, rest_offset.value_or(recording::kAsMargin));
+  });
+}
+
+void Recorder::feature_settings_set(BodyId body, const FeatureSettings& settings) noexcept {
+  write([&](std::ostream& out) {
+    const std::array others{settings.vertex_labels, settings.facet_labels, settings.vertex_layers,
+                            settings.vertex_masks};
+    put_value(out, RecordKind::features, body, static_cast<std::uint64_t>(settings.rest_offsets.size()));
+    for (const auto& numbers : others) put(out, static_cast<std::uint64_t>(numbers.size()));
+    for (const double offset : settings.rest_offsets) put(out, offset);
+    for (const auto& numbers : others) {
+      for (const std::uint32_t number : numbers) put(out, number);
+    }
+  });
 }
 
 void Recorder::self_contact_set(BodyId body, bool wanted) noexcept {

@@ -1,6 +1,7 @@
 #include <tact/recording.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -113,6 +114,17 @@ struct RecordingPlayer::Implementation {
         const auto margin = reader.read<double>();
         return make([&] { world->set_margin(body, margin); });
       }
+      case RecordKind::rest_offset: {
+        const BodyId body = read_body();
+        const auto offset = reader.read<double>();
+        const bool is_given = offset != recording::kAsMargin;
+        return make([&] { world->set_rest_offset(body, is_given ? std::optional(offset) : std::nullopt); });
+      }
+      case RecordKind::features: return set_feature_settings();
+      case RecordKind::facet_map: {
+        next_facet_map = read_all<std::int32_t>(reader.read<std::uint64_t>());
+        return;
+      }
       case RecordKind::self_contact: {
         const BodyId body = read_body();
         const bool wanted = read_flag();
@@ -219,9 +231,7 @@ struct RecordingPlayer::Implementation {
   void read_bare() {
     const auto edges = reader.read<std::uint64_t>(), points = reader.read<std::uint64_t>();
     next_edges = read_columns<std::int32_t, 2>(edges);
-    reader.require(points, sizeof(std::int32_t));
-    next_points.clear();
-    for (std::uint64_t i = 0; i < points; ++i) next_points.push_back(reader.read<std::int32_t>());
+    next_points = read_all<std::int32_t>(points);
   }
 
   void add_plane() {
@@ -256,10 +266,35 @@ struct RecordingPlayer::Implementation {
     const auto vertices = reader.read<std::uint64_t>(), facets = reader.read<std::uint64_t>();
     const Eigen::Matrix3Xd positions = read_columns<double>(vertices);
     const Eigen::Matrix3Xi corners = read_columns<std::int32_t>(facets);
-    reader.require(vertices, sizeof(std::int32_t));
-    std::vector<int> vertex_map(static_cast<std::size_t>(vertices));
-    for (int& was : vertex_map) was = reader.read<std::int32_t>();
-    make([&] { world->set_facets(body, positions, corners, vertex_map); });
+    const std::vector<int> vertex_map = read_all<std::int32_t>(vertices);
+    make([&] {
+      world->set_facets(body, {.positions = positions,
+                               .facets = corners,
+                               .edges = next_edges,
+                               .points = next_points,
+                               .vertex_map = vertex_map,
+                               .facet_map = next_facet_map});
+    });
+    next_edges.resize(2, 0);
+    next_points.clear();
+    next_facet_map.clear();
+  }
+
+  void set_feature_settings() {
+    const BodyId body = read_body();
+    const auto offsets = reader.read<std::uint64_t>();
+    std::array<std::uint64_t, 4> counts{};
+    for (std::uint64_t& count : counts) count = reader.read<std::uint64_t>();
+    const std::vector<double> rest_offsets = read_all<double>(offsets);
+    std::array<std::vector<std::uint32_t>, 4> others;
+    for (std::size_t i = 0; i < others.size(); ++i) others[i] = read_all<std::uint32_t>(counts[i]);
+    make([&] {
+      world->set_feature_settings(body, {.rest_offsets = rest_offsets,
+                                         .vertex_labels = others[0],
+                                         .facet_labels = others[1],
+                                         .vertex_layers = others[2],
+                                         .vertex_masks = others[3]});
+    });
   }
 
   void set_poses() {
@@ -311,6 +346,14 @@ struct RecordingPlayer::Implementation {
     return static_cast<Enumeration>(value);
   }
 
+  template <class Number>
+  std::vector<Number> read_all(std::uint64_t count) {
+    reader.require(count, sizeof(Number));
+    std::vector<Number> all(static_cast<std::size_t>(count));
+    for (Number& one : all) one = reader.read<Number>();
+    return all;
+  }
+
   template <class Number, int kRows = 3>
   Eigen::Matrix<Number, kRows, Eigen::Dynamic> read_columns(std::uint64_t count) {
     reader.require(count, kRows * sizeof(Number));
@@ -347,7 +390,7 @@ struct RecordingPlayer::Implementation {
   std::uint32_t world_number = 0;              // that ids carry; known from the first body
   std::optional<std::uint64_t> next_key = {};  // of the body that is added next
   Eigen::Matrix2Xi next_edges = {};            // likewise
-  std::vector<int> next_points = {};
+  std::vector<int> next_points = {}, next_facet_map = {};
   int steps = 0;
   const Report nothing = {};
   const Report* report = &nothing;

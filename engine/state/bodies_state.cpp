@@ -82,19 +82,20 @@ MeshState StateFields::mesh_state(const Bodies& bodies, std::uint32_t slot) {
 
 void StateFields::write_body(const Bodies& bodies, std::uint32_t slot, const MeshState& mesh, StateWriter& writer) {
   const Bodies::Slot& from = bodies.slots_[slot];
-  writer(Bodies::Place{bodies.filters_[slot], bodies.margins_[slot], bodies.keys_.of(slot), mesh.is_rigid}, mesh,
-         *from.body, from, bodies.groupings_.entries_[slot]);
+  writer(Bodies::Place{bodies.filters_[slot], bodies.margins_[slot], bodies.rest_offsets_[slot], bodies.keys_.of(slot),
+                       mesh.is_rigid},
+         mesh, *from.body, from, bodies.groupings_.entries_[slot]);
 }
 
 // Own: world, tuning, choice. Memory, or what only saves work: packed_meshes, rigid_states, tree, updates, new_kdops
 // and all scratch. Found again from what is read: boxes, kdops, counts, planes, placed_boxes, farthest_rest. With each
-// body: filters, margins, keys, groupings, and whether it is in `changed`. Not of a state: generations, former; see
-// take_ids().
+// body: filters, margins, rest offsets, keys, groupings, and whether it is in `changed`. Not of a state: generations,
+// former; see take_ids().
 void StateFields::write(const Bodies& bodies, std::span<const BodyId> gone, StateWriter& writer) {
   const auto& [world, tuning, packed_meshes, slots, generations, former, rigid_states, free, boxes, filters, margins,
-               keys, tree, kdops, groupings, changed, count, removed, steps, excluded, vertices, moved_vertices,
-               rigid_count, self_count, planes, placed_boxes, placed_count, farthest_rest, pose_changed, to_place,
-               updates, new_kdops, without_features, named, choice] = bodies;
+               rest_offsets, keys, tree, kdops, groupings, changed, count, removed, steps, excluded, vertices,
+               moved_vertices, rigid_count, self_count, filter_count, planes, placed_boxes, placed_count, farthest_rest,
+               pose_changed, to_place, updates, new_kdops, without_features, named, choice] = bodies;
   writer(steps, std::uint64_t{count});
   std::vector<char> is_free(slots.size(), 0);
   for (const std::uint32_t slot : free) is_free[slot] = 1;
@@ -122,6 +123,7 @@ void StateFields::read_body(StateReader& reader, Bodies& bodies, std::uint32_t s
   constexpr const char* kName = "of a state";
   const auto place = reader.read<Bodies::Place>();
   check_margin(place.margin, kName);
+  if (place.rest_offset != Bodies::kAsMargin) check_rest_offset(place.rest_offset, place.margin, kName);
   reader.check(!bodies.keys_.find(place.key), "two bodies have one key");
   auto state = reader.read<MeshState>();
   reader.check(state.is_rigid == place.is_rigid, "a body is rigid and is not");
@@ -151,6 +153,11 @@ void StateFields::read_body(StateReader& reader, Bodies& bodies, std::uint32_t s
   reader(*body, saved, grouping);
   reader.check(body->names == nullptr || body->names->vertex_count() == state.vertex_count,
                "there are not as many names as vertices");
+  if (body->arrays != nullptr) {
+    check_feature_settings(body->arrays->view(), state.vertex_count,
+                           static_cast<std::size_t>(body->mesh.surface_facet_count()), place.margin, kName);
+    body->arrays = copy_of(body->arrays->view());
+  }
   reader.check(grouping.quality >= 0.0 && grouping.tries <= ClusterGroupings::kMostDoublings,
                "clusters have no quality");
   bodies.make_room_for(slot, place);

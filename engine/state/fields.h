@@ -123,11 +123,19 @@ struct StateFields {
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Body>& body) {
     auto& [mesh, id, name, surface, has_inside, external_id, self_contact, is_outward, birth, features, neighbors,
-           plane, begin, names] = body;
+           plane, begin, names, arrays] = body;
     archive(name, surface, has_inside, external_id, self_contact, is_outward, birth);
-    bool has_names = names != nullptr;
-    archive(has_names);
+    bool has_names = names != nullptr, has_arrays = arrays != nullptr;
+    archive(has_names, has_arrays);
     if (has_names) archive.pointee(names);
+    if (has_arrays) archive.pointee(arrays);
+  }
+
+  template <class Archive>
+  static void visit(Archive& archive, Visited<Archive, FeatureArrays>& arrays) {
+    // Found again: largest_rest_offset.
+    auto& [rest_offsets, vertex_labels, facet_labels, vertex_layers, vertex_masks, largest_rest_offset] = arrays;
+    archive(rest_offsets, vertex_labels, facet_labels, vertex_layers, vertex_masks);
   }
 
   // By others: body, rigid and begin, as a MeshState; fixed, as part of the filter. Dropped: the rest.
@@ -146,8 +154,8 @@ struct StateFields {
 
   template <class Archive>
   static void visit(Archive& archive, Visited<Archive, Bodies::Place>& place) {
-    auto& [filter, margin, key, is_rigid] = place;
-    archive(filter, margin, key, is_rigid);
+    auto& [filter, margin, rest_offset, key, is_rigid] = place;
+    archive(filter, margin, rest_offset, key, is_rigid);
   }
 
   template <class Archive>

@@ -299,6 +299,7 @@ base::Box WorldParts::way_box(BodyId body) const {
   return on_its_way(body) ? merged(box(body), bodies_.begin_box(body.index)) : box(body);
 }
 broadphase::Filter WorldParts::filter(BodyId body) const { return bodies_.filter(body); }
+std::optional<double> WorldParts::rest_offset(BodyId body) const { return bodies_.given_rest_offset(body.index); }
 
 std::vector<double> WorldParts::positions(BodyId body) const {
   const narrowphase::ClusteredMesh& mesh = bodies_.at(body).mesh;

@@ -65,6 +65,8 @@ class TACT_API WorldParts {
   base::Box box(BodyId body) const;
   base::Box way_box(BodyId body) const;
   broadphase::Filter filter(BodyId body) const;
+  /// The rest offset that a body was given.
+  std::optional<double> rest_offset(BodyId body) const;
   /// Where a body is: zero where no facet uses the vertex; and the pose of a rigid one.
   std::vector<double> positions(BodyId body) const;
   PoseUpdate pose(BodyId body) const;

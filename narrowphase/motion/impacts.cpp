@@ -192,12 +192,14 @@ struct SearchMemory {
 // The search among the clusters of two meshes.
 class ImpactSearch {
  public:
-  ImpactSearch(const MovingMesh& a, const MovingMesh& b, double reach, std::atomic<double>* first, SearchMemory& memory,
-               std::vector<FeatureImpact>& found, MotionCounts& counts)
+  ImpactSearch(const MovingMesh& a, const MovingMesh& b, const FeatureRules& rules, std::atomic<double>* first,
+               SearchMemory& memory, std::vector<FeatureImpact>& found, MotionCounts& counts)
       : a_(a),
         b_(b),
         same_(a.mesh == b.mesh),
-        reach_(reach),
+        rules_(rules),
+        are_uniform_(rules.are_uniform()),
+        largest_reach_(rules.reach.largest()),
         first_(first),
         memory_(memory),
         found_(found),
@@ -206,7 +208,7 @@ class ImpactSearch {
     largest_ = memory.largest;
     memory.a.begin(a.mesh);
     memory.b.begin(b.mesh);
-    scaled_reach_ = reach > 0.0 ? std::max(scale_ * reach, std::numeric_limits<double>::denorm_min()) : 0.0;
+    scaled_reach_ = scaled(largest_reach_);
     memory.facets.polygons.corners = 3;
     memory.edges.polygons.corners = 4;
     memory.facets.polygons.count = memory.edges.polygons.count = 0;
@@ -233,6 +235,10 @@ class ImpactSearch {
   }
 
  private:
+  double scaled(double reach) const {
+    return reach > 0.0 ? std::max(scale_ * reach, std::numeric_limits<double>::denorm_min()) : 0.0;
+  }
+
   MovingCluster& opened(const MovingMesh& m, int cluster, OpenMesh& memory) const {
     return memory.clusters.get(cluster, [&](MovingCluster& one) { open(m, cluster, scale_, one); });
   }
@@ -349,6 +355,7 @@ class ImpactSearch {
   }
 
   void settle(FeaturePair kind, int a, int b) {
+    if (!are_uniform_ && !rules_.filter.allows(sources_a(kind, a), sources_b(kind, b))) return;
     const double latest = first_ != nullptr ? first_->load(std::memory_order_relaxed) : 1.0;
     const MovingPolygon features = polygon(kind, a, b);
     double time = meeting(features, kind, a, b, latest, 0.0);
@@ -364,9 +371,10 @@ class ImpactSearch {
   }
 
   double meeting(const MovingPolygon& features, FeaturePair kind, int a, int b, double latest, double begin) {
-    Meeting found = memory_.meeting.first(features, reach_, latest, begin);
+    const double reach = reach_of(kind, a, b);
+    Meeting found = memory_.meeting.first(features, reach, latest, begin);
     counts_.spans += found.spans;
-    if (same_ && reach_ > 0.0 && found.time <= 1.0 && !is_contact(kind, a, b, found.time)) {
+    if (same_ && reach > 0.0 && found.time <= 1.0 && !is_contact(kind, a, b, found.time, scaled(reach))) {
       found = memory_.meeting.first(features, 0.0, latest, begin);
       counts_.spans += found.spans;
     }
@@ -374,9 +382,28 @@ class ImpactSearch {
   }
 
   // Of one mesh.
-  bool is_contact(FeaturePair kind, int a, int b, double time) const {
-    return kind == FeaturePair::edge_edge ? memory_.contact.of_edges(a_, scale_, time, scaled_reach_, a, b)
-                                          : memory_.contact.of_vertex(a_, scale_, time, scaled_reach_, a, b);
+  bool is_contact(FeaturePair kind, int a, int b, double time, double reach) const {
+    return kind == FeaturePair::edge_edge ? memory_.contact.of_edges(a_, scale_, time, reach, a, b)
+                                          : memory_.contact.of_vertex(a_, scale_, time, reach, a, b);
+  }
+
+  // Metres.
+  double reach_of(FeaturePair kind, int a, int b) const {
+    return are_uniform_ ? largest_reach_ : rules_.reach.of(sources_a(kind, a), sources_b(kind, b));
+  }
+
+  // The caller's numbers of the vertices of a feature.
+  std::array<int, 3> sources_a(FeaturePair kind, int a) const {
+    return sources(a_, kind, FeaturePair::facet_vertex, a);
+  }
+  std::array<int, 3> sources_b(FeaturePair kind, int b) const {
+    return sources(b_, kind, FeaturePair::vertex_facet, b);
+  }
+  // Of one that is a facet in the kind `with_facet`.
+  static std::array<int, 3> sources(const MovingMesh& m, FeaturePair kind, FeaturePair with_facet, int feature) {
+    if (kind == FeaturePair::edge_edge) return source_vertices(*m.mesh, m.features->edge(feature));
+    if (kind == with_facet) return source_vertices(*m.mesh, m.mesh->corners(feature));
+    return source_vertices(*m.mesh, {&feature, 1});
   }
 
   MovingPolygon polygon(FeaturePair kind, int a, int b) const {
@@ -402,17 +429,8 @@ class ImpactSearch {
   }
 
   void add(FeaturePair kind, int a, int b, double time, bool stops) {
-    const auto sources = [&](const MovingMesh& m, bool is_edge, bool is_facet, int feature) {
-      if (is_edge) return source_vertices(*m.mesh, m.features->edge(feature));
-      if (is_facet) return source_vertices(*m.mesh, m.mesh->corners(feature));
-      return source_vertices(*m.mesh, {&feature, 1});
-    };
     const bool edges = kind == FeaturePair::edge_edge;
-    FeatureImpact impact{.kind = kind,
-                         .a = sources(a_, edges, kind == FeaturePair::facet_vertex, a),
-                         .b = sources(b_, edges, kind == FeaturePair::vertex_facet, b),
-                         .time = time,
-                         .stops = stops};
+    FeatureImpact impact{.kind = kind, .a = sources_a(kind, a), .b = sources_b(kind, b), .time = time, .stops = stops};
     if (kind == FeaturePair::vertex_facet) name_bare(*b_.mesh, b, FeaturePair::vertex_edge, impact.b, impact.kind);
     if (kind == FeaturePair::facet_vertex) name_bare(*a_.mesh, a, FeaturePair::edge_vertex, impact.a, impact.kind);
     const bool is_symmetric = edges || impact.kind == FeaturePair::vertex_vertex;
@@ -423,7 +441,9 @@ class ImpactSearch {
 
   const MovingMesh &a_, &b_;
   const bool same_;
-  const double reach_;
+  const FeatureRules& rules_;
+  const bool are_uniform_;
+  const double largest_reach_;
   double scale_ = 1.0, scaled_reach_ = 0.0;
   double largest_ = 0.0;  // coordinate, scaled
   std::atomic<double>* const first_;
@@ -471,11 +491,13 @@ void ImpactFinder::begin(const Box& all) {
   memory_->b.begin(nullptr);
 }
 
-void ImpactFinder::run(const MovingMesh& a, const MovingMesh& b, double reach, std::span<const ClusterPair> pairs,
-                       std::atomic<double>* first, std::vector<FeatureImpact>& found, MotionCounts& counts) {
-  ImpactSearch search(a, b, reach, first, *memory_, found, counts);
+void ImpactFinder::run(const MovingMesh& a, const MovingMesh& b, const FeatureRules& rules,
+                       std::span<const ClusterPair> pairs, std::atomic<double>* first,
+                       std::vector<FeatureImpact>& found, MotionCounts& counts) {
+  ImpactSearch search(a, b, rules, first, *memory_, found, counts);
   for (const ClusterPair& pair : pairs) {
-    if (first != nullptr && earliest_time(a, pair.a, b, pair.b, reach) > first->load(std::memory_order_relaxed))
+    if (first != nullptr &&
+        earliest_time(a, pair.a, b, pair.b, rules.reach.largest()) > first->load(std::memory_order_relaxed))
       continue;
     search.search(pair);
   }

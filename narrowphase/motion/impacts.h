@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "narrowphase/motion/feature_rules.h"
 #include "narrowphase/motion/meeting.h"
 #include "narrowphase/motion/moving_mesh.h"
 #include "narrowphase/pairs/cluster_pairs.h"
@@ -67,12 +68,12 @@ class ImpactFinder {
   void begin(const Box& all);
 
   /// Appends the impacts of some cluster pairs of `a` and `b`, which may be one mesh, in no particular order. All
-  /// cluster pairs together give each impact once. Features meet that come within `reach` of each other; those of one
-  /// mesh that are no contact there meet where they share a point: contact_on_way.h. If only the first impact is
-  /// wanted that stops, `first` is not null: it falls to the time of what is found, and later impacts may be left out,
-  /// and all that do not stop. Give the cluster pairs that come first first. Features that part and meet again have two
-  /// impacts.
-  void run(const MovingMesh& a, const MovingMesh& b, double reach, std::span<const ClusterPair> pairs,
+  /// cluster pairs together give each impact once. Features meet that come within their reach of each other, if the
+  /// rules allow; those of one mesh that are no contact there meet where they share a point: contact_on_way.h. If only
+  /// the first impact is wanted that stops, `first` is not null: it falls to the time of what is found, and later
+  /// impacts may be left out, and all that do not stop. Give the cluster pairs that come first first. Features that
+  /// part and meet again have two impacts.
+  void run(const MovingMesh& a, const MovingMesh& b, const FeatureRules& rules, std::span<const ClusterPair> pairs,
            std::atomic<double>* first, std::vector<FeatureImpact>& found, MotionCounts& counts);
 
  private:

@@ -162,6 +162,12 @@ class EveryCallOfC {
     const tact_columns facets = definition_of(other_).facets;
     const std::vector<int32_t> map(static_cast<size_t>(other_.vertex_count()), -1);
     call([&] { return tact_world_set_facets(world_, bodies_[1], &update.positions, &facets, map.data(), map.size()); });
+    tact_mesh_update mesh = TACT_MESH_UPDATE_INIT;
+    mesh.positions = update.positions;
+    mesh.facets = facets;
+    mesh.vertex_map = map.data();
+    mesh.vertex_map_count = map.size();
+    call([&] { return tact_world_set_facets_by(world_, bodies_[1], &mesh); });
     call([&] { return tact_world_set_pose(world_, bodies_[2], rotation_, translation); });
     call([&] { return tact_world_set_poses(world_, &pose, 1); });
     call([&] { return tact_world_detect_motion(world_, 0); });
@@ -180,6 +186,13 @@ class EveryCallOfC {
     call([&] { return tact_world_set_excluded(world_, bodies_[1], bodies_[2], true); });
     call([&] { return tact_world_set_motion(world_, bodies_[2], TACT_MOTION_FIXED); });
     call([&] { return tact_world_set_margin(world_, bodies_[0], 0.1 / 3.0); });
+    const double rest_offset = 0.1 / 7.0;
+    call([&] { return tact_world_set_rest_offset(world_, bodies_[0], &rest_offset); });
+    const std::vector<double> offsets(static_cast<size_t>(ball_.vertex_count()), rest_offset);
+    tact_feature_settings features = TACT_FEATURE_SETTINGS_INIT;
+    features.rest_offsets = offsets.data();
+    features.rest_offset_count = offsets.size();
+    call([&] { return tact_world_set_feature_settings(world_, bodies_[0], &features); });
     call([&] { return tact_world_set_self_contact(world_, bodies_[0], true); });
   }
 
@@ -230,6 +243,16 @@ class EveryCallOfC {
       call([&] { return tact_world_external_id(world_, body, &id); });
       call([&] { return tact_world_key(world_, body, &id); });
       call([&] { return tact_world_margin(world_, body, &margin); });
+      double rest_offset = 0.0;
+      call([&] { return tact_world_rest_offset(world_, body, &rest_offset); });
+      tell({&rest_offset, 1});
+      tact_feature_settings features = TACT_FEATURE_SETTINGS_INIT;
+      call([&] { return tact_world_feature_settings(world_, body, &features); });
+      tell({features.rest_offsets, features.rest_offset_count});
+      const int vertex[3] = {0, -1, -1};
+      tact_feature_labels labels{};
+      call([&] { return tact_world_labels(world_, body, vertex, &labels); });
+      tell(std::uint64_t{labels.facet});
       call([&] { return tact_world_self_contact(world_, body, &flag); });
       call([&] { return tact_world_vertex_count(world_, body, &vertices); });
       call([&] { return tact_world_facet_count(world_, body, &facets); });
@@ -424,6 +447,8 @@ class EveryCallOfC {
     EXPECT_EQ(answer([&] { return tact_world_closest_point(world_, &query, &nearest); }),
               TACT_ERROR_NON_FINITE_POSITION);
     EXPECT_EQ(answer([&] { return tact_world_set_margin(world_, bodies_[0], query.point[0]); }),
+              TACT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(answer([&] { return tact_world_set_rest_offset(world_, bodies_[0], query.point); }),
               TACT_ERROR_INVALID_ARGUMENT);
     EXPECT_NE(in_mode(mode_, [] { return tact_last_error_message(); }), nullptr);
   }

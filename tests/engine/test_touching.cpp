@@ -22,14 +22,16 @@ ContactPoint point_with(double gap) {
   return point;
 }
 
-TEST(Touching, IsByFacetsOrByAGapBelowTheMargins) {
+narrowphase::FeatureReach at(double sum) { return {.a = {.largest = sum}, .b = {}}; }
+
+TEST(Touching, IsByFacetsOrByAGapBelowTheRestOffsets) {
   const std::vector<FacetPair> none, some{{0, 0}};
   const std::vector<ContactPoint> near{point_with(0.3), point_with(0.1)}, at_the_sum{point_with(0.2)};
-  EXPECT_FALSE(is_touching(none, {}, 0.2));
-  EXPECT_TRUE(is_touching(some, {}, 0.0));
-  EXPECT_TRUE(is_touching(none, near, 0.2));
-  EXPECT_FALSE(is_touching(none, at_the_sum, 0.2));
-  EXPECT_TRUE(is_touching(none, std::vector{point_with(-1e-300)}, 0.0));
+  EXPECT_FALSE(is_touching(none, {}, at(0.2)));
+  EXPECT_TRUE(is_touching(some, {}, at(0.0)));
+  EXPECT_TRUE(is_touching(none, near, at(0.2)));
+  EXPECT_FALSE(is_touching(none, at_the_sum, at(0.2)));
+  EXPECT_TRUE(is_touching(none, std::vector{point_with(-1e-300)}, at(0.0)));
 }
 
 // Balls that drift through each other and rest, at every level, with points and without.

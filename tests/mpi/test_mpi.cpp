@@ -13,6 +13,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -214,6 +215,13 @@ void run_churn(const std::string& name, Size size, const BeforeDetect& before) {
         if (drawn(14, n, t, 20) == 0) world.set_group(body, static_cast<std::uint32_t>(drawn(15, n, t, 3)));
         if (drawn(16, n, t, 20) == 0) world.set_layers(body, 1u << drawn(17, n, t, 2), 3u);
         if (drawn(18, n, t, 20) == 0) world.set_self_contact(body, drawn(19, n, t, 2) == 0);
+        if (drawn(24, n, t, 12) == 0)
+          world.set_rest_offset(body, drawn(25, n, t, 2) == 0 ? std::optional(0.0) : std::nullopt);
+        if (drawn(26, n, t, 20) == 0) {
+          std::vector<std::uint32_t> masks(static_cast<std::size_t>(mesh.vertex_count()), ~0u);
+          for (std::size_t v = 0; v < masks.size(); v += 3) masks[v] = static_cast<std::uint32_t>(drawn(27, n, t, 4));
+          world.set_feature_settings(body, {.vertex_labels = masks, .vertex_masks = masks});
+        }
       });
       const int other = drawn(21, n, t, size.bodies);
       if (drawn(22, n, t, 6) == 0 && other != i && there[other])

@@ -52,6 +52,8 @@ CHANGES = {
     "set_many_positions": lambda w, b: w.set_positions({b[1]: w.positions(b[1]) + 1}),
     "set_facets": lambda w, b: w.set_facets(b[1], w.positions(b[1]), w.facets(b[1]), np.arange(len(w.positions(b[1])))),
     "set_margin": lambda w, b: w.set_margin(b[2], 0.0),
+    "set_rest_offset": lambda w, b: w.set_rest_offset(b[2], None),
+    "set_feature_settings": lambda w, b: w.set_feature_settings(b[1], vertex_labels=np.arange(len(w.positions(b[1])))),
     "set_self_contact": lambda w, b: w.set_self_contact(b[2], True),
     "set_motion": lambda w, b: w.set_motion(b[2], tact.Motion.fixed),
     "set_layers": lambda w, b: w.set_layers(b[2], 1, 1),

@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <climits>
 #include <limits>
 #include <new>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -94,6 +97,15 @@ PoseUpdate pose_of(tact_body body, const double* rotation, const double* transla
           Eigen::Map<const Eigen::Vector3d>(translation)};
 }
 
+std::optional<double> given_if(bool is_given, double value) { return is_given ? std::optional(value) : std::nullopt; }
+
+// An array that may be null where it is empty.
+template <class Number>
+std::span<const Number> array_of(const Number* numbers, size_t count) {
+  if (count > 0) check_not_null(numbers);
+  return {numbers, count};
+}
+
 // Calls get(world) and hands its result out.
 template <class Value, class Get>
 tact_error get(tact_world world, Value* value, const Get& get_from) noexcept {
@@ -117,6 +129,7 @@ tact_error copy_of_body(tact_world world, tact_body body, Number* numbers, size_
 }  // namespace tact::c
 
 using tact::World;
+using tact::c::array_of, tact::c::given_if;
 using tact::c::body_of, tact::c::changing, tact::c::check_not_null, tact::c::columns_of, tact::c::get, tact::c::guarded,
     tact::c::copy_of_body, tact::c::id_of, tact::c::reading, tact::c::WorldEntry;
 
@@ -168,7 +181,8 @@ tact_error tact_world_add_body(tact_world world, const tact_body_definition* def
                                           .external_id = d.external_id,
                                           .key = d.has_key ? std::optional(d.key) : std::nullopt,
                                           .margin = d.margin,
-                                          .self_contact = d.self_contact}));
+                                          .self_contact = d.self_contact,
+                                          .rest_offset = given_if(d.has_rest_offset, d.rest_offset)}));
   });
 }
 
@@ -184,7 +198,8 @@ tact_error tact_world_add_plane(tact_world world, const tact_plane_definition* d
                                            .group = d.group,
                                            .external_id = d.external_id,
                                            .key = d.has_key ? std::optional(d.key) : std::nullopt,
-                                           .margin = d.margin}));
+                                           .margin = d.margin,
+                                           .rest_offset = given_if(d.has_rest_offset, d.rest_offset)}));
   });
 }
 
@@ -219,6 +234,19 @@ tact_error tact_world_set_facets(tact_world world, tact_body body, const tact_co
     if (count > 0) check_not_null(vertex_map);
     entry.world.set_facets(id_of(body), columns_of<tact::Positions>(*positions), columns_of<tact::Facets>(*facets),
                            {vertex_map, count});
+  });
+}
+
+tact_error tact_world_set_facets_by(tact_world world, tact_body body, const tact_mesh_update* update) {
+  return changing(world, [&](WorldEntry& entry) {
+    check_not_null(update);
+    const tact_mesh_update u = tact::c::read_struct(*update, tact_mesh_update TACT_MESH_UPDATE_INIT);
+    entry.world.set_facets(id_of(body), {.positions = columns_of<tact::Positions>(u.positions),
+                                         .facets = columns_of<tact::Facets>(u.facets),
+                                         .edges = columns_of<tact::Edges>(u.edges),
+                                         .points = array_of(u.points, u.point_count),
+                                         .vertex_map = array_of(u.vertex_map, u.vertex_map_count),
+                                         .facet_map = array_of(u.facet_map, u.facet_map_count)});
   });
 }
 
@@ -261,6 +289,24 @@ tact_error tact_world_set_motion(tact_world world, tact_body body, int32_t motio
 
 tact_error tact_world_set_margin(tact_world world, tact_body body, double margin) {
   return changing(world, [&](WorldEntry& entry) { entry.world.set_margin(id_of(body), margin); });
+}
+
+tact_error tact_world_set_rest_offset(tact_world world, tact_body body, const double* rest_offset) {
+  return changing(world, [&](WorldEntry& entry) {
+    entry.world.set_rest_offset(id_of(body), rest_offset != nullptr ? std::optional(*rest_offset) : std::nullopt);
+  });
+}
+
+tact_error tact_world_set_feature_settings(tact_world world, tact_body body, const tact_feature_settings* settings) {
+  return changing(world, [&](WorldEntry& entry) {
+    check_not_null(settings);
+    const tact_feature_settings s = tact::c::read_struct(*settings, tact_feature_settings TACT_FEATURE_SETTINGS_INIT);
+    entry.world.set_feature_settings(id_of(body), {.rest_offsets = array_of(s.rest_offsets, s.rest_offset_count),
+                                                   .vertex_labels = array_of(s.vertex_labels, s.vertex_label_count),
+                                                   .facet_labels = array_of(s.facet_labels, s.facet_label_count),
+                                                   .vertex_layers = array_of(s.vertex_layers, s.vertex_layer_count),
+                                                   .vertex_masks = array_of(s.vertex_masks, s.vertex_mask_count)});
+  });
 }
 
 tact_error tact_world_set_self_contact(tact_world world, tact_body body, bool wanted) {
@@ -368,6 +414,38 @@ tact_error tact_world_key(tact_world world, tact_body body, uint64_t* key) {
 
 tact_error tact_world_margin(tact_world world, tact_body body, double* margin) {
   return get(world, margin, [&](const World& w) { return w.margin(id_of(body)); });
+}
+
+tact_error tact_world_rest_offset(tact_world world, tact_body body, double* rest_offset) {
+  return get(world, rest_offset, [&](const World& w) { return w.rest_offset(id_of(body)); });
+}
+
+tact_error tact_world_feature_settings(tact_world world, tact_body body, tact_feature_settings* settings) {
+  return reading(world, [&](const WorldEntry& entry) {
+    check_not_null(settings);
+    const tact::FeatureSettings found = entry.world.feature_settings(id_of(body));
+    tact_feature_settings result = TACT_FEATURE_SETTINGS_INIT;
+    result.rest_offsets = found.rest_offsets.data();
+    result.rest_offset_count = found.rest_offsets.size();
+    result.vertex_labels = found.vertex_labels.data();
+    result.vertex_label_count = found.vertex_labels.size();
+    result.facet_labels = found.facet_labels.data();
+    result.facet_label_count = found.facet_labels.size();
+    result.vertex_layers = found.vertex_layers.data();
+    result.vertex_layer_count = found.vertex_layers.size();
+    result.vertex_masks = found.vertex_masks.data();
+    result.vertex_mask_count = found.vertex_masks.size();
+    tact::c::write_struct(*settings, result);
+  });
+}
+
+tact_error tact_world_labels(tact_world world, tact_body body, const int* vertices, tact_feature_labels* labels) {
+  return reading(world, [&](const WorldEntry& entry) {
+    check_not_null(vertices, labels);
+    const tact::FeatureLabels found = entry.world.labels(id_of(body), {vertices[0], vertices[1], vertices[2]});
+    std::copy_n(found.vertices.begin(), 3, labels->vertices);
+    labels->facet = found.facet;
+  });
 }
 
 tact_error tact_world_self_contact(tact_world world, tact_body body, bool* wanted) {

@@ -57,7 +57,7 @@ void define_contact(py::module_& module) {
       .def_property_readonly("source", contact_field(&tact::Contact::source))
       .def_property_readonly(
           "touching", [](const ContactHandle& shown) { return shown->contact.touching(); },
-          "whether facets meet, or a point's gap is below the sum of the margins")
+          "whether facets meet, or a point's gap is below the sum of the rest offsets")
       .def_property_readonly(
           "facet_pairs", [](const ContactHandle& shown) { return facet_pair_array(shown->contact.facet_pairs()); },
           "(N, 2): the facets that meet, sorted")

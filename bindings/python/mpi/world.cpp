@@ -195,6 +195,22 @@ void define_bodies(WorldClass& world) {
           "set_margin", [](RankWorld& w, std::uint64_t key, double margin) { w.use().set_margin(key, margin); },
           py::arg("key"), py::arg("margin"))
       .def(
+          "set_rest_offset",
+          [](RankWorld& w, std::uint64_t key, std::optional<double> rest_offset) {
+            w.use().set_rest_offset(key, rest_offset);
+          },
+          py::arg("key"), py::arg("rest_offset"))
+      .def(
+          "set_feature_settings",
+          [](RankWorld& w, std::uint64_t key, py::handle rest_offsets, py::handle vertex_labels,
+             py::handle facet_labels, py::handle vertex_layers, py::handle vertex_masks) {
+            const FeatureSettingsArgument given(rest_offsets, vertex_labels, facet_labels, vertex_layers, vertex_masks);
+            w.use().set_feature_settings(key, given.settings());
+          },
+          py::arg("key"), py::kw_only(), py::arg("rest_offsets") = py::list(), py::arg("vertex_labels") = py::list(),
+          py::arg("facet_labels") = py::list(), py::arg("vertex_layers") = py::list(),
+          py::arg("vertex_masks") = py::list())
+      .def(
           "set_self_contact",
           [](RankWorld& w, std::uint64_t key, bool wanted) { w.use().set_self_contact(key, wanted); }, py::arg("key"),
           py::arg("wanted"))

@@ -147,7 +147,48 @@ Columns<Scalar, kRows> columns_of(const py::array& array, NumberKind kind) {
       static_cast<std::size_t>(array.strides(0)));  // Columns turns it back: it may be < 0
 }
 
+// Of shape (N,).
+py::array row_from(py::handle given, const std::string& what) {
+  const py::array array = array_from(given, what);
+  if (array.ndim() != 1) throw py::value_error(what + " has shape " + shape_text(array) + ", not (N,)");
+  return array;
+}
+
+// The same as integers; `otherwise` says what one is not that does not fit.
+template <class Number>
+py::array_t<Number> integers_of(py::handle given, const std::string& what, const char* otherwise) {
+  const py::array array = row_from(given, what);
+  if (array.size() == 0) return py::array_t<Number>(0);  // of an empty list numpy makes floats
+  if (!holds_integers(array)) throw holds_other_numbers(array, what, "integers");
+  return converted<Number>(array, [&](py::ssize_t i, const std::string& value) {
+    throw py::value_error(what + " holds " + value + " at " + std::to_string(i) + ", " + otherwise);
+  });
+}
+
+py::array_t<std::uint32_t> bits_of(py::handle given, const std::string& what) {
+  return integers_of<std::uint32_t>(given, what, "which is not 0 to 4294967295");
+}
+
+template <class Number>
+std::span<const Number> all_of(const py::array_t<Number>& array) {
+  return {array.data(), static_cast<std::size_t>(array.size())};
+}
+
 }  // namespace
+
+FeatureSettingsArgument::FeatureSettingsArgument(py::handle rest_offsets, py::handle vertex_labels,
+                                                 py::handle facet_labels, py::handle vertex_layers,
+                                                 py::handle vertex_masks)
+    : rest_offsets_(doubles_of(row_from(rest_offsets, "rest_offsets"), "rest_offsets")),
+      vertex_labels_(bits_of(vertex_labels, "vertex_labels")),
+      facet_labels_(bits_of(facet_labels, "facet_labels")),
+      vertex_layers_(bits_of(vertex_layers, "vertex_layers")),
+      vertex_masks_(bits_of(vertex_masks, "vertex_masks")) {}
+
+FeatureSettings FeatureSettingsArgument::settings() const {
+  return {all_of(rest_offsets_), all_of(vertex_labels_), all_of(facet_labels_), all_of(vertex_layers_),
+          all_of(vertex_masks_)};
+}
 
 std::string type_name(py::handle of) { return text_of(py::type::of(of).attr("__name__")); }
 
@@ -167,13 +208,7 @@ EdgesArgument::EdgesArgument(py::handle given) : array_(checked_rows(given, "edg
 Edges EdgesArgument::columns() const { return columns_of<int, 2>(array_, NumberKind::int32); }
 
 py::array_t<int> indices_argument(py::handle given, const std::string& what) {
-  const py::array array = array_from(given, what);
-  if (array.ndim() != 1) throw py::value_error(what + " has shape " + shape_text(array) + ", not (N,)");
-  if (array.size() == 0) return py::array_t<int>(0);  // of an empty list numpy makes floats
-  if (!holds_integers(array)) throw holds_other_numbers(array, what, "integers");
-  return converted<int>(array, [&](py::ssize_t i, const std::string& value) {
-    throw py::value_error(what + " holds " + value + " at " + std::to_string(i) + ", which no body can have");
-  });
+  return integers_of<int>(given, what, "which no body can have");
 }
 
 py::array_t<double> numbers_argument(py::handle given, const std::string& what, const std::vector<py::ssize_t>& shape) {

@@ -6,9 +6,11 @@
 #pragma once
 
 #include <pybind11/numpy.h>
+#include <tact/body.h>
 #include <tact/columns.h>
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -52,6 +54,20 @@ class EdgesArgument {
 
  private:
   py::array array_;
+};
+
+/// Settings of single vertices and facets, given as arrays of shape (V,) or (F,); all but offsets are 0 to 2^32 - 1.
+/// @throws TypeError, ValueError as above.
+class FeatureSettingsArgument {
+ public:
+  FeatureSettingsArgument(py::handle rest_offsets, py::handle vertex_labels, py::handle facet_labels,
+                          py::handle vertex_layers, py::handle vertex_masks);
+  /// Valid as long as this.
+  FeatureSettings settings() const;
+
+ private:
+  py::array_t<double> rest_offsets_;
+  py::array_t<std::uint32_t> vertex_labels_, facet_labels_, vertex_layers_, vertex_masks_;
 };
 
 /// Integers given as an array of shape (N,), each of 32 bits. @throws TypeError, ValueError as above.

@@ -16,6 +16,7 @@ void define_rotations(pybind11::module_& module);
 class SharedWorld;
 using WorldClass = pybind11::class_<SharedWorld, std::shared_ptr<SharedWorld>>;
 void define_contact_sums(pybind11::module_& module, WorldClass& world);
+void define_feature_settings(pybind11::module_& module, WorldClass& world);
 void define_queries(pybind11::module_& module, WorldClass& world);
 void define_body_queries(pybind11::module_& module, WorldClass& world);
 void define_surface_check(pybind11::module_& module, WorldClass& world);

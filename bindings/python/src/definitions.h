@@ -32,7 +32,8 @@ void define_add_body(py::class_<World, std::shared_ptr<World>>& of, const char* 
       "add_body",
       [add](World& world, py::handle positions, py::handle facets, Surface surface, Motion motion,
             const std::string& name, std::uint32_t layer, std::uint32_t mask, double margin, bool self_contact,
-            std::uint32_t group, std::optional<std::uint64_t> key, py::handle edges, py::handle points, More... more) {
+            std::uint32_t group, std::optional<std::uint64_t> key, py::handle edges, py::handle points,
+            std::optional<double> rest_offset, More... more) {
         const PositionsArgument x(positions);
         const FacetsArgument f(facets);
         const EdgesArgument e(edges);
@@ -49,13 +50,15 @@ void define_add_body(py::class_<World, std::shared_ptr<World>>& of, const char* 
                                         .group = group,
                                         .key = key,
                                         .margin = margin,
-                                        .self_contact = self_contact};
+                                        .self_contact = self_contact,
+                                        .rest_offset = rest_offset};
         return add(world, definition, more...);
       },
       py::arg("positions"), py::arg("facets") = py::list(), py::kw_only(), py::arg("surface") = Surface::closed,
       py::arg("motion") = Motion::deformable, py::arg("name") = "", py::arg("layer") = 1u,
       py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0, py::arg("self_contact") = false, py::arg("group") = 0u,
-      py::arg("key") = py::none(), py::arg("edges") = py::list(), py::arg("points") = py::list(), names..., text);
+      py::arg("key") = py::none(), py::arg("edges") = py::list(), py::arg("points") = py::list(),
+      py::arg("rest_offset") = py::none(), names..., text);
 }
 
 /// The same of add_plane().
@@ -64,7 +67,8 @@ void define_add_plane(py::class_<World, std::shared_ptr<World>>& of, const char*
   of.def(
       "add_plane",
       [add](World& world, py::handle normal, double offset, const std::string& name, std::uint32_t layer,
-            std::uint32_t mask, double margin, std::uint32_t group, std::optional<std::uint64_t> key) {
+            std::uint32_t mask, double margin, std::uint32_t group, std::optional<std::uint64_t> key,
+            std::optional<double> rest_offset) {
         return add(world, PlaneDefinition{.normal = vector_argument(normal, "normal"),
                                           .offset = offset,
                                           .name = name,
@@ -72,10 +76,12 @@ void define_add_plane(py::class_<World, std::shared_ptr<World>>& of, const char*
                                           .mask = mask,
                                           .group = group,
                                           .key = key,
-                                          .margin = margin});
+                                          .margin = margin,
+                                          .rest_offset = rest_offset});
       },
       py::arg("normal"), py::arg("offset") = 0.0, py::kw_only(), py::arg("name") = "", py::arg("layer") = 1u,
-      py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0, py::arg("group") = 0u, py::arg("key") = py::none(), text);
+      py::arg("mask") = 0xffffffffu, py::arg("margin") = 0.0, py::arg("group") = 0u, py::arg("key") = py::none(),
+      py::arg("rest_offset") = py::none(), text);
 }
 
 }  // namespace tact::python

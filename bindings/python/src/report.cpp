@@ -288,7 +288,7 @@ void define_contact(py::module_& module) {
           "set; sorted by kind, then by features")
       .def_property_readonly(
           "touching", [](const ContactHandle& contact) { return contact->touching(); },
-          "whether facets meet, or a point's gap is below the sum of the margins")
+          "whether facets meet, or a point's gap is below the sum of the rest offsets")
       .def_property_readonly(
           "patches",
           [](const ContactHandle& contact) {

@@ -60,12 +60,24 @@ void set_many_positions(SharedWorld& world, const py::dict& positions) {
   world.compute([&](World& w) { w.set_positions(updates); });
 }
 
-void set_facets(SharedWorld& world, BodyId body, py::handle positions, py::handle facets, py::handle vertex_map) {
+void set_facets(SharedWorld& world, BodyId body, py::handle positions, py::handle facets, py::handle vertex_map,
+                py::handle edges, py::handle points, py::handle facet_map) {
   const PositionsArgument x(positions);
   const FacetsArgument f(facets);
-  const py::array_t<int> was = indices_argument(vertex_map, "vertex_map");
-  const std::span<const int> map(was.data(), static_cast<std::size_t>(was.size()));
-  world.compute([&](World& w) { w.set_facets(body, x.columns(), f.columns(), map); });
+  const EdgesArgument e(edges);
+  const py::array_t<int> p = indices_argument(points, "points"),
+                         of_vertices = indices_argument(vertex_map, "vertex_map"),
+                         of_facets = indices_argument(facet_map, "facet_map");
+  const auto all_of = [](const py::array_t<int>& array) {
+    return std::span<const int>(array.data(), static_cast<std::size_t>(array.size()));
+  };
+  const MeshUpdate update{.positions = x.columns(),
+                          .facets = f.columns(),
+                          .edges = e.columns(),
+                          .points = all_of(p),
+                          .vertex_map = all_of(of_vertices),
+                          .facet_map = all_of(of_facets)};
+  world.compute([&](World& w) { w.set_facets(body, update); });
 }
 
 PoseUpdate pose_of(BodyId body, py::handle rotation, py::handle translation) {
@@ -266,9 +278,13 @@ void define_world(py::module_& module) {
       .def("set_positions", set_positions, py::arg("body"), py::arg("positions"), "positions: (V, 3) in metres")
       .def("set_positions", set_many_positions, py::arg("positions"),
            "{body: (V, 3) in metres}: all of them or, after an error, none")
-      .def("set_facets", set_facets, py::arg("body"), py::arg("positions"), py::arg("facets"), py::arg("vertex_map"),
-           "gives a body other vertices and facets; `vertex_map` tells of each new vertex which old one it was, or -1. "
-           "(V, 3) in metres, (F, 3), and (V,)")
+      .def(
+          "set_facets", set_facets, py::arg("body"), py::arg("positions"), py::arg("facets"), py::arg("vertex_map"),
+          py::kw_only(), py::arg("edges") = py::list(), py::arg("points") = py::list(),
+          py::arg("facet_map") = py::list(),
+          "gives a body other vertices and facets; `vertex_map` tells of each new vertex which old one it was, or -1. "
+          "(V, 3) in metres, (F, 3), and (V,); edges: (E, 2); points: (P,); facet_map: (F,), the old facet whose label "
+          "each has, or -1")
       .def("set_pose", set_pose, py::arg("body"), py::arg("rotation"), py::arg("translation"),
            "places a rigid body: a vertex added at p stands at rotation * p + translation. (3, 3), and (3,) metres")
       .def("set_poses", set_poses, py::arg("poses"), "places many rigid bodies in parallel, all or none")
@@ -346,6 +362,7 @@ void define_world(py::module_& module) {
         return "<tact.World of " + std::to_string(world.read().body_count()) + " bodies>";
       });
   define_contact_sums(module, class_of_world);
+  define_feature_settings(module, class_of_world);
   define_queries(module, class_of_world);
   define_body_queries(module, class_of_world);
   define_surface_check(module, class_of_world);

@@ -402,7 +402,7 @@ class Contact:
         """every vertex and facet, and every two edges, nearer than the sum of the margins, if Settings.within_reach is set; sorted by kind, then by features"""
     @property
     def touching(self) -> bool:
-        """whether facets meet, or a point's gap is below the sum of the margins"""
+        """whether facets meet, or a point's gap is below the sum of the rest offsets"""
     @property
     def patches(self) -> list[Patch]:
         """the patches, if Settings.patches is set; sorted by first facet pair, then by first point"""
@@ -891,6 +891,25 @@ class SurfaceCheck:
     def is_clean(self) -> bool:
         """whether every list of faults is empty; borders are none, nor are unused vertices"""
 
+class FeatureSettings:
+    """Settings of single vertices and facets of a body. An empty array sets nothing."""
+
+    @property
+    def rest_offsets(self) -> Floats:
+        """(V,): what each vertex adds to the distance that surfaces keep, metres, 0 to the margin"""
+    @property
+    def vertex_labels(self) -> npt.NDArray[np.uint32]:
+        """(V,): the program's own numbers, one a vertex"""
+    @property
+    def facet_labels(self) -> npt.NDArray[np.uint32]:
+        """(F,): the program's own numbers, one a facet"""
+    @property
+    def vertex_layers(self) -> npt.NDArray[np.uint32]:
+        """(V,): the layers that each vertex is on, a bit each; by default those of the body"""
+    @property
+    def vertex_masks(self) -> npt.NDArray[np.uint32]:
+        """(V,): the layers that each vertex is tested against; by default those of the body"""
+
 class World:
     """A set of bodies and the contacts among them."""
 
@@ -914,6 +933,7 @@ class World:
         key: Optional[int] = None,
         edges: npt.ArrayLike = ...,
         points: npt.ArrayLike = ...,
+        rest_offset: Optional[float] = None,
     ) -> BodyId:
         """adds a body; copies its mesh and groups the facets into clusters. Positions: (V, 3) in metres; facets: (F, 3), vertices counter-clockwise seen from outside; edges: (E, 2); points: (P,)"""
     def add_plane(
@@ -927,6 +947,7 @@ class World:
         margin: float = 0.0,
         group: int = 0,
         key: Optional[int] = None,
+        rest_offset: Optional[float] = None,
     ) -> BodyId:
         """adds a half-space, which is fixed and has no vertices: exact at any distance, and without a mesh"""
     def remove_body(self, body: BodyId) -> None: ...
@@ -935,9 +956,17 @@ class World:
     @overload
     def set_positions(self, positions: dict[BodyId, npt.ArrayLike]) -> None: ...
     def set_facets(
-        self, body: BodyId, positions: npt.ArrayLike, facets: npt.ArrayLike, vertex_map: npt.ArrayLike
+        self,
+        body: BodyId,
+        positions: npt.ArrayLike,
+        facets: npt.ArrayLike,
+        vertex_map: npt.ArrayLike,
+        *,
+        edges: npt.ArrayLike = ...,
+        points: npt.ArrayLike = ...,
+        facet_map: npt.ArrayLike = ...,
     ) -> None:
-        """gives a body other vertices and facets; `vertex_map` tells of each new vertex which old one it was, or -1. (V, 3) in metres, (F, 3), and (V,)"""
+        """gives a body other vertices and facets; `vertex_map` tells of each new vertex which old one it was, or -1. (V, 3) in metres, (F, 3), and (V,); edges (E, 2); points (P,); of each facet the old one whose label it has, or -1: (F,)"""
     def set_pose(self, body: BodyId, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> None:
         """places a rigid body: a vertex added at p stands at rotation * p + translation. (3, 3), and (3,) metres"""
     @overload
@@ -1073,6 +1102,25 @@ class World:
     def self_contact(self, body: BodyId) -> bool: ...
     def set_margin(self, body: BodyId, margin: float) -> None: ...
     def set_self_contact(self, body: BodyId, wanted: bool) -> None: ...
+    def rest_offset(self, body: BodyId) -> float:
+        """the rest offset of a body, or its margin, metres"""
+    def set_rest_offset(self, body: BodyId, rest_offset: float | None) -> None:
+        """sets what a body adds to the distance that surfaces keep, metres; none takes the margin, whatever that becomes"""
+    def set_feature_settings(
+        self,
+        body: BodyId,
+        *,
+        rest_offsets: npt.ArrayLike = ...,
+        vertex_labels: npt.ArrayLike = ...,
+        facet_labels: npt.ArrayLike = ...,
+        vertex_layers: npt.ArrayLike = ...,
+        vertex_masks: npt.ArrayLike = ...,
+    ) -> None:
+        """replaces the settings of single vertices and facets of a body. (V,), facet_labels (F,); an empty array sets nothing"""
+    def feature_settings(self, body: BodyId) -> FeatureSettings:
+        """returns the settings of single vertices and facets of a body, valid until they or its facets change"""
+    def labels(self, body: BodyId, vertices: npt.ArrayLike) -> npt.NDArray[np.uint32]:
+        """the labels of a feature of a body, whose vertices are named as in a point, a pair or an impact. (N, 3) gives (N, 4): those of the vertices, and that of the facet, or of the first facet that has the vertex or the edge"""
     def vertex_count(self, body: BodyId) -> int: ...
     def facet_count(self, body: BodyId) -> int: ...
     def edge_count(self, body: BodyId) -> int: ...

@@ -169,6 +169,7 @@ class World:
         key: int,
         edges: npt.ArrayLike = ...,
         points: npt.ArrayLike = ...,
+        rest_offset: Optional[float] = None,
         every_rank: bool = False,
     ) -> None:
         """Adds a body of this rank, or, with `every_rank`, a fixed one that all ranks add."""
@@ -183,6 +184,7 @@ class World:
         margin: float = 0.0,
         group: int = 0,
         key: int,
+        rest_offset: Optional[float] = None,
     ) -> None:
         """Adds a half-space that all ranks add alike."""
     def remove_body(self, key: int) -> None: ...
@@ -197,6 +199,17 @@ class World:
     def set_group(self, key: int, group: int) -> None: ...
     def set_motion(self, key: int, motion: Motion) -> None: ...
     def set_margin(self, key: int, margin: float) -> None: ...
+    def set_rest_offset(self, key: int, rest_offset: float | None) -> None: ...
+    def set_feature_settings(
+        self,
+        key: int,
+        *,
+        rest_offsets: npt.ArrayLike = ...,
+        vertex_labels: npt.ArrayLike = ...,
+        facet_labels: npt.ArrayLike = ...,
+        vertex_layers: npt.ArrayLike = ...,
+        vertex_masks: npt.ArrayLike = ...,
+    ) -> None: ...
     def set_self_contact(self, key: int, wanted: bool) -> None: ...
     def set_excluded(self, key: int, other: int, excluded: bool) -> None: ...
     def detect(self) -> Report:

@@ -4,6 +4,7 @@
 #include <tact/columns.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -65,6 +66,30 @@ struct BodyDefinition {
   /// How far ahead of the surface contact points are seen, metres, 0 to kLargestCoordinate. Those of two bodies add up.
   double margin = 0.0;
   bool self_contact = false;  ///< whether the body is tested against itself, too
+  /// What the body adds to the distance that surfaces keep, metres, 0 to the margin; by default the margin, whatever
+  /// that becomes. Those of two bodies add up.
+  std::optional<double> rest_offset = {};
+};
+
+/// Settings of single vertices and facets of a body. An empty array sets nothing.
+struct FeatureSettings {
+  /// What each vertex adds to the distance that surfaces keep, metres, 0 to the margin. An edge or a facet adds the
+  /// largest of its vertices.
+  std::span<const double> rest_offsets = {};
+  std::span<const std::uint32_t> vertex_labels = {};  ///< the program's own numbers, one a vertex
+  std::span<const std::uint32_t> facet_labels = {};   ///< the program's own numbers, one a facet
+  /// The layers that each vertex is on, a bit each; by default those of the body.
+  std::span<const std::uint32_t> vertex_layers = {};
+  /// The layers that each vertex is tested against; by default those of the body. Two features are tested if each
+  /// vertex of the one is tested against each vertex of the other.
+  std::span<const std::uint32_t> vertex_masks = {};
+};
+
+/// The labels of a vertex, an edge or a facet; 0 where there is none.
+struct FeatureLabels {
+  std::array<std::uint32_t, 3> vertices{};  ///< those of its vertices, in their order
+  std::uint32_t facet = 0;  ///< that of the facet, or of the first facet that has the vertex or the edge
+  friend bool operator==(const FeatureLabels&, const FeatureLabels&) = default;
 };
 
 /// What World::add_plane() adds: a floor or a wall of any size. All x with normal * x <= offset is solid.
@@ -78,6 +103,7 @@ struct PlaneDefinition {
   std::uint64_t external_id = 0;                      ///< the program's own number; no answer depends on it
   std::optional<std::uint64_t> key = {};              ///< see BodyDefinition::key
   double margin = 0.0;                                ///< see BodyDefinition::margin
+  std::optional<double> rest_offset = {};             ///< see BodyDefinition::rest_offset
 };
 
 /// A half-space: all x with normal * x <= offset.

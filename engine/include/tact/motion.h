@@ -24,13 +24,13 @@ enum class Impacts {
 /// What World::detect_motion() looks for.
 struct MotionOptions {
   Impacts wanted = Impacts::all;  ///< which impacts
-  /// How near features come to meet, metres, zero or more; by default the sum of the margins of their bodies.
+  /// How near features come to meet, metres, zero or more; by default the sum of their rest offsets.
   std::optional<double> distance = {};
   bool bounds = false;  ///< whether to find how far each vertex may go; requires Impacts::all
 };
 
-/// A vertex and a facet, or two edges, that meet between the last step and now. With margins they meet where they come
-/// as near as the sum of these; the manual draws the rule for features that begin nearer.
+/// A vertex and a facet, or two edges, that meet between the last step and now. With rest offsets they meet where they
+/// come as near as the sum of these; the manual draws the rule for features that begin nearer.
 struct Impact {
   BodyId a;                                      ///< its key is below that of b; equal to b for a body with itself
   BodyId b;                                      ///< the second body

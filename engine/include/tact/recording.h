@@ -33,14 +33,15 @@ class TACT_API Recorder final : public WorldObserver {
   void plane_added(BodyId body, const PlaneDefinition& definition) noexcept override;
   void body_removed(BodyId body) noexcept override;
   void positions_set(std::span<const PositionsUpdate> updates) noexcept override;
-  void facets_set(BodyId body, const Positions& positions, const Facets& facets,
-                  std::span<const int> vertex_map) noexcept override;
+  void facets_set(BodyId body, const MeshUpdate& update) noexcept override;
   void poses_set(std::span<const PoseUpdate> updates) noexcept override;
   void layers_set(BodyId body, std::uint32_t layer, std::uint32_t mask) noexcept override;
   void group_set(BodyId body, std::uint32_t group) noexcept override;
   void excluded_set(BodyId a, BodyId b, bool excluded) noexcept override;
   void motion_set(BodyId body, Motion motion) noexcept override;
   void margin_set(BodyId body, double margin) noexcept override;
+  void rest_offset_set(BodyId body, std::optional<double> rest_offset) noexcept override;
+  void feature_settings_set(BodyId body, const FeatureSettings& settings) noexcept override;
   void self_contact_set(BodyId body, bool wanted) noexcept override;
   void state_restored(std::span<const std::byte> bytes) noexcept override;
   void step_begins() noexcept override;

@@ -104,7 +104,7 @@ struct Contact {
 
   /// Returns the facets that meet, sorted; empty at Accuracy::hulls.
   std::span<const FacetPair> facet_pairs() const { return facet_pairs_; }
-  /// Whether facets meet, or a point's gap is below the sum of the margins.
+  /// Whether facets meet, or a point's gap is below the sum of the rest offsets.
   bool touching() const { return touching_; }
   /// Returns the points, if Outputs::points is set; sorted by kind, then by features.
   std::span<const ContactPoint> points() const { return points_; }

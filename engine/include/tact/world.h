@@ -29,6 +29,17 @@ struct PositionsUpdate {
   Positions positions;  ///< 3 x V, metres
 };
 
+/// A new mesh of one body, for World::set_facets().
+struct MeshUpdate {
+  Positions positions;               ///< 3 x V, metres
+  Facets facets = Facets::none();    ///< 3 x F, indices of vertices
+  Edges edges = Edges::none();       ///< 2 x E, indices of vertices
+  std::span<const int> points = {};  ///< vertices that stand alone
+  std::span<const int> vertex_map;   ///< of each vertex the old one that it was, or -1
+  /// Of each facet the old one whose label it has, or -1. An empty map names none.
+  std::span<const int> facet_map = {};
+};
+
 /// A new pose of a rigid body, for World::set_poses().
 struct PoseUpdate {
   BodyId body;                                             ///< the body
@@ -86,6 +97,8 @@ class TACT_API World {
   /// still there keeps ids and history; the manual tells how. Errors: stale_body, foreign_body, wrong_motion (a rigid
   /// body), invalid_argument (no such old vertex), and those of add_body().
   void set_facets(BodyId body, const Positions& positions, const Facets& facets, std::span<const int> vertex_map);
+  /// The same with edges and points, of which the other leaves none, and with labels of facets. Errors: as above.
+  void set_facets(BodyId body, const MeshUpdate& update);
 
   /// Places a rigid body: a vertex added at p stands at rotation * p + translation. `rotation` is orthonormal to 1e-9.
   /// The manual names the order of rounding. Errors: stale_body, foreign_body, fixed_body, wrong_motion,
@@ -106,8 +119,14 @@ class TACT_API World {
   void set_motion(BodyId body, Motion motion);
 
   /// Sets how far ahead of a body's surface contact points are seen, metres. Errors: stale_body, foreign_body,
-  /// invalid_argument.
+  /// invalid_argument (also below a rest offset).
   void set_margin(BodyId body, double margin);
+  /// Sets what a body adds to the distance that surfaces keep, metres; none takes the margin, whatever that becomes.
+  /// Errors: stale_body, foreign_body, invalid_argument (not 0 to the margin).
+  void set_rest_offset(BodyId body, std::optional<double> rest_offset);
+  /// Replaces the settings of single vertices and facets of a body. Errors: stale_body, foreign_body, wrong_size,
+  /// invalid_argument (a rest offset is not 0 to the margin), out_of_memory.
+  void set_feature_settings(BodyId body, const FeatureSettings& settings);
   /// Sets whether a body is tested against itself. Errors: stale_body, foreign_body.
   void set_self_contact(BodyId body, bool wanted);
 
@@ -197,11 +216,17 @@ class TACT_API World {
   std::uint64_t external_id(BodyId body) const;  ///< the number that the program gave a body
   std::uint64_t key(BodyId body) const;          ///< the key of a body: given, or its index
   double margin(BodyId body) const;              ///< the margin of a body, metres
-  bool self_contact(BodyId body) const;          ///< whether a body is tested against itself
-  std::size_t vertex_count(BodyId body) const;   ///< the number of vertices that were added
-  std::size_t facet_count(BodyId body) const;    ///< the number of facets that were added
-  std::size_t edge_count(BodyId body) const;     ///< the number of edges that were added
-  std::size_t point_count(BodyId body) const;    ///< the number of points that were added
+  double rest_offset(BodyId body) const;         ///< the rest offset of a body, or its margin, metres
+  /// Returns the settings of single vertices and facets of a body, valid until they or its facets change.
+  FeatureSettings feature_settings(BodyId body) const;
+  /// Returns the labels of a feature of a body, whose vertices are named as in a point, a pair or an impact. Errors:
+  /// also invalid_argument (no such vertex).
+  FeatureLabels labels(BodyId body, const std::array<int, 3>& vertices) const;
+  bool self_contact(BodyId body) const;         ///< whether a body is tested against itself
+  std::size_t vertex_count(BodyId body) const;  ///< the number of vertices that were added
+  std::size_t facet_count(BodyId body) const;   ///< the number of facets that were added
+  std::size_t edge_count(BodyId body) const;    ///< the number of edges that were added
+  std::size_t point_count(BodyId body) const;   ///< the number of points that were added
   /// Returns the half-space of a body that add_plane() added; none for any other.
   std::optional<Plane> plane(BodyId body) const;
 

@@ -7,10 +7,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace tact {
 
+struct MeshUpdate;
 struct PositionsUpdate;
 struct PoseUpdate;
 
@@ -26,14 +28,15 @@ class TACT_API WorldObserver {
   virtual void plane_added(BodyId body, const PlaneDefinition& definition) noexcept;
   virtual void body_removed(BodyId body) noexcept;
   virtual void positions_set(std::span<const PositionsUpdate> updates) noexcept;
-  virtual void facets_set(BodyId body, const Positions& positions, const Facets& facets,
-                          std::span<const int> vertex_map) noexcept;
+  virtual void facets_set(BodyId body, const MeshUpdate& update) noexcept;
   virtual void poses_set(std::span<const PoseUpdate> updates) noexcept;
   virtual void layers_set(BodyId body, std::uint32_t layer, std::uint32_t mask) noexcept;
   virtual void group_set(BodyId body, std::uint32_t group) noexcept;
   virtual void excluded_set(BodyId a, BodyId b, bool excluded) noexcept;
   virtual void motion_set(BodyId body, Motion motion) noexcept;
   virtual void margin_set(BodyId body, double margin) noexcept;
+  virtual void rest_offset_set(BodyId body, std::optional<double> rest_offset) noexcept;
+  virtual void feature_settings_set(BodyId body, const FeatureSettings& settings) noexcept;
   virtual void self_contact_set(BodyId body, bool wanted) noexcept;
   /// Called when World::restore() has set the settings and bodies of the bytes.
   virtual void state_restored(std::span<const std::byte> bytes) noexcept;

@@ -252,6 +252,11 @@ class EveryCall {
       world.set_pose(bodies_[3], turn, pose.translation);
       world.set_poses(std::span(&pose, 1));
       world.set_facets(bodies_[2], halves.mesh.positions, halves.mesh.facets, halves.vertex_map);
+      world.set_facets(bodies_[2], {.positions = halves.mesh.positions,
+                                    .facets = halves.mesh.facets,
+                                    .vertex_map = unchanged(halves.mesh).vertex_map});
+      const std::vector<double> offsets(world.vertex_count(bodies_[1]), world.margin(bodies_[1]) / 3.0);
+      world.set_feature_settings(bodies_[1], {.rest_offsets = offsets});
     });
     told_.begin("detect_motion");
     for (const Impacts wanted : {Impacts::all, Impacts::first_of_pair, Impacts::first})
@@ -267,6 +272,7 @@ class EveryCall {
       world.set_excluded(bodies_[1], bodies_[3], true);
       world.set_motion(bodies_[3], Motion::fixed);
       world.set_margin(bodies_[0], 0.013);
+      world.set_rest_offset(bodies_[0], 0.013 / 3.0);
       world.set_self_contact(bodies_[2], false);
     });
   }
@@ -351,6 +357,9 @@ class EveryCall {
       told_.add(bounds.lower);
       told_.add(bounds.upper);
       tell([&] { return world.margin(body); });
+      tell([&] { return world.rest_offset(body); });
+      tell([&] { return world.feature_settings(body).rest_offsets.size(); });
+      if (world.vertex_count(body) > 0) tell([&] { return std::uint64_t{world.labels(body, {0, -1, -1}).facet}; });
       tell([&] { return world.check_surface(body).crossings.size(); });
       tell([&] {
         return std::uint64_t{world.contains(body)} + world.name(body).size() + world.vertex_count(body) +
@@ -394,6 +403,9 @@ class EveryCall {
     expect_refused([&] { world.set_settings(no_settings); });
     expect_refused([&] { World refused(no_settings); });
     expect_refused([&] { world.set_margin(bodies_[0], nan); });
+    expect_refused([&] { world.set_rest_offset(bodies_[0], nan); });
+    const std::vector<double> no_offsets(world.vertex_count(bodies_[0]), nan);
+    expect_refused([&] { world.set_feature_settings(bodies_[0], {.rest_offsets = no_offsets}); });
     expect_refused([&] { world.set_pose(bodies_[3], no_rotation, zero); });
     expect_refused([&] { world.cast_ray(no_ray); });
     expect_refused([&] { world.cast_rays(std::span(&no_ray, 1), std::span(&hit, 1)); });

@@ -203,12 +203,15 @@ typedef struct tact_body_definition {
   tact_columns edges;     /**< 2 x E, indices of vertices: ropes and hair */
   const int32_t* points;  /**< vertices that stand alone: grains */
   size_t point_count;     /**< how many there are */
+  bool has_rest_offset;   /**< whether `rest_offset` is given */
+  double rest_offset; /**< what the body adds to the distance that surfaces keep, metres, 0 to the margin; by default
+                         the margin, whatever that becomes */
 } tact_body_definition;
 #define TACT_BODY_DEFINITION_INIT                                                                             \
   {                                                                                                           \
     (uint32_t)sizeof(tact_body_definition), TACT_SURFACE_CLOSED, {NULL, 0, 24, TACT_FLOAT64},                 \
         {NULL, 0, 12, TACT_INT32}, TACT_MOTION_DEFORMABLE, 1u, 0xffffffffu, NULL, 0, 0.0, false, 0, false, 0, \
-        {NULL, 0, 8, TACT_INT32}, NULL, 0                                                                     \
+        {NULL, 0, 8, TACT_INT32}, NULL, 0, false, 0.0                                                         \
   }
 
 /** What tact_world_add_plane() adds: a floor or a wall of any size. */
@@ -224,9 +227,14 @@ typedef struct tact_plane_definition {
   bool has_key;         /**< whether `key` is given */
   uint64_t key;         /**< see tact_body_definition.key */
   double margin;        /**< see tact_body_definition.margin */
+  bool has_rest_offset; /**< whether `rest_offset` is given */
+  double rest_offset;   /**< see tact_body_definition.rest_offset */
 } tact_plane_definition;
-#define TACT_PLANE_DEFINITION_INIT \
-  { (uint32_t)sizeof(tact_plane_definition), {0.0, 0.0, 1.0}, 0.0, NULL, 1u, 0xffffffffu, 0, 0, false, 0, 0.0 }
+#define TACT_PLANE_DEFINITION_INIT                                                                                    \
+  {                                                                                                                   \
+    (uint32_t)sizeof(tact_plane_definition), {0.0, 0.0, 1.0}, 0.0, NULL, 1u, 0xffffffffu, 0, 0, false, 0, 0.0, false, \
+        0.0                                                                                                           \
+  }
 
 /** A half-space: all x with normal * x <= offset. */
 typedef struct tact_plane {
@@ -239,6 +247,48 @@ typedef struct tact_positions_update {
   tact_body body; /**< the body */
   tact_columns positions;
 } tact_positions_update;
+
+/** A new mesh of one body, for tact_world_set_facets(). */
+typedef struct tact_mesh_update {
+  uint32_t struct_size;
+  tact_columns positions;    /**< 3 x V, metres */
+  tact_columns facets;       /**< 3 x F, indices of vertices */
+  tact_columns edges;        /**< 2 x E, indices of vertices */
+  const int32_t* points;     /**< vertices that stand alone */
+  size_t point_count;        /**< how many there are */
+  const int32_t* vertex_map; /**< of each vertex the old one that it was, or -1 */
+  size_t vertex_map_count;   /**< its entries */
+  const int32_t* facet_map;  /**< of each facet the old one whose label it has, or -1 */
+  size_t facet_map_count;    /**< its entries */
+} tact_mesh_update;
+#define TACT_MESH_UPDATE_INIT                                                                   \
+  {                                                                                             \
+    (uint32_t)sizeof(tact_mesh_update), {NULL, 0, 24, TACT_FLOAT64}, {NULL, 0, 12, TACT_INT32}, \
+        {NULL, 0, 8, TACT_INT32}, NULL, 0, NULL, 0, NULL, 0                                     \
+  }
+
+/** Settings of single vertices and facets of a body. An empty array sets nothing. */
+typedef struct tact_feature_settings {
+  uint32_t struct_size;
+  const double* rest_offsets; /**< what each vertex adds to the distance that surfaces keep, metres, 0 to the margin */
+  size_t rest_offset_count;   /**< their number */
+  const uint32_t* vertex_labels; /**< the program's own numbers, one a vertex */
+  size_t vertex_label_count;     /**< their number */
+  const uint32_t* facet_labels;  /**< the program's own numbers, one a facet */
+  size_t facet_label_count;      /**< their number */
+  const uint32_t* vertex_layers; /**< the layers that each vertex is on, a bit each; by default those of the body */
+  size_t vertex_layer_count;     /**< their number */
+  const uint32_t* vertex_masks;  /**< the layers that each vertex is tested against; by default those of the body */
+  size_t vertex_mask_count;      /**< their number */
+} tact_feature_settings;
+#define TACT_FEATURE_SETTINGS_INIT \
+  { (uint32_t)sizeof(tact_feature_settings), NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0 }
+
+/** The labels of a vertex, an edge or a facet; 0 where there is none. */
+typedef struct tact_feature_labels {
+  uint32_t vertices[3]; /**< those of its vertices, in their order */
+  uint32_t facet;       /**< that of the facet, or of the first facet that has the vertex or the edge */
+} tact_feature_labels;
 
 /** A new pose of a rigid body, for tact_world_set_poses(). */
 typedef struct tact_pose_update {
@@ -272,6 +322,8 @@ TACT_C_API tact_error tact_world_set_positions_of_many(tact_world world, const t
  * `count` entries, one a new vertex. */
 TACT_C_API tact_error tact_world_set_facets(tact_world world, tact_body body, const tact_columns* positions,
                                             const tact_columns* facets, const int32_t* vertex_map, size_t count);
+/** The same with edges and points, of which the other leaves none, and with labels of facets. */
+TACT_C_API tact_error tact_world_set_facets_by(tact_world world, tact_body body, const tact_mesh_update* update);
 /** Places a rigid body: a vertex added at p stands at rotation * p + translation. `rotation` has 9 numbers, row by row,
  * `translation` 3. */
 TACT_C_API tact_error tact_world_set_pose(tact_world world, tact_body body, const double* rotation,
@@ -293,6 +345,12 @@ TACT_C_API tact_error tact_world_set_excluded(tact_world world, tact_body a, tac
 TACT_C_API tact_error tact_world_set_motion(tact_world world, tact_body body, int32_t motion);
 /** Sets how far ahead of a body's surface contact points are seen, metres. */
 TACT_C_API tact_error tact_world_set_margin(tact_world world, tact_body body, double margin);
+/** Sets what a body adds to the distance that surfaces keep, metres; none takes the margin, whatever that becomes. None
+ * is a null pointer. */
+TACT_C_API tact_error tact_world_set_rest_offset(tact_world world, tact_body body, const double* rest_offset);
+/** Replaces the settings of single vertices and facets of a body. */
+TACT_C_API tact_error tact_world_set_feature_settings(tact_world world, tact_body body,
+                                                      const tact_feature_settings* settings);
 /** Sets whether a body is tested against itself. */
 TACT_C_API tact_error tact_world_set_self_contact(tact_world world, tact_body body, bool wanted);
 /** Takes one step: finds the contacts of the current positions. The functions tact_report_... tell what it found. */
@@ -306,7 +364,7 @@ typedef struct tact_motion_options {
   uint32_t struct_size;
   int32_t wanted;    /**< which impacts */
   bool has_distance; /**< whether `distance` is given */
-  /** How near features come to meet, metres, zero or more; by default the sum of the margins of their bodies. */
+  /** How near features come to meet, metres, zero or more; by default the sum of their rest offsets. */
   double distance;
   bool bounds; /**< whether to find how far each vertex may go; requires TACT_IMPACTS_ALL */
 } tact_motion_options;
@@ -349,6 +407,14 @@ TACT_C_API tact_error tact_world_external_id(tact_world world, tact_body body, u
 TACT_C_API tact_error tact_world_key(tact_world world, tact_body body, uint64_t* key);
 /** The margin of a body, metres. */
 TACT_C_API tact_error tact_world_margin(tact_world world, tact_body body, double* margin);
+/** The rest offset of a body, or its margin, metres. */
+TACT_C_API tact_error tact_world_rest_offset(tact_world world, tact_body body, double* rest_offset);
+/** Gives the settings of single vertices and facets of a body, valid until they or its facets change. */
+TACT_C_API tact_error tact_world_feature_settings(tact_world world, tact_body body, tact_feature_settings* settings);
+/** Gives the labels of a feature of a body, whose vertices are named as in a point, a pair or an impact. `vertices` are
+ * three; -1 fills up. */
+TACT_C_API tact_error tact_world_labels(tact_world world, tact_body body, const int* vertices,
+                                        tact_feature_labels* labels);
 /** Whether a body is tested against itself. */
 TACT_C_API tact_error tact_world_self_contact(tact_world world, tact_body body, bool* wanted);
 /** The number of vertices that were added. */
@@ -501,7 +567,7 @@ typedef struct tact_contact {
   int32_t source; /**< tact_direction_source */
   int32_t iterations;    /**< shifted calls of GJK that it took */
   bool limit_reached;    /**< whether GJK or the direction stopped at a limit, with the best direction found */
-  bool touching;         /**< whether facets meet, or a point's gap is below the sum of the margins */
+  bool touching;         /**< whether facets meet, or a point's gap is below the sum of the rest offsets */
   double plane_a;        /**< the contact plane direction * x = plane_a, the farthest that the hull of a reaches */
   double plane_b;        /**< the contact plane direction * x = plane_b, the nearest that the hull of b reaches */
   tact_zone_disk zone_a; /**< around the part of a between the planes */

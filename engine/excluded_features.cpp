@@ -1,0 +1,66 @@
+#include "engine/excluded_features.h"
+
+#include <vector>
+
+#include "engine/base/parallel.h"
+
+namespace tact {
+
+namespace {
+
+using narrowphase::FeatureFilter;
+
+// The caller's numbers of the vertices of a source facet; none of a plane.
+std::array<int, 3> vertices_of(const Body& body, int facet) {
+  if (body.plane != nullptr) return {-1, -1, -1};
+  return source_vertices(body.mesh, body.mesh.corners(body.mesh.facet_of_source(facet)));
+}
+
+// Curves name facet pairs by their places; where these are left out no way leads on.
+void renumber(CurveSet& curves, const std::vector<int>& place_now) {
+  for (CurvePoint& point : curves.points) {
+    if (point.facet_pair >= 0) point.facet_pair = place_now[static_cast<std::size_t>(point.facet_pair)];
+  }
+}
+
+void leave_out(std::vector<FacetPair>& pairs, const Body& a, const Body& b, const FeatureFilter& filter,
+               CurveSet* curves) {
+  std::vector<int> place_now(pairs.size(), -1);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (!filter.allows(vertices_of(a, pairs[i].a), vertices_of(b, pairs[i].b))) continue;
+    place_now[i] = static_cast<int>(kept);
+    pairs[kept++] = pairs[i];
+  }
+  if (kept == pairs.size()) return;
+  pairs.resize(kept);
+  if (curves != nullptr) renumber(*curves, place_now);
+}
+
+template <class Record>
+void leave_out(Record& record, BodyId id_a, BodyId id_b, const Bodies& bodies) {
+  const FeatureFilter filter = bodies.feature_filter(id_a.index, id_b.index);
+  if (filter.is_uniform()) return;
+  const Body &a = bodies.in_slot(id_a.index), &b = bodies.in_slot(id_b.index);
+  leave_out(record.facet_pairs, a, b, filter, record.curves.get());
+  leave_out(record.bare_pairs, a, b, filter, nullptr);
+  const auto is_excluded = [&](const auto& found) { return !filter.allows(found.a_vertices, found.b_vertices); };
+  std::erase_if(record.points, is_excluded);
+  std::erase_if(record.within_reach, is_excluded);
+}
+
+}  // namespace
+
+void leave_out_excluded(std::span<const MovedPair> moved, std::span<SelfRecord* const> selves, const Bodies& bodies,
+                        int threads) {
+  if (!bodies.any_feature_filter()) return;
+  constexpr std::size_t kAtATime = 16;  // pairs, some microseconds each
+  base::parallel_for(moved.size(), kAtATime, threads, [&](std::size_t i) {
+    PairRecord& record = *moved[i].record;
+    leave_out(record, record.a, record.b, bodies);
+  });
+  base::parallel_for(selves.size(), 1, threads,
+                     [&](std::size_t i) { leave_out(*selves[i], selves[i]->body, selves[i]->body, bodies); });
+}
+
+}  // namespace tact

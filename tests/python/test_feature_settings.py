@@ -1,0 +1,57 @@
+"""Rest offsets, labels, layers and masks of vertices, and meshes of edges that change."""
+
+import numpy as np
+import pytest
+import tact
+
+SQUARE = np.array([[0, 0, 0.03], [1, 0, 0.03], [1, 1, 0.03], [0, 1, 0.03]])
+FACETS = [[0, 1, 2], [0, 2, 3]]
+
+
+@pytest.fixture
+def scene():
+    world = tact.World(tact.Settings(points=True))
+    sheet = world.add_body(SQUARE, FACETS, surface=tact.Surface.sheet, margin=0.1, rest_offset=0.01)
+    world.add_plane([0, 0, 1], margin=0.05, rest_offset=0.0)
+    return world, sheet
+
+
+def test_rest_offsets_decide_what_touches(scene):
+    world, sheet = scene
+    assert world.rest_offset(sheet) == 0.01
+    assert not world.detect().contacts[0].touching
+    world.set_rest_offset(sheet, None)
+    assert world.rest_offset(sheet) == 0.1
+    assert world.detect().contacts[0].touching
+    world.set_feature_settings(sheet, rest_offsets=np.zeros(4))
+    assert not world.detect().contacts[0].touching
+
+
+def test_labels_are_given_back(scene):
+    world, sheet = scene
+    world.set_feature_settings(sheet, vertex_labels=[10, 11, 12, 13], facet_labels=np.array([20, 2**32 - 1]))
+    points = world.detect().contacts[0].points
+    labels = world.labels(sheet, points.a_vertices)
+    assert labels.dtype == np.uint32 and labels.shape == (4, 4)
+    assert labels[:, 0].tolist() == [10, 11, 12, 13]
+    assert labels[:, 3].tolist() == [20, 20, 20, 2**32 - 1]
+    assert world.labels(sheet, [[2, 3, -1]]).tolist() == [[12, 13, 0, 2**32 - 1]]
+    settings = world.feature_settings(sheet)
+    assert settings.vertex_labels.tolist() == [10, 11, 12, 13]
+    assert len(settings.rest_offsets) == 0
+
+
+def test_masks_leave_out(scene):
+    world, sheet = scene
+    world.set_feature_settings(sheet, vertex_masks=[1, 1, 0, 1], vertex_layers=[1, 1, 1, 2])
+    assert len(world.detect().contacts[0].points) == 3
+    assert world.feature_settings(sheet).vertex_layers.tolist() == [1, 1, 1, 2]
+
+
+def test_meshes_of_edges_change(scene):
+    world, sheet = scene
+    world.set_feature_settings(sheet, facet_labels=[20, 21])
+    world.set_facets(sheet, SQUARE, FACETS[1:], range(4), edges=[[0, 1]], points=[1], facet_map=[1])
+    assert world.edges(sheet).tolist() == [[0, 1]]
+    assert world.points(sheet).tolist() == [1]
+    assert world.feature_settings(sheet).facet_labels.tolist() == [21]
