@@ -287,7 +287,9 @@ void World::Implementation::send_ghosts(bool may_sleep) {
 // What is kept of pairs whose guest is here now; the others have ended.
 void World::Implementation::place_waiting() {
   for (WaitingPair& one : waiting) {
-    if (!parts.put(one.pair)) ended_waiting.push_back({one.keys(), one.pair.touching, one.pair.patches});
+    if (parts.put(one.pair)) continue;
+    ended_waiting.push_back(
+        {one.keys(), one.pair.touching, one.pair.patches, one.pair.birth_a == 0, one.pair.birth_b == 0});
   }
   waiting.clear();
 }

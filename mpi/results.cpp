@@ -17,26 +17,29 @@ enum class Kind : std::uint8_t { contact, no_contact, began, ended, patch };
 
 KeyPair keys_of(const BodyPair& bodies) { return {bodies.key_a, bodies.key_b}; }
 
-void put(ByteWriter& to, const BodyPair& bodies) { to.put(bodies.key_a, bodies.key_b, bodies.rank_a, bodies.rank_b); }
+// `counted` by the rank that gets them: else by this one.
+void put(ByteWriter& to, const BodyPair& bodies, bool counted = false) {
+  to.put(bodies.key_a, bodies.key_b, bodies.rank_a, bodies.rank_b, counted);
+}
 
-// Of another rank, which counts them.
 BodyPair get_bodies(ByteReader& reader) {
   BodyPair bodies;
   bodies.key_a = reader.get<std::uint64_t>();
   bodies.key_b = reader.get<std::uint64_t>();
   bodies.rank_a = reader.get<int>();
   bodies.rank_b = reader.get<int>();
+  bodies.counted = reader.get<bool>();
   return bodies;
 }
 
-void put(ByteWriter& to, Kind kind, const BodyPair& bodies) {
+void put(ByteWriter& to, Kind kind, const BodyPair& bodies, bool counted = false) {
   to.put(kind);
-  put(to, bodies);
+  put(to, bodies, counted);
 }
 
 void put_patch(ByteWriter& to, const BodyPair& bodies, tact::PatchEvent::Kind kind, std::uint64_t patch,
-               std::uint64_t other) {
-  put(to, Kind::patch, bodies);
+               std::uint64_t other, bool counted = false) {
+  put(to, Kind::patch, bodies, counted);
   to.put(kind, patch, other);
 }
 
@@ -87,14 +90,17 @@ BodyPair World::Implementation::named(BodyId a, BodyId b) const {
   return {key_a, key_b, rank_a, rank_b, true};
 }
 
-// A pair that ended while a body of it was on its way.
+// A pair that ended while a body of it was on its way. This rank counts it, if it owns one of the two or nobody does.
 BodyPair World::Implementation::named(const EndedPair& pair) const {
   const auto owner = [&](std::uint64_t key) {
     if (held.shared.contains(key)) return channel.rank();
     const auto found = owners_of_ended.find(key);
     return found == owners_of_ended.end() ? -1 : found->second;
   };
-  return {pair.keys.first, pair.keys.second, owner(pair.keys.first), owner(pair.keys.second), true};
+  const int rank_a = pair.is_removed_a ? -1 : owner(pair.keys.first);
+  const int rank_b = pair.is_removed_b ? -1 : owner(pair.keys.second);
+  const bool counted = rank_a == channel.rank() || rank_b == channel.rank() || (rank_a < 0 && rank_b < 0);
+  return {pair.keys.first, pair.keys.second, rank_a, rank_b, counted};
 }
 
 // The owner of the ghost among two bodies, or -1.
@@ -136,21 +142,24 @@ void World::Implementation::send_results(const tact::Report& found, Outbox& outb
     const BodyPair bodies = named(pair);
     for (const int to : std::set{bodies.rank_a, bodies.rank_b}) {
       if (to < 0 || to == channel.rank()) continue;
+      const bool counts = !bodies.counted && to == (bodies.rank_a >= 0 ? bodies.rank_a : bodies.rank_b);
       put(outbox.to(to), Kind::no_contact, bodies);
-      if (pair.touched) put(outbox.to(to), Kind::ended, bodies);
+      if (pair.touched) put(outbox.to(to), Kind::ended, bodies, counts);
       for (const std::uint64_t patch : pair.patches)
-        put_patch(outbox.to(to), bodies, tact::PatchEvent::Kind::ended, patch, 0);
+        put_patch(outbox.to(to), bodies, tact::PatchEvent::Kind::ended, patch, 0, counts);
     }
   }
 }
 
+// A contact that is gone may be of a body whose key another has since, with a contact of its own.
 void World::Implementation::take_results(std::span<const Message> messages) {
+  std::vector<std::pair<BodyPair, std::span<const std::byte>>> contacts;
   for (const Message& message : messages) {
     for (ByteReader reader(message.bytes); !reader.at_end();) {
       const auto kind = reader.get<Kind>();
       const BodyPair bodies = get_bodies(reader);
       switch (kind) {
-        case Kind::contact: far[keys_of(bodies)] = {bodies, WorldParts::contact_of(reader.get_bytes())}; break;
+        case Kind::contact: contacts.push_back({bodies, reader.get_bytes()}); break;
         case Kind::no_contact: far.erase(keys_of(bodies)); break;
         case Kind::began: ReportBuilder::began(next_report).push_back({bodies}); break;
         case Kind::ended: ReportBuilder::ended(next_report).push_back({bodies}); break;
@@ -163,6 +172,7 @@ void World::Implementation::take_results(std::span<const Message> messages) {
       }
     }
   }
+  for (const auto& [bodies, bytes] : contacts) far[keys_of(bodies)] = {bodies, WorldParts::contact_of(bytes)};
 }
 
 void World::Implementation::build_report(const tact::Report& found) {
@@ -184,6 +194,7 @@ void World::Implementation::build_report(const tact::Report& found) {
     ReportBuilder::patch_events(next_report).push_back({named(event.a, event.b), event.kind, event.patch, event.other});
   for (const EndedPair& pair : ended_waiting) {
     const BodyPair bodies = named(pair);
+    if (!bodies.counted) continue;  // the owners tell
     if (pair.touched) ReportBuilder::ended(next_report).push_back({bodies});
     for (const std::uint64_t patch : pair.patches)
       ReportBuilder::patch_events(next_report).push_back({bodies, tact::PatchEvent::Kind::ended, patch, 0});

@@ -209,7 +209,9 @@ void World::remove_body(std::uint64_t key) {
   i.held.gone[body.id] = {key, -1, true};
   i.held.drop(body.id);
   for (WaitingPair& pair : i.waiting) {
-    if (pair.pair.key_a == key || pair.pair.key_b == key) pair.pair.bytes.clear();
+    if (pair.pair.key_a != key && pair.pair.key_b != key) continue;
+    pair.pair.bytes.clear();
+    (pair.pair.key_a == key ? pair.pair.birth_a : pair.pair.birth_b) = 0;
   }
   if (!body.subscribers.empty()) i.removed[key] = std::move(body.subscribers);
   if (std::erase(i.new_keys, key) == 0) i.gone_keys.push_back(key);

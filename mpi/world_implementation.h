@@ -34,6 +34,7 @@ struct EndedPair {
   KeyPair keys;
   bool touched = false;
   std::vector<std::uint64_t> patches;
+  bool is_removed_a = false, is_removed_b = false;  // another body may have the key
 };
 
 /// A contact that another rank found.

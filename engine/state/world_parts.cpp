@@ -163,9 +163,11 @@ SavedPair StateFields::saved_pair(std::size_t i, const Bodies& bodies, PairTable
   PairRecord& record = table.record(i);
   SavedPair one;
   one.key_a = bodies.key(pair.a), one.key_b = bodies.key(pair.b);
-  if (bodies.contains(pair.a) && bodies.contains(pair.b)) {
+  const bool has_a = bodies.contains(pair.a), has_b = bodies.contains(pair.b);
+  if (has_a) one.birth_a = bodies.in_slot(pair.a.index).birth;
+  if (has_b) one.birth_b = bodies.in_slot(pair.b.index).birth;
+  if (has_a && has_b) {
     const Body &a = bodies.in_slot(pair.a.index), &b = bodies.in_slot(pair.b.index);
-    one.birth_a = a.birth, one.birth_b = b.birth;
     StateWriter writer;
     writer(table.separating_axis(i));
     renumber(record, source_numbers(a.mesh), source_numbers(b.mesh));

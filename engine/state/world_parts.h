@@ -26,7 +26,7 @@ using StateBytes = std::vector<std::byte>;
 /// What is kept of a pair, by the numbers of the caller's vertices.
 struct SavedPair {
   std::uint64_t key_a = 0, key_b = 0;
-  std::uint64_t birth_a = 0, birth_b = 0;  ///< tell a body from another of its key
+  std::uint64_t birth_a = 0, birth_b = 0;  ///< tell a body from another of its key; 0 of one that was removed
   StateBytes bytes;                        ///< empty if one of the bodies was removed: the pair has ended
   bool touching = false;                   ///< with `patches`: which events there are if it ends
   std::vector<std::uint64_t> patches;
