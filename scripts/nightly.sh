@@ -28,7 +28,7 @@ TACT_LONG_SCENES_FULL=1 build/release/tests/long/test_scenes_long
 TACT_PRINTED_IN_FULL=1 build/release/tests/test_scenes --gtest_filter='PrintedCommands.*'
 TACT_LONG_SAVED_SEEDS=300 TACT_LONG_STATES=50000 build/release/tests/test_engine --gtest_filter='*Saved*'
 for ranks in 1 2 3 4 8; do
-  mpirun --oversubscribe --allow-run-as-root -n $ranks build/release/tests/test_mpi --full
+  OMPI_MCA_mpi_yield_when_idle=1 mpirun --oversubscribe --allow-run-as-root -n $ranks build/release/tests/test_mpi --full
 done
 for set in scalar avx2; do
   for layer in broadphase narrowphase engine; do

@@ -16,7 +16,7 @@ namespace tact::mpi {
 
 /// How Zoltan cuts space into one part a rank.
 enum class Partitioner {
-  rcb,   ///< by planes across the longest side, halving the work
+  rcb,   ///< by planes across the longest side, halving the work: as many ghosts as hsfc, and fewer bytes of boxes
   hsfc,  ///< along a Hilbert curve
 };
 
@@ -149,7 +149,7 @@ class TACT_API World {
   /// Returns the id of a body in local(): one that this rank owns or every rank holds.
   BodyId id(std::uint64_t key) const;
   /// Returns the world of this rank, for reading and for queries: its bodies, and copies of bodies of other ranks that
-  /// were near in the last step.
+  /// were near in the last step. It has no observer; save() is what can be kept of a run.
   const tact::World& local() const;
 
  private:
