@@ -47,6 +47,7 @@ std::vector<PvdPart> parse_pvd(std::string_view bytes, const std::filesystem::pa
     xml.fail(in_quotes(type) + ": a .pvd file is a Collection");
   while (const auto tag = xml.next()) {
     if (tag->name != "DataSet" || tag->kind == XmlTag::Kind::close) continue;
+    xml.set_place(tag->line);
     const std::string* const given = tag->attribute("part");
     const std::string name = given != nullptr ? *given : "0";
     const auto place = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
