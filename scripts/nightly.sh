@@ -44,8 +44,8 @@ scripts/build.sh shared
 ctest --preset shared -j 2
 scripts/build.sh plain
 ctest --preset plain -j 2
+scripts/sanitize.sh all
+scripts/fuzz.sh "${1:-3600}"
 scripts/cross.sh libcxx
 scripts/cross.sh aarch64 tests
 scripts/cross.sh windows tests
-scripts/sanitize.sh all
-scripts/fuzz.sh "${1:-3600}"
