@@ -53,3 +53,6 @@ scripts/cross.sh wasm
 scripts/wasm.sh test
 scripts/sanitize.sh all
 scripts/fuzz.sh "${1:-3600}"
+scripts/cross.sh libcxx
+scripts/cross.sh aarch64 tests
+scripts/cross.sh windows tests

@@ -13,3 +13,6 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)  # Debian's are for the machine that
 set(Eigen3_DIR /usr/share/eigen3/cmake CACHE PATH "Headers alone")
 set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
 set(CMAKE_SHARED_LINKER_FLAGS_INIT -static)
+# Debian has no Embree for it; a pool of std::thread needs no library of OpenMP beside a DLL.
+set(TACT_WITH_EMBREE OFF CACHE BOOL "")
+set(TACT_WITH_OPENMP OFF CACHE BOOL "")
