@@ -57,7 +57,11 @@ export class Scene {
       mesh.positions[3 * i + 2] = CLOTH_HEIGHT + 0.25 * ((2 * x / CLOTH_SIZE) ** 2 * (2 * y / CLOTH_SIZE) ** 2);
     }
     lightness.fill(count / CLOTH_MASS, 0, count);
-    for (const corner of [0, CELLS, n * CELLS, n * n - 1]) lightness[corner] = 0;
+    // Four vertices at each corner are held: one alone has all of the weight at three thin facets, and trembles.
+    for (let i = 0; i < count; ++i) {
+      const [row, column] = [Math.floor(i / n), i % n];
+      if (Math.min(row, CELLS - row) < 2 && Math.min(column, CELLS - column) < 2) lightness[i] = 0;
+    }
     const edges = edgesOf(mesh.facets), soft = edges.length / 2;  // those of facets keep their length, the others resist folds
     for (let row = 0; row < n; ++row) for (let column = 0; column < n; ++column) {
       if (column + 2 < n) edges.push(row * n + column, row * n + column + 2);
@@ -67,7 +71,7 @@ export class Scene {
     const lengths = Float64Array.from({ length: edges.length / 2 }, (_, e) =>
       Math.hypot(flat(edges[2 * e], 0) - flat(edges[2 * e + 1], 0), flat(edges[2 * e], 1) - flat(edges[2 * e + 1], 1)));
     const color = (i) => CLOTH_COLORS[(Math.floor((i % n) / 2) + Math.floor(i / n / 2)) % 2];
-    this.#add({ first: 0, count, edges: Int32Array.from(edges), lengths, soft, color }, mesh,
+    this.#add({ first: 0, count, edges: Int32Array.from(edges), lengths, soft, damping: 0.9, color }, mesh,
       { surface: "sheet", selfContact: this.options.selfContact, name: "cloth" });
   }
 
@@ -88,7 +92,7 @@ export class Scene {
     mesh.positions = Array.from(rest, (x, i) => place[i % 3] + x);
     this.solver.lightness.fill(count / BODY_MASS, first, first + count);
     const color = COLORS[Math.floor(this.#next() * COLORS.length)];
-    return this.#add({ first, count, rest, turn: [0, 0, 0, 1], color: () => color }, mesh, { surface: "closed", name: shape });
+    return this.#add({ first, count, rest, turn: [0, 0, 0, 1], damping: 0.999, color: () => color }, mesh, { surface: "closed", name: shape });
   }
   /** A place over the cloth where no body is. */
   #freePlace() {

@@ -3,7 +3,7 @@
 // shape matching", 2005). Contacts are tact's points: where two surfaces are nearest, weights, a normal and a gap.
 
 export const SMALL_STEPS = 6;
-const GRAVITY = -9.8, DAMPING = 0.999, SOFTNESS = 0.12, STRETCH = 2e-7, BEND = 2e-4;
+const GRAVITY = -9.8, SOFTNESS = 0.12, STRETCH = 2e-7, BEND = 2e-4;
 const FASTEST = 7;          // m/s: a body goes no farther in a step than contact points see
 const SLOWEST_WAY_OUT = 0.8;  // m/s: how fast surfaces that have crossed come apart
 
@@ -32,7 +32,9 @@ export class Solver {
       for (const body of bodies) body.rest ? this.#match(x, body) : this.#keepLengths(x, body, h);
       if (this.pull) this.#pull(x);
       this.#push(x, h, friction, thickness);
-      for (let k = 0; k < 3 * end; ++k) v[k] = ((x[k] - before[k]) / h) * DAMPING;
+      for (const { first, count, damping } of bodies) {
+        for (let k = 3 * first; k < 3 * (first + count); ++k) v[k] = ((x[k] - before[k]) / h) * damping;
+      }
     }
   }
 
