@@ -55,6 +55,14 @@ struct CommonSegment {
   Vec3 begin, end;
 };
 
+// Of a list that is sorted by a member, those of which it has a value.
+template <class Item, class Value>
+std::span<const Item> those_with(const std::vector<Item>& sorted, const Value& value, Value Item::*member) {
+  const auto begin = std::ranges::lower_bound(sorted, value, {}, member),
+             end = std::ranges::upper_bound(sorted, value, {}, member);
+  return {begin, end};
+}
+
 NumberedTriangle numbered(const ClusteredMesh& mesh, int facet) {
   const Corners corners = mesh.corners(facet);
   NumberedTriangle triangle;
@@ -198,8 +206,7 @@ class SurfaceInside {
   }
   std::span<const EdgeCrossed> crossings(int from, int to) const {
     const std::array<int, 2> edge{std::min(from, to), std::max(from, to)};
-    const auto range = std::ranges::equal_range(nodes_, edge, {}, &EdgeCrossed::edge);
-    return {range.begin(), range.end()};
+    return those_with(nodes_, edge, &EdgeCrossed::edge);
   }
   // How much more the other winds behind a crossing, along its edge, whose beginning is given.
   int step_at(const EdgeCrossed& crossing, const NumberedPoint& begin) {
@@ -243,8 +250,8 @@ class SurfaceInside {
       }
       go_to(t[high].at);
     }
-    const auto own = std::ranges::equal_range(segments_, mesh_.source_facet(f), {}, &CommonSegment::facet);
-    for (const CommonSegment& segment : own) add(segment.begin, segment.end, 1);
+    for (const CommonSegment& segment : those_with(segments_, mesh_.source_facet(f), &CommonSegment::facet))
+      add(segment.begin, segment.end, 1);
     return sum;
   }
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import tact
-from shapes import tetrahedron
+from shapes import grid, tetrahedron
 
 POSITIONS, FACETS = tetrahedron()
 XYZ = [("x", "f8"), ("y", "f8"), ("z", "f8")]
@@ -222,3 +222,39 @@ def test_a_dict_that_changes_while_it_is_read_harms_nothing():
     world.set_positions(given)
     for body_id in bodies:
         np.testing.assert_array_equal(world.positions(body_id), POSITIONS)
+
+
+class OverDlpack:
+    """An array that speaks DLPack alone, on a device."""
+
+    def __init__(self, array, device=1):
+        self.array, self.device = array, device
+
+    def __dlpack__(self, **options):
+        return self.array.__dlpack__(**options)
+
+    def __dlpack_device__(self):
+        return (self.device, 0)
+
+
+def test_dlpack_of_host_memory():
+    positions, facets = grid(4)
+    world = tact.World()
+    body = world.add_body(OverDlpack(positions), OverDlpack(facets), surface=tact.Surface.sheet)
+    world.set_positions(body, OverDlpack(positions + 1.0))
+    assert (world.positions(body) == positions + 1.0).all()
+
+
+@pytest.mark.parametrize("device, name", [(2, "CUDA"), (10, "ROCm"), (8, "Metal"), (77, "77")])
+def test_memory_of_devices_is_refused_by_name(device, name):
+    positions, facets = grid(4)
+    with pytest.raises(TypeError, match=f"positions lies in memory of device {name}, not of the host"):
+        tact.World().add_body(OverDlpack(positions, device), facets)
+
+
+def test_cuda_arrays_are_refused_by_name():
+    class Cuda:
+        __cuda_array_interface__ = {}
+
+    with pytest.raises(TypeError, match="device CUDA"):
+        tact.World().add_body(Cuda(), grid(4)[1])

@@ -6,15 +6,14 @@ import numpy as np
 import pytest
 
 import tact
-from shapes import box
 
 
 def two_boxes():
+    """Unit cubes, 2 m apart."""
     world = tact.World()
-    positions, facets = box()
-    low = positions.min(axis=0)
-    size = positions.max(axis=0) - low
-    positions = (positions - low) / size
+    positions = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    facets = np.array([[q[0], q[k], q[k + 1]] for q in quads for k in (1, 2)], dtype=np.int32)
     a = world.add_body(positions, facets)
     b = world.add_body(positions + [3.0, 0.0, 0.0], facets)
     return world, a, b, positions

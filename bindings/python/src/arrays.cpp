@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -23,13 +24,38 @@ bool is_plain_array(py::handle given) {
   return reinterpret_cast<PyTypeObject*>(py::type::of(given).ptr()) == py::detail::npy_api::get().PyArray_Type_;
 }
 
+// Refuses memory that the processor does not read, as DLPack and CUDA's array interface tell.
+void check_is_in_host_memory(py::handle given, const std::string& what) {
+  const auto refuse = [&](const std::string& device) {
+    throw py::type_error(what + " lies in memory of " + device + ", not of the host: copy it there first");
+  };
+  if (py::hasattr(given, "__dlpack_device__")) {
+    const int device = py::cast<int>(py::object(given.attr("__dlpack_device__")())[py::int_(0)]);
+    constexpr int kHost = 1, kCudaHost = 3, kRocmHost = 11;  // DLDeviceType
+    const char* const names[] = {nullptr, nullptr, "CUDA", nullptr, "OpenCL", nullptr,         nullptr,  "Vulkan",
+                                 "Metal", "VPI",   "ROCm", nullptr, nullptr,  "CUDA, managed", "oneAPI", "WebGPU"};
+    if (device == kHost || device == kCudaHost || device == kRocmHost) return;
+    const bool is_named = device >= 0 && device < static_cast<int>(std::size(names)) && names[device] != nullptr;
+    refuse("device " + (is_named ? std::string(names[device]) : std::to_string(device)));
+  }
+  if (py::hasattr(given, "__cuda_array_interface__")) refuse("device CUDA");
+}
+
+// numpy's own way first: it takes buffers, the array protocol and lists. What speaks DLPack alone is taken by that.
+py::object as_array(py::handle given) {
+  const bool speaks_dlpack_alone = py::hasattr(given, "__dlpack__") && !py::hasattr(given, "__array__") &&
+                                   !py::hasattr(given, "__array_interface__") && PyObject_CheckBuffer(given.ptr()) == 0;
+  return py::module_::import("numpy").attr(speaks_dlpack_alone ? "from_dlpack" : "asarray")(given);
+}
+
 // What numpy makes of it, without masks, which it would drop.
 py::array array_from(py::handle given, const std::string& what) {
   if (is_plain_array(given)) return py::reinterpret_borrow<py::array>(given);
   if (py::isinstance<py::array>(given) && py::cast<bool>(py::module_::import("numpy.ma").attr("is_masked")(given)))
     throw py::value_error(what + " has masked values: fill them in, or leave them out");
+  check_is_in_host_memory(given, what);
   try {
-    const py::array array(py::object(py::module_::import("numpy").attr("asarray")(given)));
+    const py::array array(as_array(given));
     if (array.ndim() == 0) throw py::type_error(what + " is a " + type_name(given) + ", not an array");
     return array;
   } catch (py::error_already_set& error) {
