@@ -17,7 +17,8 @@ export async function openPage(file, hash = "", tell = () => {}, viewport = { wi
   const page = await browser.newPage({ viewport, ...more });
   page.complaints = [];
   page.on("console", (message) => {
-    if (["error", "warning"].includes(message.type())) page.complaints.push(message.text());
+    // A picture of the page waits for the software renderer, which says so.
+    if (["error", "warning"].includes(message.type())) message.text().includes("ReadPixels") || page.complaints.push(message.text());
     else tell(message.text());
   });
   page.on("pageerror", (error) => page.complaints.push(error.message));

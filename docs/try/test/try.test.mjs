@@ -10,7 +10,7 @@ after(close);
 
 async function tryPage(hash = "", ...more) {
   const page = await openPage(file, hash, () => {}, ...more);
-  await page.waitForFunction(() => document.documentElement.dataset.ready === "true" || !document.getElementById("message").hidden, null, { timeout: 60000 });
+  await page.waitForFunction(() => document.documentElement.dataset.ready === "true" || !document.getElementById("message").hidden, null, { timeout: 90000 });
   assert.equal(await page.isVisible("#message"), false, await page.textContent("#message"));
   return page;
 }
@@ -32,12 +32,12 @@ test("it is one file below 3 MB and explains itself in five sentences", async ()
 });
 
 test("2,000 facets and 20 bodies, live: pictures a second", async () => {
-  const page = await tryPage();
-  await page.waitForTimeout(6000);
+  const page = await tryPage(), now = () => page.evaluate(() => ({ frames: window.tactTry.frames(), ms: performance.now() })), begin = await now();
+  await page.waitForFunction(() => window.tactTry.scene().steps >= 120, null, { timeout: 120000 });  // two seconds, or more beside busy neighbours
+  const end = await now(), rate = (1000 * (end.frames - begin.frames)) / (end.ms - begin.ms);
   const seen = await page.evaluate(() => ({ ...window.tactTry.means, facets: window.tactTry.scene().facetCount, bodies: window.tactTry.scene().bodies.length }));
-  console.log(`${seen.bodies} bodies, ${seen.facets} facets: ${(1000 / seen.frame).toFixed(1)} pictures a second, tact ${seen.tact.toFixed(2)} ms, solver ${seen.solver.toFixed(2)} ms a step`);
+  console.log(`${seen.bodies} bodies, ${seen.facets} facets: ${rate.toFixed(1)} pictures a second, tact ${seen.tact.toFixed(2)} ms, solver ${seen.solver.toFixed(2)} ms a step`);
   assert.ok(seen.facets >= 2000 && seen.bodies >= 20);
-  assert.ok(await steps(page) > 10);
   await shot(page, "live");
   assert.deepEqual(page.complaints, []);
   await page.close();
