@@ -249,7 +249,7 @@ class EveryCallOfC {
       tact_feature_settings features = TACT_FEATURE_SETTINGS_INIT;
       call([&] { return tact_world_feature_settings(world_, body, &features); });
       tell({features.rest_offsets, features.rest_offset_count});
-      const int vertex[3] = {0, -1, -1};
+      const int vertex[3] = {-1, -1, -1};
       tact_feature_labels labels{};
       call([&] { return tact_world_labels(world_, body, vertex, &labels); });
       tell(std::uint64_t{labels.facet});

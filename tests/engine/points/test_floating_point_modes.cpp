@@ -246,6 +246,7 @@ class EveryCall {
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
     const PoseUpdate pose{bodies_[3], turn, {0.9, 0.4, 0.2}};
     const Remeshed halves = cut(unchanged(sunk), {1.0, 0.0, 0.0}, 0.1);
+    const std::vector<double> offsets(world.vertex_count(bodies_[1]), world.margin(bodies_[1]) / 3.0);
     call([&] {
       world.set_positions(bodies_[0], moved.positions);
       world.set_positions(updates);
@@ -255,7 +256,6 @@ class EveryCall {
       world.set_facets(bodies_[2], {.positions = halves.mesh.positions,
                                     .facets = halves.mesh.facets,
                                     .vertex_map = unchanged(halves.mesh).vertex_map});
-      const std::vector<double> offsets(world.vertex_count(bodies_[1]), world.margin(bodies_[1]) / 3.0);
       world.set_feature_settings(bodies_[1], {.rest_offsets = offsets});
     });
     told_.begin("detect_motion");
