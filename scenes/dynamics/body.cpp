@@ -151,6 +151,50 @@ Body make_hard(std::string name, const Mesh& mesh, const SoftMaterial& material)
   return body;
 }
 
+Body make_ropes(std::string name, std::vector<Vec3> positions, const Eigen::Matrix2Xi& edges,
+                const RopeMaterial& material) {
+  Body body = make_body(std::move(name), {.positions = std::move(positions)});
+  body.edges = edges;
+  body.surface = Surface::sheet;
+  body.dynamic = true;
+  std::vector<double> masses(body.positions.size(), 0.0);
+  std::vector<Spring> springs;
+  for (const auto& edge : edges.colwise()) {
+    const double length = norm(body.positions[edge[1]] - body.positions[edge[0]]);
+    for (const int end : edge) masses[end] += 0.5 * material.density * length;
+    springs.push_back({edge[0], edge[1], length, 1.0 / material.stretch_stiffness});
+  }
+  std::ranges::transform(masses, body.inverse_masses.begin(),
+                         [](double mass) { return mass > 0.0 ? 1.0 / mass : 0.0; });
+  body.springs = Springs(springs, static_cast<int>(body.positions.size()));
+  body.friction = material.friction;
+  body.drag = material.drag;
+  body.thickness = material.thickness;
+  return body;
+}
+
+Body make_grains(std::string name, std::vector<Vec3> positions, const GrainMaterial& material) {
+  Body body = make_body(std::move(name), {.positions = std::move(positions)});
+  body.surface = Surface::sheet;
+  body.dynamic = body.self_contact = true;
+  std::ranges::fill(body.inverse_masses, 1.0 / material.mass);
+  for (std::size_t v = 0; v < body.positions.size(); ++v) body.grains.push_back(static_cast<int>(v));
+  body.friction = material.friction;
+  body.drag = material.drag;
+  body.thickness = material.thickness;
+  return body;
+}
+
+Body make_floor(std::string name, const Plane& plane, const RigidMaterial& material) {
+  Body body = make_body(std::move(name), {});
+  body.plane = plane;
+  body.motion = Motion::fixed;
+  body.size = std::numeric_limits<double>::infinity();
+  body.friction = material.friction;
+  body.thickness = material.thickness;
+  return body;
+}
+
 Body make_rigid(std::string name, const Mesh& mesh, const RigidMaterial& material, Motion motion) {
   Body body = make_body(std::move(name), mesh);
   body.motion = motion;

@@ -46,9 +46,31 @@ struct RigidMaterial {
   double thickness = 0.003;  // metres, see Body::thickness
 };
 
+// Ropes that hardly stretch.
+struct RopeMaterial {
+  double density = 0.05;              // kilograms a metre
+  double stretch_stiffness = 4000.0;  // of each edge, newtons a metre
+  double friction = 0.6;
+  double drag = 1.0;         // share of the velocity lost in a second
+  double thickness = 0.004;  // metres, see Body::thickness: half of the rope's
+};
+
+// Balls that do not turn, a body of them all.
+struct GrainMaterial {
+  double mass = 0.02;  // kilograms
+  double friction = 0.6;
+  double drag = 1.0;        // share of the velocity lost in a second
+  double thickness = 0.03;  // metres, see Body::thickness: the radius of a grain
+};
+
 struct Body {
   std::string name;
   Eigen::Matrix3Xi facets{3, 0};
+  Eigen::Matrix2Xi edges{2, 0};  // ropes
+  std::vector<int> grains;       // vertices that stand alone
+  std::optional<Plane> plane;    // a floor, which has no vertices and is fixed
+  // Once a script has changed the facets: of each vertex the one that it was at the last detection, or -1. Empty else.
+  std::vector<int> vertex_map;
   Topology topology;
   Surface surface = Surface::closed;
   Motion motion = Motion::deformable;
@@ -83,6 +105,12 @@ Body make_soft(std::string name, const Mesh& mesh, const SoftMaterial& material)
 // The same body as make_soft() makes it, but rigid: of the material, density, friction, drag and thickness count. (The
 // rest does where impacts move its vertices one by one: see DynamicsSettings::continuous.)
 Body make_hard(std::string name, const Mesh& mesh, const SoftMaterial& material);
+// Ropes along edges, whose lengths are those at rest.
+Body make_ropes(std::string name, std::vector<Vec3> positions, const Eigen::Matrix2Xi& edges,
+                const RopeMaterial& material);
+Body make_grains(std::string name, std::vector<Vec3> positions, const GrainMaterial& material);
+// All of space below a plane.
+Body make_floor(std::string name, const Plane& plane, const RigidMaterial& material);
 // A body that only a script moves, or, if it is fixed, nobody.
 Body make_rigid(std::string name, const Mesh& mesh, const RigidMaterial& material, Motion motion);
 

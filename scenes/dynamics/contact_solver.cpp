@@ -23,8 +23,8 @@ class ContactSolver::Carrier {
   Carrier(Body& body, const std::vector<Vec3>& before, const Place& place)
       : body_(body), before_(before), place_(place), arm_(body.rigid ? body.rigid->arm(place.local) : Vec3{}) {}
 
-  Vec3 now() const { return body_.rigid ? body_.rigid->now(arm_) : at(body_.positions); }
-  Vec3 before() const { return body_.rigid ? body_.rigid->before(arm_) : at(before_); }
+  Vec3 now() const { return body_.plane ? place_.local : body_.rigid ? body_.rigid->now(arm_) : at(body_.positions); }
+  Vec3 before() const { return body_.plane ? place_.local : body_.rigid ? body_.rigid->before(arm_) : at(before_); }
   // How far a unit impulse along `direction` moves the place along it.
   double give(Vec3 direction) const {
     if (!body_.movable()) return 0.0;
@@ -75,6 +75,11 @@ class ContactSolver::Carrier {
 ContactSolver::Place ContactSolver::place_of(const Body& body, const std::array<int, 3>& vertices,
                                              const std::array<double, 3>& weights) {
   Place place;
+  if (body.plane) {
+    const auto& [normal, offset] = *body.plane;
+    place.local = offset * Vec3{normal.x(), normal.y(), normal.z()};
+    return place;
+  }
   for (std::size_t k = 0; k < 3; ++k) {
     const bool used = vertices[k] >= 0;
     place.vertices[k] = used ? vertices[k] : vertices[0];

@@ -41,7 +41,7 @@ class ContactSolver {
   struct Place {
     std::array<int, 3> vertices{};  // the last is repeated with weight 0
     std::array<double, 3> weights{};
-    Vec3 local;  // of a rigid body: RigidMotion::local()
+    Vec3 local;  // of a rigid body: RigidMotion::local(); of a plane: a place on it, from which heights are counted
   };
   struct Point {
     Place a, b;

@@ -67,26 +67,45 @@ std::array<double, 3> weights_below(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
 
 // Sets the weights to the places of both that are nearest to each other at a time.
 void weigh(ImpactSide& a, ImpactSide& b, double time) {
+  if (a.count == 1 && b.count == 1) return;
   if (a.count == 3 || b.count == 3) {
     ImpactSide &facet = a.count == 3 ? a : b, &vertex = a.count == 3 ? b : a;
     facet.weight =
         weights_below(vertex.at(time), facet.vertex_at(0, time), facet.vertex_at(1, time), facet.vertex_at(2, time));
     return;
   }
-  const Vec3 p = a.vertex_at(0, time), e = a.vertex_at(1, time) - p, q = b.vertex_at(0, time),
-             f = b.vertex_at(1, time) - q, d = q - p;
+  const Vec3 p = a.vertex_at(0, time), e = a.vertex_at(a.count - 1, time) - p, q = b.vertex_at(0, time),
+             f = b.vertex_at(b.count - 1, time) - q, d = q - p;
   const double ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), determinant = ee * ff - ef * ef;
   double s = determinant > 0.0 ? std::clamp((ff * dot(e, d) - ef * dot(f, d)) / determinant, 0.0, 1.0) : 0.5;
   const double t = ff > 0.0 ? std::clamp((s * ef - dot(f, d)) / ff, 0.0, 1.0) : 0.5;
   if (ee > 0.0) s = std::clamp((t * ef + dot(e, d)) / ee, 0.0, 1.0);
-  a.weight = {1.0 - s, s, 0.0};
-  b.weight = {1.0 - t, t, 0.0};
+  a.weight = a.count == 1 ? std::array{1.0, 0.0, 0.0} : std::array{1.0 - s, s, 0.0};
+  b.weight = b.count == 1 ? std::array{1.0, 0.0, 0.0} : std::array{1.0 - t, t, 0.0};
+}
+
+// A vertex that comes to a plane stays as far above it as it begins, or as it is wanted, and is held there.
+void stop_at_plane(const Plane& plane, ImpactSide vertex, double wanted) {
+  const Vec3 normal{plane.normal.x(), plane.normal.y(), plane.normal.z()};
+  const auto height = [&](double time) { return dot(normal, vertex.at(time)) - plane.offset; };
+  const double give = vertex.give(), missing = std::min(height(0.0), wanted) - height(1.0);
+  if (!(give > 0.0) || !(missing > 0.0)) return;
+  const Vec3 slide = vertex.at(1.0) - vertex.at(0.0), sideways = slide - dot(slide, normal) * normal;
+  const double length = norm(sideways);
+  const double held = length > 0.0 ? std::min(1.0, vertex.body.friction * missing / length) : 0.0;
+  vertex.move((1.0 / give) * (missing * normal - held * sideways));
 }
 
 }  // namespace
 
-void ImpactResponse::stop(const Impact& impact, double margins, const Positions& begin,
+void ImpactResponse::stop(const Impact& impact, double rest_offsets, const Positions& begin,
                           std::vector<Body>& bodies) const {
+  if (const auto& plane = bodies[impact.a.index].plane)
+    return stop_at_plane(*plane, side_of(bodies[impact.b.index], begin[impact.b.index], impact.b_vertices),
+                         rest_offsets);
+  if (const auto& plane = bodies[impact.b.index].plane)
+    return stop_at_plane(*plane, side_of(bodies[impact.a.index], begin[impact.a.index], impact.a_vertices),
+                         rest_offsets);
   ImpactSide a = side_of(bodies[impact.a.index], begin[impact.a.index], impact.a_vertices);
   ImpactSide b = side_of(bodies[impact.b.index], begin[impact.b.index], impact.b_vertices);
   weigh(a, b, impact.time);
@@ -96,7 +115,7 @@ void ImpactResponse::stop(const Impact& impact, double margins, const Positions&
   if (!(give > 0.0) || !(gap > 0.0)) return;
   const Vec3 normal = (1.0 / gap) * between;
   // Where the normal is that of the impact the two stay as far apart as they were in it, or as they begin.
-  const double kept = std::max(gap, std::min(dot(normal, b.at(0.0) - a.at(0.0)), margins));
+  const double kept = std::max(gap, std::min(dot(normal, b.at(0.0) - a.at(0.0)), rest_offsets));
   const double missing = kept - dot(normal, b.at(1.0) - a.at(1.0));
   if (!(missing > 0.0)) return;
   const Vec3 slide = (b.at(1.0) - a.at(1.0)) - (b.at(0.0) - a.at(0.0));
@@ -159,7 +178,7 @@ void ImpactResponse::run(const Positions& begin, double seconds, LastResort last
     is_free = motion.first_time() > 1.0;
     impacts_ += std::ranges::count_if(motion.impacts(), &Impact::stops);
     for (const Impact& impact : motion.impacts())
-      if (impact.stops) stop(impact, world.margin(impact.a) + world.margin(impact.b), begin, bodies);
+      if (impact.stops) stop(impact, world.rest_offset(impact.a) + world.rest_offset(impact.b), begin, bodies);
   }
   while (!is_free && last_resort == LastResort::all_stop) {
     const double first = detect(Impacts::first, ids, bodies, world).first_time();

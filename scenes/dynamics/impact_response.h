@@ -44,8 +44,8 @@ class ImpactResponse {
   void let_all_go_a_part(const Positions& begin, double part, std::vector<Body>& bodies);
   // False if all of the impacts' vertices are there already.
   bool take_back(std::span<const Impact> impacts, const Positions& begin, std::vector<Body>& bodies);
-  // Two that begin within `margins`, the sum of theirs, stay as far apart as they begin.
-  void stop(const Impact& impact, double margins, const Positions& begin, std::vector<Body>& bodies) const;
+  // Two that begin within `rest_offsets`, the sum of theirs, stay as far apart as they begin.
+  void stop(const Impact& impact, double rest_offsets, const Positions& begin, std::vector<Body>& bodies) const;
 
   std::int64_t impacts_ = 0;
   double part_ = 1.0;

@@ -25,6 +25,10 @@ constexpr std::array kScenes = {
                "vertices along a side of the sheet", 40, 16, 160, make_cloth_fold},
     SceneEntry{"ribbon-knot", "a loose knot in a ribbon is pulled tight by its ends", "vertices along the ribbon", 160,
                100, 500, make_ribbon_knot},
+    SceneEntry{"net", "a net of ropes over a floor catches grains and a cloth", "meshes along a side of the net", 12, 4,
+               40, make_net},
+    SceneEntry{"surgery", "a membrane over an organ is cut along a blade and tears; a thread falls through the cut",
+               "vertices along a side of the membrane", 21, 11, 61, make_surgery},
 };
 
 }  // namespace

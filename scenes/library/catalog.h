@@ -34,5 +34,7 @@ Scene make_sphere_in_cloth(int size);
 Scene make_wheel_on_ground(int size);
 Scene make_cloth_fold(int size);
 Scene make_ribbon_knot(int size);
+Scene make_net(int size);
+Scene make_surgery(int size);
 
 }  // namespace tact::scenes

@@ -85,6 +85,7 @@ void mark_contacts(PictureScene& scene, const Report& report, const ContactMarks
     if (contact.a.index >= scene.bodies.size() || contact.b.index >= scene.bodies.size()) continue;
     PictureBody& a = scene.bodies[contact.a.index];
     PictureBody& b = scene.bodies[contact.b.index];
+    if (a.positions.cols() == 0 || b.positions.cols() == 0) continue;  // a plane
     if (marks.facets) {
       for (const FacetPair& pair : contact.facet_pairs()) {
         a.meeting_facets.push_back(pair.a);

@@ -11,6 +11,7 @@
 #include "scenes/pictures/contact_sheet.h"
 #include "scenes/pictures/film.h"
 #include "scenes/pictures/png_file.h"
+#include "scenes/pictures/thick_lines.h"
 
 namespace tact::scenes {
 namespace {
@@ -34,6 +35,7 @@ std::vector<PictureBody> picture_bodies(const Simulation& simulation, const std:
     shown.name = body.name;
     shown.positions = as_matrix(body.positions);
     shown.facets = body.facets;
+    add_thick_lines(body.edges, body.grains, body.thickness, shown);
     shown.opacity = looks[i].opacity;
     shown.shading = looks[i].shading;
     if (looks[i].visible) shown.color = body_color(color++);

@@ -78,7 +78,7 @@ void put_place(const std::array<int, 3>& vertices, const std::array<double, 3>& 
 }
 
 void put_point(const ContactPoint& point, std::array<int, 3>& last_a, std::array<int, 3>& last_b, ViewBytes& out) {
-  out.add_byte(static_cast<std::uint8_t>(static_cast<int>(point.kind) | (point.minimum ? 4 : 0)));
+  out.add_byte(static_cast<std::uint8_t>(static_cast<int>(point.kind) | (point.minimum ? 8 : 0)));
   out.add_count(static_cast<std::uint64_t>(point.patch));
   put_place(point.a_vertices, point.a_weights, last_a, out);
   put_place(point.b_vertices, point.b_weights, last_b, out);

@@ -23,7 +23,7 @@ namespace {
 
 // A chunk is what the page unpacks at a time: large enough to compress well, and done in some hundredths of a second.
 constexpr std::size_t kChunkBytes = std::size_t{2} << 20;
-constexpr int kFormat = 4;
+constexpr int kFormat = 5;
 constexpr double kMegabyte = 1e6;
 
 Json settings_json(const Settings& settings, bool few_points) {
@@ -41,17 +41,26 @@ Json settings_json(const Settings& settings, bool few_points) {
 Json bodies_json(const std::vector<ViewedBody>& bodies, int frames) {
   Json list = Json::array();
   for (const ViewedBody& body : bodies) {
-    list.push_back({{"name", body.name},
-                    {"vertices", body.vertex_count()},
-                    {"facets", body.facets.cols()},
-                    {"surface", surface_name(body.surface)},
-                    {"fixed", body.motion == Motion::fixed},
-                    {"opacity", body.opacity},
-                    {"step", body.step()},
-                    {"origin", body.origin()},
-                    {"first", body.first_frame},
-                    {"end", std::min(body.end_frame, frames)},
-                    {"cut_off", body.cut_off}});
+    Json& one = list.emplace_back(Json{{"name", body.name},
+                                       {"vertices", body.vertex_count()},
+                                       {"facets", body.facets.cols()},
+                                       {"surface", surface_name(body.surface)},
+                                       {"fixed", body.motion == Motion::fixed},
+                                       {"opacity", body.opacity},
+                                       {"step", body.step()},
+                                       {"origin", body.origin()},
+                                       {"first", body.first_frame},
+                                       {"end", std::min(body.end_frame, frames)},
+                                       {"cut_off", body.cut_off}});
+    const ThinParts& thin = body.thin;
+    if (thin.edges.cols() > 0) {
+      for (const int end : thin.edges.reshaped()) one["edges"].push_back(end);
+    }
+    if (!thin.points.empty()) one["points"] = thin.points;
+    if (thin.plane) {
+      const Eigen::Vector3d& n = thin.plane->normal;
+      one["plane"] = {n.x(), n.y(), n.z(), thin.plane->offset};
+    }
   }
   return list;
 }
@@ -97,10 +106,28 @@ Eigen::Matrix3Xi facets_of(const World& world, BodyId id) {
   return facets;
 }
 
+ThinParts thin_parts_of(const World& world, BodyId id) {
+  ThinParts thin{.edges = Eigen::Matrix2Xi(2, static_cast<Eigen::Index>(world.edge_count(id))),
+                 .points = std::vector<int>(world.point_count(id)),
+                 .plane = world.plane(id)};
+  world.copy_edges(id, {thin.edges.data(), static_cast<std::size_t>(thin.edges.size())});
+  world.copy_points(id, thin.points);
+  return thin;
+}
+
+bool has_thin_parts_of(const World& world, const ViewedBody& body) {
+  const auto& [edges, points, plane] = body.thin;
+  if (edges.cols() != static_cast<Eigen::Index>(world.edge_count(body.id)) ||
+      points.size() != world.point_count(body.id))
+    return false;
+  const ThinParts now = thin_parts_of(world, body.id);
+  return edges == now.edges && points == now.points;
+}
+
 bool has_facets_of(const World& world, const ViewedBody& body) {
   return body.vertex_count() == world.vertex_count(body.id) &&
          static_cast<std::size_t>(body.facets.cols()) == world.facet_count(body.id) &&
-         body.facets == facets_of(world, body.id);
+         body.facets == facets_of(world, body.id) && has_thin_parts_of(world, body);
 }
 
 std::optional<double> least_gap(const Report& report) {
@@ -130,7 +157,8 @@ void ViewPage::add_body(const World& world, BodyId id, double opacity) {
                                    .motion = world.motion(id),
                                    .opacity = opacity,
                                    .positions = positions_,
-                                   .facets = facets},
+                                   .facets = facets,
+                                   .thin = thin_parts_of(world, id)},
                        frames());
 }
 

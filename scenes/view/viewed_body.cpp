@@ -19,7 +19,10 @@ double mean_edge(const BodyForView& body) {
   for (Eigen::Index i = 0; i < body.facets.cols(); ++i) {
     sum += (body.positions.col(body.facets(1, i)) - body.positions.col(body.facets(0, i))).norm();
   }
-  return body.facets.cols() > 0 ? sum / static_cast<double>(body.facets.cols()) : 0.0;
+  const Eigen::Matrix2Xi& edges = body.thin.edges;
+  for (const auto& edge : edges.colwise()) sum += (body.positions.col(edge[1]) - body.positions.col(edge[0])).norm();
+  const Eigen::Index count = body.facets.cols() + edges.cols();
+  return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
 double step_for(const BodyForView& body) {
@@ -52,6 +55,7 @@ ViewedBody::ViewedBody(BodyId body_id, const BodyForView& body, int first)
       motion(body.motion),
       opacity(body.opacity),
       facets(body.facets),
+      thin(body.thin),
       first_frame(first),
       step_(step_for(body)),
       origin_{},

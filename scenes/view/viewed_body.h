@@ -7,12 +7,20 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "scenes/view/view_bytes.h"
 
 namespace tact::scenes {
+
+// What a body has besides facets.
+struct ThinParts {
+  Eigen::Matrix2Xi edges{2, 0};  // vertices of ropes
+  std::vector<int> points = {};  // vertices that stand alone
+  std::optional<Plane> plane = {};
+};
 
 // A body as a command gives it to the page.
 struct BodyForView {
@@ -22,6 +30,7 @@ struct BodyForView {
   double opacity = 1.0;                          // at first; 0: hidden
   Eigen::Ref<const Eigen::Matrix3Xd> positions;  // 3 x V, metres
   const Eigen::Matrix3Xi& facets;
+  ThinParts thin = {};
 };
 
 // For the view alone positions are rounded: to a power of two of metres, at most 1/64 of a mean edge and 1/1024 of the
@@ -42,6 +51,7 @@ class ViewedBody {
   Motion motion;
   double opacity;
   Eigen::Matrix3Xi facets;
+  ThinParts thin;
   std::vector<int> clusters = {};  // as last written
   int first_frame;                 // of the page
   int end_frame = std::numeric_limits<int>::max();

@@ -83,8 +83,8 @@ function readPlace(reader, last) {
 function readPoint(reader, lastA, lastB) {
   const kind = reader.byte();
   return {
-    kind: kind & 3,
-    minimum: (kind & 4) !== 0,
+    kind: kind & 7,
+    minimum: (kind & 8) !== 0,
     patch: reader.count(),
     a: readPlace(reader, lastA),
     b: readPlace(reader, lastB),

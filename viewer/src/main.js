@@ -109,6 +109,7 @@ class App {
     this.frame = frame;
     this.state.frame = wanted;
     this.stage.surface.place(frame, this.stage.center);
+    this.stage.thin.place();
     this.showAll();
   }
 
@@ -129,8 +130,10 @@ class App {
     surface.shared.wire.value = state.wire ? 1 : 0;
     surface.highlight(state.facet, this.facetsBeside(contacts));
     const fades = chosen !== null && state.isolate;
-    surface.look(this.colors, state.opacity.map((opacity, i) =>
-      frame.positions[i] === null ? 0 : fades && i !== chosen.a && i !== chosen.b ? Math.min(opacity, OTHERS) : opacity));
+    const opacities = state.opacity.map((opacity, i) =>
+      frame.positions[i] === null ? 0 : fades && i !== chosen.a && i !== chosen.b ? Math.min(opacity, OTHERS) : opacity);
+    surface.look(this.colors, opacities);
+    this.stage.thin.look(this.colors, opacities);
     this.marks.draw(frame, contacts, Object.fromEntries([...state.show].map((key) => [key, true])), chosen, state.point,
       (body) => state.opacity[body] > 0);
     this.makeLabels(chosen);

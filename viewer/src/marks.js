@@ -166,9 +166,11 @@ export class Marks {
     const center = new THREE.Vector3(), { pairs } = contact, pair = new THREE.Vector3();
     const wanted = Math.min(pairs.length / 2, 300), step = Math.max(1, Math.floor(pairs.length / 2 / Math.max(wanted, 1)));
     let found = 0;
+    const { bodies } = this.stage.surface.run, solid = [contact.a, contact.b].map((body) => !bodies[body].plane);
     for (let i = 0; i < pairs.length; i += 2 * step, ++found) {
-      pair.copy(this.surface.centroid(contact.a, pairs[i])).add(this.surface.centroid(contact.b, pairs[i + 1]));
-      center.addScaledVector(pair, 0.5);
+      pair.set(0, 0, 0);
+      [contact.a, contact.b].forEach((body, k) => solid[k] && pair.add(this.surface.centroid(body, pairs[i + k])));
+      center.addScaledVector(pair, solid[0] && solid[1] ? 0.5 : 1);
     }
     if (found > 0) return center.divideScalar(found);
     const zones = [contact.zoneA, contact.zoneB].filter((zone) => zone !== null);
@@ -176,13 +178,16 @@ export class Marks {
       for (const zone of zones) center.add(this.vector(zone.center));
       return center.divideScalar(zones.length);
     }
+    if (!solid[0]) return this.surface.box(contact.b).getCenter(center);
+    if (!solid[1]) return this.surface.box(contact.a).getCenter(center);
     const box = this.surface.box(contact.a).intersect(this.surface.box(contact.b));
     return box.isEmpty() ? this.surface.box(contact.a).getCenter(center) : box.getCenter(center);
   }
 
   /** How large what is drawn at a contact should be. */
   sizeOf(contact) {
-    const size = (body) => this.surface.box(body).getSize(new THREE.Vector3()).length();
+    const { bodies } = this.surface.run;
+    const size = (body) => (bodies[body].plane ? Infinity : this.surface.box(body).getSize(new THREE.Vector3()).length());
     return 0.5 * Math.min(size(contact.a), size(contact.b));
   }
 
@@ -216,7 +221,7 @@ export class Marks {
       const common = this.surface.box(a).intersect(this.surface.box(b));
       if (!common.isEmpty()) boxLines(common, overlapping); // with margins, boxes may be apart
     }
-    for (const body of bodies) boxLines(this.surface.box(body), apart);
+    for (const body of bodies) if (!this.surface.box(body).isEmpty()) boxLines(this.surface.box(body), apart);
     this.group.add(seenThrough(lines(apart, COLORS.boxApart, 0.8), 0.25), seenThrough(lines(overlapping, COLORS.boxOverlap), 0.35));
   }
 
@@ -269,6 +274,17 @@ export class Marks {
     }
   }
 
+  // Both places of a point; that on a plane is a gap along the normal from the other.
+  placesOf(contact, point) {
+    const along = (place, way) => place.clone().addScaledVector(new THREE.Vector3(...point.normal), way);
+    if (point.b.vertices.length === 0) {
+      const a = this.placeOf(contact.a, point.a);
+      return [a, along(a, point.gap)];
+    }
+    const b = this.placeOf(contact.b, point.b);
+    return [point.a.vertices.length === 0 ? along(b, -point.gap) : this.placeOf(contact.a, point.a), b];
+  }
+
   placeOf(body, { vertices, weights }) {
     const place = new THREE.Vector3();
     vertices.forEach((v, k) => place.addScaledVector(this.surface.vertex(body, v), weights[k]));
@@ -283,7 +299,7 @@ export class Marks {
       for (const contact of contacts) {
         contact.points.forEach((point, i) => {
           if (point.minimum !== minimum || this.points.length >= kMostPoints) return;
-          const a = this.placeOf(contact.a, point.a), b = this.placeOf(contact.b, point.b);
+          const [a, b] = this.placesOf(contact, point);
           if (contact === chosen && i === number) marked = places.length;
           this.points.push({ contact, number: i, place: a });
           places.push(a);

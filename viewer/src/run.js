@@ -20,7 +20,7 @@ export const FEATURES = [
 export class DataError extends Error {}
 
 const CUT = "The page was cut: its end is missing. Write it again, or copy all of it.";
-const FORMAT = 4;
+const FORMAT = 5;
 
 function textOf(id) {
   const element = document.getElementById(id);

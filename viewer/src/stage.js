@@ -2,10 +2,11 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Surface } from "./surface.js";
+import { Thin } from "./thin.js";
 
 function boxOfBody(run, frame, i) {
   const body = run.bodies[i], positions = frame.positions[i], box = new THREE.Box3(), p = new THREE.Vector3();
-  if (positions === null || body.facets === 0) return box;
+  if (positions === null || !(body.facets > 0 || body.edges || body.points)) return box;
   for (let k = 0; k < positions.length; k += 3) {
     box.expandByPoint(p.set(positions[k], positions[k + 1], positions[k + 2]));
   }
@@ -49,9 +50,10 @@ export class Stage {
     this.controls.addEventListener("change", () => this.draw());
     this.surface = new Surface(run);
     this.marks = new THREE.Group();
-    this.scene.add(this.surface.opaque, this.surface.transparent, this.surface.behind, this.marks);
+    this.thin = new Thin(run, this.surface, 2 * Math.max(this.size, all.isEmpty() ? 0 : diagonal(all)), this.center);
+    this.scene.add(this.surface.opaque, this.surface.transparent, this.surface.behind, this.thin.group, this.marks);
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x445066, 2.2));
-    this.addGround(all);
+    if (!run.bodies.some((body) => body.plane)) this.addGround(all);
     this.numbers = new THREE.WebGLRenderTarget(1, 1);
     this.numberScene = new THREE.Scene();
     this.numberScene.add(this.surface.numbered);

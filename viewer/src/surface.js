@@ -230,7 +230,7 @@ export class Surface {
     const b = this.run.bodies[body];
     if (b.used === undefined) {
       b.used = new Uint8Array(b.vertices);
-      for (const v of b.corners) b.used[v] = 1;
+      for (const list of [b.corners, b.edges ?? [], b.points ?? []]) for (const v of list) b.used[v] = 1;
     }
     return b.used;
   }
@@ -251,9 +251,9 @@ export class Surface {
       apply(contact.outcomesA, contact.a);
       apply(contact.outcomesB, contact.b);
       if (contact.outcomesA !== null) continue;
-      for (let i = 0; i < contact.pairs.length; i += 2) { // a body with itself
-        to[4 * (bodies[contact.a].firstFacet + contact.pairs[i])] = OUTCOMES.length - 1;
-        to[4 * (bodies[contact.b].firstFacet + contact.pairs[i + 1])] = OUTCOMES.length - 1;
+      for (let i = 0; i < contact.pairs.length; ++i) { // a body with itself, or with a plane, which has no facets here
+        const body = bodies[i % 2 === 0 ? contact.a : contact.b];
+        if (!body.plane) to[4 * (body.firstFacet + contact.pairs[i])] = OUTCOMES.length - 1;
       }
     }
     this.facets.needsUpdate = true;

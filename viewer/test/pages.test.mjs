@@ -15,6 +15,8 @@ const SCENES = {
   "liver-and-tool": ["--frames", "24"],
   "sphere-in-cloth": ["--frames", "40"],
   "wheel-on-ground": ["--frames", "60"],
+  net: ["--size", "5", "--frames", "40"],
+  surgery: ["--size", "11", "--frames", "60"],
 };
 const OUTCOMES = ["outside_box", "outside_slab", "far", "facing_away", "outside_zone", "kept", "meets"];
 

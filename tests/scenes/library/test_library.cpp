@@ -93,7 +93,39 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Library,
                                            Case{"sphere-in-cloth", 24, 60, {{-0.7, -0.7, 0.0}, {0.7, 0.7, 2.0}}},
                                            Case{"wheel-on-ground", 80, 160, {{-3.0, -0.8, -0.3}, {3.0, 0.8, 1.5}}},
                                            Case{"cloth-fold", 16, 120, {{-0.9, -0.9, 0.0}, {0.9, 0.9, 0.9}}},
+                                           Case{"net", 5, 50, {{-0.4, -0.4, 0.0}, {0.4, 0.4, 0.6}}},
                                            Case{"ribbon-knot", 100, 400, {{-1.2, -0.6, 0.3}, {1.2, 0.4, 1.7}}}));
+
+// After three seconds all that fell lies in the net, above the floor.
+TEST(Net, IsAtRestAfterThreeSeconds) {
+  Simulation simulation = simulation_of("net", 5, {.threads = 1});
+  double peak = 0.0;
+  while (simulation.state().time < 3.0) {
+    simulation.step();
+    peak = std::max(peak, simulation.state().kinetic_energy);
+    ASSERT_EQ(simulation.state().facet_pairs, 0) << simulation.state().time;
+  }
+  EXPECT_LT(simulation.state().kinetic_energy, 1e-4 * peak);
+  for (const Body& body : simulation.bodies()) {
+    if (body.plane) continue;
+    EXPECT_TRUE(inside(box_of(body.positions), {{-0.35, -0.35, 0.0}, {0.35, 0.35, 0.4}})) << body.name;
+  }
+}
+
+// Bodies never cross, the membrane falls in two, and the thread is through.
+TEST(Surgery, CutsTearsAndPullsAThreadThrough) {
+  constexpr int kSize = 11;
+  Simulation simulation = simulation_of("surgery", kSize, {.threads = 1});
+  const Body &membrane = simulation.bodies()[0], &thread = simulation.bodies()[4];
+  while (simulation.state().time < 2.4) {
+    simulation.step();
+    ASSERT_EQ(simulation.state().facet_pairs, 0) << simulation.state().time;
+  }
+  EXPECT_EQ(membrane.positions.size(), static_cast<std::size_t>(kSize * kSize + kSize));
+  EXPECT_EQ(simulation.world().vertex_count(simulation.world().bodies()[0]), membrane.positions.size());
+  EXPECT_LT(thread.positions.front().z, 0.3);
+  EXPECT_NE(simulation.report()->find_contact(simulation.world().bodies()[0], simulation.world().bodies()[1]), nullptr);
+}
 
 TEST(Catalog, EverySceneIsMadeAtItsSizes) {
   for (const SceneEntry& entry : scene_catalog()) {
@@ -103,7 +135,7 @@ TEST(Catalog, EverySceneIsMadeAtItsSizes) {
     EXPECT_LE(entry.smallest_size, entry.default_size) << entry.name;
     EXPECT_LE(entry.default_size, entry.largest_size) << entry.name;
     for (const Body& body : scene.bodies) {
-      if (body.surface == Surface::sheet) continue;
+      if (body.surface == Surface::sheet || body.plane) continue;
       EXPECT_GT(enclosed_volume(body.positions, body.facets), 0.0) << body.name;
     }
   }
