@@ -20,7 +20,7 @@ struct Changed {
   Eigen::Matrix3Xd positions{3, 0};
   Eigen::Matrix3Xi facets{3, 0};
   Eigen::Matrix2Xi edges{2, 0};
-  std::vector<int> points, vertex_map;
+  std::vector<int> points{}, vertex_map{};
 
   MeshUpdate update() const {
     return {.positions = positions, .facets = facets, .edges = edges, .points = points, .vertex_map = vertex_map};
@@ -90,9 +90,9 @@ Changed changed(const Changed& from, Random& random) {
   return to;
 }
 
-using Features = std::tuple<FeaturePair, std::set<int>, std::set<int>>;
+using NamedFeatures = std::tuple<FeaturePair, std::set<int>, std::set<int>>;
 
-Features features_of(const ContactPoint& point, const std::vector<int>& names, bool of_itself, bool of_a) {
+NamedFeatures features_of(const ContactPoint& point, const std::vector<int>& names, bool of_itself, bool of_a) {
   const auto named = [&](const std::array<int, 3>& vertices, bool renames) {
     std::set<int> all;
     for (const int v : vertices) {
@@ -130,12 +130,12 @@ TEST(ChangingEdges, KeepIdsOfWhatIsStillThere) {
     std::vector<int> names(static_cast<std::size_t>(first.positions.cols()));
     for (std::size_t v = 0; v < names.size(); ++v) names[v] = static_cast<int>(v);
     int next_name = 1000;
-    std::map<std::uint64_t, Features> known;
+    std::map<std::uint64_t, NamedFeatures> known;
     Changed mesh = first;
     for (int step = 0; step < 4; ++step) {
       for (const Contact& contact : scene.world.detect().contacts()) {
         for (const ContactPoint& point : contact.points()) {
-          const Features features = features_of(point, names, contact.a == contact.b, contact.a == scene.body);
+          const NamedFeatures features = features_of(point, names, contact.a == contact.b, contact.a == scene.body);
           const auto [at, is_new] = known.emplace(point.id, features);
           EXPECT_EQ(at->second, features) << "seed " << seed << ", step " << step;
           kept += is_new ? 0 : 1;
@@ -149,7 +149,7 @@ TEST(ChangingEdges, KeepIdsOfWhatIsStillThere) {
       scene.world.set_facets(scene.body, mesh.update());
     }
     // No feature has two ids.
-    std::set<Features> features;
+    std::set<NamedFeatures> features;
     for (const auto& [id, one] : known) EXPECT_TRUE(features.insert(one).second) << "seed " << seed;
   }
   EXPECT_GT(kept, 100u);

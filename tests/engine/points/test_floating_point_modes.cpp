@@ -311,7 +311,8 @@ class EveryCall {
   void ask_of_bodies(const World& world) {
     told_.begin("queries of bodies");
     const Eigen::Vector3d way(0.3, -1.0 / 3.0, 0.2), axis(1.0, 2.0, 7.0);
-    const std::vector<Sweep> ways{{bodies_[0], way, axis, way, 0.7, {}}, {bodies_[1], -way, axis, {}, -2.1, {}}};
+    const std::vector<Sweep> ways{{bodies_[0], way, axis, way, 0.7, {}},
+                                  {bodies_[1], -way, axis, Eigen::Vector3d::Zero(), -2.1, {}}};
     const std::vector<DistanceQuery> pairs{
         {bodies_[0], bodies_[2]}, {bodies_[1], bodies_[4]}, {bodies_[0], bodies_[3]}};
     std::vector<SweepHit> hits(ways.size());

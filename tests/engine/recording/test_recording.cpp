@@ -186,8 +186,8 @@ TEST(Recording, SaysWhatIsWrongAndAtWhichByte) {
             "byte 8: a recording of version 0; versions 1 to 7 can be read");
   EXPECT_EQ(recording_refusal(with(good, kSettingsAt, "\x02")),
             at_byte(kSettingsAt) + "the first record is not one of settings");
-  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x17")),
-            at_byte(kFirstBodyAt) + "step 0: no record is of kind 23");
+  EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x7f")),
+            at_byte(kFirstBodyAt) + "step 0: no record is of kind 127");
   EXPECT_EQ(recording_refusal(with(good, kFirstBodyAt, "\x0f")),
             at_byte(kFirstBodyAt) + "step 0: a failure that follows no step");
   EXPECT_EQ(recording_refusal(with(good, kVerticesAt + 16, bytes_of(std::numeric_limits<double>::quiet_NaN())))
