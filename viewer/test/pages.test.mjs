@@ -16,7 +16,6 @@ const SCENES = {
   "sphere-in-cloth": ["--frames", "40"],
   "wheel-on-ground": ["--frames", "60"],
   net: ["--size", "5", "--frames", "40"],
-  surgery: ["--size", "11", "--frames", "60"],
 };
 const OUTCOMES = ["outside_box", "outside_slab", "far", "facing_away", "outside_zone", "kept", "meets"];
 
@@ -49,7 +48,8 @@ async function expectPair(page, contact) {
     const cells = await page.$$eval(`#outcomes td[data-side="${side}"]`, (found) => found.map((cell) => [cell.dataset.outcome, cell.textContent]));
     assert.deepEqual(Object.fromEntries(cells.map(([outcome, text]) => [outcome, numberIn(text)])), contact.outcomes[side]);
     assert.deepEqual(cells.map(([outcome]) => outcome), OUTCOMES);
-    assert.equal(contact.outcomes[side].kept + contact.outcomes[side].meets, kept[side]);
+    const facets = Object.values(contact.outcomes[side]).reduce((sum, one) => sum + one, 0); // of edges and grains alone: 0
+    if (facets > 0) assert.equal(contact.outcomes[side].kept + contact.outcomes[side].meets, kept[side]);
   }
 }
 
@@ -167,7 +167,8 @@ for (const [scene, options] of Object.entries(SCENES)) {
     assert.equal(busiest.stats.facet_pairs, Math.max(...frames.map((frame) => frame.stats.facet_pairs)));
     await expectPicture(page, scene);
     const contacts = busiest.pairs.filter((pair) => pair.direction !== undefined);
-    assert.equal(await page.locator("#pairs tr[data-pair]").count(), contacts.length);
+    const ofItself = busiest.pairs.filter((pair) => pair.a === pair.b);
+    assert.equal(await page.locator("#pairs tr[data-pair]").count(), contacts.length + ofItself.length);
     await expectStatistics(page, busiest);
     await expectWords(page, busiest, bodies);
     await expectPlots(page, frames);
