@@ -34,7 +34,8 @@
 //   plane     u8 21, 3 f64 of the normal, f64 offset, u32 layer, u32 mask, u64 external id, text name; then as after
 //   add
 //   reach     u8 22; after settings whose Outputs::within_reach is set, likewise; since version 7
-//   rest      u8 23, body, f64 metres, or -1: the margin; since version 7, as are the next two. After the body is added,
+//   rest      u8 23, body, f64 metres, or -1: the margin; since version 7, as are the next two. After the body is
+//   added,
 //             if it is given, and wherever it changed
 //   features  u8 24, body, five u64: rest offsets, labels of vertices, labels of facets, layers and masks of vertices;
 //             then these, f64 each rest offset, u32 each other

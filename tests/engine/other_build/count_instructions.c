@@ -17,8 +17,7 @@ struct qemu_plugin_tb;
 uint64_t qemu_plugin_tb_vaddr(const struct qemu_plugin_tb* block);
 size_t qemu_plugin_tb_n_insns(const struct qemu_plugin_tb* block);
 uint64_t qemu_plugin_start_code(void);
-void qemu_plugin_register_vcpu_tb_trans_cb(qemu_plugin_id_t id,
-                                           void (*call)(qemu_plugin_id_t, struct qemu_plugin_tb*));
+void qemu_plugin_register_vcpu_tb_trans_cb(qemu_plugin_id_t id, void (*call)(qemu_plugin_id_t, struct qemu_plugin_tb*));
 void qemu_plugin_register_vcpu_tb_exec_inline(struct qemu_plugin_tb* block, int add, void* sum, uint64_t addend);
 void qemu_plugin_register_atexit_cb(qemu_plugin_id_t id, void (*call)(qemu_plugin_id_t, void*), void* data);
 

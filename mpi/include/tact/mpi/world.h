@@ -103,7 +103,7 @@ class TACT_API World {
   void set_group(std::uint64_t key, std::uint32_t group);                       ///< sets the group
   void set_motion(std::uint64_t key, Motion motion);                            ///< sets how the body moves
   void set_margin(std::uint64_t key, double margin);                            ///< sets the margin, metres
-  void set_rest_offset(std::uint64_t key, std::optional<double> rest_offset);  ///< sets the rest offset, metres
+  void set_rest_offset(std::uint64_t key, std::optional<double> rest_offset);   ///< sets the rest offset, metres
   /// Replaces the settings of single vertices and facets.
   void set_feature_settings(std::uint64_t key, const FeatureSettings& settings);
   void set_self_contact(std::uint64_t key, bool wanted);  ///< sets whether it is tested against itself
