@@ -23,16 +23,16 @@ flags=(-std=c++20 -fopenmp -I. -Iengine/include -Iengine/base/include -Ibindings
        -DTACT_EMBREE_MAJOR=$embree)
 
 echo "clang"
-# A folder at a time, which halves the reading of headers; of the two ways to build trees, which have the same names, one.
-read_together() {
-  local folder=$1
-  shift
-  find "$folder" -maxdepth 1 -name '*.cpp' -not -name '*_median.cpp' -printf '#include "%p"\n' | sort |
-    clang++ -x c++ -fsyntax-only -Wall -Wextra -Wpedantic -Wshadow -Werror "$@" -
-}
+# Twelve of a folder at a time, as in CMakePresets.json: it halves the reading of headers. Of the two ways to build trees,
+# which have the same names, one is read.
+read_together() { printf '#include "%s"\n' "$@" | clang++ -x c++ -fsyntax-only -Wall -Wextra -Wpedantic -Wshadow -Werror $flags -; }
 export -f read_together
-find engine broadphase narrowphase bindings/c -name '*.cpp' -not -path '*/kernels/*' -not -path '*/build/*' -printf '%h\0' |
-  sort -zu | xargs -0 -I {} -P "$(nproc)" bash -c 'read_together "$@"' bash {} "${flags[@]}"
+{
+  find engine broadphase narrowphase -type d -not -name kernels | sort | while read -r folder; do
+    find "$folder" -maxdepth 1 -name '*.cpp' -not -name '*_median.cpp' | sort | xargs -r -n 12
+  done
+  find bindings/c -name '*.cpp' -not -path '*/build/*'
+} | flags="${flags[*]}" xargs -I {} -P "$(nproc)" bash -c 'read_together {}'
 
 echo "clang-tidy: ${folders[*]}"
 find "${folders[@]}" -name '*.cpp' -not -path '*/kernels/*' -print0 | sort -z |

@@ -10,7 +10,7 @@ namespace {
 constexpr double kBeyond = 8.0;
 // How far the half-line is turned each time that it meets an edge, as a part of its length, and how often: edges are
 // lines, which a few directions miss.
-constexpr double kTurn = 1e-3;
+constexpr double kPartOfATurn = 1e-3;
 constexpr int kMostTurns = 16;
 
 }  // namespace
@@ -22,8 +22,8 @@ bool VertexWinding::is_inside(const ScaledMesh& mesh, int vertex, Vec3 outward) 
   const Vec3 inward = -normalized(outward);
   for (int turn = 0; turn < kMostTurns; ++turn) {
     Vec3 direction = inward;
-    direction[turn % 3] += kTurn * turn;
-    direction[(turn + 1) % 3] -= 0.375 * kTurn * turn;
+    direction[turn % 3] += kPartOfATurn * turn;
+    direction[(turn + 1) % 3] -= 0.375 * kPartOfATurn * turn;
     const Side side = look_along(mesh, vertex, direction);
     if (side != Side::undecided) return side == Side::inside;
   }

@@ -9,15 +9,15 @@ namespace tact::narrowphase {
 
 namespace {
 
-constexpr int kNone = -1;
+constexpr int kNoNumber = -1;
 
 class Numberer {
  public:
   Numberer(std::span<const int> facets, std::span<const int> order, int source_vertex_count)
       : facets_(facets),
         order_(order),
-        number_(static_cast<std::size_t>(source_vertex_count), kNone),
-        last_user_(number_.size(), kNone),
+        number_(static_cast<std::size_t>(source_vertex_count), kNoNumber),
+        last_user_(number_.size(), kNoNumber),
         place_(number_.size(), 0) {
     for (auto& corner : made_.corner) corner.reserve(order.size());
   }
@@ -28,7 +28,7 @@ class Numberer {
       add(cluster, order_.subspan(begin, std::min<std::size_t>(kClusterSize, order_.size() - begin)));
     made_.ranges.insert(made_.ranges.end(), {vertices(), borrowed()});
     for (std::size_t s = 0; s < number_.size(); ++s) {
-      if (number_[s] == kNone) made_.unused_sources.push_back(static_cast<int>(s));
+      if (number_[s] == kNoNumber) made_.unused_sources.push_back(static_cast<int>(s));
     }
     return std::move(made_);
   }
@@ -72,7 +72,7 @@ class Numberer {
         const std::size_t s = source_of(facet, k);
         if (last_user_[s] == cluster) continue;
         last_user_[s] = cluster;
-        (number_[s] == kNone ? owned_here_ : borrowed_here_).push_back(static_cast<int>(s));
+        (number_[s] == kNoNumber ? owned_here_ : borrowed_here_).push_back(static_cast<int>(s));
       }
     }
     std::ranges::sort(owned_here_);
