@@ -9,6 +9,7 @@
 
 #include "engine/base/text.h"
 #include "engine/body_search.h"
+#include "engine/eigen_vectors.h"
 #include "engine/queries.h"
 #include "narrowphase/numeric/unit_scale.h"
 #include "narrowphase/queries/mesh_distance.h"
@@ -39,31 +40,11 @@ struct NearSearch : Search {
   NearSearch(const Box& wanted, double most) : box(wanted), within(most) {}
 
   Box around() const { return grown(box, within * (1.0 + 0x1p-40)); }
-  // The distance of two boxes, but less than what is found of any surfaces in them.
-  double rank(const Box& other) const {
-    double square = 0.0, farthest = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double below = box.lower[axis] - other.upper[axis], above = other.lower[axis] - box.upper[axis];
-      const double away = std::max(std::max(below, above), 0.0);
-      square += away * away;
-      farthest = std::max(farthest, std::max(std::abs(below), std::abs(above)));
-    }
-    return std::sqrt(square) - (0x1p-44 * farthest + 0x1p-500);
-  }
+  double rank(const Box& other) const { return distance_below(box, other).least; }
   bool wants(double distance) const { return distance <= within; }
 
   Box box;
   double within;
-};
-
-// Those that may be met on a way.
-struct WaySearch : Search {
-  explicit WaySearch(const Box& wanted) : box(wanted) {}
-  static constexpr bool kScansByRank = false;
-  Box around() const { return box; }
-  double rank(const Box& other) const { return overlaps(other, box) ? 0.0 : kInfinity; }
-  bool wants(double) const { return true; }
-  Box box;
 };
 
 MeshDistance swapped(const MeshDistance& found) {
@@ -104,10 +85,8 @@ BodyDistance distance_of(const Body& a, const Body& b, double within) {
 
 narrowphase::TurningWay way_of(const Sweep& sweep) {
   const double scale = narrowphase::unit_scale(sweep.axis.cwiseAbs().maxCoeff());
-  return {point_of(sweep.way), normalized(scale * point_of(sweep.axis)), point_of(sweep.center), sweep.angle};
+  return {from_eigen(sweep.way), normalized(scale * from_eigen(sweep.axis)), from_eigen(sweep.center), sweep.angle};
 }
-
-Eigen::Vector3d vector_of(Vec3 v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
@@ -171,13 +150,13 @@ SweepHit find_swept(const Bodies& bodies, const Sweep& sweep) {
     const auto order = [&](double time, std::uint32_t of_slot) { return std::tuple(time, bodies.keys().of(of_slot)); };
     if (!hit || (best.facet >= 0 && order(hit->time, slot) >= order(best.fraction, best.body.index))) return;
     best = {bodies.in_slot(slot).id, hit->facet_a,  hit->facet_b, hit->time,
-            vector_of(hit->normal),  hit->weight_a, hit->weight_b};
+            to_eigen(hit->normal),   hit->weight_a, hit->weight_b};
   };
   if (own.mesh.box().empty()) return best;
   for_each_plane(bodies, sweep.filter, [&](std::uint32_t slot, const narrowphase::HalfSpace& plane) {
     take(slot, first_on_way(own.mesh, way, plane, best.fraction));
   });
-  WaySearch search(box_of_way(own.mesh.box(), way));
+  BoxSearch search(box_of_way(own.mesh.box(), way));
   for_each_body(bodies, sweep.filter, search, [&](std::uint32_t slot) {
     if (slot != sweep.body.index) take(slot, first_on_way(own.mesh, way, bodies.placed(slot).mesh, best.fraction));
   });

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -15,14 +16,43 @@
 
 namespace tact {
 
-inline base::Vec3 point_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 // Which bodies a query looks at: those of keys before `end`, if there is one, and by their boxes, as BlockSearch has
 // it.
 struct Search {
   static constexpr bool kScansByRank = false;  // a scan takes boxes in the order of their slots
   std::optional<std::uint64_t> end = {};
 };
+
+// The rank of a box in which nothing is looked for.
+inline constexpr double kOutside = std::numeric_limits<double>::infinity();
+
+// Those that overlap a box.
+struct BoxSearch : Search {
+  explicit BoxSearch(const base::Box& wanted) : box(wanted) {}
+
+  base::Box around() const { return box; }
+  double rank(const base::Box& other) const { return overlaps(other, box) ? 0.0 : kOutside; }
+  bool wants(double) const { return true; }
+
+  base::Box box;
+};
+
+// Less than the distance of any surfaces in two boxes, as it is found: that is off by some roundings of the distance of
+// their farthest places. Squares of lengths below 2^-500 may vanish.
+struct BoxDistance {
+  double least, along_axis;  // along that axis on which they are farthest apart
+};
+inline BoxDistance distance_below(const base::Box& a, const base::Box& b) {
+  double square = 0.0, farthest = 0.0, along_axis = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double below = a.lower[axis] - b.upper[axis], above = b.lower[axis] - a.upper[axis];
+    const double away = std::max(std::max(below, above), 0.0);
+    square += away * away;
+    along_axis = std::max(along_axis, away);
+    farthest = std::max(farthest, std::max(std::abs(below), std::abs(above)));
+  }
+  return {std::sqrt(square) - (0x1p-44 * farthest + 0x1p-500), along_axis};
+}
 
 // Calls visit(slot) for each body that a query considers and whose box a search wants, in no particular order: answers
 // are not to depend on it. visit() may narrow the search.
@@ -82,8 +112,6 @@ class BodySearch {
     const double of_box = rank(box);
     if (of_box < kOutside && wants(of_box) && considers(slot)) visit(slot);
   }
-
-  static constexpr double kOutside = std::numeric_limits<double>::infinity();
 
   const Bodies& bodies_;
   const broadphase::Filter filter_;

@@ -6,6 +6,7 @@
 
 #include "engine/base/floating_point_mode.h"
 #include "engine/base/vec3.h"
+#include "engine/eigen_vectors.h"
 #include "engine/with_memory.h"
 
 namespace tact {
@@ -22,9 +23,6 @@ struct SeenPoint {
   double sign = 1.0;  // -1 where the sum is over the body that is its a
 };
 
-Vec3 vec3(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
-Eigen::Vector3d for_caller(Vec3 v) { return {v.x, v.y, v.z}; }
-
 // The positions of the bodies that have points.
 class Places {
  public:
@@ -32,7 +30,7 @@ class Places {
 
   Vec3 middle(const Contact& contact, const ContactPoint& point) {
     // A plane has no vertices.
-    const Vec3 half_way = 0.5 * point.gap * vec3(point.normal);
+    const Vec3 half_way = 0.5 * point.gap * from_eigen(point.normal);
     if (point.kind == FeaturePair::vertex_plane) return place(contact.a, point.a_vertices, point.a_weights) + half_way;
     if (point.kind == FeaturePair::plane_vertex) return place(contact.b, point.b_vertices, point.b_weights) - half_way;
     return 0.5 *
@@ -74,7 +72,7 @@ class ImpulsesById {
   }
   Vec3 of(std::uint64_t id) const {
     const auto found = std::ranges::lower_bound(sorted_, id, {}, &PointImpulse::id);
-    return found != sorted_.end() && found->id == id ? vec3(found->impulse) : Vec3{0.0, 0.0, 0.0};
+    return found != sorted_.end() && found->id == id ? from_eigen(found->impulse) : Vec3{0.0, 0.0, 0.0};
   }
 
  private:
@@ -144,7 +142,7 @@ class Adder {
       sum.deepest_gap = std::min(sum.deepest_gap, one.point->gap);
       gaps += one.point->gap;
       places = places + one.place;
-      normals = normals + one.sign * vec3(one.point->normal);
+      normals = normals + one.sign * from_eigen(one.point->normal);
       force = force + push;
     }
     const double share = seen.empty() ? 0.0 : 1.0 / static_cast<double>(seen.size());
@@ -152,10 +150,10 @@ class Adder {
     for (const SeenPoint& one : seen) moment = moment + cross(one.place - center, one.sign * one.impulse);
     sum.points = static_cast<int>(seen.size());
     sum.mean_gap = share * gaps;
-    sum.center = for_caller(center);
-    sum.normal = for_caller(share * normals);
-    sum.force = for_caller(force);
-    sum.torque = for_caller(moment);
+    sum.center = to_eigen(center);
+    sum.normal = to_eigen(share * normals);
+    sum.force = to_eigen(force);
+    sum.torque = to_eigen(moment);
     std::ranges::sort(vertices_);
     vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
     counts_.push_back(vertices_.size());

@@ -6,6 +6,7 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
+#include "engine/eigen_vectors.h"
 
 namespace tact {
 

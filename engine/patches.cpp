@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/eigen_vectors.h"
 #include "narrowphase/numeric/double_double.h"
 #include "narrowphase/numeric/unit_scale.h"
 
@@ -25,8 +26,6 @@ constexpr double kNearlyAll = 0.875, kNearlyDeepest = 0x1p-10;
 // Normals that are no more than 5 degrees apart point the same way; and so many ways are told apart.
 constexpr double kSameWay = 0.9962;
 constexpr std::size_t kMostWays = 16;
-
-Eigen::Vector3d to_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
 
 Triangle triangle_of(const Body& body, int source_facet) {
   return body.mesh.triangle(body.mesh.facet_of_source(source_facet));

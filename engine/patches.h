@@ -12,8 +12,6 @@
 
 namespace tact {
 
-inline base::Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 /// Two bodies, or one twice, and what was found between them.
 struct PatchInput {
   const Body& a;

@@ -13,6 +13,7 @@
 #include "engine/base/text.h"
 #include "engine/body_search.h"
 #include "engine/check_coordinate.h"
+#include "engine/eigen_vectors.h"
 #include "narrowphase/mesh/cluster_search.h"
 #include "narrowphase/queries/mesh_queries.h"
 
@@ -29,8 +30,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Those that a ray enters, not later than `latest`.
 struct RaySearch : Search {
   explicit RaySearch(const Ray& ray)
-      : ends(extended({point_of(ray.from), point_of(ray.from)}, point_of(ray.to))),
-        line({point_of(ray.from), point_of(ray.to)}) {}
+      : ends(extended({from_eigen(ray.from), from_eigen(ray.from)}, from_eigen(ray.to))),
+        line({from_eigen(ray.from), from_eigen(ray.to)}) {}
 
   Box around() const { return ends; }
   double rank(const Box& box) const { return overlaps(box, ends) ? line.entry(box) : kInfinity; }
@@ -41,22 +42,11 @@ struct RaySearch : Search {
   double latest = 1.0;
 };
 
-// Those that overlap a box.
-struct BoxSearch : Search {
-  explicit BoxSearch(const Box& wanted) : box(wanted) {}
-
-  Box around() const { return box; }
-  double rank(const Box& other) const { return overlaps(other, box) ? 0.0 : kInfinity; }
-  bool wants(double) const { return true; }
-
-  Box box;
-};
-
 // Those that are not farther from a point than `within`, metres, and along no axis than `most`.
 struct PointSearch : Search {
   static constexpr bool kScansByRank = true;  // what is found early makes others too far away
 
-  explicit PointSearch(const PointQuery& query) : point(point_of(query.point)), most(query.within), within(most) {}
+  explicit PointSearch(const PointQuery& query) : point(from_eigen(query.point)), most(query.within), within(most) {}
 
   Box around() const {
     Box box{point, point};
@@ -67,18 +57,10 @@ struct PointSearch : Search {
     }
     return grown(box, std::numeric_limits<double>::min());
   }
-  // The distance, but less than what nearest_facet() finds of any mesh in the box: that is off by some roundings of the
-  // distance from the farthest place of the box. Squares of lengths below 2^-500 may vanish.
   double rank(const Box& box) const {
-    double square = 0.0, farthest = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double below = box.lower[axis] - point[axis], above = point[axis] - box.upper[axis];
-      const double away = std::max(std::max(below, above), 0.0);
-      if (away - 0x1p-50 * away > most) return kInfinity;  // rounded towards nearer, so that nothing is left out
-      square += away * away;
-      farthest = std::max(farthest, std::max(std::abs(below), std::abs(above)));
-    }
-    return std::sqrt(square) - (0x1p-44 * farthest + 0x1p-500);
+    const BoxDistance found = distance_below({point, point}, box);
+    if (found.along_axis - 0x1p-50 * found.along_axis > most) return kInfinity;  // towards nearer: nothing is left out
+    return found.least;
   }
   bool wants(double distance) const { return distance <= within; }
 
@@ -89,7 +71,7 @@ struct PointSearch : Search {
 
 // A ray's hit of a plane, whose surface is facet 0.
 std::optional<FacetHit> hit_of_plane(const narrowphase::HalfSpace& plane, const Ray& ray) {
-  const auto time = narrowphase::meeting_place(plane, point_of(ray.from), point_of(ray.to));
+  const auto time = narrowphase::meeting_place(plane, from_eigen(ray.from), from_eigen(ray.to));
   return time ? std::optional(FacetHit{0, *time, {}}) : std::nullopt;
 }
 
@@ -332,7 +314,7 @@ ClosestPoint find_closest_point(const Bodies& bodies, const PointQuery& query) {
 ClosestPoint find_signed_distance(const Bodies& bodies, const PointQuery& query) {
   ClosestPoint deepest;
   for (const BodyId body : find_around(bodies, query)) {
-    const narrowphase::NearestFacet depth = depth_in(bodies.in_slot(body.index), point_of(query.point));
+    const narrowphase::NearestFacet depth = depth_in(bodies.in_slot(body.index), from_eigen(query.point));
     if (deepest.facet >= 0 && -depth.distance >= deepest.distance) continue;
     deepest = {body, depth.facet, depth.distance == 0.0 ? 0.0 : -depth.distance, depth.weight};
   }
@@ -341,7 +323,7 @@ ClosestPoint find_signed_distance(const Bodies& bodies, const PointQuery& query)
 }
 
 std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuery& query) {
-  const Box box{point_of(query.lower), point_of(query.upper)};
+  const Box box{from_eigen(query.lower), from_eigen(query.upper)};
   std::vector<FacetOfBody> found;
   std::vector<int> facets;
   for (const std::uint32_t slot : slots_near(bodies, query.filter, box)) {
@@ -359,7 +341,7 @@ std::vector<FacetOfBody> find_in_box(const Bodies& bodies, const BoxQuery& query
 }
 
 std::vector<BodyId> find_around(const Bodies& bodies, const PointQuery& query) {
-  const Vec3 point = point_of(query.point);
+  const Vec3 point = from_eigen(query.point);
   std::vector<BodyId> found;
   for (const std::uint32_t slot : slots_near(bodies, query.filter, {point, point})) {
     const Body& body = bodies.placed(slot);

@@ -24,8 +24,8 @@ LaneOverlap overlapping_lanes(const Block& block, const float* lower, const floa
     // How far the boxes reach into each other along the axis where that is least; the sign of a difference is exact.
     Floats depth[3];
     for (int axis = 0; axis < 3; ++axis) {
-      const Floats below = upper[axis * kStride] - load<Floats>(&block.lower[axis][first]);
-      const Floats above = load<Floats>(&block.upper[axis][first]) - lower[axis * kStride];
+      const Floats below = upper[axis * kStride] - base::load_as<Floats>(&block.lower[axis][first]);
+      const Floats above = base::load_as<Floats>(&block.upper[axis][first]) - lower[axis * kStride];
       depth[axis] = below < above ? below : above;
     }
     Floats least = depth[0] < depth[1] ? depth[0] : depth[1];
@@ -79,13 +79,13 @@ Overlaps find_overlaps(const BlockSide& a, const BlockSide& b, std::uint32_t row
 
 // The least number of an array whose length is a power of two.
 float least_of(const float* numbers) {
-  Floats least = load<Floats>(numbers);
+  Floats least = base::load_as<Floats>(numbers);
   for (std::uint32_t first = kFloats; first < kLanes; first += kFloats) {
-    const Floats next = load<Floats>(numbers + first);
+    const Floats next = base::load_as<Floats>(numbers + first);
     least = next < least ? next : least;
   }
   float rest[kFloats];
-  store(rest, least);
+  base::store_as(rest, least);
   for (std::uint32_t half = kFloats / 2; half > 0; half /= 2) {
     for (std::uint32_t i = 0; i < half; ++i) rest[i] = rest[i] < rest[i + half] ? rest[i] : rest[i + half];
   }
@@ -95,7 +95,7 @@ float least_of(const float* numbers) {
 float largest_of(const float* numbers) {
   float opposite[kLanes];
   for (std::uint32_t first = 0; first < kLanes; first += kFloats)
-    store(opposite + first, -load<Floats>(numbers + first));
+    base::store_as(opposite + first, -base::load_as<Floats>(numbers + first));
   return -least_of(opposite);
 }
 
@@ -143,11 +143,11 @@ void load_boxes(const double* boxes, const std::uint32_t* members, std::uint32_t
     DoubleMask ordered = DoubleMask{} - 1;
     DoubleMask exact = DoubleMask{} - 1;
     for (int axis = 0; axis < 3; ++axis) {
-      const auto low = load<Doubles>(&lower[axis][first]);
-      const auto high = load<Doubles>(&upper[axis][first]);
+      const auto low = base::load_as<Doubles>(&lower[axis][first]);
+      const auto high = base::load_as<Doubles>(&upper[axis][first]);
       ordered &= low <= high;
-      store(&loaded.lower[axis][first], convert(low, frame.origin[axis], exact));
-      store(&loaded.upper[axis][first], convert(high, frame.origin[axis], exact));
+      base::store_as(&loaded.lower[axis][first], convert(low, frame.origin[axis], exact));
+      base::store_as(&loaded.upper[axis][first], convert(high, frame.origin[axis], exact));
     }
     loaded.ordered |= bits_of(ordered) << first;
     loaded.exact |= bits_of(exact) << first;
@@ -159,8 +159,8 @@ std::uint32_t lanes_inside(const Loaded& loaded, const FloatBox& region) {
   for (std::uint32_t first = 0; first < kLanes; first += kFloats) {
     FloatMask inside = FloatMask{} - 1;
     for (int axis = 0; axis < 3; ++axis) {
-      inside &= load<Floats>(&loaded.lower[axis][first]) >= region.lower[axis];
-      inside &= load<Floats>(&loaded.upper[axis][first]) <= region.upper[axis];
+      inside &= base::load_as<Floats>(&loaded.lower[axis][first]) >= region.lower[axis];
+      inside &= base::load_as<Floats>(&loaded.upper[axis][first]) <= region.upper[axis];
     }
     lanes |= bits_of(inside) << first;
   }
@@ -170,8 +170,8 @@ std::uint32_t lanes_inside(const Loaded& loaded, const FloatBox& region) {
 // In each of `lanes`, the new number if the lane is also one of `stays`, else `none`.
 void replace(float* numbers, const float* fresh, float none, std::uint32_t lanes, std::uint32_t stays) {
   for (std::uint32_t first = 0; first < kLanes; first += kFloats) {
-    const Floats kept = mask_of(stays >> first) ? load<Floats>(fresh + first) : Floats{} + none;
-    store(numbers + first, mask_of(lanes >> first) ? kept : load<Floats>(numbers + first));
+    const Floats kept = mask_of(stays >> first) ? base::load_as<Floats>(fresh + first) : Floats{} + none;
+    base::store_as(numbers + first, mask_of(lanes >> first) ? kept : base::load_as<Floats>(numbers + first));
   }
 }
 

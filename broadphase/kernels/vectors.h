@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -28,18 +27,6 @@ using Doubles = double __attribute__((vector_size(kDoubles * sizeof(double))));
 using FloatMask = decltype(Floats{} < Floats{});  // which integers these are differs between compilers
 using DoubleMask = decltype(Doubles{} < Doubles{});
 using HalfFloats = float __attribute__((vector_size(kDoubles * sizeof(float))));
-
-template <class Vector, class Number>
-static inline Vector load(const Number* numbers) {
-  Vector vector;
-  std::memcpy(&vector, numbers, sizeof vector);
-  return vector;
-}
-
-template <class Vector, class Number>
-static inline void store(Number* numbers, Vector vector) {
-  std::memcpy(numbers, &vector, sizeof vector);
-}
 
 // A bit for each element; elements are 0 or -1, as comparisons make them.
 static inline std::uint32_t bits_of(FloatMask mask) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "narrowphase/numeric/frame.h"
+#include "narrowphase/numeric/unit_roundoff.h"
 
 namespace tact::narrowphase {
 
@@ -33,8 +34,6 @@ namespace tact::narrowphase {
 //
 // - The disk holds the computed ends in real arithmetic.
 namespace {
-
-constexpr double kRoundoff = 0x1p-53;
 
 double height_along(Vec3 axis, double x, double y, double z) { return (axis.x * x + axis.y * y) + axis.z * z; }
 
@@ -152,7 +151,7 @@ ImpactZone impact_zone(const ClusteredMesh& mesh, const Slab& slab, std::vector<
   }
   if (scratch.empty()) return {};
   constexpr double kUnderflow = 16.0 * std::numeric_limits<double>::denorm_min();  // of coordinates below 1e-290
-  const double error = 1.5 * (slab.error + 16.0 * kRoundoff * reach(mesh.box(), slab.origin)) + kUnderflow;
+  const double error = 1.5 * (slab.error + 16.0 * kUnitRoundoff * reach(mesh.box(), slab.origin)) + kUnderflow;
   return {smallest_enclosing_disk(scratch), error};
 }
 

@@ -8,10 +8,9 @@
 #include "engine/base/tuning.h"
 #include "narrowphase/hull/support.h"
 #include "narrowphase/mesh/clustered_mesh.h"
+#include "narrowphase/numeric/unit_roundoff.h"
 
 namespace tact::narrowphase {
-
-inline constexpr double kUnitRoundoff = 0x1p-53;
 
 // A point of M that is the difference of a vertex of A and one of B.
 struct MinkowskiVertex {

@@ -41,7 +41,7 @@ std::string page_of_world(SharedWorld& shared, const std::string& title) {
   return text.str();
 }
 
-// As `tact view FILE` makes it, with contact points and curves if they are asked for besides those that were recorded.
+// The page that `tact view FILE` writes. Contact points and curves that were not recorded are found if they are wanted.
 std::string page_of_recording(const std::filesystem::path& path, int every, int from, std::optional<int> to,
                               bool few_points, bool points, bool curves) {
   const std::string name = path.string();
