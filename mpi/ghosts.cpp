@@ -14,7 +14,7 @@ namespace {
 // Steps for which the shape of a body is kept that is not near.
 constexpr std::uint64_t kKeptSteps = 64;
 
-enum class Kind : std::uint8_t {
+enum class EntryKind : std::uint8_t {
   gone,    ///< the body was removed
   sleep,   ///< it has no host here
   whole,   ///< shape and rest
@@ -27,16 +27,16 @@ bool is_kept(const Subscriber& one, std::uint64_t step) { return step - one.asle
 
 // What stands in a message after kind and key, skipped or read.
 struct Entry {
-  Kind kind;
+  EntryKind kind;
   std::uint64_t key;
   std::span<const std::byte> first, second;
 };
 
 Entry read_entry(ByteReader& reader) {
-  Entry entry{reader.get<Kind>(), reader.get<std::uint64_t>(), {}, {}};
-  if (entry.kind == Kind::whole || entry.kind == Kind::wake || entry.kind == Kind::update)
+  Entry entry{reader.get<EntryKind>(), reader.get<std::uint64_t>(), {}, {}};
+  if (entry.kind == EntryKind::whole || entry.kind == EntryKind::wake || entry.kind == EntryKind::update)
     entry.first = reader.get_bytes();
-  if (entry.kind == Kind::whole) entry.second = reader.get_bytes();
+  if (entry.kind == EntryKind::whole) entry.second = reader.get_bytes();
   return entry;
 }
 
@@ -66,7 +66,7 @@ void for_entries(std::span<const Message> messages, const Take& take) {
 
 void World::Implementation::write_whole(std::uint64_t key, const OwnBody& body, bool with_shape, ByteWriter& to) {
   const std::size_t before = to.bytes().size();
-  to.put(with_shape ? Kind::whole : Kind::wake, key);
+  to.put(with_shape ? EntryKind::whole : EntryKind::wake, key);
   to.put_all(parts.rest(body.id));
   if (with_shape) to.put_all(parts.shape(body.id));
   (with_shape ? stats.shape_bytes : stats.positions_bytes) += static_cast<std::int64_t>(to.bytes().size() - before);
@@ -100,7 +100,7 @@ void World::Implementation::write_update(std::uint64_t key, const OwnBody& body,
     update.put_all(parts.positions(body.id));
   }
   if (with_positions) stats.positions_bytes += static_cast<std::int64_t>(update.bytes().size());
-  to.put(Kind::update, key);
+  to.put(EntryKind::update, key);
   to.put_all(update.bytes());
 }
 
@@ -119,11 +119,11 @@ void World::Implementation::plan(std::uint64_t key, OwnBody& body, bool may_slee
       write_whole(key, body, !is_kept(one, step), to);
       one.is_awake = true;
     } else if (!is_wanted && may_sleep) {
-      to.put(Kind::sleep, key);
+      to.put(EntryKind::sleep, key);
       one.is_awake = false;
       one.asleep_since = step;
     } else {
-      if (!one.knows_owner) to.put(Kind::owner, key);
+      if (!one.knows_owner) to.put(EntryKind::owner, key);
       if (one.version != body.version) write_update(key, body, one, to);
     }
     one.knows_owner = true;
@@ -160,13 +160,13 @@ void World::Implementation::exclude_here(std::uint64_t key) {
 bool World::Implementation::take_leaving(std::span<const Message> messages) {
   bool any = false;
   for_entries(messages, [&](int owner, const Entry& entry) {
-    if (entry.kind != Kind::gone && entry.kind != Kind::sleep) return;
-    if (entry.kind == Kind::gone) held.shapes.erase(entry.key);
+    if (entry.kind != EntryKind::gone && entry.kind != EntryKind::sleep) return;
+    if (entry.kind == EntryKind::gone) held.shapes.erase(entry.key);
     const auto ghost = held.ghosts.find(entry.key);
     if (ghost == held.ghosts.end()) return;
     const BodyId id = ghost->second.id;
-    if (entry.kind == Kind::sleep) held.shapes[entry.key] = {parts.shape(id), step};
-    held.gone[id] = {entry.key, owner, entry.kind == Kind::gone};
+    if (entry.kind == EntryKind::sleep) held.shapes[entry.key] = {parts.shape(id), step};
+    held.gone[id] = {entry.key, owner, entry.kind == EntryKind::gone};
     parts.remove_copy(id);
     held.drop(id);
     held.ghosts.erase(ghost);
@@ -180,14 +180,15 @@ bool World::Implementation::take_coming(std::span<const Message> messages) {
   // An owner that is new, or was another in between, has nothing of what was found.
   std::set<std::uint64_t> renewed;
   for_entries(messages, [&](int, const Entry& entry) {
-    if (entry.kind == Kind::whole || entry.kind == Kind::wake || entry.kind == Kind::owner) renewed.insert(entry.key);
+    if (entry.kind == EntryKind::whole || entry.kind == EntryKind::wake || entry.kind == EntryKind::owner)
+      renewed.insert(entry.key);
   });
   for (auto& [keys, one] : sent) {
     if (renewed.contains(keys.first) || renewed.contains(keys.second)) one.by_this_rank = false;
   }
   for_entries(messages, [&](int rank, const Entry& entry) {
-    if (entry.kind != Kind::whole && entry.kind != Kind::wake) return;
-    if (entry.kind == Kind::whole) {
+    if (entry.kind != EntryKind::whole && entry.kind != EntryKind::wake) return;
+    if (entry.kind == EntryKind::whole) {
       put_ghost(entry.key, rank, entry.second, entry.first);
     } else {
       put_ghost(entry.key, rank, held.shapes.at(entry.key).bytes, entry.first);
@@ -205,10 +206,10 @@ void World::Implementation::take_updates(std::span<const Message> messages) {
   std::vector<std::pair<BodyId, std::size_t>> moved;
   std::vector<std::function<void()>> rest;
   for_entries(messages, [&](int rank, const Entry& entry) {
-    if (entry.kind != Kind::update && entry.kind != Kind::owner) return;
+    if (entry.kind != EntryKind::update && entry.kind != EntryKind::owner) return;
     Ghost& ghost = held.ghosts.at(entry.key);
     const BodyId id = ghost.id;
-    if (entry.kind == Kind::owner) {
+    if (entry.kind == EntryKind::owner) {
       ghost.owner = rank;
       return held.set_owner(id, rank);
     }
@@ -260,7 +261,7 @@ void World::Implementation::send_ghosts(bool may_sleep) {
   if (may_sleep) ++step;
   const auto messages = channel.exchange([&](Outbox& outbox) {
     for (const auto& [key, subscribers] : removed) {
-      for (const Subscriber& one : subscribers) outbox.to(one.rank).put(Kind::gone, key);
+      for (const Subscriber& one : subscribers) outbox.to(one.rank).put(EntryKind::gone, key);
     }
     for (auto& [key, body] : held.own) plan(key, body, may_sleep, outbox);
   });

@@ -13,7 +13,7 @@ namespace tact::mpi {
 
 namespace {
 
-enum class Kind : std::uint8_t { contact, no_contact, began, ended, patch };
+enum class ResultKind : std::uint8_t { contact, no_contact, began, ended, patch };
 
 KeyPair keys_of(const BodyPair& bodies) { return {bodies.key_a, bodies.key_b}; }
 
@@ -32,14 +32,14 @@ BodyPair get_bodies(ByteReader& reader) {
   return bodies;
 }
 
-void put(ByteWriter& to, Kind kind, const BodyPair& bodies, bool counted = false) {
+void put(ByteWriter& to, ResultKind kind, const BodyPair& bodies, bool counted = false) {
   to.put(kind);
   put(to, bodies, counted);
 }
 
 void put_patch(ByteWriter& to, const BodyPair& bodies, tact::PatchEvent::Kind kind, std::uint64_t patch,
                std::uint64_t other, bool counted = false) {
-  put(to, Kind::patch, bodies, counted);
+  put(to, ResultKind::patch, bodies, counted);
   to.put(kind, patch, other);
 }
 
@@ -123,17 +123,17 @@ void World::Implementation::send_results(const tact::Report& found, Outbox& outb
     const auto last = sent.find(keys_of(bodies));
     const bool is_known = last != sent.end() && last->second.to == to && last->second.by_this_rank;
     if (is_known && !sends_all && !parts.moved(contact.a) && !parts.moved(contact.b)) continue;
-    put(outbox.to(to), Kind::contact, bodies);
+    put(outbox.to(to), ResultKind::contact, bodies);
     outbox.to(to).put_all(WorldParts::contact_bytes(contact));
   }
   for (const auto& [keys, one] : sent) {
-    if (!next_sent.contains(keys)) put(outbox.to(one.to), Kind::no_contact, {keys.first, keys.second});
+    if (!next_sent.contains(keys)) put(outbox.to(one.to), ResultKind::no_contact, {keys.first, keys.second});
   }
-  const auto put_event = [&](const tact::ContactEvent& event, Kind kind) {
+  const auto put_event = [&](const tact::ContactEvent& event, ResultKind kind) {
     if (const int to = guest_owner(event.a, event.b); to >= 0) put(outbox.to(to), kind, named(event.a, event.b));
   };
-  for (const tact::ContactEvent& event : found.began()) put_event(event, Kind::began);
-  for (const tact::ContactEvent& event : found.ended()) put_event(event, Kind::ended);
+  for (const tact::ContactEvent& event : found.began()) put_event(event, ResultKind::began);
+  for (const tact::ContactEvent& event : found.ended()) put_event(event, ResultKind::ended);
   for (const tact::PatchEvent& event : found.patch_events()) {
     if (const int to = guest_owner(event.a, event.b); to >= 0)
       put_patch(outbox.to(to), named(event.a, event.b), event.kind, event.patch, event.other);
@@ -143,8 +143,8 @@ void World::Implementation::send_results(const tact::Report& found, Outbox& outb
     for (const int to : std::set{bodies.rank_a, bodies.rank_b}) {
       if (to < 0 || to == channel.rank()) continue;
       const bool counts = !bodies.counted && to == (bodies.rank_a >= 0 ? bodies.rank_a : bodies.rank_b);
-      put(outbox.to(to), Kind::no_contact, bodies);
-      if (pair.touched) put(outbox.to(to), Kind::ended, bodies, counts);
+      put(outbox.to(to), ResultKind::no_contact, bodies);
+      if (pair.touched) put(outbox.to(to), ResultKind::ended, bodies, counts);
       for (const std::uint64_t patch : pair.patches)
         put_patch(outbox.to(to), bodies, tact::PatchEvent::Kind::ended, patch, 0, counts);
     }
@@ -156,14 +156,14 @@ void World::Implementation::take_results(std::span<const Message> messages) {
   std::vector<std::pair<BodyPair, std::span<const std::byte>>> contacts;
   for (const Message& message : messages) {
     for (ByteReader reader(message.bytes); !reader.at_end();) {
-      const auto kind = reader.get<Kind>();
+      const auto kind = reader.get<ResultKind>();
       const BodyPair bodies = get_bodies(reader);
       switch (kind) {
-        case Kind::contact: contacts.push_back({bodies, reader.get_bytes()}); break;
-        case Kind::no_contact: far.erase(keys_of(bodies)); break;
-        case Kind::began: ReportBuilder::began(next_report).push_back({bodies}); break;
-        case Kind::ended: ReportBuilder::ended(next_report).push_back({bodies}); break;
-        case Kind::patch: {
+        case ResultKind::contact: contacts.push_back({bodies, reader.get_bytes()}); break;
+        case ResultKind::no_contact: far.erase(keys_of(bodies)); break;
+        case ResultKind::began: ReportBuilder::began(next_report).push_back({bodies}); break;
+        case ResultKind::ended: ReportBuilder::ended(next_report).push_back({bodies}); break;
+        case ResultKind::patch: {
           const auto what = reader.get<tact::PatchEvent::Kind>();
           const auto patch = reader.get<std::uint64_t>(), other = reader.get<std::uint64_t>();
           ReportBuilder::patch_events(next_report).push_back({bodies, what, patch, other});

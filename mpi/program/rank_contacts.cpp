@@ -12,7 +12,7 @@
 namespace tact::mpi::program {
 namespace {
 
-constexpr std::size_t kBodiesAtATime = 4;
+constexpr std::size_t kPlacedAtATime = 4;
 // What is too near is taken back half of its way so often, then all of it: there it was not too near. As others are
 // taken back, too, that ends.
 constexpr int kHalves = 3;
@@ -168,7 +168,7 @@ void RankContacts::share_partners(const std::vector<Body>& bodies) {
 
 void RankContacts::share_places(const std::vector<Body>& bodies, const std::vector<std::vector<Vec3>>& before,
                                 Known known) {
-  base::parallel_for(bodies.size(), kBodiesAtATime, threads_, [&](std::size_t body) {
+  base::parallel_for(bodies.size(), kPlacedAtATime, threads_, [&](std::size_t body) {
     const Body& b = bodies[body];
     const std::vector<Vec3>& then = b.movable() ? before[body] : b.positions;
     for (const OwnSide& side : sides_of(body)) {
@@ -206,7 +206,7 @@ void RankContacts::push(std::vector<Body>& bodies, const std::vector<std::vector
   }
   for (int k = 0; k < settings.most_sweeps; ++k) {
     share_places(bodies, before, k == 0 ? Known::nothing : Known::before);
-    base::parallel_for(bodies.size(), kBodiesAtATime, threads_, [&](std::size_t body) {
+    base::parallel_for(bodies.size(), kPlacedAtATime, threads_, [&](std::size_t body) {
       if (bodies[body].movable()) push_body(body, bodies[body], k == 0 ? 0.0 : settings.spare);
     });
   }
@@ -258,7 +258,7 @@ void RankContacts::retreat(std::vector<Body>& bodies, const std::vector<std::vec
     share_places(bodies, before, Known::before);
     const double kept = k < kHalves ? 0.5 : 0.0;
     std::atomic<int> any = 0;
-    base::parallel_for(bodies.size(), kBodiesAtATime, threads_, [&](std::size_t body) {
+    base::parallel_for(bodies.size(), kPlacedAtATime, threads_, [&](std::size_t body) {
       if (bodies[body].movable() && take_back_body(body, bodies[body], before[body], settings, kept)) any = 1;
     });
     int of_all = any;
