@@ -79,8 +79,8 @@ void World::Implementation::write_update(std::uint64_t key, const OwnBody& body,
   const broadphase::Filter filter = parts.filter(body.id);
   update.put(filter.layer, filter.mask, filter.group, filter.fixed, local.margin(body.id));
   const std::optional<double> rest_offset = parts.rest_offset(body.id);
-  update.put(rest_offset.has_value(), rest_offset.value_or(0.0), parts.on_its_way(body.id), body.is_rigid,
-             with_features);
+  update.put(rest_offset.has_value(), rest_offset.value_or(0.0), parts.moved(body.id), parts.on_its_way(body.id),
+             body.is_rigid, with_features);
   if (with_features) {
     const FeatureSettings features = local.feature_settings(body.id);
     update.put_all(features.rest_offsets);
@@ -220,7 +220,8 @@ void World::Implementation::take_updates(std::span<const Message> messages) {
     const auto margin = reader.get<double>();
     const auto has_rest_offset = reader.get<bool>();
     const auto rest_offset = reader.get<double>();
-    const auto is_on_its_way = reader.get<bool>(), is_rigid = reader.get<bool>(), has_features = reader.get<bool>();
+    const auto is_moved = reader.get<bool>(), is_on_its_way = reader.get<bool>(), is_rigid = reader.get<bool>();
+    const auto has_features = reader.get<bool>();
     FeaturesOfGhost features;
     if (has_features) features.read(reader);
     const auto has_positions = reader.get<bool>();
@@ -239,6 +240,9 @@ void World::Implementation::take_updates(std::span<const Message> messages) {
       positions.push_back(reader.get_all<double>());
     }
     rest.push_back([=, this] {
+      // Of a body that has not moved since the last step no more than its labels is new.
+      if (!is_moved && has_features) local.set_feature_settings(id, features.view());
+      if (!is_moved) return;
       local.set_layers(id, layer, mask);
       local.set_group(id, group);
       if (has_features) local.set_feature_settings(id, {});

@@ -5,12 +5,14 @@
 #include <tact/mpi/report.h>
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <initializer_list>
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/base/hash.h"
 
@@ -115,6 +117,23 @@ inline Sums sums_of(const mpi::Report& report, bool counted, bool of_two_ranks) 
 inline Sums over_all_ranks(Sums sums) {
   MPI_Allreduce(MPI_IN_PLACE, sums.of, Sums::kinds, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
   return sums;
+}
+
+// What each rank holds, on all of them.
+template <class Item>
+std::vector<std::vector<Item>> of_each_rank(const std::vector<Item>& own) {
+  int size = static_cast<int>(own.size() * sizeof(Item)), sum = 0;
+  std::vector<int> sizes(count_of_ranks()), begins;
+  MPI_Allgather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  for (const int one : sizes) begins.push_back(std::exchange(sum, sum + one));
+  std::vector<Item> items(sum / sizeof(Item));
+  MPI_Allgatherv(own.data(), size, MPI_BYTE, items.data(), sizes.data(), begins.data(), MPI_BYTE, MPI_COMM_WORLD);
+  std::vector<std::vector<Item>> all;
+  for (int i = 0; i < count_of_ranks(); ++i) {
+    const auto begin = items.begin() + static_cast<std::ptrdiff_t>(begins[i] / sizeof(Item));
+    all.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(sizes[i] / sizeof(Item)));
+  }
+  return all;
 }
 
 inline void expect_same(const Sums& found, const Sums& expected, const std::string& where) {

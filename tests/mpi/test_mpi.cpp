@@ -440,7 +440,14 @@ void rest(Size size) {
     if (owner(i) == rank_of_all()) world.add_body(definition_of(mesh, key_of(i), 0.05));
   }
   world.rebalance();
-  world.detect();
+  constexpr Key kAlone = 1;
+  const auto alone_at = [&](double x) { return translated(blob_at(0, 0, across), {x, 0.0, 0.0}); };
+  if (rank_of_all() == 0) world.add_body(definition_of(alone_at(-90.0), kAlone, 0.05));
+  const std::uint64_t first_hash = world.detect().hash_sum();
+  if (rank_of_all() == 0) world.set_positions(kAlone, alone_at(-91.0).positions);
+  const std::vector<std::uint32_t> labels(static_cast<std::size_t>(blob_at(0, 0, across).vertex_count()), 7);
+  for (const Key key : world.bodies()) world.set_feature_settings(key, {.vertex_labels = labels});
+  expect(world.detect().hash_sum() == first_hash, "by labels contacts changed");
   const std::uint64_t hash = world.detect().hash_sum();
   const mpi::Statistics& stats = world.detect().stats();
   expect(stats.positions_bytes == 0 && stats.bytes == 0 && stats.messages == 0, "bytes were sent at rest");
