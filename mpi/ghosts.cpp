@@ -1,10 +1,12 @@
 // Copies of bodies at the ranks of their hosts. A whole body goes once, then its positions when they change; a copy
 // that has no host any more sleeps: its shape is kept for a while, for when it comes back.
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "mpi/mesh_bytes.h"
 #include "mpi/world_implementation.h"
 
 namespace tact::mpi {
@@ -66,8 +68,11 @@ void for_entries(std::span<const Message> messages, const Take& take) {
 
 void World::Implementation::write_whole(std::uint64_t key, const OwnBody& body, bool with_shape, ByteWriter& to) {
   const std::size_t before = to.bytes().size();
+  ByteWriter rest;
+  rest.put(held.at(body.id).order.vertices);
+  rest.put_all(parts.rest(body.id));
   to.put(with_shape ? EntryKind::whole : EntryKind::wake, key);
-  to.put_all(parts.rest(body.id));
+  to.put_all(rest.bytes());
   if (with_shape) to.put_all(parts.shape(body.id));
   (with_shape ? stats.shape_bytes : stats.positions_bytes) += static_cast<std::int64_t>(to.bytes().size() - before);
 }
@@ -89,6 +94,8 @@ void World::Implementation::write_update(std::uint64_t key, const OwnBody& body,
     update.put_all(features.vertex_layers);
     update.put_all(features.vertex_masks);
   }
+  update.put(std::uint64_t{body.meshes.size()});
+  for (const Bytes& mesh : body.meshes) update.put_all(mesh);
   update.put(with_positions);
   if (with_positions && body.is_rigid) {
     const tact::PoseUpdate pose = parts.pose(body.id);
@@ -116,9 +123,9 @@ void World::Implementation::plan(std::uint64_t key, OwnBody& body, bool may_slee
     }
     ByteWriter& to = outbox.to(one.rank);
     if (!one.is_awake) {
-      write_whole(key, body, !is_kept(one, step), to);
+      write_whole(key, body, !is_kept(one, step) || one.version < body.shape, to);
       one.is_awake = true;
-    } else if (!is_wanted && may_sleep) {
+    } else if (!is_wanted && may_sleep && body.meshes.empty()) {
       to.put(EntryKind::sleep, key);
       one.is_awake = false;
       one.asleep_since = step;
@@ -143,9 +150,11 @@ void World::Implementation::plan(std::uint64_t key, OwnBody& body, bool may_slee
 void World::Implementation::put_ghost(std::uint64_t key, int owner, std::span<const std::byte> shape,
                                       std::span<const std::byte> rest) {
   if (held.find(key).generation != 0) throw Error(ErrorCode::bad_state, "a rank got a body that it has");
-  const BodyId id = parts.put(shape, rest, true);
+  ByteReader reader(rest);
+  const auto vertices = reader.get<std::int64_t>();
+  const BodyId id = parts.put(shape, reader.get_bytes(), true);
   held.ghosts[key] = {id, owner};
-  held.hold(id, {Held::Role::ghost, owner, order_of(id, key)});
+  held.hold(id, {Held::Role::ghost, owner, {vertices, key}});
   exclude_here(key);
 }
 
@@ -224,6 +233,8 @@ void World::Implementation::take_updates(std::span<const Message> messages) {
     const auto has_features = reader.get<bool>();
     FeaturesOfGhost features;
     if (has_features) features.read(reader);
+    for (auto count = reader.get<std::uint64_t>(); count > 0; --count)
+      local.set_facets(id, MeshOfBytes(reader.get_bytes()).update());
     const auto has_positions = reader.get<bool>();
     const Motion motion = is_rigid ? Motion::rigid : Motion::deformable;
     if (has_positions) local.set_motion(id, motion);
@@ -270,7 +281,10 @@ void World::Implementation::send_ghosts(bool may_sleep) {
     for (auto& [key, body] : held.own) plan(key, body, may_sleep, outbox);
   });
   removed.clear();
-  for (auto& [key, body] : held.own) std::swap(body.subscribers, body.next_subscribers);
+  for (auto& [key, body] : held.own) {
+    std::swap(body.subscribers, body.next_subscribers);
+    body.meshes.clear();
+  }
   const std::exception_ptr failure = Channel::failure_of([&] {
     const bool any_left = take_leaving(messages), any_came = take_coming(messages);
     take_updates(messages);
@@ -287,6 +301,14 @@ void World::Implementation::send_ghosts(bool may_sleep) {
   }
   stats.ghosts = static_cast<std::int64_t>(held.ghosts.size());
   if (may_sleep && std::exchange(owners_changed, false)) find_owners_of_ended();
+}
+
+// Before bodies move or are saved, all copies get the facets of their bodies: what is kept of a pair goes by them.
+void World::Implementation::send_meshes() {
+  const auto has_changes = [](const auto& own) { return !own.second.meshes.empty(); };
+  std::array<std::uint64_t, 1> any{std::ranges::any_of(held.own, has_changes)};
+  channel.largest(any);
+  if (any[0] != 0) send_ghosts(false);
 }
 
 // What is kept of pairs whose guest is here now; the others have ended.

@@ -19,7 +19,8 @@
 namespace tact::mpi {
 
 /// What decides which of two bodies is the host: the larger one, so that the smaller one travels. Of equal ones, by a
-/// hash of the keys, so that neighbouring ranks share the pairs between them.
+/// hash of the keys, so that neighbouring ranks share the pairs between them. It goes with the body and stays as it was
+/// when the body was added: what is kept of a pair stays with its host.
 struct HostOrder {
   std::int64_t vertices = 0;
   std::uint64_t key = 0;
@@ -42,10 +43,12 @@ struct Subscriber {
 
 struct OwnBody {
   BodyId id;
-  bool is_rigid = false;        ///< takes poses
-  std::uint64_t version = 1;    ///< counts changes
-  std::uint64_t positions = 1;  ///< those of positions and poses
-  std::uint64_t features = 1;   ///< those of settings of vertices and facets
+  bool is_rigid = false;           ///< takes poses
+  std::uint64_t version = 1;       ///< counts changes
+  std::uint64_t positions = 1;     ///< those of positions and poses
+  std::uint64_t features = 1;      ///< those of settings of vertices and facets
+  std::uint64_t shape = 1;         ///< those of facets
+  std::vector<Bytes> meshes = {};  ///< the changes of facets that its copies do not have, in order
   std::vector<Subscriber> subscribers = {};
   std::vector<Subscriber> next_subscribers = {};  ///< once the messages have arrived
   std::vector<int> wanted = {};                   ///< ranks that have a host near it, ascending

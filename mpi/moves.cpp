@@ -47,6 +47,7 @@ void World::Implementation::rebalance() {
 
 void World::Implementation::move(Goals goals) {
   std::erase_if(goals, [&](const auto& goal) { return goal.second == channel.rank(); });
+  send_meshes();
   Leaving leaving;
   channel.together([&] { leaving = pack(goals); });
   std::vector<Parcel> parcels;
@@ -103,7 +104,7 @@ Bytes World::Implementation::pack(std::uint64_t key, int to, std::span<const Sav
   const OwnBody& body = at(key);
   ByteWriter writer;
   pack_body(key, pairs, writer);
-  writer.put(body.version, body.positions, body.features);
+  writer.put(body.version, body.positions, body.features, body.shape);
   const auto stays = [&](const Subscriber& one) { return one.rank != to; };
   writer.put(static_cast<std::uint64_t>(std::ranges::count_if(body.subscribers, stays)));
   for (const Subscriber& one : body.subscribers) {
@@ -124,7 +125,7 @@ void World::Implementation::pack_body(std::uint64_t key, std::span<const SavedPa
   to.put_all(parts.shape(body.id));
   to.put_all(parts.rest(body.id));
   to.put_all(parts.self_of(body.id));
-  to.put(body.is_rigid, body.work);
+  to.put(held.at(body.id).order.vertices, body.is_rigid, body.work);
   to.put_all(HeldBodies::seconds(held.excluded, key));
   to.put(std::uint64_t{pairs.size()});
   for (const SavedPair& pair : pairs) put(pair, to);
@@ -156,6 +157,7 @@ void World::Implementation::unpack(const Parcel& parcel, std::vector<Arrival>& a
   arrival.body.version = reader.get<std::uint64_t>();
   arrival.body.positions = reader.get<std::uint64_t>();
   arrival.body.features = reader.get<std::uint64_t>();
+  arrival.body.shape = reader.get<std::uint64_t>();
   for (auto count = reader.get<std::uint64_t>(); count > 0; --count) {
     Subscriber& one = arrival.body.subscribers.emplace_back();
     one.rank = reader.get<int>();
@@ -182,7 +184,7 @@ World::Implementation::Arrival& World::Implementation::unpack_body(std::uint64_t
   Arrival& arrival = arrivals.emplace_back();
   arrival.key = key;
   arrival.body.id = id;
-  held.hold(id, {Held::Role::own, channel.rank(), order_of(id, key)});
+  held.hold(id, {Held::Role::own, channel.rank(), {reader.get<std::int64_t>(), key}});
   parts.put_self(id, self);
   arrival.body.is_rigid = reader.get<bool>();
   arrival.body.work = reader.get<std::int64_t>();

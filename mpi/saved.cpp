@@ -12,7 +12,7 @@ namespace tact::mpi {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x6b6e617274636174;  // "tactrank"
-constexpr std::uint64_t kVersion = 1;                 // of the bytes, and of all that they hold
+constexpr std::uint64_t kVersion = 2;                 // of the bytes, and of all that they hold
 
 [[noreturn]] void refuse(const char* what) { throw Error(ErrorCode::bad_state, what); }
 
@@ -82,6 +82,7 @@ Bytes World::Implementation::content_of_share() {
 
 std::vector<std::byte> World::save() const {
   Implementation& i = implementation();
+  i.send_meshes();
   Bytes content;
   Head head{.shares = static_cast<std::uint64_t>(i.channel.size())};
   const std::exception_ptr failure = Channel::failure_of([&] {
@@ -142,7 +143,7 @@ void World::Implementation::take_common(std::span<const std::byte> bytes) {
     const auto key = reader.get<std::uint64_t>();
     const auto shape = reader.get_bytes(), rest = reader.get_bytes();
     const BodyId id = parts.put(shape, rest, false);
-    held.hold(id, {Held::Role::shared, channel.rank(), order_of(id, key)});
+    held.hold(id, {Held::Role::shared, channel.rank(), order_of_new(id, key)});
     held.shared[key] = id;
   }
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/hash.h"
+#include "mpi/mesh_bytes.h"
 #include "mpi/world_implementation.h"
 
 namespace tact::mpi {
@@ -119,14 +120,14 @@ void World::Implementation::forget_ghost(std::uint64_t key) {
   held.ghosts.erase(ghost);
 }
 
-HostOrder World::Implementation::order_of(BodyId id, std::uint64_t key) const {
+HostOrder World::Implementation::order_of_new(BodyId id, std::uint64_t key) const {
   return {static_cast<std::int64_t>(local.vertex_count(id)), key};
 }
 
 // Its slot may be another on each rank: what is kept of a pair with it must not go by that.
 void World::Implementation::hold_shared(BodyId id, std::uint64_t key, std::uint64_t hash) {
   parts.set_birth(id, hash);
-  held.hold(id, {Held::Role::shared, channel.rank(), order_of(id, key)});
+  held.hold(id, {Held::Role::shared, channel.rank(), order_of_new(id, key)});
   held.shared[key] = id;
   shared_hash += hash;
 }
@@ -173,7 +174,7 @@ void World::add_body(const BodyDefinition& definition, Holders holders) {
   i.forget_ghost(key);
   const BodyId id = i.local.add_body(definition);
   if (is_shared) return i.hold_shared(id, key, hash);
-  i.held.hold(id, {Held::Role::own, i.channel.rank(), i.order_of(id, key)});
+  i.held.hold(id, {Held::Role::own, i.channel.rank(), i.order_of_new(id, key)});
   i.held.own[key] = {.id = id, .is_rigid = definition.motion == Motion::rigid};
   i.new_keys.push_back(key);
 }
@@ -232,6 +233,23 @@ void World::set_positions(std::span<const PositionsUpdate> updates) {
   for (const PositionsUpdate& update : updates) by_id.push_back({i.at(update.key).id, update.positions});
   i.local.set_positions(by_id);
   for (const PositionsUpdate& update : updates) i.note_change(i.at(update.key), true);
+}
+
+void World::set_facets(std::uint64_t key, const MeshUpdate& update) {
+  Implementation& i = implementation();
+  OwnBody& body = i.at(key);
+  // What is kept of pairs that wait for their guests goes by the vertices of before.
+  if (i.owners_changed)
+    refuse(ErrorCode::wrong_order, key_text(key) + ": bodies have other owners: facets change after the next detect()");
+  body.meshes.push_back(bytes_of(update));
+  try {
+    i.local.set_facets(body.id, update);
+  } catch (...) {
+    body.meshes.pop_back();
+    throw;
+  }
+  i.note_change(body, false);
+  body.shape = body.version;
 }
 
 void World::set_pose(std::uint64_t key, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {

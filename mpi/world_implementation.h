@@ -114,7 +114,7 @@ struct World::Implementation {
 
   // world.cpp
   OwnBody& at(std::uint64_t key);
-  HostOrder order_of(BodyId id, std::uint64_t key) const;
+  HostOrder order_of_new(BodyId id, std::uint64_t key) const;
   void hold_shared(BodyId id, std::uint64_t key, std::uint64_t hash);
   void note_change(OwnBody& body, bool has_moved);
   void forget_ghost(std::uint64_t key);
@@ -145,6 +145,7 @@ struct World::Implementation {
   bool take_coming(std::span<const Message> messages);
   void take_updates(std::span<const Message> messages);
   void put_ghost(std::uint64_t key, int owner, std::span<const std::byte> shape, std::span<const std::byte> rest);
+  void send_meshes();
   void exclude_here(std::uint64_t key);
   void place_waiting();
   void find_owners_of_ended();

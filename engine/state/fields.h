@@ -319,7 +319,7 @@ struct StateFields {
       if constexpr (Archive::kReads) patches = std::make_unique<PatchMemory>();
       visit_patches(archive, record, *patches);
     }
-    visit_curves(archive, curves);
+    visit_curves(archive, record);
   }
 
   // By others: body. Of the step before: last_points, as of a pair. Dropped: the cluster pairs and the crossing.
@@ -328,10 +328,14 @@ struct StateFields {
     auto& [body, facet_pairs, points, last_points, within_reach, may_meet, may_contact, crossing, patches, curves,
            touching, point_limit_reached, bare_pairs, is_renumbered] = record;
     visit_points(archive, record);
-    archive(bare_pairs);
+    if constexpr (Archive::kReads) {
+      archive(bare_pairs);
+    } else {
+      archive(is_renumbered ? std::vector<FacetPair>() : bare_pairs);
+    }
     visit_patches(archive, record, patches);
     archive(touching, point_limit_reached);
-    visit_curves(archive, curves);
+    visit_curves(archive, record);
   }
 
   // One body that there is; and into a slot that holds none. Errors: bad_state, and those of World::add_body().
@@ -395,11 +399,11 @@ struct StateFields {
     }
   }
 
-  template <class Archive, class Curves>
-  static void visit_curves(Archive& archive, Curves& curves) {
-    bool has_curves = curves != nullptr;
+  template <class Archive, class Record>
+  static void visit_curves(Archive& archive, Record& record) {
+    bool has_curves = record.curves != nullptr && (Archive::kReads || !record.is_renumbered);
     archive(has_curves);
-    if (has_curves) archive.pointee(curves);
+    if (has_curves) archive.pointee(record.curves);
   }
 };
 

@@ -172,8 +172,39 @@ BodyDefinition some_body(int i, int step, int across) {
   return definition;
 }
 
-using There = std::map<int, bool>;
+// How many vertices a body has more than its blob; a body that is not there is not among them.
+using There = std::map<int, int>;
 using BeforeDetect = std::function<void(Both& both, int step, There& there)>;
+
+Eigen::Matrix3Xd positions_of(const Mesh& blob, int more) {
+  Eigen::Matrix3Xd positions(3, blob.positions.cols() + more);
+  positions << blob.positions, blob.positions.leftCols(more);
+  return positions;
+}
+
+// Some facets of a body go and others come again; half of those at a vertex get one of their own.
+void cut(Both& both, int i, int step, int across, int& more) {
+  const auto n = static_cast<std::uint64_t>(i), t = static_cast<std::uint64_t>(step);
+  const Mesh blob = blob_at(i, step, across);
+  const int vertices = static_cast<int>(blob.vertex_count()), next = drawn(29, n, t, 3), without = drawn(30, n, t, 11);
+  std::vector<int> facets, vertex_map;
+  for (int f = 0; f < static_cast<int>(blob.facet_count()); ++f) {
+    if (f % 11 == without) continue;
+    for (int k = 0; k < 3; ++k) {
+      const int v = blob.facets(k, f);
+      facets.push_back(v < next && f % 2 == 1 ? vertices + v : v);
+    }
+  }
+  for (int v = 0; v < vertices + next; ++v) vertex_map.push_back(v < vertices + more ? v : v - vertices);
+  vertex_map[7] = -1;
+  const Eigen::Matrix3Xd positions = positions_of(blob, next);
+  both.on_owner(key_of(i), [&](auto& world, auto body) {
+    world.set_facets(body, {.positions = positions,
+                            .facets = Facets::strided(facets.data(), facets.size() / 3),
+                            .vertex_map = vertex_map});
+  });
+  more = next;
+}
 
 // Bodies come, go and change hands; margins, layers, groups and exclusions change.
 void run_churn(const std::string& name, Size size, const BeforeDetect& before) {
@@ -185,7 +216,7 @@ void run_churn(const std::string& name, Size size, const BeforeDetect& before) {
   const auto add = [&](int i, int step) {
     const BodyDefinition definition = some_body(i, step, across);
     both.add(definition, drawn(3, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(step), count_of_ranks()));
-    there[i] = true;
+    there[i] = 0;
   };
   for (int i = 0; i < size.bodies; i += 2) add(i, 0);
   both.add_plane({.offset = 0.3, .key = 2, .margin = 0.05});
@@ -193,24 +224,24 @@ void run_churn(const std::string& name, Size size, const BeforeDetect& before) {
     const auto t = static_cast<std::uint64_t>(step);
     for (std::uint64_t k = 0; k < 3; ++k) {
       const int i = drawn(10 + k, t, 0, size.bodies);
-      if (there[i]) {
-        both.remove(key_of(i));
-        there[i] = false;
-      }
+      if (there.erase(i) > 0) both.remove(key_of(i));
       const int new_one = drawn(20 + k, t, 0, size.bodies);
-      if (!there[new_one]) add(new_one, step);
+      if (!there.contains(new_one)) add(new_one, step);
+    }
+    for (auto& [i, more] : there) {
+      const bool has_facets = i % 8 != 3 && i % 8 != 5;
+      if (has_facets && drawn(28, static_cast<std::uint64_t>(i), t, 12) == 0) cut(both, i, step, across, more);
     }
     for (const Key key : both.many.bodies()) {
       if (drawn(7, key, t, 5) == 0) both.many.set_owner(key, drawn(8, key, t, count_of_ranks()));
     }
     if (step % 3 == 1) both.many.move_bodies();
     if (step % 10 == 9) both.many.rebalance();
-    for (const auto& [i, is_there] : there) {
+    for (const auto& [i, more] : there) {
       const auto n = static_cast<std::uint64_t>(i);
-      if (!is_there) continue;
-      both.on_owner(key_of(i), [&, i = i](auto& world, auto body) {
-        const Mesh mesh = blob_at(i, step, across);
-        if (drawn(11, n, t, 4) != 0) world.set_positions(body, mesh.positions);
+      both.on_owner(key_of(i), [&, i = i, more = more](auto& world, auto body) {
+        const Eigen::Matrix3Xd positions = positions_of(blob_at(i, step, across), more);
+        if (drawn(11, n, t, 4) != 0) world.set_positions(body, positions);
         if (drawn(12, n, t, 9) == 0) world.set_margin(body, 0.02 * drawn(13, n, t, 4));
         if (drawn(14, n, t, 20) == 0) world.set_group(body, static_cast<std::uint32_t>(drawn(15, n, t, 3)));
         if (drawn(16, n, t, 20) == 0) world.set_layers(body, 1u << drawn(17, n, t, 2), 3u);
@@ -218,13 +249,13 @@ void run_churn(const std::string& name, Size size, const BeforeDetect& before) {
         if (drawn(24, n, t, 12) == 0)
           world.set_rest_offset(body, drawn(25, n, t, 2) == 0 ? std::optional(0.0) : std::nullopt);
         if (drawn(26, n, t, 20) == 0) {
-          std::vector<std::uint32_t> masks(static_cast<std::size_t>(mesh.vertex_count()), ~0u);
+          std::vector<std::uint32_t> masks(static_cast<std::size_t>(positions.cols()), ~0u);
           for (std::size_t v = 0; v < masks.size(); v += 3) masks[v] = static_cast<std::uint32_t>(drawn(27, n, t, 4));
           world.set_feature_settings(body, {.vertex_labels = masks, .vertex_masks = masks});
         }
       });
       const int other = drawn(21, n, t, size.bodies);
-      if (drawn(22, n, t, 6) == 0 && other != i && there[other])
+      if (drawn(22, n, t, 6) == 0 && other != i && there.contains(other))
         both.exclude(key_of(i), key_of(other), drawn(23, n, t, 3) != 0);
     }
     before(both, step, there);
@@ -410,6 +441,10 @@ void wrong_use(Size) {
   expect_on_all(caught([&] { world.restore(one); }), "bad_state: a share is damaged: its checksum is another");
   world.restore(std::span(twice).first(1));
   expect(world.owns(5 + static_cast<Key>(rank_of_all())) && world.body_count() == 1, "a body did not come back");
+  const std::vector<int> vertices(static_cast<std::size_t>(mesh.vertex_count()), 0);
+  const MeshUpdate update{.positions = mesh.positions, .facets = mesh.facets, .vertex_map = vertices};
+  const std::string found_on_the_way = caught([&] { world.set_facets(5 + static_cast<Key>(rank_of_all()), update); });
+  expect(found_on_the_way.starts_with("wrong_order"), "facets changed on the way");
   world.detect();
   expect(caught([&] { world.set_margin(4, 1.0); }).starts_with("stale_body"), "a body that is nowhere was set");
   if (count_of_ranks() == 1) return;

@@ -176,6 +176,15 @@ void define_bodies(WorldClass& world) {
           py::arg("key"), py::arg("positions"), "positions: (V, 3) in metres")
       .def("set_positions", set_many_positions, py::arg("positions"),
            "{key: (V, 3) in metres}: all of them or, after an error, none")
+      .def(
+          "set_facets",
+          [](RankWorld& w, std::uint64_t key, py::handle positions, py::handle facets, py::handle vertex_map,
+             py::handle edges, py::handle points, py::handle facet_map) {
+            w.use().set_facets(key, MeshArguments(positions, facets, vertex_map, edges, points, facet_map).update());
+          },
+          py::arg("key"), py::arg("positions"), py::arg("facets"), py::arg("vertex_map"), py::kw_only(),
+          py::arg("edges") = py::list(), py::arg("points") = py::list(), py::arg("facet_map") = py::list(),
+          "gives a body other vertices and facets, as World.set_facets() does")
       .def("set_pose", set_pose, py::arg("key"), py::arg("rotation"), py::arg("translation"),
            "places a rigid body: (3, 3), and (3,) metres")
       .def("set_poses", set_poses, py::arg("poses"), "places many rigid bodies in parallel, all or none")

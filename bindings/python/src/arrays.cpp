@@ -233,6 +233,27 @@ EdgesArgument::EdgesArgument(py::handle given) : array_(checked_rows(given, "edg
 
 Edges EdgesArgument::columns() const { return columns_of<int, 2>(array_, NumberKind::int32); }
 
+MeshArguments::MeshArguments(py::handle positions, py::handle facets, py::handle vertex_map, py::handle edges,
+                             py::handle points, py::handle facet_map)
+    : positions_(positions),
+      facets_(facets),
+      edges_(edges),
+      points_(indices_argument(points, "points")),
+      vertex_map_(indices_argument(vertex_map, "vertex_map")),
+      facet_map_(indices_argument(facet_map, "facet_map")) {}
+
+MeshUpdate MeshArguments::update() const {
+  const auto all_of = [](const py::array_t<int>& array) {
+    return std::span<const int>(array.data(), static_cast<std::size_t>(array.size()));
+  };
+  return {.positions = positions_.columns(),
+          .facets = facets_.columns(),
+          .edges = edges_.columns(),
+          .points = all_of(points_),
+          .vertex_map = all_of(vertex_map_),
+          .facet_map = all_of(facet_map_)};
+}
+
 py::array_t<int> indices_argument(py::handle given, const std::string& what) {
   return integers_of<int>(given, what, "which no body can have");
 }

@@ -56,6 +56,22 @@ class EdgesArgument {
   py::array array_;
 };
 
+/// A new mesh of a body, given as arrays: (V, 3), (F, 3), (V,), and edges (E, 2), points (P,), facet_map (F,).
+/// @throws TypeError, ValueError as above.
+class MeshArguments {
+ public:
+  MeshArguments(py::handle positions, py::handle facets, py::handle vertex_map, py::handle edges, py::handle points,
+                py::handle facet_map);
+  /// Valid as long as this.
+  MeshUpdate update() const;
+
+ private:
+  PositionsArgument positions_;
+  FacetsArgument facets_;
+  EdgesArgument edges_;
+  py::array_t<int> points_, vertex_map_, facet_map_;
+};
+
 /// Settings of single vertices and facets, given as arrays of shape (V,) or (F,); all but offsets are 0 to 2^32 - 1.
 /// @throws TypeError, ValueError as above.
 class FeatureSettingsArgument {

@@ -62,22 +62,8 @@ void set_many_positions(SharedWorld& world, const py::dict& positions) {
 
 void set_facets(SharedWorld& world, BodyId body, py::handle positions, py::handle facets, py::handle vertex_map,
                 py::handle edges, py::handle points, py::handle facet_map) {
-  const PositionsArgument x(positions);
-  const FacetsArgument f(facets);
-  const EdgesArgument e(edges);
-  const py::array_t<int> p = indices_argument(points, "points"),
-                         of_vertices = indices_argument(vertex_map, "vertex_map"),
-                         of_facets = indices_argument(facet_map, "facet_map");
-  const auto all_of = [](const py::array_t<int>& array) {
-    return std::span<const int>(array.data(), static_cast<std::size_t>(array.size()));
-  };
-  const MeshUpdate update{.positions = x.columns(),
-                          .facets = f.columns(),
-                          .edges = e.columns(),
-                          .points = all_of(p),
-                          .vertex_map = all_of(of_vertices),
-                          .facet_map = all_of(of_facets)};
-  world.compute([&](World& w) { w.set_facets(body, update); });
+  const MeshArguments mesh(positions, facets, vertex_map, edges, points, facet_map);
+  world.compute([&](World& w) { w.set_facets(body, mesh.update()); });
 }
 
 PoseUpdate pose_of(BodyId body, py::handle rotation, py::handle translation) {

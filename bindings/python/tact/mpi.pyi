@@ -192,6 +192,18 @@ class World:
     def set_positions(self, key: int, positions: npt.ArrayLike) -> None: ...
     @overload
     def set_positions(self, positions: Mapping[int, npt.ArrayLike]) -> None: ...
+    def set_facets(
+        self,
+        key: int,
+        positions: npt.ArrayLike,
+        facets: npt.ArrayLike,
+        vertex_map: npt.ArrayLike,
+        *,
+        edges: npt.ArrayLike = ...,
+        points: npt.ArrayLike = ...,
+        facet_map: npt.ArrayLike = ...,
+    ) -> None:
+        """Gives a body other vertices and facets, as World.set_facets() does."""
     def set_pose(self, key: int, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> None: ...
     def set_poses(self, poses: Mapping[int, tuple[npt.ArrayLike, npt.ArrayLike]]) -> None:
         """Places many rigid bodies in parallel, all or none."""

@@ -190,6 +190,23 @@ TEST(SavedStates, OfAPlaneKnowNothingOfThePairWhoseRecordItTook) {
   EXPECT_EQ(world.detect().hash(), hash);
 }
 
+// Between a change of facets and the next step no facet has the number that it had.
+TEST(SavedStates, OfOtherFacetsHoldNoCurvesOfTheLast) {
+  Settings settings = with_all_outputs(1);
+  settings.outputs.curves = true;
+  World world(settings);
+  const BodyId a = add_cube(world, 0.0);
+  add_cube(world, 0.5);
+  ASSERT_EQ(world.detect().contacts()[0].curves().size(), 1u);
+  const Mesh mesh = cube(1.0, {0.0, 0.0, 0.0});
+  const Eigen::Matrix3Xi half = mesh.facets.leftCols(6);
+  const std::vector<int> same{0, 1, 2, 3, 4, 5, 6, 7};
+  world.set_facets(a, mesh.positions, half, same);
+  World other(settings);
+  ASSERT_NO_THROW(other.restore(world.save()));
+  EXPECT_EQ(other.detect().hash(), world.detect().hash());
+}
+
 TEST(SavedStates, AreOfTheStateAlone) {
   World one(with_all_outputs(1)), two(with_all_outputs(2));
   for (World* const world : {&one, &two}) {

@@ -95,6 +95,9 @@ class TACT_API World {
   void set_positions(std::uint64_t key, const Positions& positions);  ///< copies new positions, 3 x V metres
   /// Copies new positions of many bodies in parallel, all or none.
   void set_positions(std::span<const PositionsUpdate> updates);
+  /// Gives a body other vertices and facets. Errors: also wrong_order, between move_bodies(), rebalance() or restore()
+  /// and the next detect().
+  void set_facets(std::uint64_t key, const MeshUpdate& update);
   /// Places a rigid body.
   void set_pose(std::uint64_t key, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation);
   /// Places many rigid bodies in parallel, all or none.

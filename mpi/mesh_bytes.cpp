@@ -1,0 +1,48 @@
+#include "mpi/mesh_bytes.h"
+
+namespace tact::mpi {
+
+namespace {
+
+template <class Scalar, int kRows>
+void put(ByteWriter& to, const Columns<Scalar, kRows>& columns) {
+  to.put(static_cast<std::uint64_t>(columns.cols() * kRows));
+  for (std::ptrdiff_t i = 0; i < columns.cols(); ++i) {
+    for (const Scalar number : columns.column(i)) to.put(number);
+  }
+}
+
+template <class Type, int kRows, class Number>
+Type columns_of(const std::vector<Number>& numbers) {
+  return Type::strided(numbers.data(), numbers.size() / kRows);
+}
+
+}  // namespace
+
+Bytes bytes_of(const MeshUpdate& update) {
+  ByteWriter writer;
+  put(writer, update.positions);
+  put(writer, update.facets);
+  put(writer, update.edges);
+  for (const std::span<const int> numbers : {update.points, update.vertex_map, update.facet_map})
+    writer.put_all(numbers);
+  return std::move(writer.bytes());
+}
+
+MeshOfBytes::MeshOfBytes(std::span<const std::byte> bytes) {
+  ByteReader reader(bytes);
+  positions_ = reader.get_all<double>();
+  for (std::vector<int>* const numbers : {&facets_, &edges_, &points_, &vertex_map_, &facet_map_})
+    *numbers = reader.get_all<int>();
+}
+
+MeshUpdate MeshOfBytes::update() const {
+  return {.positions = columns_of<Positions, 3>(positions_),
+          .facets = columns_of<Facets, 3>(facets_),
+          .edges = columns_of<Edges, 2>(edges_),
+          .points = points_,
+          .vertex_map = vertex_map_,
+          .facet_map = facet_map_};
+}
+
+}  // namespace tact::mpi
