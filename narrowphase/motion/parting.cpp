@@ -2,41 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 
+#include "narrowphase/motion/opening_walls.h"
+#include "narrowphase/numeric/bounded_number.h"
 #include "narrowphase/numeric/wide_vector.h"
 
 namespace tact::narrowphase {
 
 namespace {
 
-// With u = 2^-53, a coordinate at either end is wrong by at most 5 u of the sizes that stand beside it, a volume of
-// three by 22 u of the same sum of sizes, sums of three by 24 u.
-constexpr double kRelative = 0x1p-47;
-constexpr double kVanishing = 0x1p-900;  // products of three below that may have lost bits
-// Spans that are tried, the longest first. The last one is short enough for whatever goes by lengths of one scale.
-constexpr int kHalvings[] = {0, 4, 10, 20, 40};
+// Spans that are tried after the whole one. The last one is short enough for whatever goes by lengths of one scale.
+constexpr int kHalvings[] = {4, 10, 20};
+constexpr int kMostHalvings = 40;
 constexpr std::size_t kMostNeighbors = 8;  // of a vertex, in pairs of which planes are looked for
-
-// A way at the ends of a span, and sizes of which the rounding of its coordinates is a part.
-struct Ends {
-  Vec3 at[2], size[2];
-
-  Ends(const MovingWay& way, int halvings) {
-    const Vec3 begin = way.to.at[0] - way.from.at[0], end = way.to.at[1] - way.from.at[1];
-    const double part = std::ldexp(1.0, -halvings);
-    at[0] = begin;
-    at[1] = halvings == 0 ? end : begin + part * (end - begin);
-    for (int axis = 0; axis < 3; ++axis) {
-      const double first = std::abs(begin[axis]), last = std::abs(end[axis]);
-      size[0][axis] = first;
-      size[1][axis] = halvings == 0 ? last : first + part * (first + last);
-    }
-  }
-};
-
-double sum_of_sizes(Vec3 a, Vec3 b, Vec3 c) {
-  return a.x * (b.y * c.z + b.z * c.y) + a.y * (b.z * c.x + b.x * c.z) + a.z * (b.x * c.y + b.y * c.x);
-}
 
 Vec3 which_are_zero(Vec3 a) { return {a.x != 0.0 ? 1.0 : 0.0, a.y != 0.0 ? 1.0 : 0.0, a.z != 0.0 ? 1.0 : 0.0}; }
 
@@ -76,8 +56,42 @@ int exact_sign(const MovingWay& u, const MovingWay& v, const MovingWay& w, int l
   return (volume(0) + volume(1) + volume(2)).sign();
 }
 
+// The same ends as double-doubles.
+using BoundedVector = NumberVector<BoundedNumber>;
+struct BoundedEnds {
+  BoundedVector at[2];
+  bool is_exact[2];
+
+  BoundedEnds(const MovingWay& way, int halvings) {
+    const auto difference = [&](int time) {
+      const auto [x, y, z] = double_double_difference(way.to.at[time], way.from.at[time]);
+      return BoundedVector{BoundedNumber(x), BoundedNumber(y), BoundedNumber(z)};
+    };
+    at[0] = difference(0), at[1] = difference(1);
+    is_exact[0] = true, is_exact[1] = halvings == 0;
+    if (halvings != 0) at[1] = at[0] + BoundedNumber(DoubleDouble{std::ldexp(1.0, -halvings)}) * (at[1] - at[0]);
+  }
+};
+
+// Nothing where double-doubles do not tell either: where a volume is zero for another reason than equal ways.
+std::optional<int> bounded_sign(const MovingWay& u, const MovingWay& v, const MovingWay& w, int later, int halvings) {
+  const BoundedEnds ends[3] = {{u, halvings}, {v, halvings}, {w, halvings}};
+  BoundedNumber sum;
+  for (int k = 0; k < kCounts[later]; ++k) {
+    const auto& at = kCombinations[later][k];
+    const auto are_one = [&](int i, int j) {
+      return ends[i].is_exact[at[i]] && ends[j].is_exact[at[j]] && ends[i].at[at[i]] == ends[j].at[at[j]];
+    };
+    if (are_one(0, 1) || are_one(1, 2) || are_one(0, 2)) continue;
+    sum = sum + dot(ends[0].at[at[0]], cross(ends[1].at[at[1]], ends[2].at[at[2]]));
+  }
+  BoundedNumber::unclear() = false;
+  const int sign = sum.sign();
+  return BoundedNumber::unclear() ? std::nullopt : std::optional(sign);
+}
+
 // Of the coefficient with so many later ends.
-int sign_of_coefficient(const MovingWay& u, const MovingWay& v, const MovingWay& w, const Ends (&ends)[3], int later,
+int sign_of_coefficient(const MovingWay& u, const MovingWay& v, const MovingWay& w, const WayEnds (&ends)[3], int later,
                         int halvings) {
   double volume = 0.0, sizes = 0.0, may_count = 0.0;
   for (int k = 0; k < kCounts[later]; ++k) {
@@ -89,19 +103,18 @@ int sign_of_coefficient(const MovingWay& u, const MovingWay& v, const MovingWay&
         sum_of_sizes(which_are_zero(ends[0].size[i]), which_are_zero(ends[1].size[j]), which_are_zero(ends[2].size[l]));
   }
   if (may_count == 0.0) return 0;
-  if (sizes > kVanishing && std::abs(volume) > kRelative * sizes) return volume > 0.0 ? 1 : -1;
-  return exact_sign(u, v, w, later, halvings);
+  if (sizes > kVanishingVolume && std::abs(volume) > kWayRounding * sizes) return volume > 0.0 ? 1 : -1;
+  const std::optional<int> sign = bounded_sign(u, v, w, later, halvings);
+  return sign ? *sign : exact_sign(u, v, w, later, halvings);
 }
-
-bool same(const MovingVertex& a, const MovingVertex& b) { return a.at[0] == b.at[0] && a.at[1] == b.at[1]; }
 
 // Whether the area of u and v is certainly not zero at the beginning.
 bool has_area(const MovingWay& u, const MovingWay& v) {
-  const Ends a(u, 0), b(v, 0);
+  const WayEnds a(u, 0), b(v, 0);
   const Vec3 normal = cross(a.at[0], b.at[0]), s = a.size[0], t = b.size[0];
   const Vec3 sizes{s.y * t.z + s.z * t.y, s.z * t.x + s.x * t.z, s.x * t.y + s.y * t.x};
   for (int axis = 0; axis < 3; ++axis) {
-    if (sizes[axis] > kVanishing && std::abs(normal[axis]) > kRelative * sizes[axis]) return true;
+    if (sizes[axis] > kVanishingVolume && std::abs(normal[axis]) > kWayRounding * sizes[axis]) return true;
   }
   return false;
 }
@@ -109,7 +122,7 @@ bool has_area(const MovingWay& u, const MovingWay& v) {
 }  // namespace
 
 unsigned volume_signs(const MovingWay& u, const MovingWay& v, const MovingWay& w, int halvings) {
-  const Ends ends[3] = {{u, halvings}, {v, halvings}, {w, halvings}};
+  const WayEnds ends[3] = {{u, halvings}, {v, halvings}, {w, halvings}};
   unsigned signs = 0;
   for (const int later : {0, 3, 1, 2}) {
     const int sign = sign_of_coefficient(u, v, w, ends, later, halvings);
@@ -122,6 +135,9 @@ unsigned volume_signs(const MovingWay& u, const MovingWay& v, const MovingWay& w
 double PartingSearch::apart_until(const MovingMesh& a, const MovingMesh& b, FeaturePair kind, int feature_a,
                                   int feature_b, double time) {
   const bool slides = time > 0.0;
+  if (!slides) {
+    if (const double until = walls_open_until(a, b, kind, feature_a, feature_b); until > 0.0) return until;
+  }
   planes_.clear();
   if (kind == FeaturePair::edge_edge) {
     take_edge(a, feature_a, a_);
@@ -137,12 +153,18 @@ double PartingSearch::apart_until(const MovingMesh& a, const MovingMesh& b, Feat
     add_plane(facet.vertices[0], facet.vertices[1], facet.vertices[2]);
     add_planes_of_vertex(of_vertex, vertex, star, slides);
   }
+  const auto separates_for = [&](int halvings) {
+    return [this, halvings, slides](const Plane& plane) { return separates(plane, halvings, slides); };
+  };
+  if (std::ranges::any_of(planes_, separates_for(0))) return 1.0;
+  if (slides) return 0.0;
+  // Where a coefficient keeps its sign on a span it does on each shorter one.
+  std::erase_if(planes_, std::not_fn(separates_for(kMostHalvings)));
+  if (planes_.empty()) return 0.0;
   for (const int halvings : kHalvings) {
-    if (std::ranges::any_of(planes_, [&](const Plane& plane) { return separates(plane, halvings, slides); }))
-      return std::ldexp(1.0, -halvings);
-    if (slides) break;
+    if (std::ranges::any_of(planes_, separates_for(halvings))) return std::ldexp(1.0, -halvings);
   }
-  return 0.0;
+  return std::ldexp(1.0, -kMostHalvings);
 }
 
 void PartingSearch::take_vertex(const MovingMesh& mesh, int vertex, Star& star) {

@@ -5,6 +5,7 @@
 // so at a vertex of its own, or at a side of the facet: then the facets around these two features are on both sides of
 // each plane. Planes are those of facets around the features, or along both edges: they move as their vertices do, and
 // the gap of a vertex over them, times an area, is a cubic in time. The signs of its Bernstein coefficients are exact.
+// Surfaces with vertices at equal places, as the walls of a cut, are looked at in another way before: opening_walls.h.
 #pragma once
 
 #include <tact/feature_pair.h>
@@ -13,13 +14,9 @@
 #include <vector>
 
 #include "narrowphase/motion/moving_mesh.h"
+#include "narrowphase/motion/moving_way.h"
 
 namespace tact::narrowphase {
-
-/// From one moving point to another.
-struct MovingWay {
-  MovingVertex from, to;
-};
 
 /// The signs that the volume u · (v × w) takes between time 0 and 2^-halvings, as its Bernstein coefficients tell: of
 /// kAbove and kBelow those that one of them has. None: it is zero throughout.

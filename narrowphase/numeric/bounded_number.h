@@ -37,6 +37,7 @@ class BoundedNumber {
     return x.sign() == 0 && y.sign() == 0 && z.sign() == 0;
   }
 
+  friend bool operator==(const BoundedNumber&, const BoundedNumber&) = default;
   BoundedNumber operator-() const { return {-value_, error_}; }
   friend BoundedNumber operator+(const BoundedNumber& a, const BoundedNumber& b) {
     if (a.error_ + b.error_ == 0.0 && a.value_.head == -b.value_.head && a.value_.tail == -b.value_.tail) return {};

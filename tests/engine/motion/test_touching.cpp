@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 #include <tact/tact.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/random.h"
+#include "tests/support/generators/remeshed.h"
 
 namespace tact::tests {
 namespace {
@@ -184,6 +187,150 @@ TEST(TouchingMotion, NothingCrossesBeforeTheFirstStop) {
   }
   EXPECT_GT(marked, 200);
   EXPECT_GT(free, 200);
+}
+
+// The facets right of the middle have vertices of their own along it, below the tip at zero.
+Remeshed slit(const Mesh& mesh) {
+  Remeshed to = unchanged(mesh);
+  std::vector<int> twin(to.vertex_map.size(), -1);
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.position(v).x != 0.0 || !(mesh.position(v).y < 0.0)) continue;
+    twin[static_cast<std::size_t>(v)] = static_cast<int>(to.vertex_map.size());
+    to.vertex_map.push_back(v);
+  }
+  to.mesh.positions.conservativeResize(3, static_cast<Eigen::Index>(to.vertex_map.size()));
+  for (int v = mesh.vertex_count(); v < to.mesh.vertex_count(); ++v)
+    to.mesh.set_position(v, mesh.position(to.vertex_map[static_cast<std::size_t>(v)]));
+  for (auto facet : to.mesh.facets.colwise()) {
+    if (!std::ranges::any_of(facet, [&](int v) { return mesh.position(v).x > 0.0; })) continue;
+    for (int& v : facet) v = twin[static_cast<std::size_t>(v)] < 0 ? v : twin[static_cast<std::size_t>(v)];
+  }
+  return to;
+}
+
+// A sheet that was slit, somewhere in space.
+struct SlitSheet {
+  Mesh whole = sheet(8, 8, 1.0, 1.0);
+  Remeshed cut = slit(whole);
+  Rotation turn;
+  Random random;
+  tact::World world{{.threads = 1}};
+  BodyId body;
+
+  SlitSheet(std::uint64_t seed, double margin) : random(seed) {
+    turn = seed == 0 ? Rotation{} : rotation(random.uniform(0.5, 1), random.uniform(-1, 1), random.uniform(-1, 1), 0.2);
+    body = world.add_body({.positions = rotated(whole, turn).positions,
+                           .facets = whole.facets,
+                           .surface = Surface::sheet,
+                           .margin = margin,
+                           .self_contact = true});
+    world.detect();
+    world.set_facets(body, rotated(cut.mesh, turn).positions, cut.mesh.facets, cut.vertex_map);
+  }
+  bool is_right(int v) const { return v >= whole.vertex_count() || whole.position(v).x > 0.0; }
+  // Bends all by `bends`, and moves the right side away by `opens` of how far it is below the tip, with some noise.
+  void move(double opens, double bends, double noise) {
+    Mesh end = cut.mesh;
+    for (int v = 0; v < end.vertex_count(); ++v) {
+      Vec3 at = end.position(v);
+      const double below = std::max(0.0, -at.y), wave = bends * std::sin(5.0 * at.y);
+      at = at + Vec3{wave, 0.0, wave + bends * at.x * at.x};
+      const auto some = [&] { return noise * opens * below * random.uniform(-1, 1); };
+      if (is_right(v)) at = at + Vec3{opens * below + some(), some(), some()};
+      end.set_position(v, at);
+    }
+    world.set_positions(body, rotated(end, turn).positions);
+  }
+};
+
+TEST(TouchingMotion, TheWallsOfACutPartHoweverTheyBend) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    for (const double margin : {0.0, 0.0005}) {
+      for (const double opens : {1e-6, 1e-3, 0.1}) {
+        SlitSheet scene(seed, margin);
+        scene.move(opens, seed % 3 == 0 ? 0.0 : 0.03, seed % 2 == 0 ? 0.0 : 0.3);
+        const MotionReport& report = scene.world.detect_motion();
+        EXPECT_EQ(report.first_time(), kInfinite) << seed << ' ' << margin << ' ' << opens;
+        EXPECT_FALSE(report.impacts().empty());
+        EXPECT_EQ(scene.world.detect_motion(Impacts::first).first_time(), kInfinite);
+      }
+    }
+  }
+}
+
+TEST(TouchingMotion, TheWallsOfACutThatGoTogetherDoNotStop) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    SlitSheet scene(seed, 0.0);
+    EXPECT_EQ(scene.world.detect_motion().first_time(), kInfinite);
+    scene.move(0.0, 0.03, 0.0);
+    EXPECT_EQ(scene.world.detect_motion().first_time(), kInfinite) << seed;
+  }
+}
+
+TEST(TouchingMotion, TheWallsOfACutThatGoIntoEachOtherStop) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    SlitSheet scene(seed, 0.0);
+    scene.move(-0.01, 0.0, 0.0);
+    EXPECT_EQ(scene.world.detect_motion().first_time(), 0.0) << seed;
+    EXPECT_EQ(scene.world.detect_motion(Impacts::first).first_time(), 0.0) << seed;
+  }
+}
+
+// Two halves of a solid, facets back to back.
+TEST(TouchingMotion, TheHalvesOfASolidPart) {
+  const Mesh left = gridded_box({-1, 0, 0}, {0, 1, 1}, 4);
+  const Mesh right = turned_inside_out(mapped(left, [](Vec3 p) { return Vec3{-p.x, p.y, p.z}; }));
+  const Mesh both = merged(std::array{left, right});
+  Random random(5);
+  for (const Rotation& turn : {Rotation{}, rotation(0.9, 0.3, -0.2, 0.5)}) {
+    for (const double noise : {0.0, 0.3}) {
+      tact::World world({.threads = 1});
+      const BodyId body =
+          world.add_body({.positions = rotated(both, turn).positions, .facets = both.facets, .self_contact = true});
+      world.detect();
+      Mesh end = both;
+      for (int v = left.vertex_count(); v < both.vertex_count(); ++v) {
+        const auto some = [&] { return 0.01 * noise * random.uniform(-1, 1); };
+        end.set_position(v, both.position(v) + Vec3{0.01 + some(), some(), some()});
+      }
+      world.set_positions(body, rotated(end, turn).positions);
+      EXPECT_EQ(world.detect_motion().first_time(), kInfinite) << noise;
+    }
+  }
+}
+
+// Halves of a sheet on a lattice, whose borders touch vertex by vertex and move at random, most often away.
+TEST(TouchingMotion, NoWallsCrossBeforeTheFirstStop) {
+  const std::vector<Mesh> halves = components(cut(unchanged(sheet(4, 3, 4.0, 3.0)), {1, 0, 0}, 0.0).mesh);
+  ASSERT_EQ(halves.size(), 2u);
+  Random random(7);
+  int free = 0;
+  for (int round = 0; round < 400; ++round) {
+    tact::World world({.threads = 1});
+    const int opens = random.below(3);
+    Eigen::Matrix3Xd begin[2], ends[2];
+    BodyId ids[2];
+    for (int i = 0; i < 2; ++i) {
+      begin[i] = 2.0 * halves[i].positions;
+      ends[i] = begin[i];
+      for (auto at : ends[i].colwise())
+        at +=
+            Eigen::Vector3d((i == 0 ? -opens : opens) + random.below(3) - 1, random.below(3) - 1, random.below(3) - 1);
+      ids[i] = world.add_body({.positions = begin[i], .facets = halves[i].facets, .surface = Surface::sheet});
+    }
+    world.detect();
+    for (int i = 0; i < 2; ++i) world.set_positions(ids[i], ends[i]);
+    const double first = world.detect_motion().first_time();
+    free += first > 1.0 ? 1 : 0;
+    for (const int part : {1, 16, 128, 256, 384, 512, 640, 768, 896, 1024}) {
+      if (!(part / 1024.0 < first)) break;
+      Eigen::Matrix3Xd at[2];
+      for (int i = 0; i < 2; ++i) at[i] = 1024.0 * begin[i] + part * (ends[i] - begin[i]);
+      ASSERT_FALSE(any_edge_through(halves[0], at[0], halves[1], at[1])) << round << ' ' << part << ' ' << first;
+      ASSERT_FALSE(any_edge_through(halves[1], at[1], halves[0], at[0])) << round << ' ' << part << ' ' << first;
+    }
+  }
+  EXPECT_GT(free, 150);
 }
 
 }  // namespace
