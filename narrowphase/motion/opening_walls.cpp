@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "narrowphase/distance/simplex.h"
 #include "narrowphase/motion/moving_way.h"
 
 namespace tact::narrowphase {
@@ -12,7 +13,7 @@ namespace {
 
 // Spans that are tried, the longest first: walls open in the first unless facets turn by much in one step.
 constexpr int kWallHalvings[] = {0, 4, 10};
-constexpr int kMostDirections = 24;  // towards a direction; most are found at once
+constexpr int kMostDirections = 16;  // most are found at once, by the mean
 constexpr double kForward = 0.25;    // of the square of a direction's length: it is good enough
 constexpr std::size_t kMostWays = 8;
 
@@ -173,17 +174,20 @@ Vec3 common_direction(std::span<const Vec3> units) {
   Vec3 direction;
   for (const Vec3& unit : units) direction = direction + unit;
   direction = (1.0 / static_cast<double>(units.size())) * direction;
+  SimplexPoints simplex;
   for (int step = 0; step < kMostDirections; ++step) {
     const Vec3 last = *std::ranges::min_element(units, {}, [&](const Vec3& unit) { return dot(direction, unit); });
-    const double length2 = norm_squared(direction);
-    if (dot(direction, last) > kForward * length2) return direction;
-    // The point of the way from the direction to the last one that is nearest to zero.
-    const Vec3 way = last - direction;
-    const double way2 = norm_squared(way);
-    if (!(way2 > 0.0)) break;
-    direction = direction + std::clamp(-dot(direction, way) / way2, 0.0, 1.0) * way;
+    if (dot(direction, last) > kForward * norm_squared(direction)) return direction;
+    simplex.point[static_cast<std::size_t>(simplex.count++)] = last;
+    const SimplexClosest nearest = simplex_closest(simplex);
+    if (nearest.carrier_count == 4) break;
+    direction = nearest.point;
+    simplex.count = nearest.carrier_count;
+    const SimplexPoints all = simplex;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(simplex.count); ++i)
+      simplex.point[i] = all.point[static_cast<std::size_t>(nearest.carrier[i])];
   }
-  return direction;
+  return {};
 }
 
 double walls_open_until(const MovingMesh& a, const MovingMesh& b, FeaturePair kind, int feature_a, int feature_b) {

@@ -23,9 +23,8 @@
 
 namespace tact::narrowphase {
 
-/// A direction along which unit vectors all point forward, or zero if none is found: the point of their hull that is
-/// nearest to zero (Gilbert, "An iterative procedure for computing the minimum of a quadratic form on a convex set",
-/// 1966).
+/// A direction along which unit vectors all point forward, or zero if none is found: their mean, or about the point of
+/// their hull that is nearest to zero (Gilbert, Johnson and Keerthi, 1988).
 Vec3 common_direction(std::span<const Vec3> units);
 
 /// Two features of two meshes, or of one, that share a point at time 0: until when the edges and facets around them
