@@ -69,6 +69,8 @@ struct Body {
   Eigen::Matrix2Xi edges{2, 0};  // ropes
   std::vector<int> grains;       // vertices that stand alone
   std::optional<Plane> plane;    // a floor, which has no vertices and is fixed
+  // Once a script has changed the facets: of each vertex the one that it was at the last detection, or -1. Empty else.
+  std::vector<int> vertex_map;
   Topology topology;
   Surface surface = Surface::closed;
   Motion motion = Motion::deformable;

@@ -120,6 +120,7 @@ void Simulation::run_substep(double h) {
   });
   state_.time += h;
   if (script_) script_(state_.time, bodies_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) follow_facets(i);
   times_.move_ms += note("motion", timer);
   if (!dynamics_.continuous) {
     solver_.push(bodies_, before_, dynamics_.contact, h, threads_);
@@ -139,6 +140,29 @@ void Simulation::run_substep(double h) {
   times_.move_ms += note("motion", timer);
 }
 
+// New vertices come from where those were that they were; the contact points of the last detection name these by their
+// old numbers, so that it is time for the next one.
+void Simulation::follow_facets(std::size_t i) {
+  Body& body = bodies_[i];
+  if (body.vertex_map.empty()) return;
+  const auto follow = [&](std::vector<Vec3>& positions) {
+    std::vector<Vec3> now = body.positions;
+    for (std::size_t v = 0; v < now.size(); ++v) {
+      if (const int was = body.vertex_map[v]; was >= 0) now[v] = positions[static_cast<std::size_t>(was)];
+    }
+    positions = std::move(now);
+  };
+  follow(before_[i]);
+  if (!detected_.empty()) follow(detected_[i]);
+  world_.set_facets(ids_[i], {.positions = as_matrix(body.positions),
+                              .facets = body.facets,
+                              .edges = body.edges,
+                              .points = body.grains,
+                              .vertex_map = body.vertex_map});
+  body.vertex_map.clear();
+  facets_changed_ = true;
+}
+
 double Simulation::note(const char* name, base::Timer& timer) {
   const auto begin = timer.start();
   const double ms = timer.lap();
@@ -148,6 +172,7 @@ double Simulation::note(const char* name, base::Timer& timer) {
 
 // Two bodies that were farther apart than both margins stay apart by their thicknesses while neither leaves its reach.
 bool Simulation::has_left_its_reach(double h) const {
+  if (facets_changed_) return true;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (bodies_[i].asleep || bodies_[i].motion == Motion::fixed) continue;
     if (way_[i] + last_way_[i] + dynamics_.gravity * h * h > free_[i]) return true;
@@ -196,6 +221,7 @@ void Simulation::detect() {
   }
   world_.set_positions(updates);
   report_ = &world_.detect();
+  facets_changed_ = false;
   const double recording_ms = writing_ms() - written_ms;
   times_.recording_ms += recording_ms;
   times_.engine_ms += note("engine", timer) - recording_ms;

@@ -96,6 +96,7 @@ class Simulation {
   double writing_ms() const { return recorder_ ? recorder_->writing_ms() : 0.0; }
   BodyId add_to_world(const Body& body, double margin);
   void run_substep(double h);
+  void follow_facets(std::size_t body);
   bool has_left_its_reach(double h) const;
   void set_reach(std::size_t body);
   void limit_ways();
@@ -129,6 +130,7 @@ class Simulation {
   ContactSolver solver_;
   ImpactResponse impacts_;
   Sleep sleep_;
+  bool facets_changed_ = false;  // since the last detection
   const Report* report_ = nullptr;
   StepStats stats_;
   DynamicsState state_;

@@ -27,6 +27,8 @@ constexpr std::array kScenes = {
                100, 500, make_ribbon_knot},
     SceneEntry{"net", "a net of ropes over a floor catches grains and a cloth", "meshes along a side of the net", 12, 4,
                40, make_net},
+    SceneEntry{"surgery", "a membrane over an organ is cut along a blade and tears; a thread falls through the cut",
+               "vertices along a side of the membrane", 21, 11, 61, make_surgery},
 };
 
 }  // namespace

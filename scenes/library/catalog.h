@@ -35,5 +35,6 @@ Scene make_wheel_on_ground(int size);
 Scene make_cloth_fold(int size);
 Scene make_ribbon_knot(int size);
 Scene make_net(int size);
+Scene make_surgery(int size);
 
 }  // namespace tact::scenes

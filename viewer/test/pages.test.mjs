@@ -16,6 +16,7 @@ const SCENES = {
   "sphere-in-cloth": ["--frames", "40"],
   "wheel-on-ground": ["--frames", "60"],
   net: ["--size", "5", "--frames", "40"],
+  surgery: ["--size", "11", "--frames", "60"],
 };
 const OUTCOMES = ["outside_box", "outside_slab", "far", "facing_away", "outside_zone", "kept", "meets"];
 
@@ -33,8 +34,16 @@ async function expectStatistics(page, frame) {
   assert.equal(await page.textContent('#statistics [data-fact="hash"]'), frame.hash);
 }
 
+// The page has a body of its own for each time that a body's facets change: the numbers of those of this step.
+const numbersIn = (page, bodies) =>
+  page.evaluate((names) => {
+    const step = Number(document.getElementById("clock").dataset.step);
+    return names.map((name) => window.tactView.run.bodies.findIndex((body) => body.name === name && body.first <= step && step < body.end));
+  }, bodies.map((body) => body.name));
+
 async function expectPair(page, contact, bodies) {
-  const row = page.locator(`#pairs tr[data-pair="${contact.a},${contact.b}"]`);
+  const numbers = await numbersIn(page, bodies);
+  const row = page.locator(`#pairs tr[data-pair="${numbers[contact.a]},${numbers[contact.b]}"]`);
   if ((await row.getAttribute("aria-selected")) !== "true") await row.click();
   assert.deepEqual(await value(page, '#pair [data-fact="direction"]'), contact.direction.map((x) => x + 0)); // -0 is 0
   assert.equal(await value(page, '#pair [data-fact="depth"]'), contact.depth);
@@ -83,7 +92,8 @@ async function expectWords(page, frame, bodies) {
     if (text !== null) assert.equal(text, expected);
   }
   const rows = await page.$$eval("#pairs tr[data-pair]", (found) => found.map((row) => [row.dataset.pair, row.querySelector("[data-pairs]").textContent, row.querySelector("[data-points]")?.textContent]));
-  const expected = frame.pairs.filter((pair) => pair.a === pair.b || pair.direction !== undefined).map((pair) => [`${pair.a},${pair.b}`, pair.facet_pairs.length, pair.points?.length]);
+  const numbers = await numbersIn(page, bodies);
+  const expected = frame.pairs.filter((pair) => pair.a === pair.b || pair.direction !== undefined).map((pair) => [`${numbers[pair.a]},${numbers[pair.b]}`, pair.facet_pairs.length, pair.points?.length]);
   assert.deepEqual(rows.map(([pair, facetPairs, found]) => [pair, numberIn(facetPairs), found && numberIn(found)]).sort(), expected.sort());
 }
 
@@ -105,7 +115,9 @@ async function expectPlots(page, frames) {
 }
 
 // A click on a facet that meets another selects it and its pair, and tells which facets it meets.
-async function expectPick(page, contacts) {
+async function expectPick(page, pairs, bodies) {
+  const numbers = await numbersIn(page, bodies);
+  const contacts = pairs.map((pair) => ({ ...pair, a: numbers[pair.a], b: numbers[pair.b] }));
   const target = await page.evaluate((pairs) => {
     const { tactView } = window, { stage, run } = tactView;
     const look = (body, facet) => {
@@ -174,7 +186,7 @@ for (const [scene, options] of Object.entries(SCENES)) {
     await expectWords(page, busiest, bodies);
     await expectPlots(page, frames);
     for (const contact of contacts.slice(0, 3)) await expectPair(page, contact, bodies);
-    if (busiest.stats.facet_pairs > 0) await expectPick(page, contacts);
+    if (busiest.stats.facet_pairs > 0) await expectPick(page, contacts, bodies);
     await page.keyboard.press("ArrowLeft");
     const before = await shown();
     assert.equal(before.frame, Math.max(0, busiest.frame - 1));

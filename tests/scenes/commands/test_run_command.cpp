@@ -281,9 +281,9 @@ TEST_F(RunCommand, WrongUsageIsNamed) {
 TEST(ScenesCommand, ListsEverySceneWithItsSizes) {
   std::ostringstream out;
   list_scenes(out);
-  for (const char* part :
-       {"cloth-over-sphere", "sphere-into-cloth", "pile", "clamp", "liver-and-tool", "sphere-in-cloth",
-        "wheel-on-ground", "cloth-fold", "ribbon-knot", "net", "--size: bodies, 1 to 4000, 100 if not given"}) {
+  for (const char* part : {"cloth-over-sphere", "sphere-into-cloth", "pile", "clamp", "liver-and-tool",
+                           "sphere-in-cloth", "wheel-on-ground", "cloth-fold", "ribbon-knot", "net", "surgery",
+                           "--size: bodies, 1 to 4000, 100 if not given"}) {
     EXPECT_NE(out.str().find(part), std::string::npos) << part;
   }
 }

@@ -112,6 +112,21 @@ TEST(Net, IsAtRestAfterThreeSeconds) {
   }
 }
 
+// Bodies never cross, the membrane falls in two, and the thread is through.
+TEST(Surgery, CutsTearsAndPullsAThreadThrough) {
+  constexpr int kSize = 11;
+  Simulation simulation = simulation_of("surgery", kSize, {.threads = 1});
+  const Body &membrane = simulation.bodies()[0], &thread = simulation.bodies()[4];
+  while (simulation.state().time < 2.4) {
+    simulation.step();
+    ASSERT_EQ(simulation.state().facet_pairs, 0) << simulation.state().time;
+  }
+  EXPECT_EQ(membrane.positions.size(), static_cast<std::size_t>(kSize * kSize + kSize));
+  EXPECT_EQ(simulation.world().vertex_count(simulation.world().bodies()[0]), membrane.positions.size());
+  EXPECT_LT(thread.positions.front().z, 0.3);
+  EXPECT_NE(simulation.report()->find_contact(simulation.world().bodies()[0], simulation.world().bodies()[1]), nullptr);
+}
+
 TEST(Catalog, EverySceneIsMadeAtItsSizes) {
   for (const SceneEntry& entry : scene_catalog()) {
     const Scene scene = entry.make(entry.smallest_size);
