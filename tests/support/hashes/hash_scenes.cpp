@@ -76,7 +76,7 @@ constexpr HashScene kScenes[] = {
     {"self_closed", play_self_closed, {0x998c92b319ed5c0f, 0x051d51c87d0068c1, 0x5252b61a93076b6e}},
     {"self_facets", play_self_facets, {0x9a552030599ec92f, 0x66849b5d091bdad5, 0x9beb00624624a329}},
     {"self_large", play_self_large, {0xe4445769b752d988, 0x5a9e816a5dec8af6, 0x08e1799353e210cb}},
-    {"impacts", play_impacts, {0x79fe92e72a420b61, 0x3984cf76a3a7c375, 0x281c330fd216d472}},
+    {"impacts", play_impacts, {0x79fe92e72a420b61, 0x5bd9f0e2a8243ab9, 0x281c330fd216d472}},
     {"impacts_of_cloth", play_impacts_of_cloth, {0x71dbf15bc518c10d, 0xfcaecbd615efde7a, 0x0bf2097feeda140e}},
     {"first_impacts", play_first_impacts, {0xd701d096bffb2928, 0xfde833af67331dd8, 0xd7399c245f70254f}},
     {"impacts_large", play_impacts_large, {0x81650dd764ba98d8, 0xbdee4915b8bbf100, 0xbd4d102e550ed59d}},
