@@ -1,6 +1,8 @@
 // A membrane between two jaws is cut along a moving blade, tears under its weight, and its flaps come to rest on the
-// organ below. Each cut is World::set_facets(): what is still there keeps its ids. The solver is that of cloth.cpp.
-// Status 0: nothing ever crossed, no id went over to another feature, the membrane is in two and lies on the organ.
+// organ below. Then a thread, a body of edges alone, is pulled down through the cut. Each cut is World::set_facets():
+// what is still there keeps its ids. The solver is that of cloth.cpp. Status 0: nothing ever crossed, nor did the
+// thread on its way, no id went over to another feature, the membrane is in two and lies on the organ, the thread is
+// through.
 #include <tact/tact.h>
 
 #include <algorithm>
@@ -24,40 +26,73 @@ constexpr double kMargin = 0.005;         // of every body, metres; surfaces are
 constexpr double kTears = 1.02;           // an edge at the tip of the cut breaks where it is so many times as long
 constexpr double kSubstep = 1.0 / 720.0;  // seconds: in one, nothing may move farther than two margins
 constexpr int kSubsteps = 2880, kFirstCut = 180, kSubstepsACut = 24, kCutVertices = 17;
+constexpr int kFirstPull = 1440, kThread = 13;            // vertices of the thread
+constexpr double kThreadSpacing = 0.025, kPull = 0.0004;  // metres, the second in a substep
+constexpr double kThreadY = -0.45;                        // where the flaps hang beside the organ
 
 struct Spring {
   int a, b;
   double length;  // at rest, metres
 };
 
-// Vertices in rows; each knows the place in the grid that it was made at: `origin` is one number for all doubles.
-struct Membrane {
-  Matrix3Xd now{3, kSide*kSide}, before;
-  Eigen::Matrix3Xi facets{3, 2 * (kSide - 1) * (kSide - 1)};
-  Matrix3Xd velocity = Matrix3Xd::Zero(3, kSide* kSide);
-  std::vector<int> origin;
+// Vertices of which some are held, and springs between them.
+struct Soft {
+  Matrix3Xd now, before, velocity;
+  std::vector<int> origin;  // of each vertex the place that it was made at: one number for all doubles
   std::vector<Spring> springs;
+  std::vector<char> held;
+
+  int count() const { return static_cast<int>(origin.size()); }
+  bool is_held(int v) const { return held[v] != 0; }
+
+  void add(const Vector3d& at, int place, bool is_held_there) {
+    for (Matrix3Xd* columns : {&now, &before, &velocity}) columns->conservativeResize(3, count() + 1);
+    now.col(count()) = before.col(count()) = at;
+    velocity.col(count()).setZero();
+    origin.push_back(place);
+    held.push_back(is_held_there ? 1 : 0);
+  }
+
+  void fall() {
+    before = now;
+    for (int v = 0; v < count(); ++v) {
+      if (!is_held(v)) velocity(2, v) -= 9.81 * kSubstep;
+    }
+    for (int v = 0; v < count(); ++v) {
+      if (!is_held(v)) now.col(v) += kSubstep / (1.0 + 2.0 * kSubstep) * velocity.col(v);  // with drag
+    }
+  }
+
+  void pull_springs() {
+    for (const auto& [a, b, length] : springs) {
+      const double give = (is_held(a) ? 0.0 : 1.0) + (is_held(b) ? 0.0 : 1.0);
+      const Vector3d way = now.col(b) - now.col(a);
+      if (give == 0.0 || way.isZero()) continue;
+      const Vector3d share = 0.5 / give * (1.0 - length / way.norm()) * way;
+      if (!is_held(a)) now.col(a) += share;
+      if (!is_held(b)) now.col(b) -= share;
+    }
+  }
+};
+
+// In rows over the organ.
+struct Membrane : Soft {
+  Eigen::Matrix3Xi facets{3, 2 * (kSide - 1) * (kSide - 1)};
   int cut = 0;  // vertices of the middle column that have doubles, from the first on
 
   Membrane() {
-    for (int v = 0; v < kSide * kSide; ++v) {
-      now.col(v) = rest(v);
-      origin.push_back(v);
-    }
+    for (int v = 0; v < kSide * kSide; ++v) add(rest(v), v, v % kSide % (kSide - 1) == 0);
     for (int f = 0; f < facets.cols(); f += 2) {
       const int a = f / 2 + f / 2 / (kSide - 1), c = a + kSide;
       facets.col(f) << a, a + 1, c + 1;
       facets.col(f + 1) << a, c + 1, c;
     }
-    before = now;
     find_springs();
   }
 
   static Vector3d rest(int at) {
     return {kSpacing * (at % kSide - kMiddle), kSpacing * (at / kSide - kMiddle), kRadius + 0.05};
   }
-  bool is_held(int v) const { return origin[v] % kSide % (kSide - 1) == 0; }
-  int count() const { return static_cast<int>(origin.size()); }
 
   // Along the edges of facets, and between the corners across from each other, against bending.
   void find_springs() {
@@ -66,10 +101,10 @@ struct Membrane {
       for (int k = 0; k < 3; ++k) opposite[std::minmax({facet[k], facet[(k + 1) % 3]})].push_back(facet[(k + 2) % 3]);
     }
     springs.clear();
-    const auto add = [&](int a, int b) { springs.push_back({a, b, (rest(origin[b]) - rest(origin[a])).norm()}); };
+    const auto join = [&](int a, int b) { springs.push_back({a, b, (rest(origin[b]) - rest(origin[a])).norm()}); };
     for (const auto& [edge, corners] : opposite) {
-      add(edge.first, edge.second);
-      if (corners.size() == 2) add(corners[0], corners[1]);
+      join(edge.first, edge.second);
+      if (corners.size() == 2) join(corners[0], corners[1]);
     }
   }
 
@@ -79,12 +114,9 @@ struct Membrane {
     for (int v = 0; v < count(); ++v) map[v] = v;
     const int at = cut++ * kSide + kMiddle, twin = count();
     map.push_back(at);
-    origin.push_back(at);
-    const auto add = [&](Matrix3Xd& columns) {
-      columns.conservativeResize(3, count());
-      columns.col(twin) = columns.col(at).eval();
-    };
-    add(now), add(before), add(velocity);
+    const Vector3d place = now.col(at), last = before.col(at), speed = velocity.col(at);
+    add(place, at, is_held(at));
+    before.col(twin) = last, velocity.col(twin) = speed;
     for (auto facet : facets.colwise()) {
       const bool is_right = std::any_of(facet.begin(), facet.end(), [&](int v) { return origin[v] % kSide > kMiddle; });
       for (int& v : facet) v = is_right && v == at ? twin : v;
@@ -100,22 +132,26 @@ struct Membrane {
              return (s.a == tip || s.b == tip) && (now.col(s.b) - now.col(s.a)).norm() > kTears * s.length;
            });
   }
+};
 
-  void pull_springs() {
-    for (const auto& [a, b, length] : springs) {
-      const double give = (is_held(a) ? 0.0 : 1.0) + (is_held(b) ? 0.0 : 1.0);
-      const Vector3d way = now.col(b) - now.col(a);
-      if (give == 0.0 || way.isZero()) continue;
-      const Vector3d share = 0.5 / give * (1.0 - length / way.norm()) * way;
-      if (!is_held(a)) now.col(a) += share;
-      if (!is_held(b)) now.col(b) -= share;
+// Straight, above the membrane, and held at both ends.
+struct Thread : Soft {
+  Eigen::Matrix2Xi edges{2, kThread - 1};
+
+  Thread() {
+    for (int v = 0; v < kThread; ++v) {
+      add({0.0, kThreadY, kRadius + 0.1 + kThreadSpacing * v}, v, v == 0 || v + 1 == kThread);
+      if (v == 0) continue;
+      edges.col(v - 1) << v - 1, v;
+      springs.push_back({v - 1, v, kThreadSpacing});
     }
   }
+  void pull() { now(2, 0) -= kPull, now(2, kThread - 1) -= kPull; }
 };
 
 // The two sides of a contact point move apart to both margins; what they slid is taken back, by Coulomb's law.
 struct Side {
-  Membrane* membrane;  // null: the organ, which stands
+  Soft* soft;  // null: the organ, which stands
   const Matrix3Xd& now;
   const std::array<int, 3>& vertices;
   const std::array<double, 3>& weights;
@@ -124,8 +160,8 @@ struct Side {
     for (int k = 0; k < 3 && vertices[k] >= 0; ++k) sum += weights[k] * x.col(vertices[k]);
     return sum;
   }
-  Vector3d slid() const { return membrane == nullptr ? Vector3d(0, 0, 0) : Vector3d(at(now) - at(membrane->before)); }
-  bool moves(int k) const { return membrane != nullptr && vertices[k] >= 0 && !membrane->is_held(vertices[k]); }
+  Vector3d slid() const { return soft == nullptr ? Vector3d(0, 0, 0) : Vector3d(at(now) - at(soft->before)); }
+  bool moves(int k) const { return soft != nullptr && vertices[k] >= 0 && !soft->is_held(vertices[k]); }
   double give() const {
     double sum = 0.0;
     for (int k = 0; k < 3; ++k) sum += moves(k) ? weights[k] * weights[k] : 0.0;
@@ -133,7 +169,7 @@ struct Side {
   }
   void move(const Vector3d& way) {
     for (int k = 0; k < 3; ++k) {
-      if (moves(k)) membrane->now.col(vertices[k]) += weights[k] * way;
+      if (moves(k)) soft->now.col(vertices[k]) += weights[k] * way;
     }
   }
 };
@@ -160,8 +196,16 @@ bool share_origin(const Membrane& m, const auto& some, const auto& others) {
   return false;
 }
 
+// Bodies, and the body itself, that a body comes to meet in this substep.
+std::size_t count_impacts(tact::World& world, tact::BodyId body) {
+  const auto pairs = world.detect_motion({.wanted = tact::Impacts::first_of_pair, .distance = 0.0}).pairs();
+  return static_cast<std::size_t>(
+      std::ranges::count_if(pairs, [&](const tact::ImpactPair& pair) { return pair.a == body || pair.b == body; }));
+}
+
 int main() {
   Membrane membrane;
+  Thread thread;
   Matrix3Xd ball(3, 41 * 21);  // rolled up: its sides and ends meet, vertices may be repeated
   Eigen::Matrix3Xi ball_facets(3, 2 * 40 * 20);
   for (int v = 0; v < ball.cols(); ++v) {
@@ -182,15 +226,18 @@ int main() {
                                           .self_contact = true});
   const tact::BodyId organ = world.add_body(
       {.positions = ball, .facets = ball_facets, .motion = tact::Motion::fixed, .name = "organ", .margin = kMargin});
-  std::size_t crossed = 0, jumps = 0, kept = 0;
+  const tact::BodyId rope =
+      world.add_body({.positions = thread.now, .edges = thread.edges, .name = "thread", .margin = kMargin});
+  const auto side = [&](tact::BodyId body, const std::array<int, 3>& vertices, const std::array<double, 3>& weights) {
+    Soft* const soft = body == id ? &membrane : body == rope ? static_cast<Soft*>(&thread) : nullptr;
+    return Side{soft, soft == nullptr ? ball : soft->now, vertices, weights};
+  };
+  std::size_t crossed = 0, jumps = 0, kept = 0, pierced = 0;
   std::map<std::uint64_t, int> last;  // of each point with the organ: the place where its vertex was made
   for (int substep = 0; substep < kSubsteps; ++substep) {
-    membrane.before = membrane.now;
-    for (int v = 0; v < membrane.count(); ++v) {
-      if (!membrane.is_held(v)) membrane.velocity(2, v) -= 9.81 * kSubstep;
-    }
-    membrane.now += kSubstep / (1.0 + 2.0 * kSubstep) * membrane.velocity;  // with drag
-    membrane.pull_springs();
+    membrane.fall(), thread.fall();
+    if (substep >= kFirstPull && thread.now(2, 0) > kRadius - 0.1) thread.pull();
+    membrane.pull_springs(), thread.pull_springs();
     const bool blade = substep >= kFirstCut && substep % kSubstepsACut == 0 && membrane.cut < kCutVertices;
     if (blade || (membrane.cut >= kCutVertices && membrane.tears())) {
       const std::vector<int> map = membrane.cut_once();
@@ -198,6 +245,8 @@ int main() {
     } else {
       world.set_positions(id, membrane.now);
     }
+    world.set_positions(rope, thread.now);
+    if (substep >= kFirstPull) pierced += count_impacts(world, rope);
     std::map<std::uint64_t, int> points;
     for (const tact::Contact& contact : world.detect().contacts()) {
       const bool of_itself = contact.a == contact.b;
@@ -207,10 +256,7 @@ int main() {
       for (const tact::ContactPoint& p : contact.points()) {
         if (of_itself && share_origin(membrane, p.a_vertices, p.b_vertices)) continue;
         if (!of_itself && p.kind == tact::FeaturePair::vertex_facet) points[p.id] = membrane.origin[p.a_vertices[0]];
-        keep_apart(
-            p,
-            {contact.a == id ? &membrane : nullptr, contact.a == id ? membrane.now : ball, p.a_vertices, p.a_weights},
-            {contact.b == id ? &membrane : nullptr, contact.b == id ? membrane.now : ball, p.b_vertices, p.b_weights});
+        keep_apart(p, side(contact.a, p.a_vertices, p.a_weights), side(contact.b, p.b_vertices, p.b_weights));
       }
     }
     for (const auto& [point, origin] : points) {
@@ -220,13 +266,17 @@ int main() {
     }
     last = std::move(points);
     membrane.velocity = (membrane.now - membrane.before) / kSubstep;
+    thread.velocity = (thread.now - thread.before) / kSubstep;
   }
   const tact::Contact* const rests = world.detect().find_contact(id, organ);
   const std::size_t points = rests == nullptr ? 0 : rests->points().size();
   const double speed = std::sqrt(membrane.velocity.colwise().squaredNorm().mean());
   std::printf(
       "%d of %d vertices cut, %zu points with the organ, %zu ids kept, %zu jumped; facets that ever crossed: "
-      "%zu; speed %.3f m/s\n",
-      membrane.cut, kSide, points, kept, jumps, crossed, speed);
-  return crossed == 0 && jumps == 0 && kept > 0 && membrane.cut == kSide && points > 10 && speed < 0.5 ? 0 : 1;
+      "%zu, the thread: %zu; its end %.3f m below the jaws; speed %.3f m/s\n",
+      membrane.cut, kSide, points, kept, jumps, crossed, pierced, Membrane::rest(0).z() - thread.now(2, 0), speed);
+  const bool is_through = thread.now(2, 0) < kRadius - 0.05 && pierced == 0;
+  return crossed == 0 && jumps == 0 && kept > 0 && membrane.cut == kSide && points > 10 && speed < 0.5 && is_through
+             ? 0
+             : 1;
 }

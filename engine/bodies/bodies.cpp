@@ -106,7 +106,7 @@ BodyId Bodies::add_made(std::unique_ptr<Body> body, const Definition& definition
                     .key = definition.key.value_or(slot),
                     .is_rigid = motion == Motion::rigid};
   body->birth = birth_of(slot, place.key, steps_, *body);
-  body->is_outward = is_outward(body->mesh);
+  body->is_outward = body->has_inside && is_outward(body->mesh);
   make_room_for(slot, place);
   slot < slots_.size() ? free_.pop_back() : add_slot();
   body->id = {slot, ++generations_[slot], world_};

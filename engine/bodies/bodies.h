@@ -45,7 +45,7 @@ struct alignas(64) Body {
   bool has_inside = true;  // it was added as closed, and is: see encloses.h; otherwise it is taken as a sheet
   std::uint64_t external_id = 0;
   bool self_contact = false;
-  bool is_outward = false;  // its facets were counter-clockwise seen from outside when it was added: by its volume
+  bool is_outward = false;  // it has an inside, and facets were counter-clockwise seen from outside: by its volume
   std::uint64_t birth = 0;  // a hash of the mesh and slot as they were when it was added, and of the step
   std::unique_ptr<const narrowphase::Features> features = nullptr;           // made when points are first requested
   std::unique_ptr<const narrowphase::ClusterNeighbors> neighbors = nullptr;  // when it is first held against itself

@@ -148,7 +148,7 @@ Bodies::NewMesh Bodies::make_mesh(BodyId id, const MeshUpdate& update, int threa
   if (body.features != nullptr) made.features = std::make_unique<const narrowphase::Features>(made.mesh);
   if (body.neighbors != nullptr)
     made.neighbors = std::make_unique<const narrowphase::ClusterNeighbors>(made.mesh, *made.features);
-  made.is_outward = is_outward(made.mesh);
+  made.is_outward = made.has_inside && is_outward(made.mesh);
   made.vertices.id = id;
   const std::vector<int> vertex_of_source = vertices_of_sources(made.mesh);
   made.vertices.numbers.reserve(last.vertex_count());

@@ -1,6 +1,8 @@
 #include "narrowphase/mesh/features.h"
 
 #include <algorithm>
+#include <memory>
+#include <numeric>
 #include <utility>
 
 #include "narrowphase/mesh/prefetch.h"
@@ -9,62 +11,47 @@ namespace tact::narrowphase {
 
 namespace {
 
-// Sides of facets, each from corner k of a facet to the next one, as 3 * facet + k. Those of one edge stand together,
-// in the order of the facets.
-struct Sides {
-  // Of an edge: from `begin` on, to `end`.
-  struct Edge {
-    int begin = 0, end = 0;
+// Numbers edges in the order in which they come. Each stands with its vertex of fewer sides, where it is looked for one
+// by one: where thousands of facets meet in a vertex, the others have few each.
+class EdgeTable {
+ public:
+  EdgeTable(const std::vector<Corners>& corners, int vertices)
+      : sides_(static_cast<std::size_t>(vertices), 0), end_(static_cast<std::size_t>(vertices)) {
+    for (const Corners& c : corners) {
+      for (const int v : c) sides_[v] += 2;
+    }
+    int room = 0;
+    for (std::size_t v = 0; v < sides_.size(); ++v) end_[v] = std::exchange(room, room + sides_[v]);
+    begin_ = end_;
+    entries_ = std::make_unique_for_overwrite<Entry[]>(static_cast<std::size_t>(room));
+  }
+
+  // Of two vertices; count() before, if there was none.
+  int edge_of(int u, int v) {
+    if (std::pair(sides_[v], v) < std::pair(sides_[u], u)) std::swap(u, v);
+    Entry *const first = &entries_[begin_[u]], *const last = &entries_[end_[u]];
+    for (const Entry* entry = first; entry != last; ++entry) {
+      if (entry->other == v) return entry->edge;
+    }
+    *last = {v, count_};
+    ++end_[u];
+    return count_++;
+  }
+  int count() const { return count_; }
+
+ private:
+  struct Entry {
+    int other, edge;
   };
-  std::vector<std::uint64_t> keys;  // the larger vertex of the edge, then the side, of 32 bits each
-  std::vector<Edge> edges;          // in the order of their first sides
-
-  std::size_t facet(int i) const { return static_cast<std::uint32_t>(keys[i]) / 3; }
-  std::size_t corner(int i) const { return static_cast<std::uint32_t>(keys[i]) % 3; }
+  std::vector<int> sides_, end_, begin_;  // of each vertex
+  std::unique_ptr<Entry[]> entries_;
+  int count_ = 0;
 };
-
-// Calls visit(smaller vertex, key) for all, by facets.
-template <class Visit>
-void for_each_side(const std::vector<Corners>& corners, const Visit& visit) {
-  std::uint64_t side = 0;
-  for (const Corners& c : corners) {
-    for (std::size_t k = 0; k < 3; ++k, ++side) {
-      const auto [small, large] = std::minmax(c[k], c[(k + 1) % 3]);
-      if (small != large) visit(small, static_cast<std::uint64_t>(large) << 32 | side);
-    }
-  }
-}
-
-// First by the smaller vertex, of which there are as many as vertices, then the few that have it.
-Sides sides_of(const std::vector<Corners>& corners, int vertices) {
-  std::vector<int> begin(static_cast<std::size_t>(vertices) + 1, 0);
-  for_each_side(corners, [&](int vertex, std::uint64_t) { ++begin[static_cast<std::size_t>(vertex) + 1]; });
-  for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
-  Sides sides{.keys = std::vector<std::uint64_t>(static_cast<std::size_t>(begin.back())), .edges = {}};
-  std::vector<int> next(begin.begin(), begin.end() - 1);
-  for_each_side(corners, [&](int vertex, std::uint64_t key) { sides.keys[next[vertex]++] = key; });
-  std::vector<Sides::Edge> at_side(3 * corners.size());  // the edges that begin with a side
-  std::size_t count = 0;
-  for (std::size_t v = 0; v + 1 < begin.size(); ++v) {
-    const int end = begin[v + 1];
-    std::sort(sides.keys.begin() + begin[v], sides.keys.begin() + end);
-    for (int i = begin[v], first = i; i < end; first = i, ++count) {
-      while (i < end && sides.keys[i] >> 32 == sides.keys[first] >> 32) ++i;
-      at_side[static_cast<std::uint32_t>(sides.keys[first])] = {first, i};
-    }
-  }
-  sides.edges.reserve(count);
-  for (const Sides::Edge& edge : at_side) {
-    if (edge.end > edge.begin) sides.edges.push_back(edge);
-  }
-  return sides;
-}
 
 }  // namespace
 
 Features::Features(const ClusteredMesh& mesh) {
-  corners_.reserve(mesh.facet_count());
-  for (int f = 0; f < mesh.facet_count(); ++f) corners_.push_back(mesh.corners(f));
+  find_corners(mesh);
   find_edges(mesh);
   find_neighbors(mesh);
   find_facets_at(mesh);
@@ -76,34 +63,82 @@ Features::Features(const ClusteredMesh& mesh) {
   if (!mesh.has_surface_alone()) find_bare(mesh);
 }
 
-void Features::find_edges(const ClusteredMesh& mesh) {
-  const Sides sides = sides_of(corners_, mesh.vertex_count());
-  facet_edges_.assign(3 * static_cast<std::size_t>(mesh.facet_count()), -1);
-  edge_begin_.assign(static_cast<std::size_t>(mesh.cluster_count()) + 1, 0);
-  opposite_begin_.push_back(0);
-  for (const auto& [begin, end] : sides.edges) {
-    const int edge = edge_count(), first = static_cast<int>(sides.facet(begin));
-    const Corners& corners = corners_[first];
-    std::size_t from = sides.corner(begin), to = (from + 1) % 3;
-    if (mesh.source_vertex(corners[to]) < mesh.source_vertex(corners[from])) std::swap(from, to);
-    edges_.push_back({corners[from], corners[to]});
-    const ClusterFacets cluster = mesh.facets_of(first / kClusterSize);
-    edge_corner_[0].push_back(cluster.corner[from][first % kClusterSize]);
-    edge_corner_[1].push_back(cluster.corner[to][first % kClusterSize]);
-    first_facet_of_edge_.push_back(first);
-    ++edge_begin_[static_cast<std::size_t>(first / kClusterSize) + 1];
-    int balance = 0;
-    for (int i = begin; i < end; ++i) {
-      const std::size_t f = sides.facet(i), k = sides.corner(i);
-      facet_edges_[3 * f + k] = edge;
-      balance += corners_[f][k] == edges_.back()[0] ? 1 : -1;
-      opposite_.push_back(corners_[f][(k + 2) % 3]);
+void Features::find_corners(const ClusteredMesh& mesh) {
+  corners_.resize(static_cast<std::size_t>(mesh.facet_count()));
+  std::array<int, 3 * kClusterSize> vertices{};
+  for (int c = 0; c < mesh.cluster_count(); ++c) {
+    const ClusterFacets cluster = mesh.facets_of(c);
+    std::iota(vertices.begin(), vertices.begin() + cluster.owned_count, cluster.owned_begin);
+    std::copy_n(cluster.borrowed, cluster.borrowed_count, vertices.begin() + cluster.owned_count);
+    for (int i = 0; i < cluster.facet_count; ++i) {
+      Corners& corners = corners_[static_cast<std::size_t>(cluster.facet_begin + i)];
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = vertices[cluster.corner[k][i]];
     }
-    is_closed_ &= balance == 0;
-    opposite_begin_.push_back(static_cast<int>(opposite_.size()));
   }
-  for (std::size_t c = 1; c < edge_begin_.size(); ++c) edge_begin_[c] += edge_begin_[c - 1];
-  for (auto& corners : edge_corner_) corners.resize(corners.size() + 64);
+}
+
+void Features::find_edges(const ClusteredMesh& mesh) {
+  EdgeTable table(corners_, mesh.vertex_count());
+  facet_edges_.resize(3 * corners_.size());
+  edge_begin_.assign(1, 0);
+  for (int c = 0; c < mesh.cluster_count(); ++c) {
+    for (int f = mesh.facet_begin(c); f < mesh.facet_end(c); ++f) {
+      const Corners& corners = corners_[f];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int from = corners[k], to = corners[(k + 1) % 3];
+        facet_edges_[3 * static_cast<std::size_t>(f) + k] = from == to ? -1 : table.edge_of(from, to);
+      }
+    }
+    edge_begin_.push_back(table.count());
+  }
+  find_ends(mesh, table.count());
+  find_opposite();
+}
+
+// Of each edge where it comes first.
+void Features::find_ends(const ClusteredMesh& mesh, int count) {
+  const auto edges = static_cast<std::size_t>(count);
+  edges_.resize(edges);
+  first_facet_of_edge_.resize(edges);
+  opposite_begin_.assign(edges + 1, 0);
+  for (auto& corners : edge_corner_) corners.resize(edges + 64);
+  std::vector<int> balances(edges, 0);  // of each edge: facets along it, less those that go the other way
+  int known = 0;
+  for (int c = 0; c < mesh.cluster_count(); ++c) {
+    const ClusterFacets cluster = mesh.facets_of(c);
+    for (int i = 0; i < cluster.facet_count; ++i) {
+      const auto facet = static_cast<std::size_t>(cluster.facet_begin + i);
+      const Corners& corners = corners_[facet];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int edge = facet_edges_[3 * facet + k];
+        if (edge < 0) continue;
+        if (edge == known) {
+          ++known;
+          std::size_t from = k, to = (k + 1) % 3;
+          if (mesh.source_vertex(corners[to]) < mesh.source_vertex(corners[from])) std::swap(from, to);
+          edges_[edge] = {corners[from], corners[to]};
+          edge_corner_[0][edge] = cluster.corner[from][i];
+          edge_corner_[1][edge] = cluster.corner[to][i];
+          first_facet_of_edge_[edge] = static_cast<int>(facet);
+        }
+        balances[edge] += corners[k] == edges_[edge][0] ? 1 : -1;
+        ++opposite_begin_[static_cast<std::size_t>(edge) + 1];
+      }
+    }
+  }
+  is_closed_ = std::ranges::all_of(balances, [](int balance) { return balance == 0; });
+}
+
+// In the order of the facets.
+void Features::find_opposite() {
+  for (std::size_t e = 1; e < opposite_begin_.size(); ++e) opposite_begin_[e] += opposite_begin_[e - 1];
+  opposite_.resize(static_cast<std::size_t>(opposite_begin_.back()));
+  std::vector<int> next(opposite_begin_.begin(), opposite_begin_.end() - 1);
+  for (std::size_t f = 0; f < corners_.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (const int edge = facet_edges_[3 * f + k]; edge >= 0) opposite_[next[edge]++] = corners_[f][(k + 2) % 3];
+    }
+  }
 }
 
 void Features::find_neighbors(const ClusteredMesh& mesh) {
@@ -191,22 +226,21 @@ void Features::mark_repeated(const ClusteredMesh& mesh, std::vector<std::pair<Co
   }
 }
 
+// Each vertex leads to one of its part that is not above it, in the end to the first (Tarjan, "Efficiency of a good but
+// not linear set union algorithm", 1975).
 void Features::find_parts() {
-  std::vector<bool> reached(first_facet_of_vertex_.size());
-  std::vector<int> next;
-  for (std::size_t v = 0; v < reached.size(); ++v) {
-    if (reached[v]) continue;
-    one_of_each_part_.push_back(static_cast<int>(v));
-    reached[v] = true;
-    for (next.assign(1, static_cast<int>(v)); !next.empty();) {
-      const int from = next.back();
-      next.pop_back();
-      for (const int to : neighbors(from)) {
-        if (reached[to]) continue;
-        reached[to] = true;
-        next.push_back(to);
-      }
-    }
+  std::vector<int> leads_to(first_facet_of_vertex_.size());
+  std::iota(leads_to.begin(), leads_to.end(), 0);
+  const auto first_of = [&](int v) {
+    while (leads_to[v] != v) v = leads_to[v] = leads_to[leads_to[v]];
+    return v;
+  };
+  for (const auto& [v, w] : edges_) {
+    const auto [low, high] = std::minmax({first_of(v), first_of(w)});
+    leads_to[high] = low;
+  }
+  for (int v = 0; v < static_cast<int>(leads_to.size()); ++v) {
+    if (leads_to[v] == v) one_of_each_part_.push_back(v);
   }
 }
 

@@ -78,7 +78,10 @@ class Features {
     const auto k = static_cast<std::size_t>(i);
     return std::span(all).subspan(begin[k], begin[k + 1] - begin[k]);
   }
+  void find_corners(const ClusteredMesh& mesh);
   void find_edges(const ClusteredMesh& mesh);
+  void find_ends(const ClusteredMesh& mesh, int count);
+  void find_opposite();
   void find_repeated(const ClusteredMesh& mesh);
   void mark_repeated(const ClusteredMesh& mesh, std::vector<std::pair<Corners, int>>& sorted, unsigned mark);
   void find_neighbors(const ClusteredMesh& mesh);

@@ -156,9 +156,9 @@ bool vertex_parts(const MovingMesh& of_vertex, int vertex, const MovingMesh& of_
 // Of an edge from all facets that have the other.
 bool edge_parts(const MovingMesh& of_edge, int edge, const MovingMesh& of_other, int other, int halvings) {
   const MovingEdge moving = moving_edge(of_edge, of_edge.features->edge(edge));
-  const auto [p, q] = of_other.features->edge(other);
+  const EdgeVertices ends = of_other.features->edge(other);
   return std::ranges::all_of(of_other.features->opposite(other), [&](int third) {
-    return parts(moving, moving_facet(of_other, {p, q, third}), halvings);
+    return parts(moving, moving_facet(of_other, {ends[0], ends[1], third}), halvings);
   });
 }
 
