@@ -248,6 +248,9 @@ void MotionStage::leave_out_clusters(const Passing& passing, const Call& call, s
     const double earliest = narrowphase::earliest_time(a, pair.a, b, pair.b, passing.reach);
     if (earliest <= 1.0) memory.timed.push_back({earliest, pair});
   }
+  const narrowphase::MeshWay way_a = a.seen_from({}), way_b = b.seen_from({});
+  memory.passing.leave_out_separated({.mesh = a.mesh, .way = &way_a}, {.mesh = b.mesh, .way = &way_b}, passing.reach,
+                                     call.bodies.tuning(), memory.timed, 0, [](const TimedPair& t) { return t.pair; });
   if (!call.wants_all())
     std::ranges::sort(memory.timed, {}, [](const TimedPair& t) { return std::tuple(t.earliest, t.pair.a, t.pair.b); });
   memory.clusters.resize(begin);

@@ -34,6 +34,9 @@ struct Tuning {
   /// nanosecond to one a pair, building and querying trees 0.5 to 1.3 us a box; they are equal at one to two million
   /// pairs.
   std::size_t largest_loop = std::size_t{1} << 20;
+  /// Cluster pairs, from which on planes may be tried where boxes tell little; 0: of all pairs, without a sample.
+  /// Estimated: a sample of them takes as long as two or three pairs.
+  std::size_t worth_planes = 64;
 
   // Measured: what is shared out among threads (engine/shared_work.h). Work is in microseconds, about what a pair of
   // clusters takes in stage 6; at a border between ranges a few clusters are opened twice.

@@ -1,5 +1,7 @@
 #include "engine/pair/cull.h"
 
+#include <functional>
+
 namespace tact {
 
 namespace {
@@ -37,15 +39,17 @@ void count_clusters(const CulledPair& culled, PairCounts& counts) {
   counts.cluster_pairs += static_cast<std::int64_t>(culled.cluster_pairs.size());
 }
 
-// Surfaces that lie on each other: that with more clusters is A, whose clusters are looked at one after the other.
-void prepare_surfaces(const PairTask& pair) {
+// Surfaces that lie on each other: that with more clusters is A, whose clusters are looked at one after the other. Of
+// what only planes tell apart, `near` are the pairs whose boxes overlap: where boxes tell little, facets are slivers,
+// of which floats leave most pairs open.
+void prepare_surfaces(const PairTask& pair, std::size_t near) {
   PairRecord& record = pair.record;
   PairWork& work = pair.work;
   CulledPair& culled = work.culled;
   culled.swapped = false;
   culled.history = nullptr;
   const bool zones = pair.settings.accuracy == Accuracy::paper || pair.settings.outputs.zones;
-  culled.as_surfaces = !zones && worth_as_surfaces(culled.confirm_input(pair.tuning), culled.cluster_pairs.size());
+  culled.as_surfaces = !zones && worth_as_surfaces(culled.confirm_input(pair.tuning), near);
   if (!culled.as_surfaces) return;
   culled.swapped = culled.kept_a.count() < culled.kept_b.count();
   if (culled.swapped) work.join.exchange_meshes(culled.cluster_pairs, culled.kept_b.count());
@@ -74,9 +78,15 @@ void cull(const PairTask& pair, const Slab& slab, EmbreeDevice& device) {
   if (work.prefetches) prefetch_facets(b, culled.kept_b);
   keep_again(culled.kept_b.bounds, culled.kept_a);
   work.join.run(culled.kept_a, culled.kept_b, BoxPairs::all, pair.tuning, device, culled.cluster_pairs);
+  const std::size_t near = culled.cluster_pairs.size();
+  const auto paired = [](const ClusteredMesh& mesh, const KeptClusters& kept) {
+    return PairedClusters{{.mesh = &mesh}, kept.count(), kept.cluster.data()};
+  };
+  work.separation.leave_out(paired(a, culled.kept_a), paired(b, culled.kept_b), 0.0, pair.tuning, culled.cluster_pairs,
+                            0, std::identity{});
   work.counts.tree_pairs += work.join.uses_trees() ? 1 : 0;
   count_clusters(culled, work.counts);
-  prepare_surfaces(pair);
+  prepare_surfaces(pair, near);
 }
 
 }  // namespace tact

@@ -13,6 +13,7 @@
 #include "narrowphase/direction/minkowski_face.h"
 #include "narrowphase/hull/minkowski_difference.h"
 #include "narrowphase/pairs/cluster_join.h"
+#include "narrowphase/pairs/cluster_separation.h"
 #include "narrowphase/triangles/confirm.h"
 
 namespace tact {
@@ -45,6 +46,7 @@ struct PairWork {
   narrowphase::SmallestMemory smallest;
   std::vector<narrowphase::Point2> zone_points;
   narrowphase::ClusterJoin join;
+  narrowphase::ClusterSeparation separation;
   bool prefetches = true;  ///< the memory of facets, see Bodies::stay_in_cache()
   CulledPair culled;
   narrowphase::FacetPairSearch search;

@@ -1,28 +1,41 @@
 // The one generator of what is near: the pairs of clusters of two meshes, or of one with itself, whose boxes overlap.
 // Boxes are those of the clusters where they are, grown by a reach, or swept along the ways of their vertices. Of each
-// mesh the clusters near the other are kept first (kept_clusters.h), then joined (cluster_join.h).
+// mesh the clusters near the other are kept first (kept_clusters.h), then joined (cluster_join.h). Of what is still,
+// planes leave out more where boxes tell little (cluster_separation.h).
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "narrowphase/pairs/box_reach.h"
 #include "narrowphase/pairs/cluster_join.h"
+#include "narrowphase/pairs/cluster_separation.h"
 
 namespace tact::narrowphase {
 
 /// Its memory is used again: one for each thread, or one for each pair of meshes whose ranges threads share.
 class ClusterPairFinder {
  public:
-  /// The pairs that come within `reach` (metres) of each other, sorted. Of one mesh, for which both boxes are the same,
+  /// The pairs whose boxes come within `reach` (metres) of each other, but for those of two clusters that are still
+  /// and that a plane separates as far, sorted. Of one mesh, for which both boxes are the same,
   /// each pair once, the smaller cluster first, each cluster with itself among them. Valid until the next call. Errors:
   /// those of ClusterForest::build().
   std::span<const ClusterPair> find(const ClusterBoxes& a, const ClusterBoxes& b, double reach,
                                     const base::Tuning& tuning, EmbreeDevice& device) {
     pairs_.clear();
     find_range(0, begin(a, b, reach, tuning, device), memory_, pairs_);
+    if (a.way == nullptr) leave_out_separated(a, b, reach, tuning, pairs_, 0, std::identity{});
     return pairs_;
+  }
+
+  /// After find(), of those pairs that are left: leaves out items from the first-th on whose clusters a plane separates
+  /// all the way.
+  template <class Item, class PairOf>
+  void leave_out_separated(const ClusterBoxes& a, const ClusterBoxes& b, double reach, const base::Tuning& tuning,
+                           std::vector<Item>& items, std::size_t first, const PairOf& pair_of) {
+    separation_.leave_out({a, kept_a_.count()}, {b, kept_b_.count()}, reach, tuning, items, first, pair_of);
   }
 
   /// The same in ranges. begin() keeps what is near, after which `a` and `b` are not needed, and returns the number of
@@ -34,7 +47,8 @@ class ClusterPairFinder {
     keep_clusters(b, 0.0, kept_a_.bounds, kept_b_);
     return join_.begin(kept_a_, kept_b_, a.mesh == b.mesh ? BoxPairs::ascending : BoxPairs::all, tuning, device);
   }
-  /// Appends the pairs of the runs begin <= r < end, sorted: those of one range after the other are those of find().
+  /// Appends the pairs of the runs begin <= r < end, sorted: those of one range after the other are those of find(),
+  /// before planes leave out any.
   /// Many threads may call it at once, each with a memory of its own.
   void find_range(int begin, int end, ClusterJoin::Memory& memory, std::vector<ClusterPair>& pairs) const {
     const std::size_t before = pairs.size();
@@ -47,6 +61,7 @@ class ClusterPairFinder {
   KeptClusters kept_a_, kept_b_;
   ClusterJoin join_;
   ClusterJoin::Memory memory_;
+  ClusterSeparation separation_;
   std::vector<ClusterPair> pairs_;
 };
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <utility>
 
+#include "narrowphase/mesh/cluster_places.h"
 #include "narrowphase/pairs/open_clusters.h"
 #include "narrowphase/triangles/triangle_triangle.h"
 
@@ -63,31 +64,6 @@ void exclude_within(OpenFacets& a, std::uint64_t (&excluded)[kClusterSize]) {
   }
 }
 
-// Where the vertices of a cluster are among its own, for those of all others -1.
-class Places {
- public:
-  void choose(const OpenFacets& cluster, int vertex_count) {
-    forget();
-    if (place_.size() != static_cast<std::size_t>(vertex_count)) place_.assign(vertex_count, -1);
-    chosen_ = cluster.source;
-    for (int i = 0; i < chosen_.borrowed_count; ++i) place(chosen_.borrowed[i]) = chosen_.owned_count + i;
-  }
-  void forget() {
-    for (int i = 0; i < chosen_.borrowed_count; ++i) place(chosen_.borrowed[i]) = -1;
-    chosen_ = {};
-  }
-  int operator[](int vertex) const {
-    const int owned = vertex - chosen_.owned_begin;
-    return owned >= 0 && owned < chosen_.owned_count ? owned : place_[vertex];
-  }
-
- private:
-  int& place(int vertex) { return place_[vertex]; }
-
-  ClusterFacets chosen_{};
-  std::vector<int> place_;  // of each vertex of the mesh among the borrowed ones
-};
-
 // A vertex of two clusters, or of one taken twice, and the facets of each that have it.
 struct CommonVertex {
   int place;  // in the first
@@ -101,7 +77,7 @@ struct CommonVertices {
 };
 
 // Those of a cluster and a later one, which has borrowed them.
-void find_common(OpenFacets& a, const Places& places_in_a, OpenFacets& b, CommonVertices& common) {
+void find_common(OpenFacets& a, const ClusterPlaces& places_in_a, OpenFacets& b, CommonVertices& common) {
   common.count = 0;
   for (int k = 0; k < b.source.borrowed_count; ++k) {
     const int place = places_in_a[b.source.borrowed[k]];
@@ -148,7 +124,7 @@ struct SelfFacetSearch::Memory {
   // Clusters that stay open, 14 kB each, of which 8 are used: neighbours come soon again. With 32 the rolled sheet of
   // 13 k took 1.22 ms instead of 1.17, with 128 as much.
   OpenClusters<OpenFacets, 64> opened;
-  Places places;  // in the first cluster of a pair
+  ClusterPlaces places;  // in the first cluster of a pair
   CommonVertices common;
   std::uint64_t excluded[kClusterSize], neighbors[kClusterSize];
   BlockPair blocks;
@@ -230,7 +206,7 @@ void SelfFacetSearch::run(const ClusteredMesh& mesh, const VertexFans& fans, std
   for (const ClusterPair& pair : pairs) {
     if (std::exchange(first_cluster, pair.a) != pair.a) {
       first = &open(pair.a, nullptr);
-      m.places.choose(*first, mesh.vertex_count());
+      m.places.choose(first->source, mesh.vertex_count());
     }
     OpenFacets &a = *first, &b = pair.b == pair.a ? a : open(pair.b, first);
     const Box box_a = mesh.cluster_boxes()[pair.a], box_b = mesh.cluster_boxes()[pair.b];

@@ -10,7 +10,9 @@
 #include "tests/support/checks/tunings.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/generators/body_pairs.h"
+#include "tests/support/generators/fans.h"
 #include "tests/support/generators/messy_soups.h"
+#include "tests/support/generators/random.h"
 #include "tests/support/hashes/work_hash.h"
 
 namespace tact::tests {
@@ -116,42 +118,64 @@ TEST_P(AtTuning, DirectionsAndDepthsAgreeWithTheDefault) {
   }
 }
 
-// Contact points, self-contact and motion find their cluster pairs by the same thresholds.
+// Of a sheet with itself and a ball that falls on it: contact points, self-contact and motion find their cluster pairs
+// by the same thresholds. Returns how many points and impacts there are.
+std::array<std::size_t, 2> expect_answers_of_default(const base::Tuning& tuning, const Mesh& sheet, const Mesh& ball,
+                                                     Vec3 way) {
+  tact::World world({.threads = 1, .outputs = {.points = true}}), other({.threads = 2, .outputs = {.points = true}});
+  WorldTuning::set(other, tuning);
+  std::vector<std::array<BodyId, 2>> bodies;
+  for (tact::World* one : {&world, &other}) {
+    const BodyId of_sheet = one->add_body({.positions = sheet.positions,
+                                           .facets = sheet.facets,
+                                           .surface = Surface::sheet,
+                                           .margin = 0.02,
+                                           .self_contact = true});
+    bodies.push_back({of_sheet, one->add_body({.positions = ball.positions, .facets = ball.facets, .margin = 0.02})});
+  }
+  std::array<std::size_t, 2> counts{};
+  const auto expected = world.detect().contacts(), found = other.detect().contacts();
+  EXPECT_EQ(expected.size(), found.size());
+  for (std::size_t i = 0; i < std::min(expected.size(), found.size()); ++i) {
+    EXPECT_TRUE(same_facet_pairs(expected[i].facet_pairs(), found[i].facet_pairs()));
+    const auto points = expected[i].points(), others = found[i].points();
+    EXPECT_TRUE(std::ranges::equal(
+        points, others, [](const ContactPoint& p, const ContactPoint& q) { return p.id == q.id && p.gap == q.gap; }));
+    counts[0] += points.size();
+  }
+  const Mesh fallen = translated(ball, way), swayed = mapped(sheet, [](Vec3 p) { return Vec3{p.x, p.y, 0.97 * p.z}; });
+  const auto move = [&](tact::World& one, const std::array<BodyId, 2>& those) {
+    one.set_positions(those[0], swayed.positions);
+    one.set_positions(those[1], fallen.positions);
+    return one.detect_motion().impacts();
+  };
+  const auto impacts = move(world, bodies[0]), others = move(other, bodies[1]);
+  EXPECT_TRUE(std::ranges::equal(impacts, others, [](const Impact& p, const Impact& q) {
+    return p.time == q.time && p.a_vertices == q.a_vertices && p.b_vertices == q.b_vertices && p.stops == q.stops;
+  }));
+  counts[1] = impacts.size();
+  return counts;
+}
+
 TEST_P(AtTuning, PointsSelfContactAndMotionAreThoseOfTheDefault) {
   const Mesh cloth = crumpled(sheet(24, 24, 2.0, 2.0), 5), ball = translated(blob(2, 0.6, 0.1, 6), {0.1, 0.0, 0.5});
-  tact::World world({.threads = 1, .outputs = {.points = true}}), other({.threads = 2, .outputs = {.points = true}});
-  WorldTuning::set(other, GetParam().tuning);
-  std::vector<BodyId> balls;
-  for (tact::World* one : {&world, &other}) {
-    one->add_body({.positions = cloth.positions,
-                   .facets = cloth.facets,
-                   .surface = Surface::sheet,
-                   .margin = 0.02,
-                   .self_contact = true});
-    balls.push_back(one->add_body({.positions = ball.positions, .facets = ball.facets, .margin = 0.02}));
-  }
-  const auto expected = world.detect().contacts(), found = other.detect().contacts();
-  ASSERT_EQ(expected.size(), 2u);
-  ASSERT_EQ(found.size(), 2u);
-  for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_TRUE(same_facet_pairs(expected[i].facet_pairs(), found[i].facet_pairs()));
-    EXPECT_GT(expected[i].points().size(), 10u);
-    ASSERT_EQ(expected[i].points().size(), found[i].points().size());
-    for (std::size_t k = 0; k < expected[i].points().size(); ++k) {
-      EXPECT_EQ(expected[i].points()[k].id, found[i].points()[k].id);
-      EXPECT_EQ(expected[i].points()[k].gap, found[i].points()[k].gap);
-    }
-  }
-  const Mesh fallen = translated(ball, {0.05, 0.02, -0.4});
-  world.set_positions(balls[0], fallen.positions);
-  other.set_positions(balls[1], fallen.positions);
-  const auto impacts = world.detect_motion().impacts(), others = other.detect_motion().impacts();
-  EXPECT_GT(impacts.size(), 10u);
-  ASSERT_EQ(impacts.size(), others.size());
-  for (std::size_t k = 0; k < impacts.size(); ++k) {
-    EXPECT_EQ(impacts[k].time, others[k].time);
-    EXPECT_EQ(impacts[k].a_vertices, others[k].a_vertices);
-    EXPECT_EQ(impacts[k].b_vertices, others[k].b_vertices);
+  const auto [points, impacts] = expect_answers_of_default(GetParam().tuning, cloth, ball, {0.05, 0.02, -0.4});
+  EXPECT_GT(points, 20u);
+  EXPECT_GT(impacts, 10u);
+}
+
+// Planes leave out cluster pairs of these, around vertices and edges of many facets and along the sides of slivers.
+TEST_P(AtTuning, AnswersOfSliversAndFansAreThoseOfTheDefault) {
+  Random random(31);
+  const Rotation turn = random.rotation();
+  const Mesh tube = rotated(sliver_tube(150, 0.1, 4.0), turn);
+  const Mesh shapes[] = {tube, fan_cone(140, 0.3), star(200, 3), open_book(140), crumpled(fan_cone(100, 0.3), 9)};
+  for (const Mesh& shape : shapes) {
+    const Mesh other = &shape == shapes ? rotated(translated(sliver_tube(150, 0.1, 4.0), {0.21, 0.03, 0.3}), turn)
+                                        : translated(blob(2, 0.4, 0.1, 6), {0.003, 0.0, 0.0});
+    const auto [points, impacts] = expect_answers_of_default(GetParam().tuning, shape, other, {0.05, 0.02, -0.4});
+    EXPECT_GT(points, 10u) << "shape " << &shape - shapes;
+    EXPECT_GT(impacts, 10u) << "shape " << &shape - shapes;
   }
 }
 
