@@ -27,6 +27,7 @@ void finish(const CulledPair& culled, OpenedFacets opened, const ConfirmCounts& 
   sort_facet_pairs(culled.record->facet_pairs, culled.a->facet_count(), culled.b->facet_count(), work.sorter, threads);
   split_off_bare(*culled.a, *culled.b, culled.record->facet_pairs, culled.record->bare_pairs);
   if (culled.history != nullptr) culled.history->finish(confirmed.still_apart);
+  if (culled.as_surfaces && culled.record->surfaces != nullptr) culled.record->surfaces->weigh(confirmed);
   culled.record->contact.kept_facets_a = opened.a.kept;
   culled.record->contact.kept_facets_b = opened.b.kept;
   work.counts.cull += opened.a;

@@ -50,6 +50,7 @@ void prepare_surfaces(const PairTask& pair, std::size_t near) {
   culled.history = nullptr;
   const bool zones = pair.settings.accuracy == Accuracy::paper || pair.settings.outputs.zones;
   culled.as_surfaces = !zones && worth_as_surfaces(culled.confirm_input(pair.tuning), near);
+  culled.as_surfaces = culled.as_surfaces && (record.surfaces == nullptr || record.surfaces->takes_as_surfaces());
   if (!culled.as_surfaces) return;
   culled.swapped = culled.kept_a.count() < culled.kept_b.count();
   if (culled.swapped) work.join.exchange_meshes(culled.cluster_pairs, culled.kept_b.count());

@@ -16,12 +16,16 @@ struct ConfirmCounts {
   std::int64_t facet_box_pairs = 0;
   std::int64_t triangle_tests = 0;
   std::int64_t still_apart = 0;  // cluster pairs that SurfaceHistory knew to be apart
+  std::int64_t plane_apart = 0;  // and that a plane along a surface separates: see surface_pairs.h
+  std::int64_t left_open = 0;    // facet pairs that floats left open there
   PredicateCounts predicates;
 
   ConfirmCounts& operator+=(const ConfirmCounts& other) {
     facet_box_pairs += other.facet_box_pairs;
     triangle_tests += other.triangle_tests;
     still_apart += other.still_apart;
+    plane_apart += other.plane_apart;
+    left_open += other.left_open;
     predicates.exact += other.predicates.exact;
     return *this;
   }

@@ -2,7 +2,7 @@
 //
 // Clusters that were apart by some distance still are if their vertices have gone less far since, both together. So a
 // certificate is a number: the pair is apart as long as the travel of both, see MeshTravel, is less. All of it is
-// rounded so that it errs towards looking again.
+// rounded so that it errs towards looking again. And whether to look at them as surfaces saves more than it costs.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,33 @@
 #include <vector>
 
 #include "narrowphase/mesh/clustered_mesh.h"
+#include "narrowphase/triangles/block_pair.h"
 #include "narrowphase/triangles/confirm_input.h"
 
 namespace tact::narrowphase {
 
+/// Steps in which something that did not pay is not tried: twice as many after each failure.
+class Pause {
+ public:
+  bool lasts() const { return left_ > 0; }
+  /// Returns whether this step is one of them.
+  bool takes_step() { return left_ > 0 && left_-- > 0; }
+  /// After a step in which it was tried.
+  void judge(bool pays);
+
+ private:
+  static constexpr int kFirst = 16, kLongest = 256;
+
+  int left_ = 0, next_ = kFirst;
+};
+
 class SurfaceHistory {
  public:
+  /// False in a pause: what a step as surfaces saved, by counts, was too little. Once a step.
+  bool takes_as_surfaces() { return !surfaces_.takes_step(); }
+  /// After a step as surfaces.
+  void weigh(const ConfirmCounts& counts);
+
   /// Cluster `a` of A and `b` of B.
   struct Certificate {
     std::int32_t a = 0;
@@ -31,7 +52,7 @@ class SurfaceHistory {
   /// After a step that start() let use certificates: how many of its pairs these told to be apart.
   void finish(std::int64_t still_apart);
 
-  bool pauses() const { return pause_ > 0; }
+  bool pauses() const { return certificates_.lasts(); }
 
   /// After start(): it would help if A kept its travel, or B.
   bool wants_travel_of_a() const { return of_a_.wants_travel; }
@@ -42,8 +63,6 @@ class SurfaceHistory {
   std::span<Certificate> now() { return now_; }
 
  private:
-  static constexpr int kFirstPause = 16;  // steps
-
   struct OfBody {
     const ClusteredMesh* mesh = nullptr;
     std::uint64_t epoch = 0;
@@ -55,7 +74,7 @@ class SurfaceHistory {
 
   std::vector<Certificate> last_, now_;
   OfBody of_a_, of_b_;
-  int pause_ = 0, next_pause_ = kFirstPause;  // steps
+  Pause certificates_, surfaces_;
 };
 
 /// The travel of two clusters, rounded up.

@@ -62,12 +62,16 @@ double along(const float (&axis)[3], Vec3 v) {
   return (static_cast<double>(axis[0]) * v.x + static_cast<double>(axis[1]) * v.y) + static_cast<double>(axis[2]) * v.z;
 }
 
-void add_corners(const ClusteredMesh& mesh, int facet, FacetBlock& block) {
-  const Triangle triangle = mesh.triangle(facet);
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (int axis = 0; axis < 3; ++axis) block.corner[k][axis][block.count] = triangle[k][axis];
+// Of the facet with this number in the cluster.
+void add_corners(const ClusterFacets& cluster, int facet, FacetBlock& block) {
+  const double* const points[3] = {cluster.points.x, cluster.points.y, cluster.points.z};
+  for (int k = 0; k < 3; ++k) {
+    const int place = cluster.corner[k][facet];
+    const int vertex =
+        place < cluster.owned_count ? cluster.owned_begin + place : cluster.borrowed[place - cluster.owned_count];
+    for (int axis = 0; axis < 3; ++axis) block.corner[k][axis][block.count] = points[axis][vertex];
   }
-  block.facet[block.count++] = facet;
+  block.facet[block.count++] = cluster.facet_begin + facet;
 }
 
 double last_step_of(const ClusteredMesh& a, int cluster_a, const ClusteredMesh& b, int cluster_b) {
@@ -186,6 +190,7 @@ void SurfacePairSearch::look_at(const ConfirmInput& input, std::span<const Clust
     };
     if (const double gap = gap_along_normal(b, range_a); gap > 0.0) {
       certify(kShorter * gap / scale_);
+      ++counts.plane_apart;
       continue;
     }
     if (!std::exchange(placed, true)) {
@@ -264,18 +269,20 @@ bool SurfacePairSearch::find_meeting(const ConfirmInput& input, const ClusterFac
     if (listed_.count == 0) break;
     any = true;
     const PairMatches matches = kernels().match_float_pairs(placed_a_.corners, placed_b_.corners, listed_, gap);
-    const auto facets_of = [&](std::uint64_t bits) {
+    const auto pair_of = [&](std::uint64_t bits) {
       const auto k = static_cast<std::size_t>(std::countr_zero(bits));
-      return FacetPair{facets_a.facet_begin + listed_.a[k], facets_b.facet_begin + listed_.b[k]};
+      return FacetPair{listed_.a[k], listed_.b[k]};
     };
     for (std::uint64_t meeting = matches.meeting; meeting != 0; meeting &= meeting - 1) {
-      const FacetPair pair = facets_of(meeting);
-      found.push_back({input.a->source_facet(pair.a), input.b->source_facet(pair.b)});
+      const FacetPair pair = pair_of(meeting);
+      found.push_back(
+          {input.a->source_facet(facets_a.facet_begin + pair.a), input.b->source_facet(facets_b.facet_begin + pair.b)});
     }
+    counts.left_open += std::popcount(matches.undecided);
     for (std::uint64_t open = matches.undecided; open != 0; open &= open - 1) {
-      const FacetPair pair = facets_of(open);
-      add_corners(*input.a, pair.a, open_a_);
-      add_corners(*input.b, pair.b, open_b_);
+      const FacetPair pair = pair_of(open);
+      add_corners(facets_a, pair.a, open_a_);
+      add_corners(facets_b, pair.b, open_b_);
       if (open_a_.count == FacetBlock::kCapacity) decide_open(input, found, counts);
     }
   }

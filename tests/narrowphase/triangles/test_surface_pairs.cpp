@@ -122,6 +122,34 @@ TEST_F(Resting, JitterOpensFewClusters) {
   EXPECT_GT(opened, 0u);
 }
 
+// By counts alone: where floats leave many facet pairs open and few clusters are apart, the next steps do without,
+// twice as many after each failure.
+TEST(SurfaceHistory, PausesWhereSurfacesSaveLittle) {
+  SurfaceHistory history;
+  const auto steps_without = [&] {
+    int steps = 0;
+    while (!history.takes_as_surfaces()) ++steps;
+    return steps;
+  };
+  ConfirmCounts saves, costs;
+  saves.plane_apart = 90;
+  saves.still_apart = 10;
+  saves.left_open = 2000;
+  costs.plane_apart = 20;
+  costs.left_open = 2000;
+  EXPECT_EQ(steps_without(), 0);
+  history.weigh(saves);
+  EXPECT_EQ(steps_without(), 0);
+  for (const int steps : {16, 32, 64, 128, 256, 256}) {
+    history.weigh(costs);
+    EXPECT_EQ(steps_without(), steps);
+  }
+  history.weigh(saves);
+  EXPECT_EQ(steps_without(), 0);
+  history.weigh(costs);
+  EXPECT_EQ(steps_without(), 16);
+}
+
 // What is certified ends when it must: steps of all lengths, of one body or both, in any order.
 TEST_F(Resting, CertificatesAreNeverStale) {
   Random random(5);
