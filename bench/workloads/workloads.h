@@ -62,6 +62,16 @@ Workload sheet_stack(int count, int cells, int frames);
 // A tube of cloth of 2 * around² facets that is pulled through a funnel of as many: near everywhere, and nothing meets.
 Workload funnel(int around, int frames);
 
+// What follows is close to each other over most of its area without lying on it: rods about each other, of random
+// pitch; a field of side² figures that sink together, of about so many facets each; the cloth of funnel(), of which a
+// quarter of the facets have no area.
+Workload twisted_rods(int count, int around, int bands, int frames);
+Workload folding_figures(int side, int facets, int frames);
+Workload drawn_funnel(int around, int frames);
+
+// Two tubes across each other and across all axes, of 2 * around facets each, as long as the tube.
+Workload slivers(int around, int frames);
+
 // A scene of the command line program, of this --size: after `settled` steps of its simulation as many as make `frames`
 // frames there and back. Bodies as the engine saw them. The same bits wherever the C library's sines are the same.
 Workload recorded(const std::string& scene, int size, int settled, int frames);
