@@ -8,6 +8,7 @@ void CrossedSurface::begin(const FeaturedMesh& of, SurfaceKind kind, double sign
   sign = sign_of_exits;
   scale = unit;
   exits.clear(mesh.mesh->source_vertex_count());
+  kept.clear();
   without_near_points.clear();
 }
 
@@ -26,6 +27,11 @@ Vec3 CrossedSurface::exits_of(int edge) const {
     if (const NearestExit* exit = exits.find(v)) sum = sum + exit->direction;
   }
   return sum;
+}
+
+Vec3 CrossedSurface::kept_by(int source_vertex) const {
+  const int patch = kept.empty() ? -1 : cut.patch_of(source_vertex);
+  return patch < 0 ? Vec3{} : kept[static_cast<std::size_t>(patch)];
 }
 
 }  // namespace tact::narrowphase

@@ -1,9 +1,9 @@
 // What of two surfaces is past the other one, or what of a mesh is past itself.
 //
 // PairCrossing finds it for two bodies, SelfCrossing for one: by the edges that meet facets (edge_hits), the patches
-// and the vertices past the surface (cut, vertex_winding), the crossings that they are of (crossing_groups), the
-// nearest exit of each vertex (nearest_exit, part_exit, spread_past), and the way apart of a whole crossing
-// (way_apart). Then crossing_points makes points of it, for both.
+// and the vertices past the surface (cut, vertex_winding), the crossings that they are of (crossing_groups) and
+// what these keep of the last step (kept_directions), the nearest exit of each vertex (nearest_exit, part_exit,
+// spread_past), and the way apart of a whole crossing (way_apart). Then crossing_points makes points of it, for both.
 #pragma once
 
 #include <cstdint>
@@ -35,6 +35,7 @@ struct CrossedSurface {
   double scale = 1.0;
   Cut cut;
   VertexTable<NearestExit> exits;                  // of vertices past the other surface
+  std::vector<Vec3> kept;                          // by patch; empty: no crossing keeps a direction
   std::vector<std::uint64_t> without_near_points;  // a bit for each vertex, by the mesh's numbers; empty: none
 
   void begin(const FeaturedMesh& of, SurfaceKind kind, double sign_of_exits, double unit);
@@ -44,6 +45,9 @@ struct CrossedSurface {
   int source_corner(int source_facet) const;
   /// The sum of the directions of the exits that an edge's ends have.
   Vec3 exits_of(int edge) const;
+  /// The direction that the crossing of a vertex keeps, unit, from a to b; zero if it keeps none. See
+  /// kept_directions.h.
+  Vec3 kept_by(int source_vertex) const;
 };
 
 /// What a vertex, by the caller's number, remembers of the last step: the normal of its point, from a to b.
@@ -59,6 +63,8 @@ struct CarriedPoints {
   std::span<const FeaturePoint> of_edges;     // points between two edges
 };
 
+class CrossingGroups;
+
 /// Const calls may come from many threads.
 struct Crossing {
   CrossedSurface surfaces[2];  // of one mesh with itself only the first
@@ -68,6 +74,7 @@ struct Crossing {
   Vec3 direction;  // of the contact, unit, from a to b
   std::span<const FacetPair> facet_pairs;
   CarriedPoints carried;
+  const CrossingGroups* groups = nullptr;  // null: nobody needed them yet
   // Of one mesh with itself:
   double reach = 0.0;          // scaled
   bool limit_reached = false;  // a vertex that is past the mesh has no exit: it is farther than `within`

@@ -10,8 +10,7 @@ int CrossingGroups::root_of(int node) const {
   return node;
 }
 
-int CrossingGroups::node_of(const CrossedSurface& surface, int source_vertex) const {
-  const int patch = surface.cut.patch_of(source_vertex);
+int CrossingGroups::node_of(const CrossedSurface& surface, int patch) const {
   return patch < 0 || &surface == &crossing_->a() ? patch : crossing_->a().cut.patch_count() + patch;
 }
 
@@ -21,19 +20,21 @@ void CrossingGroups::find(const Crossing& c) {
   std::iota(parent_.begin(), parent_.end(), 0);
   group_.assign(parent_.size(), -1);
   count_ = 0;
+  const auto root_of_corner = [&](const CrossedSurface& surface, int source_facet) {
+    return root_of(node_of(surface, surface.cut.patch_of(surface.source_corner(source_facet))));
+  };
   for (const FacetPair& pair : c.facet_pairs) {
-    const auto [first, second] = std::minmax(
-        {root_of(node_of(c.a(), c.a().source_corner(pair.a))), root_of(node_of(c.b(), c.b().source_corner(pair.b)))});
+    const auto [first, second] = std::minmax({root_of_corner(c.a(), pair.a), root_of_corner(c.b(), pair.b)});
     parent_[second] = first;
   }
   for (const FacetPair& pair : c.facet_pairs) {
-    int& group = group_[root_of(node_of(c.a(), c.a().source_corner(pair.a)))];
+    int& group = group_[root_of_corner(c.a(), pair.a)];
     if (group < 0) group = count_++;
   }
 }
 
-int CrossingGroups::group_of(const CrossedSurface& surface, int source_vertex) const {
-  const int node = node_of(surface, source_vertex);
+int CrossingGroups::group_of_patch(const CrossedSurface& surface, int patch) const {
+  const int node = node_of(surface, patch);
   return node < 0 ? -1 : group_[root_of(node)];
 }
 

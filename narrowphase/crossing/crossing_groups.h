@@ -17,7 +17,11 @@ class CrossingGroups {
   /// Counted from 0, in the order of their first facet pairs.
   int count() const { return count_; }
   /// The group of a vertex of a, or of b, by the caller's number; negative if it is of none.
-  int group_of(const CrossedSurface& surface, int source_vertex) const;
+  int group_of(const CrossedSurface& surface, int source_vertex) const {
+    return group_of_patch(surface, surface.cut.patch_of(source_vertex));
+  }
+  /// The same of a patch of a, or of b.
+  int group_of_patch(const CrossedSurface& surface, int patch) const;
   /// The group of two features between which there is a point; negative if they are of none.
   int group_of(const FeaturePoint& point) const;
 
@@ -25,7 +29,7 @@ class CrossingGroups {
   void take_parts(int group, PartOfSurface& part_a, PartOfSurface& part_b) const;
 
  private:
-  int node_of(const CrossedSurface& surface, int source_vertex) const;
+  int node_of(const CrossedSurface& surface, int patch) const;
   int root_of(int node) const;
 
   const Crossing* crossing_ = nullptr;

@@ -88,7 +88,9 @@ Vec3 facing_of_edges(const Crossing& c, int edge_a, int edge_b) {
     for_each_hit_beside(c.b(), edge_b, c.a(), edge_a, [&](const EdgeHit& hit) { sum = sum + c.side_of(hit); });
   }
   const double length = norm(sum);
-  return length > 0.0 ? (1.0 / length) * sum : c.direction;
+  if (length > 0.0) return (1.0 / length) * sum;
+  const Vec3 kept = c.a().kept_by(c.a().source_ends(edge_a)[0]);
+  return kept != Vec3{} ? kept : c.direction;
 }
 
 // Of one mesh: whether edges that have passed each other are two parts of it.
@@ -152,42 +154,28 @@ void CrossingPoints::append(const Crossing& c, std::vector<FeaturePoint>& found)
 }
 
 void CrossingPoints::append_ways_apart(const Crossing& c, std::vector<FeaturePoint>& found) {
-  groups_.find(c);
-  has_point_.assign(static_cast<std::size_t>(groups_.count()), 0);
+  if (c.groups == nullptr) groups_.find(c);
+  const CrossingGroups& groups = c.groups == nullptr ? groups_ : *c.groups;
+  has_point_.assign(static_cast<std::size_t>(groups.count()), 0);
   for (const FeaturePoint& point : found) {
-    const int group = point.gap <= 0.0 ? groups_.group_of(point) : -1;
+    const int group = point.gap <= 0.0 ? groups.group_of(point) : -1;
     if (group >= 0) has_point_[group] = 1;
   }
+  if (std::ranges::find(has_point_, 0) == has_point_.end()) return;
+  kept_.find(c, groups);
   const ScaledMesh a = c.a().scaled(), b = c.b().scaled();
-  for (int group = 0; group < groups_.count(); ++group) {
+  for (int group = 0; group < groups.count(); ++group) {
     if (has_point_[group] != 0) continue;
-    groups_.take_parts(group, part_a_, part_b_);
+    groups.take_parts(group, part_a_, part_b_);
     way_apart_.append_points({.a = a,
                               .b = b,
                               .part_a = part_a_,
                               .part_b = part_b_,
-                              .came = carried_direction(c, group),
+                              .came = kept_.came(group),
                               .direction = c.direction,
                               .depth = c.within},
                              found);
   }
-}
-
-// The mean normal of the points that a crossing had in the last step, if these agree: of negative gaps, if there are
-// any. Zero if none tell.
-Vec3 CrossingPoints::carried_direction(const Crossing& c, int group) const {
-  Vec3 sums[2];
-  int counts[2] = {};
-  const auto take = [&](int of, Vec3 normal, double gap) {
-    if (of != group) return;
-    sums[gap < 0.0 ? 0 : 1] = sums[gap < 0.0 ? 0 : 1] + normal;
-    ++counts[gap < 0.0 ? 0 : 1];
-  };
-  for (const CarriedNormal& one : c.carried.of_a) take(groups_.group_of(c.a(), one.vertex), one.normal, one.gap);
-  for (const CarriedNormal& one : c.carried.of_b) take(groups_.group_of(c.b(), one.vertex), one.normal, one.gap);
-  for (const FeaturePoint& one : c.carried.of_edges) take(groups_.group_of(one), one.normal, one.gap);
-  const std::size_t k = counts[0] > 0 ? 0 : 1;
-  return counts[k] > 0 && norm(sums[k]) > kAgree * counts[k] ? normalized(sums[k]) : Vec3{};
 }
 
 // Calls visit(edges) for two edges that have passed each other and may have a point, or for some that came before.

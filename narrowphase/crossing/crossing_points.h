@@ -6,9 +6,10 @@
 // other parts.
 //
 // Edges that have passed each other. The facets at either lie as in nearest.h, seen along the normal, but the closest
-// points have changed places; and the normal is along the exits of their ends, or else of two bodies the contact
-// direction, of one mesh the sides of crossing_sides.h. There is a point, however deep, if one of the edges meets a
-// facet that has the other. Two edges within the reach have it instead of their near point if
+// points have changed places; and the normal is along the exits of their ends, or else of two bodies the direction
+// that their crossing keeps, see kept_directions.h, or the contact direction; of one mesh the sides of
+// crossing_sides.h. There is a point, however deep, if one of the edges meets a facet that has the other. Two edges
+// within the reach have it instead of their near point if
 //   - of two bodies, one of them goes on past the other surface, or meets it and has the near point inside it;
 //   - of one mesh, the near point is on a piece of one of them that is past the mesh, between a vertex and where the
 //     edge meets something, and is not led away from the exits of that edge.
@@ -29,6 +30,7 @@
 #include "narrowphase/contact_points/waiting_edges.h"
 #include "narrowphase/crossing/crossing_groups.h"
 #include "narrowphase/crossing/edge_through.h"
+#include "narrowphase/crossing/kept_directions.h"
 #include "narrowphase/crossing/way_apart.h"
 #include "narrowphase/distance/surface_distance.h"
 
@@ -61,9 +63,9 @@ class CrossingPoints {
                                             std::span<const EdgeHit> hits, const CrossedSurface& body);
 
   void append_ways_apart(const Crossing& crossing, std::vector<FeaturePoint>& found);
-  Vec3 carried_direction(const Crossing& crossing, int group) const;
 
-  CrossingGroups groups_;
+  CrossingGroups groups_;  // if the crossing has none
+  KeptDirections kept_;
   WayApart way_apart_;
   std::vector<char> has_point_;    // of each group
   PartOfSurface part_a_, part_b_;  // of a group

@@ -52,6 +52,8 @@ const Crossing& PairCrossing::find(const PairCrossingInput& input) {
   a.cut.number_patches();
   b.cut.number_patches();
   ways_apart_.clear();
+  const bool any_sheet = a.surface == SurfaceKind::sheet || b.surface == SurfaceKind::sheet;
+  if (!any_sheet) find_kept();
   // Inside a closed mesh first: the exits from it tell on which side of a sheet it belongs.
   const bool into_a_first = a.surface == SurfaceKind::closed && b.surface == SurfaceKind::sheet;
   find_past(into_a_first ? b : a, into_a_first ? a : b);
@@ -60,7 +62,24 @@ const Crossing& PairCrossing::find(const PairCrossingInput& input) {
     own->cut.number_patches();
     set_without_near_points(*own);
   }
+  if (any_sheet) {
+    crossing_.groups = nullptr;  // what is past a sheet has joined patches
+    find_kept();
+  }
   return crossing_;
+}
+
+void PairCrossing::find_groups() {
+  if (crossing_.groups != nullptr) return;
+  groups_.find(crossing_);
+  crossing_.groups = &groups_;
+}
+
+void PairCrossing::find_kept() {
+  if (!KeptDirections::may_be(crossing_)) return;
+  find_groups();
+  kept_.find(crossing_, groups_);
+  for (CrossedSurface& surface : crossing_.surfaces) kept_.give(groups_, surface);
 }
 
 void PairCrossing::begin(const PairCrossingInput& input) {
@@ -69,6 +88,7 @@ void PairCrossing::begin(const PairCrossingInput& input) {
   crossing_.direction = input.direction;
   crossing_.facet_pairs = input.facet_pairs;
   crossing_.carried = input.carried;
+  crossing_.groups = nullptr;
   crossing_.surfaces[0].begin(input.a, input.surface_a, -1.0, scale);
   crossing_.surfaces[1].begin(input.b, input.surface_b, 1.0, scale);
   for (const bool of_b : {false, true}) {
@@ -135,7 +155,9 @@ std::optional<Vec3> PairCrossing::facing_of_vertex(const CrossedSurface& own, in
   if (last == nullptr) return {};
   const Vec3 facing = own.sign * last->normal;
   if (other == SurfaceKind::sheet) return facing;
-  if (last->gap >= 0.0 && dot(facing, facing_of_patch(own, source_vertex)) < 0.0) return {};
+  const bool is_against =
+      dot(facing, facing_of_patch(own, source_vertex)) < 0.0 || dot(last->normal, own.kept_by(source_vertex)) < 0.0;
+  if (last->gap >= 0.0 && is_against) return {};
   return facing;
 }
 
@@ -161,33 +183,45 @@ std::optional<NearestExit> PairCrossing::exit_inside(const CrossedSurface& own, 
   Vec3 facing = facing_of_patch(own, source);
   const double within = crossing_.within;
   std::optional<NearestExit> exit;
-  double last_depth = 0.0;
+  std::optional<double> last_depth;
   if (const auto last = facing_of_vertex(own, source, SurfaceKind::closed)) {
     exit = exits_.nearest_exit(v, *last, kSameSide, within, hint);
-    last_depth = exit ? -own.scale * std::min(0.0, carried(own).find(source)->gap) : 0.0;
-    if (exit && exit->distance <= kSlowly * last_depth) return exit;
+    if (exit) last_depth = -own.scale * std::min(0.0, carried(own).find(source)->gap);
+    if (exit && exit->distance <= kSlowly * *last_depth) return exit;
   }
-  const bool is_named = exit.has_value();
+  const Vec3 kept = own.sign * own.kept_by(source);
   if (!exit) {
-    if (patch >= 0 && !patches_[patch].agrees) facing = own.sign * way_apart_of(own, source);
+    if (dot(facing, kept) < 0.0) {
+      facing = kept;
+    } else if (patch >= 0 && !patches_[patch].agrees) {
+      facing = own.sign * way_apart_of(own, source);
+    }
     exit = exits_.nearest_exit(v, facing, kFaces, within, hint);
   }
   const auto nearest = exits_.nearest_exit(v, facing, kFacesAnything, within, hint);
-  if (!exit || !nearest || exit->distance == nearest->distance) return nearest;
+  if (!nearest || (exit && exit->distance == nearest->distance)) return nearest;
   const ScaledMesh surface = other.scaled();
-  const bool is_local = is_thicker(surface, v, *nearest, exit->distance - last_depth) &&
-                        (is_named || is_straight(surface, v, *nearest, *exit));
-  return is_local ? exit : nearest;
+  if (exit && is_local(*exit, *nearest, surface, v, last_depth)) return exit;
+  if (dot(nearest->direction, kept) < 0.0) {
+    exit = exits_.nearest_exit(v, own.sign * way_apart_of(own, source), kSameSide, within, hint);
+    if (exit && is_local(*exit, *nearest, surface, v, {})) return exit;
+  }
+  return nearest;
+}
+
+// `last_depth` of a vertex whose side the last step named.
+bool PairCrossing::is_local(const NearestExit& exit, const NearestExit& nearest, const ScaledMesh& other, Vec3 v,
+                            const std::optional<double>& last_depth) {
+  return is_thicker(other, v, nearest, exit.distance - last_depth.value_or(0.0)) &&
+         (last_depth.has_value() || is_straight(other, v, nearest, exit));
 }
 
 // That of the crossing that a vertex is of, which is found once; of a part that no longer meets anything the contact
 // direction.
 Vec3 PairCrossing::way_apart_of(const CrossedSurface& own, int source_vertex) {
   if (crossing_.within <= kHardlyDeep) return crossing_.direction;
-  if (ways_apart_.empty()) {
-    groups_.find(crossing_);
-    ways_apart_.resize(static_cast<std::size_t>(groups_.count()));
-  }
+  find_groups();
+  ways_apart_.resize(static_cast<std::size_t>(groups_.count()));
   const int group = groups_.group_of(own, source_vertex);
   if (group < 0) return crossing_.direction;
   std::optional<Vec3>& way = ways_apart_[group];
@@ -197,7 +231,7 @@ Vec3 PairCrossing::way_apart_of(const CrossedSurface& own, int source_vertex) {
                                 .b = crossing_.b().scaled(),
                                 .part_a = part_a_,
                                 .part_b = part_b_,
-                                .came = {},
+                                .came = own.kept_by(source_vertex),
                                 .direction = crossing_.direction,
                                 .depth = crossing_.within});
   }

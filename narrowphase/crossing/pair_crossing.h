@@ -18,6 +18,10 @@
 // A vertex that had a positive gap keeps its normal only if it is not against its patch's: one that has come out on the
 // far side of a thin part, and goes in again, goes back with the others.
 //
+// Of two closed meshes, a crossing that keeps its direction (kept_directions.h) has no exits against it: a patch whose
+// direction is against it faces that way instead. Where no such exit is local, and the nearest one is against it, the
+// exit leads to facets within 60 degrees of way_apart.h, which starts from it.
+//
 // Beyond a sheet. A vertex whose edge the sheet cuts is past it if it is on the other side than its normal in the last
 // step says, or that of its patch. If these had none, of a closed mesh the exits that corners of the sheet have which
 // were not in it before tell, where these agree; or else the contact direction. The exit is the nearest place of the
@@ -31,6 +35,7 @@
 
 #include "narrowphase/crossing/crossing.h"
 #include "narrowphase/crossing/crossing_groups.h"
+#include "narrowphase/crossing/kept_directions.h"
 #include "narrowphase/crossing/spread_past.h"
 #include "narrowphase/crossing/way_apart.h"
 
@@ -71,10 +76,14 @@ class PairCrossing {
   using CarriedNormals = VertexTable<CarriedNormal>;
 
   void begin(const PairCrossingInput& input);
+  void find_groups();
+  void find_kept();
   void find_past(CrossedSurface& own, const CrossedSurface& other);
   void find_exits(CrossedSurface& own, const CrossedSurface& other);
   void find_exits_through(CrossedSurface& own, const CrossedSurface& sheet);
   std::optional<NearestExit> exit_inside(const CrossedSurface& own, const CrossedSurface& other, int vertex, int hint);
+  static bool is_local(const NearestExit& exit, const NearestExit& nearest, const ScaledMesh& other, Vec3 v,
+                       const std::optional<double>& last_depth);
   static bool is_thicker(const ScaledMesh& other, Vec3 v, const NearestExit& nearest, double distance);
   static bool is_straight(const ScaledMesh& other, Vec3 v, const NearestExit& nearest, const NearestExit& exit);
   void find_patch_directions(CrossedSurface& own, const CrossedSurface& other);
@@ -91,9 +100,10 @@ class PairCrossing {
   SpreadPast spread_;
   std::vector<PatchDirection> patches_;
   CrossingGroups groups_;
+  KeptDirections kept_;
   WayApart way_apart_;
   PartOfSurface part_a_, part_b_;
-  std::vector<std::optional<Vec3>> ways_apart_;  // of groups, as far as they were wanted; empty: no groups are known
+  std::vector<std::optional<Vec3>> ways_apart_;      // of groups, as far as they were wanted
   VertexTable<std::optional<ExitThrough>> through_;  // of vertices that were reached
 };
 

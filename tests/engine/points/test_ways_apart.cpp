@@ -68,6 +68,47 @@ TEST(WaysApart, OfRandomThinBodiesAreThereAndShort) {
   EXPECT_LE(long_ways, crossings / 10);
 }
 
+// Two plates at a right angle, or rotated so; the second kind of which the points led some to and fro, out of one side
+// and so into the other one.
+Mesh plates_at_a_right_angle() {
+  const Mesh parts[] = {box({-0.5, -0.5, -0.03}, {0.5, 0.5, 0.03}), box({0.44, -0.5, 0.03}, {0.5, 0.5, 0.6})};
+  return merged(parts);
+}
+
+struct CrossingState {
+  Mesh a, b;
+  PartingInput input;
+};
+
+// At once or by steps, with or without margins.
+CrossingState random_crossing(const Mesh& a, const Mesh& b, std::uint64_t seed) {
+  Random random(seed);
+  CrossingState state{a, translated(rotated(b, random.rotation()), 0.7 * random.in_ball()), {}};
+  state.input = {.margin = random.chance(0.5) ? 0.0 : 0.01, .most_passes = 30};
+  if (random.chance(0.5)) {
+    state.input.steps = 1 << random.below(7);
+    state.input.came_by = 2.5 * random.direction();
+  }
+  return state;
+}
+
+TEST(WaysApart, DoNotLeadToAndFro) {
+  const Mesh plate = centered_box({0.5, 0.5, 0.03}), both = plates_at_a_right_angle();
+  int crossings = 0;
+  const auto expect_apart = [&](const CrossingState& state, const std::string& what) {
+    const Parting parting = part_by_points(state.a, state.b, state.input);
+    EXPECT_EQ(parting.without_point, 0) << what;
+    EXPECT_LT(parting.passes, state.input.most_passes) << what;
+    crossings += parting.passes > 0 ? 1 : 0;
+  };
+  // Of 1,500 each the ones that did not come apart.
+  for (const std::uint64_t seed : {34, 38, 80, 86, 151, 240})
+    expect_apart(random_crossing(both, both, seed), "two of them, seed " + std::to_string(seed));
+  for (const std::uint64_t seed : {8, 38, 599, 689})
+    expect_apart(random_crossing(plate, both, seed), "a plate and one, seed " + std::to_string(seed));
+  EXPECT_GT(crossings, 6);
+}
+
 // A rod that sinks through another one: up, as far as it came in until it reaches out below.
 TEST(WaysApart, OfARodThatSinksThroughARodLeadBackTheWayItCame) {
   const Mesh rod = centered_box({1, 0.0625, 0.0625}), across = rotated(rod, rotation(1.0, 0.0, 0.0, 0.9));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "tests/support/checks/detection.h"
 #include "tests/support/generators/bodies.h"
@@ -229,6 +230,96 @@ TEST(SelfGaps, OfPartsWithFacesInOnePlaneAreThoseOfAllVerticesInside) {
       }
     }
   }
+}
+
+// Around a curve from 0 to 1, closed by its ends' middles; its cross sections do not turn about the curve.
+template <class Curve>
+Mesh tube_around(const Curve& curve, int rings, int sides, double radius) {
+  MeshBuilder builder;
+  Vec3 across{0.3, 0.5, 0.8};
+  for (int i = 0; i < rings; ++i) {
+    const double step = 1.0 / (rings - 1), at = step * i;
+    const Vec3 along = normalized(curve(std::min(1.0, at + step)) - curve(std::max(0.0, at - step)));
+    across = normalized(across - dot(across, along) * along);
+    for (int k = 0; k < sides; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / sides;
+      builder.vertex(curve(at) + radius * (std::cos(angle) * across + std::sin(angle) * cross(along, across)));
+    }
+  }
+  const int first = rings * sides, last = first + 1;
+  builder.vertex(curve(0.0)), builder.vertex(curve(1.0));
+  for (int k = 0; k < sides; ++k) {
+    const int next = (k + 1) % sides, end = first - sides;
+    for (int ring = 0; ring < end; ring += sides)
+      builder.quad(ring + k, ring + next, ring + sides + next, ring + sides + k);
+    builder.facet(first, next, k), builder.facet(last, end + k, end + next);
+  }
+  return builder.mesh();
+}
+
+// By solid angles (van Oosterom and Strackee, 1983).
+double winding_around(const Mesh& mesh, Vec3 place) {
+  double sum = 0.0;
+  for (int f = 0; f < mesh.facet_count(); ++f) {
+    Vec3 t[3];
+    double length[3];
+    for (int k = 0; k < 3; ++k) t[k] = mesh.position(mesh.facets(k, f)) - place, length[k] = norm(t[k]);
+    sum += std::atan2(dot(t[0], cross(t[1], t[2])), length[0] * length[1] * length[2] + dot(t[0], t[1]) * length[2] +
+                                                        dot(t[1], t[2]) * length[0] + dot(t[2], t[0]) * length[1]);
+  }
+  return sum / (2.0 * std::numbers::pi);
+}
+
+// The vertices just inside of which the surface winds twice.
+std::set<int> vertices_wound_twice(const Mesh& mesh) {
+  std::vector<Vec3> normals(static_cast<std::size_t>(mesh.vertex_count()));
+  for (int f = 0; f < mesh.facet_count(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 v = mesh.position(mesh.facets(k, f)), p = mesh.position(mesh.facets((k + 1) % 3, f)) - v,
+                 q = mesh.position(mesh.facets((k + 2) % 3, f)) - v, normal = cross(p, q);
+      Vec3& sum = normals[static_cast<std::size_t>(mesh.facets(k, f))];
+      sum = sum + std::atan2(norm(normal), dot(p, q)) * normalized(normal);
+    }
+  }
+  std::set<int> inside;
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3 normal = normals[static_cast<std::size_t>(v)];
+    if (winding_around(mesh, mesh.position(v) - 1e-7 * normalized(normal)) > 1.5) inside.insert(v);
+  }
+  return inside;
+}
+
+// A ring that overlaps its own end, a coil whose turns are too near, and a knot that is too thick.
+TEST(SelfGaps, AreOfTheVerticesThatAreWoundTwice) {
+  Random random(3);
+  const double turn = 2.0 * std::numbers::pi;
+  std::size_t found = 0;
+  for (int k = 0; k < 6; ++k) {
+    const double radius = random.uniform(0.08, 0.16), over = random.uniform(0.1, 0.5);
+    const auto ring = [&](double s) {
+      const double angle = (turn + over) * s;
+      return Vec3{std::cos(angle), std::sin(angle), 0.3 * radius * s};
+    };
+    const auto coil = [&](double s) {
+      return Vec3{std::cos(2 * turn * s), std::sin(2 * turn * s), (3.0 + over) * radius * s};
+    };
+    const auto knot = [&](double s) {
+      return Vec3{std::sin(turn * s) + 2 * std::sin(2 * turn * s), std::cos(turn * s) - 2 * std::cos(2 * turn * s),
+                  -std::sin(3 * turn * s)};
+    };
+    Mesh tube = k % 3 == 0   ? tube_around(ring, 40, 9, radius)
+                : k % 3 == 1 ? tube_around(coil, 60, 9, radius)
+                             : tube_around(knot, 80, 9, 5.0 * radius + 0.2);
+    tube = jittered(tube, 1e-3, static_cast<std::uint64_t>(k));
+    CrossingWorld world(tube, Surface::closed, 0.0);
+    std::set<int> named;
+    for (const ContactPoint& point : world.at(tube)) {
+      if (point.gap < 0.0 && point.kind == FeaturePair::vertex_facet) named.insert(point.a_vertices[0]);
+    }
+    EXPECT_EQ(named, vertices_wound_twice(tube)) << k;
+    found += named.size();
+  }
+  EXPECT_GT(found, 200u);
 }
 
 TEST(SelfGaps, EqualBruteForceWithoutMemory) {
