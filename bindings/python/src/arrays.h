@@ -8,6 +8,7 @@
 #include <pybind11/numpy.h>
 #include <tact/body.h>
 #include <tact/columns.h>
+#include <tact/world.h>
 
 #include <Eigen/Core>
 #include <cstdint>
