@@ -14,6 +14,7 @@
 #include <tact/solver/distance.h>
 #include <tact/solver/friction.h>
 #include <tact/solver/potential.h>
+#include <tact/solver/projection.h>
 #include <tact/solver/scatter.h>
 #include <tact/solver/stencil.h>
 #include <tact/solver/within_reach.h>

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tact/solver.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -35,14 +35,18 @@ inline Term friction_term(const Stencil& stencil, const Tangents& tangents, cons
   const bool slips = y >= e;
   const double slope = slips ? 1.0 / y : (2.0 - y / e) / e;                               // force over way
   const double change = slips ? -1.0 / (y * y * y) : y > 0.0 ? -1.0 / (e * e * y) : 0.0;  // of the slope, over the way
-  const Eigen::Matrix3d inner =
-      tangents * (slope * Eigen::Matrix2d::Identity() + change * way * way.transpose()) * tangents.transpose();
-  const Eigen::Vector3d force = slope * (tangents * way);
+  const Eigen::Vector3d first = tangents.col(0), second = tangents.col(1), along = way[0] * first + way[1] * second;
   Term term{.value = limit * (slips ? y : y * y / e - y * y * y / (3.0 * e * e) + e / 3.0)};
-  for (int k = 0; k < stencil.size(); ++k) {
-    term.gradient.segment<3>(3 * k) = limit * stencil.weights[k] * force;
-    for (int l = 0; l < stencil.size(); ++l)
-      term.hessian.block<3, 3>(3 * k, 3 * l) = limit * stencil.weights[k] * stencil.weights[l] * inner;
+  for (int row = 0; row < 3 * stencil.size(); ++row) {
+    const int i = row % 3;
+    const double scale = limit * stencil.weights[row / 3];
+    term.gradient[row] = scale * slope * along[i];
+    for (int column = 0; column < 3 * stencil.size(); ++column) {
+      const int j = column % 3;
+      term.hessian(row, column) =
+          scale * stencil.weights[column / 3] *
+          (slope * (first[i] * first[j] + second[i] * second[j]) + change * along[i] * along[j]);
+    }
   }
   return term;
 }

@@ -1,10 +1,9 @@
-// Potentials of a gap: barrier and penalty, with derivatives that Newton's method can use.
+// Potentials of a gap: barrier and penalty, with their derivatives.
 #pragma once
 
 #include <tact/solver/distance.h>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
@@ -61,20 +60,6 @@ inline Term barrier_term(const Stencil& stencil, const Corners& x, double reach,
 inline Term penalty_term(const Stencil& stencil, const Corners& x, double reach) {
   const Gap gap = gap_of(stencil, x);
   return chain(penalty(gap.distance.value, reach), gap.distance);
-}
-
-/// Returns the nearest positive semidefinite matrix: negative eigenvalues become 0.
-inline Matrix12d projected(const Matrix12d& hessian) {
-  const Eigen::SelfAdjointEigenSolver<Matrix12d> eigen(hessian);
-  if (eigen.eigenvalues()[0] >= 0.0) return hessian;
-  const Vector12d kept = eigen.eigenvalues().cwiseMax(0.0);
-  return eigen.eigenvectors() * kept.asDiagonal() * eigen.eigenvectors().transpose();
-}
-
-/// Returns a term with its Hessian projected, so that Newton's method descends.
-inline Term projected(Term term) {
-  term.hessian = projected(term.hessian);
-  return term;
 }
 
 }  // namespace tact::solver
