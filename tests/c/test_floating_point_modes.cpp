@@ -410,6 +410,27 @@ class EveryCallOfC {
     tell_terms();
     call([&] { return tact_stencil_friction(stencils.data(), count, x.data(), vertices, limits.data(), 1e-3, terms); });
     tell_terms();
+    std::vector<tact_stencil> whole(near), closest(near);
+    call([&] {
+      return tact_report_stencils_within_reach(world_, first_rows.data(), first_rows.size(), whole.data(),
+                                               closest.data(), near, &near);
+    });
+    std::vector<double> barriers(near);
+    call([&] {
+      return tact_stencil_reach_barriers(whole.data(), closest.data(), near, x.data(), x.data(), vertices, 0.05,
+                                         {barriers.data(), nullptr, nullptr});
+    });
+    tell(barriers);
+    size_t meeting = 0;
+    const tact_impact* impacts = nullptr;
+    call([&] { return tact_motion_impacts(world_, &impacts, &meeting); });
+    std::vector<tact_stencil> constraints(meeting);
+    call([&] {
+      return tact_motion_stencils(world_, first_rows.data(), first_rows.size(), x.data(), x.data(), vertices,
+                                  constraints.data(), meeting, &meeting);
+    });
+    call([&] { return tact_stencil_gap_rates(stencils.data(), count, x.data(), vertices, values.data()); });
+    tell(values);
     std::vector<int32_t> colors(count);
     call([&] { return tact_stencil_colors(stencils.data(), count, vertices, colors.data()); });
     std::vector<tact_point_impulse> impulses;

@@ -136,3 +136,40 @@ def test_sums_are_those_of_loops(draped):
     assert len(world.sum_contacts(report)) == len(sums)
     with pytest.raises(ValueError, match="shapes"):
         world.sum_contacts(report, points.ids, impulses[1:])
+
+
+def test_barriers_within_reach_are_those_of_their_distances():
+    world = tact.World(tact.Settings(within_reach=True))
+    positions, facets = grid(4)
+    a = world.add_body(positions, facets, surface=tact.Surface.sheet, margin=0.05)
+    b = world.add_body(positions + [0.03, 0.02, 0.06], facets, surface=tact.Surface.sheet, margin=0.05)
+    report = world.detect()
+    pairs = report.stencils_within_reach({a: 0, b: len(positions)})
+    assert len(pairs) == sum(len(contact.within_reach) for contact in report.contacts) > 0
+    x = np.concatenate([positions, positions + [0.03, 0.02, 0.06]])
+    values, gradients, hessians = pairs.barriers(x, 0.1)
+    d = pairs.closest.gaps
+    assert values == pytest.approx(np.where(d < 0.1, -((d - 0.1) ** 2) * np.log(d / 0.1), 0.0), rel=1e-9)
+    assert pairs.whole.add_gradients(gradients, len(x)).sum(axis=0) == pytest.approx([0, 0, 0], abs=1e-9)
+    with pytest.raises(KeyError):
+        report.stencils_within_reach({a: 0})
+
+
+def test_impacts_are_constraints():
+    positions, facets = grid(6, 1.0)
+    world = tact.World()
+    low = world.add_body(positions, facets, surface=tact.Surface.sheet)
+    high = world.add_body(positions + [0.03, 0.02, 0.2], facets, surface=tact.Surface.sheet)
+    world.detect()
+    begin = np.concatenate([positions, positions + [0.03, 0.02, 0.2]])
+    end = begin - np.repeat([[0, 0, 0], [0, 0, 0.5]], len(positions), 0)
+    world.set_positions(high, end[len(positions) :])
+    motion = world.detect_motion()
+    stencils = motion.stencils({low: 0, high: len(positions)}, begin, end)
+    assert len(stencils) == motion.stops.sum() > 0
+    np.testing.assert_allclose(np.abs(stencils.normals), np.tile([0, 0, 1], (len(stencils), 1)), atol=1e-9)
+    np.testing.assert_allclose(stencils.gap_rates(end - begin), -0.5, atol=1e-9)
+    with pytest.raises(KeyError, match="first row"):
+        motion.stencils({low: 0}, begin, end)
+    with pytest.raises(tact.Error, match="rows"):
+        motion.stencils({low: 0, high: len(positions)}, begin[:5], end[:5])

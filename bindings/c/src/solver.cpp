@@ -44,6 +44,17 @@ Values values_of(const double* numbers, size_t vertex_count) {
   return Values(numbers, 3, static_cast<Eigen::Index>(vertex_count));
 }
 
+void write_stencils(const std::vector<Stencil>& found, tact_stencil* stencils, size_t capacity, size_t* count) {
+  for (size_t i = 0; i < std::min(capacity, found.size()); ++i) stencils[i] = for_c(found[i]);
+  *count = found.size();
+}
+
+void write_term(const Term& term, size_t i, const tact_terms& terms) {
+  if (terms.values != nullptr) terms.values[i] = term.value;
+  if (terms.gradients != nullptr) std::copy_n(term.gradient.data(), 12, terms.gradients + 12 * i);
+  if (terms.hessians != nullptr) std::copy_n(term.hessian.data(), 144, terms.hessians + 144 * i);
+}
+
 // Writes term(stencil, its number) of each stencil; nothing if one of them is refused.
 template <class TermOf>
 void fill(const tact_stencil* stencils, size_t count, size_t vertex_count, const tact_terms& terms,
@@ -51,12 +62,7 @@ void fill(const tact_stencil* stencils, size_t count, size_t vertex_count, const
   const base::FloatingPointMode mode;
   if (count > 0) check_not_null(stencils);
   for (size_t i = 0; i < count; ++i) from_c(stencils[i], vertex_count);
-  for (size_t i = 0; i < count; ++i) {
-    const Term term = term_of(from_c(stencils[i], vertex_count), i);
-    if (terms.values != nullptr) terms.values[i] = term.value;
-    if (terms.gradients != nullptr) std::copy_n(term.gradient.data(), 12, terms.gradients + 12 * i);
-    if (terms.hessians != nullptr) std::copy_n(term.hessian.data(), 144, terms.hessians + 144 * i);
-  }
+  for (size_t i = 0; i < count; ++i) write_term(term_of(from_c(stencils[i], vertex_count), i), i, terms);
 }
 
 // With its Hessian projected, if that is wanted.
@@ -78,9 +84,74 @@ tact_error tact_report_stencils(tact_world world, const int32_t* first_rows, siz
     check_not_null(count);
     if (body_count > 0) check_not_null(first_rows);
     if (capacity > 0) check_not_null(stencils);
-    const std::vector<Stencil> found = tact::solver::stencils(report, {first_rows, body_count});
-    for (size_t i = 0; i < std::min(capacity, found.size()); ++i) stencils[i] = tact::c::for_c(found[i]);
+    tact::c::write_stencils(tact::solver::stencils(report, {first_rows, body_count}), stencils, capacity, count);
+  });
+}
+
+tact_error tact_report_stencils_within_reach(tact_world world, const int32_t* first_rows, size_t body_count,
+                                             tact_stencil* whole, tact_stencil* closest, size_t capacity,
+                                             size_t* count) {
+  return tact::c::with_report(world, [&](const tact::Report& report) {
+    check_not_null(count);
+    if (body_count > 0) check_not_null(first_rows);
+    if (capacity > 0) check_not_null(whole, closest);
+    const auto found = tact::solver::stencils_within_reach(report, {first_rows, body_count});
+    for (size_t i = 0; i < std::min(capacity, found.size()); ++i) {
+      whole[i] = tact::c::for_c(found[i].whole);
+      closest[i] = tact::c::for_c(found[i].closest);
+    }
     *count = found.size();
+  });
+}
+
+tact_error tact_stencil_reach_barriers(const tact_stencil* whole, const tact_stencil* closest, size_t count,
+                                       const double* positions, const double* rest, size_t vertex_count, double reach,
+                                       tact_terms terms) {
+  return guarded([&] {
+    if (vertex_count > 0) check_not_null(positions);
+    if (count > 0) check_not_null(closest);
+    const auto x = values_of(positions, vertex_count);
+    const auto pair_of = [&](const Stencil& all, size_t i) {
+      const tact::solver::ReachStencil pair{all, tact::c::from_c(closest[i], vertex_count)};
+      for (int k = 0; k < pair.closest.size(); ++k) {
+        if (std::ranges::count(all.vertices, pair.closest.vertices[static_cast<size_t>(k)]) == 0)
+          throw tact::c::Failure{TACT_ERROR_INVALID_ARGUMENT, "a closest vertex is not of the whole stencil"};
+      }
+      return pair;
+    };
+    for (size_t i = 0; whole != nullptr && i < count; ++i) pair_of(tact::c::from_c(whole[i], vertex_count), i);
+    fill(whole, count, vertex_count, terms, [&](const Stencil& all, size_t i) {
+      const double threshold =
+          rest == nullptr ? 0.0 : tact::solver::mollifier_threshold(gather(all, values_of(rest, vertex_count)));
+      return wanted(tact::solver::barrier_term(pair_of(all, i), x, reach, threshold), terms);
+    });
+  });
+}
+
+tact_error tact_motion_stencils(tact_world world, const int32_t* first_rows, size_t body_count, const double* begin,
+                                const double* end, size_t vertex_count, tact_stencil* stencils, size_t capacity,
+                                size_t* count) {
+  return tact::c::with_motion(world, [&](const tact::MotionReport& motion) {
+    const tact::base::FloatingPointMode mode;
+    check_not_null(count);
+    if (body_count > 0) check_not_null(first_rows);
+    if (vertex_count > 0) check_not_null(begin, end);
+    if (capacity > 0) check_not_null(stencils);
+    tact::c::write_stencils(tact::solver::impact_stencils(motion.impacts(), {first_rows, body_count},
+                                                          values_of(begin, vertex_count), values_of(end, vertex_count)),
+                            stencils, capacity, count);
+  });
+}
+
+tact_error tact_stencil_gap_rates(const tact_stencil* stencils, size_t count, const double* velocities,
+                                  size_t vertex_count, double* rates) {
+  return guarded([&] {
+    if (vertex_count > 0) check_not_null(velocities);
+    if (count > 0) check_not_null(rates);
+    const auto of_vertices = values_of(velocities, vertex_count);
+    fill(stencils, count, vertex_count, {rates, nullptr, nullptr}, [&](const Stencil& stencil, size_t) {
+      return tact::solver::Term{.value = tact::solver::gap_rate(stencil, gather(stencil, of_vertices))};
+    });
   });
 }
 

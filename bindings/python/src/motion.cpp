@@ -48,7 +48,8 @@ MotionArrays motion_arrays(const MotionReport& report, std::span<const BodyId> b
           rows_of_three<int>(impacts, &Impact::b_vertices),
           column_of<bool>(impacts, [](const Impact& impact) { return impact.stops; }),
           bounds_of(report, bounded),
-          stats_of(report.stats())};
+          stats_of(report.stats()),
+          {impacts.begin(), impacts.end()}};
 }
 
 void define_motion(py::module_& module) {

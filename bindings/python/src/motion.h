@@ -5,6 +5,7 @@
 #include <tact/motion.h>
 
 #include <span>
+#include <vector>
 
 namespace tact::python {
 
@@ -18,6 +19,7 @@ struct MotionArrays {
   pybind11::array_t<bool> stops;
   pybind11::dict bounds;
   pybind11::dict stats;
+  std::vector<Impact> impacts;
 };
 
 /// Bounds are those of `bounded`.

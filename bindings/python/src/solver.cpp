@@ -3,10 +3,12 @@
 
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "arrays.h"
 #include "bindings.h"
+#include "motion.h"
 #include "shared_world.h"
 
 namespace tact::python {
@@ -24,35 +26,94 @@ struct Stencils {
   std::span<const Stencil> span() const { return all; }
 };
 
-Stencils stencils_of(const OfReport<Report>& report, const std::unordered_map<BodyId, int>& first_rows) {
-  const auto held = report.held();
+Eigen::Matrix3Xd matrix_of(py::handle given, const std::string& what) {
+  const PositionsArgument argument(given, what);
+  const Positions values = argument.columns();
+  Eigen::Matrix3Xd matrix(3, values.cols());
+  for (std::ptrdiff_t i = 0; i < values.cols(); ++i) matrix.col(i) = Eigen::Vector3d(values.column(i).data());
+  return matrix;
+}
+
+int greatest_vertex(std::span<const Stencil> stencils) {
+  int last = -1;
+  for (const Stencil& stencil : stencils) last = std::max(last, *std::ranges::max_element(stencil.vertices));
+  return last;
+}
+
+using FirstRows = std::unordered_map<BodyId, int>;
+
+// By the index of the body.
+std::vector<int> rows_by_index(const FirstRows& first_rows) {
   std::vector<int> by_index;
   for (const auto& [body, row] : first_rows) {
     if (row < 0) throw py::value_error("a first row is negative");
     if (body.index >= by_index.size()) by_index.resize(body.index + std::size_t{1}, -1);
     by_index[body.index] = row;
   }
-  for (const Contact& contact : held->contacts()) {
+  return by_index;
+}
+
+[[noreturn]] void refuse_body(std::size_t index) {
+  throw py::key_error("the body of index " + std::to_string(index) + " has no first row");
+}
+
+// Each body of a contact of which is_needed(contact) has to have one.
+template <class IsNeeded>
+std::vector<int> rows_by_index(const Report& report, const FirstRows& first_rows, const IsNeeded& is_needed) {
+  for (const Contact& contact : report.contacts()) {
     for (const BodyId body : {contact.a, contact.b})
-      if (!contact.points().empty() && !first_rows.contains(body))
-        throw py::key_error("the body of index " + std::to_string(body.index) + " has no first row");
+      if (is_needed(contact) && !first_rows.contains(body)) refuse_body(body.index);
   }
-  Stencils stencils{solver::stencils(*held, by_index)};
-  for (const Stencil& stencil : stencils.all)
-    stencils.last = std::max(stencils.last, *std::ranges::max_element(stencil.vertices));
-  return stencils;
+  return rows_by_index(first_rows);
+}
+
+Stencils stencils_of(const OfReport<Report>& report, const FirstRows& first_rows) {
+  const auto held = report.held();
+  const auto has_points = [](const Contact& contact) { return !contact.points().empty(); };
+  std::vector<Stencil> all = solver::stencils(*held, rows_by_index(*held, first_rows, has_points));
+  const int last = greatest_vertex(all);
+  return {std::move(all), last};
+}
+
+// Of pairs within reach. Both have as many.
+struct ReachStencils {
+  Stencils whole, closest;
+};
+
+ReachStencils stencils_within_reach_of(const OfReport<Report>& report, const FirstRows& first_rows) {
+  const auto held = report.held();
+  const auto has_pairs = [](const Contact& contact) { return !contact.within_reach().empty(); };
+  ReachStencils result;
+  for (const solver::ReachStencil& pair :
+       solver::stencils_within_reach(*held, rows_by_index(*held, first_rows, has_pairs))) {
+    result.whole.all.push_back(pair.whole);
+    result.closest.all.push_back(pair.closest);
+  }
+  result.whole.last = greatest_vertex(result.whole.all);
+  result.closest.last = greatest_vertex(result.closest.all);
+  return result;
+}
+
+// Of impacts that stop.
+Stencils impact_stencils_of(const MotionArrays& motion, const FirstRows& first_rows, py::handle begin, py::handle end) {
+  const std::vector<int> rows = rows_by_index(first_rows);
+  for (const Impact& impact : motion.impacts) {
+    for (const BodyId body : {impact.a, impact.b})
+      if (solver::is_constraint(impact) && !first_rows.contains(body)) refuse_body(body.index);
+  }
+  const Eigen::Matrix3Xd from = matrix_of(begin, "begin"), to = matrix_of(end, "end");
+  std::vector<Stencil> all = solver::impact_stencils(motion.impacts, rows, from, to);
+  const int last = greatest_vertex(all);
+  return {std::move(all), last};
 }
 
 // A value of three numbers for every vertex of the stencils.
 Eigen::Matrix3Xd checked(const Stencils& stencils, py::handle given, const std::string& what) {
-  const PositionsArgument argument(given, what);
-  const Positions values = argument.columns();
+  Eigen::Matrix3Xd values = matrix_of(given, what);
   if (values.cols() <= stencils.last)
     throw py::value_error(what + " has " + std::to_string(values.cols()) + " rows, but vertex " +
                           std::to_string(stencils.last) + " is in a stencil");
-  Eigen::Matrix3Xd matrix(3, values.cols());
-  for (std::ptrdiff_t i = 0; i < values.cols(); ++i) matrix.col(i) = Eigen::Vector3d(values.column(i).data());
-  return matrix;
+  return values;
 }
 
 // term(stencil, its number) of each.
@@ -79,12 +140,28 @@ Terms gaps(const Stencils& stencils, py::handle positions) {
   });
 }
 
+py::array_t<double> gap_rates(const Stencils& stencils, py::handle velocities) {
+  const Eigen::Matrix3Xd of_vertices = checked(stencils, velocities, "velocities");
+  return column_of<double>(stencils.span(), [&](const Stencil& stencil) {
+    return solver::gap_rate(stencil, solver::gather(stencil, of_vertices));
+  });
+}
+
 Terms barriers(const Stencils& stencils, py::handle positions, double reach, py::handle rest) {
   const Eigen::Matrix3Xd x = checked(stencils, positions, "positions"),
                          unloaded = rest.is_none() ? x : checked(stencils, rest, "rest");
   return terms_of(stencils, [&](const Stencil& stencil, std::size_t) {
     const double threshold = rest.is_none() ? 0.0 : solver::mollifier_threshold(solver::gather(stencil, unloaded));
     return solver::projected(solver::barrier_term(stencil, solver::gather(stencil, x), reach, threshold));
+  });
+}
+
+Terms reach_barriers(const ReachStencils& pairs, py::handle positions, double reach, py::handle rest) {
+  const Eigen::Matrix3Xd x = checked(pairs.whole, positions, "positions"),
+                         unloaded = rest.is_none() ? x : checked(pairs.whole, rest, "rest");
+  return terms_of(pairs.whole, [&](const Stencil& whole, std::size_t i) {
+    const double threshold = rest.is_none() ? 0.0 : solver::mollifier_threshold(solver::gather(whole, unloaded));
+    return solver::projected(solver::barrier_term({whole, pairs.closest.all[i]}, x, reach, threshold));
   });
 }
 
@@ -203,6 +280,9 @@ void define_solver(py::module_& module) {
   stencils
       .def("evaluate_gaps", gaps, positions,
            "the gaps at positions (V, 3): values (N,), gradients (N, 4, 3), Hessians (N, 12, 12)")
+      .def("gap_rates", gap_rates, py::arg("velocities"),
+           "(N,): how fast gaps grow if vertices have such velocities (V, 3); where they are ways, by how much they "
+           "grow")
       .def("barriers", barriers, positions, reach, py::kw_only(), py::arg("rest") = py::none(),
            "the barriers of gaps below `reach` metres; `rest` (V, 3) for the mollifier of nearly parallel edges. "
            "Hessians are positive semidefinite")
@@ -216,6 +296,25 @@ void define_solver(py::module_& module) {
            "(moving, 3): the sum of gradients for each vertex below `moving`")
       .def("triplets", triplets, py::arg("hessians"), moving,
            "rows, columns and values of Hessians between vertices below `moving`: for scipy.sparse.coo_matrix");
+  py::class_<ReachStencils>(module, "ReachStencils",
+                            "A pair within reach, and how it depends on its vertices. A row a pair.")
+      .def_readonly("whole", &ReachStencils::whole,
+                    "all vertices of both features: what the mollifier of nearly parallel edges depends on")
+      .def_readonly("closest", &ReachStencils::closest,
+                    "those of the closest features alone: what gap and friction depend on")
+      .def("barriers", reach_barriers, positions, reach, py::kw_only(), py::arg("rest") = py::none(),
+           "the barriers of distances below `reach` metres, terms of `whole`; `rest` (V, 3) for the mollifier. "
+           "Hessians are positive semidefinite")
+      .def("__len__", [](const ReachStencils& pairs) { return pairs.whole.all.size(); });
+  module.attr("Report").attr("stencils_within_reach") = py::cpp_function(
+      stencils_within_reach_of, py::name("stencils_within_reach"), py::is_method(module.attr("Report")),
+      py::arg("first_rows"),
+      "the stencils of all pairs within reach, if Settings.within_reach is set; `first_rows` as for stencils()");
+  module.attr("MotionReport").attr("stencils") = py::cpp_function(
+      impact_stencils_of, py::name("stencils"), py::is_method(module.attr("MotionReport")), py::arg("first_rows"),
+      py::arg("begin"), py::arg("end"),
+      "the stencils of all impacts that stop, but those with planes, as vertices go straight from `begin` (V, 3) to "
+      "`end`; `first_rows` as for Report.stencils()");
   module.attr("Report").attr("stencils") =
       py::cpp_function(stencils_of, py::name("stencils"), py::is_method(module.attr("Report")), py::arg("first_rows"),
                        "the stencils of all points but those with planes; `first_rows` has the row of each body's "

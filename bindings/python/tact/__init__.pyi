@@ -467,6 +467,21 @@ class FacetPairArrays:
         """(N, 2): the facet of a and that of b, 2 a pair"""
     def __len__(self) -> int: ...
 
+class ReachStencils:
+    """A pair within reach, and how it depends on its vertices. A row a pair."""
+
+    @property
+    def whole(self) -> Stencils:
+        """all vertices of both features: what the mollifier of nearly parallel edges depends on"""
+    @property
+    def closest(self) -> Stencils:
+        """those of the closest features alone: what gap and friction depend on"""
+    def barriers(
+        self, positions: npt.NDArray[np.floating], reach: float, *, rest: Optional[npt.NDArray[np.floating]] = None
+    ) -> tuple[Floats, Floats, Floats]:
+        """the barriers of distances below `reach` metres, terms of `whole`; `rest` (V, 3) for the mollifier. Hessians are positive semidefinite"""
+    def __len__(self) -> int: ...
+
 class StencilKind:
     """The features that a stencil joins, in the order of its vertices."""
 
@@ -503,6 +518,8 @@ class Stencils:
         """(N,): that of the contact point"""
     def evaluate_gaps(self, positions: npt.NDArray[np.floating]) -> tuple[Floats, Floats, Floats]:
         """the gaps at positions (V, 3): values (N,), gradients (N, 4, 3), Hessians (N, 12, 12)"""
+    def gap_rates(self, velocities: npt.NDArray[np.floating]) -> Floats:
+        """(N,): how fast gaps grow if vertices have such velocities (V, 3); where they are ways, by how much they grow"""
     def barriers(
         self, positions: npt.NDArray[np.floating], reach: float, *, rest: Optional[npt.NDArray[np.floating]] = None
     ) -> tuple[Floats, Floats, Floats]:
@@ -545,6 +562,8 @@ class Report:
     @property
     def facet_pairs(self) -> FacetPairArrays:
         """the facet pairs of all contacts, in their order"""
+    def stencils_within_reach(self, first_rows: dict[BodyId, int]) -> ReachStencils:
+        """the stencils of all pairs within reach, if Settings.within_reach is set; `first_rows` as for stencils()"""
     def stencils(self, first_rows: dict[BodyId, int]) -> Stencils:
         """the stencils of all points but those with planes; `first_rows` has the row of each body's first vertex in the program's system"""
     @property
@@ -608,6 +627,10 @@ class MotionReport:
     @property
     def stats(self) -> dict[str, float]:
         """counts and times. By name, times in milliseconds"""
+    def stencils(
+        self, first_rows: dict[BodyId, int], begin: npt.NDArray[np.floating], end: npt.NDArray[np.floating]
+    ) -> Stencils:
+        """the stencils of all impacts that stop, but those with planes, as vertices go straight from `begin` (V, 3) to `end`; `first_rows` as for Report.stencils()"""
     def __len__(self) -> int: ...
 
 class RayHits:

@@ -13,6 +13,7 @@
 #include <tact/solver/coloring.h>
 #include <tact/solver/distance.h>
 #include <tact/solver/friction.h>
+#include <tact/solver/impacts.h>
 #include <tact/solver/potential.h>
 #include <tact/solver/projection.h>
 #include <tact/solver/scatter.h>

@@ -1001,6 +1001,27 @@ typedef struct tact_terms {
  * i is row first_rows[i] + v. Writes up to `capacity` of them, and how many there are. */
 TACT_C_API tact_error tact_report_stencils(tact_world world, const int32_t* first_rows, size_t body_count,
                                            tact_stencil* stencils, size_t capacity, size_t* count);
+/** Gives the stencils of all pairs within reach of the last step, in its order: in `whole` with all vertices of both
+ * features, in `closest` with those of the closest features alone. Writes up to `capacity` of each, and how many there
+ * are. */
+TACT_C_API tact_error tact_report_stencils_within_reach(tact_world world, const int32_t* first_rows, size_t body_count,
+                                                        tact_stencil* whole, tact_stencil* closest, size_t capacity,
+                                                        size_t* count);
+/** Gives the barriers of pairs within reach whose distance is below `reach` metres, as terms of their `whole` stencils;
+ * `rest` is as for tact_stencil_barriers(). */
+TACT_C_API tact_error tact_stencil_reach_barriers(const tact_stencil* whole, const tact_stencil* closest, size_t count,
+                                                  const double* positions, const double* rest, size_t vertex_count,
+                                                  double reach, tact_terms terms);
+/** Gives the stencils of all impacts that stop, but those with planes, in their order. `begin` are the
+ * vertices of all bodies where the way begins, `end` where it leads; `first_rows` is as for tact_report_stencils().
+ * Writes up to `capacity` of them, and how many there are. */
+TACT_C_API tact_error tact_motion_stencils(tact_world world, const int32_t* first_rows, size_t body_count,
+                                           const double* begin, const double* end, size_t vertex_count,
+                                           tact_stencil* stencils, size_t capacity, size_t* count);
+/** Gives how fast the gap of each stencil grows if its vertices have such velocities; where they are ways, by how much
+ * it grows. */
+TACT_C_API tact_error tact_stencil_gap_rates(const tact_stencil* stencils, size_t count, const double* velocities,
+                                             size_t vertex_count, double* rates);
 /** Gives the gaps of stencils at positions of `vertex_count` vertices, metres. */
 TACT_C_API tact_error tact_stencil_gaps(const tact_stencil* stencils, size_t count, const double* positions,
                                         size_t vertex_count, tact_terms terms);
