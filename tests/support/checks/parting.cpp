@@ -25,6 +25,14 @@ double place_on_line(const Mesh& mesh, int facet, Vec3 p, Vec3 along) {
   return (u / sum * dot(a, along) + v / sum * dot(b, along) + w / sum * dot(c, along)) / dot(along, along);
 }
 
+// Adds a direction, unless there is one along the same line: of grids most are.
+void add_line(std::vector<Vec3>& directions, Vec3 direction) {
+  if (!(norm(direction) > 1e-9)) return;
+  direction = normalized(direction);
+  const auto is_along = [&](const Vec3& one) { return norm_squared(cross(one, direction)) < 1e-24; };
+  if (std::ranges::none_of(directions, is_along)) directions.push_back(direction);
+}
+
 double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
   const double square = norm_squared(b - a);
   const double t = square > 0.0 ? std::clamp(dot(p - a, b - a) / square, 0.0, 1.0) : 0.0;
@@ -49,16 +57,17 @@ Overlap least_overlap(const Mesh& a, const Mesh& b) {
       if (depth < least.depth) least = {way, depth};
     }
   };
-  std::vector<Vec3> edges[2];
+  std::vector<Vec3> normals, edges[2];
   for (const bool of_b : {false, true}) {
     const Mesh& mesh = of_b ? b : a;
     for (int f = 0; f < mesh.facet_count(); ++f) {
       const Vec3 p = mesh.position(mesh.facets(0, f)), q = mesh.position(mesh.facets(1, f)),
                  r = mesh.position(mesh.facets(2, f));
-      look_along(cross(q - p, r - p));
-      for (const Vec3 edge : {q - p, r - q, p - r}) edges[of_b].push_back(normalized(edge));
+      add_line(normals, cross(q - p, r - p));
+      for (const Vec3 edge : {q - p, r - q, p - r}) add_line(edges[of_b], edge);
     }
   }
+  for (const Vec3& normal : normals) look_along(normal);
   for (const Vec3& e : edges[0]) {
     for (const Vec3& f : edges[1]) look_along(cross(e, f));
   }
