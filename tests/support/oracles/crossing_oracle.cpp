@@ -137,12 +137,14 @@ class Crossed {
   std::map<int, ExpectedGap> gaps() const {
     std::map<int, ExpectedGap> result;
     for (const auto& [v, way] : ways_)
-      result[v] = {-static_cast<double>(way.first.distance), way.second && distance_to(other_, at(own_, v)) > kBand};
+      result[v] = {-static_cast<double>(way.first.distance), is_certain(v) && distance_to(other_, at(own_, v)) > kBand};
     return result;
   }
   bool is_inside(int v) const { return inside_.contains(v); }
   const Way& way(int v) const { return ways_.at(v).first; }
-  bool is_certain(int v) const { return !is_inside(v) || ways_.at(v).second; }
+  bool is_certain(int v) const { return !led_.contains(v) && (!is_inside(v) || ways_.at(v).second); }
+  // The crossing of these vertices leads them: their ways are not looked for here.
+  void set_led(std::set<int> vertices) { led_ = std::move(vertices); }
   const std::map<int, int>& patches() const { return patch_; }
   bool is_cut(const VertexPair& edge) const { return hits_.contains(edge); }
   bool runs_through(const VertexPair& edge) const {
@@ -245,6 +247,7 @@ class Crossed {
   std::set<int> inside_;
   std::map<int, int> patch_;  // its least vertex
   std::map<int, std::pair<Way, bool>> ways_;
+  std::set<int> led_;
 };
 
 class EdgeOracle {
@@ -362,9 +365,11 @@ LastNormals last_normals(const Contact& contact) {
   LastNormals last;
   std::map<int, double> gap_a, gap_b;
   for (const ContactPoint& point : contact.points()) {
+    const auto &a = point.a_vertices, &b = point.b_vertices;
+    if (point.kind == FeaturePair::edge_edge && point.gap < 0.0) last.crossed_edges.insert({a[0], a[1], b[0], b[1]});
     if (point.kind == FeaturePair::edge_edge) continue;
     const bool of_a = point.kind == FeaturePair::vertex_facet;
-    const int v = of_a ? point.a_vertices[0] : point.b_vertices[0];
+    const int v = of_a ? a[0] : b[0];
     auto& gaps = of_a ? gap_a : gap_b;
     if (gaps.contains(v) && gaps[v] <= point.gap) continue;
     gaps[v] = point.gap;
@@ -375,11 +380,12 @@ LastNormals last_normals(const Contact& contact) {
 
 namespace {
 
-// Vertices of facets that meet, a's as they are and b's below zero, by sets that facet pairs join; those sets that have
-// no point.
-void find_without_point(const Crossed& in_b, const Crossed& in_a, std::span<const FacetPair> pairs, const Shape& a,
-                        const Shape& b, ExpectedGaps& expected) {
-  std::map<int, int> set;
+using VertexSets = std::map<int, int>;
+
+// Vertices of facets that meet, a's as they are and b's below zero, by sets that facet pairs join.
+VertexSets vertex_sets(const Crossed& in_b, const Crossed& in_a, std::span<const FacetPair> pairs, const Shape& a,
+                       const Shape& b) {
+  VertexSets set;
   for (const auto& [v, patch] : in_b.patches()) set[v] = patch;
   for (const auto& [v, patch] : in_a.patches()) set[-1 - v] = -1 - patch;
   for (bool changed = true; changed;) {
@@ -392,6 +398,36 @@ void find_without_point(const Crossed& in_b, const Crossed& in_a, std::span<cons
       for (auto& [_, root] : set) root = root == other ? one : root;
     }
   }
+  return set;
+}
+
+// Sets that had negative gaps, and of whose vertices with one none is inside still, keep their direction.
+void find_led(const VertexSets& set, const LastNormals& last, Crossed& in_b, Crossed& in_a) {
+  std::set<int> had_crossed, go_on, led_a, led_b;
+  const auto take = [&](int v, bool is_inside) {
+    if (!set.contains(v)) return;
+    had_crossed.insert(set.at(v));
+    if (is_inside) go_on.insert(set.at(v));
+  };
+  for (const auto& [v, one] : last.of_a) {
+    if (one.gap < 0.0) take(v, in_b.is_inside(v));
+  }
+  for (const auto& [v, one] : last.of_b) {
+    if (one.gap < 0.0) take(-1 - v, in_a.is_inside(v));
+  }
+  for (const auto& e : last.crossed_edges) {
+    for (const int v : {e[0], e[1], -1 - e[2], -1 - e[3]}) take(v, false);
+  }
+  for (const auto& [v, root] : set) {
+    if (!had_crossed.contains(root) || go_on.contains(root)) continue;
+    v < 0 ? led_b.insert(-1 - v) : led_a.insert(v);
+  }
+  in_b.set_led(std::move(led_a));
+  in_a.set_led(std::move(led_b));
+}
+
+// Those sets that have no point.
+void find_without_point(const VertexSets& set, ExpectedGaps& expected) {
   std::set<int> with_point;
   for (const auto& [v, _] : expected.vertices_of_a) with_point.insert(set.at(v));
   for (const auto& [v, _] : expected.vertices_of_b) with_point.insert(set.at(-1 - v));
@@ -410,11 +446,13 @@ void find_without_point(const Crossed& in_b, const Crossed& in_a, std::span<cons
 ExpectedGaps gaps_by_brute_force(const Mesh& a, const Mesh& b, const Contact& contact, const LastNormals& last) {
   const Shape shape_a = shape_of(a), shape_b = shape_of(b);
   const Long3 direction = contact.direction.cast<long double>();
-  const Crossed in_b(shape_a, shape_b, -direction, contact.depth, last.of_a, -1);
-  const Crossed in_a(shape_b, shape_a, direction, contact.depth, last.of_b, 1);
+  Crossed in_b(shape_a, shape_b, -direction, contact.depth, last.of_a, -1);
+  Crossed in_a(shape_b, shape_a, direction, contact.depth, last.of_b, 1);
+  const VertexSets sets = vertex_sets(in_b, in_a, contact.facet_pairs(), shape_a, shape_b);
+  find_led(sets, last, in_b, in_a);
   const EdgeOracle edges(shape_a, shape_b, in_b, in_a, direction, contact.depth);
   ExpectedGaps expected{in_b.gaps(), in_a.gaps(), edges.run(), {}, {}};
-  find_without_point(in_b, in_a, contact.facet_pairs(), shape_a, shape_b, expected);
+  find_without_point(sets, expected);
   return expected;
 }
 
