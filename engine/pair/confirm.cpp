@@ -28,8 +28,8 @@ void finish(const CulledPair& culled, OpenedFacets opened, const ConfirmCounts& 
   split_off_bare(*culled.a, *culled.b, culled.record->facet_pairs, culled.record->bare_pairs);
   if (culled.history != nullptr) culled.history->finish(confirmed.still_apart);
   if (culled.as_surfaces && culled.record->surfaces != nullptr) culled.record->surfaces->weigh(confirmed);
-  culled.record->contact.kept_facets_a = opened.a.kept;
-  culled.record->contact.kept_facets_b = opened.b.kept;
+  culled.record->contact.kept_facets_a = opened.a.kept_of_surface();
+  culled.record->contact.kept_facets_b = opened.b.kept_of_surface();
   work.counts.cull += opened.a;
   work.counts.cull += opened.b;
   work.counts.confirm += confirmed;

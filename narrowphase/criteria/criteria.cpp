@@ -86,6 +86,7 @@ CullCounts& CullCounts::operator+=(const CullCounts& one) {
   outside_box += one.outside_box;
   outside_zone += one.outside_zone;
   kept += one.kept;
+  kept_bare += one.kept_bare;
   return *this;
 }
 
@@ -119,6 +120,10 @@ bool append_facets(const ClusteredMesh& mesh, int cluster, const Criteria& crite
   counts.facing_away += std::popcount(away);
   counts.outside_zone += std::popcount(left & ~inside);
   counts.kept += std::popcount(inside);
+  for (std::uint64_t all = mesh.has_surface_alone() ? 0 : inside; all != 0; all &= all - 1) {
+    const int facet = kept.block.facet[std::countr_zero(all)];
+    if (!mesh.is_of_surface(mesh.source_facet(facet))) ++counts.kept_bare;
+  }
   kept.facets |= inside;
   kept.bounds = merged(kept.bounds, mesh.cluster_boxes()[cluster]);
   return true;

@@ -40,8 +40,10 @@ struct CullCounts {
   std::int64_t outside_box = 0;
   std::int64_t outside_zone = 0;
   std::int64_t kept = 0;
+  std::int64_t kept_bare = 0;  // edges and points among these, which are facets without area
 
   std::int64_t facets() const { return facing_away + outside_slab + outside_box + outside_zone + kept; }
+  std::int64_t kept_of_surface() const { return kept - kept_bare; }
   CullCounts& operator+=(const CullCounts& one);
 };
 

@@ -89,6 +89,8 @@ OpenedCluster all_of(const ClusteredMesh& mesh, int cluster, std::int32_t index)
   OpenedCluster opened{index, {}};
   opened.counts.opened_clusters = 1;
   opened.counts.kept = mesh.facet_end(cluster) - mesh.facet_begin(cluster);
+  for (int f = mesh.facet_begin(cluster); f < mesh.facet_end(cluster) && !mesh.has_surface_alone(); ++f)
+    opened.counts.kept_bare += mesh.is_of_surface(mesh.source_facet(f)) ? 0 : 1;
   return opened;
 }
 

@@ -51,6 +51,35 @@ void expect_same_meeting_facets(const std::vector<FacetOutcome>& outcomes, const
   for (std::size_t i = 0; i < meets.size(); ++i) EXPECT_EQ(outcomes[i] == FacetOutcome::meets, meets[i]) << i;
 }
 
+// A net of edges and points over a ball, which has facets as well in one of two bodies.
+TEST(FacetOutcomes, LeaveOutEdgesAndPointsAsTheCountsDo) {
+  const Mesh ball = icosphere(2), other = translated(icosphere(2), {1.2, 0.1, 0.0});
+  Eigen::Matrix2Xi edges(2, ball.facet_count());
+  for (int f = 0; f < ball.facet_count(); ++f) edges.col(f) = ball.facets.col(f).head<2>();
+  const std::vector<int> points{0, 3, 5, 11, 40};
+  for (const Accuracy accuracy : kBothAccuracies) {
+    for (const bool has_facets : {true, false}) {
+      World world(with_zones(accuracy));
+      world.add_body({.positions = ball.positions,
+                      .facets = has_facets ? ball.facets : Eigen::Matrix3Xi(3, 0),
+                      .edges = edges,
+                      .points = points,
+                      .surface = Surface::sheet});
+      world.add_body({.positions = other.positions, .facets = other.facets});
+      const Report& report = world.detect();
+      ASSERT_EQ(report.contacts().size(), 1u);
+      const Contact& contact = report.contacts()[0];
+      const std::optional<FacetOutcomes> outcomes = FacetOutcomeFinder(report).find(contact);
+      ASSERT_TRUE(outcomes);
+      const auto kept = [&](const auto& of) { return count(of, FacetOutcome::kept) + count(of, FacetOutcome::meets); };
+      EXPECT_EQ(kept(outcomes->a), contact.kept_facets_a);
+      EXPECT_EQ(kept(outcomes->b), contact.kept_facets_b);
+      EXPECT_EQ(contact.kept_facets_a > 0, has_facets);
+      EXPECT_GT(report.stats().kept_facets, contact.kept_facets_a + contact.kept_facets_b);
+    }
+  }
+}
+
 TEST(FacetOutcomes, AddUpToTheCountsOfTheReport) {
   for (const Accuracy accuracy : kBothAccuracies) {
     const std::vector<Mesh> bodies = crowd(7);

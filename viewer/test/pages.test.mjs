@@ -57,9 +57,7 @@ async function expectPair(page, contact, bodies) {
     const cells = await page.$$eval(`#outcomes td[data-side="${side}"]`, (found) => found.map((cell) => [cell.dataset.outcome, cell.textContent]));
     assert.deepEqual(Object.fromEntries(cells.map(([outcome, text]) => [outcome, numberIn(text)])), contact.outcomes[side]);
     assert.deepEqual(cells.map(([outcome]) => outcome), OUTCOMES);
-    // Grains and edges are kept as facets are, and have no outcome.
-    const body = bodies[side === 0 ? contact.a : contact.b];
-    if (body.facets > 0) assert.equal(contact.outcomes[side].kept + contact.outcomes[side].meets, kept[side]);
+    assert.equal(contact.outcomes[side].kept + contact.outcomes[side].meets, kept[side]);
   }
 }
 
