@@ -66,6 +66,7 @@ void repeat(const PairRecord& record, const PairTask& pair, EmbreeDevice& device
       make_slab(record.history.direction, m.origin(), record.slab_lower, record.slab_upper, m.vertex_height_error());
   pair.record.facet_pairs.clear();
   pair.record.bare_pairs.clear();
+  pair.record.surfaces.reset();  // of another contact, or of this one looked at before
   cull(pair, slab, device);
   if (!pair.work.culled.cluster_pairs.empty()) confirm(pair.tuning, pair.work);
 }
