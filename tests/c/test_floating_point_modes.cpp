@@ -354,33 +354,9 @@ class EveryCallOfC {
     tell(count);
   }
 
-  // What solvers take.
-  void solve() {
-    size_t points = 0, pairs = 0, count = 0, vertices = 0;
-    tact_world kept{};
-    std::uint64_t hash = 0;
-    call([&] { return tact_report_keep(world_, &kept); });
-    call([&] { return tact_report_hash(kept, &hash); });
-    call([&] { return tact_world_destroy(kept); });
-    tell(hash);
-    call([&] { return tact_report_point_count(world_, &points); });
-    call([&] { return tact_report_facet_pair_count(world_, &pairs); });
-    size_t near = 0;
-    call([&] { return tact_report_reach_pair_count(world_, &near); });
-    std::vector<double> distances(near);
-    tact_reach_pair_arrays of_near = TACT_REACH_PAIR_ARRAYS_INIT;
-    of_near.distances = distances.data();
-    call([&] { return tact_report_copy_reach_pairs(world_, &of_near, near); });
-    tell(distances);
-    std::vector<double> gaps(points);
-    std::vector<int> facets(2 * pairs);
-    tact_point_arrays of_points = TACT_POINT_ARRAYS_INIT;
-    tact_facet_pair_arrays of_pairs = TACT_FACET_PAIR_ARRAYS_INIT;
-    of_points.gaps = gaps.data();
-    of_pairs.facets = facets.data();
-    call([&] { return tact_report_copy_points(world_, &of_points, points); });
-    call([&] { return tact_report_copy_facet_pairs(world_, &of_pairs, pairs); });
-    tell(gaps);
+  // Terms of all stencils of points, which it returns.
+  std::vector<tact_stencil> terms_of_stencils(size_t points, size_t near) {
+    size_t count = 0, vertices = 0;
     std::vector<int32_t> first_rows;
     std::vector<double> x;
     for (const tact_body body : bodies_) {
@@ -410,6 +386,17 @@ class EveryCallOfC {
     tell_terms();
     call([&] { return tact_stencil_friction(stencils.data(), count, x.data(), vertices, limits.data(), 1e-3, terms); });
     tell_terms();
+    call([&] { return tact_stencil_gap_rates(stencils.data(), count, x.data(), vertices, values.data()); });
+    tell(values);
+    std::vector<int32_t> colors(count);
+    call([&] { return tact_stencil_colors(stencils.data(), count, vertices, colors.data()); });
+    terms_of_other_stencils(first_rows, x, near);
+    return stencils;
+  }
+
+  // Of pairs within reach and of impacts.
+  void terms_of_other_stencils(const std::vector<int32_t>& first_rows, const std::vector<double>& x, size_t near) {
+    const size_t vertices = x.size() / 3;
     std::vector<tact_stencil> whole(near), closest(near);
     call([&] {
       return tact_report_stencils_within_reach(world_, first_rows.data(), first_rows.size(), whole.data(),
@@ -429,10 +416,36 @@ class EveryCallOfC {
       return tact_motion_stencils(world_, first_rows.data(), first_rows.size(), x.data(), x.data(), vertices,
                                   constraints.data(), meeting, &meeting);
     });
-    call([&] { return tact_stencil_gap_rates(stencils.data(), count, x.data(), vertices, values.data()); });
-    tell(values);
-    std::vector<int32_t> colors(count);
-    call([&] { return tact_stencil_colors(stencils.data(), count, vertices, colors.data()); });
+  }
+
+  // What solvers take.
+  void solve() {
+    size_t points = 0, pairs = 0;
+    tact_world kept{};
+    std::uint64_t hash = 0;
+    call([&] { return tact_report_keep(world_, &kept); });
+    call([&] { return tact_report_hash(kept, &hash); });
+    call([&] { return tact_world_destroy(kept); });
+    tell(hash);
+    call([&] { return tact_report_point_count(world_, &points); });
+    call([&] { return tact_report_facet_pair_count(world_, &pairs); });
+    size_t near = 0;
+    call([&] { return tact_report_reach_pair_count(world_, &near); });
+    std::vector<double> distances(near);
+    tact_reach_pair_arrays of_near = TACT_REACH_PAIR_ARRAYS_INIT;
+    of_near.distances = distances.data();
+    call([&] { return tact_report_copy_reach_pairs(world_, &of_near, near); });
+    tell(distances);
+    std::vector<double> gaps(points);
+    std::vector<int> facets(2 * pairs);
+    tact_point_arrays of_points = TACT_POINT_ARRAYS_INIT;
+    tact_facet_pair_arrays of_pairs = TACT_FACET_PAIR_ARRAYS_INIT;
+    of_points.gaps = gaps.data();
+    of_pairs.facets = facets.data();
+    call([&] { return tact_report_copy_points(world_, &of_points, points); });
+    call([&] { return tact_report_copy_facet_pairs(world_, &of_pairs, pairs); });
+    tell(gaps);
+    const std::vector<tact_stencil> stencils = terms_of_stencils(points, near);
     std::vector<tact_point_impulse> impulses;
     for (const tact_stencil& one : stencils) impulses.push_back({one.id, {1.0, one.gap, 2.0}});
     std::vector<tact_contact_sum> sums(100);

@@ -88,7 +88,7 @@ TEST(ReportArraysInC, HoldWhatThoseOfCppDo) {
 }
 
 TEST(ReportArraysInC, OfFacetPairsAndImpacts) {
-  BallUnderCloth scene;
+  const BallUnderCloth scene;
   Eigen::Matrix3Xd down = scene.x.leftCols(scene.first_rows[1]);
   down.row(2).array() -= 0.5;
   const tact_columns columns = columns_of(down);
@@ -111,29 +111,6 @@ TEST(ReportArraysInC, OfFacetPairsAndImpacts) {
     EXPECT_EQ(times[i], impacts[i].time);
     EXPECT_EQ(kinds[i], impacts[i].kind);
   }
-  Eigen::Matrix3Xd end = scene.x;
-  end.leftCols(down.cols()) = down;
-  const auto vertices = static_cast<size_t>(end.cols());
-  std::vector<tact_stencil> stencils(count);
-  size_t stops = 0;
-  ASSERT_EQ(tact_motion_stencils(scene.world, scene.first_rows.data(), 2, scene.x.data(), end.data(), vertices,
-                                 stencils.data(), count, &stops),
-            TACT_OK);
-  const Eigen::Matrix3Xd ways = end - scene.x;
-  std::vector<double> rates(stops);
-  ASSERT_EQ(tact_stencil_gap_rates(stencils.data(), stops, ways.data(), vertices, rates.data()), TACT_OK);
-  scene.cpp.set_positions(scene.cpp.bodies()[0], down);
-  const auto expected = solver::impact_stencils(scene.cpp.detect_motion().impacts(), scene.first_rows, scene.x, end);
-  ASSERT_EQ(stops, expected.size());
-  ASSERT_GT(stops, 10u);
-  for (size_t i = 0; i < stops; ++i) {
-    EXPECT_TRUE(std::ranges::equal(stencils[i].vertices, expected[i].vertices));
-    EXPECT_EQ(stencils[i].gap, expected[i].gap);
-    EXPECT_EQ(rates[i], solver::gap_rate(expected[i], solver::gather(expected[i], ways)));
-  }
-  EXPECT_EQ(tact_motion_stencils(scene.world, scene.first_rows.data(), 1, scene.x.data(), end.data(), vertices, nullptr,
-                                 0, &stops),
-            TACT_ERROR_WRONG_SIZE);
   ASSERT_EQ(tact_world_detect(scene.world), TACT_OK);
   ASSERT_EQ(tact_report_facet_pair_count(scene.world, &count), TACT_OK);
   tact_contact contact = TACT_CONTACT_INIT;
@@ -184,6 +161,43 @@ TEST(SolverInC, HasTheNumbersOfCpp) {
   ASSERT_EQ(tact_stencil_penalties(stencils.data(), n, scene.x.data(), vertices, 0.08, terms), TACT_OK);
   for (size_t i = 0; i < n; ++i)
     EXPECT_NEAR(values[i], 0.5 * (0.08 - stencils[i].gap) * (0.08 - stencils[i].gap), 1e-12);
+}
+
+TEST(SolverInC, HasTheStencilsOfImpacts) {
+  BallUnderCloth scene;
+  Eigen::Matrix3Xd down = scene.x.leftCols(scene.first_rows[1]);
+  down.row(2).array() -= 0.5;
+  const tact_columns columns = columns_of(down);
+  tact_body cloth{};
+  size_t count = 0;
+  ASSERT_EQ(tact_world_bodies(scene.world, &cloth, 1, &count), TACT_OK);
+  ASSERT_EQ(tact_world_set_positions(scene.world, cloth, &columns), TACT_OK);
+  ASSERT_EQ(tact_world_detect_motion(scene.world, TACT_IMPACTS_ALL), TACT_OK);
+  const tact_impact* impacts = nullptr;
+  ASSERT_EQ(tact_motion_impacts(scene.world, &impacts, &count), TACT_OK);
+  Eigen::Matrix3Xd end = scene.x;
+  end.leftCols(down.cols()) = down;
+  const auto vertices = static_cast<size_t>(end.cols());
+  std::vector<tact_stencil> stencils(count);
+  size_t stops = 0;
+  ASSERT_EQ(tact_motion_stencils(scene.world, scene.first_rows.data(), 2, scene.x.data(), end.data(), vertices,
+                                 stencils.data(), count, &stops),
+            TACT_OK);
+  const Eigen::Matrix3Xd ways = end - scene.x;
+  std::vector<double> rates(stops);
+  ASSERT_EQ(tact_stencil_gap_rates(stencils.data(), stops, ways.data(), vertices, rates.data()), TACT_OK);
+  scene.cpp.set_positions(scene.cpp.bodies()[0], down);
+  const auto expected = solver::impact_stencils(scene.cpp.detect_motion().impacts(), scene.first_rows, scene.x, end);
+  ASSERT_EQ(stops, expected.size());
+  ASSERT_GT(stops, 10u);
+  for (size_t i = 0; i < stops; ++i) {
+    EXPECT_TRUE(std::ranges::equal(stencils[i].vertices, expected[i].vertices));
+    EXPECT_EQ(stencils[i].gap, expected[i].gap);
+    EXPECT_EQ(rates[i], solver::gap_rate(expected[i], solver::gather(expected[i], ways)));
+  }
+  EXPECT_EQ(tact_motion_stencils(scene.world, scene.first_rows.data(), 1, scene.x.data(), end.data(), vertices, nullptr,
+                                 0, &stops),
+            TACT_ERROR_WRONG_SIZE);
 }
 
 TEST(SolverInC, RefusesWhatIsNoStencil) {

@@ -40,6 +40,41 @@ inline PlacesOfStencil places_of(const Stencil& stencil) {
   return places;
 }
 
+/// The difference of two columns: `value` rounded, and `rest` what that left.
+struct ExactDifference {
+  Eigen::Vector3d value = Eigen::Vector3d::Zero(), rest = Eigen::Vector3d::Zero();
+};
+/// Returns the column of `x` whose sign is 1 minus that whose sign is -1, exactly; zero if there are none. (D. Knuth,
+/// The Art of Computer Programming, 4.2.2.)
+inline ExactDifference exact_difference(const Corners& x, const Eigen::Vector4d& signs) {
+  ExactDifference result;
+  int plus = 0, minus = 0;
+  for (int k = 0; k < 4; ++k) {
+    if (signs[k] > 0.0) plus = k;
+    if (signs[k] < 0.0) minus = k;
+  }
+  for (int i = 0; i < 3; ++i) {
+    const double a = x(i, plus), b = x(i, minus), difference = a - b, back = difference - a;
+    result.value[i] = difference;
+    result.rest[i] = (a - (difference - back)) - (b + back);
+  }
+  return result;
+}
+
+/// Returns the cross product of two exact differences, right to some roundings of itself also where they are parallel
+/// to a millionth: there a plain one is right to a ten-billionth, and weights to 1e-4.
+inline Eigen::Vector3d cross(const ExactDifference& p, const ExactDifference& q) {
+  Eigen::Vector3d result;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const double first = p.value[j] * q.value[k], second = p.value[k] * q.value[j];
+    const double rest = std::fma(p.value[j], q.value[k], -first) - std::fma(p.value[k], q.value[j], -second);
+    result[i] = (first - second) + (rest + ((p.rest[j] * q.value[k] + p.value[j] * q.rest[k]) -
+                                            (p.rest[k] * q.value[j] + p.value[k] * q.rest[j])));
+  }
+  return result;
+}
+
 /// Returns the gap between the lines and planes of a stencil's features at positions `x`. The sign of a facet's or two
 /// edges' gap is that of the side of Stencil::normal; that of other gaps stays. Features without length, area or an
 /// angle between them keep normal and weights. Lengths are 1e-70 to 1e70 metres.
@@ -54,8 +89,10 @@ inline PlacesOfStencil places_of(const Stencil& stencil) {
 // Matrices are written out in loops: a matrix expression costs each source that includes this a tenth of a second.
 inline Gap gap_of(const Stencil& stencil, const Corners& x) {
   const PlacesOfStencil places = places_of(stencil);
-  const Eigen::Vector3d first = x * places.first, second = x * places.second, start = x * places.start,
-                        across = first.cross(second);
+  const ExactDifference exact_first = exact_difference(x, places.first),
+                        exact_second = exact_difference(x, places.second);
+  const Eigen::Vector3d &first = exact_first.value, &second = exact_second.value, start = x * places.start,
+                        across = cross(exact_first, exact_second);
   Eigen::Vector3d of_first = Eigen::Vector3d::Zero(), of_second = Eigen::Vector3d::Zero();  // D
   Gap result{.normal = stencil.normal, .weights = stencil.weights};
   Eigen::Vector3d way = x * stencil.weights;
