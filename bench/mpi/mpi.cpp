@@ -24,13 +24,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Runs tact-bench-ranks, which lies beside this program, on so many ranks. They share the cores.
+// Runs tact-bench-ranks, which lies beside this program, on so many ranks. They share the cores: mpirun would keep all
+// threads of a rank on one.
 Json run_ranks(int ranks, const std::string& arguments) {
   const std::filesystem::path program =
       std::filesystem::read_symlink("/proc/self/exe").parent_path() / "tact-bench-ranks";
-  const std::string command =
-      fmt::format("OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n {} '{}' {}",
-                  ranks, program.string(), arguments);
+  const std::string command = fmt::format(
+      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe --bind-to none -n {} '{}' {}",
+      ranks, program.string(), arguments);
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);
   if (!pipe) throw std::runtime_error("mpirun cannot be started");
   std::string text;
