@@ -241,13 +241,10 @@ void World::set_facets(std::uint64_t key, const MeshUpdate& update) {
   // What is kept of pairs that wait for their guests goes by the vertices of before.
   if (i.owners_changed)
     refuse(ErrorCode::wrong_order, key_text(key) + ": bodies have other owners: facets change after the next detect()");
-  body.meshes.push_back(bytes_of(update));
-  try {
-    i.local.set_facets(body.id, update);
-  } catch (...) {
-    body.meshes.pop_back();
-    throw;
-  }
+  Bytes bytes = bytes_of(update);
+  body.meshes.reserve(body.meshes.size() + 1);  // from then on nothing but the change itself can fail
+  i.local.set_facets(body.id, update);
+  body.meshes.push_back(std::move(bytes));
   i.note_change(body, false);
   body.shape = body.version;
 }
