@@ -59,6 +59,7 @@ class Both {
     const std::string where = name_ + ", step " + std::to_string(step_++);
     const Sums found = over_all_ranks(sums_of(report, true, false));
     const Report* alone = one_ != nullptr ? &one_->detect() : nullptr;
+    wait_for_all();
     const Sums expected = alone != nullptr ? sums_of(*alone, keys_) : found;
     expect_same(found, expected, where);
     int differ = found.of[Sums::contacts] != expected.of[Sums::contacts] ? 1 : 0;
@@ -87,8 +88,10 @@ class Both {
     const std::string where = name_ + ", motion in step " + std::to_string(step_);
     found = over_all_ranks(found);
     expect_same(over_all_ranks(others), over_all_ranks(far), where + ", the other owners");
-    if (one_ == nullptr) return;
-    const MotionReport& alone = one_->detect_motion(wanted);
+    const MotionReport* one = one_ != nullptr ? &one_->detect_motion(wanted) : nullptr;
+    wait_for_all();
+    if (one == nullptr) return;
+    const MotionReport& alone = *one;
     for (const Impact& impact : alone.impacts()) {
       expected.of[Sums::impacts] += word_of(keys_.at(impact.a), keys_.at(impact.b), impact);
       ++impacts_;

@@ -5,12 +5,14 @@
 #include <tact/mpi/report.h>
 
 #include <bit>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <initializer_list>
 #include <map>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -29,6 +31,16 @@ inline int count_of_ranks() {
   int count = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &count);
   return count;
+}
+
+// Waits for all ranks asleep: a rank that spins would take the core of the one that is at work.
+inline void wait_for_all() {
+  MPI_Request request;
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  for (int done = 0; done == 0;) {
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (done == 0) std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
 }
 
 inline int failures = 0;
