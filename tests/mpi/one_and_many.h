@@ -18,12 +18,15 @@
 
 namespace tact::tests {
 
+// False: the ranks alone, whose digest is compared with that of a run beside one world.
+inline bool has_one_world = true;
+
 // One world on rank 0 beside the world of all ranks. All ranks make the same calls of it.
 class Both {
  public:
   explicit Both(std::string name, const mpi::Settings& settings)
       : name_(std::move(name)), many(MPI_COMM_WORLD, settings) {
-    if (rank_of_all() == 0) one_ = std::make_unique<World>(settings.world);
+    if (rank_of_all() == 0 && has_one_world) one_ = std::make_unique<World>(settings.world);
   }
 
   void add(BodyDefinition definition, int owner, bool shared = false) {
@@ -61,6 +64,7 @@ class Both {
     const Report* alone = one_ != nullptr ? &one_->detect() : nullptr;
     wait_for_all();
     const Sums expected = alone != nullptr ? sums_of(*alone, keys_) : found;
+    add_to_digest(found);
     expect_same(found, expected, where);
     int differ = found.of[Sums::contacts] != expected.of[Sums::contacts] ? 1 : 0;
     MPI_Bcast(&differ, 1, MPI_INT, 0, MPI_COMM_WORLD);
@@ -87,6 +91,8 @@ class Both {
     }
     const std::string where = name_ + ", motion in step " + std::to_string(step_);
     found = over_all_ranks(found);
+    add_to_digest(found);
+    digest.add(report.first_time());
     expect_same(over_all_ranks(others), over_all_ranks(far), where + ", the other owners");
     const MotionReport* one = one_ != nullptr ? &one_->detect_motion(wanted) : nullptr;
     wait_for_all();

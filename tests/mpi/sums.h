@@ -131,6 +131,12 @@ inline Sums over_all_ranks(Sums sums) {
   return sums;
 }
 
+// All sums of all steps so far: the same on any number of ranks.
+inline base::Hash digest;
+inline void add_to_digest(const Sums& sums) {
+  for (const std::uint64_t sum : sums.of) digest.add(sum);
+}
+
 // What each rank holds, on all of them.
 template <class Item>
 std::vector<std::vector<Item>> of_each_rank(const std::vector<Item>& own) {

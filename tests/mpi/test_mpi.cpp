@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -527,6 +528,8 @@ int run(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--full") == 0) {
       size = {1000, 500};
+    } else if (std::strcmp(argv[i], "--many-only") == 0) {
+      has_one_world = false;
     } else if (std::strcmp(argv[i], "--bodies") == 0 && i + 1 < argc) {
       size.bodies = std::atoi(argv[++i]);
     } else if (std::strcmp(argv[i], "--steps") == 0 && i + 1 < argc) {
@@ -538,6 +541,7 @@ int run(int argc, char** argv) {
   for (const Case& one : kCases) {
     if (std::strstr(one.name, name) == nullptr) continue;
     const int before = failures;
+    digest = {};
     try {
       one.run(size);
     } catch (const std::exception& error) {
@@ -546,8 +550,8 @@ int run(int argc, char** argv) {
     }
     MPI_Allreduce(MPI_IN_PLACE, &failures, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
     if (rank_of_all() == 0)
-      std::printf("%s of %d bodies, %d steps on %d ranks: %s\n", one.name, size.bodies, size.steps, count_of_ranks(),
-                  failures == before ? "good" : "WRONG");
+      std::printf("%s of %d bodies, %d steps on %d ranks: %s, digest %016" PRIx64 "\n", one.name, size.bodies,
+                  size.steps, count_of_ranks(), failures == before ? "good" : "WRONG", digest.value());
     std::fflush(stdout);
   }
   return failures == 0 ? 0 : 1;
