@@ -238,9 +238,9 @@ void keep_freed_memory() {
 
 int run_rivals(const BenchOptions& options) {
   keep_freed_memory();
-  const RaceEffort effort = options.quick ? RaceEffort{100.0, 20.0, 2.0, 1} : RaceEffort{};
-  std::vector<int> threads{1};
-  if (thread_count(options.threads) > 1) threads.push_back(thread_count(options.threads));
+  const RaceEffort effort = options.quick ? RaceEffort{20.0, 5.0, 1.0, 1} : RaceEffort{};
+  std::vector<int> threads{thread_count(options.threads)};
+  if (threads[0] > 1 && !options.quick) threads.insert(threads.begin(), 1);
   fmt::print("{}\n\n", machine_line(threads.back()));
   std::vector<Row> rows;
   bool agree = true;

@@ -147,15 +147,16 @@ struct PointTimes {
 };
 
 // Adds all answers to `answers`.
-PointTimes measure(const Workload& workload, const std::string& name, double budget_ms, int checked_frames,
-                   tests::AnswerHash& answers) {
+PointTimes measure(const Workload& workload, const std::string& name, bool quick, tests::AnswerHash& answers) {
+  const double budget_ms = quick ? 0.0 : 3000.0;
+  const std::size_t least_rounds = quick ? 1 : 3;
   const std::vector<double> margins = margins_of(workload);
   PointRunner without(workload, margins, {}), with(workload, margins, {.points = true}),
       with_patches(workload, margins, {.patches = true, .points = true});
   const auto embree = make_near_embree(workload, margins), cgal = make_near_cgal(workload, margins),
              signs = make_signed_embree(workload, margins);
   PointTimes result;
-  for (int frame = 0; frame < std::min(checked_frames, workload.frames); ++frame) {
+  for (int frame = 0; frame < std::min(2, workload.frames); ++frame) {
     const Report& report = with.step(frame);
     embree->step(frame);
     cgal->step(frame);
@@ -171,7 +172,7 @@ PointTimes measure(const Workload& workload, const std::string& name, double bud
   std::vector<double> times[6], points;
   int frame = 0;
   double expected_ms = 1.0;
-  for (const double start = wall_ms(); times[0].size() < 3 || wall_ms() - start < budget_ms;
+  for (const double start = wall_ms(); times[0].size() < least_rounds || wall_ms() - start < budget_ms;
        frame = (frame + 1) % workload.frames) {
     const auto time = [&](std::size_t k, const auto& work) {
       times[k].push_back(time_ms(1, expected_ms, work));
@@ -197,7 +198,6 @@ PointTimes measure(const Workload& workload, const std::string& name, double bud
 }  // namespace
 
 int run_points(const BenchOptions& options) {
-  const double budget_ms = options.quick ? 20.0 : 3000.0;
   fmt::print(
       "{}\nmargins of {} % of a body's size, in recorded rows those of the scene; one thread, medians over the "
       "frames\n\n",
@@ -210,7 +210,7 @@ int run_points(const BenchOptions& options) {
     if (named.name.find(options.only) == std::string::npos) continue;
     any = true;
     fmt::print(stderr, "{}\n", named.name);
-    const PointTimes m = measure(named.make(), named.name, budget_ms, options.quick ? 4 : 2, answers);
+    const PointTimes m = measure(named.make(), named.name, options.quick, answers);
     table.add({named.name, fmt::format("{:.0f}", m.points), three_digits(m.without), three_digits(m.with),
                three_digits(m.with / m.without), three_digits(m.with_patches), three_digits(m.embree),
                three_digits(m.cgal), three_digits(m.fastest() / m.with), three_digits(m.signs),
