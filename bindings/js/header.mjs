@@ -1,8 +1,9 @@
-// Reads tact_c.h and writes what the package needs of it, so that nothing of the interface is told twice:
+// Reads tact_c.h with its parts and writes what the package needs of it, so that nothing of the interface is told twice:
 //   node header.mjs HEADER abi.js abi.c exported
 // abi.js: the values of enums, and where the fields of structs lie in WebAssembly's memory. abi.c: the same as assertions
 // for the compiler, and functions that give the default of each struct. exported: the functions, as em++ is told them.
 import { readFileSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
 
 // Of wasm32: bytes and alignment are equal.
 const SIZES = { bool: 1, uint8_t: 1, uint16_t: 2, int: 4, int32_t: 4, uint32_t: 4, float: 4, size_t: 4, double: 8, int64_t: 8, uint64_t: 8 };
@@ -63,6 +64,13 @@ function structsOf(commented, enums) {
   return structs;
 }
 
+/** tact_c.h and what it includes, each part once and before what uses it. */
+export function readHeader(path, seen = new Set()) {
+  if (seen.has(path)) return "";
+  seen.add(path);
+  return readFileSync(path, "utf8").replace(/^#include <tact\/(tact_c_\w+\.h)>$/gm, (_, part) => readHeader(join(dirname(path), part), seen));
+}
+
 export function functionsOf(text) {
   return [...withoutComments(text).matchAll(/^TACT_C_API [^(]*?(\w+)\(/gm)].map(([, name]) => name);
 }
@@ -81,7 +89,7 @@ function source(structs, defaults) {
 
 if (process.argv[1]?.endsWith("header.mjs")) {
   const [header, abi, c, exported] = process.argv.slice(2);
-  const text = readFileSync(header, "utf8"), enums = enumsOf(withoutComments(text)), structs = structsOf(text, enums);
+  const text = readHeader(header), enums = enumsOf(withoutComments(text)), structs = structsOf(text, enums);
   const defaults = defaultsOf(text), own = ["malloc", "free", "tact_js_message_function", "tact_js_drawer"];
   writeFileSync(abi, `// Made by header.mjs from tact_c.h.\nexport const enums = ${JSON.stringify(enums)};\nexport const structs = ${JSON.stringify(structs)};\n`);
   writeFileSync(c, source(structs, defaults));

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/c/header_of_c.h"
 #include "tests/c/mesh_for_c.h"
 #include "tests/support/environment/callers_mode.h"
 #include "tests/support/environment/temporary_folder.h"
@@ -533,8 +534,7 @@ TEST(FloatingPointModesOfC, ChangeNoAnswerOfAnyFunction) {
 }
 
 TEST(FloatingPointModesOfC, AreTriedWithEachFunction) {
-  const std::string own = contents(__FILE__),
-                    header = contents(std::string(TACT_SOURCE_DIR) + "/bindings/c/include/tact/tact_c.h");
+  const std::string own = contents(__FILE__), header = header_of_c();
   std::set<std::string> names;
   for (std::size_t at = header.find("TACT_C_API "); at != std::string::npos; at = header.find("TACT_C_API ", at + 1)) {
     const std::size_t end = header.find_first_of("(\n", at), begin = header.find_last_of(" *", end);

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/c/header_of_c.h"
+
 namespace tact::tests {
 namespace {
 
@@ -94,8 +96,8 @@ Sentences sentences_in(const std::string& header, const std::string& before, con
 Sentences sentences_of_cpp() {
   Sentences all;
   for (const char* header : {"body", "body_queries", "contact_point", "contact_sums", "debug_draw",
-                             "intersection_curve", "message", "motion", "queries", "recording", "report",
-                             "report_arrays", "settings", "solver/stencil", "surface_check", "weld", "world"})
+                             "intersection_curve", "message", "motion", "queries", "recording",
+                             "report", "report_arrays", "settings", "solver/stencil", "surface_check", "weld", "world"})
     all.merge(sentences_in(text_of("engine/include/tact/" + std::string(header) + ".h"), "/// ", "///< "));
   for (const char* header : {"error", "facet_pair", "feature_pair", "reach_pair"})
     all.merge(sentences_in(text_of("engine/base/include/tact/" + std::string(header) + ".h"), "/// ", "///< "));
@@ -257,7 +259,7 @@ std::string in_python(std::string sentence) {
 bool names_a_type(const std::string& sentence) { return std::regex_match(sentence, std::regex(R"(tact_\w+ *)")); }
 
 TEST(TwinSentences, OfC) {
-  const std::string header = text_of("bindings/c/include/tact/tact_c.h");
+  const std::string header = header_of_c();
   const Sentences cpp = sentences_of_cpp(), c = sentences_in(with_lines_of_cpp(header), "/// ", "///< ");
   int compared = 0;
   for (const auto& [name, sentence] : cpp) {

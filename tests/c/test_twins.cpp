@@ -13,16 +13,21 @@
 #include <set>
 #include <string>
 
+#include "tests/c/header_of_c.h"
+
 namespace tact::tests {
 namespace {
+
+std::string without_comments(const std::string& text) {
+  const std::string code = std::regex_replace(text, std::regex(R"(/\*[^]*?\*/)"), " ");
+  return std::regex_replace(code, std::regex("//[^\n]*"), " ");
+}
 
 // Without its comments.
 std::string code_of(const std::string& path) {
   std::ifstream file(std::filesystem::path(TACT_SOURCE_DIR) / path);
   EXPECT_TRUE(file) << path;
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  text = std::regex_replace(text, std::regex(R"(/\*[^]*?\*/)"), " ");
-  return std::regex_replace(text, std::regex("//[^\n]*"), " ");
+  return without_comments({std::istreambuf_iterator<char>(file), {}});
 }
 
 // What stands between the braces after `head`, without its private part.
@@ -64,11 +69,11 @@ std::set<std::string> fields_in(std::string text) {
   return names;
 }
 
-const std::string kHeader = "bindings/c/include/tact/tact_c.h", kInterface = "engine/include/tact/";
+const std::string kInterface = "engine/include/tact/";
 
 void expect_twins_of_functions(const std::string& header, const std::string& type, const std::string& prefix,
                                const std::map<std::string, std::string>& renamed) {
-  const std::set<std::string> twins = functions_in(code_of(kHeader));
+  const std::set<std::string> twins = functions_in(without_comments(header_of_c()));
   const std::set<std::string> functions = functions_in(body_of(code_of(kInterface + header), type));
   EXPECT_FALSE(functions.empty());
   for (const std::string& name : functions) {
@@ -80,7 +85,7 @@ void expect_twins_of_functions(const std::string& header, const std::string& typ
 
 void expect_twins_of_fields(const std::string& header, const std::string& type, const std::string& struct_of_c,
                             const std::set<std::string>& absent) {
-  const std::string c = body_of(code_of(kHeader), "typedef struct " + struct_of_c + " {");
+  const std::string c = body_of(without_comments(header_of_c()), "typedef struct " + struct_of_c + " {");
   const std::set<std::string> fields = fields_in(body_of(code_of(kInterface + header), type));
   EXPECT_FALSE(fields.empty());
   for (const std::string& name : fields) {
@@ -153,7 +158,7 @@ TEST(TwinsInC, OfEachField) {
 }
 
 TEST(TwinsInC, OfEachError) {
-  const std::string c = code_of(kHeader);
+  const std::string c = without_comments(header_of_c());
   for (const int none : {std::numeric_limits<int>::min(), -1, std::numeric_limits<int>::max()})
     EXPECT_STREQ(tact_error_code_name(none), "unknown");
   for (int code = 0; std::string(error_code_name(ErrorCode(code))) != "unknown"; ++code) {

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
-import { functionsOf } from "../header.mjs";
+import { functionsOf, readHeader } from "../header.mjs";
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
 const folder = process.env.TACT_PACKAGE;
@@ -227,7 +227,7 @@ test("for solvers: stencils and their energies", () => {
 
 test("every function of tact_c.h is here", () => {
   const sources = ["memory", "world", "report", "solver", "index"].map((name) => readFileSync(`${folder}/src/${name}.js`, "utf8")).join("\n");
-  const missing = functionsOf(readFileSync(here("../../c/include/tact/tact_c.h"), "utf8")).filter((name) => !new RegExp(`\\b${name}\\b`).test(sources));
+  const missing = functionsOf(readHeader(here("../../c/include/tact/tact_c.h"))).filter((name) => !new RegExp(`\\b${name}\\b`).test(sources));
   // Recordings are files, which a browser has not; one point is a case of many, and detectMotion() is that by options.
   assert.deepEqual(missing.sort(), ["tact_player_close", "tact_player_cut_at", "tact_player_next", "tact_player_open", "tact_player_recorded_by",
     "tact_player_world", "tact_world_closest_point", "tact_world_detect_motion", "tact_world_record"]);

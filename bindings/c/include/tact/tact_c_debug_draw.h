@@ -1,0 +1,71 @@
+/* A part of tact_c.h: drawing what was found. */
+#ifndef TACT_C_DEBUG_DRAW_H
+#define TACT_C_DEBUG_DRAW_H
+
+#include <tact/tact_c_world.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Drawing what a step found: see tact/debug_draw.h. */
+
+/** A colour; an alpha of 1 covers what is behind. */
+typedef struct tact_debug_color {
+  float red;   /**< 0 to 1 */
+  float green; /**< 0 to 1 */
+  float blue;  /**< 0 to 1 */
+  float alpha; /**< 0 to 1 */
+} tact_debug_color;
+
+/** Takes the drawing, on the thread of tact_world_debug_draw(), which passes exceptions on. */
+typedef struct tact_debug_drawer {
+  void (*line)(void* user, const double* from, const double* to, tact_debug_color color);
+  void (*triangle)(void* user, const double* p, const double* q, const double* r, tact_debug_color color);
+  void (*text)(void* user, const double* at, const char* words, tact_debug_color color);
+  void* user;
+} tact_debug_drawer;
+
+/** What is drawn, and in which colour. */
+typedef struct tact_debug_draw_options {
+  uint32_t struct_size;
+  bool surfaces;        /**< every facet of every body, as lines */
+  bool boxes;           /**< the box of each body with its margin */
+  bool candidate_pairs; /**< a line between the centres of two bodies whose boxes overlap */
+  bool directions;      /**< the direction of each contact, as long as its depth, and the depth */
+  bool planes;          /**< the contact planes, as squares as wide as the bodies */
+  bool zones;           /**< the disks around impact zones */
+  bool kept_facets;     /**< the facets that the criteria kept, found once more */
+  bool facet_pairs;
+  bool patches; /**< the direction of each patch, as long as its depth */
+  bool points;  /**< each contact point, as a line from a to b, and its normal; faint if no minimum */
+  bool names;   /**< the name of each body, at the top of its box */
+  tact_debug_color surface;
+  tact_debug_color box;
+  tact_debug_color moved_box; /**< the box of a body with a candidate pair */
+  tact_debug_color candidate;
+  tact_debug_color direction;
+  tact_debug_color plane;
+  tact_debug_color zone;
+  tact_debug_color kept;
+  tact_debug_color meeting;
+  tact_debug_color patch;
+  tact_debug_color point;
+  tact_debug_color word;
+  bool curves; /**< the curves in which surfaces cross */
+  tact_debug_color curve;
+  bool within_reach; /**< each pair of features within reach, as a line from a to b */
+  tact_debug_color reach;
+} tact_debug_draw_options;
+
+/** Fills in the defaults of all fields, struct_size included. */
+TACT_C_API tact_error tact_debug_draw_defaults(tact_debug_draw_options* options);
+/** Draws what the last step found; `options` may be null: the default. */
+TACT_C_API tact_error tact_world_debug_draw(tact_world world, const tact_debug_drawer* drawer,
+                                            const tact_debug_draw_options* options);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
