@@ -70,3 +70,29 @@ def test_a_kept_report_stays():
     assert seen == [value] and len(kept) == 1 and len(kept.contacts[0].facet_pairs) > 0
     with pytest.raises(tact.StaleReportError):
         report.hash()
+
+
+def test_two_kept_reports_in_turns():
+    world, a, b, positions = two_boxes()
+    turns, hashes, seen, readers = [None, None], [], {}, []
+    for step in range(6):
+        world.set_positions(b, positions + [0.5 + 0.01 * step, 0.25, 0.125])
+        report = world.detect()
+        for reader in readers[-1:]:
+            reader.join()
+        kept = turns[step % 2] = report.keep(turns[step % 2])
+        hashes.append(report.hash())
+        readers.append(threading.Thread(target=lambda kept=kept, step=step: seen.update({step: kept.hash()})))
+        readers[-1].start()  # while the next step runs
+    readers[-1].join()
+    assert [seen[step] for step in range(6)] == hashes
+    last, before = turns[1], turns[0]
+    contact = last.contacts[0]
+    again = before.keep(last)
+    assert again.hash() == before.hash() and again.keep(again).hash() == again.hash()
+    with pytest.raises(tact.StaleReportError):
+        last.hash()
+    with pytest.raises(tact.StaleReportError):
+        contact.depth
+    with pytest.raises(tact.Error, match="kept"):
+        again.keep(world.detect())

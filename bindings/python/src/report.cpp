@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -335,6 +337,17 @@ py::list candidates_of(const ReportHandle& report) {
   return list;
 }
 
+ReportHandle keep(const ReportHandle& report, const std::optional<ReportHandle>& into) {
+  if (into && into->world() == report.world()) {
+    report.held();
+    return report;
+  }
+  const std::shared_ptr<SharedWorld> kept = into ? into->world() : SharedWorld::for_copy();
+  const auto held = report.held();
+  const Report& copy = kept->keep(*held);
+  return {kept, kept->last_report(), &copy};
+}
+
 std::string report_text(const ReportHandle& report) {
   return "<tact.Report of " + std::to_string(report->contacts().size()) + " contacts, " +
          std::to_string(report->stats().facet_pairs) + " facet pairs>";
@@ -401,13 +414,9 @@ void define_report(py::module_& module) {
           "a number made from every bit of candidate pairs, contacts, facet pairs, points and pairs within reach; "
           "bodies "
           "enter it by their keys")
-      .def(
-          "keep",
-          [](const ReportHandle& report) {
-            const auto kept = std::make_shared<SharedWorld>(*report.held());
-            return ReportHandle(kept, 0, &kept->kept());
-          },
-          "copies a report. The copy stays valid, and any thread may read it while the next step runs")
+      .def("keep", keep, py::arg("into") = py::none(),
+           "copies a report. The copy stays valid, and any thread may read it while the next step runs. Its memory is "
+           "that of `into`, an earlier copy, which is stale from then on: two in turns take no memory")
       .def("__len__", [](const ReportHandle& report) { return report->contacts().size(); })
       .def("__repr__", report_text);
 }

@@ -41,8 +41,22 @@ class SharedWorld : public std::enable_shared_from_this<SharedWorld> {
   explicit SharedWorld(const Settings& settings) : SharedWorld(std::make_shared<World>(settings)) {}
   explicit SharedWorld(std::shared_ptr<World> world) : world_(std::move(world)) {}
   /// Of a copy of a report, which stays: it stands in a world of no bodies.
-  explicit SharedWorld(const Report& report) : SharedWorld(Settings{.threads = 1}) { kept_.emplace().keep(report); }
-  const Report& kept() const { return kept_->report(); }
+  static std::shared_ptr<SharedWorld> for_copy() {
+    const auto shared = std::make_shared<SharedWorld>(Settings{.threads = 1});
+    shared->kept_.emplace();
+    return shared;
+  }
+  /// Copies another report; what was read of the last copy is stale. @throws Error wrong_order while another call reads
+  /// or changes it, or if it holds no copy.
+  const Report& keep(const Report& report) {
+    use();
+    if (!kept_) throw Error(ErrorCode::wrong_order, "`into` is a report of a world, not one that was kept");
+    next_report();
+    const Busy busy(*this);
+    without_lock([&] { kept_->keep(report); });
+    return kept_->report();
+  }
+  std::uint64_t last_report() const { return report_; }
 
   /// While it lives, the world can be read and not changed: whatever Python runs meanwhile, a drawer, a finalizer,
   /// another thread, what is read stays. @throws Error wrong_order while the world is changed.
@@ -129,7 +143,7 @@ class SharedWorld : public std::enable_shared_from_this<SharedWorld> {
   std::unique_ptr<FileRecording> recording_;  // outlives the world
   std::shared_ptr<World> world_;
   std::optional<KeptReport> kept_;
-  std::uint64_t report_ = 0;  // that of a kept one is 0 for ever
+  std::uint64_t report_ = 0;
   bool busy_ = false;
   int readers_ = 0;
 };
@@ -159,6 +173,7 @@ class OfReport {
   }
   /// The same for one expression.
   Held operator->() const { return held(); }
+  const std::shared_ptr<SharedWorld>& world() const { return world_; }
   /// Something else in the same report.
   template <class Part>
   OfReport<Part> part(const Part& part) const {

@@ -581,8 +581,8 @@ class Report:
         """counts and times of the step. By name, times in milliseconds"""
     def hash(self) -> int:
         """a number made from every bit of candidate pairs, contacts, facet pairs, points and pairs within reach; bodies enter it by their keys"""
-    def keep(self) -> Report:
-        """copies a report. The copy stays valid, and any thread may read it while the next step runs"""
+    def keep(self, into: Report | None = None) -> Report:
+        """copies a report. The copy stays valid, and any thread may read it while the next step runs. Its memory is that of `into`, an earlier copy, which is stale from then on: two in turns take no memory"""
     def __len__(self) -> int: ...
 
 class Impacts:

@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/environment/allocation_hook.h"
 #include "tests/support/generators/bodies.h"
 #include "tests/support/hashes/answer_hash.h"
 
@@ -69,6 +70,20 @@ TEST(KeptReport, HoldsAllOfAStepWhileTheWorldGoesOn) {
   moved.keep(kept[0].report());
   EXPECT_EQ(moved.report().hash(), hashes[0]);
   EXPECT_TRUE(KeptReport().report().contacts().empty());
+}
+
+// Once two have held the largest steps, none takes memory.
+TEST(KeptReport, TwoInTurnsTakeNoMemory) {
+  Stack stack;
+  KeptReport turns[2];
+  long allocations = 0;
+  for (int i = 0; i < 24; ++i) {
+    const Report& report = stack.step(i % 4);
+    const long before = allocation_count();
+    turns[i % 2].keep(report);
+    if (i >= 8) allocations += allocation_count() - before;
+  }
+  EXPECT_EQ(allocations, 0);
 }
 
 // Two in turns: what a step found is read by another thread while the next step runs.
