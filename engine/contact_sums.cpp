@@ -7,6 +7,7 @@
 #include "engine/base/floating_point_mode.h"
 #include "engine/base/vec3.h"
 #include "engine/eigen_vectors.h"
+#include "engine/mesh_copies.h"
 #include "engine/with_memory.h"
 
 namespace tact {
@@ -23,43 +24,16 @@ struct SeenPoint {
   double sign = 1.0;  // -1 where the sum is over the body that is its a
 };
 
-// The positions of the bodies that have points.
-class Places {
- public:
-  explicit Places(const World& world) : world_(world) {}
-
-  Vec3 middle(const Contact& contact, const ContactPoint& point) {
-    // A plane has no vertices.
-    const Vec3 half_way = 0.5 * point.gap * from_eigen(point.normal);
-    if (point.kind == FeaturePair::vertex_plane) return place(contact.a, point.a_vertices, point.a_weights) + half_way;
-    if (point.kind == FeaturePair::plane_vertex) return place(contact.b, point.b_vertices, point.b_weights) - half_way;
-    return 0.5 *
-           (place(contact.a, point.a_vertices, point.a_weights) + place(contact.b, point.b_vertices, point.b_weights));
-  }
-
- private:
-  Vec3 place(BodyId body, const std::array<int, 3>& vertices, const std::array<double, 3>& weights) {
-    const std::vector<double>& x = positions(body);
-    Vec3 sum{0.0, 0.0, 0.0};
-    for (std::size_t k = 0; k < 3 && vertices[k] >= 0; ++k) {
-      const std::size_t at = 3 * static_cast<std::size_t>(vertices[k]);
-      if (at >= x.size()) throw Error(ErrorCode::wrong_order, "the report is of facets that have changed since");
-      sum = sum + weights[k] * Vec3{x[at], x[at + 1], x[at + 2]};
-    }
-    return sum;
-  }
-  const std::vector<double>& positions(BodyId body) {
-    const auto [at, fresh] = of_body_.try_emplace(body);
-    if (fresh) {
-      at->second.resize(3 * world_.vertex_count(body));
-      world_.copy_positions(body, at->second);
-    }
-    return at->second;
-  }
-
-  const World& world_;
-  std::map<BodyId, std::vector<double>> of_body_;
-};
+// In the middle of the two places of a point.
+Vec3 middle_of(MeshCopies& meshes, const Contact& contact, const ContactPoint& point) {
+  const auto on_a = [&] { return meshes.positions(contact.a).place(point.a_vertices, point.a_weights); };
+  const auto on_b = [&] { return meshes.positions(contact.b).place(point.b_vertices, point.b_weights); };
+  // A plane has no vertices.
+  const Vec3 half_way = 0.5 * point.gap * from_eigen(point.normal);
+  if (point.kind == FeaturePair::vertex_plane) return on_a() + half_way;
+  if (point.kind == FeaturePair::plane_vertex) return on_b() - half_way;
+  return 0.5 * (on_a() + on_b());
+}
 
 // Impulses by id.
 class ImpulsesById {
@@ -81,13 +55,13 @@ class ImpulsesById {
 
 class Adder {
  public:
-  Adder(const World& world, std::span<const PointImpulse> impulses) : places_(world), impulses_(impulses) {}
+  Adder(const World& world, std::span<const PointImpulse> impulses) : meshes_(world), impulses_(impulses) {}
 
   void add_contact(const Contact& contact) {
     if (contact.points().empty()) return;
     std::vector<SeenPoint> seen;
     for (const ContactPoint& point : contact.points())
-      seen.push_back({&point, places_.middle(contact, point), impulses_.of(point.id)});
+      seen.push_back({&point, middle_of(meshes_, contact, point), impulses_.of(point.id)});
     const std::size_t whole = result_.sums.size();
     add({.kind = ContactSum::Kind::contact, .a = contact.a, .b = contact.b}, contact, seen);
     for (const Patch& patch : contact.patches()) {
@@ -176,7 +150,7 @@ class Adder {
     }
   }
 
-  Places places_;
+  MeshCopies meshes_;
   ImpulsesById impulses_;
   std::map<BodyId, OfBody> of_bodies_;
   std::vector<VertexOfBody> vertices_;  // of the sum that is made

@@ -5,18 +5,17 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "engine/base/floating_point_mode.h"
+#include "engine/debug/pen.h"
+#include "engine/eigen_vectors.h"
 #include "engine/facet_outcomes.h"
+#include "engine/mesh_copies.h"
 #include "engine/with_memory.h"
 
 namespace tact {
@@ -24,44 +23,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kCircleSides = 24;
 constexpr float kFaint = 0.3f;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kArrowHead = 0.15;  // of the arrow's length
-
-struct Mesh {
-  std::vector<double> coordinates;
-  std::vector<int> corners, ends, points;
-
-  Vector3d vertex(int v) const {
-    return Eigen::Map<const Vector3d>(&coordinates[checked(3 * static_cast<std::size_t>(v), coordinates.size())]);
-  }
-  std::array<Vector3d, 3> facet(int f) const {
-    const int* const corner = &corners[checked(3 * static_cast<std::size_t>(f), corners.size())];
-    return {vertex(corner[0]), vertex(corner[1]), vertex(corner[2])};
-  }
-  int facet_count() const { return static_cast<int>(corners.size() / 3); }
-
-  // A report may be of facets that are no more.
-  static std::size_t checked(std::size_t at, std::size_t size) {
-    if (at >= size) throw Error(ErrorCode::wrong_order, "the report is of facets that have changed since");
-    return at;
-  }
-};
-
-bool is_empty(const Bounds& bounds) { return bounds.lower[0] > bounds.upper[0]; }
-Vector3d lower(const Bounds& bounds) { return Eigen::Map<const Vector3d>(bounds.lower.data()); }
-Vector3d upper(const Bounds& bounds) { return Eigen::Map<const Vector3d>(bounds.upper.data()); }
-// Halved first: the sum of two coordinates is in range so, too.
-Vector3d middle(const Bounds& bounds) { return 0.5 * lower(bounds) + 0.5 * upper(bounds); }
-double size(const Bounds& bounds) { return (upper(bounds) - lower(bounds)).norm(); }
-
-// Not by printf, which rounds as the caller's x87 does.
-std::string metres(double value) {
-  std::array<char, 32> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3).ptr;
-  return std::string(text.data(), end) + " m";
-}
 
 class Drawing {
  public:
@@ -77,22 +39,6 @@ class Drawing {
   }
 
  private:
-  // Where bodies are that have an end.
-  void find_middle() {
-    Bounds all{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-    for (const BodyId body : world_.bodies()) {
-      if (world_.plane(body)) continue;
-      const Bounds bounds = world_.bounds(body);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        all.lower[axis] = std::min(all.lower[axis], bounds.lower[axis]);
-        all.upper[axis] = std::max(all.upper[axis], bounds.upper[axis]);
-      }
-    }
-    if (is_empty(all)) return;
-    middle_ = middle(all);
-    size_ = size(all);
-  }
-
   // A square as wide as all bodies, below the middle of them.
   void draw_half_space(BodyId body, const Plane& plane) {
     const Vector3d at = foot(plane, middle_);
@@ -104,12 +50,8 @@ class Drawing {
     if (options_.names) drawer_.text(at, world_.name(body), options_.word);
   }
 
-  static Vector3d foot(const Plane& plane, const Vector3d& point) {
-    return point - (plane.normal.dot(point) - plane.offset) * plane.normal;
-  }
-
   void draw_bodies() {
-    find_middle();
+    if (const Bounds all = bounds_of_all(world_); !is_empty(all)) middle_ = middle(all), size_ = size(all);
     std::vector<BodyId> paired;
     for (const CandidatePair& pair : report_.candidate_pairs()) paired.insert(paired.end(), {pair.a, pair.b});
     std::ranges::sort(paired);
@@ -122,7 +64,7 @@ class Drawing {
       if (is_empty(bounds)) continue;
       const bool has_pair = std::ranges::binary_search(paired, body);
       if (options_.boxes) draw_box(bounds, has_pair ? options_.moved_box : options_.box);
-      if (options_.surfaces) draw_surface(mesh_of(body), world_.margin(body));
+      if (options_.surfaces) draw_surface(meshes_.mesh(body), world_.margin(body));
       if (options_.names) {
         Vector3d top = middle(bounds);
         top.z() = bounds.upper[2];
@@ -148,7 +90,7 @@ class Drawing {
     if (options_.facet_pairs) draw_facet_pairs(contact);
     if (options_.patches) {
       for (const Patch& patch : contact.patches())
-        draw_arrow(patch.point, patch.depth * patch.direction, options_.patch);
+        pen_.arrow(patch.point, patch.depth * patch.direction, options_.patch);
     }
     if (options_.points) {
       for (const ContactPoint& point : contact.points()) draw_point(contact, point);
@@ -169,7 +111,7 @@ class Drawing {
     const Vector3d at = 0.5 * lower(a).cwiseMax(lower(b)) + 0.5 * upper(a).cwiseMin(upper(b));
     const Vector3d n = contact.direction;
     if (options_.directions) {
-      draw_arrow(at, contact.depth * n, options_.direction);
+      pen_.arrow(at, contact.depth * n, options_.direction);
       drawer_.text(at, metres(contact.depth), options_.word);
     }
     if (options_.planes) {
@@ -189,18 +131,13 @@ class Drawing {
     for (const auto& [body, of_facets] : {std::pair{contact.a, &outcomes->a}, std::pair{contact.b, &outcomes->b}}) {
       for (std::size_t f = 0; f < of_facets->size(); ++f) {
         if ((*of_facets)[f] == FacetOutcome::kept || (!options_.facet_pairs && (*of_facets)[f] == FacetOutcome::meets))
-          draw_triangle(mesh_of(body), static_cast<int>(f), options_.kept);
+          draw_triangle(meshes_.mesh(body), static_cast<int>(f), options_.kept);
       }
     }
   }
 
   Vector3d place_on(BodyId body, const std::array<int, 3>& vertices, const std::array<double, 3>& weights) {
-    const Mesh& mesh = mesh_of(body);
-    Vector3d sum = Vector3d::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (vertices[k] >= 0) sum += weights[k] * mesh.vertex(vertices[k]);
-    }
-    return sum;
+    return to_eigen(meshes_.positions(body).place(vertices, weights));
   }
 
   // Each facet once, however many it meets.
@@ -212,7 +149,7 @@ class Drawing {
       std::ranges::sort(*facets);
       facets->erase(std::unique(facets->begin(), facets->end()), facets->end());
       for (const int f : *facets) {
-        if (!world_.plane(body)) draw_triangle(mesh_of(body), f, options_.meeting);
+        if (!world_.plane(body)) draw_triangle(meshes_.mesh(body), f, options_.meeting);
       }
     }
   }
@@ -226,7 +163,7 @@ class Drawing {
     DebugColor color = options_.point;
     if (!point.minimum) color.alpha *= kFaint;
     drawer_.line(on_a, on_b, color);
-    draw_arrow(on_a, std::max(reach, std::abs(point.gap)) * point.normal, color);
+    pen_.arrow(on_a, std::max(reach, std::abs(point.gap)) * point.normal, color);
   }
 
   void draw_curve(const IntersectionCurve& curve) {
@@ -237,26 +174,27 @@ class Drawing {
   }
 
   // Points as crosses as wide as their balls.
-  void draw_surface(const Mesh& mesh, double margin) {
-    for (std::size_t e = 0; e + 1 < mesh.ends.size(); e += 2)
-      drawer_.line(mesh.vertex(mesh.ends[e]), mesh.vertex(mesh.ends[e + 1]), options_.surface);
-    for (const int v : mesh.points) {
+  void draw_surface(const MeshCopy& mesh, double margin) {
+    const auto at = [&](int v) { return to_eigen(mesh.vertex(v)); };
+    for (std::size_t e = 0; e + 1 < mesh.ends().size(); e += 2)
+      drawer_.line(at(mesh.ends()[e]), at(mesh.ends()[e + 1]), options_.surface);
+    for (const int v : mesh.points()) {
       for (int axis = 0; axis < 3; ++axis) {
         const Vector3d arm = margin * Vector3d::Unit(axis);
-        drawer_.line(mesh.vertex(v) - arm, mesh.vertex(v) + arm, options_.surface);
+        drawer_.line(at(v) - arm, at(v) + arm, options_.surface);
       }
     }
     for (int f = 0; f < mesh.facet_count(); ++f) {
-      const auto [p, q, r] = mesh.facet(f);
-      drawer_.line(p, q, options_.surface);
-      drawer_.line(q, r, options_.surface);
-      drawer_.line(r, p, options_.surface);
+      const auto [p, q, r] = mesh.corners(f);
+      drawer_.line(at(p), at(q), options_.surface);
+      drawer_.line(at(q), at(r), options_.surface);
+      drawer_.line(at(r), at(p), options_.surface);
     }
   }
 
-  void draw_triangle(const Mesh& mesh, int f, const DebugColor& color) {
+  void draw_triangle(const MeshCopy& mesh, int f, const DebugColor& color) {
     const auto [p, q, r] = mesh.facet(f);
-    drawer_.triangle(p, q, r, color);
+    drawer_.triangle(to_eigen(p), to_eigen(q), to_eigen(r), color);
   }
 
   void draw_box(const Bounds& bounds, const DebugColor& color) {
@@ -275,15 +213,6 @@ class Drawing {
     }
   }
 
-  void draw_arrow(const Vector3d& from, const Vector3d& way, const DebugColor& color) {
-    const Vector3d tip = from + way;
-    drawer_.line(from, tip, color);
-    const Vector3d across = kArrowHead * way.norm() * way.unitOrthogonal();
-    if (!across.allFinite()) return;  // no way at all
-    drawer_.line(tip, tip - kArrowHead * way + across, color);
-    drawer_.line(tip, tip - kArrowHead * way - across, color);
-  }
-
   void draw_plane(const Vector3d& at, const Vector3d& n, double width) {
     const Vector3d u = width * n.unitOrthogonal(), v = n.cross(u);
     drawer_.triangle(at - u - v, at + u - v, at + u + v, options_.plane);
@@ -291,30 +220,7 @@ class Drawing {
   }
 
   void draw_disk(const ZoneDisk& disk, const Vector3d& n) {
-    if (disk.radius < 0.0) return;
-    const Vector3d u = disk.radius * n.unitOrthogonal(), v = n.cross(u);
-    // Drawn alone: no answer depends on the last digits of cosines, which differ between C libraries.
-    const auto rim = [&](int side) -> Vector3d {
-      const double angle = 2.0 * std::numbers::pi * side / kCircleSides;
-      return disk.center + std::cos(angle) * u + std::sin(angle) * v;
-    };
-    for (int side = 0; side < kCircleSides; ++side) drawer_.line(rim(side), rim(side + 1), options_.zone);
-  }
-
-  // Read once a body.
-  const Mesh& mesh_of(BodyId body) {
-    const auto [at, fresh] = meshes_.try_emplace(body);
-    if (fresh) {
-      at->second.coordinates.resize(3 * world_.vertex_count(body));
-      at->second.corners.resize(3 * world_.facet_count(body));
-      world_.copy_positions(body, at->second.coordinates);
-      world_.copy_facets(body, at->second.corners);
-      at->second.ends.resize(2 * world_.edge_count(body));
-      at->second.points.resize(world_.point_count(body));
-      world_.copy_edges(body, at->second.ends);
-      world_.copy_points(body, at->second.points);
-    }
-    return at->second;
+    if (disk.radius >= 0.0) pen_.circle(disk.center, disk.radius, n, options_.zone);
   }
 
   const World& world_;
@@ -324,7 +230,8 @@ class Drawing {
   std::optional<FacetOutcomeFinder> outcomes_;
   Vector3d middle_ = Vector3d::Zero();
   double size_ = 1.0;
-  std::unordered_map<BodyId, Mesh> meshes_;
+  Pen pen_{drawer_};
+  MeshCopies meshes_{world_};
 };
 
 }  // namespace

@@ -3,6 +3,9 @@
 #include <tact/tact.h>
 #include <tact/tact_c.h>
 
+#include <cmath>
+#include <vector>
+
 #include "tests/c/mesh_for_c.h"
 #include "tests/support/generators/bodies.h"
 
@@ -87,6 +90,31 @@ TEST(BodyQueriesInC, AKeptReportStays) {
   EXPECT_EQ(tact_report_keep(kept, &other), TACT_ERROR_WRONG_ORDER);
   EXPECT_EQ(tact_report_keep(kept, &kept), TACT_OK);
   EXPECT_EQ(tact_world_destroy(kept), TACT_OK);
+}
+
+// Lines from place to place.
+TEST(BodyQueriesInC, DistancesAndStencilsAreDrawn) {
+  const TwoBoxes c;
+  const tact_distance_query query{c.bodies[0], c.bodies[1], HUGE_VAL};
+  tact_body_distance apart{};
+  ASSERT_EQ(tact_world_distance(c.world, &query, &apart), TACT_OK);
+  std::vector<double> lengths;
+  const tact_debug_drawer drawer{
+      [](void* user, const double* p, const double* q, tact_debug_color) {
+        static_cast<std::vector<double>*>(user)->push_back(std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+      },
+      [](void*, const double*, const double*, const double*, tact_debug_color) {},
+      [](void*, const double*, const char*, tact_debug_color) {}, &lengths};
+  ASSERT_EQ(tact_world_debug_draw_distances(c.world, &apart, 1, &drawer, nullptr), TACT_OK);
+  EXPECT_EQ(lengths, std::vector{apart.distance});
+  EXPECT_EQ(tact_world_debug_draw_distances(c.world, nullptr, 1, &drawer, nullptr), TACT_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(tact_world_debug_draw_sums(c.world, nullptr, 0, &drawer, nullptr), TACT_ERROR_WRONG_ORDER);
+  const tact_stencil stencil{TACT_STENCIL_POINT_POINT, false, {0, 1, -1, -1}, {-1.0, 1.0}, {1.0, 0.0, 0.0}, 2.0, 0};
+  const double corners[6] = {0.0, 0.0, 0.0, 2.0, 0.0, 0.0};
+  lengths.clear();
+  ASSERT_EQ(tact_stencil_debug_draw(&stencil, 1, corners, 2, &drawer, {}), TACT_OK);
+  EXPECT_EQ(lengths, (std::vector{2.0, 1.0}));
+  EXPECT_EQ(tact_stencil_debug_draw(&stencil, 1, corners, 1, &drawer, {}), TACT_ERROR_INDEX_OUT_OF_RANGE);
 }
 
 }  // namespace

@@ -149,6 +149,15 @@ class EveryCallOfC {
         [](void* user, const double* p, const double*, const double*, tact_debug_color) { kTake(user, p); },
         [](void* user, const double* at, const char*, tact_debug_color) { kTake(user, at); }, this};
     call([&] { return tact_world_debug_draw(world_, &drawer, &options); });
+    call([&] { return tact_world_debug_draw_sums(world_, nullptr, 0, &drawer, nullptr); });
+    const tact_distance_query query{bodies_[0], bodies_[2], HUGE_VAL};
+    tact_body_distance distance;
+    call([&] { return tact_world_distance(world_, &query, &distance); });
+    call([&] { return tact_world_debug_draw_distances(world_, &distance, 1, &drawer, nullptr); });
+    const tact_stencil stencil{
+        TACT_STENCIL_POINT_EDGE, true, {0, 1, 2, -1}, {1.0, -1.0 / 3.0, -2.0 / 3.0}, {0, 0, 1}, 0.1, 0};
+    const double corners[9] = {0.1, 0.2, 0.3, 1.0 / 3.0, 0.0, 0.0, 1.0, 2.0, 0.7};
+    call([&] { return tact_stencil_debug_draw(&stencil, 1, corners, 3, &drawer, {1.0f, 1.0f, 1.0f, 1.0f}); });
   }
 
   void change() {

@@ -96,3 +96,37 @@ def test_two_kept_reports_in_turns():
         contact.depth
     with pytest.raises(tact.Error, match="kept"):
         again.keep(world.detect())
+
+
+class Lines:
+    def __init__(self):
+        self.lines, self.texts = [], []
+
+    def line(self, p, q, color):
+        self.lines.append(np.linalg.norm(np.subtract(p, q)))
+
+    def triangle(self, p, q, r, color):
+        pass
+
+    def text(self, at, words, color):
+        self.texts.append(words)
+
+
+def test_answers_are_drawn():
+    world, a, b, positions = two_boxes()
+    drawn = Lines()
+    world.debug_draw_distances(world.distances([a], [b]), drawn)
+    assert drawn.lines == [2.0] and drawn.texts == ["2 m"]
+    world = tact.World(tact.Settings(points=True, patches=True))
+    facets = np.array([[0, 1, 2]])
+    first, second = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0.1, 0.1, 0.05], [0.9, 0.1, 0.3], [0.1, 0.9, 0.3]])
+    ids = [world.add_body(x, facets, margin=0.1) for x in (first, second)]
+    report = world.detect()
+    stencils = report.stencils({ids[0]: 0, ids[1]: 3})
+    drawn = Lines()
+    stencils.debug_draw(np.concatenate([first, second]), drawn)
+    assert len(drawn.lines) >= 2 * len(stencils) > 0
+    sums = world.sum_contacts(report, stencils.ids, np.tile([0.0, 0.0, 1.0], (len(stencils), 1)))
+    drawn = Lines()
+    world.debug_draw_sums(sums, drawn)
+    assert len(drawn.lines) > 6

@@ -31,13 +31,14 @@ tact_contact_sum for_c(const ContactSum& sum, const ContactSums& all) {
   return result;
 }
 
+}  // namespace
+
 std::vector<PointImpulse> impulses_of(const tact_point_impulse* impulses, size_t count) {
   std::vector<PointImpulse> result;
   for (size_t i = 0; i < count; ++i) result.push_back({impulses[i].id, Eigen::Vector3d(impulses[i].impulse)});
   return result;
 }
 
-}  // namespace
 }  // namespace tact::c
 
 using tact::c::check_not_null;

@@ -1,33 +1,10 @@
 #include <tact/debug_draw.h>
 
-#include <string>
-
+#include "drawer.h"
 #include "handles.h"
 
 namespace tact::c {
 namespace {
-
-tact_debug_color color_of(const DebugColor& c) { return {c.red, c.green, c.blue, c.alpha}; }
-DebugColor color_of(const tact_debug_color& c) { return {c.red, c.green, c.blue, c.alpha}; }
-
-// The functions of C as a drawer.
-class CDrawer : public DebugDrawer {
- public:
-  explicit CDrawer(const tact_debug_drawer& drawer) : drawer_(drawer) {}
-  void line(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const DebugColor& color) override {
-    drawer_.line(drawer_.user, from.data(), to.data(), color_of(color));
-  }
-  void triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r,
-                const DebugColor& color) override {
-    drawer_.triangle(drawer_.user, p.data(), q.data(), r.data(), color_of(color));
-  }
-  void text(const Eigen::Vector3d& at, std::string_view words, const DebugColor& color) override {
-    drawer_.text(drawer_.user, at.data(), std::string(words).c_str(), color_of(color));
-  }
-
- private:
-  tact_debug_drawer drawer_;
-};
 
 // Calls pass(field of C, field of C++) for each switch, and for each colour.
 template <class ForC, class Options, class Pass>
@@ -42,7 +19,8 @@ void for_each_color(ForC& c, Options& o, const Pass& pass) {
   pass(c.surface, o.surface), pass(c.box, o.box), pass(c.moved_box, o.moved_box), pass(c.candidate, o.candidate);
   pass(c.direction, o.direction), pass(c.plane, o.plane), pass(c.zone, o.zone);
   pass(c.kept, o.kept), pass(c.meeting, o.meeting), pass(c.patch, o.patch), pass(c.point, o.point),
-      pass(c.reach, o.reach), pass(c.curve, o.curve), pass(c.word, o.word);
+      pass(c.reach, o.reach), pass(c.curve, o.curve), pass(c.distance, o.distance), pass(c.sum, o.sum),
+      pass(c.force, o.force), pass(c.word, o.word);
 }
 
 tact_debug_draw_options defaults() {
@@ -54,8 +32,9 @@ tact_debug_draw_options defaults() {
   return result;
 }
 
-DebugDrawOptions options_of(const tact_debug_draw_options& given) {
-  const tact_debug_draw_options c = read_struct(given, defaults());
+DebugDrawOptions options_of(const tact_debug_draw_options* given) {
+  if (given == nullptr) return {};
+  const tact_debug_draw_options c = read_struct(*given, defaults());
   DebugDrawOptions result;
   for_each_option(c, result, [](bool from, bool& to) { to = from; });
   for_each_color(c, result, [](const tact_debug_color& from, DebugColor& to) { to = color_of(from); });
@@ -65,7 +44,8 @@ DebugDrawOptions options_of(const tact_debug_draw_options& given) {
 }  // namespace
 }  // namespace tact::c
 
-using tact::c::check_not_null, tact::c::guarded, tact::c::reading, tact::c::WorldEntry;
+using tact::c::CDrawer, tact::c::check_not_null, tact::c::guarded, tact::c::options_of, tact::c::reading,
+    tact::c::WorldEntry;
 
 extern "C" {
 
@@ -79,15 +59,33 @@ tact_error tact_debug_draw_defaults(tact_debug_draw_options* options) {
 tact_error tact_world_debug_draw(tact_world world, const tact_debug_drawer* drawer,
                                  const tact_debug_draw_options* options) {
   return reading(world, [&](const WorldEntry& entry) {
-    check_not_null(drawer);
-    if (drawer->line == nullptr || drawer->triangle == nullptr || drawer->text == nullptr)
-      throw tact::c::Failure{TACT_ERROR_NULL_ARGUMENT, "a function of the drawer is null"};
+    CDrawer to(drawer);
     if (entry.report == nullptr)
       throw tact::c::Failure{TACT_ERROR_WRONG_ORDER,
                              "nothing was found: no step since the world or its settings were made"};
-    tact::c::CDrawer to(*drawer);
-    tact::debug_draw(entry.world, *entry.report, to,
-                     options != nullptr ? tact::c::options_of(*options) : tact::DebugDrawOptions{});
+    tact::debug_draw(entry.world, *entry.report, to, options_of(options));
+  });
+}
+
+tact_error tact_world_debug_draw_distances(tact_world world, const tact_body_distance* distances, size_t count,
+                                           const tact_debug_drawer* drawer, const tact_debug_draw_options* options) {
+  return reading(world, [&](const WorldEntry& entry) {
+    CDrawer to(drawer);
+    if (count > 0) check_not_null(distances);
+    // They have the same bits: queries.cpp.
+    const std::span given(reinterpret_cast<const tact::BodyDistance*>(distances), count);
+    tact::debug_draw_distances(entry.world, given, to, options_of(options));
+  });
+}
+
+tact_error tact_world_debug_draw_sums(tact_world world, const tact_point_impulse* impulses, size_t count,
+                                      const tact_debug_drawer* drawer, const tact_debug_draw_options* options) {
+  return reading(world, [&](const WorldEntry& entry) {
+    CDrawer to(drawer);
+    if (count > 0) check_not_null(impulses);
+    const tact::ContactSums sums =
+        sum_contacts(entry.world, tact::c::report_of(entry), tact::c::impulses_of(impulses, count));
+    tact::debug_draw_sums(entry.world, sums, to, options_of(options));
   });
 }
 }

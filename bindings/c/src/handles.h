@@ -171,6 +171,9 @@ void write_struct(Struct& to, Struct value) {
   std::copy_n(reinterpret_cast<const std::byte*>(&value), to.struct_size, reinterpret_cast<std::byte*>(&to));
 }
 
+// What a solver gives for each of some points.
+std::vector<PointImpulse> impulses_of(const tact_point_impulse* impulses, size_t count);
+
 inline BodyId id_of(tact_body body) { return {body.index, body.generation, body.world}; }
 inline tact_body body_of(BodyId id) { return {id.index, id.generation, id.world}; }
 

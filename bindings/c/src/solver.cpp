@@ -1,6 +1,8 @@
 // What compiles Eigen's decompositions stands here alone: a program that calls none of it does not link it.
 #include <tact/solver.h>
+#include <tact/solver/debug_draw.h>
 
+#include "drawer.h"
 #include "engine/base/floating_point_mode.h"
 #include "handles.h"
 
@@ -211,6 +213,18 @@ tact_error tact_stencil_colors(const tact_stencil* stencils, size_t count, size_
         tact::solver::color(all, static_cast<int>(std::min<size_t>(moving, INT32_MAX)));
     for (int c = 0; c < coloring.count(); ++c)
       for (const int s : coloring.of(c)) colors[s] = c;
+  });
+}
+
+tact_error tact_stencil_debug_draw(const tact_stencil* stencils, size_t count, const double* positions,
+                                   size_t vertex_count, const tact_debug_drawer* drawer, tact_debug_color color) {
+  return guarded([&] {
+    const tact::base::FloatingPointMode mode;
+    tact::c::CDrawer to(drawer);
+    if (count > 0) check_not_null(stencils, positions);
+    std::vector<Stencil> given;
+    for (size_t i = 0; i < count; ++i) given.push_back(tact::c::from_c(stencils[i], vertex_count));
+    tact::solver::debug_draw(given, values_of(positions, vertex_count), to, tact::c::color_of(color));
   });
 }
 }

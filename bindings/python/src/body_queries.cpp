@@ -2,10 +2,12 @@
 #include <tact/body_queries.h>
 
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "arrays.h"
 #include "bindings.h"
+#include "distances.h"
 #include "shared_world.h"
 
 namespace tact::python {
@@ -13,20 +15,14 @@ namespace tact::python {
 namespace {
 
 // A row an answer. They are copies.
-struct DistanceArrays {
-  py::array_t<std::int64_t> bodies;
-  py::array_t<double> distances;
-  py::array_t<int> facets;
-  py::array_t<double> a_barycentric, b_barycentric;
-  py::array_t<std::uint8_t> containments;
-};
 struct SweepArrays {
   py::array_t<std::int64_t> bodies;
   py::array_t<int> facets, others;
   py::array_t<double> fractions, normals, barycentric, other_barycentric;
 };
 
-DistanceArrays distance_arrays(std::span<const BodyDistance> all) {
+DistanceArrays distance_arrays(std::vector<BodyDistance> answers) {
+  const std::span<const BodyDistance> all = answers;
   return {rows_of<std::int64_t>(all, 2,
                                 [](const BodyDistance& one, std::int64_t* row) {
                                   row[0] = one.a.index;
@@ -40,7 +36,8 @@ DistanceArrays distance_arrays(std::span<const BodyDistance> all) {
                        }),
           rows_of_three<double>(all, &BodyDistance::a_barycentric),
           rows_of_three<double>(all, &BodyDistance::b_barycentric),
-          column_of<std::uint8_t>(all, [](const BodyDistance& one) { return one.containment; })};
+          column_of<std::uint8_t>(all, [](const BodyDistance& one) { return one.containment; }),
+          std::move(answers)};
 }
 
 DistanceArrays distances(SharedWorld& world, const std::vector<BodyId>& a, const std::vector<BodyId>& b,
@@ -50,7 +47,7 @@ DistanceArrays distances(SharedWorld& world, const std::vector<BodyId>& a, const
   for (std::size_t i = 0; i < a.size(); ++i) queries.push_back({a[i], b[i], within});
   std::vector<BodyDistance> answers(queries.size());
   world.ask([&](const World& w) { w.distances(queries, answers); });
-  return distance_arrays(answers);
+  return distance_arrays(std::move(answers));
 }
 
 DistanceArrays nearest_bodies(SharedWorld& world, BodyId body, std::size_t count, double within, std::uint32_t layer,
@@ -58,7 +55,7 @@ DistanceArrays nearest_bodies(SharedWorld& world, BodyId body, std::size_t count
   const NearestBodiesQuery query{body, count, within, {layer, mask}};
   std::vector<BodyDistance> answers;
   world.ask([&](const World& w) { answers = w.nearest_bodies(query); });
-  return distance_arrays(answers);
+  return distance_arrays(std::move(answers));
 }
 
 // Three numbers for each of `count` sweeps: an array of (count, 3), or None for `otherwise`.

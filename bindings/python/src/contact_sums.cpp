@@ -1,6 +1,7 @@
-#include <tact/contact_sums.h>
+#include "contact_sums.h"
 
-#include <string>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "arrays.h"
@@ -11,17 +12,9 @@ namespace tact::python {
 
 namespace {
 
-// The sums of a step, a row a sum. They are copies.
-struct SumArrays {
-  py::array_t<std::uint8_t> kinds;
-  py::array_t<std::int64_t> bodies;
-  py::array_t<std::uint64_t> patches;
-  py::array_t<int> points;
-  py::array_t<double> areas, deepest_gaps, mean_gaps, centers, normals, forces, torques;
-  py::array_t<std::int64_t> first_vertices, vertices;
-};
-
-SumArrays arrays_of(const ContactSums& sums) {
+SumArrays arrays_of(ContactSums found) {
+  auto kept = std::make_shared<const ContactSums>(std::move(found));
+  const ContactSums& sums = *kept;
   const std::span<const ContactSum> all = sums.sums;
   std::vector<std::size_t> begin{0};
   for (const ContactSum& sum : all) begin.push_back(begin.back() + sum.vertices.size());
@@ -48,7 +41,8 @@ SumArrays arrays_of(const ContactSums& sums) {
                                 [](const VertexOfBody& one, std::int64_t* row) {
                                   row[0] = one.body.index;
                                   row[1] = one.vertex;
-                                })};
+                                }),
+          std::move(kept)};
 }
 
 using Ids = py::array_t<std::uint64_t, py::array::c_style>;

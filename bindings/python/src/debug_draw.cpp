@@ -1,38 +1,16 @@
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <tact/debug_draw.h>
 
-#include <array>
 #include <memory>
-#include <string>
 
-#include "arrays.h"
 #include "bindings.h"
-#include "interpreter.h"
+#include "contact_sums.h"
+#include "distances.h"
+#include "drawer.h"
 #include "shared_world.h"
 
 namespace tact::python {
 namespace {
-
-// An object of Python with the methods line, triangle and text.
-class PythonDrawer : public DebugDrawer {
- public:
-  explicit PythonDrawer(py::object object) : object_(std::move(object)) {}
-  void line(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const DebugColor& color) override {
-    call_python(object_.attr("line"), vector_of(from), vector_of(to), color_of(color));
-  }
-  void triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r,
-                const DebugColor& color) override {
-    call_python(object_.attr("triangle"), vector_of(p), vector_of(q), vector_of(r), color_of(color));
-  }
-  void text(const Eigen::Vector3d& at, std::string_view words, const DebugColor& color) override {
-    call_python(object_.attr("text"), vector_of(at), std::string(words), color_of(color));
-  }
-
- private:
-  static py::tuple color_of(const DebugColor& c) { return py::make_tuple(c.red, c.green, c.blue, c.alpha); }
-  py::object object_;
-};
 
 void define_options(py::module_& module) {
   py::class_<DebugColor>(module, "DebugColor", "A colour; an alpha of 1 covers what is behind.")
@@ -77,6 +55,9 @@ void define_options(py::module_& module) {
       .def_readwrite("point", &Options::point)
       .def_readwrite("curve", &Options::curve)
       .def_readwrite("reach", &Options::reach)
+      .def_readwrite("distance", &Options::distance)
+      .def_readwrite("sum", &Options::sum)
+      .def_readwrite("force", &Options::force)
       .def_readwrite("word", &Options::word);
 }
 
@@ -84,6 +65,8 @@ void define_options(py::module_& module) {
 
 void define_debug_draw(py::module_& module, WorldClass& world) {
   define_options(module);
+  const auto to_draw = py::arg("drawer");
+  const auto by = py::arg("options") = DebugDrawOptions{};
   world.def(
       "debug_draw",
       [](SharedWorld& shared, const OfReport<Report>& report, py::object drawer, const DebugDrawOptions& options) {
@@ -92,9 +75,28 @@ void define_debug_draw(py::module_& module, WorldClass& world) {
         const auto drawn = report.held();
         debug_draw(shared.read(), *drawn, to, options);
       },
-      py::arg("report"), py::arg("drawer"), py::arg("options") = DebugDrawOptions{},
+      py::arg("report"), to_draw, by,
       "draws a report of this world with drawer.line(p, q, color), drawer.triangle(p, q, r, color) and "
       "drawer.text(p, words, color). The drawer can read the world and not change it");
+  world.def(
+      "debug_draw_distances",
+      [](SharedWorld& shared, const DistanceArrays& distances, py::object given, const DebugDrawOptions& chosen) {
+        PythonDrawer to(std::move(given));
+        const SharedWorld::Reading reading(shared);
+        debug_draw_distances(shared.read(), distances.all, to, chosen);
+      },
+      py::arg("distances"), to_draw, by,
+      "draws distances of bodies of this world: a line between the two places, and its length");
+  world.def(
+      "debug_draw_sums",
+      [](SharedWorld& shared, const SumArrays& sums, py::object given, const DebugDrawOptions& chosen) {
+        PythonDrawer to(std::move(given));
+        const SharedWorld::Reading reading(shared);
+        debug_draw_sums(shared.read(), *sums.all, to, chosen);
+      },
+      py::arg("sums"), to_draw, by,
+      "draws each patch of sums as a circle of its area across its normal, and forces as arrows, the largest half as "
+      "long as all bodies");
 }
 
 }  // namespace tact::python

@@ -1,5 +1,6 @@
 #include <pybind11/stl.h>
 #include <tact/solver.h>
+#include <tact/solver/debug_draw.h>
 
 #include <string>
 #include <unordered_map>
@@ -8,6 +9,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "drawer.h"
 #include "motion.h"
 #include "shared_world.h"
 
@@ -181,6 +183,12 @@ Terms friction(const Stencils& stencils, py::handle moved, const std::vector<dou
   });
 }
 
+void draw(const Stencils& stencils, py::handle positions, py::object drawer, py::handle color) {
+  const Eigen::Matrix3Xd x = checked(stencils, positions, "positions");
+  PythonDrawer to(std::move(drawer));
+  solver::debug_draw(stencils.all, x, to, color.is_none() ? DebugDrawOptions{}.point : py::cast<DebugColor>(color));
+}
+
 py::array_t<int> colors(const Stencils& stencils, int moving) {
   const solver::Coloring coloring = solver::color(stencils.all, moving);
   py::array_t<int> result(static_cast<py::ssize_t>(stencils.all.size()));
@@ -290,6 +298,10 @@ void define_solver(py::module_& module) {
       .def("friction", friction, py::arg("moved"), py::arg("limits"), py::arg("smoothing"),
            "the potentials of friction for the ways `moved` (V, 3) of vertices, of at most `limits` (N,) newtons")
       .def("colors", colors, moving, "(N,): stencils of one colour share no vertex below `moving`")
+      .def(
+          "debug_draw", draw, positions, py::arg("drawer"), py::arg("color") = py::none(),
+          "draws stencils where `positions` (V, 3) has their vertices: the edges of both features, a line from a to b, "
+          "and the normal, half as long as the features are wide")
       .def("effective_masses", effective_masses, py::arg("inverse_masses"),
            "(N,): the mass that resists a push at the point, kg; infinity if no vertex moves")
       .def("add_gradients", add_gradients, py::arg("gradients"), moving,

@@ -532,6 +532,8 @@ class Stencils:
         """the potentials of friction for the ways `moved` (V, 3) of vertices, of at most `limits` (N,) newtons"""
     def colors(self, moving: int) -> Ints:
         """(N,): stencils of one colour share no vertex below `moving`"""
+    def debug_draw(self, positions: npt.ArrayLike, drawer: _DebugDrawer, color: DebugColor | None = None) -> None:
+        """draws stencils where `positions` (V, 3) has their vertices: the edges of both features, a line from a to b, and the normal, half as long as the features are wide"""
     def effective_masses(self, inverse_masses: npt.ArrayLike) -> Floats:
         """(N,): the mass that resists a push at the point, kg; infinity if no vertex moves"""
     def add_gradients(self, gradients: Floats, moving: int) -> Floats:
@@ -798,6 +800,9 @@ class DebugDrawOptions:
     point: DebugColor
     curve: DebugColor
     reach: DebugColor
+    distance: DebugColor
+    sum: DebugColor
+    force: DebugColor
     word: DebugColor
     def __init__(self, **options: bool | DebugColor) -> None: ...
 
@@ -1168,6 +1173,10 @@ class World:
         """closes the file; OSError if it does not hold all"""
     def debug_draw(self, report: Report, drawer: _DebugDrawer, options: DebugDrawOptions = ...) -> None:
         """draws a report of this world, which the drawer can read and not change"""
+    def debug_draw_distances(self, distances: BodyDistances, drawer: _DebugDrawer, options: DebugDrawOptions = ...) -> None:
+        """draws distances of bodies of this world: a line between the two places, and its length"""
+    def debug_draw_sums(self, sums: ContactSums, drawer: _DebugDrawer, options: DebugDrawOptions = ...) -> None:
+        """draws each patch of sums as a circle of its area across its normal, and forces as arrows, the largest half as long as all bodies"""
     def __len__(self) -> int: ...
 
 class WeldedMesh:

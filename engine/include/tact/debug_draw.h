@@ -4,10 +4,13 @@
 ///     tact::debug_draw(world, world.detect(), overlay, {.zones = true});
 #pragma once
 
+#include <tact/body_queries.h>
+#include <tact/contact_sums.h>
 #include <tact/report.h>
 #include <tact/world.h>
 
 #include <Eigen/Core>
+#include <span>
 #include <string_view>
 
 namespace tact {
@@ -62,6 +65,9 @@ struct DebugDrawOptions {
   DebugColor point{1.0f, 0.0f, 1.0f, 1.0f};
   DebugColor curve{1.0f, 1.0f, 0.0f, 1.0f};
   DebugColor reach{0.9f, 0.6f, 1.0f, 0.6f};
+  DebugColor distance{0.4f, 1.0f, 1.0f, 1.0f};
+  DebugColor sum{1.0f, 0.7f, 0.4f, 1.0f};
+  DebugColor force{1.0f, 0.2f, 0.6f, 1.0f};
   DebugColor word{1.0f, 1.0f, 1.0f, 1.0f};
 };
 
@@ -69,5 +75,15 @@ struct DebugDrawOptions {
 /// wrong_order (its facets have changed since), out_of_memory, backend_failure.
 TACT_API void debug_draw(const World& world, const Report& report, DebugDrawer& drawer,
                          const DebugDrawOptions& options = {});
+
+/// Draws distances of bodies of `world`: a line between the two places, and its length. Those of bodies that are
+/// farther apart than requested are left out. Errors: stale_body, wrong_order (facets have changed since),
+/// out_of_memory.
+TACT_API void debug_draw_distances(const World& world, std::span<const BodyDistance> distances, DebugDrawer& drawer,
+                                   const DebugDrawOptions& options = {});
+/// Draws each patch of `sums` as a circle of its area across its normal, and forces as arrows, the largest half as long
+/// as all bodies of `world`. Forces of a contact with patches are drawn at these. Errors: out_of_memory.
+TACT_API void debug_draw_sums(const World& world, const ContactSums& sums, DebugDrawer& drawer,
+                              const DebugDrawOptions& options = {});
 
 }  // namespace tact

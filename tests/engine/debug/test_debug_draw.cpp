@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 #include <tact/debug_draw.h>
+#include <tact/solver/debug_draw.h>
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -203,6 +205,68 @@ TEST(DebugDrawBodies, WithoutFacets) {
   Sketch drawn;
   debug_draw(world, world.detect(), drawn, {.surfaces = true, .planes = true});
   EXPECT_TRUE(drawn.lines.empty());
+}
+
+// From place to place, also to a plane, with the length; what is too far is left out.
+TEST(DebugDrawAnswers, DistancesGoFromPlaceToPlace) {
+  tact::World world;
+  const Mesh ball = icosphere(2), other = translated(ball, {3.0, 0.0, 0.0});
+  const BodyId a = world.add_body({.positions = ball.positions, .facets = ball.facets}),
+               b = world.add_body({.positions = other.positions, .facets = other.facets}),
+               floor = world.add_plane({.offset = -1.5});
+  const std::vector<BodyDistance> found{world.distance({a, b}), world.distance({floor, a}),
+                                        world.distance({a, b, 0.1})};
+  Sketch drawn;
+  debug_draw_distances(world, found, drawn);
+  ASSERT_EQ(drawn.lines.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR((drawn.lines[i].to - drawn.lines[i].from).norm(), found[i].distance, 1e-14);
+  EXPECT_EQ(drawn.lines[1].from.z(), -1.5);
+  EXPECT_EQ(drawn.texts.size(), 2u);
+  world.remove_body(a);
+  EXPECT_THROW(debug_draw_distances(world, found, drawn), Error);
+}
+
+TEST_F(DebugDraw, SumsAreCirclesAndForces) {
+  const Contact& contact = report_->contacts()[0];
+  ASSERT_FALSE(contact.patches().empty());
+  std::vector<PointImpulse> impulses;
+  for (const ContactPoint& point : contact.points()) impulses.push_back({point.id, point.normal});
+  const auto circles = 24 * contact.patches().size(), arrows = 3 * contact.patches().size();
+  Sketch bare, pushed;
+  debug_draw_sums(world_, sum_contacts(world_, *report_), bare);
+  EXPECT_EQ(bare.lines.size(), circles + arrows);
+  const ContactSums sums = sum_contacts(world_, *report_, impulses);
+  debug_draw_sums(world_, sums, pushed);
+  EXPECT_EQ(pushed.lines.size(), circles + 2 * arrows + 6);  // and the forces on both bodies
+  double longest = 0.0;
+  const DebugDrawOptions options;
+  for (const Sketch::Line& line : pushed.lines) {
+    if (line.color.green == options.force.green) longest = std::max(longest, (line.to - line.from).norm());
+  }
+  const Vector3d size = Vector3d(other_.positions.rowwise().maxCoeff()) - ball_.positions.rowwise().minCoeff();
+  EXPECT_NEAR(longest, 0.5 * size.norm(), 1e-6);
+}
+
+// Impacts as constraints, and points.
+TEST(DebugDrawStencils, AreTheirFeaturesAndNormals) {
+  Eigen::Matrix3Xd x(3, 4);
+  x << 0.2, 0, 1, 0,  //
+      0.2, 0, 0, 1,   //
+      0.5, 0, 0, 0;
+  const solver::Stencil one{.kind = solver::StencilKind::point_facet,
+                            .b_first = true,
+                            .vertices = {0, 1, 2, 3},
+                            .weights = {1.0, -0.6, -0.2, -0.2},
+                            .normal = {0, 0, 1},
+                            .gap = 0.5};
+  Sketch drawn;
+  solver::debug_draw(std::span(&one, 1), x, drawn);
+  ASSERT_EQ(drawn.lines.size(), 5u);
+  EXPECT_LT((drawn.lines[3].from - Vector3d(0.2, 0.2, 0.0)).norm(), 1e-15);
+  EXPECT_LT((drawn.lines[3].to - x.col(0)).norm(), 1e-15);
+  EXPECT_GT(drawn.lines[4].to.z(), 0.3);
+  EXPECT_THROW(solver::debug_draw(std::span(&one, 1), x.leftCols(3), drawn), Error);
 }
 
 TEST(WorldMesh, IsReadBackAsItWasGiven) {

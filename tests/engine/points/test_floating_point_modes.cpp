@@ -237,6 +237,7 @@ class EveryCall {
     tell([&] { return kept.report().hash(); });
     told_.begin("debug_draw");
     call([&] { debug_draw(world, report, told_, {.surfaces = true, .planes = true, .kept_facets = true}); });
+    call([&] { debug_draw_sums(world, sum_contacts(world, report), told_); });
   }
 
   void set(World& world) {

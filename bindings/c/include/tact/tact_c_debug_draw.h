@@ -2,7 +2,9 @@
 #ifndef TACT_C_DEBUG_DRAW_H
 #define TACT_C_DEBUG_DRAW_H
 
-#include <tact/tact_c_world.h>
+#include <tact/tact_c_queries.h>
+#include <tact/tact_c_report.h>
+#include <tact/tact_c_solver.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -56,6 +58,9 @@ typedef struct tact_debug_draw_options {
   tact_debug_color curve;
   bool within_reach; /**< each pair of features within reach, as a line from a to b */
   tact_debug_color reach;
+  tact_debug_color distance;
+  tact_debug_color sum;
+  tact_debug_color force;
 } tact_debug_draw_options;
 
 /** Fills in the defaults of all fields, struct_size included. */
@@ -63,6 +68,22 @@ TACT_C_API tact_error tact_debug_draw_defaults(tact_debug_draw_options* options)
 /** Draws what the last step found; `options` may be null: the default. */
 TACT_C_API tact_error tact_world_debug_draw(tact_world world, const tact_debug_drawer* drawer,
                                             const tact_debug_draw_options* options);
+/** Draws distances of bodies of `world`: a line between the two places, and its length. Those of bodies that are
+ * farther apart than requested are left out. `options` may be null: the default. */
+TACT_C_API tact_error tact_world_debug_draw_distances(tact_world world, const tact_body_distance* distances,
+                                                      size_t count, const tact_debug_drawer* drawer,
+                                                      const tact_debug_draw_options* options);
+/** Draws each patch of the last step's tact_report_sum_contacts() as a circle of its area across its normal, and forces
+ * as arrows, the largest half as long as all bodies. Forces of a contact with patches are drawn at these. `options` may
+ * be null: the default. */
+TACT_C_API tact_error tact_world_debug_draw_sums(tact_world world, const tact_point_impulse* impulses, size_t count,
+                                                 const tact_debug_drawer* drawer,
+                                                 const tact_debug_draw_options* options);
+/** Draws stencils where `positions` has their vertices: the edges of both features, a line from a to b, and the normal,
+ * half as long as the features are wide. */
+TACT_C_API tact_error tact_stencil_debug_draw(const tact_stencil* stencils, size_t count, const double* positions,
+                                              size_t vertex_count, const tact_debug_drawer* drawer,
+                                              tact_debug_color color);
 
 #ifdef __cplusplus
 }
