@@ -239,6 +239,36 @@ TEST(C, MovesRigidBodiesAsCpp) {
   expect_failure(tact_world_set_positions(c.world, bodies[0], &columns), TACT_ERROR_WRONG_MOTION, "body 0");
 }
 
+// Two cubes of one group side by side, and a box over the edge between them.
+TEST(C, JoinedMinimaAreThoseOfCpp) {
+  tact_settings settings = TACT_SETTINGS_INIT;
+  settings.points = true;
+  WorldOfC c(&settings);
+  World cpp({.outputs = {.points = true}});
+  const Mesh meshes[3] = {translated(centered_box({0.5, 0.5, 0.5}), {-0.5, 0.0, 0.0}),
+                          translated(centered_box({0.5, 0.5, 0.5}), {0.5, 0.0, 0.0}),
+                          translated(centered_box({0.2, 0.2, 0.2}), {0.21, 0.0, 0.71})};
+  for (const Mesh& mesh : meshes) {
+    tact_body_definition definition = definition_of(mesh);
+    definition.group = &mesh == &meshes[2] ? 0 : 7;
+    definition.margin = 0.02;
+    tact_body body{};
+    ASSERT_EQ(tact_world_add_body(c.world, &definition, &body), TACT_OK);
+    cpp.add_body({.positions = mesh.positions, .facets = mesh.facets, .group = definition.group, .margin = 0.02});
+  }
+  ASSERT_EQ(tact_world_detect(c.world), TACT_OK);
+  const std::vector<std::uint8_t> expected = joined_minima(cpp, cpp.detect());
+  std::vector<std::uint8_t> minima(expected.size());
+  ASSERT_EQ(tact_report_joined_minima(c.world, nullptr, minima.data(), minima.size()), TACT_OK);
+  EXPECT_EQ(minima, expected);
+  tact_joined_surfaces joined = TACT_JOINED_SURFACES_INIT;
+  ASSERT_EQ(tact_report_joined_minima(c.world, &joined, minima.data(), minima.size()), TACT_OK);
+  EXPECT_EQ(minima, expected);
+  EXPECT_EQ(tact_report_joined_minima(c.world, &joined, minima.data(), 1), TACT_ERROR_WRONG_SIZE);
+  joined.within = -1.0;
+  EXPECT_EQ(tact_report_joined_minima(c.world, &joined, minima.data(), minima.size()), TACT_ERROR_INVALID_ARGUMENT);
+}
+
 TEST(C, TellsEventsPairsStatisticsAndTraces) {
   tact_settings settings = TACT_SETTINGS_INIT;
   settings.trace = true;

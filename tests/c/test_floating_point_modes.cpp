@@ -455,6 +455,9 @@ class EveryCallOfC {
     call([&] { return tact_report_copy_points(world_, &of_points, points); });
     call([&] { return tact_report_copy_facet_pairs(world_, &of_pairs, pairs); });
     tell(gaps);
+    std::vector<uint8_t> minima(points);
+    call([&] { return tact_report_joined_minima(world_, nullptr, minima.data(), points); });
+    tell(static_cast<std::uint64_t>(std::count(minima.begin(), minima.end(), 1)));
     const std::vector<tact_stencil> stencils = terms_of_stencils(points, near);
     std::vector<tact_point_impulse> impulses;
     for (const tact_stencil& one : stencils) impulses.push_back({one.id, {1.0, one.gap, 2.0}});

@@ -96,7 +96,7 @@ Sentences sentences_in(const std::string& header, const std::string& before, con
 Sentences sentences_of_cpp() {
   Sentences all;
   for (const char* header : {"body", "body_queries", "contact_point", "contact_sums", "debug_draw",
-                             "intersection_curve", "message", "motion", "queries", "recording",
+                             "intersection_curve", "joined_minima", "message", "motion", "queries", "recording",
                              "report", "report_arrays", "settings", "solver/stencil", "surface_check", "weld", "world"})
     all.merge(sentences_in(text_of("engine/include/tact/" + std::string(header) + ".h"), "/// ", "///< "));
   for (const char* header : {"error", "facet_pair", "feature_pair", "reach_pair"})
@@ -179,6 +179,7 @@ constexpr Twin kTwins[] = {
     {"ContactSum", "tact_contact_sum", ""},
     {"PointArrays", "tact_point_arrays", ""},
     {"FacetPairArrays", "tact_facet_pair_arrays", ""},
+    {"JoinedSurfaces", "tact_joined_surfaces", ""},
     {"ReachPair", "tact_reach_pair", ""},
     {"ReachPairArrays", "tact_reach_pair_arrays", ""},
     {"ImpactArrays", "tact_impact_arrays", ""},

@@ -146,6 +146,7 @@ TEST(TwinsInC, OfEachField) {
                                    {"FacetPairArrays", "tact_facet_pair_arrays"},
                                    {"ImpactArrays", "tact_impact_arrays"}})
     expect_twins_of_fields("report_arrays.h", "struct " + std::string(type) + " {", twin, {});
+  expect_twins_of_fields("joined_minima.h", "struct JoinedSurfaces {", "tact_joined_surfaces", {});
   expect_twins_of_fields("contact_sums.h", "struct ContactSum {", "tact_contact_sum", {"vertices"});
   expect_twins_of_fields("contact_sums.h", "struct PointImpulse {", "tact_point_impulse", {});
   expect_twins_of_fields("contact_sums.h", "struct VertexOfBody {", "tact_vertex_of_body", {});

@@ -130,3 +130,19 @@ def test_answers_are_drawn():
     drawn = Lines()
     world.debug_draw_sums(sums, drawn)
     assert len(drawn.lines) > 6
+
+
+def test_joined_minima():
+    world = tact.World(tact.Settings(points=True))
+    x = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
+    quad = np.array([[0, 1, 2], [0, 2, 3]])
+    for shift in ([-1, 0, 0], [0, 0, 0]):
+        world.add_body(x + shift, quad, motion=tact.Motion.fixed, margin=0.05)
+    world.add_body(0.2 * x + [0.02, 0.4, 0.01], quad, margin=0.05)
+    report = world.detect()
+    minima, normals = world.joined_minima(report), report.points.normals
+    assert minima.dtype == bool and len(minima) == len(report.points)
+    assert (np.abs(normals[report.points.minima == 1][:, :2]) > 0.1).any()
+    assert minima.any() and not (np.abs(normals[minima][:, :2]) > 1e-6).any()
+    with pytest.raises(tact.Error, match="within"):
+        world.joined_minima(report, within=-1.0)

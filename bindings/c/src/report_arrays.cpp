@@ -1,3 +1,4 @@
+#include <tact/joined_minima.h>
 #include <tact/report_arrays.h>
 
 #include "handles.h"
@@ -103,6 +104,18 @@ tact_error tact_motion_copy_impacts(tact_world world, const tact_impact_arrays* 
                           .a_vertices = array_of(to.a_vertices, rows, 3),
                           .b_vertices = array_of(to.b_vertices, rows, 3),
                           .stops = array_of(to.stops, rows, 1)});
+  });
+}
+
+tact_error tact_report_joined_minima(tact_world world, const tact_joined_surfaces* joined, uint8_t* minima,
+                                     size_t rows) {
+  return tact::c::reading(world, [&](const tact::c::WorldEntry& entry) {
+    if (rows > 0) check_not_null(minima);
+    tact_joined_surfaces given = TACT_JOINED_SURFACES_INIT;
+    if (joined != nullptr) given = read_struct(*joined, given);
+    const tact::Report& report = tact::c::report_of(entry);
+    check_rows(rows, point_count(report));
+    std::ranges::copy(joined_minima(entry.world, report, {given.within, given.layers}), minima);
   });
 }
 }

@@ -1,5 +1,7 @@
 #include "contact_sums.h"
 
+#include <tact/joined_minima.h>
+
 #include <memory>
 #include <utility>
 #include <vector>
@@ -57,6 +59,14 @@ SumArrays sum_contacts_of(SharedWorld& world, const OfReport<Report>& report, co
   return arrays_of(sum_contacts(world.read(), *report.held(), given));
 }
 
+py::array_t<bool> joined_minima_of(SharedWorld& world, const OfReport<Report>& report, double within,
+                                   std::uint32_t layers) {
+  std::vector<std::uint8_t> minima;
+  const auto held = report.held();
+  world.ask([&](const World& w) { minima = joined_minima(w, *held, {within, layers}); });
+  return column_of<bool>(std::span<const std::uint8_t>(minima), [](std::uint8_t one) { return one != 0; });
+}
+
 }  // namespace
 
 void define_contact_sums(py::module_& module, WorldClass& world) {
@@ -88,6 +98,12 @@ void define_contact_sums(py::module_& module, WorldClass& world) {
             py::arg("impulses") = Numbers(std::vector<py::ssize_t>{0, 3}),
             "adds up the points of a world's last report, at the current positions. `ids` (N,) and `impulses` (N, 3) "
             "are of points");
+  world.def(
+      "joined_minima", joined_minima_of, py::arg("report"), py::kw_only(), py::arg("within") = 0.0,
+      py::arg("layers") = 0u,
+      "(N,) bool: for each contact point of a world's last report, in the order of Report.points, whether it is a "
+      "minimum also of joined surfaces. Facets of one body are joined, whether or not they share vertices, bodies "
+      "that are not tested against each other, and bodies on `layers`; `within` metres they are at one place");
 }
 
 }  // namespace tact::python

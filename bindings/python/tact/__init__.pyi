@@ -1019,6 +1019,8 @@ class World:
         self, report: Report, ids: npt.NDArray[np.uint64] = ..., impulses: npt.NDArray[np.floating] = ...
     ) -> ContactSums:
         """adds up the points of a world's last report, at the current positions. `ids` (N,) and `impulses` (N, 3) are of points"""
+    def joined_minima(self, report: Report, *, within: float = 0.0, layers: int = 0) -> npt.NDArray[np.bool_]:
+        """(N,): for each contact point of a world's last report, in the order of Report.points, whether it is a minimum also of joined surfaces. Facets of one body are joined, whether or not they share vertices, bodies that are not tested against each other, and bodies on `layers`; `within` metres they are at one place"""
     def save(self) -> bytes:
         """all that later answers depend on as bytes: settings, bodies, histories"""
     def restore(self, bytes: bytes) -> None:

@@ -7,6 +7,7 @@
 #include <tact/debug_draw.h>
 #include <tact/error.h>
 #include <tact/executor.h>
+#include <tact/joined_minima.h>
 #include <tact/kept_report.h>
 #include <tact/message.h>
 #include <tact/motion.h>

@@ -238,6 +238,8 @@ class EveryCall {
     told_.begin("debug_draw");
     call([&] { debug_draw(world, report, told_, {.surfaces = true, .planes = true, .kept_facets = true}); });
     call([&] { debug_draw_sums(world, sum_contacts(world, report), told_); });
+    for (const std::uint8_t minimum : call([&] { return joined_minima(world, report); }))
+      told_.add(std::uint64_t{minimum});
   }
 
   void set(World& world) {

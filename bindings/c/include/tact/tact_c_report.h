@@ -312,6 +312,23 @@ TACT_C_API tact_error tact_report_copy_reach_pairs(tact_world world, const tact_
 /** Fills arrays with the facet pairs of all contacts, in their order. `rows` is tact_report_facet_pair_count(). */
 TACT_C_API tact_error tact_report_copy_facet_pairs(tact_world world, const tact_facet_pair_arrays* arrays, size_t rows);
 
+/** Which surfaces are one. Facets of one body are, whether or not they share vertices, and bodies that are not tested
+ * against each other: fixed ones, those of one group or excluded. */
+typedef struct tact_joined_surfaces {
+  uint32_t struct_size;
+  double within;   /**< metres, at least 0: facets that are no farther from a place are there, too */
+  uint32_t layers; /**< bodies on these layers are one surface as well, though they are tested */
+} tact_joined_surfaces;
+#define TACT_JOINED_SURFACES_INIT \
+  { (uint32_t)sizeof(tact_joined_surfaces), 0, 0 }
+
+/** Gives for each contact point of the last step, in the order of tact_report_copy_points(), 1 if it is a minimum also
+ * of joined surfaces, else 0. It is one if tact_contact_point.minimum is set, no joined facet at either of its places
+ * leads nearer along its normal, and no joined body lies behind the facet. A normal across a facet of its own body is
+ * kept whatever leads nearer. `joined` may be null: the default; `rows` is tact_report_point_count(). */
+TACT_C_API tact_error tact_report_joined_minima(tact_world world, const tact_joined_surfaces* joined, uint8_t* minima,
+                                                size_t rows);
+
 /** A vertex of a body. */
 typedef struct tact_vertex_of_body {
   tact_body body; /**< the body of the vertex */
